@@ -1,0 +1,109 @@
+// A scene: everything a run is made from, with every default filled in. Plain data; scene_file.hpp reads it from
+// TOML, initial_state.hpp makes disks of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/domain.hpp"
+#include "core/types.hpp"
+
+namespace carom {
+
+enum class Method : std::uint8_t { rollback, pairwise, exact };
+
+// How one group of disks (or one source) gets its radii or masses. Radius in length, mass in mass units.
+struct SizeLaw {
+  enum class Kind : std::uint8_t {
+    constant,   // value
+    list,       // values, one a disk
+    uniform,    // drawn from [low, high]
+    from_other  // radius from mass, r = sqrt(m / (pi density)), or mass from radius, m = pi density r^2
+  };
+  Kind kind = Kind::constant;
+  double value = 0.0;
+  std::vector<double> values;
+  double low = 0.0, high = 0.0;
+  double density = 0.0;  // mass / length^2
+};
+
+struct PositionLaw {
+  enum class Kind : std::uint8_t { random, square, hexagonal, list };
+  Kind kind = Kind::random;
+  std::vector<Vec2> list;  // from the scene or from a CSV file
+  std::string file;        // where the list came from, empty if the scene; for error messages
+};
+
+struct VelocityLaw {
+  enum class Kind : std::uint8_t {
+    rest,
+    maxwell,  // normal deviates at temperature (energy units, k_B = 1)
+    uniform,  // each component uniform in [-limit, limit]
+    list
+  };
+  Kind kind = Kind::rest;
+  double temperature = 0.0;
+  double limit = 0.0;
+  std::vector<Vec2> list;
+  std::string file;
+};
+
+struct DiskGroup {
+  Count count = 0;
+  PositionLaw positions;
+  VelocityLaw velocities;
+  SizeLaw radius;
+  SizeLaw mass;
+  int line = 0;  // of the [[disks]] header in the scene file, for error messages
+};
+
+// Emits the k-th disk (k = 1, 2, ...) at time k / rate, as soon as a place drawn for it is free.
+struct Source {
+  std::optional<Side> side;      // disks enter touching this side, moving inward
+  Vec2 region_low, region_high;  // otherwise: centres uniform in this rectangle
+  double rate = 0.0;             // disks / time
+  SizeLaw radius, mass;
+  VelocityLaw velocities;  // rest, maxwell or uniform
+  std::optional<Count> limit;
+  int line = 0;
+};
+
+struct Physics {
+  double gravity = 0.0;      // length / time^2, along -y
+  double restitution = 1.0;  // in [0, 1]
+  double diffusion = 0.0;    // length^2 / time; > 0: Brownian motion (24)
+  bool accumulate = false;   // the original's code: u / dt is added to the velocity instead of replacing it
+  std::optional<double> collapse_contact_time;  // TC model, exact only
+};
+
+struct RunPlan {
+  Method method = Method::exact;
+  double dt = 0.0;     // time; 0 where the method needs none
+  double t_end = 0.0;  // time
+};
+
+enum class TrajectoryFormat : std::uint8_t { none, xyz, h5md };
+
+struct OutputPlan {
+  double every = 0.0;  // simulated time between frames; 0: only the first and the last
+  TrajectoryFormat trajectory = TrajectoryFormat::none;
+  bool series = false;
+  std::vector<std::string> plots;  // "velocity", "energy"
+  bool movie = false;
+};
+
+struct Scene {
+  std::string title;
+  std::string file;  // as given on the command line
+  std::uint64_t seed = 1;
+  Domain box;
+  Physics physics;
+  std::vector<DiskGroup> groups;
+  std::vector<Source> sources;
+  RunPlan run;
+  OutputPlan output;
+};
+
+}  // namespace carom

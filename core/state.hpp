@@ -1,0 +1,34 @@
+// The state of a run: the disks, the time, and what has been counted so far. Nothing else changes while a run goes on.
+#pragma once
+
+#include <vector>
+
+#include "core/disks.hpp"
+#include "core/types.hpp"
+
+namespace carom {
+
+struct Counters {
+  Count steps = 0;                        // steps of dt (frames for rollback, windows for exact)
+  Count collisions = 0;                   // disk-disk
+  Count wall_collisions = 0;              // disk-wall
+  Count removed = 0;                      // by sinks
+  Count emitted = 0;                      // by sources
+  Count waiting = 0;                      // due from a source, no room found yet
+  double virial = 0.0;                    // sum over disk-disk collisions of |impulse| (r1 + r2); mass length^2 / time
+  double wall_impulse[4] = {0, 0, 0, 0};  // sum of |impulse| on each side (order of Side); mass length / time
+};
+
+struct SourceState {
+  Count emitted = 0;  // by this source so far
+};
+
+struct State {
+  Disks disks;
+  double time = 0.0;
+  Counters counters;
+  DiskId next_id = 0;
+  std::vector<SourceState> sources;  // one per scene source
+};
+
+}  // namespace carom
