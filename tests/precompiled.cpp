@@ -1,0 +1,1 @@
+// Holds no code: CMake wants a source to compile the shared test headers with (CMakeLists.txt).
