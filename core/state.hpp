@@ -23,12 +23,20 @@ struct SourceState {
   Count emitted = 0;  // by this source so far
 };
 
+// Force that a contact of a settling scene bore in the last step (core/resting.hpp); id2 may be a wall.
+struct ContactLoad {
+  DiskId id1 = 0, id2 = 0;
+  double force = 0.0;  // mass length / time^2, > 0
+};
+
 struct State {
   Disks disks;
   double time = 0.0;
   Counters counters;
   DiskId next_id = 0;
+  Count intervals = 0;               // Brownian intervals of dt begun (rollback, whose frames are shorter than dt)
   std::vector<SourceState> sources;  // one per scene source
+  std::vector<ContactLoad> loads;    // in order of (id1, id2); empty unless the scene settles
 };
 
 }  // namespace carom

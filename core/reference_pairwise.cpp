@@ -1,0 +1,54 @@
+#include "core/reference_pairwise.hpp"
+
+#include <utility>
+
+#include "core/reference_engine.hpp"
+#include "core/step_clock.hpp"
+#include "core/step_contacts.hpp"
+
+namespace carom {
+
+namespace {
+
+class ReferencePairwise final : public ReferenceEngine {
+ public:
+  ReferencePairwise(const Scene& scene, State initial)
+      : ReferenceEngine(scene, std::move(initial)), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
+
+  void step() override {
+    const Count k = state_.counters.steps;
+    if (k >= clock_.steps) return;
+    const double dt = clock_.length(k);
+    start_interval(clock_.start(k), dt, k);
+    const Count n = parts(dt);
+    for (Count part = 0; part < n; ++part) advance(dt / static_cast<double>(n));
+    remove_at_sinks();
+    ++state_.counters.steps;
+    state_.time = clock_.end(k);
+  }
+
+ private:
+  // Drift, find the overlaps, take each pair and wall in order of contact, push apart what remains.
+  void advance(double dt) {
+    const StepRules rules = rules_for(scene_, dt);
+    drift_all(dt);
+    std::vector<ContactEvent> events;
+    {
+      const PhaseTimer timer(times_, "search");
+      events = find_contacts(state_.disks, rules);
+    }
+    const PhaseTimer timer(times_, "resolve");
+    resolve_contacts(state_, rules, events);
+    wrap_all();
+  }
+
+  StepClock clock_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_reference_pairwise(const Scene& scene, State initial) {
+  return std::make_unique<ReferencePairwise>(scene, std::move(initial));
+}
+
+}  // namespace carom

@@ -1,0 +1,81 @@
+#include "core/reference_rollback.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "core/check.hpp"
+#include "core/reference_engine.hpp"
+#include "core/rollback_frame.hpp"
+#include "core/step_clock.hpp"
+#include "core/step_contacts.hpp"
+
+namespace carom {
+
+namespace {
+
+class ReferenceRollback final : public ReferenceEngine {
+ public:
+  ReferenceRollback(const Scene& scene, State initial)
+      : ReferenceEngine(scene, std::move(initial)),
+        clock_(make_step_clock(scene.run.dt, scene.run.t_end)),
+        stall_(state_.time) {}
+
+  void step() override {
+    if (state_.time >= scene_.run.t_end) return;
+    begin_frame();
+    const double end = frame_limit(scene_, state_, clock_);
+    const double length = std::min(scene_.run.dt / static_cast<double>(parts(scene_.run.dt)), end - state_.time);
+    const double back = go(length);
+    state_.time = back == 0.0 && state_.time + length >= end ? end : std::min(end, state_.time + (length - back));
+    remove_at_sinks();
+    ++state_.counters.steps;
+    stall_.check(state_, scene_);
+  }
+
+ private:
+  void begin_frame() {
+    if (scene_.physics.diffusion > 0.0) {
+      if (state_.time < clock_.start(state_.intervals)) return;
+      const Count k = state_.intervals++;
+      start_interval(state_.time, clock_.length(k), k);
+    } else {
+      start_interval(state_.time, scene_.run.dt, state_.counters.steps);
+    }
+  }
+
+  // Steps 1 to 5 of the original's frame. Returns the time by which everything went back.
+  double go(double length) {
+    const StepRules rules = rules_for(scene_, length);
+    drift_all(length);
+    std::vector<ContactEvent> events;
+    {
+      const PhaseTimer timer(times_, "search");
+      events = find_contacts(state_.disks, rules);
+      std::erase_if(events, [&](const ContactEvent& e) { return !is_met(state_.disks, rules, e); });
+      std::sort(events.begin(), events.end(), earlier);
+    }
+    const PhaseTimer timer(times_, "resolve");
+    const double back = events.empty() ? 0.0 : events.front().ago;
+    if (back > 0.0) drift_all(-back);
+    bounce_all(state_, rules, events);
+    with_view(state_.disks, [&](const auto& d) {
+      for (std::size_t i = 0; i < state_.disks.size(); ++i) {
+        meet_walls(d, rules, static_cast<std::uint32_t>(i), state_.counters);
+      }
+    });
+    wrap_all();
+    return back;
+  }
+
+  StepClock clock_;
+  StallGuard stall_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_reference_rollback(const Scene& scene, State initial) {
+  return std::make_unique<ReferenceRollback>(scene, std::move(initial));
+}
+
+}  // namespace carom

@@ -1,0 +1,178 @@
+// What a step does with the contacts it found: collide them in order of contact, then push apart what overlap remains.
+// Called by the reference on the whole sorted list, by the engine on independent parts of it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/advance.hpp"
+#include "core/boundary.hpp"
+#include "core/contact_event.hpp"
+#include "core/disk_pair.hpp"
+#include "core/disk_view.hpp"
+#include "core/domain.hpp"
+
+namespace carom {
+
+// The constants of one step (or part of a step) that resolving needs.
+struct StepRules {
+  Domain box;
+  double gravity = 0.0;
+  double restitution = 1.0;
+  double dt = 0.0;       // length of the step just drifted
+  bool settles = false;  // gravity > 0 and a contact dissipates: contacts may bear load (resting.hpp)
+};
+
+// What became of one contact event.
+struct Impact {
+  double virial = 0.0;  // |impulse| x distance of a disk pair, |impulse| of a wall; mass length^2 / time or m l / t
+  bool happened = false;
+};
+
+template <class View>
+Relative relative(const View& d, std::uint32_t i, std::uint32_t j, const Domain& box) {
+  Relative r{d.x[j] - d.x[i], d.y[j] - d.y[i], d.vx[j] - d.vx[i], d.vy[j] - d.vy[i]};
+  if (box.periodic_x()) r.dx = nearest_image(r.dx, box.width);
+  if (box.periodic_y()) r.dy = nearest_image(r.dy, box.height);
+  return r;
+}
+
+template <class View>
+Shares shares_of(const View& d, std::uint32_t i, std::uint32_t j) {
+  if constexpr (View::has_mass) {
+    return shares(d.mass(i), d.mass(j));
+  } else {
+    return equal_shares;
+  }
+}
+
+// The contact event of a pair found touching at the end of a step: how long ago it began, at most the step.
+template <class View>
+ContactEvent pair_event(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
+  const Relative r = relative(d, i, j, rules.box);
+  double ago = rules.dt;
+  if (r.approach() < 0.0) ago = std::clamp(-contact_time(r, d.radius(i) + d.radius(j)), 0.0, rules.dt);
+  return {ago, d.id[i], d.id[j], i, j};
+}
+
+// Likewise for a disk that reaches `beyond` >= 0 past a wall.
+template <class View>
+ContactEvent wall_event(const View& d, const StepRules& rules, std::uint32_t i, Side side, double beyond) {
+  const double speed = outward_speed(side, d.vx[i], d.vy[i]);
+  double ago = rules.dt;
+  if (speed > 0.0) ago = std::min(rules.dt, time_since_wall(side, beyond, speed, rules.gravity));
+  return {ago, d.id[i], wall_partner(side), i, 0};
+}
+
+// Calls found(event) for each wall side that disk i reaches beyond or touches.
+template <class View, class Found>
+void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t i, Found&& found) {
+  for (Side side : all_sides) {
+    if (rules.box.side(side) != SideKind::wall) continue;
+    const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius(i), rules.box);
+    if (beyond >= 0.0) found(wall_event(d, rules, i, side, beyond));
+  }
+}
+
+// Along the disk's own path, back where t < 0.
+template <class View>
+void drift_one(const View& d, std::uint32_t i, double t, double g) {
+  drift<true>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
+}
+
+// The pair goes back to its own contact, collides by (23), goes forward again. The state may have changed since the
+// contact was found: a pair that no longer overlaps or approaches is left alone (F3, F8). A contact older than the step
+// (an overlap left from before) collides where it is.
+template <class View>
+Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
+  Relative r = relative(d, i, j, rules.box);
+  const double reach = d.radius(i) + d.radius(j);
+  if (!touches(r.distance2(), reach) || !(r.approach() < 0.0)) return {};
+  const double ago = -contact_time(r, reach);
+  const bool inside_step = ago <= rules.dt;
+  if (inside_step) {
+    drift_one(d, i, -ago, rules.gravity);
+    drift_one(d, j, -ago, rules.gravity);
+    r = relative(d, i, j, rules.box);
+  }
+  Impact impact;
+  if (r.distance2() > 0.0 && r.approach() < 0.0) {
+    const Shares share = shares_of(d, i, j);
+    const double change = collide(r, share, rules.restitution, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
+    impact = {reduced_mass(d.mass(i), d.mass(j)) * change, true};
+  }
+  if (inside_step) {
+    drift_one(d, i, ago, rules.gravity);
+    drift_one(d, j, ago, rules.gravity);
+  }
+  return impact;
+}
+
+// Likewise for a disk and a wall (F11: position and velocity are both put right).
+template <class View>
+Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
+  const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius(i), rules.box);
+  const double speed = outward_speed(side, d.vx[i], d.vy[i]);
+  if (!(beyond >= 0.0) || !(speed > 0.0)) return {};
+  const double ago = time_since_wall(side, beyond, speed, rules.gravity);
+  const bool inside_step = ago <= rules.dt;
+  if (inside_step) drift_one(d, i, -ago, rules.gravity);
+  const double impact_speed = outward_speed(side, d.vx[i], d.vy[i]);
+  if (impact_speed > 0.0) bounce(side, rules.box.wall_restitution, d.vx[i], d.vy[i]);
+  if (inside_step) drift_one(d, i, ago, rules.gravity);
+  return {d.mass(i) * impact_speed * (1.0 + rules.box.wall_restitution), impact_speed > 0.0};
+}
+
+template <class View>
+Impact resolve_event(const View& d, const StepRules& rules, const ContactEvent& e) {
+  return is_wall(e.id2) ? resolve_wall(d, rules, e.i1, wall_side(e.id2)) : resolve_pair(d, rules, e.i1, e.i2);
+}
+
+// What overlap remains beyond slack (length) is pushed apart along the line of centres, by mass, so that the centre of
+// mass, and with it momentum and potential energy, stays; velocities are not touched. Coincident centres part along x.
+// Returns the overlap that it found, over the sum of the radii.
+template <class View>
+double push_pair(const View& d, const Domain& box, std::uint32_t i, std::uint32_t j, double slack) {
+  const Relative r = relative(d, i, j, box);
+  const double reach = d.radius(i) + d.radius(j);
+  const double distance2 = r.distance2();
+  if (distance2 >= reach * reach) return 0.0;
+  const double distance = std::sqrt(distance2);
+  const double push = reach - distance - slack;
+  if (!(push > 0.0)) return 0.0;
+  const Shares share = shares_of(d, i, j);
+  const double px = distance > 0.0 ? push * (r.dx / distance) : push;
+  const double py = distance > 0.0 ? push * (r.dy / distance) : 0.0;
+  d.x[i] -= share.first * px;
+  d.y[i] -= share.first * py;
+  d.x[j] += share.second * px;
+  d.y[j] += share.second * py;
+  return push / reach;
+}
+
+// Likewise for a wall. Returns the depth that it found, over the radius.
+template <class View>
+double push_wall(const View& d, const Domain& box, std::uint32_t i, Side side, double slack) {
+  const double r = d.radius(i);
+  const double push = reach_beyond(side, d.x[i], d.y[i], r, box) - slack;
+  if (!(push > 0.0)) return 0.0;
+  if (side == Side::left || side == Side::right) {
+    d.x[i] = touching_coordinate(side, r, box) + (side == Side::left ? -slack : slack);
+  } else {
+    d.y[i] = touching_coordinate(side, r, box) + (side == Side::bottom ? -slack : slack);
+  }
+  return push / r;
+}
+
+template <class View>
+double push_apart(const View& d, const Domain& box, const ContactEvent& e, double slack) {
+  return is_wall(e.id2) ? push_wall(d, box, e.i1, wall_side(e.id2), slack) : push_pair(d, box, e.i1, e.i2, slack);
+}
+
+// Sweeps of pushing end when none was deeper than this (over the sum of radii; well below the 2 % that a pile may
+// overlap), or after most_push_sweeps; the rest waits for the next step.
+inline constexpr double shallow_overlap = 1e-3;
+inline constexpr int most_push_sweeps = 16;
+
+}  // namespace carom

@@ -1,0 +1,52 @@
+// The parts of one rollback frame that are its own: which pairs it goes back for, how they bounce, and when it stalls.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/contact_event.hpp"
+#include "core/resolve.hpp"
+#include "core/scene.hpp"
+#include "core/state.hpp"
+#include "core/step_clock.hpp"
+
+namespace carom {
+
+// Is the event a pair of disks that approaches (F8)? Walls do not make the system go back.
+bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& event);
+
+// Every pair found bounces by (23) where it is now, in the order given, if it still approaches: with the velocities of
+// the moment, not copies (F3). Pairs that have not yet touched bounce at a distance: F2, kept. Counts into the state.
+void bounce_all(State& state, const StepRules& rules, const std::vector<ContactEvent>& events);
+
+// One disk and the walls it reaches beyond: back to its contact, bounce, forward; what remains is pushed inside (F11).
+template <class View>
+void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, Counters& counters) {
+  for (Side side : all_sides) {
+    if (rules.box.side(side) != SideKind::wall) continue;
+    const Impact impact = resolve_wall(d, rules, i, side);
+    if (impact.happened) {
+      ++counters.wall_collisions;
+      counters.wall_impulse[static_cast<std::size_t>(side)] += impact.virial;
+    }
+    push_wall(d, rules.box, i, side, 0.0);
+  }
+}
+
+// Where the frame that starts at state.time must end: at t_end, or at the next draw of Brownian displacements.
+double frame_limit(const Scene& scene, const State& state, const StepClock& clock);
+
+// F1: with many disks every frame goes back by nearly its whole length and time all but stops. A run whose last
+// watched_frames frames advanced time by less than one dt is stopped, with the figure and the remedy (PhysicsError).
+class StallGuard {
+ public:
+  explicit StallGuard(double time) : since_(time) {}
+  void check(const State& state, const Scene& scene);
+
+ private:
+  static constexpr Count watched_frames = 10000;
+  double since_;
+  Count frames_ = 0;
+};
+
+}  // namespace carom

@@ -1,0 +1,117 @@
+#include "core/step_contacts.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/pair_search.hpp"
+#include "core/resting.hpp"
+
+namespace carom {
+
+namespace {
+
+void count_impact(Counters& counters, const ContactEvent& e, const Impact& impact) {
+  if (!impact.happened) return;
+  if (is_wall(e.id2)) {
+    ++counters.wall_collisions;
+    counters.wall_impulse[static_cast<std::size_t>(wall_side(e.id2))] += impact.virial;
+  } else {
+    ++counters.collisions;
+    counters.virial += impact.virial;
+  }
+}
+
+// How many contacts each disk has in this step, by storage index: two or more, and it can be squeezed.
+std::vector<std::uint32_t> contacts_per_disk(std::size_t disks, const std::vector<ContactEvent>& events) {
+  std::vector<std::uint32_t> contacts(disks, 0);
+  for (const ContactEvent& e : events) {
+    ++contacts[e.i1];
+    if (!is_wall(e.id2)) ++contacts[e.i2];
+  }
+  return contacts;
+}
+
+bool is_squeezed(const std::vector<std::uint32_t>& contacts, const ContactEvent& e) {
+  return contacts[e.i1] > 1 || (!is_wall(e.id2) && contacts[e.i2] > 1);
+}
+
+template <class View>
+void resolve_impacts(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
+                     const std::vector<std::uint32_t>& contacts) {
+  for (const ContactEvent& e : events) {
+    if (rules.settles) {
+      const bool loaded = load_of(state.loads, e) > 0.0;
+      if (is_support(d, rules, e, loaded, is_squeezed(contacts, e))) continue;
+    }
+    count_impact(state.counters, e, resolve_event(d, rules, e));
+  }
+}
+
+// Solves the supports; their loads go to state.loads, in id order as the events are.
+template <class View>
+void bear_loads(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
+                const std::vector<std::uint32_t>& contacts) {
+  std::vector<Support> supports;
+  for (const ContactEvent& e : events) {
+    const double force = load_of(state.loads, e);
+    if (is_support(d, rules, e, force > 0.0, is_squeezed(contacts, e))) {
+      supports.push_back(make_support(d, rules, e, force));
+    }
+  }
+  for (const Support& s : supports) apply_impulse(d, s, s.impulse);
+  const double settled = settled_change * rules.gravity * rules.dt;
+  for (int sweep = 0; sweep < most_load_sweeps; ++sweep) {
+    double largest = 0.0;
+    for (std::size_t k = 0; k < supports.size(); ++k) {
+      const bool backwards = sweep % 2 == 1;
+      largest = std::max(largest, relax(d, supports[backwards ? supports.size() - 1 - k : k]));
+    }
+    if (largest <= settled) break;
+  }
+  state.loads.clear();
+  for (const Support& s : supports) {
+    if (s.impulse > 0.0) state.loads.push_back({s.id1, s.id2, s.impulse / rules.dt});
+  }
+}
+
+template <class View>
+void push_all(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events) {
+  const double slop = contact_slop * rules.gravity * rules.dt * rules.dt;
+  for (int sweep = 0; sweep < most_push_sweeps; ++sweep) {
+    double deepest = 0.0;
+    for (const ContactEvent& e : events) {
+      const bool loaded = rules.settles && load_of(state.loads, e) > 0.0;
+      deepest = std::max(deepest, push_apart(d, rules.box, e, loaded ? slop : 0.0));
+    }
+    if (deepest <= shallow_overlap) break;
+  }
+}
+
+}  // namespace
+
+std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules) {
+  std::vector<ContactEvent> events;
+  const std::vector<Pair> pairs = find_touching_pairs(disks, rules.box);
+  with_view(disks, [&](const auto& d) {
+    for (const Pair& p : pairs) events.push_back(pair_event(d, rules, p.i1, p.i2));
+    for (std::size_t i = 0; i < disks.size(); ++i) {
+      for_each_wall_contact(d, rules, static_cast<std::uint32_t>(i),
+                            [&](const ContactEvent& e) { events.push_back(e); });
+    }
+  });
+  return events;
+}
+
+void resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events) {
+  std::sort(events.begin(), events.end(), earlier);
+  with_view(state.disks, [&](const auto& d) {
+    std::vector<std::uint32_t> contacts;
+    if (rules.settles) contacts = contacts_per_disk(state.disks.size(), events);
+    resolve_impacts(d, state, rules, events, contacts);
+    std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
+    if (rules.settles) bear_loads(d, state, rules, events, contacts);
+    push_all(d, state, rules, events);
+  });
+}
+
+}  // namespace carom
