@@ -34,6 +34,7 @@ struct PositionLaw {
   Kind kind = Kind::random;
   std::vector<Vec2> list;  // from the scene or from a CSV file
   std::string file;        // where the list came from, empty if the scene; for error messages
+  std::string where;       // "file:line: key" of positions, for error messages; empty if no file was read
 };
 
 struct VelocityLaw {

@@ -1,0 +1,20 @@
+// The one line in which every complaint about input is made: "where: what is wrong; what was expected".
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace carom {
+
+// Throws InputError with that line. where is "file:line: key"; an empty expected is left out. Control characters in
+// names that users chose become '?', so that the message stays one line.
+[[noreturn]] void fail_input(std::string_view where, std::string_view what, std::string_view expected = {});
+
+// Text from the user in double quotes, cut short after 60 characters.
+std::string in_quotes(std::string_view text);
+
+// "expected one of a, b, c (nearest: b)" for a name that is none of them.
+std::string expected_one_of(std::span<const std::string_view> known, std::string_view name);
+
+}  // namespace carom

@@ -1,0 +1,143 @@
+#include "core/placement_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+constexpr std::uint32_t empty_cell = 0xffffffffU;
+
+// Overlap of two disks that decimals rounded to doubles may show although they touch: 1e-12 of the sum of radii, and
+// four units in the last place of the largest coordinate.
+constexpr double relative_slack = 1e-12;
+constexpr double coordinate_slack = 0x1p-50;
+
+// Classes of size beyond this one share the last grid: radii more than 2^40 apart.
+constexpr int last_class = 40;
+
+std::size_t class_of(double radius, double largest) {
+  return static_cast<std::size_t>(std::min(last_class, std::ilogb(largest / radius)));
+}
+
+// Cells first to last (count of them) along one axis that a reach around a coordinate can touch. Periodic axes give a
+// range that may start below 0 or end beyond the last cell.
+struct CellRange {
+  std::ptrdiff_t first = 0;
+  std::ptrdiff_t count = 0;
+};
+
+CellRange cells_around(double coordinate, double reach, double per_length, std::size_t cells, bool periodic) {
+  // The margin, in cells, covers the rounding of the products; cells are never fewer than 1e-6 of 2^32.
+  constexpr double margin = 1e-6;
+  const double low = std::floor((coordinate - reach) * per_length - margin);
+  const double high = std::floor((coordinate + reach) * per_length + margin);
+  const auto last = static_cast<double>(cells - 1);
+  if (periodic) {
+    if (high - low >= last) return {0, static_cast<std::ptrdiff_t>(cells)};
+    return {static_cast<std::ptrdiff_t>(low), static_cast<std::ptrdiff_t>(high - low) + 1};
+  }
+  const auto first = static_cast<std::ptrdiff_t>(std::clamp(low, 0.0, last));
+  return {first, static_cast<std::ptrdiff_t>(std::clamp(high, 0.0, last)) - first + 1};
+}
+
+std::size_t wrap_cell(std::ptrdiff_t cell, std::size_t cells) {
+  const auto n = static_cast<std::ptrdiff_t>(cells);
+  return static_cast<std::size_t>(cell < 0 ? cell + n : (cell >= n ? cell - n : cell));
+}
+
+std::size_t cell_of(double coordinate, double per_length, std::size_t cells) {
+  return static_cast<std::size_t>(std::clamp(coordinate * per_length, 0.0, static_cast<double>(cells - 1)));
+}
+
+}  // namespace
+
+PlacementGrid::PlacementGrid(const Domain& box, const Disks& disks)
+    : box_(box), disks_(disks), largest_radius_(carom::largest_radius(disks)), next_(disks.size(), empty_cell) {
+  if (disks.radius.empty()) {
+    levels_.resize(1);
+    levels_[0].disks = disks.size();
+    levels_[0].largest_radius = largest_radius_;
+  }
+  for (const double radius : disks.radius) {
+    const std::size_t k = class_of(radius, largest_radius_);
+    if (k >= levels_.size()) levels_.resize(k + 1);
+    ++levels_[k].disks;
+    levels_[k].largest_radius = std::max(levels_[k].largest_radius, radius);
+  }
+  for (Level& level : levels_) size_cells(level);
+}
+
+// Cells a diameter wide, but not many more than there are disks.
+void PlacementGrid::size_cells(Level& level) const {
+  if (level.disks == 0) return;
+  const double width = box_.width;
+  const double height = box_.height;
+  const std::size_t most = 2 * level.disks + 16;
+  const double edge =
+      std::max(2.0 * level.largest_radius, std::sqrt(width) * std::sqrt(height / static_cast<double>(most)));
+  level.columns = static_cast<std::size_t>(std::clamp(width / edge, 1.0, static_cast<double>(most)));
+  level.rows = static_cast<std::size_t>(std::clamp(height / edge, 1.0, static_cast<double>(most / level.columns)));
+  level.per_x = static_cast<double>(level.columns) / width;
+  level.per_y = static_cast<double>(level.rows) / height;
+  level.head.assign(level.columns * level.rows, empty_cell);
+}
+
+void PlacementGrid::insert(std::size_t i) {
+  Level& level = levels_[disks_.radius.empty() ? 0 : class_of(disks_.radius[i], largest_radius_)];
+  const std::size_t column = cell_of(disks_.x[i], level.per_x, level.columns);
+  const std::size_t row = cell_of(disks_.y[i], level.per_y, level.rows);
+  std::uint32_t& head = level.head[row * level.columns + column];
+  next_[i] = head;
+  head = static_cast<std::uint32_t>(i);
+}
+
+bool PlacementGrid::overlaps(std::size_t i, double x, double y, double radius, bool slack) const {
+  double dx = disks_.x[i] - x;
+  double dy = disks_.y[i] - y;
+  if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
+  if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
+  const double contact = radius + disks_.radius_of(i);
+  const double distance_squared = dx * dx + dy * dy;
+  if (!(distance_squared < contact * contact)) return false;
+  if (!slack) return true;
+  const double allowed = relative_slack * contact + coordinate_slack * std::max(box_.width, box_.height);
+  return contact - std::sqrt(distance_squared) > allowed;
+}
+
+std::size_t PlacementGrid::search(const Level& level, double x, double y, double radius, bool slack) const {
+  const double reach = radius + level.largest_radius;
+  const CellRange across = cells_around(x, reach, level.per_x, level.columns, box_.periodic_x());
+  const CellRange up = cells_around(y, reach, level.per_y, level.rows, box_.periodic_y());
+  for (std::ptrdiff_t r = 0; r < up.count; ++r) {
+    const std::size_t row = wrap_cell(up.first + r, level.rows);
+    for (std::ptrdiff_t c = 0; c < across.count; ++c) {
+      const std::size_t column = wrap_cell(across.first + c, level.columns);
+      for (std::uint32_t i = level.head[row * level.columns + column]; i != empty_cell; i = next_[i]) {
+        if (overlaps(i, x, y, radius, slack)) return i;
+      }
+    }
+  }
+  return nobody;
+}
+
+std::size_t PlacementGrid::overlapping(double x, double y, double radius, bool slack) const {
+  for (const Level& level : levels_) {
+    if (level.disks == 0) continue;
+    const std::size_t found = search(level, x, y, radius, slack);
+    if (found != nobody) return found;
+  }
+  return nobody;
+}
+
+void PlacementGrid::prefetch(double x, double y) const {
+  for (const Level& level : levels_) {
+    if (level.disks == 0) continue;
+    const std::size_t column = cell_of(x, level.per_x, level.columns);
+    const std::size_t row = cell_of(y, level.per_y, level.rows);
+    __builtin_prefetch(&level.head[row * level.columns + column]);
+  }
+}
+
+}  // namespace carom

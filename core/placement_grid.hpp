@@ -1,0 +1,53 @@
+// Finding overlaps while an initial state is built: disks already placed, in cells, one grid for each class of size.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/disks.hpp"
+#include "core/domain.hpp"
+
+namespace carom {
+
+// Disks whose radii differ by less than a factor of two share a grid, so that one huge disk among a million small
+// ones does not make every cell huge. About 12 bytes a disk.
+class PlacementGrid {
+ public:
+  static constexpr std::size_t nobody = static_cast<std::size_t>(-1);
+
+  // For the disks of box; radii are known, positions are read from disks when a disk is inserted. disks outlives the
+  // grid, and holds at most 2^32 - 2 entries.
+  PlacementGrid(const Domain& box, const Disks& disks);
+
+  // Adds disk i at its position in disks.
+  void insert(std::size_t i);
+
+  // A disk in the grid whose centre is nearer than the sum of the radii to a disk of this radius at (x, y), or nobody.
+  // With slack, overlaps that rounding of the input explains do not count.
+  std::size_t overlapping(double x, double y, double radius, bool slack) const;
+
+  // Fetches ahead what overlapping(x, y, ...) will read first.
+  void prefetch(double x, double y) const;
+
+ private:
+  struct Level {
+    double largest_radius = 0.0;
+    std::size_t disks = 0;
+    std::size_t columns = 1, rows = 1;
+    double per_x = 0.0, per_y = 0.0;  // cells per length
+    std::vector<std::uint32_t> head;  // first disk of a cell, row by row; empty_cell if none
+  };
+
+  void size_cells(Level& level) const;
+  bool overlaps(std::size_t i, double x, double y, double radius, bool slack) const;
+  std::size_t search(const Level& level, double x, double y, double radius, bool slack) const;
+
+  const Domain& box_;
+  const Disks& disks_;
+  double largest_radius_ = 0.0;
+  std::vector<Level> levels_;        // by class: radii in (largest / 2^(k+1), largest / 2^k]
+  std::vector<std::uint32_t> next_;  // next disk in the same cell
+};
+
+}  // namespace carom

@@ -1,0 +1,172 @@
+#include "core/scene_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/input_message.hpp"
+#include "core/scene_names.hpp"
+#include "core/size_law.hpp"
+
+namespace carom {
+
+namespace {
+
+// Ids have 32 bits; the rest of them is left to sources.
+constexpr Count most_disks = 4'000'000'000;
+
+void check_length(std::size_t length, Count count, const std::string& where) {
+  if (length == count) return;
+  fail_input(where, fmt::format("has {} entries for count = {}", length, count), "expected one entry a disk");
+}
+
+void check_sizes_differ(const SizeLaw& radius, const SizeLaw& mass, const std::string& where) {
+  if (radius.kind != SizeLaw::Kind::from_other || mass.kind != SizeLaw::Kind::from_other) return;
+  fail_input(where, "radius and mass are both derived from each other", "expected one of them given by itself");
+}
+
+void check_group(const DiskGroup& group, const std::string& path, const PlaceOfKey& place) {
+  const auto at = [&](std::string_view name) { return place(fmt::format("{}.{}", path, name)); };
+  check_sizes_differ(group.radius, group.mass, at("radius"));
+  if (group.positions.kind == PositionLaw::Kind::list) {
+    check_length(group.positions.list.size(), group.count, at("positions"));
+  }
+  if (group.velocities.kind == VelocityLaw::Kind::list) {
+    check_length(group.velocities.list.size(), group.count, at("velocities"));
+  }
+  if (group.radius.kind == SizeLaw::Kind::list) check_length(group.radius.values.size(), group.count, at("radius"));
+  if (group.mass.kind == SizeLaw::Kind::list) check_length(group.mass.values.size(), group.count, at("mass"));
+  if (group.velocities.kind == VelocityLaw::Kind::maxwell && group.velocities.temperature > 0.0 && group.count == 1) {
+    fail_input(at("velocities"), "maxwell with a single disk: taking off the mean velocity leaves nothing to scale",
+               "expected two disks or more, or a list with the velocity");
+  }
+}
+
+void check_source(const Source& source, const Domain& box, const std::string& path, const PlaceOfKey& place) {
+  const auto at = [&](std::string_view name) { return place(fmt::format("{}.{}", path, name)); };
+  check_sizes_differ(source.radius, source.mass, at("radius"));
+  constexpr std::string_view no_list = "expected a law that serves any number of disks";
+  if (source.radius.kind == SizeLaw::Kind::list) fail_input(at("radius"), "is a list", no_list);
+  if (source.mass.kind == SizeLaw::Kind::list) fail_input(at("mass"), "is a list", no_list);
+  if (source.velocities.kind == VelocityLaw::Kind::list) fail_input(at("velocities"), "is a list", no_list);
+  if (source.side && box.side(*source.side) == SideKind::periodic) {
+    fail_input(at("side"), fmt::format("{} is periodic", side_names[static_cast<std::size_t>(*source.side)]),
+               "expected a wall or sink side");
+  }
+}
+
+void check_sides(const Domain& box, const PlaceOfKey& place) {
+  for (const auto& [a, b] : {std::pair(Side::left, Side::right), std::pair(Side::bottom, Side::top)}) {
+    const bool first = box.side(a) == SideKind::periodic;
+    if (first == (box.side(b) == SideKind::periodic)) continue;
+    const std::string_view with = side_names[static_cast<std::size_t>(first ? a : b)];
+    const std::string_view without = side_names[static_cast<std::size_t>(first ? b : a)];
+    fail_input(place(fmt::format("box.{}", with)), fmt::format("{} is periodic but {} is not", with, without),
+               "expected periodic sides in opposite pairs");
+  }
+}
+
+void check_run(const Scene& scene, const PlaceOfKey& place) {
+  const bool time_stepping = scene.run.method != Method::exact;
+  if (scene.run.dt > 0.0 || (!time_stepping && scene.physics.diffusion == 0.0)) return;
+  fail_input(place("run.dt"), "missing",
+             time_stepping ? "expected the time step of methods rollback and pairwise"
+                           : "expected the time step of Brownian motion (diffusion > 0)");
+}
+
+// Sizes that overflow or vanish when one is derived from the other.
+void check_range(const DiskSize& smallest, const DiskSize& largest, const std::string& path, const PlaceOfKey& place) {
+  const auto good = [](double low, double high) { return low > 0.0 && std::isfinite(high); };
+  constexpr std::string_view expected = "expected finite numbers above 0";
+  const std::string radius = place(fmt::format("{}.radius", path));
+  if (!good(smallest.radius, largest.radius)) {
+    fail_input(radius, fmt::format("comes out between {} and {}", smallest.radius, largest.radius), expected);
+  }
+  if (!good(smallest.mass, largest.mass)) {
+    fail_input(place(fmt::format("{}.mass", path)),
+               fmt::format("comes out between {} and {}", smallest.mass, largest.mass), expected);
+  }
+}
+
+void check_axis(double length, bool periodic, double radius, std::string_view name, const PlaceOfKey& place) {
+  // Two disks of one diameter could touch through two images at once in a period below two diameters.
+  const double least = periodic ? 4.0 * radius : 2.0 * radius;
+  if (length >= least) return;
+  fail_input(place(fmt::format("box.{}", name)), fmt::format("{} is too small for a disk of radius {}", length, radius),
+             fmt::format("expected at least {}, {} of the largest disk", least,
+                         periodic ? "two diameters (periodic sides)" : "the diameter"));
+}
+
+// The least and the largest that a source's law can give; each law is monotonic.
+std::pair<DiskSize, DiskSize> source_sizes(const Source& source) {
+  const auto end_of = [](SizeLaw law, bool high) {
+    if (law.kind != SizeLaw::Kind::uniform) return law;
+    law.kind = SizeLaw::Kind::constant;
+    law.value = high ? law.high : law.low;
+    return law;
+  };
+  const auto size = [&](bool high) {
+    return draw_size(end_of(source.radius, high), end_of(source.mass, high), 0, Stream::source_radius,
+                     Stream::source_mass, 0, 0);
+  };
+  return {size(false), size(true)};
+}
+
+void check_region(const Source& source, const Domain& box, const std::string& where) {
+  const Vec2 low = source.region_low;
+  const Vec2 high = source.region_high;
+  constexpr std::string_view expected = "expected [x0, y0, x1, y1] with x0 <= x1, y0 <= y1, inside the box";
+  if (!(low.x <= high.x && low.y <= high.y)) fail_input(where, "its corners are not in order", expected);
+  if (low.x >= 0.0 && low.y >= 0.0 && high.x <= box.width && high.y <= box.height) return;
+  fail_input(where, fmt::format("reaches out of the box of {} x {}", box.width, box.height), expected);
+}
+
+}  // namespace
+
+void check_parts(const Scene& scene, const PlaceOfKey& place) {
+  check_sides(scene.box, place);
+  Count total = 0;
+  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
+    const std::string path = fmt::format("disks.{}", g);
+    const Count count = scene.groups[g].count;
+    if (count > most_disks || total + count > most_disks) {
+      fail_input(place(path + ".count"), fmt::format("{} disks are too many", std::max(count, total + count)),
+                 fmt::format("expected at most {} in all", most_disks));
+    }
+    total += count;
+    check_group(scene.groups[g], path, place);
+  }
+  for (std::size_t k = 0; k < scene.sources.size(); ++k) {
+    check_source(scene.sources[k], scene.box, fmt::format("sources.{}", k), place);
+  }
+  if (scene.physics.accumulate && scene.physics.diffusion == 0.0) {
+    fail_input(place("physics.accumulate"), "needs Brownian motion", "expected diffusion as well");
+  }
+  check_run(scene, place);
+}
+
+void check_box(const Scene& scene, const PlaceOfKey& place) {
+  double largest = 0.0;
+  DiskId first_id = 0;
+  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
+    const DiskGroup& group = scene.groups[g];
+    if (group.count == 0) continue;
+    const SizeSummary sizes = summarise_sizes(group, scene.seed, first_id);
+    check_range(sizes.smallest, sizes.largest, fmt::format("disks.{}", g), place);
+    largest = std::max(largest, sizes.largest.radius);
+    first_id += static_cast<DiskId>(group.count);
+  }
+  for (std::size_t k = 0; k < scene.sources.size(); ++k) {
+    const std::string path = fmt::format("sources.{}", k);
+    const auto [low, high] = source_sizes(scene.sources[k]);
+    check_range(low, high, path, place);
+    largest = std::max(largest, high.radius);
+    if (!scene.sources[k].side) check_region(scene.sources[k], scene.box, place(path + ".region"));
+  }
+  check_axis(scene.box.width, scene.box.periodic_x(), largest, "width", place);
+  check_axis(scene.box.height, scene.box.periodic_y(), largest, "height", place);
+}
+
+}  // namespace carom

@@ -1,0 +1,16 @@
+// How the scene file calls the values of the scene's enums, in the order of each.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace carom {
+
+inline constexpr std::array<std::string_view, 4> side_names{"left", "right", "bottom", "top"};     // Side
+inline constexpr std::array<std::string_view, 3> side_kind_names{"wall", "periodic", "sink"};      // SideKind
+inline constexpr std::array<std::string_view, 3> method_names{"rollback", "pairwise", "exact"};    // Method
+inline constexpr std::array<std::string_view, 3> trajectory_names{"none", "xyz", "h5md"};          // TrajectoryFormat
+inline constexpr std::array<std::string_view, 3> position_names{"random", "square", "hexagonal"};  // PositionLaw::Kind
+inline constexpr std::array<std::string_view, 2> plot_names{"velocity", "energy"};
+
+}  // namespace carom

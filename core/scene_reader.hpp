@@ -1,0 +1,83 @@
+// Typed access to the tables of a scene file, with the place of every key for messages. Only the scene_*.cpp files
+// that walk the TOML tree include this.
+#pragma once
+
+// One translation unit (scene_reader.cpp) holds toml++ compiled; the others see declarations only.
+#define TOML_HEADER_ONLY 0
+#define TOML_ENABLE_FORMATTERS 0
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/scene_file.hpp"
+#include "core/types.hpp"
+
+namespace carom {
+
+// Where a scene came from. Key paths are written as in --set: "physics.gravity", "disks.0.radius".
+struct SceneOrigin {
+  std::string name;    // of the file, as messages show it
+  std::string folder;  // where relative CSV paths start
+  const toml::table* root = nullptr;
+  std::vector<Override> overrides;
+
+  // "file:line: key", or "--set key" where an override made it. A missing key has the line of the table it should be
+  // in.
+  std::string where(std::string_view key) const;
+
+  // Throws InputError: where(key), what is wrong, what was expected.
+  [[noreturn]] void fail(std::string_view key, std::string_view what, std::string_view expected) const;
+};
+
+// "a string", "a list", ...: how messages call the type of a value.
+std::string_view type_name(const toml::node& node);
+
+// One value of the type asked for; key is its path. Each throws InputError for another type; numbers must be finite.
+double as_number(const SceneOrigin& origin, const std::string& key, const toml::node& node);
+Count as_count(const SceneOrigin& origin, const std::string& key, const toml::node& node);
+bool as_flag(const SceneOrigin& origin, const std::string& key, const toml::node& node);
+std::string as_text(const SceneOrigin& origin, const std::string& key, const toml::node& node);
+const toml::array& as_list(const SceneOrigin& origin, const std::string& key, const toml::node& node,
+                           std::string_view expected);
+std::vector<double> as_numbers(const SceneOrigin& origin, const std::string& key, const toml::node& node);
+// A list of [x, y].
+std::vector<Vec2> as_pairs(const SceneOrigin& origin, const std::string& key, const toml::node& node);
+
+// One table and its key path ("" for the root). Missing keys read as nullopt.
+class TableReader {
+ public:
+  // Throws InputError when the table has a key that is not in known.
+  TableReader(const SceneOrigin& origin, std::string path, const toml::table& table,
+              std::initializer_list<std::string_view> known);
+
+  std::string key(std::string_view name) const;  // its full path
+  const toml::node* find(std::string_view name) const { return table_->get(name); }
+  // Throws InputError when the key is missing.
+  const toml::node& require(std::string_view name, std::string_view expected) const;
+
+  std::optional<double> number(std::string_view name) const;
+  std::optional<double> positive(std::string_view name) const;      // > 0
+  std::optional<double> non_negative(std::string_view name) const;  // >= 0
+  std::optional<double> in_unit(std::string_view name) const;       // in [0, 1]
+  std::optional<Count> count(std::string_view name) const;
+  std::optional<bool> flag(std::string_view name) const;
+  std::optional<std::string> text(std::string_view name) const;
+  // One of known, as its index.
+  std::optional<std::size_t> choice(std::string_view name, std::span<const std::string_view> known) const;
+
+  [[noreturn]] void fail(std::string_view name, std::string_view what, std::string_view expected) const;
+  const SceneOrigin& origin() const { return *origin_; }
+
+ private:
+  const SceneOrigin* origin_;
+  std::string path_;
+  const toml::table* table_;
+};
+
+}  // namespace carom
