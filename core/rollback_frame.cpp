@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/check.hpp"
+#include "core/impact_tally.hpp"
 
 namespace carom {
 
@@ -13,16 +14,11 @@ bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& e) {
 }
 
 void bounce_all(State& state, const StepRules& rules, const std::vector<ContactEvent>& events) {
+  ImpactTally tally;
   with_view(state.disks, [&](const auto& d) {
-    for (const ContactEvent& e : events) {
-      const Relative r = relative(d, e.i1, e.i2, rules.box);
-      if (!(r.approach() < 0.0)) continue;
-      const Shares share = shares_of(d, e.i1, e.i2);
-      const double change = collide(r, share, rules.restitution, d.vx[e.i1], d.vy[e.i1], d.vx[e.i2], d.vy[e.i2]);
-      state.counters.virial += reduced_mass(d.mass(e.i1), d.mass(e.i2)) * change;
-      ++state.counters.collisions;
-    }
+    for (const ContactEvent& e : events) tally.add(e.id2, bounce_pair(d, rules, e.i1, e.i2));
   });
+  tally.count_into(state.counters);
 }
 
 double frame_limit(const Scene& scene, const State& state, const StepClock& clock) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/contact_event.hpp"
+#include "core/impact_tally.hpp"
 #include "core/resolve.hpp"
 #include "core/scene.hpp"
 #include "core/state.hpp"
@@ -15,20 +16,25 @@ namespace carom {
 // Is the event a pair of disks that approaches (F8)? Walls do not make the system go back.
 bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& event);
 
-// Every pair found bounces by (23) where it is now, in the order given, if it still approaches: with the velocities of
-// the moment, not copies (F3). Pairs that have not yet touched bounce at a distance: F2, kept. Counts into the state.
+// A pair found bounces by (23) where it is now, if it still approaches: with the velocities of the moment, not copies
+// (F3). A pair that has not yet touched bounces at a distance: F2, kept.
+template <class View>
+Impact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
+  const Relative r = relative(d, i, j, rules.box);
+  if (!(r.approach() < 0.0)) return {};
+  const double change = collide(r, shares_of(d, i, j), rules.restitution, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
+  return {reduced_mass(d.mass(i), d.mass(j)) * change, true};
+}
+
+// Every pair in the order given. Counts into the state.
 void bounce_all(State& state, const StepRules& rules, const std::vector<ContactEvent>& events);
 
 // One disk and the walls it reaches beyond: back to its contact, bounce, forward; what remains is pushed inside (F11).
 template <class View>
-void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, Counters& counters) {
+void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTally& tally) {
   for (Side side : all_sides) {
     if (rules.box.side(side) != SideKind::wall) continue;
-    const Impact impact = resolve_wall(d, rules, i, side);
-    if (impact.happened) {
-      ++counters.wall_collisions;
-      counters.wall_impulse[static_cast<std::size_t>(side)] += impact.virial;
-    }
+    tally.add(wall_partner(side), resolve_wall(d, rules, i, side));
     push_wall(d, rules.box, i, side, 0.0);
   }
 }

@@ -3,23 +3,13 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/impact_tally.hpp"
 #include "core/pair_search.hpp"
 #include "core/resting.hpp"
 
 namespace carom {
 
 namespace {
-
-void count_impact(Counters& counters, const ContactEvent& e, const Impact& impact) {
-  if (!impact.happened) return;
-  if (is_wall(e.id2)) {
-    ++counters.wall_collisions;
-    counters.wall_impulse[static_cast<std::size_t>(wall_side(e.id2))] += impact.virial;
-  } else {
-    ++counters.collisions;
-    counters.virial += impact.virial;
-  }
-}
 
 // How many contacts each disk has in this step, by storage index: two or more, and it can be squeezed.
 std::vector<std::uint32_t> contacts_per_disk(std::size_t disks, const std::vector<ContactEvent>& events) {
@@ -38,13 +28,15 @@ bool is_squeezed(const std::vector<std::uint32_t>& contacts, const ContactEvent&
 template <class View>
 void resolve_impacts(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
                      const std::vector<std::uint32_t>& contacts) {
+  ImpactTally tally;
   for (const ContactEvent& e : events) {
     if (rules.settles) {
       const bool loaded = load_of(state.loads, e) > 0.0;
       if (is_support(d, rules, e, loaded, is_squeezed(contacts, e))) continue;
     }
-    count_impact(state.counters, e, resolve_event(d, rules, e));
+    tally.add(e.id2, resolve_event(d, rules, e));
   }
+  tally.count_into(state.counters);
 }
 
 // Solves the supports; their loads go to state.loads, in id order as the events are.
