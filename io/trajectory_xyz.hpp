@@ -1,0 +1,63 @@
+// Trajectories as extended XYZ: text that OVITO, ASE and VMD read, and that loses no bit.
+#pragma once
+
+#include <cstddef>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/disks.hpp"
+#include "core/domain.hpp"
+#include "io/output_file.hpp"
+
+namespace carom {
+
+// What every line of a frame holds, as the second line of the frame declares it.
+inline constexpr const char* xyz_properties = "species:S:1:pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1";
+
+class XyzWriter {
+ public:
+  // Throws RunError where the file cannot be written, here and below.
+  XyzWriter(const std::string& path, const Domain& box);
+
+  // One frame, disks in order of id, numbers with 17 significant digits.
+  void write(const Disks& disks, double time);
+
+  void close() { file_.close(); }
+
+ private:
+  OutputFile file_;
+  std::string lattice_;  // the constant part of each frame's second line
+  std::string text_;     // of the frame being written; kept for its capacity
+};
+
+// One frame as read back. Of the box, the file tells size and periodic sides; all others appear as walls.
+struct XyzFrame {
+  Disks disks;
+  double time = 0.0;
+  Domain box;
+};
+
+class XyzReader {
+ public:
+  // Throws InputError if the file cannot be opened.
+  explicit XyzReader(const std::string& path);
+
+  // The next frame, or false at the end of the file. Radius and mass always come as columns. Throws InputError,
+  // "file:line: what is wrong, what was expected", for anything but a file that XyzWriter wrote in full.
+  bool read(XyzFrame& frame);
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+  bool next_line();
+  void read_header(XyzFrame& frame) const;
+  void read_disk(Disks& disks) const;
+  double number(std::string_view text) const;
+
+  std::string path_;
+  std::ifstream file_;
+  std::string line_;
+  std::size_t line_number_ = 0;
+};
+
+}  // namespace carom
