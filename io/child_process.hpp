@@ -1,0 +1,45 @@
+// Running gnuplot and ffmpeg: started directly with a list of arguments, never through a shell.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+// Full path of an executable on PATH, empty if there is none.
+std::string find_program(const std::string& name);
+
+// A program that runs beside us, fed through its standard input. What it says goes to a log file.
+class ChildProcess {
+ public:
+  // arguments[0] is the program's path. Its output and error output are written to log_path. It runs in `folder` and
+  // in a process group of its own, so that Ctrl-C on a terminal reaches us only and the child ends when we say so.
+  // SIGPIPE is ignored from here on in the whole process: a child that dies shows as an error of write().
+  // Throws RunError if it cannot be started.
+  ChildProcess(const std::vector<std::string>& arguments, const std::string& folder, const std::string& log_path);
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  // A child still running is killed: its output is not wanted any more.
+  ~ChildProcess();
+
+  // Returns false when the child has stopped listening.
+  bool write(const void* data, std::size_t bytes);
+
+  // Closes the child's input and waits for it; returns its exit status, or 128 + signal.
+  int wait();
+
+ private:
+  void close_input();
+
+  pid_t pid_ = -1;
+  int input_ = -1;
+};
+
+// Last non-empty line of a log file, for a one-line message; empty if there is none.
+std::string last_line(const std::string& log_path);
+
+}  // namespace carom

@@ -1,0 +1,216 @@
+#include "io/gnuplot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/check.hpp"
+#include "io/child_process.hpp"
+#include "io/output_file.hpp"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Ten colours that stay apart for all common kinds of colour blindness: black and the set of Okabe and Ito without its
+// yellow, too pale for a line, completed by dark shades from the schemes of Paul Tol.
+constexpr std::array<const char*, 10> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000",
+                                              "#E69F00", "#56B4E9", "#332288", "#882255", "#888888"};
+
+// More points than this on a line are more than pixels; the file would only grow.
+constexpr std::size_t most_points = 4000;
+
+constexpr int width_pixels = 960;
+constexpr double panel_pixels = 310.0, top_pixels = 56.0, bottom_pixels = 76.0;
+constexpr double label_pixels = 19.0;  // least distance of two names
+
+struct Range {
+  double low = 0.0, high = 1.0;
+};
+
+// A scratch folder that goes away with everything in it.
+struct ScratchFolder {
+  ScratchFolder() {
+    std::string name = (fs::temp_directory_path() / "carom-plot-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw RunError(fmt::format("cannot make the folder {}: {}", name, std::strerror(errno)));
+    }
+    path = name;
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  fs::path path;
+};
+
+// In single quotes gnuplot takes everything literally but the quote itself, which is doubled: no escapes, no command
+// substitution.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < ' ') {
+      result += ' ';
+    } else {
+      result.append(c == '\'' ? 2U : 1U, c);
+    }
+  }
+  return result + '\'';
+}
+
+Range vertical_range(const Panel& panel) {
+  bool any = false;
+  Range r;
+  for (const Line& line : panel.lines) {
+    for (const double y : line.y) {
+      r.low = any ? std::min(r.low, y) : y;
+      r.high = any ? std::max(r.high, y) : y;
+      any = true;
+    }
+  }
+  if (panel.from_zero) r = {std::min(r.low, 0.0), std::max(r.high, 0.0)};
+  if (!(r.high > r.low)) {
+    const double room = r.high != 0.0 ? 0.1 * std::abs(r.high) : 1.0;
+    r = {r.low - room, r.high + room};
+  }
+  const double margin = 0.06 * (r.high - r.low);
+  return {panel.from_zero && r.low == 0.0 ? 0.0 : r.low - margin, r.high + margin};
+}
+
+Range horizontal_range(const Figure& figure) {
+  Range r{0.0, 0.0};
+  for (const Panel& panel : figure.panels) {
+    for (const Line& line : panel.lines) {
+      if (!line.x.empty()) r.high = std::max(r.high, line.x.back());
+    }
+  }
+  if (r.high <= 0.0) r.high = 1.0;
+  return r;
+}
+
+// The points of a line, one a row. A long line keeps the least and the greatest value of each stretch, so that no
+// spike gets lost.
+void append_points(std::string& data, const Line& line) {
+  const std::size_t n = line.x.size();
+  const std::size_t stretch = n <= most_points ? 1 : (2 * n + most_points - 1) / most_points;
+  const auto append = [&](std::size_t i) { fmt::format_to(std::back_inserter(data), "{} {}\n", line.x[i], line.y[i]); };
+  for (std::size_t begin = 0; begin < n; begin += stretch) {
+    const auto first = line.y.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = line.y.begin() + static_cast<std::ptrdiff_t>(std::min(begin + stretch, n));
+    const auto [least, greatest] = std::minmax_element(first, last);
+    const auto low = static_cast<std::size_t>(least - line.y.begin());
+    const auto high = static_cast<std::size_t>(greatest - line.y.begin());
+    append(std::min(low, high));
+    if (low != high) append(std::max(low, high));
+  }
+}
+
+// Heights for the names of the lines: where the lines end, moved apart until no two overlap.
+std::vector<double> label_heights(const Panel& panel, const Range& range) {
+  const double distance = (range.high - range.low) * label_pixels / (0.9 * panel_pixels);
+  std::vector<std::pair<double, std::size_t>> ends;
+  for (std::size_t k = 0; k < panel.lines.size(); ++k) {
+    ends.emplace_back(panel.lines[k].y.empty() ? range.low : panel.lines[k].y.back(), k);
+  }
+  std::sort(ends.begin(), ends.end());
+  for (int round = 0; round < 200; ++round) {
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+      const double lacking = distance - (ends[k + 1].first - ends[k].first);
+      if (lacking <= 0.0) continue;
+      ends[k].first = std::max(ends[k].first - 0.5 * lacking, range.low);
+      ends[k + 1].first = std::min(ends[k + 1].first + 0.5 * lacking, range.high);
+    }
+  }
+  std::vector<double> heights(panel.lines.size());
+  for (const auto& [height, k] : ends) heights[k] = height;
+  return heights;
+}
+
+// The commands of one panel; `block` is the number of its first line in the data file.
+std::string panel_commands(const Panel& panel, std::size_t block) {
+  const Range range = vertical_range(panel);
+  const std::vector<double> heights = label_heights(panel, range);
+  std::string text = fmt::format("unset label\nunset arrow\nset ylabel {}\nset yrange [{}:{}]\n", quoted(panel.y_label),
+                                 range.low, range.high);
+  std::string plot;
+  for (std::size_t k = 0; k < panel.lines.size(); ++k) {
+    const Line& line = panel.lines[k];
+    const char* const colour = colours[k % colours.size()];
+    if (line.x.empty()) continue;
+    text += fmt::format("set label {} {} at graph 1.035, first {} left textcolor rgb '{}'\n", k + 1, quoted(line.name),
+                        heights[k], colour);
+    text += fmt::format("set arrow {} from first {}, first {} to graph 1.03, first {} nohead lc rgb '{}' lw 0.7\n",
+                        k + 1, line.x.back(), line.y.back(), heights[k], colour);
+    // The first line is drawn wider, so that it still shows where a later one covers it.
+    plot += fmt::format("{} 'data' index {} with lines lw {} lc rgb '{}'", plot.empty() ? "plot" : ",", block + k,
+                        k == 0 ? 3.0 : 1.6, colour);
+  }
+  if (plot.empty()) plot = "plot NaN";
+  return text + plot + "\n";
+}
+
+std::string script_of(const Figure& figure) {
+  const Range x = horizontal_range(figure);
+  const auto panels = figure.panels.size();
+  const double height = static_cast<double>(panels) * panel_pixels + top_pixels + bottom_pixels;
+  std::string text = fmt::format(
+      "set terminal svg size {},{} font 'sans-serif,15' linewidth 1 noenhanced background 'white'\n"
+      "set output 'plot.svg'\n"
+      "set multiplot layout {},1 title {} font 'sans-serif,18' margins 0.10,0.88,{},{} spacing 0.06\n"
+      "unset key\nset border 3 lc rgb '#555555'\nset tics nomirror out scale 0.5 textcolor rgb '#222222'\n"
+      "set grid lc rgb '#dddddd' lt 1 lw 0.6\nset format '%g'\nset xrange [{}:{}]\n",
+      width_pixels, height, panels, quoted(figure.title), bottom_pixels / height, 1.0 - top_pixels / height, x.low,
+      x.high);
+  std::size_t block = 0;
+  for (std::size_t p = 0; p < panels; ++p) {
+    if (p + 1 == panels) text += fmt::format("set xlabel {}\n", quoted(figure.x_label));
+    text += panel_commands(figure.panels[p], block);
+    block += figure.panels[p].lines.size();
+  }
+  return text + "unset multiplot\n";
+}
+
+std::string data_of(const Figure& figure) {
+  std::string data;
+  for (const Panel& panel : figure.panels) {
+    for (const Line& line : panel.lines) {
+      append_points(data, line);
+      data += line.x.empty() ? "NaN NaN\n\n\n" : "\n\n";
+    }
+  }
+  return data;
+}
+
+}  // namespace
+
+bool draw_svg(const Figure& figure, const std::string& path) {
+  const std::string gnuplot = find_program("gnuplot");
+  if (gnuplot.empty()) return false;
+  const ScratchFolder scratch;
+  const std::string log = scratch.path / "log";
+  write_file(scratch.path / "data", data_of(figure));
+  write_file(scratch.path / "script", script_of(figure));
+  ChildProcess child({gnuplot, "--default-settings", "script"}, scratch.path, log);
+  const int status = child.wait();
+  std::ostringstream svg;
+  svg << std::ifstream(scratch.path / "plot.svg").rdbuf();
+  // gnuplot does not tell of a full disk; a picture that is not closed tells.
+  if (status != 0 || svg.str().find("</svg>") == std::string::npos) {
+    throw RunError(fmt::format("gnuplot could not draw {}: {}", path, last_line(log)));
+  }
+  write_file(path, svg.str());
+  return true;
+}
+
+}  // namespace carom

@@ -1,0 +1,100 @@
+// Plots: what is recorded, that gnuplot draws it whatever the title holds, and runs without gnuplot.
+#include "io/plot.hpp"
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/check.hpp"
+#include "io/child_process.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+
+std::string temporary(const char* name) {
+  return (fs::temp_directory_path() / name).string();
+}
+
+std::string text_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+Disks disks_with_ids(const std::vector<DiskId>& ids) {
+  Disks d;
+  for (const DiskId id : ids) append(d, {0.0, 0.0, 1.0 * id, -1.0 * id, 1.0, 1.0, id});
+  return d;
+}
+
+std::vector<DiskId> recorded(const VelocityRecord& record) {
+  std::vector<DiskId> ids;
+  for (const auto& curve : record.curves) ids.push_back(curve.id);
+  return ids;
+}
+
+TEST(VelocityRecord, TenLowestIdsInAnyStorageOrder) {
+  VelocityRecord r;
+  record(r, disks_with_ids({11, 3, 0, 7, 9, 1, 2, 4, 5, 6, 8, 10}), 0.0);
+  EXPECT_THAT(recorded(r), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9));
+  EXPECT_THAT(r.curves[7].vx, ElementsAre(7.0));
+  EXPECT_THAT(r.curves[7].vy, ElementsAre(-7.0));
+}
+
+TEST(VelocityRecord, NewcomersFillUpAndLostDisksEnd) {
+  VelocityRecord r;
+  record(r, disks_with_ids({0, 1}), 0.0);
+  record(r, disks_with_ids({1, 5}), 1.0);
+  record(r, {}, 2.0);
+  EXPECT_THAT(recorded(r), ElementsAre(0, 1, 5));
+  EXPECT_THAT(r.curves[0].t, ElementsAre(0.0));
+  EXPECT_THAT(r.curves[1].t, ElementsAre(0.0, 1.0));
+  EXPECT_THAT(r.curves[2].t, ElementsAre(1.0));
+}
+
+TEST(Plot, VelocitiesOfTwoDisks) {
+  VelocityRecord r;
+  for (int k = 0; k < 10000; ++k) record(r, disks_with_ids({0, 1}), 0.01 * k);
+  const std::string path = temporary("carom_plot_velocity.svg");
+  const std::string marker = temporary("carom_plot_injected");
+  // A title is only text, whatever it says to gnuplot or to a shell.
+  ASSERT_TRUE(plot_velocity(path, "it's `touch " + marker + "`\n'; system('touch " + marker + "') <&> {/Bold é}", r));
+  const std::string svg = text_of(path);
+  EXPECT_FALSE(fs::exists(marker));
+  for (const char* const shown : {"disk 0", "disk 1", "time t", ">vx<", ">vy<", "&lt;&amp;", "é"}) {
+    EXPECT_TRUE(svg.find(shown) != std::string::npos) << shown;
+  }
+  EXPECT_LT(svg.size(), 600000U) << "long lines are thinned out";
+  fs::remove(path);
+}
+
+TEST(Plot, NothingToShowIsStillAPlot) {
+  const std::string path = temporary("carom_plot_empty.svg");
+  EXPECT_TRUE(plot_velocity(path, "no disks", {}));
+  EXPECT_TRUE(plot_energy(path, "one frame at rest", {{0.0}, {0.0}, {0.0}, {0.0}}));
+  EXPECT_TRUE(plot_energy(path, "", {{0.0, 1.0}, {2.0, 1.0}, {0.0, 1.0}, {2.0, 2.0}}));
+  EXPECT_TRUE(text_of(path).find("potential") != std::string::npos);
+  fs::remove(path);
+}
+
+TEST(Plot, AFullDiskIsAnError) {
+  EXPECT_THROW(plot_energy("/dev/full", "full", {{0.0, 1.0}, {2.0, 1.0}, {0.0, 1.0}, {2.0, 2.0}}), RunError);
+}
+
+TEST(Plot, WithoutGnuplotNothingIsWritten) {
+  const std::string path = temporary("carom_plot_none.svg");
+  const std::string saved = getenv("PATH");
+  setenv("PATH", "/nonexistent", 1);
+  EXPECT_FALSE(plot_velocity(path, "none", {}));
+  setenv("PATH", saved.c_str(), 1);
+  EXPECT_FALSE(fs::exists(path));
+}
+
+}  // namespace
+}  // namespace carom
