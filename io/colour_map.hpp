@@ -1,0 +1,15 @@
+// From a number in [0, 1] to a colour: viridis, perceptually uniform and safe for the colour-blind.
+#pragma once
+
+#include <array>
+
+namespace carom {
+
+struct Colour {
+  double red = 0.0, green = 0.0, blue = 0.0;  // in [0, 255], sRGB
+};
+
+// Dark violet at 0 over blue and green to yellow at 1; values outside are taken as the nearer end.
+Colour viridis(double value);
+
+}  // namespace carom

@@ -1,0 +1,210 @@
+// Frames show what they should where they should, and movies are what every player plays.
+#include "io/movie.hpp"
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "core/check.hpp"
+#include "io/colour_map.hpp"
+#include "io/disk_raster.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+Domain square_box(double side) {
+  Domain box;
+  box.width = box.height = side;
+  return box;
+}
+
+Disks one_disk(double x, double y, double vx, double radius) {
+  Disks d;
+  append(d, {x, y, vx, 0.0, radius, 1.0, 0});
+  return d;
+}
+
+std::uint32_t pixel(const FramePainter& painter, int column, int row) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, painter.pixels() + 4 * (static_cast<std::ptrdiff_t>(row) * painter.width() + column), 4);
+  return value & 0xffffffU;
+}
+
+std::uint32_t packed(const Colour& c) {
+  return (static_cast<std::uint32_t>(std::lround(c.red)) << 16) |
+         (static_cast<std::uint32_t>(std::lround(c.green)) << 8) | static_cast<std::uint32_t>(std::lround(c.blue));
+}
+
+int count_of(const FramePainter& painter, std::uint32_t colour) {
+  int count = 0;
+  // The colour bar, on the right, shows all colours; only the box counts.
+  for (int row = 0; row < painter.height(); ++row) {
+    for (int column = 0; column < painter.width() - 132; ++column)
+      count += pixel(painter, column, row) == colour ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(ColourMap, EndsAndMiddleOfViridis) {
+  EXPECT_EQ(packed(viridis(0.0)), 0x440154U);
+  EXPECT_EQ(packed(viridis(0.5)), 0x21908dU);
+  EXPECT_EQ(packed(viridis(1.0)), 0xfde725U);
+  EXPECT_EQ(packed(viridis(-1.0)), 0x440154U);
+  EXPECT_EQ(packed(viridis(7.0)), 0xfde725U);
+}
+
+TEST(DiskRaster, AreaIsThatOfTheDisk) {
+  for (const double r : {0.2, 0.5, 1.0, 2.5}) {
+    std::array<std::uint32_t, 32 * 32> image{};
+    fill_disk({image.data(), 32, 0, 0, 32, 32}, 15.3, 16.8, r, {200.0, 0.0, 0.0});
+    double sum = 0.0;
+    for (const std::uint32_t p : image) sum += static_cast<double>(p >> 16) / 200.0;
+    EXPECT_NEAR(sum, M_PI * r * r, 0.1 * M_PI * r * r) << r;
+  }
+}
+
+TEST(DiskRaster, NothingOutsideTheArea) {
+  std::array<std::uint32_t, 16 * 16> image{};
+  for (const double x : {-3.0, 4.0, 8.0, 11.9, 20.0}) {
+    fill_disk({image.data(), 16, 4, 4, 12, 12}, x, 6.0, 3.0, {255.0, 255.0, 255.0});
+    fill_disk({image.data(), 16, 4, 4, 12, 12}, x, 12.0, 0.4, {255.0, 255.0, 255.0});
+  }
+  for (int row = 0; row < 16; ++row) {
+    for (int column = 0; column < 16; ++column) {
+      if (row >= 4 && row < 12 && column >= 4 && column < 12) continue;
+      EXPECT_EQ(image[static_cast<std::size_t>(16 * row + column)], 0U);
+    }
+  }
+}
+
+TEST(Frame, DiskIsWhereItIsInTheColourOfItsSpeed) {
+  FramePainter painter({"test", square_box(10.0), 2.0, 1});
+  EXPECT_EQ(painter.width() % 2, 0);
+  EXPECT_EQ(painter.height() % 2, 0);
+  painter.paint(one_disk(2.5, 7.5, 1.0, 1.0), 0.0);
+  // 800 pixels for the box, 28 left of it, 78 above.
+  EXPECT_EQ(pixel(painter, 28 + 200, 78 + 200), packed(viridis(0.5)));
+  EXPECT_EQ(pixel(painter, 28 + 600, 78 + 600), 0xffffffU);
+  painter.paint(one_disk(7.5, 2.5, 9.0, 1.0), 0.1);
+  EXPECT_EQ(pixel(painter, 28 + 200, 78 + 200), 0xffffffU);
+  EXPECT_EQ(pixel(painter, 28 + 600, 78 + 600), packed(viridis(1.0)));
+}
+
+TEST(Frame, ADiskAcrossAPeriodicSideIsSeenOnBoth) {
+  Domain box = square_box(10.0);
+  FramePainter walls({"", box, 1.0, 1});
+  box.sides.fill(SideKind::periodic);
+  FramePainter periodic({"", box, 1.0, 1});
+  const Disks corner = one_disk(0.1, 9.9, 1.0, 1.0);
+  walls.paint(corner, 0.0);
+  periodic.paint(corner, 0.0);
+  EXPECT_EQ(pixel(periodic, 28 + 790, 78 + 790), packed(viridis(1.0)));
+  EXPECT_EQ(pixel(walls, 28 + 790, 78 + 790), 0xffffffU);
+  EXPECT_GT(count_of(periodic, packed(viridis(1.0))), 2 * count_of(walls, packed(viridis(1.0))));
+}
+
+TEST(Frame, EachKindOfSideLooksDifferent) {
+  std::array<std::string, 3> sides;
+  for (const SideKind kind : {SideKind::wall, SideKind::periodic, SideKind::sink}) {
+    Domain box = square_box(10.0);
+    box.sides.fill(kind);
+    FramePainter painter({"", box, 1.0, 1});
+    painter.paint({}, 0.0);
+    sides[static_cast<std::size_t>(kind)].assign(reinterpret_cast<const char*>(painter.pixels()), painter.bytes());
+  }
+  EXPECT_NE(sides[0], sides[1]);
+  EXPECT_NE(sides[1], sides[2]);
+  EXPECT_NE(sides[0], sides[2]);
+}
+
+TEST(FrameStyle, SpeedScaleCoversWhatIsExpected) {
+  Scene scene;
+  scene.box = square_box(10.0);
+  scene.run.dt = 0.01;
+  scene.run.t_end = 10.0;
+  scene.output.every = 0.25;
+  const Disks rest = one_disk(5.0, 5.0, 0.0, 1.0);
+  EXPECT_EQ(frame_style(scene, rest).fastest, 1.0) << "everything at rest";
+  EXPECT_EQ(frame_style(scene, rest).time_decimals, 2);
+  EXPECT_EQ(frame_style(scene, one_disk(5.0, 5.0, 3.0, 1.0)).fastest, 3.0);
+  scene.physics.gravity = 0.5;
+  EXPECT_EQ(frame_style(scene, rest).fastest, 2.0) << "sqrt(2 g 4)";
+  scene.physics.gravity = 0.0;
+  scene.physics.diffusion = 0.1;
+  EXPECT_EQ(frame_style(scene, rest).fastest, 10.0) << "sqrt(2.5 * 4 D / dt)";
+}
+
+// What ffprobe says of a file: codec, pixel format, size, number of frames.
+std::string probe(const std::string& path) {
+  const std::string command =
+      "ffprobe -v error -count_frames -show_entries "
+      "stream=codec_name,pix_fmt,width,height,nb_read_frames -of default=nk=1:nw=1 '" +
+      path + "'";
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::string text;
+  for (int c; (c = std::fgetc(pipe.get())) != EOF;) text += static_cast<char>(c);
+  return text;
+}
+
+class Movie : public ::testing::Test {
+ protected:
+  Movie() {
+    const auto* const info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = (fs::temp_directory_path() / (std::string("carom_movie_") + info->name())).string();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~Movie() override { fs::remove_all(folder_); }
+  std::string folder_;
+};
+
+TEST_F(Movie, IsH264WithEveryFrame) {
+  Domain box = square_box(10.0);
+  box.height = 3.17;
+  MovieWriter movie(folder_, {"test", box, 1.0, 1});
+  EXPECT_FALSE(movie.single_frames());
+  for (int k = 0; k < 12; ++k) movie.add(one_disk(1.0 + 0.5 * k, 1.5, 1.0, 1.0), 0.1 * k);
+  movie.finish();
+  EXPECT_EQ(probe(folder_ + "/movie.mp4"), "h264\n1120\n432\nyuv420p\n12\n");
+  EXPECT_FALSE(fs::exists(folder_ + "/ffmpeg.log"));
+}
+
+TEST_F(Movie, WhatFfmpegSaysIsInTheError) {
+  fs::create_directories(folder_ + "/movie.mp4");  // cannot be opened as a file
+  MovieWriter movie(folder_, {"test", square_box(1.0), 1.0, 1});
+  try {
+    // The pipe buffers something, so the failure may show up only at the end.
+    for (int k = 0; k < 50; ++k) movie.add({}, 0.1 * k);
+    movie.finish();
+    FAIL() << "no error";
+  } catch (const RunError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("movie.mp4: Is a directory"));
+  }
+}
+
+TEST_F(Movie, WithoutFfmpegFramesArePictures) {
+  const std::string saved = getenv("PATH");
+  setenv("PATH", "/nonexistent", 1);
+  MovieWriter movie(folder_, {"test", square_box(1.0), 1.0, 1});
+  setenv("PATH", saved.c_str(), 1);
+  EXPECT_TRUE(movie.single_frames());
+  movie.add({}, 0.0);
+  movie.add({}, 0.1);
+  movie.finish();
+  EXPECT_TRUE(fs::exists(folder_ + "/frames/frame_000001.png"));
+  EXPECT_TRUE(fs::exists(folder_ + "/frames/frame_000002.png"));
+  EXPECT_FALSE(fs::exists(folder_ + "/movie.mp4"));
+}
+
+}  // namespace
+}  // namespace carom
