@@ -3,26 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <numbers>
 #include <optional>
 
 #include "core/input_message.hpp"
+#include "core/open_cells.hpp"
 #include "core/random.hpp"
 
 namespace carom {
 
 namespace {
 
-// At packing fraction 0.5 the last of many equal disks needs about 2000 trials, the average one 100. These bounds reach
-// 0.53 and more, and end a hopeless search in seconds (small scenes) to a minute (10^6 disks).
-constexpr std::uint64_t most_trials_of_one = 2'000'000;
-constexpr std::uint64_t most_trials_each = 400;
-constexpr std::uint64_t most_trials_at_least = 20'000'000;
+// Trials that a search without hope may cost; what they reach is said in initial_state_test.cpp.
+constexpr std::uint64_t most_trials_of_one = 200'000;
+constexpr std::uint64_t most_trials_each = 60;
+constexpr std::uint64_t most_trials_at_least = 5'000'000;
+
+// Trials a disk, on average, from which it pays to know the open cells.
+constexpr std::uint64_t many_trials = 4;
 
 // Where a centre may lie: r off walls and sinks, anywhere along a periodic axis.
 struct Room {
   double low = 0.0, high = 0.0;
+  bool holds(double c) const { return c >= low && c <= high; }
   double at(double u) const { return std::min(high, low + (high - low) * u); }
 };
 
@@ -30,51 +33,68 @@ Room room_along(double length, bool periodic, double radius) {
   return periodic ? Room{0.0, length} : Room{radius, length - radius};
 }
 
-struct Trials {
-  std::uint64_t one = 0;  // for the disk at hand
-  std::uint64_t all = 0;
+// Random sequential addition of disks whose radii differ by less than a factor of two.
+struct Search {
+  const Scene& scene;
+  Disks& disks;
+  PlacementGrid& grid;
+  std::optional<OpenCells> cells;   // made once trials become many
+  std::uint64_t trials = 0;         // so far, all disks
+  std::uint64_t trials_of_one = 0;  // for the disk at hand
 };
 
-// Tries places for disk i until one is free; false when the trials run out. Places are drawn a few ahead, so that
-// their cells are fetched from memory together; which one is taken does not depend on how many.
-bool place_one(const Scene& scene, Disks& disks, const PlacementGrid& grid, std::uint32_t i, Trials& trials,
-               std::uint64_t most) {
-  const double radius = disks.radius_of(i);
-  const Room across = room_along(scene.box.width, scene.box.periodic_x(), radius);
-  const Room up = room_along(scene.box.height, scene.box.periodic_y(), radius);
-  std::array<Vec2, 16> ahead;
-  std::size_t batch = 1;
-  for (trials.one = 0; trials.one < most_trials_of_one && trials.all < most;
-       batch = std::min(2 * batch, ahead.size())) {
-    for (std::size_t b = 0; b < batch; ++b) {
-      const TwoUniforms u = uniforms(scene.seed, Stream::position, i, trials.one + b);
-      ahead[b] = {across.at(u.a), up.at(u.b)};
-      if (scene.box.periodic_x()) ahead[b].x = wrap(ahead[b].x, scene.box.width);
-      if (scene.box.periodic_y()) ahead[b].y = wrap(ahead[b].y, scene.box.height);
-      grid.prefetch(ahead[b].x, ahead[b].y);
-    }
-    for (std::size_t b = 0; b < batch; ++b) {
-      ++trials.one;
-      ++trials.all;
-      if (grid.overlapping(ahead[b].x, ahead[b].y, radius, false) != PlacementGrid::nobody) continue;
-      disks.x[i] = ahead[b].x;
-      disks.y[i] = ahead[b].y;
-      return true;
-    }
+// Trial k of disk i: a point of its room, or nothing if it is known to be taken. With a list of open cells, uniform
+// over those: an accepted point has the same distribution, as the rest would have been refused.
+std::optional<Vec2> draw_point(Search& s, std::uint32_t i, std::uint64_t k, const Room& across, const Room& up) {
+  const TwoUniforms u = uniforms(s.scene.seed, Stream::position, i, k);
+  Vec2 point{across.at(u.a), up.at(u.b)};
+  if (s.cells && s.cells->list_ready()) {
+    point = s.cells->point_in_list(u, uniforms(s.scene.seed, Stream::position, i, k, 1).a);
+  }
+  if (s.scene.box.periodic_x()) point.x = wrap(point.x, s.scene.box.width);
+  if (s.scene.box.periodic_y()) point.y = wrap(point.y, s.scene.box.height);
+  if (s.cells && !s.cells->is_open(point.x, point.y)) return std::nullopt;
+  if (!across.holds(point.x) || !up.holds(point.y)) return std::nullopt;
+  return point;
+}
+
+// Tries points for disk i until one is free; false when there is no room, or the trials run out.
+bool place_one(Search& s, std::uint32_t i, std::uint64_t most) {
+  const Domain& box = s.scene.box;
+  const double radius = s.disks.radius_of(i);
+  const Room across = room_along(box.width, box.periodic_x(), radius);
+  const Room up = room_along(box.height, box.periodic_y(), radius);
+  for (s.trials_of_one = 0; s.trials_of_one < most_trials_of_one && s.trials < most; ++s.trials_of_one, ++s.trials) {
+    if (s.cells && s.cells->full()) return false;
+    const std::optional<Vec2> point = draw_point(s, i, s.trials_of_one, across, up);
+    if (!point || s.grid.overlapping(point->x, point->y, radius, false) != PlacementGrid::nobody) continue;
+    s.disks.x[i] = point->x;
+    s.disks.y[i] = point->y;
+    s.grid.insert(i);
+    if (s.cells) s.cells->close_around(point->x, point->y, radius);
+    return true;
   }
   return false;
 }
 
-[[noreturn]] void fail_jammed(const Scene& scene, const Disks& disks, const std::vector<std::uint32_t>& members,
-                              std::size_t placed, std::uint64_t trials) {
+[[noreturn]] void fail_jammed(const Search& s, const std::vector<std::uint32_t>& members, std::size_t placed) {
   double radius_squared = 0.0;
-  for (std::size_t k = 0; k < placed; ++k) radius_squared += disks.radius_of(members[k]) * disks.radius_of(members[k]);
-  const double reached = std::numbers::pi * radius_squared / (scene.box.width * scene.box.height);
+  s.grid.for_each([&](std::size_t i) { radius_squared += s.disks.radius_of(i) * s.disks.radius_of(i); });
+  const double reached = std::numbers::pi * radius_squared / (s.scene.box.width * s.scene.box.height);
   fail_input(
-      place_in_group(scene, group_of(scene, members[placed]), "positions"),
-      fmt::format("\"random\" finds no room for disk {} after {} trials: {} of {} placed, packing fraction {:.4f}",
-                  members[placed], trials, placed, members.size(), reached),
+      place_in_group(s.scene, group_of(s.scene, members[placed]), "positions"),
+      fmt::format("\"random\" finds no room for disk {} after {} trials; {} of {} placed, packing fraction {:.4f}",
+                  members[placed], s.trials_of_one, placed, members.size(), reached),
       "expected fewer disks or a larger box, or positions = \"hexagonal\" or \"square\"");
+}
+
+// One past the last member whose radius is above half of that of members[begin]; members are in order of radius.
+std::size_t end_of_class(const Disks& disks, const std::vector<std::uint32_t>& members, std::size_t begin) {
+  if (disks.radius.empty()) return members.size();
+  const double half = 0.5 * disks.radius[members[begin]];
+  std::size_t end = begin + 1;
+  while (end < members.size() && disks.radius[members[end]] > half) ++end;
+  return end;
 }
 
 }  // namespace
@@ -85,10 +105,19 @@ void place_at_random(const Scene& scene, Disks& disks, PlacementGrid& grid, std:
                      [&](std::uint32_t a, std::uint32_t b) { return disks.radius[a] > disks.radius[b]; });
   }
   const std::uint64_t most = std::max(most_trials_at_least, most_trials_each * members.size());
-  Trials trials;
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    if (!place_one(scene, disks, grid, members[k], trials, most)) fail_jammed(scene, disks, members, k, trials.one);
-    grid.insert(members[k]);
+  Search search{scene, disks, grid, std::nullopt};
+  for (std::size_t begin = 0; begin < members.size();) {
+    const std::size_t end = end_of_class(disks, members, begin);
+    const std::uint64_t trials_before = search.trials;
+    search.cells.reset();
+    for (std::size_t k = begin; k < end; ++k) {
+      if (!search.cells && search.trials - trials_before > many_trials * (k - begin) + 1000) {
+        search.cells.emplace(scene.box, disks.radius_of(members[end - 1]), end - begin);
+        grid.for_each([&](std::size_t i) { search.cells->close_around(disks.x[i], disks.y[i], disks.radius_of(i)); });
+      }
+      if (!place_one(search, members[k], most)) fail_jammed(search, members, k);
+    }
+    begin = end;
   }
 }
 

@@ -7,8 +7,6 @@ namespace carom {
 
 namespace {
 
-constexpr std::uint32_t empty_cell = 0xffffffffU;
-
 // Overlap of two disks that decimals rounded to doubles may show although they touch: 1e-12 of the sum of radii, and
 // four units in the last place of the largest coordinate.
 constexpr double relative_slack = 1e-12;
@@ -76,7 +74,7 @@ void PlacementGrid::size_cells(Level& level) const {
   const double height = box_.height;
   const std::size_t most = 2 * level.disks + 16;
   const double edge =
-      std::max(2.0 * level.largest_radius, std::sqrt(width) * std::sqrt(height / static_cast<double>(most)));
+      std::max(2.0 * level.largest_radius, width * std::sqrt(height / width / static_cast<double>(most)));
   level.columns = static_cast<std::size_t>(std::clamp(width / edge, 1.0, static_cast<double>(most)));
   level.rows = static_cast<std::size_t>(std::clamp(height / edge, 1.0, static_cast<double>(most / level.columns)));
   level.per_x = static_cast<double>(level.columns) / width;
@@ -129,15 +127,6 @@ std::size_t PlacementGrid::overlapping(double x, double y, double radius, bool s
     if (found != nobody) return found;
   }
   return nobody;
-}
-
-void PlacementGrid::prefetch(double x, double y) const {
-  for (const Level& level : levels_) {
-    if (level.disks == 0) continue;
-    const std::size_t column = cell_of(x, level.per_x, level.columns);
-    const std::size_t row = cell_of(y, level.per_y, level.rows);
-    __builtin_prefetch(&level.head[row * level.columns + column]);
-  }
 }
 
 }  // namespace carom

@@ -27,10 +27,19 @@ class PlacementGrid {
   // With slack, overlaps that rounding of the input explains do not count.
   std::size_t overlapping(double x, double y, double radius, bool slack) const;
 
-  // Fetches ahead what overlapping(x, y, ...) will read first.
-  void prefetch(double x, double y) const;
+  // Calls use(i) for every disk in the grid.
+  template <class Use>
+  void for_each(Use use) const {
+    for (const Level& level : levels_) {
+      for (std::uint32_t first : level.head) {
+        for (std::uint32_t i = first; i != empty_cell; i = next_[i]) use(i);
+      }
+    }
+  }
 
  private:
+  static constexpr std::uint32_t empty_cell = 0xffffffffU;
+
   struct Level {
     double largest_radius = 0.0;
     std::size_t disks = 0;
