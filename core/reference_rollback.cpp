@@ -58,8 +58,8 @@ class ReferenceRollback final : public ReferenceEngine {
     const PhaseTimer timer(times_, "resolve");
     const double back = events.empty() ? 0.0 : events.front().ago;
     if (back > 0.0) drift_all(-back);
-    bounce_all(state_, rules, events);
     ImpactTally tally;
+    bounce_all(state_.disks, rules, events, tally);
     with_view(state_.disks, [&](const auto& d) {
       for (std::size_t i = 0; i < state_.disks.size(); ++i) {
         meet_walls(d, rules, static_cast<std::uint32_t>(i), tally);

@@ -13,12 +13,10 @@ bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& e) {
   return with_view(disks, [&](const auto& d) { return relative(d, e.i1, e.i2, rules.box).approach() < 0.0; });
 }
 
-void bounce_all(State& state, const StepRules& rules, const std::vector<ContactEvent>& events) {
-  ImpactTally tally;
-  with_view(state.disks, [&](const auto& d) {
+void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally) {
+  with_view(disks, [&](const auto& d) {
     for (const ContactEvent& e : events) tally.add(e.id2, bounce_pair(d, rules, e.i1, e.i2));
   });
-  tally.count_into(state.counters);
 }
 
 double frame_limit(const Scene& scene, const State& state, const StepClock& clock) {

@@ -26,8 +26,8 @@ Impact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::
   return {reduced_mass(d.mass(i), d.mass(j)) * change, true};
 }
 
-// Every pair in the order given. Counts into the state.
-void bounce_all(State& state, const StepRules& rules, const std::vector<ContactEvent>& events);
+// Every pair, in the order given.
+void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally);
 
 // One disk and the walls it reaches beyond: back to its contact, bounce, forward; what remains is pushed inside (F11).
 template <class View>

@@ -11,7 +11,7 @@ namespace carom {
 
 namespace {
 
-// How many contacts each disk has in this step, by storage index: two or more, and it can be squeezed.
+// How many contacts each disk has in this step, by storage index: two or more, and it is crowded.
 std::vector<std::uint32_t> contacts_per_disk(std::size_t disks, const std::vector<ContactEvent>& events) {
   std::vector<std::uint32_t> contacts(disks, 0);
   for (const ContactEvent& e : events) {
@@ -21,7 +21,7 @@ std::vector<std::uint32_t> contacts_per_disk(std::size_t disks, const std::vecto
   return contacts;
 }
 
-bool is_squeezed(const std::vector<std::uint32_t>& contacts, const ContactEvent& e) {
+bool is_crowded(const std::vector<std::uint32_t>& contacts, const ContactEvent& e) {
   return contacts[e.i1] > 1 || (!is_wall(e.id2) && contacts[e.i2] > 1);
 }
 
@@ -32,7 +32,7 @@ void resolve_impacts(const View& d, State& state, const StepRules& rules, const 
   for (const ContactEvent& e : events) {
     if (rules.settles) {
       const bool loaded = load_of(state.loads, e) > 0.0;
-      if (is_support(d, rules, e, loaded, is_squeezed(contacts, e))) continue;
+      if (is_support(d, rules, e, loaded, is_crowded(contacts, e))) continue;
     }
     tally.add(e.id2, resolve_event(d, rules, e));
   }
@@ -46,7 +46,7 @@ void bear_loads(const View& d, State& state, const StepRules& rules, const std::
   std::vector<Support> supports;
   for (const ContactEvent& e : events) {
     const double force = load_of(state.loads, e);
-    if (is_support(d, rules, e, force > 0.0, is_squeezed(contacts, e))) {
+    if (is_support(d, rules, e, force > 0.0, is_crowded(contacts, e))) {
       supports.push_back(make_support(d, rules, e, force));
     }
   }
@@ -66,14 +66,19 @@ void bear_loads(const View& d, State& state, const StepRules& rules, const std::
   }
 }
 
+// One sweep over all contacts; then over the crowded ones, which can undo one another's work, until nothing is deep.
 template <class View>
-void push_all(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events) {
+void push_all(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
+              const std::vector<std::uint32_t>& contacts) {
   const double slop = contact_slop * rules.gravity * rules.dt * rules.dt;
   for (int sweep = 0; sweep < most_push_sweeps; ++sweep) {
     double deepest = 0.0;
     for (const ContactEvent& e : events) {
+      const bool crowded = is_crowded(contacts, e);
+      if (sweep > 0 && !crowded) continue;
       const bool loaded = rules.settles && load_of(state.loads, e) > 0.0;
-      deepest = std::max(deepest, push_apart(d, rules.box, e, loaded ? slop : 0.0));
+      const double depth = push_apart(d, rules.box, e, loaded ? slop : 0.0);
+      if (crowded) deepest = std::max(deepest, depth);
     }
     if (deepest <= shallow_overlap) break;
   }
@@ -97,12 +102,11 @@ std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules) {
 void resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events) {
   std::sort(events.begin(), events.end(), earlier);
   with_view(state.disks, [&](const auto& d) {
-    std::vector<std::uint32_t> contacts;
-    if (rules.settles) contacts = contacts_per_disk(state.disks.size(), events);
+    const std::vector<std::uint32_t> contacts = contacts_per_disk(state.disks.size(), events);
     resolve_impacts(d, state, rules, events, contacts);
     std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
     if (rules.settles) bear_loads(d, state, rules, events, contacts);
-    push_all(d, state, rules, events);
+    push_all(d, state, rules, events, contacts);
   });
 }
 

@@ -1,0 +1,67 @@
+// The cells that the disks are sorted into: one grid for each size class, rows of cells contiguous in memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/disks.hpp"
+#include "core/domain.hpp"
+
+namespace carom {
+
+// Part of a cell by which a disk may leave it before the grid must be made anew, over the largest diameter of the
+// class. Larger: sorted less often, but every search looks at more disks. Measured best for a fluid of packing fraction
+// 0.5.
+inline constexpr double grid_margin = 0.1;
+
+// Radii of one class differ by less than this factor, so that no cell holds many disks however mixed the sizes are.
+inline constexpr double class_ratio = 2.0;
+
+// The grid of one size class. Row r's cells are keys first_key + r * stride + column; each row ends in one empty cell
+// and one empty row follows the last, so that the neighbours of every cell can be looked up without asking where it
+// lies.
+struct GridLevel {
+  double largest_radius = 0.0;      // of the class; length
+  double cell_width = 0.0;          // length
+  double cell_height = 0.0;         // length
+  double columns_per_length = 0.0;  // 1 / cell_width
+  double rows_per_length = 0.0;     // 1 / cell_height
+  double margin = 0.0;              // length by which a disk may leave its cell
+  std::uint32_t columns = 1, rows = 1;
+  std::uint32_t stride = 2;
+  std::uint32_t first_key = 0;
+
+  std::uint32_t keys() const { return (rows + 1) * stride + 2; }
+};
+
+struct CellGrid {
+  std::vector<GridLevel> levels;  // from the largest disks to the smallest
+  std::uint32_t keys = 0;         // of all levels
+};
+
+// Levels for radii between smallest and largest in the box. count[k] is the number of disks of class k
+// (class_of_radius). A level's cells are at least a diameter and twice the margin wide, and not many more than its
+// disks; where fewer than three would fit across a periodic side there is one, which is its own neighbour.
+CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count);
+
+// Class k holds radii r with largest / 2^(k+1) < r <= largest / 2^k.
+inline std::size_t class_of_radius(double radius, double largest_radius) {
+  std::size_t k = 0;
+  for (double r = radius * class_ratio; r <= largest_radius; r *= class_ratio) ++k;
+  return k;
+}
+
+// The column (or row) of a coordinate, the nearest one for what lies outside.
+inline std::uint32_t cell_index(double coordinate, double cells_per_length, std::uint32_t cells) {
+  const double c = coordinate * cells_per_length;
+  const double most = static_cast<double>(cells - 1);
+  return static_cast<std::uint32_t>(c < 0.0 ? 0.0 : c < most ? c : most);
+}
+
+inline std::uint32_t key_of(const GridLevel& level, double x, double y) {
+  return level.first_key + cell_index(y, level.rows_per_length, level.rows) * level.stride +
+         cell_index(x, level.columns_per_length, level.columns);
+}
+
+}  // namespace carom

@@ -1,0 +1,73 @@
+// Where threads live: runs numbered blocks of work on a fixed number of threads. The only file that knows the
+// scheduler.
+#pragma once
+
+#include <oneapi/tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+
+namespace carom {
+
+// Blocks are fixed by the size of the work, never by the number of threads, so what each block computes is the same on
+// any number of threads; which thread runs it, and when, must not matter.
+class Executor {
+ public:
+  // threads >= 1. One thread runs everything in the caller, in order.
+  explicit Executor(int threads);
+  ~Executor();
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
+
+  int threads() const { return threads_; }
+
+  // task(b) for b = 0 .. blocks - 1. Allocates nothing of its own.
+  template <class Task>
+  void run(std::size_t blocks, Task&& task) const {
+    if (threads_ == 1 || blocks <= 1) {
+      for (std::size_t b = 0; b < blocks; ++b) task(b);
+      return;
+    }
+    using Plain = std::remove_reference_t<Task>;
+    run_blocks(
+        blocks, [](void* t, std::size_t b) { (*static_cast<Plain*>(t))(b); }, std::addressof(task));
+  }
+
+  // task(b, begin, end) for consecutive ranges of `block` items that cover n; returns the number of blocks.
+  template <class Task>
+  std::size_t for_ranges(std::size_t n, std::size_t block, Task&& task) const {
+    const std::size_t blocks = (n + block - 1) / block;
+    run(blocks, [&](std::size_t b) { task(b, b * block, std::min(n, (b + 1) * block)); });
+    return blocks;
+  }
+
+  // std::sort's result for a total order without equal items, whatever the number of threads.
+  template <class Iterator, class Less>
+  void sort(Iterator begin, Iterator end, Less less) const;
+
+ private:
+  using Call = void (*)(void*, std::size_t);
+  void run_blocks(std::size_t blocks, Call call, void* task) const;
+  void enter(Call call, void* task) const;  // calls it once, with all threads at hand
+
+  struct Arena;
+  int threads_;
+  std::unique_ptr<Arena> arena_;
+};
+
+// Items below which sorting in one thread is as fast.
+inline constexpr std::ptrdiff_t small_sort = 8192;
+
+template <class Iterator, class Less>
+void Executor::sort(Iterator begin, Iterator end, Less less) const {
+  if (threads_ == 1 || end - begin < small_sort) {
+    std::sort(begin, end, less);
+    return;
+  }
+  auto task = [&] { tbb::parallel_sort(begin, end, less); };
+  enter([](void* t, std::size_t) { (*static_cast<decltype(task)*>(t))(); }, &task);
+}
+
+}  // namespace carom

@@ -1,0 +1,168 @@
+#include "parallel/find_contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/disk_pair.hpp"
+#include "parallel/nearby_runs.hpp"
+#include "parallel/search_kernel.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks a block of the search: small enough to spread over threads, large enough that a block's buffer is worth having.
+constexpr std::size_t search_block = 8192;
+// Large disks a block of the search between size classes: one may have thousands of small ones around it.
+constexpr std::size_t cross_block = 64;
+
+bool touch(const SearchInput& in, std::size_t i, std::size_t j) {
+  double dx = in.x[j] - in.x[i];
+  double dy = in.y[j] - in.y[i];
+  if (in.box.periodic_x()) dx = nearest_image(dx, in.box.width);
+  if (in.box.periodic_y()) dy = nearest_image(dy, in.box.height);
+  const double reach = in.radius == nullptr ? in.common_radius + in.common_radius : in.radius[j] + in.radius[i];
+  return touches(dx * dx + dy * dy, reach);
+}
+
+void test_run(const SearchInput& in, std::size_t i, std::uint32_t first, std::uint32_t last, std::vector<Pair>& pairs) {
+  for (std::uint32_t j = first; j < last; ++j) {
+    if (!touch(in, i, j)) continue;
+    const auto a = static_cast<std::uint32_t>(i);
+    pairs.push_back(in.id[i] < in.id[j] ? Pair{a, j} : Pair{j, a});
+  }
+}
+
+// Cells beside a column across the sides: the column itself and its neighbours, round the corner where periodic.
+struct Columns {
+  std::array<std::uint32_t, 3> at{};
+  std::size_t count = 0;
+};
+
+Columns columns_around(std::uint32_t c, const GridLevel& level, bool periodic) {
+  Columns around;
+  around.at[around.count++] = c;
+  if (level.columns == 1) return around;
+  if (c > 0 || periodic) around.at[around.count++] = c > 0 ? c - 1 : level.columns - 1;
+  if (c + 1 < level.columns || periodic) around.at[around.count++] = c + 1 < level.columns ? c + 1 : 0;
+  return around;
+}
+
+// Near periodic sides: cell by cell with nearest images. The cells to the right and in the row above, round the corner.
+double search_border(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
+                     std::size_t end, std::vector<Pair>& pairs) {
+  const bool px = in.box.periodic_x();
+  const bool py = in.box.periodic_y();
+  const std::uint32_t row_key = level.first_key + row * level.stride;
+  const bool has_above = level.rows > 1 && (row + 1 < level.rows || py);
+  const std::uint32_t above_key = level.first_key + (row + 1 < level.rows ? row + 1 : 0) * level.stride;
+  double off = -level.cell_width;
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::uint32_t column = in.key[i] - row_key;
+    double off_x = in.x[i] - (column + 0.5) * level.cell_width;
+    double off_y = in.y[i] - (row + 0.5) * level.cell_height;
+    if (px) off_x = nearest_image(off_x, in.box.width);
+    if (py) off_y = nearest_image(off_y, in.box.height);
+    off = std::max(off, std::max(std::abs(off_x) - 0.5 * level.cell_width, std::abs(off_y) - 0.5 * level.cell_height));
+    test_run(in, i, static_cast<std::uint32_t>(i + 1), in.start[in.key[i] + 1], pairs);
+    if (level.columns > 1 && (column + 1 < level.columns || px)) {
+      const std::uint32_t right = row_key + (column + 1 < level.columns ? column + 1 : 0);
+      test_run(in, i, in.start[right], in.start[right + 1], pairs);
+    }
+    if (!has_above) continue;
+    const Columns around = columns_around(column, level, px);
+    for (std::size_t k = 0; k < around.count; ++k) {
+      const std::uint32_t cell = above_key + around.at[k];
+      test_run(in, i, in.start[cell], in.start[cell + 1], pairs);
+    }
+  }
+  return off;
+}
+
+// One row's part of a block: the disks whose neighbours all lie on the same side of every periodic border go through
+// the interior kernel. A disk that was sorted into the first column may have wrapped to the far side since, so columns
+// that look at the outermost ones count as border, rows likewise.
+double search_row(const SearchInput& in, const GridLevel& level, InteriorKernel interior, std::uint32_t row,
+                  std::size_t begin, std::size_t end, std::vector<Pair>& pairs) {
+  const bool border_row = in.box.periodic_y() && (row == 0 || row + 3 > level.rows);
+  std::size_t low = begin;
+  std::size_t high = end;
+  if (border_row || (in.box.periodic_x() && level.columns < 5)) {
+    low = high = end;
+  } else if (in.box.periodic_x()) {
+    const std::uint32_t row_key = level.first_key + row * level.stride;
+    low = std::clamp<std::size_t>(in.start[row_key + 2], begin, end);
+    high = std::clamp<std::size_t>(in.start[row_key + level.columns - 2], low, end);
+  }
+  double off = -level.cell_width;
+  if (begin < low) off = std::max(off, search_border(in, level, row, begin, low, pairs));
+  if (low < high) off = std::max(off, interior(in, level, row, low, high, pairs));
+  if (high < end) off = std::max(off, search_border(in, level, row, high, end, pairs));
+  return off;
+}
+
+double search_level(const SearchInput& in, const GridLevel& level, InteriorKernel interior, std::size_t begin,
+                    std::size_t end, std::vector<Pair>& pairs) {
+  double off = -level.cell_width;
+  while (begin < end) {
+    const std::uint32_t row = (in.key[begin] - level.first_key) / level.stride;
+    const std::size_t row_end = std::min<std::size_t>(end, in.start[level.first_key + (row + 1) * level.stride]);
+    off = std::max(off, search_row(in, level, interior, row, begin, row_end, pairs));
+    begin = row_end;
+  }
+  return off;
+}
+
+// A large disk against the cells of a class of smaller ones.
+void search_across(const SearchInput& in, const GridLevel& small, std::size_t i, std::vector<Pair>& pairs) {
+  const double reach = in.radius[i] + small.largest_radius + small.margin;
+  for_each_run_near(small, in.start, in.box, in.x[i], in.y[i], reach,
+                    [&](std::uint32_t first, std::uint32_t last) { test_run(in, i, first, last, pairs); });
+}
+
+}  // namespace
+
+double find_contacts(const Disks& d, const Domain& box, const CellGrid& grid, const SortedCells& cells,
+                     const Executor& executor, FoundPairs& found) {
+  const SearchInput in{d.x.data(),         d.y.data(),  d.radius.empty() ? nullptr : d.radius.data(),
+                       d.common_radius,    d.id.data(), cells.key.data(),
+                       cells.start.data(), d.size(),    box};
+  const InteriorKernel interior = choose_interior_kernel();
+  const std::size_t levels = grid.levels.size();
+  found.used = 0;
+  double worst = 0.0;
+  const auto buffers = [&](std::size_t blocks) {
+    const std::size_t first = found.used;
+    found.used += blocks;
+    if (found.buffers.size() < found.used) found.buffers.resize(found.used);
+    return first;
+  };
+  for (std::size_t k = 0; k < levels; ++k) {
+    const GridLevel& level = grid.levels[k];
+    const std::size_t begin = cells.start[level.first_key];
+    const std::size_t end = cells.start[level.first_key + level.keys()];
+    const std::size_t blocks = (end - begin + search_block - 1) / search_block;
+    const std::size_t first = buffers(blocks);
+    std::vector<double>& off = found.excursion;
+    off.assign(blocks, 0.0);
+    executor.for_ranges(end - begin, search_block, [&](std::size_t b, std::size_t from, std::size_t to) {
+      found.buffers[first + b].clear();
+      off[b] = search_level(in, level, interior, begin + from, begin + to, found.buffers[first + b]);
+    });
+    for (const double o : off) worst = std::max(worst, o / level.margin);
+    if (k + 1 == levels) break;
+    const std::size_t crossing = (end - begin + cross_block - 1) / cross_block;
+    const std::size_t first_cross = buffers(crossing);
+    executor.for_ranges(end - begin, cross_block, [&](std::size_t b, std::size_t from, std::size_t to) {
+      std::vector<Pair>& pairs = found.buffers[first_cross + b];
+      pairs.clear();
+      for (std::size_t i = begin + from; i < begin + to; ++i) {
+        for (std::size_t s = k + 1; s < levels; ++s) search_across(in, grid.levels[s], i, pairs);
+      }
+    });
+  }
+  return worst;
+}
+
+}  // namespace carom

@@ -1,0 +1,52 @@
+#include "parallel/pairwise.hpp"
+
+#include <utility>
+
+#include "core/step_clock.hpp"
+#include "parallel/time_stepping.hpp"
+
+namespace carom {
+
+namespace {
+
+class ParallelPairwise final : public TimeStepping {
+ public:
+  ParallelPairwise(const Scene& scene, State initial, int threads)
+      : TimeStepping(scene, std::move(initial), threads), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
+
+  void step() override {
+    const Count k = state_.counters.steps;
+    if (k >= clock_.steps) return;
+    const double dt = clock_.length(k);
+    start_interval(clock_.start(k), dt, k);
+    const Count n = parts(dt);
+    for (Count part = 0; part < n; ++part) advance(rules_for(scene_, dt / static_cast<double>(n)));
+    remove_at_sinks();
+    ++state_.counters.steps;
+    state_.time = clock_.end(k);
+  }
+
+ private:
+  void advance(const StepRules& rules) {
+    sort_if_due();
+    drift(rules.dt);
+    search(rules);
+    resolve(rules);
+  }
+
+  void resolve(const StepRules& rules) {
+    const PhaseTimer timer(times_, "resolve");
+    resolve_contacts(state_, rules, executor_, lists_);
+    finish_contacts();
+  }
+
+  StepClock clock_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_parallel_pairwise(const Scene& scene, State initial, int threads) {
+  return std::make_unique<ParallelPairwise>(scene, std::move(initial), threads);
+}
+
+}  // namespace carom

@@ -1,0 +1,107 @@
+// What core/step_contacts.cpp does with the contacts of a step, with the same bits, on many threads. Most contacts of a
+// gas are alone: neither disk has another one. They commute with everything and are resolved where they stand. The
+// rest, the crowded ones, go in the canonical order, level by level where there are many.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/contact_event.hpp"
+#include "core/impact_tally.hpp"
+#include "core/resolve.hpp"
+#include "core/resting.hpp"
+#include "core/state.hpp"
+#include "parallel/executor.hpp"
+#include "parallel/find_contacts.hpp"
+#include "parallel/pair_levels.hpp"
+
+namespace carom {
+
+// A contact with what the settling phase knows of it.
+struct LoadedContact {
+  ContactEvent event;
+  std::uint32_t i1, i2;       // as in event: what pair_levels reads
+  double force;               // borne in the step before; 0: none
+  bool crowded;               // one of its disks has another contact
+  bool bears = false;         // it is a support in this step,
+  std::uint32_t support = 0;  // this one
+};
+
+// Lists that the resolve fills again and again; kept so that a warm step allocates nothing.
+struct ContactLists {
+  std::vector<ContactEvent> events;     // all of the step, in storage order
+  std::vector<std::uint16_t> contacts;  // of each disk in this step; all 0 between steps
+  std::vector<ContactEvent> crowded;
+  std::vector<std::vector<ContactEvent>> crowded_blocks;
+  std::vector<LoadedContact> loaded;
+  std::vector<Support> supports;
+  std::vector<ImpactTally> tallies;  // of each block
+  std::vector<double> largest;       // of each block
+  std::vector<std::size_t> offsets;  // of each block's part of a list
+  PairLevels levels;
+};
+
+// The events of the pairs found and the wall contacts, in one list, and how many contacts each disk has.
+void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found,
+                   const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor, ContactLists& lists);
+
+// Resolves and pushes apart everything in lists.events; leaves lists.contacts as they were counted. Bits of
+// resolve_contacts (core/step_contacts.hpp).
+void resolve_contacts(State& state, const StepRules& rules, const Executor& executor, ContactLists& lists);
+
+// Wraps the disks that had contacts, clears the counts, returns the largest squared speed among those disks.
+double finish_contacts(Disks& disks, const Domain& box, const Executor& executor, ContactLists& lists);
+
+// Keeps the events for which keep(event) holds, and counts the contacts of each disk anew.
+template <class Keep>
+void keep_events(ContactLists& lists, const Executor& executor, Keep&& keep);
+
+// Sets the contact counts of the disks in lists.events: how many of the events each is in.
+void count_contacts(ContactLists& lists, const Executor& executor);
+void clear_contact_counts(ContactLists& lists);
+
+template <class Keep>
+void keep_events(ContactLists& lists, const Executor& executor, Keep&& keep) {
+  clear_contact_counts(lists);
+  std::erase_if(lists.events, [&](const ContactEvent& e) { return !keep(e); });
+  count_contacts(lists, executor);
+}
+
+// Is the contact alone, so that it commutes with all others?
+inline bool is_alone(const ContactLists& lists, const ContactEvent& e) {
+  return lists.contacts[e.i1] == 1 && (is_wall(e.id2) || lists.contacts[e.i2] == 1);
+}
+
+// Takes the events that are not alone out into lists.crowded, in canonical order of time, and runs alone(event, tally)
+// on the others, in parallel. Adds the tallies to `tally`.
+template <class Alone>
+void split_crowded(const Executor& executor, ContactLists& lists, ImpactTally& tally, Alone&& alone);
+
+// Contacts a block of the parallel passes over them.
+inline constexpr std::size_t contact_block = 1024;
+
+template <class Alone>
+void split_crowded(const Executor& executor, ContactLists& lists, ImpactTally& tally, Alone&& alone) {
+  const std::size_t blocks = (lists.events.size() + contact_block - 1) / contact_block;
+  if (lists.crowded_blocks.size() < blocks) lists.crowded_blocks.resize(blocks);
+  lists.tallies.assign(blocks, {});
+  executor.for_ranges(lists.events.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    lists.crowded_blocks[b].clear();
+    for (std::size_t k = begin; k < end; ++k) {
+      const ContactEvent& e = lists.events[k];
+      if (is_alone(lists, e)) {
+        alone(e, lists.tallies[b]);
+      } else {
+        lists.crowded_blocks[b].push_back(e);
+      }
+    }
+  });
+  lists.crowded.clear();
+  for (std::size_t b = 0; b < blocks; ++b) {
+    lists.crowded.insert(lists.crowded.end(), lists.crowded_blocks[b].begin(), lists.crowded_blocks[b].end());
+    tally.add(lists.tallies[b]);
+  }
+  executor.sort(lists.crowded.begin(), lists.crowded.end(), earlier);
+}
+
+}  // namespace carom

@@ -1,0 +1,13 @@
+// The method `rollback`, in parallel.
+#pragma once
+
+#include <memory>
+
+#include "core/engine.hpp"
+
+namespace carom {
+
+// Bits of make_reference_rollback. Preconditions: scene.run.dt > 0, threads >= 1.
+std::unique_ptr<Engine> make_parallel_rollback(const Scene& scene, State initial, int threads);
+
+}  // namespace carom

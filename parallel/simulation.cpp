@@ -1,0 +1,22 @@
+#include "parallel/simulation.hpp"
+
+#include <utility>
+
+#include "core/check.hpp"
+#include "parallel/pairwise.hpp"
+#include "parallel/rollback.hpp"
+
+namespace carom {
+
+std::unique_ptr<Engine> make_parallel_engine(const Scene& scene, State initial, int threads) {
+  switch (scene.run.method) {
+    case Method::rollback:
+      return make_parallel_rollback(scene, std::move(initial), threads);
+    case Method::pairwise:
+      return make_parallel_pairwise(scene, std::move(initial), threads);
+    default:
+      throw InputError("method exact is not built yet; choose pairwise or rollback (--method pairwise)");
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,13 @@
+// The engine that people run: every method, in parallel, with the bits of core's reference.
+#pragma once
+
+#include <memory>
+
+#include "core/engine.hpp"
+
+namespace carom {
+
+// Precondition: threads >= 1, initial is a state of scene. Throws InputError for a method that does not exist yet.
+std::unique_ptr<Engine> make_parallel_engine(const Scene& scene, State initial, int threads);
+
+}  // namespace carom
