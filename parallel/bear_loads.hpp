@@ -23,7 +23,7 @@ template <class View>
 bool look_up_loads(const View& d, const State& state, const StepRules& rules, const Executor& executor,
                    ContactLists& lists) {
   lists.loaded.resize(lists.events.size());
-  const std::size_t blocks = (lists.events.size() + contact_block - 1) / contact_block;
+  const std::size_t blocks = executor.blocks(lists.events.size(), contact_block);
   lists.largest.assign(blocks, 0.0);
   executor.for_ranges(lists.events.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
@@ -42,8 +42,8 @@ void resolve_impacts(const View& d, const StepRules& rules, std::size_t disks, c
                      ContactLists& lists, ImpactTally& tally) {
   executor.sort(lists.loaded.begin(), lists.loaded.end(),
                 [](const LoadedContact& a, const LoadedContact& b) { return earlier(a.event, b.event); });
-  build_levels(lists.levels, lists.loaded, disks, executor.threads(), wall_of_loaded);
-  lists.tallies.assign(lists.loaded.size() / level_block + 1, {});
+  build_levels(lists.levels, lists.loaded, disks, executor, wall_of_loaded);
+  lists.tallies.assign(executor.blocks(lists.loaded.size(), level_block), {});
   run_levels(lists.levels, lists.loaded.size(), false, executor, [&](std::size_t k, std::size_t block) {
     const LoadedContact& c = lists.loaded[k];
     if (is_support(d, rules, c.event, c.force > 0.0, c.crowded)) return;
@@ -56,7 +56,7 @@ void resolve_impacts(const View& d, const StepRules& rules, std::size_t disks, c
 template <class View>
 void make_supports(const View& d, const StepRules& rules, const Executor& executor, ContactLists& lists) {
   const std::size_t n = lists.loaded.size();
-  const std::size_t blocks = (n + contact_block - 1) / contact_block;
+  const std::size_t blocks = executor.blocks(n, contact_block);
   lists.offsets.assign(blocks + 1, 0);
   executor.for_ranges(n, contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     std::size_t count = 0;
@@ -84,11 +84,11 @@ template <class View>
 void relax_supports(const View& d, State& state, const StepRules& rules, const Executor& executor,
                     ContactLists& lists) {
   std::vector<Support>& supports = lists.supports;
-  build_levels(lists.levels, supports, state.disks.size(), executor.threads(), wall_of_support);
+  build_levels(lists.levels, supports, state.disks.size(), executor, wall_of_support);
   run_levels(lists.levels, supports.size(), false, executor,
              [&](std::size_t k, std::size_t) { apply_impulse(d, supports[k], supports[k].impulse); });
   const double settled = settled_change * rules.gravity * rules.dt;
-  const std::size_t blocks = supports.size() / level_block + 1;
+  const std::size_t blocks = executor.blocks(supports.size(), level_block) + 1;
   for (int sweep = 0; sweep < most_load_sweeps; ++sweep) {
     lists.largest.assign(blocks, 0.0);
     run_levels(lists.levels, supports.size(), sweep % 2 == 1, executor, [&](std::size_t k, std::size_t block) {
@@ -108,8 +108,8 @@ void push_contacts(const View& d, const StepRules& rules, std::size_t disks, con
                    ContactLists& lists) {
   const std::vector<LoadedContact>& contacts = lists.loaded;
   const double slop = contact_slop * rules.gravity * rules.dt * rules.dt;
-  build_levels(lists.levels, contacts, disks, executor.threads(), wall_of_loaded);
-  const std::size_t blocks = contacts.size() / level_block + 1;
+  build_levels(lists.levels, contacts, disks, executor, wall_of_loaded);
+  const std::size_t blocks = executor.blocks(contacts.size(), level_block) + 1;
   for (int sweep = 0; sweep < most_push_sweeps; ++sweep) {
     lists.largest.assign(blocks, 0.0);
     run_levels(lists.levels, contacts.size(), false, executor, [&](std::size_t k, std::size_t block) {

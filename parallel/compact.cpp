@@ -27,7 +27,7 @@ void close_up(std::vector<T>& column, std::vector<T>& scratch, const std::vector
 
 void remove_in_parallel(Disks& d, const std::vector<unsigned char>& gone, const Executor& executor,
                         std::vector<double>& column, std::vector<DiskId>& ids) {
-  const std::size_t blocks = (d.size() + compact_block - 1) / compact_block;
+  const std::size_t blocks = executor.blocks(d.size(), compact_block);
   std::vector<std::size_t> first(blocks + 1, 0);
   executor.for_ranges(d.size(), compact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     std::size_t kept = 0;

@@ -35,7 +35,7 @@ Buckets buckets_for(std::uint32_t keys) {
 void scatter_to_buckets(const Disks& d, const CellGrid& grid, const Executor& executor, Buckets buckets,
                         SortedCells& cells) {
   const std::size_t n = d.size();
-  const std::size_t blocks = (n + sort_block - 1) / sort_block;
+  const std::size_t blocks = executor.blocks(n, sort_block);
   cells.counts.assign(blocks * buckets.count, 0);
   executor.for_ranges(n, sort_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     std::uint32_t* count = &cells.counts[b * buckets.count];
@@ -62,7 +62,7 @@ void scatter_to_buckets(const Disks& d, const CellGrid& grid, const Executor& ex
 // Second digit: each bucket by itself. start doubles as the histogram: first the counts, then the running places, and
 // at the end each entry is the first disk of its cell.
 void sort_buckets(const Executor& executor, Buckets buckets, std::uint32_t keys, std::size_t n, SortedCells& cells) {
-  const std::size_t last_block = (n + sort_block - 1) / sort_block - 1;
+  const std::size_t last_block = executor.blocks(n, sort_block) - 1;
   executor.run(buckets.count, [&](std::size_t bucket) {
     // After scattering, the last block's place in a bucket is the bucket's end.
     const std::uint32_t* ends = &cells.counts[last_block * buckets.count];

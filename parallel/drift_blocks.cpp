@@ -56,7 +56,7 @@ std::array<double, 4> wall_limits(const Domain& box) {
 double drift_blocks(Disks& d, const Domain& box, double gravity, double t, const Executor& executor,
                     std::vector<double>& block_speed2) {
   const DriftRange kernel = choose_drift(box, gravity);
-  block_speed2.resize((d.size() + drift_block - 1) / drift_block);
+  block_speed2.resize(executor.blocks(d.size(), drift_block));
   executor.for_ranges(d.size(), drift_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     block_speed2[b] = kernel(d, box, gravity, t, begin, end);
   });
@@ -68,7 +68,7 @@ double drift_blocks(Disks& d, const Domain& box, double gravity, double t, const
 void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor,
                         std::vector<std::vector<ContactEvent>>& buffers) {
   if (!rules.box.has(SideKind::wall)) return;
-  buffers.resize((disks.size() + drift_block - 1) / drift_block);
+  buffers.resize(executor.blocks(disks.size(), drift_block));
   const std::array<double, 4> limit = wall_limits(rules.box);
   with_view(disks, [&](const auto& d) {
     executor.for_ranges(disks.size(), drift_block, [&](std::size_t b, std::size_t begin, std::size_t end) {

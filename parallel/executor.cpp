@@ -16,8 +16,10 @@ struct Executor::Arena {
   tbb::task_arena arena;
 };
 
-Executor::Executor(int threads)
-    : threads_(std::max(1, threads)), arena_(threads_ > 1 ? std::make_unique<Arena>(threads_) : nullptr) {}
+Executor::Executor(int threads, std::size_t block_divisor)
+    : threads_(std::max(1, threads)),
+      divisor_(std::max<std::size_t>(1, block_divisor)),
+      arena_(threads_ > 1 ? std::make_unique<Arena>(threads_) : nullptr) {}
 
 Executor::~Executor() = default;
 

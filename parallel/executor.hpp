@@ -15,13 +15,18 @@ namespace carom {
 // any number of threads; which thread runs it, and when, must not matter.
 class Executor {
  public:
-  // threads >= 1. One thread runs everything in the caller, in order.
-  explicit Executor(int threads);
+  // threads >= 1. One thread runs everything in the caller, in order. Blocks are made smaller by block_divisor (>= 1):
+  // tests cut small scenes into many blocks with it; results do not depend on it.
+  explicit Executor(int threads, std::size_t block_divisor = 1);
   ~Executor();
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
 
   int threads() const { return threads_; }
+
+  // The block size to use where `block` items are the usual one, and how many such blocks n items make.
+  std::size_t grain(std::size_t block) const { return std::max<std::size_t>(1, block / divisor_); }
+  std::size_t blocks(std::size_t n, std::size_t block) const { return (n + grain(block) - 1) / grain(block); }
 
   // task(b) for b = 0 .. blocks - 1. Allocates nothing of its own.
   template <class Task>
@@ -35,12 +40,11 @@ class Executor {
         blocks, [](void* t, std::size_t b) { (*static_cast<Plain*>(t))(b); }, std::addressof(task));
   }
 
-  // task(b, begin, end) for consecutive ranges of `block` items that cover n; returns the number of blocks.
+  // task(b, begin, end) for consecutive ranges of grain(block) items that cover n.
   template <class Task>
-  std::size_t for_ranges(std::size_t n, std::size_t block, Task&& task) const {
-    const std::size_t blocks = (n + block - 1) / block;
-    run(blocks, [&](std::size_t b) { task(b, b * block, std::min(n, (b + 1) * block)); });
-    return blocks;
+  void for_ranges(std::size_t n, std::size_t block, Task&& task) const {
+    const std::size_t size = grain(block);
+    run(blocks(n, block), [&](std::size_t b) { task(b, b * size, std::min(n, (b + 1) * size)); });
   }
 
   // std::sort's result for a total order without equal items, whatever the number of threads.
@@ -54,6 +58,7 @@ class Executor {
 
   struct Arena;
   int threads_;
+  std::size_t divisor_;
   std::unique_ptr<Arena> arena_;
 };
 

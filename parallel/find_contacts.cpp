@@ -142,7 +142,7 @@ double find_contacts(const Disks& d, const Domain& box, const CellGrid& grid, co
     const GridLevel& level = grid.levels[k];
     const std::size_t begin = cells.start[level.first_key];
     const std::size_t end = cells.start[level.first_key + level.keys()];
-    const std::size_t blocks = (end - begin + search_block - 1) / search_block;
+    const std::size_t blocks = executor.blocks(end - begin, search_block);
     const std::size_t first = buffers(blocks);
     std::vector<double>& off = found.excursion;
     off.assign(blocks, 0.0);
@@ -152,7 +152,7 @@ double find_contacts(const Disks& d, const Domain& box, const CellGrid& grid, co
     });
     for (const double o : off) worst = std::max(worst, o / level.margin);
     if (k + 1 == levels) break;
-    const std::size_t crossing = (end - begin + cross_block - 1) / cross_block;
+    const std::size_t crossing = executor.blocks(end - begin, cross_block);
     const std::size_t first_cross = buffers(crossing);
     executor.for_ranges(end - begin, cross_block, [&](std::size_t b, std::size_t from, std::size_t to) {
       std::vector<Pair>& pairs = found.buffers[first_cross + b];

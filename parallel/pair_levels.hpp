@@ -22,7 +22,7 @@ struct PairLevels {
 
 // contacts: anything with i1, i2 (storage indices; i2 is not looked at where wall(c)). disks: how many there are.
 template <class Contact, class IsWall>
-void build_levels(PairLevels& levels, const std::vector<Contact>& contacts, std::size_t disks, int threads,
+void build_levels(PairLevels& levels, const std::vector<Contact>& contacts, std::size_t disks, const Executor& executor,
                   IsWall&& wall);
 
 // Contacts a level must have on average to pay for handing it to other threads.
@@ -50,10 +50,11 @@ void run_levels(const PairLevels& levels, std::size_t count, bool backwards, con
 }
 
 template <class Contact, class IsWall>
-void build_levels(PairLevels& levels, const std::vector<Contact>& contacts, std::size_t disks, int threads,
+void build_levels(PairLevels& levels, const std::vector<Contact>& contacts, std::size_t disks, const Executor& executor,
                   IsWall&& wall) {
   levels.worthwhile = false;
-  if (threads == 1 || contacts.size() < 2 * narrow_level) return;
+  const std::size_t narrow = executor.grain(narrow_level);
+  if (executor.threads() == 1 || contacts.size() < 2 * narrow) return;
   levels.last.resize(disks, 0);
   levels.level.resize(contacts.size());
   std::uint32_t highest = 0;
@@ -71,7 +72,7 @@ void build_levels(PairLevels& levels, const std::vector<Contact>& contacts, std:
     levels.last[c.i1] = 0;
     if (!wall(c)) levels.last[c.i2] = 0;
   }
-  if (contacts.size() / highest < narrow_level) return;
+  if (contacts.size() / highest < narrow) return;
   levels.worthwhile = true;
   levels.start.assign(highest + 1, 0);
   for (const std::uint32_t l : levels.level) ++levels.start[l];

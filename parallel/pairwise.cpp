@@ -11,7 +11,7 @@ namespace {
 
 class ParallelPairwise final : public TimeStepping {
  public:
-  ParallelPairwise(const Scene& scene, State initial, int threads)
+  ParallelPairwise(const Scene& scene, State initial, const Threads& threads)
       : TimeStepping(scene, std::move(initial), threads), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
 
   void step() override {
@@ -45,7 +45,7 @@ class ParallelPairwise final : public TimeStepping {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_parallel_pairwise(const Scene& scene, State initial, int threads) {
+std::unique_ptr<Engine> make_parallel_pairwise(const Scene& scene, State initial, const Threads& threads) {
   return std::make_unique<ParallelPairwise>(scene, std::move(initial), threads);
 }
 

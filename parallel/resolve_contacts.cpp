@@ -24,15 +24,15 @@ void resolve_crowded(const View& d, const StepRules& rules, std::size_t disks, c
                      ContactLists& lists, ImpactTally& tally) {
   std::vector<ContactEvent>& crowded = lists.crowded;
   if (crowded.empty()) return;
-  build_levels(lists.levels, crowded, disks, executor.threads(), wall_of_event);
-  const std::size_t blocks = crowded.size() / level_block + 1;
-  lists.tallies.assign(lists.levels.worthwhile ? blocks : 1, {});
+  build_levels(lists.levels, crowded, disks, executor, wall_of_event);
+  const std::size_t blocks = executor.blocks(crowded.size(), level_block);
+  lists.tallies.assign(blocks, {});
   run_levels(lists.levels, crowded.size(), false, executor, [&](std::size_t k, std::size_t block) {
     lists.tallies[block].add(crowded[k].id2, resolve_event(d, rules, crowded[k]));
   });
   for (const ImpactTally& t : lists.tallies) tally.add(t);
   executor.sort(crowded.begin(), crowded.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
-  build_levels(lists.levels, crowded, disks, executor.threads(), wall_of_event);
+  build_levels(lists.levels, crowded, disks, executor, wall_of_event);
   for (int sweep = 0; sweep < most_push_sweeps; ++sweep) {
     lists.largest.assign(blocks, 0.0);
     run_levels(lists.levels, crowded.size(), false, executor, [&](std::size_t k, std::size_t block) {
@@ -104,7 +104,7 @@ void resolve_contacts(State& state, const StepRules& rules, const Executor& exec
 }
 
 double finish_contacts(Disks& disks, const Domain& box, const Executor& executor, ContactLists& lists) {
-  const std::size_t blocks = (lists.events.size() + contact_block - 1) / contact_block;
+  const std::size_t blocks = executor.blocks(lists.events.size(), contact_block);
   lists.largest.assign(blocks, 0.0);
   executor.for_ranges(lists.events.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     // Whoever takes the count away wraps the disk: once each, and the result does not depend on who.

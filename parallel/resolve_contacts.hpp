@@ -82,7 +82,7 @@ inline constexpr std::size_t contact_block = 1024;
 
 template <class Alone>
 void split_crowded(const Executor& executor, ContactLists& lists, ImpactTally& tally, Alone&& alone) {
-  const std::size_t blocks = (lists.events.size() + contact_block - 1) / contact_block;
+  const std::size_t blocks = executor.blocks(lists.events.size(), contact_block);
   if (lists.crowded_blocks.size() < blocks) lists.crowded_blocks.resize(blocks);
   lists.tallies.assign(blocks, {});
   executor.for_ranges(lists.events.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {

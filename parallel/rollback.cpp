@@ -16,7 +16,7 @@ constexpr std::size_t wall_block = 8192;
 
 class ParallelRollback final : public TimeStepping {
  public:
-  ParallelRollback(const Scene& scene, State initial, int threads)
+  ParallelRollback(const Scene& scene, State initial, const Threads& threads)
       : TimeStepping(scene, std::move(initial), threads),
         clock_(make_step_clock(scene.run.dt, scene.run.t_end)),
         stall_(state_.time) {}
@@ -75,7 +75,7 @@ class ParallelRollback final : public TimeStepping {
   void meet_all_walls(const StepRules& rules, ImpactTally& tally) {
     if (!rules.box.has(SideKind::wall)) return;
     const std::size_t n = state_.disks.size();
-    lists_.tallies.assign((n + wall_block - 1) / wall_block, {});
+    lists_.tallies.assign(executor_.blocks(n, wall_block), {});
     with_view(state_.disks, [&](const auto& d) {
       executor_.for_ranges(n, wall_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -95,7 +95,7 @@ class ParallelRollback final : public TimeStepping {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_parallel_rollback(const Scene& scene, State initial, int threads) {
+std::unique_ptr<Engine> make_parallel_rollback(const Scene& scene, State initial, const Threads& threads) {
   return std::make_unique<ParallelRollback>(scene, std::move(initial), threads);
 }
 

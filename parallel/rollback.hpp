@@ -4,10 +4,11 @@
 #include <memory>
 
 #include "core/engine.hpp"
+#include "parallel/simulation.hpp"
 
 namespace carom {
 
-// Bits of make_reference_rollback. Preconditions: scene.run.dt > 0, threads >= 1.
-std::unique_ptr<Engine> make_parallel_rollback(const Scene& scene, State initial, int threads);
+// Bits of make_reference_rollback. Preconditions: scene.run.dt > 0, threads.count >= 1.
+std::unique_ptr<Engine> make_parallel_rollback(const Scene& scene, State initial, const Threads& threads);
 
 }  // namespace carom

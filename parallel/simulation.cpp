@@ -8,7 +8,7 @@
 
 namespace carom {
 
-std::unique_ptr<Engine> make_parallel_engine(const Scene& scene, State initial, int threads) {
+std::unique_ptr<Engine> make_parallel_engine(const Scene& scene, State initial, const Threads& threads) {
   switch (scene.run.method) {
     case Method::rollback:
       return make_parallel_rollback(scene, std::move(initial), threads);

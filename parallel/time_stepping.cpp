@@ -35,8 +35,8 @@ bool meets(const Disks& d, const Domain& box, const Disk& newcomer, std::size_t 
 
 }  // namespace
 
-TimeStepping::TimeStepping(const Scene& scene, State initial, int threads)
-    : scene_(scene), state_(std::move(initial)), executor_(threads) {}
+TimeStepping::TimeStepping(const Scene& scene, State initial, const Threads& threads)
+    : scene_(scene), state_(std::move(initial)), executor_(threads.count, threads.block_divisor) {}
 
 double TimeStepping::disks_at(double /*t*/, Disks& out) const {
   out = state_.disks;
@@ -84,7 +84,7 @@ void TimeStepping::draw_velocities(double dt, Count step) {
   const std::size_t n = state_.disks.size();
   const bool sinks = has_brownian_sink(scene_);
   gone_.resize(sinks ? n : 0);
-  block_values_.assign((n + look_block - 1) / look_block, 0.0);
+  block_values_.assign(executor_.blocks(n, look_block), 0.0);
   with_view(state_.disks, [&](const auto& d) {
     executor_.for_ranges(n, look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
       draw_brownian(d, scene_, step, dt, begin, end);
@@ -109,7 +109,7 @@ void TimeStepping::remove_gone() {
 }
 
 double TimeStepping::exact_travel2() {
-  block_values_.assign((state_.disks.size() + look_block - 1) / look_block, 0.0);
+  block_values_.assign(executor_.blocks(state_.disks.size(), look_block), 0.0);
   with_view(state_.disks, [&](const auto& d) {
     executor_.for_ranges(state_.disks.size(), look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
       block_values_[b] = largest_travel2(d, begin, end);
@@ -195,7 +195,7 @@ void TimeStepping::remove_at_sinks() {
   const PhaseTimer timer(times_, "sinks");
   const std::size_t n = state_.disks.size();
   gone_.resize(n);
-  block_values_.assign((n + look_block - 1) / look_block, 0.0);
+  block_values_.assign(executor_.blocks(n, look_block), 0.0);
   with_view(state_.disks, [&](const auto& d) {
     executor_.for_ranges(n, look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {

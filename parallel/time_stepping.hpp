@@ -11,12 +11,13 @@
 #include "parallel/executor.hpp"
 #include "parallel/find_contacts.hpp"
 #include "parallel/resolve_contacts.hpp"
+#include "parallel/simulation.hpp"
 
 namespace carom {
 
 class TimeStepping : public Engine {
  public:
-  TimeStepping(const Scene& scene, State initial, int threads);
+  TimeStepping(const Scene& scene, State initial, const Threads& threads);
 
   const State& state() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
