@@ -109,19 +109,44 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
   return impact;
 }
 
-// Likewise for a disk and a wall (F11: position and velocity are both put right).
+// Bounces off the wall where it is, from the wall itself. Returns the change of speed.
+template <class View>
+double bounce_at_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
+  const double r = d.radius(i);
+  const double speed = outward_speed(side, d.vx[i], d.vy[i]);
+  const double beyond = reach_beyond(side, d.x[i], d.y[i], r, rules.box);
+  const double away = rules.box.wall_restitution * speed_at_wall(side, beyond, speed, rules.gravity);
+  if (side == Side::left || side == Side::right) {
+    d.x[i] = touching_coordinate(side, r, rules.box);
+    d.vx[i] = side == Side::left ? away : -away;
+  } else {
+    d.y[i] = touching_coordinate(side, r, rules.box);
+    d.vy[i] = side == Side::bottom ? away : -away;
+  }
+  return speed + away;
+}
+
+// Likewise for a disk and a wall (F11: position and velocity are both put right). A disk that gravity brings back to
+// the wall within the step, and one whose contact is older than the step, bounces at the step's end with the speed that
+// its energy allows: so a disk at rest on the floor stays at rest, and the lift gives it no energy.
 template <class View>
 Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
-  const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius(i), rules.box);
-  const double speed = outward_speed(side, d.vx[i], d.vy[i]);
-  if (!(beyond >= 0.0) || !(speed > 0.0)) return {};
-  const double ago = time_since_wall(side, beyond, speed, rules.gravity);
-  const bool inside_step = ago <= rules.dt;
-  if (inside_step) drift_one(d, i, -ago, rules.gravity);
-  const double impact_speed = outward_speed(side, d.vx[i], d.vy[i]);
-  if (impact_speed > 0.0) bounce(side, rules.box.wall_restitution, d.vx[i], d.vy[i]);
-  if (inside_step) drift_one(d, i, ago, rules.gravity);
-  return {d.mass(i) * impact_speed * (1.0 + rules.box.wall_restitution), impact_speed > 0.0};
+  const auto beyond = [&] { return reach_beyond(side, d.x[i], d.y[i], d.radius(i), rules.box); };
+  const auto speed = [&] { return outward_speed(side, d.vx[i], d.vy[i]); };
+  if (!(beyond() >= 0.0) || !(speed() > 0.0)) return {};
+  const double ago = time_since_wall(side, beyond(), speed(), rules.gravity);
+  double change = 0.0;
+  if (ago <= rules.dt) {
+    drift_one(d, i, -ago, rules.gravity);
+    const double impact_speed = speed();
+    if (impact_speed > 0.0) {
+      change = impact_speed * (1.0 + rules.box.wall_restitution);
+      bounce(side, rules.box.wall_restitution, d.vx[i], d.vy[i]);
+    }
+    drift_one(d, i, ago, rules.gravity);
+  }
+  if (beyond() >= 0.0 && speed() > 0.0) change += bounce_at_wall(d, rules, i, side);
+  return {d.mass(i) * change, change > 0.0};
 }
 
 template <class View>
@@ -165,14 +190,29 @@ double push_wall(const View& d, const Domain& box, std::uint32_t i, Side side, d
   return push / r;
 }
 
-template <class View>
-double push_apart(const View& d, const Domain& box, const ContactEvent& e, double slack) {
-  return is_wall(e.id2) ? push_wall(d, box, e.i1, wall_side(e.id2), slack) : push_pair(d, box, e.i1, e.i2, slack);
-}
-
 // Sweeps of pushing end when none was deeper than this (over the sum of radii; well below the 2 % that a pile may
 // overlap), or after most_push_sweeps; the rest waits for the next step.
 inline constexpr double shallow_overlap = 1e-3;
 inline constexpr int most_push_sweeps = 16;
+
+// Walls give way to no one: a disk that others pushed into a wall deeper than shallow_overlap of its radius comes back,
+// and what overlap that makes is the next sweep's.
+template <class View>
+void keep_inside(const View& d, const Domain& box, std::uint32_t i) {
+  for (Side side : all_sides) {
+    if (box.side(side) == SideKind::wall) push_wall(d, box, i, side, shallow_overlap * d.radius(i));
+  }
+}
+
+template <class View>
+double push_apart(const View& d, const Domain& box, const ContactEvent& e, double slack) {
+  if (is_wall(e.id2)) return push_wall(d, box, e.i1, wall_side(e.id2), slack);
+  const double depth = push_pair(d, box, e.i1, e.i2, slack);
+  if (depth > 0.0) {
+    keep_inside(d, box, e.i1);
+    keep_inside(d, box, e.i2);
+  }
+  return depth;
+}
 
 }  // namespace carom
