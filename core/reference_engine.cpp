@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/check.hpp"
+#include "core/reference_exact.hpp"
 #include "core/reference_pairwise.hpp"
 #include "core/reference_rollback.hpp"
 #include "core/source.hpp"
@@ -93,7 +93,7 @@ std::unique_ptr<Engine> make_reference_engine(const Scene& scene, State initial)
     case Method::pairwise:
       return make_reference_pairwise(scene, std::move(initial));
     default:
-      throw InputError("method exact is not built yet; choose pairwise or rollback (--method pairwise)");
+      return make_reference_exact(scene, std::move(initial));
   }
 }
 

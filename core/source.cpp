@@ -101,22 +101,26 @@ bool has_room(const Disks& d, const Domain& box, const Disk& newcomer) {
   return true;
 }
 
+void emit_from_source(const Scene& scene, State& state, std::size_t index, Count due, Count step,
+                      const std::function<bool(const Disk&)>& room) {
+  if (scene.sources[index].limit) due = std::min(due, *scene.sources[index].limit);
+  Count& emitted = state.sources[index].emitted;
+  while (emitted < due) {
+    const Disk disk = draw_emission(scene, index, state.next_id, emitted, step);
+    if (!inside(scene.box, disk) || !room(disk)) break;
+    append(state.disks, disk);
+    ++state.next_id;
+    ++emitted;
+    ++state.counters.emitted;
+  }
+  state.counters.waiting += due - emitted;
+}
+
 void emit_due(const Scene& scene, State& state, double t, Count step, const std::function<bool(const Disk&)>& room) {
   state.counters.waiting = 0;
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
-    const Source& source = scene.sources[s];
-    Count due = static_cast<Count>(std::floor(source.rate * t));
-    if (source.limit) due = std::min(due, *source.limit);
-    Count& emitted = state.sources[s].emitted;
-    while (emitted < due) {
-      const Disk disk = draw_emission(scene, s, state.next_id, emitted, step);
-      if (!inside(scene.box, disk) || !room(disk)) break;
-      append(state.disks, disk);
-      ++state.next_id;
-      ++emitted;
-      ++state.counters.emitted;
-    }
-    state.counters.waiting += due - emitted;
+    const Count due = static_cast<Count>(std::floor(scene.sources[s].rate * t));
+    emit_from_source(scene, state, s, due, step, room);
   }
 }
 

@@ -17,6 +17,11 @@ Disk draw_emission(const Scene& scene, std::size_t index, DiskId id, Count emitt
 // Does the disk fit without overlapping any of disks (nearest image)? Looks at all of them.
 bool has_room(const Disks& disks, const Domain& box, const Disk& newcomer);
 
+// Source number `index` emits until it has emitted `due` disks (its limit at most) or one finds no room; adds what
+// waits to the waiting count.
+void emit_from_source(const Scene& scene, State& state, std::size_t index, Count due, Count step,
+                      const std::function<bool(const Disk&)>& room);
+
 // Emits what is due at time t (the k-th disk of a source at k / rate), source by source; a source stops at the first
 // disk that finds no room, which waits and is drawn a new place in the next step. room(disk) tells whether a disk fits
 // among those present, the ones just appended included. Updates counters, next_id and the waiting count.

@@ -37,6 +37,8 @@ struct State {
   Count intervals = 0;               // Brownian intervals of dt begun (rollback, whose frames are shorter than dt)
   std::vector<SourceState> sources;  // one per scene source
   std::vector<ContactLoad> loads;    // in order of (id1, id2); empty unless the scene settles
+  double window = 0.0;               // exact: length meant for the next window; time, 0 before the first
+  std::vector<double> last_contact;  // exact with the TC model: by id, time of the last collision; else empty
 };
 
 }  // namespace carom

@@ -1,0 +1,116 @@
+// What happens at an event of the exact method: two disks collide, a disk meets a side. Both engines call this.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "core/contact_event.hpp"
+#include "core/exact_path.hpp"
+#include "core/order_free_sum.hpp"
+#include "core/types.hpp"
+
+namespace carom {
+
+// The constants of a run.
+struct ExactRules {
+  Domain box;
+  double gravity = 0.0;        // length / time^2
+  double restitution = 1.0;    // of disk pairs
+  double contact_time = -1.0;  // TC model; time, < 0: off
+  bool common_mass = true;     // pairs share impulses half and half
+
+  bool tc() const { return contact_time >= 0.0; }
+};
+
+// What an event reads and writes of one disk.
+struct ExactDisk {
+  PathSegment path;
+  double last_contact = -never;  // TC model: when it last collided, disk or wall; time in the window, may be < 0
+};
+
+// What is counted during a window. The sums do not depend on the order of events.
+struct ExactTally {
+  Count collisions = 0;
+  Count wall_collisions = 0;
+  OrderFreeSum virial;
+  std::array<OrderFreeSum, 4> wall_impulse;
+
+  ExactTally() = default;
+  // momentum: about the largest m |v|; length: about the largest r1 + r2.
+  ExactTally(double momentum, double length) : virial(momentum * length) { wall_impulse.fill(OrderFreeSum(momentum)); }
+  void add(const ExactTally& other) {
+    collisions += other.collisions;
+    wall_collisions += other.wall_collisions;
+    virial.add(other.virial);
+    for (std::size_t k = 0; k < wall_impulse.size(); ++k) wall_impulse[k].add(other.wall_impulse[k]);
+  }
+};
+
+// TC model (Luding and McNamara 1998): e = 1 where one of the disks collided less than contact_time ago.
+inline double restitution_at(const ExactRules& rules, double e, double s, double last_contact) {
+  return rules.tc() && s - last_contact < rules.contact_time ? 1.0 : e;
+}
+
+// Disks a and b (smaller id first) collide at time s; their new segments start there.
+inline void collide_at(const ExactRules& rules, double s, double mass_a, double mass_b, ExactDisk& a, ExactDisk& b,
+                       ExactTally& tally) {
+  PathSegment& p = a.path;
+  PathSegment& q = b.path;
+  p = carried_to(p, s, rules.gravity);
+  q = carried_to(q, s, rules.gravity);
+  const Relative r = relative(p, q, rules.box);
+  if (r.approach() < 0.0 && r.distance2() > 0.0) {
+    const Shares share = rules.common_mass ? equal_shares : shares(mass_a, mass_b);
+    const double e = restitution_at(rules, rules.restitution, s, std::max(a.last_contact, b.last_contact));
+    const double change = collide(r, share, e, p.vx, p.vy, q.vx, q.vy);
+    tally.virial.add(reduced_mass(mass_a, mass_b) * change);
+    ++tally.collisions;
+    a.last_contact = s;
+    b.last_contact = s;
+  }
+  wrap_into(p, rules.box);
+  wrap_into(q, rules.box);
+}
+
+// A disk that lies on the floor would collide infinitely often. Under the TC model it leaves the floor with at least
+// this share of g contact_time, so that its hops last half a contact time or more; their energy, m (g t_c)^2 / 32, is
+// of the order of what the model leaves to any disk at rest.
+inline constexpr double least_hop = 0.25;
+
+// Disk a meets a side at time s: bounces off a wall, crosses a periodic side; sinks are the caller's.
+inline void meet_side_at(const ExactRules& rules, double s, Side side, double mass, ExactDisk& a, ExactTally& tally) {
+  PathSegment& p = a.path;
+  p = carried_to(p, s, rules.gravity);
+  if (rules.box.side(side) == SideKind::wall) {
+    const double e = restitution_at(rules, rules.box.wall_restitution, s, a.last_contact);
+    const double before = outward_speed(side, p.vx, p.vy);
+    if (before > 0.0) bounce(side, e, p.vx, p.vy);
+    if (side == Side::bottom && rules.tc()) p.vy = std::max(p.vy, least_hop * rules.gravity * rules.contact_time);
+    const double change = before - outward_speed(side, p.vx, p.vy);
+    if (change > 0.0) tally.wall_impulse[static_cast<std::size_t>(side)].add(mass * change);
+    ++tally.wall_collisions;
+    a.last_contact = s;
+  }
+  wrap_into(p, rules.box);
+}
+
+// Inelastic collapse: more than this many events of one disk within this share of the window's length. Honest bursts
+// are far from it: 3141 collisions of a light disk between a wall and a heavy one take a millionth of their approach;
+// elastic clusters would have to be closed to 1e-14 of a diameter.
+inline constexpr std::uint32_t collapse_events = 256;
+inline constexpr double collapse_share = 1e-12;
+
+// Counts a disk's events within a vanishing time.
+struct Burst {
+  double begin = -never;  // time in the window
+  std::uint32_t events = 0;
+
+  // Returns true when the events pile up.
+  bool add(double s, double window) {
+    if (s - begin > collapse_share * window) *this = {s, 0};
+    return ++events > collapse_events;
+  }
+};
+
+}  // namespace carom

@@ -1,0 +1,35 @@
+// One window of the exact method by a plain event loop: all events of all disks, earliest first.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/exact_event.hpp"
+#include "core/state.hpp"
+#include "core/window_plan.hpp"
+
+namespace carom {
+
+// The paths of the disks through a window, from which frames are read.
+struct WindowPaths {
+  struct Piece {
+    std::uint32_t disk;  // storage index at the window's start
+    PathSegment path;
+    bool gone;  // left through a sink at path.start
+  };
+  std::vector<PathSegment> first;  // one a disk
+  std::vector<Piece> later;        // in order of their starts
+};
+
+struct WindowResult {
+  WindowPaths paths;
+  std::vector<ExactDisk> disks;     // last segments
+  std::vector<unsigned char> gone;  // left through a sink
+  ExactTally tally;
+};
+
+// Finds and resolves every event of [0, plan.length]; `state` is that of the window's start and is not changed.
+// tally comes empty, with its scales. Throws PhysicsError at inelastic collapse.
+WindowResult run_window(const ExactRules& rules, const State& state, const WindowPlan& plan, ExactTally tally);
+
+}  // namespace carom

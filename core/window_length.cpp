@@ -1,0 +1,60 @@
+#include "core/window_length.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+// Events a disk a window: more save advancing everybody at its end, fewer keep the paths that frames are read from
+// short.
+constexpr double events_per_disk = 0.25;
+constexpr double least_events = 32.0;
+// Half the distance to the neighbours, for the disk of root mean square speed.
+constexpr double longest_travel = 0.5;
+constexpr double few_disks = 64.0;
+constexpr double shortest_share = 1.0 / 256.0;
+constexpr double first_share = 1.0 / 16.0;
+
+}  // namespace
+
+SpeedSummary summarise_speeds(const Disks& d) {
+  SpeedSummary s;
+  double momentum2 = 0.0;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const double v2 = d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
+    s.largest2 = std::max(s.largest2, v2);
+    momentum2 = std::max(momentum2, d.mass_of(i) * d.mass_of(i) * v2);
+  }
+  s.largest_momentum = std::sqrt(momentum2);
+  OrderFreeSum sum(s.largest2);
+  for (std::size_t i = 0; i < d.size(); ++i) sum.add(d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+  if (!d.empty()) s.mean2 = sum.value() / static_cast<double>(d.size());
+  return s;
+}
+
+double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_t disks) {
+  if (disks == 0) return HUGE_VAL;
+  const double n = static_cast<double>(disks);
+  const double spacing = std::sqrt(scene.box.width * scene.box.height / n);
+  // Falling through the spacing adds 2 g spacing to v^2.
+  const double speed = std::sqrt(speeds.mean2 + 2.0 * scene.physics.gravity * spacing);
+  if (!(speed > 0.0)) return HUGE_VAL;
+  return longest_travel * spacing / speed * std::max(1.0, few_disks / n);
+}
+
+double next_window(double window, double elapsed, Count events, std::size_t disks) {
+  if (events == 0) return elapsed < window ? window : 2.0 * window;
+  const double aimed = std::max(least_events, events_per_disk * static_cast<double>(disks));
+  const double wanted = elapsed * (aimed / static_cast<double>(events));
+  return std::clamp(wanted, 0.5 * window, 2.0 * window);
+}
+
+double clamped_window(double window, double longest) {
+  if (longest == HUGE_VAL) return longest;
+  if (!(window > 0.0) || window == HUGE_VAL) window = first_share * longest;
+  return std::clamp(window, shortest_share * longest, longest);
+}
+
+}  // namespace carom

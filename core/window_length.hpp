@@ -1,0 +1,35 @@
+// How long the windows of the exact method are. Lengths follow from counts and speeds, the same in both engines, never
+// from clocks; they change how fast a run is, its physics only by rounding.
+#pragma once
+
+#include <cstddef>
+
+#include "core/disks.hpp"
+#include "core/order_free_sum.hpp"
+#include "core/scene.hpp"
+#include "core/types.hpp"
+
+namespace carom {
+
+// What the disks' speeds say, taken over all of them; the sums do not depend on their order.
+struct SpeedSummary {
+  double largest2 = 0.0;          // v^2; length^2 / time^2
+  double largest_momentum = 0.0;  // m |v|
+  double mean2 = 0.0;             // mean of v^2
+};
+
+SpeedSummary summarise_speeds(const Disks& disks);
+
+// Longest window that pays: the typical disk crosses half the distance to its neighbours, and 64 disks or fewer go
+// proportionally further, so that a window of two disks still holds some tens of events. Infinity when nothing moves.
+double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_t disks);
+
+// The window after one that took `elapsed` and saw `events` (disk and wall): aims at collisions_aimed of them, by at
+// most a factor of two at a time. window: the length that was meant before anything cut it short.
+double next_window(double window, double elapsed, Count events, std::size_t disks);
+
+// `window` (0: the first one) kept within longest / 256 and longest. A window that is too short for its events only
+// holds more of them, so the lower bound costs nothing and inelastic collapse cannot shrink windows to nothing.
+double clamped_window(double window, double longest);
+
+}  // namespace carom

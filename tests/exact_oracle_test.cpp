@@ -1,0 +1,101 @@
+// The exact method against the all-pairs oracle in long double, within the horizon that chaos leaves.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "event_oracle.hpp"
+#include "exact_support.hpp"
+
+namespace carom::exact_tests {
+namespace {
+
+struct OracleCase {
+  const char* name;
+  SceneText scene;
+};
+
+void PrintTo(const OracleCase& c, std::ostream* out) {
+  *out << c.name;
+}
+
+class ExactOracle : public testing::TestWithParam<OracleCase> {};
+
+double distance(const Domain& box, double ax, double ay, double bx, double by) {
+  double dx = ax - bx;
+  double dy = ay - by;
+  if (box.periodic_x()) dx -= std::round(dx / box.width) * box.width;
+  if (box.periodic_y()) dy -= std::round(dy / box.height) * box.height;
+  return std::hypot(dx, dy);
+}
+
+TEST_P(ExactOracle, SamePlacesAndCounts) {
+  const Scene scene = make_scene(GetParam().scene);
+  const State initial = initial_state(scene);
+  oracle::System system =
+      oracle::make_system(initial.disks, scene.box, scene.physics.gravity, scene.physics.restitution);
+  oracle::run(system, scene.run.t_end);
+  const State state = run_reference(scene, initial);
+
+  EXPECT_EQ(state.counters.collisions, system.collisions);
+  EXPECT_EQ(state.counters.wall_collisions, system.wall_collisions);
+  EXPECT_GT(system.collisions, 20U) << "a test of collisions needs some";
+  const Disks& d = state.disks;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const oracle::Ball& b = system.balls[d.id[i]];
+    EXPECT_LT(distance(scene.box, d.x[i], d.y[i], static_cast<double>(b.x), static_cast<double>(b.y)), 1e-9)
+        << "disk " << d.id[i];
+    EXPECT_NEAR(d.vx[i], static_cast<double>(b.vx), 1e-8);
+    EXPECT_NEAR(d.vy[i], static_cast<double>(b.vy), 1e-8);
+  }
+}
+
+const std::string gas =
+    "[[disks]]\ncount = 40\npositions = \"random\"\nvelocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0\n";
+const std::string crystal =
+    "[[disks]]\ncount = 36\npositions = \"square\"\nvelocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0\n";
+const std::string mixed =
+    "[[disks]]\ncount = 30\npositions = \"random\"\nvelocities = { uniform = 1.5 }\nradius = { uniform = [0.2, 0.8] }\n"
+    "mass = { uniform = [1.0, 50.0] }\n";
+const std::string giant =
+    "[[disks]]\ncount = 1\npositions = [[1.0, 5.0]]\nradius = 3.0\nmass = 50.0\n"
+    "[[disks]]\ncount = 80\npositions = \"random\"\nvelocities = { uniform = 1.0 }\nradius = 0.1\nmass = 0.01\n";
+const std::string walls_of_salt = "wall_restitution = 0.9";
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, ExactOracle,
+    testing::Values(
+        OracleCase{"walls", {8, 8, "wall", "", gas, 2.0, ""}},
+        OracleCase{"periodic", {8, 8, "periodic", "", gas, 2.0, ""}},
+        OracleCase{"dense", {6.9, 6.9, "periodic", "", crystal, 1.0, ""}},
+        OracleCase{"narrow", {2.2, 60, "left = \"periodic\"\nright = \"periodic\"", "", gas, 2.0, ""}},
+        OracleCase{"channel", {10, 8, "left = \"periodic\"\nright = \"periodic\"", "", gas, 2.0, ""}},
+        OracleCase{"gravity", {8, 12, "wall", "gravity = 0.8", gas, 2.0, ""}},
+        OracleCase{"fall", {8, 12, "left = \"periodic\"\nright = \"periodic\"", "gravity = 3.0", gas, 1.2, ""}},
+        OracleCase{"unequal", {9, 9, "wall", "", mixed, 3.0, ""}},
+        OracleCase{"unequal_periodic", {9, 9, "periodic", "", mixed, 2.0, ""}},
+        OracleCase{"giant", {12.5, 12.5, "periodic", "", giant, 3.0, ""}},
+        OracleCase{"inelastic", {8, 8, walls_of_salt, "restitution = 0.8", gas, 5.0, ""}},
+        OracleCase{"inelastic_gravity", {8, 12, walls_of_salt, "restitution = 0.7\ngravity = 0.5", mixed, 4.0, ""}}),
+    [](const auto& p) { return std::string(p.param.name); });
+
+// Few disks in a large periodic box fly round it many times between two collisions.
+TEST(ExactOracleFewDisks, FlyRoundThePeriodicBox) {
+  Domain box;
+  box.width = 4.5;
+  box.height = 31.0;
+  box.sides.fill(SideKind::periodic);
+  const Scene scene = plain_scene(box, 75.0);
+  const State initial = state_of({{1.0, 1.0, 7.3, 0.41, 0.5, 1.0, 0}, {3.0, 15.0, -0.2, 0.73, 0.3, 2.0, 0}});
+  oracle::System system = oracle::make_system(initial.disks, box, 0.0, 1.0);
+  oracle::run(system, scene.run.t_end);
+  const State state = run_reference(scene, initial);
+  EXPECT_GT(system.collisions, 3U);
+  EXPECT_EQ(state.counters.collisions, system.collisions);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(state.disks.vx[i], static_cast<double>(system.balls[i].vx), 1e-6);
+    EXPECT_NEAR(state.disks.vy[i], static_cast<double>(system.balls[i].vy), 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace carom::exact_tests
