@@ -60,8 +60,8 @@ double search_border(const SearchInput& in, const GridLevel& level, std::uint32_
   double off = -level.cell_width;
   for (std::size_t i = begin; i < end; ++i) {
     const std::uint32_t column = in.key[i] - row_key;
-    double off_x = in.x[i] - (column + 0.5) * level.cell_width;
-    double off_y = in.y[i] - (row + 0.5) * level.cell_height;
+    double off_x = std::clamp(in.x[i], 0.0, in.box.width) - (column + 0.5) * level.cell_width;
+    double off_y = std::clamp(in.y[i], 0.0, in.box.height) - (row + 0.5) * level.cell_height;
     if (px) off_x = nearest_image(off_x, in.box.width);
     if (py) off_y = nearest_image(off_y, in.box.height);
     off = std::max(off, std::max(std::abs(off_x) - 0.5 * level.cell_width, std::abs(off_y) - 0.5 * level.cell_height));

@@ -90,8 +90,10 @@ double search_row(const SearchInput& in, const GridLevel& level, std::uint32_t r
     const double x = in.x[i];
     const double y = in.y[i];
     const double r = own_radius ? in.radius[i] : in.common_radius;
-    off_y = std::max(off_y, std::abs(y - middle));
-    off_x = std::max(off_x, std::abs(x - (static_cast<int>(key - row_key) + 0.5) * level.cell_width));
+    // What lies beyond the box belongs to the nearest cell however far out it is: only the way along the box counts.
+    off_y = std::max(off_y, std::abs(std::min(std::max(y, 0.0), in.box.height) - middle));
+    const double centre = (static_cast<int>(key - row_key) + 0.5) * level.cell_width;
+    off_x = std::max(off_x, std::abs(std::min(std::max(x, 0.0), in.box.width) - centre));
     const auto own = static_cast<std::uint32_t>(i + 1);
     const std::uint32_t own_end = in.start[key + 2];
     const std::uint32_t above = in.start[key + level.stride - 1];
