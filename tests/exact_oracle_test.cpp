@@ -84,7 +84,7 @@ TEST(ExactOracleFewDisks, FlyRoundThePeriodicBox) {
   box.width = 4.5;
   box.height = 31.0;
   box.sides.fill(SideKind::periodic);
-  const Scene scene = plain_scene(box, 75.0);
+  const Scene scene = plain_scene(box, 70.0);
   const State initial = state_of({{1.0, 1.0, 7.3, 0.41, 0.5, 1.0, 0}, {3.0, 15.0, -0.2, 0.73, 0.3, 2.0, 0}});
   oracle::System system = oracle::make_system(initial.disks, box, 0.0, 1.0);
   oracle::run(system, scene.run.t_end);
