@@ -15,6 +15,7 @@
 #include "core/scene_names.hpp"
 #include "core/scene_override.hpp"
 #include "core/scene_reader.hpp"
+#include "core/scene_tree.hpp"
 #include "core/size_law.hpp"
 
 namespace carom {

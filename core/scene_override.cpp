@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "core/input_message.hpp"
+#include "core/scene_tree.hpp"
 
 namespace carom {
 
@@ -63,6 +64,10 @@ toml::table parse_value(const Override& change, const std::string& where) {
   const std::string& value = change.value;
   const bool large_seed = change.key == "seed" && !value.empty() && std::all_of(value.begin(), value.end(), is_digit);
   if (large_seed) return toml::table{{"v", value}};
+  const std::string_view stray = stray_character(value);
+  if (!stray.empty()) {
+    fail_input(where, fmt::format("{} outside a string", in_quotes(stray)), "expected ASCII characters there");
+  }
   try {
     toml::table parsed = toml::parse(std::string_view("v = " + value));
     if (parsed.size() == 1 && value.find('\n') == std::string::npos) return parsed;
@@ -72,27 +77,6 @@ toml::table parse_value(const Override& change, const std::string& where) {
                "expected a value as in TOML");
   }
   fail_input(where, fmt::format("cannot read {}", in_quotes(value)), "expected one value as in TOML");
-}
-
-// Puts quotes around the digits of "seed = digits" in the line numbered line (from 1). False if it is another line.
-bool quote_seed(std::string& text, std::size_t line) {
-  std::size_t begin = 0;
-  for (std::size_t k = 1; k < line && begin != std::string::npos; ++k) {
-    begin = text.find('\n', begin);
-    if (begin != std::string::npos) ++begin;
-  }
-  if (begin == std::string::npos) return false;
-  const std::size_t name = text.find_first_not_of(" \t", begin);
-  if (name == std::string::npos || text.compare(name, 4, "seed") != 0) return false;
-  const std::size_t equals = text.find_first_not_of(" \t", name + 4);
-  if (equals == std::string::npos || text[equals] != '=') return false;
-  const std::size_t first = text.find_first_not_of(" \t", equals + 1);
-  if (first == std::string::npos || !is_digit(text[first])) return false;
-  std::size_t last = first;
-  while (last < text.size() && is_digit(text[last])) ++last;
-  text.insert(last, "\"");
-  text.insert(first, "\"");
-  return true;
 }
 
 }  // namespace
@@ -115,19 +99,6 @@ void apply_override(toml::table& root, const Override& change) {
   std::size_t index = 0;
   list_entry_owner(*list, segments.back(), index, where);
   list->replace(list->begin() + static_cast<std::ptrdiff_t>(index), *value.get("v"));
-}
-
-toml::table parse_scene_tree(std::string_view text, const std::string& name) {
-  std::string copy(text);
-  for (bool retried = false;; retried = true) {
-    try {
-      return toml::parse(std::string_view(copy), std::string_view(name));
-    } catch (const toml::parse_error& e) {
-      const std::size_t line = std::max<std::size_t>(1, e.source().begin.line);
-      if (!retried && quote_seed(copy, line)) continue;
-      fail_input(fmt::format("{}:{}: TOML syntax", name, line), e.description(), "expected valid TOML 1.0");
-    }
-  }
 }
 
 }  // namespace carom

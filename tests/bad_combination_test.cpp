@@ -197,6 +197,17 @@ TEST(BadFile, SyntaxIsReportedWithItsLine) {
   EXPECT_THAT(complaint(replaced(sound_scene, "[run]", "[box]\n[run]")),
               AllOf(StartsWith("gas.toml:20: TOML syntax: "), HasSubstr("cannot redefine")));
   EXPECT_THAT(complaint("\xff\xfe\x01"), StartsWith("gas.toml:1: TOML syntax: "));
+  EXPECT_THAT(complaint(replaced(sound_scene, "[box]", "[\x01]")), StartsWith("gas.toml:4: TOML syntax: "));
+}
+
+TEST(BadFile, OnlyStringsAndCommentsLeaveAscii) {
+  EXPECT_THAT(complaint(replaced(sound_scene, "dt = 0.01", "dt = \u22120.01")),
+              StartsWith("gas.toml:22: TOML syntax: \"\u2212\" outside strings and comments; expected ASCII"));
+  EXPECT_THAT(complaint(replaced(sound_scene, "[box]", "[ \u00e9 ]")), StartsWith("gas.toml:4: TOML syntax: "));
+  EXPECT_EQ(complaint(replaced(sound_scene, "\"gas\"", "\"\u00e9 \\\" \u00e9\" # \u00e9")), "");
+  EXPECT_EQ(complaint(replaced(sound_scene, "\"gas\"", "\"\"\"\u00e9 \"\n \u00e9\"\"\"")), "");
+  EXPECT_EQ(complaint(replaced(sound_scene, "\"gas\"", "'\u00e9 \\'")), "");
+  EXPECT_EQ(complaint("\xef\xbb\xbf" + std::string(sound_scene)), "") << "byte order mark";
 }
 
 TEST(BadFile, CsvThatCannotBeRead) {
@@ -231,6 +242,7 @@ TEST(BadOverride, IsNamedByItsKey) {
   EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "[1"}}), StartsWith("--set run.t_end: cannot read \"[1\""));
   EXPECT_THAT(complaint(sound_scene, {{"run.t_end", ""}}), StartsWith("--set run.t_end: cannot read"));
   EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "1\n[run]"}}), StartsWith("--set run.t_end: cannot read"));
+  EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "\u22121"}}), HasSubstr("outside a string"));
   EXPECT_THAT(complaint(sound_scene, {{"", "1"}}), HasSubstr("is no key"));
   EXPECT_THAT(complaint(sound_scene, {{"run..t_end", "1"}}), HasSubstr("is no key"));
   EXPECT_THAT(complaint(sound_scene, {{"run.method", "exakt"}}), HasSubstr("(nearest: exact)"));
