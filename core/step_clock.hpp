@@ -27,10 +27,11 @@ struct StepClock {
 inline StepClock make_step_clock(double dt, double t_end) {
   const double quotient = t_end / dt;
   const double nearest = std::round(quotient);
-  const double steps = std::abs(quotient - nearest) <= 1e-9 * quotient ? nearest : std::ceil(quotient);
+  const bool whole = std::abs(quotient - nearest) <= 1e-9 * quotient;
+  const double steps = whole ? nearest : std::ceil(quotient);
   StepClock clock{dt, t_end, static_cast<Count>(steps)};
   // Where t_end is a whole number of steps but for rounding, the last step is a full one like the others.
-  clock.last = nearest == steps && steps > 0.0 ? dt : t_end - clock.start(clock.steps - 1);
+  clock.last = whole ? dt : t_end - clock.start(clock.steps - 1);
   return clock;
 }
 
