@@ -1,0 +1,206 @@
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/commands.hpp"
+#include "app/make_engine.hpp"
+#include "app/progress.hpp"
+#include "core/check.hpp"
+#include "core/initial_state.hpp"
+#include "core/scene_names.hpp"
+#include "core/step_clock.hpp"
+#include "io/frame_schedule.hpp"
+
+namespace carom {
+
+namespace {
+
+// Time spent on trying the scene's first steps, in seconds: long enough to tell the cost, short enough to wait for.
+constexpr double trial_seconds = 0.2;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Bytes that a disk takes in a frame of trajectory.xyz, with all digits.
+constexpr double xyz_bytes = 130.0;
+
+struct Findings {
+  Count disks = 0;
+  double smallest_radius = 0.0, largest_radius = 0.0;
+  double smallest_mass = 0.0, largest_mass = 0.0;
+  double packing_fraction = 0.0;
+  double safe_dt = 0.0;       // infinite if nothing moves
+  double cost_seconds = 0.0;  // of all steps, as far as the first ones tell
+  double memory_bytes = 0.0;
+  Count frames = 0;
+  std::string stopped;  // what the physics said, if it stopped the trial
+};
+
+// The longest step in which no disk moves further than the share of its radius that step_clock.hpp calls safe:
+// fastest dt + fall dt^2 = safe_travel, with the speeds of the start in radii.
+double safe_step(const Scene& scene, const Disks& disks) {
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    fastest = std::max(fastest, std::hypot(disks.vx[i], disks.vy[i]) / disks.radius_of(i));
+  }
+  const double radius = smallest_radius(disks);
+  if (radius <= 0.0) return infinity;
+  const double fall = scene.physics.gravity / radius;
+  double safe = 2.0 * safe_travel / (fastest + std::sqrt(fastest * fastest + 4.0 * fall * safe_travel));
+  // A Brownian step is sqrt(2 D dt) in each direction; three of that, as some disk always moves so far.
+  const double share = safe_travel * radius / 3.0;
+  if (scene.physics.diffusion > 0.0) safe = std::min(safe, share * share / (2.0 * scene.physics.diffusion));
+  return safe;
+}
+
+void measure_sizes(const Scene& scene, const Disks& disks, Findings& f) {
+  f.disks = disks.size();
+  f.smallest_radius = smallest_radius(disks);
+  f.largest_radius = largest_radius(disks);
+  double area = 0.0;
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    const double mass = disks.mass_of(i);
+    f.smallest_mass = i == 0 ? mass : std::min(f.smallest_mass, mass);
+    f.largest_mass = std::max(f.largest_mass, mass);
+    area += std::numbers::pi * disks.radius_of(i) * disks.radius_of(i);
+  }
+  f.packing_fraction = area / (scene.box.width * scene.box.height);
+}
+
+// Runs the first steps, and extrapolates.
+void try_steps(Engine& engine, const Scene& scene, Findings& f) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  double seconds = 0.0;
+  try {
+    while (engine.state().time < scene.run.t_end && seconds < trial_seconds) {
+      engine.step();
+      seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    }
+  } catch (const PhysicsError& error) {
+    f.stopped = error.what();
+  }
+  const double time = engine.state().time;
+  f.cost_seconds = time > 0.0 ? seconds * scene.run.t_end / time : infinity;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  f.memory_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+std::string range_text(double low, double high) {
+  return low == high ? fmt::format("{:g}", low) : fmt::format("{:g} to {:g}", low, high);
+}
+
+std::string sides_text(const Domain& box) {
+  std::string text;
+  for (const Side side : all_sides) {
+    const auto k = static_cast<std::size_t>(side);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", side_names[k],
+                        side_kind_names[static_cast<std::size_t>(box.side(side))]);
+  }
+  return text;
+}
+
+std::string physics_text(const Scene& scene) {
+  const Physics& p = scene.physics;
+  std::string text = p.gravity > 0.0 ? fmt::format("gravity {:g} downwards; ", p.gravity) : "no gravity; ";
+  text += p.restitution == 1.0 ? "elastic collisions" : fmt::format("restitution {:g} of disks", p.restitution);
+  if (scene.box.has(SideKind::wall)) text += fmt::format(", {:g} at walls", scene.box.wall_restitution);
+  if (p.diffusion > 0.0) {
+    text += fmt::format("; Brownian motion, D = {:g}{}", p.diffusion, p.accumulate ? ", accumulating velocity" : "");
+  }
+  for (const Source& source : scene.sources) text += fmt::format("; a source of {:g} disks per unit time", source.rate);
+  return text;
+}
+
+std::string method_text(const Scene& scene) {
+  const std::string_view name = method_names[static_cast<std::size_t>(scene.run.method)];
+  if (!(scene.run.dt > 0.0)) return fmt::format("{} to t = {:g}", name, scene.run.t_end);
+  return fmt::format("{}, dt = {:g}, {} steps to t = {:g}", name, scene.run.dt,
+                     make_step_clock(scene.run.dt, scene.run.t_end).steps, scene.run.t_end);
+}
+
+std::string step_text(const Scene& scene, const Findings& f) {
+  if (std::isinf(f.safe_dt)) return "any: nothing moves at the start";
+  const bool safe = scene.run.dt <= f.safe_dt;
+  return fmt::format("{:.3g} or less at the speeds of the start; dt is {}", f.safe_dt,
+                     safe ? "safe" : "longer, and steps will be split");
+}
+
+std::string outputs_text(const Scene& scene, const Findings& f) {
+  const OutputPlan& plan = scene.output;
+  std::vector<std::string> files;
+  const double bytes = xyz_bytes * static_cast<double>(f.disks) * static_cast<double>(f.frames);
+  if (plan.trajectory != TrajectoryFormat::none)
+    files.push_back(fmt::format("trajectory (about {}B)", short_number(bytes)));
+  if (plan.series) files.emplace_back("series.csv");
+  for (const std::string& plot : plan.plots) files.push_back(plot + ".svg");
+  if (plan.movie)
+    files.push_back(fmt::format("movie ({} at 25 a second)", duration_text(static_cast<double>(f.frames) / 25.0)));
+  if (files.empty()) return "none asked for";
+  return fmt::format("{} frames: {}", f.frames, fmt::join(files, ", "));
+}
+
+std::string text_of(const Scene& scene, const Findings& f) {
+  std::string text = fmt::format("{}: {}\n", scene.file, scene.title.empty() ? "a scene" : scene.title);
+  const auto line = [&text](const char* name, const std::string& value) {
+    text += fmt::format("  {:<12}{}\n", name, value);
+  };
+  line("disks", fmt::format("{}, radius {}, mass {}", f.disks, range_text(f.smallest_radius, f.largest_radius),
+                            range_text(f.smallest_mass, f.largest_mass)));
+  line("box",
+       fmt::format("{:g} x {:g}, packing fraction {:.4g}", scene.box.width, scene.box.height, f.packing_fraction));
+  line("sides", sides_text(scene.box));
+  line("physics", physics_text(scene));
+  line("method", method_text(scene));
+  if (scene.run.dt > 0.0) line("safe step", step_text(scene, f));
+  line("outputs", outputs_text(scene, f));
+  line("memory", fmt::format("about {}B, as measured", short_number(f.memory_bytes)));
+  line("cost", f.stopped.empty()
+                   ? fmt::format("about {} of steps on this machine, from a trial", duration_text(f.cost_seconds))
+                   : fmt::format("stops early: {}", f.stopped));
+  return text;
+}
+
+std::string json_of(const Scene& scene, const Findings& f) {
+  nlohmann::ordered_json j;
+  const auto number = [](double x) {
+    return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+  };
+  j["scene"] = scene.file;
+  j["method"] = method_names[static_cast<std::size_t>(scene.run.method)];
+  j["particles"] = f.disks;
+  j["width"] = scene.box.width;
+  j["height"] = scene.box.height;
+  j["packing_fraction"] = number(f.packing_fraction);
+  j["dt"] = scene.run.dt;
+  j["safe_dt"] = number(f.safe_dt);
+  j["t_end"] = scene.run.t_end;
+  j["frames"] = f.frames;
+  j["memory_bytes"] = f.memory_bytes;
+  j["cost_s"] = number(f.cost_seconds);
+  return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+int command_check(const CheckOptions& options) {
+  const Scene scene = load_scene_as_told(options.scene, options.changes);
+  const EngineChoice choice = choose_engine("", std::nullopt, scene);
+  State initial = initial_state(scene);
+  Findings found;
+  measure_sizes(scene, initial.disks, found);
+  found.safe_dt = safe_step(scene, initial.disks);
+  found.frames = frame_count(scene.output.every, scene.run.t_end);
+  const auto engine = make_engine(choice, scene, std::move(initial));
+  try_steps(*engine, scene, found);
+  print_out(options.json ? json_of(scene, found) : text_of(scene, found));
+  return 0;
+}
+
+}  // namespace carom

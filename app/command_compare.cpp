@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "app/trajectory_difference.hpp"
+#include "core/input_message.hpp"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// What a run came to, whoever computed it and however long that took.
+constexpr std::array<const char*, 17> compared_keys{
+    "state_hash",   "method",          "seed",           "particles",    "steps",          "time",
+    "collisions",   "wall_collisions", "energy_initial", "energy_final", "momentum_drift", "max_overlap",
+    "wall_overlap", "pressure",        "collision_rate", "removed",      "emitted"};
+
+// The files to compare of one output: a folder's, or a single trajectory.
+struct Output {
+  std::string name;
+  fs::path trajectory;  // empty if there is none
+  Json summary;         // null if there is none
+};
+
+Output open_output(const std::string& name) {
+  if (!fs::exists(name)) fail_input(name, "does not exist", "expected a folder of a run, or a trajectory.xyz");
+  if (!fs::is_directory(name)) return {name, name, nullptr};
+  Output output{name, fs::path(name) / "trajectory.xyz", nullptr};
+  if (!fs::exists(output.trajectory)) output.trajectory.clear();
+  std::ifstream file(fs::path(name) / "summary.json");
+  if (file) output.summary = Json::parse(file, nullptr, false);
+  if (output.summary.is_discarded()) fail_input(name + "/summary.json", "is no JSON", "expected the summary of a run");
+  if (output.trajectory.empty() && output.summary.is_null()) {
+    fail_input(name, "holds neither trajectory.xyz nor summary.json", "expected a folder of a run");
+  }
+  return output;
+}
+
+// Keys of the summaries with different values; empty unless both have one.
+std::vector<std::string> different_keys(const Json& a, const Json& b) {
+  std::vector<std::string> keys;
+  if (!a.is_object() || !b.is_object()) return keys;
+  for (const char* const key : compared_keys) {
+    if (a.value(key, Json()) != b.value(key, Json())) keys.emplace_back(key);
+  }
+  return keys;
+}
+
+std::string text_of(const Difference& d) {
+  const std::string place = fmt::format("frame {} (t = {})", d.frame, d.time);
+  const std::string_view quantity = d.quantity;
+  if (quantity == "frames") return fmt::format("{}: only one has it; {} frames against {}", place, d.a, d.b);
+  if (quantity == "disks") return fmt::format("{}: only one has disk {}; {} disks against {}", place, d.id, d.a, d.b);
+  if (quantity == "time") return fmt::format("{}: its time is {} against {}", place, d.a, d.b);
+  return fmt::format("{}, disk {}, {}: {} against {}", place, d.id, d.quantity, d.a, d.b);
+}
+
+std::string text_of(const TrajectoryDifference& d) {
+  std::string text = fmt::format("different: first in {}\n", text_of(*d.first));
+  for (const auto& largest : d.largest) {
+    if (!largest) continue;
+    text += fmt::format("  {:<8}differs by at most {:.6g}, in frame {} (t = {}), disk {}\n", largest->quantity,
+                        std::abs(largest->a - largest->b), largest->frame, largest->time, largest->id);
+  }
+  if (d.frames_a != d.frames_b) text += fmt::format("  frames  {} against {}\n", d.frames_a, d.frames_b);
+  return text;
+}
+
+std::string text_of(const std::vector<std::string>& keys, const Json& a, const Json& b) {
+  std::string text = "different: summary.json\n";
+  for (const std::string& key : keys)
+    text += fmt::format("  {:<16}{} against {}\n", key, a.value(key, Json()).dump(), b.value(key, Json()).dump());
+  return text;
+}
+
+Json json_of(const Difference& d) {
+  return {{"frame", d.frame}, {"time", d.time}, {"disk", d.id}, {"quantity", d.quantity}, {"a", d.a}, {"b", d.b}};
+}
+
+Json json_of(bool same, const std::optional<TrajectoryDifference>& frames, const std::vector<std::string>& keys) {
+  Json j{{"same", same}, {"different_keys", keys}};
+  if (!frames) return j;
+  j["frames"] = {frames->frames_a, frames->frames_b};
+  j["first"] = frames->first ? json_of(*frames->first) : Json(nullptr);
+  j["largest"] = Json::object();
+  for (const auto& largest : frames->largest) {
+    if (largest) j["largest"][largest->quantity] = json_of(*largest);
+  }
+  return j;
+}
+
+}  // namespace
+
+int command_compare(const CompareOptions& options) {
+  const Output a = open_output(options.a), b = open_output(options.b);
+  const bool both_trajectories = !a.trajectory.empty() && !b.trajectory.empty();
+  if (!both_trajectories && (a.summary.is_null() || b.summary.is_null())) {
+    fail_input(fmt::format("{} and {}", a.name, b.name), "have nothing in common to compare",
+               "expected two trajectories or two summaries");
+  }
+  std::optional<TrajectoryDifference> frames;
+  if (both_trajectories) frames = compare_trajectories(a.trajectory, b.trajectory);
+  const std::vector<std::string> keys = different_keys(a.summary, b.summary);
+  const bool same = keys.empty() && !(frames && frames->first);
+  if (options.json) {
+    print_out(json_of(same, frames, keys).dump(2) + "\n");
+    return same ? 0 : 1;
+  }
+  if (frames && frames->first) print_out(text_of(*frames));
+  if (!keys.empty()) print_out(text_of(keys, a.summary, b.summary));
+  if (same && frames) print_out(fmt::format("same bits in all {} frames\n", frames->frames_a));
+  if (same && !frames) print_out("same summary, state hash included\n");
+  return same ? 0 : 1;
+}
+
+}  // namespace carom

@@ -1,0 +1,302 @@
+#include "app/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "core/check.hpp"
+#include "core/input_message.hpp"
+#include "core/scene_names.hpp"
+
+namespace carom {
+
+namespace {
+
+// Options that are changes to the scene, and the key that each changes.
+struct SceneOption {
+  const char* option;
+  const char* key;
+  const char* value;  // how --help calls it
+  const char* help;
+};
+constexpr std::array<SceneOption, 4> scene_options{{
+    {"--method", "run.method", "rollback|pairwise|exact", "method, in place of the scene's"},
+    {"--dt", "run.dt", "X", "time step"},
+    {"--t-end", "run.t_end", "T", "simulated time at which the run ends"},
+    {"--seed", "seed", "S", "seed of all random numbers"},
+}};
+
+// What CLI11 reads; checked and turned into a Command afterwards, so that all messages are ours.
+struct Words {
+  std::string first, second, folder, engine, threads, frame;
+  std::array<std::string, scene_options.size()> scene_values;
+  std::vector<std::string> sets;
+  bool json = false, quiet = false, force = false;
+};
+
+double number_of(const std::string& option, const std::string& text) {
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc{} || result.ptr != end || !std::isfinite(value)) {
+    fail_input(option, fmt::format("{} is not a number", in_quotes(text)), "expected a number such as 0.01");
+  }
+  return value;
+}
+
+int count_of(const std::string& option, const std::string& text) {
+  int value = 0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc{} || result.ptr != end || value < 1) {
+    fail_input(option, fmt::format("is {}", in_quotes(text)), "expected a whole number of 1 or more");
+  }
+  return value;
+}
+
+void check_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, seed);
+  if (result.ec != std::errc{} || result.ptr != end) {
+    fail_input("--seed", fmt::format("is {}", in_quotes(text)), "expected a whole number from 0 to 2^64 - 1");
+  }
+}
+
+void check_method(const std::string& text) {
+  if (std::find(method_names.begin(), method_names.end(), text) == method_names.end()) {
+    fail_input("--method", fmt::format("there is no method {}", in_quotes(text)), expected_one_of(method_names, text));
+  }
+}
+
+// The value as TOML writes it.
+std::string toml_value(const std::string& option, const std::string& text) {
+  if (option == "--method") {
+    check_method(text);
+    return fmt::format("\"{}\"", text);
+  }
+  if (option == "--seed") {
+    check_seed(text);
+    return text;
+  }
+  return fmt::format("{}", number_of(option, text));
+}
+
+SceneChanges changes_of(const Words& words) {
+  SceneChanges changes;
+  for (const std::string& set : words.sets) {
+    const std::size_t equals = set.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      fail_input("--set", fmt::format("is {}", in_quotes(set)), "expected KEY=VALUE, as in --set physics.gravity=0.1");
+    }
+    changes.overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
+  }
+  changes.sets = changes.overrides.size();
+  for (std::size_t k = 0; k < scene_options.size(); ++k) {
+    if (words.scene_values[k].empty()) continue;
+    changes.overrides.push_back({scene_options[k].key, toml_value(scene_options[k].option, words.scene_values[k])});
+  }
+  return changes;
+}
+
+// Adds an option with one value; given twice, the last one counts.
+void add_value(CLI::App* command, const std::string& names, std::string& value, const std::string& placeholder,
+               const std::string& help) {
+  command->add_option(names, value, help)
+      ->type_name(placeholder)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+void add_scene_options(CLI::App* command, Words& words) {
+  command->add_option("SCENE", words.first, "scene file (TOML)")->type_name("");
+  for (std::size_t k = 0; k < scene_options.size(); ++k) {
+    const SceneOption& o = scene_options[k];
+    add_value(command, o.option, words.scene_values[k], o.value, o.help);
+  }
+  command->add_option("--set", words.sets, "change any key of the scene; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void describe_run(CLI::App* run, Words& words) {
+  add_scene_options(run, words);
+  add_value(run, "-o,--output", words.folder, "DIR", "folder for the results; default out/<name of the scene>");
+  add_value(run, "--engine", words.engine, "reference|parallel", "engine; both give the same bits");
+  add_value(run, "--threads", words.threads, "N", "threads of the parallel engine");
+  run->add_flag("--json", words.json, "print the summary as JSON, and nothing else, on standard output");
+  run->add_flag("--quiet", words.quiet, "print nothing but errors");
+  run->add_flag("--force", words.force, "replace the results of an earlier run in the folder");
+}
+
+void describe_compare(CLI::App* compare, Words& words) {
+  compare->add_option("A", words.first, "folder of a run, or a trajectory.xyz")->type_name("");
+  compare->add_option("B", words.second, "the other one")->type_name("");
+  compare->add_flag("--json", words.json, "print the result as JSON");
+  compare->footer("Exit status: 0 the same bits, 1 different.");
+}
+
+void describe_render(CLI::App* render, Words& words) {
+  render->add_option("DIR", words.first, "folder of a run with a trajectory, or a trajectory.xyz")->type_name("");
+  add_value(render, "-o,--output", words.folder, "FILE", "default DIR/movie.mp4, or DIR/frame_K.png with --frame");
+  add_value(render, "--frame", words.frame, "K", "one picture of the K-th frame, counted from 1, instead of a movie");
+  render->add_flag("--quiet", words.quiet, "print nothing but errors");
+  render->add_flag("--force", words.force, "replace an existing file");
+}
+
+// Long names of a command's options, --help included.
+std::vector<std::string_view> option_names(const CLI::App* command, std::vector<std::string>& storage) {
+  for (const CLI::Option* option : command->get_options()) {
+    for (const std::string& name : option->get_lnames()) storage.push_back("--" + name);
+  }
+  return {storage.begin(), storage.end()};
+}
+
+// Complains about what no option or argument took.
+void check_leftovers(const CLI::App* command) {
+  const std::vector<std::string> rest = command->remaining();
+  if (rest.empty()) return;
+  const auto option = std::find_if(rest.begin(), rest.end(), [](const auto& word) { return word.starts_with("-"); });
+  if (option == rest.end()) {
+    fail_input(command->get_name(), fmt::format("one argument too many, {}", in_quotes(rest[0])),
+               fmt::format("see carom {} --help", command->get_name()));
+  }
+  std::vector<std::string> storage;
+  const std::string name = option->substr(0, option->find('='));
+  fail_input(command->get_name(), fmt::format("there is no option {}", in_quotes(name)),
+             expected_one_of(option_names(command, storage), name));
+}
+
+void require(const std::string& value, const char* where, const char* what, const char* example) {
+  if (value.empty()) fail_input(where, what, example);
+}
+
+std::optional<std::string> file_option(const std::string& value) {
+  if (value.starts_with("-")) fail_input("-o", fmt::format("{} is an option", in_quotes(value)), "expected a path");
+  return value.empty() ? std::nullopt : std::optional(value);
+}
+
+RunOptions run_options(const Words& words) {
+  require(words.first, "run", "no scene file given", "expected carom run SCENE.toml");
+  RunOptions o;
+  o.scene = words.first;
+  o.folder = file_option(words.folder);
+  o.changes = changes_of(words);
+  o.engine = words.engine;
+  if (!words.threads.empty()) o.threads = count_of("--threads", words.threads);
+  o.json = words.json;
+  o.quiet = words.quiet;
+  o.force = words.force;
+  return o;
+}
+
+CheckOptions check_options(const Words& words) {
+  require(words.first, "check", "no scene file given", "expected carom check SCENE.toml");
+  return {words.first, changes_of(words), words.json};
+}
+
+CompareOptions compare_options(const Words& words) {
+  require(words.second, "compare", "two outputs are needed", "expected carom compare A B");
+  return {words.first, words.second, words.json};
+}
+
+RenderOptions render_options(const Words& words) {
+  require(words.first, "render", "no folder given", "expected carom render DIR");
+  RenderOptions o{words.first, file_option(words.folder), std::nullopt, words.quiet, words.force};
+  if (!words.frame.empty()) o.frame = count_of("--frame", words.frame);
+  return o;
+}
+
+// CLI11's own complaints are about values that are missing or superfluous; "--dt: 1 required X missing" becomes ours.
+[[noreturn]] void fail_as_one_line(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::string where = text.substr(0, text.find_first_of(": "));
+  if (where.starts_with("-") && dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    fail_input(where, "its value is missing", "see --help");
+  }
+  throw InputError(text.substr(0, text.find('\n')));
+}
+
+// CLI11's help, without the brackets around arguments: it knows them as optional, so that complaints are ours.
+std::string help_of(const CLI::App& app, const CLI::App& shown) {
+  std::string text = shown.help(&shown == &app ? "" : app.get_name());
+  for (const std::string argument : {"SCENE", "A", "B", "DIR"}) {
+    const std::string optional = "[" + argument + "]";
+    const std::size_t at = text.find(optional);
+    if (at != std::string::npos) text.replace(at, optional.size(), argument);
+  }
+  return text;
+}
+
+constexpr std::array<std::string_view, 4> command_names{"run", "check", "compare", "render"};
+
+void check_command_name(int argc, const char* const* argv) {
+  if (argc < 2) throw InputError("no command given; expected one of run, check, compare, render (or --help)");
+  const std::string_view name = argv[1];
+  if (name.starts_with("-")) {
+    constexpr std::array<std::string_view, 2> general{"--help", "--version"};
+    if (name == "-h" || std::find(general.begin(), general.end(), name) != general.end()) return;
+    throw InputError(
+        fmt::format("there is no option {} before the command; {}", in_quotes(name), expected_one_of(general, name)));
+  }
+  if (std::find(command_names.begin(), command_names.end(), name) == command_names.end()) {
+    throw InputError(fmt::format("there is no command {}; {}", in_quotes(name), expected_one_of(command_names, name)));
+  }
+}
+
+}  // namespace
+
+Command parse_command_line(int argc, const char* const* argv) {
+  check_command_name(argc, argv);
+  Words words;
+  CLI::App app("Carom simulates hard disks in a rectangle.", "carom");
+  app.set_version_flag("--version", "carom " CAROM_VERSION);
+  app.require_subcommand(1);
+  CLI::App* const run = app.add_subcommand("run", "run a scene");
+  CLI::App* const check = app.add_subcommand("check", "read a scene and say what it would model, and at what cost");
+  CLI::App* const compare =
+      app.add_subcommand("compare", "two outputs: the same bits, or where and by how much they differ");
+  CLI::App* const render = app.add_subcommand("render", "a movie or a picture from a trajectory");
+  for (CLI::App* const command : {run, check, compare, render}) command->allow_extras();
+  describe_run(run, words);
+  add_scene_options(check, words);
+  check->add_flag("--json", words.json, "print the result as JSON");
+  describe_compare(compare, words);
+  describe_render(render, words);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForVersion&) {
+    return TextRequest{"carom " CAROM_VERSION "\n"};
+  } catch (const CLI::Success&) {
+    const CLI::App* const shown = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
+    return TextRequest{help_of(app, *shown)};
+  } catch (const CLI::ParseError& error) {
+    fail_as_one_line(error);
+  }
+  check_leftovers(app.get_subcommands().front());
+  if (run->parsed()) return run_options(words);
+  if (check->parsed()) return check_options(words);
+  if (compare->parsed()) return compare_options(words);
+  return render_options(words);
+}
+
+Scene load_scene_as_told(const std::string& path, const SceneChanges& changes) {
+  try {
+    return load_scene(path, changes.overrides);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    const auto options = changes.overrides.begin() + static_cast<std::ptrdiff_t>(changes.sets);
+    for (const SceneOption& option : scene_options) {
+      const std::string told = fmt::format("--set {}:", option.key);
+      const auto same_key = [&](const Override& change) { return change.key == option.key; };
+      if (!message.starts_with(told) || std::none_of(options, changes.overrides.end(), same_key)) continue;
+      throw InputError(option.option + message.substr(told.size() - 1));
+    }
+    throw;
+  }
+}
+
+}  // namespace carom

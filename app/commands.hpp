@@ -1,0 +1,23 @@
+// The commands. Each returns the exit status, or throws one of the errors of core/check.hpp.
+#pragma once
+
+#include <string_view>
+
+#include "app/command_line.hpp"
+
+namespace carom {
+
+int command_run(const RunOptions& options);
+int command_check(const CheckOptions& options);
+int command_compare(const CompareOptions& options);
+int command_render(const RenderOptions& options);
+
+// Writes to standard output and sees to it that it arrives. Throws RunError if it does not (a full disk, a closed
+// pipe).
+void print_out(std::string_view text);
+
+// "carom: ..." and "carom: warning: ..." on standard error.
+void print_note(std::string_view text);
+void print_warning(std::string_view text);
+
+}  // namespace carom

@@ -1,0 +1,53 @@
+// The line on a terminal that tells how far a run has come.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+#include "core/state.hpp"
+
+namespace carom {
+
+// How far a run was at some moment.
+struct ProgressPoint {
+  double elapsed = 0.0;  // wall time since the run's first step, in seconds
+  double time = 0.0;     // simulated
+  Count steps = 0;
+};
+
+// What the line says: share done, simulated time, steps and disk-steps a second, time left. Rates are those since
+// `then`: a pile that settles becomes slower, and its beginning says nothing of its end.
+std::string progress_text(const ProgressPoint& then, const ProgressPoint& now, std::size_t disks, double t_end);
+
+// A number of seconds as 12 s, 3:05 or 2:03:05.
+std::string duration_text(double seconds);
+
+// A number with a prefix: 950, 12.3 k, 4.56 M.
+std::string short_number(double number);
+
+// Writes the line to standard error and keeps it there; nothing at all where that is no terminal.
+class Progress {
+ public:
+  Progress(bool wanted, double t_end);
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress() { clear(); }
+
+  // Brings the line up to date, at most five times a second.
+  void update(const State& state);
+
+  // Takes the line away, so that something else can be written.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool shown_;
+  bool on_screen_ = false;
+  double t_end_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+  ProgressPoint older_, newer_;  // rates are taken since older_, which follows newer_ at some distance
+};
+
+}  // namespace carom

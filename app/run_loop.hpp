@@ -1,0 +1,22 @@
+// From the first step to the last, with frames on the way.
+#pragma once
+
+#include <functional>
+
+#include "core/engine.hpp"
+
+namespace carom {
+
+// Who watches a run. Both may be empty. Looking never changes the state.
+struct RunObserver {
+  // A frame: the disks and their time. The first is at 0, the last at t_end, none comes twice.
+  std::function<void(const Disks&, double)> frame;
+  // Between steps, about a hundred times a second, and once more at the end.
+  std::function<void()> pulse;
+};
+
+// Steps the engine to scene.run.t_end. Returns the wall time spent in the steps alone, in seconds. Throws what the
+// engine and the observer throw.
+double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observer);
+
+}  // namespace carom

@@ -1,0 +1,73 @@
+#include "app/run_outputs.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/invariants.hpp"
+
+namespace carom {
+
+namespace {
+
+bool has_plot(const OutputPlan& plan, const char* name) {
+  return std::find(plan.plots.begin(), plan.plots.end(), name) != plan.plots.end();
+}
+
+}  // namespace
+
+bool wants_frames(const OutputPlan& plan) {
+  return plan.trajectory != TrajectoryFormat::none || plan.series || plan.movie || !plan.plots.empty();
+}
+
+RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder)
+    : scene_(scene),
+      folder_(folder),
+      plot_velocity_(has_plot(scene.output, "velocity")),
+      plot_energy_(has_plot(scene.output, "energy")) {
+  if (scene.output.trajectory == TrajectoryFormat::xyz) {
+    trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), scene.box);
+  }
+  if (scene.output.series) series_ = std::make_unique<SeriesWriter>(folder.path("series.csv"), scene);
+}
+
+void RunOutputs::frame(const Disks& disks, double time, const State& now) {
+  ++frames_;
+  if (trajectory_) trajectory_->write(disks, time);
+  if (series_) series_->write(disks, time, now);
+  if (plot_velocity_) record(velocities_, disks, time);
+  if (plot_energy_) {
+    const Energy energy = energy_of(disks, scene_.physics.gravity);
+    energies_.t.push_back(time);
+    energies_.kinetic.push_back(energy.kinetic);
+    energies_.potential.push_back(energy.potential);
+    energies_.total.push_back(energy.total());
+  }
+  if (!scene_.output.movie) return;
+  if (!movie_) {
+    movie_ = std::make_unique<MovieWriter>(folder_.unfinished(), frame_style(scene_, disks));
+    if (movie_->single_frames()) {
+      warnings_.emplace_back("ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on");
+    }
+  }
+  movie_->add(disks, time);
+}
+
+void RunOutputs::draw_plots() {
+  bool drawn = true;
+  if (plot_velocity_) drawn = plot_velocity(folder_.path("velocity.svg"), scene_.title, velocities_);
+  if (plot_energy_ && drawn) drawn = plot_energy(folder_.path("energy.svg"), scene_.title, energies_);
+  if (!drawn) warnings_.emplace_back("gnuplot is not installed: no plots are drawn");
+}
+
+void RunOutputs::finish(bool whole) {
+  if (trajectory_) trajectory_->close();
+  if (series_) series_->close();
+  if (movie_) movie_->finish();
+  if (whole) draw_plots();
+}
+
+std::vector<std::string> RunOutputs::take_warnings() {
+  return std::exchange(warnings_, {});
+}
+
+}  // namespace carom

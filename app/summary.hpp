@@ -1,0 +1,50 @@
+// What a run came to: the JSON object that other programs read, and a short table for people.
+#pragma once
+
+#include <string>
+
+#include "app/make_engine.hpp"
+#include "core/invariants.hpp"
+
+namespace carom {
+
+struct Summary {
+  std::string scene;  // file
+  std::string title;
+  std::string method;
+  EngineChoice engine;
+  Count particles = 0;  // now
+  double time = 0.0;
+  Counters counters;
+  double wall_s = 0.0, cpu_s = 0.0, step_s = 0.0;
+  double energy_initial = 0.0, energy_final = 0.0;
+  double momentum_drift = 0.0;  // |change of sum m v| over sum |m v|, the larger of start and end
+  double max_overlap = 0.0, wall_overlap = 0.0;
+  double pressure = 0.0;        // over the whole run, from the kinetic energy halfway between start and end
+  double collision_rate = 0.0;  // per disk per unit time: a collision counts for both disks
+  std::string state_hash;
+  std::uint64_t seed = 1;
+  Count frames = 0;
+  PhaseTimes phases;
+};
+
+// What is remembered of the start of a run.
+struct RunStart {
+  Count particles = 0;
+  double time = 0.0;
+  Energy energy;
+  Momentum momentum;
+};
+RunStart run_start(const State& state, const Scene& scene);
+
+// Everything but the times and the number of frames, which the caller knows.
+Summary summarize(const RunStart& start, const Engine& engine, const Scene& scene, const EngineChoice& choice);
+
+// One JSON object with the keys of design.md, in that order, then seed, waiting, frames and phase_s. Numbers in full
+// precision; null for one that is not finite.
+std::string json_text(const Summary& summary);
+
+// A few aligned lines. folder: where the results are, empty if nowhere.
+std::string table_text(const Summary& summary, const std::string& folder);
+
+}  // namespace carom
