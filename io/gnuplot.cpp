@@ -207,7 +207,9 @@ bool draw_svg(const Figure& figure, const std::string& path) {
   svg << std::ifstream(scratch.path / "plot.svg").rdbuf();
   // gnuplot does not tell of a full disk; a picture that is not closed tells.
   if (status != 0 || svg.str().find("</svg>") == std::string::npos) {
-    throw RunError(fmt::format("gnuplot could not draw {}: {}", path, last_line(log)));
+    const std::string said = last_line(log);
+    throw RunError(fmt::format("gnuplot could not draw {}: {}", path,
+                               said.empty() ? "the picture is incomplete; is the disk full?" : said));
   }
   write_file(path, svg.str());
   return true;

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <vector>
 
 #include "core/check.hpp"
@@ -57,6 +61,33 @@ std::vector<std::string> ffmpeg_arguments(const std::string& program, const Fram
           file_name};
 }
 
+// Whether a file is a sequence of whole MP4 boxes (32-bit size, name, content), the index "moov" among them. ffmpeg
+// says 0 even where a full disk cut its file short.
+bool is_whole_mp4(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  bool indexed = false;
+  std::uintmax_t at = 0;
+  while (!error && at < bytes) {
+    std::array<unsigned char, 8> head{};
+    file.seekg(static_cast<std::streamoff>(at));
+    if (!file.read(reinterpret_cast<char*>(head.data()), head.size())) return false;
+    std::uintmax_t size = (std::uintmax_t{head[0]} << 24) | (std::uintmax_t{head[1]} << 16) |
+                          (std::uintmax_t{head[2]} << 8) | std::uintmax_t{head[3]};
+    if (size == 1) {  // a box above 4 GB: its size follows in 64 bits
+      std::array<unsigned char, 8> large{};
+      if (!file.read(reinterpret_cast<char*>(large.data()), large.size())) return false;
+      size = 0;
+      for (const unsigned char byte : large) size = (size << 8) | byte;
+    }
+    if (size < head.size()) return false;
+    if (std::memcmp(&head[4], "moov", 4) == 0) indexed = true;
+    at += size;
+  }
+  return !error && indexed && at == bytes;
+}
+
 }  // namespace
 
 MovieWriter::MovieWriter(const std::string& folder, FrameStyle style) : folder_(folder), painter_(std::move(style)) {
@@ -83,14 +114,16 @@ void MovieWriter::add(const Disks& disks, double time) {
 
 void MovieWriter::finish() {
   if (encoder_ == nullptr) return;
-  if (encoder_->wait() != 0) fail();
+  if (encoder_->wait() != 0 || !is_whole_mp4(folder_ + "/" + file_name)) fail();
   std::error_code ignored;
   std::filesystem::remove(folder_ + "/" + log_name, ignored);
 }
 
 void MovieWriter::fail() const {
-  throw RunError(
-      fmt::format("ffmpeg could not write {}/{}: {}", folder_, file_name, last_line(folder_ + "/" + log_name)));
+  // On a full disk the log is as empty as the movie.
+  const std::string said = last_line(folder_ + "/" + log_name);
+  throw RunError(fmt::format("ffmpeg could not write {}/{}: {}", folder_, file_name,
+                             said.empty() ? "the file is incomplete; is the disk full?" : said));
 }
 
 }  // namespace carom

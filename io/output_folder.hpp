@@ -26,6 +26,9 @@ class OutputFolder {
   // Where to write a file while the run goes on.
   std::string path(const std::string& file) const { return (unfinished_ / file).string(); }
 
+  // The folder in which files are written while the run goes on.
+  std::string unfinished() const { return unfinished_.string(); }
+
   // The folder as the user named it.
   std::string name() const { return folder_.string(); }
 
