@@ -15,7 +15,7 @@ namespace carom {
 namespace {
 
 constexpr double update_seconds = 0.2;
-constexpr double rate_seconds = 5.0;  // rates are means over once to twice this time
+constexpr double rate_seconds = 2.0;  // rates are means over once to twice this time
 
 std::size_t terminal_columns() {
   winsize size{};
