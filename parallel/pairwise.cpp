@@ -34,12 +34,6 @@ class ParallelPairwise final : public TimeStepping {
     resolve(rules);
   }
 
-  void resolve(const StepRules& rules) {
-    const PhaseTimer timer(times_, "resolve");
-    resolve_contacts(state_, rules, executor_, lists_);
-    finish_contacts();
-  }
-
   StepClock clock_;
 };
 

@@ -18,6 +18,90 @@ void count_contact(std::vector<std::uint16_t>& contacts, const ContactEvent& e) 
   if (!is_wall(e.id2)) std::atomic_ref<std::uint16_t>(contacts[e.i2]).fetch_add(1, std::memory_order_relaxed);
 }
 
+// A disk after its only contact of the step. Returns its squared speed.
+template <class View>
+double finish_disk(const View& d, const Domain& box, std::uint32_t i) {
+  if (box.periodic_x()) d.x[i] = wrap(d.x[i], box.width);
+  if (box.periodic_y()) d.y[i] = wrap(d.y[i], box.height);
+  return d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
+}
+
+// Contacts are far apart in memory: their disks are asked for this many contacts ahead, about the time that memory
+// takes.
+constexpr std::size_t ahead = 8;
+
+template <class View>
+void prefetch_disk(const View& d, std::uint32_t i) {
+  __builtin_prefetch(d.x + i, 1);
+  __builtin_prefetch(d.y + i, 1);
+  __builtin_prefetch(d.vx + i, 1);
+  __builtin_prefetch(d.vy + i, 1);
+  __builtin_prefetch(d.id + i);
+}
+
+// How many contacts each disk has; the counts of the step.
+void count_found(const FoundPairs& found, const std::vector<std::vector<ContactEvent>>& walls, std::size_t disks,
+                 const Executor& executor, ContactLists& lists) {
+  lists.contacts.resize(disks, 0);
+  executor.run(found.used, [&](std::size_t b) {
+    for (const Pair& p : found.buffers[b].pairs) {
+      std::atomic_ref<std::uint16_t>(lists.contacts[p.i1]).fetch_add(1, std::memory_order_relaxed);
+      std::atomic_ref<std::uint16_t>(lists.contacts[p.i2]).fetch_add(1, std::memory_order_relaxed);
+    }
+  });
+  executor.run(walls.size(), [&](std::size_t b) {
+    for (const ContactEvent& e : walls[b]) count_contact(lists.contacts, e);
+  });
+}
+
+// Contacts that are alone, each from impact to pushing and wrapping in one visit; they commute with all others, so the
+// blocks may run in any order. The others become events in lists.crowded, in canonical order of time.
+template <class View>
+double resolve_alone(const View& d, const StepRules& rules, const FoundPairs& found,
+                     const std::vector<std::vector<ContactEvent>>& walls, std::size_t disks, const Executor& executor,
+                     ContactLists& lists, ImpactTally& tally) {
+  count_found(found, walls, disks, executor, lists);
+  const std::size_t blocks = found.used + walls.size();
+  if (lists.crowded_blocks.size() < blocks) lists.crowded_blocks.resize(blocks);
+  lists.tallies.assign(blocks, {});
+  lists.largest.assign(blocks, 0.0);
+  executor.run(found.used, [&](std::size_t b) {
+    const std::vector<Pair>& pairs = found.buffers[b].pairs;
+    lists.crowded_blocks[b].clear();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const auto [i, j] = in_id_order(d.id, pairs[k]);
+      if (k + ahead < pairs.size()) {
+        prefetch_disk(d, pairs[k + ahead].i1);
+        prefetch_disk(d, pairs[k + ahead].i2);
+      }
+      if (lists.contacts[i] != 1 || lists.contacts[j] != 1) {
+        lists.crowded_blocks[b].push_back(pair_event(d, rules, i, j));
+        continue;
+      }
+      lists.tallies[b].add(d.id[j], resolve_pair(d, rules, i, j));
+      push_pair(d, rules.box, i, j, 0.0);
+      lists.largest[b] = std::max({lists.largest[b], finish_disk(d, rules.box, i), finish_disk(d, rules.box, j)});
+      lists.contacts[i] = lists.contacts[j] = 0;
+    }
+  });
+  executor.run(walls.size(), [&](std::size_t w) {
+    const std::size_t b = found.used + w;
+    lists.crowded_blocks[b].clear();
+    for (const ContactEvent& e : walls[w]) {
+      if (lists.contacts[e.i1] != 1) {
+        lists.crowded_blocks[b].push_back(e);
+        continue;
+      }
+      lists.tallies[b].add(e.id2, resolve_event(d, rules, e));
+      push_apart(d, rules.box, e, 0.0);
+      lists.largest[b] = std::max(lists.largest[b], finish_disk(d, rules.box, e.i1));
+      lists.contacts[e.i1] = 0;
+    }
+  });
+  collect_crowded(blocks, executor, lists, tally);
+  return blocks == 0 ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
+}
+
 // Impacts of the crowded contacts in order of time, then the sweeps of pushing in order of ids.
 template <class View>
 void resolve_crowded(const View& d, const StepRules& rules, std::size_t disks, const Executor& executor,
@@ -44,6 +128,15 @@ void resolve_crowded(const View& d, const StepRules& rules, std::size_t disks, c
 
 }  // namespace
 
+void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists& lists, ImpactTally& tally) {
+  lists.crowded.clear();
+  for (std::size_t b = 0; b < blocks; ++b) {
+    lists.crowded.insert(lists.crowded.end(), lists.crowded_blocks[b].begin(), lists.crowded_blocks[b].end());
+    tally.add(lists.tallies[b]);
+  }
+  executor.sort(lists.crowded.begin(), lists.crowded.end(), earlier);
+}
+
 void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found,
                    const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor, ContactLists& lists) {
   lists.contacts.resize(disks.size(), 0);
@@ -54,12 +147,13 @@ void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found
   std::size_t place = 0;
   for (std::size_t b = 0; b < found.used; ++b) {
     lists.offsets.push_back(place);
-    place += found.buffers[b].size();
+    place += found.buffers[b].pairs.size();
   }
   with_view(disks, [&](const auto& d) {
     executor.run(found.used, [&](std::size_t b) {
       std::size_t at = lists.offsets[b];
-      for (const Pair& p : found.buffers[b]) {
+      for (const Pair& found_pair : found.buffers[b].pairs) {
+        const Pair p = in_id_order(d.id, found_pair);
         lists.events[at++] = pair_event(d, rules, p.i1, p.i2);
       }
     });
@@ -83,24 +177,23 @@ void clear_contact_counts(ContactLists& lists) {
   }
 }
 
-void resolve_contacts(State& state, const StepRules& rules, const Executor& executor, ContactLists& lists) {
-  if (lists.events.empty()) {
-    state.loads.clear();
-    return;
-  }
+double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& found,
+                        const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
+                        ContactLists& lists) {
   ImpactTally tally;
+  double speed2 = 0.0;
   with_view(state.disks, [&](const auto& d) {
     if (rules.settles) {
+      gather_events(state.disks, rules, found, walls, executor, lists);
       settle_contacts(d, state, rules, executor, lists, tally);
-      return;
+    } else {
+      speed2 = resolve_alone(d, rules, found, walls, state.disks.size(), executor, lists, tally);
+      resolve_crowded(d, rules, state.disks.size(), executor, lists, tally);
+      lists.events.swap(lists.crowded);
     }
-    split_crowded(executor, lists, tally, [&](const ContactEvent& e, ImpactTally& block) {
-      block.add(e.id2, resolve_event(d, rules, e));
-      push_apart(d, rules.box, e, 0.0);
-    });
-    resolve_crowded(d, rules, state.disks.size(), executor, lists, tally);
   });
   tally.count_into(state.counters);
+  return std::max(speed2, finish_contacts(state.disks, rules.box, executor, lists));
 }
 
 double finish_contacts(Disks& disks, const Domain& box, const Executor& executor, ContactLists& lists) {

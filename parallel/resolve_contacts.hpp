@@ -45,11 +45,13 @@ struct ContactLists {
 void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found,
                    const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor, ContactLists& lists);
 
-// Resolves and pushes apart everything in lists.events; leaves lists.contacts as they were counted. Bits of
-// resolve_contacts (core/step_contacts.hpp).
-void resolve_contacts(State& state, const StepRules& rules, const Executor& executor, ContactLists& lists);
+// Resolves and pushes apart all pairs found and wall contacts, wraps the disks that had contacts, and returns the
+// largest squared speed among those. Bits of resolve_contacts (core/step_contacts.hpp).
+double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& found,
+                        const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
+                        ContactLists& lists);
 
-// Wraps the disks that had contacts, clears the counts, returns the largest squared speed among those disks.
+// Wraps the disks in lists.events, clears their counts, returns the largest squared speed among them.
 double finish_contacts(Disks& disks, const Domain& box, const Executor& executor, ContactLists& lists);
 
 // Keeps the events for which keep(event) holds, and counts the contacts of each disk anew.
@@ -77,6 +79,9 @@ inline bool is_alone(const ContactLists& lists, const ContactEvent& e) {
 template <class Alone>
 void split_crowded(const Executor& executor, ContactLists& lists, ImpactTally& tally, Alone&& alone);
 
+// Joins the blocks' crowded events in lists.crowded, in canonical order of time, and adds their tallies.
+void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists& lists, ImpactTally& tally);
+
 // Contacts a block of the parallel passes over them.
 inline constexpr std::size_t contact_block = 1024;
 
@@ -96,12 +101,7 @@ void split_crowded(const Executor& executor, ContactLists& lists, ImpactTally& t
       }
     }
   });
-  lists.crowded.clear();
-  for (std::size_t b = 0; b < blocks; ++b) {
-    lists.crowded.insert(lists.crowded.end(), lists.crowded_blocks[b].begin(), lists.crowded_blocks[b].end());
-    tally.add(lists.tallies[b]);
-  }
-  executor.sort(lists.crowded.begin(), lists.crowded.end(), earlier);
+  collect_crowded(blocks, executor, lists, tally);
 }
 
 }  // namespace carom

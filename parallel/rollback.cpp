@@ -49,6 +49,7 @@ class ParallelRollback final : public TimeStepping {
     sort_if_due();
     drift(rules.dt);
     search(rules);
+    gather(rules);
     double back = 0.0;
     keep_events(lists_, executor_, [&](const ContactEvent& e) { return is_met(state_.disks, rules, e); });
     for (const ContactEvent& e : lists_.events) back = std::max(back, e.ago);

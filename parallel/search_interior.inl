@@ -12,6 +12,8 @@ namespace carom {
 namespace {
 
 constexpr std::uint32_t lanes = 4;
+// Disks by which the row above is asked for before it is read: it comes from memory, the own row is still in the cache.
+constexpr std::size_t prefetch_ahead = 256;
 using Doubles = double __attribute__((vector_size(32)));
 using Longs = long long __attribute__((vector_size(32)));
 
@@ -49,15 +51,12 @@ inline unsigned touching(const SearchInput& in, double x, double y, double r, st
   return bits_of(near & inside);
 }
 
-inline void add_pair(const SearchInput& in, std::size_t i, std::size_t j, std::vector<Pair>& pairs) {
-  const auto a = static_cast<std::uint32_t>(i);
-  const auto b = static_cast<std::uint32_t>(j);
-  pairs.push_back(in.id[i] < in.id[j] ? Pair{a, b} : Pair{b, a});
+inline void add_pair(std::size_t i, std::size_t j, std::vector<Pair>& pairs) {
+  pairs.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
 }
 
-inline void add_hits(const SearchInput& in, std::size_t i, std::uint32_t first, unsigned hits,
-                     std::vector<Pair>& pairs) {
-  for (; hits != 0; hits &= hits - 1) add_pair(in, i, first + static_cast<unsigned>(__builtin_ctz(hits)), pairs);
+inline void add_hits(std::size_t i, std::uint32_t first, unsigned hits, std::vector<Pair>& pairs) {
+  for (; hits != 0; hits &= hits - 1) add_pair(i, first + static_cast<unsigned>(__builtin_ctz(hits)), pairs);
 }
 
 // A run of any length, to its end.
@@ -66,38 +65,43 @@ void scan_run(const SearchInput& in, std::size_t i, double r, std::uint32_t firs
               std::vector<Pair>& pairs) {
   for (; first < last; first += lanes) {
     if (first + lanes <= in.n) {
-      add_hits(in, i, first, touching<own_radius>(in, in.x[i], in.y[i], r, first, last - first), pairs);
+      add_hits(i, first, touching<own_radius>(in, in.x[i], in.y[i], r, first, last - first), pairs);
       continue;
     }
     for (std::uint32_t j = first; j < last; ++j) {
       const double dx = in.x[j] - in.x[i];
       const double dy = in.y[j] - in.y[i];
       const double reach = (own_radius ? in.radius[j] : r) + r;
-      if (dx * dx + dy * dy <= reach * reach) add_pair(in, i, j, pairs);
+      if (dx * dx + dy * dy <= reach * reach) add_pair(i, j, pairs);
     }
   }
 }
 
 template <bool own_radius>
-double search_row(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin, std::size_t end,
-                  std::vector<Pair>& pairs) {
+void search_row(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin, std::size_t end,
+                BlockPairs& found) {
   const std::uint32_t row_key = level.first_key + row * level.stride;
   const double middle = (row + 0.5) * level.cell_height;
-  double off_x = 0.0;
-  double off_y = 0.0;
+  const double far_x = 0.5 * level.cell_width + level.margin;
+  const double far_y = 0.5 * level.cell_height + level.margin;
+  std::vector<Pair>& pairs = found.pairs;
   for (std::size_t i = begin; i < end; ++i) {
     const std::uint32_t key = in.key[i];
     const double x = in.x[i];
     const double y = in.y[i];
     const double r = own_radius ? in.radius[i] : in.common_radius;
     // What lies beyond the box belongs to the nearest cell however far out it is: only the way along the box counts.
-    off_y = std::max(off_y, std::abs(std::min(std::max(y, 0.0), in.box.height) - middle));
     const double centre = (static_cast<int>(key - row_key) + 0.5) * level.cell_width;
-    off_x = std::max(off_x, std::abs(std::min(std::max(x, 0.0), in.box.width) - centre));
+    const double off_x = std::abs(std::min(std::max(x, 0.0), in.box.width) - centre);
+    const double off_y = std::abs(std::min(std::max(y, 0.0), in.box.height) - middle);
+    if ((off_x > far_x) | (off_y > far_y)) [[unlikely]]
+      found.strays.push_back(static_cast<std::uint32_t>(i));
     const auto own = static_cast<std::uint32_t>(i + 1);
     const std::uint32_t own_end = in.start[key + 2];
     const std::uint32_t above = in.start[key + level.stride - 1];
     const std::uint32_t above_end = in.start[key + level.stride + 2];
+    __builtin_prefetch(in.x + above + prefetch_ahead);
+    __builtin_prefetch(in.y + above + prefetch_ahead);
     if (above + 2 * lanes <= in.n) [[likely]] {
       // The usual case without a loop: up to four disks in the own row, up to eight above.
       const unsigned hits_own = touching<own_radius>(in, x, y, r, own, own_end - own);
@@ -106,9 +110,9 @@ double search_row(const SearchInput& in, const GridLevel& level, std::uint32_t r
       const unsigned hits_second =
           touching<own_radius>(in, x, y, r, second, above_end > second ? above_end - second : 0);
       if ((hits_own | hits_above | hits_second) != 0) [[unlikely]] {
-        add_hits(in, i, own, hits_own, pairs);
-        add_hits(in, i, above, hits_above, pairs);
-        add_hits(in, i, second, hits_second, pairs);
+        add_hits(i, own, hits_own, pairs);
+        add_hits(i, above, hits_above, pairs);
+        add_hits(i, second, hits_second, pairs);
       }
       if (own_end > own + lanes) [[unlikely]]
         scan_run<own_radius>(in, i, r, own + lanes, own_end, pairs);
@@ -119,15 +123,17 @@ double search_row(const SearchInput& in, const GridLevel& level, std::uint32_t r
       scan_run<own_radius>(in, i, r, above, above_end, pairs);
     }
   }
-  return std::max(off_x - 0.5 * level.cell_width, off_y - 0.5 * level.cell_height);
 }
 
 }  // namespace
 
-double CAROM_INTERIOR(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
-                      std::size_t end, std::vector<Pair>& pairs) {
-  if (in.radius == nullptr) return search_row<false>(in, level, row, begin, end, pairs);
-  return search_row<true>(in, level, row, begin, end, pairs);
+void CAROM_INTERIOR(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
+                    std::size_t end, BlockPairs& found) {
+  if (in.radius == nullptr) {
+    search_row<false>(in, level, row, begin, end, found);
+  } else {
+    search_row<true>(in, level, row, begin, end, found);
+  }
 }
 
 }  // namespace carom

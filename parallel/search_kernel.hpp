@@ -8,6 +8,7 @@
 #include "core/domain.hpp"
 #include "core/pair_search.hpp"
 #include "parallel/cell_grid.hpp"
+#include "parallel/find_contacts.hpp"
 
 namespace carom {
 
@@ -16,7 +17,6 @@ struct SearchInput {
   const double* y;
   const double* radius;  // null: common_radius
   double common_radius;
-  const DiskId* id;
   const std::uint32_t* key;
   const std::uint32_t* start;
   std::size_t n;  // all disks
@@ -25,14 +25,14 @@ struct SearchInput {
 
 // Disks [begin, end) of one row of one level, all away from periodic sides, against the rest of their own row and the
 // row above: two contiguous runs of disks, tested by vectors that ask for what the scalar formula asks, with the same
-// operations. Appends pairs; returns the largest distance of a disk from its cell's centre less half a cell (length).
-using InteriorKernel = double (*)(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
-                                  std::size_t end, std::vector<Pair>& pairs);
+// operations. Appends the pairs, and the disks that have left their cell by more than the level's margin.
+using InteriorKernel = void (*)(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
+                                std::size_t end, BlockPairs& found);
 
-double search_interior_baseline(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
-                                std::size_t end, std::vector<Pair>& pairs);
-double search_interior_avx2(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
-                            std::size_t end, std::vector<Pair>& pairs);
+void search_interior_baseline(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
+                              std::size_t end, BlockPairs& found);
+void search_interior_avx2(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
+                          std::size_t end, BlockPairs& found);
 
 // The best version for the processor at hand; all give the same pairs in the same order.
 InteriorKernel choose_interior_kernel();

@@ -18,8 +18,9 @@ namespace {
 // Disks a block in passes that look at each disk once.
 constexpr std::size_t look_block = 8192;
 
-// A disk's excursion grows unevenly from step to step; sorting a step early costs less than searching twice.
-constexpr double expected_growth = 1.5;
+// The disks are sorted anew when one in so many has left its cell too far: searching for a stray by itself costs as
+// much as sorting about a dozen disks, and their number grows quickly from step to step. Measured best for a fluid.
+constexpr std::size_t stray_share = 100;
 
 // Does newcomer overlap one of disks [first, last)? The test of core's has_room.
 bool meets(const Disks& d, const Domain& box, const Disk& newcomer, std::size_t first, std::size_t last) {
@@ -138,7 +139,7 @@ Count TimeStepping::parts(double dt) {
 
 void TimeStepping::sort_if_due() {
   if (state_.disks.empty()) return;
-  if (cells_valid_ && excursion_ + expected_growth * excursion_growth_ <= 1.0) return;
+  if (cells_valid_ && strays_ * stray_share <= state_.disks.size()) return;
   sort_now();
 }
 
@@ -157,7 +158,7 @@ void TimeStepping::sort_now() {
   grid_ = make_grid(scene_.box, largest, count);
   sort_into_cells(state_.disks, grid_, executor_, cells_);
   cells_valid_ = true;
-  excursion_ = 0.0;
+  strays_ = 0;
 }
 
 void TimeStepping::drift(double t) {
@@ -170,19 +171,21 @@ void TimeStepping::search(const StepRules& rules) {
   {
     const PhaseTimer timer(times_, "search");
     pairs_.used = 0;
-    if (!state_.disks.empty()) {
-      double excursion = cells_valid_ ? find_contacts(state_.disks, scene_.box, grid_, cells_, executor_, pairs_) : 2.0;
-      if (excursion > 1.0) {
-        // The cells are older than their margin allows: pairs may be missing. Nothing of this search is used.
-        sort_now();
-        excursion = find_contacts(state_.disks, scene_.box, grid_, cells_, executor_, pairs_);
-      }
-      excursion_growth_ = std::max(0.0, excursion - excursion_);
-      excursion_ = excursion;
-    }
+    strays_ = 0;
+    if (!state_.disks.empty()) strays_ = find_contacts(state_.disks, scene_.box, grid_, cells_, executor_, pairs_);
   }
-  const PhaseTimer timer(times_, "gather");
+  if (!rules.box.has(SideKind::wall)) return;
+  const PhaseTimer timer(times_, "walls");
   find_wall_contacts(state_.disks, rules, executor_, walls_);
+}
+
+void TimeStepping::resolve(const StepRules& rules) {
+  const PhaseTimer timer(times_, "resolve");
+  speed2_ = std::max(speed2_, resolve_contacts(state_, rules, pairs_, walls_, executor_, lists_));
+}
+
+void TimeStepping::gather(const StepRules& rules) {
+  const PhaseTimer timer(times_, "gather");
   gather_events(state_.disks, rules, pairs_, walls_, executor_, lists_);
 }
 

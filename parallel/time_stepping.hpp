@@ -30,8 +30,10 @@ class TimeStepping : public Engine {
   Count parts(double dt);                                // of a step that is too long to be safe
   void sort_if_due();                                    // disks into cells, when they have left them too far
   void drift(double t);                                  // all disks
-  void search(const StepRules& rules);                   // touching pairs and wall contacts into lists_.events
-  void finish_contacts();                                // wraps what the contacts moved
+  void search(const StepRules& rules);                   // touching pairs and wall contacts
+  void resolve(const StepRules& rules);                  // impacts, supports, pushing apart, wrapping (pairwise)
+  void gather(const StepRules& rules);                   // all contacts into lists_.events (rollback)
+  void finish_contacts();                                // wraps what they moved
   void remove_at_sinks();
   void forget_speeds() { speed2_known_ = false; }  // after a phase that may have raised one unseen
 
@@ -57,11 +59,10 @@ class TimeStepping : public Engine {
   std::vector<double> block_values_;       // scratch, one a block
   std::vector<std::size_t> class_counts_;  // disks of each size class
   double smallest_radius_ = 0.0;
-  double speed2_ = 0.0;          // no disk's squared speed is larger
-  bool speed2_known_ = false;    // false: speed2_ must be taken anew
-  bool cells_valid_ = false;     // storage order and cells_ still belong together
-  double excursion_ = 0.0;       // after the last search: share of its margin by which a disk had left its cell
-  double excursion_growth_ = 0;  // by the last step
+  double speed2_ = 0.0;        // no disk's squared speed is larger
+  bool speed2_known_ = false;  // false: speed2_ must be taken anew
+  bool cells_valid_ = false;   // storage order and cells_ still belong together
+  std::size_t strays_ = 0;     // in the last search
   bool warned_of_parts_ = false;
 };
 

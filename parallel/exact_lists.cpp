@@ -1,0 +1,178 @@
+#include "parallel/exact_lists.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/boundary.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks whose lists share a vector: enough that vectors are few, few enough to share out among threads.
+constexpr std::size_t list_block = 4096;
+// Up to so many disks everybody is in everybody's list: nothing to keep in order, and windows of few disks are long.
+constexpr std::size_t everybody_below = 40;
+// Twice the roam and a diameter reach this many spacings: about seven neighbours. Longer lists are looked through more
+// often, shorter ones made more often.
+constexpr double reach_in_spacings = 1.5;
+// In very dense systems the roam is at least this share of a mean diameter.
+constexpr double least_roam = 0.08;
+// Room that a new list leaves for disks that are listed anew near it.
+constexpr std::size_t spare_room = 2;
+// Share of the roam that gravity may bend a path by before exit_time is asked again.
+constexpr double bend_share = 0.1;
+
+}  // namespace
+
+void ExactLists::choose_roam(const Disks& d) {
+  const double n = static_cast<double>(d.size());
+  if (d.size() <= everybody_below) {
+    roam_ = HUGE_VAL;
+    return;
+  }
+  double radius = d.common_radius;
+  if (!d.radius.empty()) {
+    radius = 0.0;
+    for (const double r : d.radius) radius += r;
+    radius /= n;
+  }
+  const double spacing = std::sqrt(box_.width * box_.height / n);
+  roam_ = std::max(0.5 * (reach_in_spacings * spacing - 2.0 * radius), least_roam * 2.0 * radius);
+}
+
+void ExactLists::build(Disks& d, const Domain& box, const Executor& executor) {
+  box_ = box;
+  choose_roam(d);
+  const std::size_t n = d.size();
+  moved_.clear();
+  if (!everybody()) {
+    const double largest = largest_radius(d);
+    std::vector<std::size_t> count(class_of_radius(smallest_radius(d), largest) + 1, 0);
+    if (count.size() == 1) count[0] = n;
+    if (count.size() > 1) {
+      for (const double r : d.radius) ++count[class_of_radius(r, largest)];
+    }
+    grid_ = make_grid(box, largest, count);
+    sort_into_cells(d, grid_, executor, cells_);
+    head_.assign(grid_.keys, none);
+  }
+  place_.resize(n);
+  lists_.resize(n);
+  sides_.resize(n);
+  block_ = executor.grain(list_block);
+  near_.resize(executor.blocks(n, list_block));
+  executor.for_ranges(n, list_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) place_[i] = {d.x[i], d.y[i]};
+  });
+  executor.for_ranges(n, list_block,
+                      [&](std::size_t b, std::size_t begin, std::size_t end) { this->list_block(d, b, begin, end); });
+}
+
+void ExactLists::list_block(const Disks& d, std::size_t b, std::size_t begin, std::size_t end) {
+  std::vector<std::uint32_t>& near = near_[b];
+  near.clear();
+  for (std::size_t k = begin; k < end; ++k) {
+    const auto i = static_cast<std::uint32_t>(k);
+    const std::size_t first = near.size();
+    find_neighbours(d, i, near);
+    const std::size_t count = near.size() - first;
+    near.resize(near.size() + (everybody() ? 0 : spare_room));
+    lists_[i] = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
+                 static_cast<std::uint32_t>(near.size() - first)};
+    sides_[i] = static_cast<std::uint8_t>(find_sides(d, i));
+  }
+}
+
+void ExactLists::find_neighbours(const Disks& d, std::uint32_t i, std::vector<std::uint32_t>& found) const {
+  const Vec2 p = place_[i];
+  const double own = d.radius_of(i) + 2.0 * roam_;
+  const bool around_x = box_.periodic_x();
+  const bool around_y = box_.periodic_y();
+  visit_near(p.x, p.y, own, [&](std::uint32_t j) {
+    double dx = place_[j].x - p.x;
+    double dy = place_[j].y - p.y;
+    if (around_x) dx = nearest_image(dx, box_.width);
+    if (around_y) dy = nearest_image(dy, box_.height);
+    const double reach = own + d.radius_of(j);
+    if (dx * dx + dy * dy <= reach * reach && j != i) found.push_back(j);
+  });
+}
+
+unsigned ExactLists::find_sides(const Disks& d, std::uint32_t i) const {
+  unsigned sides = 0;
+  for (const Side side : all_sides) {
+    if (box_.side(side) == SideKind::periodic) continue;
+    const double gap = -reach_beyond(side, place_[i].x, place_[i].y, d.radius_of(i), box_);
+    if (gap <= roam_) sides |= 1U << static_cast<unsigned>(side);
+  }
+  return sides;
+}
+
+double ExactLists::exit_time(std::uint32_t i, const PathSegment& path, double from, double until, double g) const {
+  if (everybody()) return never;
+  const PathSegment p = carried_to(path, from, g);
+  double dx = p.x - place_[i].x;
+  double dy = p.y - place_[i].y;
+  if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
+  if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
+  double room = roam_ * (1.0 - 1e-9);
+  double ahead = never;
+  if (g > 0.0) {
+    // The straight path, less what gravity can bend it by in the time looked ahead.
+    ahead = std::max(std::sqrt(2.0 * bend_share * roam_ / g), until - from);
+    room -= 0.5 * g * ahead * ahead;
+    if (!(room > 0.0)) return from;
+  }
+  const double c = room * room - (dx * dx + dy * dy);
+  if (!(c > 0.0)) return from;
+  const double a = p.vx * p.vx + p.vy * p.vy;
+  if (a == 0.0) return from + ahead;
+  const double b = dx * p.vx + dy * p.vy;
+  const double root = std::sqrt(b * b + a * c);
+  const double t = b > 0.0 ? c / (b + root) : (root - b) / a;
+  return from + std::min(t, ahead);
+}
+
+std::uint32_t ExactLists::key_of_place(const Disks& d, std::uint32_t i) const {
+  const std::size_t level =
+      d.radius.empty() || grid_.levels.size() == 1 ? 0 : class_of_radius(d.radius[i], grid_.levels[0].largest_radius);
+  return key_of(grid_.levels[level], place_[i].x, place_[i].y);
+}
+
+bool ExactLists::lists(std::uint32_t i, std::uint32_t j) const {
+  for (const std::uint32_t k : of(i)) {
+    if (k == j) return true;
+  }
+  return false;
+}
+
+void ExactLists::insert(std::uint32_t i, std::uint32_t j) {
+  std::vector<std::uint32_t>& near = near_[i / block_];
+  List& list = lists_[i];
+  if (list.count == list.room) {
+    // Moves to the end of its block's vector with double the room.
+    const std::size_t first = near.size();
+    near.resize(first + 2 * std::size_t{list.count} + spare_room);
+    std::copy_n(near.begin() + list.first, list.count, near.begin() + static_cast<std::ptrdiff_t>(first));
+    list = {static_cast<std::uint32_t>(first), list.count, static_cast<std::uint32_t>(near.size() - first)};
+  }
+  near[list.first + list.count++] = j;
+}
+
+void ExactLists::list_anew(std::uint32_t i, double x, double y, const Disks& d) {
+  place_[i] = {x, y};
+  sides_[i] = static_cast<std::uint8_t>(find_sides(d, i));
+  scratch_.clear();
+  find_neighbours(d, i, scratch_);
+  const std::uint32_t key = key_of_place(d, i);
+  moved_.push_back({i, head_[key]});
+  head_[key] = static_cast<std::uint32_t>(moved_.size() - 1);
+  lists_[i].count = 0;
+  for (const std::uint32_t j : scratch_) {
+    if (!lists(i, j)) insert(i, j);
+    if (!lists(j, i)) insert(j, i);
+  }
+}
+
+}  // namespace carom

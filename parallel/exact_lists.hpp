@@ -1,0 +1,119 @@
+// Who may meet whom: for every disk the list of disks near it, good as long as both stay near the places where they
+// were listed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/disks.hpp"
+#include "core/exact_path.hpp"
+#include "parallel/cell_grid.hpp"
+#include "parallel/counting_sort.hpp"
+#include "parallel/executor.hpp"
+#include "parallel/nearby_runs.hpp"
+
+namespace carom {
+
+// Calls visit(key) for each cell of a level within reach (length) of (x, y).
+template <class Visit>
+void for_each_key_near(const GridLevel& level, const Domain& box, double x, double y, double reach, Visit&& visit) {
+  const Span rows = span_around(y, reach, box.height, level.rows_per_length, level.rows, box.periodic_y());
+  const Span columns = span_around(x, reach, box.width, level.columns_per_length, level.columns, box.periodic_x());
+  for (std::uint32_t k = 0; k < rows.count; ++k) {
+    const std::uint32_t row = (rows.first + k) % level.rows;
+    for (std::uint32_t c = 0; c < columns.count; ++c) {
+      visit(level.first_key + row * level.stride + (columns.first + c) % level.columns);
+    }
+  }
+}
+
+// Each disk has a place, where it was when listed, and may move by `roam` from it. Disks i and j are in each other's
+// lists whenever their places are within r_i + r_j + 2 roam (nearest image); so while both are within roam of their
+// places, disks that are not listed together cannot touch. A disk that is about to roam too far is listed anew.
+class ExactLists {
+ public:
+  // Sorts the disks into cells (their storage order changes) and lists all of them where they are.
+  void build(Disks& disks, const Domain& box, const Executor& executor);
+
+  bool empty() const { return place_.empty(); }
+  // Disks listed anew since the last build.
+  std::size_t listed_anew() const { return moved_.size(); }
+  // Length that a disk may go from its place; infinite when everybody is in everybody's list.
+  double roam() const { return roam_; }
+
+  struct Neighbours {
+    const std::uint32_t* first;
+    std::uint32_t count;
+    const std::uint32_t* begin() const { return first; }
+    const std::uint32_t* end() const { return first + count; }
+  };
+  Neighbours of(std::uint32_t i) const {
+    const List& list = lists_[i];
+    return {near_[i / block_].data() + list.first, list.count};
+  }
+
+  // Bits (1 << side) of the walls and sinks that the disk can touch without roaming too far.
+  unsigned sides_near(std::uint32_t i) const { return sides_[i]; }
+
+  // A time up to which the disk, now (at time `from`) on this path, stays within roam of its place; `from` itself when
+  // it does not. Looks no further ahead than `until`, or as far as gravity bends the path little.
+  double exit_time(std::uint32_t i, const PathSegment& path, double from, double until, double g) const;
+
+  // Lists disk i anew at (x, y), inside the box. Not to be called while others read.
+  void list_anew(std::uint32_t i, double x, double y, const Disks& disks);
+
+  // Calls see(j) for all disks whose places are within `distance` of a place for some disk of radius 0, their radii
+  // added; for a few others too, and for some twice.
+  template <class See>
+  void visit_near(double x, double y, double distance, See&& see) const {
+    if (everybody()) {
+      for (std::uint32_t j = 0; j < place_.size(); ++j) see(j);
+      return;
+    }
+    for (const GridLevel& level : grid_.levels) {
+      const double reach = (distance + level.largest_radius) * (1.0 + 1e-9);
+      for_each_run_near(level, cells_.start.data(), box_, x, y, reach, [&](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t j = first; j < last; ++j) see(j);
+      });
+      if (moved_.empty()) continue;
+      for_each_key_near(level, box_, x, y, reach, [&](std::uint32_t key) {
+        for (std::uint32_t m = head_[key]; m != none; m = moved_[m].next) see(moved_[m].disk);
+      });
+    }
+  }
+
+ private:
+  struct List {
+    std::uint32_t first = 0;  // in its block's vector
+    std::uint32_t count = 0, room = 0;
+  };
+  struct Moved {
+    std::uint32_t disk, next;
+  };
+  static constexpr std::uint32_t none = 0xffffffffU;
+
+  bool everybody() const { return roam_ == HUGE_VAL; }
+  void choose_roam(const Disks& disks);
+  void list_block(const Disks& disks, std::size_t b, std::size_t begin, std::size_t end);
+  void find_neighbours(const Disks& disks, std::uint32_t i, std::vector<std::uint32_t>& found) const;
+  std::uint32_t key_of_place(const Disks& disks, std::uint32_t i) const;
+  bool lists(std::uint32_t i, std::uint32_t j) const;
+  unsigned find_sides(const Disks& disks, std::uint32_t i) const;
+  void insert(std::uint32_t i, std::uint32_t j);
+
+  Domain box_;
+  CellGrid grid_;
+  SortedCells cells_;
+  double roam_ = 0.0;
+  std::size_t block_ = 1;  // disks whose lists share a vector
+  std::vector<Vec2> place_;
+  std::vector<std::uint8_t> sides_;
+  std::vector<List> lists_;
+  std::vector<std::vector<std::uint32_t>> near_;  // one a block
+  // Disks listed anew, chained by cell: head_[key] is the last one that came to that cell.
+  std::vector<std::uint32_t> head_;
+  std::vector<Moved> moved_;
+  std::vector<std::uint32_t> scratch_;
+};
+
+}  // namespace carom
