@@ -11,14 +11,15 @@
 namespace carom {
 namespace {
 
-using Real = long double;
+using test::Wide;
+using test::wide;
 
 // The smaller root of (12) in 64 bits of mantissa; infinity where the paths miss.
-Real contact_time_with_more_digits(const Relative& r, double reach) {
-  const Real dx = r.dx, dy = r.dy, dvx = r.dvx, dvy = r.dvy, s = reach;
-  const Real a = dvx * dvx + dvy * dvy;
-  const Real cross = dx * dvy - dy * dvx;
-  const Real discriminant = a * s * s - cross * cross;
+Wide contact_time_with_more_digits(const Relative& r, double reach) {
+  const Wide dx = wide(r.dx), dy = wide(r.dy), dvx = wide(r.dvx), dvy = wide(r.dvy), s = wide(reach);
+  const Wide a = dvx * dvx + dvy * dvy;
+  const Wide cross = dx * dvy - dy * dvx;
+  const Wide discriminant = a * s * s - cross * cross;
   if (discriminant < 0) return HUGE_VALL;
   return (dx * dx + dy * dy - s * s) / (std::sqrt(discriminant) - (dx * dvx + dy * dvy));
 }
@@ -52,11 +53,11 @@ TEST(ContactTime, KeepsItsDigitsFarAwayAndGrazing) {
     const double distance = k % 2 == 0 ? 1.0 + draws.decades(1e-6, 1e9) : draws.in(miss + 0.5 * gap, 1.0);
     const Relative r = towards(distance, miss, reach, draws.in(0.0, 2.0 * test::pi), speed);
     if (r.approach() >= 0.0) continue;
-    const Real exact = contact_time_with_more_digits(r, reach);
+    const Wide exact = contact_time_with_more_digits(r, reach);
     if (std::isinf(exact)) continue;
     const double t = contact_time(r, reach);
     const double scale = std::abs(t) / std::sqrt(gap) + reach / speed / std::sqrt(gap);
-    worst = std::max(worst, static_cast<double>(std::abs(static_cast<Real>(t) - exact)) / scale);
+    worst = std::max(worst, static_cast<double>(std::abs(static_cast<Wide>(t) - exact)) / scale);
   }
   EXPECT_LT(worst, 4.0 * 0x1p-52);
 }
@@ -152,14 +153,16 @@ TEST(Collide, EnergyFallsByTheFormula) {
 
 // (17)-(19) and (23) as the spec prints them, with more digits: rotate into the contact frame, change the normal
 // components, rotate back.
-void rule_as_printed(const Collision& c, Real& wx1, Real& wy1, Real& wx2, Real& wy2) {
-  const Real d = std::sqrt(static_cast<Real>(c.r.dx) * c.r.dx + static_cast<Real>(c.r.dy) * c.r.dy);
-  const Real nx = c.r.dx / d, ny = c.r.dy / d;
-  const Real n1 = c.vx1 * nx + c.vy1 * ny, t1 = -c.vx1 * ny + c.vy1 * nx;
-  const Real n2 = c.vx2 * nx + c.vy2 * ny, t2 = -c.vx2 * ny + c.vy2 * nx;
-  const Real ratio = static_cast<Real>(c.m2) / c.m1;
-  const Real n2_after = (n1 * (1 + static_cast<Real>(c.e)) + n2 * (ratio - c.e)) / (1 + ratio);
-  const Real n1_after = n1 + ratio * (n2 - n2_after);
+void rule_as_printed(const Collision& c, Wide& wx1, Wide& wy1, Wide& wx2, Wide& wy2) {
+  const Wide dx = wide(c.r.dx), dy = wide(c.r.dy), e = wide(c.e);
+  const Wide vx1 = wide(c.vx1), vy1 = wide(c.vy1), vx2 = wide(c.vx2), vy2 = wide(c.vy2);
+  const Wide d = std::sqrt(dx * dx + dy * dy);
+  const Wide nx = dx / d, ny = dy / d;
+  const Wide n1 = vx1 * nx + vy1 * ny, t1 = -vx1 * ny + vy1 * nx;
+  const Wide n2 = vx2 * nx + vy2 * ny, t2 = -vx2 * ny + vy2 * nx;
+  const Wide ratio = wide(c.m2) / wide(c.m1);
+  const Wide n2_after = (n1 * (1 + e) + n2 * (ratio - e)) / (1 + ratio);
+  const Wide n1_after = n1 + ratio * (n2 - n2_after);
   wx1 = n1_after * nx - t1 * ny, wy1 = n1_after * ny + t1 * nx;
   wx2 = n2_after * nx - t2 * ny, wy2 = n2_after * ny + t2 * nx;
 }
@@ -169,7 +172,7 @@ TEST(Collide, IsRule23) {
   for (int k = 0; k < 20000; ++k) {
     Collision c = random_collision(draws, 1e-3, 1e3);
     apply(c);
-    Real wx1 = 0, wy1 = 0, wx2 = 0, wy2 = 0;
+    Wide wx1 = 0, wy1 = 0, wx2 = 0, wy2 = 0;
     rule_as_printed(c, wx1, wy1, wx2, wy2);
     EXPECT_NEAR(c.wx1, static_cast<double>(wx1), 1e-12 * c.fast);
     EXPECT_NEAR(c.wy1, static_cast<double>(wy1), 1e-12 * c.fast);

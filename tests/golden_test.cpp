@@ -166,12 +166,15 @@ TEST_P(Golden, Reversible) {
 // scenes/two_disks.toml: each collision of the run, from the paths before the step, the contact time and (23) written
 // out with more digits than a double has.
 TEST_P(Golden, TwoDisksSceneCollidesByRule23) {
-  using Real = long double;
+  using test::wide;
+  using test::Wide;
   Scene s = load_scene(CAROM_SOURCE_DIR "/scenes/two_disks.toml");
   s.run.method = GetParam();
-  const Real g = s.physics.gravity;
-  const Real e = s.physics.restitution;
+  const Wide g = wide(s.physics.gravity);
+  const Wide e = wide(s.physics.restitution);
   State before = initial_state(s);
+  const Wide m1 = wide(before.disks.mass_of(0)), m2 = wide(before.disks.mass_of(1));
+  const Wide reach = wide(before.disks.radius_of(0)) + wide(before.disks.radius_of(1));
   int collisions = 0;
   test::run(s, before, [&](const Engine& engine) {
     const State& after = engine.state();
@@ -179,21 +182,22 @@ TEST_P(Golden, TwoDisksSceneCollidesByRule23) {
     if (hit && after.counters.wall_collisions == before.counters.wall_collisions) {
       ++collisions;
       const Disks& d = before.disks;
-      const Real m1 = d.mass_of(0), m2 = d.mass_of(1), reach = Real(d.radius_of(0)) + d.radius_of(1);
-      const Real dx = Real(d.x[1]) - d.x[0], dy = Real(d.y[1]) - d.y[0];
-      const Real dvx = Real(d.vx[1]) - d.vx[0], dvy = Real(d.vy[1]) - d.vy[0];
-      const Real a = dvx * dvx + dvy * dvy, b = dx * dvx + dy * dvy, c = dx * dx + dy * dy - reach * reach;
-      const Real t = c / (-b + std::sqrt(b * b - a * c));
-      const Real nx = (dx + dvx * t) / reach, ny = (dy + dvy * t) / reach;
-      const Real vy1 = d.vy[0] - g * t, vy2 = d.vy[1] - g * t;
-      const Real n1 = d.vx[0] * nx + vy1 * ny, n2 = d.vx[1] * nx + vy2 * ny;
-      const Real w2 = (n1 * (1 + e) + n2 * (m2 / m1 - e)) / (1 + m2 / m1);
-      const Real w1 = n1 + m2 / m1 * (n2 - w2);
-      const Real left = Real(after.time) - before.time - t;  // of the step, after the contact
-      EXPECT_NEAR(after.disks.vx[0], double(d.vx[0] + (w1 - n1) * nx), 1e-12);
-      EXPECT_NEAR(after.disks.vy[0], double(vy1 + (w1 - n1) * ny - g * left), 1e-12);
-      EXPECT_NEAR(after.disks.vx[1], double(d.vx[1] + (w2 - n2) * nx), 1e-12);
-      EXPECT_NEAR(after.disks.vy[1], double(vy2 + (w2 - n2) * ny - g * left), 1e-12);
+      const Wide vx1 = wide(d.vx[0]), vx2 = wide(d.vx[1]);
+      const Wide dx = wide(d.x[1]) - wide(d.x[0]), dy = wide(d.y[1]) - wide(d.y[0]);
+      const Wide dvx = vx2 - vx1, dvy = wide(d.vy[1]) - wide(d.vy[0]);
+      const Wide a = dvx * dvx + dvy * dvy, b = dx * dvx + dy * dvy, c = dx * dx + dy * dy - reach * reach;
+      const Wide t = c / (-b + std::sqrt(b * b - a * c));
+      const Wide nx = (dx + dvx * t) / reach, ny = (dy + dvy * t) / reach;
+      const Wide vy1 = wide(d.vy[0]) - g * t, vy2 = wide(d.vy[1]) - g * t;
+      const Wide n1 = vx1 * nx + vy1 * ny, n2 = vx2 * nx + vy2 * ny;
+      const Wide w2 = (n1 * (1 + e) + n2 * (m2 / m1 - e)) / (1 + m2 / m1);
+      const Wide w1 = n1 + m2 / m1 * (n2 - w2);
+      const Wide left = wide(after.time) - wide(before.time) - t;  // of the step, after the contact
+      const auto narrow = [](Wide x) { return static_cast<double>(x); };
+      EXPECT_NEAR(after.disks.vx[0], narrow(vx1 + (w1 - n1) * nx), 1e-12);
+      EXPECT_NEAR(after.disks.vy[0], narrow(vy1 + (w1 - n1) * ny - g * left), 1e-12);
+      EXPECT_NEAR(after.disks.vx[1], narrow(vx2 + (w2 - n2) * nx), 1e-12);
+      EXPECT_NEAR(after.disks.vy[1], narrow(vy2 + (w2 - n2) * ny - g * left), 1e-12);
     }
     before = after;
   });

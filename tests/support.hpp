@@ -17,6 +17,12 @@ namespace carom::test {
 
 inline constexpr double pi = 3.14159265358979323846;
 
+// More digits than a double has, for formulas held against ours.
+using Wide = long double;
+inline Wide wide(double x) {
+  return static_cast<Wide>(x);
+}
+
 // The methods that step in time.
 inline const std::vector<Method> stepping_methods{Method::rollback, Method::pairwise};
 
