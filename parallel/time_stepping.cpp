@@ -20,7 +20,7 @@ constexpr std::size_t look_block = 8192;
 
 // The disks are sorted anew when one in so many has left its cell too far: searching for a stray by itself costs as
 // much as sorting about a dozen disks, and their number grows quickly from step to step. Measured best for a fluid.
-constexpr std::size_t stray_share = 100;
+constexpr std::size_t stray_share = 200;
 
 // Does newcomer overlap one of disks [first, last)? The test of core's has_room.
 bool meets(const Disks& d, const Domain& box, const Disk& newcomer, std::size_t first, std::size_t last) {
