@@ -116,8 +116,9 @@ bool OpenCells::list_ready() {
 Vec2 OpenCells::point_in_list(TwoUniforms in_cell, double which) const {
   const auto entry = static_cast<std::size_t>(which * static_cast<double>(list_.size()));
   const std::size_t cell = list_[std::min(entry, list_.size() - 1)];
-  return {(static_cast<double>(cell % columns_) + in_cell.a) * cell_x_,
-          (static_cast<double>(cell / columns_) + in_cell.b) * cell_y_};
+  const std::size_t column = cell % columns_;
+  const std::size_t row = cell / columns_;
+  return {(static_cast<double>(column) + in_cell.a) * cell_x_, (static_cast<double>(row) + in_cell.b) * cell_y_};
 }
 
 }  // namespace carom

@@ -76,7 +76,8 @@ void PlacementGrid::size_cells(Level& level) const {
   const double edge =
       std::max(2.0 * level.largest_radius, width * std::sqrt(height / width / static_cast<double>(most)));
   level.columns = static_cast<std::size_t>(std::clamp(width / edge, 1.0, static_cast<double>(most)));
-  level.rows = static_cast<std::size_t>(std::clamp(height / edge, 1.0, static_cast<double>(most / level.columns)));
+  const std::size_t most_rows = most / level.columns;
+  level.rows = static_cast<std::size_t>(std::clamp(height / edge, 1.0, static_cast<double>(most_rows)));
   level.per_x = static_cast<double>(level.columns) / width;
   level.per_y = static_cast<double>(level.rows) / height;
   level.head.assign(level.columns * level.rows, empty_cell);

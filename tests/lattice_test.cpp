@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tests/support.hpp"
 
@@ -22,7 +23,7 @@ Domain box_of(double width, double height, bool periodic_x, bool periodic_y) {
 
 // Least distance of two sites, images included; infinite for one site.
 double least_distance(const Domain& box, const std::vector<Vec2>& sites) {
-  double least = INFINITY;
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < sites.size(); ++i) {
     for (std::size_t j = i + 1; j < sites.size(); ++j) {
       double dx = sites[j].x - sites[i].x;
