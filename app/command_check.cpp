@@ -191,7 +191,7 @@ std::string json_of(const Scene& scene, const Findings& f) {
 
 int command_check(const CheckOptions& options) {
   const Scene scene = load_scene_as_told(options.scene, options.changes);
-  const EngineChoice choice = choose_engine("", std::nullopt, scene);
+  const EngineChoice choice = choose_engine("", std::nullopt);
   State initial = initial_state(scene);
   Findings found;
   measure_sizes(scene, initial.disks, found);

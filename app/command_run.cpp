@@ -94,7 +94,7 @@ double run_watched(Engine& engine, const Scene& scene, Results* results, bool qu
 int command_run(const RunOptions& options) {
   const auto start_time = Clock::now();
   const Scene scene = load_scene_as_told(options.scene, options.changes);
-  const EngineChoice choice = choose_engine(options.engine, options.threads, scene);
+  const EngineChoice choice = choose_engine(options.engine, options.threads);
   check_outputs(scene);
   const std::optional<fs::path> path = folder_of(options, scene);
   if (path) check_output_folder(*path, options.scene, options.force);

@@ -2,28 +2,32 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
+#include <thread>
+#include <utility>
 
 #include "core/input_message.hpp"
+#include "parallel/simulation.hpp"
 
 namespace carom {
 
-EngineChoice choose_engine(const std::string& engine, std::optional<int> /*threads*/, const Scene& scene) {
-  constexpr std::array<std::string_view, 1> engines{"reference"};
-  if (engine == "parallel") fail_input("--engine", "parallel is not built yet", "expected reference");
-  if (!engine.empty() && engine != "reference") {
-    fail_input("--engine", fmt::format("there is no engine {}", in_quotes(engine)), expected_one_of(engines, engine));
+EngineChoice choose_engine(const std::string& engine, std::optional<int> threads) {
+  constexpr std::array<std::string_view, 2> engines{"parallel", "reference"};
+  if (engine.empty() || engine == "parallel") {
+    const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    return {"parallel", threads.value_or(cores)};
   }
-  if (scene.run.method == Method::exact) {
-    fail_input(fmt::format("{}: run.method", scene.file), "exact is not built yet",
-               "expected pairwise or rollback (as in --method pairwise)");
+  if (engine != "reference") {
+    fail_input("--engine", fmt::format("there is no engine {}", in_quotes(engine)), expected_one_of(engines, engine));
   }
   return {"reference", 1};
 }
 
-std::unique_ptr<Engine> make_engine(const EngineChoice& /*choice*/, const Scene& scene, State initial) {
-  return make_reference_engine(scene, std::move(initial));
+std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial) {
+  if (choice.name == "reference") return make_reference_engine(scene, std::move(initial));
+  return make_parallel_engine(scene, std::move(initial), {choice.threads});
 }
 
 }  // namespace carom

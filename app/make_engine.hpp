@@ -14,9 +14,9 @@ struct EngineChoice {
   int threads = 1;   // that it will use
 };
 
-// What --engine and --threads ask for; empty and absent mean the default. Throws InputError for an engine, or a method
-// of the scene, that does not exist yet.
-EngineChoice choose_engine(const std::string& engine, std::optional<int> threads, const Scene& scene);
+// What --engine and --threads ask for; empty and absent mean the default: parallel, on all cores. The reference has one
+// thread whatever is asked for. Throws InputError for an engine that does not exist.
+EngineChoice choose_engine(const std::string& engine, std::optional<int> threads);
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial);
 
