@@ -14,7 +14,8 @@ namespace carom {
 
 namespace {
 
-// Trials that a search without hope may cost: 0.543 is reached with 40 a disk, 25 s for 10^6 disks that cannot be placed.
+// Trials that a search without hope may cost. Packing fraction 0.543 needs 40 a disk; 10^6 disks that cannot be placed
+// are given up in under a minute.
 constexpr std::uint64_t most_trials_of_one = 200'000;
 constexpr std::uint64_t most_trials_each = 60;
 constexpr std::uint64_t most_trials_at_least = 5'000'000;
