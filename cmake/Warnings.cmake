@@ -3,5 +3,9 @@ add_library(carom_warnings INTERFACE)
 target_compile_options(carom_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
   -Woverloaded-virtual -Wcast-align -Wnull-dereference -Wdouble-promotion -Werror)
-# g++ 12 reports null dereferences and uninitialised reads inside the standard library under sanitizers and -O3.
-target_compile_options(carom_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference>)
+# g++ 12 reports null dereferences, overlaps and bounds inside the standard library's strings that are not there
+# (std::string + at -O3, and more under sanitizers); the address sanitizer finds the real ones.
+target_compile_options(carom_warnings INTERFACE
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference;-Wno-restrict;-Wno-array-bounds>)
+# clang doubts | between comparisons; the hot loops mean it: without branches they become vector instructions.
+target_compile_options(carom_warnings INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
