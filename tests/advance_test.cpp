@@ -90,7 +90,8 @@ TEST(Brownian, FreeMeanSquareDisplacementIsFourDt) {
     scene.physics.diffusion = 0.5;
     std::vector<Disk> list;
     for (int k = 0; k < side * side; ++k) {
-      list.push_back({20.0 + 40.0 * (k % side), 20.0 + 40.0 * (k / side), 0.0, 0.0, 1.0, 1.0});
+      const Vec2 p = test::cell_centre(k, side, 40.0);
+      list.push_back({p.x, p.y, 0.0, 0.0, 1.0, 1.0});
     }
     const Disks start = test::disks_of(list);
     const State end = test::run(scene, test::state_of(scene, list));

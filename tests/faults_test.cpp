@@ -278,7 +278,10 @@ TEST_P(Faults, F15_BrownianEnergyDoesNotGrow) {
   test::set_sides(s.box, SideKind::periodic, SideKind::periodic);
   s.physics.diffusion = 0.1;
   std::vector<Disk> list;
-  for (int k = 0; k < n; ++k) list.push_back({5.0 + 10.0 * (k % 10), 5.0 + 10.0 * (k / 10), 0.0, 0.0, 1.0, 1.0});
+  for (int k = 0; k < n; ++k) {
+    const Vec2 p = test::cell_centre(k, 10, 10.0);
+    list.push_back({p.x, p.y, 0.0, 0.0, 1.0, 1.0});
+  }
   const State start = test::state_of(s, list);
   const double expected = n * 2.0 * s.physics.diffusion / s.run.dt;
   const Holds steady = [&](const Disks& d) {

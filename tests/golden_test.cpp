@@ -100,7 +100,7 @@ struct Bounces {
   double height = 0.0;  // above the floor at the end
 };
 
-Bounces drop(Scene scene, double height) {
+Bounces drop(const Scene& scene, double height) {
   const State start = test::state_of(scene, {{5.0, 1.0 + height, 0.0, 0.0, 1.0, 1.0}});
   Bounces b;
   double y = start.disks.y[0];

@@ -24,8 +24,8 @@ State gas(const Scene& scene, int per_side) {
   std::vector<Disk> list;
   const double spacing = scene.box.width / per_side;
   for (int k = 0; k < per_side * per_side; ++k) {
-    list.push_back({spacing * (0.5 + k % per_side), spacing * (0.5 + k / per_side), draws.in(-1.7, 1.7),
-                    draws.in(-1.7, 1.7), 0.5, 1.0});
+    const Vec2 p = test::cell_centre(k, per_side, spacing);
+    list.push_back({p.x, p.y, draws.in(-1.7, 1.7), draws.in(-1.7, 1.7), 0.5, 1.0});
   }
   return test::state_of(scene, list);
 }

@@ -81,6 +81,13 @@ inline State state_of(const Scene& scene, const std::vector<Disk>& list) {
   return state;
 }
 
+// Centre of cell k of a square of per_side x per_side cells, row by row.
+inline Vec2 cell_centre(int k, int per_side, double cell) {
+  const int column = k % per_side;
+  const int row = k / per_side;
+  return {cell * (0.5 + column), cell * (0.5 + row)};
+}
+
 struct Ranges {
   double radius_low = 1.0, radius_high = 1.0;
   double mass_low = 1.0, mass_high = 1.0;
