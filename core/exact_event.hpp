@@ -29,6 +29,12 @@ struct ExactDisk {
   double last_contact = -never;  // TC model: when it last collided, disk or wall; time in the window, may be < 0
 };
 
+// What an event transferred: |impulse| x distance of a disk pair (mass length^2 / time), |impulse| of a wall.
+struct EventOutcome {
+  double amount = 0.0;
+  bool counts = false;
+};
+
 // What is counted during a window. The sums do not depend on the order of events.
 struct ExactTally {
   Count collisions = 0;
@@ -39,6 +45,18 @@ struct ExactTally {
   ExactTally() = default;
   // momentum: about the largest m |v|; length: about the largest r1 + r2.
   ExactTally(double momentum, double length) : virial(momentum * length) { wall_impulse.fill(OrderFreeSum(momentum)); }
+
+  // partner: the second disk, or a side (contact_event.hpp).
+  void count(DiskId partner, const EventOutcome& outcome) {
+    if (!outcome.counts) return;
+    if (is_wall(partner)) {
+      wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(outcome.amount);
+      ++wall_collisions;
+    } else {
+      virial.add(outcome.amount);
+      ++collisions;
+    }
+  }
   void add(const ExactTally& other) {
     collisions += other.collisions;
     wall_collisions += other.wall_collisions;
@@ -53,24 +71,25 @@ inline double restitution_at(const ExactRules& rules, double e, double s, double
 }
 
 // Disks a and b (smaller id first) collide at time s; their new segments start there.
-inline void collide_at(const ExactRules& rules, double s, double mass_a, double mass_b, ExactDisk& a, ExactDisk& b,
-                       ExactTally& tally) {
+inline EventOutcome collide_at(const ExactRules& rules, double s, double mass_a, double mass_b, ExactDisk& a,
+                               ExactDisk& b) {
   PathSegment& p = a.path;
   PathSegment& q = b.path;
   p = carried_to(p, s, rules.gravity);
   q = carried_to(q, s, rules.gravity);
   const Relative r = relative(p, q, rules.box);
+  EventOutcome outcome;
   if (r.approach() < 0.0 && r.distance2() > 0.0) {
     const Shares share = rules.common_mass ? equal_shares : shares(mass_a, mass_b);
     const double e = restitution_at(rules, rules.restitution, s, std::max(a.last_contact, b.last_contact));
     const double change = collide(r, share, e, p.vx, p.vy, q.vx, q.vy);
-    tally.virial.add(reduced_mass(mass_a, mass_b) * change);
-    ++tally.collisions;
+    outcome = {reduced_mass(mass_a, mass_b) * change, true};
     a.last_contact = s;
     b.last_contact = s;
   }
   wrap_into(p, rules.box);
   wrap_into(q, rules.box);
+  return outcome;
 }
 
 // A disk that lies on the floor would collide infinitely often. Under the TC model it leaves the floor with at least
@@ -78,21 +97,22 @@ inline void collide_at(const ExactRules& rules, double s, double mass_a, double 
 // of the order of what the model leaves to any disk at rest.
 inline constexpr double least_hop = 0.25;
 
-// Disk a meets a side at time s: bounces off a wall, crosses a periodic side; sinks are the caller's.
-inline void meet_side_at(const ExactRules& rules, double s, Side side, double mass, ExactDisk& a, ExactTally& tally) {
+// Disk a meets a side at time s: bounces off a wall, crosses a periodic side; a sink takes it, which the caller sees
+// to.
+inline EventOutcome meet_side_at(const ExactRules& rules, double s, Side side, double mass, ExactDisk& a) {
   PathSegment& p = a.path;
   p = carried_to(p, s, rules.gravity);
+  EventOutcome outcome;
   if (rules.box.side(side) == SideKind::wall) {
     const double e = restitution_at(rules, rules.box.wall_restitution, s, a.last_contact);
     const double before = outward_speed(side, p.vx, p.vy);
     if (before > 0.0) bounce(side, e, p.vx, p.vy);
     if (side == Side::bottom && rules.tc()) p.vy = std::max(p.vy, least_hop * rules.gravity * rules.contact_time);
-    const double change = before - outward_speed(side, p.vx, p.vy);
-    if (change > 0.0) tally.wall_impulse[static_cast<std::size_t>(side)].add(mass * change);
-    ++tally.wall_collisions;
+    outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), true};
     a.last_contact = s;
   }
-  wrap_into(p, rules.box);
+  if (rules.box.side(side) != SideKind::sink) wrap_into(p, rules.box);
+  return outcome;
 }
 
 // Inelastic collapse: more than this many events of one disk within this share of the window's length. Honest bursts

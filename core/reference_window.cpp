@@ -77,15 +77,12 @@ class EventLoop {
     const bool pair = !is_wall(e.id2);
     add_travel(e.i1, e.time);
     if (pair) add_travel(e.i2, e.time);
-    if (pair) {
-      collide_at(rules_, e.time, disks_.mass_of(e.i1), disks_.mass_of(e.i2), result_.disks[e.i1], result_.disks[e.i2],
-                 result_.tally);
-    } else if (rules_.box.side(wall_side(e.id2)) == SideKind::sink) {
-      result_.gone[e.i1] = 1;
-      result_.disks[e.i1].path = carried_to(path(e.i1), e.time, rules_.gravity);
-    } else {
-      meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), result_.disks[e.i1], result_.tally);
-    }
+    ExactDisk& first = result_.disks[e.i1];
+    const EventOutcome outcome =
+        pair ? collide_at(rules_, e.time, disks_.mass_of(e.i1), disks_.mass_of(e.i2), first, result_.disks[e.i2])
+             : meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), first);
+    result_.tally.count(e.id2, outcome);
+    if (!pair && rules_.box.side(wall_side(e.id2)) == SideKind::sink) result_.gone[e.i1] = 1;
     begin_segment(e, e.i1);
     if (pair) begin_segment(e, e.i2);
     if (pair) predict(e.i2, false);

@@ -19,17 +19,28 @@ constexpr double first_share = 1.0 / 16.0;
 
 }  // namespace
 
+void find_largest_speeds(const Disks& d, std::size_t begin, std::size_t end, SpeedSummary& s) {
+  double largest2 = s.largest2;
+  double momentum2 = s.largest_momentum2;
+  for (std::size_t i = begin; i < end; ++i) {
+    const double v2 = d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
+    const double m = d.mass_of(i);
+    largest2 = std::max(largest2, v2);
+    momentum2 = std::max(momentum2, m * m * v2);
+  }
+  s.largest2 = largest2;
+  s.largest_momentum2 = momentum2;
+}
+
+void add_squared_speeds(const Disks& d, std::size_t begin, std::size_t end, OrderFreeSum& sum) {
+  for (std::size_t i = begin; i < end; ++i) sum.add(d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+}
+
 SpeedSummary summarise_speeds(const Disks& d) {
   SpeedSummary s;
-  double momentum2 = 0.0;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    const double v2 = d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
-    s.largest2 = std::max(s.largest2, v2);
-    momentum2 = std::max(momentum2, d.mass_of(i) * d.mass_of(i) * v2);
-  }
-  s.largest_momentum = std::sqrt(momentum2);
+  find_largest_speeds(d, 0, d.size(), s);
   OrderFreeSum sum(s.largest2);
-  for (std::size_t i = 0; i < d.size(); ++i) sum.add(d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+  add_squared_speeds(d, 0, d.size(), sum);
   if (!d.empty()) s.mean2 = sum.value() / static_cast<double>(d.size());
   return s;
 }

@@ -45,7 +45,7 @@ WindowPlan plan_window(const Scene& scene, const State& state, const SpeedSummar
 ExactTally make_tally(const Scene& scene, const Disks& disks, const SpeedSummary& speeds, double length) {
   double mass = disks.common_mass;
   for (const double m : disks.mass) mass = std::max(mass, m);
-  const double momentum = speeds.largest_momentum + mass * scene.physics.gravity * length;
+  const double momentum = std::sqrt(speeds.largest_momentum2) + mass * scene.physics.gravity * length;
   return {momentum, 2.0 * largest_radius(disks)};
 }
 

@@ -10,7 +10,7 @@ namespace carom {
 namespace {
 
 // Disks whose lists share a vector: enough that vectors are few, few enough to share out among threads.
-constexpr std::size_t list_block = 4096;
+constexpr std::size_t disks_per_block = 4096;
 // Up to so many disks everybody is in everybody's list: nothing to keep in order, and windows of few disks are long.
 constexpr std::size_t everybody_below = 40;
 // Twice the roam and a diameter reach this many spacings: about seven neighbours. Longer lists are looked through more
@@ -60,13 +60,13 @@ void ExactLists::build(Disks& d, const Domain& box, const Executor& executor) {
   place_.resize(n);
   lists_.resize(n);
   sides_.resize(n);
-  block_ = executor.grain(list_block);
-  near_.resize(executor.blocks(n, list_block));
-  executor.for_ranges(n, list_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+  block_ = executor.grain(disks_per_block);
+  near_.resize(executor.blocks(n, disks_per_block));
+  executor.for_ranges(n, disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) place_[i] = {d.x[i], d.y[i]};
   });
-  executor.for_ranges(n, list_block,
-                      [&](std::size_t b, std::size_t begin, std::size_t end) { this->list_block(d, b, begin, end); });
+  executor.for_ranges(n, disks_per_block,
+                      [&](std::size_t b, std::size_t begin, std::size_t end) { list_block(d, b, begin, end); });
 }
 
 void ExactLists::list_block(const Disks& d, std::size_t b, std::size_t begin, std::size_t end) {

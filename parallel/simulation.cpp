@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/check.hpp"
+#include "parallel/exact_engine.hpp"
 #include "parallel/pairwise.hpp"
 #include "parallel/rollback.hpp"
 
@@ -15,7 +15,7 @@ std::unique_ptr<Engine> make_parallel_engine(const Scene& scene, State initial, 
     case Method::pairwise:
       return make_parallel_pairwise(scene, std::move(initial), threads);
     default:
-      throw InputError("method exact is not built yet; choose pairwise or rollback (--method pairwise)");
+      return make_parallel_exact(scene, std::move(initial), threads);
   }
 }
 

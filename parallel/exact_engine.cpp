@@ -1,0 +1,298 @@
+#include "parallel/exact_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/check.hpp"
+#include "core/disk_pair.hpp"
+#include "core/step_start.hpp"
+#include "core/window_plan.hpp"
+#include "core/window_start.hpp"
+#include "parallel/compact.hpp"
+#include "parallel/exact_lists.hpp"
+#include "parallel/exact_slice.hpp"
+#include "parallel/executor.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks a block in passes that look at each disk once.
+constexpr std::size_t pass_block = 8192;
+// Events are looked for this many windows ahead; a disk without any in sight is looked at again then.
+constexpr double windows_ahead = 8.0;
+// Events a disk a slice: fewer make components smaller and conflicts rarer, more save looking through the due times.
+constexpr double events_per_slice = 0.04;
+// All disks are listed and sorted anew when one in so many has been listed anew by itself.
+constexpr std::size_t listed_share = 8;
+// Up to so many disks one slice serves the whole window.
+constexpr std::size_t one_slice_below = 40;
+
+class ParallelExact final : public Engine {
+ public:
+  ParallelExact(const Scene& scene, State initial, const Threads& threads)
+      : scene_(scene),
+        state_(std::move(initial)),
+        executor_(threads.count, threads.block_divisor),
+        slices_(field_, lists_, executor_) {}
+
+  void step() override {
+    if (!(state_.time < scene_.run.t_end)) return;
+    start_window();
+    const WindowPlan plan = plan_window(scene_, state_, summarise(), 1.0);
+    list_if_due();
+    load_paths(plan);
+    run_slices(plan);
+    store_paths(plan);
+  }
+
+  const State& state() const override { return state_; }
+  double disks_at(double t, Disks& out) const override;
+  const PhaseTimes& phase_times() const override { return times_; }
+  std::vector<std::string> take_warnings() override { return {}; }
+
+ private:
+  void start_window();
+  void begin_brownian();
+  bool has_room(const Disk& newcomer) const;
+  void remove(const std::vector<unsigned char>& gone);
+  SpeedSummary summarise();
+  void list_if_due();
+  void load_paths(const WindowPlan& plan);
+  void run_slices(const WindowPlan& plan);
+  void store_paths(const WindowPlan& plan);
+
+  Scene scene_;
+  State state_;
+  Executor executor_;
+  PhaseTimes times_;
+  SpeedSummary speeds_;
+  ExactField field_;
+  ExactLists lists_;
+  ExactSlices slices_;
+  bool lists_good_ = false;   // lists_ and field_ go with the storage order
+  bool due_good_ = false;     // so do the due times, on paths that have not changed
+  double last_length_ = 0.0;  // of the window before
+  double slice_ = 0.0;        // length of the last slice; time
+  WindowPlan last_plan_;
+  std::vector<unsigned char> gone_;
+  Disks at_start_;  // the columns before the last window's sinks took any; else empty
+  std::vector<double> column_scratch_;
+  std::vector<DiskId> id_scratch_;
+};
+
+// Sources emit, Brownian disks draw their velocities; those that cross a sink unseen in the interval leave.
+void ParallelExact::start_window() {
+  const PhaseTimer timer(times_, "start");
+  if (!scene_.sources.empty()) {
+    const Count before = state_.counters.emitted;
+    emit_at_window_start(scene_, state_, [&](const Disk& d) { return has_room(d); });
+    if (state_.counters.emitted != before) lists_good_ = false;
+  }
+  if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
+  if (brownian_interval_begins(scene_, state_)) begin_brownian();
+}
+
+// While disks come in, the lists still know those that were there before.
+bool ParallelExact::has_room(const Disk& newcomer) const {
+  const Disks& d = state_.disks;
+  const Domain& box = scene_.box;
+  const auto meets = [&](std::size_t i) {
+    double dx = newcomer.x - d.x[i];
+    double dy = newcomer.y - d.y[i];
+    if (box.periodic_x()) dx = nearest_image(dx, box.width);
+    if (box.periodic_y()) dy = nearest_image(dy, box.height);
+    return touches(dx * dx + dy * dy, newcomer.radius + d.radius_of(i));
+  };
+  const std::size_t listed = lists_good_ ? field_.path.size() : 0;
+  for (std::size_t i = listed; i < d.size(); ++i) {
+    if (meets(i)) return false;
+  }
+  bool met = false;
+  if (listed > 0) {
+    lists_.visit_near(newcomer.x, newcomer.y, newcomer.radius + lists_.roam(),
+                      [&](std::uint32_t i) { met = met || meets(i); });
+  }
+  return !met;
+}
+
+void ParallelExact::begin_brownian() {
+  const BrownianInterval interval = begin_brownian_interval(scene_, state_);
+  const std::size_t n = state_.disks.size();
+  const bool sinks = has_brownian_sink(scene_);
+  gone_.assign(sinks ? n : 0, 0);
+  with_view(state_.disks, [&](const auto& d) {
+    executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+      draw_brownian(d, scene_, interval.number, interval.length, begin, end);
+      for (std::size_t i = begin; sinks && i < end; ++i) {
+        gone_[i] = crosses_sink(d, scene_, interval.number, interval.length, i) ? 1 : 0;
+      }
+    });
+  });
+  due_good_ = false;
+  if (sinks) remove(gone_);
+}
+
+void ParallelExact::remove(const std::vector<unsigned char>& gone) {
+  const std::size_t before = state_.disks.size();
+  remove_in_parallel(state_.disks, gone, executor_, column_scratch_, id_scratch_);
+  state_.counters.removed += before - state_.disks.size();
+  if (state_.disks.size() != before) lists_good_ = false;
+}
+
+// summarise_speeds of core, block by block: maxima and sums of whole numbers, which do not depend on order.
+SpeedSummary ParallelExact::summarise() {
+  const Disks& d = state_.disks;
+  const std::size_t blocks = executor_.blocks(d.size(), pass_block);
+  std::vector<SpeedSummary> largest(blocks);
+  executor_.for_ranges(d.size(), pass_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    find_largest_speeds(d, begin, end, largest[b]);
+  });
+  SpeedSummary s;
+  for (const SpeedSummary& block : largest) {
+    s.largest2 = std::max(s.largest2, block.largest2);
+    s.largest_momentum2 = std::max(s.largest_momentum2, block.largest_momentum2);
+  }
+  std::vector<OrderFreeSum> sums(blocks, OrderFreeSum(s.largest2));
+  executor_.for_ranges(d.size(), pass_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    add_squared_speeds(d, begin, end, sums[b]);
+  });
+  OrderFreeSum sum(s.largest2);
+  for (const OrderFreeSum& block : sums) sum.add(block);
+  if (!d.empty()) s.mean2 = sum.value() / static_cast<double>(d.size());
+  speeds_ = s;
+  return s;
+}
+
+void ParallelExact::list_if_due() {
+  if (lists_good_ && lists_.listed_anew() * listed_share <= state_.disks.size()) return;
+  const PhaseTimer timer(times_, "list");
+  lists_.build(state_.disks, scene_.box, executor_);
+  lists_good_ = true;
+  due_good_ = false;
+}
+
+void ParallelExact::load_paths(const WindowPlan& plan) {
+  const PhaseTimer timer(times_, "load");
+  const Disks& d = state_.disks;
+  const std::size_t n = d.size();
+  field_.rules = exact_rules(scene_, d);
+  field_.disks = &d;
+  field_.length = plan.length;
+  field_.horizon = windows_ahead * plan.length;
+  field_.path.resize(n);
+  field_.due.resize(n);
+  field_.owner.resize(n, nobody);
+  const bool tc = !state_.last_contact.empty();
+  field_.last_contact.resize(tc ? n : 0);
+  // Only what dissipates can collapse, or what rests on the floor.
+  const bool may_collapse =
+      field_.rules.restitution < 1.0 || scene_.box.wall_restitution < 1.0 || field_.rules.gravity > 0.0;
+  field_.burst.resize(may_collapse ? n : 0);
+  executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      field_.path[i] = {0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]};
+      // A little early, for the rounding of paths that begin afresh.
+      field_.due[i] = due_good_ ? (field_.due[i] - last_length_) - 1e-9 * last_length_ : 0.0;
+      field_.owner[i] = nobody;
+      if (tc) field_.last_contact[i] = state_.last_contact[d.id[i]] - plan.start;
+      if (may_collapse) field_.burst[i] = {};
+    }
+  });
+}
+
+void ParallelExact::run_slices(const WindowPlan& plan) {
+  const PhaseTimer timer(times_, "events");
+  slices_.begin_window(make_tally(scene_, state_.disks, speeds_, plan.length));
+  const std::size_t n = state_.disks.size();
+  const double aimed = std::max(4.0, events_per_slice * static_cast<double>(n));
+  if (!(slice_ > 0.0)) slice_ = 0.125 * plan.length;
+  double start = 0.0;
+  Count seen = 0;
+  while (start < plan.length) {
+    const double left = plan.length - start;
+    const double parts = n <= one_slice_below ? 1.0 : std::ceil(left / slice_);
+    double end = parts > 1.0 ? start + left / parts : never;
+    while (!slices_.run(start, end, plan.start)) {
+      end = start + 0.5 * (std::min(end, plan.length) - start);
+      if (!(end > start))
+        throw PhysicsError("exact: a disk is too fast for the window at t = " + std::to_string(plan.start));
+    }
+    const double events = std::max(0.5, static_cast<double>(slices_.events() - seen));
+    const double elapsed = std::min(end, plan.length) - start;
+    slice_ = elapsed * std::clamp(aimed / events, 0.5, 2.0);
+    seen = slices_.events();
+    start = end;
+  }
+}
+
+void ParallelExact::store_paths(const WindowPlan& plan) {
+  const PhaseTimer timer(times_, "store");
+  Disks& d = state_.disks;
+  const std::size_t n = d.size();
+  const bool any_gone = slices_.any_gone();
+  gone_.assign(any_gone ? n : 0, 0);
+  executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      PathSegment p = carried_to(field_.path[i], plan.length, field_.rules.gravity);
+      if (any_gone && std::isnan(p.x)) {
+        gone_[i] = 1;
+      } else {
+        wrap_into(p, scene_.box);
+      }
+      d.x[i] = p.x;
+      d.y[i] = p.y;
+      d.vx[i] = p.vx;
+      d.vy[i] = p.vy;
+      if (!state_.last_contact.empty()) state_.last_contact[d.id[i]] = plan.start + field_.last_contact[i];
+    }
+  });
+  at_start_ = any_gone ? d : Disks{};
+  due_good_ = true;
+  last_length_ = plan.length;
+  last_plan_ = plan;
+  if (any_gone) remove(gone_);
+  finish_window(state_, plan, slices_.tally(), 1.0);
+}
+
+double ParallelExact::disks_at(double t, Disks& out) const {
+  if (!(t < state_.time) || state_.counters.steps == 0) {
+    out = state_.disks;
+    return state_.time;
+  }
+  const double s = t > last_plan_.start ? t - last_plan_.start : 0.0;
+  out = slices_.any_gone() ? at_start_ : state_.disks;
+  // The piece that is last of those begun by s; a block's log has a disk's pieces in order.
+  std::vector<PathSegment> path = field_.path;
+  std::vector<unsigned char> gone(path.size(), 0);
+  std::vector<unsigned char> logged(path.size(), 0);
+  for (const std::vector<LoggedPiece>& log : slices_.log()) {
+    for (const LoggedPiece& piece : log) {
+      if (piece.path.start > s || (logged[piece.disk] != 0 && piece.path.start < path[piece.disk].start)) continue;
+      path[piece.disk] = piece.path;
+      gone[piece.disk] = piece.gone ? 1 : 0;
+      logged[piece.disk] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    PathSegment p = carried_to(path[i], s, scene_.physics.gravity);
+    wrap_into(p, scene_.box);
+    out.x[i] = p.x;
+    out.y[i] = p.y;
+    out.vx[i] = p.vx;
+    out.vy[i] = p.vy;
+  }
+  remove_marked(out, gone);
+  return t;
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> make_parallel_exact(const Scene& scene, State initial, const Threads& threads) {
+  return std::make_unique<ParallelExact>(scene, std::move(initial), threads);
+}
+
+}  // namespace carom

@@ -1,0 +1,273 @@
+#include "parallel/exact_slice.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/window_plan.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks a block: a block's paths and lists fit in the second-level cache together.
+constexpr std::size_t look_block = 2048;
+
+bool stands(const Component& c) {
+  return c.status == ComponentStatus::solved || c.status == ComponentStatus::collapsed;
+}
+
+// The pieces of a member's path through the slice, the one it starts with first; each ends where the next one starts.
+void unroll(const ExactField& field, const Member& m, const std::vector<Piece>& pieces,
+            std::vector<PathSegment>& path) {
+  path.clear();
+  for (std::uint32_t p = m.last_piece; p != nobody; p = pieces[p].before) path.push_back(pieces[p].path);
+  path.push_back(field.path[m.disk]);
+  std::reverse(path.begin(), path.end());
+}
+
+}  // namespace
+
+void ExactSlices::begin_window(const ExactTally& tally) {
+  const std::size_t n = field_.path.size();
+  block_ = std::max(executor_.grain(look_block), n / (most_arenas / 2) + 1);
+  const std::size_t blocks = (n + block_ - 1) / block_;
+  arenas_.resize(blocks + 1);
+  for (std::size_t a = 0; a < arenas_.size(); ++a) arenas_[a].number = static_cast<std::uint32_t>(a);
+  tallies_.assign(blocks + 1, tally);
+  log_.resize(blocks + 1);
+  for (auto& log : log_) log.clear();
+  gone_seen_.assign(blocks + 1, 0);
+  any_gone_ = false;
+}
+
+bool ExactSlices::run(double start, double end, double window_start) {
+  field_.slice_start = start;
+  field_.slice_end = end;
+  look();
+  cross();
+  if (!join()) {
+    release_all();
+    return false;
+  }
+  fail_if_collapsed(window_start);
+  commit();
+  return true;
+}
+
+void ExactSlices::look() {
+  joint().clear();
+  executor_.run(arenas_.size() - 1, [&](std::size_t b) {
+    arenas_[b].clear();
+    ComponentSolver solver(field_, lists_, arenas_[b]);
+    const std::size_t end = std::min(field_.path.size(), (b + 1) * block_);
+    for (std::size_t i = b * block_; i < end; ++i) {
+      if (field_.in_slice(field_.due[i])) solver.look_at(static_cast<std::uint32_t>(i));
+    }
+  });
+}
+
+void ExactSlices::cross() {
+  executor_.run(arenas_.size() - 1, [&](std::size_t a) { cross_check(arenas_[a], 0, arenas_[a].conflicts); });
+}
+
+// Looks at the arena's cross pairs from number `begin` on. Components that meet go to `conflicts`; otherwise the member
+// learns when it will meet the other after the slice.
+void ExactSlices::cross_check(ComponentArena& arena, std::size_t begin, std::vector<Conflict>& conflicts) {
+  for (std::size_t k = begin; k < arena.cross_pairs.size(); ++k) {
+    const CrossPair pair = arena.cross_pairs[k];
+    Member& a = arena.members[pair.member];
+    const ComponentArena& other = arenas_[arena_of(pair.other)];
+    const Member& b = other.members[member_of(pair.other)];
+    if (!stands(arena.components[a.component]) || !stands(other.components[b.component])) continue;
+    const double t = first_meeting(a, arena.pieces, b, other.pieces);
+    if (field_.in_slice(t)) {
+      conflicts.push_back({handle_of(arena.number, pair.member), pair.other});
+    } else {
+      a.due = std::min(a.due, t);
+    }
+  }
+}
+
+// When the paths of two members of different components first meet, each segment up to and including its end.
+double ExactSlices::first_meeting(const Member& a, const std::vector<Piece>& pieces_a, const Member& b,
+                                  const std::vector<Piece>& pieces_b) const {
+  thread_local std::vector<PathSegment> path_a;
+  thread_local std::vector<PathSegment> path_b;
+  unroll(field_, a, pieces_a, path_a);
+  unroll(field_, b, pieces_b, path_b);
+  const Disks& d = *field_.disks;
+  const bool in_order = d.id[a.disk] < d.id[b.disk];
+  const std::vector<PathSegment>& first = in_order ? path_a : path_b;
+  const std::vector<PathSegment>& second = in_order ? path_b : path_a;
+  const Member& m1 = in_order ? a : b;
+  const Member& m2 = in_order ? b : a;
+  const double reach = d.radius_of(m1.disk) + d.radius_of(m2.disk);
+  // The segment that begins where a disk left through a sink is no path.
+  const std::size_t n1 = first.size() - (m1.gone ? 1 : 0);
+  const std::size_t n2 = second.size() - (m2.gone ? 1 : 0);
+  double earliest = never;
+  for (std::size_t i = 0; i < n1; ++i) {
+    const double end1 = i + 1 < first.size() ? first[i + 1].start : never;
+    for (std::size_t j = 0; j < n2; ++j) {
+      const double end2 = j + 1 < second.size() ? second[j + 1].start : never;
+      const double end = std::min(end1, end2);
+      if (std::max(first[i].start, second[j].start) > end) continue;
+      const double t = meeting_time(first[i], second[j], reach, field_.rules.box, field_.rules.gravity, field_.horizon);
+      if (t <= end) earliest = std::min(earliest, t);
+    }
+  }
+  return earliest;
+}
+
+void ExactSlices::release(ComponentArena& arena, Component& c, std::vector<std::uint32_t>& disks) {
+  c.status = ComponentStatus::conflict;
+  for (std::uint32_t m = c.first; m < c.first + c.count; ++m) {
+    const std::uint32_t i = arena.members[m].disk;
+    if (field_.owner[i] != handle_of(arena.number, m)) continue;
+    field_.owner[i] = nobody;
+    disks.push_back(i);
+  }
+}
+
+void ExactSlices::release_all() {
+  for (ComponentArena& arena : arenas_) {
+    for (const Member& m : arena.members) field_.owner[m.disk] = nobody;
+  }
+}
+
+// What cannot stand is solved again, together with whom it meets, until nothing meets.
+bool ExactSlices::join() {
+  waiting_.clear();
+  listed_anew_.clear();
+  for (std::size_t a = 0; a + 1 < arenas_.size(); ++a) {
+    ComponentArena& arena = arenas_[a];
+    for (const Conflict& c : arena.conflicts) {
+      release(arena, component_of(c.a), waiting_);
+      release(arenas_[arena_of(c.b)], component_of(c.b), waiting_);
+    }
+    for (Component& c : arena.components) {
+      if (!stands(c)) release(arena, c, waiting_);
+    }
+  }
+  for (const ComponentArena& arena : arenas_) {
+    for (const std::uint32_t i : arena.roaming) {
+      if (field_.owner[i] != nobody) continue;  // its component found that it turns round in time
+      list_anew(i);
+      waiting_.push_back(i);
+    }
+  }
+  ComponentSolver solver(field_, lists_, joint());
+  std::vector<std::uint32_t> group;
+  for (std::size_t k = 0; k < waiting_.size(); ++k) {
+    if (field_.owner[waiting_[k]] != nobody) continue;
+    group.assign(1, waiting_[k]);
+    if (!solve_together(solver, group)) return false;
+  }
+  return true;
+}
+
+// Solves the component that grows from the group; whoever it meets in a standing component joins the group with that
+// component's members, and so on. False if a disk goes too far within the slice.
+bool ExactSlices::solve_together(ComponentSolver& solver, std::vector<std::uint32_t>& group) {
+  ComponentArena& arena = joint();
+  std::vector<Conflict> conflicts;
+  for (;;) {
+    const std::size_t pairs_before = arena.cross_pairs.size();
+    const std::size_t conflicts_before = arena.conflicts.size();
+    const std::uint32_t number = solver.solve(group);
+    conflicts.assign(arena.conflicts.begin() + static_cast<std::ptrdiff_t>(conflicts_before), arena.conflicts.end());
+    const ComponentStatus status = arena.components[number].status;
+    if (status == ComponentStatus::roams && !list_roamers(number)) return false;
+    if (stands(arena.components[number])) cross_check(arena, pairs_before, conflicts);
+    if (conflicts.empty() && status != ComponentStatus::roams) return true;
+    group.clear();
+    release(arena, arena.components[number], group);
+    for (const Conflict& c : conflicts) release(arenas_[arena_of(c.b)], component_of(c.b), group);
+  }
+}
+
+// Lists the members anew that leave the range of their lists.
+bool ExactSlices::list_roamers(std::uint32_t number) {
+  const Component c = joint().components[number];
+  for (std::uint32_t m = c.first; m < c.first + c.count; ++m) {
+    const Member& member = joint().members[m];
+    if (!field_.in_slice(member.due)) continue;
+    if (!list_anew(member.disk)) return false;
+  }
+  return true;
+}
+
+// Around where the disk is at the slice's start; false if that has been done in this slice already.
+bool ExactSlices::list_anew(std::uint32_t i) {
+  if (!listed_anew_.insert(i).second) return false;
+  PathSegment p = carried_to(field_.path[i], field_.slice_start, field_.rules.gravity);
+  wrap_into(p, field_.rules.box);
+  lists_.list_anew(i, p.x, p.y, *field_.disks);
+  field_.due[i] = field_.slice_start;  // what was known held for the old list
+  return true;
+}
+
+void ExactSlices::fail_if_collapsed(double window_start) const {
+  const Component* first = nullptr;
+  const auto before = [](const Component& a, const Component& b) {
+    if (a.time != b.time) return a.time < b.time;
+    return a.id1 != b.id1 ? a.id1 < b.id1 : a.id2 < b.id2;
+  };
+  if (field_.burst.empty()) return;
+  for (const ComponentArena& arena : arenas_) {
+    for (const Component& c : arena.components) {
+      if (c.status == ComponentStatus::collapsed && (first == nullptr || before(c, *first))) first = &c;
+    }
+  }
+  if (first != nullptr) fail_collapse(first->id1, first->id2, window_start + first->time);
+}
+
+void ExactSlices::commit() {
+  executor_.run(arenas_.size(), [&](std::size_t a) { commit_arena(a); });
+  for (const unsigned char seen : gone_seen_) any_gone_ = any_gone_ || seen != 0;
+}
+
+void ExactSlices::commit_arena(std::size_t a) {
+  ComponentArena& arena = arenas_[a];
+  ExactTally& tally = tallies_[a];
+  std::vector<LoggedPiece>& log = log_[a];
+  for (const Component& c : arena.components) {
+    if (!stands(c)) continue;
+    for (std::uint32_t k = c.first; k < c.first + c.count; ++k) {
+      const Member& m = arena.members[k];
+      field_.owner[m.disk] = nobody;
+      field_.due[m.disk] = m.gone ? never : std::min(m.next.time, m.due);
+      if (m.version == 0) continue;
+      PathSegment& path = field_.path[m.disk];
+      if (path.start == 0.0) log.push_back({m.disk, false, path});
+      const std::size_t first = log.size();
+      for (std::uint32_t p = m.last_piece; p != nobody; p = arena.pieces[p].before) {
+        const Piece& piece = arena.pieces[p];
+        log.push_back({m.disk, m.gone && p == m.last_piece, piece.path});
+        if (piece.partner != nobody) tally.count(piece.partner, piece.outcome);
+      }
+      std::reverse(log.begin() + static_cast<std::ptrdiff_t>(first), log.end());
+      path = m.now.path;
+      if (!field_.last_contact.empty()) field_.last_contact[m.disk] = m.now.last_contact;
+      if (!field_.burst.empty()) field_.burst[m.disk] = m.burst;
+      if (!m.gone) continue;
+      // Nobody can meet a path that is not a number.
+      path.x = path.y = std::numeric_limits<double>::quiet_NaN();
+      gone_seen_[a] = 1;
+    }
+  }
+}
+
+ExactTally ExactSlices::tally() const {
+  ExactTally sum = tallies_.front();
+  for (std::size_t k = 1; k < tallies_.size(); ++k) sum.add(tallies_[k]);
+  return sum;
+}
+
+Count ExactSlices::events() const {
+  Count events = 0;
+  for (const ExactTally& t : tallies_) events += t.collisions + t.wall_collisions;
+  return events;
+}
+
+}  // namespace carom

@@ -1,0 +1,84 @@
+// A slice of a window: every event of a short time, solved in components by all threads.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_set>
+#include <vector>
+
+#include "core/exact_event.hpp"
+#include "parallel/exact_component.hpp"
+#include "parallel/exact_lists.hpp"
+#include "parallel/executor.hpp"
+
+namespace carom {
+
+// A segment of a disk's path in the last window; frames are read from these.
+struct LoggedPiece {
+  std::uint32_t disk;
+  bool gone;  // left through a sink at path.start
+  PathSegment path;
+};
+
+// The events of [slice_start, slice_end) happen in four phases:
+//   1. look      every disk that is due grows a component of the disks that it meets       all blocks at once
+//   2. cross     members of different components that are neighbours: do their paths meet?  all arenas at once
+//   3. join      components that meet are solved again, together                            one thread; a few in 100
+//   4. commit    the members' new paths become everybody's                                  all arenas at once
+// In phases 1 to 3 the paths at the slice's start are only read, so a component is a function of its members. Which
+// component a disk ends up in depends on the threads; its path does not: a component whose members meet nobody outside
+// is the true motion of its members, whoever else is in it.
+class ExactSlices {
+ public:
+  ExactSlices(ExactField& field, ExactLists& lists, const Executor& executor)
+      : field_(field), lists_(lists), executor_(executor) {}
+
+  // A window begins: the log is empty, `tally` is an empty one with its scales.
+  void begin_window(const ExactTally& tally);
+
+  // Runs the slice. False: a disk went too far for its list within it, nothing has happened; cut the slice short and
+  // try again. Returns true when done. Throws PhysicsError at inelastic collapse.
+  bool run(double start, double end, double window_start);
+
+  ExactTally tally() const;
+  Count events() const;  // of the window so far
+  bool any_gone() const { return any_gone_; }
+  std::span<const std::vector<LoggedPiece>> log() const { return log_; }
+
+ private:
+  void look();
+  void cross();
+  bool join();
+  void commit();
+
+  void cross_check(ComponentArena& arena, std::size_t begin, std::vector<Conflict>& conflicts);
+  double first_meeting(const Member& a, const std::vector<Piece>& pieces_a, const Member& b,
+                       const std::vector<Piece>& pieces_b) const;
+  bool solve_together(ComponentSolver& solver, std::vector<std::uint32_t>& group);
+  bool list_roamers(std::uint32_t component);
+  bool list_anew(std::uint32_t i);
+  void release(ComponentArena& arena, Component& component, std::vector<std::uint32_t>& disks);
+  void release_all();
+  void fail_if_collapsed(double window_start) const;
+  void commit_arena(std::size_t a);
+
+  Component& component_of(std::uint32_t handle) {
+    ComponentArena& arena = arenas_[arena_of(handle)];
+    return arena.components[arena.members[member_of(handle)].component];
+  }
+  ComponentArena& joint() { return arenas_.back(); }
+
+  ExactField& field_;
+  ExactLists& lists_;
+  const Executor& executor_;
+  std::size_t block_ = 1;               // disks a block
+  std::vector<ComponentArena> arenas_;  // one a block, and one for what is joined
+  std::vector<ExactTally> tallies_;     // likewise
+  std::vector<std::vector<LoggedPiece>> log_;
+  std::vector<unsigned char> gone_seen_;
+  std::vector<std::uint32_t> waiting_;             // disks to be solved again
+  std::unordered_set<std::uint32_t> listed_anew_;  // in this slice
+  bool any_gone_ = false;
+};
+
+}  // namespace carom
