@@ -1,31 +1,86 @@
 #include "parallel/exact_component.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace carom {
 
-// The earliest event of disk i on this path with those that path_of(j) gives a path for (null: left out).
-template <class PathOf>
-NextEvent ComponentSolver::earliest(std::uint32_t i, const PathSegment& path, PathOf&& path_of) const {
+namespace {
+
+// Relative room for rounding in bounds: far above that of doubles, far below what would cost anything.
+constexpr double bound_margin = 1e-9;
+
+// Bounds on when a disk meets others, from rays.
+class MeetingBound {
+ public:
+  MeetingBound(const ExactField& field, const PathSegment& path)
+      : box_(field.rules.box),
+        around_x_(box_.periodic_x()),
+        around_y_(box_.periodic_y()),
+        ray_(ray_of(path, field.rules.gravity)),
+        from_(std::max(path.start, field.slice_start)) {}
+
+  // A time before which the disk cannot meet the other one; `never` when it cannot meet it at all from now on.
+  double operator()(const Ray& other, double reach) const {
+    double dx = other.x - ray_.x;
+    double dy = other.y - ray_.y;
+    if (around_x_) dx = nearest_image(dx, box_.width);
+    if (around_y_) dy = nearest_image(dy, box_.height);
+    const double dvx = other.vx - ray_.vx;
+    const double dvy = other.vy - ray_.vy;
+    const double a = dvx * dvx + dvy * dvy;
+    const double b = dx * dvx + dy * dvy;
+    const double near = reach * (1.0 + bound_margin);
+    // Receding clearly, not just by rounding.
+    const double now = b + a * from_;
+    if (now > 0.0 && now * now > 1e-20 * near * near * a) return never;
+    const double discriminant = b * b - a * (dx * dx + dy * dy - near * near);
+    if (discriminant < 0.0) return never;
+    if (!(a > 0.0)) return from_;
+    const double t = (-b - std::sqrt(discriminant)) / a;
+    return t - bound_margin * std::abs(t);
+  }
+
+ private:
+  const Domain& box_;
+  bool around_x_, around_y_;
+  Ray ray_;
+  double from_;
+};
+
+}  // namespace
+
+// The earliest event of disk i on this path. visit(j) says how disk j is to be seen.
+template <class Visit>
+NextEvent ComponentSolver::earliest(std::uint32_t i, const PathSegment& path, Visit&& visit) const {
   const Disks& d = *field_.disks;
   const ExactRules& rules = field_.rules;
-  NextEvent best = earliest_at_sides(i, path);
+  const MeetingBound bound_with(field_, path);
+  const bool far = !(std::max(field_.fastest2, path.vx * path.vx + path.vy * path.vy) <= field_.safe_speed2);
+  NextEvent best = earliest_at_sides(i, path, far);
+  best.bound = best.time;
+  const double own_radius = d.radius_of(i);
   for (const std::uint32_t j : lists_.of(i)) {
-    std::uint32_t version = 0;
-    const PathSegment* other = path_of(j, version);
-    if (other == nullptr) continue;
+    const Seen seen = visit(j);
+    if (seen.path == nullptr) continue;
+    const double reach = own_radius + d.radius_of(j);
+    if (!far) {
+      const double bound = bound_with(*seen.ray, reach);
+      if (bound > best.time || bound == never) continue;
+      best.bound = std::min(best.bound, bound);
+    }
     const bool in_order = d.id[i] < d.id[j];
-    const double reach = d.radius_of(i) + d.radius_of(j);
-    const double t = in_order ? meeting_time(path, *other, reach, rules.box, rules.gravity, field_.horizon)
-                              : meeting_time(*other, path, reach, rules.box, rules.gravity, field_.horizon);
-    if (t > best.time) continue;
-    const NextEvent e{t, in_order ? d.id[i] : d.id[j], in_order ? d.id[j] : d.id[i], j, version};
-    if (t < never && e.before(best)) best = e;
+    const double t = in_order ? meeting_time(path, *seen.path, reach, rules.box, rules.gravity, field_.horizon)
+                              : meeting_time(*seen.path, path, reach, rules.box, rules.gravity, field_.horizon);
+    if (t > best.time || t == never) continue;
+    const NextEvent e{t, in_order ? d.id[i] : d.id[j], in_order ? d.id[j] : d.id[i], j, seen.version, best.bound};
+    if (e.before(best)) best = e;
   }
+  best.bound = std::min(best.bound, best.time);
   return best;
 }
 
-NextEvent ComponentSolver::earliest_at_sides(std::uint32_t i, const PathSegment& path) const {
+NextEvent ComponentSolver::earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far) const {
   const Disks& d = *field_.disks;
   const Domain& box = field_.rules.box;
   const double g = field_.rules.gravity;
@@ -40,6 +95,7 @@ NextEvent ComponentSolver::earliest_at_sides(std::uint32_t i, const PathSegment&
       if ((near >> static_cast<unsigned>(side) & 1U) != 0) look(side);
     }
   }
+  if (!far) return best;
   // Crossing events can only happen to a disk that flies far within the window.
   const double span = (field_.horizon - path.start) * (1.0 + 1e-9);
   if (box.periodic_x() && std::abs(path.vx) * span >= longest_flight * box.width) {
@@ -51,10 +107,6 @@ NextEvent ComponentSolver::earliest_at_sides(std::uint32_t i, const PathSegment&
   return best;
 }
 
-NextEvent ComponentSolver::earliest_alone(std::uint32_t i) const {
-  return earliest(i, field_.path[i], [&](std::uint32_t j, std::uint32_t&) { return &field_.path[j]; });
-}
-
 void ComponentSolver::look_at(std::uint32_t i) {
   if (owner_of(i) != nobody) return;
   const double exit = lists_.exit_time(i, field_.path[i], field_.slice_start, std::min(field_.slice_end, field_.length),
@@ -63,15 +115,20 @@ void ComponentSolver::look_at(std::uint32_t i) {
     arena_.roaming.push_back(i);
     return;
   }
-  const NextEvent alone = earliest_alone(i);
+  const NextEvent alone = earliest(i, field_.path[i], [&](std::uint32_t j) {
+    return Seen{&field_.path[j], &field_.ray[j], 0};
+  });
   if (!field_.in_slice(alone.time)) {
-    field_.due[i] = std::min({alone.time, exit, field_.horizon});
+    field_.due[i] = std::min({alone.bound, exit, field_.horizon});
     return;
   }
   clock_ = -never;
   component_ = static_cast<std::uint32_t>(arena_.components.size());
   arena_.components.push_back({static_cast<std::uint32_t>(arena_.members.size()), 0});
   if (add_member(i)) {
+    Member& member = arena_.members.back();
+    member.next = alone;
+    member.due = std::min(exit, field_.horizon);
     run();
   } else {
     arena_.components.pop_back();
@@ -82,14 +139,16 @@ std::uint32_t ComponentSolver::solve(const std::vector<std::uint32_t>& disks) {
   clock_ = -never;
   component_ = static_cast<std::uint32_t>(arena_.components.size());
   arena_.components.push_back({static_cast<std::uint32_t>(arena_.members.size()), 0});
-  for (const std::uint32_t i : disks) add_member(i);
+  for (const std::uint32_t i : disks) {
+    if (add_member(i)) look_around(static_cast<std::uint32_t>(arena_.members.size() - 1));
+  }
   run();
   return component_;
 }
 
-// Makes disk i a member, on its path at the start of the slice; false if another component holds it. The claim comes
-// before looking around, here and everywhere: of two components that claim neighbouring disks at the same time, at
-// least one then sees the other's claim.
+// Makes disk i a member, on its path at the start of the slice; false if another component holds it. Its events are
+// looked for when its due time comes; a member that gets a new path is looked at then. The claim comes before that
+// look: of two components that claim neighbouring disks at the same time, at least one then sees the other's claim.
 bool ComponentSolver::add_member(std::uint32_t i) {
   const auto m = static_cast<std::uint32_t>(arena_.members.size());
   arena_.members.push_back(fresh_member(i));
@@ -99,6 +158,7 @@ bool ComponentSolver::add_member(std::uint32_t i) {
     return false;
   }
   ++arena_.components[component_].count;
+  if (field_.due[i] > clock_) return true;
   look_around(m);
   if (!(arena_.members[m].next.time > clock_)) start_over();
   return true;
@@ -109,10 +169,8 @@ void ComponentSolver::start_over() {
   const Component& c = arena_.components[component_];
   clock_ = -never;
   for (std::uint32_t m = c.first; m < c.first + c.count; ++m) {
-    Member& member = arena_.members[m];
-    member = fresh_member(member.disk);
+    arena_.members[m] = fresh_member(arena_.members[m].disk);
   }
-  for (std::uint32_t m = c.first; m < c.first + c.count; ++m) look_around(m);
 }
 
 Member ComponentSolver::fresh_member(std::uint32_t i) const {
@@ -122,6 +180,8 @@ Member ComponentSolver::fresh_member(std::uint32_t i) const {
   member.now.path = field_.path[i];
   if (!field_.last_contact.empty()) member.now.last_contact = field_.last_contact[i];
   if (!field_.burst.empty()) member.burst = field_.burst[i];
+  member.next.time = field_.due[i];
+  member.next.bound = field_.due[i];
   return member;
 }
 
@@ -131,16 +191,18 @@ void ComponentSolver::look_around(std::uint32_t m) {
   const PathSegment path = arena_.members[m].now.path;
   const double from = std::max(path.start, field_.slice_start);
   const double exit = lists_.exit_time(i, path, from, std::min(field_.slice_end, field_.length), field_.rules.gravity);
-  NextEvent next = earliest(i, path, [&](std::uint32_t j, std::uint32_t& version) -> const PathSegment* {
+  Ray ray;
+  const NextEvent next = earliest(i, path, [&](std::uint32_t j) {
     const std::uint32_t owner = owner_of(j);
-    if (owner == nobody) return &field_.path[j];
-    if (is_ours(owner)) {
-      const Member& other = arena_.members[member_of(owner)];
-      version = other.version;
-      return other.gone ? nullptr : &other.now.path;
+    if (owner == nobody) return Seen{&field_.path[j], &field_.ray[j], 0};
+    if (!is_ours(owner)) {
+      arena_.cross_pairs.push_back({m, owner});
+      return Seen{};
     }
-    arena_.cross_pairs.push_back({m, owner});
-    return nullptr;
+    const Member& other = arena_.members[member_of(owner)];
+    if (other.gone) return Seen{};
+    ray = ray_of(other.now.path, field_.rules.gravity);
+    return Seen{&other.now.path, &ray, other.version};
   });
   Member& member = arena_.members[m];
   member.next = next;
@@ -167,6 +229,10 @@ void ComponentSolver::run() {
     const std::uint32_t m = first_due();
     const NextEvent e = arena_.members[m].next;
     if (!field_.in_slice(e.time)) return;
+    if (e.other == nobody) {
+      look_around(m);
+      continue;
+    }
     if (e.other != arena_.members[m].disk && !take_in(m, e)) continue;
     clock_ = e.time;
     happen(m, e);

@@ -13,11 +13,24 @@
 
 namespace carom {
 
+// A path carried back to the window's start, with the velocity it would have there: between two rays time and distance
+// need no common start, and gravity cancels. Good for bounds only; PathSegment decides.
+struct Ray {
+  double x, y;    // length
+  double vx, vy;  // length / time
+};
+
+inline Ray ray_of(const PathSegment& p, double g) {
+  const double vy = p.vy + g * p.start;
+  return {p.x - p.vx * p.start, p.y - vy * p.start + 0.5 * g * p.start * p.start, p.vx, vy};
+}
+
 // What is known of all disks during a slice, by storage index. Only `owner` changes while components are solved.
 struct ExactField {
   ExactRules rules;
   const Disks* disks = nullptr;  // ids, radii, masses
   std::vector<PathSegment> path;
+  std::vector<Ray> ray;
   // No event that this disk answers for happens before; each pair is answered for by the one whose path changed last
   // (or both), each disk for its own sides and for leaving its list's range.
   std::vector<double> due;
@@ -26,6 +39,10 @@ struct ExactField {
   std::vector<Burst> burst;          // where collapse is possible
   double length = 0.0;               // of the window; time
   double horizon = 0.0;              // events are looked for up to here, beyond the window
+  // Up to this v^2 nobody flies so far in a window that images beyond the nearest one, or crossing events, come into
+  // play; fastest2 is the largest v^2 so far.
+  double safe_speed2 = 0.0;
+  double fastest2 = 0.0;
   double slice_start = 0.0;
   double slice_end = 0.0;  // events before this time; in the last slice up to and including `length`
 
@@ -47,12 +64,20 @@ inline constexpr std::uint32_t member_of(std::uint32_t handle) {
   return handle & ((1U << member_bits) - 1U);
 }
 
+// How a disk looks to another one; path is null for one that is left out.
+struct Seen {
+  const PathSegment* path = nullptr;
+  const Ray* ray = nullptr;
+  std::uint32_t version = 0;
+};
+
 // The earliest event that a disk answers for. `other`: the disk met (storage index), or the disk itself for a side.
 struct NextEvent {
   double time = never;
-  DiskId id1 = nobody, id2 = nobody;
-  std::uint32_t other = nobody;
+  DiskId id1 = 0, id2 = 0;
+  std::uint32_t other = nobody;  // nobody: not looked for yet, but not before `time`
   std::uint32_t other_version = 0;
+  double bound = never;  // no event of this disk can come before, rounding of the paths allowed for
 
   // The canonical order.
   bool before(const NextEvent& e) const {
@@ -141,10 +166,9 @@ class ComponentSolver {
   std::uint32_t solve(const std::vector<std::uint32_t>& disks);
 
  private:
-  template <class PathOf>
-  NextEvent earliest(std::uint32_t i, const PathSegment& path, PathOf&& path_of) const;
-  NextEvent earliest_at_sides(std::uint32_t i, const PathSegment& path) const;
-  NextEvent earliest_alone(std::uint32_t i) const;
+  template <class Visit>
+  NextEvent earliest(std::uint32_t i, const PathSegment& path, Visit&& visit) const;
+  NextEvent earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far) const;
   bool add_member(std::uint32_t i);
   Member fresh_member(std::uint32_t i) const;
   void start_over();

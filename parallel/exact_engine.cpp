@@ -183,7 +183,10 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
   field_.disks = &d;
   field_.length = plan.length;
   field_.horizon = windows_ahead * plan.length;
+  field_.safe_speed2 = lists_.safe_speed2(plan.length, field_.rules.gravity);
+  field_.fastest2 = speeds_.largest2;
   field_.path.resize(n);
+  field_.ray.resize(n);
   field_.due.resize(n);
   field_.owner.resize(n, nobody);
   const bool tc = !state_.last_contact.empty();
@@ -195,6 +198,7 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
   executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       field_.path[i] = {0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]};
+      field_.ray[i] = {d.x[i], d.y[i], d.vx[i], d.vy[i]};
       // A little early, for the rounding of paths that begin afresh.
       field_.due[i] = due_good_ ? (field_.due[i] - last_length_) - 1e-9 * last_length_ : 0.0;
       field_.owner[i] = nobody;

@@ -46,8 +46,9 @@ void ExactLists::build(Disks& d, const Domain& box, const Executor& executor) {
   choose_roam(d);
   const std::size_t n = d.size();
   moved_.clear();
+  largest_radius_ = largest_radius(d);
   if (!everybody()) {
-    const double largest = largest_radius(d);
+    const double largest = largest_radius_;
     std::vector<std::size_t> count(class_of_radius(smallest_radius(d), largest) + 1, 0);
     if (count.size() == 1) count[0] = n;
     if (count.size() > 1) {
@@ -132,6 +133,17 @@ double ExactLists::exit_time(std::uint32_t i, const PathSegment& path, double fr
   const double root = std::sqrt(b * b + a * c);
   const double t = b > 0.0 ? c / (b + root) : (root - b) / a;
   return from + std::min(t, ahead);
+}
+
+// Listed disks are within reach + 4 roam of each other, carried back to the window's start by two flights more; less
+// than half a period in all, the nearest image is the right one.
+double ExactLists::safe_speed2(double length, double g) const {
+  double period = HUGE_VAL;
+  if (box_.periodic_x()) period = std::min(period, box_.width);
+  if (box_.periodic_y()) period = std::min(period, box_.height);
+  if (period == HUGE_VAL) return HUGE_VAL;
+  const double flight = 0.5 * (0.49 * period - 2.0 * largest_radius_ - 4.0 * roam_) - g * length * length;
+  return flight > 0.0 ? (flight / length) * (flight / length) : -1.0;
 }
 
 std::uint32_t ExactLists::key_of_place(const Disks& d, std::uint32_t i) const {

@@ -41,6 +41,10 @@ class ExactLists {
   // Length that a disk may go from its place; infinite when everybody is in everybody's list.
   double roam() const { return roam_; }
 
+  // No path faster than this (v^2) leads to any other image of a neighbour than the nearest one within a window of this
+  // length, nor a quarter round the box. Negative: any may.
+  double safe_speed2(double length, double g) const;
+
   struct Neighbours {
     const std::uint32_t* first;
     std::uint32_t count;
@@ -105,6 +109,7 @@ class ExactLists {
   CellGrid grid_;
   SortedCells cells_;
   double roam_ = 0.0;
+  double largest_radius_ = 0.0;
   std::size_t block_ = 1;  // disks whose lists share a vector
   std::vector<Vec2> place_;
   std::vector<std::uint8_t> sides_;

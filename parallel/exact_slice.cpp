@@ -37,6 +37,7 @@ void ExactSlices::begin_window(const ExactTally& tally) {
   log_.resize(blocks + 1);
   for (auto& log : log_) log.clear();
   gone_seen_.assign(blocks + 1, 0);
+  fastest2_.assign(blocks + 1, 0.0);
   any_gone_ = false;
 }
 
@@ -225,18 +226,20 @@ void ExactSlices::fail_if_collapsed(double window_start) const {
 void ExactSlices::commit() {
   executor_.run(arenas_.size(), [&](std::size_t a) { commit_arena(a); });
   for (const unsigned char seen : gone_seen_) any_gone_ = any_gone_ || seen != 0;
+  for (const double v2 : fastest2_) field_.fastest2 = std::max(field_.fastest2, v2);
 }
 
 void ExactSlices::commit_arena(std::size_t a) {
   ComponentArena& arena = arenas_[a];
   ExactTally& tally = tallies_[a];
   std::vector<LoggedPiece>& log = log_[a];
+  double& fastest2 = fastest2_[a];
   for (const Component& c : arena.components) {
     if (!stands(c)) continue;
     for (std::uint32_t k = c.first; k < c.first + c.count; ++k) {
       const Member& m = arena.members[k];
       field_.owner[m.disk] = nobody;
-      field_.due[m.disk] = m.gone ? never : std::min(m.next.time, m.due);
+      field_.due[m.disk] = m.gone ? never : std::min(m.next.bound, m.due);
       if (m.version == 0) continue;
       PathSegment& path = field_.path[m.disk];
       if (path.start == 0.0) log.push_back({m.disk, false, path});
@@ -248,11 +251,14 @@ void ExactSlices::commit_arena(std::size_t a) {
       }
       std::reverse(log.begin() + static_cast<std::ptrdiff_t>(first), log.end());
       path = m.now.path;
+      field_.ray[m.disk] = ray_of(path, field_.rules.gravity);
+      fastest2 = std::max(fastest2, path.vx * path.vx + path.vy * path.vy);
       if (!field_.last_contact.empty()) field_.last_contact[m.disk] = m.now.last_contact;
       if (!field_.burst.empty()) field_.burst[m.disk] = m.burst;
       if (!m.gone) continue;
       // Nobody can meet a path that is not a number.
       path.x = path.y = std::numeric_limits<double>::quiet_NaN();
+      field_.ray[m.disk] = ray_of(path, field_.rules.gravity);
       gone_seen_[a] = 1;
     }
   }

@@ -76,6 +76,7 @@ class ExactSlices {
   std::vector<ExactTally> tallies_;     // likewise
   std::vector<std::vector<LoggedPiece>> log_;
   std::vector<unsigned char> gone_seen_;
+  std::vector<double> fastest2_;
   std::vector<std::uint32_t> waiting_;             // disks to be solved again
   std::unordered_set<std::uint32_t> listed_anew_;  // in this slice
   bool any_gone_ = false;
