@@ -204,7 +204,7 @@ TEST(Scaling, RandomScenesWithEveryFeature) {
   Count collisions = 0;
   Count emitted = 0;
   Count removed = 0;
-  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+  for (std::uint64_t seed = 0; seed < 16; ++seed) {
     for (Method method : test::stepping_methods) {
       const State end = expect_same_in_all_units(random_scene(seed, method));
       collisions += end.counters.collisions;
