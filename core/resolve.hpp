@@ -154,29 +154,8 @@ Impact resolve_event(const View& d, const StepRules& rules, const ContactEvent& 
   return is_wall(e.id2) ? resolve_wall(d, rules, e.i1, wall_side(e.id2)) : resolve_pair(d, rules, e.i1, e.i2);
 }
 
-// What overlap remains beyond slack (length) is pushed apart along the line of centres, by mass, so that the centre of
-// mass, and with it momentum and potential energy, stays; velocities are not touched. Coincident centres part along x.
-// Returns the overlap that it found, over the sum of the radii.
-template <class View>
-double push_pair(const View& d, const Domain& box, std::uint32_t i, std::uint32_t j, double slack) {
-  const Relative r = relative(d, i, j, box);
-  const double reach = d.radius(i) + d.radius(j);
-  const double distance2 = r.distance2();
-  if (distance2 >= reach * reach) return 0.0;
-  const double distance = std::sqrt(distance2);
-  const double push = reach - distance - slack;
-  if (!(push > 0.0)) return 0.0;
-  const Shares share = shares_of(d, i, j);
-  const double px = distance > 0.0 ? push * (r.dx / distance) : push;
-  const double py = distance > 0.0 ? push * (r.dy / distance) : 0.0;
-  d.x[i] -= share.first * px;
-  d.y[i] -= share.first * py;
-  d.x[j] += share.second * px;
-  d.y[j] += share.second * py;
-  return push / reach;
-}
-
-// Likewise for a wall. Returns the depth that it found, over the radius.
+// A disk that reaches further than slack (length) beyond a wall is put back to slack beyond it; velocities are not
+// touched. Returns the depth that it found, over the radius.
 template <class View>
 double push_wall(const View& d, const Domain& box, std::uint32_t i, Side side, double slack) {
   const double r = d.radius(i);
@@ -204,15 +183,33 @@ void keep_inside(const View& d, const Domain& box, std::uint32_t i) {
   }
 }
 
+// What overlap remains beyond slack (length) is pushed apart along the line of centres, by mass, so that the centre of
+// mass, and with it momentum and potential energy, stays; velocities are not touched. Coincident centres part along x.
+// Neither is left in a wall. Returns the overlap that it found, over the sum of the radii.
+template <class View>
+double push_pair(const View& d, const Domain& box, std::uint32_t i, std::uint32_t j, double slack) {
+  const Relative r = relative(d, i, j, box);
+  const double reach = d.radius(i) + d.radius(j);
+  const double distance2 = r.distance2();
+  if (distance2 >= reach * reach) return 0.0;
+  const double distance = std::sqrt(distance2);
+  const double push = reach - distance - slack;
+  if (!(push > 0.0)) return 0.0;
+  const Shares share = shares_of(d, i, j);
+  const double px = distance > 0.0 ? push * (r.dx / distance) : push;
+  const double py = distance > 0.0 ? push * (r.dy / distance) : 0.0;
+  d.x[i] -= share.first * px;
+  d.y[i] -= share.first * py;
+  d.x[j] += share.second * px;
+  d.y[j] += share.second * py;
+  keep_inside(d, box, i);
+  keep_inside(d, box, j);
+  return push / reach;
+}
+
 template <class View>
 double push_apart(const View& d, const Domain& box, const ContactEvent& e, double slack) {
-  if (is_wall(e.id2)) return push_wall(d, box, e.i1, wall_side(e.id2), slack);
-  const double depth = push_pair(d, box, e.i1, e.i2, slack);
-  if (depth > 0.0) {
-    keep_inside(d, box, e.i1);
-    keep_inside(d, box, e.i2);
-  }
-  return depth;
+  return is_wall(e.id2) ? push_wall(d, box, e.i1, wall_side(e.id2), slack) : push_pair(d, box, e.i1, e.i2, slack);
 }
 
 }  // namespace carom
