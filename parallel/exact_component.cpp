@@ -10,74 +10,91 @@ namespace {
 // Relative room for rounding in bounds: far above that of doubles, far below what would cost anything.
 constexpr double bound_margin = 1e-9;
 
-// Bounds on when a disk meets others, from rays.
-class MeetingBound {
- public:
-  MeetingBound(const ExactField& field, const PathSegment& path)
-      : box_(field.rules.box),
-        around_x_(box_.periodic_x()),
-        around_y_(box_.periodic_y()),
-        ray_(ray_of(path, field.rules.gravity)),
-        from_(std::max(path.start, field.slice_start)) {}
-
-  // A time before which the disk cannot meet the other one; `never` when it cannot meet it at all from now on.
-  double operator()(const Ray& other, double reach) const {
-    double dx = other.x - ray_.x;
-    double dy = other.y - ray_.y;
-    if (around_x_) dx = nearest_image(dx, box_.width);
-    if (around_y_) dy = nearest_image(dy, box_.height);
-    const double dvx = other.vx - ray_.vx;
-    const double dvy = other.vy - ray_.vy;
+// A time before which the pair cannot meet; infinite (or not a number, where nothing moves) when it cannot meet at all
+// from time `from` on.
+void find_bounds(NeighbourBatch& batch, std::uint32_t count, double from) {
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const double dx = batch.dx[k];
+    const double dy = batch.dy[k];
+    const double dvx = batch.dvx[k];
+    const double dvy = batch.dvy[k];
+    const double near = batch.reach[k] * (1.0 + bound_margin);
     const double a = dvx * dvx + dvy * dvy;
     const double b = dx * dvx + dy * dvy;
-    const double near = reach * (1.0 + bound_margin);
-    // Receding clearly, not just by rounding.
-    const double now = b + a * from_;
-    if (now > 0.0 && now * now > 1e-20 * near * near * a) return never;
     const double discriminant = b * b - a * (dx * dx + dy * dy - near * near);
-    if (discriminant < 0.0) return never;
-    if (!(a > 0.0)) return from_;
-    const double t = (-b - std::sqrt(discriminant)) / a;
-    return t - bound_margin * std::abs(t);
+    const double now = b + a * from;
+    const double t = (-b - std::sqrt(std::max(discriminant, 0.0))) / a;
+    const double early = t - bound_margin * std::abs(t);
+    // Receding clearly, not just by rounding: now > 1e-10 near |dv|.
+    const double receding = now * std::abs(now) - 1e-20 * (near * near * a);
+    const double missing = discriminant < 0.0 ? never : early;
+    batch.bound[k] = receding > 0.0 ? never : missing;
   }
-
- private:
-  const Domain& box_;
-  bool around_x_, around_y_;
-  Ray ray_;
-  double from_;
-};
+}
 
 }  // namespace
 
 // The earliest event of disk i on this path. visit(j) says how disk j is to be seen.
 template <class Visit>
-NextEvent ComponentSolver::earliest(std::uint32_t i, const PathSegment& path, Visit&& visit) const {
-  const Disks& d = *field_.disks;
-  const ExactRules& rules = field_.rules;
-  const MeetingBound bound_with(field_, path);
+NextEvent ComponentSolver::earliest(std::uint32_t i, const PathSegment& path, Visit&& visit) {
+  const Domain& box = field_.rules.box;
   const bool far = !(std::max(field_.fastest2, path.vx * path.vx + path.vy * path.vy) <= field_.safe_speed2);
   NextEvent best = earliest_at_sides(i, path, far);
   best.bound = best.time;
-  const double own_radius = d.radius_of(i);
-  for (const std::uint32_t j : lists_.of(i)) {
-    const Seen seen = visit(j);
-    if (seen.path == nullptr) continue;
-    const double reach = own_radius + d.radius_of(j);
-    if (!far) {
-      const double bound = bound_with(*seen.ray, reach);
-      if (bound > best.time || bound == never) continue;
-      best.bound = std::min(best.bound, bound);
+  const Ray ray = ray_of(path, field_.rules.gravity);
+  const double from = std::max(path.start, field_.slice_start);
+  const double own_radius = field_.disks->radius_of(i);
+  const bool own_column = !field_.disks->radius.empty();
+  const bool around_x = box.periodic_x();
+  const bool around_y = box.periodic_y();
+  const ExactLists::Neighbours list = lists_.of(i);
+  NeighbourBatch& batch = batch_;
+  for (std::uint32_t first = 0; first < list.count; first += NeighbourBatch::size) {
+    const std::uint32_t last = std::min(list.count, first + NeighbourBatch::size);
+    std::uint32_t n = 0;
+    for (std::uint32_t k = first; k < last; ++k) {
+      const std::uint32_t j = list.first[k];
+      const Seen seen = visit(j);
+      if (seen.path == nullptr) continue;
+      const Ray& other = *seen.ray;
+      batch.path[n] = seen.path;
+      batch.version[n] = seen.version;
+      batch.disk[n] = j;
+      batch.reach[n] = own_radius + (own_column ? field_.disks->radius[j] : own_radius);
+      const double dx = other.x - ray.x;
+      const double dy = other.y - ray.y;
+      batch.dx[n] = around_x ? nearest_image(dx, box.width) : dx;
+      batch.dy[n] = around_y ? nearest_image(dy, box.height) : dy;
+      batch.dvx[n] = other.vx - ray.vx;
+      batch.dvy[n] = other.vy - ray.vy;
+      ++n;
     }
-    const bool in_order = d.id[i] < d.id[j];
-    const double t = in_order ? meeting_time(path, *seen.path, reach, rules.box, rules.gravity, field_.horizon)
-                              : meeting_time(*seen.path, path, reach, rules.box, rules.gravity, field_.horizon);
-    if (t > best.time || t == never) continue;
-    const NextEvent e{t, in_order ? d.id[i] : d.id[j], in_order ? d.id[j] : d.id[i], j, seen.version, best.bound};
-    if (e.before(best)) best = e;
+    if (far) {
+      std::fill_n(batch.bound, n, from);
+    } else {
+      find_bounds(batch, n, from);
+    }
+    for (std::uint32_t k = 0; k < n; ++k) {
+      if (batch.bound[k] <= best.time && batch.bound[k] < never) meet_exactly(i, path, k, best);
+    }
   }
-  best.bound = std::min(best.bound, best.time);
   return best;
+}
+
+// The exact formula for neighbour k of the batch; `best` becomes this meeting if it comes first.
+void ComponentSolver::meet_exactly(std::uint32_t i, const PathSegment& path, std::uint32_t k, NextEvent& best) const {
+  const std::uint32_t j = batch_.disk[k];
+  const PathSegment& other = *batch_.path[k];
+  const Disks& d = *field_.disks;
+  const ExactRules& rules = field_.rules;
+  const bool in_order = d.id[i] < d.id[j];
+  const double reach = d.radius_of(i) + d.radius_of(j);
+  const double t = in_order ? meeting_time(path, other, reach, rules.box, rules.gravity, field_.horizon)
+                            : meeting_time(other, path, reach, rules.box, rules.gravity, field_.horizon);
+  const double bound = std::min(best.bound, batch_.bound[k]);
+  const NextEvent e{t, in_order ? d.id[i] : d.id[j], in_order ? d.id[j] : d.id[i], j, batch_.version[k]};
+  if (t < never && e.before(best)) best = e;
+  best.bound = bound;
 }
 
 NextEvent ComponentSolver::earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far) const {
@@ -191,7 +208,6 @@ void ComponentSolver::look_around(std::uint32_t m) {
   const PathSegment path = arena_.members[m].now.path;
   const double from = std::max(path.start, field_.slice_start);
   const double exit = lists_.exit_time(i, path, from, std::min(field_.slice_end, field_.length), field_.rules.gravity);
-  Ray ray;
   const NextEvent next = earliest(i, path, [&](std::uint32_t j) {
     const std::uint32_t owner = owner_of(j);
     if (owner == nobody) return Seen{&field_.path[j], &field_.ray[j], 0};
@@ -201,8 +217,8 @@ void ComponentSolver::look_around(std::uint32_t m) {
     }
     const Member& other = arena_.members[member_of(owner)];
     if (other.gone) return Seen{};
-    ray = ray_of(other.now.path, field_.rules.gravity);
-    return Seen{&other.now.path, &ray, other.version};
+    member_ray_ = ray_of(other.now.path, field_.rules.gravity);
+    return Seen{&other.now.path, &member_ray_, other.version};
   });
   Member& member = arena_.members[m];
   member.next = next;

@@ -71,6 +71,18 @@ struct Seen {
   std::uint32_t version = 0;
 };
 
+// Neighbours relative to a disk, at the window's start, in columns that the compiler turns into vectors.
+struct NeighbourBatch {
+  static constexpr std::uint32_t size = 16;
+  double dx[size], dy[size];    // length
+  double dvx[size], dvy[size];  // length / time
+  double reach[size];           // r1 + r2
+  double bound[size];           // time
+  const PathSegment* path[size];
+  std::uint32_t disk[size];
+  std::uint32_t version[size];
+};
+
 // The earliest event that a disk answers for. `other`: the disk met (storage index), or the disk itself for a side.
 struct NextEvent {
   double time = never;
@@ -156,7 +168,7 @@ struct ComponentArena {
 class ComponentSolver {
  public:
   ComponentSolver(ExactField& field, const ExactLists& lists, ComponentArena& arena)
-      : field_(field), lists_(lists), arena_(arena) {}
+      : field_(field), lists_(lists), arena_(arena) {}  // NOLINT(cppcoreguidelines-pro-type-member-init): batch_
 
   // Disk i is due: if it has an event in the slice, solves the component that grows from it; otherwise puts off its due
   // time. Does nothing for a disk that another component holds.
@@ -167,8 +179,9 @@ class ComponentSolver {
 
  private:
   template <class Visit>
-  NextEvent earliest(std::uint32_t i, const PathSegment& path, Visit&& visit) const;
+  NextEvent earliest(std::uint32_t i, const PathSegment& path, Visit&& visit);
   NextEvent earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far) const;
+  void meet_exactly(std::uint32_t i, const PathSegment& path, std::uint32_t k, NextEvent& best) const;
   bool add_member(std::uint32_t i);
   Member fresh_member(std::uint32_t i) const;
   void start_over();
@@ -190,6 +203,8 @@ class ComponentSolver {
   const ExactLists& lists_;
   ComponentArena& arena_;
   std::uint32_t component_ = 0;
+  NeighbourBatch batch_;   // scratch
+  Ray member_ray_{};       // scratch
   double clock_ = -never;  // of the last event that happened
 };
 
