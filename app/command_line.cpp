@@ -125,8 +125,8 @@ void add_scene_options(CLI::App* command, Words& words) {
 void describe_run(CLI::App* run, Words& words) {
   add_scene_options(run, words);
   add_value(run, "-o,--output", words.folder, "DIR", "folder for the results; default out/<name of the scene>");
-  add_value(run, "--engine", words.engine, "reference|parallel", "engine; both give the same bits");
-  add_value(run, "--threads", words.threads, "N", "threads of the parallel engine");
+  add_value(run, "--engine", words.engine, "parallel|reference", "default parallel; both give the same bits");
+  add_value(run, "--threads", words.threads, "N", "threads of the parallel engine; default all cores");
   run->add_flag("--json", words.json, "print the summary as JSON, and nothing else, on standard output");
   run->add_flag("--quiet", words.quiet, "print nothing but errors");
   run->add_flag("--force", words.force, "replace the results of an earlier run in the folder");

@@ -24,7 +24,7 @@ struct FrameStyle {
 
 // A style for all frames of a run that starts from `first`. The colour scale reaches from 0 to a round number above
 // the speeds to expect: those at the start (2.5 times the root mean square, or the fastest disk if it is slower), what
-// falling from the highest disk adds, what equipartition gives the lighter ones, what sources and Brownian motion
+// falling to the floor adds on average, what equipartition gives the lighter ones, what sources and Brownian motion
 // bring in.
 FrameStyle frame_style(const Scene& scene, const Disks& first);
 

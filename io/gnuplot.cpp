@@ -88,17 +88,6 @@ Range vertical_range(const Panel& panel) {
   return {panel.from_zero && r.low == 0.0 ? 0.0 : r.low - margin, r.high + margin};
 }
 
-Range horizontal_range(const Figure& figure) {
-  Range r{0.0, 0.0};
-  for (const Panel& panel : figure.panels) {
-    for (const Line& line : panel.lines) {
-      if (!line.x.empty()) r.high = std::max(r.high, line.x.back());
-    }
-  }
-  if (r.high <= 0.0) r.high = 1.0;
-  return r;
-}
-
 // The points of a line, one a row. A long line keeps the least and the greatest value of each stretch, so that no
 // spike gets lost.
 void append_points(std::string& data, const Line& line) {
@@ -137,8 +126,24 @@ std::vector<double> label_heights(const Panel& panel, const Range& range) {
   return heights;
 }
 
+// The name of a line in the margin, joined to the line's end; or, where it ends early, a cross there, as a stroke from
+// there to the margin would look like data.
+std::string name_commands(const Line& line, std::size_t tag, double height, double x_end, const char* colour) {
+  const bool to_the_end = line.x.back() >= x_end;
+  std::string text = fmt::format("set label {} {} at graph 1.035, first {} left textcolor rgb '{}'\n", tag,
+                                 quoted(to_the_end ? line.name : line.name + ", gone"), height, colour);
+  const std::string end = fmt::format("first {}, first {}", line.x.back(), line.y.back());
+  if (to_the_end) {
+    text += fmt::format("set arrow {} from {} to graph 1.03, first {} nohead lc rgb '{}' lw 0.7\n", tag, end, height,
+                        colour);
+  } else {
+    text += fmt::format("set label {} '' at {} point pt 2 ps 0.8 lc rgb '{}'\n", tag + 1000, end, colour);
+  }
+  return text;
+}
+
 // The commands of one panel; `block` is the number of its first line in the data file.
-std::string panel_commands(const Panel& panel, std::size_t block) {
+std::string panel_commands(const Panel& panel, std::size_t block, double x_end) {
   const Range range = vertical_range(panel);
   const std::vector<double> heights = label_heights(panel, range);
   std::string text = fmt::format("unset label\nunset arrow\nset ylabel {}\nset yrange [{}:{}]\n", quoted(panel.y_label),
@@ -148,34 +153,29 @@ std::string panel_commands(const Panel& panel, std::size_t block) {
     const Line& line = panel.lines[k];
     const char* const colour = colours[k % colours.size()];
     if (line.x.empty()) continue;
-    text += fmt::format("set label {} {} at graph 1.035, first {} left textcolor rgb '{}'\n", k + 1, quoted(line.name),
-                        heights[k], colour);
-    text += fmt::format("set arrow {} from first {}, first {} to graph 1.03, first {} nohead lc rgb '{}' lw 0.7\n",
-                        k + 1, line.x.back(), line.y.back(), heights[k], colour);
-    // The first line is drawn wider, so that it still shows where a later one covers it.
+    text += name_commands(line, k + 1, heights[k], x_end, colour);
     plot += fmt::format("{} 'data' index {} with lines lw {} lc rgb '{}'", plot.empty() ? "plot" : ",", block + k,
-                        k == 0 ? 3.0 : 1.6, colour);
+                        panel.wide_first && k == 0 ? 3.0 : 1.6, colour);
   }
   if (plot.empty()) plot = "plot NaN";
   return text + plot + "\n";
 }
 
 std::string script_of(const Figure& figure) {
-  const Range x = horizontal_range(figure);
+  const double x_end = figure.x_end > 0.0 ? figure.x_end : 1.0;
   const auto panels = figure.panels.size();
   const double height = static_cast<double>(panels) * panel_pixels + top_pixels + bottom_pixels;
   std::string text = fmt::format(
       "set terminal svg size {},{} font 'sans-serif,15' linewidth 1 noenhanced background 'white'\n"
       "set output 'plot.svg'\n"
-      "set multiplot layout {},1 title {} font 'sans-serif,18' margins 0.10,0.88,{},{} spacing 0.06\n"
+      "set multiplot layout {},1 title {} font 'sans-serif,18' margins 0.115,0.87,{},{} spacing 0.06\n"
       "unset key\nset border 3 lc rgb '#555555'\nset tics nomirror out scale 0.5 textcolor rgb '#222222'\n"
-      "set grid lc rgb '#dddddd' lt 1 lw 0.6\nset format '%g'\nset xrange [{}:{}]\n",
-      width_pixels, height, panels, quoted(figure.title), bottom_pixels / height, 1.0 - top_pixels / height, x.low,
-      x.high);
+      "set grid lc rgb '#dddddd' lt 1 lw 0.6\nset format '%g'\nset xrange [0:{}]\n",
+      width_pixels, height, panels, quoted(figure.title), bottom_pixels / height, 1.0 - top_pixels / height, x_end);
   std::size_t block = 0;
   for (std::size_t p = 0; p < panels; ++p) {
     if (p + 1 == panels) text += fmt::format("set xlabel {}\n", quoted(figure.x_label));
-    text += panel_commands(figure.panels[p], block);
+    text += panel_commands(figure.panels[p], block, x_end);
     block += figure.panels[p].lines.size();
   }
   return text + "unset multiplot\n";

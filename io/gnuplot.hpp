@@ -6,7 +6,7 @@
 
 namespace carom {
 
-// A line; x and y have the same length, all finite.
+// A line; x and y have the same length, all finite, x ascending from 0 on.
 struct Line {
   std::string name;
   std::vector<double> x, y;
@@ -15,12 +15,14 @@ struct Line {
 struct Panel {
   std::string y_label;
   std::vector<Line> lines;
-  bool from_zero = false;  // the vertical axis includes 0
+  bool from_zero = false;   // the vertical axis includes 0
+  bool wide_first = false;  // the first line is drawn wide, so that it shows where a later one covers it
 };
 
 struct Figure {
   std::string title;    // any text; control characters become blanks
   std::string x_label;  // under the lowest panel
+  double x_end = 0.0;   // the horizontal axis goes from 0 to here; a line that ends earlier gets a cross there
   std::vector<Panel> panels;
 };
 

@@ -33,6 +33,7 @@ std::string heading(const std::string& title, const char* subject) {
 }  // namespace
 
 void record(VelocityRecord& record, const Disks& disks, double time) {
+  record.end = time;
   if (record.curves.size() < most_velocity_curves) adopt_newcomers(record, disks);
   if (record.curves.empty()) return;
   const DiskId last = record.curves.back().id;
@@ -47,7 +48,7 @@ void record(VelocityRecord& record, const Disks& disks, double time) {
 }
 
 bool plot_velocity(const std::string& path, const std::string& title, const VelocityRecord& record) {
-  Figure figure{heading(title, "velocities"), "time t", {{"vx", {}}, {"vy", {}}}};
+  Figure figure{heading(title, "velocities"), "time t", record.end, {{"vx", {}}, {"vy", {}}}};
   for (const auto& curve : record.curves) {
     const std::string name = fmt::format("disk {}", curve.id);
     figure.panels[0].lines.push_back({name, curve.t, curve.vx});
@@ -58,13 +59,13 @@ bool plot_velocity(const std::string& path, const std::string& title, const Velo
 
 bool plot_energy(const std::string& path, const std::string& title, const EnergyRecord& record) {
   // From zero: without it the axis would zoom into rounding errors of a total that is constant.
-  Panel panel{"energy", {}, true};
+  Panel panel{"energy", {}, true, true};
   panel.lines.push_back({"total", record.t, record.total});
   panel.lines.push_back({"kinetic", record.t, record.kinetic});
   const bool has_potential =
       std::any_of(record.potential.begin(), record.potential.end(), [](double u) { return u != 0.0; });
   if (has_potential) panel.lines.push_back({"potential", record.t, record.potential});
-  return draw_svg({heading(title, "energy"), "time t", {panel}}, path);
+  return draw_svg({heading(title, "energy"), "time t", record.t.empty() ? 0.0 : record.t.back(), {panel}}, path);
 }
 
 }  // namespace carom

@@ -17,6 +17,7 @@ struct VelocityRecord {
     std::vector<double> t, vx, vy;
   };
   std::vector<Curve> curves;  // ascending ids
+  double end = 0.0;           // time of the last frame
 };
 inline constexpr std::size_t most_velocity_curves = 10;
 

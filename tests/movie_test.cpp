@@ -137,6 +137,10 @@ TEST(FrameStyle, SpeedScaleCoversWhatIsExpected) {
   EXPECT_EQ(frame_style(scene, rest).fastest, 1.0) << "everything at rest";
   EXPECT_EQ(frame_style(scene, rest).time_decimals, 2);
   EXPECT_EQ(frame_style(scene, one_disk(5.0, 5.0, 3.0, 1.0)).fastest, 3.0);
+  Disks mixed = one_disk(2.0, 5.0, 1.0, 1.0);
+  append(mixed, {6.0, 5.0, 1.0, 0.0, 1.0, 100.0, 1});
+  // kT = 101 / 4, mean of 2 kT / m = 25.5, times 2.5: 8 by its root.
+  EXPECT_EQ(frame_style(scene, mixed).fastest, 8.0) << "the light one will be the faster";
   scene.physics.gravity = 0.5;
   EXPECT_EQ(frame_style(scene, rest).fastest, 2.0) << "sqrt(2 g 4)";
   scene.physics.gravity = 0.0;

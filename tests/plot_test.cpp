@@ -74,6 +74,18 @@ TEST(Plot, VelocitiesOfTwoDisks) {
   fs::remove(path);
 }
 
+TEST(Plot, ALineThatEndsEarlyIsMarked) {
+  VelocityRecord r;
+  record(r, disks_with_ids({0, 1}), 0.0);
+  record(r, disks_with_ids({0, 1}), 1.0);
+  record(r, disks_with_ids({1}), 2.0);
+  const std::string path = temporary("carom_plot_gone.svg");
+  ASSERT_TRUE(plot_velocity(path, "a sink", r));
+  EXPECT_TRUE(text_of(path).find("disk 0, gone") != std::string::npos);
+  EXPECT_TRUE(text_of(path).find("disk 1, gone") == std::string::npos);
+  fs::remove(path);
+}
+
 TEST(Plot, NothingToShowIsStillAPlot) {
   const std::string path = temporary("carom_plot_empty.svg");
   EXPECT_TRUE(plot_velocity(path, "no disks", {}));
