@@ -169,10 +169,24 @@ double push_wall(const View& d, const Domain& box, std::uint32_t i, Side side, d
   return push / r;
 }
 
-// Sweeps of pushing end when none was deeper than this (over the sum of radii; well below the 2 % that a pile may
-// overlap), or after most_push_sweeps; the rest waits for the next step.
+// After one sweep that pushes every contact, further ones push only those that others have pressed deeper than this
+// again (over the sum of radii; well below the 2 % that a pile may overlap), until there are none or after
+// most_push_sweeps; the rest waits for the next step.
 inline constexpr double shallow_overlap = 1e-3;
-inline constexpr int most_push_sweeps = 16;
+inline constexpr int most_push_sweeps = 4;
+
+// Is the overlap of a contact deeper than shallow_overlap?
+template <class View>
+bool is_deep(const View& d, const Domain& box, const ContactEvent& e) {
+  const double r = d.radius(e.i1);
+  if (is_wall(e.id2)) return reach_beyond(wall_side(e.id2), d.x[e.i1], d.y[e.i1], r, box) > shallow_overlap * r;
+  const double dx = d.x[e.i2] - d.x[e.i1];
+  const double dy = d.y[e.i2] - d.y[e.i1];
+  const double nx = box.periodic_x() ? nearest_image(dx, box.width) : dx;
+  const double ny = box.periodic_y() ? nearest_image(dy, box.height) : dy;
+  const double reach = (r + d.radius(e.i2)) * (1.0 - shallow_overlap);
+  return nx * nx + ny * ny < reach * reach;
+}
 
 // Walls give way to no one: a disk that others pushed into a wall deeper than shallow_overlap of its radius comes back,
 // and what overlap that makes is the next sweep's.

@@ -71,16 +71,19 @@ template <class View>
 void push_all(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
               const std::vector<std::uint32_t>& contacts) {
   const double slop = contact_slop * rules.gravity * rules.dt * rules.dt;
-  for (int sweep = 0; sweep < most_push_sweeps; ++sweep) {
-    double deepest = 0.0;
+  const auto push = [&](const ContactEvent& e) {
+    const bool loaded = rules.settles && load_of(state.loads, e) > 0.0;
+    push_apart(d, rules.box, e, loaded ? slop : 0.0);
+  };
+  for (const ContactEvent& e : events) push(e);
+  bool any_deep = true;
+  for (int sweep = 1; sweep < most_push_sweeps && any_deep; ++sweep) {
+    any_deep = false;
     for (const ContactEvent& e : events) {
-      const bool crowded = is_crowded(contacts, e);
-      if (sweep > 0 && !crowded) continue;
-      const bool loaded = rules.settles && load_of(state.loads, e) > 0.0;
-      const double depth = push_apart(d, rules.box, e, loaded ? slop : 0.0);
-      if (crowded) deepest = std::max(deepest, depth);
+      if (!is_crowded(contacts, e) || !is_deep(d, rules.box, e)) continue;
+      push(e);
+      any_deep = true;
     }
-    if (deepest <= shallow_overlap) break;
   }
 }
 

@@ -43,11 +43,11 @@ void resolve_impacts(const View& d, const StepRules& rules, std::size_t disks, c
   executor.sort(lists.loaded.begin(), lists.loaded.end(),
                 [](const LoadedContact& a, const LoadedContact& b) { return earlier(a.event, b.event); });
   build_levels(lists.levels, lists.loaded, disks, executor, wall_of_loaded);
-  lists.tallies.assign(executor.blocks(lists.loaded.size(), level_block), {});
-  run_levels(lists.levels, lists.loaded.size(), false, executor, [&](std::size_t k, std::size_t block) {
+  lists.tallies.assign(static_cast<std::size_t>(executor.threads()), {});
+  run_levels(lists.levels, lists.loaded.size(), false, executor, [&](std::size_t k, std::size_t slot) {
     const LoadedContact& c = lists.loaded[k];
     if (is_support(d, rules, c.event, c.force > 0.0, c.crowded)) return;
-    lists.tallies[block].add(c.event.id2, resolve_event(d, rules, c.event));
+    lists.tallies[slot].add(c.event.id2, resolve_event(d, rules, c.event));
   });
   for (const ImpactTally& t : lists.tallies) tally.add(t);
 }
@@ -88,11 +88,10 @@ void relax_supports(const View& d, State& state, const StepRules& rules, const E
   run_levels(lists.levels, supports.size(), false, executor,
              [&](std::size_t k, std::size_t) { apply_impulse(d, supports[k], supports[k].impulse); });
   const double settled = settled_change * rules.gravity * rules.dt;
-  const std::size_t blocks = executor.blocks(supports.size(), level_block) + 1;
   for (int sweep = 0; sweep < most_load_sweeps; ++sweep) {
-    lists.largest.assign(blocks, 0.0);
-    run_levels(lists.levels, supports.size(), sweep % 2 == 1, executor, [&](std::size_t k, std::size_t block) {
-      lists.largest[block] = std::max(lists.largest[block], relax(d, supports[k]));
+    lists.largest.assign(static_cast<std::size_t>(executor.threads()), 0.0);
+    run_levels(lists.levels, supports.size(), sweep % 2 == 1, executor, [&](std::size_t k, std::size_t slot) {
+      lists.largest[slot] = std::max(lists.largest[slot], relax(d, supports[k]));
     });
     if (*std::max_element(lists.largest.begin(), lists.largest.end()) <= settled) break;
   }
@@ -102,24 +101,36 @@ void relax_supports(const View& d, State& state, const StepRules& rules, const E
   }
 }
 
-// Every contact once, then the crowded ones until nothing is deep.
+// Is a crowded contact deep now? Asked of all at once, before a sweep that goes through them in order: none deep at its
+// beginning means none found deep in it.
+template <class View>
+bool any_deep(const View& d, const StepRules& rules, const Executor& executor, ContactLists& lists) {
+  lists.largest.assign(executor.blocks(lists.loaded.size(), contact_block), 0.0);
+  executor.for_ranges(lists.loaded.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      if (lists.loaded[k].crowded && is_deep(d, rules.box, lists.loaded[k].event)) lists.largest[b] = 1.0;
+    }
+  });
+  return std::find(lists.largest.begin(), lists.largest.end(), 1.0) != lists.largest.end();
+}
+
+// Every contact once, then the deep ones among the crowded until there are none.
 template <class View>
 void push_contacts(const View& d, const StepRules& rules, std::size_t disks, const Executor& executor,
                    ContactLists& lists) {
   const std::vector<LoadedContact>& contacts = lists.loaded;
   const double slop = contact_slop * rules.gravity * rules.dt * rules.dt;
+  const auto push = [&](const LoadedContact& c) {
+    const bool loaded = c.bears && lists.supports[c.support].impulse > 0.0;
+    push_apart(d, rules.box, c.event, loaded ? slop : 0.0);
+  };
   build_levels(lists.levels, contacts, disks, executor, wall_of_loaded);
-  const std::size_t blocks = executor.blocks(contacts.size(), level_block) + 1;
-  for (int sweep = 0; sweep < most_push_sweeps; ++sweep) {
-    lists.largest.assign(blocks, 0.0);
-    run_levels(lists.levels, contacts.size(), false, executor, [&](std::size_t k, std::size_t block) {
-      const LoadedContact& c = contacts[k];
-      if (sweep > 0 && !c.crowded) return;
-      const bool loaded = c.bears && lists.supports[c.support].impulse > 0.0;
-      const double depth = push_apart(d, rules.box, c.event, loaded ? slop : 0.0);
-      if (c.crowded) lists.largest[block] = std::max(lists.largest[block], depth);
+  run_levels(lists.levels, contacts.size(), false, executor, [&](std::size_t k, std::size_t) { push(contacts[k]); });
+  for (int sweep = 1; sweep < most_push_sweeps; ++sweep) {
+    if (!any_deep(d, rules, executor, lists)) break;
+    run_levels(lists.levels, contacts.size(), false, executor, [&](std::size_t k, std::size_t) {
+      if (contacts[k].crowded && is_deep(d, rules.box, contacts[k].event)) push(contacts[k]);
     });
-    if (*std::max_element(lists.largest.begin(), lists.largest.end()) <= shallow_overlap) break;
   }
 }
 

@@ -108,21 +108,25 @@ void resolve_crowded(const View& d, const StepRules& rules, std::size_t disks, c
                      ContactLists& lists, ImpactTally& tally) {
   std::vector<ContactEvent>& crowded = lists.crowded;
   if (crowded.empty()) return;
+  const auto slots = static_cast<std::size_t>(executor.threads());
   build_levels(lists.levels, crowded, disks, executor, wall_of_event);
-  const std::size_t blocks = executor.blocks(crowded.size(), level_block);
-  lists.tallies.assign(blocks, {});
-  run_levels(lists.levels, crowded.size(), false, executor, [&](std::size_t k, std::size_t block) {
-    lists.tallies[block].add(crowded[k].id2, resolve_event(d, rules, crowded[k]));
+  lists.tallies.assign(slots, {});
+  run_levels(lists.levels, crowded.size(), false, executor, [&](std::size_t k, std::size_t slot) {
+    lists.tallies[slot].add(crowded[k].id2, resolve_event(d, rules, crowded[k]));
   });
   for (const ImpactTally& t : lists.tallies) tally.add(t);
   executor.sort(crowded.begin(), crowded.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
   build_levels(lists.levels, crowded, disks, executor, wall_of_event);
-  for (int sweep = 0; sweep < most_push_sweeps; ++sweep) {
-    lists.largest.assign(blocks, 0.0);
-    run_levels(lists.levels, crowded.size(), false, executor, [&](std::size_t k, std::size_t block) {
-      lists.largest[block] = std::max(lists.largest[block], push_apart(d, rules.box, crowded[k], 0.0));
+  run_levels(lists.levels, crowded.size(), false, executor,
+             [&](std::size_t k, std::size_t) { push_apart(d, rules.box, crowded[k], 0.0); });
+  for (int sweep = 1; sweep < most_push_sweeps; ++sweep) {
+    lists.largest.assign(slots, 0.0);
+    run_levels(lists.levels, crowded.size(), false, executor, [&](std::size_t k, std::size_t slot) {
+      if (!is_deep(d, rules.box, crowded[k])) return;
+      push_apart(d, rules.box, crowded[k], 0.0);
+      lists.largest[slot] = 1.0;
     });
-    if (*std::max_element(lists.largest.begin(), lists.largest.end()) <= shallow_overlap) break;
+    if (std::count(lists.largest.begin(), lists.largest.end(), 0.0) == executor.threads()) break;
   }
 }
 
