@@ -6,6 +6,6 @@ target_compile_options(carom_warnings INTERFACE
 # g++ 12 reports null dereferences, overlaps and bounds inside the standard library's strings that are not there
 # (std::string + at -O3, and more under sanitizers); the address sanitizer finds the real ones.
 target_compile_options(carom_warnings INTERFACE
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference;-Wno-restrict;-Wno-array-bounds>)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference;-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow>)
 # clang doubts | between comparisons; the hot loops mean it: without branches they become vector instructions.
 target_compile_options(carom_warnings INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
