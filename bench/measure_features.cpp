@@ -14,7 +14,7 @@ namespace carom::bench {
 namespace {
 
 constexpr std::size_t million = 1'000'000;
-constexpr int steps_a_turn = 10;
+constexpr int steps_a_turn = 24;
 
 // Takes turns of steps of an engine of its own; times are in ns per disk and step.
 Contender stepping(const std::string& name, const Start& start, int threads) {
@@ -30,7 +30,7 @@ Contender stepping(const std::string& name, const Start& start, int threads) {
 }  // namespace
 
 std::vector<Figure> measure_features(const std::string& folder) {
-  constexpr int rounds = 7;
+  constexpr int rounds = 5;
   std::vector<Contender> turns;
   for (const std::string& feature : gas_features) {
     const Start start = gas(million, feature);

@@ -17,9 +17,9 @@ namespace carom::bench {
 namespace {
 
 constexpr std::size_t million = 1'000'000;
-// Steps a turn: two or three sorts, so that turns are alike.
-constexpr int steps_a_turn = 10;
-constexpr int rounds = 15;
+// Steps a turn: about three sorts, so that turns are alike.
+constexpr int steps_a_turn = 36;
+constexpr int rounds = 9;
 
 // What a phase took in each round.
 class PhaseRounds {

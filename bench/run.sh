@@ -14,7 +14,7 @@ mkdir -p "$results"
 if [[ $part != figures ]]; then
     for rows in phases step; do
         "$programs/bench_$rows" --benchmark_enable_random_interleaving=true --benchmark_repetitions=3 \
-            --benchmark_report_aggregates_only=true --benchmark_counters_tabular=true \
+            --benchmark_display_aggregates_only=true --benchmark_counters_tabular=true \
             --benchmark_out="$results/rows_$rows.csv" --benchmark_out_format=csv
     done
 fi
