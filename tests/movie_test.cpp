@@ -156,7 +156,7 @@ std::string probe(const std::string& path) {
       path + "'";
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   std::string text;
-  for (int c; (c = std::fgetc(pipe.get())) != EOF;) text += static_cast<char>(c);
+  for (int c = std::fgetc(pipe.get()); c != EOF; c = std::fgetc(pipe.get())) text += static_cast<char>(c);
   return text;
 }
 

@@ -137,7 +137,10 @@ std::vector<double> frame_times(FrameSchedule schedule, double dt, double t_end)
   std::vector<double> times;
   double now = 0.0;
   for (Count step = 0;; ++step) {
-    for (double due; (due = schedule.due(now)) >= 0.0; schedule.made(due)) times.push_back(due);
+    for (double due = schedule.due(now); due >= 0.0; due = schedule.due(now)) {
+      times.push_back(due);
+      schedule.made(due);
+    }
     if (now >= t_end) return times;
     now = std::min(now + dt, t_end);
   }
