@@ -12,9 +12,15 @@ namespace carom {
 
 // Ids from here on are not disks: the partner of a wall contact is wall_partner(side).
 inline constexpr DiskId first_wall_partner = 0xfffffff0U;
-inline constexpr DiskId wall_partner(Side side) { return first_wall_partner + static_cast<DiskId>(side); }
-inline constexpr bool is_wall(DiskId partner) { return partner >= first_wall_partner; }
-inline constexpr Side wall_side(DiskId partner) { return static_cast<Side>(partner - first_wall_partner); }
+inline constexpr DiskId wall_partner(Side side) {
+  return first_wall_partner + static_cast<DiskId>(side);
+}
+inline constexpr bool is_wall(DiskId partner) {
+  return partner >= first_wall_partner;
+}
+inline constexpr Side wall_side(DiskId partner) {
+  return static_cast<Side>(partner - first_wall_partner);
+}
 
 struct ContactEvent {
   double ago;            // time since the contact, 0 <= ago <= the step; the step if it is older or the pair separates

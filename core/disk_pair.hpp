@@ -21,7 +21,9 @@ struct Relative {
 };
 
 // (6), with contact included: "overlaps or touches". reach = r1 + r2.
-inline bool touches(double distance2, double reach) { return distance2 <= reach * reach; }
+inline bool touches(double distance2, double reach) {
+  return distance2 <= reach * reach;
+}
 
 // Time from now at which two disks on straight relative paths touch: the smaller root of (12) in the form that does
 // not cancel, t = c / (-b + sqrt(b^2 - a c)) with a = dv.dv, b = dr.dv, c = dr.dr - reach^2. Negative when they overlap
@@ -46,7 +48,9 @@ inline Shares shares(double m1, double m2) {
   return {m2 / sum, m1 / sum};
 }
 
-inline double reduced_mass(double m1, double m2) { return m1 / (m1 + m2) * m2; }
+inline double reduced_mass(double m1, double m2) {
+  return m1 / (m1 + m2) * m2;
+}
 
 // The collision rule (23) for any masses and restitution, along the line of centres only: the normal relative velocity
 // is multiplied by -e, the tangential one and the total momentum stay. With e = 1 it is the right elastic rule for

@@ -68,6 +68,10 @@ double drift_blocks(Disks& d, const Domain& box, double gravity, double t, const
 void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor,
                         std::vector<std::vector<ContactEvent>>& buffers) {
   if (!rules.box.has(SideKind::wall)) return;
+  while (buffers.size() < executor.blocks(disks.size(), drift_block)) {
+    buffers.emplace_back();
+    buffers.back().reserve(drift_block / 16);
+  }
   buffers.resize(executor.blocks(disks.size(), drift_block));
   const std::array<double, 4> limit = wall_limits(rules.box);
   with_view(disks, [&](const auto& d) {

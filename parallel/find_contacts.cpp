@@ -126,7 +126,12 @@ void search_across(const SearchInput& in, const GridLevel& small, std::size_t i,
 std::size_t more_buffers(FoundPairs& found, std::size_t blocks) {
   const std::size_t first = found.used;
   found.used += blocks;
-  if (found.buffers.size() < found.used) found.buffers.resize(found.used);
+  while (found.buffers.size() < found.used) {
+    // Room for the contacts of a dense fluid, so that a later, busier step need not ask for more.
+    found.buffers.emplace_back();
+    found.buffers.back().pairs.reserve(search_block / 16);
+    found.buffers.back().strays.reserve(search_block / 64);
+  }
   for (std::size_t b = first; b < found.used; ++b) {
     found.buffers[b].pairs.clear();
     found.buffers[b].strays.clear();

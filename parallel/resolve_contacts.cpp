@@ -62,7 +62,11 @@ double resolve_alone(const View& d, const StepRules& rules, const FoundPairs& fo
                      ContactLists& lists, ImpactTally& tally) {
   count_found(found, walls, disks, executor, lists);
   const std::size_t blocks = found.used + walls.size();
-  if (lists.crowded_blocks.size() < blocks) lists.crowded_blocks.resize(blocks);
+  while (lists.crowded_blocks.size() < blocks) {
+    lists.crowded_blocks.emplace_back();
+    lists.crowded_blocks.back().reserve(contact_block / 8);
+  }
+  lists.crowded.reserve(contact_block);
   lists.tallies.assign(blocks, {});
   lists.largest.assign(blocks, 0.0);
   executor.run(found.used, [&](std::size_t b) {
@@ -193,17 +197,19 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
     } else {
       speed2 = resolve_alone(d, rules, found, walls, state.disks.size(), executor, lists, tally);
       resolve_crowded(d, rules, state.disks.size(), executor, lists, tally);
-      lists.events.swap(lists.crowded);
     }
   });
   tally.count_into(state.counters);
-  return std::max(speed2, finish_contacts(state.disks, rules.box, executor, lists));
+  // Contacts that were alone are finished; in a scene that settles all of them are still to do.
+  const std::vector<ContactEvent>& rest = rules.settles ? lists.events : lists.crowded;
+  return std::max(speed2, finish_contacts(state.disks, rules.box, executor, rest, lists));
 }
 
-double finish_contacts(Disks& disks, const Domain& box, const Executor& executor, ContactLists& lists) {
-  const std::size_t blocks = executor.blocks(lists.events.size(), contact_block);
+double finish_contacts(Disks& disks, const Domain& box, const Executor& executor,
+                       const std::vector<ContactEvent>& events, ContactLists& lists) {
+  const std::size_t blocks = executor.blocks(events.size(), contact_block);
   lists.largest.assign(blocks, 0.0);
-  executor.for_ranges(lists.events.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+  executor.for_ranges(events.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     // Whoever takes the count away wraps the disk: once each, and the result does not depend on who.
     const auto finish = [&](std::uint32_t i) {
       if (std::atomic_ref<std::uint16_t>(lists.contacts[i]).exchange(0, std::memory_order_relaxed) == 0) return;
@@ -213,8 +219,8 @@ double finish_contacts(Disks& disks, const Domain& box, const Executor& executor
       lists.largest[b] = std::max(lists.largest[b], v2);
     };
     for (std::size_t k = begin; k < end; ++k) {
-      finish(lists.events[k].i1);
-      if (!is_wall(lists.events[k].id2)) finish(lists.events[k].i2);
+      finish(events[k].i1);
+      if (!is_wall(events[k].id2)) finish(events[k].i2);
     }
   });
   double largest = 0.0;

@@ -51,8 +51,9 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
                         const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
                         ContactLists& lists);
 
-// Wraps the disks in lists.events, clears their counts, returns the largest squared speed among them.
-double finish_contacts(Disks& disks, const Domain& box, const Executor& executor, ContactLists& lists);
+// Wraps the disks in events, clears their counts, returns the largest squared speed among them.
+double finish_contacts(Disks& disks, const Domain& box, const Executor& executor,
+                       const std::vector<ContactEvent>& events, ContactLists& lists);
 
 // Keeps the events for which keep(event) holds, and counts the contacts of each disk anew.
 template <class Keep>

@@ -190,7 +190,7 @@ void TimeStepping::gather(const StepRules& rules) {
 }
 
 void TimeStepping::finish_contacts() {
-  speed2_ = std::max(speed2_, carom::finish_contacts(state_.disks, scene_.box, executor_, lists_));
+  speed2_ = std::max(speed2_, carom::finish_contacts(state_.disks, scene_.box, executor_, lists_.events, lists_));
 }
 
 void TimeStepping::remove_at_sinks() {
