@@ -7,7 +7,7 @@
 
 #include "core/contact_event.hpp"
 #include "core/exact_path.hpp"
-#include "core/order_free_sum.hpp"
+#include "core/resolve.hpp"
 #include "core/types.hpp"
 
 namespace carom {
@@ -29,56 +29,19 @@ struct ExactDisk {
   double last_contact = -never;  // TC model: when it last collided, disk or wall; time in the window, may be < 0
 };
 
-// What an event transferred: |impulse| x distance of a disk pair (mass length^2 / time), |impulse| of a wall.
-struct EventOutcome {
-  double amount = 0.0;
-  bool counts = false;
-};
-
-// What is counted during a window. The sums do not depend on the order of events.
-struct ExactTally {
-  Count collisions = 0;
-  Count wall_collisions = 0;
-  OrderFreeSum virial;
-  std::array<OrderFreeSum, 4> wall_impulse;
-
-  ExactTally() = default;
-  // momentum: about the largest m |v|; length: about the largest r1 + r2.
-  ExactTally(double momentum, double length) : virial(momentum * length) { wall_impulse.fill(OrderFreeSum(momentum)); }
-
-  // partner: the second disk, or a side (contact_event.hpp).
-  void count(DiskId partner, const EventOutcome& outcome) {
-    if (!outcome.counts) return;
-    if (is_wall(partner)) {
-      wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(outcome.amount);
-      ++wall_collisions;
-    } else {
-      virial.add(outcome.amount);
-      ++collisions;
-    }
-  }
-  void add(const ExactTally& other) {
-    collisions += other.collisions;
-    wall_collisions += other.wall_collisions;
-    virial.add(other.virial);
-    for (std::size_t k = 0; k < wall_impulse.size(); ++k) wall_impulse[k].add(other.wall_impulse[k]);
-  }
-};
-
 // TC model (Luding and McNamara 1998): e = 1 where one of the disks collided less than contact_time ago.
 inline double restitution_at(const ExactRules& rules, double e, double s, double last_contact) {
   return rules.tc() && s - last_contact < rules.contact_time ? 1.0 : e;
 }
 
 // Disks a and b (smaller id first) collide at time s; their new segments start there.
-inline EventOutcome collide_at(const ExactRules& rules, double s, double mass_a, double mass_b, ExactDisk& a,
-                               ExactDisk& b) {
+inline Impact collide_at(const ExactRules& rules, double s, double mass_a, double mass_b, ExactDisk& a, ExactDisk& b) {
   PathSegment& p = a.path;
   PathSegment& q = b.path;
   p = carried_to(p, s, rules.gravity);
   q = carried_to(q, s, rules.gravity);
   const Relative r = relative(p, q, rules.box);
-  EventOutcome outcome;
+  Impact outcome;
   if (r.approach() < 0.0 && r.distance2() > 0.0) {
     const Shares share = rules.common_mass ? equal_shares : shares(mass_a, mass_b);
     const double e = restitution_at(rules, rules.restitution, s, std::max(a.last_contact, b.last_contact));
@@ -99,10 +62,10 @@ inline constexpr double least_hop = 0.25;
 
 // Disk a meets a side at time s: bounces off a wall, crosses a periodic side; a sink takes it, which the caller sees
 // to.
-inline EventOutcome meet_side_at(const ExactRules& rules, double s, Side side, double mass, ExactDisk& a) {
+inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double mass, ExactDisk& a) {
   PathSegment& p = a.path;
   p = carried_to(p, s, rules.gravity);
-  EventOutcome outcome;
+  Impact outcome;
   if (rules.box.side(side) == SideKind::wall) {
     const double e = restitution_at(rules, rules.box.wall_restitution, s, a.last_contact);
     const double before = outward_speed(side, p.vx, p.vy);

@@ -1,8 +1,10 @@
 // Sums of doubles without rounding, so that the order in which threads add does not matter.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -33,32 +35,37 @@ class ExactSum {
     for (std::size_t k = 0; k < limbs_.size(); ++k) limbs_[k] += other.limbs_[k];
   }
 
-  // The sum as a double: a function of the exact value alone, within one unit in the last place.
+  // The sum, correctly rounded: so it scales exactly with powers of two.
   double value() const {
-    std::array<std::int64_t, limb_count> carried{};
-    std::int64_t carry = 0;
-    for (std::size_t k = 0; k < limb_count; ++k) {
-      const std::int64_t sum = limbs_[k] + carry;
-      carry = sum >> 32;  // rounds down, so every limb below the top is in [0, 2^32)
-      carried[k] = sum - carry * 4294967296LL;
+    std::array<std::int64_t, limb_count> digits = limbs_;
+    const bool negative = carry_over(digits) < 0;
+    if (negative) {
+      for (std::int64_t& digit : digits) digit = -digit;
+      carry_over(digits);
     }
-    carried[limb_count - 1] += carry * 4294967296LL;
-    double total = 0.0;
-    for (std::size_t k = limb_count; k-- > 0;) {
-      if (carried[k] != 0) total += static_cast<double>(carried[k]) * weight(k);
-    }
-    return total;
+    std::size_t top = limb_count - 1;
+    while (top > 2 && digits[top] == 0) --top;
+    // At least 65 bits from the first one on; one more says whether anything but zeros follows.
+    Wide leading = 0;
+    for (std::size_t k = 0; k < 3; ++k) leading = (leading << 32) + static_cast<Wide>(digits[top - k]);
+    const auto below = digits.begin() + static_cast<std::ptrdiff_t>(top - 2);
+    if (std::any_of(digits.begin(), below, [](std::int64_t digit) { return digit != 0; })) leading |= 1U;
+    const double size = std::ldexp(static_cast<double>(leading), 32 * static_cast<int>(top - 2) - 1074);
+    return negative ? -size : size;
   }
 
  private:
+  __extension__ using Wide = unsigned __int128;
   static constexpr std::size_t limb_count = 68;
 
-  // 2^(32 k - 1074); a product of two, since the lowest is subnormal.
-  static double weight(std::size_t k) {
-    const int power = 32 * static_cast<int>(k) - 1074;
-    if (power >= -1022 && power <= 1023) return std::bit_cast<double>(static_cast<std::uint64_t>(power + 1023) << 52);
-    if (power > 1023) return 0x1p1023 * std::bit_cast<double>(static_cast<std::uint64_t>(power) << 52);
-    return 0x1p-1022 * std::bit_cast<double>(static_cast<std::uint64_t>(power + 1022 + 1023) << 52);
+  // Brings all limbs but the last into [0, 2^32); returns the last, which has the sign of the whole.
+  static std::int64_t carry_over(std::array<std::int64_t, limb_count>& digits) {
+    for (std::size_t k = 0; k + 1 < limb_count; ++k) {
+      const std::int64_t carry = digits[k] >> 32;  // rounds down
+      digits[k] -= carry * 4294967296LL;
+      digits[k + 1] += carry;
+    }
+    return digits.back();
   }
 
   std::array<std::int64_t, limb_count> limbs_{};

@@ -22,11 +22,11 @@ class ReferenceExact final : public Engine {
   void step() override {
     if (!(state_.time < scene_.run.t_end)) return;
     start_window();
-    const SpeedSummary speeds = summarise_speeds(state_.disks);
-    const WindowPlan plan = plan_window(scene_, state_, speeds, scale_);
-    const ExactTally tally = make_tally(scene_, state_.disks, speeds, plan.length);
+    SpeedTally speeds;
+    speeds.add(state_.disks, 0, state_.disks.size());
+    const WindowPlan plan = plan_window(scene_, state_, summarise_speeds(speeds, state_.disks.size()), scale_);
     const PhaseTimer timer(times_, "window");
-    WindowResult result = run_window(exact_rules(scene_, state_.disks), state_, plan, tally);
+    WindowResult result = run_window(exact_rules(scene_, state_.disks), state_, plan);
     last_plan_ = plan;
     paths_ = std::move(result.paths);
     at_start_ = state_.disks;

@@ -78,10 +78,10 @@ class EventLoop {
     add_travel(e.i1, e.time);
     if (pair) add_travel(e.i2, e.time);
     ExactDisk& first = result_.disks[e.i1];
-    const EventOutcome outcome =
+    const Impact outcome =
         pair ? collide_at(rules_, e.time, disks_.mass_of(e.i1), disks_.mass_of(e.i2), first, result_.disks[e.i2])
              : meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), first);
-    result_.tally.count(e.id2, outcome);
+    result_.tally.add(e.id2, outcome);
     if (!pair && rules_.box.side(wall_side(e.id2)) == SideKind::sink) result_.gone[e.i1] = 1;
     begin_segment(e, e.i1);
     if (pair) begin_segment(e, e.i2);
@@ -116,10 +116,9 @@ class EventLoop {
   double farthest_ = 0.0;
 };
 
-WindowResult fresh_result(const State& state, const ExactTally& tally) {
+WindowResult fresh_result(const State& state) {
   const Disks& d = state.disks;
   WindowResult result;
-  result.tally = tally;
   result.gone.assign(d.size(), 0);
   result.disks.resize(d.size());
   result.paths.first.resize(d.size());
@@ -141,10 +140,10 @@ double guess_travel(const ExactRules& rules, const Disks& d, double length) {
 
 }  // namespace
 
-WindowResult run_window(const ExactRules& rules, const State& state, const WindowPlan& plan, ExactTally tally) {
+WindowResult run_window(const ExactRules& rules, const State& state, const WindowPlan& plan) {
   double travel = guess_travel(rules, state.disks, plan.length);
   for (;;) {
-    WindowResult result = fresh_result(state, tally);
+    WindowResult result = fresh_result(state);
     const double farthest = EventLoop(rules, state, plan, travel, result).run();
     if (farthest <= travel) return result;
     travel = 2.0 * farthest;

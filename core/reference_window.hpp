@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/exact_event.hpp"
+#include "core/impact_tally.hpp"
 #include "core/state.hpp"
 #include "core/window_plan.hpp"
 
@@ -25,11 +26,11 @@ struct WindowResult {
   WindowPaths paths;
   std::vector<ExactDisk> disks;     // last segments
   std::vector<unsigned char> gone;  // left through a sink
-  ExactTally tally;
+  ImpactTally tally;
 };
 
 // Finds and resolves every event of [0, plan.length]; `state` is that of the window's start and is not changed.
-// tally comes empty, with its scales. Throws PhysicsError at inelastic collapse.
-WindowResult run_window(const ExactRules& rules, const State& state, const WindowPlan& plan, ExactTally tally);
+// Throws PhysicsError at inelastic collapse.
+WindowResult run_window(const ExactRules& rules, const State& state, const WindowPlan& plan);
 
 }  // namespace carom

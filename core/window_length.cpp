@@ -19,30 +19,22 @@ constexpr double first_share = 1.0 / 16.0;
 
 }  // namespace
 
-void find_largest_speeds(const Disks& d, std::size_t begin, std::size_t end, SpeedSummary& s) {
-  double largest2 = s.largest2;
-  double momentum2 = s.largest_momentum2;
+void SpeedTally::add(const Disks& d, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
     const double v2 = d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
-    const double m = d.mass_of(i);
     largest2 = std::max(largest2, v2);
-    momentum2 = std::max(momentum2, m * m * v2);
+    squares.add(v2);
   }
-  s.largest2 = largest2;
-  s.largest_momentum2 = momentum2;
 }
 
-void add_squared_speeds(const Disks& d, std::size_t begin, std::size_t end, OrderFreeSum& sum) {
-  for (std::size_t i = begin; i < end; ++i) sum.add(d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+void SpeedTally::add(const SpeedTally& other) {
+  largest2 = std::max(largest2, other.largest2);
+  squares.add(other.squares);
 }
 
-SpeedSummary summarise_speeds(const Disks& d) {
-  SpeedSummary s;
-  find_largest_speeds(d, 0, d.size(), s);
-  OrderFreeSum sum(s.largest2);
-  add_squared_speeds(d, 0, d.size(), sum);
-  if (!d.empty()) s.mean2 = sum.value() / static_cast<double>(d.size());
-  return s;
+SpeedSummary summarise_speeds(const SpeedTally& tally, std::size_t disks) {
+  if (disks == 0 || !std::isfinite(tally.largest2)) return {tally.largest2, tally.largest2};
+  return {tally.largest2, tally.squares.value() / static_cast<double>(disks)};
 }
 
 double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_t disks) {

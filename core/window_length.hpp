@@ -5,24 +5,28 @@
 #include <cstddef>
 
 #include "core/disks.hpp"
-#include "core/order_free_sum.hpp"
+#include "core/exact_sum.hpp"
 #include "core/scene.hpp"
 #include "core/types.hpp"
 
 namespace carom {
 
-// What the disks' speeds say, taken over all of them; the sums do not depend on their order.
-struct SpeedSummary {
-  double largest2 = 0.0;           // v^2; length^2 / time^2
-  double largest_momentum2 = 0.0;  // (m v)^2
-  double mean2 = 0.0;              // mean of v^2
+// What the disks' speeds say. Neither depends on the order in which disks are added.
+struct SpeedTally {
+  double largest2 = 0.0;  // v^2; length^2 / time^2
+  ExactSum squares;       // of v^2
+
+  // Disks [begin, end).
+  void add(const Disks& disks, std::size_t begin, std::size_t end);
+  void add(const SpeedTally& other);
 };
 
-SpeedSummary summarise_speeds(const Disks& disks);
+struct SpeedSummary {
+  double largest2 = 0.0;  // v^2; length^2 / time^2
+  double mean2 = 0.0;     // mean of v^2; not finite where largest2 is not
+};
 
-// The two passes of that over disks [begin, end): first the largest values, then the sum of v^2 on their scale.
-void find_largest_speeds(const Disks& disks, std::size_t begin, std::size_t end, SpeedSummary& summary);
-void add_squared_speeds(const Disks& disks, std::size_t begin, std::size_t end, OrderFreeSum& sum);
+SpeedSummary summarise_speeds(const SpeedTally& tally, std::size_t disks);
 
 // Longest window that pays: the typical disk crosses half the distance to its neighbours, and 64 disks or fewer go
 // proportionally further, so that a window of two disks still holds some tens of events. Infinity when nothing moves.

@@ -42,19 +42,9 @@ WindowPlan plan_window(const Scene& scene, const State& state, const SpeedSummar
   return plan;
 }
 
-ExactTally make_tally(const Scene& scene, const Disks& disks, const SpeedSummary& speeds, double length) {
-  double mass = disks.common_mass;
-  for (const double m : disks.mass) mass = std::max(mass, m);
-  const double momentum = std::sqrt(speeds.largest_momentum2) + mass * scene.physics.gravity * length;
-  return {momentum, 2.0 * largest_radius(disks)};
-}
-
-void finish_window(State& state, const WindowPlan& plan, const ExactTally& tally, double scale) {
+void finish_window(State& state, const WindowPlan& plan, const ImpactTally& tally, double scale) {
   Counters& c = state.counters;
-  c.collisions += tally.collisions;
-  c.wall_collisions += tally.wall_collisions;
-  c.virial += tally.virial.value();
-  for (std::size_t k = 0; k < 4; ++k) c.wall_impulse[k] += tally.wall_impulse[k].value();
+  tally.count_into(c);
   ++c.steps;
   state.time = plan.end;
   state.window = next_window(plan.meant / scale, plan.length / scale, tally.collisions + tally.wall_collisions,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/exact_event.hpp"
+#include "core/impact_tally.hpp"
 #include "core/scene.hpp"
 #include "core/state.hpp"
 #include "core/window_length.hpp"
@@ -21,11 +22,8 @@ ExactRules exact_rules(const Scene& scene, const Disks& disks);
 // windows by. Throws PhysicsError when time no longer advances.
 WindowPlan plan_window(const Scene& scene, const State& state, const SpeedSummary& speeds, double scale);
 
-// The tally of a window that starts with these speeds.
-ExactTally make_tally(const Scene& scene, const Disks& disks, const SpeedSummary& speeds, double length);
-
 // The window is over: time, counters and the length meant for the next one.
-void finish_window(State& state, const WindowPlan& plan, const ExactTally& tally, double scale);
+void finish_window(State& state, const WindowPlan& plan, const ImpactTally& tally, double scale);
 
 // The one line about disks id1 and id2 (a wall, perhaps) whose collisions pile up at a time. Status 3.
 [[noreturn]] void fail_collapse(DiskId id1, DiskId id2, double time);

@@ -275,7 +275,7 @@ void ComponentSolver::happen(std::uint32_t m, const NextEvent& e) {
   if (is_wall(e.id2)) {
     Member& member = arena_.members[m];
     const Side side = wall_side(e.id2);
-    const EventOutcome outcome = meet_side_at(field_.rules, e.time, side, d.mass_of(member.disk), member.now);
+    const Impact outcome = meet_side_at(field_.rules, e.time, side, d.mass_of(member.disk), member.now);
     member.gone = field_.rules.box.side(side) == SideKind::sink;
     begin_piece(m, e, true, outcome);
     if (member.gone) {
@@ -291,14 +291,14 @@ void ComponentSolver::happen(std::uint32_t m, const NextEvent& e) {
   if (d.id[arena_.members[first].disk] != e.id1) std::swap(first, second);
   Member& a = arena_.members[first];
   Member& b = arena_.members[second];
-  const EventOutcome outcome = collide_at(field_.rules, e.time, d.mass_of(a.disk), d.mass_of(b.disk), a.now, b.now);
+  const Impact outcome = collide_at(field_.rules, e.time, d.mass_of(a.disk), d.mass_of(b.disk), a.now, b.now);
   begin_piece(first, e, true, outcome);
   begin_piece(second, e, false, outcome);
   look_around(first);
   look_around(second);
 }
 
-void ComponentSolver::begin_piece(std::uint32_t m, const NextEvent& e, bool counts, const EventOutcome& outcome) {
+void ComponentSolver::begin_piece(std::uint32_t m, const NextEvent& e, bool counts, const Impact& outcome) {
   Member& member = arena_.members[m];
   ++member.version;
   arena_.pieces.push_back({member.now.path, member.last_piece, counts ? e.id2 : nobody, outcome});

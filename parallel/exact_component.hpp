@@ -104,7 +104,7 @@ struct Piece {
   PathSegment path;
   std::uint32_t before;  // the same member's piece before this one, or nobody
   DiskId partner;        // of the event, in the piece of the disk with the smaller id; otherwise nobody
-  EventOutcome outcome;
+  Impact outcome;
 };
 
 struct Member {
@@ -190,7 +190,7 @@ class ComponentSolver {
   std::uint32_t first_due() const;
   bool take_in(std::uint32_t member, const NextEvent& e);
   void happen(std::uint32_t member, const NextEvent& e);
-  void begin_piece(std::uint32_t member, const NextEvent& e, bool counts, const EventOutcome& outcome);
+  void begin_piece(std::uint32_t member, const NextEvent& e, bool counts, const Impact& outcome);
   std::uint32_t handle(std::uint32_t member) const { return handle_of(arena_.number, member); }
   std::uint32_t owner_of(std::uint32_t i) const {
     return std::atomic_ref<std::uint32_t>(field_.owner[i]).load(std::memory_order_seq_cst);

@@ -143,28 +143,14 @@ void ParallelExact::remove(const std::vector<unsigned char>& gone) {
   if (state_.disks.size() != before) lists_good_ = false;
 }
 
-// summarise_speeds of core, block by block: maxima and sums of whole numbers, which do not depend on order.
 SpeedSummary ParallelExact::summarise() {
   const Disks& d = state_.disks;
-  const std::size_t blocks = executor_.blocks(d.size(), pass_block);
-  std::vector<SpeedSummary> largest(blocks);
-  executor_.for_ranges(d.size(), pass_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    find_largest_speeds(d, begin, end, largest[b]);
-  });
-  SpeedSummary s;
-  for (const SpeedSummary& block : largest) {
-    s.largest2 = std::max(s.largest2, block.largest2);
-    s.largest_momentum2 = std::max(s.largest_momentum2, block.largest_momentum2);
-  }
-  std::vector<OrderFreeSum> sums(blocks, OrderFreeSum(s.largest2));
-  executor_.for_ranges(d.size(), pass_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    add_squared_speeds(d, begin, end, sums[b]);
-  });
-  OrderFreeSum sum(s.largest2);
-  for (const OrderFreeSum& block : sums) sum.add(block);
-  if (!d.empty()) s.mean2 = sum.value() / static_cast<double>(d.size());
-  speeds_ = s;
-  return s;
+  std::vector<SpeedTally> tally(std::max<std::size_t>(executor_.blocks(d.size(), pass_block), 1));
+  executor_.for_ranges(d.size(), pass_block,
+                       [&](std::size_t b, std::size_t begin, std::size_t end) { tally[b].add(d, begin, end); });
+  for (std::size_t b = 1; b < tally.size(); ++b) tally[0].add(tally[b]);
+  speeds_ = summarise_speeds(tally[0], d.size());
+  return speeds_;
 }
 
 void ParallelExact::list_if_due() {
@@ -210,7 +196,7 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
 
 void ParallelExact::run_slices(const WindowPlan& plan) {
   const PhaseTimer timer(times_, "events");
-  slices_.begin_window(make_tally(scene_, state_.disks, speeds_, plan.length));
+  slices_.begin_window();
   const std::size_t n = state_.disks.size();
   const double aimed = std::max(4.0, events_per_slice * static_cast<double>(n));
   if (!(slice_ > 0.0)) slice_ = 0.125 * plan.length;

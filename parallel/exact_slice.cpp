@@ -27,13 +27,13 @@ void unroll(const ExactField& field, const Member& m, const std::vector<Piece>& 
 
 }  // namespace
 
-void ExactSlices::begin_window(const ExactTally& tally) {
+void ExactSlices::begin_window() {
   const std::size_t n = field_.path.size();
   block_ = std::max(executor_.grain(look_block), n / (most_arenas / 2) + 1);
   const std::size_t blocks = (n + block_ - 1) / block_;
   arenas_.resize(blocks + 1);
   for (std::size_t a = 0; a < arenas_.size(); ++a) arenas_[a].number = static_cast<std::uint32_t>(a);
-  tallies_.assign(blocks + 1, tally);
+  tallies_.assign(blocks + 1, {});
   log_.resize(blocks + 1);
   for (auto& log : log_) log.clear();
   gone_seen_.assign(blocks + 1, 0);
@@ -231,7 +231,7 @@ void ExactSlices::commit() {
 
 void ExactSlices::commit_arena(std::size_t a) {
   ComponentArena& arena = arenas_[a];
-  ExactTally& tally = tallies_[a];
+  ImpactTally& tally = tallies_[a];
   std::vector<LoggedPiece>& log = log_[a];
   double& fastest2 = fastest2_[a];
   for (const Component& c : arena.components) {
@@ -247,7 +247,7 @@ void ExactSlices::commit_arena(std::size_t a) {
       for (std::uint32_t p = m.last_piece; p != nobody; p = arena.pieces[p].before) {
         const Piece& piece = arena.pieces[p];
         log.push_back({m.disk, m.gone && p == m.last_piece, piece.path});
-        if (piece.partner != nobody) tally.count(piece.partner, piece.outcome);
+        if (piece.partner != nobody) tally.add(piece.partner, piece.outcome);
       }
       std::reverse(log.begin() + static_cast<std::ptrdiff_t>(first), log.end());
       path = m.now.path;
@@ -264,15 +264,15 @@ void ExactSlices::commit_arena(std::size_t a) {
   }
 }
 
-ExactTally ExactSlices::tally() const {
-  ExactTally sum = tallies_.front();
+ImpactTally ExactSlices::tally() const {
+  ImpactTally sum = tallies_.front();
   for (std::size_t k = 1; k < tallies_.size(); ++k) sum.add(tallies_[k]);
   return sum;
 }
 
 Count ExactSlices::events() const {
   Count events = 0;
-  for (const ExactTally& t : tallies_) events += t.collisions + t.wall_collisions;
+  for (const ImpactTally& t : tallies_) events += t.collisions + t.wall_collisions;
   return events;
 }
 

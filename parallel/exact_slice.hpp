@@ -6,7 +6,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "core/exact_event.hpp"
+#include "core/impact_tally.hpp"
 #include "parallel/exact_component.hpp"
 #include "parallel/exact_lists.hpp"
 #include "parallel/executor.hpp"
@@ -33,14 +33,14 @@ class ExactSlices {
   ExactSlices(ExactField& field, ExactLists& lists, const Executor& executor)
       : field_(field), lists_(lists), executor_(executor) {}
 
-  // A window begins: the log is empty, `tally` is an empty one with its scales.
-  void begin_window(const ExactTally& tally);
+  // A window begins: log and tally are empty.
+  void begin_window();
 
   // Runs the slice. False: a disk went too far for its list within it, nothing has happened; cut the slice short and
   // try again. Returns true when done. Throws PhysicsError at inelastic collapse.
   bool run(double start, double end, double window_start);
 
-  ExactTally tally() const;
+  ImpactTally tally() const;
   Count events() const;  // of the window so far
   bool any_gone() const { return any_gone_; }
   std::span<const std::vector<LoggedPiece>> log() const { return log_; }
@@ -73,7 +73,7 @@ class ExactSlices {
   const Executor& executor_;
   std::size_t block_ = 1;               // disks a block
   std::vector<ComponentArena> arenas_;  // one a block, and one for what is joined
-  std::vector<ExactTally> tallies_;     // likewise
+  std::vector<ImpactTally> tallies_;    // likewise
   std::vector<std::vector<LoggedPiece>> log_;
   std::vector<unsigned char> gone_seen_;
   std::vector<double> fastest2_;
