@@ -16,7 +16,8 @@ std::uint32_t cells_along(double length, double least, double most, bool periodi
 
 }  // namespace
 
-CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count) {
+CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
+                   unsigned band_shift) {
   CellGrid grid;
   double radius = largest_radius;
   for (std::size_t k = 0; k < count.size(); ++k, radius /= class_ratio) {
@@ -33,7 +34,10 @@ CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<s
     level.cell_height = box.height / level.rows;
     level.columns_per_length = level.columns / box.width;
     level.rows_per_length = level.rows / box.height;
-    level.stride = level.columns + 1;
+    const bool banded = level.columns > 1U << band_shift;
+    level.band_shift = banded ? band_shift : 31;
+    level.stride = banded ? 1U << band_shift : level.columns + 1;
+    level.band_keys = banded ? level.rows * level.stride : 0;
     level.first_key = grid.keys;
     grid.keys += level.keys();
     grid.levels.push_back(level);

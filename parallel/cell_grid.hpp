@@ -20,7 +20,8 @@ inline constexpr double class_ratio = 2.0;
 
 // The grid of one size class. Row r's cells are keys first_key + r * stride + column; each row ends in one empty cell
 // and one empty row follows the last, so that the neighbours of every cell can be looked up without asking where it
-// lies.
+// lies. A banded level is cut into bands of columns, one after the other in memory, each with rows of its own and
+// without the empty cells: a run of disks then is about as wide as high, and has a short border.
 struct GridLevel {
   double largest_radius = 0.0;      // of the class; length
   double cell_width = 0.0;          // length
@@ -31,8 +32,13 @@ struct GridLevel {
   std::uint32_t columns = 1, rows = 1;
   std::uint32_t stride = 2;
   std::uint32_t first_key = 0;
+  unsigned band_shift = 31;  // columns in a band: 2^band_shift
+  std::uint32_t band_keys = 0;
 
-  std::uint32_t keys() const { return (rows + 1) * stride + 2; }
+  std::uint32_t keys() const { return ((columns - 1) >> band_shift) * band_keys + (rows + 1) * stride + 2; }
+  std::uint32_t key_at(std::uint32_t row, std::uint32_t column) const {
+    return first_key + (column >> band_shift) * band_keys + row * stride + (column & ((1U << band_shift) - 1U));
+  }
 };
 
 struct CellGrid {
@@ -43,7 +49,9 @@ struct CellGrid {
 // Levels for radii between smallest and largest in the box. count[k] is the number of disks of class k
 // (class_of_radius). A level's cells are at least a diameter and twice the margin wide, and not many more than its
 // disks; where fewer than three would fit across a periodic side there is one, which is its own neighbour.
-CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count);
+// band_shift < 31: banded.
+CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
+                   unsigned band_shift = 31);
 
 // Class k holds radii r with largest / 2^(k+1) < r <= largest / 2^k.
 inline std::size_t class_of_radius(double radius, double largest_radius) {
@@ -60,8 +68,8 @@ inline std::uint32_t cell_index(double coordinate, double cells_per_length, std:
 }
 
 inline std::uint32_t key_of(const GridLevel& level, double x, double y) {
-  return level.first_key + cell_index(y, level.rows_per_length, level.rows) * level.stride +
-         cell_index(x, level.columns_per_length, level.columns);
+  return level.key_at(cell_index(y, level.rows_per_length, level.rows),
+                      cell_index(x, level.columns_per_length, level.columns));
 }
 
 }  // namespace carom

@@ -73,6 +73,7 @@ class ParallelExact final : public Engine {
   ExactField field_;
   ExactLists lists_;
   ExactSlices slices_;
+  double largest_radius_ = 0.0;
   bool lists_good_ = false;   // lists_ and field_ go with the storage order
   bool due_good_ = false;     // so do the due times, on paths that have not changed
   double last_length_ = 0.0;  // of the window before
@@ -107,7 +108,7 @@ bool ParallelExact::has_room(const Disk& newcomer) const {
     if (box.periodic_y()) dy = nearest_image(dy, box.height);
     return touches(dx * dx + dy * dy, newcomer.radius + d.radius_of(i));
   };
-  const std::size_t listed = lists_good_ ? field_.path.size() : 0;
+  const std::size_t listed = lists_good_ ? field_.flight.size() : 0;
   for (std::size_t i = listed; i < d.size(); ++i) {
     if (meets(i)) return false;
   }
@@ -157,6 +158,7 @@ void ParallelExact::list_if_due() {
   if (lists_good_ && lists_.listed_anew() * listed_share <= state_.disks.size()) return;
   const PhaseTimer timer(times_, "list");
   lists_.build(state_.disks, scene_.box, executor_);
+  largest_radius_ = largest_radius(state_.disks);
   lists_good_ = true;
   due_good_ = false;
 }
@@ -171,10 +173,9 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
   field_.horizon = windows_ahead * plan.length;
   field_.safe_speed2 = lists_.safe_speed2(plan.length, field_.rules.gravity);
   field_.fastest2 = speeds_.largest2;
-  field_.path.resize(n);
-  field_.ray.resize(n);
+  field_.flight.resize(n);
   field_.due.resize(n);
-  field_.owner.resize(n, nobody);
+  field_.slack = 1e-9 * 2.0 * largest_radius_ + 1e-14 * std::max(scene_.box.width, scene_.box.height);
   const bool tc = !state_.last_contact.empty();
   field_.last_contact.resize(tc ? n : 0);
   // Only what dissipates can collapse, or what rests on the floor.
@@ -183,11 +184,12 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
   field_.burst.resize(may_collapse ? n : 0);
   executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      field_.path[i] = {0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]};
-      field_.ray[i] = {d.x[i], d.y[i], d.vx[i], d.vy[i]};
+      Flight& f = field_.flight[i];
+      // The rounding of paths that begin afresh may make other events the first.
+      const std::uint32_t partner = due_good_ && f.partner == leaving ? leaving : nobody;
+      f = {{0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]}, d.radius_of(i), d.id[i], nobody, partner, 0, 0};
       // A little early, for the rounding of paths that begin afresh.
       field_.due[i] = due_good_ ? (field_.due[i] - last_length_) - 1e-9 * last_length_ : 0.0;
-      field_.owner[i] = nobody;
       if (tc) field_.last_contact[i] = state_.last_contact[d.id[i]] - plan.start;
       if (may_collapse) field_.burst[i] = {};
     }
@@ -227,7 +229,7 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
   gone_.assign(any_gone ? n : 0, 0);
   executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      PathSegment p = carried_to(field_.path[i], plan.length, field_.rules.gravity);
+      PathSegment p = carried_to(field_.flight[i].path, plan.length, field_.rules.gravity);
       if (any_gone && std::isnan(p.x)) {
         gone_[i] = 1;
       } else {
@@ -256,7 +258,8 @@ double ParallelExact::disks_at(double t, Disks& out) const {
   const double s = t > last_plan_.start ? t - last_plan_.start : 0.0;
   out = slices_.any_gone() ? at_start_ : state_.disks;
   // The piece that is last of those begun by s; a block's log has a disk's pieces in order.
-  std::vector<PathSegment> path = field_.path;
+  std::vector<PathSegment> path(field_.flight.size());
+  for (std::size_t i = 0; i < path.size(); ++i) path[i] = field_.flight[i].path;
   std::vector<unsigned char> gone(path.size(), 0);
   std::vector<unsigned char> logged(path.size(), 0);
   for (const std::vector<LoggedPiece>& log : slices_.log()) {

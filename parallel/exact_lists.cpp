@@ -1,6 +1,7 @@
 #include "parallel/exact_lists.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/boundary.hpp"
@@ -18,6 +19,8 @@ constexpr std::size_t everybody_below = 40;
 constexpr double reach_in_spacings = 1.5;
 // In very dense systems the roam is at least this share of a mean diameter.
 constexpr double least_roam = 0.08;
+// Columns of cells in a band: 2^5.
+constexpr unsigned band_shift = 5;
 // Room that a new list leaves for disks that are listed anew near it.
 constexpr std::size_t spare_room = 2;
 // Share of the roam that gravity may bend a path by before exit_time is asked again.
@@ -54,20 +57,20 @@ void ExactLists::build(Disks& d, const Domain& box, const Executor& executor) {
     if (count.size() > 1) {
       for (const double r : d.radius) ++count[class_of_radius(r, largest)];
     }
-    grid_ = make_grid(box, largest, count);
+    grid_ = make_grid(box, largest, count, band_shift);
     sort_into_cells(d, grid_, executor, cells_);
     head_.assign(grid_.keys, none);
   }
   place_.resize(n);
   lists_.resize(n);
   sides_.resize(n);
-  block_ = executor.grain(disks_per_block);
-  near_.resize(executor.blocks(n, disks_per_block));
+  block_shift_ = static_cast<unsigned>(std::bit_width(executor.grain(disks_per_block)) - 1);
+  const std::size_t block = std::size_t{1} << block_shift_;
+  near_.resize((n + block - 1) >> block_shift_);
   executor.for_ranges(n, disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) place_[i] = {d.x[i], d.y[i]};
   });
-  executor.for_ranges(n, disks_per_block,
-                      [&](std::size_t b, std::size_t begin, std::size_t end) { list_block(d, b, begin, end); });
+  executor.run(near_.size(), [&](std::size_t b) { list_block(d, b, b * block, std::min(n, (b + 1) * block)); });
 }
 
 void ExactLists::list_block(const Disks& d, std::size_t b, std::size_t begin, std::size_t end) {
@@ -160,7 +163,7 @@ bool ExactLists::lists(std::uint32_t i, std::uint32_t j) const {
 }
 
 void ExactLists::insert(std::uint32_t i, std::uint32_t j) {
-  std::vector<std::uint32_t>& near = near_[i / block_];
+  std::vector<std::uint32_t>& near = near_[i >> block_shift_];
   List& list = lists_[i];
   if (list.count == list.room) {
     // Moves to the end of its block's vector with double the room.

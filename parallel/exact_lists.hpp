@@ -19,10 +19,10 @@ template <class Visit>
 void for_each_key_near(const GridLevel& level, const Domain& box, double x, double y, double reach, Visit&& visit) {
   const Span rows = span_around(y, reach, box.height, level.rows_per_length, level.rows, box.periodic_y());
   const Span columns = span_around(x, reach, box.width, level.columns_per_length, level.columns, box.periodic_x());
-  for (std::uint32_t k = 0; k < rows.count; ++k) {
-    const std::uint32_t row = (rows.first + k) % level.rows;
-    for (std::uint32_t c = 0; c < columns.count; ++c) {
-      visit(level.first_key + row * level.stride + (columns.first + c) % level.columns);
+  for (std::uint32_t k = 0, row = rows.first; k < rows.count; ++k, row = row + 1 < level.rows ? row + 1 : 0) {
+    for (std::uint32_t c = 0, column = columns.first; c < columns.count; ++c) {
+      visit(level.key_at(row, column));
+      column = column + 1 < level.columns ? column + 1 : 0;
     }
   }
 }
@@ -53,7 +53,7 @@ class ExactLists {
   };
   Neighbours of(std::uint32_t i) const {
     const List& list = lists_[i];
-    return {near_[i / block_].data() + list.first, list.count};
+    return {near_[i >> block_shift_].data() + list.first, list.count};
   }
 
   // Bits (1 << side) of the walls and sinks that the disk can touch without roaming too far.
@@ -76,11 +76,8 @@ class ExactLists {
     }
     for (const GridLevel& level : grid_.levels) {
       const double reach = (distance + level.largest_radius) * (1.0 + 1e-9);
-      for_each_run_near(level, cells_.start.data(), box_, x, y, reach, [&](std::uint32_t first, std::uint32_t last) {
-        for (std::uint32_t j = first; j < last; ++j) see(j);
-      });
-      if (moved_.empty()) continue;
       for_each_key_near(level, box_, x, y, reach, [&](std::uint32_t key) {
+        for (std::uint32_t j = cells_.start[key]; j < cells_.start[key + 1]; ++j) see(j);
         for (std::uint32_t m = head_[key]; m != none; m = moved_[m].next) see(moved_[m].disk);
       });
     }
@@ -110,7 +107,7 @@ class ExactLists {
   SortedCells cells_;
   double roam_ = 0.0;
   double largest_radius_ = 0.0;
-  std::size_t block_ = 1;  // disks whose lists share a vector
+  unsigned block_shift_ = 0;  // 2^block_shift_ disks share a vector for their lists
   std::vector<Vec2> place_;
   std::vector<std::uint8_t> sides_;
   std::vector<List> lists_;

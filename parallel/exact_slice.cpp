@@ -21,14 +21,14 @@ void unroll(const ExactField& field, const Member& m, const std::vector<Piece>& 
             std::vector<PathSegment>& path) {
   path.clear();
   for (std::uint32_t p = m.last_piece; p != nobody; p = pieces[p].before) path.push_back(pieces[p].path);
-  path.push_back(field.path[m.disk]);
+  path.push_back(field.flight[m.disk].path);
   std::reverse(path.begin(), path.end());
 }
 
 }  // namespace
 
 void ExactSlices::begin_window() {
-  const std::size_t n = field_.path.size();
+  const std::size_t n = field_.flight.size();
   block_ = std::max(executor_.grain(look_block), n / (most_arenas / 2) + 1);
   const std::size_t blocks = (n + block_ - 1) / block_;
   arenas_.resize(blocks + 1);
@@ -39,11 +39,13 @@ void ExactSlices::begin_window() {
   gone_seen_.assign(blocks + 1, 0);
   fastest2_.assign(blocks + 1, 0.0);
   any_gone_ = false;
+  field_.slice = 0;
 }
 
 bool ExactSlices::run(double start, double end, double window_start) {
   field_.slice_start = start;
   field_.slice_end = end;
+  if (field_.slice < 0xffffU) ++field_.slice;
   look();
   cross();
   if (!join()) {
@@ -59,11 +61,9 @@ void ExactSlices::look() {
   joint().clear();
   executor_.run(arenas_.size() - 1, [&](std::size_t b) {
     arenas_[b].clear();
-    ComponentSolver solver(field_, lists_, arenas_[b]);
-    const std::size_t end = std::min(field_.path.size(), (b + 1) * block_);
-    for (std::size_t i = b * block_; i < end; ++i) {
-      if (field_.in_slice(field_.due[i])) solver.look_at(static_cast<std::uint32_t>(i));
-    }
+    const std::size_t end = std::min(field_.flight.size(), (b + 1) * block_);
+    ExactLoop(field_, lists_, arenas_[b])
+        .run_block(static_cast<std::uint32_t>(b * block_), static_cast<std::uint32_t>(end));
   });
 }
 
@@ -73,18 +73,18 @@ void ExactSlices::cross() {
 
 // Looks at the arena's cross pairs from number `begin` on. Components that meet go to `conflicts`; otherwise the member
 // learns when it will meet the other after the slice.
-void ExactSlices::cross_check(ComponentArena& arena, std::size_t begin, std::vector<Conflict>& conflicts) {
+void ExactSlices::cross_check(ExactArena& arena, std::size_t begin, std::vector<Conflict>& conflicts) {
   for (std::size_t k = begin; k < arena.cross_pairs.size(); ++k) {
     const CrossPair pair = arena.cross_pairs[k];
     Member& a = arena.members[pair.member];
-    const ComponentArena& other = arenas_[arena_of(pair.other)];
+    const ExactArena& other = arenas_[arena_of(pair.other)];
     const Member& b = other.members[member_of(pair.other)];
     if (!stands(arena.components[a.component]) || !stands(other.components[b.component])) continue;
     const double t = first_meeting(a, arena.pieces, b, other.pieces);
     if (field_.in_slice(t)) {
       conflicts.push_back({handle_of(arena.number, pair.member), pair.other});
     } else {
-      a.due = std::min(a.due, t);
+      a.cross = std::min(a.cross, t);
     }
   }
 }
@@ -96,13 +96,14 @@ double ExactSlices::first_meeting(const Member& a, const std::vector<Piece>& pie
   thread_local std::vector<PathSegment> path_b;
   unroll(field_, a, pieces_a, path_a);
   unroll(field_, b, pieces_b, path_b);
-  const Disks& d = *field_.disks;
-  const bool in_order = d.id[a.disk] < d.id[b.disk];
+  const Flight& flight_a = field_.flight[a.disk];
+  const Flight& flight_b = field_.flight[b.disk];
+  const bool in_order = flight_a.id < flight_b.id;
   const std::vector<PathSegment>& first = in_order ? path_a : path_b;
   const std::vector<PathSegment>& second = in_order ? path_b : path_a;
   const Member& m1 = in_order ? a : b;
   const Member& m2 = in_order ? b : a;
-  const double reach = d.radius_of(m1.disk) + d.radius_of(m2.disk);
+  const double reach = flight_a.radius + flight_b.radius;
   // The segment that begins where a disk left through a sink is no path.
   const std::size_t n1 = first.size() - (m1.gone ? 1 : 0);
   const std::size_t n2 = second.size() - (m2.gone ? 1 : 0);
@@ -120,19 +121,23 @@ double ExactSlices::first_meeting(const Member& a, const std::vector<Piece>& pie
   return earliest;
 }
 
-void ExactSlices::release(ComponentArena& arena, Component& c, std::vector<std::uint32_t>& disks) {
+void ExactSlices::release(ExactArena& arena, Component& c, std::vector<std::uint32_t>& disks) {
   c.status = ComponentStatus::conflict;
-  for (std::uint32_t m = c.first; m < c.first + c.count; ++m) {
+  for (std::uint32_t m = c.first; m != nobody; m = arena.members[m].next_member) {
     const std::uint32_t i = arena.members[m].disk;
-    if (field_.owner[i] != handle_of(arena.number, m)) continue;
-    field_.owner[i] = nobody;
+    if (field_.flight[i].owner != handle_of(arena.number, m)) continue;
+    field_.flight[i].owner = nobody;
     disks.push_back(i);
   }
 }
 
+// Whoever looked around meanwhile may have left it to a member's new path to answer for the pair.
 void ExactSlices::release_all() {
-  for (ComponentArena& arena : arenas_) {
-    for (const Member& m : arena.members) field_.owner[m.disk] = nobody;
+  for (ExactArena& arena : arenas_) {
+    for (const Member& m : arena.members) {
+      field_.flight[m.disk].owner = nobody;
+      field_.put_off(m.disk, field_.slice_start, nobody);
+    }
   }
 }
 
@@ -141,26 +146,26 @@ bool ExactSlices::join() {
   waiting_.clear();
   listed_anew_.clear();
   for (std::size_t a = 0; a + 1 < arenas_.size(); ++a) {
-    ComponentArena& arena = arenas_[a];
+    ExactArena& arena = arenas_[a];
     for (const Conflict& c : arena.conflicts) {
       release(arena, component_of(c.a), waiting_);
-      release(arenas_[arena_of(c.b)], component_of(c.b), waiting_);
+      if (c.b != nobody) release(arenas_[arena_of(c.b)], component_of(c.b), waiting_);
     }
     for (Component& c : arena.components) {
-      if (!stands(c)) release(arena, c, waiting_);
+      if (c.count > 0 && !stands(c)) release(arena, c, waiting_);
     }
   }
-  for (const ComponentArena& arena : arenas_) {
+  for (const ExactArena& arena : arenas_) {
     for (const std::uint32_t i : arena.roaming) {
-      if (field_.owner[i] != nobody) continue;  // its component found that it turns round in time
+      if (field_.flight[i].owner != nobody) continue;  // its component found that it turns round in time
       list_anew(i);
       waiting_.push_back(i);
     }
   }
-  ComponentSolver solver(field_, lists_, joint());
+  ExactLoop solver(field_, lists_, joint());
   std::vector<std::uint32_t> group;
   for (std::size_t k = 0; k < waiting_.size(); ++k) {
-    if (field_.owner[waiting_[k]] != nobody) continue;
+    if (field_.flight[waiting_[k]].owner != nobody) continue;
     group.assign(1, waiting_[k]);
     if (!solve_together(solver, group)) return false;
   }
@@ -169,8 +174,8 @@ bool ExactSlices::join() {
 
 // Solves the component that grows from the group; whoever it meets in a standing component joins the group with that
 // component's members, and so on. False if a disk goes too far within the slice.
-bool ExactSlices::solve_together(ComponentSolver& solver, std::vector<std::uint32_t>& group) {
-  ComponentArena& arena = joint();
+bool ExactSlices::solve_together(ExactLoop& solver, std::vector<std::uint32_t>& group) {
+  ExactArena& arena = joint();
   std::vector<Conflict> conflicts;
   for (;;) {
     const std::size_t pairs_before = arena.cross_pairs.size();
@@ -183,16 +188,18 @@ bool ExactSlices::solve_together(ComponentSolver& solver, std::vector<std::uint3
     if (conflicts.empty() && status != ComponentStatus::roams) return true;
     group.clear();
     release(arena, arena.components[number], group);
-    for (const Conflict& c : conflicts) release(arenas_[arena_of(c.b)], component_of(c.b), group);
+    for (const Conflict& c : conflicts) {
+      if (c.b != nobody) release(arenas_[arena_of(c.b)], component_of(c.b), group);
+    }
   }
 }
 
 // Lists the members anew that leave the range of their lists.
 bool ExactSlices::list_roamers(std::uint32_t number) {
   const Component c = joint().components[number];
-  for (std::uint32_t m = c.first; m < c.first + c.count; ++m) {
+  for (std::uint32_t m = c.first; m != nobody; m = joint().members[m].next_member) {
     const Member& member = joint().members[m];
-    if (!field_.in_slice(member.due)) continue;
+    if (!field_.in_slice(member.exit)) continue;
     if (!list_anew(member.disk)) return false;
   }
   return true;
@@ -201,10 +208,10 @@ bool ExactSlices::list_roamers(std::uint32_t number) {
 // Around where the disk is at the slice's start; false if that has been done in this slice already.
 bool ExactSlices::list_anew(std::uint32_t i) {
   if (!listed_anew_.insert(i).second) return false;
-  PathSegment p = carried_to(field_.path[i], field_.slice_start, field_.rules.gravity);
+  PathSegment p = carried_to(field_.flight[i].path, field_.slice_start, field_.rules.gravity);
   wrap_into(p, field_.rules.box);
   lists_.list_anew(i, p.x, p.y, *field_.disks);
-  field_.due[i] = field_.slice_start;  // what was known held for the old list
+  field_.put_off(i, field_.slice_start, nobody);  // what was known held for the old list
   return true;
 }
 
@@ -215,7 +222,7 @@ void ExactSlices::fail_if_collapsed(double window_start) const {
     return a.id1 != b.id1 ? a.id1 < b.id1 : a.id2 < b.id2;
   };
   if (field_.burst.empty()) return;
-  for (const ComponentArena& arena : arenas_) {
+  for (const ExactArena& arena : arenas_) {
     for (const Component& c : arena.components) {
       if (c.status == ComponentStatus::collapsed && (first == nullptr || before(c, *first))) first = &c;
     }
@@ -230,37 +237,38 @@ void ExactSlices::commit() {
 }
 
 void ExactSlices::commit_arena(std::size_t a) {
-  ComponentArena& arena = arenas_[a];
+  ExactArena& arena = arenas_[a];
   ImpactTally& tally = tallies_[a];
   std::vector<LoggedPiece>& log = log_[a];
   double& fastest2 = fastest2_[a];
-  for (const Component& c : arena.components) {
-    if (!stands(c)) continue;
-    for (std::uint32_t k = c.first; k < c.first + c.count; ++k) {
-      const Member& m = arena.members[k];
-      field_.owner[m.disk] = nobody;
-      field_.due[m.disk] = m.gone ? never : std::min(m.next.bound, m.due);
-      if (m.version == 0) continue;
-      PathSegment& path = field_.path[m.disk];
-      if (path.start == 0.0) log.push_back({m.disk, false, path});
-      const std::size_t first = log.size();
-      for (std::uint32_t p = m.last_piece; p != nobody; p = arena.pieces[p].before) {
-        const Piece& piece = arena.pieces[p];
-        log.push_back({m.disk, m.gone && p == m.last_piece, piece.path});
-        if (piece.partner != nobody) tally.add(piece.partner, piece.outcome);
-      }
-      std::reverse(log.begin() + static_cast<std::ptrdiff_t>(first), log.end());
-      path = m.now.path;
-      field_.ray[m.disk] = ray_of(path, field_.rules.gravity);
-      fastest2 = std::max(fastest2, path.vx * path.vx + path.vy * path.vy);
-      if (!field_.last_contact.empty()) field_.last_contact[m.disk] = m.now.last_contact;
-      if (!field_.burst.empty()) field_.burst[m.disk] = m.burst;
-      if (!m.gone) continue;
-      // Nobody can meet a path that is not a number.
-      path.x = path.y = std::numeric_limits<double>::quiet_NaN();
-      field_.ray[m.disk] = ray_of(path, field_.rules.gravity);
-      gone_seen_[a] = 1;
+  for (const Member& m : arena.members) {
+    if (!stands(arena.components[m.component])) continue;
+    Flight& flight = field_.flight[m.disk];
+    flight.owner = nobody;
+    if (m.gone) {
+      field_.put_off(m.disk, never, nobody);
+    } else if (m.looked) {
+      put_off(field_, m.disk, m.next, m.exit, m.cross);
     }
+    if (m.version == 0) continue;
+    PathSegment& path = flight.path;
+    if (path.start == 0.0) log.push_back({m.disk, false, path});
+    const std::size_t first = log.size();
+    for (std::uint32_t p = m.last_piece; p != nobody; p = arena.pieces[p].before) {
+      const Piece& piece = arena.pieces[p];
+      log.push_back({m.disk, m.gone && p == m.last_piece, piece.path});
+      if (piece.partner != nobody) tally.add(piece.partner, piece.outcome);
+    }
+    std::reverse(log.begin() + static_cast<std::ptrdiff_t>(first), log.end());
+    path = m.now.path;
+    flight.changed = field_.slice;
+    fastest2 = std::max(fastest2, path.vx * path.vx + path.vy * path.vy);
+    if (!field_.last_contact.empty()) field_.last_contact[m.disk] = m.now.last_contact;
+    if (!field_.burst.empty()) field_.burst[m.disk] = m.burst;
+    if (!m.gone) continue;
+    // Nobody can meet a path that is not a number.
+    path.x = path.y = std::numeric_limits<double>::quiet_NaN();
+    gone_seen_[a] = 1;
   }
 }
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/impact_tally.hpp"
-#include "parallel/exact_component.hpp"
 #include "parallel/exact_lists.hpp"
+#include "parallel/exact_loop.hpp"
 #include "parallel/executor.hpp"
 
 namespace carom {
@@ -51,29 +51,29 @@ class ExactSlices {
   bool join();
   void commit();
 
-  void cross_check(ComponentArena& arena, std::size_t begin, std::vector<Conflict>& conflicts);
+  void cross_check(ExactArena& arena, std::size_t begin, std::vector<Conflict>& conflicts);
   double first_meeting(const Member& a, const std::vector<Piece>& pieces_a, const Member& b,
                        const std::vector<Piece>& pieces_b) const;
-  bool solve_together(ComponentSolver& solver, std::vector<std::uint32_t>& group);
+  bool solve_together(ExactLoop& solver, std::vector<std::uint32_t>& group);
   bool list_roamers(std::uint32_t component);
   bool list_anew(std::uint32_t i);
-  void release(ComponentArena& arena, Component& component, std::vector<std::uint32_t>& disks);
+  void release(ExactArena& arena, Component& component, std::vector<std::uint32_t>& disks);
   void release_all();
   void fail_if_collapsed(double window_start) const;
   void commit_arena(std::size_t a);
 
   Component& component_of(std::uint32_t handle) {
-    ComponentArena& arena = arenas_[arena_of(handle)];
+    ExactArena& arena = arenas_[arena_of(handle)];
     return arena.components[arena.members[member_of(handle)].component];
   }
-  ComponentArena& joint() { return arenas_.back(); }
+  ExactArena& joint() { return arenas_.back(); }
 
   ExactField& field_;
   ExactLists& lists_;
   const Executor& executor_;
-  std::size_t block_ = 1;               // disks a block
-  std::vector<ComponentArena> arenas_;  // one a block, and one for what is joined
-  std::vector<ImpactTally> tallies_;    // likewise
+  std::size_t block_ = 1;             // disks a block
+  std::vector<ExactArena> arenas_;    // one a block, and one for what is joined
+  std::vector<ImpactTally> tallies_;  // likewise
   std::vector<std::vector<LoggedPiece>> log_;
   std::vector<unsigned char> gone_seen_;
   std::vector<double> fastest2_;

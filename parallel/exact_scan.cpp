@@ -1,0 +1,49 @@
+#include "parallel/exact_scan.hpp"
+
+#include <algorithm>
+
+namespace carom {
+
+// The exact formula; `best` becomes this meeting if it comes first.
+void ExactScan::meet(std::uint32_t i, const PathSegment& path, const Candidate& candidate, NextEvent& best) const {
+  const Flight& own = field_.flight[i];
+  const Flight& other = field_.flight[candidate.disk];
+  const ExactRules& rules = field_.rules;
+  const bool in_order = own.id < other.id;
+  const double reach = own.radius + other.radius;
+  const PathSegment& first = in_order ? path : *candidate.path;
+  const PathSegment& second = in_order ? *candidate.path : path;
+  const double t = meeting_time(first, second, reach, rules.box, rules.gravity, field_.horizon);
+  if (t == never) return;
+  const NextEvent e{t, in_order ? own.id : other.id, in_order ? other.id : own.id, candidate.disk, candidate.version};
+  if (e.before(best)) best = e;
+}
+
+NextEvent ExactScan::earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far) const {
+  const Flight& own = field_.flight[i];
+  const Domain& box = field_.rules.box;
+  const double g = field_.rules.gravity;
+  NextEvent best;
+  const auto look = [&](Side side) {
+    const NextEvent e{side_time(path, side, own.radius, box, g, field_.horizon), own.id, wall_partner(side), i, 0};
+    if (e.time < never && e.before(best)) best = e;
+  };
+  const unsigned near = lists_.sides_near(i);
+  if (near != 0) {
+    for (const Side side : all_sides) {
+      if ((near >> static_cast<unsigned>(side) & 1U) != 0) look(side);
+    }
+  }
+  if (!far) return best;
+  // Crossing events can only happen to a disk that flies far within the window.
+  const double span = (field_.horizon - path.start) * (1.0 + 1e-9);
+  if (box.periodic_x() && std::abs(path.vx) * span >= longest_flight * box.width) {
+    look(path.vx > 0.0 ? Side::right : Side::left);
+  }
+  if (box.periodic_y() && (std::abs(path.vy) + g * span) * span >= longest_flight * box.height) {
+    look(path.vy > 0.0 ? Side::top : Side::bottom);
+  }
+  return best;
+}
+
+}  // namespace carom
