@@ -75,7 +75,7 @@ void ExactLoop::process(const HeapEntry& e) {
   } else if (e.event.other != e.disk) {
     process_pair(e);
   } else {
-    const std::uint32_t m = owner == nobody ? add_member(e.disk) : member_of(owner);
+    const std::uint32_t m = hold(e.disk);
     if (m == nobody) return;
     last_ = e.event;
     meet_side(m, e.event);
@@ -85,15 +85,9 @@ void ExactLoop::process(const HeapEntry& e) {
 void ExactLoop::process_pair(const HeapEntry& e) {
   const std::uint32_t j = e.event.other;
   if (!is_ready(e)) return;
-  std::uint32_t owner = field_.owner_of(e.disk);
-  const std::uint32_t m = owner == nobody ? add_member(e.disk) : member_of(owner);
-  if (m == nobody) return;  // claimed by another thread a moment ago
-  owner = field_.owner_of(j);
-  if (owner != nobody && !is_at_hand(owner)) {
-    conflict(e.disk, j);
-    return;
-  }
-  const std::uint32_t other = owner == nobody ? add_member(j) : member_of(owner);
+  const std::uint32_t m = hold(e.disk);
+  if (m == nobody) return;  // another thread, which was faster, answers for it now
+  const std::uint32_t other = hold(j);
   if (other == nobody) {
     conflict(e.disk, j);
     return;
@@ -233,6 +227,13 @@ void ExactLoop::look_around(std::uint32_t m) {
   if (field_.in_slice(next.time)) push(i, member.version, next);
 }
 
+// The disk's member, claimed if nobody holds it; nobody if somebody else does.
+std::uint32_t ExactLoop::hold(std::uint32_t i) {
+  const std::uint32_t owner = field_.owner_of(i);
+  if (owner == nobody) return add_member(i);
+  return is_at_hand(owner) ? member_of(owner) : nobody;
+}
+
 // Claims a disk, on its path at the start of the slice, as a component of its own or for the joint one. Returns nobody
 // if another thread was faster.
 std::uint32_t ExactLoop::add_member(std::uint32_t i) {
@@ -293,8 +294,7 @@ std::uint32_t ExactLoop::unite(std::uint32_t a, std::uint32_t b) {
 
 // Disk i meets a disk that somebody else holds or that may have an event before.
 void ExactLoop::conflict(std::uint32_t i, std::uint32_t other) {
-  const std::uint32_t owner = field_.owner_of(i);
-  const std::uint32_t m = owner == nobody ? add_member(i) : member_of(owner);
+  const std::uint32_t m = hold(i);
   if (m == nobody) return;
   component_of(m).status = ComponentStatus::conflict;
   arena_.conflicts.push_back({handle_of(arena_.number, m), field_.owner_of(other)});

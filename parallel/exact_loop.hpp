@@ -42,6 +42,7 @@ class ExactLoop {
   void look_again(std::uint32_t disk);
   void look_around(std::uint32_t member);
 
+  std::uint32_t hold(std::uint32_t disk);
   std::uint32_t add_member(std::uint32_t disk);
   Member fresh_member(std::uint32_t disk, std::uint32_t component) const;
   std::uint32_t unite(std::uint32_t a, std::uint32_t b);
