@@ -9,7 +9,7 @@ namespace {
 
 // Events a disk a window: more save advancing everybody at its end, fewer keep the paths that frames are read from
 // short.
-constexpr double events_per_disk = 0.25;
+constexpr double events_per_disk = 1.0;
 constexpr double least_events = 32.0;
 // Half the distance to the neighbours, for the disk of root mean square speed.
 constexpr double longest_travel = 0.5;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,9 +26,9 @@ constexpr std::size_t pass_block = 8192;
 // Events are looked for this many windows ahead; a disk without any in sight is looked at again then.
 constexpr double windows_ahead = 8.0;
 // Events a disk a slice: fewer make components smaller and conflicts rarer, more save looking through the due times.
-constexpr double events_per_slice = 0.04;
+constexpr double events_per_slice = 0.1;
 // All disks are listed and sorted anew when one in so many has been listed anew by itself.
-constexpr std::size_t listed_share = 8;
+constexpr std::size_t listed_share = 2;
 // Up to so many disks one slice serves the whole window.
 constexpr std::size_t one_slice_below = 40;
 
@@ -74,7 +75,8 @@ class ParallelExact final : public Engine {
   ExactLists lists_;
   ExactSlices slices_;
   double largest_radius_ = 0.0;
-  bool lists_good_ = false;   // lists_ and field_ go with the storage order
+  bool lists_good_ = false;  // lists_ and field_ go with the storage order
+  bool listed_now_ = false;
   bool due_good_ = false;     // so do the due times, on paths that have not changed
   double last_length_ = 0.0;  // of the window before
   double slice_ = 0.0;        // length of the last slice; time
@@ -157,10 +159,22 @@ SpeedSummary ParallelExact::summarise() {
 void ParallelExact::list_if_due() {
   if (lists_good_ && lists_.listed_anew() * listed_share <= state_.disks.size()) return;
   const PhaseTimer timer(times_, "list");
+  const bool only_moved = lists_good_ && due_good_;
   lists_.build(state_.disks, scene_.box, executor_);
   largest_radius_ = largest_radius(state_.disks);
   lists_good_ = true;
-  due_good_ = false;
+  due_good_ = only_moved;
+  listed_now_ = true;
+  // Nobody that was not listed before can be met before one of the two is due: to leave its old range at the latest.
+  for (Flight& f : field_.flight) f.partner = nobody;
+  if (only_moved && !lists_.order().empty()) {
+    const std::span<const std::uint32_t> order = lists_.order();
+    column_scratch_.resize(order.size());
+    executor_.for_ranges(order.size(), pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) column_scratch_[i] = field_.due[order[i]];
+    });
+    field_.due.swap(column_scratch_);
+  }
 }
 
 void ParallelExact::load_paths(const WindowPlan& plan) {
@@ -176,6 +190,7 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
   field_.flight.resize(n);
   field_.due.resize(n);
   field_.slack = 1e-9 * 2.0 * largest_radius_ + 1e-14 * std::max(scene_.box.width, scene_.box.height);
+  const double g = field_.rules.gravity;
   const bool tc = !state_.last_contact.empty();
   field_.last_contact.resize(tc ? n : 0);
   // Only what dissipates can collapse, or what rests on the floor.
@@ -190,10 +205,15 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
       f = {{0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]}, d.radius_of(i), d.id[i], nobody, partner, 0, 0};
       // A little early, for the rounding of paths that begin afresh.
       field_.due[i] = due_good_ ? (field_.due[i] - last_length_) - 1e-9 * last_length_ : 0.0;
+      if (listed_now_ && due_good_) {
+        const double exit = lists_.exit_time(static_cast<std::uint32_t>(i), f.path, 0.0, plan.length, g);
+        field_.due[i] = std::min(field_.due[i], exit);
+      }
       if (tc) field_.last_contact[i] = state_.last_contact[d.id[i]] - plan.start;
       if (may_collapse) field_.burst[i] = {};
     }
   });
+  listed_now_ = false;
 }
 
 void ParallelExact::run_slices(const WindowPlan& plan) {

@@ -14,11 +14,13 @@ namespace {
 constexpr std::size_t disks_per_block = 4096;
 // Up to so many disks everybody is in everybody's list: nothing to keep in order, and windows of few disks are long.
 constexpr std::size_t everybody_below = 40;
-// Twice the roam and a diameter reach this many spacings: about seven neighbours. Longer lists are looked through more
+// Twice the roam and a diameter reach this many spacings: about eleven neighbours. Longer lists are looked through more
 // often, shorter ones made more often.
-constexpr double reach_in_spacings = 1.5;
+constexpr double reach_in_spacings = 1.9;
 // In very dense systems the roam is at least this share of a mean diameter.
 constexpr double least_roam = 0.08;
+// Disks a block when some are listed anew.
+constexpr std::size_t anew_per_block = 64;
 // Columns of cells in a band: 2^5.
 constexpr unsigned band_shift = 5;
 // Room that a new list leaves for disks that are listed anew near it.
@@ -175,18 +177,44 @@ void ExactLists::insert(std::uint32_t i, std::uint32_t j) {
   near[list.first + list.count++] = j;
 }
 
-void ExactLists::list_anew(std::uint32_t i, double x, double y, const Disks& d) {
-  place_[i] = {x, y};
-  sides_[i] = static_cast<std::uint8_t>(find_sides(d, i));
-  scratch_.clear();
-  find_neighbours(d, i, scratch_);
-  const std::uint32_t key = key_of_place(d, i);
-  moved_.push_back({i, head_[key]});
-  head_[key] = static_cast<std::uint32_t>(moved_.size() - 1);
+void ExactLists::replace_list(std::uint32_t i, std::span<const std::uint32_t> found) {
   lists_[i].count = 0;
-  for (const std::uint32_t j : scratch_) {
+  for (const std::uint32_t j : found) {
     if (!lists(i, j)) insert(i, j);
     if (!lists(j, i)) insert(j, i);
+  }
+}
+
+void ExactLists::list_anew(std::span<const std::uint32_t> which, std::span<const Vec2> places, const Disks& d,
+                           const Executor& executor) {
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    const std::uint32_t i = which[k];
+    place_[i] = places[k];
+    sides_[i] = static_cast<std::uint8_t>(find_sides(d, i));
+    const std::uint32_t key = key_of_place(d, i);
+    moved_.push_back({i, head_[key]});
+    head_[key] = static_cast<std::uint32_t>(moved_.size() - 1);
+  }
+  const std::size_t blocks = executor.blocks(which.size(), anew_per_block);
+  if (found_.size() < blocks) found_.resize(blocks);
+  // Each block's finds, one list after the other, each before its length.
+  executor.for_ranges(which.size(), anew_per_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t>& found = found_[b];
+    found.clear();
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t first = found.size();
+      find_neighbours(d, which[k], found);
+      found.push_back(static_cast<std::uint32_t>(found.size() - first));
+    }
+  });
+  const std::size_t grain = executor.grain(anew_per_block);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    std::size_t end = found_[b].size();
+    for (std::size_t k = std::min(which.size(), (b + 1) * grain); k-- > b * grain;) {
+      const std::size_t count = found_[b][--end];
+      end -= count;
+      replace_list(which[k], {found_[b].data() + end, count});
+    }
   }
 }
 

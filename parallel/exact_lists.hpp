@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/disks.hpp"
@@ -63,8 +64,12 @@ class ExactLists {
   // it does not. Looks no further ahead than `until`, or as far as gravity bends the path little.
   double exit_time(std::uint32_t i, const PathSegment& path, double from, double until, double g) const;
 
-  // Lists disk i anew at (x, y), inside the box. Not to be called while others read.
-  void list_anew(std::uint32_t i, double x, double y, const Disks& disks);
+  // Where each disk was stored before the last build; empty if the storage order did not change.
+  std::span<const std::uint32_t> order() const { return {cells_.order.data(), everybody() ? 0 : cells_.order.size()}; }
+
+  // Lists these disks anew at these places, inside the box. Not to be called while others read.
+  void list_anew(std::span<const std::uint32_t> which, std::span<const Vec2> places, const Disks& disks,
+                 const Executor& executor);
 
   // Calls see(j) for all disks whose places are within `distance` of a place for some disk of radius 0, their radii
   // added; for a few others too, and for some twice.
@@ -101,6 +106,7 @@ class ExactLists {
   bool lists(std::uint32_t i, std::uint32_t j) const;
   unsigned find_sides(const Disks& disks, std::uint32_t i) const;
   void insert(std::uint32_t i, std::uint32_t j);
+  void replace_list(std::uint32_t i, std::span<const std::uint32_t> found);
 
   Domain box_;
   CellGrid grid_;
@@ -115,7 +121,7 @@ class ExactLists {
   // Disks listed anew, chained by cell: head_[key] is the last one that came to that cell.
   std::vector<std::uint32_t> head_;
   std::vector<Moved> moved_;
-  std::vector<std::uint32_t> scratch_;
+  std::vector<std::vector<std::uint32_t>> found_;  // scratch
 };
 
 }  // namespace carom

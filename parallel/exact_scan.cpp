@@ -5,18 +5,35 @@
 namespace carom {
 
 // The exact formula; `best` becomes this meeting if it comes first.
-void ExactScan::meet(std::uint32_t i, const PathSegment& path, const Candidate& candidate, NextEvent& best) const {
+void ExactScan::meet(std::uint32_t i, const PathSegment& path, std::uint32_t j, const Seen& seen,
+                     NextEvent& best) const {
   const Flight& own = field_.flight[i];
-  const Flight& other = field_.flight[candidate.disk];
+  const Flight& other = field_.flight[j];
   const ExactRules& rules = field_.rules;
   const bool in_order = own.id < other.id;
   const double reach = own.radius + other.radius;
-  const PathSegment& first = in_order ? path : *candidate.path;
-  const PathSegment& second = in_order ? *candidate.path : path;
+  const PathSegment& first = in_order ? path : *seen.path;
+  const PathSegment& second = in_order ? *seen.path : path;
   const double t = meeting_time(first, second, reach, rules.box, rules.gravity, field_.horizon);
   if (t == never) return;
-  const NextEvent e{t, in_order ? own.id : other.id, in_order ? other.id : own.id, candidate.disk, candidate.version};
+  const NextEvent e{t, in_order ? own.id : other.id, in_order ? other.id : own.id, j, seen.version};
   if (e.before(best)) best = e;
+}
+
+ApproachFrame ExactScan::frame(const PathSegment& path, double from) const {
+  const ExactRules& rules = field_.rules;
+  const PathSegment p = carried_to(path, from, rules.gravity);
+  const double blur = 0.1 * field_.slack;
+  ApproachFrame f{from, p.x, p.y, p.vx, p.vy, rules.gravity, 0.0, 0.0, HUGE_VAL, HUGE_VAL, blur * blur};
+  if (rules.box.periodic_x()) {
+    f.width = rules.box.width;
+    f.half_width = 0.5 * f.width;
+  }
+  if (rules.box.periodic_y()) {
+    f.height = rules.box.height;
+    f.half_height = 0.5 * f.height;
+  }
+  return f;
 }
 
 NextEvent ExactScan::earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far) const {

@@ -46,6 +46,7 @@ bool ExactSlices::run(double start, double end, double window_start) {
   field_.slice_start = start;
   field_.slice_end = end;
   if (field_.slice < 0xffffU) ++field_.slice;
+  list_leaving();
   look();
   cross();
   if (!join()) {
@@ -55,6 +56,24 @@ bool ExactSlices::run(double start, double end, double window_start) {
   fail_if_collapsed(window_start);
   commit();
   return true;
+}
+
+// Disks that leave the range of their lists in this slice are listed anew where they are at its start.
+void ExactSlices::list_leaving() {
+  executor_.run(arenas_.size() - 1, [&](std::size_t b) {
+    arenas_[b].roaming.clear();
+    const std::size_t end = std::min(field_.flight.size(), (b + 1) * block_);
+    for (std::size_t i = b * block_; i < end; ++i) {
+      if (field_.in_slice(field_.due[i]) && field_.flight[i].partner == leaving) {
+        arenas_[b].roaming.push_back(static_cast<std::uint32_t>(i));
+      }
+    }
+  });
+  waiting_.clear();
+  for (std::size_t b = 0; b + 1 < arenas_.size(); ++b) {
+    waiting_.insert(waiting_.end(), arenas_[b].roaming.begin(), arenas_[b].roaming.end());
+  }
+  list_anew(waiting_);
 }
 
 void ExactSlices::look() {
@@ -158,7 +177,7 @@ bool ExactSlices::join() {
   for (const ExactArena& arena : arenas_) {
     for (const std::uint32_t i : arena.roaming) {
       if (field_.flight[i].owner != nobody) continue;  // its component found that it turns round in time
-      list_anew(i);
+      list_once(i);
       waiting_.push_back(i);
     }
   }
@@ -200,19 +219,27 @@ bool ExactSlices::list_roamers(std::uint32_t number) {
   for (std::uint32_t m = c.first; m != nobody; m = joint().members[m].next_member) {
     const Member& member = joint().members[m];
     if (!field_.in_slice(member.exit)) continue;
-    if (!list_anew(member.disk)) return false;
+    if (!list_once(member.disk)) return false;
   }
   return true;
 }
 
 // Around where the disk is at the slice's start; false if that has been done in this slice already.
-bool ExactSlices::list_anew(std::uint32_t i) {
+bool ExactSlices::list_once(std::uint32_t i) {
   if (!listed_anew_.insert(i).second) return false;
-  PathSegment p = carried_to(field_.flight[i].path, field_.slice_start, field_.rules.gravity);
-  wrap_into(p, field_.rules.box);
-  lists_.list_anew(i, p.x, p.y, *field_.disks);
-  field_.put_off(i, field_.slice_start, nobody);  // what was known held for the old list
+  list_anew(std::span(&i, 1));
   return true;
+}
+
+void ExactSlices::list_anew(std::span<const std::uint32_t> which) {
+  places_.clear();
+  for (const std::uint32_t i : which) {
+    PathSegment p = carried_to(field_.flight[i].path, field_.slice_start, field_.rules.gravity);
+    wrap_into(p, field_.rules.box);
+    places_.push_back({p.x, p.y});
+    field_.put_off(i, field_.slice_start, nobody);  // what was known held for the old list
+  }
+  lists_.list_anew(which, places_, *field_.disks, executor_);
 }
 
 void ExactSlices::fail_if_collapsed(double window_start) const {

@@ -46,6 +46,7 @@ class ExactSlices {
   std::span<const std::vector<LoggedPiece>> log() const { return log_; }
 
  private:
+  void list_leaving();
   void look();
   void cross();
   bool join();
@@ -56,7 +57,8 @@ class ExactSlices {
                        const std::vector<Piece>& pieces_b) const;
   bool solve_together(ExactLoop& solver, std::vector<std::uint32_t>& group);
   bool list_roamers(std::uint32_t component);
-  bool list_anew(std::uint32_t i);
+  bool list_once(std::uint32_t i);
+  void list_anew(std::span<const std::uint32_t> which);
   void release(ExactArena& arena, Component& component, std::vector<std::uint32_t>& disks);
   void release_all();
   void fail_if_collapsed(double window_start) const;
@@ -77,6 +79,7 @@ class ExactSlices {
   std::vector<std::vector<LoggedPiece>> log_;
   std::vector<unsigned char> gone_seen_;
   std::vector<double> fastest2_;
+  std::vector<Vec2> places_;                       // scratch
   std::vector<std::uint32_t> waiting_;             // disks to be solved again
   std::unordered_set<std::uint32_t> listed_anew_;  // in this slice
   bool any_gone_ = false;
