@@ -118,9 +118,14 @@ std::string physics_text(const Scene& scene) {
   return text;
 }
 
+// Does the run step by dt? The exact method leaves it unused, except as the step of Brownian motion.
+bool uses_dt(const Scene& scene) {
+  return scene.run.method != Method::exact || scene.physics.diffusion > 0.0;
+}
+
 std::string method_text(const Scene& scene) {
   const std::string_view name = method_names[static_cast<std::size_t>(scene.run.method)];
-  if (!(scene.run.dt > 0.0)) return fmt::format("{} to t = {:g}", name, scene.run.t_end);
+  if (!uses_dt(scene)) return fmt::format("{} to t = {:g}", name, scene.run.t_end);
   return fmt::format("{}, dt = {:g}, {} steps to t = {:g}", name, scene.run.dt,
                      make_step_clock(scene.run.dt, scene.run.t_end).steps, scene.run.t_end);
 }
@@ -158,7 +163,7 @@ std::string text_of(const Scene& scene, const Findings& f) {
   line("sides", sides_text(scene.box));
   line("physics", physics_text(scene));
   line("method", method_text(scene));
-  if (scene.run.dt > 0.0) line("safe step", step_text(scene, f));
+  if (scene.run.method != Method::exact) line("safe step", step_text(scene, f));
   line("outputs", outputs_text(scene, f));
   line("memory", fmt::format("about {}B, as measured", short_number(f.memory_bytes)));
   line("cost", f.stopped.empty()
