@@ -197,13 +197,13 @@ std::string json_of(const Scene& scene, const Findings& f) {
 int command_check(const CheckOptions& options) {
   const Scene scene = load_scene_as_told(options.scene, options.changes);
   const EngineChoice choice = choose_engine("", std::nullopt);
-  State initial = initial_state(scene);
+  State initial = within_memory(scene, [&] { return initial_state(scene); });
   Findings found;
   measure_sizes(scene, initial.disks, found);
   found.safe_dt = safe_step(scene, initial.disks);
   found.frames = frame_count(scene.output.every, scene.run.t_end);
-  const auto engine = make_engine(choice, scene, std::move(initial));
-  try_steps(*engine, scene, found);
+  const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, std::move(initial)); });
+  within_memory(scene, [&] { try_steps(*engine, scene, found); });
   print_out(options.json ? json_of(scene, found) : text_of(scene, found));
   return 0;
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/memory_need.hpp"
 #include "tests/scene_support.hpp"
 
 namespace carom {
@@ -36,6 +37,17 @@ TEST(BadList, LengthMustMatchCount) {
               StartsWith("gas.toml:17: disks.0.radius: has 4 entries"));
   EXPECT_THAT(complaint(replaced(sound_scene, "mass = 2.0", "mass = []")),
               StartsWith("gas.toml:18: disks.0.mass: has 0 entries"));
+}
+
+// Before anything is drawn for them: 3.9e9 radii would take minutes.
+TEST(BadCount, MoreDisksThanTheMachineHolds) {
+  const std::string text = replaced(replaced(sound_scene, "count = 3", "count = 3_900_000_000"), "radius = 1.0",
+                                    "radius = { uniform = [0.5, 1.0] }");
+  if (machine_memory() > least_memory(Method::pairwise, 3'900'000'000)) GTEST_SKIP() << "this one holds them";
+  EXPECT_THAT(complaint(text),
+              AllOf(StartsWith("gas.toml:14: disks.0.count: 3900000000 disks need 242 GB of memory or more by method "
+                               "pairwise, and this machine has "),
+                    HasSubstr("; expected fewer disks")));
 }
 
 TEST(BadSizes, RadiusAndMassDerivedFromEachOther) {

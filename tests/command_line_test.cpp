@@ -365,6 +365,20 @@ TEST_F(CommandLine, CheckSaysWhatItWouldModel) {
   EXPECT_EQ(Json::parse(o.out)["particles"], 5);
 }
 
+// A scene that the machine could hold and this process may not: a fault of the scene, whether it is run or checked. The
+// address sanitizer takes more room for itself than the limit leaves.
+TEST_F(CommandLine, DisksThatFindNoMemory) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the address sanitizer needs terabytes of address space";
+#endif
+  for (const char* const command : {"run --quiet", "check"}) {
+    expect_error(std::string("ulimit -v 600000; $C ") + command +
+                     " small.toml --set disks.0.count=20000000 --set disks.0.radius=1e-5",
+                 2, "small.toml: disks: 20000000 disks do not fit into the memory that this process may use");
+  }
+  EXPECT_THAT(files_in(""), ElementsAre("small.toml"));
+}
+
 TEST_F(CommandLine, ProgressOnATerminalOnly) {
   // script(1) gives the program a terminal. Pictures, as there is no ffmpeg, make the run long enough for a line.
   const Outcome o =
