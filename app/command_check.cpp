@@ -13,6 +13,7 @@
 #include "app/progress.hpp"
 #include "core/check.hpp"
 #include "core/initial_state.hpp"
+#include "core/scene_check.hpp"
 #include "core/scene_names.hpp"
 #include "core/step_clock.hpp"
 #include "io/frame_schedule.hpp"
@@ -197,6 +198,7 @@ std::string json_of(const Scene& scene, const Findings& f) {
 int command_check(const CheckOptions& options) {
   const Scene scene = load_scene_as_told(options.scene, options.changes);
   const EngineChoice choice = choose_engine("", std::nullopt);
+  for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
   State initial = within_memory(scene, [&] { return initial_state(scene); });
   Findings found;
   measure_sizes(scene, initial.disks, found);

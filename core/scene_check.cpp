@@ -161,6 +161,15 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
   check_run(scene, place);
 }
 
+std::vector<std::string> scene_warnings(const Scene& scene) {
+  std::vector<std::string> warnings;
+  if (scene.physics.collapse_contact_time && scene.run.method != Method::exact) {
+    warnings.push_back(fmt::format("{}: physics.collapse: only the exact method uses it, method {} does not",
+                                   scene.file, method_names[static_cast<std::size_t>(scene.run.method)]));
+  }
+  return warnings;
+}
+
 void check_box(const Scene& scene, const PlaceOfKey& place) {
   double largest = 0.0;
   DiskId first_id = 0;

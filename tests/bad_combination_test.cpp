@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/memory_need.hpp"
+#include "core/scene_check.hpp"
 #include "tests/scene_support.hpp"
 
 namespace carom {
@@ -48,6 +49,16 @@ TEST(BadCount, MoreDisksThanTheMachineHolds) {
               AllOf(StartsWith("gas.toml:14: disks.0.count: 3900000000 disks need 242 GB of memory or more by method "
                                "pairwise, and this machine has "),
                     HasSubstr("; expected fewer disks")));
+}
+
+TEST(UnusedKey, CollapseWithoutTheExactMethodIsAWarning) {
+  const std::string text = replaced(sound_scene, "restitution = 0.5",
+                                    "restitution = 0.5\ncollapse = { model = \"tc\", contact_time = 1e-3 }");
+  EXPECT_THAT(
+      scene_warnings(test::scene_from(text)),
+      testing::ElementsAre("gas.toml: physics.collapse: only the exact method uses it, method pairwise does not"));
+  EXPECT_THAT(scene_warnings(test::scene_from(text, {{"run.method", "exact"}})), testing::IsEmpty());
+  EXPECT_THAT(scene_warnings(test::scene_from(sound_scene)), testing::IsEmpty());
 }
 
 TEST(BadSizes, RadiusAndMassDerivedFromEachOther) {

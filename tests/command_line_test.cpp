@@ -379,6 +379,18 @@ TEST_F(CommandLine, DisksThatFindNoMemory) {
   EXPECT_THAT(files_in(""), ElementsAre("small.toml"));
 }
 
+TEST_F(CommandLine, CollapseWithoutTheExactMethodIsWarnedOf) {
+  const std::string collapse = " --set 'physics.collapse={ model = \"tc\", contact_time = 1e-3 }'";
+  for (const std::string command : {"run small.toml -o out --json", "check small.toml"}) {
+    const Outcome o = carom(command + collapse);
+    EXPECT_EQ(o.status, 0);
+    EXPECT_EQ(o.err,
+              "carom: warning: small.toml: physics.collapse: only the exact method uses it, method pairwise does "
+              "not\n");
+  }
+  EXPECT_THAT(carom("check small.toml --method exact" + collapse).err, IsEmpty());
+}
+
 TEST_F(CommandLine, ProgressOnATerminalOnly) {
   // script(1) gives the program a terminal. Pictures, as there is no ffmpeg, make the run long enough for a line.
   const Outcome o =
