@@ -46,6 +46,10 @@ struct StateCase {
   int n;
 };
 
+void PrintTo(const StateCase& c, std::ostream* out) {
+  *out << fmt::format("eta {} N {}", c.eta, c.n);
+}
+
 class ExactEquationOfState : public testing::TestWithParam<StateCase> {};
 
 // Z from the virial of the collisions and from their number, each in blocks of 50 collisions a disk after as many to
