@@ -13,6 +13,7 @@
 #include "app/progress.hpp"
 #include "core/check.hpp"
 #include "core/initial_state.hpp"
+#include "core/scene_check.hpp"
 #include "core/scene_names.hpp"
 #include "core/step_clock.hpp"
 #include "io/frame_schedule.hpp"
@@ -118,9 +119,14 @@ std::string physics_text(const Scene& scene) {
   return text;
 }
 
+// Does the run step by dt? The exact method leaves it unused, except as the step of Brownian motion.
+bool uses_dt(const Scene& scene) {
+  return scene.run.method != Method::exact || scene.physics.diffusion > 0.0;
+}
+
 std::string method_text(const Scene& scene) {
   const std::string_view name = method_names[static_cast<std::size_t>(scene.run.method)];
-  if (!(scene.run.dt > 0.0)) return fmt::format("{} to t = {:g}", name, scene.run.t_end);
+  if (!uses_dt(scene)) return fmt::format("{} to t = {:g}", name, scene.run.t_end);
   return fmt::format("{}, dt = {:g}, {} steps to t = {:g}", name, scene.run.dt,
                      make_step_clock(scene.run.dt, scene.run.t_end).steps, scene.run.t_end);
 }
@@ -158,7 +164,7 @@ std::string text_of(const Scene& scene, const Findings& f) {
   line("sides", sides_text(scene.box));
   line("physics", physics_text(scene));
   line("method", method_text(scene));
-  if (scene.run.dt > 0.0) line("safe step", step_text(scene, f));
+  if (scene.run.method != Method::exact) line("safe step", step_text(scene, f));
   line("outputs", outputs_text(scene, f));
   line("memory", fmt::format("about {}B, as measured", short_number(f.memory_bytes)));
   line("cost", f.stopped.empty()
@@ -192,13 +198,14 @@ std::string json_of(const Scene& scene, const Findings& f) {
 int command_check(const CheckOptions& options) {
   const Scene scene = load_scene_as_told(options.scene, options.changes);
   const EngineChoice choice = choose_engine("", std::nullopt);
-  State initial = initial_state(scene);
+  for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
+  State initial = within_memory(scene, [&] { return initial_state(scene); });
   Findings found;
   measure_sizes(scene, initial.disks, found);
   found.safe_dt = safe_step(scene, initial.disks);
   found.frames = frame_count(scene.output.every, scene.run.t_end);
-  const auto engine = make_engine(choice, scene, std::move(initial));
-  try_steps(*engine, scene, found);
+  const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, std::move(initial)); });
+  within_memory(scene, [&] { try_steps(*engine, scene, found); });
   print_out(options.json ? json_of(scene, found) : text_of(scene, found));
   return 0;
 }

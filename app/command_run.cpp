@@ -14,6 +14,7 @@
 #include "core/check.hpp"
 #include "core/initial_state.hpp"
 #include "core/input_message.hpp"
+#include "core/scene_check.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 
@@ -96,11 +97,14 @@ int command_run(const RunOptions& options) {
   const Scene scene = load_scene_as_told(options.scene, options.changes);
   const EngineChoice choice = choose_engine(options.engine, options.threads);
   check_outputs(scene);
+  if (!options.quiet) {
+    for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
+  }
   const std::optional<fs::path> path = folder_of(options, scene);
   if (path) check_output_folder(*path, options.scene, options.force);
   if (path && !options.folder && !options.quiet) print_note(fmt::format("results go to {}", path->string()));
 
-  const auto engine = make_engine(choice, scene, initial_state(scene));
+  const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, initial_state(scene)); });
   const RunStart start = run_start(engine->state(), scene);
   std::optional<Results> results;
   if (path) results.emplace(scene, *path, options.force);

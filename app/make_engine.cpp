@@ -25,6 +25,14 @@ EngineChoice choose_engine(const std::string& engine, std::optional<int> threads
   return {"reference", 1};
 }
 
+void fail_memory(const Scene& scene) {
+  Count disks = 0;
+  for (const DiskGroup& group : scene.groups) disks += group.count;
+  fail_input(fmt::format("{}: disks", scene.file),
+             fmt::format("{} disks do not fit into the memory that this process may use", disks),
+             "expected fewer disks");
+}
+
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial) {
   if (choice.name == "reference") return make_reference_engine(scene, std::move(initial));
   return make_parallel_engine(scene, std::move(initial), {choice.threads});

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "core/engine.hpp"
@@ -19,5 +21,21 @@ struct EngineChoice {
 EngineChoice choose_engine(const std::string& engine, std::optional<int> threads);
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial);
+
+// Throws the InputError of a scene whose disks found no memory.
+[[noreturn]] void fail_memory(const Scene& scene);
+
+// make(), which makes the scene's disks or their engine. A limit on this process may be far below what the machine has,
+// so that the scene's check cannot know it.
+template <class Make>
+auto within_memory(const Scene& scene, Make&& make) {
+  try {
+    return make();
+  } catch (const std::bad_alloc&) {
+    fail_memory(scene);
+  } catch (const std::length_error&) {
+    fail_memory(scene);
+  }
+}
 
 }  // namespace carom

@@ -104,6 +104,25 @@ Start gas(std::size_t count, const std::string& feature) {
   return prepared(text, "gas", 0.02, 50, 0.005);
 }
 
+Start exact_gas(std::size_t count, double packing_fraction) {
+  // Two disks cover more than a million units of time in a turn.
+  const std::string text = fmt::format(
+      "[box]\npacking_fraction = {}\n{}[[disks]]\ncount = {}\npositions = \"hexagonal\"\n"
+      "velocities = {{ maxwell = 1.0 }}\nradius = 0.5\nmass = 1.0\n[run]\nmethod = \"exact\"\nt_end = 1e12\n",
+      packing_fraction, sides("periodic"), count);
+  Scene scene = parse_scene(text, "gas", "");
+  constexpr double collisions_a_disk = 4.0;
+  const auto engine = make_parallel_engine(scene, initial_state(scene), {2});
+  while (static_cast<double>(engine->state().counters.collisions) <
+         0.5 * collisions_a_disk * static_cast<double>(count)) {
+    engine->step();
+  }
+  State state = engine->state();
+  state.time = 0.0;
+  state.counters = {};
+  return {std::move(scene), std::move(state)};
+}
+
 Start wide_radii() {
   // 10^6 small disks fill half of what the large ones leave: (0.785 + 0.785) / (0.785 / 0.5 + 0.785) = 2 / 3 in all.
   const std::string text = fmt::format(

@@ -22,6 +22,10 @@ struct Start {
 Start gas(std::size_t count, const std::string& feature = "plain");
 extern const std::vector<std::string> gas_features;
 
+// The gas of the exact method's figures: scene G with count disks at a packing fraction, run exactly from a lattice for
+// four collisions a disk, after which neither speeds nor neighbours remember it (a crystal, above 0.72, stays one).
+Start exact_gas(std::size_t count, double packing_fraction = 0.5);
+
 // A hundred disks of radius 50 among 10^6 of radius 0.5, all of one density. The space between the large ones is as
 // full of small ones as scene G.
 Start wide_radii();

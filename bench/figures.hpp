@@ -19,6 +19,7 @@ std::vector<Figure> measure_gas(const std::string& folder);       // phases.csv:
 std::vector<Figure> measure_scaling(const std::string& folder);   // scaling.csv: from 10^4 to 10^7 disks
 std::vector<Figure> measure_features(const std::string& folder);  // features.csv: what each feature costs
 std::vector<Figure> measure_special();                            // wide radii, the pile
+std::vector<Figure> measure_exact(const std::string& folder);     // exact.csv: collisions a second, and the yardstick's
 std::vector<Figure> measure_memory(const std::string& program, const std::string& scene);
 
 }  // namespace carom::bench

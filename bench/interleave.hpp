@@ -18,6 +18,8 @@ struct Contender {
   double work;  // what one run() is worth, to divide its time by
   std::function<void()> run;
   std::vector<double> times;  // seconds over work, one a round
+  // Where what a run is worth is known only afterwards (collisions): counts it all, and stands in for `work`.
+  std::function<double()> counter = {};
 };
 
 inline double median(std::vector<double> values) {
@@ -45,11 +47,12 @@ inline void interleave(std::vector<Contender>& contenders, int rounds, const std
   using Clock = std::chrono::steady_clock;
   for (int round = 0; round <= rounds; ++round) {
     for (Contender& c : contenders) {
+      const double before = c.counter ? c.counter() : 0.0;
       const Shield shield;
       const auto start = Clock::now();
       c.run();
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      if (round > 0) c.times.push_back(seconds / c.work);
+      if (round > 0) c.times.push_back(seconds / (c.counter ? c.counter() - before : c.work));
     }
     if (after_round) after_round();
   }

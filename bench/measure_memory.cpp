@@ -12,10 +12,11 @@ namespace carom::bench {
 
 namespace {
 
-// Largest resident memory of `program run scene` over ten steps, in bytes.
-double peak_of_run(const std::string& program, const std::string& scene) {
-  const std::vector<std::string> words{program,  "run",     scene,      "--t-end", "0.05",
-                                       "--json", "--quiet", "--method", "pairwise"};
+// Largest resident memory of `program run scene` until t_end, in bytes.
+double peak_of_run(const std::string& program, const std::string& scene, const std::string& method,
+                   const std::string& t_end) {
+  const std::vector<std::string> words{program,  "run",     scene,      "--t-end", t_end,
+                                       "--json", "--quiet", "--method", method};
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
@@ -37,7 +38,17 @@ double peak_of_run(const std::string& program, const std::string& scene) {
 
 std::vector<Figure> measure_memory(const std::string& program, const std::string& scene) {
   constexpr double disks = 1e6;
-  return {{"G: memory at peak of carom run", peak_of_run(program, scene) / disks, "bytes per disk", 100.0, {}}};
+  // Ten steps; a few windows.
+  return {{"G: memory at peak of carom run",
+           peak_of_run(program, scene, "pairwise", "0.05") / disks,
+           "bytes per disk",
+           100.0,
+           {}},
+          {"G, exact: memory at peak of carom run",
+           peak_of_run(program, scene, "exact", "0.3") / disks,
+           "bytes per disk",
+           160.0,
+           {}}};
 }
 
 }  // namespace carom::bench

@@ -12,7 +12,7 @@ export CAROM_COMMIT
 mkdir -p "$results"
 
 if [[ $part != figures ]]; then
-    for rows in phases step; do
+    for rows in phases step exact; do
         "$programs/bench_$rows" --benchmark_enable_random_interleaving=true --benchmark_repetitions=3 \
             --benchmark_display_aggregates_only=true --benchmark_counters_tabular=true \
             --benchmark_out="$results/rows_$rows.csv" --benchmark_out_format=csv

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/input_message.hpp"
+#include "core/memory_need.hpp"
 #include "core/scene_names.hpp"
 #include "core/size_law.hpp"
 
@@ -20,6 +21,18 @@ constexpr Count most_disks = 4'000'000'000;
 void check_length(std::size_t length, Count count, const std::string& where) {
   if (length == count) return;
   fail_input(where, fmt::format("has {} entries for count = {}", length, count), "expected one entry a disk");
+}
+
+// The place is that of the group that makes it too many.
+void check_memory(Method method, Count total, const std::string& where) {
+  constexpr double gigabyte = 1e9;
+  const double need = least_memory(method, total);
+  const double have = machine_memory();
+  if (need <= have) return;
+  fail_input(where,
+             fmt::format("{} disks need {:.3g} GB of memory or more by method {}, and this machine has {:.3g} GB",
+                         total, need / gigabyte, method_names[static_cast<std::size_t>(method)], have / gigabyte),
+             "expected fewer disks");
 }
 
 void check_sizes_differ(const SizeLaw& radius, const SizeLaw& mass, const std::string& where) {
@@ -136,6 +149,7 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
                  fmt::format("expected at most {} in all", most_disks));
     }
     total += count;
+    check_memory(scene.run.method, total, place(path + ".count"));
     check_group(scene.groups[g], path, place);
   }
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
@@ -145,6 +159,15 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
     fail_input(place("physics.accumulate"), "needs Brownian motion", "expected diffusion as well");
   }
   check_run(scene, place);
+}
+
+std::vector<std::string> scene_warnings(const Scene& scene) {
+  std::vector<std::string> warnings;
+  if (scene.physics.collapse_contact_time && scene.run.method != Method::exact) {
+    warnings.push_back(fmt::format("{}: physics.collapse: only the exact method uses it, method {} does not",
+                                   scene.file, method_names[static_cast<std::size_t>(scene.run.method)]));
+  }
+  return warnings;
 }
 
 void check_box(const Scene& scene, const PlaceOfKey& place) {

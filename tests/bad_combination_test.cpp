@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/memory_need.hpp"
+#include "core/scene_check.hpp"
 #include "tests/scene_support.hpp"
 
 namespace carom {
@@ -36,6 +38,27 @@ TEST(BadList, LengthMustMatchCount) {
               StartsWith("gas.toml:17: disks.0.radius: has 4 entries"));
   EXPECT_THAT(complaint(replaced(sound_scene, "mass = 2.0", "mass = []")),
               StartsWith("gas.toml:18: disks.0.mass: has 0 entries"));
+}
+
+// Before anything is drawn for them: 3.9e9 radii would take minutes.
+TEST(BadCount, MoreDisksThanTheMachineHolds) {
+  const std::string text = replaced(replaced(sound_scene, "count = 3", "count = 3_900_000_000"), "radius = 1.0",
+                                    "radius = { uniform = [0.5, 1.0] }");
+  if (machine_memory() > least_memory(Method::pairwise, 3'900'000'000)) GTEST_SKIP() << "this one holds them";
+  EXPECT_THAT(complaint(text),
+              AllOf(StartsWith("gas.toml:14: disks.0.count: 3900000000 disks need 242 GB of memory or more by method "
+                               "pairwise, and this machine has "),
+                    HasSubstr("; expected fewer disks")));
+}
+
+TEST(UnusedKey, CollapseWithoutTheExactMethodIsAWarning) {
+  const std::string text = replaced(sound_scene, "restitution = 0.5",
+                                    "restitution = 0.5\ncollapse = { model = \"tc\", contact_time = 1e-3 }");
+  EXPECT_THAT(
+      scene_warnings(test::scene_from(text)),
+      testing::ElementsAre("gas.toml: physics.collapse: only the exact method uses it, method pairwise does not"));
+  EXPECT_THAT(scene_warnings(test::scene_from(text, {{"run.method", "exact"}})), testing::IsEmpty());
+  EXPECT_THAT(scene_warnings(test::scene_from(sound_scene)), testing::IsEmpty());
 }
 
 TEST(BadSizes, RadiusAndMassDerivedFromEachOther) {

@@ -365,6 +365,32 @@ TEST_F(CommandLine, CheckSaysWhatItWouldModel) {
   EXPECT_EQ(Json::parse(o.out)["particles"], 5);
 }
 
+// A scene that the machine could hold and this process may not: a fault of the scene, whether it is run or checked. The
+// address sanitizer takes more room for itself than the limit leaves.
+TEST_F(CommandLine, DisksThatFindNoMemory) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the address sanitizer needs terabytes of address space";
+#endif
+  for (const char* const command : {"run --quiet", "check"}) {
+    expect_error(std::string("ulimit -v 600000; $C ") + command +
+                     " small.toml --set disks.0.count=20000000 --set disks.0.radius=1e-5",
+                 2, "small.toml: disks: 20000000 disks do not fit into the memory that this process may use");
+  }
+  EXPECT_THAT(files_in(""), ElementsAre("small.toml"));
+}
+
+TEST_F(CommandLine, CollapseWithoutTheExactMethodIsWarnedOf) {
+  const std::string collapse = " --set 'physics.collapse={ model = \"tc\", contact_time = 1e-3 }'";
+  for (const std::string command : {"run small.toml -o out --json", "check small.toml"}) {
+    const Outcome o = carom(command + collapse);
+    EXPECT_EQ(o.status, 0);
+    EXPECT_EQ(o.err,
+              "carom: warning: small.toml: physics.collapse: only the exact method uses it, method pairwise does "
+              "not\n");
+  }
+  EXPECT_THAT(carom("check small.toml --method exact" + collapse).err, IsEmpty());
+}
+
 TEST_F(CommandLine, ProgressOnATerminalOnly) {
   // script(1) gives the program a terminal. Pictures, as there is no ffmpeg, make the run long enough for a line.
   const Outcome o =

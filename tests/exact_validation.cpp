@@ -46,6 +46,10 @@ struct StateCase {
   int n;
 };
 
+void PrintTo(const StateCase& c, std::ostream* out) {
+  *out << fmt::format("eta {} N {}", c.eta, c.n);
+}
+
 class ExactEquationOfState : public testing::TestWithParam<StateCase> {};
 
 // Z from the virial of the collisions and from their number, each in blocks of 50 collisions a disk after as many to
@@ -87,63 +91,119 @@ INSTANTIATE_TEST_SUITE_P(Table, ExactEquationOfState,
                                          StateCase{0.30, 2.06326, 5e-5, 400}, StateCase{0.50, 4.105, 2e-3, 400},
                                          StateCase{0.67, 9.36234, 3e-5, 870}));
 
-// T = T0 / (1 + t / tau)^2 while the gas stays uniform.
+// T = T0 / (1 + t / tau)^2 while the gas stays uniform (Haff 1983): mean of eight runs, within 2 %, as far as
+// references.md says that it holds (eta = 0.1, e = 0.98, N = 1024, t / tau = 4.7), and on the way there.
 TEST(ExactHaff, CoolsAsItShould) {
   const double gamma0 = 4.0 * 0.236144 / std::sqrt(std::numbers::pi);
   const double e = 0.98;
   const double tau = 4.0 / ((1.0 - e * e) * gamma0);
-  const Scene scene = gas(1024, 0.1, 4.7 * tau, fmt::format("restitution = {}", e));
-  const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
-  const double before = energy_of(engine->state().disks, 0.0).kinetic;
-  run_until(*engine, scene.run.t_end);
-  const double ratio = energy_of(engine->state().disks, 0.0).kinetic / before;
-  EXPECT_NEAR(ratio * 5.7 * 5.7, 1.0, 0.03);
-}
-
-// Dilute disks under gravity: the mean height is that of exp(-m g y / kT) between floor and ceiling.
-TEST(ExactBarometer, MeanHeight) {
-  const double g = 1.0;
-  const Scene scene =
-      make_scene({8, 8, "wall", "gravity = 1.0",
-                  "[[disks]]\ncount = 200\npositions = \"random\"\nvelocities = { maxwell = 1.5 }\nradius = "
-                  "0.04\nmass = 1.0\n",
-                  420.0, ""});
-  const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
-  run_until(*engine, 20.0);
-  double height = 0.0;
-  double kt = 0.0;
-  int samples = 0;
-  while (engine->state().time < scene.run.t_end) {
-    run_until(*engine, std::min(engine->state().time + 0.5, scene.run.t_end));
-    const Disks& d = engine->state().disks;
-    for (std::size_t i = 0; i < d.size(); ++i) height += (d.y[i] - 0.04) / 200.0;
-    kt += energy_of(d, 0.0).kinetic / 200.0;
-    ++samples;
+  const double times[] = {1.0, 2.0, 3.0, 4.7};
+  std::vector<double> ratios[4];
+  Scene scene = gas(1024, 0.1, 4.7 * tau, fmt::format("restitution = {}", e));
+  for (scene.seed = 1; scene.seed <= 8; ++scene.seed) {
+    const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
+    const double before = energy_of(engine->state().disks, 0.0).kinetic;
+    Disks disks;
+    for (int k = 0; k < 4; ++k) {
+      run_until(*engine, times[k] * tau);
+      const double t = engine->disks_at(times[k] * tau, disks) / tau;
+      ratios[k].push_back(energy_of(disks, 0.0).kinetic / before * (1.0 + t) * (1.0 + t));
+    }
   }
-  height /= samples;
-  kt /= samples;
-  const double span = 8.0 - 0.08;
-  const double scale = kt / g;
-  EXPECT_NEAR(height, scale - span / (std::exp(span / scale) - 1.0), 0.03 * scale);
+  for (int k = 0; k < 4; ++k) {
+    const Measured ratio = from_blocks(ratios[k]);
+    fmt::print("Haff, t / tau = {}: T over the law's {:.4f} +- {:.4f}\n", times[k], ratio.mean, ratio.error);
+    EXPECT_NEAR(ratio.mean, 1.0, 0.02) << "t / tau = " << times[k];
+    EXPECT_LT(ratio.error, 0.007) << "too few runs to say anything";
+  }
 }
 
-// The share of Brownian points that an absorbing square has not taken yet.
+// Share of the disks in each of `bins` equal layers between floor and ceiling, added up over samples.
+class Layers {
+ public:
+  Layers(double low, double high, std::size_t bins) : low_(low), high_(high), count_(bins, 0.0) {}
+  void add(const Disks& d) {
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      const double place = (d.y[i] - low_) / (high_ - low_) * static_cast<double>(count_.size());
+      count_[std::min(static_cast<std::size_t>(std::max(place, 0.0)), count_.size() - 1)] += 1.0;
+      total_ += 1.0;
+    }
+  }
+  double share(std::size_t k) const { return count_[k] / total_; }
+
+ private:
+  double low_, high_;
+  std::vector<double> count_;
+  double total_ = 0.0;
+};
+
+// Dilute disks under gravity: density ~ exp(-m g y / kT) between floor and ceiling, in eight layers, each within three
+// standard errors. 1000 disks, so dilute that their own room shifts the density by 4 eta = 4e-3 at the floor, and so
+// many that the fixed total energy shifts it by 2e-3 at the ceiling; 16 blocks of 80 units of time, 20 collisions a
+// disk each.
+TEST(ExactBarometer, DensityInEightLayers) {
+  const double height = 8.0;
+  const double radius = 0.003;
+  const double n = 1000.0;
+  constexpr int blocks = 16;
+  constexpr std::size_t layers = 8;
+  const double block = 80.0;
+  const Scene scene = make_scene({height, height, "wall", "gravity = 1.0",
+                                  fmt::format("[[disks]]\ncount = 1000\npositions = \"random\"\nvelocities = {{ "
+                                              "maxwell = 1.5 }}\nradius = {}\nmass = 1.0\n",
+                                              radius),
+                                  block * (blocks + 1), ""});
+  const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
+  run_until(*engine, block);  // to equilibrium
+  std::vector<double> shares[layers];
+  double kt = 0.0;
+  double samples = 0.0;
+  Disks disks;
+  for (int k = 1; k <= blocks; ++k) {
+    Layers counted(radius, height - radius, layers);
+    for (double t = k * block; t < (k + 1) * block; t += 1.0) {
+      run_until(*engine, t);
+      engine->disks_at(t, disks);
+      counted.add(disks);
+      kt += energy_of(disks, 0.0).kinetic / n;
+      samples += 1.0;
+    }
+    for (std::size_t layer = 0; layer < layers; ++layer) shares[layer].push_back(counted.share(layer));
+  }
+  kt /= samples;
+  const double step = (height - 2.0 * radius) / static_cast<double>(layers) / kt;  // in scale heights, m g = 1
+  for (std::size_t layer = 0; layer < layers; ++layer) {
+    const Measured share = from_blocks(shares[layer]);
+    const double y = step * static_cast<double>(layer);
+    const double expected = std::exp(-y) * std::expm1(-step) / std::expm1(-step * static_cast<double>(layers));
+    fmt::print("barometer, layer {}: {:.5f} +- {:.5f}, formula {:.5f}\n", layer, share.mean, share.error, expected);
+    EXPECT_NEAR(share.mean, expected, 3.0 * share.error) << "layer " << layer;
+    EXPECT_LT(share.error, 0.02 * expected) << "too short to say anything";
+  }
+}
+
+// The share of Brownian points that an absorbing square has not taken yet, three standard errors.
 TEST(ExactAbsorption, SurvivorsOfASquare) {
+  constexpr double n = 20000.0;
   const Scene scene =
       make_scene({1, 1, "sink", "diffusion = 1.0",
-                  "[[disks]]\ncount = 3000\npositions = \"random\"\nradius = 1e-7\nmass = 1.0\n", 0.1, "dt = 2e-4"});
+                  "[[disks]]\ncount = 20000\npositions = \"random\"\nradius = 1e-7\nmass = 1.0\n", 0.2, "dt = 5e-4"});
   const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
-  const double tau[] = {0.01, 0.02, 0.05, 0.1};
-  const double share[] = {0.599578, 0.463552, 0.245929, 0.0912753};
-  for (int k = 0; k < 4; ++k) {
+  const double tau[] = {0.01, 0.02, 0.05, 0.1, 0.2};
+  const double share[] = {0.599578, 0.463552, 0.245929, 0.0912753, 0.0126781};
+  for (int k = 0; k < 5; ++k) {
     run_until(*engine, tau[k] * (1.0 - 1e-9));
-    const double left = static_cast<double>(engine->state().disks.size()) / 3000.0;
-    EXPECT_NEAR(left, share[k], 3.5 * std::sqrt(share[k] * (1.0 - share[k]) / 3000.0)) << "tau " << tau[k];
+    const double left = static_cast<double>(engine->state().disks.size()) / n;
+    const double error = std::sqrt(share[k] * (1.0 - share[k]) / n);
+    fmt::print("absorbing square, tau {}: {:.5f} +- {:.5f}, theory {:.5f}\n", tau[k], left, error, share[k]);
+    EXPECT_NEAR(left, share[k], 3.0 * error) << "tau " << tau[k];
   }
 }
 
+// The bounds of issue 4 for 10^8 collisions, here over 10^7 (docs/methods.md has the long run's figures). Overlap is
+// looked at after every window: nothing that a collision does wrong could hide.
 TEST(ExactLongRun, NoOverlapNoDrift) {
-  const Scene scene = gas(2000, 0.6, 60.0);
+  const Scene scene = gas(20000, 0.6, 90.0);
   const State initial = initial_state(scene);
   const auto engine = make_parallel_engine(scene, initial, {2, 1});
   const double energy = energy_of(initial.disks, 0.0).kinetic;
@@ -153,11 +213,15 @@ TEST(ExactLongRun, NoOverlapNoDrift) {
     engine->step();
     overlap = std::max(overlap, max_overlap(engine->state().disks, scene.box));
   }
-  EXPECT_GT(engine->state().counters.collisions, 500000U);
-  EXPECT_LT(overlap, 1e-13);
-  EXPECT_NEAR(energy_of(engine->state().disks, 0.0).kinetic / energy, 1.0, 1e-11);
   const Momentum p = momentum_of(engine->state().disks);
-  EXPECT_LT(std::hypot(p.x - start.x, p.y - start.y) / start.magnitude, 1e-12);
+  const double drift = energy_of(engine->state().disks, 0.0).kinetic / energy - 1.0;
+  const double moved = std::hypot(p.x - start.x, p.y - start.y) / start.magnitude;
+  fmt::print("{:.3g} collisions: overlap {:.2g}, energy {:.2g}, momentum {:.2g}\n",
+             static_cast<double>(engine->state().counters.collisions), overlap, drift, moved);
+  EXPECT_GT(engine->state().counters.collisions, 10'000'000U);
+  EXPECT_LT(overlap, 1e-13);
+  EXPECT_LT(std::abs(drift), 1e-11);
+  EXPECT_LT(moved, 1e-12);
 }
 
 }  // namespace
