@@ -75,6 +75,20 @@ void ExactLists::build(Disks& d, const Domain& box, const Executor& executor) {
   executor.run(near_.size(), [&](std::size_t b) { list_block(d, b, b * block, std::min(n, (b + 1) * block)); });
 }
 
+void ExactLists::prefetch(std::uint32_t begin, std::uint32_t end) const {
+  constexpr std::uint32_t line = 64;
+  for (std::uint32_t i = begin; i < end; i += line / sizeof(Vec2)) __builtin_prefetch(&place_[i]);
+  for (std::uint32_t i = begin; i < end; i += line / sizeof(List)) __builtin_prefetch(&lists_[i]);
+  for (std::size_t b = begin >> block_shift_; b <= (end - 1) >> block_shift_; ++b) {
+    const std::uint32_t first = std::max(begin, static_cast<std::uint32_t>(b << block_shift_));
+    const std::uint32_t last = std::min(end, static_cast<std::uint32_t>((b + 1) << block_shift_)) - 1;
+    const std::uint32_t* const near = near_[b].data();
+    const std::uint32_t from = lists_[first].first;
+    const std::uint32_t to = lists_[last].first;
+    for (std::uint32_t k = from; k < to; k += line / sizeof(std::uint32_t)) __builtin_prefetch(near + k);
+  }
+}
+
 void ExactLists::list_block(const Disks& d, std::size_t b, std::size_t begin, std::size_t end) {
   std::vector<std::uint32_t>& near = near_[b];
   near.clear();

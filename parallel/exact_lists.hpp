@@ -57,6 +57,9 @@ class ExactLists {
     return {near_[i >> block_shift_].data() + list.first, list.count};
   }
 
+  // Asks for the lists of disks [begin, end) as they were built.
+  void prefetch(std::uint32_t begin, std::uint32_t end) const;
+
   // Bits (1 << side) of the walls and sinks that the disk can touch without roaming too far.
   unsigned sides_near(std::uint32_t i) const { return sides_[i]; }
 

@@ -30,7 +30,10 @@ void ExactLoop::run_block(std::uint32_t begin, std::uint32_t end) {
   end_ = end;
   last_.time = -never;
   arena_.heap.clear();
+  // Most of the block is looked at several times, in no order: asked for in order first, it comes much faster.
+  lists_.prefetch(begin, end);
   for (std::uint32_t i = begin; i < end; ++i) {
+    __builtin_prefetch(&field_.flight[i]);
     if (field_.in_slice(field_.due_of(i)) && field_.owner_of(i) == nobody) push_due(i);
   }
   run();
