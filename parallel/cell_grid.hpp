@@ -44,6 +44,8 @@ struct CellGrid {
 // (class_of_radius). A level's cells are at least a diameter and twice the margin wide, and not many more than its
 // disks; where fewer than three would fit across a periodic side there is one, which is its own neighbour.
 CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count);
+// The same in the memory that grid has: a sort allocates nothing.
+void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid);
 
 // Class k holds radii r with largest / 2^(k+1) < r <= largest / 2^k.
 inline std::size_t class_of_radius(double radius, double largest_radius) {
