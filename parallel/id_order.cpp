@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "parallel/resize_amply.hpp"
+
 namespace carom {
 
 namespace {
@@ -27,12 +29,12 @@ Slice slice_of(std::size_t n, std::size_t s) {
 
 void sort_by_ids(IdOrder& pairs, DiskId ids, const Executor& executor) {
   const std::size_t n = pairs.found.size();
-  pairs.sorted.resize(n);
+  resize_amply(pairs.sorted, n);
   const auto bits = static_cast<int>(std::bit_width(std::uint64_t{ids} * bucket_pairs / (n + 1)));
   const int shift = std::min(bits, 31);
   const std::size_t buckets = (ids >> shift) + std::size_t{1};
   const auto bucket_of = [&](const IdPair& p) { return std::min<std::size_t>(p.id1() >> shift, buckets - 1); };
-  pairs.counts.assign(slices * buckets, 0);
+  assign_amply(pairs.counts, slices * buckets, 0U);
   executor.run(slices, [&](std::size_t s) {
     std::uint32_t* const count = &pairs.counts[s * buckets];
     const Slice slice = slice_of(n, s);

@@ -30,7 +30,7 @@ std::array<double, 4> bounds_of(Patches& patches, const Disks& d, const std::vec
   const auto join = [](std::array<double, 4>& a, double x0, double x1, double y0, double y1) {
     a = {std::min(a[0], x0), std::max(a[1], x1), std::min(a[2], y0), std::max(a[3], y1)};
   };
-  patches.bounds.assign(executor.blocks(d.size(), disk_block), none);
+  assign_amply(patches.bounds, executor.blocks(d.size(), disk_block), none);
   executor.for_ranges(d.size(), disk_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     std::array<double, 4> bounds = none;
     for (std::size_t i = begin; i < end; ++i) {
@@ -82,7 +82,7 @@ bool lay_out(Patches& patches, const Disks& d, const std::vector<std::uint16_t>&
   const std::uint32_t count = layout.columns * layout.rows;
   for (std::uint32_t l = 0; l < patch_layouts; ++l) patches.first[l + 1] = (l + 1) * count;
   patches.first[patch_phases] = patch_layouts * count + 1;
-  patches.home.resize(d.size());
+  resize_amply(patches.home, d.size());
   executor.for_ranges(d.size(), disk_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (in_contact[i] == 0) continue;
@@ -99,10 +99,10 @@ bool lay_out(Patches& patches, const Disks& d, const std::vector<std::uint16_t>&
 
 void order_by_patch(Patches& patches) {
   const std::size_t count = patches.first[patch_phases];
-  patches.start.assign(count + 1, 0);
+  assign_amply(patches.start, count + 1, 0U);
   for (const std::uint32_t p : patches.patch) ++patches.start[p + 1];
   for (std::size_t p = 0; p < count; ++p) patches.start[p + 1] += patches.start[p];
-  patches.order.resize(patches.patch.size());
+  resize_amply(patches.order, patches.patch.size());
   // start serves as the running place; each entry then is its successor's, and moves one back.
   for (std::size_t k = 0; k < patches.patch.size(); ++k) {
     patches.order[patches.start[patches.patch[k]]++] = static_cast<std::uint32_t>(k);

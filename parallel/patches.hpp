@@ -14,6 +14,7 @@
 #include "core/disks.hpp"
 #include "core/pair_search.hpp"
 #include "parallel/executor.hpp"
+#include "parallel/resize_amply.hpp"
 
 namespace carom {
 
@@ -46,7 +47,7 @@ void order_by_patch(Patches& patches);
 template <class DisksOf>
 void build_patches(Patches& patches, const Disks& disks, const std::vector<std::uint16_t>& in_contact,
                    std::size_t contacts, const Executor& executor, DisksOf&& disks_of) {
-  patches.patch.resize(contacts);
+  resize_amply(patches.patch, contacts);
   if (!lay_out(patches, disks, in_contact, contacts, executor)) {
     patches.patch.assign(contacts, 0);
     return order_by_patch(patches);

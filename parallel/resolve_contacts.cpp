@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/resting.hpp"
+#include "parallel/resize_amply.hpp"
 
 namespace carom {
 
@@ -118,7 +119,7 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
                      ContactLists& lists, ImpactTally& tally) {
   if (lists.crowded.empty()) return;
   place_crowded(disks, executor, lists);
-  lists.tallies.assign(lists.patches.count(), {});
+  assign_amply(lists.tallies, lists.patches.count(), {});
   run_crowded(executor, lists,
               [&](const ContactEvent& e, std::size_t q) { lists.tallies[q].add(e.id2, resolve_event(d, rules, e)); });
   for (const ImpactTally& t : lists.tallies) tally.add(t);
@@ -126,7 +127,7 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
   place_crowded(disks, executor, lists);
   run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t) { push_apart(d, rules.box, e, 0.0); });
   for (int sweep = 1; sweep < most_push_sweeps; ++sweep) {
-    lists.largest.assign(lists.patches.count(), 0.0);
+    assign_amply(lists.largest, lists.patches.count(), 0.0);
     run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
       if (!is_deep(d, rules.box, e)) return;
       push_apart(d, rules.box, e, 0.0);
@@ -156,7 +157,7 @@ void place_crowded(const Disks& disks, const Executor& executor, ContactLists& l
   build_patches(lists.patches, disks, lists.contacts, crowded.size(), executor, [&](std::size_t k) {
     return Pair{crowded[k].i1, is_wall(crowded[k].id2) ? crowded[k].i1 : crowded[k].i2};
   });
-  lists.placed.resize(crowded.size());
+  resize_amply(lists.placed, crowded.size());
   executor.for_ranges(crowded.size(), contact_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t at = begin; at < end; ++at) lists.placed[at] = crowded[lists.patches.order[at]];
   });

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 
+#include "parallel/resize_amply.hpp"
 #include "parallel/resolve_contacts.hpp"
 
 namespace carom {
@@ -30,7 +31,7 @@ void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector
   std::vector<IdPair>& pairs = lists.settle.pairs.found;
   std::size_t place = total;
   for (const auto& buffer : walls) total += buffer.size();
-  pairs.resize(total);
+  resize_amply(pairs, total);
   const bool shared = executor.threads() > 1;
   const auto count = [&](std::uint32_t i) {
     if (shared) {
@@ -56,6 +57,14 @@ void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector
   }
 }
 
+void reserve_crowded_blocks(std::size_t blocks, const Executor& executor, ContactLists& lists) {
+  if (lists.crowded_blocks.size() >= blocks) return;
+  while (lists.crowded_blocks.size() < blocks + blocks / 4) {
+    lists.crowded_blocks.emplace_back();
+    lists.crowded_blocks.back().reserve(executor.grain(contact_block));
+  }
+}
+
 // What every pair bore in the step before: its and the loads' orders are the same. Contacts that may be impacts, all
 // but the loaded and crowded, are collected in lists.crowded; false: none of them is one, now that nobody has moved
 // yet.
@@ -64,9 +73,9 @@ bool look_up_loads(const View& d, const State& state, const StepRules& rules, co
                    ContactLists& lists) {
   const std::vector<IdPair>& pairs = lists.settle.pairs.sorted;
   const std::size_t blocks = executor.blocks(pairs.size(), contact_block);
-  if (lists.crowded_blocks.size() < blocks) lists.crowded_blocks.resize(blocks);
-  lists.settle.borne.resize(pairs.size());
-  lists.largest.assign(blocks, 0.0);
+  reserve_crowded_blocks(blocks, executor, lists);
+  resize_amply(lists.settle.borne, pairs.size());
+  assign_amply(lists.largest, blocks, 0.0);
   executor.for_ranges(pairs.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     lists.crowded_blocks[b].clear();
     const auto key_of = [](const ContactLoad& load) { return id_key(load.id1, load.id2); };
@@ -94,7 +103,7 @@ void resolve_impacts(const View& d, const Disks& disks, const StepRules& rules, 
                      ContactLists& lists, ImpactTally& tally) {
   executor.sort(lists.crowded.begin(), lists.crowded.end(), earlier);
   place_crowded(disks, executor, lists);
-  lists.tallies.assign(lists.patches.count(), {});
+  assign_amply(lists.tallies, lists.patches.count(), {});
   run_patches(lists.patches, false, executor, [&](std::size_t q) {
     for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) {
       const ContactEvent& e = lists.placed[at];
@@ -115,11 +124,11 @@ void make_supports(const View& d, const Disks& disks, const StepRules& rules, co
   build_patches(patches, disks, lists.contacts, pairs.size(), executor, [&](std::size_t k) {
     return Pair{pairs[k].i1, pairs[k].i2};
   });
-  settle.placed.resize(pairs.size());
-  settle.holding.resize(pairs.size());
-  settle.supports.resize(pairs.size());
-  settle.place.resize(pairs.size());
-  settle.bearing.resize(patches.count());
+  resize_amply(settle.placed, pairs.size());
+  resize_amply(settle.holding, pairs.size());
+  resize_amply(settle.supports, pairs.size());
+  resize_amply(settle.place, pairs.size());
+  resize_amply(settle.bearing, patches.count());
   executor.run(patches.count(), [&](std::size_t q) {
     std::uint32_t s = patches.start[q];
     for (std::uint32_t at = s; at < patches.start[q + 1]; ++at) {
@@ -156,7 +165,7 @@ void relax_supports(const View& d, const StepRules& rules, const Executor& execu
   sweep_supports(executor, lists, false, [&](Support& s, std::size_t) { apply_impulse(d, s, s.impulse); });
   const double settled = settled_change * rules.gravity * rules.dt;
   for (int sweep = 0; sweep < most_load_sweeps; ++sweep) {
-    lists.largest.assign(lists.patches.count(), 0.0);
+    assign_amply(lists.largest, lists.patches.count(), 0.0);
     sweep_supports(executor, lists, sweep % 2 == 1,
                    [&](Support& s, std::size_t q) { lists.largest[q] = std::max(lists.largest[q], relax(d, s)); });
     if (*std::max_element(lists.largest.begin(), lists.largest.end()) <= settled) break;
@@ -175,14 +184,14 @@ void keep_loads(State& state, const StepRules& rules, const Executor& executor, 
     }
   });
   const std::size_t n = settle.borne.size();
-  lists.offsets.assign(executor.blocks(n, contact_block) + 1, 0);
+  assign_amply(lists.offsets, executor.blocks(n, contact_block) + 1, std::size_t{0});
   executor.for_ranges(n, contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     std::size_t count = 0;
     for (std::size_t k = begin; k < end; ++k) count += settle.borne[k] > 0.0 ? std::size_t{1} : 0;
     lists.offsets[b + 1] = count;
   });
   for (std::size_t b = 1; b < lists.offsets.size(); ++b) lists.offsets[b] += lists.offsets[b - 1];
-  state.loads.resize(lists.offsets.back());
+  resize_amply(state.loads, lists.offsets.back());
   executor.for_ranges(n, contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     std::size_t at = lists.offsets[b];
     for (std::size_t k = begin; k < end; ++k) {
@@ -198,7 +207,7 @@ void push_contacts(const View& d, const StepRules& rules, const Executor& execut
   const SettleLists& settle = lists.settle;
   const double slop = contact_slop * rules.gravity * rules.dt * rules.dt;
   for (int sweep = 0; sweep < most_push_sweeps; ++sweep) {
-    lists.largest.assign(lists.patches.count(), 0.0);
+    assign_amply(lists.largest, lists.patches.count(), 0.0);
     run_patches(lists.patches, false, executor, [&](std::size_t q) {
       for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) {
         const IdPair& p = settle.placed[at];
@@ -214,7 +223,7 @@ void push_contacts(const View& d, const StepRules& rules, const Executor& execut
 
 // Wraps the disks that had contacts, clears their counts, and returns the largest squared speed among them.
 double finish_disks(Disks& d, const Domain& box, const Executor& executor, ContactLists& lists) {
-  lists.largest.assign(executor.blocks(d.size(), finish_block), 0.0);
+  assign_amply(lists.largest, executor.blocks(d.size(), finish_block), 0.0);
   executor.for_ranges(d.size(), finish_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     double largest = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
