@@ -136,7 +136,8 @@ void ComponentSolver::look_at(std::uint32_t i) {
     return Seen{&field_.path[j], &field_.ray[j], 0};
   });
   if (!field_.in_slice(alone.time)) {
-    field_.due[i] = std::min({alone.bound, exit, field_.horizon});
+    const double due = std::min({alone.bound, exit, field_.horizon});
+    std::atomic_ref<double>(field_.due[i]).store(due, std::memory_order_relaxed);
     return;
   }
   clock_ = -never;
@@ -175,7 +176,7 @@ bool ComponentSolver::add_member(std::uint32_t i) {
     return false;
   }
   ++arena_.components[component_].count;
-  if (field_.due[i] > clock_) return true;
+  if (arena_.members[m].next.time > clock_) return true;
   look_around(m);
   if (!(arena_.members[m].next.time > clock_)) start_over();
   return true;
@@ -197,8 +198,7 @@ Member ComponentSolver::fresh_member(std::uint32_t i) const {
   member.now.path = field_.path[i];
   if (!field_.last_contact.empty()) member.now.last_contact = field_.last_contact[i];
   if (!field_.burst.empty()) member.burst = field_.burst[i];
-  member.next.time = field_.due[i];
-  member.next.bound = field_.due[i];
+  member.next.time = member.next.bound = due_of(i);
   return member;
 }
 

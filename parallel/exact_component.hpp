@@ -195,6 +195,11 @@ class ComponentSolver {
   std::uint32_t owner_of(std::uint32_t i) const {
     return std::atomic_ref<std::uint32_t>(field_.owner[i]).load(std::memory_order_seq_cst);
   }
+  // A disk's due time is a bound on its next event, which its own block may raise while another component takes the
+  // disk in. Whichever of the two bounds that component sees, it finds the same events.
+  double due_of(std::uint32_t i) const {
+    return std::atomic_ref<double>(field_.due[i]).load(std::memory_order_relaxed);
+  }
   bool is_ours(std::uint32_t owner) const {
     return arena_of(owner) == arena_.number && arena_.members[member_of(owner)].component == component_;
   }
