@@ -97,6 +97,11 @@ bool lay_out(Patches& patches, const Disks& d, const std::vector<std::uint16_t>&
   return true;
 }
 
+void take_as_one_patch(Patches& patches, std::size_t contacts) {
+  patches.first = {0, 0, 0, 0, 1};
+  patches.start.assign({0U, static_cast<std::uint32_t>(contacts)});
+}
+
 void order_by_patch(Patches& patches) {
   const std::size_t count = patches.first[patch_phases];
   assign_amply(patches.start, count + 1, 0U);

@@ -43,6 +43,9 @@ bool lay_out(Patches& patches, const Disks& disks, const std::vector<std::uint16
 // Sorts patch indices in patches.patch into order and start.
 void order_by_patch(Patches& patches);
 
+// All contacts in one patch, in the order of the list; patches.order is not made.
+void take_as_one_patch(Patches& patches, std::size_t contacts);
+
 // disks_of(k): where the disks of contact k are stored, twice the same for a wall.
 template <class DisksOf>
 void build_patches(Patches& patches, const Disks& disks, const std::vector<std::uint16_t>& in_contact,

@@ -105,14 +105,6 @@ double resolve_alone(const View& d, const StepRules& rules, const FoundPairs& fo
   return blocks == 0 ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
 }
 
-// task(contact, patch) for lists.crowded in the order that place_crowded found.
-template <class Task>
-void run_crowded(const Executor& executor, ContactLists& lists, Task&& task) {
-  run_patches(lists.patches, false, executor, [&](std::size_t q) {
-    for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) task(lists.placed[at], q);
-  });
-}
-
 // Impacts of the crowded contacts in order of time, then the sweeps of pushing in order of ids.
 template <class View>
 void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, const Executor& executor,
@@ -154,6 +146,7 @@ void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists&
 
 void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists) {
   const std::vector<ContactEvent>& crowded = lists.crowded;
+  if (executor.threads() == 1) return take_as_one_patch(lists.patches, crowded.size());
   build_patches(lists.patches, disks, lists.contacts, crowded.size(), executor, [&](std::size_t k) {
     return Pair{crowded[k].i1, is_wall(crowded[k].id2) ? crowded[k].i1 : crowded[k].i2};
   });

@@ -76,8 +76,18 @@ void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists&
 // The same without sorting and tallies.
 void join_crowded(std::size_t blocks, ContactLists& lists);
 
-// Shares lists.crowded out to patches in the order that it has: lists.placed.
+// Shares lists.crowded out to patches in the order that it has: lists.placed. One thread takes it as it is: these
+// contacts are visited two to five times, too few to pay for moving them.
 void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists);
+
+// task(contact, patch) for all of lists.crowded, in the order that place_crowded was given.
+template <class Task>
+void run_crowded(const Executor& executor, const ContactLists& lists, Task&& task) {
+  const std::vector<ContactEvent>& list = executor.threads() == 1 ? lists.crowded : lists.placed;
+  run_patches(lists.patches, false, executor, [&](std::size_t q) {
+    for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) task(list[at], q);
+  });
+}
 
 // Contacts a block of the parallel passes over them.
 inline constexpr std::size_t contact_block = 1024;

@@ -104,12 +104,9 @@ void resolve_impacts(const View& d, const Disks& disks, const StepRules& rules, 
   executor.sort(lists.crowded.begin(), lists.crowded.end(), earlier);
   place_crowded(disks, executor, lists);
   assign_amply(lists.tallies, lists.patches.count(), {});
-  run_patches(lists.patches, false, executor, [&](std::size_t q) {
-    for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) {
-      const ContactEvent& e = lists.placed[at];
-      if (is_support(d, rules, e, false, !is_alone(lists, e))) continue;
-      lists.tallies[q].add(e.id2, resolve_event(d, rules, e));
-    }
+  run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
+    if (is_support(d, rules, e, false, !is_alone(lists, e))) return;
+    lists.tallies[q].add(e.id2, resolve_event(d, rules, e));
   });
   for (const ImpactTally& t : lists.tallies) tally.add(t);
 }
