@@ -16,9 +16,10 @@ std::uint32_t cells_along(double length, double least, double most, bool periodi
 
 }  // namespace
 
-CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
-                   unsigned band_shift) {
-  CellGrid grid;
+void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid,
+               unsigned band_shift) {
+  grid.levels.clear();
+  grid.keys = 0;
   double radius = largest_radius;
   for (std::size_t k = 0; k < count.size(); ++k, radius /= class_ratio) {
     GridLevel level;
@@ -42,6 +43,11 @@ CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<s
     grid.keys += level.keys();
     grid.levels.push_back(level);
   }
+}
+
+CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count) {
+  CellGrid grid;
+  make_grid(box, largest_radius, count, grid);
   return grid;
 }
 

@@ -59,7 +59,7 @@ void ExactLists::build(Disks& d, const Domain& box, const Executor& executor) {
     if (count.size() > 1) {
       for (const double r : d.radius) ++count[class_of_radius(r, largest)];
     }
-    grid_ = make_grid(box, largest, count, band_shift);
+    make_grid(box, largest, count, grid_, band_shift);
     sort_into_cells(d, grid_, executor, cells_);
     head_.assign(grid_.keys, none);
   }

@@ -4,13 +4,12 @@
 #include <atomic>
 #include <cstddef>
 
-#include "parallel/bear_loads.hpp"
+#include "core/resting.hpp"
+#include "parallel/resize_amply.hpp"
 
 namespace carom {
 
 namespace {
-
-constexpr auto wall_of_event = [](const ContactEvent& e) { return is_wall(e.id2); };
 
 // Counts are sums of ones: whichever thread adds first, they end the same.
 void count_contact(std::vector<std::uint16_t>& contacts, const ContactEvent& e) {
@@ -108,41 +107,53 @@ double resolve_alone(const View& d, const StepRules& rules, const FoundPairs& fo
 
 // Impacts of the crowded contacts in order of time, then the sweeps of pushing in order of ids.
 template <class View>
-void resolve_crowded(const View& d, const StepRules& rules, std::size_t disks, const Executor& executor,
+void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, const Executor& executor,
                      ContactLists& lists, ImpactTally& tally) {
-  std::vector<ContactEvent>& crowded = lists.crowded;
-  if (crowded.empty()) return;
-  const auto slots = static_cast<std::size_t>(executor.threads());
-  build_levels(lists.levels, crowded, disks, executor, wall_of_event);
-  lists.tallies.assign(slots, {});
-  run_levels(lists.levels, crowded.size(), false, executor, [&](std::size_t k, std::size_t slot) {
-    lists.tallies[slot].add(crowded[k].id2, resolve_event(d, rules, crowded[k]));
-  });
+  if (lists.crowded.empty()) return;
+  place_crowded(disks, executor, lists);
+  assign_amply(lists.tallies, lists.patches.count(), {});
+  run_crowded(executor, lists,
+              [&](const ContactEvent& e, std::size_t q) { lists.tallies[q].add(e.id2, resolve_event(d, rules, e)); });
   for (const ImpactTally& t : lists.tallies) tally.add(t);
-  executor.sort(crowded.begin(), crowded.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
-  build_levels(lists.levels, crowded, disks, executor, wall_of_event);
-  run_levels(lists.levels, crowded.size(), false, executor,
-             [&](std::size_t k, std::size_t) { push_apart(d, rules.box, crowded[k], 0.0); });
+  executor.sort(lists.crowded.begin(), lists.crowded.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
+  place_crowded(disks, executor, lists);
+  run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t) { push_apart(d, rules.box, e, 0.0); });
   for (int sweep = 1; sweep < most_push_sweeps; ++sweep) {
-    lists.largest.assign(slots, 0.0);
-    run_levels(lists.levels, crowded.size(), false, executor, [&](std::size_t k, std::size_t slot) {
-      if (!is_deep(d, rules.box, crowded[k])) return;
-      push_apart(d, rules.box, crowded[k], 0.0);
-      lists.largest[slot] = 1.0;
+    assign_amply(lists.largest, lists.patches.count(), 0.0);
+    run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
+      if (!is_deep(d, rules.box, e)) return;
+      push_apart(d, rules.box, e, 0.0);
+      lists.largest[q] = 1.0;
     });
-    if (std::count(lists.largest.begin(), lists.largest.end(), 0.0) == executor.threads()) break;
+    if (std::find(lists.largest.begin(), lists.largest.end(), 1.0) == lists.largest.end()) break;
   }
 }
 
 }  // namespace
 
-void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists& lists, ImpactTally& tally) {
+void join_crowded(std::size_t blocks, ContactLists& lists) {
   lists.crowded.clear();
   for (std::size_t b = 0; b < blocks; ++b) {
     lists.crowded.insert(lists.crowded.end(), lists.crowded_blocks[b].begin(), lists.crowded_blocks[b].end());
-    tally.add(lists.tallies[b]);
   }
+}
+
+void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists& lists, ImpactTally& tally) {
+  join_crowded(blocks, lists);
+  for (std::size_t b = 0; b < blocks; ++b) tally.add(lists.tallies[b]);
   executor.sort(lists.crowded.begin(), lists.crowded.end(), earlier);
+}
+
+void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists) {
+  const std::vector<ContactEvent>& crowded = lists.crowded;
+  if (executor.threads() == 1) return take_as_one_patch(lists.patches, crowded.size());
+  build_patches(lists.patches, disks, lists.contacts, crowded.size(), executor, [&](std::size_t k) {
+    return Pair{crowded[k].i1, is_wall(crowded[k].id2) ? crowded[k].i1 : crowded[k].i2};
+  });
+  resize_amply(lists.placed, crowded.size());
+  executor.for_ranges(crowded.size(), contact_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t at = begin; at < end; ++at) lists.placed[at] = crowded[lists.patches.order[at]];
+  });
 }
 
 void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found,
@@ -190,19 +201,18 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
                         ContactLists& lists) {
   ImpactTally tally;
   double speed2 = 0.0;
-  with_view(state.disks, [&](const auto& d) {
-    if (rules.settles) {
-      gather_events(state.disks, rules, found, walls, executor, lists);
-      settle_contacts(d, state, rules, executor, lists, tally);
-    } else {
+  if (rules.settles) {
+    speed2 = settle_contacts(state, rules, found, walls, executor, lists, tally);
+  } else {
+    with_view(state.disks, [&](const auto& d) {
       speed2 = resolve_alone(d, rules, found, walls, state.disks.size(), executor, lists, tally);
-      resolve_crowded(d, rules, state.disks.size(), executor, lists, tally);
-    }
-  });
+      resolve_crowded(d, rules, state.disks, executor, lists, tally);
+    });
+    // Contacts that were alone are finished.
+    speed2 = std::max(speed2, finish_contacts(state.disks, rules.box, executor, lists.crowded, lists));
+  }
   tally.count_into(state.counters);
-  // Contacts that were alone are finished; in a scene that settles all of them are still to do.
-  const std::vector<ContactEvent>& rest = rules.settles ? lists.events : lists.crowded;
-  return std::max(speed2, finish_contacts(state.disks, rules.box, executor, rest, lists));
+  return speed2;
 }
 
 double finish_contacts(Disks& disks, const Domain& box, const Executor& executor,

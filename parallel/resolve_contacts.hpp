@@ -1,6 +1,6 @@
 // What core/step_contacts.cpp does with the contacts of a step, with the same bits, on many threads. Most contacts of a
 // gas are alone: neither disk has another one. They commute with everything and are resolved where they stand. The
-// rest, the crowded ones, go in the canonical order, level by level where there are many.
+// rest, the crowded ones, go in the canonical order, patch by patch where there are many.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,13 @@
 #include "core/contact_event.hpp"
 #include "core/impact_tally.hpp"
 #include "core/resolve.hpp"
-#include "core/resting.hpp"
 #include "core/state.hpp"
 #include "parallel/executor.hpp"
 #include "parallel/find_contacts.hpp"
-#include "parallel/pair_levels.hpp"
+#include "parallel/patches.hpp"
+#include "parallel/settle_contacts.hpp"
 
 namespace carom {
-
-// A contact with what the settling phase knows of it.
-struct LoadedContact {
-  ContactEvent event;
-  std::uint32_t i1, i2;       // as in event: what pair_levels reads
-  double force;               // borne in the step before; 0: none
-  bool crowded;               // one of its disks has another contact
-  bool bears = false;         // it is a support in this step,
-  std::uint32_t support = 0;  // this one
-};
 
 // Lists that the resolve fills again and again; kept so that a warm step allocates nothing.
 struct ContactLists {
@@ -33,12 +23,12 @@ struct ContactLists {
   std::vector<std::uint16_t> contacts;  // of each disk in this step; all 0 between steps
   std::vector<ContactEvent> crowded;
   std::vector<std::vector<ContactEvent>> crowded_blocks;
-  std::vector<LoadedContact> loaded;
-  std::vector<Support> supports;
+  std::vector<ContactEvent> placed;  // the crowded in the order of the patches
   std::vector<ImpactTally> tallies;  // of each block
   std::vector<double> largest;       // of each block
   std::vector<std::size_t> offsets;  // of each block's part of a list
-  PairLevels levels;
+  Patches patches;
+  SettleLists settle;
 };
 
 // The events of the pairs found and the wall contacts, in one list, and how many contacts each disk has.
@@ -82,6 +72,22 @@ void split_crowded(const Executor& executor, ContactLists& lists, ImpactTally& t
 
 // Joins the blocks' crowded events in lists.crowded, in canonical order of time, and adds their tallies.
 void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists& lists, ImpactTally& tally);
+
+// The same without sorting and tallies.
+void join_crowded(std::size_t blocks, ContactLists& lists);
+
+// Shares lists.crowded out to patches in the order that it has: lists.placed. One thread takes it as it is: these
+// contacts are visited two to five times, too few to pay for moving them.
+void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists);
+
+// task(contact, patch) for all of lists.crowded, in the order that place_crowded was given.
+template <class Task>
+void run_crowded(const Executor& executor, const ContactLists& lists, Task&& task) {
+  const std::vector<ContactEvent>& list = executor.threads() == 1 ? lists.crowded : lists.placed;
+  run_patches(lists.patches, false, executor, [&](std::size_t q) {
+    for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) task(list[at], q);
+  });
+}
 
 // Contacts a block of the parallel passes over them.
 inline constexpr std::size_t contact_block = 1024;

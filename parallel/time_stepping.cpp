@@ -155,7 +155,7 @@ void TimeStepping::sort_now() {
   } else {
     for (const double r : d.radius) ++count[class_of_radius(r, largest)];
   }
-  grid_ = make_grid(scene_.box, largest, count);
+  make_grid(scene_.box, largest, count, grid_);
   sort_into_cells(state_.disks, grid_, executor_, cells_);
   cells_valid_ = true;
   strays_ = 0;

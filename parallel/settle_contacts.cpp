@@ -1,0 +1,257 @@
+#include "parallel/settle_contacts.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+
+#include "parallel/resize_amply.hpp"
+#include "parallel/resolve_contacts.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks a block of the pass that finishes them.
+constexpr std::size_t finish_block = 8192;
+
+bool is_crowded(const ContactLists& lists, const IdPair& p) {
+  return lists.contacts[p.i1] > 1 || lists.contacts[p.i2] > 1;
+}
+
+// All contacts into settle.pairs.found, and how many each disk has.
+void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector<std::vector<ContactEvent>>& walls,
+                  const Executor& executor, ContactLists& lists) {
+  lists.contacts.resize(disks.size(), 0);
+  lists.offsets.clear();
+  std::size_t total = 0;
+  for (std::size_t b = 0; b < found.used; ++b) {
+    lists.offsets.push_back(total);
+    total += found.buffers[b].pairs.size();
+  }
+  std::vector<IdPair>& pairs = lists.settle.pairs.found;
+  std::size_t place = total;
+  for (const auto& buffer : walls) total += buffer.size();
+  resize_amply(pairs, total);
+  const bool shared = executor.threads() > 1;
+  const auto count = [&](std::uint32_t i) {
+    if (shared) {
+      std::atomic_ref<std::uint16_t>(lists.contacts[i]).fetch_add(1, std::memory_order_relaxed);
+    } else {
+      ++lists.contacts[i];
+    }
+  };
+  executor.run(found.used, [&](std::size_t b) {
+    std::size_t at = lists.offsets[b];
+    for (const Pair& found_pair : found.buffers[b].pairs) {
+      const Pair p = in_id_order(disks.id.data(), found_pair);
+      pairs[at++] = {id_key(disks.id[p.i1], disks.id[p.i2]), p.i1, p.i2};
+      count(p.i1);
+      count(p.i2);
+    }
+  });
+  for (const auto& buffer : walls) {
+    for (const ContactEvent& e : buffer) {
+      pairs[place++] = {id_key(e.id1, e.id2), e.i1, e.i1};
+      ++lists.contacts[e.i1];
+    }
+  }
+}
+
+void reserve_crowded_blocks(std::size_t blocks, const Executor& executor, ContactLists& lists) {
+  if (lists.crowded_blocks.size() >= blocks) return;
+  while (lists.crowded_blocks.size() < blocks + blocks / 4) {
+    lists.crowded_blocks.emplace_back();
+    lists.crowded_blocks.back().reserve(executor.grain(contact_block));
+  }
+}
+
+// What every pair bore in the step before: its and the loads' orders are the same. Contacts that may be impacts, all
+// but the loaded and crowded, are collected in lists.crowded; false: none of them is one, now that nobody has moved
+// yet.
+template <class View>
+bool look_up_loads(const View& d, const State& state, const StepRules& rules, const Executor& executor,
+                   ContactLists& lists) {
+  const std::vector<IdPair>& pairs = lists.settle.pairs.sorted;
+  const std::size_t blocks = executor.blocks(pairs.size(), contact_block);
+  reserve_crowded_blocks(blocks, executor, lists);
+  resize_amply(lists.settle.borne, pairs.size());
+  assign_amply(lists.largest, blocks, 0.0);
+  executor.for_ranges(pairs.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    lists.crowded_blocks[b].clear();
+    const auto key_of = [](const ContactLoad& load) { return id_key(load.id1, load.id2); };
+    auto load = std::lower_bound(state.loads.begin(), state.loads.end(), pairs[begin].key,
+                                 [&](const ContactLoad& l, std::uint64_t key) { return key_of(l) < key; });
+    for (std::size_t k = begin; k < end; ++k) {
+      const IdPair& p = pairs[k];
+      while (load != state.loads.end() && key_of(*load) < p.key) ++load;
+      const double force = load != state.loads.end() && key_of(*load) == p.key ? load->force : 0.0;
+      lists.settle.borne[k] = force;
+      const bool crowded = is_crowded(lists, p);
+      if (force > 0.0 && crowded) continue;
+      lists.crowded_blocks[b].push_back(timed_event(d, rules, p));
+      if (!is_support(d, rules, p.event(), force > 0.0, crowded)) lists.largest[b] = 1.0;
+    }
+  });
+  join_crowded(blocks, lists);
+  return std::find(lists.largest.begin(), lists.largest.end(), 1.0) != lists.largest.end();
+}
+
+// Impacts in order of time. What is a support is asked when its turn comes: an impact before may have changed it. That
+// it was loaded would count for the crowded only, and those are not here.
+template <class View>
+void resolve_impacts(const View& d, const Disks& disks, const StepRules& rules, const Executor& executor,
+                     ContactLists& lists, ImpactTally& tally) {
+  executor.sort(lists.crowded.begin(), lists.crowded.end(), earlier);
+  place_crowded(disks, executor, lists);
+  assign_amply(lists.tallies, lists.patches.count(), {});
+  run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
+    if (is_support(d, rules, e, false, !is_alone(lists, e))) return;
+    lists.tallies[q].add(e.id2, resolve_event(d, rules, e));
+  });
+  for (const ImpactTally& t : lists.tallies) tally.add(t);
+}
+
+// The pairs into the order of patches, and the supports among them.
+template <class View>
+void make_supports(const View& d, const Disks& disks, const StepRules& rules, const Executor& executor,
+                   ContactLists& lists) {
+  SettleLists& settle = lists.settle;
+  const std::vector<IdPair>& pairs = settle.pairs.sorted;
+  Patches& patches = lists.patches;
+  build_patches(patches, disks, lists.contacts, pairs.size(), executor, [&](std::size_t k) {
+    return Pair{pairs[k].i1, pairs[k].i2};
+  });
+  resize_amply(settle.placed, pairs.size());
+  resize_amply(settle.holding, pairs.size());
+  resize_amply(settle.supports, pairs.size());
+  resize_amply(settle.place, pairs.size());
+  resize_amply(settle.bearing, patches.count());
+  executor.run(patches.count(), [&](std::size_t q) {
+    std::uint32_t s = patches.start[q];
+    for (std::uint32_t at = s; at < patches.start[q + 1]; ++at) {
+      const IdPair p = pairs[patches.order[at]];
+      double& borne = settle.borne[patches.order[at]];
+      settle.placed[at] = p;
+      settle.holding[at] = 0;
+      if (is_support(d, rules, p.event(), borne > 0.0, is_crowded(lists, p))) {
+        settle.supports[s] = make_support(d, rules, p.event(), borne);
+        settle.place[s++] = at;
+      }
+      borne = 0.0;
+    }
+    settle.bearing[q] = s - patches.start[q];
+  });
+}
+
+// Calls visit(support, patch) for all supports in order, or backwards.
+template <class Visit>
+void sweep_supports(const Executor& executor, ContactLists& lists, bool backwards, Visit&& visit) {
+  run_patches(lists.patches, backwards, executor, [&](std::size_t q) {
+    Support* const first = lists.settle.supports.data() + lists.patches.start[q];
+    const std::size_t count = lists.settle.bearing[q];
+    if (backwards) {
+      for (std::size_t s = count; s-- > 0;) visit(first[s], q);
+    } else {
+      for (std::size_t s = 0; s < count; ++s) visit(first[s], q);
+    }
+  });
+}
+
+template <class View>
+void relax_supports(const View& d, const StepRules& rules, const Executor& executor, ContactLists& lists) {
+  sweep_supports(executor, lists, false, [&](Support& s, std::size_t) { apply_impulse(d, s, s.impulse); });
+  const double settled = settled_change * rules.gravity * rules.dt;
+  for (int sweep = 0; sweep < most_load_sweeps; ++sweep) {
+    assign_amply(lists.largest, lists.patches.count(), 0.0);
+    sweep_supports(executor, lists, sweep % 2 == 1,
+                   [&](Support& s, std::size_t q) { lists.largest[q] = std::max(lists.largest[q], relax(d, s)); });
+    if (*std::max_element(lists.largest.begin(), lists.largest.end()) <= settled) break;
+  }
+}
+
+// Impulses back to their pairs, and the loads of the step in order of ids.
+void keep_loads(State& state, const StepRules& rules, const Executor& executor, ContactLists& lists) {
+  SettleLists& settle = lists.settle;
+  const Patches& patches = lists.patches;
+  executor.run(patches.count(), [&](std::size_t q) {
+    for (std::size_t s = patches.start[q]; s < patches.start[q] + settle.bearing[q]; ++s) {
+      const double impulse = settle.supports[s].impulse;
+      settle.borne[patches.order[settle.place[s]]] = impulse;
+      settle.holding[settle.place[s]] = impulse > 0.0 ? 1 : 0;
+    }
+  });
+  const std::size_t n = settle.borne.size();
+  assign_amply(lists.offsets, executor.blocks(n, contact_block) + 1, std::size_t{0});
+  executor.for_ranges(n, contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    std::size_t count = 0;
+    for (std::size_t k = begin; k < end; ++k) count += settle.borne[k] > 0.0 ? std::size_t{1} : 0;
+    lists.offsets[b + 1] = count;
+  });
+  for (std::size_t b = 1; b < lists.offsets.size(); ++b) lists.offsets[b] += lists.offsets[b - 1];
+  resize_amply(state.loads, lists.offsets.back());
+  executor.for_ranges(n, contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    std::size_t at = lists.offsets[b];
+    for (std::size_t k = begin; k < end; ++k) {
+      const IdPair& p = settle.pairs.sorted[k];
+      if (settle.borne[k] > 0.0) state.loads[at++] = {p.id1(), p.id2(), settle.borne[k] / rules.dt};
+    }
+  });
+}
+
+// Every contact once, then the deep ones among the crowded until there are none.
+template <class View>
+void push_contacts(const View& d, const StepRules& rules, const Executor& executor, ContactLists& lists) {
+  const SettleLists& settle = lists.settle;
+  const double slop = contact_slop * rules.gravity * rules.dt * rules.dt;
+  for (int sweep = 0; sweep < most_push_sweeps; ++sweep) {
+    assign_amply(lists.largest, lists.patches.count(), 0.0);
+    run_patches(lists.patches, false, executor, [&](std::size_t q) {
+      for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) {
+        const IdPair& p = settle.placed[at];
+        const ContactEvent e = p.event();
+        if (sweep > 0 && (!is_crowded(lists, p) || !is_deep(d, rules.box, e))) continue;
+        push_apart(d, rules.box, e, settle.holding[at] != 0 ? slop : 0.0);
+        lists.largest[q] = 1.0;
+      }
+    });
+    if (std::find(lists.largest.begin(), lists.largest.end(), 1.0) == lists.largest.end()) break;
+  }
+}
+
+// Wraps the disks that had contacts, clears their counts, and returns the largest squared speed among them.
+double finish_disks(Disks& d, const Domain& box, const Executor& executor, ContactLists& lists) {
+  assign_amply(lists.largest, executor.blocks(d.size(), finish_block), 0.0);
+  executor.for_ranges(d.size(), finish_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    double largest = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (lists.contacts[i] == 0) continue;
+      lists.contacts[i] = 0;
+      if (box.periodic_x()) d.x[i] = wrap(d.x[i], box.width);
+      if (box.periodic_y()) d.y[i] = wrap(d.y[i], box.height);
+      largest = std::max(largest, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+    }
+    lists.largest[b] = largest;
+  });
+  return lists.largest.empty() ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
+}
+
+}  // namespace
+
+double settle_contacts(State& state, const StepRules& rules, const FoundPairs& found,
+                       const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
+                       ContactLists& lists, ImpactTally& tally) {
+  gather_pairs(state.disks, found, walls, executor, lists);
+  sort_by_ids(lists.settle.pairs, state.next_id, executor);
+  with_view(state.disks, [&](const auto& d) {
+    if (look_up_loads(d, state, rules, executor, lists)) {
+      resolve_impacts(d, state.disks, rules, executor, lists, tally);
+    }
+    make_supports(d, state.disks, rules, executor, lists);
+    relax_supports(d, rules, executor, lists);
+    keep_loads(state, rules, executor, lists);
+    push_contacts(d, rules, executor, lists);
+  });
+  return finish_disks(state.disks, rules.box, executor, lists);
+}
+
+}  // namespace carom

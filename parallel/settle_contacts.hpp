@@ -1,0 +1,35 @@
+// Scenes that settle: impacts, supports and pushing of core/step_contacts.cpp, patch by patch.
+#pragma once
+
+#include <vector>
+
+#include "core/impact_tally.hpp"
+#include "core/resolve.hpp"
+#include "core/resting.hpp"
+#include "core/state.hpp"
+#include "parallel/executor.hpp"
+#include "parallel/find_contacts.hpp"
+#include "parallel/id_order.hpp"
+
+namespace carom {
+
+struct ContactLists;
+
+// Lists of the settling phase, kept so that a warm step allocates nothing.
+struct SettleLists {
+  IdOrder pairs;                       // the step's contacts
+  std::vector<double> borne;           // by each pair in order of ids: force of the step before, then impulse of this
+  std::vector<IdPair> placed;          // the pairs in the order of the patches, so that sweeps read them in a row,
+  std::vector<unsigned char> holding;  // and whether each bears load
+  std::vector<Support> supports;       // those of each patch in a row, from the patch's start
+  std::vector<std::uint32_t> place;    // of each support's pair in placed
+  std::vector<std::uint32_t> bearing;  // supports of each patch
+};
+
+// Resolves all pairs found and wall contacts, keeps their loads in state.loads, wraps the disks that had contacts, and
+// returns the largest squared speed among those.
+double settle_contacts(State& state, const StepRules& rules, const FoundPairs& found,
+                       const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
+                       ContactLists& lists, ImpactTally& tally);
+
+}  // namespace carom
