@@ -48,6 +48,7 @@ class FrameMaker {
 
 double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observer) {
   FrameMaker frames(engine, scene, observer);
+  if (!observer.frame) engine.forget_paths();
   frames.make_due();
   double step_seconds = 0.0;
   // Steps between two looks at the clock: reading it costs as much as a step of two disks. How many they are depends on

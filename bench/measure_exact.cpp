@@ -43,6 +43,7 @@ struct Entry {
 
 Entry exact_entry(const Start& start, double packing_fraction, int threads) {
   std::shared_ptr<Engine> engine = make_parallel_engine(start.scene, start.state, {threads});
+  engine->forget_paths();
   const std::size_t disks = start.state.disks.size();
   const int windows = windows_a_turn(disks);
   Contender turns{"exact",

@@ -29,6 +29,10 @@ class Engine {
   // Time stepping knows step ends only and gives state() whatever t is; the return value is the time of what it gave.
   virtual double disks_at(double t, Disks& out) const = 0;
 
+  // Nobody will ask for times within a step: an exact engine then need not remember its paths, and disks_at gives
+  // state(). Changes no bit of the state.
+  virtual void forget_paths() {}
+
   virtual const PhaseTimes& phase_times() const = 0;
 
   // Warnings raised since the last call, one line each (a step longer than the safe one, overlaps beyond a bound).

@@ -9,7 +9,7 @@ namespace carom {
 namespace {
 
 // Bytes a disk. Time stepping: 36 of state, 12 to sort by, 8 to move through, 4 of cells, 2 of counts. Exact: state,
-// and a path (40), its ray (32), due time and owner (12), neighbours.
+// and a path with what goes with it (64), due time (8), place (16), neighbours.
 constexpr double stepping_bytes = 62.0;
 constexpr double exact_bytes = 130.0;
 

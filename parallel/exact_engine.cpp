@@ -52,6 +52,7 @@ class ParallelExact final : public Engine {
 
   const State& state() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
+  void forget_paths() override { slices_.forget_paths(); }
   const PhaseTimes& phase_times() const override { return times_; }
   std::vector<std::string> take_warnings() override { return {}; }
 
@@ -271,7 +272,7 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
 }
 
 double ParallelExact::disks_at(double t, Disks& out) const {
-  if (!(t < state_.time) || state_.counters.steps == 0) {
+  if (!(t < state_.time) || state_.counters.steps == 0 || !slices_.keeps_paths()) {
     out = state_.disks;
     return state_.time;
   }

@@ -154,6 +154,22 @@ double ExactLists::exit_time(std::uint32_t i, const PathSegment& path, double fr
   return from + std::min(t, ahead);
 }
 
+// A straight path whose ends are in a circle is in it; gravity bends it by g t^2 / 8 at most.
+bool ExactLists::stays(std::uint32_t i, const PathSegment& path, double from, double until, double g) const {
+  if (everybody()) return true;
+  const double bend = 0.125 * g * (until - from) * (until - from);
+  const double room = roam_ * (1.0 - 1e-9) - bend;
+  const auto inside = [&](double t) {
+    const double s = t - path.start;
+    double dx = path.x + path.vx * s - place_[i].x;
+    double dy = path.y + (path.vy - 0.5 * g * s) * s - place_[i].y;
+    if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
+    if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
+    return dx * dx + dy * dy < room * room;
+  };
+  return room > 0.0 && inside(from) && inside(until);
+}
+
 // Listed disks are within reach + 4 roam of each other, carried back to the window's start by two flights more; less
 // than half a period in all, the nearest image is the right one.
 double ExactLists::safe_speed2(double length, double g) const {

@@ -176,6 +176,13 @@ void ExactLoop::push_due(std::uint32_t i) {
   push(i, 0, e);
 }
 
+// When disk i leaves its list's range; never, if that is after its next event.
+double ExactLoop::exit_after(std::uint32_t i, const PathSegment& path, double from, double next) const {
+  const double g = field_.rules.gravity;
+  if (lists_.stays(i, path, from, std::min(next, field_.horizon), g)) return never;
+  return lists_.exit_time(i, path, from, std::min(field_.slice_end, field_.length), g);
+}
+
 // The time has come up to which nothing could happen to the disk.
 void ExactLoop::look_again(std::uint32_t i) {
   const std::uint32_t owner = field_.owner_of(i);
@@ -184,12 +191,6 @@ void ExactLoop::look_again(std::uint32_t i) {
     return;
   }
   const PathSegment& path = field_.flight[i].path;
-  const double exit =
-      lists_.exit_time(i, path, field_.slice_start, std::min(field_.slice_end, field_.length), field_.rules.gravity);
-  if (field_.in_slice(exit)) {
-    arena_.roaming.push_back(i);
-    return;
-  }
   const double from = std::max(path.start, field_.slice_start);
   const NextEvent next = scan_.earliest(i, path, from, [&](std::uint32_t j) {
     const std::uint32_t held = field_.owner_of(j);
@@ -197,6 +198,11 @@ void ExactLoop::look_again(std::uint32_t i) {
     const Member& other = arena_.members[member_of(held)];
     return other.gone ? Seen{} : Seen{&other.now.path, other.version};
   });
+  const double exit = exit_after(i, path, field_.slice_start, next.time);
+  if (field_.in_slice(exit)) {
+    arena_.roaming.push_back(i);
+    return;
+  }
   put_off(field_, i, next, exit, never);
   if (field_.in_slice(next.time)) push(i, 0, next);
 }
@@ -206,7 +212,6 @@ void ExactLoop::look_around(std::uint32_t m) {
   const std::uint32_t i = arena_.members[m].disk;
   const PathSegment path = arena_.members[m].now.path;
   const double from = std::max(path.start, field_.slice_start);
-  const double exit = lists_.exit_time(i, path, from, std::min(field_.slice_end, field_.length), field_.rules.gravity);
   const NextEvent next = scan_.earliest(i, path, from, [&](std::uint32_t j) {
     const std::uint32_t owner = field_.owner_of(j);
     if (owner == nobody) return Seen{&field_.flight[j].path, 0};
@@ -217,6 +222,7 @@ void ExactLoop::look_around(std::uint32_t m) {
     const Member& other = arena_.members[member_of(owner)];
     return other.gone ? Seen{} : Seen{&other.now.path, other.version};
   });
+  const double exit = exit_after(i, path, from, next.time);
   Member& member = arena_.members[m];
   member.next = next;
   member.exit = exit;

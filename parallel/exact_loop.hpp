@@ -41,6 +41,7 @@ class ExactLoop {
   void push_due(std::uint32_t disk);
   void look_again(std::uint32_t disk);
   void look_around(std::uint32_t member);
+  double exit_after(std::uint32_t disk, const PathSegment& path, double from, double next) const;
 
   std::uint32_t hold(std::uint32_t disk);
   std::uint32_t add_member(std::uint32_t disk);

@@ -263,10 +263,20 @@ void ExactSlices::commit() {
   for (const double v2 : fastest2_) field_.fastest2 = std::max(field_.fastest2, v2);
 }
 
+// The member's path through the slice, and before it the one that it began the window with.
+void ExactSlices::log_pieces(const ExactArena& arena, const Member& m, std::vector<LoggedPiece>& log) const {
+  const PathSegment& path = field_.flight[m.disk].path;
+  if (path.start == 0.0) log.push_back({m.disk, false, path});
+  const std::size_t first = log.size();
+  for (std::uint32_t p = m.last_piece; p != nobody; p = arena.pieces[p].before) {
+    log.push_back({m.disk, m.gone && p == m.last_piece, arena.pieces[p].path});
+  }
+  std::reverse(log.begin() + static_cast<std::ptrdiff_t>(first), log.end());
+}
+
 void ExactSlices::commit_arena(std::size_t a) {
   ExactArena& arena = arenas_[a];
   ImpactTally& tally = tallies_[a];
-  std::vector<LoggedPiece>& log = log_[a];
   double& fastest2 = fastest2_[a];
   for (const Member& m : arena.members) {
     if (!stands(arena.components[m.component])) continue;
@@ -279,14 +289,10 @@ void ExactSlices::commit_arena(std::size_t a) {
     }
     if (m.version == 0) continue;
     PathSegment& path = flight.path;
-    if (path.start == 0.0) log.push_back({m.disk, false, path});
-    const std::size_t first = log.size();
     for (std::uint32_t p = m.last_piece; p != nobody; p = arena.pieces[p].before) {
-      const Piece& piece = arena.pieces[p];
-      log.push_back({m.disk, m.gone && p == m.last_piece, piece.path});
-      if (piece.partner != nobody) tally.add(piece.partner, piece.outcome);
+      if (arena.pieces[p].partner != nobody) tally.add(arena.pieces[p].partner, arena.pieces[p].outcome);
     }
-    std::reverse(log.begin() + static_cast<std::ptrdiff_t>(first), log.end());
+    if (keeps_paths_) log_pieces(arena, m, log_[a]);
     path = m.now.path;
     flight.changed = field_.slice;
     fastest2 = std::max(fastest2, path.vx * path.vx + path.vy * path.vy);

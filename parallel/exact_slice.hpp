@@ -40,6 +40,10 @@ class ExactSlices {
   // try again. Returns true when done. Throws PhysicsError at inelastic collapse.
   bool run(double start, double end, double window_start);
 
+  // No log from now on.
+  void forget_paths() { keeps_paths_ = false; }
+  bool keeps_paths() const { return keeps_paths_; }
+
   ImpactTally tally() const;
   Count events() const;  // of the window so far
   bool any_gone() const { return any_gone_; }
@@ -63,6 +67,7 @@ class ExactSlices {
   void release_all();
   void fail_if_collapsed(double window_start) const;
   void commit_arena(std::size_t a);
+  void log_pieces(const ExactArena& arena, const Member& m, std::vector<LoggedPiece>& log) const;
 
   Component& component_of(std::uint32_t handle) {
     ExactArena& arena = arenas_[arena_of(handle)];
@@ -77,6 +82,7 @@ class ExactSlices {
   std::vector<ExactArena> arenas_;    // one a block, and one for what is joined
   std::vector<ImpactTally> tallies_;  // likewise
   std::vector<std::vector<LoggedPiece>> log_;
+  bool keeps_paths_ = true;
   std::vector<unsigned char> gone_seen_;
   std::vector<double> fastest2_;
   std::vector<Vec2> places_;                       // scratch
