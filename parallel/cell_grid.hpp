@@ -36,6 +36,9 @@ struct GridLevel {
   std::uint32_t band_keys = 0;
 
   std::uint32_t keys() const { return ((columns - 1) >> band_shift) * band_keys + (rows + 1) * stride + 2; }
+  std::uint32_t columns_left_in_band(std::uint32_t column) const {
+    return (1U << band_shift) - (column & ((1U << band_shift) - 1U));
+  }
   std::uint32_t key_at(std::uint32_t row, std::uint32_t column) const {
     return first_key + (column >> band_shift) * band_keys + row * stride + (column & ((1U << band_shift) - 1U));
   }

@@ -59,6 +59,8 @@ void ExactLists::build(Disks& d, const Domain& box, const Executor& executor) {
     if (count.size() > 1) {
       for (const double r : d.radius) ++count[class_of_radius(r, largest)];
     }
+    // About a disk a cell: lists reach over several cells, and empty ones cost as much to visit as others.
+    for (std::size_t& c : count) c = c / 2 + 1;
     make_grid(box, largest, count, grid_, band_shift);
     sort_into_cells(d, grid_, executor, cells_);
     head_.assign(grid_.keys, none);

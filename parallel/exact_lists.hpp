@@ -15,15 +15,21 @@
 
 namespace carom {
 
-// Calls visit(key) for each cell of a level within reach (length) of (x, y).
+// Calls visit(first, last) for runs of cells [first, last) of a level, neighbours in memory, that together are those
+// within reach (length) of (x, y).
 template <class Visit>
-void for_each_key_near(const GridLevel& level, const Domain& box, double x, double y, double reach, Visit&& visit) {
+void for_each_keys_near(const GridLevel& level, const Domain& box, double x, double y, double reach, Visit&& visit) {
   const Span rows = span_around(y, reach, box.height, level.rows_per_length, level.rows, box.periodic_y());
   const Span columns = span_around(x, reach, box.width, level.columns_per_length, level.columns, box.periodic_x());
   for (std::uint32_t k = 0, row = rows.first; k < rows.count; ++k, row = row + 1 < level.rows ? row + 1 : 0) {
-    for (std::uint32_t c = 0, column = columns.first; c < columns.count; ++c) {
-      visit(level.key_at(row, column));
-      column = column + 1 < level.columns ? column + 1 : 0;
+    for (std::uint32_t left = columns.count, column = columns.first; left > 0;) {
+      // Up to the end of the band or of the row.
+      const std::uint32_t band = std::min(level.columns - column, level.columns_left_in_band(column));
+      const std::uint32_t run = std::min(left, band);
+      const std::uint32_t first = level.key_at(row, column);
+      visit(first, first + run);
+      left -= run;
+      column = column + run < level.columns ? column + run : 0;
     }
   }
 }
@@ -88,9 +94,12 @@ class ExactLists {
     }
     for (const GridLevel& level : grid_.levels) {
       const double reach = (distance + level.largest_radius) * (1.0 + 1e-9);
-      for_each_key_near(level, box_, x, y, reach, [&](std::uint32_t key) {
-        for (std::uint32_t j = cells_.start[key]; j < cells_.start[key + 1]; ++j) see(j);
-        for (std::uint32_t m = head_[key]; m != none; m = moved_[m].next) see(moved_[m].disk);
+      for_each_keys_near(level, box_, x, y, reach, [&](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t j = cells_.start[first]; j < cells_.start[last]; ++j) see(j);
+        if (moved_.empty()) return;
+        for (std::uint32_t key = first; key < last; ++key) {
+          for (std::uint32_t m = head_[key]; m != none; m = moved_[m].next) see(moved_[m].disk);
+        }
       });
     }
   }
