@@ -140,22 +140,27 @@ double ExactSlices::first_meeting(const Member& a, const std::vector<Piece>& pie
   return earliest;
 }
 
+// A member is on its path from the slice's start again. Whoever looked around meanwhile may have left it to the
+// member's new path to answer for the pair; so the disk has to look before anything happens to it, whoever takes it in.
+void ExactSlices::free_disk(std::uint32_t i) {
+  field_.flight[i].owner = nobody;
+  field_.put_off(i, field_.slice_start, nobody);
+}
+
 void ExactSlices::release(ExactArena& arena, Component& c, std::vector<std::uint32_t>& disks) {
   c.status = ComponentStatus::conflict;
   for (std::uint32_t m = c.first; m != nobody; m = arena.members[m].next_member) {
     const std::uint32_t i = arena.members[m].disk;
     if (field_.flight[i].owner != handle_of(arena.number, m)) continue;
-    field_.flight[i].owner = nobody;
+    free_disk(i);
     disks.push_back(i);
   }
 }
 
-// Whoever looked around meanwhile may have left it to a member's new path to answer for the pair.
 void ExactSlices::release_all() {
   for (ExactArena& arena : arenas_) {
     for (const Member& m : arena.members) {
-      field_.flight[m.disk].owner = nobody;
-      field_.put_off(m.disk, field_.slice_start, nobody);
+      free_disk(m.disk);
     }
   }
 }

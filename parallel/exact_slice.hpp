@@ -64,6 +64,7 @@ class ExactSlices {
   bool list_once(std::uint32_t i);
   void list_anew(std::span<const std::uint32_t> which);
   void release(ExactArena& arena, Component& component, std::vector<std::uint32_t>& disks);
+  void free_disk(std::uint32_t i);
   void release_all();
   void fail_if_collapsed(double window_start) const;
   void commit_arena(std::size_t a);
