@@ -88,7 +88,9 @@ class ExactSlices {
   std::vector<double> fastest2_;
   std::vector<Vec2> places_;                       // scratch
   std::vector<std::uint32_t> waiting_;             // disks to be solved again
-  std::unordered_set<std::uint32_t> listed_anew_;  // in this slice
+  // Disks listed anew one by one in this slice. Only asked whether it holds a disk, never gone through, so its order
+  // reaches no result.
+  std::unordered_set<std::uint32_t> listed_anew_;
   bool any_gone_ = false;
 };
 
