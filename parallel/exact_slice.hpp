@@ -86,8 +86,8 @@ class ExactSlices {
   bool keeps_paths_ = true;
   std::vector<unsigned char> gone_seen_;
   std::vector<double> fastest2_;
-  std::vector<Vec2> places_;                       // scratch
-  std::vector<std::uint32_t> waiting_;             // disks to be solved again
+  std::vector<Vec2> places_;            // scratch
+  std::vector<std::uint32_t> waiting_;  // disks to be solved again
   // Disks listed anew one by one in this slice. Only asked whether it holds a disk, never gone through, so its order
   // reaches no result.
   std::unordered_set<std::uint32_t> listed_anew_;
