@@ -109,15 +109,31 @@ void ExactLists::list_block(const Disks& d, std::size_t b, std::size_t begin, st
 void ExactLists::find_neighbours(const Disks& d, std::uint32_t i, std::vector<std::uint32_t>& found) const {
   const Vec2 p = place_[i];
   const double own = d.radius_of(i) + 2.0 * roam_;
-  const bool around_x = box_.periodic_x();
-  const bool around_y = box_.periodic_y();
-  visit_near(p.x, p.y, own, [&](std::uint32_t j) {
-    double dx = place_[j].x - p.x;
-    double dy = place_[j].y - p.y;
-    if (around_x) dx = nearest_image(dx, box_.width);
-    if (around_y) dy = nearest_image(dy, box_.height);
-    const double reach = own + d.radius_of(j);
-    if (dx * dx + dy * dy <= reach * reach && j != i) found.push_back(j);
+  const double width = box_.periodic_x() ? box_.width : 0.0;
+  const double height = box_.periodic_y() ? box_.height : 0.0;
+  const double half_width = box_.periodic_x() ? 0.5 * width : HUGE_VAL;
+  const double half_height = box_.periodic_y() ? 0.5 * height : HUGE_VAL;
+  const double* const radius = d.radius.empty() ? nullptr : d.radius.data();
+  // No branch depends on a place: which neighbours are near is as good as random.
+  const auto is_near = [&](std::uint32_t j) {
+    double dx = std::abs(place_[j].x - p.x);
+    double dy = std::abs(place_[j].y - p.y);
+    dx -= dx > half_width ? width : 0.0;
+    dy -= dy > half_height ? height : 0.0;
+    const double reach = own + (radius != nullptr ? radius[j] : d.common_radius);
+    return static_cast<unsigned>(dx * dx + dy * dy <= reach * reach) & static_cast<unsigned>(j != i);
+  };
+  const auto run = [&](std::uint32_t first, std::uint32_t last) {
+    std::size_t n = found.size();
+    found.resize(n + (last - first));
+    for (std::uint32_t j = first; j < last; ++j) {
+      found[n] = j;
+      n += is_near(j);
+    }
+    found.resize(n);
+  };
+  visit_runs_near(p.x, p.y, own, run, [&](std::uint32_t j) {
+    if (is_near(j) != 0) found.push_back(j);
   });
 }
 
@@ -169,7 +185,8 @@ bool ExactLists::stays(std::uint32_t i, const PathSegment& path, double from, do
     if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
     return dx * dx + dy * dy < room * room;
   };
-  return room > 0.0 && inside(from) && inside(until);
+  // A straight path begins inside anyway; a bent one has to begin further inside.
+  return room > 0.0 && inside(until) && (g == 0.0 || inside(from));
 }
 
 // Listed disks are within reach + 4 roam of each other, carried back to the window's start by two flights more; less
@@ -189,11 +206,12 @@ std::uint32_t ExactLists::key_of_place(const Disks& d, std::uint32_t i) const {
   return key_of(grid_.levels[level], place_[i].x, place_[i].y);
 }
 
+// Looks at all of the list, so that the compiler can take several at a time.
 bool ExactLists::lists(std::uint32_t i, std::uint32_t j) const {
-  for (const std::uint32_t k : of(i)) {
-    if (k == j) return true;
-  }
-  return false;
+  const Neighbours list = of(i);
+  unsigned seen = 0;
+  for (std::uint32_t k = 0; k < list.count; ++k) seen |= static_cast<unsigned>(list.first[k] == j);
+  return seen != 0;
 }
 
 void ExactLists::insert(std::uint32_t i, std::uint32_t j) {

@@ -88,14 +88,24 @@ class ExactLists {
   // added; for a few others too, and for some twice.
   template <class See>
   void visit_near(double x, double y, double distance, See&& see) const {
+    const auto run = [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t j = first; j < last; ++j) see(j);
+    };
+    visit_runs_near(x, y, distance, run, see);
+  }
+
+ private:
+  // The same, most of them as runs of disks [first, last).
+  template <class Run, class See>
+  void visit_runs_near(double x, double y, double distance, Run&& run, See&& see) const {
     if (everybody()) {
-      for (std::uint32_t j = 0; j < place_.size(); ++j) see(j);
+      run(0, static_cast<std::uint32_t>(place_.size()));
       return;
     }
     for (const GridLevel& level : grid_.levels) {
       const double reach = (distance + level.largest_radius) * (1.0 + 1e-9);
       for_each_keys_near(level, box_, x, y, reach, [&](std::uint32_t first, std::uint32_t last) {
-        for (std::uint32_t j = cells_.start[first]; j < cells_.start[last]; ++j) see(j);
+        run(cells_.start[first], cells_.start[last]);
         if (moved_.empty()) return;
         for (std::uint32_t key = first; key < last; ++key) {
           for (std::uint32_t m = head_[key]; m != none; m = moved_[m].next) see(moved_[m].disk);
@@ -104,7 +114,6 @@ class ExactLists {
     }
   }
 
- private:
   struct List {
     std::uint32_t first = 0;  // in its block's vector
     std::uint32_t count = 0, room = 0;
