@@ -17,8 +17,7 @@ namespace {
 class ReferenceRollback final : public ReferenceEngine {
  public:
   ReferenceRollback(const Scene& scene, State initial)
-      : ReferenceEngine(scene, std::move(initial)),
-        clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
+      : ReferenceEngine(scene, std::move(initial)), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
 
   void step() override {
     if (state_.time >= scene_.run.t_end) return;

@@ -43,8 +43,8 @@ void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTa
 double frame_limit(const Scene& scene, const State& state, const StepClock& clock);
 
 // F1: with many disks every frame goes back by nearly its whole length and time all but stops. A run whose last 10000
-// frames advanced time by less than one dt is stopped, with the figure and the remedy (PhysicsError). To be called after
-// every frame; what it remembers is in the state, so that a run that was interrupted stops at the same frame.
+// frames advanced time by less than one dt is stopped, with the figure and the remedy (PhysicsError). To be called
+// after every frame; what it remembers is in the state, so that a run that was interrupted stops at the same frame.
 void check_stall(State& state, const Scene& scene);
 
 }  // namespace carom

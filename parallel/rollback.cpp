@@ -17,8 +17,7 @@ constexpr std::size_t wall_block = 8192;
 class ParallelRollback final : public TimeStepping {
  public:
   ParallelRollback(const Scene& scene, State initial, const Threads& threads)
-      : TimeStepping(scene, std::move(initial), threads),
-        clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
+      : TimeStepping(scene, std::move(initial), threads), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
 
   void step() override {
     if (state_.time >= scene_.run.t_end) return;
