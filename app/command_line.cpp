@@ -1,6 +1,7 @@
 #include "app/command_line.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <cmath>
 
 #include "core/check.hpp"
+#include "core/duration.hpp"
 #include "core/input_message.hpp"
 #include "core/scene_names.hpp"
 
@@ -30,9 +32,11 @@ constexpr std::array<SceneOption, 4> scene_options{{
     {"--seed", "seed", "S", "seed of all random numbers"},
 }};
 
+constexpr std::size_t t_end_option = 2;  // its place among them
+
 // What CLI11 reads; checked and turned into a Command afterwards, so that all messages are ours.
 struct Words {
-  std::string first, second, folder, engine, threads, frame;
+  std::string first, second, folder, engine, threads, frame, walltime;
   std::array<std::string, scene_options.size()> scene_values;
   std::vector<std::string> sets;
   bool json = false, quiet = false, force = false;
@@ -56,6 +60,14 @@ int count_of(const std::string& option, const std::string& text) {
     fail_input(option, fmt::format("is {}", in_quotes(text)), "expected a whole number of 1 or more");
   }
   return value;
+}
+
+// Seconds; infinity where the option was not given.
+double walltime_of(const std::string& text) {
+  if (text.empty()) return std::numeric_limits<double>::infinity();
+  const std::optional<double> seconds = parse_duration(text);
+  if (!seconds) fail_input("--max-walltime", fmt::format("is {}", in_quotes(text)), expected_duration);
+  return *seconds;
 }
 
 void check_seed(const std::string& text) {
@@ -122,14 +134,35 @@ void add_scene_options(CLI::App* command, Words& words) {
       ->allow_extra_args(false);
 }
 
-void describe_run(CLI::App* run, Words& words) {
-  add_scene_options(run, words);
-  add_value(run, "-o,--output", words.folder, "DIR", "folder for the results; default out/<name of the scene>");
+constexpr const char* early_stop =
+    "Ctrl-C, SIGTERM and --max-walltime write a checkpoint and stop with status 4; SIGUSR1 writes one and goes on. A "
+    "second Ctrl-C quits at once.";
+
+// What carrying a run out has, from its start or from a checkpoint.
+void add_run_options(CLI::App* run, Words& words) {
   add_value(run, "--engine", words.engine, "parallel|reference", "default parallel; both give the same bits");
   add_value(run, "--threads", words.threads, "N", "threads of the parallel engine; default all cores");
+  add_value(run, "--max-walltime", words.walltime, "TIME",
+            "stop with a checkpoint after so long, such as 90 s, 30 min or 2h");
   run->add_flag("--json", words.json, "print the summary as JSON, and nothing else, on standard output");
   run->add_flag("--quiet", words.quiet, "print nothing but errors");
   run->add_flag("--force", words.force, "replace the results of an earlier run in the folder");
+}
+
+void describe_run(CLI::App* run, Words& words) {
+  add_scene_options(run, words);
+  add_value(run, "-o,--output", words.folder, "DIR", "folder for the results; default out/<name of the scene>");
+  add_run_options(run, words);
+  run->footer(early_stop);
+}
+
+void describe_resume(CLI::App* resume, Words& words) {
+  resume->add_option("CHECKPOINT", words.first, "checkpoint.carom, or the folder of the run that wrote it")
+      ->type_name("");
+  add_value(resume, "-o,--output", words.folder, "DIR", "another folder, which gets copies of the files so far");
+  add_value(resume, "--t-end", words.scene_values[t_end_option], "T", "another simulated time at which the run ends");
+  add_run_options(resume, words);
+  resume->footer(early_stop);
 }
 
 void describe_compare(CLI::App* compare, Words& words) {
@@ -187,6 +220,22 @@ RunOptions run_options(const Words& words) {
   o.changes = changes_of(words);
   o.engine = words.engine;
   if (!words.threads.empty()) o.threads = count_of("--threads", words.threads);
+  o.max_walltime = walltime_of(words.walltime);
+  o.json = words.json;
+  o.quiet = words.quiet;
+  o.force = words.force;
+  return o;
+}
+
+ResumeOptions resume_options(const Words& words) {
+  require(words.first, "resume", "no checkpoint given", "expected carom resume CHECKPOINT");
+  ResumeOptions o;
+  o.checkpoint = words.first;
+  o.folder = file_option(words.folder);
+  o.changes = changes_of(words);
+  o.engine = words.engine;
+  if (!words.threads.empty()) o.threads = count_of("--threads", words.threads);
+  o.max_walltime = walltime_of(words.walltime);
   o.json = words.json;
   o.quiet = words.quiet;
   o.force = words.force;
@@ -223,7 +272,7 @@ RenderOptions render_options(const Words& words) {
 // CLI11's help, without the brackets around arguments: it knows them as optional, so that complaints are ours.
 std::string help_of(const CLI::App& app, const CLI::App& shown) {
   std::string text = shown.help(&shown == &app ? "" : app.get_name());
-  for (const std::string argument : {"SCENE", "A", "B", "DIR"}) {
+  for (const std::string argument : {"SCENE", "CHECKPOINT", "A", "B", "DIR"}) {
     const std::string optional = "[" + argument + "]";
     const std::size_t at = text.find(optional);
     if (at != std::string::npos) text.replace(at, optional.size(), argument);
@@ -231,10 +280,11 @@ std::string help_of(const CLI::App& app, const CLI::App& shown) {
   return text;
 }
 
-constexpr std::array<std::string_view, 4> command_names{"run", "check", "compare", "render"};
+constexpr std::array<std::string_view, 5> command_names{"run", "check", "resume", "compare", "render"};
 
 void check_command_name(int argc, const char* const* argv) {
-  if (argc < 2) throw InputError("no command given; expected one of run, check, compare, render (or --help)");
+  if (argc < 2)
+    throw InputError(fmt::format("no command given; expected one of {} (or --help)", fmt::join(command_names, ", ")));
   const std::string_view name = argv[1];
   if (name.starts_with("-")) {
     constexpr std::array<std::string_view, 2> general{"--help", "--version"};
@@ -257,13 +307,15 @@ Command parse_command_line(int argc, const char* const* argv) {
   app.require_subcommand(1);
   CLI::App* const run = app.add_subcommand("run", "run a scene");
   CLI::App* const check = app.add_subcommand("check", "read a scene and say what it would model, and at what cost");
+  CLI::App* const resume = app.add_subcommand("resume", "go on from a checkpoint, bit for bit as if never stopped");
   CLI::App* const compare =
       app.add_subcommand("compare", "two outputs: the same bits, or where and by how much they differ");
   CLI::App* const render = app.add_subcommand("render", "a movie or a picture from a trajectory");
-  for (CLI::App* const command : {run, check, compare, render}) command->allow_extras();
+  for (CLI::App* const command : {run, check, resume, compare, render}) command->allow_extras();
   describe_run(run, words);
   add_scene_options(check, words);
   check->add_flag("--json", words.json, "print the result as JSON");
+  describe_resume(resume, words);
   describe_compare(compare, words);
   describe_render(render, words);
   try {
@@ -279,13 +331,18 @@ Command parse_command_line(int argc, const char* const* argv) {
   check_leftovers(app.get_subcommands().front());
   if (run->parsed()) return run_options(words);
   if (check->parsed()) return check_options(words);
+  if (resume->parsed()) return resume_options(words);
   if (compare->parsed()) return compare_options(words);
   return render_options(words);
 }
 
 Scene load_scene_as_told(const std::string& path, const SceneChanges& changes) {
+  return scene_as_told(changes, [&](const std::vector<Override>& overrides) { return load_scene(path, overrides); });
+}
+
+Scene scene_as_told(const SceneChanges& changes, const std::function<Scene(const std::vector<Override>&)>& load) {
   try {
-    return load_scene(path, changes.overrides);
+    return load(changes.overrides);
   } catch (const InputError& error) {
     const std::string message = error.what();
     const auto options = changes.overrides.begin() + static_cast<std::ptrdiff_t>(changes.sets);

@@ -1,6 +1,8 @@
 // From argv to what the user asked for, with every value checked that can be checked without the scene.
 #pragma once
 
+#include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -20,8 +22,21 @@ struct RunOptions {
   std::string scene;
   std::optional<std::string> folder;  // -o
   SceneChanges changes;
-  std::string engine;          // empty: the default
-  std::optional<int> threads;  // >= 1
+  std::string engine;                                             // empty: the default
+  std::optional<int> threads;                                     // >= 1
+  double max_walltime = std::numeric_limits<double>::infinity();  // seconds
+  bool json = false;
+  bool quiet = false;
+  bool force = false;
+};
+
+struct ResumeOptions {
+  std::string checkpoint;             // or the folder of a run
+  std::optional<std::string> folder;  // -o
+  SceneChanges changes;               // --t-end only
+  std::string engine;                 // empty: that of the run so far
+  std::optional<int> threads;
+  double max_walltime = std::numeric_limits<double>::infinity();  // seconds
   bool json = false;
   bool quiet = false;
   bool force = false;
@@ -51,12 +66,16 @@ struct TextRequest {
   std::string text;
 };
 
-using Command = std::variant<RunOptions, CheckOptions, CompareOptions, RenderOptions, TextRequest>;
+using Command = std::variant<RunOptions, CheckOptions, ResumeOptions, CompareOptions, RenderOptions, TextRequest>;
 
 // Throws InputError with one line that names the option, and the nearest one for a misspelt name.
 Command parse_command_line(int argc, const char* const* argv);
 
-// load_scene with these changes; what it says of "--set run.dt" is said of --dt where that is what the user wrote.
+// load(overrides) reads a scene with these changes; what its complaints say of "--set run.dt" is said of --dt where
+// that is what the user wrote.
+Scene scene_as_told(const SceneChanges& changes, const std::function<Scene(const std::vector<Override>&)>& load);
+
+// The same for the scene in a file.
 Scene load_scene_as_told(const std::string& path, const SceneChanges& changes);
 
 }  // namespace carom

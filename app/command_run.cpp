@@ -1,15 +1,17 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <optional>
 
+#include "app/checkpoint_keeper.hpp"
 #include "app/commands.hpp"
 #include "app/make_engine.hpp"
 #include "app/progress.hpp"
 #include "app/run_loop.hpp"
 #include "app/run_outputs.hpp"
+#include "app/run_task.hpp"
+#include "app/stop_signals.hpp"
 #include "app/summary.hpp"
 #include "core/check.hpp"
 #include "core/initial_state.hpp"
@@ -23,23 +25,11 @@ namespace carom {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// Of all threads of this process. A month of 64 threads still fits.
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 // Where the results go: -o, or out/<name of the scene> if the scene asks for files at all.
 std::optional<fs::path> folder_of(const RunOptions& options, const Scene& scene) {
   if (options.folder) return *options.folder;
-  if (!wants_frames(scene.output)) return std::nullopt;
+  if (!wants_frames(scene.output) && !(scene.output.checkpoint > 0.0)) return std::nullopt;
   return fs::path("out") / fs::path(options.scene).stem();
 }
 
@@ -49,15 +39,53 @@ void check_outputs(const Scene& scene) {
   }
 }
 
+// Goes on where the run's files lie, or in another folder with copies of them.
+bool goes_elsewhere(const RunTask& task) {
+  std::error_code error;
+  return !fs::equivalent(*task.folder, task.from->place.folder, error);
+}
+
+// Brings the files that the run goes on with into the folder's unfinished part. Returns the folder.
+const OutputFolder& with_files(OutputFolder& folder, const RunTask& task) {
+  const CheckpointPlace& place = task.from->place;
+  std::vector<std::string> files;
+  for (const MarkedFile& file : files_of(task.from->checkpoint.record.outputs)) files.push_back(file.name);
+  if (goes_elsewhere(task)) {
+    for (const std::string& file : files) {
+      fs::copy(present_path(place.folder, file), folder.path(file), fs::copy_options::recursive);
+    }
+    return folder;
+  }
+  // What comes after the checkpoint that was named is given up, a damaged newer one with it.
+  if (place.file.filename() == previous_checkpoint_name) {
+    fs::rename(place.file, place.file.parent_path() / checkpoint_name);
+  }
+  files.insert(files.end(), {previous_checkpoint_name, checkpoint_name});
+  folder.take_back(place.finished, files);
+  return folder;
+}
+
 // The files of a run, if it has any, from the first byte to the finished folder.
 struct Results {
   Results(const Scene& scene, const fs::path& path, bool force)
       : folder(path, scene.file, force), outputs(scene, folder) {
     write_file(folder.path("scene.toml"), resolved_toml(scene));
   }
+  explicit Results(const RunTask& task)
+      : folder(goes_elsewhere(task) ? OutputFolder(*task.folder, task.from->place.file, task.force)
+                                    : OutputFolder(*task.folder)),
+        outputs(task.scene, with_files(folder, task), task.from->checkpoint.record.outputs) {
+    write_file(folder.path("scene.toml"), resolved_toml(task.scene));
+  }
   OutputFolder folder;
   RunOutputs outputs;
 };
+
+// What the machine did not let happen; how to go on where there is a checkpoint.
+[[noreturn]] void fail_resumable(const std::string& what, const CheckpointKeeper& keeper) {
+  const std::string command = keeper.resume_command();
+  throw RunError(command.empty() ? what : fmt::format("{}; the last checkpoint is whole: {}", what, command));
+}
 
 void warn(const std::vector<std::string>& warnings, Progress& progress, bool quiet) {
   if (warnings.empty() || quiet) return;
@@ -65,35 +93,152 @@ void warn(const std::vector<std::string>& warnings, Progress& progress, bool qui
   for (const std::string& warning : warnings) print_warning(warning);
 }
 
-// Steps to the end with everybody watching; returns the seconds in steps. A run that the physics stopped keeps what it
-// has written, as somebody will want to see what happened, but nowhere that it could be taken for a result.
-double run_watched(Engine& engine, const Scene& scene, Results* results, bool quiet) {
-  Progress progress(!quiet, scene.run.t_end);
+// A run that the physics stopped keeps what it has written, as somebody will want to see what happened, but nowhere
+// that it could be taken for a result; and the last good state as a checkpoint.
+[[noreturn]] void keep_stopped(const PhysicsError& error, const State& state, Results& results,
+                               CheckpointKeeper& keeper, double step_s) {
+  std::string last_state;
+  try {
+    keeper.write(state, step_s);
+    last_state = fmt::format(", its last good state in {}", checkpoint_name);
+  } catch (const RunError& why) {
+    last_state = fmt::format("; {}", why.what());
+  }
+  results.outputs.finish(false);
+  throw PhysicsError(fmt::format("{}; the run up to there is kept in {}{}", error.what(),
+                                 results.folder.keep_unfinished(), last_state));
+}
+
+// Steps to the end with everybody watching, or until the keeper says stop; returns the seconds in steps.
+double run_watched(Engine& engine, const RunTask& task, Results* results, CheckpointKeeper& keeper) {
+  const Scene& scene = task.scene;
+  Progress progress(!task.quiet, scene.run.t_end, engine.state());
   RunObserver observer;
-  observer.pulse = [&] {
-    warn(engine.take_warnings(), progress, quiet);
+  double step_s = 0.0;
+  observer.pulse = [&](double seconds) {
+    step_s = seconds;
+    warn(engine.take_warnings(), progress, task.quiet);
     progress.update(engine.state());
+    const bool go_on = keeper.look(engine.state(), scene.run.t_end, seconds);
+    const std::string note = keeper.take_note();
+    if (!note.empty() && !task.quiet) {
+      progress.clear();
+      print_note(note);
+    }
+    return go_on;
   };
   if (results != nullptr && wants_frames(scene.output)) {
     observer.frame = [&](const Disks& disks, double time) {
       results->outputs.frame(disks, time, engine.state());
-      warn(results->outputs.take_warnings(), progress, quiet);
+      warn(results->outputs.take_warnings(), progress, task.quiet);
     };
+    if (task.from && results->outputs.frames() > 0) observer.last_frame = results->outputs.last_time();
   }
   try {
     return run_to_end(engine, scene, observer);
   } catch (const PhysicsError& error) {
     if (results == nullptr) throw;
-    results->outputs.finish(false);
-    throw PhysicsError(
-        fmt::format("{}; the run up to there is kept in {}", error.what(), results->folder.keep_unfinished()));
+    keep_stopped(error, engine.state(), *results, keeper, step_s);
   }
+}
+
+Summary summary_of(const Engine& engine, const RunTask& task, const Results* results, const RunRecord& record) {
+  Summary summary = summarize(record.start, engine, task.scene, task.choice);
+  summary.frames = results != nullptr ? results->outputs.frames() : 0;
+  summary.step_s = record.step_s;
+  summary.wall_s = record.wall_s;
+  summary.cpu_s = record.cpu_s;
+  summary.resumed = record.resumed;
+  return summary;
+}
+
+int report_stop(const Engine& engine, const RunTask& task, Results* results, const CheckpointKeeper& keeper,
+                double step_s) {
+  if (results != nullptr) results->outputs.pause();
+  print_note(fmt::format("stopped by {} at t = {:g} of {:g}; go on with {}", keeper.stopped_by(), engine.state().time,
+                         task.scene.run.t_end, keeper.resume_command()));
+  if (task.json) {
+    Summary summary = summary_of(engine, task, results, keeper.record(step_s));
+    summary.resume_with = keeper.resume_command();
+    print_out(json_text(summary));
+  }
+  return 4;
+}
+
+// Completes the files and reports.
+void report_end(const Engine& engine, const RunTask& task, Results* results, CheckpointKeeper& keeper, double step_s) {
+  const bool keeps_checkpoints = task.scene.output.checkpoint > 0.0;
+  if (results != nullptr) {
+    const OutputMark mark = results->outputs.finish(true);
+    if (keeps_checkpoints) keeper.write(engine.state(), step_s, mark);
+    if (!task.quiet) {
+      for (const std::string& warning : results->outputs.take_warnings()) print_warning(warning);
+    }
+  }
+  keeper.discard_own_folder();
+  const Summary summary = summary_of(engine, task, results, keeper.record(step_s));
+  if (results != nullptr) {
+    write_file(results->folder.path("summary.json"), json_text(summary));
+    results->folder.finish(keeps_checkpoints);
+  }
+  if (task.json) {
+    print_out(json_text(summary));
+  } else if (!task.quiet) {
+    print_out(table_text(summary, results != nullptr ? results->folder.name() : ""));
+  }
+}
+
+// The record of a run that begins, or of one that goes on.
+RunRecord record_of(RunTask& task, const Engine& engine) {
+  RunRecord record;
+  if (task.from) {
+    record = task.from->checkpoint.record;
+    ++record.resumed;
+  } else {
+    record.start = run_start(engine.state(), task.scene);
+    record.scene_file = task.scene.file;
+  }
+  record.version = CAROM_VERSION;
+  record.scene_text = resolved_toml(task.scene);
+  record.engine = task.choice.name;
+  return record;
+}
+
+State state_of(RunTask& task) {
+  return task.from ? std::move(task.from->checkpoint.state) : initial_state(task.scene);
 }
 
 }  // namespace
 
+int carry_out(RunTask task) {
+  const Scene& scene = task.scene;
+  const auto engine = within_memory(scene, [&] { return make_engine(task.choice, scene, state_of(task)); });
+  catch_signals();
+  const RunRecord record = record_of(task, *engine);
+  const bool new_plan = task.from && record.scene_text != task.from->checkpoint.record.scene_text;
+  CheckpointKeeper keeper(record, task.start_time, scene.output.checkpoint, task.max_walltime);
+  try {
+    std::optional<Results> results;
+    if (task.folder && task.from) results.emplace(task);
+    if (task.folder && !task.from) results.emplace(scene, *task.folder, task.force);
+    Results* const files = results ? &*results : nullptr;
+    const bool there = task.from && !goes_elsewhere(task);
+    if (files != nullptr) keeper.write_to(&files->folder, &files->outputs, there);
+    // A run that is killed in its first minutes is not lost either, nor what it was told when it was taken up again.
+    if (new_plan || (!there && (task.from || scene.output.checkpoint > 0.0))) keeper.write(engine->state(), 0.0);
+    const double step_s = run_watched(*engine, task, files, keeper);
+    if (!keeper.stopped_by().empty()) return report_stop(*engine, task, files, keeper, step_s);
+    report_end(*engine, task, files, keeper, step_s);
+  } catch (const RunError& error) {
+    fail_resumable(error.what(), keeper);
+  } catch (const std::bad_alloc&) {
+    fail_resumable("out of memory", keeper);
+  }
+  return 0;
+}
+
 int command_run(const RunOptions& options) {
-  const auto start_time = Clock::now();
+  const auto start_time = std::chrono::steady_clock::now();
   const Scene scene = load_scene_as_told(options.scene, options.changes);
   const EngineChoice choice = choose_engine(options.engine, options.threads);
   check_outputs(scene);
@@ -103,34 +248,8 @@ int command_run(const RunOptions& options) {
   const std::optional<fs::path> path = folder_of(options, scene);
   if (path) check_output_folder(*path, options.scene, options.force);
   if (path && !options.folder && !options.quiet) print_note(fmt::format("results go to {}", path->string()));
-
-  const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, initial_state(scene)); });
-  const RunStart start = run_start(engine->state(), scene);
-  std::optional<Results> results;
-  if (path) results.emplace(scene, *path, options.force);
-  const double step_seconds = run_watched(*engine, scene, results ? &*results : nullptr, options.quiet);
-
-  if (results) {
-    results->outputs.finish(true);
-    if (!options.quiet) {
-      for (const std::string& warning : results->outputs.take_warnings()) print_warning(warning);
-    }
-  }
-  Summary summary = summarize(start, *engine, scene, choice);
-  summary.frames = results ? results->outputs.frames() : 0;
-  summary.step_s = step_seconds;
-  summary.wall_s = seconds_since(start_time);
-  summary.cpu_s = cpu_seconds();
-  if (results) {
-    write_file(results->folder.path("summary.json"), json_text(summary));
-    results->folder.finish();
-  }
-  if (options.json) {
-    print_out(json_text(summary));
-  } else if (!options.quiet) {
-    print_out(table_text(summary, path ? path->string() : ""));
-  }
-  return 0;
+  return carry_out({start_time, scene, choice, path, std::nullopt, options.max_walltime, options.json, options.quiet,
+                    options.force});
 }
 
 }  // namespace carom

@@ -8,6 +8,7 @@
 namespace carom {
 
 int command_run(const RunOptions& options);
+int command_resume(const ResumeOptions& options);
 int command_check(const CheckOptions& options);
 int command_compare(const CompareOptions& options);
 int command_render(const RenderOptions& options);

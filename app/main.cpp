@@ -32,6 +32,7 @@ namespace {
 
 struct Dispatch {
   int operator()(const RunOptions& options) const { return command_run(options); }
+  int operator()(const ResumeOptions& options) const { return command_resume(options); }
   int operator()(const CheckOptions& options) const { return command_check(options); }
   int operator()(const CompareOptions& options) const { return command_compare(options); }
   int operator()(const RenderOptions& options) const { return command_render(options); }

@@ -55,7 +55,11 @@ std::string progress_text(const ProgressPoint& then, const ProgressPoint& now, s
   return text;
 }
 
-Progress::Progress(bool wanted, double t_end) : shown_(wanted && isatty(STDERR_FILENO) == 1), t_end_(t_end) {}
+Progress::Progress(bool wanted, double t_end, const State& start)
+    : shown_(wanted && isatty(STDERR_FILENO) == 1),
+      t_end_(t_end),
+      older_{0.0, start.time, start.counters.steps},
+      newer_(older_) {}
 
 void Progress::update(const State& state) {
   if (!shown_) return;

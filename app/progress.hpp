@@ -29,7 +29,8 @@ std::string short_number(double number);
 // Writes the line to standard error and keeps it there; nothing at all where that is no terminal.
 class Progress {
  public:
-  Progress(bool wanted, double t_end);
+  // start: the state that the run begins or goes on from.
+  Progress(bool wanted, double t_end, const State& start);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress() { clear(); }

@@ -24,7 +24,9 @@ FrameSchedule schedule_of(const Scene& scene) {
 class FrameMaker {
  public:
   FrameMaker(const Engine& engine, const Scene& scene, const RunObserver& observer)
-      : engine_(engine), observer_(observer), schedule_(schedule_of(scene)), wanted_(observer.frame != nullptr) {}
+      : engine_(engine), observer_(observer), schedule_(schedule_of(scene)), wanted_(observer.frame != nullptr) {
+    if (observer.last_frame) schedule_.made(*observer.last_frame);
+  }
 
   bool due() const { return wanted_ && schedule_.due(engine_.state().time) >= 0.0; }
 
@@ -62,7 +64,7 @@ double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observe
     if (seconds < 0.5 * pulse_seconds) batch = std::min(2 * batch, most_steps_between_looks);
     if (seconds > pulse_seconds && batch > 1) batch /= 2;
     frames.make_due();
-    if (observer.pulse) observer.pulse();
+    if (observer.pulse && !observer.pulse(step_seconds)) break;
   }
   return step_seconds;
 }

@@ -2,21 +2,25 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "core/engine.hpp"
 
 namespace carom {
 
-// Who watches a run. Both may be empty. Looking never changes the state.
+// Who watches a run. Functions may be empty. Looking never changes the state.
 struct RunObserver {
   // A frame: the disks and their time. The first is at 0, the last at t_end, none comes twice.
   std::function<void(const Disks&, double)> frame;
-  // Between steps, about a hundred times a second, and once more at the end.
-  std::function<void()> pulse;
+  // Between steps, about a hundred times a second, and once more at the end, with the seconds spent in steps so far.
+  // All frames that are due have been made then. Returns whether to go on.
+  std::function<bool(double)> pulse;
+  // Time of the last frame that was made before, in a run that goes on from a checkpoint.
+  std::optional<double> last_frame;
 };
 
-// Steps the engine to scene.run.t_end. Returns the wall time spent in the steps alone, in seconds. Throws what the
-// engine and the observer throw.
+// Steps the engine to scene.run.t_end, or until pulse() says no. Returns the wall time spent in the steps alone, in
+// seconds. Throws what the engine and the observer throw.
 double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observer);
 
 }  // namespace carom

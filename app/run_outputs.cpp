@@ -30,8 +30,40 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder)
   if (scene.output.series) series_ = std::make_unique<SeriesWriter>(folder.path("series.csv"), scene);
 }
 
+RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const OutputMark& from)
+    : scene_(scene),
+      folder_(folder),
+      frames_(from.frames),
+      last_time_(from.last_time),
+      plot_velocity_(has_plot(scene.output, "velocity")),
+      plot_energy_(has_plot(scene.output, "energy")),
+      velocities_(from.velocities),
+      energies_(from.energies) {
+  if (from.trajectory) {
+    trajectory_ = std::make_unique<XyzWriter>(folder.path(from.trajectory->name), scene.box, *from.trajectory);
+  }
+  if (from.series) series_ = std::make_unique<SeriesWriter>(folder.path(from.series->file.name), scene, *from.series);
+  if (!from.movie) return;
+  const FrameStyle style{scene.title, scene.box, from.movie->fastest, from.movie->time_decimals};
+  movie_ = std::make_unique<MovieWriter>(folder_.unfinished(), style, *from.movie);
+}
+
+OutputMark RunOutputs::mark_without_movie() {
+  OutputMark mark{frames_, last_time_, {}, {}, {}, velocities_, energies_};
+  if (trajectory_) mark.trajectory = trajectory_->mark();
+  if (series_) mark.series = series_->mark();
+  return mark;
+}
+
+OutputMark RunOutputs::mark() {
+  OutputMark mark = mark_without_movie();
+  if (movie_) mark.movie = movie_->mark();
+  return mark;
+}
+
 void RunOutputs::frame(const Disks& disks, double time, const State& now) {
   ++frames_;
+  last_time_ = time;
   if (trajectory_) trajectory_->write(disks, time);
   if (series_) series_->write(disks, time, now);
   if (plot_velocity_) record(velocities_, disks, time);
@@ -59,11 +91,18 @@ void RunOutputs::draw_plots() {
   if (!drawn) warnings_.emplace_back("gnuplot is not installed: no plots are drawn");
 }
 
-void RunOutputs::finish(bool whole) {
+OutputMark RunOutputs::finish(bool whole) {
+  OutputMark mark;
+  if (scene_.output.checkpoint > 0.0) mark = mark_without_movie();
+  if (movie_) mark.movie = movie_->finish();
+  pause();
+  if (whole) draw_plots();
+  return mark;
+}
+
+void RunOutputs::pause() {
   if (trajectory_) trajectory_->close();
   if (series_) series_->close();
-  if (movie_) movie_->finish();
-  if (whole) draw_plots();
 }
 
 std::vector<std::string> RunOutputs::take_warnings() {

@@ -22,22 +22,35 @@ class RunOutputs {
   // Opens the files in the folder. Throws RunError where one cannot be written, here and below.
   RunOutputs(const Scene& scene, const OutputFolder& folder);
 
+  // Goes on behind a mark: cuts back what came after it. Precondition: files_of(from) are in folder.unfinished().
+  RunOutputs(const Scene& scene, const OutputFolder& folder, const OutputMark& from);
+
   void frame(const Disks& disks, double time, const State& now);
 
-  // Completes all files. After a run that stopped early (whole = false) no plots are drawn.
-  void finish(bool whole);
+  // Brings all that was written onto the disk and says where it stands. Between two frames, whenever wanted.
+  OutputMark mark();
+
+  // Completes all files. After a run that stopped early (whole = false) no plots are drawn. Returns the mark from which
+  // a longer run could go on, if the scene asks for checkpoints.
+  OutputMark finish(bool whole);
+
+  // Ends writing where a later run will go on from the last mark.
+  void pause();
 
   Count frames() const { return frames_; }
+  double last_time() const { return last_time_; }  // simulated, of the last frame
 
   // What could not be made as asked, one line each; asked for once, it is gone.
   std::vector<std::string> take_warnings();
 
  private:
+  OutputMark mark_without_movie();
   void draw_plots();
 
   const Scene& scene_;
   const OutputFolder& folder_;
   Count frames_ = 0;
+  double last_time_ = 0.0;
   std::unique_ptr<XyzWriter> trajectory_;
   std::unique_ptr<SeriesWriter> series_;
   std::unique_ptr<MovieWriter> movie_;  // from the first frame on, which sets its colour scale

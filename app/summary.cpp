@@ -41,10 +41,6 @@ std::string disks_line(const Summary& s) {
 
 }  // namespace
 
-RunStart run_start(const State& state, const Scene& scene) {
-  return {state.disks.size(), state.time, energy_of(state.disks, scene.physics.gravity), momentum_of(state.disks)};
-}
-
 Summary summarize(const RunStart& start, const Engine& engine, const Scene& scene, const EngineChoice& choice) {
   const State& state = engine.state();
   const Energy energy = energy_of(state.disks, scene.physics.gravity);
@@ -101,6 +97,8 @@ std::string json_text(const Summary& s) {
   j["seed"] = s.seed;
   j["waiting"] = s.counters.waiting;
   j["frames"] = s.frames;
+  j["resumed"] = s.resumed;
+  if (!s.resume_with.empty()) j["resume_with"] = s.resume_with;
   nlohmann::ordered_json& phases = j["phase_s"] = nlohmann::ordered_json::object();
   for (const Phase& phase : s.phases.phases()) phases[std::string(phase.name)] = number(phase.seconds);
   return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -125,6 +123,7 @@ std::string table_text(const Summary& s, const std::string& folder) {
   line("state hash", s.state_hash);
   line("speed", fmt::format("{} steps/s, {} disk-steps/s; {} in all", short_number(rate),
                             short_number(rate * static_cast<double>(s.particles)), duration_text(s.wall_s)));
+  if (s.resumed > 0) line("resumed", s.resumed == 1 ? "once" : fmt::format("{} times", s.resumed));
   if (!folder.empty()) line("results", folder);
   return text;
 }

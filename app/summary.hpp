@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/make_engine.hpp"
-#include "core/invariants.hpp"
+#include "core/run_start.hpp"
 
 namespace carom {
 
@@ -25,22 +25,16 @@ struct Summary {
   std::string state_hash;
   std::uint64_t seed = 1;
   Count frames = 0;
+  Count resumed = 0;        // how often it went on from a checkpoint; the times are those of all parts
+  std::string resume_with;  // of a run that stopped early: the command that goes on
   PhaseTimes phases;
 };
-
-// What is remembered of the start of a run.
-struct RunStart {
-  Count particles = 0;
-  double time = 0.0;
-  Energy energy;
-  Momentum momentum;
-};
-RunStart run_start(const State& state, const Scene& scene);
 
 // Everything but the times and the number of frames, which the caller knows.
 Summary summarize(const RunStart& start, const Engine& engine, const Scene& scene, const EngineChoice& choice);
 
-// One JSON object with the keys of design.md, in that order, then seed, waiting, frames and phase_s. Numbers in full
+// One JSON object with the keys of design.md, in that order, then seed, waiting, frames, resumed, for a run
+// that stopped early resume_with, and phase_s (of this part of the run). Numbers in full
 // precision; null for one that is not finite.
 std::string json_text(const Summary& summary);
 

@@ -19,10 +19,12 @@ class ReferencePairwise final : public ReferenceEngine {
     const Count k = state_.counters.steps;
     if (k >= clock_.steps) return;
     const double dt = clock_.length(k);
-    start_interval(clock_.start(k), dt, k);
+    // Once only, even where parts() throws: the state that it leaves can be stepped again.
+    if (!std::exchange(state_.step_begun, true)) start_interval(clock_.start(k), dt, k);
     const Count n = parts(dt);
     for (Count part = 0; part < n; ++part) advance(dt / static_cast<double>(n));
     remove_at_sinks();
+    state_.step_begun = false;
     ++state_.counters.steps;
     state_.time = clock_.end(k);
   }

@@ -17,9 +17,7 @@ namespace {
 class ReferenceRollback final : public ReferenceEngine {
  public:
   ReferenceRollback(const Scene& scene, State initial)
-      : ReferenceEngine(scene, std::move(initial)),
-        clock_(make_step_clock(scene.run.dt, scene.run.t_end)),
-        stall_(state_.time) {}
+      : ReferenceEngine(scene, std::move(initial)), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
 
   void step() override {
     if (state_.time >= scene_.run.t_end) return;
@@ -30,7 +28,7 @@ class ReferenceRollback final : public ReferenceEngine {
     state_.time = back == 0.0 && state_.time + length >= end ? end : std::min(end, state_.time + (length - back));
     remove_at_sinks();
     ++state_.counters.steps;
-    stall_.check(state_, scene_);
+    check_stall(state_, scene_);
   }
 
  private:
@@ -71,7 +69,6 @@ class ReferenceRollback final : public ReferenceEngine {
   }
 
   StepClock clock_;
-  StallGuard stall_;
 };
 
 }  // namespace

@@ -23,17 +23,17 @@ double frame_limit(const Scene& scene, const State& state, const StepClock& cloc
   return scene.physics.diffusion > 0.0 ? std::min(clock.end(state.intervals - 1), scene.run.t_end) : scene.run.t_end;
 }
 
-void StallGuard::check(const State& state, const Scene& scene) {
-  if (++frames_ < watched_frames) return;
-  const double advanced = state.time - since_;
+void check_stall(State& state, const Scene& scene) {
+  constexpr Count watched_frames = 10000;
+  if (++state.stall.frames < watched_frames) return;
+  const double advanced = state.time - state.stall.since;
   if (advanced < scene.run.dt && state.time < scene.run.t_end) {
     throw PhysicsError("rollback: time stands still at t = " + std::to_string(state.time) + ": the last " +
                        std::to_string(watched_frames) + " frames advanced it by " +
                        std::to_string(advanced / scene.run.dt) + " dt with " + std::to_string(state.disks.size()) +
                        " disks; use --method pairwise");
   }
-  since_ = state.time;
-  frames_ = 0;
+  state.stall = {0, state.time};
 }
 
 }  // namespace carom

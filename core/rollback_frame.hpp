@@ -42,17 +42,9 @@ void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTa
 // Where the frame that starts at state.time must end: at t_end, or at the next draw of Brownian displacements.
 double frame_limit(const Scene& scene, const State& state, const StepClock& clock);
 
-// F1: with many disks every frame goes back by nearly its whole length and time all but stops. A run whose last
-// watched_frames frames advanced time by less than one dt is stopped, with the figure and the remedy (PhysicsError).
-class StallGuard {
- public:
-  explicit StallGuard(double time) : since_(time) {}
-  void check(const State& state, const Scene& scene);
-
- private:
-  static constexpr Count watched_frames = 10000;
-  double since_;
-  Count frames_ = 0;
-};
+// F1: with many disks every frame goes back by nearly its whole length and time all but stops. A run whose last 10000
+// frames advanced time by less than one dt is stopped, with the figure and the remedy (PhysicsError). To be called
+// after every frame; what it remembers is in the state, so that a run that was interrupted stops at the same frame.
+void check_stall(State& state, const Scene& scene);
 
 }  // namespace carom

@@ -93,6 +93,7 @@ struct OutputPlan {
   bool series = false;
   std::vector<std::string> plots;  // "velocity", "energy"
   bool movie = false;
+  double checkpoint = 0.0;  // seconds of wall time between checkpoints; 0: none but on a signal
 };
 
 struct Scene {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/csv.hpp"
+#include "core/duration.hpp"
 #include "core/input_message.hpp"
 #include "core/scene_check.hpp"
 #include "core/scene_laws.hpp"
@@ -195,15 +196,27 @@ std::vector<std::string> read_plots(const TableReader& output) {
   return plots;
 }
 
+// Seconds of wall time; a number, or text with a unit.
+double read_checkpoint_interval(const TableReader& output) {
+  const toml::node* node = output.find("checkpoint");
+  if (node == nullptr) return 0.0;
+  if (!node->is_string()) return output.positive("checkpoint").value();
+  const std::string text = output.text("checkpoint").value();
+  const std::optional<double> seconds = parse_duration(text);
+  if (!seconds) output.fail("checkpoint", fmt::format("is {}", in_quotes(text)), expected_duration);
+  return *seconds;
+}
+
 OutputPlan read_output(const SceneOrigin& origin, double t_end) {
   OutputPlan output;
   const toml::table* table = section(origin, "output");
   if (table == nullptr) return output;
-  const TableReader reader(origin, "output", *table, {"every", "trajectory", "series", "plots", "movie"});
+  const TableReader reader(origin, "output", *table, {"every", "trajectory", "series", "plots", "movie", "checkpoint"});
   output.trajectory = static_cast<TrajectoryFormat>(reader.choice("trajectory", trajectory_names).value_or(0));
   output.series = reader.flag("series").value_or(false);
   output.plots = read_plots(reader);
   output.movie = reader.flag("movie").value_or(false);
+  output.checkpoint = read_checkpoint_interval(reader);
   const bool frames =
       output.trajectory != TrajectoryFormat::none || output.series || output.movie || !output.plots.empty();
   output.every = reader.non_negative("every").value_or(frames ? t_end / 100.0 : 0.0);

@@ -135,9 +135,12 @@ std::string run_text(const RunPlan& run) {
 }
 
 std::string output_text(const OutputPlan& output) {
+  const std::string checkpoint =
+      output.checkpoint > 0.0 ? fmt::format("checkpoint = {}\n", number(output.checkpoint)) : "";
   return fmt::format("\n[output]\nevery = {}\ntrajectory = \"{}\"\nseries = {}\nplots = {}\nmovie = {}\n",
                      number(output.every), trajectory_names[index(output.trajectory)], output.series,
-                     list_of(output.plots, [](const std::string& name) { return quoted_toml(name); }), output.movie);
+                     list_of(output.plots, [](const std::string& name) { return quoted_toml(name); }), output.movie) +
+         checkpoint;
 }
 
 // TOML integers end at 2^63 - 1; a larger seed is written as a string.

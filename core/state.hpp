@@ -29,14 +29,22 @@ struct ContactLoad {
   double force = 0.0;  // mass length / time^2, > 0
 };
 
+// How far time had come when rollback was last seen to advance (core/rollback_frame.hpp).
+struct StallWatch {
+  Count frames = 0;  // since then
+  double since = 0.0;
+};
+
 struct State {
   Disks disks;
   double time = 0.0;
   Counters counters;
   DiskId next_id = 0;
   Count intervals = 0;               // Brownian intervals of dt begun (rollback, whose frames are shorter than dt)
+  bool step_begun = false;           // pairwise: the coming step failed after its sources and Brownian draws
   std::vector<SourceState> sources;  // one per scene source
   std::vector<ContactLoad> loads;    // in order of (id1, id2); empty unless the scene settles
+  StallWatch stall;                  // rollback
   double window = 0.0;               // exact: length meant for the next window; time, 0 before the first
   std::vector<double> last_contact;  // exact with the TC model: by id, time of the last collision; else empty
 };

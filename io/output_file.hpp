@@ -1,6 +1,7 @@
 // A file being written, with every error seen: a full disk shows as an exception, never as a short file.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -12,6 +13,11 @@ class OutputFile {
  public:
   // Creates or truncates the file. Children do not inherit the descriptor.
   explicit OutputFile(std::string path);
+
+  // Goes on with a file that is there: cuts it back to its first `bytes` and writes behind them. Throws InputError if
+  // it is missing or shorter than that.
+  OutputFile(std::string path, std::uint64_t bytes);
+
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
@@ -21,17 +27,32 @@ class OutputFile {
   // Hands what is buffered to the system, so that somebody who watches the file sees whole records.
   void flush();
 
+  // Flushes, and returns when the disk itself has everything: from here on not even a power cut takes it away.
+  void sync();
+
+  // How long the file is, buffered text included. Known after close() as well.
+  std::uint64_t bytes() const { return bytes_; }
+
   // Flushes and closes. To be called by whoever wants to know that all is written; the destructor stays silent.
   void close();
 
   const std::string& path() const { return path_; }
+  std::string name() const { return path_.substr(path_.rfind('/') + 1); }  // without its folder
 
  private:
   [[noreturn]] void fail();
 
   std::string path_;
   std::FILE* file_ = nullptr;
+  std::uint64_t bytes_ = 0;
 };
+
+// Throws InputError where path is no file of at least so many bytes (0: where there is nothing); changes nothing.
+void check_at_least(const std::string& path, std::uint64_t bytes);
+
+// Returns when a file that somebody else wrote, or the entries of a folder (new files, new names), are on the disk
+// itself. Throws RunError.
+void sync_path(const std::string& path);
 
 // The whole text as a file. Throws RunError.
 void write_file(const std::string& path, std::string_view text);

@@ -1,11 +1,16 @@
 #include "io/output_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 
 #include "core/check.hpp"
+#include "io/checkpoint_place.hpp"
 
 namespace carom {
 
@@ -14,12 +19,17 @@ namespace fs = std::filesystem;
 namespace {
 
 // Everything that a run may write. summary.json goes last: it is the sign that the rest is there.
-constexpr std::array result_names{"scene.toml", "trajectory.xyz", "trajectory.h5", "series.csv",  "velocity.svg",
-                                  "energy.svg", "movie.mp4",      "frames",        "summary.json"};
+constexpr std::array result_names{
+    "scene.toml", "trajectory.xyz", "trajectory.h5",          "series.csv",    "velocity.svg", "energy.svg",
+    "movie.mp4",  "frames",         previous_checkpoint_name, checkpoint_name, "summary.json"};
+
+bool is_checkpoint(std::string_view name) {
+  return name == checkpoint_name || name == previous_checkpoint_name;
+}
 
 // A name that nobody else gives a folder, because --force removes it.
 fs::path unfinished_of(const fs::path& folder) {
-  return folder / "carom-unfinished";
+  return folder / unfinished_name;
 }
 
 // folder/ and folder are the same, and "" is the current one.
@@ -38,11 +48,38 @@ bool holds_frames_only(const fs::path& frames) {
   return !error;
 }
 
+// A descriptor that holds the lock on a folder; -1 where another process has it. File systems that know no locks have
+// none.
+int take_lock(const fs::path& folder, bool& another) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  another = descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (!another) return descriptor;
+  ::close(descriptor);
+  return -1;
+}
+
+bool locked_by_another(const fs::path& folder) {
+  bool another = false;
+  const int descriptor = take_lock(folder, another);
+  if (descriptor >= 0) ::close(descriptor);
+  return another;
+}
+
+[[noreturn]] void fail_locked(const fs::path& name) {
+  throw InputError(fmt::format("{}: another run is writing there; expected a folder of its own (-o)", name.string()));
+}
+
 [[noreturn]] void fail(const char* what, const fs::path& path, const std::error_code& error) {
   throw RunError(fmt::format("cannot {} {}: {}", what, path.string(), error.message()));
 }
 
 }  // namespace
+
+fs::path present_path(const fs::path& folder, const std::string& file) {
+  std::error_code error;
+  const fs::path unfinished = unfinished_of(folder) / file;
+  return fs::exists(unfinished, error) ? unfinished : folder / file;
+}
 
 void check_output_folder(const fs::path& name, const fs::path& input, bool force) {
   const fs::path folder = normal(name);
@@ -68,12 +105,16 @@ void check_output_folder(const fs::path& name, const fs::path& input, bool force
     throw InputError(fmt::format("{}: holds a folder 'frames' with other files in it; choose another folder with -o",
                                  name.string()));
   }
-  if (!force && fs::exists(unfinished_of(folder), error)) {
-    throw InputError(
-        fmt::format("{}: another run is writing there, or stopped before its end ({}); choose another "
-                    "folder with -o, or replace it with --force",
-                    name.string(), unfinished_of(folder).string()));
-  }
+  const fs::path unfinished = unfinished_of(folder);
+  if (!fs::exists(unfinished, error)) return;
+  if (locked_by_another(unfinished)) fail_locked(name);
+  if (force) return;
+  const std::string remedy =
+      fs::exists(unfinished / checkpoint_name, error) ? fmt::format("go on with carom resume {}, ", name.string()) : "";
+  throw InputError(
+      fmt::format("{}: another run is writing there, or stopped before its end ({}); {}choose another "
+                  "folder with -o, or replace it with --force",
+                  name.string(), unfinished.string(), remedy));
 }
 
 OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool force)
@@ -83,7 +124,10 @@ OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool f
   for (fs::path p = folder_; !p.empty() && !fs::exists(p, error); p = p.parent_path()) made_.insert(made_.begin(), p);
   fs::remove_all(unfinished_, error);
   fs::create_directories(unfinished_, error);
-  if (!error) return;
+  if (!error) {
+    lock();
+    return;
+  }
   const std::error_code why = error;
   remove_unfinished();
   if (why == std::errc::no_space_on_device) fail("make the folder", unfinished_, why);
@@ -91,8 +135,37 @@ OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool f
       fmt::format("{}: cannot be made: {}; expected a folder for the results (-o)", name(), why.message()));
 }
 
+OutputFolder::OutputFolder(const fs::path& folder)
+    : folder_(normal(folder)), unfinished_(unfinished_of(folder_)), done_(true) {
+  std::error_code error;
+  fs::create_directories(unfinished_, error);
+  if (error) throw InputError(fmt::format("{}: cannot be written to: {}", name(), error.message()));
+  lock();
+}
+
 OutputFolder::~OutputFolder() {
   if (!done_) remove_unfinished();
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void OutputFolder::lock() {
+  bool another = false;
+  lock_ = take_lock(unfinished_, another);
+  if (!another) return;
+  done_ = true;  // it is not ours to remove
+  fail_locked(folder_);
+}
+
+void OutputFolder::take_back(bool finished, const std::vector<std::string>& files) {
+  const auto take = [&](const fs::path& file) {
+    std::error_code error;
+    if (fs::exists(unfinished_ / file, error) || !fs::exists(folder_ / file, error)) return;
+    fs::rename(folder_ / file, unfinished_ / file, error);
+    if (error) fail("move", folder_ / file, error);
+  };
+  // The summary first: from here on the folder does not look complete until it is.
+  for (auto name = result_names.rbegin(); finished && name != result_names.rend(); ++name) take(*name);
+  for (const std::string& file : files) take(file);
 }
 
 void OutputFolder::remove_unfinished() noexcept {
@@ -102,7 +175,7 @@ void OutputFolder::remove_unfinished() noexcept {
   for (auto p = made_.rbegin(); p != made_.rend(); ++p) fs::remove(*p, ignored);
 }
 
-void OutputFolder::finish() {
+void OutputFolder::finish(bool keep_checkpoints) {
   std::error_code error;
   // The old summary goes first: from here on the folder does not look complete until it is.
   for (auto name = result_names.rbegin(); name != result_names.rend(); ++name) {
@@ -114,7 +187,7 @@ void OutputFolder::finish() {
     if (error) fail("replace", folder_ / *name, error);
   }
   for (const char* const name : result_names) {
-    if (!fs::exists(unfinished_ / name, error)) continue;
+    if (!fs::exists(unfinished_ / name, error) || (is_checkpoint(name) && !keep_checkpoints)) continue;
     fs::rename(unfinished_ / name, folder_ / name, error);
     if (error) fail("write", folder_ / name, error);
   }

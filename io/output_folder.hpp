@@ -7,11 +7,17 @@
 
 namespace carom {
 
+inline constexpr const char* unfinished_name = "carom-unfinished";
+
 // The files of a run grow in FOLDER/carom-unfinished, where they can be watched, and move up to FOLDER when the run is
 // done, summary.json last. Who finds FOLDER/summary.json has a complete result; a run that was killed leaves
 // carom-unfinished only.
 class OutputFolder {
  public:
+  // Goes on in a FOLDER whose run did not come to its end, or is to go on beyond it. Takes what is there as it is and
+  // never removes it. Throws InputError where another process is writing there.
+  explicit OutputFolder(const std::filesystem::path& folder);
+
   // Makes FOLDER (parents too) and FOLDER/carom-unfinished. Existing results are refused with InputError unless force
   // is set; then they stay until finish() replaces them. input is the scene file: an output never replaces it, force or
   // not. Files that are not Carom's are left alone always. Throws InputError if the folder cannot be made, RunError if
@@ -32,20 +38,31 @@ class OutputFolder {
   // The folder as the user named it.
   std::string name() const { return folder_.string(); }
 
-  // Moves everything up, replacing what an earlier run left. Throws RunError.
-  void finish();
+  // Moves what finish() moved up, or began to, down again: of a run that finished, all its results; else these files.
+  void take_back(bool finished, const std::vector<std::string>& files);
+
+  // Moves everything up, replacing what an earlier run left; checkpoints only if they are to be kept. Throws RunError.
+  void finish(bool keep_checkpoints = false);
 
   // Leaves the files as they are, for a run that stopped where somebody may want to look. Returns its path.
   std::string keep_unfinished();
 
+  // Takes that back: the files go with this object.
+  void discard() { done_ = false; }
+
  private:
   void remove_unfinished() noexcept;
+  void lock();
 
   std::filesystem::path folder_;
   std::filesystem::path unfinished_;
   std::vector<std::filesystem::path> made_;  // folders that were not there before, innermost last
   bool done_ = false;
+  int lock_ = -1;  // descriptor of carom-unfinished; the lock ends with the process, however that ends
 };
+
+// Where a file of a run lies: in folder/carom-unfinished, or in folder if the run finished.
+std::filesystem::path present_path(const std::filesystem::path& folder, const std::string& file);
 
 // Throws InputError if `folder` cannot take the results of a run on the scene file `input`; changes nothing. To be
 // asked early, before anything takes time.

@@ -19,6 +19,19 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
   file_.write(heading);
 }
 
+SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from)
+    : file_(path, from.file.bytes),
+      box_(scene.box),
+      gravity_(scene.physics.gravity),
+      rows_(from.file.frames),
+      counted_until_(from.counted_until),
+      before_(from.before) {}
+
+SeriesMark SeriesWriter::mark() {
+  file_.sync();
+  return {{file_.name(), rows_, file_.bytes()}, counted_until_, before_};
+}
+
 void SeriesWriter::write(const Disks& disks, double time, const State& now) {
   const Counters& c = now.counters;
   const double elapsed = now.time - counted_until_;
@@ -39,6 +52,7 @@ void SeriesWriter::write(const Disks& disks, double time, const State& now) {
   row += '\n';
   file_.write(row);
   file_.flush();
+  ++rows_;
   before_ = c;
   counted_until_ = now.time;
 }

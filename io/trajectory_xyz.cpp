@@ -37,15 +37,26 @@ struct RepeatedNumber {
   }
 };
 
-}  // namespace
-
-XyzWriter::XyzWriter(const std::string& path, const Domain& box) : file_(path) {
-  lattice_ = "Lattice=\"";
+// The constant part of each frame's second line.
+std::string lattice_text(const Domain& box) {
   std::string width, height;
   append_number(width, box.width);
   append_number(height, box.height);
-  lattice_ += fmt::format("{} 0 0 0{} 0 0 0 1\" Origin=\"0 0 0\" pbc=\"{} {} F\" Properties={} Time=", width.substr(1),
-                          height, box.periodic_x() ? 'T' : 'F', box.periodic_y() ? 'T' : 'F', xyz_properties);
+  return fmt::format(
+      "Lattice=\"{} 0 0 0{} 0 0 0 1\" Origin=\"0 0 0\" pbc=\"{} {} F\" Properties={} Time=", width.substr(1), height,
+      box.periodic_x() ? 'T' : 'F', box.periodic_y() ? 'T' : 'F', xyz_properties);
+}
+
+}  // namespace
+
+XyzWriter::XyzWriter(const std::string& path, const Domain& box) : file_(path), lattice_(lattice_text(box)) {}
+
+XyzWriter::XyzWriter(const std::string& path, const Domain& box, const FileMark& from)
+    : file_(path, from.bytes), frames_(from.frames), lattice_(lattice_text(box)) {}
+
+FileMark XyzWriter::mark() {
+  file_.sync();
+  return {file_.name(), frames_, file_.bytes()};
 }
 
 void XyzWriter::write(const Disks& disks, double time) {
@@ -67,6 +78,7 @@ void XyzWriter::write(const Disks& disks, double time) {
   }
   file_.write(text_);
   file_.flush();
+  ++frames_;
 }
 
 XyzReader::XyzReader(const std::string& path) : path_(path), file_(path) {

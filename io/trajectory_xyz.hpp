@@ -9,6 +9,7 @@
 #include "core/disks.hpp"
 #include "core/domain.hpp"
 #include "io/output_file.hpp"
+#include "io/output_mark.hpp"
 
 namespace carom {
 
@@ -20,13 +21,21 @@ class XyzWriter {
   // Throws RunError where the file cannot be written, here and below.
   XyzWriter(const std::string& path, const Domain& box);
 
+  // Goes on behind a mark in a file that is there; what follows it is cut off. Throws InputError where the file is
+  // shorter.
+  XyzWriter(const std::string& path, const Domain& box, const FileMark& from);
+
   // One frame, disks in order of id, numbers with 17 significant digits.
   void write(const Disks& disks, double time);
+
+  // Where the file has come to; all up to there is on the disk.
+  FileMark mark();
 
   void close() { file_.close(); }
 
  private:
   OutputFile file_;
+  Count frames_ = 0;
   std::string lattice_;  // the constant part of each frame's second line
   std::string text_;     // of the frame being written; kept for its capacity
 };

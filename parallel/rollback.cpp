@@ -17,9 +17,7 @@ constexpr std::size_t wall_block = 8192;
 class ParallelRollback final : public TimeStepping {
  public:
   ParallelRollback(const Scene& scene, State initial, const Threads& threads)
-      : TimeStepping(scene, std::move(initial), threads),
-        clock_(make_step_clock(scene.run.dt, scene.run.t_end)),
-        stall_(state_.time) {}
+      : TimeStepping(scene, std::move(initial), threads), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
 
   void step() override {
     if (state_.time >= scene_.run.t_end) return;
@@ -30,7 +28,7 @@ class ParallelRollback final : public TimeStepping {
     state_.time = back == 0.0 && state_.time + length >= end ? end : std::min(end, state_.time + (length - back));
     remove_at_sinks();
     ++state_.counters.steps;
-    stall_.check(state_, scene_);
+    check_stall(state_, scene_);
   }
 
  private:
@@ -91,7 +89,6 @@ class ParallelRollback final : public TimeStepping {
   }
 
   StepClock clock_;
-  StallGuard stall_;
 };
 
 }  // namespace

@@ -98,8 +98,9 @@ class CommandLine : public ::testing::Test {
 
 TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "no command given; expected one of run, check, compare, render"},
-      {"rnu small.toml", "there is no command \"rnu\"; expected one of run, check, compare, render (nearest: run)"},
+      {"", "no command given; expected one of run, check, resume, compare, render"},
+      {"rnu small.toml",
+       "there is no command \"rnu\"; expected one of run, check, resume, compare, render (nearest: run)"},
       {"--jsn", "no option \"--jsn\" before the command"},
       {"run", "run: no scene file given"},
       {"run --methd pairwise small.toml", "run: there is no option \"--methd\""},
@@ -126,6 +127,16 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
       {"run small.toml -o small.toml/out", "cannot be made: Not a directory"},
       {"run small.toml -o /dev/full", "/dev/full: is a file"},
       {"run missing.toml", "missing.toml: "},
+      {"run small.toml --max-walltime soon",
+       "--max-walltime: is \"soon\"; expected a time such as 30 s, 10 min or 2 h"},
+      {"run small.toml --set output.checkpoint=0", "--set output.checkpoint: is 0; expected a number above 0"},
+      {"run small.toml --set output.checkpoint='\"2 days\"'",
+       "--set output.checkpoint: is \"2 days\"; expected a time"},
+      {"resume", "resume: no checkpoint given"},
+      {"resume missing", "missing: does not exist; expected a checkpoint"},
+      {"resume .", ".: holds no checkpoint"},
+      {"resume small.toml", "small.toml: is no checkpoint of Carom"},
+      {"resume small.toml --dt 1", "resume: there is no option \"--dt\""},
       {"check", "check: no scene file given"},
       {"check small.toml --json --dt x", "--dt: \"x\" is not a number"},
       {"compare small.toml", "compare: two outputs are needed"},
@@ -141,7 +152,7 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
 
 TEST_F(CommandLine, HelpAndVersion) {
   EXPECT_EQ(carom("--version").out.substr(0, 6), "carom ");
-  for (const char* const command : {"", "run", "check", "compare", "render"}) {
+  for (const char* const command : {"", "run", "check", "resume", "compare", "render"}) {
     const Outcome o = carom(std::string(command) + " --help");
     EXPECT_EQ(o.status, 0);
     EXPECT_THAT(o.out, HasSubstr("Usage: carom")) << command;

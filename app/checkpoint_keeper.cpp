@@ -1,0 +1,111 @@
+#include "app/checkpoint_keeper.hpp"
+
+#include <fmt/format.h>
+
+#include <ctime>
+#include <utility>
+
+#include "app/stop_signals.hpp"
+#include "core/check.hpp"
+#include "io/checkpoint_place.hpp"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// For a run that has no folder: the first that is free.
+fs::path free_folder(const std::string& scene_file) {
+  const fs::path wanted = fs::path("out") / fs::path(scene_file).stem();
+  fs::path folder = wanted;
+  for (int k = 2;; ++k) {
+    try {
+      check_output_folder(folder, scene_file, false);
+      return folder;
+    } catch (const InputError&) {
+      constexpr int patience = 1000;
+      if (k > patience) throw;
+    }
+    folder = fmt::format("{}-{}", wanted.string(), k);
+  }
+}
+
+}  // namespace
+
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+CheckpointKeeper::CheckpointKeeper(RunRecord record, Clock::time_point started, double interval, double max_walltime)
+    : before_(std::move(record)),
+      started_(started),
+      interval_(interval),
+      max_walltime_(max_walltime),
+      due_(interval > 0.0 ? seconds() + interval : infinity) {}
+
+void CheckpointKeeper::write_to(OutputFolder* folder, RunOutputs* outputs, bool there) {
+  folder_ = folder;
+  written_ = there;
+  outputs_ = outputs;
+}
+
+OutputFolder& CheckpointKeeper::folder() {
+  if (folder_ == nullptr) folder_ = &own_folder_.emplace(free_folder(before_.scene_file), before_.scene_file, false);
+  return *folder_;
+}
+
+bool CheckpointKeeper::look(const State& state, double t_end, double step_s) {
+  if (state.time >= t_end) return true;  // the run is over, there is nothing to go on with
+  const Wish wish = take_wish();
+  const double now = seconds();
+  if (wish == Wish::stop) {
+    stopped_by_ = stop_signal_name();
+  } else if (now > max_walltime_) {
+    stopped_by_ = "--max-walltime";
+  }
+  const bool stop = !stopped_by_.empty();
+  if (!stop && wish == Wish::nothing && now < due_) return true;
+  write(state, step_s);
+  if (wish == Wish::checkpoint) note_ = fmt::format("checkpoint at t = {:g}; {}", state.time, resume_command());
+  return !stop;
+}
+
+void CheckpointKeeper::write(const State& state, double step_s) {
+  write(state, step_s, outputs_ != nullptr ? outputs_->mark() : OutputMark{});
+}
+
+void CheckpointKeeper::write(const State& state, double step_s, OutputMark mark) {
+  RunRecord now = record(step_s);
+  now.outputs = std::move(mark);
+  save_checkpoint(folder().unfinished(), now, state);
+  written_ = true;
+  folder().keep_unfinished();
+  if (interval_ > 0.0) due_ = seconds() + interval_;
+}
+
+RunRecord CheckpointKeeper::record(double step_s) const {
+  RunRecord now = before_;
+  now.wall_s += seconds();
+  now.cpu_s += cpu_seconds();
+  now.step_s += step_s;
+  return now;
+}
+
+std::string CheckpointKeeper::resume_command() const {
+  return written_ ? fmt::format("carom resume {}", folder_->name()) : "";
+}
+
+void CheckpointKeeper::discard_own_folder() {
+  if (own_folder_) own_folder_->discard();
+}
+
+std::string CheckpointKeeper::take_note() {
+  return std::exchange(note_, {});
+}
+
+}  // namespace carom

@@ -1,0 +1,113 @@
+// Everything that a checkpoint holds, struct by struct. Each is taken apart by a structured binding, which does not
+// compile any more when a member is added: a new member is written here too, and the format's number goes up
+// (checkpoint.cpp).
+#pragma once
+
+#include "io/byte_stream.hpp"
+#include "io/checkpoint.hpp"
+
+namespace carom {
+
+template <class Stream, Is<Disks> T>
+void fields(Stream& stream, T& value) {
+  auto& [x, y, vx, vy, id, radius, mass, common_radius, common_mass] = value;
+  stream(x, y, vx, vy, id, radius, mass, common_radius, common_mass);
+}
+
+template <class Stream, Is<Counters> T>
+void fields(Stream& stream, T& value) {
+  auto& [steps, collisions, wall_collisions, removed, emitted, waiting, virial, wall_impulse] = value;
+  stream(steps, collisions, wall_collisions, removed, emitted, waiting, virial, wall_impulse);
+}
+
+template <class Stream, Is<SourceState> T>
+void fields(Stream& stream, T& value) {
+  auto& [emitted] = value;
+  stream(emitted);
+}
+
+template <class Stream, Is<ContactLoad> T>
+void fields(Stream& stream, T& value) {
+  auto& [id1, id2, force] = value;
+  stream(id1, id2, force);
+}
+
+template <class Stream, Is<StallWatch> T>
+void fields(Stream& stream, T& value) {
+  auto& [frames, since] = value;
+  stream(frames, since);
+}
+
+template <class Stream, Is<State> T>
+void fields(Stream& stream, T& value) {
+  auto& [disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, window, last_contact] = value;
+  stream(disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, window, last_contact);
+}
+
+template <class Stream, Is<FileMark> T>
+void fields(Stream& stream, T& value) {
+  auto& [name, frames, bytes] = value;
+  stream(name, frames, bytes);
+}
+
+template <class Stream, Is<SeriesMark> T>
+void fields(Stream& stream, T& value) {
+  auto& [file, counted_until, before] = value;
+  stream(file, counted_until, before);
+}
+
+template <class Stream, Is<MovieMark> T>
+void fields(Stream& stream, T& value) {
+  auto& [frames, single_frames, parts, fastest, time_decimals] = value;
+  stream(frames, single_frames, parts, fastest, time_decimals);
+}
+
+template <class Stream, Is<VelocityRecord::Curve> T>
+void fields(Stream& stream, T& value) {
+  auto& [id, t, vx, vy] = value;
+  stream(id, t, vx, vy);
+}
+
+template <class Stream, Is<VelocityRecord> T>
+void fields(Stream& stream, T& value) {
+  auto& [curves, end] = value;
+  stream(curves, end);
+}
+
+template <class Stream, Is<EnergyRecord> T>
+void fields(Stream& stream, T& value) {
+  auto& [t, kinetic, potential, total] = value;
+  stream(t, kinetic, potential, total);
+}
+
+template <class Stream, Is<OutputMark> T>
+void fields(Stream& stream, T& value) {
+  auto& [frames, last_time, trajectory, series, movie, velocities, energies] = value;
+  stream(frames, last_time, trajectory, series, movie, velocities, energies);
+}
+
+template <class Stream, Is<Energy> T>
+void fields(Stream& stream, T& value) {
+  auto& [kinetic, potential] = value;
+  stream(kinetic, potential);
+}
+
+template <class Stream, Is<Momentum> T>
+void fields(Stream& stream, T& value) {
+  auto& [x, y, magnitude] = value;
+  stream(x, y, magnitude);
+}
+
+template <class Stream, Is<RunStart> T>
+void fields(Stream& stream, T& value) {
+  auto& [particles, time, energy, momentum] = value;
+  stream(particles, time, energy, momentum);
+}
+
+template <class Stream, Is<RunRecord> T>
+void fields(Stream& stream, T& value) {
+  auto& [version, scene_file, scene_text, engine, start, outputs, wall_s, cpu_s, step_s, resumed] = value;
+  stream(version, scene_file, scene_text, engine, start, outputs, wall_s, cpu_s, step_s, resumed);
+}
+
+}  // namespace carom
