@@ -133,14 +133,14 @@ void describe_run(CLI::App* run, Words& words) {
 }
 
 void describe_compare(CLI::App* compare, Words& words) {
-  compare->add_option("A", words.first, "folder of a run, or a trajectory.xyz")->type_name("");
+  compare->add_option("A", words.first, "folder of a run, or a trajectory")->type_name("");
   compare->add_option("B", words.second, "the other one")->type_name("");
   compare->add_flag("--json", words.json, "print the result as JSON");
   compare->footer("Exit status: 0 the same bits, 1 different.");
 }
 
 void describe_render(CLI::App* render, Words& words) {
-  render->add_option("DIR", words.first, "folder of a run with a trajectory, or a trajectory.xyz")->type_name("");
+  render->add_option("DIR", words.first, "folder of a run with a trajectory, or a trajectory")->type_name("");
   add_value(render, "-o,--output", words.folder, "FILE", "default DIR/movie.mp4, or DIR/frame_K.png with --frame");
   add_value(render, "--frame", words.frame, "K", "one picture of the K-th frame, counted from 1, instead of a movie");
   render->add_flag("--quiet", words.quiet, "print nothing but errors");

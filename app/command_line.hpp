@@ -39,7 +39,7 @@ struct CompareOptions {
 };
 
 struct RenderOptions {
-  std::string source;               // a folder with trajectory.xyz, or such a file
+  std::string source;               // a folder with a trajectory, or such a file
   std::optional<std::string> file;  // -o
   std::optional<int> frame;         // counted from 1; absent: all, as a movie
   bool quiet = false;

@@ -43,12 +43,6 @@ std::optional<fs::path> folder_of(const RunOptions& options, const Scene& scene)
   return fs::path("out") / fs::path(options.scene).stem();
 }
 
-void check_outputs(const Scene& scene) {
-  if (scene.output.trajectory == TrajectoryFormat::h5md) {
-    fail_input(fmt::format("{}: output.trajectory", scene.file), "h5md is not built yet", "expected xyz or none");
-  }
-}
-
 // The files of a run, if it has any, from the first byte to the finished folder.
 struct Results {
   Results(const Scene& scene, const fs::path& path, bool force)
@@ -96,7 +90,6 @@ int command_run(const RunOptions& options) {
   const auto start_time = Clock::now();
   const Scene scene = load_scene_as_told(options.scene, options.changes);
   const EngineChoice choice = choose_engine(options.engine, options.threads);
-  check_outputs(scene);
   if (!options.quiet) {
     for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
   }

@@ -22,10 +22,14 @@ bool wants_frames(const OutputPlan& plan) {
 RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder)
     : scene_(scene),
       folder_(folder),
+      meter_(scene),
       plot_velocity_(has_plot(scene.output, "velocity")),
       plot_energy_(has_plot(scene.output, "energy")) {
   if (scene.output.trajectory == TrajectoryFormat::xyz) {
-    trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), scene.box);
+    trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), scene.box, scene.output.select);
+  }
+  if (scene.output.trajectory == TrajectoryFormat::h5md) {
+    h5md_ = std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene);
   }
   if (scene.output.series) series_ = std::make_unique<SeriesWriter>(folder.path("series.csv"), scene);
 }
@@ -33,7 +37,10 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder)
 void RunOutputs::frame(const Disks& disks, double time, const State& now) {
   ++frames_;
   if (trajectory_) trajectory_->write(disks, time);
-  if (series_) series_->write(disks, time, now);
+  SeriesRow row{};
+  if (series_) row = series_->write(disks, time, now);
+  if (!series_ && h5md_) row = meter_.row(disks, now);
+  if (h5md_) h5md_->write(disks, time, now.counters.steps, row);
   if (plot_velocity_) record(velocities_, disks, time);
   if (plot_energy_) {
     const Energy energy = energy_of(disks, scene_.physics.gravity);
@@ -61,6 +68,7 @@ void RunOutputs::draw_plots() {
 
 void RunOutputs::finish(bool whole) {
   if (trajectory_) trajectory_->close();
+  if (h5md_) h5md_->close();
   if (series_) series_->close();
   if (movie_) movie_->finish();
   if (whole) draw_plots();

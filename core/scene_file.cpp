@@ -13,6 +13,7 @@
 #include "core/scene_check.hpp"
 #include "core/scene_laws.hpp"
 #include "core/scene_names.hpp"
+#include "core/scene_output.hpp"
 #include "core/scene_override.hpp"
 #include "core/scene_reader.hpp"
 #include "core/scene_tree.hpp"
@@ -199,8 +200,11 @@ OutputPlan read_output(const SceneOrigin& origin, double t_end) {
   OutputPlan output;
   const toml::table* table = section(origin, "output");
   if (table == nullptr) return output;
-  const TableReader reader(origin, "output", *table, {"every", "trajectory", "series", "plots", "movie"});
+  const TableReader reader(origin, "output", *table,
+                           {"every", "trajectory", "select", "precision", "series", "plots", "movie"});
   output.trajectory = static_cast<TrajectoryFormat>(reader.choice("trajectory", trajectory_names).value_or(0));
+  output.select = read_selection(reader);
+  output.single_precision = read_single_precision(reader);
   output.series = reader.flag("series").value_or(false);
   output.plots = read_plots(reader);
   output.movie = reader.flag("movie").value_or(false);

@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // Everything that a run may write. summary.json goes last: it is the sign that the rest is there.
-constexpr std::array result_names{"scene.toml", "trajectory.xyz", "trajectory.h5", "series.csv",  "velocity.svg",
-                                  "energy.svg", "movie.mp4",      "frames",        "summary.json"};
+constexpr std::array result_names{"scene.toml",   "trajectory.xyz", "trajectory.h5", "trajectory.xdmf", "series.csv",
+                                  "velocity.svg", "energy.svg",     "movie.mp4",     "frames",          "summary.json"};
 
 // A name that nobody else gives a folder, because --force removes it.
 fs::path unfinished_of(const fs::path& folder) {

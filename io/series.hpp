@@ -1,6 +1,7 @@
 // series.csv: the run in numbers, one row a frame.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "core/disks.hpp"
@@ -10,25 +11,61 @@
 
 namespace carom {
 
+// The columns of series.csv after the time, and the observables of trajectory.h5.
+struct SeriesColumn {
+  const char* name;
+  bool whole;  // a count
+};
+inline constexpr std::array<SeriesColumn, 18> series_columns{{{"disks", true},
+                                                              {"kinetic", false},
+                                                              {"potential", false},
+                                                              {"total", false},
+                                                              {"px", false},
+                                                              {"py", false},
+                                                              {"collisions", true},
+                                                              {"wall_collisions", true},
+                                                              {"pressure", false},
+                                                              {"collision_rate", false},
+                                                              {"max_overlap", false},
+                                                              {"removed", true},
+                                                              {"emitted", true},
+                                                              {"waiting", true},
+                                                              {"force_left", false},
+                                                              {"force_right", false},
+                                                              {"force_bottom", false},
+                                                              {"force_top", false}}};
+using SeriesRow = std::array<double, series_columns.size()>;  // counts are exact up to 2^53
+
+class SeriesMeter {
+ public:
+  explicit SeriesMeter(const Scene& scene) : box_(scene.box), gravity_(scene.physics.gravity) {}
+
+  // Disks at the time of a frame, and what `now` has counted. An exact run counts to the end of its window, which may
+  // lie a little after the frame; intervals are taken between the states, so that no collision is lost or counted
+  // twice. pressure, collision_rate (per disk) and the four wall forces are means over the time since the row before,
+  // and 0 in the first row.
+  SeriesRow row(const Disks& disks, const State& now);
+
+ private:
+  Domain box_;
+  double gravity_;
+  double counted_until_ = 0.0;
+  Counters before_;
+};
+
 class SeriesWriter {
  public:
   // Writes the heading. Throws RunError where the file cannot be written, here and below.
   SeriesWriter(const std::string& path, const Scene& scene);
 
-  // One row: disks at `time`, and what `now` has counted. An exact run counts to the end of its window, which may lie
-  // a little after `time`; intervals are taken between the states, so that no collision is lost or counted twice.
-  // pressure, collision_rate (per disk) and the four wall forces are means over the time since the row before, and 0
-  // in the first row.
-  void write(const Disks& disks, double time, const State& now);
+  // One row, which it returns: see SeriesMeter::row.
+  SeriesRow write(const Disks& disks, double time, const State& now);
 
   void close() { file_.close(); }
 
  private:
   OutputFile file_;
-  Domain box_;
-  double gravity_;
-  double counted_until_ = 0.0;
-  Counters before_;
+  SeriesMeter meter_;
 };
 
 }  // namespace carom

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "core/check.hpp"
+#include "io/disk_selection.hpp"
 
 namespace carom {
 
@@ -39,7 +40,8 @@ struct RepeatedNumber {
 
 }  // namespace
 
-XyzWriter::XyzWriter(const std::string& path, const Domain& box) : file_(path) {
+XyzWriter::XyzWriter(const std::string& path, const Domain& box, const Selection& select)
+    : file_(path), select_(select) {
   lattice_ = "Lattice=\"";
   std::string width, height;
   append_number(width, box.width);
@@ -49,13 +51,15 @@ XyzWriter::XyzWriter(const std::string& path, const Domain& box) : file_(path) {
 }
 
 void XyzWriter::write(const Disks& disks, double time) {
-  text_ = fmt::format("{}\n{}", disks.size(), lattice_);
+  std::vector<std::size_t> order = by_id(disks);
+  std::erase_if(order, [&](std::size_t i) { return !is_selected(select_, disks, i); });
+  text_ = fmt::format("{}\n{}", order.size(), lattice_);
   std::string time_text;
   append_number(time_text, time);
   text_.append(time_text, 1);
   text_ += '\n';
   RepeatedNumber radius, mass;
-  for (const std::size_t i : by_id(disks)) {
+  for (const std::size_t i : order) {
     text_ += 'D';
     append_number(text_, disks.x[i]);
     append_number(text_, disks.y[i]);
