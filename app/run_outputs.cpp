@@ -22,7 +22,7 @@ bool wants_frames(const OutputPlan& plan) {
 RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder)
     : scene_(scene),
       folder_(folder),
-      meter_(scene),
+      meter_(scene, false),
       plot_velocity_(has_plot(scene.output, "velocity")),
       plot_energy_(has_plot(scene.output, "energy")) {
   if (scene.output.trajectory == TrajectoryFormat::xyz) {

@@ -92,6 +92,38 @@ void PlacementGrid::insert(std::size_t i) {
   head = static_cast<std::uint32_t>(i);
 }
 
+// The cell itself, the row below and the one above: their neighbours mostly share the line of memory.
+void PlacementGrid::prefetch_cells(double x, double y) const {
+  for (const Level& level : levels_) {
+    if (level.disks == 0) continue;
+    const std::size_t cell =
+        cell_of(y, level.per_y, level.rows) * level.columns + cell_of(x, level.per_x, level.columns);
+    const std::uint32_t* const head = level.head.data() + cell;
+    __builtin_prefetch(head);
+    if (cell >= level.columns) __builtin_prefetch(head - level.columns);
+    if (cell + level.columns < level.head.size()) __builtin_prefetch(head + level.columns);
+  }
+}
+
+void PlacementGrid::prefetch_disks(double x, double y) const {
+  for (const Level& level : levels_) {
+    if (level.disks == 0) continue;
+    const std::size_t centre =
+        cell_of(y, level.per_y, level.rows) * level.columns + cell_of(x, level.per_x, level.columns);
+    if (centre < level.columns + 1 || centre + level.columns + 1 >= level.head.size()) continue;
+    for (std::size_t row = 0; row < 3; ++row) {
+      const std::size_t first = centre + row * level.columns - level.columns - 1;
+      for (std::size_t cell = first; cell < first + 3; ++cell) {
+        const std::uint32_t i = level.head[cell];
+        if (i == empty_cell) continue;
+        __builtin_prefetch(&disks_.x[i]);
+        __builtin_prefetch(&disks_.y[i]);
+        __builtin_prefetch(&next_[i]);
+      }
+    }
+  }
+}
+
 bool PlacementGrid::overlaps(std::size_t i, double x, double y, double radius, bool slack) const {
   double dx = disks_.x[i] - x;
   double dy = disks_.y[i] - y;

@@ -27,6 +27,11 @@ class PlacementGrid {
   // With slack, overlaps that rounding of the input explains do not count.
   std::size_t overlapping(double x, double y, double radius, bool slack) const;
 
+  // Ask for the memory that overlapping(x, y, radius) is about to read: first the cells, then, once those are there,
+  // the disks in them.
+  void prefetch_cells(double x, double y) const;
+  void prefetch_disks(double x, double y) const;
+
   // Calls use(i) for every disk in the grid.
   template <class Use>
   void for_each(Use use) const {

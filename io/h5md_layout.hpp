@@ -14,7 +14,7 @@ namespace carom {
 // /particles/disks/{position,velocity}  value [frame][place][2], with step and time
 // /particles/disks/id                   value [frame][place]
 // /particles/disks/{mass,radius,species} [place]; [frame][place] under value where places change hands (a region)
-// /observables/<column of series.csv>   value [frame], with step and time
+// /observables/<column of series.csv>   value [frame], with step and time; max_overlap only where series = true
 //
 // step and time are the same two datasets everywhere. A place without a disk has the id below, and NaN elsewhere.
 // species is the disk's group in the scene, counted from 0; disks from sources have the number after the last group's.

@@ -26,7 +26,7 @@ SeriesRow SeriesMeter::row(const Disks& disks, const State& now) {
                       static_cast<double>(c.wall_collisions),
                       pressure(energy, c.virial - before_.virial, elapsed, box_),
                       disk_time > 0.0 ? 2.0 * collisions / disk_time : 0.0,
-                      max_overlap(disks, box_),
+                      with_overlap_ ? max_overlap(disks, box_) : 0.0,
                       static_cast<double>(c.removed),
                       static_cast<double>(c.emitted),
                       static_cast<double>(c.waiting),
@@ -39,7 +39,7 @@ SeriesRow SeriesMeter::row(const Disks& disks, const State& now) {
   return row;
 }
 
-SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene) : file_(path), meter_(scene) {
+SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene) : file_(path), meter_(scene, true) {
   std::string heading = "t";
   for (const SeriesColumn& column : series_columns) heading += fmt::format(",{}", column.name);
   file_.write(heading + "\n");

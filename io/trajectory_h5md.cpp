@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 
 #include "core/scene_file.hpp"
 #include "io/disk_selection.hpp"
@@ -104,6 +105,7 @@ struct H5mdWriter::File {
   hsize_t known = 0;   // places whose mass, radius and species are in the file
   Count frames = 0, flushed_frames = 0;
   std::array<Element, 6> elements;
+  std::vector<std::size_t> shown_columns;  // of series_columns
   std::vector<Column> columns;  // step, the observables, and time, which says how many frames are whole, at last
   std::vector<std::uint32_t> disk_at;
   std::vector<unsigned char> buffer;
@@ -227,45 +229,57 @@ void H5mdWriter::File::open_elements(Count kept) {
 
 namespace {
 
-template <class T, class Value>
-void put(std::vector<unsigned char>& buffer, std::size_t at, Value value) {
-  const T stored = static_cast<T>(value);
-  std::copy_n(reinterpret_cast<const unsigned char*>(&stored), sizeof stored, buffer.data() + at * sizeof stored);
-}
-
 DiskId species_of(const std::vector<DiskId>& group_ends, DiskId id) {
   return static_cast<DiskId>(std::upper_bound(group_ends.begin(), group_ends.end(), id) - group_ends.begin());
 }
+
+// value(i) of the disk at each place; nothing where there is none.
+template <class T, class Value>
+void fill_with(std::vector<unsigned char>& buffer, const std::vector<std::uint32_t>& disk_at, hsize_t begin,
+               hsize_t end, T nothing, Value value) {
+  buffer.resize((end - begin) * sizeof(T));
+  unsigned char* to = buffer.data();
+  for (hsize_t place = begin; place < end; ++place, to += sizeof(T)) {
+    const std::uint32_t i = place < disk_at.size() ? disk_at[place] : no_disk;
+    const T stored = i == no_disk ? nothing : value(i);
+    std::memcpy(to, &stored, sizeof stored);
+  }
+}
+
+template <class T>
+struct Pair {
+  T x, y;
+};
 
 }  // namespace
 
 // The values of places begin to end - 1 into the buffer; where there is no disk, the fill value.
 void H5mdWriter::File::fill(const Element& e, const Disks& disks, hsize_t begin, hsize_t end) {
-  const auto which = static_cast<std::size_t>(&e - elements.data());
-  buffer.resize((end - begin) * e.components * e.kind.width);
-  const auto* const nothing = static_cast<const unsigned char*>(e.kind.fill);
-  for (hsize_t place = begin; place < end; ++place) {
-    const std::size_t at = (place - begin) * e.components;
-    const std::uint32_t i = place < disk_at.size() ? disk_at[place] : no_disk;
-    if (i == no_disk) {
-      for (hsize_t c = 0; c < e.components; ++c) {
-        std::copy_n(nothing, e.kind.width, buffer.data() + (at + c) * e.kind.width);
-      }
-    } else if (which < 2) {
-      const double first = which == 0 ? disks.x[i] : disks.vx[i];
-      const double second = which == 0 ? disks.y[i] : disks.vy[i];
-      if (e.kind.width == sizeof(double)) {
-        put<double>(buffer, at, first);
-        put<double>(buffer, at + 1, second);
-      } else {
-        put<float>(buffer, at, first);
-        put<float>(buffer, at + 1, second);
-      }
-    } else if (which == 3 || which == 4) {
-      put<double>(buffer, at, which == 3 ? disks.mass_of(i) : disks.radius_of(i));
-    } else {
-      put<DiskId>(buffer, at, which == 2 ? disks.id[i] : species_of(group_ends, disks.id[i]));
-    }
+  const auto pairs = [&]<class T>(T nothing, const std::vector<double>& x, const std::vector<double>& y) {
+    fill_with(buffer, disk_at, begin, end, Pair<T>{nothing, nothing}, [&](std::uint32_t i) {
+      return Pair<T>{static_cast<T>(x[i]), static_cast<T>(y[i])};
+    });
+  };
+  const bool single = e.kind.width == sizeof(float);
+  switch (&e - elements.data()) {
+    case 0:
+      single ? pairs(single_nothing, disks.x, disks.y) : pairs(h5md_nothing, disks.x, disks.y);
+      break;
+    case 1:
+      single ? pairs(single_nothing, disks.vx, disks.vy) : pairs(h5md_nothing, disks.vx, disks.vy);
+      break;
+    case 2:
+      fill_with(buffer, disk_at, begin, end, h5md_no_id, [&](std::uint32_t i) { return disks.id[i]; });
+      break;
+    case 3:
+      fill_with(buffer, disk_at, begin, end, h5md_nothing, [&](std::uint32_t i) { return disks.mass_of(i); });
+      break;
+    case 4:
+      fill_with(buffer, disk_at, begin, end, h5md_nothing, [&](std::uint32_t i) { return disks.radius_of(i); });
+      break;
+    default:
+      fill_with(buffer, disk_at, begin, end, h5md_no_species,
+                [&](std::uint32_t i) { return species_of(group_ends, disks.id[i]); });
   }
 }
 
@@ -366,7 +380,7 @@ void H5mdWriter::write(const Disks& disks, double time, Count step, const Series
   const Count shown = f.exact ? f.frames : step;
   f.write_frame(disks);
   f.columns.front().values.push_back(static_cast<double>(shown));
-  for (std::size_t k = 0; k < row.size(); ++k) f.columns[k + 1].values.push_back(row[k]);
+  for (std::size_t k = 0; k < f.shown_columns.size(); ++k) f.columns[k + 1].values.push_back(row[f.shown_columns[k]]);
   f.columns.back().values.push_back(time);
   if (Clock::now() - f.last_flush > flush_interval) f.flush();
 }
