@@ -11,6 +11,7 @@
 #include "core/check.hpp"
 #include "core/input_message.hpp"
 #include "core/scene_names.hpp"
+#include "io/scene_frame_reader.hpp"
 
 namespace carom {
 
@@ -32,9 +33,9 @@ constexpr std::array<SceneOption, 4> scene_options{{
 
 // What CLI11 reads; checked and turned into a Command afterwards, so that all messages are ours.
 struct Words {
-  std::string first, second, folder, engine, threads, frame;
+  std::string first, second, folder, engine, threads, frame, seeds, jobs, emit;
   std::array<std::string, scene_options.size()> scene_values;
-  std::vector<std::string> sets;
+  std::vector<std::string> sets, over;
   bool json = false, quiet = false, force = false;
 };
 
@@ -147,6 +148,19 @@ void describe_render(CLI::App* render, Words& words) {
   render->add_flag("--force", words.force, "replace an existing file");
 }
 
+void describe_sweep(CLI::App* sweep, Words& words) {
+  add_scene_options(sweep, words);
+  sweep->add_option("--over", words.over, "values of one key of the scene; may be repeated, for a grid")
+      ->type_name("KEY=FROM:TO:COUNT|KEY=A,B,...")
+      ->allow_extra_args(false);
+  add_value(sweep, "--seeds", words.seeds, "N", "so many seeds for each combination, from the scene's on; default 1");
+  add_value(sweep, "-o,--output", words.folder, "DIR", "folder of the sweep; default out/<name of the scene>_sweep");
+  add_value(sweep, "--jobs", words.jobs, "N", "runs at the same time; default one a core");
+  add_value(sweep, "--emit", words.emit, "slurm|parallel", "write a script that runs it elsewhere, and run nothing");
+  sweep->add_flag("--force", words.force, "replace another sweep in the folder");
+  sweep->footer("Called again, it goes on where it stopped. sweep.csv has a row a run.");
+}
+
 // Long names of a command's options, --help included.
 std::vector<std::string_view> option_names(const CLI::App* command, std::vector<std::string>& storage) {
   for (const CLI::Option* option : command->get_options()) {
@@ -210,6 +224,27 @@ RenderOptions render_options(const Words& words) {
   return o;
 }
 
+SweepOptions sweep_options(const Words& words) {
+  require(words.first, "sweep", "no scene file given", "expected carom sweep SCENE.toml --over KEY=FROM:TO:COUNT");
+  SweepOptions o;
+  o.scene = words.first;
+  o.folder = file_option(words.folder);
+  o.changes = changes_of(words);
+  o.over = words.over;
+  if (!words.seeds.empty()) o.seeds = count_of("--seeds", words.seeds);
+  if (!words.jobs.empty()) o.jobs = count_of("--jobs", words.jobs);
+  constexpr std::array<std::string_view, 2> scripts{"slurm", "parallel"};
+  if (!words.emit.empty() && std::find(scripts.begin(), scripts.end(), words.emit) == scripts.end()) {
+    fail_input("--emit", fmt::format("is {}", in_quotes(words.emit)), expected_one_of(scripts, words.emit));
+  }
+  o.emit = words.emit;
+  o.force = words.force;
+  if (o.over.empty() && words.seeds.empty()) {
+    fail_input("sweep", "nothing to sweep over", "expected --over KEY=FROM:TO:COUNT, or --seeds N");
+  }
+  return o;
+}
+
 // CLI11's own complaints are about values that are missing or superfluous; "--dt: 1 required X missing" becomes ours.
 [[noreturn]] void fail_as_one_line(const CLI::ParseError& error) {
   const std::string text = error.what();
@@ -231,10 +266,10 @@ std::string help_of(const CLI::App& app, const CLI::App& shown) {
   return text;
 }
 
-constexpr std::array<std::string_view, 4> command_names{"run", "check", "compare", "render"};
+constexpr std::array<std::string_view, 5> command_names{"run", "check", "compare", "render", "sweep"};
 
 void check_command_name(int argc, const char* const* argv) {
-  if (argc < 2) throw InputError("no command given; expected one of run, check, compare, render (or --help)");
+  if (argc < 2) throw InputError("no command given; expected one of run, check, compare, render, sweep (or --help)");
   const std::string_view name = argv[1];
   if (name.starts_with("-")) {
     constexpr std::array<std::string_view, 2> general{"--help", "--version"};
@@ -260,12 +295,14 @@ Command parse_command_line(int argc, const char* const* argv) {
   CLI::App* const compare =
       app.add_subcommand("compare", "two outputs: the same bits, or where and by how much they differ");
   CLI::App* const render = app.add_subcommand("render", "a movie or a picture from a trajectory");
-  for (CLI::App* const command : {run, check, compare, render}) command->allow_extras();
+  CLI::App* const sweep = app.add_subcommand("sweep", "run a scene for every combination of values and seeds");
+  for (CLI::App* const command : {run, check, compare, render, sweep}) command->allow_extras();
   describe_run(run, words);
   add_scene_options(check, words);
   check->add_flag("--json", words.json, "print the result as JSON");
   describe_compare(compare, words);
   describe_render(render, words);
+  describe_sweep(sweep, words);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
@@ -280,12 +317,13 @@ Command parse_command_line(int argc, const char* const* argv) {
   if (run->parsed()) return run_options(words);
   if (check->parsed()) return check_options(words);
   if (compare->parsed()) return compare_options(words);
+  if (sweep->parsed()) return sweep_options(words);
   return render_options(words);
 }
 
 Scene load_scene_as_told(const std::string& path, const SceneChanges& changes) {
   try {
-    return load_scene(path, changes.overrides);
+    return load_scene(path, changes.overrides, read_scene_frame);
   } catch (const InputError& error) {
     const std::string message = error.what();
     const auto options = changes.overrides.begin() + static_cast<std::ptrdiff_t>(changes.sets);

@@ -46,12 +46,23 @@ struct RenderOptions {
   bool force = false;
 };
 
+struct SweepOptions {
+  std::string scene;
+  std::optional<std::string> folder;  // -o
+  SceneChanges changes;
+  std::vector<std::string> over;  // KEY=FROM:TO:COUNT or KEY=VALUE,...
+  int seeds = 1;
+  std::optional<int> jobs;  // runs at once
+  std::string emit;         // "slurm", "parallel", or empty: run
+  bool force = false;
+};
+
 // What --help or --version print on standard output.
 struct TextRequest {
   std::string text;
 };
 
-using Command = std::variant<RunOptions, CheckOptions, CompareOptions, RenderOptions, TextRequest>;
+using Command = std::variant<RunOptions, CheckOptions, CompareOptions, RenderOptions, SweepOptions, TextRequest>;
 
 // Throws InputError with one line that names the option, and the nearest one for a misspelt name.
 Command parse_command_line(int argc, const char* const* argv);

@@ -96,7 +96,8 @@ int command_run(const RunOptions& options) {
   if (path) check_output_folder(*path, options.scene, options.force);
   if (path && !options.folder && !options.quiet) print_note(fmt::format("results go to {}", path->string()));
 
-  const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, make_initial_state(choice, scene)); });
+  const auto engine =
+      within_memory(scene, [&] { return make_engine(choice, scene, make_initial_state(choice, scene)); });
   const RunStart start = run_start(engine->state(), scene);
   std::optional<Results> results;
   if (path) results.emplace(scene, *path, options.force);

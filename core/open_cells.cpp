@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/huge_pages.hpp"
+
 namespace carom {
 
 namespace {
@@ -30,7 +32,7 @@ OpenCells::OpenCells(const Domain& box, double smallest, std::size_t disks)
   cell_x_ = box.width / static_cast<double>(columns_);
   cell_y_ = box.height / static_cast<double>(rows_);
   open_ = columns_ * rows_;
-  bits_.assign(open_ / 64 + 1, 0);
+  resize_in_huge_pages(bits_, open_ / 64 + 1);
   close_margins(smallest);
 }
 
@@ -107,6 +109,7 @@ bool OpenCells::list_due() const {
 bool OpenCells::list_ready() {
   if (open_ > std::max(listed_per_disk * disks_, least_listed)) return false;
   if (!list_due()) return true;
+  resize_in_huge_pages(list_, open_);
   list_.clear();
   for (std::size_t word = 0; word < bits_.size(); ++word) {
     for (std::uint64_t rest = ~bits_[word]; rest != 0; rest &= rest - 1) {

@@ -241,13 +241,13 @@ void settle_box(Scene& scene, const BoxSize& size, const PlaceOfKey& place) {
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::string& folder,
-                  const std::vector<Override>& overrides) {
+                  const std::vector<Override>& overrides, const FrameReader& frames) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     fail_input(fmt::format("{}:1", name), "the file is empty", "expected a scene with [box], [[disks]] and [run]");
   }
   toml::table tree = parse_scene_tree(text, name);
   for (const Override& change : overrides) apply_override(tree, change);
-  const SceneOrigin origin{name, folder, &tree, overrides};
+  const SceneOrigin origin{name, folder, &tree, overrides, frames};
   const PlaceOfKey place = [&origin](std::string_view key) { return origin.where(key); };
   const TableReader root(origin, "", tree, {"title", "seed", "box", "physics", "disks", "sources", "run", "output"});
   Scene scene;
@@ -269,9 +269,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   return scene;
 }
 
-Scene load_scene(const std::string& path, const std::vector<Override>& overrides) {
+Scene load_scene(const std::string& path, const std::vector<Override>& overrides, const FrameReader& frames) {
   const std::string text = read_text_file(path, path);
-  return parse_scene(text, path, std::filesystem::path(path).parent_path().string(), overrides);
+  return parse_scene(text, path, std::filesystem::path(path).parent_path().string(), overrides, frames);
 }
 
 }  // namespace carom
