@@ -12,7 +12,6 @@
 #include "app/make_engine.hpp"
 #include "app/progress.hpp"
 #include "core/check.hpp"
-#include "core/initial_state.hpp"
 #include "core/scene_check.hpp"
 #include "core/scene_names.hpp"
 #include "core/step_clock.hpp"
@@ -199,7 +198,7 @@ int command_check(const CheckOptions& options) {
   const Scene scene = load_scene_as_told(options.scene, options.changes);
   const EngineChoice choice = choose_engine("", std::nullopt);
   for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
-  State initial = within_memory(scene, [&] { return initial_state(scene); });
+  State initial = within_memory(scene, [&] { return make_initial_state(choice, scene); });
   Findings found;
   measure_sizes(scene, initial.disks, found);
   found.safe_dt = safe_step(scene, initial.disks);

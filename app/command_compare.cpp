@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/trajectory_difference.hpp"
 #include "core/input_message.hpp"
+#include "io/trajectory_reader.hpp"
 
 namespace carom {
 
@@ -30,15 +31,14 @@ struct Output {
 };
 
 Output open_output(const std::string& name) {
-  if (!fs::exists(name)) fail_input(name, "does not exist", "expected a folder of a run, or a trajectory.xyz");
+  if (!fs::exists(name)) fail_input(name, "does not exist", "expected a folder of a run, or a trajectory");
   if (!fs::is_directory(name)) return {name, name, nullptr};
-  Output output{name, fs::path(name) / "trajectory.xyz", nullptr};
-  if (!fs::exists(output.trajectory)) output.trajectory.clear();
+  Output output{name, trajectory_in(name), nullptr};
   std::ifstream file(fs::path(name) / "summary.json");
   if (file) output.summary = Json::parse(file, nullptr, false);
   if (output.summary.is_discarded()) fail_input(name + "/summary.json", "is no JSON", "expected the summary of a run");
   if (output.trajectory.empty() && output.summary.is_null()) {
-    fail_input(name, "holds neither trajectory.xyz nor summary.json", "expected a folder of a run");
+    fail_input(name, "holds neither trajectory.xyz, trajectory.h5 nor summary.json", "expected a folder of a run");
   }
   return output;
 }

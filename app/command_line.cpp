@@ -13,6 +13,7 @@
 #include "core/duration.hpp"
 #include "core/input_message.hpp"
 #include "core/scene_names.hpp"
+#include "io/scene_frame_reader.hpp"
 
 namespace carom {
 
@@ -36,9 +37,9 @@ constexpr std::size_t t_end_option = 2;  // its place among them
 
 // What CLI11 reads; checked and turned into a Command afterwards, so that all messages are ours.
 struct Words {
-  std::string first, second, folder, engine, threads, frame, walltime;
+  std::string first, second, folder, engine, threads, frame, walltime, seeds, jobs, emit;
   std::array<std::string, scene_options.size()> scene_values;
-  std::vector<std::string> sets;
+  std::vector<std::string> sets, over;
   bool json = false, quiet = false, force = false;
 };
 
@@ -166,18 +167,31 @@ void describe_resume(CLI::App* resume, Words& words) {
 }
 
 void describe_compare(CLI::App* compare, Words& words) {
-  compare->add_option("A", words.first, "folder of a run, or a trajectory.xyz")->type_name("");
+  compare->add_option("A", words.first, "folder of a run, or a trajectory")->type_name("");
   compare->add_option("B", words.second, "the other one")->type_name("");
   compare->add_flag("--json", words.json, "print the result as JSON");
   compare->footer("Exit status: 0 the same bits, 1 different.");
 }
 
 void describe_render(CLI::App* render, Words& words) {
-  render->add_option("DIR", words.first, "folder of a run with a trajectory, or a trajectory.xyz")->type_name("");
+  render->add_option("DIR", words.first, "folder of a run with a trajectory, or a trajectory")->type_name("");
   add_value(render, "-o,--output", words.folder, "FILE", "default DIR/movie.mp4, or DIR/frame_K.png with --frame");
   add_value(render, "--frame", words.frame, "K", "one picture of the K-th frame, counted from 1, instead of a movie");
   render->add_flag("--quiet", words.quiet, "print nothing but errors");
   render->add_flag("--force", words.force, "replace an existing file");
+}
+
+void describe_sweep(CLI::App* sweep, Words& words) {
+  add_scene_options(sweep, words);
+  sweep->add_option("--over", words.over, "values of one key of the scene; may be repeated, for a grid")
+      ->type_name("KEY=FROM:TO:COUNT|KEY=A,B,...")
+      ->allow_extra_args(false);
+  add_value(sweep, "--seeds", words.seeds, "N", "so many seeds for each combination, from the scene's on; default 1");
+  add_value(sweep, "-o,--output", words.folder, "DIR", "folder of the sweep; default out/<name of the scene>_sweep");
+  add_value(sweep, "--jobs", words.jobs, "N", "runs at the same time; default one a core");
+  add_value(sweep, "--emit", words.emit, "slurm|parallel", "write a script that runs it elsewhere, and run nothing");
+  sweep->add_flag("--force", words.force, "replace another sweep in the folder");
+  sweep->footer("Called again, it goes on where it stopped. sweep.csv has a row a run.");
 }
 
 // Long names of a command's options, --help included.
@@ -259,6 +273,27 @@ RenderOptions render_options(const Words& words) {
   return o;
 }
 
+SweepOptions sweep_options(const Words& words) {
+  require(words.first, "sweep", "no scene file given", "expected carom sweep SCENE.toml --over KEY=FROM:TO:COUNT");
+  SweepOptions o;
+  o.scene = words.first;
+  o.folder = file_option(words.folder);
+  o.changes = changes_of(words);
+  o.over = words.over;
+  if (!words.seeds.empty()) o.seeds = count_of("--seeds", words.seeds);
+  if (!words.jobs.empty()) o.jobs = count_of("--jobs", words.jobs);
+  constexpr std::array<std::string_view, 2> scripts{"slurm", "parallel"};
+  if (!words.emit.empty() && std::find(scripts.begin(), scripts.end(), words.emit) == scripts.end()) {
+    fail_input("--emit", fmt::format("is {}", in_quotes(words.emit)), expected_one_of(scripts, words.emit));
+  }
+  o.emit = words.emit;
+  o.force = words.force;
+  if (o.over.empty() && words.seeds.empty()) {
+    fail_input("sweep", "nothing to sweep over", "expected --over KEY=FROM:TO:COUNT, or --seeds N");
+  }
+  return o;
+}
+
 // CLI11's own complaints are about values that are missing or superfluous; "--dt: 1 required X missing" becomes ours.
 [[noreturn]] void fail_as_one_line(const CLI::ParseError& error) {
   const std::string text = error.what();
@@ -280,7 +315,7 @@ std::string help_of(const CLI::App& app, const CLI::App& shown) {
   return text;
 }
 
-constexpr std::array<std::string_view, 5> command_names{"run", "check", "resume", "compare", "render"};
+constexpr std::array<std::string_view, 6> command_names{"run", "check", "resume", "compare", "render", "sweep"};
 
 void check_command_name(int argc, const char* const* argv) {
   if (argc < 2)
@@ -311,13 +346,15 @@ Command parse_command_line(int argc, const char* const* argv) {
   CLI::App* const compare =
       app.add_subcommand("compare", "two outputs: the same bits, or where and by how much they differ");
   CLI::App* const render = app.add_subcommand("render", "a movie or a picture from a trajectory");
-  for (CLI::App* const command : {run, check, resume, compare, render}) command->allow_extras();
+  CLI::App* const sweep = app.add_subcommand("sweep", "run a scene for every combination of values and seeds");
+  for (CLI::App* const command : {run, check, resume, compare, render, sweep}) command->allow_extras();
   describe_run(run, words);
   add_scene_options(check, words);
   check->add_flag("--json", words.json, "print the result as JSON");
   describe_resume(resume, words);
   describe_compare(compare, words);
   describe_render(render, words);
+  describe_sweep(sweep, words);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
@@ -333,11 +370,13 @@ Command parse_command_line(int argc, const char* const* argv) {
   if (check->parsed()) return check_options(words);
   if (resume->parsed()) return resume_options(words);
   if (compare->parsed()) return compare_options(words);
+  if (sweep->parsed()) return sweep_options(words);
   return render_options(words);
 }
 
 Scene load_scene_as_told(const std::string& path, const SceneChanges& changes) {
-  return scene_as_told(changes, [&](const std::vector<Override>& overrides) { return load_scene(path, overrides); });
+  return scene_as_told(
+      changes, [&](const std::vector<Override>& overrides) { return load_scene(path, overrides, read_scene_frame); });
 }
 
 Scene scene_as_told(const SceneChanges& changes, const std::function<Scene(const std::vector<Override>&)>& load) {

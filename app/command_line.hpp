@@ -54,10 +54,21 @@ struct CompareOptions {
 };
 
 struct RenderOptions {
-  std::string source;               // a folder with trajectory.xyz, or such a file
+  std::string source;               // a folder with a trajectory, or such a file
   std::optional<std::string> file;  // -o
   std::optional<int> frame;         // counted from 1; absent: all, as a movie
   bool quiet = false;
+  bool force = false;
+};
+
+struct SweepOptions {
+  std::string scene;
+  std::optional<std::string> folder;  // -o
+  SceneChanges changes;
+  std::vector<std::string> over;  // KEY=FROM:TO:COUNT or KEY=VALUE,...
+  int seeds = 1;
+  std::optional<int> jobs;  // runs at once
+  std::string emit;         // "slurm", "parallel", or empty: run
   bool force = false;
 };
 
@@ -66,7 +77,8 @@ struct TextRequest {
   std::string text;
 };
 
-using Command = std::variant<RunOptions, CheckOptions, ResumeOptions, CompareOptions, RenderOptions, TextRequest>;
+using Command =
+    std::variant<RunOptions, CheckOptions, ResumeOptions, CompareOptions, RenderOptions, SweepOptions, TextRequest>;
 
 // Throws InputError with one line that names the option, and the nearest one for a misspelt name.
 Command parse_command_line(int argc, const char* const* argv);

@@ -6,7 +6,7 @@
 #include "core/check.hpp"
 #include "core/input_message.hpp"
 #include "io/movie.hpp"
-#include "io/trajectory_xyz.hpp"
+#include "io/trajectory_reader.hpp"
 
 namespace carom {
 
@@ -21,16 +21,18 @@ struct Recording {
 
 Recording open_recording(const std::string& name) {
   const fs::path path = name;
-  if (!fs::exists(path)) fail_input(name, "does not exist", "expected a folder of a run, or a trajectory.xyz");
+  if (!fs::exists(path)) fail_input(name, "does not exist", "expected a folder of a run, or a trajectory");
   if (!fs::is_directory(path)) return {path.parent_path().empty() ? fs::path(".") : path.parent_path(), path};
-  if (!fs::exists(path / "trajectory.xyz")) {
-    fail_input(name, "holds no trajectory.xyz", "expected the folder of a run with [output] trajectory = \"xyz\"");
+  const fs::path trajectory = trajectory_in(path);
+  if (trajectory.empty()) {
+    fail_input(name, "holds no trajectory.xyz or trajectory.h5",
+               "expected the folder of a run with [output] trajectory = \"xyz\" or \"h5md\"");
   }
-  return {path, path / "trajectory.xyz"};
+  return {path, trajectory};
 }
 
 // The style of the run's own movie where its scene lies beside the trajectory; else what the first frame tells.
-FrameStyle style_of(const Recording& recording, const XyzFrame& first) {
+FrameStyle style_of(const Recording& recording, const TrajectoryFrame& first) {
   const fs::path scene_file = recording.folder / "scene.toml";
   if (fs::exists(scene_file)) {
     try {
@@ -78,12 +80,12 @@ fs::path move_result(const WorkFolder& work, const fs::path& target, bool single
 }
 
 void render_picture(const Recording& recording, int wanted, const fs::path& target) {
-  XyzReader reader(recording.trajectory.string());
-  XyzFrame first, frame;
-  if (!reader.read(first)) fail_input(recording.trajectory.string(), "holds no frame");
+  const auto reader = open_trajectory(recording.trajectory.string());
+  TrajectoryFrame first, frame;
+  if (!reader->read(first)) fail_input(recording.trajectory.string(), "holds no frame");
   frame = first;
   for (int k = 2; k <= wanted; ++k) {
-    if (!reader.read(frame)) {
+    if (!reader->read(frame)) {
       fail_input("--frame", fmt::format("there is no frame {}", wanted), fmt::format("expected 1 to {}", k - 1));
     }
   }
@@ -97,9 +99,9 @@ void render_picture(const Recording& recording, int wanted, const fs::path& targ
 }
 
 fs::path render_movie(const Recording& recording, const fs::path& target, bool quiet) {
-  XyzReader reader(recording.trajectory.string());
-  XyzFrame frame;
-  if (!reader.read(frame)) fail_input(recording.trajectory.string(), "holds no frame");
+  const auto reader = open_trajectory(recording.trajectory.string());
+  TrajectoryFrame frame;
+  if (!reader->read(frame)) fail_input(recording.trajectory.string(), "holds no frame");
   const WorkFolder work(target);
   MovieWriter movie(work.path.string(), style_of(recording, frame));
   if (movie.single_frames() && !quiet) {
@@ -107,7 +109,7 @@ fs::path render_movie(const Recording& recording, const fs::path& target, bool q
   }
   do {
     movie.add(frame.disks, frame.time);
-  } while (reader.read(frame));
+  } while (reader->read(frame));
   movie.finish();
   return move_result(work, target, movie.single_frames());
 }

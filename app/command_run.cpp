@@ -14,7 +14,6 @@
 #include "app/stop_signals.hpp"
 #include "app/summary.hpp"
 #include "core/check.hpp"
-#include "core/initial_state.hpp"
 #include "core/input_message.hpp"
 #include "core/scene_check.hpp"
 #include "io/output_file.hpp"
@@ -31,12 +30,6 @@ std::optional<fs::path> folder_of(const RunOptions& options, const Scene& scene)
   if (options.folder) return *options.folder;
   if (!wants_frames(scene.output) && !(scene.output.checkpoint > 0.0)) return std::nullopt;
   return fs::path("out") / fs::path(options.scene).stem();
-}
-
-void check_outputs(const Scene& scene) {
-  if (scene.output.trajectory == TrajectoryFormat::h5md) {
-    fail_input(fmt::format("{}: output.trajectory", scene.file), "h5md is not built yet", "expected xyz or none");
-  }
 }
 
 // Goes on where the run's files lie, or in another folder with copies of them.
@@ -205,7 +198,7 @@ RunRecord record_of(RunTask& task, const Engine& engine) {
 }
 
 State state_of(RunTask& task) {
-  return task.from ? std::move(task.from->checkpoint.state) : initial_state(task.scene);
+  return task.from ? std::move(task.from->checkpoint.state) : make_initial_state(task.choice, task.scene);
 }
 
 }  // namespace
@@ -241,7 +234,6 @@ int command_run(const RunOptions& options) {
   const auto start_time = std::chrono::steady_clock::now();
   const Scene scene = load_scene_as_told(options.scene, options.changes);
   const EngineChoice choice = choose_engine(options.engine, options.threads);
-  check_outputs(scene);
   if (!options.quiet) {
     for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
   }

@@ -8,7 +8,9 @@
 #include <thread>
 #include <utility>
 
+#include "core/initial_state.hpp"
 #include "core/input_message.hpp"
+#include "parallel/random_placement.hpp"
 #include "parallel/simulation.hpp"
 
 namespace carom {
@@ -31,6 +33,10 @@ void fail_memory(const Scene& scene) {
   fail_input(fmt::format("{}: disks", scene.file),
              fmt::format("{} disks do not fit into the memory that this process may use", disks),
              "expected fewer disks");
+}
+
+State make_initial_state(const EngineChoice& choice, const Scene& scene) {
+  return choice.name == "reference" ? initial_state(scene) : parallel_initial_state(scene, choice.threads);
 }
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial) {

@@ -20,6 +20,9 @@ struct EngineChoice {
 // thread whatever is asked for. Throws InputError for an engine that does not exist.
 EngineChoice choose_engine(const std::string& engine, std::optional<int> threads);
 
+// The disks of a scene; either engine's way gives the same bits.
+State make_initial_state(const EngineChoice& choice, const Scene& scene);
+
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial);
 
 // Throws the InputError of a scene whose disks found no memory.

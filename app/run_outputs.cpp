@@ -22,10 +22,14 @@ bool wants_frames(const OutputPlan& plan) {
 RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder)
     : scene_(scene),
       folder_(folder),
+      meter_(scene, false),
       plot_velocity_(has_plot(scene.output, "velocity")),
       plot_energy_(has_plot(scene.output, "energy")) {
   if (scene.output.trajectory == TrajectoryFormat::xyz) {
-    trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), scene.box);
+    trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), scene.box, scene.output.select);
+  }
+  if (scene.output.trajectory == TrajectoryFormat::h5md) {
+    h5md_ = std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene);
   }
   if (scene.output.series) series_ = std::make_unique<SeriesWriter>(folder.path("series.csv"), scene);
 }
@@ -35,12 +39,18 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Out
       folder_(folder),
       frames_(from.frames),
       last_time_(from.last_time),
+      meter_(scene, false, from.meter),
       plot_velocity_(has_plot(scene.output, "velocity")),
       plot_energy_(has_plot(scene.output, "energy")),
       velocities_(from.velocities),
       energies_(from.energies) {
   if (from.trajectory) {
-    trajectory_ = std::make_unique<XyzWriter>(folder.path(from.trajectory->name), scene.box, *from.trajectory);
+    const std::string path = folder.path(from.trajectory->name);
+    if (scene.output.trajectory == TrajectoryFormat::h5md) {
+      h5md_ = std::make_unique<H5mdWriter>(path, scene, from.trajectory->frames);
+    } else {
+      trajectory_ = std::make_unique<XyzWriter>(path, scene.box, scene.output.select, *from.trajectory);
+    }
   }
   if (from.series) series_ = std::make_unique<SeriesWriter>(folder.path(from.series->file.name), scene, *from.series);
   if (!from.movie) return;
@@ -49,8 +59,9 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Out
 }
 
 OutputMark RunOutputs::mark_without_movie() {
-  OutputMark mark{frames_, last_time_, {}, {}, {}, velocities_, energies_};
+  OutputMark mark{frames_, last_time_, {}, {}, meter_.mark(), {}, velocities_, energies_};
   if (trajectory_) mark.trajectory = trajectory_->mark();
+  if (h5md_) mark.trajectory = h5md_->mark();
   if (series_) mark.series = series_->mark();
   return mark;
 }
@@ -65,7 +76,10 @@ void RunOutputs::frame(const Disks& disks, double time, const State& now) {
   ++frames_;
   last_time_ = time;
   if (trajectory_) trajectory_->write(disks, time);
-  if (series_) series_->write(disks, time, now);
+  SeriesRow row{};
+  if (series_) row = series_->write(disks, time, now);
+  if (!series_ && h5md_) row = meter_.row(disks, now);
+  if (h5md_) h5md_->write(disks, time, now.counters.steps, row);
   if (plot_velocity_) record(velocities_, disks, time);
   if (plot_energy_) {
     const Energy energy = energy_of(disks, scene_.physics.gravity);
@@ -102,6 +116,7 @@ OutputMark RunOutputs::finish(bool whole) {
 
 void RunOutputs::pause() {
   if (trajectory_) trajectory_->close();
+  if (h5md_) h5md_->close();
   if (series_) series_->close();
 }
 

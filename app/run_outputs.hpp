@@ -10,6 +10,7 @@
 #include "io/output_folder.hpp"
 #include "io/plot.hpp"
 #include "io/series.hpp"
+#include "io/trajectory_h5md.hpp"
 #include "io/trajectory_xyz.hpp"
 
 namespace carom {
@@ -52,6 +53,8 @@ class RunOutputs {
   Count frames_ = 0;
   double last_time_ = 0.0;
   std::unique_ptr<XyzWriter> trajectory_;
+  std::unique_ptr<H5mdWriter> h5md_;
+  SeriesMeter meter_;  // for trajectory.h5 where there is no series.csv
   std::unique_ptr<SeriesWriter> series_;
   std::unique_ptr<MovieWriter> movie_;  // from the first frame on, which sets its colour scale
   bool plot_velocity_ = false, plot_energy_ = false;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "io/trajectory_xyz.hpp"
+#include "io/trajectory_reader.hpp"
 
 namespace carom {
 
@@ -39,7 +39,7 @@ void compare_disk(const Disks& a, std::size_t i, const Disks& b, std::size_t j, 
 }
 
 // Both frames list their disks in order of id.
-void compare_frame(const XyzFrame& a, const XyzFrame& b, Count frame, TrajectoryDifference& result) {
+void compare_frame(const TrajectoryFrame& a, const TrajectoryFrame& b, Count frame, TrajectoryDifference& result) {
   Difference place;
   place.frame = frame;
   place.time = a.time;
@@ -63,11 +63,11 @@ void compare_frame(const XyzFrame& a, const XyzFrame& b, Count frame, Trajectory
 }  // namespace
 
 TrajectoryDifference compare_trajectories(const std::string& path_a, const std::string& path_b) {
-  XyzReader reader_a(path_a), reader_b(path_b);
-  XyzFrame a, b;
+  const auto reader_a = open_trajectory(path_a), reader_b = open_trajectory(path_b);
+  TrajectoryFrame a, b;
   TrajectoryDifference result;
   while (true) {
-    const bool more_a = reader_a.read(a), more_b = reader_b.read(b);
+    const bool more_a = reader_a->read(a), more_b = reader_b->read(b);
     if (more_a) ++result.frames_a;
     if (more_b) ++result.frames_b;
     if (!more_a && !more_b) break;

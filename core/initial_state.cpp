@@ -154,7 +154,7 @@ void insert_fixed(const Scene& scene, const Disks& disks, std::vector<std::uint3
   }
 }
 
-void set_positions(const Scene& scene, Disks& disks) {
+void set_positions(const Scene& scene, Disks& disks, const PlaceAtRandom& place) {
   std::vector<std::uint32_t> fixed;
   std::vector<std::uint32_t> random;
   DiskId first_id = 0;
@@ -171,7 +171,7 @@ void set_positions(const Scene& scene, Disks& disks) {
   }
   PlacementGrid grid(scene.box, disks);
   insert_fixed(scene, disks, std::move(fixed), grid);
-  place_at_random(scene, disks, grid, std::move(random));
+  place(scene, disks, grid, std::move(random));
 }
 
 }  // namespace
@@ -196,7 +196,7 @@ void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std
   }
 }
 
-State initial_state(const Scene& scene) {
+State initial_state(const Scene& scene, const PlaceAtRandom& place) {
   State state;
   Count total = 0;
   for (const DiskGroup& g : scene.groups) total += g.count;
@@ -208,7 +208,7 @@ State initial_state(const Scene& scene) {
   disks.y.resize(n);
   disks.id.resize(n);
   std::iota(disks.id.begin(), disks.id.end(), DiskId{0});
-  if (n > 0) set_positions(scene, disks);
+  if (n > 0) set_positions(scene, disks, place);
   set_velocities(scene, disks);
   state.next_id = static_cast<DiskId>(n);
   state.sources.resize(scene.sources.size());

@@ -1,6 +1,7 @@
 // Making the disks that a scene describes.
 #pragma once
 
+#include "core/placement.hpp"
 #include "core/scene.hpp"
 #include "core/state.hpp"
 
@@ -14,6 +15,6 @@ void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std
 // All groups in file order, ids from 0 on. Radius and mass columns exist only where disks differ. Throws InputError,
 // with file, line and key, when disks overlap (ids and overlap named), lie outside the box, or when "random" finds no
 // room for a disk at the density asked for.
-State initial_state(const Scene& scene);
+State initial_state(const Scene& scene, const PlaceAtRandom& place = place_at_random);
 
 }  // namespace carom

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/huge_pages.hpp"
+
 namespace carom {
 
 namespace {
@@ -30,7 +32,7 @@ OpenCells::OpenCells(const Domain& box, double smallest, std::size_t disks)
   cell_x_ = box.width / static_cast<double>(columns_);
   cell_y_ = box.height / static_cast<double>(rows_);
   open_ = columns_ * rows_;
-  bits_.assign(open_ / 64 + 1, 0);
+  resize_in_huge_pages(bits_, open_ / 64 + 1);
   close_margins(smallest);
 }
 
@@ -100,9 +102,14 @@ void OpenCells::close_around(double x, double y, double radius) {
   }
 }
 
+bool OpenCells::list_due() const {
+  return open_ <= std::max(listed_per_disk * disks_, least_listed) && (list_.empty() || 2 * open_ <= list_.size());
+}
+
 bool OpenCells::list_ready() {
   if (open_ > std::max(listed_per_disk * disks_, least_listed)) return false;
-  if (!list_.empty() && 2 * open_ > list_.size()) return true;
+  if (!list_due()) return true;
+  resize_in_huge_pages(list_, open_);
   list_.clear();
   for (std::size_t word = 0; word < bits_.size(); ++word) {
     for (std::uint64_t rest = ~bits_[word]; rest != 0; rest &= rest - 1) {
@@ -113,9 +120,12 @@ bool OpenCells::list_ready() {
   return true;
 }
 
+std::size_t OpenCells::entry_of(double which) const {
+  return std::min(static_cast<std::size_t>(which * static_cast<double>(list_.size())), list_.size() - 1);
+}
+
 Vec2 OpenCells::point_in_list(TwoUniforms in_cell, double which) const {
-  const auto entry = static_cast<std::size_t>(which * static_cast<double>(list_.size()));
-  const std::size_t cell = list_[std::min(entry, list_.size() - 1)];
+  const std::size_t cell = list_[entry_of(which)];
   const std::size_t column = cell % columns_;
   const std::size_t row = cell / columns_;
   return {(static_cast<double>(column) + in_cell.a) * cell_x_, (static_cast<double>(row) + in_cell.b) * cell_y_};

@@ -26,6 +26,15 @@ class OpenCells {
   // of it has closed. Memory: at most 4 entries of 4 bytes a disk.
   bool list_ready();
 
+  // The next call of list_ready() will make a list.
+  bool list_due() const;
+
+  // Asks for the memory that point_in_list, or is_open, is about to read.
+  void prefetch_entry(double which) const { __builtin_prefetch(&list_[entry_of(which)]); }
+  void prefetch_cell(double x, double y) const {
+    __builtin_prefetch(&bits_[(row_of(y) * columns_ + column_of(x)) / 64]);
+  }
+
   // A point uniform in a cell of the list, one that was open when the list was made. Precondition: list_ready() and
   // not full().
   Vec2 point_in_list(TwoUniforms in_cell, double which) const;
@@ -34,6 +43,7 @@ class OpenCells {
   bool full() const { return open_ == 0; }
 
  private:
+  std::size_t entry_of(double which) const;
   std::size_t column_of(double x) const;
   std::size_t row_of(double y) const;
   bool closed(std::size_t cell) const { return (bits_[cell / 64] >> (cell % 64) & 1U) != 0; }

@@ -1,6 +1,7 @@
 // Placing disks at random without overlap: random sequential addition.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/placement_grid.hpp"
@@ -15,6 +16,9 @@ namespace carom {
 // Throws InputError (disk, packing fraction reached, remedy) when trials run out: random addition of equal disks jams
 // at a packing fraction of 0.547 (Feder 1980), and slows down without bound before.
 void place_at_random(const Scene& scene, Disks& disks, PlacementGrid& grid, std::vector<std::uint32_t> members);
+
+// place_at_random, or what gives the same bits.
+using PlaceAtRandom = std::function<void(const Scene&, Disks&, PlacementGrid&, std::vector<std::uint32_t>)>;
 
 // "file:line: disks.g.key", where messages about group g point.
 std::string place_in_group(const Scene& scene, std::size_t group, std::string_view key);

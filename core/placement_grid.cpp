@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/huge_pages.hpp"
+
 namespace carom {
 
 namespace {
@@ -52,7 +54,8 @@ std::size_t cell_of(double coordinate, double per_length, std::size_t cells) {
 }  // namespace
 
 PlacementGrid::PlacementGrid(const Domain& box, const Disks& disks)
-    : box_(box), disks_(disks), largest_radius_(carom::largest_radius(disks)), next_(disks.size(), empty_cell) {
+    : box_(box), disks_(disks), largest_radius_(carom::largest_radius(disks)) {
+  resize_in_huge_pages(placed_, disks.size());
   if (disks.radius.empty()) {
     levels_.resize(1);
     levels_[0].disks = disks.size();
@@ -80,7 +83,7 @@ void PlacementGrid::size_cells(Level& level) const {
   level.rows = static_cast<std::size_t>(std::clamp(height / edge, 1.0, static_cast<double>(most_rows)));
   level.per_x = static_cast<double>(level.columns) / width;
   level.per_y = static_cast<double>(level.rows) / height;
-  level.head.assign(level.columns * level.rows, empty_cell);
+  resize_in_huge_pages(level.head, level.columns * level.rows, empty_cell);
 }
 
 void PlacementGrid::insert(std::size_t i) {
@@ -88,13 +91,43 @@ void PlacementGrid::insert(std::size_t i) {
   const std::size_t column = cell_of(disks_.x[i], level.per_x, level.columns);
   const std::size_t row = cell_of(disks_.y[i], level.per_y, level.rows);
   std::uint32_t& head = level.head[row * level.columns + column];
-  next_[i] = head;
+  placed_[i] = {disks_.x[i], disks_.y[i], head};
   head = static_cast<std::uint32_t>(i);
 }
 
+// The cell itself, the row below and the one above: their neighbours mostly share the line of memory.
+void PlacementGrid::prefetch_cells(double x, double y) const {
+  for (const Level& level : levels_) {
+    if (level.disks == 0) continue;
+    const std::size_t cell =
+        cell_of(y, level.per_y, level.rows) * level.columns + cell_of(x, level.per_x, level.columns);
+    const std::uint32_t* const head = level.head.data() + cell;
+    __builtin_prefetch(head);
+    if (cell >= level.columns) __builtin_prefetch(head - level.columns);
+    if (cell + level.columns < level.head.size()) __builtin_prefetch(head + level.columns);
+  }
+}
+
+void PlacementGrid::prefetch_disks(double x, double y) const {
+  for (const Level& level : levels_) {
+    if (level.disks == 0) continue;
+    const std::size_t centre =
+        cell_of(y, level.per_y, level.rows) * level.columns + cell_of(x, level.per_x, level.columns);
+    if (centre < level.columns + 1 || centre + level.columns + 1 >= level.head.size()) continue;
+    for (std::size_t row = 0; row < 3; ++row) {
+      const std::size_t first = centre + row * level.columns - level.columns - 1;
+      for (std::size_t cell = first; cell < first + 3; ++cell) {
+        const std::uint32_t i = level.head[cell];
+        if (i == empty_cell) continue;
+        __builtin_prefetch(&placed_[i]);
+      }
+    }
+  }
+}
+
 bool PlacementGrid::overlaps(std::size_t i, double x, double y, double radius, bool slack) const {
-  double dx = disks_.x[i] - x;
-  double dy = disks_.y[i] - y;
+  double dx = placed_[i].x - x;
+  double dy = placed_[i].y - y;
   if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
   if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
   const double contact = radius + disks_.radius_of(i);
@@ -113,7 +146,7 @@ std::size_t PlacementGrid::search(const Level& level, double x, double y, double
     const std::size_t row = wrap_cell(up.first + r, level.rows);
     for (std::ptrdiff_t c = 0; c < across.count; ++c) {
       const std::size_t column = wrap_cell(across.first + c, level.columns);
-      for (std::uint32_t i = level.head[row * level.columns + column]; i != empty_cell; i = next_[i]) {
+      for (std::uint32_t i = level.head[row * level.columns + column]; i != empty_cell; i = placed_[i].next) {
         if (overlaps(i, x, y, radius, slack)) return i;
       }
     }

@@ -11,7 +11,7 @@
 namespace carom {
 
 // Disks whose radii differ by less than a factor of two share a grid, so that one huge disk among a million small
-// ones does not make every cell huge. About 12 bytes a disk.
+// ones does not make every cell huge. About 32 bytes a disk.
 class PlacementGrid {
  public:
   static constexpr std::size_t nobody = static_cast<std::size_t>(-1);
@@ -27,18 +27,29 @@ class PlacementGrid {
   // With slack, overlaps that rounding of the input explains do not count.
   std::size_t overlapping(double x, double y, double radius, bool slack) const;
 
+  // Ask for the memory that overlapping(x, y, radius) is about to read: first the cells, then, once those are there,
+  // the disks in them.
+  void prefetch_cells(double x, double y) const;
+  void prefetch_disks(double x, double y) const;
+
   // Calls use(i) for every disk in the grid.
   template <class Use>
   void for_each(Use use) const {
     for (const Level& level : levels_) {
       for (std::uint32_t first : level.head) {
-        for (std::uint32_t i = first; i != empty_cell; i = next_[i]) use(i);
+        for (std::uint32_t i = first; i != empty_cell; i = placed_[i].next) use(i);
       }
     }
   }
 
  private:
   static constexpr std::uint32_t empty_cell = 0xffffffffU;
+
+  // A disk's position again, beside the next disk in the same cell: one access to far memory instead of three.
+  struct Placed {
+    double x = 0.0, y = 0.0;
+    std::uint32_t next = empty_cell;
+  };
 
   struct Level {
     double largest_radius = 0.0;
@@ -55,8 +66,8 @@ class PlacementGrid {
   const Domain& box_;
   const Disks& disks_;
   double largest_radius_ = 0.0;
-  std::vector<Level> levels_;        // by class: radii in (largest / 2^(k+1), largest / 2^k]
-  std::vector<std::uint32_t> next_;  // next disk in the same cell
+  std::vector<Level> levels_;   // by class: radii in (largest / 2^(k+1), largest / 2^k]
+  std::vector<Placed> placed_;  // by index in disks
 };
 
 }  // namespace carom

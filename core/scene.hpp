@@ -87,9 +87,18 @@ struct RunPlan {
 
 enum class TrajectoryFormat : std::uint8_t { none, xyz, h5md };
 
+// The disks that a trajectory shows: those whose id is a multiple of stride, or those with the centre in a rectangle.
+struct Selection {
+  Count stride = 1;
+  bool by_region = false;
+  Vec2 low, high;  // of the rectangle, corners included
+};
+
 struct OutputPlan {
   double every = 0.0;  // simulated time between frames; 0: only the first and the last
   TrajectoryFormat trajectory = TrajectoryFormat::none;
+  Selection select;
+  bool single_precision = false;  // of positions and velocities in trajectory.h5
   bool series = false;
   std::vector<std::string> plots;  // "velocity", "energy"
   bool movie = false;

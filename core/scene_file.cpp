@@ -14,6 +14,7 @@
 #include "core/scene_check.hpp"
 #include "core/scene_laws.hpp"
 #include "core/scene_names.hpp"
+#include "core/scene_output.hpp"
 #include "core/scene_override.hpp"
 #include "core/scene_reader.hpp"
 #include "core/scene_tree.hpp"
@@ -211,8 +212,11 @@ OutputPlan read_output(const SceneOrigin& origin, double t_end) {
   OutputPlan output;
   const toml::table* table = section(origin, "output");
   if (table == nullptr) return output;
-  const TableReader reader(origin, "output", *table, {"every", "trajectory", "series", "plots", "movie", "checkpoint"});
+  const TableReader reader(origin, "output", *table,
+                           {"every", "trajectory", "select", "precision", "series", "plots", "movie", "checkpoint"});
   output.trajectory = static_cast<TrajectoryFormat>(reader.choice("trajectory", trajectory_names).value_or(0));
+  output.select = read_selection(reader);
+  output.single_precision = read_single_precision(reader);
   output.series = reader.flag("series").value_or(false);
   output.plots = read_plots(reader);
   output.movie = reader.flag("movie").value_or(false);
@@ -250,13 +254,13 @@ void settle_box(Scene& scene, const BoxSize& size, const PlaceOfKey& place) {
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::string& folder,
-                  const std::vector<Override>& overrides) {
+                  const std::vector<Override>& overrides, const FrameReader& frames) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     fail_input(fmt::format("{}:1", name), "the file is empty", "expected a scene with [box], [[disks]] and [run]");
   }
   toml::table tree = parse_scene_tree(text, name);
   for (const Override& change : overrides) apply_override(tree, change);
-  const SceneOrigin origin{name, folder, &tree, overrides};
+  const SceneOrigin origin{name, folder, &tree, overrides, frames};
   const PlaceOfKey place = [&origin](std::string_view key) { return origin.where(key); };
   const TableReader root(origin, "", tree, {"title", "seed", "box", "physics", "disks", "sources", "run", "output"});
   Scene scene;
@@ -278,9 +282,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   return scene;
 }
 
-Scene load_scene(const std::string& path, const std::vector<Override>& overrides) {
+Scene load_scene(const std::string& path, const std::vector<Override>& overrides, const FrameReader& frames) {
   const std::string text = read_text_file(path, path);
-  return parse_scene(text, path, std::filesystem::path(path).parent_path().string(), overrides);
+  return parse_scene(text, path, std::filesystem::path(path).parent_path().string(), overrides, frames);
 }
 
 }  // namespace carom

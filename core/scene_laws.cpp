@@ -4,7 +4,9 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 
+#include "core/check.hpp"
 #include "core/csv.hpp"
 #include "core/input_message.hpp"
 #include "core/scene_names.hpp"
@@ -14,9 +16,9 @@ namespace carom {
 namespace {
 
 constexpr std::string_view positions_expected =
-    "expected \"random\", \"square\", \"hexagonal\", a list of [x, y], or { file = \"p.csv\" }";
+    "expected \"random\", \"square\", \"hexagonal\", a list of [x, y], { file = \"p.csv\" }, or { frame = \"DIR\" }";
 constexpr std::string_view velocities_expected =
-    "expected { maxwell = T }, { uniform = v }, a list of [vx, vy], or { file = \"v.csv\" }";
+    "expected { maxwell = T }, { uniform = v }, a list of [vx, vy], { file = \"v.csv\" }, or { frame = \"DIR\" }";
 
 // The one key of an inline table such as { maxwell = 1.0 }; throws unless there is exactly one.
 std::string_view only_key(const TableReader& owner, std::string_view name, const toml::table& table,
@@ -34,6 +36,32 @@ std::vector<Vec2> read_csv_law(const TableReader& law, std::string& file) {
   const std::filesystem::path path = std::filesystem::path(origin.folder) / file;
   const std::string text = read_text_file(path.string(), fmt::format("{} {}", origin.where(key), in_quotes(file)));
   return parse_csv_pairs(text, file, key);
+}
+
+// { frame = "DIR or trajectory" }, with index = n (from 1) or time = t; the last frame without. file gets what messages
+// call it. Relative paths start where the scene lies, as those of CSV files do.
+SceneFrame read_frame(const TableReader& owner, std::string_view name, const toml::table& table, std::string& file) {
+  const TableReader law(owner.origin(), owner.key(name), table, {"frame", "index", "time"});
+  constexpr std::string_view expected = "expected { frame = \"DIR\" }, with index = n (from 1) or time = t";
+  FrameAsked asked;
+  law.require("frame", expected);
+  file = law.text("frame").value();
+  if (file.empty() || file.find('\0') != std::string::npos) law.fail("frame", "is no file name", expected);
+  asked.path = (std::filesystem::path(law.origin().folder) / file).string();
+  asked.index = law.count("index");
+  asked.time = law.number("time");
+  if (asked.index && asked.time) law.fail("time", "given beside index", expected);
+  if (asked.index == 0U) law.fail("index", "is 0", "expected 1 or more");
+  if (!law.origin().frames) law.fail("frame", "cannot be read here", "expected positions of another kind");
+  try {
+    return law.origin().frames(asked);
+  } catch (const InputError& error) {
+    fail_input(law.origin().where(law.key("frame")), error.what());
+  }
+}
+
+bool is_frame(const toml::table& table) {
+  return table.get("frame") != nullptr;
 }
 
 SizeLaw read_uniform_size(const TableReader& law, const toml::node& node) {
@@ -71,7 +99,10 @@ PositionLaw read_positions(const TableReader& group) {
   law.where = group.origin().where(key);
   if (node.is_string()) {
     law.kind = static_cast<PositionLaw::Kind>(group.choice("positions", position_names).value());
-  } else if (const toml::table* table = node.as_table()) {
+  } else if (const toml::table* table = node.as_table(); table != nullptr && is_frame(*table)) {
+    law.kind = PositionLaw::Kind::list;
+    law.list = read_frame(group, "positions", *table, law.file).positions;
+  } else if (table != nullptr) {
     const TableReader reader(group.origin(), key, *table, {"file"});
     only_key(group, "positions", *table, positions_expected);
     law.kind = PositionLaw::Kind::list;
@@ -96,7 +127,12 @@ VelocityLaw read_velocities(const TableReader& owner) {
     law.list = as_pairs(owner.origin(), key, *node);
     return law;
   }
-  const TableReader reader(owner.origin(), key, *table, {"maxwell", "uniform", "file"});
+  if (is_frame(*table)) {
+    law.kind = VelocityLaw::Kind::list;
+    law.list = read_frame(owner, "velocities", *table, law.file).velocities;
+    return law;
+  }
+  const TableReader reader(owner.origin(), key, *table, {"maxwell", "uniform", "file", "frame"});
   const std::string_view kind = only_key(owner, "velocities", *table, velocities_expected);
   if (kind == "maxwell") {
     law.kind = VelocityLaw::Kind::maxwell;
@@ -113,13 +149,21 @@ VelocityLaw read_velocities(const TableReader& owner) {
 
 SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_view other_key) {
   const std::string expected = fmt::format(
-      "expected a number, a list of numbers, {{ uniform = [low, high] }}, or {{ {} = density }}", other_key);
+      "expected a number, a list of numbers, {{ uniform = [low, high] }}, {{ {} = density }}, or {{ frame = \"DIR\" }}",
+      other_key);
   const toml::node& node = owner.require(name, expected);
   const std::string key = owner.key(name);
   if (node.is_array()) return read_size_list(owner, key, node);
   SizeLaw law;
   if (const toml::table* table = node.as_table()) {
-    const TableReader reader(owner.origin(), key, *table, {"uniform", other_key});
+    if (is_frame(*table)) {
+      std::string file;
+      const SceneFrame frame = read_frame(owner, name, *table, file);
+      law.kind = SizeLaw::Kind::list;
+      law.values = name == "radius" ? frame.radius : frame.mass;
+      return law;
+    }
+    const TableReader reader(owner.origin(), key, *table, {"uniform", other_key, "frame"});
     if (only_key(owner, name, *table, expected) == "uniform") return read_uniform_size(reader, *table->get("uniform"));
     law.kind = SizeLaw::Kind::from_other;
     law.density = reader.positive(other_key).value();

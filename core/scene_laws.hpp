@@ -6,8 +6,9 @@
 
 namespace carom {
 
-// The value of "positions" of a group: a name, a list of [x, y], or { file = "p.csv" }, which is read in.
-// Throws InputError for anything else, for a missing key, and for a CSV file that cannot be read.
+// The value of "positions" of a group: a name, a list of [x, y], { file = "p.csv" } or { frame = "DIR" }, which are
+// read in. The other laws take { frame = ... } likewise. Throws InputError for anything else, for a missing key, and
+// for a CSV file that cannot be read.
 PositionLaw read_positions(const TableReader& group);
 
 // The value of "velocities": { maxwell = T }, { uniform = v }, a list, { file = ... }; at rest when absent.

@@ -11,6 +11,7 @@ inline constexpr std::array<std::string_view, 3> side_kind_names{"wall", "period
 inline constexpr std::array<std::string_view, 3> method_names{"rollback", "pairwise", "exact"};    // Method
 inline constexpr std::array<std::string_view, 3> trajectory_names{"none", "xyz", "h5md"};          // TrajectoryFormat
 inline constexpr std::array<std::string_view, 3> position_names{"random", "square", "hexagonal"};  // PositionLaw::Kind
+inline constexpr std::array<std::string_view, 2> precision_names{"double", "single"};
 inline constexpr std::array<std::string_view, 2> plot_names{"velocity", "energy"};
 
 }  // namespace carom

@@ -134,12 +134,27 @@ std::string run_text(const RunPlan& run) {
   return text + fmt::format("t_end = {}\n", number(run.t_end));
 }
 
+// Empty where the trajectory shows all disks in full precision, which is what absent keys mean.
+std::string selection_lines(const OutputPlan& output) {
+  const Selection& select = output.select;
+  std::string text;
+  if (select.by_region) {
+    text += fmt::format("select = [{}, {}, {}, {}]\n", number(select.low.x), number(select.low.y),
+                        number(select.high.x), number(select.high.y));
+  } else if (select.stride > 1) {
+    text += fmt::format("select = \"every {}th\"\n", select.stride);
+  }
+  if (output.single_precision) text += "precision = \"single\"\n";
+  return text;
+}
+
 std::string output_text(const OutputPlan& output) {
   const std::string checkpoint =
       output.checkpoint > 0.0 ? fmt::format("checkpoint = {}\n", number(output.checkpoint)) : "";
-  return fmt::format("\n[output]\nevery = {}\ntrajectory = \"{}\"\nseries = {}\nplots = {}\nmovie = {}\n",
-                     number(output.every), trajectory_names[index(output.trajectory)], output.series,
-                     list_of(output.plots, [](const std::string& name) { return quoted_toml(name); }), output.movie) +
+  return fmt::format("\n[output]\nevery = {}\ntrajectory = \"{}\"\n{}series = {}\nplots = {}\nmovie = {}\n",
+                     number(output.every), trajectory_names[index(output.trajectory)], selection_lines(output),
+                     output.series, list_of(output.plots, [](const std::string& name) { return quoted_toml(name); }),
+                     output.movie) +
          checkpoint;
 }
 

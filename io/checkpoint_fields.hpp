@@ -50,10 +50,16 @@ void fields(Stream& stream, T& value) {
   stream(name, frames, bytes);
 }
 
+template <class Stream, Is<MeterMark> T>
+void fields(Stream& stream, T& value) {
+  auto& [counted_until, before] = value;
+  stream(counted_until, before);
+}
+
 template <class Stream, Is<SeriesMark> T>
 void fields(Stream& stream, T& value) {
-  auto& [file, counted_until, before] = value;
-  stream(file, counted_until, before);
+  auto& [file, meter] = value;
+  stream(file, meter);
 }
 
 template <class Stream, Is<MovieMark> T>
@@ -82,8 +88,8 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<OutputMark> T>
 void fields(Stream& stream, T& value) {
-  auto& [frames, last_time, trajectory, series, movie, velocities, energies] = value;
-  stream(frames, last_time, trajectory, series, movie, velocities, energies);
+  auto& [frames, last_time, trajectory, series, meter, movie, velocities, energies] = value;
+  stream(frames, last_time, trajectory, series, meter, movie, velocities, energies);
 }
 
 template <class Stream, Is<Energy> T>

@@ -20,10 +20,15 @@ struct FileMark {
   std::uint64_t bytes = 0;
 };
 
+// What the means of the next row start from.
+struct MeterMark {
+  double counted_until = 0.0;
+  Counters before;
+};
+
 struct SeriesMark {
   FileMark file;
-  double counted_until = 0.0;  // what the means of the next row start from
-  Counters before;
+  MeterMark meter;
 };
 
 struct MovieMark {
@@ -40,6 +45,7 @@ struct OutputMark {
   double last_time = 0.0;  // simulated time of the last frame
   std::optional<FileMark> trajectory;
   std::optional<SeriesMark> series;
+  MeterMark meter;  // for a trajectory that shows what series.csv would
   std::optional<MovieMark> movie;
   VelocityRecord velocities;
   EnergyRecord energies;

@@ -6,55 +6,68 @@
 
 namespace carom {
 
-namespace {
+SeriesRow SeriesMeter::row(const Disks& disks, const State& now) {
+  const Counters& c = now.counters;
+  const double elapsed = now.time - done_.counted_until;
+  const Energy energy = energy_of(disks, gravity_);
+  const Momentum momentum = momentum_of(disks);
+  const auto collisions = static_cast<double>(c.collisions - done_.before.collisions);
+  const double disk_time = elapsed * static_cast<double>(disks.size());
+  const auto force = [&](int side) {
+    return elapsed > 0.0 ? (c.wall_impulse[side] - done_.before.wall_impulse[side]) / elapsed : 0.0;
+  };
+  const SeriesRow row{static_cast<double>(disks.size()),
+                      energy.kinetic,
+                      energy.potential,
+                      energy.total(),
+                      momentum.x,
+                      momentum.y,
+                      static_cast<double>(c.collisions),
+                      static_cast<double>(c.wall_collisions),
+                      pressure(energy, c.virial - done_.before.virial, elapsed, box_),
+                      disk_time > 0.0 ? 2.0 * collisions / disk_time : 0.0,
+                      with_overlap_ ? max_overlap(disks, box_) : 0.0,
+                      static_cast<double>(c.removed),
+                      static_cast<double>(c.emitted),
+                      static_cast<double>(c.waiting),
+                      force(0),
+                      force(1),
+                      force(2),
+                      force(3)};
+  done_.before = c;
+  done_.counted_until = now.time;
+  return row;
+}
 
-constexpr const char* heading =
-    "t,disks,kinetic,potential,total,px,py,collisions,wall_collisions,pressure,collision_rate,max_overlap,removed,"
-    "emitted,waiting,force_left,force_right,force_bottom,force_top\n";
-
-}  // namespace
-
-SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
-    : file_(path), box_(scene.box), gravity_(scene.physics.gravity) {
-  file_.write(heading);
+SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene) : file_(path), meter_(scene, true) {
+  std::string heading = "t";
+  for (const SeriesColumn& column : series_columns) heading += fmt::format(",{}", column.name);
+  file_.write(heading + "\n");
 }
 
 SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from)
-    : file_(path, from.file.bytes),
-      box_(scene.box),
-      gravity_(scene.physics.gravity),
-      rows_(from.file.frames),
-      counted_until_(from.counted_until),
-      before_(from.before) {}
+    : file_(path, from.file.bytes), meter_(scene, true, from.meter), rows_(from.file.frames) {}
 
 SeriesMark SeriesWriter::mark() {
   file_.sync();
-  return {{file_.name(), rows_, file_.bytes()}, counted_until_, before_};
+  return {{file_.name(), rows_, file_.bytes()}, meter_.mark()};
 }
 
-void SeriesWriter::write(const Disks& disks, double time, const State& now) {
-  const Counters& c = now.counters;
-  const double elapsed = now.time - counted_until_;
-  const Energy energy = energy_of(disks, gravity_);
-  const Momentum momentum = momentum_of(disks);
-  const auto collisions = static_cast<double>(c.collisions - before_.collisions);
-  const double disk_time = elapsed * static_cast<double>(disks.size());
+SeriesRow SeriesWriter::write(const Disks& disks, double time, const State& now) {
+  const SeriesRow row = meter_.row(disks, now);
   // {} writes the shortest text that reads back as the same double.
-  std::string row = fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", time, disks.size(), energy.kinetic,
-                                energy.potential, energy.total(), momentum.x, momentum.y, c.collisions,
-                                c.wall_collisions, pressure(energy, c.virial - before_.virial, elapsed, box_),
-                                disk_time > 0.0 ? 2.0 * collisions / disk_time : 0.0, max_overlap(disks, box_),
-                                c.removed, c.emitted, c.waiting);
-  for (int side = 0; side < 4; ++side) {
-    const double force = elapsed > 0.0 ? (c.wall_impulse[side] - before_.wall_impulse[side]) / elapsed : 0.0;
-    fmt::format_to(std::back_inserter(row), ",{}", force);
+  std::string line = fmt::format("{}", time);
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (series_columns[k].whole) {
+      fmt::format_to(std::back_inserter(line), ",{}", static_cast<Count>(row[k]));
+    } else {
+      fmt::format_to(std::back_inserter(line), ",{}", row[k]);
+    }
   }
-  row += '\n';
-  file_.write(row);
+  file_.write(line + "\n");
   file_.flush();
   ++rows_;
-  before_ = c;
-  counted_until_ = now.time;
+  return row;
 }
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 // series.csv: the run in numbers, one row a frame.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "core/disks.hpp"
@@ -11,6 +12,54 @@
 
 namespace carom {
 
+// The columns of series.csv after the time, and the observables of trajectory.h5.
+struct SeriesColumn {
+  const char* name;
+  bool whole;  // a count
+};
+inline constexpr std::array<SeriesColumn, 18> series_columns{{{"disks", true},
+                                                              {"kinetic", false},
+                                                              {"potential", false},
+                                                              {"total", false},
+                                                              {"px", false},
+                                                              {"py", false},
+                                                              {"collisions", true},
+                                                              {"wall_collisions", true},
+                                                              {"pressure", false},
+                                                              {"collision_rate", false},
+                                                              {"max_overlap", false},
+                                                              {"removed", true},
+                                                              {"emitted", true},
+                                                              {"waiting", true},
+                                                              {"force_left", false},
+                                                              {"force_right", false},
+                                                              {"force_bottom", false},
+                                                              {"force_top", false}}};
+using SeriesRow = std::array<double, series_columns.size()>;  // counts are exact up to 2^53
+
+inline constexpr std::size_t overlap_column = 10;  // max_overlap
+
+class SeriesMeter {
+ public:
+  // The largest overlap needs a search among all disks, many times the cost of all the rest; without it the row has 0.
+  SeriesMeter(const Scene& scene, bool with_overlap, const MeterMark& from = {})
+      : box_(scene.box), gravity_(scene.physics.gravity), with_overlap_(with_overlap), done_(from) {}
+
+  // Disks at the time of a frame, and what `now` has counted. An exact run counts to the end of its window, which may
+  // lie a little after the frame; intervals are taken between the states, so that no collision is lost or counted
+  // twice. pressure, collision_rate (per disk) and the four wall forces are means over the time since the row before,
+  // and 0 in the first row.
+  SeriesRow row(const Disks& disks, const State& now);
+
+  const MeterMark& mark() const { return done_; }
+
+ private:
+  Domain box_;
+  double gravity_;
+  bool with_overlap_;
+  MeterMark done_;
+};
+
 class SeriesWriter {
  public:
   // Writes the heading. Throws RunError where the file cannot be written, here and below.
@@ -20,11 +69,8 @@ class SeriesWriter {
   // shorter.
   SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from);
 
-  // One row: disks at `time`, and what `now` has counted. An exact run counts to the end of its window, which may lie
-  // a little after `time`; intervals are taken between the states, so that no collision is lost or counted twice.
-  // pressure, collision_rate (per disk) and the four wall forces are means over the time since the row before, and 0
-  // in the first row.
-  void write(const Disks& disks, double time, const State& now);
+  // One row, which it returns: see SeriesMeter::row.
+  SeriesRow write(const Disks& disks, double time, const State& now);
 
   // Where the file has come to; all up to there is on the disk.
   SeriesMark mark();
@@ -33,11 +79,8 @@ class SeriesWriter {
 
  private:
   OutputFile file_;
-  Domain box_;
-  double gravity_;
+  SeriesMeter meter_;
   Count rows_ = 0;
-  double counted_until_ = 0.0;
-  Counters before_;
 };
 
 }  // namespace carom

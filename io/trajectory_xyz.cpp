@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "core/check.hpp"
+#include "io/disk_selection.hpp"
 
 namespace carom {
 
@@ -49,10 +50,11 @@ std::string lattice_text(const Domain& box) {
 
 }  // namespace
 
-XyzWriter::XyzWriter(const std::string& path, const Domain& box) : file_(path), lattice_(lattice_text(box)) {}
+XyzWriter::XyzWriter(const std::string& path, const Domain& box, const Selection& select)
+    : file_(path), select_(select), lattice_(lattice_text(box)) {}
 
-XyzWriter::XyzWriter(const std::string& path, const Domain& box, const FileMark& from)
-    : file_(path, from.bytes), frames_(from.frames), lattice_(lattice_text(box)) {}
+XyzWriter::XyzWriter(const std::string& path, const Domain& box, const Selection& select, const FileMark& from)
+    : file_(path, from.bytes), frames_(from.frames), select_(select), lattice_(lattice_text(box)) {}
 
 FileMark XyzWriter::mark() {
   file_.sync();
@@ -60,13 +62,15 @@ FileMark XyzWriter::mark() {
 }
 
 void XyzWriter::write(const Disks& disks, double time) {
-  text_ = fmt::format("{}\n{}", disks.size(), lattice_);
+  std::vector<std::size_t> order = by_id(disks);
+  std::erase_if(order, [&](std::size_t i) { return !is_selected(select_, disks, i); });
+  text_ = fmt::format("{}\n{}", order.size(), lattice_);
   std::string time_text;
   append_number(time_text, time);
   text_.append(time_text, 1);
   text_ += '\n';
   RepeatedNumber radius, mass;
-  for (const std::size_t i : by_id(disks)) {
+  for (const std::size_t i : order) {
     text_ += 'D';
     append_number(text_, disks.x[i]);
     append_number(text_, disks.y[i]);

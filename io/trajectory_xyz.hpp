@@ -8,8 +8,10 @@
 
 #include "core/disks.hpp"
 #include "core/domain.hpp"
+#include "core/scene.hpp"
 #include "io/output_file.hpp"
 #include "io/output_mark.hpp"
+#include "io/trajectory_reader.hpp"
 
 namespace carom {
 
@@ -19,13 +21,13 @@ inline constexpr const char* xyz_properties = "species:S:1:pos:R:2:velo:R:2:radi
 class XyzWriter {
  public:
   // Throws RunError where the file cannot be written, here and below.
-  XyzWriter(const std::string& path, const Domain& box);
+  XyzWriter(const std::string& path, const Domain& box, const Selection& select = {});
 
   // Goes on behind a mark in a file that is there; what follows it is cut off. Throws InputError where the file is
   // shorter.
-  XyzWriter(const std::string& path, const Domain& box, const FileMark& from);
+  XyzWriter(const std::string& path, const Domain& box, const Selection& select, const FileMark& from);
 
-  // One frame, disks in order of id, numbers with 17 significant digits.
+  // One frame: the selected disks in order of id, numbers with 17 significant digits.
   void write(const Disks& disks, double time);
 
   // Where the file has come to; all up to there is on the disk.
@@ -36,25 +38,21 @@ class XyzWriter {
  private:
   OutputFile file_;
   Count frames_ = 0;
+  Selection select_;
   std::string lattice_;  // the constant part of each frame's second line
   std::string text_;     // of the frame being written; kept for its capacity
 };
 
-// One frame as read back. Of the box, the file tells size and periodic sides; all others appear as walls.
-struct XyzFrame {
-  Disks disks;
-  double time = 0.0;
-  Domain box;
-};
+using XyzFrame = TrajectoryFrame;
 
-class XyzReader {
+class XyzReader : public TrajectoryReader {
  public:
   // Throws InputError if the file cannot be opened.
   explicit XyzReader(const std::string& path);
 
   // The next frame, or false at the end of the file. Radius and mass always come as columns. Throws InputError,
   // "file:line: what is wrong, what was expected", for anything but a file that XyzWriter wrote in full.
-  bool read(XyzFrame& frame);
+  bool read(XyzFrame& frame) override;
 
  private:
   [[noreturn]] void fail(const std::string& what) const;

@@ -1,0 +1,106 @@
+#include "app/sweep_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "core/input_message.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::string_view expected = "expected KEY=FROM:TO:COUNT, or KEY=VALUE,VALUE,...";
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t end = text.find(at, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+template <class T>
+T number_in(const std::string& text, const std::string& word) {
+  T value{};
+  const char* const end = word.data() + word.size();
+  const auto result = std::from_chars(word.data(), end, value);
+  if (result.ec != std::errc{} || result.ptr != end) {
+    fail_input("--over", fmt::format("{}: {} is no number", in_quotes(text), in_quotes(word)), expected);
+  }
+  return value;
+}
+
+std::vector<std::string> range_values(const std::string& text, const std::vector<std::string>& parts) {
+  constexpr int most_values = 1'000'000;
+  const auto from = number_in<double>(text, parts[0]), to = number_in<double>(text, parts[1]);
+  const int count = number_in<int>(text, parts[2]);
+  if (!std::isfinite(from) || !std::isfinite(to) || count < 1 || count > most_values || (count == 1 && from != to)) {
+    fail_input("--over", fmt::format("{} is no range", in_quotes(text)), expected);
+  }
+  std::vector<std::string> values;
+  for (int k = 0; k < count; ++k) {
+    // Both ends exactly, and the same text however the range is run through: 0.5, 0.55, not 0.55000000000000004.
+    const double share = count == 1 ? 0.0 : static_cast<double>(k) / (count - 1);
+    const double value = k + 1 == count ? to : from + (to - from) * share;
+    values.push_back(fmt::format("{}", std::stod(fmt::format("{:.15g}", value))));
+  }
+  return values;
+}
+
+}  // namespace
+
+SweepAxis parse_sweep_axis(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+    fail_input("--over", fmt::format("is {}", in_quotes(text)), expected);
+  }
+  SweepAxis axis{text.substr(0, equals), {}};
+  const std::string values = text.substr(equals + 1);
+  const std::vector<std::string> parts = split(values, ':');
+  if (parts.size() == 3) {
+    axis.values = range_values(text, parts);
+  } else {
+    axis.values = split(values, ',');
+  }
+  for (const std::string& value : axis.values) {
+    if (value.empty()) fail_input("--over", fmt::format("{} has an empty value", in_quotes(text)), expected);
+  }
+  return axis;
+}
+
+std::vector<SweepRun> sweep_runs(const SceneChanges& changes, const std::vector<SweepAxis>& axes, std::uint64_t seed,
+                                 int seeds) {
+  std::vector<SweepRun> runs;
+  std::vector<std::size_t> at(axes.size(), 0);
+  for (bool more = true; more;) {
+    for (int s = 0; s < seeds; ++s) {
+      SweepRun run{fmt::format("{:04}", runs.size() + 1), changes.overrides};
+      for (std::size_t a = 0; a < axes.size(); ++a) run.overrides.push_back({axes[a].key, axes[a].values[at[a]]});
+      run.overrides.push_back({"seed", fmt::format("{}", seed + static_cast<std::uint64_t>(s))});
+      runs.push_back(std::move(run));
+    }
+    more = false;
+    for (std::size_t a = axes.size(); a-- > 0 && !more;) {
+      at[a] = (at[a] + 1) % axes[a].values.size();
+      more = at[a] != 0;
+    }
+  }
+  return runs;
+}
+
+std::string sweep_identity(const std::string& scene_text, const std::vector<SweepRun>& runs) {
+  std::string text;
+  for (const SweepRun& run : runs) {
+    text += run.name;
+    for (const Override& change : run.overrides) text += fmt::format(" {}={}", change.key, change.value);
+    text += '\n';
+  }
+  return text + "\n" + scene_text;
+}
+
+}  // namespace carom

@@ -1,0 +1,16 @@
+// Reading which disks a trajectory shows, and how precisely.
+#pragma once
+
+#include "core/scene.hpp"
+#include "core/scene_reader.hpp"
+
+namespace carom {
+
+// The value of "select": "every 100th" (a whole number, 1 or more, with any ending) or [x0, y0, x1, y1]; all disks
+// where it is absent. Throws InputError for anything else, and where no trajectory is written.
+Selection read_selection(const TableReader& output);
+
+// Whether "precision" is "single". Throws InputError unless it is absent or trajectory is "h5md".
+bool read_single_precision(const TableReader& output);
+
+}  // namespace carom

@@ -1,0 +1,406 @@
+#include "io/trajectory_h5md.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "core/scene_file.hpp"
+#include "io/disk_selection.hpp"
+#include "io/h5md_layout.hpp"
+#include "io/hdf5_output.hpp"
+#include "io/xdmf.hpp"
+
+namespace carom {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds flush_interval{500};
+
+// Places a chunk: 256 KiB of positions, enough to pack well, little to read for a few disks.
+constexpr hsize_t largest_chunk = 16384;
+constexpr hsize_t smallest_open_chunk = 256;  // where sources may add disks
+constexpr hsize_t frames_per_column_chunk = 1024;
+
+constexpr float single_nothing = std::numeric_limits<float>::quiet_NaN();
+constexpr std::int64_t no_count = 0;
+
+Hdf5Kind double_kind() {
+  return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, sizeof(double), &h5md_nothing};
+}
+Hdf5Kind single_kind() {
+  return {H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, sizeof(float), &single_nothing};
+}
+Hdf5Kind id_kind() {
+  return {H5T_STD_U32LE, H5T_NATIVE_UINT32, sizeof(DiskId), &h5md_no_id};
+}
+Hdf5Kind count_kind() {
+  return {H5T_STD_I64LE, H5T_NATIVE_INT64, sizeof(std::int64_t), &no_count};
+}
+
+// What every disk has: one value or two (x and y), at a place of its own, in each frame or once for all.
+struct Element {
+  std::string name;  // of the dataset
+  Hdf5Kind kind;
+  hsize_t components = 1;
+  bool each_frame = true;
+  Hdf5Handle set;
+};
+
+// One number a frame, kept here between flushes.
+struct Column {
+  std::string name;  // of the dataset
+  Hdf5Kind kind;
+  Hdf5Handle set;
+  std::vector<double> values;
+};
+
+std::string user_name() {
+  const char* const name = std::getenv("USER");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+  return name == nullptr || *name == '\0' ? "unknown" : name;
+}
+
+Count disks_at_start(const Scene& scene) {
+  Count disks = 0;
+  for (const DiskGroup& group : scene.groups) disks += group.count;
+  return disks;
+}
+
+std::vector<DiskId> ends_of_groups(const Scene& scene) {
+  std::vector<DiskId> ends;
+  Count end = 0;
+  for (const DiskGroup& group : scene.groups) ends.push_back(static_cast<DiskId>(end += group.count));
+  return ends;
+}
+
+}  // namespace
+
+struct H5mdWriter::File {
+  File(const std::string& file_path, const Scene& scene, bool existing);
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  ~File();
+
+  void describe(const Scene& scene) const;
+  void make_elements();
+  void open_elements(Count frames);
+  void write_frame(const Disks& disks);
+  void write_element(Element& element, const Disks& disks);
+  void write_once(Element& element, const Disks& disks, hsize_t first, hsize_t last);
+  void fill(const Element& element, const Disks& disks, hsize_t begin, hsize_t end);
+  void flush();
+  void close();
+
+  std::string path;
+  Hdf5Output output;
+  Selection select;
+  std::vector<DiskId> group_ends;
+  bool exact = false, growing = false;
+  hsize_t chunk = 1;   // places
+  hsize_t places = 0;  // that the file has
+  hsize_t known = 0;   // places whose mass, radius and species are in the file
+  Count frames = 0, flushed_frames = 0;
+  std::array<Element, 6> elements;
+  std::vector<std::size_t> shown_columns;  // of series_columns
+  std::vector<Column> columns;  // step, the observables, and time, which says how many frames are whole, at last
+  std::vector<std::uint32_t> disk_at;
+  std::vector<unsigned char> buffer;
+  Clock::time_point last_flush = Clock::now();
+};
+
+H5mdWriter::File::File(const std::string& file_path, const Scene& scene, bool existing)
+    : path(file_path),
+      output(file_path, existing),
+      select(scene.output.select),
+      group_ends(ends_of_groups(scene)),
+      exact(scene.run.method == Method::exact),
+      growing(!scene.sources.empty() || select.by_region) {
+  const Count disks = disks_at_start(scene);
+  places = select.by_region ? 0 : (disks + select.stride - 1) / select.stride;
+  chunk = std::clamp<hsize_t>(places, growing ? smallest_open_chunk : 1, largest_chunk);
+  const Hdf5Kind place_kind = scene.output.single_precision ? single_kind() : double_kind();
+  const std::string root = std::string(h5md_disks) + "/";
+  const bool moving = select.by_region;
+  const auto once = [&](const std::string& name) { return root + name + (moving ? "/value" : ""); };
+  elements = {{{root + "position/value", place_kind, 2, true, {}},
+               {root + "velocity/value", place_kind, 2, true, {}},
+               {root + "id/value", id_kind(), 1, true, {}},
+               {once("mass"), double_kind(), 1, moving, {}},
+               {once("radius"), double_kind(), 1, moving, {}},
+               {once("species"), id_kind(), 1, moving, {}}}};
+  columns.push_back({root + "position/step", count_kind(), {}, {}});
+  for (const SeriesColumn& column : series_columns) {
+    columns.push_back(
+        {fmt::format("/observables/{}/value", column.name), column.whole ? count_kind() : double_kind(), {}, {}});
+  }
+  columns.push_back({root + "position/time", double_kind(), {}, {}});
+}
+
+H5mdWriter::File::~File() {
+  if (!output.broken()) return;
+  for (Element& e : elements) e.set.abandon();
+  for (Column& c : columns) c.set.abandon();
+  output.abandon();
+}
+
+// All that does not change.
+void H5mdWriter::File::describe(const Scene& scene) const {
+  for (const char* const group : {"/h5md", "/h5md/author", "/h5md/creator", "/parameters", "/particles", h5md_disks}) {
+    output.make_group(group);
+  }
+  output.attribute("/h5md", "version", std::vector<int>{1, 1}, true);
+  output.attribute("/h5md/author", "name", {user_name()}, false);
+  output.attribute("/h5md/creator", "name", {"Carom"}, false);
+  output.attribute("/h5md/creator", "version", {CAROM_VERSION}, false);
+  output.text("/parameters/scene", resolved_toml(scene));
+  const std::string box = std::string(h5md_disks) + "/box";
+  output.make_group(box);
+  output.attribute(box, "dimension", std::vector<int>{2}, false);
+  const auto boundary = [](bool periodic) { return std::string(periodic ? "periodic" : "none"); };
+  output.attribute(box, "boundary", {boundary(scene.box.periodic_x()), boundary(scene.box.periodic_y())}, true);
+  const std::array<double, 2> edges{scene.box.width, scene.box.height};
+  const Hdf5Handle set = output.make_dataset(box + "/edges", double_kind(), {2}, {2}, {2}, Packing::plain);
+  output.write_block(set, double_kind(), {0}, {2}, edges.data());
+}
+
+void H5mdWriter::File::make_elements() {
+  const std::string root = std::string(h5md_disks) + "/";
+  for (Element& e : elements) {
+    const hsize_t limit = growing ? H5S_UNLIMITED : std::max<hsize_t>(1, places);
+    if (!e.each_frame) {
+      // Packed chunks cannot be added to in place without losing room, so that only what is written once is packed.
+      e.set =
+          output.make_dataset(e.name, e.kind, {places}, {limit}, {chunk}, growing ? Packing::plain : Packing::deflate);
+      continue;
+    }
+    output.make_group(e.name.substr(0, e.name.rfind('/')));
+    Extent size{0, places}, most{H5S_UNLIMITED, limit}, block{1, chunk};
+    if (e.components > 1) {
+      for (Extent* const extent : {&size, &most, &block}) extent->push_back(e.components);
+    }
+    e.set = output.make_dataset(e.name, e.kind, size, most, block, Packing::deflate);
+  }
+  output.make_group("/observables");
+  for (Column& c : columns) {
+    const std::string group = c.name.substr(0, c.name.rfind('/'));
+    if (group.starts_with("/observables")) output.make_group(group);
+    c.set = output.make_dataset(c.name, c.kind, {0}, {H5S_UNLIMITED}, {frames_per_column_chunk}, Packing::plain);
+  }
+  const auto share = [&](const std::string& name) {
+    const std::string group = name.substr(0, name.rfind('/'));
+    if (group == root + "position") return;
+    output.link(root + "position/step", group + "/step");
+    output.link(root + "position/time", group + "/time");
+  };
+  for (const Element& e : elements) {
+    if (e.each_frame) share(e.name);
+  }
+  for (const Column& c : columns) share(c.name);
+}
+
+void H5mdWriter::File::open_elements(Count kept) {
+  for (Column& c : columns) c.set = output.open_dataset(c.name);
+  for (Element& e : elements) e.set = output.open_dataset(e.name);
+  const Count there = output.size_of(columns.back().set).at(0);
+  const Extent held = output.size_of(elements[0].set);
+  if (there < kept) output.fail(fmt::format("it holds {} frames, and {} were written before", there, kept));
+  if (held.size() != 3 || held[1] < places || (!growing && held[1] != places)) {
+    output.fail("it was written for other disks");
+  }
+  places = held[1];
+  frames = flushed_frames = kept;
+  known = places;
+  for (Element& e : elements) {
+    Extent size = output.size_of(e.set);
+    if (!e.each_frame) {
+      known = std::min(known, size.at(0));  // a kill may have come between it and the others
+      continue;
+    }
+    size[0] = kept;
+    size[1] = places;
+    output.resize(e.set, size);
+  }
+  for (Column& c : columns) output.resize(c.set, {kept});
+}
+
+namespace {
+
+DiskId species_of(const std::vector<DiskId>& group_ends, DiskId id) {
+  return static_cast<DiskId>(std::upper_bound(group_ends.begin(), group_ends.end(), id) - group_ends.begin());
+}
+
+// value(i) of the disk at each place; nothing where there is none.
+template <class T, class Value>
+void fill_with(std::vector<unsigned char>& buffer, const std::vector<std::uint32_t>& disk_at, hsize_t begin,
+               hsize_t end, T nothing, Value value) {
+  buffer.resize((end - begin) * sizeof(T));
+  unsigned char* to = buffer.data();
+  for (hsize_t place = begin; place < end; ++place, to += sizeof(T)) {
+    const std::uint32_t i = place < disk_at.size() ? disk_at[place] : no_disk;
+    const T stored = i == no_disk ? nothing : value(i);
+    std::memcpy(to, &stored, sizeof stored);
+  }
+}
+
+template <class T>
+struct Pair {
+  T x, y;
+};
+
+}  // namespace
+
+// The values of places begin to end - 1 into the buffer; where there is no disk, the fill value.
+void H5mdWriter::File::fill(const Element& e, const Disks& disks, hsize_t begin, hsize_t end) {
+  const auto pairs = [&]<class T>(T nothing, const std::vector<double>& x, const std::vector<double>& y) {
+    fill_with(buffer, disk_at, begin, end, Pair<T>{nothing, nothing}, [&](std::uint32_t i) {
+      return Pair<T>{static_cast<T>(x[i]), static_cast<T>(y[i])};
+    });
+  };
+  const bool single = e.kind.width == sizeof(float);
+  switch (&e - elements.data()) {
+    case 0:
+      single ? pairs(single_nothing, disks.x, disks.y) : pairs(h5md_nothing, disks.x, disks.y);
+      break;
+    case 1:
+      single ? pairs(single_nothing, disks.vx, disks.vy) : pairs(h5md_nothing, disks.vx, disks.vy);
+      break;
+    case 2:
+      fill_with(buffer, disk_at, begin, end, h5md_no_id, [&](std::uint32_t i) { return disks.id[i]; });
+      break;
+    case 3:
+      fill_with(buffer, disk_at, begin, end, h5md_nothing, [&](std::uint32_t i) { return disks.mass_of(i); });
+      break;
+    case 4:
+      fill_with(buffer, disk_at, begin, end, h5md_nothing, [&](std::uint32_t i) { return disks.radius_of(i); });
+      break;
+    default:
+      fill_with(buffer, disk_at, begin, end, h5md_no_species,
+                [&](std::uint32_t i) { return species_of(group_ends, disks.id[i]); });
+  }
+}
+
+// The frame's row of an element, chunk by chunk. Chunks without a disk are not written: they read as fill values.
+void H5mdWriter::File::write_element(Element& e, const Disks& disks) {
+  Extent size{frames + 1, places}, begin{frames, 0};
+  if (e.components > 1) {
+    size.push_back(e.components);
+    begin.push_back(0);
+  }
+  output.resize(e.set, size);
+  for (hsize_t first = 0; first < disk_at.size(); first += chunk) {
+    const auto from = disk_at.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto to = disk_at.begin() + static_cast<std::ptrdiff_t>(std::min<hsize_t>(first + chunk, disk_at.size()));
+    if (std::all_of(from, to, [](std::uint32_t i) { return i == no_disk; })) continue;
+    fill(e, disks, first, first + chunk);
+    begin[1] = first;
+    output.write_chunk(e.set, e.kind, begin, buffer.data(), buffer.size());
+  }
+}
+
+// What a disk has for ever, of the places first to last - 1. A disk that came and went since the frame before is never
+// seen: its place keeps the fill values.
+void H5mdWriter::File::write_once(Element& e, const Disks& disks, hsize_t first, hsize_t last) {
+  output.resize(e.set, {places});
+  for (hsize_t begin = first; begin < last; begin += chunk) {
+    const hsize_t end = std::min(begin + chunk, last);
+    fill(e, disks, begin, end);
+    output.write_block(e.set, e.kind, {begin}, {end - begin}, buffer.data());
+  }
+}
+
+void H5mdWriter::File::write_frame(const Disks& disks) {
+  find_places(select, disks, 0, disk_at);
+  places = std::max<hsize_t>(places, disk_at.size());
+  for (Element& e : elements) {
+    if (e.each_frame) {
+      write_element(e, disks);
+    } else if (places > known) {
+      write_once(e, disks, known, places);
+    }
+  }
+  known = places;
+  ++frames;
+}
+
+// The numbers of each frame go last, and among them the times, so that a frame that has a time is whole.
+void H5mdWriter::File::flush() {
+  output.begin_flush();
+  if (frames > flushed_frames) {
+    for (Element& e : elements) output.flush(e.set);
+    std::vector<std::int64_t> whole;
+    for (Column& c : columns) {
+      const void* data = c.values.data();
+      if (c.kind.width == sizeof(std::int64_t) && c.kind.fill == &no_count) {
+        whole.assign(c.values.begin(), c.values.end());
+        data = whole.data();
+      }
+      output.resize(c.set, {frames});
+      output.write_block(c.set, c.kind, {flushed_frames}, {frames - flushed_frames}, data);
+      output.flush(c.set);
+      c.values.clear();
+    }
+    flushed_frames = frames;
+  }
+  output.end_flush();
+  last_flush = Clock::now();
+}
+
+void H5mdWriter::File::close() {
+  flush();
+  std::vector<double> times(frames);
+  if (frames > 0)
+    output.checked(H5Dread(columns.back().set.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data()));
+  for (Element& e : elements) output.checked(e.set.close());
+  for (Column& c : columns) output.checked(c.set.close());
+  output.close();
+  write_xdmf(path, {times, places, elements[0].kind.width, elements[3].each_frame});
+}
+
+H5mdWriter::H5mdWriter(const std::string& path, const Scene& scene)
+    : file_(std::make_unique<File>(path, scene, false)) {
+  file_->describe(scene);
+  file_->make_elements();
+  file_->output.start_safe_writing();
+}
+
+H5mdWriter::H5mdWriter(const std::string& path, const Scene& scene, Count frames)
+    : file_(std::make_unique<File>(path, scene, true)) {
+  file_->open_elements(frames);
+  file_->output.start_safe_writing();
+}
+
+H5mdWriter::~H5mdWriter() = default;
+
+void H5mdWriter::write(const Disks& disks, double time, Count step, const SeriesRow& row) {
+  File& f = *file_;
+  const Count shown = f.exact ? f.frames : step;
+  f.write_frame(disks);
+  f.columns.front().values.push_back(static_cast<double>(shown));
+  for (std::size_t k = 0; k < f.shown_columns.size(); ++k) f.columns[k + 1].values.push_back(row[f.shown_columns[k]]);
+  f.columns.back().values.push_back(time);
+  if (Clock::now() - f.last_flush > flush_interval) f.flush();
+}
+
+void H5mdWriter::flush() {
+  file_->flush();
+}
+
+FileMark H5mdWriter::mark() {
+  flush();
+  return {std::filesystem::path(file_->path).filename().string(), frames(), 0};
+}
+
+Count H5mdWriter::frames() const {
+  return file_->frames;
+}
+
+void H5mdWriter::close() {
+  file_->close();
+}
+
+}  // namespace carom

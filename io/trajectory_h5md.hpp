@@ -1,0 +1,50 @@
+// Trajectories as H5MD 1.1 (h5md_layout.hpp): HDF5, compressed, for h5py, ParaView and everything else that reads HDF5.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/disks.hpp"
+#include "core/scene.hpp"
+#include "io/output_mark.hpp"
+#include "io/series.hpp"
+
+namespace carom {
+
+// The file is kept whole at any moment (HDF5's single-writer-multiple-reader mode): what kill -9 leaves opens in any
+// reader, with every frame up to the last flush.
+class H5mdWriter {
+ public:
+  // Creates or replaces the file. Throws RunError where it cannot be written, here and below.
+  H5mdWriter(const std::string& path, const Scene& scene);
+
+  // Goes on with the file that a writer of this scene left, closed or killed, after its first `frames` frames; what
+  // follows them is cut off. Throws RunError if it has fewer, or was written for other disks.
+  H5mdWriter(const std::string& path, const Scene& scene, Count frames);
+
+  ~H5mdWriter();
+  H5mdWriter(const H5mdWriter&) = delete;
+  H5mdWriter& operator=(const H5mdWriter&) = delete;
+
+  // One frame: the disks that scene.output.select names. step: what the run has counted; time stepping shows it, an
+  // exact run, whose frames may share a window, shows the number of the frame instead.
+  void write(const Disks& disks, double time, Count step, const SeriesRow& row);
+
+  // Hands all frames so far to the system. write() does it twice a second.
+  void flush();
+
+  // Where the file has come to; all up to there has been handed to the system.
+  FileMark mark();
+
+  // Frames in the file.
+  Count frames() const;
+
+  // Flushes, closes, and writes PATH with .xdmf in place of .h5, the description by which ParaView reads it.
+  void close();
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+}  // namespace carom

@@ -1,0 +1,25 @@
+#include "io/trajectory_reader.hpp"
+
+#include <array>
+#include <fstream>
+
+#include "io/h5md_reader.hpp"
+#include "io/trajectory_xyz.hpp"
+
+namespace carom {
+
+std::filesystem::path trajectory_in(const std::filesystem::path& folder) {
+  for (const char* const name : {"trajectory.xyz", "trajectory.h5"}) {
+    if (std::filesystem::exists(folder / name)) return folder / name;
+  }
+  return {};
+}
+
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path) {
+  std::array<char, 4> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  if (std::string_view(head.data(), head.size()) == "\x89HDF") return std::make_unique<H5mdReader>(path);
+  return std::make_unique<XyzReader>(path);
+}
+
+}  // namespace carom

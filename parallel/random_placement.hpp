@@ -1,0 +1,17 @@
+// Random sequential addition on all cores.
+#pragma once
+
+#include "core/placement.hpp"
+#include "core/state.hpp"
+#include "parallel/executor.hpp"
+
+namespace carom {
+
+// What core's place_at_random gives, bit for bit, on any number of threads.
+void parallel_place_at_random(const Executor& executor, const Scene& scene, Disks& disks, PlacementGrid& grid,
+                              std::vector<std::uint32_t> members);
+
+// initial_state of core, with this placing. threads >= 1.
+State parallel_initial_state(const Scene& scene, int threads);
+
+}  // namespace carom
