@@ -26,8 +26,15 @@ constexpr double trial_seconds = 0.2;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Bytes that a disk takes in a frame of trajectory.xyz, with all digits.
-constexpr double xyz_bytes = 130.0;
+// Bytes that a disk takes in a frame of trajectory.xyz, with all digits, and of trajectory.h5, packed.
+constexpr double xyz_bytes = 130.0, h5md_bytes = 32.0, h5md_single_bytes = 15.0;
+
+double trajectory_bytes(const OutputPlan& plan) {
+  const double all = plan.trajectory == TrajectoryFormat::xyz ? xyz_bytes
+                     : plan.single_precision                  ? h5md_single_bytes
+                                                              : h5md_bytes;
+  return all / static_cast<double>(plan.select.stride);
+}
 
 struct Findings {
   Count disks = 0;
@@ -140,7 +147,7 @@ std::string step_text(const Scene& scene, const Findings& f) {
 std::string outputs_text(const Scene& scene, const Findings& f) {
   const OutputPlan& plan = scene.output;
   std::vector<std::string> files;
-  const double bytes = xyz_bytes * static_cast<double>(f.disks) * static_cast<double>(f.frames);
+  const double bytes = trajectory_bytes(plan) * static_cast<double>(f.disks) * static_cast<double>(f.frames);
   if (plan.trajectory != TrajectoryFormat::none)
     files.push_back(fmt::format("trajectory (about {}B)", short_number(bytes)));
   if (plan.series) files.emplace_back("series.csv");

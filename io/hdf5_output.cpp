@@ -32,7 +32,12 @@ Hdf5Output::Hdf5Output(std::string path, bool existing) : path_(std::move(path))
     clear_writing_mark(path_);
     file_ = checked(H5Fopen(path_.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
   } else {
-    file_ = checked(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
+    // A kill may cut a write in two where it crosses a page of the system's cache; so nothing small ever does.
+    constexpr hsize_t system_page = 4096;
+    const Hdf5Handle plan = checked(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    checked(H5Pset_file_space_strategy(plan.get(), H5F_FSPACE_STRATEGY_PAGE, false, 1));
+    checked(H5Pset_file_space_page_size(plan.get(), system_page));
+    file_ = checked(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, plan.get(), access.get()), H5Fclose);
   }
 }
 

@@ -134,7 +134,10 @@ H5mdWriter::File::File(const std::string& file_path, const Scene& scene, bool ex
                {once("radius"), double_kind(), 1, moving, {}},
                {once("species"), id_kind(), 1, moving, {}}}};
   columns.push_back({root + "position/step", count_kind(), {}, {}});
-  for (const SeriesColumn& column : series_columns) {
+  for (std::size_t k = 0; k < series_columns.size(); ++k) {
+    const SeriesColumn& column = series_columns[k];
+    if (k == overlap_column && !scene.output.series) continue;  // see SeriesMeter
+    shown_columns.push_back(k);
     columns.push_back(
         {fmt::format("/observables/{}/value", column.name), column.whole ? count_kind() : double_kind(), {}, {}});
   }
@@ -214,7 +217,7 @@ void H5mdWriter::File::open_elements(Count kept) {
   }
   places = held[1];
   frames = flushed_frames = kept;
-  known = places;
+  known = kept == 0 ? 0 : places;
   for (Element& e : elements) {
     Extent size = output.size_of(e.set);
     if (!e.each_frame) {
@@ -305,7 +308,8 @@ void H5mdWriter::File::write_element(Element& e, const Disks& disks) {
 // What a disk has for ever, of the places first to last - 1. A disk that came and went since the frame before is never
 // seen: its place keeps the fill values.
 void H5mdWriter::File::write_once(Element& e, const Disks& disks, hsize_t first, hsize_t last) {
-  output.resize(e.set, {places});
+  // As long as what is known: a later writer goes by that.
+  if (growing) output.resize(e.set, {last});
   for (hsize_t begin = first; begin < last; begin += chunk) {
     const hsize_t end = std::min(begin + chunk, last);
     fill(e, disks, begin, end);
@@ -319,11 +323,11 @@ void H5mdWriter::File::write_frame(const Disks& disks) {
   for (Element& e : elements) {
     if (e.each_frame) {
       write_element(e, disks);
-    } else if (places > known) {
-      write_once(e, disks, known, places);
+    } else if (disk_at.size() > known) {
+      write_once(e, disks, known, disk_at.size());
     }
   }
-  known = places;
+  known = std::max<hsize_t>(known, disk_at.size());
   ++frames;
 }
 

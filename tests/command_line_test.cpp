@@ -98,9 +98,9 @@ class CommandLine : public ::testing::Test {
 
 TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "no command given; expected one of run, check, resume, compare, render"},
+      {"", "no command given; expected one of run, check, resume, compare, render, sweep"},
       {"rnu small.toml",
-       "there is no command \"rnu\"; expected one of run, check, resume, compare, render (nearest: run)"},
+       "there is no command \"rnu\"; expected one of run, check, resume, compare, render, sweep (nearest: run)"},
       {"--jsn", "no option \"--jsn\" before the command"},
       {"run", "run: no scene file given"},
       {"run --methd pairwise small.toml", "run: there is no option \"--methd\""},
