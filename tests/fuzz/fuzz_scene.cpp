@@ -1,0 +1,22 @@
+// Any text is a scene or an InputError of one line; a scene's own text gives the same text again.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "core/check.hpp"
+#include "core/scene_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  std::string resolved;
+  try {
+    resolved = carom::resolved_toml(carom::parse_scene(text, "fuzz.toml", "/nonexistent"));
+  } catch (const carom::InputError& error) {
+    if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
+    return 0;
+  }
+  // What was accepted once is accepted again, and says the same.
+  if (carom::resolved_toml(carom::parse_scene(resolved, "again.toml", "/nonexistent")) != resolved) std::abort();
+  return 0;
+}
