@@ -25,6 +25,7 @@ struct RunOptions {
   bool json = false;
   bool quiet = false;
   bool force = false;
+  bool strict = false;  // the first warning of the physics ends the run
 };
 
 struct CheckOptions {

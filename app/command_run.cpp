@@ -10,11 +10,13 @@
 #include "app/progress.hpp"
 #include "app/run_loop.hpp"
 #include "app/run_outputs.hpp"
+#include "app/strict_engine.hpp"
 #include "app/summary.hpp"
 #include "core/check.hpp"
 #include "core/initial_state.hpp"
 #include "core/input_message.hpp"
 #include "core/scene_check.hpp"
+#include "core/validity.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 
@@ -66,12 +68,16 @@ void warn(const std::vector<std::string>& warnings, Progress& progress, bool qui
 }
 
 // Steps to the end with everybody watching; returns the seconds in steps. A run that the physics stopped keeps what it
-// has written, as somebody will want to see what happened, but nowhere that it could be taken for a result.
-double run_watched(Engine& engine, const Scene& scene, Results* results, bool quiet) {
+// has written, as somebody will want to see what happened, but nowhere that it could be taken for a result. warnings:
+// those of the physics are added.
+double run_watched(Engine& engine, const Scene& scene, Results* results, bool quiet,
+                   std::vector<std::string>& warnings) {
   Progress progress(!quiet, scene.run.t_end);
   RunObserver observer;
   observer.pulse = [&] {
-    warn(engine.take_warnings(), progress, quiet);
+    const std::vector<std::string> news = engine.take_warnings();
+    warn(news, progress, quiet);
+    warnings.insert(warnings.end(), news.begin(), news.end());
     progress.update(engine.state());
   };
   if (results != nullptr && wants_frames(scene.output)) {
@@ -104,11 +110,19 @@ int command_run(const RunOptions& options) {
   if (path) check_output_folder(*path, options.scene, options.force);
   if (path && !options.folder && !options.quiet) print_note(fmt::format("results go to {}", path->string()));
 
-  const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, initial_state(scene)); });
+  auto engine = within_memory(scene, [&] { return make_engine(choice, scene, initial_state(scene)); });
+  std::vector<std::string> warnings = validity_of(scene, smallest_radius(engine->state().disks));
+  if (options.strict) {
+    fail_if_any(warnings);
+    engine = make_strict(std::move(engine));
+  }
+  for (const std::string& warning : warnings) {
+    if (!options.quiet) print_warning(warning);
+  }
   const RunStart start = run_start(engine->state(), scene);
   std::optional<Results> results;
   if (path) results.emplace(scene, *path, options.force);
-  const double step_seconds = run_watched(*engine, scene, results ? &*results : nullptr, options.quiet);
+  const double step_seconds = run_watched(*engine, scene, results ? &*results : nullptr, options.quiet, warnings);
 
   if (results) {
     results->outputs.finish(true);
@@ -118,6 +132,7 @@ int command_run(const RunOptions& options) {
   }
   Summary summary = summarize(start, *engine, scene, choice);
   summary.frames = results ? results->outputs.frames() : 0;
+  summary.warnings = std::move(warnings);
   summary.step_s = step_seconds;
   summary.wall_s = seconds_since(start_time);
   summary.cpu_s = cpu_seconds();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/make_engine.hpp"
 #include "core/invariants.hpp"
@@ -25,6 +26,7 @@ struct Summary {
   std::string state_hash;
   std::uint64_t seed = 1;
   Count frames = 0;
+  std::vector<std::string> warnings;  // of the physics, in order
   PhaseTimes phases;
 };
 
@@ -37,11 +39,11 @@ struct RunStart {
 };
 RunStart run_start(const State& state, const Scene& scene);
 
-// Everything but the times and the number of frames, which the caller knows.
+// Everything but the times, the number of frames and the warnings, which the caller knows.
 Summary summarize(const RunStart& start, const Engine& engine, const Scene& scene, const EngineChoice& choice);
 
-// One JSON object with the keys of design.md, in that order, then seed, waiting, frames and phase_s. Numbers in full
-// precision; null for one that is not finite.
+// One JSON object with the keys of design.md, in that order, then seed, waiting, frames, warnings and phase_s. Numbers
+// in full precision; null for one that is not finite.
 std::string json_text(const Summary& summary);
 
 // A few aligned lines. folder: where the results are, empty if nowhere.

@@ -28,6 +28,7 @@ struct StepRules {
 struct Impact {
   double virial = 0.0;  // |impulse| x distance of a disk pair, |impulse| of a wall; mass length^2 / time or m l / t
   bool happened = false;
+  bool amiss = false;  // late: the disks have overlapped since before the step; or made elastic by the TC model (exact)
 };
 
 template <class View>
@@ -100,7 +101,7 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
   if (r.distance2() > 0.0 && r.approach() < 0.0) {
     const Shares share = shares_of(d, i, j);
     const double change = collide(r, share, rules.restitution, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
-    impact = {reduced_mass(d.mass(i), d.mass(j)) * change, true};
+    impact = {reduced_mass(d.mass(i), d.mass(j)) * change, true, !inside_step};
   }
   if (inside_step) {
     drift_one(d, i, ago, rules.gravity);

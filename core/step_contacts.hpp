@@ -7,6 +7,7 @@
 #include "core/contact_event.hpp"
 #include "core/resolve.hpp"
 #include "core/state.hpp"
+#include "core/validity.hpp"
 
 namespace carom {
 
@@ -14,7 +15,7 @@ namespace carom {
 std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules);
 
 // Impacts in order of contact, then supports (settling scenes), then pushing apart; counts into state.counters and
-// keeps the loads in state.loads. Sorts events.
-void resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events);
+// keeps the loads in state.loads. Sorts events. Returns what went wrong.
+StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events);
 
 }  // namespace carom

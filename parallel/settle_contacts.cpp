@@ -210,11 +210,11 @@ void push_contacts(const View& d, const StepRules& rules, const Executor& execut
         const IdPair& p = settle.placed[at];
         const ContactEvent e = p.event();
         if (sweep > 0 && (!is_crowded(lists, p) || !is_deep(d, rules.box, e))) continue;
-        push_apart(d, rules.box, e, settle.holding[at] != 0 ? slop : 0.0);
-        lists.largest[q] = 1.0;
+        const double overlap = push_apart(d, rules.box, e, settle.holding[at] != 0 ? slop : 0.0);
+        lists.largest[q] = std::max({lists.largest[q], seen_deep, overlap});
       }
     });
-    if (std::find(lists.largest.begin(), lists.largest.end(), 1.0) == lists.largest.end()) break;
+    if (!keep_overlap_left(sweep, lists)) break;
   }
 }
 
