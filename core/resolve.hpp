@@ -155,6 +155,11 @@ Impact resolve_event(const View& d, const StepRules& rules, const ContactEvent& 
   return is_wall(e.id2) ? resolve_wall(d, rules, e.i1, wall_side(e.id2)) : resolve_pair(d, rules, e.i1, e.i2);
 }
 
+// One pass over the contacts in order of time; then passes over the crowded ones, those of disks that have another
+// contact in this step, until a pass finds nobody who still touches and approaches, or after most_impact_passes. A front
+// of disks that pours onto a pile passes its momentum on by so many layers in a step; with one pass it would be squeezed.
+inline constexpr int most_impact_passes = 8;
+
 // A disk that reaches further than slack (length) beyond a wall is put back to slack beyond it; velocities are not
 // touched. Returns the depth that it found, over the radius.
 template <class View>

@@ -30,12 +30,17 @@ template <class View>
 Count resolve_impacts(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
                       const std::vector<std::uint32_t>& contacts) {
   ImpactTally tally;
-  for (const ContactEvent& e : events) {
-    if (rules.settles) {
-      const bool loaded = load_of(state.loads, e) > 0.0;
-      if (is_support(d, rules, e, loaded, is_crowded(contacts, e))) continue;
+  bool any = true;
+  for (int pass = 0; pass < most_impact_passes && any; ++pass) {
+    any = false;
+    for (const ContactEvent& e : events) {
+      const bool crowded = is_crowded(contacts, e);
+      if (pass > 0 && !crowded) continue;
+      if (rules.settles && is_support(d, rules, e, load_of(state.loads, e) > 0.0, crowded)) continue;
+      const Impact impact = resolve_event(d, rules, e);
+      tally.add(e.id2, impact);
+      any = any || (crowded && impact.happened);
     }
-    tally.add(e.id2, resolve_event(d, rules, e));
   }
   tally.count_into(state.counters);
   return tally.amiss;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <utility>
 
 #include "core/resting.hpp"
 #include "parallel/resize_amply.hpp"
@@ -112,8 +113,12 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
   if (lists.crowded.empty()) return;
   place_crowded(disks, executor, lists);
   assign_amply(lists.tallies, lists.patches.count(), {});
-  run_crowded(executor, lists,
-              [&](const ContactEvent& e, std::size_t q) { lists.tallies[q].add(e.id2, resolve_event(d, rules, e)); });
+  Count before = 0;
+  for (int pass = 0; pass < most_impact_passes; ++pass) {
+    run_crowded(executor, lists,
+                [&](const ContactEvent& e, std::size_t q) { lists.tallies[q].add(e.id2, resolve_event(d, rules, e)); });
+    if (!any_impact_since(before, lists.tallies)) break;
+  }
   for (const ImpactTally& t : lists.tallies) tally.add(t);
   executor.sort(lists.crowded.begin(), lists.crowded.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
   place_crowded(disks, executor, lists);
@@ -129,6 +134,12 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
 }
 
 }  // namespace
+
+bool any_impact_since(Count& before, const std::vector<ImpactTally>& tallies) {
+  Count now = 0;
+  for (const ImpactTally& t : tallies) now += t.collisions + t.wall_collisions;
+  return std::exchange(before, now) != now;
+}
 
 bool keep_overlap_left(int sweep, ContactLists& lists) {
   const double largest = lists.largest.empty() ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());

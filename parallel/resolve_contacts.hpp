@@ -92,6 +92,9 @@ void run_crowded(const Executor& executor, const ContactLists& lists, Task&& tas
   });
 }
 
+// Are there more impacts than before? Takes the new number down.
+bool any_impact_since(Count& before, const std::vector<ImpactTally>& tallies);
+
 // What a sweep that pushes apart leaves in lists.largest, a patch each: the largest overlap it found, and this where
 // that is nothing but a contact was deep. Returns whether any was, and keeps the overlap of the last sweep.
 inline constexpr double seen_deep = std::numeric_limits<double>::min();
