@@ -25,10 +25,10 @@ bool is_crowded(const std::vector<std::uint32_t>& contacts, const ContactEvent& 
   return contacts[e.i1] > 1 || (!is_wall(e.id2) && contacts[e.i2] > 1);
 }
 
-// Returns how many came late.
+// Returns what came late, and how far it overlapped.
 template <class View>
-Count resolve_impacts(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
-                      const std::vector<std::uint32_t>& contacts) {
+StepFigures resolve_impacts(const View& d, State& state, const StepRules& rules,
+                            const std::vector<ContactEvent>& events, const std::vector<std::uint32_t>& contacts) {
   ImpactTally tally;
   bool any = true;
   for (int pass = 0; pass < most_impact_passes && any; ++pass) {
@@ -43,7 +43,7 @@ Count resolve_impacts(const View& d, State& state, const StepRules& rules, const
     }
   }
   tally.count_into(state.counters);
-  return tally.amiss;
+  return {static_cast<double>(tally.overlap), tally.amiss};
 }
 
 // Solves the supports; their loads go to state.loads, in id order as the events are.
@@ -118,10 +118,10 @@ StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<C
   StepFigures figures;
   with_view(state.disks, [&](const auto& d) {
     const std::vector<std::uint32_t> contacts = contacts_per_disk(state.disks.size(), events);
-    figures.amiss = resolve_impacts(d, state, rules, events, contacts);
+    figures = resolve_impacts(d, state, rules, events, contacts);
     std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
     if (rules.settles) bear_loads(d, state, rules, events, contacts);
-    figures.overlap = push_all(d, state, rules, events, contacts);
+    figures.overlap = std::max(figures.overlap, push_all(d, state, rules, events, contacts));
   });
   return figures;
 }

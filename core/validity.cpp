@@ -39,7 +39,7 @@ void Validity::see_step(const Scene& scene, const StepFigures& figures, const St
   if (figures.overlap > largest_overlap && !std::exchange(overlap_, true)) {
     warnings_.push_back(fmt::format(
         "at time {:g} two disks overlap by {:.2g} % of the sum of their radii, more than {:g} %: dt = {:g} is too long "
-        "for so dense a packing; use a smaller dt or --method exact",
+        "where disks are pressed together; use a smaller dt or --method exact",
         state.time, 100.0 * figures.overlap, 100.0 * largest_overlap, scene.run.dt));
   }
   // Supports keep a little overlap, so that a pile's impacts are often late without harm: its overlaps tell.

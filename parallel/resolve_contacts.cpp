@@ -228,7 +228,7 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
     // Contacts that were alone are finished.
     speed2 = std::max(speed2, finish_contacts(state.disks, rules.box, executor, lists.crowded, lists));
   }
-  lists.figures.amiss = tally.amiss;
+  lists.figures.add({static_cast<double>(tally.overlap), tally.amiss});
   tally.count_into(state.counters);
   return speed2;
 }
