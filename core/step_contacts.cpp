@@ -43,7 +43,7 @@ StepFigures resolve_impacts(const View& d, State& state, const StepRules& rules,
     }
   }
   tally.count_into(state.counters);
-  return {static_cast<double>(tally.overlap), tally.amiss};
+  return {telling_overlap(tally.overlap), tally.amiss};
 }
 
 // Solves the supports; their loads go to state.loads, in id order as the events are.

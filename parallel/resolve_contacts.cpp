@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/resting.hpp"
+#include "core/step_contacts.hpp"
 #include "parallel/resize_amply.hpp"
 
 namespace carom {
@@ -228,7 +229,7 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
     // Contacts that were alone are finished.
     speed2 = std::max(speed2, finish_contacts(state.disks, rules.box, executor, lists.crowded, lists));
   }
-  lists.figures.add({static_cast<double>(tally.overlap), tally.amiss});
+  lists.figures.add({telling_overlap(tally.overlap), tally.amiss});
   tally.count_into(state.counters);
   return speed2;
 }

@@ -57,8 +57,7 @@ Run run(const Scene& scene) {
   engine->forget_paths();
   Run result;
   try {
-    while (engine->state().time < scene.run.t_end &&
-           static_cast<double>(engine->state().counters.steps) < 10.0 * most_steps)
+    while (engine->state().time < scene.run.t_end && static_cast<double>(engine->state().counters.steps) < most_steps)
       engine->step();
   } catch (const PhysicsError&) {
     result.warned = true;

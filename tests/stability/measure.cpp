@@ -105,6 +105,7 @@ double measure(const std::string& what, const Measured& run) {
   const double g = run.scene.physics.gravity;
   const std::map<std::string, Figure> figures{
       {"time", [&] { return run.end.time; }},
+      {"advance", [&] { return run.end.time / (static_cast<double>(c.steps) * run.scene.run.dt); }},
       {"collisions", [&] { return static_cast<double>(c.collisions); }},
       {"events", [&] { return static_cast<double>(c.collisions + c.wall_collisions); }},
       {"rate", [&] { return rate(run); }},

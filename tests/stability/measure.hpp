@@ -29,11 +29,11 @@ struct Measured {
   const Worst& worst;
 };
 
-// Names: time, collisions, events (with walls), rate (disk collisions a disk and unit time), energy_drift, energy_gain,
-// energy (end over start), kinetic (end over start), momentum, overlap, wall_overlap, outside, passed (pairs that were
-// left and right of each other and have changed places), x0, y0, vx0, vy0 (of the disk with id 0, and so on),
-// kinetic_now (energy), fastest (largest speed at the end), disks, lean (largest |x - x(0)|). Throws InputError for a
-// name it does not know.
+// Names: time, advance (of a step, in dt), collisions, events (with walls), rate (disk collisions a disk and unit
+// time), energy_drift, energy_gain, energy (end over start), kinetic (end over start), momentum, overlap, wall_overlap,
+// outside, passed (pairs that were left and right of each other and have changed places), x0, y0, vx0, vy0 (of the disk
+// with id 0, and so on), kinetic_now (energy), fastest (largest speed at the end), disks, lean (largest |x - x(0)|).
+// Throws InputError for a name it does not know.
 double measure(const std::string& what, const Measured& run);
 
 }  // namespace carom::stability

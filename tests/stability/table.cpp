@@ -53,7 +53,8 @@ decided by the numbers:
 
 - *right*: every figure within its bound, at t_end. Time stepping is granted an error of its order in dt. "warns": it
   said all the same that it was near its limits.
-- *right but slow*: the same for more than 20 times the work of the cheapest right method, and not in a blink.
+- *right but slow*: the same for more than 20 times the work of the cheapest right method, and not in a blink; for
+  rollback also where a dt takes more than two frames.
 - *wrong and says so*: a warning, or status 3, with the figure and the remedy.
 - *wrong in silence*: none of these. Nothing may be.
 

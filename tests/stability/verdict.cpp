@@ -91,6 +91,9 @@ Run run_method(const Case& c, const std::string& folder, const std::string& meth
   run.result.work = static_cast<double>(counters.steps) * n;
   if (method == "exact")
     run.result.work += event_work * static_cast<double>(counters.collisions + counters.wall_collisions);
+  if (method == "rollback" && run.end.time > 0.0) {
+    run.result.frames = static_cast<double>(counters.steps) * run.scene->run.dt / run.end.time;
+  }
   run.result.hash = hash_text(state_hash(run.end.disks));
   return run;
 }
@@ -114,7 +117,9 @@ void judge(std::vector<MethodResult>& results) {
   }
   for (MethodResult& r : results) {
     if (r.right()) {
-      r.verdict = r.work > std::max(slow_factor * least, little_work) ? Verdict::slow : Verdict::right;
+      const bool costly = r.work > std::max(slow_factor * least, little_work);
+      const bool stalls = r.frames > most_frames && r.work > least_work;
+      r.verdict = costly || stalls ? Verdict::slow : Verdict::right;
     } else {
       r.verdict = r.warnings.empty() ? Verdict::silent : Verdict::says_so;
     }

@@ -28,6 +28,7 @@ struct MethodResult {
   std::vector<std::string> warnings;
   std::string stopped;                 // what ended the run early, empty if nothing
   double work = 0.0;                   // disk-steps; an event of the exact method counts as many as it costs
+  double frames = 0.0;                 // rollback: a dt of time
   std::string hash;                    // of the last state
   const CheckResult& telling() const;  // the check that is worst against its bound
   bool right() const;
@@ -37,6 +38,9 @@ struct MethodResult {
 inline constexpr double slow_factor = 20.0;
 // Nobody waits for less than this many disk-steps, a tenth of a second.
 inline constexpr double little_work = 3e6;
+// Nor is rollback called slow for more than two frames a dt where there is next to nothing to do.
+inline constexpr double most_frames = 2.0;
+inline constexpr double least_work = 1e5;
 
 struct CaseResult {
   const Case* of = nullptr;
