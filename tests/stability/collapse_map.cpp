@@ -23,8 +23,8 @@ namespace {
 constexpr int columns = 18;  // N = 3, 4, 6, 8, 12, 16 ... 1024
 constexpr int rows = 15;     // 1 - e = 1, 10^(-1/6), ... 10^(-14/6)
 constexpr double rows_a_decade = 6.0;
-constexpr int seeds = 4;
-constexpr double t_end = 1e4;  // the speeds have long gone as 1 / t
+constexpr int seeds = 8;
+constexpr double t_end = 200.0;  // large rings near the boundary would collapse later still
 
 int disks_of(int column) {
   return column == 0 ? 3 : column % 2 == 1 ? 4 << (column / 2) : 6 << (column / 2 - 1);
