@@ -15,6 +15,7 @@
 #include "core/scene_check.hpp"
 #include "core/scene_names.hpp"
 #include "core/step_clock.hpp"
+#include "core/validity.hpp"
 #include "io/frame_schedule.hpp"
 
 namespace carom {
@@ -208,6 +209,7 @@ int command_check(const CheckOptions& options) {
   State initial = within_memory(scene, [&] { return make_initial_state(choice, scene); });
   Findings found;
   measure_sizes(scene, initial.disks, found);
+  for (const std::string& warning : validity_of(scene, found.smallest_radius)) print_warning(warning);
   found.safe_dt = safe_step(scene, initial.disks);
   found.frames = frame_count(scene.output.every, scene.run.t_end);
   const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, std::move(initial)); });

@@ -40,7 +40,7 @@ struct Words {
   std::string first, second, folder, engine, threads, frame, walltime, seeds, jobs, emit;
   std::array<std::string, scene_options.size()> scene_values;
   std::vector<std::string> sets, over;
-  bool json = false, quiet = false, force = false;
+  bool json = false, quiet = false, force = false, strict = false;
 };
 
 double number_of(const std::string& option, const std::string& text) {
@@ -148,6 +148,7 @@ void add_run_options(CLI::App* run, Words& words) {
   run->add_flag("--json", words.json, "print the summary as JSON, and nothing else, on standard output");
   run->add_flag("--quiet", words.quiet, "print nothing but errors");
   run->add_flag("--force", words.force, "replace the results of an earlier run in the folder");
+  run->add_flag("--strict", words.strict, "end with status 3 at the first warning that the method is out of its depth");
 }
 
 void describe_run(CLI::App* run, Words& words) {
@@ -238,6 +239,7 @@ RunOptions run_options(const Words& words) {
   o.json = words.json;
   o.quiet = words.quiet;
   o.force = words.force;
+  o.strict = words.strict;
   return o;
 }
 
@@ -253,6 +255,7 @@ ResumeOptions resume_options(const Words& words) {
   o.json = words.json;
   o.quiet = words.quiet;
   o.force = words.force;
+  o.strict = words.strict;
   return o;
 }
 

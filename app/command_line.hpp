@@ -28,6 +28,7 @@ struct RunOptions {
   bool json = false;
   bool quiet = false;
   bool force = false;
+  bool strict = false;  // the first warning of the physics ends the run
 };
 
 struct ResumeOptions {
@@ -40,6 +41,7 @@ struct ResumeOptions {
   bool json = false;
   bool quiet = false;
   bool force = false;
+  bool strict = false;  // the first warning of the physics ends the run
 };
 
 struct CheckOptions {

@@ -82,7 +82,7 @@ int command_resume(const ResumeOptions& options) {
   std::error_code error;
   if (!fs::equivalent(folder, place.folder, error)) check_output_folder(folder, place.file, options.force);
   return carry_out({start_time, scene, choice, folder, ResumeFrom{std::move(checkpoint), place}, options.max_walltime,
-                    options.json, options.quiet, options.force});
+                    options.json, options.quiet, options.force, options.strict});
 }
 
 }  // namespace carom

@@ -12,10 +12,12 @@
 #include "app/run_outputs.hpp"
 #include "app/run_task.hpp"
 #include "app/stop_signals.hpp"
+#include "app/strict_engine.hpp"
 #include "app/summary.hpp"
 #include "core/check.hpp"
 #include "core/input_message.hpp"
 #include "core/scene_check.hpp"
+#include "core/validity.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 
@@ -110,7 +112,9 @@ double run_watched(Engine& engine, const RunTask& task, Results* results, Checkp
   double step_s = 0.0;
   observer.pulse = [&](double seconds) {
     step_s = seconds;
-    warn(engine.take_warnings(), progress, task.quiet);
+    const std::vector<std::string> news = engine.take_warnings();
+    warn(news, progress, task.quiet);
+    keeper.remember(news);
     progress.update(engine.state());
     const bool go_on = keeper.look(engine.state(), scene.run.t_end, seconds);
     const std::string note = keeper.take_note();
@@ -142,6 +146,7 @@ Summary summary_of(const Engine& engine, const RunTask& task, const Results* res
   summary.wall_s = record.wall_s;
   summary.cpu_s = record.cpu_s;
   summary.resumed = record.resumed;
+  summary.warnings = record.warnings;
   return summary;
 }
 
@@ -205,9 +210,18 @@ State state_of(RunTask& task) {
 
 int carry_out(RunTask task) {
   const Scene& scene = task.scene;
-  const auto engine = within_memory(scene, [&] { return make_engine(task.choice, scene, state_of(task)); });
+  auto engine = within_memory(scene, [&] { return make_engine(task.choice, scene, state_of(task)); });
+  const std::vector<std::string> warnings = validity_of(scene, smallest_radius(engine->state().disks));
+  if (task.strict) {
+    fail_if_any(warnings);
+    engine = make_strict(std::move(engine));
+  }
+  for (const std::string& warning : warnings) {
+    if (!task.quiet) print_warning(warning);
+  }
   catch_signals();
-  const RunRecord record = record_of(task, *engine);
+  RunRecord record = record_of(task, *engine);
+  if (!task.from) record.warnings = warnings;
   const bool new_plan = task.from && record.scene_text != task.from->checkpoint.record.scene_text;
   CheckpointKeeper keeper(record, task.start_time, scene.output.checkpoint, task.max_walltime);
   try {
@@ -241,7 +255,7 @@ int command_run(const RunOptions& options) {
   if (path) check_output_folder(*path, options.scene, options.force);
   if (path && !options.folder && !options.quiet) print_note(fmt::format("results go to {}", path->string()));
   return carry_out({start_time, scene, choice, path, std::nullopt, options.max_walltime, options.json, options.quiet,
-                    options.force});
+                    options.force, options.strict});
 }
 
 }  // namespace carom

@@ -25,7 +25,7 @@ struct RunTask {
   std::optional<std::filesystem::path> folder;                    // for the results; absent if there are none
   std::optional<ResumeFrom> from;                                 // absent: from the scene's start
   double max_walltime = std::numeric_limits<double>::infinity();  // seconds from start_time
-  bool json = false, quiet = false, force = false;
+  bool json = false, quiet = false, force = false, strict = false;
 };
 
 // Runs to the end, or until it is told to stop, and reports. Returns the exit status: 0, or 4 if stopped early.

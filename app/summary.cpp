@@ -99,6 +99,7 @@ std::string json_text(const Summary& s) {
   j["frames"] = s.frames;
   j["resumed"] = s.resumed;
   if (!s.resume_with.empty()) j["resume_with"] = s.resume_with;
+  j["warnings"] = s.warnings;
   nlohmann::ordered_json& phases = j["phase_s"] = nlohmann::ordered_json::object();
   for (const Phase& phase : s.phases.phases()) phases[std::string(phase.name)] = number(phase.seconds);
   return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/make_engine.hpp"
 #include "core/run_start.hpp"
@@ -25,16 +26,17 @@ struct Summary {
   std::string state_hash;
   std::uint64_t seed = 1;
   Count frames = 0;
-  Count resumed = 0;        // how often it went on from a checkpoint; the times are those of all parts
-  std::string resume_with;  // of a run that stopped early: the command that goes on
+  std::vector<std::string> warnings;  // of the physics, in order
+  Count resumed = 0;                  // how often it went on from a checkpoint; the times are those of all parts
+  std::string resume_with;            // of a run that stopped early: the command that goes on
   PhaseTimes phases;
 };
 
-// Everything but the times and the number of frames, which the caller knows.
+// Everything but the times, the number of frames and the warnings, which the caller knows.
 Summary summarize(const RunStart& start, const Engine& engine, const Scene& scene, const EngineChoice& choice);
 
 // One JSON object with the keys of design.md, in that order, then seed, waiting, frames, resumed, for a run
-// that stopped early resume_with, and phase_s (of this part of the run). Numbers in full
+// that stopped early resume_with, then warnings and phase_s (of this part of the run). Numbers in full
 // precision; null for one that is not finite.
 std::string json_text(const Summary& summary);
 

@@ -30,8 +30,8 @@ struct ExactDisk {
 };
 
 // TC model (Luding and McNamara 1998): e = 1 where one of the disks collided less than contact_time ago.
-inline double restitution_at(const ExactRules& rules, double e, double s, double last_contact) {
-  return rules.tc() && s - last_contact < rules.contact_time ? 1.0 : e;
+inline bool made_elastic(const ExactRules& rules, double s, double last_contact) {
+  return rules.tc() && s - last_contact < rules.contact_time;
 }
 
 // Disks a and b (smaller id first) collide at time s; their new segments start there.
@@ -44,9 +44,10 @@ inline Impact collide_at(const ExactRules& rules, double s, double mass_a, doubl
   Impact outcome;
   if (r.approach() < 0.0 && r.distance2() > 0.0) {
     const Shares share = rules.common_mass ? equal_shares : shares(mass_a, mass_b);
-    const double e = restitution_at(rules, rules.restitution, s, std::max(a.last_contact, b.last_contact));
+    const bool elastic = made_elastic(rules, s, std::max(a.last_contact, b.last_contact));
+    const double e = elastic ? 1.0 : rules.restitution;
     const double change = collide(r, share, e, p.vx, p.vy, q.vx, q.vy);
-    outcome = {reduced_mass(mass_a, mass_b) * change, true};
+    outcome = {reduced_mass(mass_a, mass_b) * change, true, elastic && rules.restitution < 1.0};
     a.last_contact = s;
     b.last_contact = s;
   }
@@ -67,11 +68,13 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
   p = carried_to(p, s, rules.gravity);
   Impact outcome;
   if (rules.box.side(side) == SideKind::wall) {
-    const double e = restitution_at(rules, rules.box.wall_restitution, s, a.last_contact);
+    const bool elastic = made_elastic(rules, s, a.last_contact);
+    const double e = elastic ? 1.0 : rules.box.wall_restitution;
     const double before = outward_speed(side, p.vx, p.vy);
     if (before > 0.0) bounce(side, e, p.vx, p.vy);
     if (side == Side::bottom && rules.tc()) p.vy = std::max(p.vy, least_hop * rules.gravity * rules.contact_time);
-    outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), true};
+    outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), true,
+               elastic && rules.box.wall_restitution < 1.0};
     a.last_contact = s;
   }
   if (rules.box.side(side) != SideKind::sink) wrap_into(p, rules.box);

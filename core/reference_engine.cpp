@@ -10,7 +10,8 @@
 
 namespace carom {
 
-ReferenceEngine::ReferenceEngine(const Scene& scene, State initial) : scene_(scene), state_(std::move(initial)) {}
+ReferenceEngine::ReferenceEngine(const Scene& scene, State initial)
+    : scene_(scene), state_(std::move(initial)), validity_(state_.time) {}
 
 double ReferenceEngine::disks_at(double /*t*/, Disks& out) const {
   out = state_.disks;
@@ -18,7 +19,7 @@ double ReferenceEngine::disks_at(double /*t*/, Disks& out) const {
 }
 
 std::vector<std::string> ReferenceEngine::take_warnings() {
-  return std::exchange(warnings_, {});
+  return validity_.take_warnings();
 }
 
 void ReferenceEngine::start_interval(double t, double dt, Count step) {
@@ -40,10 +41,7 @@ Count ReferenceEngine::parts(double dt) {
   const double smallest = smallest_radius(state_.disks);
   const double fall = smallest > 0.0 ? scene_.physics.gravity * dt / smallest : 0.0;
   const Count parts = parts_of_step(travel2, fall, dt);
-  if (parts > 1 && !warned_of_parts_) {
-    warned_of_parts_ = true;
-    warnings_.push_back(split_warning(state_.time, dt, parts));
-  }
+  if (parts > 1) validity_.see_split(state_.time, dt, parts);
   return parts;
 }
 

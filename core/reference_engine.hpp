@@ -6,6 +6,7 @@
 
 #include "core/engine.hpp"
 #include "core/step_start.hpp"
+#include "core/validity.hpp"
 
 namespace carom {
 
@@ -31,11 +32,10 @@ class ReferenceEngine : public Engine {
   Scene scene_;
   State state_;
   PhaseTimes times_;
-  std::vector<std::string> warnings_;
+  Validity validity_;
 
  private:
   void remove(const std::vector<unsigned char>& gone);
-  bool warned_of_parts_ = false;
 };
 
 }  // namespace carom

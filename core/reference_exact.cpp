@@ -7,6 +7,7 @@
 #include "core/reference_window.hpp"
 #include "core/source.hpp"
 #include "core/step_start.hpp"
+#include "core/validity.hpp"
 #include "core/window_plan.hpp"
 #include "core/window_start.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 class ReferenceExact final : public Engine {
  public:
   ReferenceExact(const Scene& scene, State initial, double window_scale)
-      : scene_(scene), state_(std::move(initial)), scale_(window_scale) {}
+      : scene_(scene), state_(std::move(initial)), scale_(window_scale), validity_(state_.time) {}
 
   void step() override {
     if (!(state_.time < scene_.run.t_end)) return;
@@ -55,7 +56,7 @@ class ReferenceExact final : public Engine {
   }
 
   const PhaseTimes& phase_times() const override { return times_; }
-  std::vector<std::string> take_warnings() override { return {}; }
+  std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }
 
  private:
   // Sources emit, Brownian disks draw their velocities; those that cross a sink unseen in the interval leave.
@@ -93,11 +94,13 @@ class ReferenceExact final : public Engine {
     }
     state_.counters.removed += remove_marked(d, result.gone);
     finish_window(state_, plan, result.tally, scale_);
+    validity_.see_step(scene_, {0.0, result.tally.amiss}, state_);
   }
 
   Scene scene_;
   State state_;
   double scale_;
+  Validity validity_;
   PhaseTimes times_;
   WindowPlan last_plan_;
   WindowPaths paths_;

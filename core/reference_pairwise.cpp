@@ -22,16 +22,18 @@ class ReferencePairwise final : public ReferenceEngine {
     // Once only, even where parts() throws: the state that it leaves can be stepped again.
     if (!std::exchange(state_.step_begun, true)) start_interval(clock_.start(k), dt, k);
     const Count n = parts(dt);
-    for (Count part = 0; part < n; ++part) advance(dt / static_cast<double>(n));
+    StepFigures figures;
+    for (Count part = 0; part < n; ++part) figures.add(advance(dt / static_cast<double>(n)));
     remove_at_sinks();
     state_.step_begun = false;
     ++state_.counters.steps;
     state_.time = clock_.end(k);
+    validity_.see_step(scene_, figures, state_);
   }
 
  private:
   // Drift, find the overlaps, take each pair and wall in order of contact, push apart what remains.
-  void advance(double dt) {
+  StepFigures advance(double dt) {
     const StepRules rules = rules_for(scene_, dt);
     drift_all(dt);
     std::vector<ContactEvent> events;
@@ -40,8 +42,9 @@ class ReferencePairwise final : public ReferenceEngine {
       events = find_contacts(state_.disks, rules);
     }
     const PhaseTimer timer(times_, "resolve");
-    resolve_contacts(state_, rules, events);
+    const StepFigures figures = resolve_contacts(state_, rules, events);
     wrap_all();
+    return figures;
   }
 
   StepClock clock_;

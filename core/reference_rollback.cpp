@@ -28,6 +28,7 @@ class ReferenceRollback final : public ReferenceEngine {
     state_.time = back == 0.0 && state_.time + length >= end ? end : std::min(end, state_.time + (length - back));
     remove_at_sinks();
     ++state_.counters.steps;
+    validity_.see_step(scene_, figures_, state_);
     check_stall(state_, scene_);
   }
 
@@ -45,17 +46,23 @@ class ReferenceRollback final : public ReferenceEngine {
   // Steps 1 to 5 of the original's frame. Returns the time by which everything went back.
   double go(double length) {
     const StepRules rules = rules_for(scene_, length);
+    figures_ = {};
     drift_all(length);
     std::vector<ContactEvent> events;
     {
       const PhaseTimer timer(times_, "search");
       events = find_contacts(state_.disks, rules);
+      for (const ContactEvent& e : events) {
+        if (!is_met(state_.disks, rules, e))
+          figures_.overlap = std::max(figures_.overlap, parting_overlap(state_.disks, rules, e));
+      }
       std::erase_if(events, [&](const ContactEvent& e) { return !is_met(state_.disks, rules, e); });
       std::sort(events.begin(), events.end(), earlier);
     }
     const PhaseTimer timer(times_, "resolve");
     const double back = events.empty() ? 0.0 : events.front().ago;
     if (back > 0.0) drift_all(-back);
+    count_amiss(rules, events, back);
     ImpactTally tally;
     bounce_all(state_.disks, rules, events, tally);
     with_view(state_.disks, [&](const auto& d) {
@@ -68,7 +75,17 @@ class ReferenceRollback final : public ReferenceEngine {
     return back;
   }
 
+  // Pairs that bounce before they touch, with a disk that bounces in another pair too.
+  void count_amiss(const StepRules& rules, const std::vector<ContactEvent>& met, double back) {
+    std::vector<unsigned> pairs(state_.disks.size(), 0);
+    for (const ContactEvent& e : met) ++pairs[e.i1], ++pairs[e.i2];
+    for (const ContactEvent& e : met) {
+      if (is_at_a_distance(rules, e, back) && pairs[e.i1] + pairs[e.i2] > 2) ++figures_.amiss;
+    }
+  }
+
   StepClock clock_;
+  StepFigures figures_;  // of this frame
 };
 
 }  // namespace

@@ -28,6 +28,8 @@ struct StepRules {
 struct Impact {
   double virial = 0.0;  // |impulse| x distance of a disk pair, |impulse| of a wall; mass length^2 / time or m l / t
   bool happened = false;
+  bool amiss = false;  // late: the disks have overlapped since before the step; or made elastic by the TC model (exact)
+  float overlap = 0.0F;  // of late disks before the step, over the sum of radii
 };
 
 template <class View>
@@ -81,6 +83,13 @@ void drift_one(const View& d, std::uint32_t i, double t, double g) {
   drift<true>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
 }
 
+// Overlap that two disks had when the step began, over reach, by the relative path that they are on now.
+inline float overlap_before(const Relative& r, double reach, double dt) {
+  const double dx = r.dx - r.dvx * dt;
+  const double dy = r.dy - r.dvy * dt;
+  return static_cast<float>((reach - std::sqrt(dx * dx + dy * dy)) / reach);
+}
+
 // The pair goes back to its own contact, collides by (23), goes forward again. The state may have changed since the
 // contact was found: a pair that no longer overlaps or approaches is left alone (F3, F8). A contact older than the step
 // (an overlap left from before) collides where it is.
@@ -100,7 +109,8 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
   if (r.distance2() > 0.0 && r.approach() < 0.0) {
     const Shares share = shares_of(d, i, j);
     const double change = collide(r, share, rules.restitution, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
-    impact = {reduced_mass(d.mass(i), d.mass(j)) * change, true};
+    impact = {reduced_mass(d.mass(i), d.mass(j)) * change, true, !inside_step};
+    if (!inside_step) impact.overlap = overlap_before(r, reach, rules.dt);
   }
   if (inside_step) {
     drift_one(d, i, ago, rules.gravity);
@@ -153,6 +163,12 @@ template <class View>
 Impact resolve_event(const View& d, const StepRules& rules, const ContactEvent& e) {
   return is_wall(e.id2) ? resolve_wall(d, rules, e.i1, wall_side(e.id2)) : resolve_pair(d, rules, e.i1, e.i2);
 }
+
+// One pass over the contacts in order of time; then passes over the crowded ones, those of disks that have another
+// contact in this step, until a pass finds nobody who still touches and approaches, or after most_impact_passes. A
+// front of disks that pours onto a pile passes its momentum on by so many layers in a step; with one pass it would be
+// squeezed.
+inline constexpr int most_impact_passes = 8;
 
 // A disk that reaches further than slack (length) beyond a wall is put back to slack beyond it; velocities are not
 // touched. Returns the depth that it found, over the radius.

@@ -1,6 +1,7 @@
 #include "core/rollback_frame.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/check.hpp"
@@ -11,6 +12,20 @@ namespace carom {
 bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& e) {
   if (is_wall(e.id2)) return false;
   return with_view(disks, [&](const auto& d) { return relative(d, e.i1, e.i2, rules.box).approach() < 0.0; });
+}
+
+double parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& e) {
+  if (is_wall(e.id2)) return 0.0;
+  return with_view(disks, [&](const auto& d) {
+    const double reach = d.radius(e.i1) + d.radius(e.i2);
+    return (reach - std::sqrt(relative(d, e.i1, e.i2, rules.box).distance2())) / reach;
+  });
+}
+
+bool is_at_a_distance(const StepRules& rules, const ContactEvent& e, double back) {
+  // Less than this share of the frame is the same moment but for rounding.
+  constexpr double same = 1e-9;
+  return back - e.ago > same * rules.dt;
 }
 
 void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally) {

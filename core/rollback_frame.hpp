@@ -10,6 +10,7 @@
 #include "core/scene.hpp"
 #include "core/state.hpp"
 #include "core/step_clock.hpp"
+#include "core/validity.hpp"
 
 namespace carom {
 
@@ -25,6 +26,13 @@ Impact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::
   const double change = collide(r, shares_of(d, i, j), rules.restitution, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
   return {reduced_mass(d.mass(i), d.mass(j)) * change, true};
 }
+
+// How far a pair that is not met overlaps, over the sum of radii; 0 for a wall. Nothing in the frame will see to it.
+double parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& event);
+
+// Had the pair met not yet touched, now that everybody has gone back by `back` (F2)? Where one of its disks bounces in
+// another pair as well, it might never have.
+bool is_at_a_distance(const StepRules& rules, const ContactEvent& event, double back);
 
 // Every pair, in the order given.
 void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally);

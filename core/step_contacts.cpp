@@ -25,18 +25,25 @@ bool is_crowded(const std::vector<std::uint32_t>& contacts, const ContactEvent& 
   return contacts[e.i1] > 1 || (!is_wall(e.id2) && contacts[e.i2] > 1);
 }
 
+// Returns what came late, and how far it overlapped.
 template <class View>
-void resolve_impacts(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
-                     const std::vector<std::uint32_t>& contacts) {
+StepFigures resolve_impacts(const View& d, State& state, const StepRules& rules,
+                            const std::vector<ContactEvent>& events, const std::vector<std::uint32_t>& contacts) {
   ImpactTally tally;
-  for (const ContactEvent& e : events) {
-    if (rules.settles) {
-      const bool loaded = load_of(state.loads, e) > 0.0;
-      if (is_support(d, rules, e, loaded, is_crowded(contacts, e))) continue;
+  bool any = true;
+  for (int pass = 0; pass < most_impact_passes && any; ++pass) {
+    any = false;
+    for (const ContactEvent& e : events) {
+      const bool crowded = is_crowded(contacts, e);
+      if (pass > 0 && !crowded) continue;
+      if (rules.settles && is_support(d, rules, e, load_of(state.loads, e) > 0.0, crowded)) continue;
+      const Impact impact = resolve_event(d, rules, e);
+      tally.add(e.id2, impact);
+      any = any || (crowded && impact.happened);
     }
-    tally.add(e.id2, resolve_event(d, rules, e));
   }
   tally.count_into(state.counters);
+  return {telling_overlap(tally.overlap), tally.amiss};
 }
 
 // Solves the supports; their loads go to state.loads, in id order as the events are.
@@ -67,24 +74,28 @@ void bear_loads(const View& d, State& state, const StepRules& rules, const std::
 }
 
 // One sweep over all contacts; then over the crowded ones, which can undo one another's work, until nothing is deep.
+// Returns the largest overlap that the last of the sweeps still found, 0 if they ended before.
 template <class View>
-void push_all(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
-              const std::vector<std::uint32_t>& contacts) {
+double push_all(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
+                const std::vector<std::uint32_t>& contacts) {
   const double slop = contact_slop * rules.gravity * rules.dt * rules.dt;
   const auto push = [&](const ContactEvent& e) {
     const bool loaded = rules.settles && load_of(state.loads, e) > 0.0;
-    push_apart(d, rules.box, e, loaded ? slop : 0.0);
+    return push_apart(d, rules.box, e, loaded ? slop : 0.0);
   };
   for (const ContactEvent& e : events) push(e);
   bool any_deep = true;
+  double left = 0.0;
   for (int sweep = 1; sweep < most_push_sweeps && any_deep; ++sweep) {
     any_deep = false;
     for (const ContactEvent& e : events) {
       if (!is_crowded(contacts, e) || !is_deep(d, rules.box, e)) continue;
-      push(e);
+      const double overlap = push(e);
+      if (sweep + 1 == most_push_sweeps) left = std::max(left, overlap);
       any_deep = true;
     }
   }
+  return left;
 }
 
 }  // namespace
@@ -102,15 +113,17 @@ std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules) {
   return events;
 }
 
-void resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events) {
+StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events) {
   std::sort(events.begin(), events.end(), earlier);
+  StepFigures figures;
   with_view(state.disks, [&](const auto& d) {
     const std::vector<std::uint32_t> contacts = contacts_per_disk(state.disks.size(), events);
-    resolve_impacts(d, state, rules, events, contacts);
+    figures = resolve_impacts(d, state, rules, events, contacts);
     std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
     if (rules.settles) bear_loads(d, state, rules, events, contacts);
-    push_all(d, state, rules, events, contacts);
+    figures.overlap = std::max(figures.overlap, push_all(d, state, rules, events, contacts));
   });
+  return figures;
 }
 
 }  // namespace carom

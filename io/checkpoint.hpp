@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/run_start.hpp"
 #include "core/state.hpp"
@@ -20,6 +21,7 @@ struct RunRecord {
   OutputMark outputs;
   double wall_s = 0.0, cpu_s = 0.0, step_s = 0.0;  // spent so far, as in the summary
   Count resumed = 0;                               // how often the run went on from a checkpoint
+  std::vector<std::string> warnings;               // of the physics, so far
 };
 
 struct Checkpoint {

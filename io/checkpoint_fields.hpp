@@ -112,8 +112,8 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<RunRecord> T>
 void fields(Stream& stream, T& value) {
-  auto& [version, scene_file, scene_text, engine, start, outputs, wall_s, cpu_s, step_s, resumed] = value;
-  stream(version, scene_file, scene_text, engine, start, outputs, wall_s, cpu_s, step_s, resumed);
+  auto& [version, scene_file, scene_text, engine, start, outputs, wall_s, cpu_s, step_s, resumed, warnings] = value;
+  stream(version, scene_file, scene_text, engine, start, outputs, wall_s, cpu_s, step_s, resumed, warnings);
 }
 
 }  // namespace carom

@@ -195,12 +195,16 @@ std::string data_of(const Figure& figure) {
 }  // namespace
 
 bool draw_svg(const Figure& figure, const std::string& path) {
+  return draw_script(script_of(figure), data_of(figure), path);
+}
+
+bool draw_script(const std::string& script, const std::string& data, const std::string& path) {
   const std::string gnuplot = find_program("gnuplot");
   if (gnuplot.empty()) return false;
   const ScratchFolder scratch;
   const std::string log = scratch.path / "log";
-  write_file(scratch.path / "data", data_of(figure));
-  write_file(scratch.path / "script", script_of(figure));
+  write_file(scratch.path / "data", data);
+  write_file(scratch.path / "script", script);
   ChildProcess child({gnuplot, "--default-settings", "script"}, scratch.path, log);
   const int status = child.wait();
   std::ostringstream svg;

@@ -10,6 +10,7 @@
 #include "core/check.hpp"
 #include "core/disk_pair.hpp"
 #include "core/step_start.hpp"
+#include "core/validity.hpp"
 #include "core/window_plan.hpp"
 #include "core/window_start.hpp"
 #include "parallel/compact.hpp"
@@ -38,6 +39,7 @@ class ParallelExact final : public Engine {
       : scene_(scene),
         state_(std::move(initial)),
         executor_(threads.count, threads.block_divisor),
+        validity_(state_.time),
         slices_(field_, lists_, executor_) {}
 
   void step() override {
@@ -54,7 +56,7 @@ class ParallelExact final : public Engine {
   double disks_at(double t, Disks& out) const override;
   void forget_paths() override { slices_.forget_paths(); }
   const PhaseTimes& phase_times() const override { return times_; }
-  std::vector<std::string> take_warnings() override { return {}; }
+  std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }
 
  private:
   void start_window();
@@ -70,6 +72,7 @@ class ParallelExact final : public Engine {
   Scene scene_;
   State state_;
   Executor executor_;
+  Validity validity_;
   PhaseTimes times_;
   SpeedSummary speeds_;
   ExactField field_;
@@ -279,7 +282,9 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
   last_length_ = plan.length;
   last_plan_ = plan;
   if (any_gone) remove(gone_);
-  finish_window(state_, plan, slices_.tally(), 1.0);
+  const ImpactTally tally = slices_.tally();
+  finish_window(state_, plan, tally, 1.0);
+  validity_.see_step(scene_, {0.0, tally.amiss}, state_);
 }
 
 double ParallelExact::disks_at(double t, Disks& out) const {

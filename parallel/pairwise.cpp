@@ -21,11 +21,16 @@ class ParallelPairwise final : public TimeStepping {
     // Once only, even where parts() throws: the state that it leaves can be stepped again.
     if (!std::exchange(state_.step_begun, true)) start_interval(clock_.start(k), dt, k);
     const Count n = parts(dt);
-    for (Count part = 0; part < n; ++part) advance(rules_for(scene_, dt / static_cast<double>(n)));
+    StepFigures figures;
+    for (Count part = 0; part < n; ++part) {
+      advance(rules_for(scene_, dt / static_cast<double>(n)));
+      figures.add(lists_.figures);
+    }
     remove_at_sinks();
     state_.step_begun = false;
     ++state_.counters.steps;
     state_.time = clock_.end(k);
+    validity_.see_step(scene_, figures, state_);
   }
 
  private:

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <utility>
 
 #include "core/resting.hpp"
+#include "core/step_contacts.hpp"
 #include "parallel/resize_amply.hpp"
 
 namespace carom {
@@ -112,8 +114,12 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
   if (lists.crowded.empty()) return;
   place_crowded(disks, executor, lists);
   assign_amply(lists.tallies, lists.patches.count(), {});
-  run_crowded(executor, lists,
-              [&](const ContactEvent& e, std::size_t q) { lists.tallies[q].add(e.id2, resolve_event(d, rules, e)); });
+  Count before = 0;
+  for (int pass = 0; pass < most_impact_passes; ++pass) {
+    run_crowded(executor, lists,
+                [&](const ContactEvent& e, std::size_t q) { lists.tallies[q].add(e.id2, resolve_event(d, rules, e)); });
+    if (!any_impact_since(before, lists.tallies)) break;
+  }
   for (const ImpactTally& t : lists.tallies) tally.add(t);
   executor.sort(lists.crowded.begin(), lists.crowded.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
   place_crowded(disks, executor, lists);
@@ -122,14 +128,25 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
     assign_amply(lists.largest, lists.patches.count(), 0.0);
     run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
       if (!is_deep(d, rules.box, e)) return;
-      push_apart(d, rules.box, e, 0.0);
-      lists.largest[q] = 1.0;
+      lists.largest[q] = std::max({lists.largest[q], seen_deep, push_apart(d, rules.box, e, 0.0)});
     });
-    if (std::find(lists.largest.begin(), lists.largest.end(), 1.0) == lists.largest.end()) break;
+    if (!keep_overlap_left(sweep, lists)) break;
   }
 }
 
 }  // namespace
+
+bool any_impact_since(Count& before, const std::vector<ImpactTally>& tallies) {
+  Count now = 0;
+  for (const ImpactTally& t : tallies) now += t.collisions + t.wall_collisions;
+  return std::exchange(before, now) != now;
+}
+
+bool keep_overlap_left(int sweep, ContactLists& lists) {
+  const double largest = lists.largest.empty() ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
+  if (sweep + 1 == most_push_sweeps && largest > seen_deep) lists.figures.overlap = largest;
+  return largest > 0.0;
+}
 
 void join_crowded(std::size_t blocks, ContactLists& lists) {
   lists.crowded.clear();
@@ -200,6 +217,7 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
                         const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
                         ContactLists& lists) {
   ImpactTally tally;
+  lists.figures = {};
   double speed2 = 0.0;
   if (rules.settles) {
     speed2 = settle_contacts(state, rules, found, walls, executor, lists, tally);
@@ -211,6 +229,7 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
     // Contacts that were alone are finished.
     speed2 = std::max(speed2, finish_contacts(state.disks, rules.box, executor, lists.crowded, lists));
   }
+  lists.figures.add({telling_overlap(tally.overlap), tally.amiss});
   tally.count_into(state.counters);
   return speed2;
 }

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/contact_event.hpp"
 #include "core/impact_tally.hpp"
 #include "core/resolve.hpp"
 #include "core/state.hpp"
+#include "core/validity.hpp"
 #include "parallel/executor.hpp"
 #include "parallel/find_contacts.hpp"
 #include "parallel/patches.hpp"
@@ -29,6 +31,7 @@ struct ContactLists {
   std::vector<std::size_t> offsets;  // of each block's part of a list
   Patches patches;
   SettleLists settle;
+  StepFigures figures;  // of the last resolve
 };
 
 // The events of the pairs found and the wall contacts, in one list, and how many contacts each disk has.
@@ -88,6 +91,14 @@ void run_crowded(const Executor& executor, const ContactLists& lists, Task&& tas
     for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) task(list[at], q);
   });
 }
+
+// Are there more impacts than before? Takes the new number down.
+bool any_impact_since(Count& before, const std::vector<ImpactTally>& tallies);
+
+// What a sweep that pushes apart leaves in lists.largest, a patch each: the largest overlap it found, and this where
+// that is nothing but a contact was deep. Returns whether any was, and keeps the overlap of the last sweep.
+inline constexpr double seen_deep = std::numeric_limits<double>::min();
+bool keep_overlap_left(int sweep, ContactLists& lists);
 
 // Contacts a block of the parallel passes over them.
 inline constexpr std::size_t contact_block = 1024;

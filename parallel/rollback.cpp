@@ -28,6 +28,7 @@ class ParallelRollback final : public TimeStepping {
     state_.time = back == 0.0 && state_.time + length >= end ? end : std::min(end, state_.time + (length - back));
     remove_at_sinks();
     ++state_.counters.steps;
+    validity_.see_step(scene_, lists_.figures, state_);
     check_stall(state_, scene_);
   }
 
@@ -49,9 +50,17 @@ class ParallelRollback final : public TimeStepping {
     search(rules);
     gather(rules);
     double back = 0.0;
-    keep_events(lists_, executor_, [&](const ContactEvent& e) { return is_met(state_.disks, rules, e); });
+    lists_.figures = {};
+    keep_events(lists_, executor_, [&](const ContactEvent& e) {
+      if (is_met(state_.disks, rules, e)) return true;
+      lists_.figures.overlap = std::max(lists_.figures.overlap, parting_overlap(state_.disks, rules, e));
+      return false;
+    });
     for (const ContactEvent& e : lists_.events) back = std::max(back, e.ago);
     if (back > 0.0) drift(-back);
+    for (const ContactEvent& e : lists_.events) {
+      if (!is_alone(lists_, e) && is_at_a_distance(rules, e, back)) ++lists_.figures.amiss;
+    }
     const PhaseTimer timer(times_, "resolve");
     ImpactTally tally;
     bounce(rules, tally);

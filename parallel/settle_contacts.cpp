@@ -104,10 +104,15 @@ void resolve_impacts(const View& d, const Disks& disks, const StepRules& rules, 
   executor.sort(lists.crowded.begin(), lists.crowded.end(), earlier);
   place_crowded(disks, executor, lists);
   assign_amply(lists.tallies, lists.patches.count(), {});
-  run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
-    if (is_support(d, rules, e, false, !is_alone(lists, e))) return;
-    lists.tallies[q].add(e.id2, resolve_event(d, rules, e));
-  });
+  Count before = 0;
+  for (int pass = 0; pass < most_impact_passes; ++pass) {
+    run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
+      const bool crowded = !is_alone(lists, e);
+      if ((pass > 0 && !crowded) || is_support(d, rules, e, false, crowded)) return;
+      lists.tallies[q].add(e.id2, resolve_event(d, rules, e));
+    });
+    if (!any_impact_since(before, lists.tallies)) break;
+  }
   for (const ImpactTally& t : lists.tallies) tally.add(t);
 }
 
@@ -210,11 +215,11 @@ void push_contacts(const View& d, const StepRules& rules, const Executor& execut
         const IdPair& p = settle.placed[at];
         const ContactEvent e = p.event();
         if (sweep > 0 && (!is_crowded(lists, p) || !is_deep(d, rules.box, e))) continue;
-        push_apart(d, rules.box, e, settle.holding[at] != 0 ? slop : 0.0);
-        lists.largest[q] = 1.0;
+        const double overlap = push_apart(d, rules.box, e, settle.holding[at] != 0 ? slop : 0.0);
+        lists.largest[q] = std::max({lists.largest[q], seen_deep, overlap});
       }
     });
-    if (std::find(lists.largest.begin(), lists.largest.end(), 1.0) == lists.largest.end()) break;
+    if (!keep_overlap_left(sweep, lists)) break;
   }
 }
 

@@ -37,7 +37,10 @@ bool meets(const Disks& d, const Domain& box, const Disk& newcomer, std::size_t 
 }  // namespace
 
 TimeStepping::TimeStepping(const Scene& scene, State initial, const Threads& threads)
-    : scene_(scene), state_(std::move(initial)), executor_(threads.count, threads.block_divisor) {}
+    : scene_(scene),
+      state_(std::move(initial)),
+      executor_(threads.count, threads.block_divisor),
+      validity_(state_.time) {}
 
 double TimeStepping::disks_at(double /*t*/, Disks& out) const {
   out = state_.disks;
@@ -45,7 +48,7 @@ double TimeStepping::disks_at(double /*t*/, Disks& out) const {
 }
 
 std::vector<std::string> TimeStepping::take_warnings() {
-  return std::exchange(warnings_, {});
+  return validity_.take_warnings();
 }
 
 void TimeStepping::start_interval(double t, double dt, Count step) {
@@ -130,10 +133,7 @@ Count TimeStepping::parts(double dt) {
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
   if (scene_.box.has(SideKind::sink)) smallest_radius_ = smallest_radius(state_.disks);
   const Count parts = parts_of_step(exact_travel2(), scene_.physics.gravity * dt / smallest_radius_, dt);
-  if (parts > 1 && !warned_of_parts_) {
-    warned_of_parts_ = true;
-    warnings_.push_back(split_warning(state_.time, dt, parts));
-  }
+  if (parts > 1) validity_.see_split(state_.time, dt, parts);
   return parts;
 }
 

@@ -41,7 +41,7 @@ class TimeStepping : public Engine {
   State state_;
   Executor executor_;
   PhaseTimes times_;
-  std::vector<std::string> warnings_;
+  Validity validity_;
   ContactLists lists_;
 
  private:
@@ -63,7 +63,6 @@ class TimeStepping : public Engine {
   bool speed2_known_ = false;  // false: speed2_ must be taken anew
   bool cells_valid_ = false;   // storage order and cells_ still belong together
   std::size_t strays_ = 0;     // in the last search
-  bool warned_of_parts_ = false;
 };
 
 }  // namespace carom

@@ -96,6 +96,23 @@ class CommandLine : public ::testing::Test {
   fs::path folder_;
 };
 
+// A disk that moves five radii a step: a warning in the summary, or the end with --strict, with what there was till
+// then.
+TEST_F(CommandLine, StrictEndsARunAtItsFirstWarning) {
+  const std::string fast = "run small.toml --set disks.0.velocities='{ uniform = 200.0 }' ";
+  const Outcome lenient = carom(fast + "--quiet --json -o a");
+  EXPECT_EQ(lenient.status, 0) << lenient.err;
+  const Json warnings = Json::parse(lenient.out)["warnings"];
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_THAT(warnings[0].get<std::string>(), HasSubstr("the step is split into"));
+  EXPECT_EQ(Json::parse(read(at("a/summary.json")))["warnings"], warnings);
+  expect_error("$C " + fast + "--quiet --strict -o b", 3, warnings[0].get<std::string>() + " (--strict)");
+  EXPECT_THAT(read(at("b/carom-unfinished/trajectory.xyz")), StartsWith("5\n"));
+  const Outcome sound = carom("run small.toml --quiet --strict --json -o c");
+  EXPECT_EQ(sound.status, 0) << sound.err;
+  EXPECT_TRUE(Json::parse(sound.out)["warnings"].empty());
+}
+
 TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"", "no command given; expected one of run, check, resume, compare, render, sweep"},

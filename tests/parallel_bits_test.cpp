@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "core/engine.hpp"
 #include "parallel/simulation.hpp"
@@ -20,6 +22,7 @@ constexpr int steps = 12;
 struct Trace {
   std::vector<std::uint64_t> hashes;
   Counters counters;
+  std::vector<std::string> warnings;
 };
 
 Trace trace_of(Engine& engine, double t_end) {
@@ -29,11 +32,13 @@ Trace trace_of(Engine& engine, double t_end) {
     trace.hashes.push_back(state_hash(engine.state().disks));
   }
   trace.counters = engine.state().counters;
+  trace.warnings = engine.take_warnings();
   return trace;
 }
 
 void expect_same(const Trace& a, const Trace& b) {
   ASSERT_EQ(a.hashes, b.hashes);
+  EXPECT_EQ(a.warnings, b.warnings);
   EXPECT_EQ(a.counters.collisions, b.counters.collisions);
   EXPECT_EQ(a.counters.wall_collisions, b.counters.wall_collisions);
   EXPECT_EQ(a.counters.removed, b.counters.removed);

@@ -1,0 +1,39 @@
+#include "app/strict_engine.hpp"
+
+#include <utility>
+
+#include "core/check.hpp"
+
+namespace carom {
+
+namespace {
+
+class StrictEngine final : public Engine {
+ public:
+  explicit StrictEngine(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
+
+  void step() override {
+    engine_->step();
+    fail_if_any(engine_->take_warnings());
+  }
+  const State& state() const override { return engine_->state(); }
+  double disks_at(double t, Disks& out) const override { return engine_->disks_at(t, out); }
+  void forget_paths() override { engine_->forget_paths(); }
+  const PhaseTimes& phase_times() const override { return engine_->phase_times(); }
+  std::vector<std::string> take_warnings() override { return {}; }
+
+ private:
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_strict(std::unique_ptr<Engine> engine) {
+  return std::make_unique<StrictEngine>(std::move(engine));
+}
+
+void fail_if_any(const std::vector<std::string>& warnings) {
+  if (!warnings.empty()) throw PhysicsError(warnings.front() + " (--strict)");
+}
+
+}  // namespace carom

@@ -1,0 +1,71 @@
+// When a run leaves what its method can do right: the figures that tell, their bounds, and one warning for each, with
+// the figure and the remedy. Both engines feed it the same figures, so they warn alike. It only counts: no bit of a
+// state depends on it.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "core/state.hpp"
+#include "core/types.hpp"
+
+namespace carom {
+
+// Overlap left to two disks (or a disk and a wall) after a step, over the sum of radii: what a pile may have.
+inline constexpr double largest_overlap = 0.02;
+// Share of the collisions that went amiss: seen a step late (pairwise), bounced together with another of the same disk
+// (rollback, F2), made elastic by the TC model (exact). Measured on gases of packing fraction 0.3 to 0.88, with such a
+// share the collision rate (for the TC model, the dissipation) is off by about 1 % (pairwise, rollback) or 5 % (TC).
+inline constexpr double largest_amiss_share = 0.05;
+// So many of them may happen before a share means anything.
+inline constexpr Count least_amiss = 10;
+// Time that a frame of rollback advances, in dt, averaged over the frames watched: below this time all but stands (F1).
+inline constexpr double least_advance = 0.1;
+inline constexpr Count frames_watched = 1000;
+// Places are known to the size of the box times 1e-16. Radii below this share of it see that.
+inline constexpr double least_radius_share = 1e-9;
+// Root mean square displacement of a Brownian interval, over the smallest radius.
+inline constexpr double largest_brownian_step = 0.5;
+
+// What a step (or a part of it) did that no exact motion does.
+struct StepFigures {
+  double overlap = 0.0;  // left after pushing apart, or met in disks that part; over the sum of radii
+  Count amiss = 0;       // collisions, see largest_amiss_share
+
+  void add(const StepFigures& other) {
+    overlap = std::max(overlap, other.overlap);
+    amiss += other.amiss;
+  }
+};
+
+class Validity {
+ public:
+  // time: at which the run begins.
+  explicit Validity(double time) : watched_from_(time) {}
+
+  // The step that starts at `time` is longer than the safe one.
+  void see_split(double time, double dt, Count parts);
+
+  // A step, frame or window has ended in this state.
+  void see_step(const Scene& scene, const StepFigures& figures, const State& state);
+
+  std::vector<std::string> take_warnings();
+
+ private:
+  void see_amiss(const Scene& scene, Count count, const State& state);
+  void see_advance(const Scene& scene, const State& state);
+
+  std::vector<std::string> warnings_;
+  Count amiss_ = 0;
+  Count frames_ = 0;  // of rollback, since watched_from_
+  double watched_from_;
+  bool split_ = false, overlap_ = false, amiss_told_ = false, slow_ = false;
+};
+
+// What can be said before the first step: places too coarse for the radii, Brownian intervals too long. One line each.
+// smallest_radius: of the disks at the start, 0 if there are none.
+std::vector<std::string> validity_of(const Scene& scene, double smallest_radius);
+
+}  // namespace carom

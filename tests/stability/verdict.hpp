@@ -1,0 +1,55 @@
+// Running a case with one method, and the verdict, decided by the case's data.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/engine.hpp"
+#include "core/state.hpp"
+#include "tests/stability/case.hpp"
+#include "tests/stability/measure.hpp"
+
+namespace carom::stability {
+
+enum class Verdict : std::uint8_t { right, slow, says_so, silent };
+std::string_view text_of(Verdict verdict);
+
+struct CheckResult {
+  std::string what;
+  double measured = 0.0, expected = 0.0, bound = 0.0;
+  bool holds() const;
+  double over_bound() const;  // error over bound; infinite where the bound is 0 and broken
+};
+
+struct MethodResult {
+  std::string method;
+  Verdict verdict = Verdict::silent;
+  std::vector<CheckResult> checks;
+  std::vector<std::string> warnings;
+  std::string stopped;                 // what ended the run early, empty if nothing
+  double work = 0.0;                   // disk-steps; an event of the exact method counts as many as it costs
+  double frames = 0.0;                 // rollback: a dt of time
+  std::string hash;                    // of the last state
+  const CheckResult& telling() const;  // the check that is worst against its bound
+  bool right() const;
+};
+
+// A run that is right but costs more than so many times the cheapest right method is slow.
+inline constexpr double slow_factor = 20.0;
+// Nobody waits for less than this many disk-steps, a tenth of a second.
+inline constexpr double little_work = 3e6;
+// Nor is rollback called slow for more than two frames a dt where there is next to nothing to do.
+inline constexpr double most_frames = 2.0;
+inline constexpr double least_work = 1e5;
+
+struct CaseResult {
+  const Case* of = nullptr;
+  std::vector<MethodResult> methods;  // rollback, pairwise, exact
+};
+
+enum class Which : std::uint8_t { parallel, reference };
+
+// Runs the case with every method; folder: where its scene is.
+CaseResult run_case(const Case& c, const std::string& folder, Which which);
+
+}  // namespace carom::stability

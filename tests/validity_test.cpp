@@ -1,0 +1,108 @@
+// A run that leaves what its method can do says so: once, with the figure and the remedy, in both engines alike.
+#include "core/validity.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/check.hpp"
+#include "core/engine.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string folder = CAROM_SOURCE_DIR "/scenes/stability/";
+
+// All warnings of a run; a run that the physics stops ends its list with that.
+std::vector<std::string> warnings_of(Engine& engine, const Scene& scene) {
+  try {
+    while (engine.state().time < scene.run.t_end) engine.step();
+  } catch (const PhysicsError& error) {
+    std::vector<std::string> warnings = engine.take_warnings();
+    warnings.emplace_back(error.what());
+    return warnings;
+  }
+  return engine.take_warnings();
+}
+
+std::vector<std::string> warnings_of(const Scene& scene) {
+  const State start = initial_state(scene);
+  std::vector<std::string> plain = warnings_of(*make_reference_engine(scene, start), scene);
+  EXPECT_EQ(plain, warnings_of(*make_parallel_engine(scene, start, {3, 512}), scene));
+  return plain;
+}
+
+Scene stability_scene(const std::string& name, const std::vector<Override>& changes) {
+  return load_scene(folder + name + ".toml", changes);
+}
+
+TEST(Validity, PairwiseSaysThatCollisionsAreSeenLate) {
+  const auto gas = [](const char* dt) {
+    return stability_scene("f02_bounce_at_a_distance", {{"disks.0.count", "300"},
+                                                        {"box.packing_fraction", "0.5"},
+                                                        {"run.t_end", "2"},
+                                                        {"run.method", "pairwise"},
+                                                        {"run.dt", dt}});
+  };
+  EXPECT_THAT(warnings_of(gas("0.005")), IsEmpty());
+  EXPECT_THAT(warnings_of(gas("0.05")),
+              ::testing::Contains(AllOf(HasSubstr("collisions were seen a step late: dt = 0.05 is long"),
+                                        HasSubstr("use a smaller dt or --method exact"))));
+}
+
+TEST(Validity, RollbackSaysThatDisksBounceBeforeTheyTouch) {
+  const auto gas = [](const char* dt) {
+    return stability_scene("f02_bounce_at_a_distance",
+                           {{"disks.0.count", "300"}, {"run.t_end", "5"}, {"run.method", "rollback"}, {"run.dt", dt}});
+  };
+  EXPECT_THAT(warnings_of(gas("0.005")), IsEmpty());
+  EXPECT_THAT(warnings_of(gas("0.05")), ElementsAre(HasSubstr("bounced at one moment with another of the same disk")));
+}
+
+TEST(Validity, RollbackSaysThatTimeStallsBeforeItStops) {
+  const Scene scene = stability_scene(
+      "f16_collapse_three", {{"disks.0.velocities", "[[1, 0], [0, 0], [-1, 0]]"}, {"run.method", "rollback"}});
+  const std::vector<std::string> warnings = warnings_of(scene);
+  EXPECT_THAT(warnings, ::testing::Contains(AllOf(HasSubstr("a frame advances time by 0.0"),
+                                                  HasSubstr("with 3 disks: time stalls; use --method pairwise"))));
+  EXPECT_THAT(warnings.back(), HasSubstr("rollback: time stands still at t = "));
+}
+
+// A heavy disk presses a light one against the wall.
+TEST(Validity, PairwiseSaysHowFarDisksOverlap) {
+  const Scene pressed = stability_scene("mass_ratio_1e6", {{"run.method", "pairwise"}, {"run.dt", "0.05"}});
+  EXPECT_THAT(warnings_of(pressed), ::testing::Contains(AllOf(HasSubstr("two disks overlap by"),
+                                                              HasSubstr("more than 2 %: dt = 0.05 is too long"))));
+}
+
+TEST(Validity, ExactSaysThatTheCollapseModelTakesOver) {
+  const auto cooling = [](const char* contact_time) {
+    return stability_scene("f16_cooling_gas", {{"physics.restitution", "0.9"},
+                                               {"physics.collapse",
+                                                std::string("{ model = \"tc\", contact_time = ") + contact_time + " }"},
+                                               {"disks.0.count", "100"},
+                                               {"run.t_end", "2"}});
+  };
+  EXPECT_THAT(warnings_of(cooling("1e-6")), IsEmpty());
+  EXPECT_THAT(warnings_of(cooling("0.1")), ElementsAre(AllOf(HasSubstr("were made elastic by the TC model"),
+                                                             HasSubstr("contact_time = 0.1 is long"))));
+}
+
+TEST(Validity, ScenesThatNoMethodServesAreToldBeforeTheFirstStep) {
+  Scene scene = test::scene_from(test::sound_scene);
+  EXPECT_THAT(validity_of(scene, 1.0), IsEmpty());
+  EXPECT_THAT(validity_of(scene, 0.0), IsEmpty());
+  EXPECT_THAT(validity_of(scene, 1e-9), ElementsAre(HasSubstr("in a box of 20 places are known to 2.2e-06 of the")));
+  scene.physics.diffusion = 2.0;
+  scene.run.dt = 1.0;
+  EXPECT_THAT(validity_of(scene, 1.0), ElementsAre(AllOf(HasSubstr("a Brownian disk moves by 2 of the smallest radius"),
+                                                         HasSubstr("use dt <= 0.062"))));
+}
+
+}  // namespace
+}  // namespace carom
