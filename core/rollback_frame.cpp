@@ -13,9 +13,14 @@ bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& e) {
   return with_view(disks, [&](const auto& d) { return relative(d, e.i1, e.i2, rules.box).approach() < 0.0; });
 }
 
-void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally) {
+void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally,
+                CollisionLog* log) {
   with_view(disks, [&](const auto& d) {
-    for (const ContactEvent& e : events) tally.add(e.id2, bounce_pair(d, rules, e.i1, e.i2));
+    for (const ContactEvent& e : events) {
+      const Impact impact = bounce_pair(d, rules, e.i1, e.i2);
+      tally.add(e.id2, impact);
+      if (log != nullptr && impact.happened) log->emplace_back(e.id1, e.id2);
+    }
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/collision_log.hpp"
 #include "core/contact_event.hpp"
 #include "core/impact_tally.hpp"
 #include "core/resolve.hpp"
@@ -26,8 +27,9 @@ Impact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::
   return {reduced_mass(d.mass(i), d.mass(j)) * change, true};
 }
 
-// Every pair, in the order given.
-void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally);
+// Every pair, in the order given; those that collide are added to log, where one is given.
+void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally,
+                CollisionLog* log = nullptr);
 
 // One disk and the walls it reaches beyond: back to its contact, bounce, forward; what remains is pushed inside (F11).
 template <class View>

@@ -27,14 +27,16 @@ bool is_crowded(const std::vector<std::uint32_t>& contacts, const ContactEvent& 
 
 template <class View>
 void resolve_impacts(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
-                     const std::vector<std::uint32_t>& contacts) {
+                     const std::vector<std::uint32_t>& contacts, CollisionLog* log) {
   ImpactTally tally;
   for (const ContactEvent& e : events) {
     if (rules.settles) {
       const bool loaded = load_of(state.loads, e) > 0.0;
       if (is_support(d, rules, e, loaded, is_crowded(contacts, e))) continue;
     }
-    tally.add(e.id2, resolve_event(d, rules, e));
+    const Impact impact = resolve_event(d, rules, e);
+    tally.add(e.id2, impact);
+    if (log != nullptr && impact.happened && !is_wall(e.id2)) log->emplace_back(e.id1, e.id2);
   }
   tally.count_into(state.counters);
 }
@@ -102,11 +104,11 @@ std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules) {
   return events;
 }
 
-void resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events) {
+void resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events, CollisionLog* log) {
   std::sort(events.begin(), events.end(), earlier);
   with_view(state.disks, [&](const auto& d) {
     const std::vector<std::uint32_t> contacts = contacts_per_disk(state.disks.size(), events);
-    resolve_impacts(d, state, rules, events, contacts);
+    resolve_impacts(d, state, rules, events, contacts, log);
     std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
     if (rules.settles) bear_loads(d, state, rules, events, contacts);
     push_all(d, state, rules, events, contacts);
