@@ -35,7 +35,7 @@ struct Words {
   std::string first, second, folder, engine, threads, frame;
   std::array<std::string, scene_options.size()> scene_values;
   std::vector<std::string> sets;
-  bool json = false, quiet = false, force = false;
+  bool json = false, quiet = false, force = false, quick = false, tiny = false;
 };
 
 double number_of(const std::string& option, const std::string& text) {
@@ -147,6 +147,14 @@ void describe_render(CLI::App* render, Words& words) {
   render->add_flag("--force", words.force, "replace an existing file");
 }
 
+void describe_chart(CLI::App* chart, Words& words) {
+  add_value(chart, "-o,--output", words.folder, "DIR", "folder for chart.svg, .png, .csv and .json; default out/chart");
+  chart->add_flag("--quick", words.quick, "fewer points, within a minute");
+  chart->add_flag("--tiny", words.tiny, "a test of the command itself")->group("");
+  chart->add_flag("--quiet", words.quiet, "print nothing but errors");
+  chart->add_flag("--force", words.force, "replace an earlier chart in the folder");
+}
+
 // Long names of a command's options, --help included.
 std::vector<std::string_view> option_names(const CLI::App* command, std::vector<std::string>& storage) {
   for (const CLI::Option* option : command->get_options()) {
@@ -210,6 +218,10 @@ RenderOptions render_options(const Words& words) {
   return o;
 }
 
+ChartOptions chart_options(const Words& words) {
+  return {file_option(words.folder), words.quick, words.tiny, words.quiet, words.force};
+}
+
 // CLI11's own complaints are about values that are missing or superfluous; "--dt: 1 required X missing" becomes ours.
 [[noreturn]] void fail_as_one_line(const CLI::ParseError& error) {
   const std::string text = error.what();
@@ -231,10 +243,10 @@ std::string help_of(const CLI::App& app, const CLI::App& shown) {
   return text;
 }
 
-constexpr std::array<std::string_view, 4> command_names{"run", "check", "compare", "render"};
+constexpr std::array<std::string_view, 5> command_names{"run", "check", "compare", "render", "chart"};
 
 void check_command_name(int argc, const char* const* argv) {
-  if (argc < 2) throw InputError("no command given; expected one of run, check, compare, render (or --help)");
+  if (argc < 2) throw InputError("no command given; expected one of run, check, compare, render, chart (or --help)");
   const std::string_view name = argv[1];
   if (name.starts_with("-")) {
     constexpr std::array<std::string_view, 2> general{"--help", "--version"};
@@ -260,12 +272,14 @@ Command parse_command_line(int argc, const char* const* argv) {
   CLI::App* const compare =
       app.add_subcommand("compare", "two outputs: the same bits, or where and by how much they differ");
   CLI::App* const render = app.add_subcommand("render", "a movie or a picture from a trajectory");
-  for (CLI::App* const command : {run, check, compare, render}) command->allow_extras();
+  CLI::App* const chart = app.add_subcommand("chart", "the speed-accuracy chart of all methods, from runs made now");
+  for (CLI::App* const command : {run, check, compare, render, chart}) command->allow_extras();
   describe_run(run, words);
   add_scene_options(check, words);
   check->add_flag("--json", words.json, "print the result as JSON");
   describe_compare(compare, words);
   describe_render(render, words);
+  describe_chart(chart, words);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
@@ -280,7 +294,8 @@ Command parse_command_line(int argc, const char* const* argv) {
   if (run->parsed()) return run_options(words);
   if (check->parsed()) return check_options(words);
   if (compare->parsed()) return compare_options(words);
-  return render_options(words);
+  if (render->parsed()) return render_options(words);
+  return chart_options(words);
 }
 
 Scene load_scene_as_told(const std::string& path, const SceneChanges& changes) {

@@ -46,12 +46,20 @@ struct RenderOptions {
   bool force = false;
 };
 
+struct ChartOptions {
+  std::optional<std::string> folder;  // -o
+  bool quick = false;                 // fewer points, within a minute
+  bool tiny = false;                  // for tests: numbers of no use, within seconds
+  bool quiet = false;
+  bool force = false;
+};
+
 // What --help or --version print on standard output.
 struct TextRequest {
   std::string text;
 };
 
-using Command = std::variant<RunOptions, CheckOptions, CompareOptions, RenderOptions, TextRequest>;
+using Command = std::variant<RunOptions, CheckOptions, CompareOptions, RenderOptions, ChartOptions, TextRequest>;
 
 // Throws InputError with one line that names the option, and the nearest one for a misspelt name.
 Command parse_command_line(int argc, const char* const* argv);

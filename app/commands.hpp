@@ -11,6 +11,7 @@ int command_run(const RunOptions& options);
 int command_check(const CheckOptions& options);
 int command_compare(const CompareOptions& options);
 int command_render(const RenderOptions& options);
+int command_chart(const ChartOptions& options);
 
 // Writes to standard output and sees to it that it arrives. Throws RunError if it does not (a full disk, a closed
 // pipe).

@@ -35,6 +35,7 @@ struct Dispatch {
   int operator()(const CheckOptions& options) const { return command_check(options); }
   int operator()(const CompareOptions& options) const { return command_compare(options); }
   int operator()(const RenderOptions& options) const { return command_render(options); }
+  int operator()(const ChartOptions& options) const { return command_chart(options); }
   int operator()(const TextRequest& request) const {
     print_out(request.text);
     return 0;

@@ -146,8 +146,8 @@ void measure_rates(const ChartScene& scene, const Scene& s, const State& start, 
   sample[Measure::overlap] = overlap;
   switch (scene.figure) {
     case Figure::pressure:
-      sample[Measure::figure] = pressure({0.5 * (first.kinetic + last.kinetic), 0.0}, end.counters.virial, s.run.t_end,
-                                         s.box);
+      sample[Measure::figure] =
+          pressure({0.5 * (first.kinetic + last.kinetic), 0.0}, end.counters.virial, s.run.t_end, s.box);
       break;
     case Figure::cooling:
       sample[Measure::figure] = (std::sqrt(first.kinetic / last.kinetic) - 1.0) / s.run.t_end;

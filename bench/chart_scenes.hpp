@@ -16,9 +16,9 @@ enum class Figure {
 };
 
 struct ChartScene {
-  std::string name;   // in chart.csv
-  std::string title;  // over its panel
-  std::string text;   // TOML without [run]
+  std::string name;      // in chart.csv
+  std::string title;     // over its panel
+  std::string text;      // TOML without [run]
   double melting = 0.0;  // time for which an elastic gas of these disks is run before anything is measured
   double flight = 0.0;   // time after which paths are compared: about two mean free times, lambda t < 6
   double length = 0.0;   // time over which rates are taken: about 25 mean free times
