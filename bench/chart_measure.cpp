@@ -13,15 +13,15 @@ namespace carom::chart {
 namespace {
 
 // From one step to the next.
-constexpr double step_factor = 2.0, brownian_factor = 4.0;
+constexpr double step_factor = 2.0;
 
 double step_of(const ChartScene& scene, int power) {
-  return scene.longest_step / std::pow(scene.figure == Figure::spread ? brownian_factor : step_factor, power);
+  return scene.longest_step / std::pow(step_factor, power);
 }
 
 // Short steps cost more and are seen by fewer seeds; rollback, whose errors are large, needs fewer.
 std::uint64_t seeds_of(const Effort& effort, Method method, int power) {
-  constexpr int free_powers = 3;
+  constexpr int free_powers = 4;
   const std::uint64_t wanted = effort.most_seeds >> std::max(0, power - free_powers);
   const std::uint64_t seeds = std::max(effort.least_seeds, wanted);
   return method == Method::rollback ? std::max(effort.least_seeds, seeds / 4) : seeds;
@@ -90,11 +90,11 @@ void run_all(std::size_t count, int threads, Run run) {
 }
 
 std::vector<CrowdPoint> crowd_settings(const Effort& effort) {
-  constexpr double dt = 0.008;
   std::vector<CrowdPoint> points;
   for (const std::size_t disks : effort.crowds) {
-    for (const Method method : {Method::rollback, Method::pairwise, Method::exact}) {
-      points.push_back({disks, method, dt, 0.0});
+    points.push_back({disks, Method::exact});
+    for (const double dt : {0.032, 0.008}) {
+      for (const Method method : {Method::rollback, Method::pairwise}) points.push_back({disks, method, dt});
     }
   }
   return points;
@@ -103,11 +103,11 @@ std::vector<CrowdPoint> crowd_settings(const Effort& effort) {
 }  // namespace
 
 Effort full_effort() {
-  return {"full", {0, 1, 2, 3, 4, 5, 6, 7, 8}, 64, 4, {16, 64, 256, 1024, 4096, 16384}, 1.0};
+  return {"full", {0, 1, 2, 3, 4, 5, 6, 7, 8}, 96, 6, {16, 64, 256, 1024, 4096, 16384, 65536}, 1.0};
 }
 
 Effort quick_effort() {
-  return {"quick", {0, 2, 4, 6}, 4, 2, {16, 64, 256, 1024}, 1.0};
+  return {"quick", {0, 2, 3, 4, 5}, 4, 2, {16, 256, 4096}, 1.0};
 }
 
 Effort tiny_effort() {
@@ -147,7 +147,9 @@ ChartResult measure_chart(const Effort& effort, int threads, const Watch& watch)
   const double unit = result.scenes[1].unit;
   run_all(result.crowd.size(), threads, [&](std::size_t k) {
     CrowdPoint& p = result.crowd[k];
-    p.cost = unit * cost_of(p.disks, p.method, p.dt, 3);
+    const ShortRun run = run_fluid(p.disks, p.method, p.dt, 3);
+    p.cost = unit * run.cost;
+    p.frames = run.steps * p.dt;
   });
   return result;
 }

@@ -106,7 +106,7 @@ void fit_curve(Curve& curve) {
 
 }  // namespace
 
-std::optional<double> predicted_order(Method method, Measure measure) {
+std::optional<double> predicted_order(const ChartScene& scene, Method method, Measure measure) {
   if (method == Method::exact) return std::nullopt;
   switch (measure) {
     case Measure::path:
@@ -114,7 +114,7 @@ std::optional<double> predicted_order(Method method, Measure measure) {
     case Measure::figure:
     case Measure::missed:
     case Measure::spurious:
-      return 1.0;
+      return scene.figure == Figure::spread ? 0.5 : 1.0;
     default:
       return std::nullopt;  // energy and momentum are kept to rounding, overlaps are pushed away: nothing to predict
   }

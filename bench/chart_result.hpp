@@ -45,12 +45,13 @@ struct SceneResult {
   std::vector<Curve> curves;  // rollback, pairwise, exact
 };
 
-// Cost of the fluid against the number of disks, per disk and mean free time.
+// The fluid with a number of disks.
 struct CrowdPoint {
   std::size_t disks = 0;
   Method method = Method::exact;
-  double dt = 0.0;
-  double cost = 0.0;
+  double dt = 0.0;      // 0: exact
+  double cost = 0.0;    // per disk and mean free time
+  double frames = 0.0;  // steps that it took to advance by dt; 0: exact
 };
 
 struct ChartResult {
@@ -72,8 +73,10 @@ Effort full_effort();
 Effort quick_effort();
 Effort tiny_effort();  // seconds; numbers of no use, for tests
 
-// The order in dt that references.md and design.md predict; none where dt does not matter or nothing is said.
-std::optional<double> predicted_order(Method method, Measure measure);
+// The predicted order in dt (docs/methods.md); none where dt does not matter or nothing is said. What is wrong is a
+// share Gamma dt of all collisions, those of disks that collide twice in a step: first order. Brownian disks of speed
+// sqrt(2 D / dt) have Gamma dt of order 1/2.
+std::optional<double> predicted_order(const ChartScene& scene, Method method, Measure measure);
 
 // Is told what share of the work is done.
 using Watch = std::function<void(double share)>;

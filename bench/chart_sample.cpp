@@ -53,27 +53,31 @@ struct Flight {
   CollisionLog collisions;   // sorted
 };
 
+std::vector<Vec2> places_of(const Disks& d) {
+  std::vector<Vec2> places(d.size());
+  for (std::size_t i = 0; i < d.size(); ++i) places[d.id[i]] = {d.x[i], d.y[i]};
+  return places;
+}
+
 Flight fly(const Scene& scene, const State& start) {
   Flight flight;
   const auto engine = make_reference_engine(scene, start, &flight.collisions);
   while (engine->state().time < scene.run.t_end) engine->step();
-  const Disks& d = engine->state().disks;
-  flight.places.resize(d.size());
-  for (std::size_t i = 0; i < d.size(); ++i) flight.places[d.id[i]] = {d.x[i], d.y[i]};
+  flight.places = places_of(engine->state().disks);
   std::sort(flight.collisions.begin(), flight.collisions.end());
   return flight;
 }
 
-double mean_distance(const Scene& scene, const Flight& a, const Flight& b) {
+double mean_distance(const Scene& scene, const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < a.places.size(); ++i) {
-    double dx = a.places[i].x - b.places[i].x;
-    double dy = a.places[i].y - b.places[i].y;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    double dx = a[i].x - b[i].x;
+    double dy = a[i].y - b[i].y;
     if (scene.box.periodic_x()) dx = nearest_image(dx, scene.box.width);
     if (scene.box.periodic_y()) dy = nearest_image(dy, scene.box.height);
     sum += std::hypot(dx, dy);
   }
-  return sum / static_cast<double>(a.places.size());
+  return sum / static_cast<double>(a.size());
 }
 
 // Entries of a that b lacks; a pair that collides twice in one and once in the other counts once.
@@ -83,10 +87,11 @@ std::size_t lacking(const CollisionLog& a, const CollisionLog& b) {
   return rest.size();
 }
 
-void compare_flights(const Scene& scene, const Flight& exact, const Flight& flight, Sample& sample) {
-  constexpr double diameter = 1.0;  // mean, in every scene of the chart
+void compare_flights(const Scene& scene, const State& start, const Flight& exact, const Flight& flight,
+                     Sample& sample) {
   const double collisions = static_cast<double>(std::max<std::size_t>(1, exact.collisions.size()));
-  sample[Measure::path] = mean_distance(scene, exact, flight) / diameter;
+  sample[Measure::path] =
+      mean_distance(scene, exact.places, flight.places) / mean_distance(scene, exact.places, places_of(start.disks));
   sample[Measure::missed] = static_cast<double>(lacking(exact.collisions, flight.collisions)) / collisions;
   sample[Measure::spurious] = static_cast<double>(lacking(flight.collisions, exact.collisions)) / collisions;
 }
@@ -172,24 +177,25 @@ std::vector<Sample> measure_seed(const ChartScene& scene, std::uint64_t seed, co
     if (!exact.contains(key)) exact[key] = fly(scene_of(scene, seed, Method::exact, setting.dt, scene.flight), start);
     Sample& sample = samples.emplace_back(Sample{setting.method, setting.dt, {}});
     const bool itself = setting.method == Method::exact;
-    compare_flights(flight, exact[key], fly(flight, itself ? moved_by_rounding(start) : start), sample);
+    compare_flights(flight, start, exact[key], fly(flight, itself ? moved_by_rounding(start) : start), sample);
     measure_rates(scene, scene_of(scene, seed, setting.method, setting.dt, scene.length), start, sample);
   }
   return samples;
 }
 
-double cost_of(std::size_t disks, Method method, double dt, int rounds) {
+ShortRun run_fluid(std::size_t disks, Method method, double dt, int rounds) {
   const ChartScene scene = fluid_of(disks);
   const State start = start_state(scene, 1);
-  double least = std::numeric_limits<double>::infinity();
+  ShortRun run{std::numeric_limits<double>::infinity(), 0.0};
   for (int round = 0; round < rounds; ++round) {
     const auto engine = make_parallel_engine(scene_of(scene, 1, method, dt, scene.length), start, {1});
     engine->forget_paths();
     const double before = cpu_seconds();
     while (engine->state().time < scene.length) engine->step();
-    least = std::min(least, (cpu_seconds() - before) / (static_cast<double>(disks) * scene.length));
+    run.cost = std::min(run.cost, (cpu_seconds() - before) / (static_cast<double>(disks) * scene.length));
+    run.steps = static_cast<double>(engine->state().counters.steps) / scene.length;
   }
-  return least;
+  return run;
 }
 
 }  // namespace carom::chart

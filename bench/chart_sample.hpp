@@ -13,7 +13,7 @@ namespace carom::chart {
 
 enum class Measure : std::uint8_t {
   cost,      // CPU seconds per disk and unit of time
-  path,      // mean distance of a disk from where exact has it after `flight`, over the mean diameter
+  path,      // mean distance of a disk from where exact has it after `flight`, over how far disks moved in the mean
   rate,      // collisions of a disk per unit of time
   figure,    // pressure, cooling rate or spread (ChartScene::figure)
   energy,    // |E - E0| / E0 after `length`
@@ -45,7 +45,11 @@ struct Setting {
 // needs one there).
 std::vector<Sample> measure_seed(const ChartScene& scene, std::uint64_t seed, const std::vector<Setting>& settings);
 
-// CPU seconds per disk and unit of time of one short run on the fluid with so many disks, the least of `rounds`.
-double cost_of(std::size_t disks, Method method, double dt, int rounds);
+// A short run of the fluid with so many disks.
+struct ShortRun {
+  double cost = 0.0;   // CPU seconds per disk and unit of time, the least of `rounds` runs
+  double steps = 0.0;  // steps, frames or windows per unit of time
+};
+ShortRun run_fluid(std::size_t disks, Method method, double dt, int rounds);
 
 }  // namespace carom::chart

@@ -35,20 +35,16 @@ std::vector<ChartScene> make_scenes() {
   constexpr std::size_t many = 1024;
   const std::string walls = "[box]\nwidth = 36.0\nheight = 36.0\n[physics]\ngravity = 0.1\n";
   return {
-      {"dilute", "dilute gas, packing fraction 0.1", periodic_box(0.1) + equal_disks(many), 20.0, 3.75, 47.0,
-       longest_step},
-      {"fluid", "fluid, packing fraction 0.5", periodic_box(0.5) + equal_disks(many), 4.0, 0.28, 3.5, longest_step},
-      {"dense", "dense, packing fraction 0.68", periodic_box(0.68) + equal_disks(many), 6.0, 0.1, 1.3, longest_step},
-      {"cooling", "granular cooling, e = 0.9, packing fraction 0.3",
-       periodic_box(0.3) + "[physics]\nrestitution = 0.9\n" + equal_disks(many), 6.0, 0.8, 10.0, longest_step,
-       Figure::cooling, false},
-      {"gravity", "gravity and walls, 500 disks", walls + equal_disks(500), 60.0, 0.8, 10.0, longest_step,
-       Figure::pressure, true, false},
-      {"mixed", "radii 0.3 to 0.7 of one density, packing fraction 0.5", periodic_box(0.5) + mixed_disks(many), 4.0,
-       0.28, 3.5, longest_step},
-      {"brownian", "Brownian motion, packing fraction 0.3",
-       periodic_box(0.3) + "[physics]\ndiffusion = 1.0\n" + equal_disks(400), 6.0, 0.0256, 0.256, 0.0064,
-       Figure::spread, false, false},
+      {"dilute", "dilute gas, fraction 0.1", periodic_box(0.1) + equal_disks(many), 20.0, 3.75, 24.0, longest_step},
+      {"fluid", "fluid, fraction 0.5", periodic_box(0.5) + equal_disks(many), 4.0, 0.28, 3.5, longest_step},
+      {"dense", "dense, fraction 0.68", periodic_box(0.68) + equal_disks(many), 6.0, 0.1, 1.3, longest_step},
+      {"cooling", "granular cooling, e = 0.9", periodic_box(0.3) + "[physics]\nrestitution = 0.9\n" + equal_disks(many),
+       6.0, 0.8, 10.0, longest_step, Figure::cooling, false},
+      {"gravity", "gravity with walls", walls + equal_disks(500), 60.0, 0.8, 10.0, longest_step, Figure::pressure, true,
+       false},
+      {"mixed", "mixed radii and masses", periodic_box(0.5) + mixed_disks(many), 4.0, 0.28, 3.5, longest_step},
+      {"brownian", "Brownian motion", periodic_box(0.3) + "[physics]\ndiffusion = 1.0\n" + equal_disks(400), 6.0,
+       0.0256, 0.256, 0.0064, Figure::spread, false, false},
   };
 }
 
@@ -60,7 +56,7 @@ const std::vector<ChartScene>& chart_scenes() {
 }
 
 ChartScene fluid_of(std::size_t disks) {
-  return {"fluid", "", periodic_box(0.5) + equal_disks(disks), 4.0, 0.28, 0.28, longest_step};
+  return {"fluid", "", periodic_box(0.5) + equal_disks(disks), 1.0, 0.0, 0.32, longest_step};
 }
 
 Scene scene_of(const ChartScene& scene, std::uint64_t seed, Method method, double dt, double t_end) {

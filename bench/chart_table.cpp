@@ -24,7 +24,7 @@ void add_point(std::string& text, const SceneResult& scene, const Curve& curve, 
     const auto measure = static_cast<Measure>(m);
     if (measure == Measure::cost || !std::isfinite(p.errors[m].value)) continue;
     const auto& fit = curve.fits[m];
-    const std::optional<double> predicted = predicted_order(curve.method, measure);
+    const std::optional<double> predicted = predicted_order(scene.scene, curve.method, measure);
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.scene.name,
                    name_of(curve.method), number(p.dt), p.seeds, number(p.cost), measure_names[m],
                    number(p.errors[m].value), number(p.errors[m].error),
@@ -50,8 +50,8 @@ std::string csv_of(const ChartResult& result) {
     }
   }
   for (const CrowdPoint& p : result.crowd) {
-    fmt::format_to(std::back_inserter(text), "fluid_by_number,{},{},1,{},disks,{},,,,,\n", name_of(p.method),
-                   number(p.method == Method::exact ? 0.0 : p.dt), number(p.cost), p.disks);
+    fmt::format_to(std::back_inserter(text), "fluid_{},{},{},1,{},frames,{},,,,,\n", p.disks, name_of(p.method),
+                   number(p.dt), number(p.cost), number(p.frames));
   }
   return text;
 }

@@ -8,8 +8,8 @@
 namespace carom::chart {
 
 // One line a point and measure. cost in CPU seconds per disk and mean free time (per disk and diameter^2 / D for
-// Brownian motion); orders are empty where there is no fit or no prediction. Lines of scene "fluid_by_number" have the
-// cost against the number of disks.
+// Brownian motion); orders are empty where there is no fit or no prediction. Lines of scenes "fluid_N" are the
+// fluid with N disks; their measure is the frames that it took to advance by dt.
 std::string csv_of(const ChartResult& result);
 
 // Cheapest cost at which a curve's error in a measure is at most `error`: read off its points, between two of them

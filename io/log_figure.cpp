@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <sstream>
 
 #include "io/gnuplot_run.hpp"
 
@@ -73,7 +74,7 @@ std::string corner_names(const LogPanel& panel) {
   std::string text;
   std::size_t names = 0;
   for (const LogCurve& curve : panel.curves) names += curve.name.empty() ? 0U : 1U;
-  double y = panel.names_below ? 0.045 + line_height * static_cast<double>(names - 1) : 0.945;
+  double y = panel.names_below ? 0.17 + line_height * static_cast<double>(names - 1) : 0.945;
   for (const LogCurve& curve : panel.curves) {
     if (curve.name.empty()) continue;
     text += fmt::format("set label {} at graph 0.98, graph {} right textcolor rgb '{}' font ',10.5' front\n",
@@ -129,6 +130,16 @@ std::string panel_commands(const LogPanel& panel, const Page& page, double left,
   return text + (plot.empty() ? "plot NaN" : plot) + "\n";
 }
 
+std::string caption_lines(const LogFigure& figure, const Page& page) {
+  std::string text, line;
+  std::istringstream lines(figure.caption);
+  for (double height = caption_height - 14.0; std::getline(lines, line); height -= 16.0) {
+    text += fmt::format("set label {} at screen 0.012, screen {} left font ',11' noenhanced\n", gnuplot_quoted(line),
+                        height / page.height);
+  }
+  return text;
+}
+
 std::string page_commands(const LogFigure& figure, const Page& page) {
   std::string text = fmt::format(
       "set multiplot\nunset key\nset logscale xy\nset bars 0\nset border 3 lc rgb '#555555' lw 0.8\n"
@@ -137,8 +148,7 @@ std::string page_commands(const LogFigure& figure, const Page& page) {
       "set label 1000 {} at screen 0.012, screen {} left font ',17' noenhanced\n",
       gnuplot_quoted(figure.title), 1.0 - 22.0 / page.height);
   // Headings and caption belong to the page: drawn once, with the first panel, as numbered labels that stay.
-  std::string page_labels = fmt::format("set label {} at screen 0.012, screen {} left font ',11' noenhanced\n",
-                                        gnuplot_quoted(figure.caption), 18.0 / page.height);
+  std::string page_labels = caption_lines(figure, page);
   double top = title_height;
   for (const LogSection& section : figure.sections) {
     page_labels += fmt::format("set label {} at screen 0.012, screen {} left font ',14' noenhanced\n",
@@ -183,7 +193,7 @@ bool draw_log_figure(const LogFigure& figure, const std::string& svg_path, const
   const std::string script = fmt::format(
       "set terminal svg size {0},{1} font 'sans-serif,11' linewidth 1 enhanced background 'white'\n"
       "set output 'chart.svg'\n{2}reset\n"
-      "set terminal pngcairo size {3},{4} font 'sans-serif,11' fontscale 2 linewidth 2 pointscale 2 enhanced "
+      "set terminal pngcairo size {3},{4} font 'sans-serif,11' fontscale 1.5 linewidth 2 pointscale 2 enhanced "
       "background 'white'\nset output 'chart.png'\n{2}",
       page.width, page.height, commands, 2.0 * page.width, 2.0 * page.height);
   return run_gnuplot(script, data, {{"chart.svg", svg_path}, {"chart.png", png_path}});

@@ -34,7 +34,7 @@ struct LogPanel {
   double x_low = 0.0, x_high = 0.0, y_low = 0.0, y_high = 0.0;
   std::vector<LogCurve> curves;
   std::vector<LogNote> notes;
-  bool names_below = false;  // names in the lower right corner instead
+  bool names_below = false;  // names to the lower right instead, a little above the axis
 };
 
 // Rows of panels under a heading.
@@ -45,7 +45,7 @@ struct LogSection {
 
 struct LogFigure {
   std::string title;
-  std::string caption;  // one line under everything
+  std::string caption;  // one line or more under everything
   std::size_t columns = 4;
   std::vector<LogSection> sections;
 };
