@@ -10,6 +10,7 @@
 
 #include "core/check.hpp"
 #include "core/input_message.hpp"
+#include "core/method_choice.hpp"
 #include "core/scene_names.hpp"
 
 namespace carom {
@@ -24,7 +25,7 @@ struct SceneOption {
   const char* help;
 };
 constexpr std::array<SceneOption, 4> scene_options{{
-    {"--method", "run.method", "rollback|pairwise|exact", "method, in place of the scene's"},
+    {"--method", "run.method", "rollback|pairwise|exact|auto", "method, in place of the scene's"},
     {"--dt", "run.dt", "X", "time step"},
     {"--t-end", "run.t_end", "T", "simulated time at which the run ends"},
     {"--seed", "seed", "S", "seed of all random numbers"},
@@ -32,7 +33,7 @@ constexpr std::array<SceneOption, 4> scene_options{{
 
 // What CLI11 reads; checked and turned into a Command afterwards, so that all messages are ours.
 struct Words {
-  std::string first, second, folder, engine, threads, frame;
+  std::string first, second, folder, engine, threads, frame, accuracy;
   std::array<std::string, scene_options.size()> scene_values;
   std::vector<std::string> sets;
   bool json = false, quiet = false, force = false, quick = false, tiny = false;
@@ -68,8 +69,8 @@ void check_seed(const std::string& text) {
 }
 
 void check_method(const std::string& text) {
-  if (std::find(method_names.begin(), method_names.end(), text) == method_names.end()) {
-    fail_input("--method", fmt::format("there is no method {}", in_quotes(text)), expected_one_of(method_names, text));
+  if (std::find(method_words.begin(), method_words.end(), text) == method_words.end()) {
+    fail_input("--method", fmt::format("there is no method {}", in_quotes(text)), expected_one_of(method_words, text));
   }
 }
 
@@ -203,7 +204,12 @@ RunOptions run_options(const Words& words) {
 
 CheckOptions check_options(const Words& words) {
   require(words.first, "check", "no scene file given", "expected carom check SCENE.toml");
-  return {words.first, changes_of(words), words.json};
+  CheckOptions o{words.first, changes_of(words), std::nullopt, words.json};
+  if (words.accuracy.empty()) return o;
+  o.accuracy = number_of("--accuracy", words.accuracy);
+  if (*o.accuracy > 0.0 && *o.accuracy <= most_accuracy) return o;
+  fail_input("--accuracy", fmt::format("is {}", *o.accuracy),
+             fmt::format("expected a relative error above 0 and at most {}", most_accuracy));
 }
 
 CompareOptions compare_options(const Words& words) {
@@ -276,6 +282,8 @@ Command parse_command_line(int argc, const char* const* argv) {
   for (CLI::App* const command : {run, check, compare, render, chart}) command->allow_extras();
   describe_run(run, words);
   add_scene_options(check, words);
+  add_value(check, "--accuracy", words.accuracy, "X",
+            "say which method and dt keep the error of averages (collision rate, pressure) below X");
   check->add_flag("--json", words.json, "print the result as JSON");
   describe_compare(compare, words);
   describe_render(render, words);

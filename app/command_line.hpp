@@ -30,6 +30,7 @@ struct RunOptions {
 struct CheckOptions {
   std::string scene;
   SceneChanges changes;
+  std::optional<double> accuracy;
   bool json = false;
 };
 

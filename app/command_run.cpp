@@ -14,6 +14,7 @@
 #include "core/check.hpp"
 #include "core/initial_state.hpp"
 #include "core/input_message.hpp"
+#include "core/method_choice.hpp"
 #include "core/scene_check.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
@@ -99,6 +100,7 @@ int command_run(const RunOptions& options) {
   check_outputs(scene);
   if (!options.quiet) {
     for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
+    if (scene.run.automatic) print_note(choice_text(scene));
   }
   const std::optional<fs::path> path = folder_of(options, scene);
   if (path) check_output_folder(*path, options.scene, options.force);
