@@ -85,7 +85,7 @@ struct RunPlan {
   double t_end = 0.0;      // time
   bool automatic = false;  // method = "auto": method and dt were chosen for accuracy (method_choice.hpp)
   double accuracy = 0.0;   // relative error that the choice may make; 0: not given
-  std::string choice;      // why it was chosen so; empty unless automatic
+  std::string choice{};    // why it was chosen so; empty unless automatic
 };
 
 enum class TrajectoryFormat : std::uint8_t { none, xyz, h5md };
