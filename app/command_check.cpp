@@ -162,11 +162,19 @@ std::string offer_text(const MethodOffer& offer, bool best) {
                      duration_text(offer.seconds), offer.why);
 }
 
+// What the error is one of.
+const char* averages_of(const Scene& scene, const MethodChoice& choice) {
+  if (scene.physics.diffusion > 0.0) return "mean square displacement";
+  // Where disks come to rest, how often they still hit each other depends on the step: soft hits become load.
+  if (choice.scales.settles) return "energy lost; not collisions, of which a pile has as many as steps show";
+  return scene.physics.restitution < 1.0 ? "collision rate, pressure, cooling rate" : "collision rate, pressure";
+}
+
 // Which method and step an accuracy needs. Costs are those of the machine that core/method_rates.hpp was measured on.
 std::string choice_text(const Scene& scene, double accuracy) {
   const MethodChoice choice = choose_method(scene, accuracy);
   std::string text =
-      fmt::format("for an error of {:g} in averages over disks and time (collision rate, pressure):\n", accuracy);
+      fmt::format("for an error of {:g} in averages over disks and time ({}):\n", accuracy, averages_of(scene, choice));
   for (std::size_t k = 0; k < choice.offers.size(); ++k) {
     text += offer_text(choice.offers[k], static_cast<int>(k) == choice.best);
   }

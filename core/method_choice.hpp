@@ -41,8 +41,9 @@ struct MethodChoice {
 };
 
 // Accuracy is the relative error, through the method alone, of what is averaged over disks and time: collision rate,
-// pressure, cooling rate (Brownian motion: mean square displacement). What a finite run scatters comes on top. Rollback
-// is never chosen: pairwise is cheaper at every error. Precondition: 0 < accuracy <= most_accuracy.
+// pressure, cooling rate (Brownian motion: mean square displacement; scenes that settle: the energy lost, as the number
+// of ever softer hits is no number of the physics). What a finite run scatters comes on top. Rollback is never chosen:
+// pairwise is cheaper at every error. Precondition: 0 < accuracy <= most_accuracy.
 inline constexpr double most_accuracy = 0.1;  // beyond it the laws of errors no longer hold
 MethodChoice choose_method(const Scene& scene, double accuracy);
 
