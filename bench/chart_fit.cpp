@@ -1,5 +1,6 @@
 #include "bench/chart_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace carom::chart {
@@ -8,10 +9,12 @@ bool is_seen(const FitPoint& p) {
   return std::abs(p.value) > seen_errors * p.error && std::abs(p.value) > rounding_floor;
 }
 
-std::optional<OrderFit> fit_order(const std::vector<FitPoint>& points) {
+std::optional<OrderFit> fit_order(std::vector<FitPoint> points) {
+  std::sort(points.begin(), points.end(), [](const FitPoint& a, const FitPoint& b) { return a.dt > b.dt; });
   std::vector<double> x, y;
   for (const FitPoint& p : points) {
-    if (!is_seen(p) || std::abs(p.value) > small_error) continue;
+    if (std::abs(p.value) > small_error) continue;
+    if (!is_seen(p)) break;
     x.push_back(std::log(p.dt));
     y.push_back(std::log(std::abs(p.value)));
   }

@@ -32,7 +32,8 @@ inline constexpr double small_error = 0.2;
 // Is the point above the noise of its seeds and above rounding?
 bool is_seen(const FitPoint& p);
 
-// Least squares of log value against log dt, over the points that are seen and small. None with fewer than three.
-std::optional<OrderFit> fit_order(const std::vector<FitPoint>& points);
+// Least squares of log value against log dt, from the longest step with a small error down to the first point that is
+// not seen: one seen by chance further down is none. None with fewer than three points.
+std::optional<OrderFit> fit_order(std::vector<FitPoint> points);
 
 }  // namespace carom::chart

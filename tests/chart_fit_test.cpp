@@ -42,6 +42,7 @@ TEST(ChartFit, NoiseRoundingAndLargeErrorsAreLeftOut) {
   const std::size_t clean = fit_order(points)->points;
   points.push_back({1e-5, 0.5, 0.4});    // within the noise of its seeds
   points.push_back({1e-6, 1e-14, 0.0});  // rounding
+  points.push_back({1e-7, 0.1, 0.0});    // seen by chance
   points.push_back({1.0, 0.9, 0.0});     // not small
   const auto fit = fit_order(points);
   EXPECT_EQ(fit->points, clean);
