@@ -196,7 +196,7 @@ void note_steps(const SceneResult& result, LogPanel& panel) {
                                      [](const Curve& c) { return c.method == Method::pairwise; });
     const auto lowest = std::min_element(curve.points.begin(), curve.points.end(),
                                          [](const LogPoint& a, const LogPoint& b) { return a.y < b.y; });
-    panel.notes.push_back({curve.points.front().x / 1.3, lowest->y / 30.0,
+    panel.notes.push_back({curve.points.front().x / 1.3, std::max(lowest->y / 30.0, 1e-7),
                            fmt::format("dt = {:g} to {:.2g}", own.points.front().dt, own.points.back().dt), curve.style,
                            false});
     return;
@@ -219,8 +219,7 @@ LogFigure main_figure(const ChartResult& result) {
   others.panels.push_back(error_panel(fluid, {Measure::figure}, "pressure"));
   others.panels.push_back(
       error_panel(scene_of(result, "cooling"), {Measure::figure}, "granular cooling: cooling rate"));
-  others.panels.push_back(
-      error_panel(scene_of(result, "brownian"), {Measure::figure}, "Brownian: mean sq. displacement"));
+  others.panels.push_back(error_panel(scene_of(result, "brownian"), {Measure::figure}, "Brownian: displacement²"));
   others.panels.push_back(
       error_panel(fluid, {Measure::missed, Measure::spurious}, "collisions missed (dashed: spurious)"));
   others.panels.push_back(error_panel(fluid, {Measure::overlap}, "largest overlap"));

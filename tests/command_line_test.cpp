@@ -99,7 +99,8 @@ class CommandLine : public ::testing::Test {
 TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"", "no command given; expected one of run, check, compare, render"},
-      {"rnu small.toml", "there is no command \"rnu\"; expected one of run, check, compare, render (nearest: run)"},
+      {"rnu small.toml",
+       "there is no command \"rnu\"; expected one of run, check, compare, render, chart (nearest: run)"},
       {"--jsn", "no option \"--jsn\" before the command"},
       {"run", "run: no scene file given"},
       {"run --methd pairwise small.toml", "run: there is no option \"--methd\""},
