@@ -42,12 +42,12 @@ struct Expected {
 // error, and nobody takes 1e9 steps.
 TEST(MethodChoice, OfTheScenesThatComeWithCarom) {
   const Expected all[] = {
-      {"two_disks.toml", "pairwise 0.03", "exact", "exact"},
+      {"two_disks.toml", "pairwise 0.022", "exact", "exact"},
       {"production_a.toml", "pairwise 0.032", "exact", "exact"},
-      {"production_b.toml", "pairwise 0.0075", "pairwise 0.0001", "none"},
-      {"production_c.toml", "pairwise 0.016", "pairwise 0.00023", "none"},
-      {"brownian_sink.toml", "pairwise 0.00055", "none", "none"},
-      {"gas_million.toml", "pairwise 0.016", "exact", "exact"},
+      {"production_b.toml", "pairwise 0.0051", "pairwise 6e-05", "none"},
+      {"production_c.toml", "pairwise 0.011", "pairwise 0.00013", "none"},
+      {"brownian_sink.toml", "pairwise 0.0011", "exact 1.8e-06", "none"},
+      {"gas_million.toml", "pairwise 0.012", "exact", "exact"},
   };
   for (const Expected& e : all) {
     const std::string file = e.scene;
