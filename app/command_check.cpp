@@ -12,6 +12,8 @@
 #include "app/make_engine.hpp"
 #include "app/progress.hpp"
 #include "core/check.hpp"
+#include "core/initial_state.hpp"
+#include "core/method_choice.hpp"
 #include "core/scene_check.hpp"
 #include "core/scene_names.hpp"
 #include "core/step_clock.hpp"
@@ -159,6 +161,56 @@ std::string outputs_text(const Scene& scene, const Findings& f) {
   return fmt::format("{} frames: {}", f.frames, fmt::join(files, ", "));
 }
 
+std::string offer_text(const MethodOffer& offer, bool best) {
+  const std::string_view name = method_names[static_cast<std::size_t>(offer.method)];
+  if (!offer.possible) return fmt::format("  {:<10}no: {}\n", name, offer.why);
+  const std::string dt = offer.dt > 0.0 ? fmt::format("dt = {:g}, ", offer.dt) : "";
+  const std::string error = offer.error > 0.0 ? fmt::format("{:.1e}", offer.error) : "rounding only";
+  return fmt::format("{}{:<10}{}error {}, about {} of one core: {}\n", best ? "> " : "  ", name, dt, error,
+                     duration_text(offer.seconds), offer.why);
+}
+
+// What the error is one of.
+const char* averages_of(const Scene& scene, const MethodChoice& choice) {
+  if (scene.physics.diffusion > 0.0) return "mean square displacement";
+  // Where disks come to rest, how often they still hit each other depends on the step: soft hits become load.
+  if (choice.scales.settles) return "energy lost; not collisions, of which a pile has as many as steps show";
+  return scene.physics.restitution < 1.0 ? "collision rate, pressure, cooling rate" : "collision rate, pressure";
+}
+
+// Which method and step an accuracy needs. Costs are those of the machine that core/method_rates.hpp was measured on.
+std::string choice_text(const Scene& scene, double accuracy) {
+  const MethodChoice choice = choose_method(scene, accuracy);
+  std::string text =
+      fmt::format("for an error of {:g} in averages over disks and time ({}):\n", accuracy, averages_of(scene, choice));
+  for (std::size_t k = 0; k < choice.offers.size(); ++k) {
+    text += offer_text(choice.offers[k], static_cast<int>(k) == choice.best);
+  }
+  if (choice.offers.empty()) return text + fmt::format("  {}\n", choice.why);
+  if (choice.best < 0) return text + "  out of reach: ask for a larger error, or name a method and its dt\n";
+  const MethodOffer& best = choice.offers[static_cast<std::size_t>(choice.best)];
+  const std::string dt = best.dt > 0.0 ? fmt::format(" --dt {:g}", best.dt) : "";
+  return text + fmt::format("  take it with --method {}{}, or method = \"auto\", accuracy = {:g} in [run]\n",
+                            method_names[static_cast<std::size_t>(best.method)], dt, accuracy);
+}
+
+nlohmann::ordered_json choice_json(const Scene& scene, double accuracy) {
+  const MethodChoice choice = choose_method(scene, accuracy);
+  nlohmann::ordered_json j{{"accuracy", accuracy}, {"method", nullptr}, {"why", choice.why}};
+  for (std::size_t k = 0; k < choice.offers.size(); ++k) {
+    const MethodOffer& o = choice.offers[k];
+    const std::string_view name = method_names[static_cast<std::size_t>(o.method)];
+    if (static_cast<int>(k) == choice.best) j["method"] = name;
+    j["offers"].push_back({{"method", name},
+                           {"possible", o.possible},
+                           {"dt", o.dt},
+                           {"error", o.error},
+                           {"cpu_s", o.seconds},
+                           {"why", o.why}});
+  }
+  return j;
+}
+
 std::string text_of(const Scene& scene, const Findings& f) {
   std::string text = fmt::format("{}: {}\n", scene.file, scene.title.empty() ? "a scene" : scene.title);
   const auto line = [&text](const char* name, const std::string& value) {
@@ -170,7 +222,7 @@ std::string text_of(const Scene& scene, const Findings& f) {
        fmt::format("{:g} x {:g}, packing fraction {:.4g}", scene.box.width, scene.box.height, f.packing_fraction));
   line("sides", sides_text(scene.box));
   line("physics", physics_text(scene));
-  line("method", method_text(scene));
+  line("method", scene.run.automatic ? choice_text(scene) : method_text(scene));
   if (scene.run.method != Method::exact) line("safe step", step_text(scene, f));
   line("outputs", outputs_text(scene, f));
   line("memory", fmt::format("about {}B, as measured", short_number(f.memory_bytes)));
@@ -180,7 +232,7 @@ std::string text_of(const Scene& scene, const Findings& f) {
   return text;
 }
 
-std::string json_of(const Scene& scene, const Findings& f) {
+std::string json_of(const Scene& scene, const Findings& f, const std::optional<double>& accuracy) {
   nlohmann::ordered_json j;
   const auto number = [](double x) {
     return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
@@ -197,6 +249,7 @@ std::string json_of(const Scene& scene, const Findings& f) {
   j["frames"] = f.frames;
   j["memory_bytes"] = f.memory_bytes;
   j["cost_s"] = number(f.cost_seconds);
+  if (accuracy) j["choice"] = choice_json(scene, *accuracy);
   return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -214,7 +267,12 @@ int command_check(const CheckOptions& options) {
   found.frames = frame_count(scene.output.every, scene.run.t_end);
   const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, std::move(initial)); });
   within_memory(scene, [&] { try_steps(*engine, scene, found); });
-  print_out(options.json ? json_of(scene, found) : text_of(scene, found));
+  if (options.json) {
+    print_out(json_of(scene, found, options.accuracy));
+    return 0;
+  }
+  const std::string hint = "  --accuracy 1e-3 says which method and dt that needs\n";
+  print_out(text_of(scene, found) + (options.accuracy ? choice_text(scene, *options.accuracy) : hint));
   return 0;
 }
 

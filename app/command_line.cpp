@@ -12,6 +12,7 @@
 #include "core/check.hpp"
 #include "core/duration.hpp"
 #include "core/input_message.hpp"
+#include "core/method_choice.hpp"
 #include "core/scene_names.hpp"
 #include "io/scene_frame_reader.hpp"
 
@@ -27,7 +28,7 @@ struct SceneOption {
   const char* help;
 };
 constexpr std::array<SceneOption, 4> scene_options{{
-    {"--method", "run.method", "rollback|pairwise|exact", "method, in place of the scene's"},
+    {"--method", "run.method", "rollback|pairwise|exact|auto", "method, in place of the scene's"},
     {"--dt", "run.dt", "X", "time step"},
     {"--t-end", "run.t_end", "T", "simulated time at which the run ends"},
     {"--seed", "seed", "S", "seed of all random numbers"},
@@ -37,10 +38,10 @@ constexpr std::size_t t_end_option = 2;  // its place among them
 
 // What CLI11 reads; checked and turned into a Command afterwards, so that all messages are ours.
 struct Words {
-  std::string first, second, folder, engine, threads, frame, walltime, seeds, jobs, emit;
+  std::string first, second, folder, engine, threads, frame, walltime, seeds, jobs, emit, accuracy;
   std::array<std::string, scene_options.size()> scene_values;
   std::vector<std::string> sets, over;
-  bool json = false, quiet = false, force = false, strict = false;
+  bool json = false, quiet = false, force = false, strict = false, quick = false, tiny = false;
 };
 
 double number_of(const std::string& option, const std::string& text) {
@@ -81,8 +82,8 @@ void check_seed(const std::string& text) {
 }
 
 void check_method(const std::string& text) {
-  if (std::find(method_names.begin(), method_names.end(), text) == method_names.end()) {
-    fail_input("--method", fmt::format("there is no method {}", in_quotes(text)), expected_one_of(method_names, text));
+  if (std::find(method_words.begin(), method_words.end(), text) == method_words.end()) {
+    fail_input("--method", fmt::format("there is no method {}", in_quotes(text)), expected_one_of(method_words, text));
   }
 }
 
@@ -195,6 +196,14 @@ void describe_sweep(CLI::App* sweep, Words& words) {
   sweep->footer("Called again, it goes on where it stopped. sweep.csv has a row a run.");
 }
 
+void describe_chart(CLI::App* chart, Words& words) {
+  add_value(chart, "-o,--output", words.folder, "DIR", "folder for chart.svg, .png, .csv and .json; default out/chart");
+  chart->add_flag("--quick", words.quick, "fewer points, within a minute");
+  chart->add_flag("--tiny", words.tiny, "a test of the command itself")->group("");
+  chart->add_flag("--quiet", words.quiet, "print nothing but errors");
+  chart->add_flag("--force", words.force, "replace an earlier chart in the folder");
+}
+
 // Long names of a command's options, --help included.
 std::vector<std::string_view> option_names(const CLI::App* command, std::vector<std::string>& storage) {
   for (const CLI::Option* option : command->get_options()) {
@@ -261,7 +270,12 @@ ResumeOptions resume_options(const Words& words) {
 
 CheckOptions check_options(const Words& words) {
   require(words.first, "check", "no scene file given", "expected carom check SCENE.toml");
-  return {words.first, changes_of(words), words.json};
+  CheckOptions o{words.first, changes_of(words), std::nullopt, words.json};
+  if (words.accuracy.empty()) return o;
+  o.accuracy = number_of("--accuracy", words.accuracy);
+  if (*o.accuracy > 0.0 && *o.accuracy <= most_accuracy) return o;
+  fail_input("--accuracy", fmt::format("is {}", *o.accuracy),
+             fmt::format("expected a relative error above 0 and at most {}", most_accuracy));
 }
 
 CompareOptions compare_options(const Words& words) {
@@ -297,6 +311,10 @@ SweepOptions sweep_options(const Words& words) {
   return o;
 }
 
+ChartOptions chart_options(const Words& words) {
+  return {file_option(words.folder), words.quick, words.tiny, words.quiet, words.force};
+}
+
 // CLI11's own complaints are about values that are missing or superfluous; "--dt: 1 required X missing" becomes ours.
 [[noreturn]] void fail_as_one_line(const CLI::ParseError& error) {
   const std::string text = error.what();
@@ -318,7 +336,8 @@ std::string help_of(const CLI::App& app, const CLI::App& shown) {
   return text;
 }
 
-constexpr std::array<std::string_view, 6> command_names{"run", "check", "resume", "compare", "render", "sweep"};
+constexpr std::array<std::string_view, 7> command_names{"run",    "check", "resume", "compare",
+                                                        "render", "sweep", "chart"};
 
 void check_command_name(int argc, const char* const* argv) {
   if (argc < 2)
@@ -350,14 +369,18 @@ Command parse_command_line(int argc, const char* const* argv) {
       app.add_subcommand("compare", "two outputs: the same bits, or where and by how much they differ");
   CLI::App* const render = app.add_subcommand("render", "a movie or a picture from a trajectory");
   CLI::App* const sweep = app.add_subcommand("sweep", "run a scene for every combination of values and seeds");
-  for (CLI::App* const command : {run, check, resume, compare, render, sweep}) command->allow_extras();
+  CLI::App* const chart = app.add_subcommand("chart", "the speed-accuracy chart of all methods, from runs made now");
+  for (CLI::App* const command : {run, check, resume, compare, render, sweep, chart}) command->allow_extras();
   describe_run(run, words);
   add_scene_options(check, words);
+  add_value(check, "--accuracy", words.accuracy, "X",
+            "say which method and dt keep the error of averages (collision rate, pressure) below X");
   check->add_flag("--json", words.json, "print the result as JSON");
   describe_resume(resume, words);
   describe_compare(compare, words);
   describe_render(render, words);
   describe_sweep(sweep, words);
+  describe_chart(chart, words);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
@@ -374,6 +397,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   if (resume->parsed()) return resume_options(words);
   if (compare->parsed()) return compare_options(words);
   if (sweep->parsed()) return sweep_options(words);
+  if (chart->parsed()) return chart_options(words);
   return render_options(words);
 }
 

@@ -47,6 +47,7 @@ struct ResumeOptions {
 struct CheckOptions {
   std::string scene;
   SceneChanges changes;
+  std::optional<double> accuracy;
   bool json = false;
 };
 
@@ -74,13 +75,21 @@ struct SweepOptions {
   bool force = false;
 };
 
+struct ChartOptions {
+  std::optional<std::string> folder;  // -o
+  bool quick = false;                 // fewer points, within a minute
+  bool tiny = false;                  // for tests: numbers of no use, within seconds
+  bool quiet = false;
+  bool force = false;
+};
+
 // What --help or --version print on standard output.
 struct TextRequest {
   std::string text;
 };
 
-using Command =
-    std::variant<RunOptions, CheckOptions, ResumeOptions, CompareOptions, RenderOptions, SweepOptions, TextRequest>;
+using Command = std::variant<RunOptions, CheckOptions, ResumeOptions, CompareOptions, RenderOptions, SweepOptions,
+                             ChartOptions, TextRequest>;
 
 // Throws InputError with one line that names the option, and the nearest one for a misspelt name.
 Command parse_command_line(int argc, const char* const* argv);

@@ -16,6 +16,7 @@
 #include "app/summary.hpp"
 #include "core/check.hpp"
 #include "core/input_message.hpp"
+#include "core/method_choice.hpp"
 #include "core/scene_check.hpp"
 #include "core/validity.hpp"
 #include "io/output_file.hpp"
@@ -250,6 +251,7 @@ int command_run(const RunOptions& options) {
   const EngineChoice choice = choose_engine(options.engine, options.threads);
   if (!options.quiet) {
     for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
+    if (scene.run.automatic) print_note(choice_text(scene));
   }
   const std::optional<fs::path> path = folder_of(options, scene);
   if (path) check_output_folder(*path, options.scene, options.force);

@@ -13,6 +13,7 @@ int command_check(const CheckOptions& options);
 int command_compare(const CompareOptions& options);
 int command_render(const RenderOptions& options);
 int command_sweep(const SweepOptions& options);
+int command_chart(const ChartOptions& options);
 
 // Writes to standard output and sees to it that it arrives. Throws RunError if it does not (a full disk, a closed
 // pipe).

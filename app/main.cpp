@@ -37,6 +37,7 @@ struct Dispatch {
   int operator()(const CompareOptions& options) const { return command_compare(options); }
   int operator()(const RenderOptions& options) const { return command_render(options); }
   int operator()(const SweepOptions& options) const { return command_sweep(options); }
+  int operator()(const ChartOptions& options) const { return command_chart(options); }
   int operator()(const TextRequest& request) const {
     print_out(request.text);
     return 0;

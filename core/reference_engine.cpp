@@ -84,14 +84,14 @@ void ReferenceEngine::remove(const std::vector<unsigned char>& gone) {
   state_.counters.removed += remove_marked(state_.disks, gone);
 }
 
-std::unique_ptr<Engine> make_reference_engine(const Scene& scene, State initial) {
+std::unique_ptr<Engine> make_reference_engine(const Scene& scene, State initial, CollisionLog* log) {
   switch (scene.run.method) {
     case Method::rollback:
-      return make_reference_rollback(scene, std::move(initial));
+      return make_reference_rollback(scene, std::move(initial), log);
     case Method::pairwise:
-      return make_reference_pairwise(scene, std::move(initial));
+      return make_reference_pairwise(scene, std::move(initial), log);
     default:
-      return make_reference_exact(scene, std::move(initial));
+      return make_reference_exact(scene, std::move(initial), 1.0, log);
   }
 }
 

@@ -17,8 +17,8 @@ namespace {
 
 class ReferenceExact final : public Engine {
  public:
-  ReferenceExact(const Scene& scene, State initial, double window_scale)
-      : scene_(scene), state_(std::move(initial)), scale_(window_scale), validity_(state_.time) {}
+  ReferenceExact(const Scene& scene, State initial, double window_scale, CollisionLog* log)
+      : scene_(scene), state_(std::move(initial)), scale_(window_scale), validity_(state_.time), log_(log) {}
 
   void step() override {
     if (!(state_.time < scene_.run.t_end)) return;
@@ -29,6 +29,7 @@ class ReferenceExact final : public Engine {
     const PhaseTimer timer(times_, "window");
     WindowResult result = run_window(exact_rules(scene_, state_.disks), state_, plan);
     last_plan_ = plan;
+    if (log_ != nullptr) log_->insert(log_->end(), result.collisions.begin(), result.collisions.end());
     paths_ = std::move(result.paths);
     at_start_ = state_.disks;
     finish(plan, result);
@@ -101,6 +102,7 @@ class ReferenceExact final : public Engine {
   State state_;
   double scale_;
   Validity validity_;
+  CollisionLog* log_;
   PhaseTimes times_;
   WindowPlan last_plan_;
   WindowPaths paths_;
@@ -109,8 +111,9 @@ class ReferenceExact final : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_reference_exact(const Scene& scene, State initial, double window_scale) {
-  return std::make_unique<ReferenceExact>(scene, std::move(initial), window_scale);
+std::unique_ptr<Engine> make_reference_exact(const Scene& scene, State initial, double window_scale,
+                                             CollisionLog* log) {
+  return std::make_unique<ReferenceExact>(scene, std::move(initial), window_scale, log);
 }
 
 }  // namespace carom

@@ -9,6 +9,7 @@ namespace carom {
 
 // Precondition: initial is a state of scene; scene.run.dt > 0 where the scene has Brownian motion. window_scale
 // multiplies the windows' lengths, for the test that they do not matter.
-std::unique_ptr<Engine> make_reference_exact(const Scene& scene, State initial, double window_scale = 1.0);
+std::unique_ptr<Engine> make_reference_exact(const Scene& scene, State initial, double window_scale = 1.0,
+                                             CollisionLog* log = nullptr);
 
 }  // namespace carom

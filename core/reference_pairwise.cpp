@@ -12,8 +12,8 @@ namespace {
 
 class ReferencePairwise final : public ReferenceEngine {
  public:
-  ReferencePairwise(const Scene& scene, State initial)
-      : ReferenceEngine(scene, std::move(initial)), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
+  ReferencePairwise(const Scene& scene, State initial, CollisionLog* log)
+      : ReferenceEngine(scene, std::move(initial)), clock_(make_step_clock(scene.run.dt, scene.run.t_end)), log_(log) {}
 
   void step() override {
     const Count k = state_.counters.steps;
@@ -42,18 +42,19 @@ class ReferencePairwise final : public ReferenceEngine {
       events = find_contacts(state_.disks, rules);
     }
     const PhaseTimer timer(times_, "resolve");
-    const StepFigures figures = resolve_contacts(state_, rules, events);
+    const StepFigures figures = resolve_contacts(state_, rules, events, log_);
     wrap_all();
     return figures;
   }
 
   StepClock clock_;
+  CollisionLog* log_;
 };
 
 }  // namespace
 
-std::unique_ptr<Engine> make_reference_pairwise(const Scene& scene, State initial) {
-  return std::make_unique<ReferencePairwise>(scene, std::move(initial));
+std::unique_ptr<Engine> make_reference_pairwise(const Scene& scene, State initial, CollisionLog* log) {
+  return std::make_unique<ReferencePairwise>(scene, std::move(initial), log);
 }
 
 }  // namespace carom

@@ -8,6 +8,6 @@
 namespace carom {
 
 // Precondition: scene.run.dt > 0, initial is a state of scene.
-std::unique_ptr<Engine> make_reference_pairwise(const Scene& scene, State initial);
+std::unique_ptr<Engine> make_reference_pairwise(const Scene& scene, State initial, CollisionLog* log = nullptr);
 
 }  // namespace carom

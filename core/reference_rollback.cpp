@@ -16,8 +16,8 @@ namespace {
 
 class ReferenceRollback final : public ReferenceEngine {
  public:
-  ReferenceRollback(const Scene& scene, State initial)
-      : ReferenceEngine(scene, std::move(initial)), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
+  ReferenceRollback(const Scene& scene, State initial, CollisionLog* log)
+      : ReferenceEngine(scene, std::move(initial)), clock_(make_step_clock(scene.run.dt, scene.run.t_end)), log_(log) {}
 
   void step() override {
     if (state_.time >= scene_.run.t_end) return;
@@ -64,7 +64,7 @@ class ReferenceRollback final : public ReferenceEngine {
     if (back > 0.0) drift_all(-back);
     count_amiss(rules, events, back);
     ImpactTally tally;
-    bounce_all(state_.disks, rules, events, tally);
+    bounce_all(state_.disks, rules, events, tally, log_);
     with_view(state_.disks, [&](const auto& d) {
       for (std::size_t i = 0; i < state_.disks.size(); ++i) {
         meet_walls(d, rules, static_cast<std::uint32_t>(i), tally);
@@ -86,12 +86,13 @@ class ReferenceRollback final : public ReferenceEngine {
 
   StepClock clock_;
   StepFigures figures_;  // of this frame
+  CollisionLog* log_;
 };
 
 }  // namespace
 
-std::unique_ptr<Engine> make_reference_rollback(const Scene& scene, State initial) {
-  return std::make_unique<ReferenceRollback>(scene, std::move(initial));
+std::unique_ptr<Engine> make_reference_rollback(const Scene& scene, State initial, CollisionLog* log) {
+  return std::make_unique<ReferenceRollback>(scene, std::move(initial), log);
 }
 
 }  // namespace carom

@@ -82,6 +82,7 @@ class EventLoop {
         pair ? collide_at(rules_, e.time, disks_.mass_of(e.i1), disks_.mass_of(e.i2), first, result_.disks[e.i2])
              : meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), first);
     result_.tally.add(e.id2, outcome);
+    if (pair && outcome.happened) result_.collisions.emplace_back(e.id1, e.id2);
     if (!pair && rules_.box.side(wall_side(e.id2)) == SideKind::sink) result_.gone[e.i1] = 1;
     begin_segment(e, e.i1);
     if (pair) begin_segment(e, e.i2);

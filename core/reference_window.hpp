@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/collision_log.hpp"
 #include "core/exact_event.hpp"
 #include "core/impact_tally.hpp"
 #include "core/state.hpp"
@@ -27,6 +28,7 @@ struct WindowResult {
   std::vector<ExactDisk> disks;     // last segments
   std::vector<unsigned char> gone;  // left through a sink
   ImpactTally tally;
+  CollisionLog collisions;
 };
 
 // Finds and resolves every event of [0, plan.length]; `state` is that of the window's start and is not changed.

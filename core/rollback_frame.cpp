@@ -28,9 +28,14 @@ bool is_at_a_distance(const StepRules& rules, const ContactEvent& e, double back
   return back - e.ago > same * rules.dt;
 }
 
-void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally) {
+void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally,
+                CollisionLog* log) {
   with_view(disks, [&](const auto& d) {
-    for (const ContactEvent& e : events) tally.add(e.id2, bounce_pair(d, rules, e.i1, e.i2));
+    for (const ContactEvent& e : events) {
+      const Impact impact = bounce_pair(d, rules, e.i1, e.i2);
+      tally.add(e.id2, impact);
+      if (log != nullptr && impact.happened) log->emplace_back(e.id1, e.id2);
+    }
   });
 }
 

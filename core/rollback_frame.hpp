@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/collision_log.hpp"
 #include "core/contact_event.hpp"
 #include "core/impact_tally.hpp"
 #include "core/resolve.hpp"
@@ -34,8 +35,9 @@ double parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent&
 // another pair as well, it might never have.
 bool is_at_a_distance(const StepRules& rules, const ContactEvent& event, double back);
 
-// Every pair, in the order given.
-void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally);
+// Every pair, in the order given; those that collide are added to log, where one is given.
+void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally,
+                CollisionLog* log = nullptr);
 
 // One disk and the walls it reaches beyond: back to its contact, bounce, forward; what remains is pushed inside (F11).
 template <class View>

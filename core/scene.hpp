@@ -81,8 +81,11 @@ struct Physics {
 
 struct RunPlan {
   Method method = Method::exact;
-  double dt = 0.0;     // time; 0 where the method needs none
-  double t_end = 0.0;  // time
+  double dt = 0.0;         // time; 0 where the method needs none
+  double t_end = 0.0;      // time
+  bool automatic = false;  // method = "auto": method and dt were chosen for accuracy (method_choice.hpp)
+  double accuracy = 0.0;   // relative error that the choice may make; 0: not given
+  std::string choice{};    // why it was chosen so; empty unless automatic
 };
 
 enum class TrajectoryFormat : std::uint8_t { none, xyz, h5md };

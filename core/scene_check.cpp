@@ -82,6 +82,7 @@ void check_sides(const Domain& box, const PlaceOfKey& place) {
 }
 
 void check_run(const Scene& scene, const PlaceOfKey& place) {
+  if (scene.run.automatic) return;  // its dt is still to be chosen
   const bool time_stepping = scene.run.method != Method::exact;
   if (scene.run.dt > 0.0 || (!time_stepping && scene.physics.diffusion == 0.0)) return;
   fail_input(place("run.dt"), "missing",
@@ -166,6 +167,10 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   if (scene.physics.collapse_contact_time && scene.run.method != Method::exact) {
     warnings.push_back(fmt::format("{}: physics.collapse: only the exact method uses it, method {} does not",
                                    scene.file, method_names[static_cast<std::size_t>(scene.run.method)]));
+  }
+  if (scene.run.accuracy > 0.0 && !scene.run.automatic) {
+    warnings.push_back(fmt::format("{}: run.accuracy: only method \"auto\" uses it, method {} does not", scene.file,
+                                   method_names[static_cast<std::size_t>(scene.run.method)]));
   }
   return warnings;
 }

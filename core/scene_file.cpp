@@ -11,6 +11,7 @@
 #include "core/csv.hpp"
 #include "core/duration.hpp"
 #include "core/input_message.hpp"
+#include "core/method_choice.hpp"
 #include "core/scene_check.hpp"
 #include "core/scene_laws.hpp"
 #include "core/scene_names.hpp"
@@ -169,11 +170,37 @@ auto read_tables(const SceneOrigin& origin, std::string_view name, Read read) {
   return all;
 }
 
+double read_accuracy(const TableReader& reader, bool automatic) {
+  constexpr std::string_view expected = "expected the relative error that method \"auto\" may make, as in 1e-3";
+  const double accuracy = reader.positive("accuracy").value_or(0.0);
+  if (automatic && accuracy == 0.0) reader.fail("accuracy", "missing", expected);
+  if (accuracy > most_accuracy) {
+    reader.fail("accuracy", fmt::format("is {}", accuracy), fmt::format("expected at most {}", most_accuracy));
+  }
+  return accuracy;
+}
+
+// method = "auto": the choice, made where the scene is known as a whole.
+void choose_run(Scene& scene, const PlaceOfKey& place) {
+  const MethodChoice choice = choose_method(scene, scene.run.accuracy);
+  if (choice.best < 0) {
+    fail_input(place("run.accuracy"), fmt::format("{} cannot be had: {}", scene.run.accuracy, choice.why),
+               "expected a larger error, or a method named");
+  }
+  const MethodOffer& best = choice.offers[static_cast<std::size_t>(choice.best)];
+  scene.run.method = best.method;
+  scene.run.dt = best.dt;
+  scene.run.choice = choice.why;
+}
+
 RunPlan read_run(const SceneOrigin& origin) {
-  const TableReader reader(origin, "run", required_section(origin, "run", "t_end"), {"method", "dt", "t_end"});
+  const TableReader reader(origin, "run", required_section(origin, "run", "t_end"),
+                           {"method", "dt", "t_end", "accuracy"});
   RunPlan run;
-  run.method =
-      static_cast<Method>(reader.choice("method", method_names).value_or(static_cast<std::size_t>(Method::exact)));
+  const std::size_t word = reader.choice("method", method_words).value_or(static_cast<std::size_t>(Method::exact));
+  run.automatic = word == method_names.size();
+  run.method = run.automatic ? Method::exact : static_cast<Method>(word);
+  run.accuracy = read_accuracy(reader, run.automatic);
   run.dt = reader.positive("dt").value_or(0.0);
   reader.require("t_end", "expected the time at which the run ends");
   run.t_end = reader.non_negative("t_end").value();
@@ -279,6 +306,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   check_parts(scene, place);
   settle_box(scene, size, place);
   check_box(scene, place);
+  if (scene.run.automatic) choose_run(scene, place);
   return scene;
 }
 

@@ -129,7 +129,11 @@ std::string source_text(const Source& source) {
 }
 
 std::string run_text(const RunPlan& run) {
-  std::string text = fmt::format("\n[run]\nmethod = \"{}\"\n", method_names[index(run.method)]);
+  std::string text = "\n[run]\n";
+  // The choice itself, so that the file gives this run even where another version would choose differently.
+  if (run.automatic)
+    text += fmt::format("# chosen by method = \"auto\", accuracy = {}: {}\n", run.accuracy, run.choice);
+  text += fmt::format("method = \"{}\"\n", method_names[index(run.method)]);
   if (run.dt > 0.0) text += fmt::format("dt = {}\n", number(run.dt));
   return text + fmt::format("t_end = {}\n", number(run.t_end));
 }

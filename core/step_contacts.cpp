@@ -28,7 +28,8 @@ bool is_crowded(const std::vector<std::uint32_t>& contacts, const ContactEvent& 
 // Returns what came late, and how far it overlapped.
 template <class View>
 StepFigures resolve_impacts(const View& d, State& state, const StepRules& rules,
-                            const std::vector<ContactEvent>& events, const std::vector<std::uint32_t>& contacts) {
+                            const std::vector<ContactEvent>& events, const std::vector<std::uint32_t>& contacts,
+                            CollisionLog* log) {
   ImpactTally tally;
   bool any = true;
   for (int pass = 0; pass < most_impact_passes && any; ++pass) {
@@ -39,6 +40,7 @@ StepFigures resolve_impacts(const View& d, State& state, const StepRules& rules,
       if (rules.settles && is_support(d, rules, e, load_of(state.loads, e) > 0.0, crowded)) continue;
       const Impact impact = resolve_event(d, rules, e);
       tally.add(e.id2, impact);
+      if (log != nullptr && impact.happened && !is_wall(e.id2)) log->emplace_back(e.id1, e.id2);
       any = any || (crowded && impact.happened);
     }
   }
@@ -113,12 +115,13 @@ std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules) {
   return events;
 }
 
-StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events) {
+StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events,
+                             CollisionLog* log) {
   std::sort(events.begin(), events.end(), earlier);
   StepFigures figures;
   with_view(state.disks, [&](const auto& d) {
     const std::vector<std::uint32_t> contacts = contacts_per_disk(state.disks.size(), events);
-    figures = resolve_impacts(d, state, rules, events, contacts);
+    figures = resolve_impacts(d, state, rules, events, contacts, log);
     std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
     if (rules.settles) bear_loads(d, state, rules, events, contacts);
     figures.overlap = std::max(figures.overlap, push_all(d, state, rules, events, contacts));

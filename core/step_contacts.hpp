@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/collision_log.hpp"
 #include "core/contact_event.hpp"
 #include "core/resolve.hpp"
 #include "core/state.hpp"
@@ -23,7 +24,9 @@ inline double telling_overlap(float late) {
 std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules);
 
 // Impacts in order of contact, then supports (settling scenes), then pushing apart; counts into state.counters and
-// keeps the loads in state.loads. Sorts events. Returns what went wrong.
-StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events);
+// keeps the loads in state.loads. Sorts events. Returns what went wrong. Pairs that collide are added to log, where one
+// is given.
+StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events,
+                             CollisionLog* log = nullptr);
 
 }  // namespace carom

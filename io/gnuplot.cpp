@@ -4,20 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <cmath>
+#include <utility>
 
-#include "core/check.hpp"
-#include "io/child_process.hpp"
-#include "io/output_file.hpp"
+#include "io/gnuplot_run.hpp"
 
 namespace carom {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -36,38 +28,6 @@ constexpr double label_pixels = 19.0;  // least distance of two names
 struct Range {
   double low = 0.0, high = 1.0;
 };
-
-// A scratch folder that goes away with everything in it.
-struct ScratchFolder {
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "carom-plot-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw RunError(fmt::format("cannot make the folder {}: {}", name, std::strerror(errno)));
-    }
-    path = name;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  fs::path path;
-};
-
-// In single quotes gnuplot takes everything literally but the quote itself, which is doubled: no escapes, no command
-// substitution.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < ' ') {
-      result += ' ';
-    } else {
-      result.append(c == '\'' ? 2U : 1U, c);
-    }
-  }
-  return result + '\'';
-}
 
 Range vertical_range(const Panel& panel) {
   bool any = false;
@@ -131,7 +91,7 @@ std::vector<double> label_heights(const Panel& panel, const Range& range) {
 std::string name_commands(const Line& line, std::size_t tag, double height, double x_end, const char* colour) {
   const bool to_the_end = line.x.back() >= x_end;
   std::string text = fmt::format("set label {} {} at graph 1.035, first {} left textcolor rgb '{}'\n", tag,
-                                 quoted(to_the_end ? line.name : line.name + ", gone"), height, colour);
+                                 gnuplot_quoted(to_the_end ? line.name : line.name + ", gone"), height, colour);
   const std::string end = fmt::format("first {}, first {}", line.x.back(), line.y.back());
   if (to_the_end) {
     text += fmt::format("set arrow {} from {} to graph 1.03, first {} nohead lc rgb '{}' lw 0.7\n", tag, end, height,
@@ -146,8 +106,8 @@ std::string name_commands(const Line& line, std::size_t tag, double height, doub
 std::string panel_commands(const Panel& panel, std::size_t block, double x_end) {
   const Range range = vertical_range(panel);
   const std::vector<double> heights = label_heights(panel, range);
-  std::string text = fmt::format("unset label\nunset arrow\nset ylabel {}\nset yrange [{}:{}]\n", quoted(panel.y_label),
-                                 range.low, range.high);
+  std::string text = fmt::format("unset label\nunset arrow\nset ylabel {}\nset yrange [{}:{}]\n",
+                                 gnuplot_quoted(panel.y_label), range.low, range.high);
   std::string plot;
   for (std::size_t k = 0; k < panel.lines.size(); ++k) {
     const Line& line = panel.lines[k];
@@ -171,10 +131,11 @@ std::string script_of(const Figure& figure) {
       "set multiplot layout {},1 title {} font 'sans-serif,18' margins 0.115,0.87,{},{} spacing 0.06\n"
       "unset key\nset border 3 lc rgb '#555555'\nset tics nomirror out scale 0.5 textcolor rgb '#222222'\n"
       "set grid lc rgb '#dddddd' lt 1 lw 0.6\nset format '%g'\nset xrange [0:{}]\n",
-      width_pixels, height, panels, quoted(figure.title), bottom_pixels / height, 1.0 - top_pixels / height, x_end);
+      width_pixels, height, panels, gnuplot_quoted(figure.title), bottom_pixels / height, 1.0 - top_pixels / height,
+      x_end);
   std::size_t block = 0;
   for (std::size_t p = 0; p < panels; ++p) {
-    if (p + 1 == panels) text += fmt::format("set xlabel {}\n", quoted(figure.x_label));
+    if (p + 1 == panels) text += fmt::format("set xlabel {}\n", gnuplot_quoted(figure.x_label));
     text += panel_commands(figure.panels[p], block, x_end);
     block += figure.panels[p].lines.size();
   }
@@ -199,24 +160,7 @@ bool draw_svg(const Figure& figure, const std::string& path) {
 }
 
 bool draw_script(const std::string& script, const std::string& data, const std::string& path) {
-  const std::string gnuplot = find_program("gnuplot");
-  if (gnuplot.empty()) return false;
-  const ScratchFolder scratch;
-  const std::string log = scratch.path / "log";
-  write_file(scratch.path / "data", data);
-  write_file(scratch.path / "script", script);
-  ChildProcess child({gnuplot, "--default-settings", "script"}, scratch.path, log);
-  const int status = child.wait();
-  std::ostringstream svg;
-  svg << std::ifstream(scratch.path / "plot.svg").rdbuf();
-  // gnuplot does not tell of a full disk; a picture that is not closed tells.
-  if (status != 0 || svg.str().find("</svg>") == std::string::npos) {
-    const std::string said = last_line(log);
-    throw RunError(fmt::format("gnuplot could not draw {}: {}", path,
-                               said.empty() ? "the picture is incomplete; is the disk full?" : said));
-  }
-  write_file(path, svg.str());
-  return true;
+  return run_gnuplot(script, data, {{"plot.svg", path}});
 }
 
 }  // namespace carom

@@ -53,8 +53,8 @@ RunRecord full_record() {
   r.outputs.trajectory = FileMark{"trajectory.xyz", 3, 12345678901};
   SeriesMark& series = r.outputs.series.emplace();
   series.file = {"series.csv", 3, 99};
-  series.counted_until = 0.3;
-  series.before = full_state().counters;
+  series.meter.counted_until = 0.3;
+  series.meter.before = full_state().counters;
   r.outputs.movie = MovieMark{3, false, {"a.mp4", "b.mp4"}, 2.5, -1};
   r.outputs.velocities.curves = {{1, {0.0, 0.1}, {1.0, 2.0}, {3.0, 4.0}}};
   r.outputs.velocities.end = 0.1;
@@ -103,7 +103,7 @@ TEST_F(CheckpointFile, GivesBackEveryBit) {
   EXPECT_TRUE(std::signbit(back.state.disks.y[0]));
   EXPECT_EQ(back.state.counters.wall_impulse[3], 4.0);
   EXPECT_EQ(back.state.loads[1].id2, 4294967295U);
-  EXPECT_EQ(back.record.outputs.series->before.collisions, 1'000'000'000'000'000U);
+  EXPECT_EQ(back.record.outputs.series->meter.before.collisions, 1'000'000'000'000'000U);
   EXPECT_EQ(back.record.outputs.movie->parts, (std::vector<std::string>{"a.mp4", "b.mp4"}));
 }
 

@@ -115,9 +115,9 @@ TEST_F(CommandLine, StrictEndsARunAtItsFirstWarning) {
 
 TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "no command given; expected one of run, check, resume, compare, render, sweep"},
+      {"", "no command given; expected one of run, check, resume, compare, render, sweep, chart"},
       {"rnu small.toml",
-       "there is no command \"rnu\"; expected one of run, check, resume, compare, render, sweep (nearest: run)"},
+       "there is no command \"rnu\"; expected one of run, check, resume, compare, render, sweep, chart (nearest: run)"},
       {"--jsn", "no option \"--jsn\" before the command"},
       {"run", "run: no scene file given"},
       {"run --methd pairwise small.toml", "run: there is no option \"--methd\""},
@@ -335,6 +335,51 @@ TEST_F(CommandLine, AllOutputsAtOnce) {
             0);
   EXPECT_THAT(files_in("out"), ElementsAre("energy.svg", "movie.mp4", "scene.toml", "series.csv", "summary.json",
                                            "trajectory.xyz", "velocity.svg"));
+}
+
+TEST_F(CommandLine, ChartWritesAllItsFilesOrNone) {
+  ASSERT_EQ(carom("chart --tiny --quiet -o chart").status, 0);
+  const std::vector<std::string> names = files_in("chart");
+  EXPECT_THAT(names,
+              ElementsAre("chart.csv", "chart.json", "chart.png", "chart.svg", "chart_all.png", "chart_all.svg"));
+  EXPECT_EQ(Json::parse(read(at("chart/chart.json")))["scenes"].size(), 7U);
+  expect_error("$C chart --tiny --quiet -o chart", 2, "chart/chart.svg: exists already");
+  expect_error("$C chart --tiny -o small.toml", 2, "small.toml: is a file");
+  expect_error("$C chart --quik", 2, "chart: there is no option \"--quik\"; expected one of");
+  expect_error("$C chart now", 2, "chart: one argument too many, \"now\"");
+  // Ctrl-C long before the end.
+  shell("timeout --signal=INT 1 $C chart --quiet -o stopped/here");
+  EXPECT_THAT(files_in(""), ElementsAre("chart", "small.toml"));
+}
+
+TEST_F(CommandLine, CheckSaysWhatAnAccuracyNeeds) {
+  const Outcome plain = carom("check small.toml");
+  EXPECT_THAT(plain.out, HasSubstr("--accuracy 1e-3 says"));
+  const Outcome o = carom("check small.toml --accuracy 1e-4");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.out, HasSubstr("for an error of 0.0001 in averages"));
+  EXPECT_THAT(o.out, HasSubstr("take it with --method "));
+  EXPECT_THAT(o.out, Not(HasSubstr("--accuracy 1e-3 says")));
+  const Json j = Json::parse(carom("check small.toml --accuracy 1e-4 --json").out);
+  EXPECT_EQ(j["choice"]["offers"].size(), 2U);
+  EXPECT_EQ(j["choice"]["method"], "exact");
+  expect_error("$C check small.toml --accuracy x", 2, "--accuracy: \"x\" is not a number");
+  expect_error("$C check small.toml --accuracy 0", 2, "--accuracy: is 0; expected a relative error above 0");
+  expect_error("$C check small.toml --accuracy 0.5", 2, "--accuracy: is 0.5; expected a relative error");
+}
+
+TEST_F(CommandLine, MethodAutoIsReportedAndKept) {
+  const Outcome o = carom("run small.toml -o out --method auto --set run.accuracy=1e-4 --json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.err, StartsWith("carom: method auto, accuracy 0.0001: exact ("));
+  EXPECT_EQ(Json::parse(o.out)["method"], "exact");
+  EXPECT_THAT(read(at("out/scene.toml")), HasSubstr("# chosen by method = \"auto\", accuracy = 0.0001: "));
+  const Outcome again = carom("run out/scene.toml -o again --json");
+  EXPECT_THAT(again.err, IsEmpty());
+  EXPECT_EQ(Json::parse(again.out)["state_hash"], Json::parse(o.out)["state_hash"]);
+  expect_error("$C run small.toml --method auto", 2, "run.accuracy: missing; expected the relative error");
+  expect_error("$C run small.toml --method aut", 2, "(nearest: auto)");
+  EXPECT_THAT(carom("check small.toml --set run.accuracy=1e-3").err, HasSubstr("only method \"auto\" uses it"));
 }
 
 TEST_F(CommandLine, CompareFindsTheFirstBit) {

@@ -1,0 +1,15 @@
+// The speed-accuracy chart as pictures: which panel shows what.
+#pragma once
+
+#include "bench/chart_result.hpp"
+#include "io/log_figure.hpp"
+
+namespace carom {
+
+// The page for a paper: cost against the error of the paths for every scene, then the other errors where they say most.
+LogFigure main_figure(const chart::ChartResult& result);
+
+// Every scene (a row) with every error (a column).
+LogFigure whole_figure(const chart::ChartResult& result);
+
+}  // namespace carom

@@ -1,0 +1,39 @@
+// The order of convergence of a method from its errors at several steps.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace carom::chart {
+
+struct FitPoint {
+  double dt = 0.0;
+  double value = 0.0;  // error, a mean over seeds
+  double error = 0.0;  // its standard error
+};
+
+// value = coefficient dt^order
+struct OrderFit {
+  double order = 0.0;
+  double order_error = 0.0;  // standard error, from the scatter about the line; 0 for two points
+  double coefficient = 0.0;
+  std::size_t points = 0;
+};
+
+// A mean counts as seen when it is this many standard errors from nothing.
+inline constexpr double seen_errors = 2.0;
+
+// Rounding's share of an error; below this a curve says nothing of dt.
+inline constexpr double rounding_floor = 1e-11;
+
+// Above this an error is no longer small and need not follow its law.
+inline constexpr double small_error = 0.2;
+
+// Is the point above the noise of its seeds and above rounding?
+bool is_seen(const FitPoint& p);
+
+// Least squares of log value against log dt, from the longest step with a small error down to the first point that is
+// not seen: one seen by chance further down is none. None with fewer than three points.
+std::optional<OrderFit> fit_order(std::vector<FitPoint> points);
+
+}  // namespace carom::chart

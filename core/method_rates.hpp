@@ -1,0 +1,29 @@
+// What the methods are known to cost and how wrong they are known to be: the constants from which check --accuracy and
+// method = "auto" choose. Measured by `carom chart`; the laws are those of docs/methods.md.
+#pragma once
+
+namespace carom::rates {
+
+// Error of pairwise in collision rate, pressure and cooling rate: second_collision Gamma dt + crowding (Gamma dt)^2 +
+// (v dt / sigma)^2 / 4, v^2 = kT / m. The first two are bounds on the points of docs/chart.csv (rate and figure of all
+// scenes, Gamma dt from 0.02 to 1.3); theory says at most Gamma dt (docs/methods.md). The last one, grazing collisions,
+// is theory's.
+inline constexpr double second_collision = 0.1;
+inline constexpr double crowding = 0.2;
+
+// Error of the interval of Brownian motion itself, in the mean square displacement, whatever the method: this times the
+// collisions of a disk in an interval. A bound: with 0.27 of them nothing is seen above 3 % (docs/chart.csv, brownian).
+inline constexpr double brownian_interval = 0.1;
+
+// CPU seconds on one thread of the machine in docs/chart.json, 1000 disks.
+inline constexpr double pairwise_step = 20e-9;         // a disk and step
+inline constexpr double pairwise_collision = 0.25e-6;  // a collision
+inline constexpr double exact_collision = 0.7e-6;      // a collision, where disks are crowded
+inline constexpr double exact_flight = 0.26e-6;        // more for each, over the packing fraction: the longer way to it
+inline constexpr double brownian_step = 80e-9;         // a disk and interval: two normal deviates
+inline constexpr double exact_interval = 200e-9;       // a disk and interval, when exact must stop for it
+
+// The TC model in a pile: collisions of a disk in a contact time, at rest (docs/methods.md, production B and C).
+inline constexpr double pile_collisions = 10.0;
+
+}  // namespace carom::rates

@@ -1,0 +1,57 @@
+// A page of small panels with logarithmic axes, as gnuplot draws it: curves of errors, each named where it is.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace carom {
+
+struct LogPoint {
+  double x = 0.0, y = 0.0;  // > 0
+  double error = 0.0;       // standard error of y; 0 draws no bar
+  bool bound = false;       // y is only a bound from above: drawn open, and not joined to its neighbours
+};
+
+// Colour and symbol of a curve are those of its style, the same in every panel.
+struct LogCurve {
+  int style = 0;                 // 0, 1, 2, ...
+  std::string name;              // written in the panel's upper right corner, in the curve's colour; empty: nowhere
+  std::vector<LogPoint> points;  // in the order in which they are joined
+  bool faint = false;            // thin and dashed: a second quantity of the same method
+};
+
+// A word at a point of a panel.
+struct LogNote {
+  double x = 0.0, y = 0.0;
+  std::string text;
+  int style = -1;     // colour of that style; -1: grey
+  bool left = false;  // of the point; otherwise right of it
+};
+
+struct LogPanel {
+  std::string title;
+  std::string x_label, y_label;  // empty: none
+  double x_low = 0.0, x_high = 0.0, y_low = 0.0, y_high = 0.0;
+  std::vector<LogCurve> curves;
+  std::vector<LogNote> notes;
+  bool names_below = false;  // names to the lower right instead, a little above the axis
+};
+
+// Rows of panels under a heading.
+struct LogSection {
+  std::string heading;
+  std::vector<LogPanel> panels;
+};
+
+struct LogFigure {
+  std::string title;
+  std::string caption;  // one line or more under everything
+  std::size_t columns = 4;
+  std::vector<LogSection> sections;
+};
+
+// Writes the same picture as SVG and PNG. Returns false, and writes nothing, where gnuplot is not installed. Throws
+// RunError if it fails or a file cannot be written.
+bool draw_log_figure(const LogFigure& figure, const std::string& svg_path, const std::string& png_path);
+
+}  // namespace carom
