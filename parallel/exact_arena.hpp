@@ -38,7 +38,6 @@ struct Member {
   std::uint32_t last_piece = nobody;
   bool gone = false;     // left through a sink
   bool looked = false;   // next and exit are known
-  bool borders = false;  // its list has disks of other blocks
   double exit = never;   // when it leaves its list's range
   double cross = never;  // earliest meeting after the slice that cross checks found
   ExactDisk now;

@@ -195,10 +195,6 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
   field_.due.resize(n);
   field_.slack = 1e-9 * 2.0 * largest_radius_ + 1e-14 * std::max(scene_.box.width, scene_.box.height);
   const double g = field_.rules.gravity;
-  field_.sketch.resize(n);
-  field_.units = sketch_units(largest_radius_, field_.fastest2, g);
-  // Nobody may meet other images than those that were looked at.
-  const bool near = field_.fastest2 <= field_.safe_speed2;
   const bool tc = !state_.last_contact.empty();
   field_.last_contact.resize(tc ? n : 0);
   // Only what dissipates can collapse, or what rests on the floor.
@@ -208,10 +204,9 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
   executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Flight& f = field_.flight[i];
-      const bool keeps = due_good_ && (f.partner == leaving || near);
-      const std::uint32_t partner = keeps ? f.partner : nobody;
+      // The rounding of paths that begin afresh may make other events the first.
+      const std::uint32_t partner = due_good_ && f.partner == leaving ? leaving : nobody;
       f = {{0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]}, d.radius_of(i), d.id[i], nobody, partner, 0, 0};
-      field_.sketch[i] = field_.units.sketch(f.path);
       // A little early, for the rounding of paths that begin afresh.
       field_.due[i] = due_good_ ? (field_.due[i] - last_length_) - 1e-9 * last_length_ : 0.0;
       if (listed_now_ && due_good_) {
@@ -258,13 +253,7 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
   gone_.assign(any_gone ? n : 0, 0);
   executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      Flight& f = field_.flight[i];
-      PathSegment p = carried_to(f.path, plan.length, field_.rules.gravity);
-      // The rounding of paths that begin afresh may make other events the first, unless that one is clear.
-      if (f.partner < leaving) {
-        const bool stands = !is_wall(f.partner) && f.is_clear() && field_.flight[f.partner].changed < f.looked_in();
-        if (!stands) f.partner = nobody;
-      }
+      PathSegment p = carried_to(field_.flight[i].path, plan.length, field_.rules.gravity);
       if (any_gone && std::isnan(p.x)) {
         gone_[i] = 1;
       } else {

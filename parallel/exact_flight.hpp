@@ -1,20 +1,18 @@
 // What the exact engine knows of every disk during a slice of a window.
 #pragma once
 
-#include <cmath>
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
 #include "core/exact_event.hpp"
 #include "core/types.hpp"
-#include "parallel/path_sketch.hpp"
 
 namespace carom {
 
 inline constexpr std::uint32_t nobody = 0xffffffffU;
 // In Flight::partner: the disk leaves the range of its list; it is to be listed anew.
 inline constexpr std::uint32_t leaving = 0xfffffffeU;
-inline constexpr std::uint16_t last_slice = 0x7fffU;
 
 // A disk on its path: all that a look at it needs, in one cache line.
 struct alignas(64) Flight {
@@ -27,22 +25,15 @@ struct alignas(64) Flight {
   // Slices of the window (from 1 on): the one in which the path began, 0 at the window's start, and the one in which
   // the partner was found. A partner on a path begun in an earlier slice than that is still met as found.
   std::uint16_t changed = 0;
-  std::uint16_t looked = 0;  // and clear_bit: rounding cannot make another event the first
-
-  std::uint16_t looked_in() const { return looked & (clear_bit - 1U); }
-  bool is_clear() const { return (looked & clear_bit) != 0; }
-  static constexpr std::uint16_t clear_bit = 0x8000U;
+  std::uint16_t looked = 0;
 };
 static_assert(sizeof(Flight) == 64);
 
-// While a slice is solved, a block's thread changes `owner`, `due`, `partner`, `looked` and the sketches of the block's
-// own disks, and reads paths, radii and ids of all.
+// Only `owner`, and `due` and `partner` of disks that nobody owns, change while a slice is solved.
 struct ExactField {
   ExactRules rules;
-  const Disks* disks = nullptr;    // masses
-  std::vector<Flight> flight;      // by storage index
-  std::vector<PathSketch> sketch;  // of the path that the disk is on now
-  SketchUnits units;
+  const Disks* disks = nullptr;  // masses
+  std::vector<Flight> flight;    // by storage index
   // No event that this disk answers for happens before; each pair is answered for by the one whose path changed last
   // (or both), each disk for its own sides and for leaving its list's range.
   std::vector<double> due;
@@ -57,21 +48,22 @@ struct ExactField {
   double fastest2 = 0.0;
   double slice_start = 0.0;
   double slice_end = 0.0;   // events before this time; in the last slice up to and including `length`
-  std::uint16_t slice = 0;  // number, from 1 on; stays at last_slice
+  std::uint16_t slice = 0;  // number, from 1 on; stays at its largest value
 
   bool in_slice(double t) const { return t < slice_end && t <= length; }
 
-  void put_off(std::uint32_t i, double time, std::uint32_t partner, bool clear = false) {
-    due[i] = time;
-    flight[i].partner = partner;
-    flight[i].looked = clear ? slice | Flight::clear_bit : slice;
+  // While components are solved, others may claim a disk or put its due time off at any moment.
+  std::uint32_t owner_of(std::uint32_t i) {
+    return std::atomic_ref<std::uint32_t>(flight[i].owner).load(std::memory_order_seq_cst);
   }
-
-  // How far the place that a sketch tells of a disk of this v^2, or a slower one, may be off up to the horizon; length.
-  double sketch_blur(double v2) const {
-    const double g = rules.gravity;
-    const double travel = (std::sqrt(v2) + g * horizon) * horizon;
-    return 5e-7 * std::max(rules.box.width, rules.box.height) + 1e-6 * travel + slack;
+  double due_of(std::uint32_t i) { return std::atomic_ref<double>(due[i]).load(std::memory_order_relaxed); }
+  std::uint32_t partner_of(std::uint32_t i) {
+    return std::atomic_ref<std::uint32_t>(flight[i].partner).load(std::memory_order_relaxed);
+  }
+  void put_off(std::uint32_t i, double time, std::uint32_t partner) {
+    std::atomic_ref<double>(due[i]).store(time, std::memory_order_relaxed);
+    std::atomic_ref<std::uint32_t>(flight[i].partner).store(partner, std::memory_order_relaxed);
+    std::atomic_ref<std::uint16_t>(flight[i].looked).store(slice, std::memory_order_relaxed);
   }
 };
 
@@ -81,8 +73,6 @@ struct NextEvent {
   DiskId id1 = 0, id2 = 0;       // of the event; id2 may be a wall_partner
   std::uint32_t other = nobody;  // storage index of the disk met, or of the disk itself for a side; nobody: to look
   std::uint32_t other_version = 0;
-  // All else that may happen to the disk comes later by more than rounding can make up for.
-  bool clear = false;
 
   // The canonical order. To look comes first: ids 0, 0.
   bool before(const NextEvent& e) const {

@@ -16,9 +16,7 @@ void put_off(ExactField& field, std::uint32_t i, const NextEvent& next, double e
   const double first = std::min(exit, cross);
   if (next.time <= first && next.time < field.horizon) {
     const std::uint32_t partner = is_wall(next.id2) ? next.id2 : next.other;
-    const bool known = next.other_version == 0;
-    field.put_off(i, next.time, known ? partner : nobody,
-                  known && next.clear && next.time + clear_share * field.length < cross);
+    field.put_off(i, next.time, next.other_version == 0 ? partner : nobody);
   } else if (first < field.horizon) {
     field.put_off(i, first, exit <= cross ? leaving : nobody);
   } else {
@@ -29,14 +27,14 @@ void put_off(ExactField& field, std::uint32_t i, const NextEvent& next, double e
 void ExactLoop::run_block(std::uint32_t begin, std::uint32_t end) {
   joint_ = false;
   begin_ = begin;
-  size_ = end - begin;
+  end_ = end;
   last_.time = -never;
   arena_.heap.clear();
   // Most of the block is looked at several times, in no order: asked for in order first, it comes much faster.
   lists_.prefetch(begin, end);
   for (std::uint32_t i = begin; i < end; ++i) {
     __builtin_prefetch(&field_.flight[i]);
-    if (field_.in_slice(field_.due[i])) push_due(i);
+    if (field_.in_slice(field_.due_of(i)) && field_.owner_of(i) == nobody) push_due(i);
   }
   run();
 }
@@ -48,7 +46,8 @@ std::uint32_t ExactLoop::solve(const std::vector<std::uint32_t>& disks) {
   component_ = static_cast<std::uint32_t>(arena_.components.size());
   arena_.components.push_back({nobody, nobody, 0});
   for (const std::uint32_t i : disks) {
-    look_around(add_member(i));
+    const std::uint32_t m = add_member(i);
+    if (m != nobody) look_around(m);
   }
   run();
   return component_;
@@ -65,7 +64,7 @@ void ExactLoop::run() {
 }
 
 void ExactLoop::process(const HeapEntry& e) {
-  const std::uint32_t owner = field_.flight[e.disk].owner;
+  const std::uint32_t owner = field_.owner_of(e.disk);
   if (owner != nobody) {
     // Held by somebody else, who answers for it then; or given up; or on a new path, which has an event of its own.
     if (!is_at_hand(owner) || component_of(member_of(owner)).status != ComponentStatus::solved) return;
@@ -73,19 +72,29 @@ void ExactLoop::process(const HeapEntry& e) {
   }
   if (e.event.other == nobody) {
     look_again(e.disk);
+  } else if (!joint_ && e.event.before(last_)) {
+    // A disk of another block answered for this pair. What happened since did not know of it.
+    conflict(e.disk, e.event.other);
   } else if (e.event.other != e.disk) {
     process_pair(e);
   } else {
     const std::uint32_t m = hold(e.disk);
+    if (m == nobody) return;
     last_ = e.event;
     meet_side(m, e.event);
   }
 }
 
 void ExactLoop::process_pair(const HeapEntry& e) {
+  const std::uint32_t j = e.event.other;
   if (!is_ready(e)) return;
   const std::uint32_t m = hold(e.disk);
-  const std::uint32_t other = hold(e.event.other);
+  if (m == nobody) return;  // another thread, which was faster, answers for it now
+  const std::uint32_t other = hold(j);
+  if (other == nobody) {
+    conflict(e.disk, j);
+    return;
+  }
   if (arena_.components[unite(m, other)].status != ComponentStatus::solved) return;
   last_ = e.event;
   meet_disk(m, other, e.event);
@@ -95,18 +104,22 @@ void ExactLoop::process_pair(const HeapEntry& e) {
 // what has to be done first.
 bool ExactLoop::is_ready(const HeapEntry& e) {
   const std::uint32_t j = e.event.other;
-  if (!joint_ && !is_own(j)) {
-    conflict(e.disk, nobody);
-    return false;
-  }
-  const std::uint32_t owner = field_.flight[j].owner;
+  const std::uint32_t owner = field_.owner_of(j);
   if (owner == nobody) {
-    if (!joint_) return true;
-    if (take_in(j)) push(e.disk, e.version, e.event);
-    return false;
+    if (joint_) {
+      if (take_in(j)) push(e.disk, e.version, e.event);
+      return false;
+    }
+    const double due = field_.due_of(j);
+    const bool own = j >= begin_ && j < end_;
+    if (due < e.event.time || (!own && due == e.event.time && field_.partner_of(j) != e.disk)) {
+      conflict(e.disk, j);
+      return false;
+    }
+    return true;
   }
   if (!is_at_hand(owner)) {
-    conflict(e.disk, owner);
+    conflict(e.disk, j);
     return false;
   }
   if (arena_.members[member_of(owner)].version == e.event.other_version) return true;
@@ -119,8 +132,8 @@ bool ExactLoop::is_ready(const HeapEntry& e) {
 // may be one with a member on the path that he has left since.
 bool ExactLoop::take_in(std::uint32_t disk) {
   add_member(disk);
-  if (field_.due[disk] > last_.time) {
-    if (field_.in_slice(field_.due[disk])) push_due(disk);
+  if (field_.due_of(disk) > last_.time) {
+    if (field_.in_slice(field_.due_of(disk))) push_due(disk);
     return true;
   }
   start_over();
@@ -133,9 +146,7 @@ void ExactLoop::start_over() {
   arena_.heap.clear();
   for (std::uint32_t m = c.first; m != nobody; m = arena_.members[m].next_member) {
     const std::uint32_t next = arena_.members[m].next_member;
-    const std::uint32_t disk = arena_.members[m].disk;
-    arena_.members[m] = fresh_member(disk, component_);
-    field_.sketch[disk] = field_.units.sketch(field_.flight[disk].path);
+    arena_.members[m] = fresh_member(arena_.members[m].disk, component_);
     arena_.members[m].next_member = next;
   }
   for (std::uint32_t m = c.first; m != nobody; m = arena_.members[m].next_member) look_around(m);
@@ -147,21 +158,19 @@ void ExactLoop::push(std::uint32_t disk, std::uint32_t version, const NextEvent&
 }
 
 // What is known of a disk since an earlier slice. An event found then still stands if the partner's path has not
-// changed in that slice or since; one found in an earlier window has its time from paths that began then.
+// changed in that slice or since.
 void ExactLoop::push_due(std::uint32_t i) {
   const Flight& f = field_.flight[i];
-  NextEvent e{field_.due[i], 0, 0, nobody, 0};
-  if (f.partner < leaving && is_wall(f.partner)) {
-    e = {e.time, f.id, f.partner, i, 0};
-  } else if (f.partner < leaving && !is_held(f.partner)) {
-    const Flight& other = field_.flight[f.partner];
-    const bool stands = other.changed < f.looked_in();
-    const bool stood = f.looked_in() == 0 && other.changed == 0;
-    const double t = stands ? e.time : stood ? scan_.clear_meeting(i, f.partner) : never;
-    if (t != never) e = {t, std::min(f.id, other.id), std::max(f.id, other.id), f.partner, 0};
-    if (t != never && !field_.in_slice(t)) {
-      field_.put_off(i, t, f.partner, true);
-      return;
+  const double due = field_.due_of(i);
+  const std::uint32_t partner = field_.partner_of(i);
+  NextEvent e{due, 0, 0, nobody, 0};
+  if (partner < leaving && is_wall(partner)) {
+    e = {due, f.id, partner, i, 0};
+  } else if (partner < leaving) {
+    const Flight& other = field_.flight[partner];
+    const std::uint32_t owner = field_.owner_of(partner);
+    if (other.changed < f.looked && owner == nobody) {
+      e = {due, std::min(f.id, other.id), std::max(f.id, other.id), partner, 0};
     }
   }
   push(i, 0, e);
@@ -174,41 +183,21 @@ double ExactLoop::exit_after(std::uint32_t i, const PathSegment& path, double fr
   return lists_.exit_time(i, path, from, std::min(field_.slice_end, field_.length), g);
 }
 
-// The earliest event of disk i on this path. Neighbours that others hold are left out; a member's are noted, to be
-// looked at when both are solved.
-NextEvent ExactLoop::look_from(std::uint32_t i, const PathSegment& path, double from, std::uint32_t member) {
-  const auto path_at_hand = [&](std::uint32_t j) { return path_of(j); };
-  NextEvent next;
-  if (joint_) {
-    const auto outside = [&](std::uint32_t j) -> const PathSegment* {
-      if (member != nobody) arena_.cross_pairs.push_back({member, field_.flight[j].owner});
-      return nullptr;
-    };
-    const auto sketched = [&](std::uint32_t j) { return !is_held(j); };
-    next = scan_.earliest(i, path, from, sketched, path_at_hand, outside);
-  } else {
-    bool borders = false;
-    const auto outside = [&](std::uint32_t j) -> const PathSegment* {
-      borders = true;
-      return &field_.flight[j].path;
-    };
-    const auto sketched = [&](std::uint32_t j) { return is_own(j); };
-    next = scan_.earliest(i, path, from, sketched, path_at_hand, outside);
-    if (member != nobody) arena_.members[member].borders = borders;
-  }
-  next.other_version = version_of(next.other);
-  return next;
-}
-
 // The time has come up to which nothing could happen to the disk.
 void ExactLoop::look_again(std::uint32_t i) {
-  const std::uint32_t owner = field_.flight[i].owner;
+  const std::uint32_t owner = field_.owner_of(i);
   if (owner != nobody) {
     if (is_at_hand(owner)) look_around(member_of(owner));
     return;
   }
   const PathSegment& path = field_.flight[i].path;
-  const NextEvent next = look_from(i, path, std::max(path.start, field_.slice_start), nobody);
+  const double from = std::max(path.start, field_.slice_start);
+  const NextEvent next = scan_.earliest(i, path, from, [&](std::uint32_t j) {
+    const std::uint32_t held = field_.owner_of(j);
+    if (!is_at_hand(held)) return Seen{&field_.flight[j].path, 0};
+    const Member& other = arena_.members[member_of(held)];
+    return other.gone ? Seen{} : Seen{&other.now.path, other.version};
+  });
   const double exit = exit_after(i, path, field_.slice_start, next.time);
   if (field_.in_slice(exit)) {
     arena_.roaming.push_back(i);
@@ -223,7 +212,16 @@ void ExactLoop::look_around(std::uint32_t m) {
   const std::uint32_t i = arena_.members[m].disk;
   const PathSegment path = arena_.members[m].now.path;
   const double from = std::max(path.start, field_.slice_start);
-  const NextEvent next = look_from(i, path, from, m);
+  const NextEvent next = scan_.earliest(i, path, from, [&](std::uint32_t j) {
+    const std::uint32_t owner = field_.owner_of(j);
+    if (owner == nobody) return Seen{&field_.flight[j].path, 0};
+    if (!is_at_hand(owner)) {
+      arena_.cross_pairs.push_back({m, owner});
+      return Seen{};
+    }
+    const Member& other = arena_.members[member_of(owner)];
+    return other.gone ? Seen{} : Seen{&other.now.path, other.version};
+  });
   const double exit = exit_after(i, path, from, next.time);
   Member& member = arena_.members[m];
   member.next = next;
@@ -238,16 +236,21 @@ void ExactLoop::look_around(std::uint32_t m) {
   if (field_.in_slice(next.time)) push(i, member.version, next);
 }
 
-// The disk's member, made now if nobody holds it.
+// The disk's member, claimed if nobody holds it; nobody if somebody else does.
 std::uint32_t ExactLoop::hold(std::uint32_t i) {
-  const std::uint32_t owner = field_.flight[i].owner;
-  return owner == nobody ? add_member(i) : member_of(owner);
+  const std::uint32_t owner = field_.owner_of(i);
+  if (owner == nobody) return add_member(i);
+  return is_at_hand(owner) ? member_of(owner) : nobody;
 }
 
-// Takes a disk, on its path at the start of the slice, as a component of its own or for the joint one.
+// Claims a disk, on its path at the start of the slice, as a component of its own or for the joint one. Returns nobody
+// if another thread was faster.
 std::uint32_t ExactLoop::add_member(std::uint32_t i) {
   const auto m = static_cast<std::uint32_t>(arena_.members.size());
-  field_.flight[i].owner = handle_of(arena_.number, m);
+  std::uint32_t expected = nobody;
+  const bool claimed = std::atomic_ref<std::uint32_t>(field_.flight[i].owner)
+                           .compare_exchange_strong(expected, handle_of(arena_.number, m));
+  if (!claimed) return nobody;
   if (joint_) {
     arena_.members.push_back(fresh_member(i, component_));
     Component& c = arena_.components[component_];
@@ -298,11 +301,12 @@ std::uint32_t ExactLoop::unite(std::uint32_t a, std::uint32_t b) {
   return into;
 }
 
-// Disk i meets a disk that somebody else holds, or a disk of another block.
-void ExactLoop::conflict(std::uint32_t i, std::uint32_t owner) {
+// Disk i meets a disk that somebody else holds or that may have an event before.
+void ExactLoop::conflict(std::uint32_t i, std::uint32_t other) {
   const std::uint32_t m = hold(i);
+  if (m == nobody) return;
   component_of(m).status = ComponentStatus::conflict;
-  arena_.conflicts.push_back({handle_of(arena_.number, m), owner});
+  arena_.conflicts.push_back({handle_of(arena_.number, m), field_.owner_of(other)});
 }
 
 void ExactLoop::meet_side(std::uint32_t m, const NextEvent& e) {
@@ -337,7 +341,6 @@ void ExactLoop::begin_piece(std::uint32_t m, const NextEvent& e, bool counts, co
   Member& member = arena_.members[m];
   ++member.version;
   const PathSegment& path = member.now.path;
-  field_.sketch[member.disk] = field_.units.sketch(path);
   scan_.saw_speed(path.vx * path.vx + path.vy * path.vy);
   arena_.pieces.push_back({member.now.path, member.last_piece, counts ? e.id2 : nobody, outcome});
   member.last_piece = static_cast<std::uint32_t>(arena_.pieces.size() - 1);

@@ -13,15 +13,16 @@ namespace carom {
 // Disk i is due at the first of: its next event, leaving its list's range, what a cross check found, the horizon.
 void put_off(ExactField& field, std::uint32_t i, const NextEvent& next, double exit, double cross);
 
-// Runs events into an arena. A disk becomes a member, held by this arena, when its first event happens; until then all
-// see it on its path at the start of the slice. Blocks see each other's disks on those paths only: whether new paths of
-// two blocks meet is seen to afterwards.
+// Runs events into an arena. A disk becomes a member, claimed for this arena, when its first event happens; until then
+// all see it on its path at the start of the slice. The claim comes before the look around on the new path: of two
+// threads that change neighbouring disks at the same time, at least one sees the other's claim.
 class ExactLoop {
  public:
   ExactLoop(ExactField& field, const ExactLists& lists, ExactArena& arena)
       : field_(field), lists_(lists), arena_(arena), scan_(field, lists) {}
 
-  // All events among disks [begin, end). At one with a disk of another block the component is in conflict, and frozen.
+  // All events of disks [begin, end). One with a disk of another block happens if that disk can have none before and
+  // nobody holds it; otherwise the component is in conflict, and frozen.
   void run_block(std::uint32_t begin, std::uint32_t end);
 
   // Solves from the slice's start what grows from these disks, none of which anybody holds; returns the component's
@@ -46,7 +47,7 @@ class ExactLoop {
   std::uint32_t add_member(std::uint32_t disk);
   Member fresh_member(std::uint32_t disk, std::uint32_t component) const;
   std::uint32_t unite(std::uint32_t a, std::uint32_t b);
-  void conflict(std::uint32_t disk, std::uint32_t owner);
+  void conflict(std::uint32_t disk, std::uint32_t other);
 
   void meet_side(std::uint32_t member, const NextEvent& e);
   void meet_disk(std::uint32_t member, std::uint32_t other, const NextEvent& e);
@@ -57,27 +58,6 @@ class ExactLoop {
     return owner != nobody && arena_of(owner) == arena_.number &&
            (!joint_ || arena_.members[member_of(owner)].component == component_);
   }
-  // Held by somebody else, or none of this block's disks.
-  bool is_held(std::uint32_t disk) const {
-    if (!joint_) return false;
-    const std::uint32_t owner = field_.flight[disk].owner;
-    return owner != nobody && !is_at_hand(owner);
-  }
-  bool is_own(std::uint32_t disk) const { return disk - begin_ < size_; }
-  // Of a disk met: its events so far in this loop.
-  std::uint32_t version_of(std::uint32_t disk) const {
-    if (disk == nobody || (!joint_ && !is_own(disk))) return 0;
-    const std::uint32_t owner = field_.flight[disk].owner;
-    return is_at_hand(owner) ? arena_.members[member_of(owner)].version : 0;
-  }
-  // The path that a disk is on, of those nobody else holds; null if it left.
-  const PathSegment* path_of(std::uint32_t disk) const {
-    const Flight& f = field_.flight[disk];
-    if (f.owner == nobody) return &f.path;
-    const Member& m = arena_.members[member_of(f.owner)];
-    return m.gone ? nullptr : &m.now.path;
-  }
-  NextEvent look_from(std::uint32_t disk, const PathSegment& path, double from, std::uint32_t member);
   Component& component_of(std::uint32_t member) { return arena_.components[arena_.members[member].component]; }
 
   ExactField& field_;
@@ -85,9 +65,9 @@ class ExactLoop {
   ExactArena& arena_;
   ExactScan scan_;
   bool joint_ = false;
-  std::uint32_t begin_ = 0, size_ = 0;  // the block
-  std::uint32_t component_ = 0;         // of a joint solution
-  NextEvent last_;                      // the last event that happened
+  std::uint32_t begin_ = 0, end_ = 0;  // the block
+  std::uint32_t component_ = 0;        // of a joint solution
+  NextEvent last_;                     // the last event that happened
 };
 
 }  // namespace carom

@@ -1,94 +1,38 @@
 #include "parallel/exact_scan.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace carom {
 
-// The exact formula; `found.best` becomes this meeting if it comes first.
-void ExactScan::meet(std::uint32_t i, const PathSegment& path, std::uint32_t j, const PathSegment& other,
-                     double soonest, Earliest& found) const {
+// The exact formula; `best` becomes this meeting if it comes first.
+void ExactScan::meet(std::uint32_t i, const PathSegment& path, std::uint32_t j, const Seen& seen,
+                     NextEvent& best) const {
   const Flight& own = field_.flight[i];
-  const DiskId id = field_.flight[j].id;
+  const Flight& other = field_.flight[j];
   const ExactRules& rules = field_.rules;
-  const bool in_order = own.id < id;
-  const double reach = own.radius + field_.flight[j].radius;
-  const PathSegment& first = in_order ? path : other;
-  const PathSegment& second = in_order ? other : path;
+  const bool in_order = own.id < other.id;
+  const double reach = own.radius + other.radius;
+  const PathSegment& first = in_order ? path : *seen.path;
+  const PathSegment& second = in_order ? *seen.path : path;
   const double t = meeting_time(first, second, reach, rules.box, rules.gravity, field_.horizon);
-  const NextEvent e{t, in_order ? own.id : id, in_order ? id : own.id, j, 0};
-  if (t != never && e.before(found.best)) {
-    found.second = std::min(found.second, found.best.time);
-    found.best = e;
-  } else {
-    // Which they miss, perhaps, by a rounding error only.
-    found.second = std::min(found.second, soonest);
-  }
+  if (t == never) return;
+  const NextEvent e{t, in_order ? own.id : other.id, in_order ? other.id : own.id, j, seen.version};
+  if (e.before(best)) best = e;
 }
 
-// One whose sketch cannot be relied on: how near it is, and how fast they approach, tell nearly as much.
-void ExactScan::meet_outside(std::uint32_t i, const PathSegment& path, double from, std::uint32_t j,
-                             const PathSegment& other, Earliest& found) const {
+ApproachFrame ExactScan::frame(const PathSegment& path, double from) const {
   const ExactRules& rules = field_.rules;
-  const Relative r = relative(carried_to(path, from, rules.gravity), carried_to(other, from, rules.gravity), rules.box);
-  const double a = r.dvx * r.dvx + r.dvy * r.dvy;
-  const double b = r.approach();
-  if (b > 0.0 && b * b > field_.slack * field_.slack * a) return;
-  const double gap = std::sqrt(r.distance2()) - (field_.flight[i].radius + field_.flight[j].radius + field_.slack);
-  const double soonest = gap > 0.0 ? from + gap / std::sqrt(a) * (1.0 - 1e-9) : from;
-  if (soonest > std::min(found.best.time, field_.horizon)) {
-    found.second = std::min(found.second, soonest);
-  } else {
-    meet(i, path, j, other, soonest, found);
+  const PathSegment p = carried_to(path, from, rules.gravity);
+  const double blur = 0.1 * field_.slack;
+  ApproachFrame f{from, p.x, p.y, p.vx, p.vy, rules.gravity, 0.0, 0.0, HUGE_VAL, HUGE_VAL, blur * blur};
+  if (rules.box.periodic_x()) {
+    f.width = rules.box.width;
+    f.half_width = 0.5 * f.width;
   }
-}
-
-double ExactScan::clear_meeting(std::uint32_t i, std::uint32_t j) const {
-  const bool in_order = field_.flight[i].id < field_.flight[j].id;
-  const Flight& first = field_.flight[in_order ? i : j];
-  const Flight& second = field_.flight[in_order ? j : i];
-  const auto meeting = [&](double reach) {
-    return meeting_time(first.path, second.path, reach, field_.rules.box, field_.rules.gravity, field_.horizon);
-  };
-  const double t = meeting(first.radius + second.radius);
-  const double shifted = meeting(first.radius + second.radius + field_.slack);
-  return t - shifted < 0.25 * clear_share * field_.length ? t : never;
-}
-
-SketchFrame ExactScan::common_frame(const ExactField& field) {
-  const Domain& box = field.rules.box;
-  const Disks& d = *field.disks;
-  const double per_length = field.units.per_length;
-  SketchFrame f;
-  f.half_width = f.half_height = HUGE_VALF;
-  if (box.periodic_x()) {
-    f.width = static_cast<float>(box.width * per_length);
-    f.half_width = 0.5F * f.width;
+  if (rules.box.periodic_y()) {
+    f.height = rules.box.height;
+    f.half_height = 0.5 * f.height;
   }
-  if (box.periodic_y()) {
-    f.height = static_cast<float>(box.height * per_length);
-    f.half_height = 0.5F * f.height;
-  }
-  f.radius = d.radius.empty() ? nullptr : d.radius.data();
-  f.per_length = static_cast<float>(per_length);
-  return f;
-}
-
-SketchFrame ExactScan::frame(std::uint32_t i, const PathSegment& path, double from) const {
-  const double g = field_.rules.gravity;
-  const SketchUnits& units = field_.units;
-  const double s = from - path.start;
-  const double vy = path.vy - g * s;
-  SketchFrame f = common_;
-  f.from = static_cast<float>(from * units.per_time);
-  f.x = static_cast<float>((path.x + path.vx * s) * units.per_length);
-  // Of the falling frame, where neighbours' places are told too.
-  f.y = static_cast<float>((path.y + 0.5 * (path.vy + vy) * s + 0.5 * g * from * from) * units.per_length);
-  f.vx = static_cast<float>(path.vx * units.per_speed);
-  f.vy = static_cast<float>((vy + g * from) * units.per_speed);
-  const double own = field_.flight[i].radius + blur_;
-  const double reach = f.radius == nullptr ? own + field_.disks->common_radius : own;
-  f.reach = static_cast<float>(reach * units.per_length * (1.0 + 1e-6));
   return f;
 }
 

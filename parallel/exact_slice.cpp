@@ -45,7 +45,7 @@ void ExactSlices::begin_window() {
 bool ExactSlices::run(double start, double end, double window_start) {
   field_.slice_start = start;
   field_.slice_end = end;
-  if (field_.slice < last_slice) ++field_.slice;
+  if (field_.slice < 0xffffU) ++field_.slice;
   list_leaving();
   look();
   cross();
@@ -87,24 +87,7 @@ void ExactSlices::look() {
 }
 
 void ExactSlices::cross() {
-  executor_.run(arenas_.size() - 1, [&](std::size_t a) {
-    find_cross_pairs(arenas_[a]);
-    cross_check(arenas_[a], 0, arenas_[a].conflicts);
-  });
-}
-
-// Neighbours in different blocks that both changed their paths: each has looked at the other's old one only. The block
-// with the smaller number sees to it.
-void ExactSlices::find_cross_pairs(ExactArena& arena) {
-  for (std::uint32_t m = 0; m < arena.members.size(); ++m) {
-    const Member& member = arena.members[m];
-    if (!member.borders || member.version == 0) continue;
-    for (const std::uint32_t j : lists_.of(member.disk)) {
-      const std::uint32_t owner = field_.flight[j].owner;
-      if (owner == nobody || arena_of(owner) <= arena.number) continue;
-      if (arenas_[arena_of(owner)].members[member_of(owner)].version > 0) arena.cross_pairs.push_back({m, owner});
-    }
-  }
+  executor_.run(arenas_.size() - 1, [&](std::size_t a) { cross_check(arenas_[a], 0, arenas_[a].conflicts); });
 }
 
 // Looks at the arena's cross pairs from number `begin` on. Components that meet go to `conflicts`; otherwise the member
@@ -161,7 +144,6 @@ double ExactSlices::first_meeting(const Member& a, const std::vector<Piece>& pie
 // member's new path to answer for the pair; so the disk has to look before anything happens to it, whoever takes it in.
 void ExactSlices::free_disk(std::uint32_t i) {
   field_.flight[i].owner = nobody;
-  field_.sketch[i] = field_.units.sketch(field_.flight[i].path);
   field_.put_off(i, field_.slice_start, nobody);
 }
 

@@ -56,7 +56,6 @@ class ExactSlices {
   bool join();
   void commit();
 
-  void find_cross_pairs(ExactArena& arena);
   void cross_check(ExactArena& arena, std::size_t begin, std::vector<Conflict>& conflicts);
   double first_meeting(const Member& a, const std::vector<Piece>& pieces_a, const Member& b,
                        const std::vector<Piece>& pieces_b) const;

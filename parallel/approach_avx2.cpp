@@ -1,3 +1,3 @@
 // Compiled with -mavx2 on x86-64 (CMakeLists.txt); elsewhere it is a second copy of the baseline that nobody calls.
-#define CAROM_SKETCH_MEETINGS sketch_meetings_avx2
-#include "parallel/sketch.inl"
+#define CAROM_APPROACHING approaching_avx2
+#include "parallel/approach.inl"

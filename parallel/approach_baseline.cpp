@@ -1,0 +1,13 @@
+#define CAROM_APPROACHING approaching_baseline
+#include "parallel/approach.inl"
+
+namespace carom {
+
+ApproachKernel choose_approach_kernel() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) return approaching_avx2;
+#endif
+  return approaching_baseline;
+}
+
+}  // namespace carom
