@@ -105,7 +105,7 @@ LogPanel error_panel(const SceneResult& result, std::vector<Measure> measures, c
 }
 
 // Panels whose costs mean the same share an axis.
-void share_costs(std::vector<LogPanel*> panels) {
+void share_costs(const std::vector<LogPanel*>& panels) {
   Range x;
   for (const LogPanel* panel : panels) {
     for (const LogCurve& curve : panel->curves) {

@@ -13,6 +13,7 @@ struct KillCase {
   const char* method;
   const char* output;
   double t_end;
+  const char* trajectory = "xyz";
 };
 
 void PrintTo(const KillCase& c, std::ostream* out) {
@@ -32,7 +33,7 @@ class Kill : public test::ProgramTest, public ::testing::WithParamInterface<Kill
 
 TEST_P(Kill, NothingIsLost) {
   const KillCase& c = GetParam();
-  write("busy.toml", test::busy_scene(c.method, std::string("checkpoint = 0.01\n") + c.output));
+  write("busy.toml", test::busy_scene(c.method, std::string("checkpoint = 0.01\n") + c.output, c.trajectory));
   const std::string t_end = std::to_string(c.t_end);
   ASSERT_EQ(carom("run busy.toml --quiet -o whole --t-end " + t_end).status, 0);
   int kills = 0, runs = 0, from_nothing = 0;
@@ -72,7 +73,8 @@ INSTANTIATE_TEST_SUITE_P(
     Methods, Kill,
     ::testing::Values(KillCase{"pairwise", "pairwise", "plots = [\"velocity\", \"energy\"]\n", 40.0},
                       KillCase{"exact", "exact", "plots = [\"energy\"]\n", 40.0},
-                      KillCase{"rollback", "rollback", "", 20.0}, KillCase{"movie", "pairwise", "movie = true\n", 4.0}),
+                      KillCase{"rollback", "rollback", "", 20.0}, KillCase{"movie", "pairwise", "movie = true\n", 4.0},
+                      KillCase{"h5md", "pairwise", "", 40.0, "h5md"}),
     [](const auto& p) { return std::string(p.param.name); });
 
 }  // namespace

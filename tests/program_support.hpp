@@ -99,6 +99,9 @@ class ProgramTest : public ::testing::Test {
       EXPECT_TRUE(text_of(at(a) / name) == text_of(at(b) / name)) << name << " differs";
     }
     EXPECT_EQ(summary(a), summary(b));
+    if (std::filesystem::exists(at(a) / "trajectory.h5")) {
+      EXPECT_EQ(carom("compare " + a + "/trajectory.h5 " + b + "/trajectory.h5").status, 0);
+    }
     EXPECT_FALSE(std::filesystem::exists(at(b) / "carom-unfinished"));
     if (std::filesystem::exists(at(a) / "movie.mp4")) {
       EXPECT_EQ(movie_frames(a + "/movie.mp4"), movie_frames(b + "/movie.mp4"));
@@ -109,7 +112,8 @@ class ProgramTest : public ::testing::Test {
 };
 
 // A box of falling disks with a sink and a source; method and further lines of [output] are the caller's.
-inline std::string busy_scene(const std::string& method, const std::string& output) {
+inline std::string busy_scene(const std::string& method, const std::string& output,
+                              const std::string& trajectory = "xyz") {
   return R"(title = "busy"
 seed = 3
 [box]
@@ -141,9 +145,9 @@ dt = 0.002
 t_end = 20.0
 [output]
 every = 0.1
-trajectory = "xyz"
 series = true
-)" + output;
+trajectory = ")" +
+         trajectory + "\"\n" + output;
 }
 
 }  // namespace carom::test
