@@ -20,6 +20,7 @@ std::vector<Figure> measure_scaling(const std::string& folder);   // scaling.csv
 std::vector<Figure> measure_features(const std::string& folder);  // features.csv: what each feature costs
 std::vector<Figure> measure_special();                            // wide radii, the pile
 std::vector<Figure> measure_exact(const std::string& folder);     // exact.csv: collisions a second, and the yardstick's
+std::vector<Figure> measure_exact_growth(const std::string& folder);  // exact_growth.csv: up to 10^7 disks; minutes
 std::vector<Figure> measure_memory(const std::string& program, const std::string& scene);
 
 }  // namespace carom::bench
