@@ -50,7 +50,7 @@ CheckpointKeeper::CheckpointKeeper(RunRecord record, Clock::time_point started, 
 
 void CheckpointKeeper::write_to(OutputFolder* folder, RunOutputs* outputs, bool there) {
   folder_ = folder;
-  written_ = there;
+  if (there) written_to_ = folder->name();
   outputs_ = outputs;
 }
 
@@ -83,7 +83,7 @@ void CheckpointKeeper::write(const State& state, double step_s, OutputMark mark)
   RunRecord now = record(step_s);
   now.outputs = std::move(mark);
   save_checkpoint(folder().unfinished(), now, state);
-  written_ = true;
+  written_to_ = folder().name();
   folder().keep_unfinished();
   if (interval_ > 0.0) due_ = seconds() + interval_;
 }
@@ -101,7 +101,7 @@ RunRecord CheckpointKeeper::record(double step_s) const {
 }
 
 std::string CheckpointKeeper::resume_command() const {
-  return written_ ? fmt::format("carom resume {}", folder_->name()) : "";
+  return written_to_.empty() ? "" : fmt::format("carom resume {}", written_to_);
 }
 
 void CheckpointKeeper::discard_own_folder() {

@@ -64,7 +64,7 @@ class CheckpointKeeper {
   OutputFolder* folder_ = nullptr;
   std::optional<OutputFolder> own_folder_;
   RunOutputs* outputs_ = nullptr;
-  bool written_ = false;
+  std::string written_to_;  // the folder's name, which outlives it; empty: no checkpoint yet
   std::string stopped_by_;
   std::string note_;
 };
