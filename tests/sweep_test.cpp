@@ -61,7 +61,7 @@ class SweepTest : public testing::Test {
     return lines;
   }
   // Without the seconds that it took, which differ from run to run.
-  static std::string without_time(std::string row) {
+  static std::string without_time(const std::string& row) {
     const std::size_t hash = row.rfind(',');
     return row.substr(0, row.rfind(',', hash - 1)) + row.substr(hash);
   }
