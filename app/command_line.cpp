@@ -236,10 +236,9 @@ std::optional<std::string> file_option(const std::string& value) {
   return value.empty() ? std::nullopt : std::optional(value);
 }
 
-RunOptions run_options(const Words& words) {
-  require(words.first, "run", "no scene file given", "expected carom run SCENE.toml");
-  RunOptions o;
-  o.scene = words.first;
+// What run and resume have in common.
+template <class Options>
+void read_run_options(const Words& words, Options& o) {
   o.folder = file_option(words.folder);
   o.changes = changes_of(words);
   o.engine = words.engine;
@@ -249,6 +248,13 @@ RunOptions run_options(const Words& words) {
   o.quiet = words.quiet;
   o.force = words.force;
   o.strict = words.strict;
+}
+
+RunOptions run_options(const Words& words) {
+  require(words.first, "run", "no scene file given", "expected carom run SCENE.toml");
+  RunOptions o;
+  o.scene = words.first;
+  read_run_options(words, o);
   return o;
 }
 
@@ -256,15 +262,7 @@ ResumeOptions resume_options(const Words& words) {
   require(words.first, "resume", "no checkpoint given", "expected carom resume CHECKPOINT");
   ResumeOptions o;
   o.checkpoint = words.first;
-  o.folder = file_option(words.folder);
-  o.changes = changes_of(words);
-  o.engine = words.engine;
-  if (!words.threads.empty()) o.threads = count_of("--threads", words.threads);
-  o.max_walltime = walltime_of(words.walltime);
-  o.json = words.json;
-  o.quiet = words.quiet;
-  o.force = words.force;
-  o.strict = words.strict;
+  read_run_options(words, o);
   return o;
 }
 

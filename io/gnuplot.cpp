@@ -156,11 +156,7 @@ std::string data_of(const Figure& figure) {
 }  // namespace
 
 bool draw_svg(const Figure& figure, const std::string& path) {
-  return draw_script(script_of(figure), data_of(figure), path);
-}
-
-bool draw_script(const std::string& script, const std::string& data, const std::string& path) {
-  return run_gnuplot(script, data, {{"plot.svg", path}});
+  return run_gnuplot(script_of(figure), data_of(figure), {{"plot.svg", path}});
 }
 
 }  // namespace carom

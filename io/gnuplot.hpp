@@ -30,7 +30,4 @@ struct Figure {
 // fails or the file cannot be written.
 bool draw_svg(const Figure& figure, const std::string& path);
 
-// The same for any script, which reads the file 'data' and makes 'plot.svg' in the folder that it runs in.
-bool draw_script(const std::string& script, const std::string& data, const std::string& path);
-
 }  // namespace carom

@@ -9,7 +9,7 @@
 #include "core/check.hpp"
 #include "core/initial_state.hpp"
 #include "core/scene_file.hpp"
-#include "io/gnuplot.hpp"
+#include "io/gnuplot_run.hpp"
 #include "io/output_file.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/stability/map.hpp"
@@ -127,7 +127,7 @@ void write_collapse_map(const std::string& folder) {
                        c.collisions, c.first);
   }
   write_file(folder + "/stability_collapse.csv", csv);
-  draw_script(script_of(), data_of(cells), folder + "/stability_collapse.svg");
+  run_gnuplot(script_of(), data_of(cells), {{"plot.svg", folder + "/stability_collapse.svg"}});
 }
 
 }  // namespace carom::stability

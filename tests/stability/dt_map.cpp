@@ -9,7 +9,7 @@
 #include "core/check.hpp"
 #include "core/initial_state.hpp"
 #include "core/scene_file.hpp"
-#include "io/gnuplot.hpp"
+#include "io/gnuplot_run.hpp"
 #include "io/output_file.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/stability/map.hpp"
@@ -155,7 +155,7 @@ void write_dt_map(const std::string& folder) {
                        c.warned ? "yes" : "no", c.ended ? "yes" : "no");
   }
   write_file(folder + "/stability_dt.csv", csv);
-  draw_script(script_of(), data_of(cells), folder + "/stability_dt.svg");
+  run_gnuplot(script_of(), data_of(cells), {{"plot.svg", folder + "/stability_dt.svg"}});
 }
 
 }  // namespace carom::stability
