@@ -196,7 +196,7 @@ void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std
   }
 }
 
-State initial_state(const Scene& scene, const PlaceAtRandom& place) {
+State initial_state(const Scene& scene, const PlaceAtRandom& place, const GrowthTools& growth) {
   State state;
   Count total = 0;
   for (const DiskGroup& g : scene.groups) total += g.count;
@@ -208,7 +208,11 @@ State initial_state(const Scene& scene, const PlaceAtRandom& place) {
   disks.y.resize(n);
   disks.id.resize(n);
   std::iota(disks.id.begin(), disks.id.end(), DiskId{0});
-  if (n > 0) set_positions(scene, disks, place);
+  if (n > 0 && grows(scene)) {
+    place_by_growth(scene, disks, place, growth);
+  } else if (n > 0) {
+    set_positions(scene, disks, place);
+  }
   set_velocities(scene, disks);
   state.next_id = static_cast<DiskId>(n);
   state.sources.resize(scene.sources.size());

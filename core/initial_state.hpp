@@ -1,6 +1,7 @@
 // Making the disks that a scene describes.
 #pragma once
 
+#include "core/growth.hpp"
 #include "core/placement.hpp"
 #include "core/scene.hpp"
 #include "core/state.hpp"
@@ -13,8 +14,9 @@ void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std
                 std::vector<double>& masses);
 
 // All groups in file order, ids from 0 on. Radius and mass columns exist only where disks differ. Throws InputError,
-// with file, line and key, when disks overlap (ids and overlap named), lie outside the box, or when "random" finds no
-// room for a disk at the density asked for.
-State initial_state(const Scene& scene, const PlaceAtRandom& place = place_at_random);
+// with file, line and key, when disks overlap (ids and overlap named), lie outside the box, or when "random" or
+// "growth" finds no room for a disk at the density asked for.
+State initial_state(const Scene& scene, const PlaceAtRandom& place = place_at_random,
+                    const GrowthTools& growth = plain_growth());
 
 }  // namespace carom

@@ -20,6 +20,7 @@ enum class Stream : std::uint32_t {
   source_velocity,
   source_radius,
   source_mass,
+  growth_velocity,
 };
 
 struct TwoUniforms {

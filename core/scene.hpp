@@ -30,7 +30,7 @@ struct SizeLaw {
 };
 
 struct PositionLaw {
-  enum class Kind : std::uint8_t { random, square, hexagonal, list };
+  enum class Kind : std::uint8_t { random, square, hexagonal, growth, list };
   Kind kind = Kind::random;
   std::vector<Vec2> list;  // from the scene or from a CSV file
   std::string file;        // where the list came from, empty if the scene; for error messages
@@ -79,6 +79,13 @@ struct Physics {
   std::optional<double> collapse_contact_time;  // TC model, exact only
 };
 
+// How positions = "growth" goes about it (growth.hpp).
+struct GrowthPlan {
+  bool given = false;     // does the scene have [growth]?
+  double slowness = 1.0;  // > 0: how much more than usual disks move between two steps of growth
+  Count steps = 10'000;   // at most so many
+};
+
 struct RunPlan {
   Method method = Method::exact;
   double dt = 0.0;         // time; 0 where the method needs none
@@ -116,6 +123,7 @@ struct Scene {
   Physics physics;
   std::vector<DiskGroup> groups;
   std::vector<Source> sources;
+  GrowthPlan growth;
   RunPlan run;
   OutputPlan output;
 };

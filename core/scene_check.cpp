@@ -90,6 +90,24 @@ void check_run(const Scene& scene, const PlaceOfKey& place) {
                            : "expected the time step of Brownian motion (diffusion > 0)");
 }
 
+// Disks that stand already would need to be walls for those that grow between them.
+void check_growth(const Scene& scene, const PlaceOfKey& place) {
+  const auto group_with = [&](bool growth) {
+    std::size_t g = 0;
+    while (g < scene.groups.size() && (scene.groups[g].positions.kind == PositionLaw::Kind::growth) != growth) ++g;
+    return g;
+  };
+  if (scene.growth.given && group_with(true) == scene.groups.size()) {
+    fail_input(place("growth"), "nothing grows", "expected positions = \"growth\" in [[disks]] as well");
+  }
+  const std::size_t other = group_with(false);
+  if (group_with(true) == scene.groups.size() || other == scene.groups.size()) return;
+  fail_input(
+      place(fmt::format("disks.{}.positions", other)),
+      fmt::format("beside \"growth\" of disks.{}: all disks of a scene grow together, or none", group_with(true)),
+      "expected \"growth\" for every group, or for none");
+}
+
 // Sizes that overflow or vanish when one is derived from the other.
 void check_range(const DiskSize& smallest, const DiskSize& largest, const std::string& path, const PlaceOfKey& place) {
   const auto good = [](double low, double high) { return low > 0.0 && std::isfinite(high); };
@@ -150,7 +168,8 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
                  fmt::format("expected at most {} in all", most_disks));
     }
     total += count;
-    check_memory(scene.run.method, total, place(path + ".count"));
+    const bool flies = scene.groups[g].positions.kind == PositionLaw::Kind::growth;  // which exact does, whatever runs
+    check_memory(flies ? Method::exact : scene.run.method, total, place(path + ".count"));
     check_group(scene.groups[g], path, place);
   }
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
@@ -159,6 +178,7 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
   if (scene.physics.accumulate && scene.physics.diffusion == 0.0) {
     fail_input(place("physics.accumulate"), "needs Brownian motion", "expected diffusion as well");
   }
+  check_growth(scene, place);
   check_run(scene, place);
 }
 

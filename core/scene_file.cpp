@@ -128,6 +128,17 @@ DiskGroup read_group(const SceneOrigin& origin, const std::string& path, const t
   return group;
 }
 
+GrowthPlan read_growth(const SceneOrigin& origin) {
+  GrowthPlan growth;
+  const toml::table* table = section(origin, "growth");
+  if (table == nullptr) return growth;
+  const TableReader reader(origin, "growth", *table, {"slowness", "steps"});
+  growth.given = true;
+  growth.slowness = reader.positive("slowness").value_or(growth.slowness);
+  growth.steps = reader.count("steps").value_or(growth.steps);
+  return growth;
+}
+
 Source read_source(const SceneOrigin& origin, const std::string& path, const toml::table& table) {
   const TableReader reader(origin, path, table, {"side", "region", "rate", "radius", "mass", "velocities", "limit"});
   Source source;
@@ -289,7 +300,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   for (const Override& change : overrides) apply_override(tree, change);
   const SceneOrigin origin{name, folder, &tree, overrides, frames};
   const PlaceOfKey place = [&origin](std::string_view key) { return origin.where(key); };
-  const TableReader root(origin, "", tree, {"title", "seed", "box", "physics", "disks", "sources", "run", "output"});
+  const TableReader root(origin, "", tree,
+                         {"title", "seed", "box", "physics", "disks", "growth", "sources", "run", "output"});
   Scene scene;
   scene.file = name;
   scene.title = root.text("title").value_or("");
@@ -301,6 +313,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   if (scene.groups.empty() && scene.sources.empty()) {
     origin.fail("disks", "missing", "expected one table [[disks]] or more");
   }
+  scene.growth = read_growth(origin);
   scene.run = read_run(origin);
   scene.output = read_output(origin, scene.run.t_end);
   check_parts(scene, place);

@@ -16,7 +16,8 @@ namespace carom {
 namespace {
 
 constexpr std::string_view positions_expected =
-    "expected \"random\", \"square\", \"hexagonal\", a list of [x, y], { file = \"p.csv\" }, or { frame = \"DIR\" }";
+    "expected \"random\", \"growth\", \"square\", \"hexagonal\", a list of [x, y], { file = \"p.csv\" }, or "
+    "{ frame = \"DIR\" }";
 constexpr std::string_view velocities_expected =
     "expected { maxwell = T }, { uniform = v }, a list of [vx, vy], { file = \"v.csv\" }, or { frame = \"DIR\" }";
 

@@ -11,8 +11,9 @@ inline constexpr std::array<std::string_view, 3> side_kind_names{"wall", "period
 inline constexpr std::array<std::string_view, 3> method_names{"rollback", "pairwise", "exact"};  // Method
 // What run.method and --method may be: a method, or "auto" for the one that run.accuracy needs.
 inline constexpr std::array<std::string_view, 4> method_words{"rollback", "pairwise", "exact", "auto"};
-inline constexpr std::array<std::string_view, 3> trajectory_names{"none", "xyz", "h5md"};          // TrajectoryFormat
-inline constexpr std::array<std::string_view, 3> position_names{"random", "square", "hexagonal"};  // PositionLaw::Kind
+inline constexpr std::array<std::string_view, 3> trajectory_names{"none", "xyz", "h5md"};  // TrajectoryFormat
+// PositionLaw::Kind
+inline constexpr std::array<std::string_view, 4> position_names{"random", "square", "hexagonal", "growth"};
 inline constexpr std::array<std::string_view, 2> precision_names{"double", "single"};
 inline constexpr std::array<std::string_view, 2> plot_names{"velocity", "energy"};
 

@@ -113,6 +113,15 @@ std::string group_text(const DiskGroup& group) {
                      size_text(group.radius, "from_mass"), size_text(group.mass, "from_radius"));
 }
 
+// Empty where nothing grows.
+std::string growth_text(const Scene& scene) {
+  for (const DiskGroup& group : scene.groups) {
+    if (group.positions.kind != PositionLaw::Kind::growth) continue;
+    return fmt::format("\n[growth]\nslowness = {}\nsteps = {}\n", number(scene.growth.slowness), scene.growth.steps);
+  }
+  return "";
+}
+
 std::string source_text(const Source& source) {
   std::string text = "\n[[sources]]\n";
   if (source.side) {
@@ -175,6 +184,7 @@ std::string resolved_toml(const Scene& scene) {
   text += box_text(scene.box);
   text += physics_text(scene.physics);
   for (const DiskGroup& group : scene.groups) text += group_text(group);
+  text += growth_text(scene);
   for (const Source& source : scene.sources) text += source_text(source);
   return text + run_text(scene.run) + output_text(scene.output);
 }

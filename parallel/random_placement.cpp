@@ -7,6 +7,7 @@
 #include "core/initial_state.hpp"
 #include "core/placement_search.hpp"
 #include "parallel/batch_cells.hpp"
+#include "parallel/growth_step.hpp"
 
 namespace carom {
 
@@ -219,11 +220,14 @@ void parallel_place_at_random(const Executor& executor, const Scene& scene, Disk
   while (search.next_class()) batches_of.place_class();
 }
 
-State parallel_initial_state(const Scene& scene, int threads) {
+State parallel_initial_state(const Scene& scene, int threads, const std::function<void(const GrowthProgress&)>& watch) {
   const Executor executor(threads);
-  return initial_state(scene, [&](const Scene& s, Disks& disks, PlacementGrid& grid, std::vector<std::uint32_t> m) {
+  GrowthTools growth = parallel_growth(executor, {threads});
+  growth.watch = watch;
+  const auto place = [&](const Scene& s, Disks& disks, PlacementGrid& grid, std::vector<std::uint32_t> m) {
     parallel_place_at_random(executor, s, disks, grid, std::move(m));
-  });
+  };
+  return initial_state(scene, place, growth);
 }
 
 }  // namespace carom

@@ -1,6 +1,9 @@
 // Random sequential addition on all cores.
 #pragma once
 
+#include <functional>
+
+#include "core/growth.hpp"
 #include "core/placement.hpp"
 #include "core/state.hpp"
 #include "parallel/executor.hpp"
@@ -11,7 +14,9 @@ namespace carom {
 void parallel_place_at_random(const Executor& executor, const Scene& scene, Disks& disks, PlacementGrid& grid,
                               std::vector<std::uint32_t> members);
 
-// initial_state of core, with this placing. threads >= 1.
-State parallel_initial_state(const Scene& scene, int threads);
+// initial_state of core, with this placing and growth on as many threads. watch is told how a growth goes on, and may
+// be empty. threads >= 1.
+State parallel_initial_state(const Scene& scene, int threads,
+                             const std::function<void(const GrowthProgress&)>& watch = {});
 
 }  // namespace carom
