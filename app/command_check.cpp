@@ -13,6 +13,7 @@
 #include "app/progress.hpp"
 #include "core/check.hpp"
 #include "core/initial_state.hpp"
+#include "core/memory_need.hpp"
 #include "core/method_choice.hpp"
 #include "core/scene_check.hpp"
 #include "core/scene_names.hpp"
@@ -39,16 +40,20 @@ double trajectory_bytes(const OutputPlan& plan) {
   return all / static_cast<double>(plan.select.stride);
 }
 
+// A growth that takes longer is not worth waiting for here; seconds.
+constexpr double longest_growth = 10.0;
+
 struct Findings {
   Count disks = 0;
   double smallest_radius = 0.0, largest_radius = 0.0;
   double smallest_mass = 0.0, largest_mass = 0.0;
   double packing_fraction = 0.0;
-  double safe_dt = 0.0;       // infinite if nothing moves
-  double cost_seconds = 0.0;  // of all steps, as far as the first ones tell
+  double safe_dt = 0.0;            // infinite if nothing moves
+  double cost_seconds = infinity;  // of all steps, as far as the first ones tell
   double memory_bytes = 0.0;
   Count frames = 0;
-  std::string stopped;  // what the physics said, if it stopped the trial
+  double growth_seconds = 0.0;  // of one core; above longest_growth the disks were not grown, and no step tried
+  std::string stopped;          // what the physics said, if it stopped the trial
 };
 
 // The longest step in which no disk moves further than the share of its radius that step_clock.hpp calls safe:
@@ -80,6 +85,24 @@ void measure_sizes(const Scene& scene, const Disks& disks, Findings& f) {
     area += std::numbers::pi * disks.radius_of(i) * disks.radius_of(i);
   }
   f.packing_fraction = area / (scene.box.width * scene.box.height);
+}
+
+// What growing the scene's disks takes, by the measurements in docs/methods.md: collisions a disk rise steeply towards
+// the densest mixtures.
+double growth_seconds(const Scene& scene, const Findings& f) {
+  if (!grows(scene)) return 0.0;
+  constexpr double seconds_a_collision = 3e-6;
+  const double to_go = std::max(0.01, 0.86 - f.packing_fraction);
+  const double collisions_a_disk = 0.5 / (to_go * to_go) * scene.growth.slowness;
+  return 0.5 * seconds_a_collision * collisions_a_disk * static_cast<double>(f.disks);
+}
+
+// The scene's disks, where growing them takes too long: with their sizes and velocities, but their places before
+// growth.
+State ungrown_state(const Scene& scene) {
+  GrowthTools nothing;
+  nothing.step = [](Disks&, const Domain&, const std::vector<double>&) { return GrowthTally{}; };
+  return initial_state(scene, place_at_random, nothing);
 }
 
 // Runs the first steps, and extrapolates.
@@ -225,6 +248,13 @@ std::string text_of(const Scene& scene, const Findings& f) {
   line("method", scene.run.automatic ? choice_text(scene) : method_text(scene));
   if (scene.run.method != Method::exact) line("safe step", step_text(scene, f));
   line("outputs", outputs_text(scene, f));
+  if (f.growth_seconds > longest_growth) {
+    line("growth",
+         fmt::format("about {} of one core before the first step, not tried", duration_text(f.growth_seconds)));
+    line("memory", fmt::format("at least {}B", short_number(f.memory_bytes)));
+    line("cost", "not tried either");
+    return text;
+  }
   line("memory", fmt::format("about {}B, as measured", short_number(f.memory_bytes)));
   line("cost", f.stopped.empty()
                    ? fmt::format("about {} of steps on this machine, from a trial", duration_text(f.cost_seconds))
@@ -249,6 +279,7 @@ std::string json_of(const Scene& scene, const Findings& f, const std::optional<d
   j["frames"] = f.frames;
   j["memory_bytes"] = f.memory_bytes;
   j["cost_s"] = number(f.cost_seconds);
+  if (f.growth_seconds > 0.0) j["growth_s"] = f.growth_seconds;
   if (accuracy) j["choice"] = choice_json(scene, *accuracy);
   return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -259,14 +290,21 @@ int command_check(const CheckOptions& options) {
   const Scene scene = load_scene_as_told(options.scene, options.changes);
   const EngineChoice choice = choose_engine("", std::nullopt);
   for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
-  State initial = within_memory(scene, [&] { return make_initial_state(choice, scene); });
+  State initial =
+      within_memory(scene, [&] { return grows(scene) ? ungrown_state(scene) : make_initial_state(choice, scene); });
   Findings found;
   measure_sizes(scene, initial.disks, found);
+  found.growth_seconds = growth_seconds(scene, found);
+  const bool tried = found.growth_seconds <= longest_growth;
+  if (tried && grows(scene)) initial = within_memory(scene, [&] { return make_initial_state(choice, scene); });
   for (const std::string& warning : validity_of(scene, found.smallest_radius)) print_warning(warning);
   found.safe_dt = safe_step(scene, initial.disks);
   found.frames = frame_count(scene.output.every, scene.run.t_end);
-  const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, std::move(initial)); });
-  within_memory(scene, [&] { try_steps(*engine, scene, found); });
+  if (!tried) found.memory_bytes = least_memory(Method::exact, found.disks);
+  if (tried) {
+    const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, std::move(initial)); });
+    within_memory(scene, [&] { try_steps(*engine, scene, found); });
+  }
   if (options.json) {
     print_out(json_of(scene, found, options.accuracy));
     return 0;

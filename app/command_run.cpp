@@ -6,6 +6,7 @@
 
 #include "app/checkpoint_keeper.hpp"
 #include "app/commands.hpp"
+#include "app/growth_line.hpp"
 #include "app/make_engine.hpp"
 #include "app/progress.hpp"
 #include "app/run_loop.hpp"
@@ -204,7 +205,8 @@ RunRecord record_of(RunTask& task, const Engine& engine) {
 }
 
 State state_of(RunTask& task) {
-  return task.from ? std::move(task.from->checkpoint.state) : make_initial_state(task.choice, task.scene);
+  return task.from ? std::move(task.from->checkpoint.state)
+                   : make_initial_state(task.choice, task.scene, growth_line(!task.quiet));
 }
 
 }  // namespace

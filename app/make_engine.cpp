@@ -35,8 +35,12 @@ void fail_memory(const Scene& scene) {
              "expected fewer disks");
 }
 
-State make_initial_state(const EngineChoice& choice, const Scene& scene) {
-  return choice.name == "reference" ? initial_state(scene) : parallel_initial_state(scene, choice.threads);
+State make_initial_state(const EngineChoice& choice, const Scene& scene,
+                         const std::function<void(const GrowthProgress&)>& watch) {
+  if (choice.name != "reference") return parallel_initial_state(scene, choice.threads, watch);
+  GrowthTools growth = plain_growth();
+  growth.watch = watch;
+  return initial_state(scene, place_at_random, growth);
 }
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial) {

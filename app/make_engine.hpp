@@ -1,6 +1,7 @@
 // Which engine runs a scene.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <new>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "core/engine.hpp"
+#include "core/growth.hpp"
 
 namespace carom {
 
@@ -20,8 +22,9 @@ struct EngineChoice {
 // thread whatever is asked for. Throws InputError for an engine that does not exist.
 EngineChoice choose_engine(const std::string& engine, std::optional<int> threads);
 
-// The disks of a scene; either engine's way gives the same bits.
-State make_initial_state(const EngineChoice& choice, const Scene& scene);
+// The disks of a scene; either engine's way gives the same bits. watch is told how a growth goes on, and may be empty.
+State make_initial_state(const EngineChoice& choice, const Scene& scene,
+                         const std::function<void(const GrowthProgress&)>& watch = {});
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial);
 
