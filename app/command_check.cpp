@@ -97,12 +97,12 @@ double growth_seconds(const Scene& scene, const Findings& f) {
   return 0.5 * seconds_a_collision * collisions_a_disk * static_cast<double>(f.disks);
 }
 
-// The scene's disks, where growing them takes too long: with their sizes and velocities, but their places before
-// growth.
+// The scene's disks, where growing them takes too long: with their sizes and velocities, but no places.
 State ungrown_state(const Scene& scene) {
   GrowthTools nothing;
   nothing.step = [](Disks&, const Domain&, const std::vector<double>&) { return GrowthTally{}; };
-  return initial_state(scene, place_at_random, nothing);
+  const auto nowhere = [](const Scene&, Disks&, PlacementGrid&, const std::vector<std::uint32_t>&) {};
+  return initial_state(scene, nowhere, nothing);
 }
 
 // Runs the first steps, and extrapolates.

@@ -135,6 +135,9 @@ GrowthPlan read_growth(const SceneOrigin& origin) {
   const TableReader reader(origin, "growth", *table, {"slowness", "steps"});
   growth.given = true;
   growth.slowness = reader.positive("slowness").value_or(growth.slowness);
+  if (growth.slowness < 1e-3 || growth.slowness > 1e4) {
+    reader.fail("slowness", fmt::format("is {}", growth.slowness), "expected a number from 0.001 to 10000");
+  }
   growth.steps = reader.count("steps").value_or(growth.steps);
   return growth;
 }

@@ -184,6 +184,8 @@ TEST(Growth, RefusesWhatItCannotDo) {
               HasSubstr("growth: nothing grows"));
   EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1"), "[growth]\nslowness = 0\n")),
               HasSubstr("growth.slowness: is 0"));
+  EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1"), "[growth]\nslowness = 1e300\n")),
+              HasSubstr("expected a number from 0.001 to 10000"));
   EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1"), "[growth]\nslow = 2\n")),
               HasSubstr("growth.slow: unknown key"));
 }
