@@ -11,8 +11,10 @@
 #include "app/commands.hpp"
 #include "app/make_engine.hpp"
 #include "app/progress.hpp"
+#include "app/run_outputs.hpp"
 #include "core/check.hpp"
 #include "core/initial_state.hpp"
+#include "core/invariants.hpp"
 #include "core/memory_need.hpp"
 #include "core/method_choice.hpp"
 #include "core/scene_check.hpp"
@@ -105,6 +107,17 @@ State ungrown_state(const Scene& scene) {
   return initial_state(scene, nowhere, nothing);
 }
 
+// Takes the memory that a run takes besides its steps: a copy of the disks for its frames, their order for sums, and a
+// search for the largest overlap at the end.
+void look_as_a_run_does(const Engine& engine, const Scene& scene) {
+  const Disks& disks = engine.state().disks;
+  if (wants_frames(scene.output)) {
+    const Disks frame = disks;
+    momentum_of(frame);
+  }
+  max_overlap(disks, scene.box);
+}
+
 // Runs the first steps, and extrapolates.
 void try_steps(Engine& engine, const Scene& scene, Findings& f) {
   using Clock = std::chrono::steady_clock;
@@ -120,6 +133,7 @@ void try_steps(Engine& engine, const Scene& scene, Findings& f) {
   }
   const double time = engine.state().time;
   f.cost_seconds = time > 0.0 ? seconds * scene.run.t_end / time : infinity;
+  look_as_a_run_does(engine, scene);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   f.memory_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);

@@ -232,6 +232,7 @@ int carry_out(RunTask task) {
     if (task.folder && task.from) results.emplace(task);
     if (task.folder && !task.from) results.emplace(scene, *task.folder, task.force);
     Results* const files = results ? &*results : nullptr;
+    if (files != nullptr) files->outputs.share_work(make_block_runner(task.choice));
     const bool there = task.from && !goes_elsewhere(task);
     if (files != nullptr) keeper.write_to(&files->folder, &files->outputs, there);
     // A run that is killed in its first minutes is not lost either, nor what it was told when it was taken up again.

@@ -43,6 +43,12 @@ State make_initial_state(const EngineChoice& choice, const Scene& scene,
   return initial_state(scene, place_at_random, growth);
 }
 
+BlockRunner make_block_runner(const EngineChoice& choice) {
+  const auto executor = std::make_shared<Executor>(choice.threads);
+  return
+      [executor](std::size_t blocks, const BlockTask& task) { executor->run(blocks, [&](std::size_t b) { task(b); }); };
+}
+
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial) {
   if (choice.name == "reference") return make_reference_engine(scene, std::move(initial));
   return make_parallel_engine(scene, std::move(initial), {choice.threads});

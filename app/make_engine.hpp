@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/block_runner.hpp"
 #include "core/engine.hpp"
 #include "core/growth.hpp"
 
@@ -27,6 +28,9 @@ State make_initial_state(const EngineChoice& choice, const Scene& scene,
                          const std::function<void(const GrowthProgress&)>& watch = {});
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial);
+
+// The threads that it chooses, for other work between its steps.
+BlockRunner make_block_runner(const EngineChoice& choice);
 
 // Throws the InputError of a scene whose disks found no memory.
 [[noreturn]] void fail_memory(const Scene& scene);

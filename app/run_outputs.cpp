@@ -75,11 +75,11 @@ OutputMark RunOutputs::mark() {
 void RunOutputs::frame(const Disks& disks, double time, const State& now) {
   ++frames_;
   last_time_ = time;
-  if (trajectory_) trajectory_->write(disks, time);
+  if (trajectory_) trajectory_->write(disks, time, run_);
   SeriesRow row{};
-  if (series_) row = series_->write(disks, time, now);
-  if (!series_ && h5md_) row = meter_.row(disks, now);
-  if (h5md_) h5md_->write(disks, time, now.counters.steps, row);
+  if (series_) row = series_->write(disks, time, now, run_);
+  if (!series_ && h5md_) row = meter_.row(disks, now, run_);
+  if (h5md_) h5md_->write(disks, time, now.counters.steps, row, run_);
   if (plot_velocity_) record(velocities_, disks, time);
   if (plot_energy_) {
     const Energy energy = energy_of(disks, scene_.physics.gravity);

@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/block_runner.hpp"
 #include "core/engine.hpp"
 #include "io/movie.hpp"
 #include "io/output_folder.hpp"
@@ -25,6 +27,9 @@ class RunOutputs {
 
   // Goes on behind a mark: cuts back what came after it. Precondition: files_of(from) are in folder.unfinished().
   RunOutputs(const Scene& scene, const OutputFolder& folder, const OutputMark& from);
+
+  // Who shares the work of a frame; without, it is done in one thread. The files are the same.
+  void share_work(BlockRunner run) { run_ = std::move(run); }
 
   void frame(const Disks& disks, double time, const State& now);
 
@@ -61,6 +66,7 @@ class RunOutputs {
   VelocityRecord velocities_;
   EnergyRecord energies_;
   std::vector<std::string> warnings_;
+  BlockRunner run_ = run_in_order;
 };
 
 }  // namespace carom

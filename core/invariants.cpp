@@ -14,50 +14,59 @@ namespace {
 constexpr std::size_t sum_block = 4096;
 
 template <class Term>
-double blocked_sum(const std::vector<std::size_t>& order, Term&& term) {
-  double total = 0.0;
-  for (std::size_t begin = 0; begin < order.size(); begin += sum_block) {
-    const std::size_t end = std::min(order.size(), begin + sum_block);
+double blocked_sum(const std::vector<std::size_t>& order, const BlockRunner& run, Term&& term) {
+  std::vector<double> sums((order.size() + sum_block - 1) / sum_block);
+  run(sums.size(), [&](std::size_t b) {
+    const std::size_t end = std::min(order.size(), (b + 1) * sum_block);
     double block = 0.0;
-    for (std::size_t k = begin; k < end; ++k) block += term(order[k]);
-    total += block;
-  }
+    for (std::size_t k = b * sum_block; k < end; ++k) block += term(order[k]);
+    sums[b] = block;
+  });
+  double total = 0.0;
+  for (const double sum : sums) total += sum;
   return total;
 }
 
 }  // namespace
 
-Energy energy_of(const Disks& d, double gravity) {
-  const std::vector<std::size_t> order = by_id(d);
+Energy energy_of(const Disks& d, const std::vector<std::size_t>& order, double gravity, const BlockRunner& run) {
   Energy energy;
-  energy.kinetic =
-      blocked_sum(order, [&](std::size_t i) { return 0.5 * d.mass_of(i) * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]); });
+  energy.kinetic = blocked_sum(
+      order, run, [&](std::size_t i) { return 0.5 * d.mass_of(i) * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]); });
   if (gravity != 0.0) {
-    energy.potential = blocked_sum(order, [&](std::size_t i) { return d.mass_of(i) * gravity * d.y[i]; });
+    energy.potential = blocked_sum(order, run, [&](std::size_t i) { return d.mass_of(i) * gravity * d.y[i]; });
   }
   return energy;
 }
 
-Momentum momentum_of(const Disks& d) {
-  const std::vector<std::size_t> order = by_id(d);
+Energy energy_of(const Disks& d, double gravity) {
+  return energy_of(d, by_id(d), gravity, run_in_order);
+}
+
+Momentum momentum_of(const Disks& d, const std::vector<std::size_t>& order, const BlockRunner& run) {
   Momentum p;
-  p.x = blocked_sum(order, [&](std::size_t i) { return d.mass_of(i) * d.vx[i]; });
-  p.y = blocked_sum(order, [&](std::size_t i) { return d.mass_of(i) * d.vy[i]; });
+  p.x = blocked_sum(order, run, [&](std::size_t i) { return d.mass_of(i) * d.vx[i]; });
+  p.y = blocked_sum(order, run, [&](std::size_t i) { return d.mass_of(i) * d.vy[i]; });
   p.magnitude = blocked_sum(
-      order, [&](std::size_t i) { return d.mass_of(i) * std::sqrt(d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]); });
+      order, run, [&](std::size_t i) { return d.mass_of(i) * std::sqrt(d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]); });
   return p;
 }
 
-double max_overlap(const Disks& d, const Domain& box) {
-  double worst = 0.0;
-  for (const Pair& p : find_touching_pairs(d, box)) {
-    double dx = d.x[p.i2] - d.x[p.i1];
-    double dy = d.y[p.i2] - d.y[p.i1];
+Momentum momentum_of(const Disks& d) {
+  return momentum_of(d, by_id(d), run_in_order);
+}
+
+double max_overlap(const Disks& d, const Domain& box, const BlockRunner& run) {
+  const auto overlap = [&](std::uint32_t i, std::uint32_t j) {
+    double dx = d.x[j] - d.x[i];
+    double dy = d.y[j] - d.y[i];
     if (box.periodic_x()) dx = nearest_image(dx, box.width);
     if (box.periodic_y()) dy = nearest_image(dy, box.height);
-    const double reach = d.radius_of(p.i1) + d.radius_of(p.i2);
-    worst = std::max(worst, (reach - std::sqrt(dx * dx + dy * dy)) / reach);
-  }
+    const double reach = d.radius_of(i) + d.radius_of(j);
+    return (reach - std::sqrt(dx * dx + dy * dy)) / reach;
+  };
+  double worst = 0.0;
+  for (const double found : worst_of_touching_pairs(d, box, run, overlap)) worst = std::max(worst, found);
   return worst;
 }
 

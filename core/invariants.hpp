@@ -1,6 +1,9 @@
 // What is conserved, and how far a state is from being one of hard disks.
 #pragma once
 
+#include <vector>
+
+#include "core/block_runner.hpp"
 #include "core/disks.hpp"
 #include "core/domain.hpp"
 #include "core/scene.hpp"
@@ -23,8 +26,12 @@ struct Momentum {
 Energy energy_of(const Disks& disks, double gravity);
 Momentum momentum_of(const Disks& disks);
 
+// The same, where by_id(disks) is known already and work can be shared.
+Energy energy_of(const Disks& disks, const std::vector<std::size_t>& order, double gravity, const BlockRunner& run);
+Momentum momentum_of(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run);
+
 // Largest overlap of two disks over the sum of their radii (nearest image), 0 if none; uses a grid, O(N).
-double max_overlap(const Disks& disks, const Domain& box);
+double max_overlap(const Disks& disks, const Domain& box, const BlockRunner& run = run_in_order);
 
 // Largest reach of a disk beyond a wall side over its radius, 0 if none.
 double wall_overlap(const Disks& disks, const Domain& box);

@@ -1,8 +1,10 @@
 #include "core/open_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "core/huge_pages.hpp"
 
@@ -14,7 +16,7 @@ namespace {
 // a larger part of what is ruled out, coarser ones cost less.
 constexpr double cells_per_radius = 4.0;
 constexpr std::size_t most_cells_per_disk = 128;
-constexpr std::size_t most_cells = 0xffffffffU;  // entries of the list have 32 bits
+constexpr std::size_t most_cells = 0xffffffffU;  // 512 MiB of bits
 constexpr std::size_t listed_per_disk = 4;
 constexpr std::size_t least_listed = 4096;
 
@@ -103,32 +105,47 @@ void OpenCells::close_around(double x, double y, double radius) {
 }
 
 bool OpenCells::list_due() const {
-  return open_ <= std::max(listed_per_disk * disks_, least_listed) && (list_.empty() || 2 * open_ <= list_.size());
+  return open_ <= std::max(listed_per_disk * disks_, least_listed);
 }
 
-bool OpenCells::list_ready() {
-  if (open_ > std::max(listed_per_disk * disks_, least_listed)) return false;
-  if (!list_due()) return true;
-  resize_in_huge_pages(list_, open_);
-  list_.clear();
-  for (std::size_t word = 0; word < bits_.size(); ++word) {
+// The open cells of a row, from left to right.
+void OpenCells::read_row(std::size_t row, std::vector<Voxel>& open) const {
+  open.clear();
+  const std::size_t begin = row * columns_;
+  const std::size_t end = begin + columns_;
+  for (std::size_t word = begin / 64; 64 * word < end; ++word) {
     for (std::uint64_t rest = ~bits_[word]; rest != 0; rest &= rest - 1) {
       const std::size_t cell = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
-      if (cell < columns_ * rows_) list_.push_back(static_cast<std::uint32_t>(cell));
+      if (cell < begin || cell >= end) continue;
+      open.push_back({static_cast<std::uint32_t>(cell - begin), static_cast<std::uint32_t>(row)});
     }
   }
-  return true;
 }
 
-std::size_t OpenCells::entry_of(double which) const {
-  return std::min(static_cast<std::size_t>(which * static_cast<double>(list_.size())), list_.size() - 1);
-}
-
-Vec2 OpenCells::point_in_list(TwoUniforms in_cell, double which) const {
-  const std::size_t cell = list_[entry_of(which)];
-  const std::size_t column = cell % columns_;
-  const std::size_t row = cell / columns_;
-  return {(static_cast<double>(column) + in_cell.a) * cell_x_, (static_cast<double>(row) + in_cell.b) * cell_y_};
+VoxelList OpenCells::list() const {
+  constexpr std::size_t side = VoxelList::tile;
+  std::vector<Voxel> open;
+  resize_in_huge_pages(open, open_);
+  open.clear();
+  std::array<std::vector<Voxel>, side> row;
+  for (std::size_t first = 0; first < rows_; first += side) {
+    std::array<std::size_t, side> next{};
+    for (std::size_t r = 0; r < side; ++r) {
+      row[r].clear();
+      if (first + r < rows_) read_row(first + r, row[r]);
+    }
+    for (;;) {
+      std::size_t tile = columns_;
+      for (std::size_t r = 0; r < side; ++r) {
+        if (next[r] < row[r].size()) tile = std::min<std::size_t>(tile, row[r][next[r]].column / side);
+      }
+      if (tile == columns_) break;
+      for (std::size_t r = 0; r < side; ++r) {
+        while (next[r] < row[r].size() && row[r][next[r]].column / side == tile) open.push_back(row[r][next[r]++]);
+      }
+    }
+  }
+  return {box_, smallest_, disks_, columns_, rows_, std::move(open)};
 }
 
 }  // namespace carom

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/random.hpp"
+#include "core/voxel_list.hpp"
 
 namespace carom {
 
@@ -22,31 +22,25 @@ class OpenCells {
 
   bool is_open(double x, double y) const { return !closed(row_of(y) * columns_ + column_of(x)); }
 
-  // True when so few cells are open that it pays to draw from a list of them; the list is made, or made anew when half
-  // of it has closed. Memory: at most 4 entries of 4 bytes a disk.
-  bool list_ready();
-
-  // The next call of list_ready() will make a list.
+  // True when so few cells are open that it pays to draw from a list of them.
   bool list_due() const;
 
-  // Asks for the memory that point_in_list, or is_open, is about to read.
-  void prefetch_entry(double which) const { __builtin_prefetch(&list_[entry_of(which)]); }
+  // The open cells, in tiles. Memory: at most 4 entries of 8 bytes a disk.
+  VoxelList list() const;
+
+  // Asks for the memory that is_open is about to read.
   void prefetch_cell(double x, double y) const {
     __builtin_prefetch(&bits_[(row_of(y) * columns_ + column_of(x)) / 64]);
   }
-
-  // A point uniform in a cell of the list, one that was open when the list was made. Precondition: list_ready() and
-  // not full().
-  Vec2 point_in_list(TwoUniforms in_cell, double which) const;
 
   // True when every cell is closed: there is no room left.
   bool full() const { return open_ == 0; }
 
  private:
-  std::size_t entry_of(double which) const;
   std::size_t column_of(double x) const;
   std::size_t row_of(double y) const;
   bool closed(std::size_t cell) const { return (bits_[cell / 64] >> (cell % 64) & 1U) != 0; }
+  void read_row(std::size_t row, std::vector<Voxel>& open) const;
   void close_span(std::size_t row, std::size_t first, std::size_t count);
   void close_columns(double row, double first, double last);
   void close_margins(double smallest);
@@ -58,7 +52,6 @@ class OpenCells {
   double cell_x_ = 0.0, cell_y_ = 0.0;  // length
   std::size_t open_ = 0;                // cells
   std::vector<std::uint64_t> bits_;     // 1: closed; row by row
-  std::vector<std::uint32_t> list_;
 };
 
 }  // namespace carom

@@ -89,29 +89,51 @@ void sort_by_id(std::vector<Pair>& pairs, const Disks& d) {
 
 }  // namespace
 
+namespace {
+
+// Calls use(i, j) for the touching pairs whose disk of smaller id lies in this row of the grid.
+template <class Use>
+void for_pairs_of_row(const UniformGrid& grid, std::size_t row, const Disks& d, const Domain& box, Use use) {
+  const Neighbours rows = neighbours(row, grid.rows, box.periodic_y());
+  for (std::size_t column = 0; column < grid.columns; ++column) {
+    const Neighbours columns = neighbours(column, grid.columns, box.periodic_x());
+    const std::size_t home = row * grid.columns + column;
+    for (std::size_t k = 0; k < rows.count * columns.count; ++k) {
+      const std::size_t other = rows.cell[k / columns.count] * grid.columns + columns.cell[k % columns.count];
+      for (std::uint32_t a = grid.start[home]; a < grid.start[home + 1]; ++a) {
+        for (std::uint32_t b = grid.start[other]; b < grid.start[other + 1]; ++b) {
+          const std::uint32_t i = grid.members[a];
+          const std::uint32_t j = grid.members[b];
+          if (d.id[i] < d.id[j] && touch(d, box, i, j)) use(i, j);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<Pair> find_touching_pairs(const Disks& d, const Domain& box) {
   std::vector<Pair> pairs;
   if (d.size() < 2) return pairs;
   const UniformGrid grid = make_grid(d, box);
   for (std::size_t row = 0; row < grid.rows; ++row) {
-    const Neighbours rows = neighbours(row, grid.rows, box.periodic_y());
-    for (std::size_t column = 0; column < grid.columns; ++column) {
-      const Neighbours columns = neighbours(column, grid.columns, box.periodic_x());
-      const std::size_t home = row * grid.columns + column;
-      for (std::size_t k = 0; k < rows.count * columns.count; ++k) {
-        const std::size_t other = rows.cell[k / columns.count] * grid.columns + columns.cell[k % columns.count];
-        for (std::uint32_t a = grid.start[home]; a < grid.start[home + 1]; ++a) {
-          for (std::uint32_t b = grid.start[other]; b < grid.start[other + 1]; ++b) {
-            const std::uint32_t i = grid.members[a];
-            const std::uint32_t j = grid.members[b];
-            if (d.id[i] < d.id[j] && touch(d, box, i, j)) pairs.push_back({i, j});
-          }
-        }
-      }
-    }
+    for_pairs_of_row(grid, row, d, box, [&](std::uint32_t i, std::uint32_t j) { pairs.push_back({i, j}); });
   }
   sort_by_id(pairs, d);
   return pairs;
+}
+
+std::vector<double> worst_of_touching_pairs(const Disks& d, const Domain& box, const BlockRunner& run,
+                                            const std::function<double(std::uint32_t, std::uint32_t)>& measure) {
+  if (d.size() < 2) return {};
+  const UniformGrid grid = make_grid(d, box);
+  std::vector<double> worst(grid.rows, 0.0);
+  run(grid.rows, [&](std::size_t row) {
+    for_pairs_of_row(grid, row, d, box,
+                     [&](std::uint32_t i, std::uint32_t j) { worst[row] = std::max(worst[row], measure(i, j)); });
+  });
+  return worst;
 }
 
 std::vector<Pair> find_touching_pairs_by_force(const Disks& d, const Domain& box) {

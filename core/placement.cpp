@@ -10,7 +10,7 @@ void place_at_random(const Scene& scene, Disks& disks, PlacementGrid& grid, std:
   PlacementSearch search = make_placement_search(scene, disks, grid, members);
   while (search.next_class()) {
     for (std::size_t k = search.begin; k < search.end; ++k) {
-      if (search.cells_due(k)) search.make_cells();
+      while (search.lesson_due(k)) search.learn();
       search.place_one(k);
     }
   }

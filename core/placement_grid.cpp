@@ -125,12 +125,16 @@ void PlacementGrid::prefetch_disks(double x, double y) const {
   }
 }
 
-bool PlacementGrid::overlaps(std::size_t i, double x, double y, double radius, bool slack) const {
+PlacementGrid::Near PlacementGrid::seen_from(std::size_t i, double x, double y, double radius) const {
   double dx = placed_[i].x - x;
   double dy = placed_[i].y - y;
   if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
   if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
-  const double contact = radius + disks_.radius_of(i);
+  return {dx, dy, radius + disks_.radius_of(i)};
+}
+
+bool PlacementGrid::overlaps(std::size_t i, double x, double y, double radius, bool slack) const {
+  const auto [dx, dy, contact] = seen_from(i, x, y, radius);
   const double distance_squared = dx * dx + dy * dy;
   if (!(distance_squared < contact * contact)) return false;
   if (!slack) return true;
@@ -138,8 +142,8 @@ bool PlacementGrid::overlaps(std::size_t i, double x, double y, double radius, b
   return contact - std::sqrt(distance_squared) > allowed;
 }
 
-std::size_t PlacementGrid::search(const Level& level, double x, double y, double radius, bool slack) const {
-  const double reach = radius + level.largest_radius;
+template <class Use>
+bool PlacementGrid::any_around(const Level& level, double x, double y, double reach, Use use) const {
   const CellRange across = cells_around(x, reach, level.per_x, level.columns, box_.periodic_x());
   const CellRange up = cells_around(y, reach, level.per_y, level.rows, box_.periodic_y());
   for (std::ptrdiff_t r = 0; r < up.count; ++r) {
@@ -147,20 +151,37 @@ std::size_t PlacementGrid::search(const Level& level, double x, double y, double
     for (std::ptrdiff_t c = 0; c < across.count; ++c) {
       const std::size_t column = wrap_cell(across.first + c, level.columns);
       for (std::uint32_t i = level.head[row * level.columns + column]; i != empty_cell; i = placed_[i].next) {
-        if (overlaps(i, x, y, radius, slack)) return i;
+        if (use(i)) return true;
       }
     }
+  }
+  return false;
+}
+
+std::size_t PlacementGrid::overlapping(double x, double y, double radius, bool slack) const {
+  std::size_t found = nobody;
+  for (const Level& level : levels_) {
+    if (level.disks == 0) continue;
+    const bool any = any_around(level, x, y, radius + level.largest_radius, [&](std::uint32_t i) {
+      found = i;
+      return overlaps(i, x, y, radius, slack);
+    });
+    if (any) return found;
   }
   return nobody;
 }
 
-std::size_t PlacementGrid::overlapping(double x, double y, double radius, bool slack) const {
+void PlacementGrid::find_near(double x, double y, double radius, double spread, std::vector<Near>& found) const {
+  found.clear();
   for (const Level& level : levels_) {
     if (level.disks == 0) continue;
-    const std::size_t found = search(level, x, y, radius, slack);
-    if (found != nobody) return found;
+    any_around(level, x, y, radius + level.largest_radius + spread, [&](std::uint32_t i) {
+      const Near disk = seen_from(i, x, y, radius);
+      const double reach = disk.contact + spread;
+      if (disk.dx * disk.dx + disk.dy * disk.dy < reach * reach) found.push_back(disk);
+      return false;
+    });
   }
-  return nobody;
 }
 
 }  // namespace carom

@@ -27,6 +27,14 @@ class PlacementGrid {
   // With slack, overlaps that rounding of the input explains do not count.
   std::size_t overlapping(double x, double y, double radius, bool slack) const;
 
+  // A disk of the grid seen from a point: the nearest image of its centre, and the sum of the radii.
+  struct Near {
+    double dx, dy, contact;
+  };
+
+  // All disks that a disk of this radius overlaps somewhere within `spread` of (x, y).
+  void find_near(double x, double y, double radius, double spread, std::vector<Near>& found) const;
+
   // Ask for the memory that overlapping(x, y, radius) is about to read: first the cells, then, once those are there,
   // the disks in them.
   void prefetch_cells(double x, double y) const;
@@ -60,8 +68,11 @@ class PlacementGrid {
   };
 
   void size_cells(Level& level) const;
+  Near seen_from(std::size_t i, double x, double y, double radius) const;
   bool overlaps(std::size_t i, double x, double y, double radius, bool slack) const;
-  std::size_t search(const Level& level, double x, double y, double radius, bool slack) const;
+  // Calls use(i) for disks in the cells within reach of (x, y) until one answers true; says whether one did.
+  template <class Use>
+  bool any_around(const Level& level, double x, double y, double reach, Use use) const;
 
   const Domain& box_;
   const Disks& disks_;

@@ -43,9 +43,9 @@ TrialDraw draw_trial(std::uint64_t seed, std::uint32_t id, std::uint64_t trial, 
   return {uniforms(seed, Stream::position, id, trial), listed ? uniforms(seed, Stream::position, id, trial, 1).a : 0.0};
 }
 
-Vec2 trial_point(const Domain& box, const PlacementRoom& room, const OpenCells* listed, const TrialDraw& draw) {
+Vec2 trial_point(const Domain& box, const PlacementRoom& room, const VoxelList* list, const TrialDraw& draw) {
   Vec2 point{room.across.at(draw.place.a), room.up.at(draw.place.b)};
-  if (listed != nullptr) point = listed->point_in_list(draw.place, draw.cell);
+  if (list != nullptr) point = list->point(draw.place, draw.voxel);
   if (box.periodic_x()) point.x = wrap(point.x, box.width);
   if (box.periodic_y()) point.y = wrap(point.y, box.height);
   return point;
@@ -57,35 +57,59 @@ bool PlacementSearch::next_class() {
   end = end_of_class(disks, members, begin);
   trials_before = trials;
   cells.reset();
+  list.reset();
   return true;
 }
 
-bool PlacementSearch::cells_due(std::size_t k) const {
-  return !cells && trials - trials_before > many_trials * (k - begin) + 1000;
+bool PlacementSearch::lesson_due(std::size_t k) const {
+  if (list) return refine_due();
+  if (cells) return cells->list_due();
+  return trials - trials_before > many_trials * (k - begin) + 1000;
 }
 
-void PlacementSearch::make_cells() {
-  cells.emplace(scene.box, disks.radius_of(members[end - 1]), end - begin);
-  grid.for_each([&](std::size_t i) { cells->close_around(disks.x[i], disks.y[i], disks.radius_of(i)); });
+void PlacementSearch::learn() {
+  if (list) {
+    refine(list->survivors(grid, 0, list->size()));
+  } else if (cells) {
+    list.emplace(cells->list());
+    cells.reset();
+    in_vain = 0;
+  } else {
+    cells.emplace(scene.box, disks.radius_of(members[end - 1]), end - begin);
+    grid.for_each([&](std::size_t i) { cells->close_around(disks.x[i], disks.y[i], disks.radius_of(i)); });
+  }
 }
 
-// With a list of open cells, points are uniform over those: an accepted one has the same distribution, as the rest
-// would have been refused.
+void PlacementSearch::refine(std::vector<Voxel> survivors) {
+  list->replace(std::move(survivors));
+  in_vain = 0;
+}
+
+// With a list, points are uniform over its voxels: an accepted one has the same distribution, as the rest would have
+// been refused.
 void PlacementSearch::place_one(std::size_t k) {
   const std::uint32_t i = members[k];
   const double radius = disks.radius_of(i);
   const PlacementRoom room = placement_room(scene.box, radius);
-  for (trials_of_one = 0; trials_of_one < most_trials_of_one && trials < most; ++trials_of_one, ++trials) {
-    if (cells && cells->full()) break;
-    const OpenCells* const listed = cells && cells->list_ready() ? &*cells : nullptr;
+  for (trials_of_one = 0; trials_of_one < most_trials_of_one && trials < most; ++trials_of_one) {
+    if (trials_of_one % trials_between_lessons == 0 && trials_of_one > 0 && lesson_due(k)) learn();
+    if (list && list->empty()) break;
+    const VoxelList* const listed = list ? &*list : nullptr;
     const TrialDraw draw = draw_trial(scene.seed, i, trials_of_one, listed != nullptr);
     const Vec2 point = trial_point(scene.box, room, listed, draw);
-    if (cells && !cells->is_open(point.x, point.y)) continue;
-    if (!room.holds(point) || grid.overlapping(point.x, point.y, radius, false) != PlacementGrid::nobody) continue;
-    settle(i, point.x, point.y);
-    return;
+    const bool closed = cells && !cells->is_open(point.x, point.y);
+    if (!closed && room.holds(point) && grid.overlapping(point.x, point.y, radius, false) == PlacementGrid::nobody) {
+      settle(i, point.x, point.y);
+      return;
+    }
+    count(1);
   }
   fail_jammed(k);
+}
+
+void PlacementSearch::count(std::uint64_t trials_in_vain) {
+  trials += trials_in_vain;
+  in_vain += trials_in_vain;
 }
 
 void PlacementSearch::settle(std::uint32_t i, double x, double y) {
@@ -113,7 +137,7 @@ PlacementSearch make_placement_search(const Scene& scene, Disks& disks, Placemen
                      [&](std::uint32_t a, std::uint32_t b) { return disks.radius[a] > disks.radius[b]; });
   }
   const std::uint64_t most = std::max(most_trials_at_least, most_trials_each * members.size());
-  return {scene, disks, grid, members, most, 0, 0, std::nullopt, 0, 0, 0};
+  return {scene, disks, grid, members, most, 0, 0, std::nullopt, std::nullopt, 0, 0, 0, 0};
 }
 
 }  // namespace carom

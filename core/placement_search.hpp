@@ -10,6 +10,7 @@
 #include "core/placement_grid.hpp"
 #include "core/random.hpp"
 #include "core/scene.hpp"
+#include "core/voxel_list.hpp"
 
 namespace carom {
 
@@ -28,15 +29,16 @@ PlacementRoom placement_room(const Domain& box, double radius);
 // The random numbers of one trial, from (seed, Stream::position, id, trial) alone.
 struct TrialDraw {
   TwoUniforms place;
-  double cell = 0.0;  // which one of a list of open cells; only drawn where there is a list
+  double voxel = 0.0;  // which one of a list; only drawn where there is a list
 };
 TrialDraw draw_trial(std::uint64_t seed, std::uint32_t id, std::uint64_t trial, bool listed);
 
-// The point of a trial: uniform over the room, or over the listed cells, where cells is no null pointer. Such a point
+// The point of a trial: uniform over the room, or over the listed voxels, where list is no null pointer. Such a point
 // may lie outside the room.
-Vec2 trial_point(const Domain& box, const PlacementRoom& room, const OpenCells* listed, const TrialDraw& draw);
+Vec2 trial_point(const Domain& box, const PlacementRoom& room, const VoxelList* list, const TrialDraw& draw);
 
-// A search through one class of members, whose radii differ by less than a factor of two.
+// A search through one class of members, whose radii differ by less than a factor of two. What it knows of the free
+// places grows with need: nothing; which cells of a fixed grid are open; a list of voxels, refined now and then.
 struct PlacementSearch {
   const Scene& scene;
   Disks& disks;
@@ -45,19 +47,28 @@ struct PlacementSearch {
   std::uint64_t most = 0;                     // trials that the search may cost
   std::size_t begin = 0, end = 0;             // of the class, in members
   std::optional<OpenCells> cells;             // made once trials become many
+  std::optional<VoxelList> list;              // takes their place when few are open
   std::uint64_t trials = 0;                   // so far, all disks
   std::uint64_t trials_before = 0;            // of them, by earlier classes
   std::uint64_t trials_of_one = 0;            // for the disk at hand
+  std::uint64_t in_vain = 0;                  // trials since the list was made or refined
 
   // Goes on to the next class; false after the last.
   bool next_class();
 
-  // Trials have become so many that member k, and all after it, shall know the open cells.
-  bool cells_due(std::size_t k) const;
-  void make_cells();
+  // Is there something to learn about free places before member k is placed? learn() does so, and may leave more to do.
+  bool lesson_due(std::size_t k) const;
+  void learn();
+
+  // The last part of learn() in pieces, for many threads: learn() does without if there is no list to refine.
+  bool refine_due() const { return list && in_vain > list->patience(); }
+  void refine(std::vector<Voxel> survivors);
 
   // Tries points for member k until one is free. Throws InputError when there is no room, or the trials run out.
   void place_one(std::size_t k);
+
+  // `trials_in_vain` trials failed; count them.
+  void count(std::uint64_t trials_in_vain);
 
   // Disk i is at (x, y) from now on.
   void settle(std::uint32_t i, double x, double y);
@@ -65,8 +76,9 @@ struct PlacementSearch {
   [[noreturn]] void fail_jammed(std::size_t k) const;
 };
 
-// Trials of one disk before it is given up.
+// Trials of one disk before it is given up, and those after which the list may be refined for it alone.
 inline constexpr std::uint64_t most_trials_of_one = 200'000;
+inline constexpr std::uint64_t trials_between_lessons = 20'000;
 
 PlacementSearch make_placement_search(const Scene& scene, Disks& disks, PlacementGrid& grid,
                                       std::vector<std::uint32_t>& members);

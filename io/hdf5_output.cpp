@@ -155,9 +155,8 @@ void Hdf5Output::write_block(const Hdf5Handle& dataset, const Hdf5Kind& kind, co
   checked(H5Dwrite(dataset.get(), kind.in_memory, from.get(), to.get(), H5P_DEFAULT, data));
 }
 
-void Hdf5Output::write_chunk(const Hdf5Handle& dataset, const Hdf5Kind& kind, const Extent& begin, const void* data,
-                             std::size_t bytes) {
-  const std::vector<unsigned char>& packed = pack_.pack(data, bytes, kind.width);
+void Hdf5Output::write_packed_chunk(const Hdf5Handle& dataset, const Extent& begin,
+                                    const std::vector<unsigned char>& packed) const {
   checked(H5Dwrite_chunk(dataset.get(), H5P_DEFAULT, 0, begin.data(), packed.size(), packed.data()));
 }
 

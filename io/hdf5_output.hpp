@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "io/hdf5_handle.hpp"
-#include "io/shuffled_deflate.hpp"
 
 namespace carom {
 
@@ -54,9 +53,9 @@ class Hdf5Output {
   // The block of a dataset that begins at `begin`.
   void write_block(const Hdf5Handle& dataset, const Hdf5Kind& kind, const Extent& begin, const Extent& size,
                    const void* data) const;
-  // A whole chunk of a dataset with Packing::deflate, packed here.
-  void write_chunk(const Hdf5Handle& dataset, const Hdf5Kind& kind, const Extent& begin, const void* data,
-                   std::size_t bytes);
+  // A whole chunk of a dataset with Packing::deflate, as ShuffledDeflate packs it.
+  void write_packed_chunk(const Hdf5Handle& dataset, const Extent& begin,
+                          const std::vector<unsigned char>& packed) const;
 
   // From here on nothing can be made, only extended and written, and the file is whole at any moment.
   void start_safe_writing() const;
@@ -70,7 +69,6 @@ class Hdf5Output {
  private:
   std::string path_;
   Hdf5Handle file_;
-  ShuffledDeflate pack_;
   mutable bool broken_ = false;
 };
 

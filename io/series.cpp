@@ -6,11 +6,12 @@
 
 namespace carom {
 
-SeriesRow SeriesMeter::row(const Disks& disks, const State& now) {
+SeriesRow SeriesMeter::row(const Disks& disks, const State& now, const BlockRunner& run) {
   const Counters& c = now.counters;
   const double elapsed = now.time - done_.counted_until;
-  const Energy energy = energy_of(disks, gravity_);
-  const Momentum momentum = momentum_of(disks);
+  const std::vector<std::size_t> order = by_id(disks);
+  const Energy energy = energy_of(disks, order, gravity_, run);
+  const Momentum momentum = momentum_of(disks, order, run);
   const auto collisions = static_cast<double>(c.collisions - done_.before.collisions);
   const double disk_time = elapsed * static_cast<double>(disks.size());
   const auto force = [&](int side) {
@@ -26,7 +27,7 @@ SeriesRow SeriesMeter::row(const Disks& disks, const State& now) {
                       static_cast<double>(c.wall_collisions),
                       pressure(energy, c.virial - done_.before.virial, elapsed, box_),
                       disk_time > 0.0 ? 2.0 * collisions / disk_time : 0.0,
-                      with_overlap_ ? max_overlap(disks, box_) : 0.0,
+                      with_overlap_ ? max_overlap(disks, box_, run) : 0.0,
                       static_cast<double>(c.removed),
                       static_cast<double>(c.emitted),
                       static_cast<double>(c.waiting),
@@ -53,8 +54,8 @@ SeriesMark SeriesWriter::mark() {
   return {{file_.name(), rows_, file_.bytes()}, meter_.mark()};
 }
 
-SeriesRow SeriesWriter::write(const Disks& disks, double time, const State& now) {
-  const SeriesRow row = meter_.row(disks, now);
+SeriesRow SeriesWriter::write(const Disks& disks, double time, const State& now, const BlockRunner& run) {
+  const SeriesRow row = meter_.row(disks, now, run);
   // {} writes the shortest text that reads back as the same double.
   std::string line = fmt::format("{}", time);
   for (std::size_t k = 0; k < row.size(); ++k) {

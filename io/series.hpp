@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "core/block_runner.hpp"
 #include "core/disks.hpp"
 #include "core/scene.hpp"
 #include "core/state.hpp"
@@ -49,7 +50,7 @@ class SeriesMeter {
   // lie a little after the frame; intervals are taken between the states, so that no collision is lost or counted
   // twice. pressure, collision_rate (per disk) and the four wall forces are means over the time since the row before,
   // and 0 in the first row.
-  SeriesRow row(const Disks& disks, const State& now);
+  SeriesRow row(const Disks& disks, const State& now, const BlockRunner& run = run_in_order);
 
   const MeterMark& mark() const { return done_; }
 
@@ -70,7 +71,7 @@ class SeriesWriter {
   SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from);
 
   // One row, which it returns: see SeriesMeter::row.
-  SeriesRow write(const Disks& disks, double time, const State& now);
+  SeriesRow write(const Disks& disks, double time, const State& now, const BlockRunner& run = run_in_order);
 
   // Where the file has come to; all up to there is on the disk.
   SeriesMark mark();

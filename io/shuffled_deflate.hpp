@@ -20,6 +20,9 @@ class ShuffledDeflate {
   // whose sample repeats itself are compressed. The result depends on the data alone. Throws std::bad_alloc.
   const std::vector<unsigned char>& pack(const void* data, std::size_t bytes, std::size_t width);
 
+  // What pack gave last.
+  const std::vector<unsigned char>& packed() const { return packed_; }
+
  private:
   struct Stream;
   std::unique_ptr<Stream> stream_;

@@ -13,6 +13,7 @@
 #include "io/disk_selection.hpp"
 #include "io/h5md_layout.hpp"
 #include "io/hdf5_output.hpp"
+#include "io/shuffled_deflate.hpp"
 #include "io/xdmf.hpp"
 
 namespace carom {
@@ -52,6 +53,13 @@ struct Element {
   Hdf5Handle set;
 };
 
+// A chunk on its way into the file, and the room to pack it.
+struct Packer {
+  std::vector<unsigned char> buffer;
+  ShuffledDeflate deflate;
+};
+constexpr std::size_t chunks_at_once = 16;
+
 // One number a frame, kept here between flushes.
 struct Column {
   std::string name;  // of the dataset
@@ -89,10 +97,11 @@ struct H5mdWriter::File {
   void describe(const Scene& scene) const;
   void make_elements();
   void open_elements(Count frames);
-  void write_frame(const Disks& disks);
-  void write_element(Element& element, const Disks& disks);
+  void write_frame(const Disks& disks, const BlockRunner& run);
+  void write_element(Element& element, const Disks& disks, const BlockRunner& run);
   void write_once(Element& element, const Disks& disks, hsize_t first, hsize_t last);
-  void fill(const Element& element, const Disks& disks, hsize_t begin, hsize_t end);
+  void fill(const Element& element, const Disks& disks, hsize_t begin, hsize_t end,
+            std::vector<unsigned char>& buffer) const;
   void flush();
   void close();
 
@@ -109,7 +118,7 @@ struct H5mdWriter::File {
   std::vector<std::size_t> shown_columns;  // of series_columns
   std::vector<Column> columns;  // step, the observables, and time, which says how many frames are whole, at last
   std::vector<std::uint32_t> disk_at;
-  std::vector<unsigned char> buffer;
+  std::vector<Packer> packers = std::vector<Packer>(chunks_at_once);
   Clock::time_point last_flush = Clock::now();
 };
 
@@ -258,7 +267,8 @@ struct Pair {
 }  // namespace
 
 // The values of places begin to end - 1 into the buffer; where there is no disk, the fill value.
-void H5mdWriter::File::fill(const Element& e, const Disks& disks, hsize_t begin, hsize_t end) {
+void H5mdWriter::File::fill(const Element& e, const Disks& disks, hsize_t begin, hsize_t end,
+                            std::vector<unsigned char>& buffer) const {
   const auto pairs = [&]<class T>(T nothing, const std::vector<double>& x, const std::vector<double>& y) {
     fill_with(buffer, disk_at, begin, end, Pair<T>{nothing, nothing}, [&](std::uint32_t i) {
       return Pair<T>{static_cast<T>(x[i]), static_cast<T>(y[i])};
@@ -288,20 +298,30 @@ void H5mdWriter::File::fill(const Element& e, const Disks& disks, hsize_t begin,
 }
 
 // The frame's row of an element, chunk by chunk. Chunks without a disk are not written: they read as fill values.
-void H5mdWriter::File::write_element(Element& e, const Disks& disks) {
+void H5mdWriter::File::write_element(Element& e, const Disks& disks, const BlockRunner& run) {
   Extent size{frames + 1, places}, begin{frames, 0};
   if (e.components > 1) {
     size.push_back(e.components);
     begin.push_back(0);
   }
   output.resize(e.set, size);
+  std::vector<hsize_t> firsts;
   for (hsize_t first = 0; first < disk_at.size(); first += chunk) {
     const auto from = disk_at.begin() + static_cast<std::ptrdiff_t>(first);
     const auto to = disk_at.begin() + static_cast<std::ptrdiff_t>(std::min<hsize_t>(first + chunk, disk_at.size()));
-    if (std::all_of(from, to, [](std::uint32_t i) { return i == no_disk; })) continue;
-    fill(e, disks, first, first + chunk);
-    begin[1] = first;
-    output.write_chunk(e.set, e.kind, begin, buffer.data(), buffer.size());
+    if (std::any_of(from, to, [](std::uint32_t i) { return i != no_disk; })) firsts.push_back(first);
+  }
+  for (std::size_t done = 0; done < firsts.size(); done += chunks_at_once) {
+    const std::size_t count = std::min(chunks_at_once, firsts.size() - done);
+    run(count, [&](std::size_t k) {
+      Packer& packer = packers[k];
+      fill(e, disks, firsts[done + k], firsts[done + k] + chunk, packer.buffer);
+      packer.deflate.pack(packer.buffer.data(), packer.buffer.size(), e.kind.width);
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      begin[1] = firsts[done + k];
+      output.write_packed_chunk(e.set, begin, packers[k].deflate.packed());
+    }
   }
 }
 
@@ -312,17 +332,17 @@ void H5mdWriter::File::write_once(Element& e, const Disks& disks, hsize_t first,
   if (growing) output.resize(e.set, {last});
   for (hsize_t begin = first; begin < last; begin += chunk) {
     const hsize_t end = std::min(begin + chunk, last);
-    fill(e, disks, begin, end);
-    output.write_block(e.set, e.kind, {begin}, {end - begin}, buffer.data());
+    fill(e, disks, begin, end, packers[0].buffer);
+    output.write_block(e.set, e.kind, {begin}, {end - begin}, packers[0].buffer.data());
   }
 }
 
-void H5mdWriter::File::write_frame(const Disks& disks) {
+void H5mdWriter::File::write_frame(const Disks& disks, const BlockRunner& run) {
   find_places(select, disks, 0, disk_at);
   places = std::max<hsize_t>(places, disk_at.size());
   for (Element& e : elements) {
     if (e.each_frame) {
-      write_element(e, disks);
+      write_element(e, disks, run);
     } else if (disk_at.size() > known) {
       write_once(e, disks, known, disk_at.size());
     }
@@ -380,10 +400,10 @@ H5mdWriter::H5mdWriter(const std::string& path, const Scene& scene, Count frames
 
 H5mdWriter::~H5mdWriter() = default;
 
-void H5mdWriter::write(const Disks& disks, double time, Count step, const SeriesRow& row) {
+void H5mdWriter::write(const Disks& disks, double time, Count step, const SeriesRow& row, const BlockRunner& run) {
   File& f = *file_;
   const Count shown = f.exact ? f.frames : step;
-  f.write_frame(disks);
+  f.write_frame(disks, run);
   f.columns.front().values.push_back(static_cast<double>(shown));
   for (std::size_t k = 0; k < f.shown_columns.size(); ++k) f.columns[k + 1].values.push_back(row[f.shown_columns[k]]);
   f.columns.back().values.push_back(time);

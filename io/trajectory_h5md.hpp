@@ -28,7 +28,7 @@ class H5mdWriter {
 
   // One frame: the disks that scene.output.select names. step: what the run has counted; time stepping shows it, an
   // exact run, whose frames may share a window, shows the number of the frame instead.
-  void write(const Disks& disks, double time, Count step, const SeriesRow& row);
+  void write(const Disks& disks, double time, Count step, const SeriesRow& row, const BlockRunner& run = run_in_order);
 
   // Hands all frames so far to the system. write() does it twice a second.
   void flush();

@@ -24,6 +24,18 @@ void append_number(std::string& text, double value) {
   text.append(digits, end.ptr);
 }
 
+void append_id(std::string& text, DiskId id) {
+  char digits[16];
+  const auto end = std::to_chars(digits, digits + sizeof digits, id);
+  text += ' ';
+  text.append(digits, end.ptr);
+  text += '\n';
+}
+
+// Lines are made in blocks of so many, some hundreds of KB of text, so many blocks at the same time.
+constexpr std::size_t lines_of_block = 4096;
+constexpr std::size_t blocks_at_once = 32;
+
 // Radius and mass are often the same for many disks in a row: their text is made once.
 struct RepeatedNumber {
   double value = std::numeric_limits<double>::quiet_NaN();
@@ -61,26 +73,43 @@ FileMark XyzWriter::mark() {
   return {file_.name(), frames_, file_.bytes()};
 }
 
-void XyzWriter::write(const Disks& disks, double time) {
+void XyzWriter::write_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin,
+                            std::size_t end, std::string& text) {
+  text.clear();
+  RepeatedNumber radius, mass;
+  for (std::size_t k = begin; k < end; ++k) {
+    const std::size_t i = order[k];
+    text += 'D';
+    append_number(text, disks.x[i]);
+    append_number(text, disks.y[i]);
+    append_number(text, disks.vx[i]);
+    append_number(text, disks.vy[i]);
+    radius.append_to(text, disks.radius_of(i));
+    mass.append_to(text, disks.mass_of(i));
+    append_id(text, disks.id[i]);
+  }
+}
+
+void XyzWriter::write(const Disks& disks, double time, const BlockRunner& run) {
   std::vector<std::size_t> order = by_id(disks);
-  std::erase_if(order, [&](std::size_t i) { return !is_selected(select_, disks, i); });
-  text_ = fmt::format("{}\n{}", order.size(), lattice_);
+  if (select_.by_region || select_.stride != 1) {
+    std::erase_if(order, [&](std::size_t i) { return !is_selected(select_, disks, i); });
+  }
+  std::string head = fmt::format("{}\n{}", order.size(), lattice_);
   std::string time_text;
   append_number(time_text, time);
-  text_.append(time_text, 1);
-  text_ += '\n';
-  RepeatedNumber radius, mass;
-  for (const std::size_t i : order) {
-    text_ += 'D';
-    append_number(text_, disks.x[i]);
-    append_number(text_, disks.y[i]);
-    append_number(text_, disks.vx[i]);
-    append_number(text_, disks.vy[i]);
-    radius.append_to(text_, disks.radius_of(i));
-    mass.append_to(text_, disks.mass_of(i));
-    fmt::format_to(std::back_inserter(text_), " {}\n", disks.id[i]);
+  head.append(time_text, 1);
+  file_.write(head + '\n');
+  const std::size_t blocks = (order.size() + lines_of_block - 1) / lines_of_block;
+  texts_.resize(std::min(blocks, blocks_at_once));
+  for (std::size_t first = 0; first < blocks; first += blocks_at_once) {
+    const std::size_t count = std::min(blocks_at_once, blocks - first);
+    run(count, [&](std::size_t b) {
+      const std::size_t begin = (first + b) * lines_of_block;
+      write_lines(disks, order, begin, std::min(begin + lines_of_block, order.size()), texts_[b]);
+    });
+    for (std::size_t b = 0; b < count; ++b) file_.write(texts_[b]);
   }
-  file_.write(text_);
   file_.flush();
   ++frames_;
 }

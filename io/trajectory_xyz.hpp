@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/block_runner.hpp"
 #include "core/disks.hpp"
 #include "core/domain.hpp"
 #include "core/scene.hpp"
@@ -28,7 +29,7 @@ class XyzWriter {
   XyzWriter(const std::string& path, const Domain& box, const Selection& select, const FileMark& from);
 
   // One frame: the selected disks in order of id, numbers with 17 significant digits.
-  void write(const Disks& disks, double time);
+  void write(const Disks& disks, double time, const BlockRunner& run = run_in_order);
 
   // Where the file has come to; all up to there is on the disk.
   FileMark mark();
@@ -36,11 +37,14 @@ class XyzWriter {
   void close() { file_.close(); }
 
  private:
+  static void write_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
+                          std::string& text);
+
   OutputFile file_;
   Count frames_ = 0;
   Selection select_;
-  std::string lattice_;  // the constant part of each frame's second line
-  std::string text_;     // of the frame being written; kept for its capacity
+  std::string lattice_;             // the constant part of each frame's second line
+  std::vector<std::string> texts_;  // of the blocks being written; kept for their capacity
 };
 
 using XyzFrame = TrajectoryFrame;

@@ -22,8 +22,11 @@ constexpr std::size_t range_of_members = 512;  // a task of the parallel search
 // Disks searched for at the same time by one thread: while memory answers for one, the others' points are drawn.
 constexpr std::size_t lanes = 32;
 
-// Trials after which a disk is left to the plain search, which knows when to give up.
-constexpr std::uint64_t patience = 50'000;
+constexpr std::size_t range_of_voxels = 16384;
+constexpr std::size_t voxels_per_member = 256;
+
+// Trials after which a disk is left to the plain search, which may learn more for it, and knows when to give up.
+constexpr std::uint64_t patience = trials_between_lessons;
 
 // The first point of a member that nobody takes who was there before the batch.
 struct Candidate {
@@ -36,8 +39,8 @@ struct Candidate {
 // disks before it covers. For a batch, all threads find the first points that are free of the disks placed so far:
 // points before those are refused whatever the batch does. Then the few whose point another of the batch covers are
 // looked at again in their order, until everyone has the first point that is free of all before him; that is the
-// definition, so neither batches nor threads can change a bit. What the plain search does between two disks (make the
-// cells, make the list anew, give up) ends a batch.
+// definition, so neither batches nor threads can change a bit. What the plain search does between two disks (learn more
+// of the free places, give up) ends a batch.
 class BatchSearch {
  public:
   BatchSearch(const Executor& executor, PlacementSearch& search) : executor_(executor), search_(search) {}
@@ -47,10 +50,10 @@ class BatchSearch {
     cells_.fit(search_.scene.box, 2.000001 * widest, largest_batch);  // rounding may shift a cell's edge
     const std::size_t most = std::clamp((search_.end - search_.begin) / batches, smallest_batch, largest_batch);
     for (first_ = search_.begin; first_ < search_.end;) {
-      if (search_.cells_due(first_)) search_.make_cells();
-      if (search_.cells && search_.cells->full()) search_.place_one(first_);  // says so
-      listed_ = search_.cells && search_.cells->list_ready() ? &*search_.cells : nullptr;
-      const std::size_t count = std::min(most, search_.end - first_);
+      while (search_.lesson_due(first_)) learn();
+      if (search_.list && search_.list->empty()) search_.place_one(first_);  // says so
+      listed_ = search_.list ? &*search_.list : nullptr;
+      const std::size_t count = std::min({most, search_.end - first_, batch_of_list()});
       find_candidates(count);
       first_ += commit(settle_conflicts(count));
     }
@@ -64,6 +67,23 @@ class BatchSearch {
     Vec2 point;
     bool alive = false;
   };
+
+  void learn() {
+    if (!search_.refine_due()) return search_.learn();
+    const VoxelList& list = *search_.list;
+    std::vector<std::vector<Voxel>> parts(executor_.blocks(list.size(), range_of_voxels));
+    executor_.for_ranges(list.size(), range_of_voxels, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      parts[part] = list.survivors(search_.grid, begin, end);
+    });
+    std::vector<Voxel> survivors;
+    for (const auto& part : parts) survivors.insert(survivors.end(), part.begin(), part.end());
+    search_.refine(std::move(survivors));
+  }
+
+  // Where few places are left, a large batch would only get into its own way.
+  std::size_t batch_of_list() const {
+    return search_.list ? std::max(smallest_batch, search_.list->size() / voxels_per_member) : largest_batch;
+  }
 
   std::uint32_t disk_of(std::size_t k) const { return search_.members[first_ + k]; }
   double radius_of(std::size_t k) const { return search_.disks.radius_of(disk_of(k)); }
@@ -101,7 +121,7 @@ class BatchSearch {
     const bool listed = listed_ != nullptr;
     for (Lane& l : all) {
       l.draw = draw_trial(search_.scene.seed, disk_of(l.member), l.trial, listed);
-      if (listed) listed_->prefetch_entry(l.draw.cell);
+      if (listed) listed_->prefetch(l.draw.voxel);
     }
     for (Lane& l : all) {
       const PlacementRoom room = placement_room(box, radius_of(l.member));
@@ -188,14 +208,13 @@ class BatchSearch {
   std::size_t commit(std::size_t settled) {
     for (std::size_t k = 0; k < settled; ++k) {
       const Candidate& c = candidates_[k];
-      if (k > 0 && search_.cells_due(first_ + k)) return k;
+      if (k > 0 && search_.lesson_due(first_ + k)) return k;
       if (search_.trials + c.trial >= search_.most) {
         search_.place_one(first_ + k);  // says so
         return k + 1;
       }
-      search_.trials += c.trial;
+      search_.count(c.trial);
       search_.settle(disk_of(k), c.point.x, c.point.y);
-      if (search_.cells && (search_.cells->full() || search_.cells->list_due())) return k + 1;
     }
     if (settled > 0) return settled;
     search_.place_one(first_);
@@ -206,7 +225,7 @@ class BatchSearch {
   PlacementSearch& search_;
   BatchCells cells_;
   std::size_t first_ = 0;  // of the batch, in members
-  const OpenCells* listed_ = nullptr;
+  const VoxelList* listed_ = nullptr;
   std::vector<Candidate> candidates_;
   std::vector<unsigned char> conflict_;
 };

@@ -268,5 +268,48 @@ TEST(OpenCells, NeverCloseWhatIsFree) {
   }
 }
 
+// Refining a list never loses a free place, and ends with little else than free places in it.
+TEST(VoxelList, KeepsWhatIsFreeWhenRefined) {
+  Draws draws(45);
+  for (int k = 0; k < 20; ++k) {
+    Domain box;
+    box.width = draws.in(6, 9);
+    box.height = draws.in(6, 9);
+    test::set_sides(box, k % 2 == 0 ? SideKind::periodic : SideKind::wall,
+                    k / 2 % 2 == 0 ? SideKind::periodic : SideKind::wall);
+    Disks disks;
+    disks.common_radius = 0.5;
+    disks.common_mass = 1.0;
+    for (int i = 0; i < 30; ++i) append(disks, {draws.in(0, box.width), draws.in(0, box.height), 0, 0, 0.5, 1, 0});
+    PlacementGrid grid(box, disks);
+    OpenCells cells(box, 0.5, disks.size());
+    for (std::size_t i = 0; i < disks.size(); ++i) {
+      grid.insert(i);
+      if (i < 15) cells.close_around(disks.x[i], disks.y[i], 0.5);
+    }
+    VoxelList list = cells.list();
+    const auto free = [&](Vec2 p) {
+      return (box.periodic_x() || (p.x >= 0.5 && p.x <= box.width - 0.5)) &&
+             (box.periodic_y() || (p.y >= 0.5 && p.y <= box.height - 0.5)) &&
+             grid.overlapping(p.x, p.y, 0.5, false) == PlacementGrid::nobody;
+    };
+    std::vector<Vec2> places;
+    for (int i = 0; i < 500; ++i) {
+      const Vec2 p{draws.in(0, box.width), draws.in(0, box.height)};
+      if (free(p)) places.push_back(p);
+    }
+    for (int round = 0; round < 5; ++round) {
+      list.replace(list.survivors(grid, 0, list.size()));
+      for (const Vec2& p : places) EXPECT_TRUE(list.holds(p)) << k << ": " << p.x << ", " << p.y;
+    }
+    int found = 0;
+    for (int i = 0; i < 1000 && !list.empty(); ++i) {
+      const Vec2 p = list.point({draws.in(0, 1), draws.in(0, 1)}, draws.in(0, 1));
+      found += free({wrap(p.x, box.width), wrap(p.y, box.height)}) ? 1 : 0;
+    }
+    EXPECT_GT(found, list.empty() ? -1 : 800) << k;
+  }
+}
+
 }  // namespace
 }  // namespace carom
