@@ -6,14 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 
+#include "app/option_complaints.hpp"
+#include "app/option_values.hpp"
 #include "core/check.hpp"
-#include "core/duration.hpp"
 #include "core/input_message.hpp"
 #include "core/method_choice.hpp"
-#include "core/scene_names.hpp"
 #include "io/scene_frame_reader.hpp"
 
 namespace carom {
@@ -43,62 +41,6 @@ struct Words {
   std::vector<std::string> sets, over;
   bool json = false, quiet = false, force = false, strict = false, quick = false, tiny = false;
 };
-
-double number_of(const std::string& option, const std::string& text) {
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec != std::errc{} || result.ptr != end || !std::isfinite(value)) {
-    fail_input(option, fmt::format("{} is not a number", in_quotes(text)), "expected a number such as 0.01");
-  }
-  return value;
-}
-
-int count_of(const std::string& option, const std::string& text) {
-  int value = 0;
-  const char* const end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec != std::errc{} || result.ptr != end || value < 1) {
-    fail_input(option, fmt::format("is {}", in_quotes(text)), "expected a whole number of 1 or more");
-  }
-  return value;
-}
-
-// Seconds; infinity where the option was not given.
-double walltime_of(const std::string& text) {
-  if (text.empty()) return std::numeric_limits<double>::infinity();
-  const std::optional<double> seconds = parse_duration(text);
-  if (!seconds) fail_input("--max-walltime", fmt::format("is {}", in_quotes(text)), expected_duration);
-  return *seconds;
-}
-
-void check_seed(const std::string& text) {
-  std::uint64_t seed = 0;
-  const char* const end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, seed);
-  if (result.ec != std::errc{} || result.ptr != end) {
-    fail_input("--seed", fmt::format("is {}", in_quotes(text)), "expected a whole number from 0 to 2^64 - 1");
-  }
-}
-
-void check_method(const std::string& text) {
-  if (std::find(method_words.begin(), method_words.end(), text) == method_words.end()) {
-    fail_input("--method", fmt::format("there is no method {}", in_quotes(text)), expected_one_of(method_words, text));
-  }
-}
-
-// The value as TOML writes it.
-std::string toml_value(const std::string& option, const std::string& text) {
-  if (option == "--method") {
-    check_method(text);
-    return fmt::format("\"{}\"", text);
-  }
-  if (option == "--seed") {
-    check_seed(text);
-    return text;
-  }
-  return fmt::format("{}", number_of(option, text));
-}
 
 SceneChanges changes_of(const Words& words) {
   SceneChanges changes;
@@ -204,29 +146,6 @@ void describe_chart(CLI::App* chart, Words& words) {
   chart->add_flag("--force", words.force, "replace an earlier chart in the folder");
 }
 
-// Long names of a command's options, --help included.
-std::vector<std::string_view> option_names(const CLI::App* command, std::vector<std::string>& storage) {
-  for (const CLI::Option* option : command->get_options()) {
-    for (const std::string& name : option->get_lnames()) storage.push_back("--" + name);
-  }
-  return {storage.begin(), storage.end()};
-}
-
-// Complains about what no option or argument took.
-void check_leftovers(const CLI::App* command) {
-  const std::vector<std::string> rest = command->remaining();
-  if (rest.empty()) return;
-  const auto option = std::find_if(rest.begin(), rest.end(), [](const auto& word) { return word.starts_with("-"); });
-  if (option == rest.end()) {
-    fail_input(command->get_name(), fmt::format("one argument too many, {}", in_quotes(rest[0])),
-               fmt::format("see carom {} --help", command->get_name()));
-  }
-  std::vector<std::string> storage;
-  const std::string name = option->substr(0, option->find('='));
-  fail_input(command->get_name(), fmt::format("there is no option {}", in_quotes(name)),
-             expected_one_of(option_names(command, storage), name));
-}
-
 void require(const std::string& value, const char* where, const char* what, const char* example) {
   if (value.empty()) fail_input(where, what, example);
 }
@@ -236,9 +155,7 @@ std::optional<std::string> file_option(const std::string& value) {
   return value.empty() ? std::nullopt : std::optional(value);
 }
 
-// What run and resume have in common.
-template <class Options>
-void read_run_options(const Words& words, Options& o) {
+void read_carry_options(const Words& words, CarryOptions& o) {
   o.folder = file_option(words.folder);
   o.changes = changes_of(words);
   o.engine = words.engine;
@@ -254,7 +171,7 @@ RunOptions run_options(const Words& words) {
   require(words.first, "run", "no scene file given", "expected carom run SCENE.toml");
   RunOptions o;
   o.scene = words.first;
-  read_run_options(words, o);
+  read_carry_options(words, o);
   return o;
 }
 
@@ -262,7 +179,7 @@ ResumeOptions resume_options(const Words& words) {
   require(words.first, "resume", "no checkpoint given", "expected carom resume CHECKPOINT");
   ResumeOptions o;
   o.checkpoint = words.first;
-  read_run_options(words, o);
+  read_carry_options(words, o);
   return o;
 }
 
@@ -311,27 +228,6 @@ SweepOptions sweep_options(const Words& words) {
 
 ChartOptions chart_options(const Words& words) {
   return {file_option(words.folder), words.quick, words.tiny, words.quiet, words.force};
-}
-
-// CLI11's own complaints are about values that are missing or superfluous; "--dt: 1 required X missing" becomes ours.
-[[noreturn]] void fail_as_one_line(const CLI::ParseError& error) {
-  const std::string text = error.what();
-  const std::string where = text.substr(0, text.find_first_of(": "));
-  if (where.starts_with("-") && dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
-    fail_input(where, "its value is missing", "see --help");
-  }
-  throw InputError(text.substr(0, text.find('\n')));
-}
-
-// CLI11's help, without the brackets around arguments: it knows them as optional, so that complaints are ours.
-std::string help_of(const CLI::App& app, const CLI::App& shown) {
-  std::string text = shown.help(&shown == &app ? "" : app.get_name());
-  for (const std::string argument : {"SCENE", "CHECKPOINT", "A", "B", "DIR"}) {
-    const std::string optional = "[" + argument + "]";
-    const std::size_t at = text.find(optional);
-    if (at != std::string::npos) text.replace(at, optional.size(), argument);
-  }
-  return text;
 }
 
 constexpr std::array<std::string_view, 7> command_names{"run",    "check", "resume", "compare",

@@ -18,11 +18,11 @@ struct SceneChanges {
   std::size_t sets = 0;  // how many of them come from --set
 };
 
-struct RunOptions {
-  std::string scene;
-  std::optional<std::string> folder;  // -o
-  SceneChanges changes;
-  std::string engine;                                             // empty: the default
+// How a run is carried out, from its start or from a checkpoint.
+struct CarryOptions {
+  std::optional<std::string> folder;                              // -o
+  SceneChanges changes;                                           // of a run that goes on: --t-end only
+  std::string engine;                                             // empty: the default, or that of the run so far
   std::optional<int> threads;                                     // >= 1
   double max_walltime = std::numeric_limits<double>::infinity();  // seconds
   bool json = false;
@@ -31,17 +31,12 @@ struct RunOptions {
   bool strict = false;  // the first warning of the physics ends the run
 };
 
-struct ResumeOptions {
-  std::string checkpoint;             // or the folder of a run
-  std::optional<std::string> folder;  // -o
-  SceneChanges changes;               // --t-end only
-  std::string engine;                 // empty: that of the run so far
-  std::optional<int> threads;
-  double max_walltime = std::numeric_limits<double>::infinity();  // seconds
-  bool json = false;
-  bool quiet = false;
-  bool force = false;
-  bool strict = false;  // the first warning of the physics ends the run
+struct RunOptions : CarryOptions {
+  std::string scene;
+};
+
+struct ResumeOptions : CarryOptions {
+  std::string checkpoint;  // or the folder of a run
 };
 
 struct CheckOptions {

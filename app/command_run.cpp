@@ -112,11 +112,14 @@ double run_watched(Engine& engine, const RunTask& task, Results* results, Checkp
   Progress progress(!task.quiet, scene.run.t_end, engine.state());
   RunObserver observer;
   double step_s = 0.0;
+  const auto take_news = [&](bool silent) {
+    const std::vector<std::string> news = engine.take_warnings();
+    warn(news, progress, silent);
+    keeper.remember(news);
+  };
   observer.pulse = [&](double seconds) {
     step_s = seconds;
-    const std::vector<std::string> news = engine.take_warnings();
-    warn(news, progress, task.quiet);
-    keeper.remember(news);
+    take_news(task.quiet);
     progress.update(engine.state());
     const bool go_on = keeper.look(engine.state(), scene.run.t_end, seconds);
     const std::string note = keeper.take_note();
@@ -136,6 +139,8 @@ double run_watched(Engine& engine, const RunTask& task, Results* results, Checkp
   try {
     return run_to_end(engine, scene, observer);
   } catch (const PhysicsError& error) {
+    take_news(task.quiet ||
+              task.strict);  // the state, which is kept, knows them as told; with --strict the error tells
     if (results == nullptr) throw;
     keep_stopped(error, engine.state(), *results, keeper, step_s);
   }
@@ -217,6 +222,7 @@ int carry_out(RunTask task) {
   const std::vector<std::string> warnings = validity_of(scene, smallest_radius(engine->state().disks));
   if (task.strict) {
     fail_if_any(warnings);
+    if (task.from) fail_if_any(task.from->checkpoint.record.warnings);
     engine = make_strict(std::move(engine));
   }
   for (const std::string& warning : warnings) {

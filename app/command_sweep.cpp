@@ -3,18 +3,25 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <thread>
+#include <utility>
 
 #include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "app/run_programs.hpp"
+#include "app/stop_signals.hpp"
 #include "app/sweep_plan.hpp"
 #include "core/check.hpp"
 #include "core/csv.hpp"
 #include "core/input_message.hpp"
+#include "io/checkpoint_place.hpp"
 #include "io/child_process.hpp"
 #include "io/output_file.hpp"
 
@@ -25,17 +32,24 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// What a row of sweep.csv takes from each run's summary, after the keys of the sweep and the seed.
-constexpr std::array<const char*, 17> table_keys{
+// What a row of sweep.csv takes from each run's summary, after the keys of the sweep and the seed. Of a list, as the
+// warnings are, it takes the number of entries.
+constexpr std::array<const char*, 18> table_keys{
     "particles",    "steps",          "time",        "collisions",   "wall_collisions", "energy_initial",
     "energy_final", "momentum_drift", "max_overlap", "wall_overlap", "pressure",        "collision_rate",
-    "removed",      "emitted",        "waiting",     "step_s",       "state_hash"};
+    "removed",      "emitted",        "waiting",     "warnings",     "step_s",          "state_hash"};
 
 std::string own_path() {
   std::error_code error;
   const fs::path path = fs::read_symlink("/proc/self/exe", error);
   if (error) throw RunError("cannot find this program's own file: " + error.message());
   return path.string();
+}
+
+std::string cell_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_array()) return fmt::format("{}", value.size());
+  return value.is_null() ? "" : value.dump();
 }
 
 // In a shell's single quotes.
@@ -45,10 +59,48 @@ std::string quoted_for_shell(const std::string& text) {
   return quoted + "'";
 }
 
+struct SweepCount {
+  std::size_t failed = 0;
+  bool stopped = false;  // by a signal, before all had run
+};
+
+// How many runs have ended, on one line of a terminal.
+class SweepProgress {
+ public:
+  explicit SweepProgress(std::size_t all) : all_(all), shown_(isatty(STDERR_FILENO) == 1) {}
+
+  void update(std::size_t ended, std::size_t failed) {
+    constexpr double update_seconds = 0.2;
+    const double now = seconds();
+    if (!shown_ || now - last_ < update_seconds) return;
+    last_ = now;
+    std::string line = fmt::format("{} of {} runs done", ended - failed, all_);
+    if (failed > 0) line += fmt::format(", {} failed", failed);
+    if (ended > 0) {
+      const double each = now / static_cast<double>(ended);
+      line += fmt::format("  {} left", duration_text(each * static_cast<double>(all_ - ended)));
+    }
+    std::fputs(fmt::format("\r{}\x1b[K", line).c_str(), stderr);  // ESC [ K clears what a longer line left
+    on_screen_ = true;
+  }
+
+  void clear() {
+    if (std::exchange(on_screen_, false)) std::fputs("\r\x1b[K", stderr);
+  }
+
+ private:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+  std::size_t all_;
+  bool shown_, on_screen_ = false;
+  double last_ = 0.0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 class Sweep {
  public:
   explicit Sweep(const SweepOptions& options) : options_(options), folder_(folder_of(options)) {
-    for (const std::string& text : options.over) axes_.push_back(parse_sweep_axis(text));
+    for (const std::string& text : options.over) add_axis(parse_sweep_axis(text));
     const Scene scene = load_scene_as_told(options.scene, options.changes);
     seed_ = scene.seed;
     runs_ = sweep_runs(options.changes, axes_, seed_, options.seeds);
@@ -81,10 +133,15 @@ class Sweep {
   const std::vector<SweepRun>& runs() const { return runs_; }
   const fs::path& folder() const { return folder_; }
 
+  // What runs it: afresh, or on from where it was stopped. threads: 0 leaves them open.
   std::vector<std::string> command_of(const SweepRun& run, int threads) const {
-    std::vector<std::string> words{own_path(), "run", fs::absolute(options_.scene).string(), "--quiet",
-                                   "--force",  "-o",  fs::absolute(folder_of(run)).string()};
+    const std::string folder = fs::absolute(folder_of(run)).string();
+    const bool resumes = resumable(run);
+    std::vector<std::string> words{own_path(), "resume", folder, "--quiet"};
+    if (!resumes)
+      words = {own_path(), "run", fs::absolute(options_.scene).string(), "--quiet", "--force", "-o", folder};
     if (threads > 0) words.insert(words.end(), {"--threads", fmt::format("{}", threads)});
+    if (resumes) return words;
     for (const Override& change : run.overrides) {
       words.emplace_back("--set");
       words.push_back(fmt::format("{}={}", change.key, change.value));
@@ -98,8 +155,8 @@ class Sweep {
     return line;
   }
 
-  // Runs what is not there yet, several at once: runs are independent, so that nothing is lost between threads.
-  void run_all() const {
+  // Runs what is not there yet, several at once. Failures are told as they come.
+  SweepCount run_all() const {
     std::vector<const SweepRun*> rest;
     for (const SweepRun& run : runs_) {
       if (!finished(run)) rest.push_back(&run);
@@ -108,36 +165,60 @@ class Sweep {
     const int jobs = options_.jobs.value_or(cores);
     const int threads = std::max(1, cores / jobs);
     print_note(fmt::format("{} of {} runs are left, {} at once", rest.size(), runs_.size(), jobs));
-    std::atomic<std::size_t> next{0};
-    std::vector<std::string> failures(rest.size());
-    const auto work = [&] {
-      for (std::size_t k = next++; k < rest.size(); k = next++) failures[k] = run_one(*rest[k], threads);
+    catch_signals();
+    SweepCount count;
+    SweepProgress progress(rest.size());
+    const auto fail = [&](const SweepRun& run, const std::string& words) {
+      progress.clear();
+      print_warning(fmt::format("run {}: {}", run.name, words));
+      ++count.failed;
     };
-    std::vector<std::thread> workers;
-    for (int j = 1; j < jobs; ++j) workers.emplace_back(work);
-    work();
-    for (std::thread& worker : workers) worker.join();
-    for (std::size_t k = 0; k < rest.size(); ++k) {
-      if (!failures[k].empty()) print_warning(fmt::format("run {}: {}", rest[k]->name, failures[k]));
-    }
-    failed_ = std::any_of(failures.begin(), failures.end(), [](const auto& text) { return !text.empty(); });
+    Programs programs{rest.size(), static_cast<std::size_t>(jobs), {}, {}, {}};
+    programs.start = [&](std::size_t k) -> std::unique_ptr<ChildProcess> {
+      try {
+        return std::make_unique<ChildProcess>(command_of(*rest[k], threads), fs::current_path().string(),
+                                              log_of(*rest[k]), ChildSignals::reach_it);
+      } catch (const RunError& error) {
+        fail(*rest[k], error.what());
+        return nullptr;
+      }
+    };
+    programs.ended = [&](std::size_t k, int status) {
+      constexpr int stopped_early = 4;
+      if (status == stopped_early || status == 128 + SIGTERM) return;  // the latter where it had not quite begun
+      if (status != 0) return fail(*rest[k], last_words(*rest[k], status));
+      fs::remove(log_of(*rest[k]));
+    };
+    programs.pulse = [&](std::size_t ended) { progress.update(ended, count.failed); };
+    count.stopped = !run_programs(programs);
+    progress.clear();
+    return count;
   }
 
-  bool failed() const { return failed_; }
+  // Runs that have come to their end.
+  std::size_t finished() const {
+    return static_cast<std::size_t>(
+        std::count_if(runs_.begin(), runs_.end(), [&](const SweepRun& r) { return finished(r); }));
+  }
 
-  // One row a run that has come to its end.
-  void write_table() const {
+  // One row a run that has come to its end. Returns how many of them have warnings.
+  std::size_t write_table() const {
+    std::size_t warned = 0;
     std::string text = "run";
     for (const SweepAxis& axis : axes_) text += "," + axis.key;
     text += ",seed";
     for (const char* const key : table_keys) text += fmt::format(",{}", key);
     text += '\n';
     for (const SweepRun& run : runs_) {
-      if (finished(run)) text += row_of(run);
+      if (!finished(run)) continue;
+      const Json summary = summary_of(run);
+      text += row_of(run, summary);
+      if (!summary.value("warnings", Json()).empty()) ++warned;
     }
     const fs::path table = folder_ / "sweep.csv";
     write_file(table.string() + ".new", text);
     fs::rename(table.string() + ".new", table);
+    return warned;
   }
 
  private:
@@ -145,6 +226,13 @@ class Sweep {
     return options.folder ? fs::path(*options.folder) : fs::path("out") / (fs::path(options.scene).stem() += "_sweep");
   }
   fs::path folder_of(const SweepRun& run) const { return folder_ / "runs" / run.name; }
+
+  void add_axis(const SweepAxis& axis) {
+    if (std::any_of(axes_.begin(), axes_.end(), [&](const SweepAxis& other) { return other.key == axis.key; })) {
+      fail_input("--over", fmt::format("{} is given twice", axis.key), "expected all its values in one --over");
+    }
+    axes_.push_back(axis);
+  }
 
   // Keys of the sweep are --set to the runs, and --over to whoever reads the message.
   void check_run(const SweepRun& run) const {
@@ -160,27 +248,36 @@ class Sweep {
     }
   }
 
-  // Empty if all went well, else the run's own last words.
-  std::string run_one(const SweepRun& run, int threads) const {
-    const std::string log = fs::absolute(folder_ / "runs" / (run.name + ".log")).string();
+  std::string log_of(const SweepRun& run) const {
+    return fs::absolute(folder_ / "runs" / (run.name + ".log")).string();
+  }
+
+  // What a run that failed said last.
+  std::string last_words(const SweepRun& run, int status) const {
+    constexpr std::string_view by_a_run = "carom: error: ";
+    const std::string words = last_line(log_of(run));
+    if (words.starts_with(by_a_run)) return words.substr(by_a_run.size());
+    return words.empty() ? fmt::format("ended with status {}", status) : words;
+  }
+
+  // Was it stopped, and left a checkpoint to go on from?
+  bool resumable(const SweepRun& run) const {
     try {
-      ChildProcess child(command_of(run, threads), fs::current_path().string(), log);
-      const int status = child.wait();
-      if (status == 0) {
-        fs::remove(log);
-        return "";
-      }
-      const std::string words = last_line(log);
-      return words.empty() ? fmt::format("ended with status {}", status) : words;
-    } catch (const std::exception& error) {
-      return error.what();
+      read_checkpoint_at(find_checkpoint(folder_of(run).string()));
+      return true;
+    } catch (const InputError&) {
+      return false;
     }
   }
 
-  std::string row_of(const SweepRun& run) const {
+  Json summary_of(const SweepRun& run) const {
     std::ifstream file(folder_of(run) / "summary.json");
-    const Json summary = Json::parse(file, nullptr, false);
+    Json summary = Json::parse(file, nullptr, false);
     if (!summary.is_object()) fail_input((folder_of(run) / "summary.json").string(), "is no JSON");
+    return summary;
+  }
+
+  std::string row_of(const SweepRun& run, const Json& summary) const {
     std::string row = run.name;
     for (auto change = run.overrides.end() - static_cast<std::ptrdiff_t>(axes_.size() + 1);
          change != run.overrides.end(); ++change) {
@@ -188,7 +285,7 @@ class Sweep {
     }
     for (const char* const key : table_keys) {
       const Json value = summary.value(key, Json());
-      row += "," + (value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump());
+      row += "," + cell_of(value);
     }
     return row + "\n";
   }
@@ -198,7 +295,6 @@ class Sweep {
   std::vector<SweepAxis> axes_;
   std::uint64_t seed_ = 1;
   std::vector<SweepRun> runs_;
-  mutable bool failed_ = false;
 };
 
 // One line a run that is left, for GNU parallel; afterwards `carom sweep`, told the same, has only the table to write.
@@ -229,17 +325,30 @@ std::string slurm_script(const Sweep& sweep) {
 int command_sweep(const SweepOptions& options) {
   Sweep sweep(options);
   sweep.open_folder();
-  if (!options.emit.empty()) {
+  const std::size_t left = sweep.runs().size() - sweep.finished();
+  if (!options.emit.empty() && left > 0) {
     const bool slurm = options.emit == "slurm";
     const std::string file = (sweep.folder() / (slurm ? "sweep.sbatch" : "sweep.sh")).string();
     write_file(file, slurm ? slurm_script(sweep) : parallel_script(sweep));
+    print_note(fmt::format("{} of {} runs are left; {} {}, and then this command without --emit for the table", left,
+                           sweep.runs().size(), slurm ? "sbatch" : "sh", quoted_for_shell(file)));
     print_out(fmt::format("{}\n", file));
     return 0;
   }
-  sweep.run_all();
-  sweep.write_table();
-  print_out(fmt::format("{}\n", (sweep.folder() / "sweep.csv").string()));
-  return sweep.failed() ? 1 : 0;
+  const SweepCount count = sweep.run_all();
+  const std::size_t warned = sweep.write_table();
+  const std::string table = (sweep.folder() / "sweep.csv").string();
+  if (warned > 0) {
+    print_warning(fmt::format("{} of {} runs warn of their method, see the column warnings and each summary.json",
+                              warned, sweep.finished()));
+  }
+  if (count.stopped) {
+    print_note(fmt::format("stopped by {} with {} of {} runs done; the same command goes on", stop_signal_name(),
+                           sweep.finished(), sweep.runs().size()));
+    return 4;
+  }
+  print_out(fmt::format("{}\n", table));
+  return count.failed > 0 ? 1 : 0;
 }
 
 }  // namespace carom

@@ -14,16 +14,23 @@ class StrictEngine final : public Engine {
 
   void step() override {
     engine_->step();
-    fail_if_any(engine_->take_warnings());
+    warnings_ = engine_->take_warnings();
+    fail_if_any(warnings_);
   }
   const State& state() const override { return engine_->state(); }
   double disks_at(double t, Disks& out) const override { return engine_->disks_at(t, out); }
   void forget_paths() override { engine_->forget_paths(); }
   const PhaseTimes& phase_times() const override { return engine_->phase_times(); }
-  std::vector<std::string> take_warnings() override { return {}; }
+  std::vector<std::string> take_warnings() override {
+    std::vector<std::string> warnings = std::exchange(warnings_, {});
+    const std::vector<std::string> more = engine_->take_warnings();
+    warnings.insert(warnings.end(), more.begin(), more.end());
+    return warnings;
+  }
 
  private:
   std::unique_ptr<Engine> engine_;
+  std::vector<std::string> warnings_;  // of the step that ended the run
 };
 
 }  // namespace

@@ -35,6 +35,13 @@ T number_in(const std::string& text, const std::string& word) {
   return value;
 }
 
+bool is_number(const std::string& word) {
+  double value = 0.0;
+  const char* const end = word.data() + word.size();
+  const auto result = std::from_chars(word.data(), end, value);
+  return result.ec == std::errc{} && result.ptr == end;
+}
+
 std::vector<std::string> range_values(const std::string& text, const std::vector<std::string>& parts) {
   constexpr int most_values = 1'000'000;
   const auto from = number_in<double>(text, parts[0]), to = number_in<double>(text, parts[1]);
@@ -60,10 +67,13 @@ SweepAxis parse_sweep_axis(const std::string& text) {
     fail_input("--over", fmt::format("is {}", in_quotes(text)), expected);
   }
   SweepAxis axis{text.substr(0, equals), {}};
+  if (axis.key == "seed") fail_input("--over", fmt::format("is {}", in_quotes(text)), "expected --seeds N for seeds");
   const std::string values = text.substr(equals + 1);
   const std::vector<std::string> parts = split(values, ':');
   if (parts.size() == 3) {
     axis.values = range_values(text, parts);
+  } else if (parts.size() > 1 && is_number(parts[0])) {
+    fail_input("--over", fmt::format("{} is no range", in_quotes(text)), expected);
   } else {
     axis.values = split(values, ',');
   }

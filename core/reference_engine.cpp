@@ -10,8 +10,7 @@
 
 namespace carom {
 
-ReferenceEngine::ReferenceEngine(const Scene& scene, State initial)
-    : scene_(scene), state_(std::move(initial)), validity_(state_.time) {}
+ReferenceEngine::ReferenceEngine(const Scene& scene, State initial) : scene_(scene), state_(std::move(initial)) {}
 
 double ReferenceEngine::disks_at(double /*t*/, Disks& out) const {
   out = state_.disks;
@@ -41,7 +40,7 @@ Count ReferenceEngine::parts(double dt) {
   const double smallest = smallest_radius(state_.disks);
   const double fall = smallest > 0.0 ? scene_.physics.gravity * dt / smallest : 0.0;
   const Count parts = parts_of_step(travel2, fall, dt);
-  if (parts > 1) validity_.see_split(state_.time, dt, parts);
+  if (parts > 1) validity_.see_split(state_, dt, parts);
   return parts;
 }
 

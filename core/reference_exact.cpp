@@ -18,7 +18,7 @@ namespace {
 class ReferenceExact final : public Engine {
  public:
   ReferenceExact(const Scene& scene, State initial, double window_scale, CollisionLog* log)
-      : scene_(scene), state_(std::move(initial)), scale_(window_scale), validity_(state_.time), log_(log) {}
+      : scene_(scene), state_(std::move(initial)), scale_(window_scale), log_(log) {}
 
   void step() override {
     if (!(state_.time < scene_.run.t_end)) return;

@@ -90,15 +90,19 @@ Disk draw_emission(const Scene& scene, std::size_t index, DiskId id, Count emitt
   return disk;
 }
 
-bool has_room(const Disks& d, const Domain& box, const Disk& newcomer) {
-  for (std::size_t i = 0; i < d.size(); ++i) {
+bool meets(const Disks& d, const Domain& box, const Disk& newcomer, std::size_t first, std::size_t last) {
+  for (std::size_t i = first; i < last; ++i) {
     double dx = newcomer.x - d.x[i];
     double dy = newcomer.y - d.y[i];
     if (box.periodic_x()) dx = nearest_image(dx, box.width);
     if (box.periodic_y()) dy = nearest_image(dy, box.height);
-    if (touches(dx * dx + dy * dy, newcomer.radius + d.radius_of(i))) return false;
+    if (touches(dx * dx + dy * dy, newcomer.radius + d.radius_of(i))) return true;
   }
-  return true;
+  return false;
+}
+
+bool has_room(const Disks& d, const Domain& box, const Disk& newcomer) {
+  return !meets(d, box, newcomer, 0, d.size());
 }
 
 void emit_from_source(const Scene& scene, State& state, std::size_t index, Count due, Count step,

@@ -1,6 +1,7 @@
 // Sources: disks that enter through a side or appear in a region, one every 1 / rate, never into an overlap.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 
 #include "core/scene.hpp"
@@ -14,7 +15,10 @@ namespace carom {
 // normals), across it plain normal.
 Disk draw_emission(const Scene& scene, std::size_t index, DiskId id, Count emitted, Count step);
 
-// Does the disk fit without overlapping any of disks (nearest image)? Looks at all of them.
+// Does newcomer overlap or touch one of disks first to last - 1 (nearest image)?
+bool meets(const Disks& disks, const Domain& box, const Disk& newcomer, std::size_t first, std::size_t last);
+
+// Does the disk fit without overlapping any of disks? Looks at all of them.
 bool has_room(const Disks& disks, const Domain& box, const Disk& newcomer);
 
 // Source number `index` emits until it has emitted `due` disks (its limit at most) or one finds no room; adds what

@@ -35,6 +35,14 @@ struct StallWatch {
   double since = 0.0;
 };
 
+// What the method was seen to do wrong, and what has been said of it (core/validity.hpp). No disk depends on it.
+struct ValidityCounts {
+  Count amiss = 0;     // collisions that went amiss
+  Count frames = 0;    // of rollback, since `since`
+  double since = 0.0;  // simulated time at which the frames that are watched begin
+  bool split_told = false, overlap_told = false, amiss_told = false, slow_told = false;
+};
+
 struct State {
   Disks disks;
   double time = 0.0;
@@ -45,6 +53,7 @@ struct State {
   std::vector<SourceState> sources;  // one per scene source
   std::vector<ContactLoad> loads;    // in order of (id1, id2); empty unless the scene settles
   StallWatch stall;                  // rollback
+  ValidityCounts validity;           // counted on in a run that is taken up again, so that it warns of the same
   double window = 0.0;               // exact: length meant for the next window; time, 0 before the first
   std::vector<double> last_contact;  // exact with the TC model: by id, time of the last collision; else empty
 };

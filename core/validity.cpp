@@ -29,14 +29,14 @@ std::string amiss_text(const Scene& scene) {
 
 }  // namespace
 
-void Validity::see_split(double time, double dt, Count parts) {
-  if (std::exchange(split_, true)) return;
-  warnings_.push_back(split_warning(time, dt, parts));
+void Validity::see_split(State& state, double dt, Count parts) {
+  if (std::exchange(state.validity.split_told, true)) return;
+  warnings_.push_back(split_warning(state.time, dt, parts));
 }
 
-void Validity::see_step(const Scene& scene, const StepFigures& figures, const State& state) {
+void Validity::see_step(const Scene& scene, const StepFigures& figures, State& state) {
   const bool rollback = scene.run.method == Method::rollback;
-  if (figures.overlap > largest_overlap && !std::exchange(overlap_, true)) {
+  if (figures.overlap > largest_overlap && !std::exchange(state.validity.overlap_told, true)) {
     warnings_.push_back(fmt::format(
         "at time {:g} two disks overlap by {:.2g} % of the sum of their radii, more than {:g} %: dt = {:g} is too long "
         "where disks are pressed together; use a smaller dt or --method exact",
@@ -48,25 +48,26 @@ void Validity::see_step(const Scene& scene, const StepFigures& figures, const St
   if (rollback) see_advance(scene, state);
 }
 
-void Validity::see_amiss(const Scene& scene, Count count, const State& state) {
-  amiss_ += count;
+void Validity::see_amiss(const Scene& scene, Count count, State& state) {
+  const Count amiss = state.validity.amiss += count;
   const Count all =
       state.counters.collisions + (scene.run.method == Method::exact ? state.counters.wall_collisions : Count{0});
-  if (amiss_ <= least_amiss || static_cast<double>(amiss_) <= largest_amiss_share * static_cast<double>(all)) return;
-  if (std::exchange(amiss_told_, true)) return;
-  warnings_.push_back(fmt::format("by time {:g} {} of {} collisions {}", state.time, amiss_, all, amiss_text(scene)));
+  if (amiss <= least_amiss || static_cast<double>(amiss) <= largest_amiss_share * static_cast<double>(all)) return;
+  if (std::exchange(state.validity.amiss_told, true)) return;
+  warnings_.push_back(fmt::format("by time {:g} {} of {} collisions {}", state.time, amiss, all, amiss_text(scene)));
 }
 
-void Validity::see_advance(const Scene& scene, const State& state) {
-  if (++frames_ < frames_watched) return;
-  const double advance = (state.time - watched_from_) / (static_cast<double>(frames_) * scene.run.dt);
-  if (advance < least_advance && state.time < scene.run.t_end && !std::exchange(slow_, true)) {
+void Validity::see_advance(const Scene& scene, State& state) {
+  ValidityCounts& seen = state.validity;
+  if (++seen.frames < frames_watched) return;
+  const double advance = (state.time - seen.since) / (static_cast<double>(seen.frames) * scene.run.dt);
+  if (advance < least_advance && state.time < scene.run.t_end && !std::exchange(seen.slow_told, true)) {
     warnings_.push_back(fmt::format(
         "at time {:g} a frame advances time by {:.2g} dt, with {} disks: time stalls; use --method pairwise or exact",
         state.time, advance, state.disks.size()));
   }
-  watched_from_ = state.time;
-  frames_ = 0;
+  seen.frames = 0;
+  seen.since = state.time;
 }
 
 std::vector<std::string> Validity::take_warnings() {

@@ -1,6 +1,6 @@
 // When a run leaves what its method can do right: the figures that tell, their bounds, and one warning for each, with
-// the figure and the remedy. Both engines feed it the same figures, so they warn alike. It only counts: no bit of a
-// state depends on it.
+// the figure and the remedy. Both engines feed it the same figures, so they warn alike. It only counts: no disk
+// depends on it.
 #pragma once
 
 #include <algorithm>
@@ -42,26 +42,20 @@ struct StepFigures {
 
 class Validity {
  public:
-  // time: at which the run begins.
-  explicit Validity(double time) : watched_from_(time) {}
+  // The step that starts in this state is longer than the safe one. Of state, only state.validity changes.
+  void see_split(State& state, double dt, Count parts);
 
-  // The step that starts at `time` is longer than the safe one.
-  void see_split(double time, double dt, Count parts);
+  // A step, frame or window has ended in this state. Of it, only state.validity changes.
+  void see_step(const Scene& scene, const StepFigures& figures, State& state);
 
-  // A step, frame or window has ended in this state.
-  void see_step(const Scene& scene, const StepFigures& figures, const State& state);
-
+  // Those since the last call. What was counted, and that it was told, is in the state: who keeps a state keeps these.
   std::vector<std::string> take_warnings();
 
  private:
-  void see_amiss(const Scene& scene, Count count, const State& state);
-  void see_advance(const Scene& scene, const State& state);
+  void see_amiss(const Scene& scene, Count count, State& state);
+  void see_advance(const Scene& scene, State& state);
 
   std::vector<std::string> warnings_;
-  Count amiss_ = 0;
-  Count frames_ = 0;  // of rollback, since watched_from_
-  double watched_from_;
-  bool split_ = false, overlap_ = false, amiss_told_ = false, slow_ = false;
 };
 
 // What can be said before the first step: places too coarse for the radii, Brownian intervals too long. One line each.

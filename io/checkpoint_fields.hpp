@@ -38,10 +38,17 @@ void fields(Stream& stream, T& value) {
   stream(frames, since);
 }
 
+template <class Stream, Is<ValidityCounts> T>
+void fields(Stream& stream, T& value) {
+  auto& [amiss, frames, since, split_told, overlap_told, amiss_told, slow_told] = value;
+  stream(amiss, frames, since, split_told, overlap_told, amiss_told, slow_told);
+}
+
 template <class Stream, Is<State> T>
 void fields(Stream& stream, T& value) {
-  auto& [disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, window, last_contact] = value;
-  stream(disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, window, last_contact);
+  auto& [disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, validity, window, last_contact] =
+      value;
+  stream(disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, validity, window, last_contact);
 }
 
 template <class Stream, Is<FileMark> T>

@@ -32,13 +32,14 @@ namespace {
 
 // What the child starts with. Descriptors: 0 is our pipe, 1 and 2 the log; all of ours are close-on-exec.
 struct SpawnSettings {
-  SpawnSettings(int input, const std::string& folder, const std::string& log_path) {
+  SpawnSettings(int input, const std::string& folder, const std::string& log_path, ChildSignals signals) {
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
-    // Batch systems send these to every process of a job. We stop in order then, and need the child to the end.
     sigset_t blocked;
     sigemptyset(&blocked);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) sigaddset(&blocked, signal);
+    if (signals == ChildSignals::held_back) {
+      for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) sigaddset(&blocked, signal);
+    }
     posix_spawnattr_setsigmask(&attributes, &blocked);
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, input, 0);
@@ -59,7 +60,7 @@ struct SpawnSettings {
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::string& folder,
-                           const std::string& log_path) {
+                           const std::string& log_path, ChildSignals signals) {
   std::signal(SIGPIPE, SIG_IGN);
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw RunError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
@@ -67,7 +68,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  const SpawnSettings spawn(ends[0], folder, log_path);
+  const SpawnSettings spawn(ends[0], folder, log_path, signals);
   const int error = posix_spawn(&pid_, argv[0], &spawn.actions, &spawn.attributes, argv.data(), environ);
   ::close(ends[0]);
   if (error != 0) {
@@ -93,6 +94,25 @@ bool ChildProcess::write(const void* data, std::size_t bytes) {
   return true;
 }
 
+namespace {
+
+int exit_status(int status) {
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+std::optional<int> ChildProcess::poll() {
+  int status = 0;
+  if (pid_ > 0 && waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
+  pid_ = -1;
+  return exit_status(status);
+}
+
+void ChildProcess::tell(int signal) const {
+  if (pid_ > 0) kill(pid_, signal);
+}
+
 int ChildProcess::wait() {
   close_input();
   if (pid_ <= 0) return 0;
@@ -100,7 +120,7 @@ int ChildProcess::wait() {
   while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }
   pid_ = -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return exit_status(status);
 }
 
 void ChildProcess::close_input() {

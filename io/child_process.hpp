@@ -1,9 +1,11 @@
-// Running gnuplot and ffmpeg: started directly with a list of arguments, never through a shell.
+// Running gnuplot, ffmpeg and the runs of a sweep: started directly with a list of arguments, never through a shell.
 #pragma once
 
 #include <sys/types.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,10 @@ namespace carom {
 // Full path of an executable on PATH, empty if there is none.
 std::string find_program(const std::string& name);
 
+// Does a signal that is sent to the child itself reach it, or are those that ask it to stop held back? Batch systems
+// send them to every process of a job: we stop in order then, and need an encoder to the end.
+enum class ChildSignals : std::uint8_t { held_back, reach_it };
+
 // A program that runs beside us, fed through its standard input. What it says goes to a log file.
 class ChildProcess {
  public:
@@ -19,7 +25,8 @@ class ChildProcess {
   // in a process group of its own, so that Ctrl-C on a terminal reaches us only and the child ends when we say so.
   // SIGPIPE is ignored from here on in the whole process: a child that dies shows as an error of write().
   // Throws RunError if it cannot be started.
-  ChildProcess(const std::vector<std::string>& arguments, const std::string& folder, const std::string& log_path);
+  ChildProcess(const std::vector<std::string>& arguments, const std::string& folder, const std::string& log_path,
+               ChildSignals signals = ChildSignals::held_back);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
@@ -31,6 +38,12 @@ class ChildProcess {
 
   // Closes the child's input and waits for it; returns its exit status, or 128 + signal.
   int wait();
+
+  // The same once it has ended; nothing, at once, while it runs.
+  std::optional<int> poll();
+
+  // Sends it a signal, if it still runs.
+  void tell(int signal) const;
 
  private:
   void close_input();

@@ -21,6 +21,7 @@ namespace carom {
 inline constexpr DiskId h5md_no_id = 0xffffffffU;
 inline constexpr std::uint32_t h5md_no_species = 0xffffffffU;
 inline constexpr double h5md_nothing = std::numeric_limits<double>::quiet_NaN();
+inline constexpr float h5md_single_nothing = std::numeric_limits<float>::quiet_NaN();
 inline constexpr const char* h5md_disks = "/particles/disks";
 
 }  // namespace carom

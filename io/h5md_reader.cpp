@@ -48,8 +48,14 @@ struct H5mdReader::File {
 H5mdReader::File::File(const std::string& file_path) : path(file_path) {
   silence_hdf5();
   hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  // Killed between two writes: the file is whole, and says that it is being written.
-  if (opened < 0) opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT);
+  if (opened < 0) {
+    // Killed between two writes: the file is whole, and says that it is being written. HDF5 would read what fails its
+    // checksum a hundred times, and wait twice as long, from 1 ns on, before each: for ever where the file is damaged.
+    constexpr unsigned attempts = 20;
+    const Hdf5Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    if (H5Pset_metadata_read_attempts(access.get(), attempts) < 0) fail(hdf5_reason());
+    opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
+  }
   file = checked(opened, H5Fclose);
   read_box();
   position = open_set("position/value");

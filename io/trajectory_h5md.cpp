@@ -6,12 +6,12 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 
 #include "core/scene_file.hpp"
 #include "io/disk_selection.hpp"
 #include "io/h5md_layout.hpp"
+#include "io/h5md_values.hpp"
 #include "io/hdf5_output.hpp"
 #include "io/shuffled_deflate.hpp"
 #include "io/xdmf.hpp"
@@ -28,14 +28,13 @@ constexpr hsize_t largest_chunk = 16384;
 constexpr hsize_t smallest_open_chunk = 256;  // where sources may add disks
 constexpr hsize_t frames_per_column_chunk = 1024;
 
-constexpr float single_nothing = std::numeric_limits<float>::quiet_NaN();
 constexpr std::int64_t no_count = 0;
 
 Hdf5Kind double_kind() {
   return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, sizeof(double), &h5md_nothing};
 }
 Hdf5Kind single_kind() {
-  return {H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, sizeof(float), &single_nothing};
+  return {H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, sizeof(float), &h5md_single_nothing};
 }
 Hdf5Kind id_kind() {
   return {H5T_STD_U32LE, H5T_NATIVE_UINT32, sizeof(DiskId), &h5md_no_id};
@@ -46,6 +45,7 @@ Hdf5Kind count_kind() {
 
 // What every disk has: one value or two (x and y), at a place of its own, in each frame or once for all.
 struct Element {
+  H5mdQuantity quantity = H5mdQuantity::position;
   std::string name;  // of the dataset
   Hdf5Kind kind;
   hsize_t components = 1;
@@ -101,7 +101,10 @@ struct H5mdWriter::File {
   void write_element(Element& element, const Disks& disks, const BlockRunner& run);
   void write_once(Element& element, const Disks& disks, hsize_t first, hsize_t last);
   void fill(const Element& element, const Disks& disks, hsize_t begin, hsize_t end,
-            std::vector<unsigned char>& buffer) const;
+            std::vector<unsigned char>& buffer) const {
+    const bool single = element.kind.width == sizeof(float);
+    fill_with_values(element.quantity, single, disks, group_ends, {disk_at, begin, end}, buffer);
+  }
   void flush();
   void close();
 
@@ -136,12 +139,12 @@ H5mdWriter::File::File(const std::string& file_path, const Scene& scene, bool ex
   const std::string root = std::string(h5md_disks) + "/";
   const bool moving = select.by_region;
   const auto once = [&](const std::string& name) { return root + name + (moving ? "/value" : ""); };
-  elements = {{{root + "position/value", place_kind, 2, true, {}},
-               {root + "velocity/value", place_kind, 2, true, {}},
-               {root + "id/value", id_kind(), 1, true, {}},
-               {once("mass"), double_kind(), 1, moving, {}},
-               {once("radius"), double_kind(), 1, moving, {}},
-               {once("species"), id_kind(), 1, moving, {}}}};
+  elements = {{{H5mdQuantity::position, root + "position/value", place_kind, 2, true, {}},
+               {H5mdQuantity::velocity, root + "velocity/value", place_kind, 2, true, {}},
+               {H5mdQuantity::id, root + "id/value", id_kind(), 1, true, {}},
+               {H5mdQuantity::mass, once("mass"), double_kind(), 1, moving, {}},
+               {H5mdQuantity::radius, once("radius"), double_kind(), 1, moving, {}},
+               {H5mdQuantity::species, once("species"), id_kind(), 1, moving, {}}}};
   columns.push_back({root + "position/step", count_kind(), {}, {}});
   for (std::size_t k = 0; k < series_columns.size(); ++k) {
     const SeriesColumn& column = series_columns[k];
@@ -238,63 +241,6 @@ void H5mdWriter::File::open_elements(Count kept) {
     output.resize(e.set, size);
   }
   for (Column& c : columns) output.resize(c.set, {kept});
-}
-
-namespace {
-
-DiskId species_of(const std::vector<DiskId>& group_ends, DiskId id) {
-  return static_cast<DiskId>(std::upper_bound(group_ends.begin(), group_ends.end(), id) - group_ends.begin());
-}
-
-// value(i) of the disk at each place; nothing where there is none.
-template <class T, class Value>
-void fill_with(std::vector<unsigned char>& buffer, const std::vector<std::uint32_t>& disk_at, hsize_t begin,
-               hsize_t end, T nothing, Value value) {
-  buffer.resize((end - begin) * sizeof(T));
-  unsigned char* to = buffer.data();
-  for (hsize_t place = begin; place < end; ++place, to += sizeof(T)) {
-    const std::uint32_t i = place < disk_at.size() ? disk_at[place] : no_disk;
-    const T stored = i == no_disk ? nothing : value(i);
-    std::memcpy(to, &stored, sizeof stored);
-  }
-}
-
-template <class T>
-struct Pair {
-  T x, y;
-};
-
-}  // namespace
-
-// The values of places begin to end - 1 into the buffer; where there is no disk, the fill value.
-void H5mdWriter::File::fill(const Element& e, const Disks& disks, hsize_t begin, hsize_t end,
-                            std::vector<unsigned char>& buffer) const {
-  const auto pairs = [&]<class T>(T nothing, const std::vector<double>& x, const std::vector<double>& y) {
-    fill_with(buffer, disk_at, begin, end, Pair<T>{nothing, nothing}, [&](std::uint32_t i) {
-      return Pair<T>{static_cast<T>(x[i]), static_cast<T>(y[i])};
-    });
-  };
-  const bool single = e.kind.width == sizeof(float);
-  switch (&e - elements.data()) {
-    case 0:
-      single ? pairs(single_nothing, disks.x, disks.y) : pairs(h5md_nothing, disks.x, disks.y);
-      break;
-    case 1:
-      single ? pairs(single_nothing, disks.vx, disks.vy) : pairs(h5md_nothing, disks.vx, disks.vy);
-      break;
-    case 2:
-      fill_with(buffer, disk_at, begin, end, h5md_no_id, [&](std::uint32_t i) { return disks.id[i]; });
-      break;
-    case 3:
-      fill_with(buffer, disk_at, begin, end, h5md_nothing, [&](std::uint32_t i) { return disks.mass_of(i); });
-      break;
-    case 4:
-      fill_with(buffer, disk_at, begin, end, h5md_nothing, [&](std::uint32_t i) { return disks.radius_of(i); });
-      break;
-    default:
-      fill_with(buffer, disk_at, begin, end, h5md_no_species,
-                [&](std::uint32_t i) { return species_of(group_ends, disks.id[i]); });
-  }
 }
 
 // The frame's row of an element, chunk by chunk. Chunks without a disk are not written: they read as fill values.

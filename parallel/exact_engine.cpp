@@ -39,7 +39,6 @@ class ParallelExact final : public Engine {
       : scene_(scene),
         state_(std::move(initial)),
         executor_(threads.count, threads.block_divisor),
-        validity_(state_.time),
         slices_(field_, lists_, executor_) {}
 
   void step() override {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/disk_pair.hpp"
 #include "core/source.hpp"
 #include "core/step_clock.hpp"
 #include "parallel/compact.hpp"
@@ -22,25 +21,10 @@ constexpr std::size_t look_block = 8192;
 // much as sorting about a dozen disks, and their number grows quickly from step to step. Measured best for a fluid.
 constexpr std::size_t stray_share = 200;
 
-// Does newcomer overlap one of disks [first, last)? The test of core's has_room.
-bool meets(const Disks& d, const Domain& box, const Disk& newcomer, std::size_t first, std::size_t last) {
-  for (std::size_t i = first; i < last; ++i) {
-    double dx = newcomer.x - d.x[i];
-    double dy = newcomer.y - d.y[i];
-    if (box.periodic_x()) dx = nearest_image(dx, box.width);
-    if (box.periodic_y()) dy = nearest_image(dy, box.height);
-    if (touches(dx * dx + dy * dy, newcomer.radius + d.radius_of(i))) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 TimeStepping::TimeStepping(const Scene& scene, State initial, const Threads& threads)
-    : scene_(scene),
-      state_(std::move(initial)),
-      executor_(threads.count, threads.block_divisor),
-      validity_(state_.time) {}
+    : scene_(scene), state_(std::move(initial)), executor_(threads.count, threads.block_divisor) {}
 
 double TimeStepping::disks_at(double /*t*/, Disks& out) const {
   out = state_.disks;
@@ -133,7 +117,7 @@ Count TimeStepping::parts(double dt) {
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
   if (scene_.box.has(SideKind::sink)) smallest_radius_ = smallest_radius(state_.disks);
   const Count parts = parts_of_step(exact_travel2(), scene_.physics.gravity * dt / smallest_radius_, dt);
-  if (parts > 1) validity_.see_split(state_.time, dt, parts);
+  if (parts > 1) validity_.see_split(state_, dt, parts);
   return parts;
 }
 

@@ -36,6 +36,7 @@ State full_state() {
   s.sources = {{7}, {8}};
   s.loads = {{1, 4, 0.7}, {4, 4294967295U, 0.9}};
   s.stall = {99, 0.25};
+  s.validity = {17, 18, 0.375, true, false, true, false};
   s.window = 0.0625;
   s.last_contact = {0.5, -std::numeric_limits<double>::infinity(), 1.5, 2.5};
   return s;
@@ -63,6 +64,7 @@ RunRecord full_record() {
   r.cpu_s = 2.5;
   r.step_s = 0.5;
   r.resumed = 4;
+  r.warnings = {"at time 1 two disks overlap", ""};
   return r;
 }
 

@@ -1,117 +1,19 @@
-// The real program, as a user or another program calls it: exit statuses, one-line errors, what it prints and leaves.
-#include <gmock/gmock.h>
-#include <sys/wait.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include "io/trajectory_xyz.hpp"
+// The real program, as a user or another program calls it: exit statuses, one-line errors, what each command prints.
+#include "tests/command_support.hpp"
 
 namespace carom {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+using test::Outcome;
+using test::text_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr const char* small_scene = R"(title = "small"
-[box]
-width = 10.0
-height = 10.0
-[[disks]]
-count = 5
-positions = "random"
-velocities = { uniform = 1.0 }
-radius = 0.5
-mass = 1.0
-[run]
-method = "pairwise"
-dt = 0.01
-t_end = 1.0
-[output]
-every = 0.1
-trajectory = "xyz"
-series = true
-)";
-
-struct Outcome {
-  int status = -1;
-  std::string out, err;
-};
-
-class CommandLine : public ::testing::Test {
- protected:
-  CommandLine() {
-    const auto* const info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("carom_command_line_") + info->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "work");
-    write("small.toml", small_scene);
-  }
-  ~CommandLine() override { fs::remove_all(folder_); }
-
-  fs::path at(const std::string& name) const { return folder_ / "work" / name; }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(at(name)) << text; }
-  static std::string read(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-  }
-
-  // Runs a line of shell in the test's folder, in which $C is the program.
-  Outcome shell(const std::string& line) const {
-    const std::string command = "cd '" + at("").string() + "' && C='" CAROM_PROGRAM "' && { " + line + "; } >'" +
-                                (folder_ / "out").string() + "' 2>'" + (folder_ / "err").string() + "' </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder_ / "out"), read(folder_ / "err")};
-  }
-  Outcome carom(const std::string& arguments) const { return shell("$C " + arguments); }
-
-  // One line on standard error that says what is wrong, nothing on standard output.
-  void expect_error(const std::string& line, int status, const std::string& what) const {
-    const Outcome o = shell(line);
-    EXPECT_EQ(o.status, status) << line << "\n" << o.err;
-    EXPECT_THAT(o.out, IsEmpty()) << line;
-    EXPECT_THAT(o.err, StartsWith("carom: error: ")) << line;
-    EXPECT_THAT(o.err, HasSubstr(what)) << line;
-    EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << line << "\n" << o.err;
-  }
-
-  std::vector<std::string> files_in(const std::string& name) const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(at(name))) names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
-  fs::path folder_;
-};
-
-// A disk that moves five radii a step: a warning in the summary, or the end with --strict, with what there was till
-// then.
-TEST_F(CommandLine, StrictEndsARunAtItsFirstWarning) {
-  const std::string fast = "run small.toml --set disks.0.velocities='{ uniform = 200.0 }' ";
-  const Outcome lenient = carom(fast + "--quiet --json -o a");
-  EXPECT_EQ(lenient.status, 0) << lenient.err;
-  const Json warnings = Json::parse(lenient.out)["warnings"];
-  ASSERT_FALSE(warnings.empty());
-  EXPECT_THAT(warnings[0].get<std::string>(), HasSubstr("the step is split into"));
-  EXPECT_EQ(Json::parse(read(at("a/summary.json")))["warnings"], warnings);
-  expect_error("$C " + fast + "--quiet --strict -o b", 3, warnings[0].get<std::string>() + " (--strict)");
-  EXPECT_THAT(read(at("b/carom-unfinished/trajectory.xyz")), StartsWith("5\n"));
-  const Outcome sound = carom("run small.toml --quiet --strict --json -o c");
-  EXPECT_EQ(sound.status, 0) << sound.err;
-  EXPECT_TRUE(Json::parse(sound.out)["warnings"].empty());
-}
+using CommandLine = test::CommandTest;
 
 TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   const std::vector<std::pair<std::string, std::string>> cases{
@@ -177,172 +79,12 @@ TEST_F(CommandLine, HelpAndVersion) {
   }
 }
 
-TEST_F(CommandLine, JsonIsAllThatIsPrintedAndHasEveryKeyInOrder) {
-  const Outcome o = carom("run small.toml -o out --json");
-  ASSERT_EQ(o.status, 0) << o.err;
-  EXPECT_THAT(o.err, IsEmpty()) << "no progress line where there is no terminal";
-  const Json summary = Json::parse(o.out);
-  std::vector<std::string> keys;
-  for (const auto& item : summary.items()) keys.push_back(item.key());
-  ASSERT_GE(keys.size(), 23U);
-  keys.resize(23);
-  EXPECT_THAT(keys, ElementsAre("scene", "method", "engine", "threads", "particles", "steps", "time", "collisions",
-                                "wall_collisions", "wall_s", "cpu_s", "step_s", "energy_initial", "energy_final",
-                                "momentum_drift", "max_overlap", "wall_overlap", "pressure", "collision_rate",
-                                "removed", "emitted", "state_hash", "version"));
-  EXPECT_EQ(summary["scene"], "small.toml");
-  EXPECT_EQ(summary["method"], "pairwise");
-  EXPECT_EQ(summary["particles"], 5);
-  EXPECT_EQ(summary["steps"], 100);
-  EXPECT_EQ(summary["time"], 1.0);
-  EXPECT_EQ(summary["seed"], 1);
-  EXPECT_EQ(summary["frames"], 11);
-  EXPECT_LE(summary["step_s"], summary["wall_s"]);
-  EXPECT_EQ(summary["state_hash"].get<std::string>().size(), 16U);
-  EXPECT_EQ(read(at("out/summary.json")), o.out);
-}
-
-TEST_F(CommandLine, RatesFollowFromTheCounts) {
-  const Outcome o = carom("run small.toml --json --quiet -o out --t-end 20 --set disks.0.count=40");
-  ASSERT_EQ(o.status, 0) << o.err;
-  const Json s = Json::parse(o.out);
-  ASSERT_GT(s["collisions"], 100);
-  EXPECT_DOUBLE_EQ(s["collision_rate"], 2.0 * s["collisions"].get<double>() / (40.0 * 20.0));
-  EXPECT_GT(s["pressure"], s["energy_final"].get<double>() / 100.0) << "more than the ideal gas";
-  EXPECT_NEAR(s["energy_final"].get<double>() / s["energy_initial"].get<double>(), 1.0, 1e-12);
-}
-
-TEST_F(CommandLine, NothingIsNotANumber) {
-  const Outcome o = carom("run small.toml --json --quiet -o out --t-end 0 --set disks.0.count=0");
-  ASSERT_EQ(o.status, 0) << o.err;
-  const Json summary = Json::parse(o.out);
-  for (const auto& item : summary.items()) EXPECT_FALSE(item.value().is_null()) << item.key();
-  EXPECT_EQ(summary["frames"], 1);
-}
-
-TEST_F(CommandLine, FramesFromZeroToTheEndNoneTwice) {
-  // dt does not divide the interval; frames come at the ends of steps, the last one at the end of the run.
-  ASSERT_EQ(carom("run small.toml --quiet -o out --dt 0.03 --set output.every=0.1").status, 0);
-  XyzReader reader(at("out/trajectory.xyz").string());
-  XyzFrame frame;
-  std::vector<double> times;
-  while (reader.read(frame)) times.push_back(frame.time);
-  ASSERT_EQ(times.size(), 11U);
-  EXPECT_EQ(times.front(), 0.0);
-  EXPECT_NEAR(times[1], 0.12, 1e-12);
-  EXPECT_EQ(times.back(), 1.0);
-  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
-  EXPECT_EQ(std::adjacent_find(times.begin(), times.end()), times.end());
-
-  ASSERT_EQ(carom("run small.toml --quiet -o every_step --set output.every=0.001").status, 0);
-  EXPECT_EQ(Json::parse(read(at("every_step/summary.json")))["frames"], 101);
-  ASSERT_EQ(carom("run small.toml --quiet -o ends --set output.every=0.0").status, 0);
-  EXPECT_EQ(Json::parse(read(at("ends/summary.json")))["frames"], 2);
-}
-
-TEST_F(CommandLine, FramesOfAnExactRunAreAtTheTimesAskedFor) {
-  ASSERT_EQ(carom("run small.toml --quiet -o out --method exact").status, 0);
-  XyzReader reader(at("out/trajectory.xyz").string());
-  XyzFrame frame;
-  int k = 0;
-  for (; reader.read(frame); ++k) EXPECT_EQ(frame.time, k < 10 ? k * 0.1 : 1.0);
-  EXPECT_EQ(k, 11);
-}
-
-TEST_F(CommandLine, LookingChangesNothing) {
-  const auto hash = [&](const std::string& options) {
-    const Outcome o = carom("run small.toml --json " + options);
-    EXPECT_EQ(o.status, 0) << o.err;
-    return Json::parse(o.out)["state_hash"].get<std::string>();
-  };
-  const std::string plain = hash("-o a");
-  EXPECT_EQ(hash("-o b --quiet --set output.every=0.013"), plain);
-  EXPECT_EQ(hash("--set output.trajectory='\"none\"' --set output.series=false"), plain);
-  EXPECT_EQ(hash("-o c --threads 2"), plain);
-  EXPECT_NE(hash("-o d --seed 2"), plain);
-}
-
-TEST_F(CommandLine, AnySeedIsReported) {
-  const Outcome o = carom("run small.toml --json --quiet -o out --seed 18446744073709551615");
-  ASSERT_EQ(o.status, 0) << o.err;
-  EXPECT_EQ(Json::parse(o.out)["seed"], 18446744073709551615ULL);
-  EXPECT_EQ(carom("run out/scene.toml --quiet -o again").status, 0);
-  EXPECT_EQ(carom("compare out again").status, 0) << "the resolved scene gives the same run";
-}
-
-TEST_F(CommandLine, WhereResultsGo) {
-  Outcome o = carom("run small.toml");
-  EXPECT_EQ(o.status, 0);
-  EXPECT_THAT(o.err, HasSubstr("results go to out/small"));
-  EXPECT_THAT(o.out, HasSubstr("state hash"));
-  EXPECT_THAT(files_in("out/small"), ElementsAre("scene.toml", "series.csv", "summary.json", "trajectory.xyz"));
-  expect_error("$C run small.toml", 2, "out/small: holds scene.toml of an earlier run");
-  const std::string before = read(at("out/small/summary.json"));
-  o = carom("run small.toml --force --quiet --seed 7");
-  EXPECT_EQ(o.status, 0);
-  EXPECT_THAT(o.out + o.err, IsEmpty());
-  EXPECT_NE(read(at("out/small/summary.json")), before);
-  o = carom("run small.toml --set output.trajectory='\"none\"' --set output.series=false");
-  EXPECT_EQ(o.status, 0) << "a scene that asks for no file has no folder";
-  EXPECT_THAT(o.err, IsEmpty());
-}
-
-TEST_F(CommandLine, AFullDiskLeavesNothing) {
-  // The limit on the size of a file, in blocks of 512 bytes, acts like a full disk on each file that reaches it.
-  const std::string run = "ulimit -f 8; $C run small.toml --quiet -o full/out ";
-  expect_error(run + "--set output.every=0.01", 1, "trajectory.xyz: File too large");
-  const std::string no_files = "--set output.series=false --set output.trajectory='\"none\"' ";
-  expect_error(run + no_files + "--set output.movie=true", 1, "movie.mp4: ");
-  expect_error(run + no_files + "--set output.plots='[\"energy\"]'", 1, "energy.svg: ");
-  EXPECT_THAT(files_in(""), ElementsAre("small.toml"));
-  expect_error("$C run small.toml --json --quiet -o out >/dev/full", 1, "standard output: No space left on device");
-}
-
-TEST_F(CommandLine, ClosedStreamsNeverEndUpInAFile) {
-  EXPECT_EQ(shell("$C run small.toml --dt 0.3 --t-end 3 -o out 2>&-").status, 0);
-  XyzReader reader(at("out/trajectory.xyz").string());
-  XyzFrame frame;
-  int frames = 0;
-  while (reader.read(frame)) ++frames;
-  EXPECT_GT(frames, 5);
-  EXPECT_EQ(shell("$C run small.toml --quiet --json -o other >&-").status, 1);
-}
-
-TEST_F(CommandLine, WhatThePhysicsStopsIsKeptButNoResult) {
-  expect_error("$C run small.toml --quiet -o out --dt 0.5 --set disks.0.velocities.uniform=1e4", 3,
-               "is kept in out/carom-unfinished");
-  EXPECT_THAT(files_in("out"), ElementsAre("carom-unfinished"));
-  expect_error("$C run small.toml --quiet -o out", 2, "another run is writing there, or stopped before its end");
-  EXPECT_EQ(carom("run small.toml --quiet -o out --force").status, 0);
-  EXPECT_THAT(files_in("out"), Not(::testing::Contains("carom-unfinished")));
-}
-
-TEST_F(CommandLine, WithoutGnuplotAndFfmpegTheRunSucceeds) {
-  const Outcome o = shell(
-      "PATH=/nonexistent $C run small.toml --json -o out --set output.every=0.5 --set output.movie=true "
-      "--set output.plots='[\"velocity\", \"energy\"]'");
-  EXPECT_EQ(o.status, 0);
-  EXPECT_EQ(o.err,
-            "carom: warning: ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on\n"
-            "carom: warning: gnuplot is not installed: no plots are drawn\n");
-  EXPECT_EQ(files_in("out/frames").size(), 3U);
-}
-
-TEST_F(CommandLine, AllOutputsAtOnce) {
-  ASSERT_EQ(carom("run small.toml --quiet -o out --set output.every=0.5 --set output.movie=true "
-                  "--set output.plots='[\"velocity\", \"energy\"]'")
-                .status,
-            0);
-  EXPECT_THAT(files_in("out"), ElementsAre("energy.svg", "movie.mp4", "scene.toml", "series.csv", "summary.json",
-                                           "trajectory.xyz", "velocity.svg"));
-}
-
 TEST_F(CommandLine, ChartWritesAllItsFilesOrNone) {
   ASSERT_EQ(carom("chart --tiny --quiet -o chart").status, 0);
   const std::vector<std::string> names = files_in("chart");
   EXPECT_THAT(names,
               ElementsAre("chart.csv", "chart.json", "chart.png", "chart.svg", "chart_all.png", "chart_all.svg"));
-  EXPECT_EQ(Json::parse(read(at("chart/chart.json")))["scenes"].size(), 7U);
+  EXPECT_EQ(Json::parse(text_of(at("chart/chart.json")))["scenes"].size(), 7U);
   expect_error("$C chart --tiny --quiet -o chart", 2, "chart/chart.svg: exists already");
   expect_error("$C chart --tiny -o small.toml", 2, "small.toml: is a file");
   expect_error("$C chart --quik", 2, "chart: there is no option \"--quik\"; expected one of");
@@ -373,7 +115,7 @@ TEST_F(CommandLine, MethodAutoIsReportedAndKept) {
   ASSERT_EQ(o.status, 0) << o.err;
   EXPECT_THAT(o.err, StartsWith("carom: method auto, accuracy 0.0001: exact ("));
   EXPECT_EQ(Json::parse(o.out)["method"], "exact");
-  EXPECT_THAT(read(at("out/scene.toml")), HasSubstr("# chosen by method = \"auto\", accuracy = 0.0001: "));
+  EXPECT_THAT(text_of(at("out/scene.toml")), HasSubstr("# chosen by method = \"auto\", accuracy = 0.0001: "));
   const Outcome again = carom("run out/scene.toml -o again --json");
   EXPECT_THAT(again.err, IsEmpty());
   EXPECT_EQ(Json::parse(again.out)["state_hash"], Json::parse(o.out)["state_hash"]);
@@ -390,7 +132,7 @@ TEST_F(CommandLine, CompareFindsTheFirstBit) {
   EXPECT_EQ(o.out, "same bits in all 11 frames\n");
 
   // One digit more in the y of disk 3, in the fourth frame only.
-  std::string text = read(at("b/trajectory.xyz"));
+  std::string text = text_of(at("b/trajectory.xyz"));
   std::istringstream lines(text);
   std::string changed, line;
   for (int n = 1; std::getline(lines, line); ++n) {
@@ -417,7 +159,7 @@ TEST_F(CommandLine, CompareFindsTheFirstBit) {
 TEST_F(CommandLine, RenderMakesAPictureAndAMovie) {
   ASSERT_EQ(carom("run small.toml --quiet -o out --set output.every=0.5").status, 0);
   EXPECT_EQ(carom("render out --frame 2").out, "out/frame_2.png\n");
-  EXPECT_THAT(read(at("out/frame_2.png")), StartsWith("\x89PNG"));
+  EXPECT_THAT(text_of(at("out/frame_2.png")), StartsWith("\x89PNG"));
   EXPECT_EQ(carom("render out").out, "out/movie.mp4\n");
   expect_error("$C render out", 2, "out/movie.mp4: exists already");
   expect_error("$C render out --frame 4", 2, "there is no frame 4; expected 1 to 3");

@@ -23,8 +23,8 @@ double lift_of(const Counters& c) {
 }
 
 // contact_time 1e-2: a disk falls by 1e-4 of its radius or less in that time, and at rest there are ten times fewer
-// collisions than with 1e-3 (docs/methods.md has the figures of both). The bound on the kinetic energy is that of issue
-// 2 for the pile of the pairwise method; what the model itself leaves is of the order of m (g t_c)^2 / 32 a disk. The
+// collisions than with 1e-3 (docs/methods.md has the figures of both). The bound on the kinetic energy is that of
+// the pairwise method's pile; what the model itself leaves is of the order of m (g t_c)^2 / 32 a disk. The
 // floor bears the weight: mean force over the last fifth of the run.
 void expect_to_settle(const char* file) {
   const Scene scene =

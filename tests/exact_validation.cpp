@@ -200,7 +200,7 @@ TEST(ExactAbsorption, SurvivorsOfASquare) {
   }
 }
 
-// The bounds of issue 4 for 10^8 collisions, here over 10^7 (docs/methods.md has the long run's figures). Overlap is
+// The bounds are meant for 10^8 collisions, here over 10^7 (docs/methods.md has the long run's figures). Overlap is
 // looked at after every window: nothing that a collision does wrong could hide.
 TEST(ExactLongRun, NoOverlapNoDrift) {
   const Scene scene = gas(20000, 0.6, 90.0);

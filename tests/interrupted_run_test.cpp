@@ -8,6 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::Outcome;
+using test::text_of;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -41,12 +42,48 @@ TEST_F(InterruptedRun, StoppedAgainAndAgainItGivesTheSameResults) {
   }
 }
 
+// What a warning counts goes on, too: it comes in the part in which the undisturbed run has it, once.
+TEST_F(InterruptedRun, ItWarnsOfTheSame) {
+  const std::string scene = CAROM_SOURCE_DIR "/scenes/stability/f02_bounce_at_a_distance.toml";
+  const std::string dense = " --set disks.0.count=300 --set box.packing_fraction=0.5 --method pairwise --dt 0.05";
+  const std::string warning = "collisions were seen a step late";
+  ASSERT_EQ(carom("run " + scene + dense + " --t-end 40 --quiet -o whole").status, 0);
+  ASSERT_THAT(text_of(at("whole/summary.json")), HasSubstr(warning));
+  Outcome o = carom("run " + scene + dense + " --t-end 40 -o parts --max-walltime 1e-6");
+  std::string told = o.err;
+  int parts = 1;
+  for (; o.status == 4; ++parts) {
+    o = carom("resume parts --max-walltime 0.03");
+    told += o.err;
+  }
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_GE(parts, 2);
+  expect_same_results("whole", "parts");
+  const std::size_t first = told.find(warning);
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(told.find(warning, first + 1), std::string::npos) << told;
+}
+
+// A strict run stops at its first warning; taken up again it is no better, and its result says so.
+TEST_F(InterruptedRun, AWarningThatEndedARunIsNotForgotten) {
+  const std::string scene = CAROM_SOURCE_DIR "/scenes/stability/f02_bounce_at_a_distance.toml";
+  const std::string dense = " --set disks.0.count=300 --set box.packing_fraction=0.5 --method pairwise --dt 0.05";
+  const Outcome o = carom("run " + scene + dense + " --t-end 2 --quiet --strict -o out");
+  EXPECT_EQ(o.status, 3);
+  EXPECT_EQ(o.err.find("warning"), std::string::npos) << "the error says it: " << o.err;
+  const Outcome strict = carom("resume out --quiet --strict");
+  EXPECT_EQ(strict.status, 3);
+  EXPECT_THAT(strict.err, HasSubstr("collisions were seen a step late"));
+  EXPECT_EQ(carom("resume out --quiet").status, 0);
+  EXPECT_THAT(text_of(at("out/summary.json")), HasSubstr("collisions were seen a step late"));
+}
+
 TEST_F(InterruptedRun, ASignalStopsWithACheckpoint) {
   write("long.toml", test::busy_scene("pairwise", "checkpoint = \"1 h\"\n"));
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    const pid_t run = start({"run", "long.toml", "--t-end", "1e6", "-o", "out", "--force", "--quiet"});
+    fs::remove_all(at("out"));  // or the last round's file would be taken for this one's
+    const pid_t run = start({"run", "long.toml", "--t-end", "1e6", "-o", "out", "--quiet"});
     await(at("out/carom-unfinished/series.csv"));
-    usleep(100'000);
     kill(run, signal);
     EXPECT_EQ(wait_for(run), 4);
     EXPECT_TRUE(fs::exists(at("out/carom-unfinished/checkpoint.carom")));

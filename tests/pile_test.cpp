@@ -37,7 +37,7 @@ Seen watch(const Scene& scene, const State& start) {
   return seen;
 }
 
-// The bounds of issue 2.
+// What a settled pile must keep to: the bounds of pile_validation.cpp.
 void expect_bounds(const Seen& seen) {
   EXPECT_LE(seen.overlap, 0.02);
   EXPECT_LE(seen.below, 0.01);

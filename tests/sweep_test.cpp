@@ -115,6 +115,8 @@ TEST_F(SweepTest, ScriptsRunWhatIsLeft) {
     EXPECT_EQ(status, 0) << text;
   }
   EXPECT_THAT(carom(words).second, HasSubstr("0 of 2 runs are left"));
+  EXPECT_THAT(carom(words + " --emit slurm").second, HasSubstr("0 of 2 runs are left"))
+      << "nothing to write a script for";
   EXPECT_EQ(rows("a b/sweep.csv").size(), 3U);
 }
 
@@ -122,10 +124,12 @@ TEST_F(SweepTest, NothingRunsWhereAnythingIsWrong) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"--over physics.restitutoin=0.5:1:3", "physics.restitutoin: unknown key; expected one of"},
       {"--over physics.restitution=0.5:1.5:3", "restitution: is 1.5"},
-      {"--over physics.restitution=0.5:1", "0.5:1"},
+      {"--over physics.restitution=0.5:1", "\"physics.restitution=0.5:1\" is no range; expected KEY=FROM:TO:COUNT"},
       {"--over physics.restitution", "expected KEY=FROM:TO:COUNT"},
       {"--over physics.restitution=0:1:0", "is no range"},
       {"--over run.method=exact,exakt", "unknown name \"exakt\""},
+      {"--over seed=1,2", "expected --seeds N"},
+      {"--over run.t_end=1 --over run.t_end=2", "run.t_end is given twice"},
       {"", "nothing to sweep over"},
       {"--seeds 2 --emit pbs", "expected one of slurm, parallel"}};
   for (const auto& [options, expected] : cases) {
@@ -140,9 +144,36 @@ TEST_F(SweepTest, AFailedRunIsNamedAndTriedAgain) {
   // Sixty of these disks find no room.
   const auto [status, text] = carom("sweep gas.toml -o s --over disks.0.count=10,250");
   EXPECT_EQ(status, 1);
-  EXPECT_THAT(text, HasSubstr("run 0002: carom: error: "));
+  EXPECT_THAT(text, HasSubstr("run 0002: "));
   EXPECT_EQ(rows("s/sweep.csv").size(), 2U);
   EXPECT_THAT(carom("sweep gas.toml -o s --over disks.0.count=10,250").second, HasSubstr("1 of 2 runs are left"));
+}
+
+// A sweep that is told to stop takes its runs with it; the one that was going on is taken up where it stood.
+TEST_F(SweepTest, StoppedItTakesItsRunsWithItAndGoesOnFromTheirCheckpoints) {
+  const std::string words = "sweep gas.toml -o s --set physics.restitution=1 --over run.t_end=1,1e9 --jobs 2";
+  const auto [status, text] = shell("{ " CAROM_PROGRAM " " + words +
+                                    " & until [ -e s/runs/0002/carom-unfinished/scene.toml -a -e "
+                                    "s/runs/0001/summary.json ]; do sleep 0.01; done; kill -TERM $!; wait $!; }");
+  EXPECT_EQ(status, 4) << text;
+  EXPECT_THAT(text, HasSubstr("stopped by SIGTERM with 1 of 2 runs done; the same command goes on"));
+  EXPECT_EQ(rows("s/sweep.csv").size(), 2U);
+  EXPECT_EQ(carom(words + " --emit parallel").first, 0);
+  EXPECT_THAT(read("s/sweep.sh"), HasSubstr("'resume'"));
+  // Nobody works in the folder any more: else it would be refused with status 2.
+  EXPECT_EQ(carom("resume s/runs/0002 --quiet --max-walltime 0.01").first, 4);
+}
+
+// What a run warns of is not lost among the rows.
+TEST_F(SweepTest, WarningsAreCounted) {
+  const auto [status, text] =
+      carom("sweep gas.toml -o s --method pairwise --dt 0.05 --over disks.0.velocities.maxwell=1,1e4");
+  EXPECT_EQ(status, 0) << text;
+  EXPECT_THAT(text, HasSubstr("1 of 2 runs warn of their method, see the column warnings"));
+  const std::vector<std::string> table = rows("s/sweep.csv");
+  EXPECT_THAT(table.at(0), HasSubstr(",warnings,step_s,state_hash"));
+  EXPECT_THAT(table.at(1), HasSubstr(",0,0,"));
+  EXPECT_THAT(table.at(2), HasSubstr(",0,1,"));
 }
 
 // --- Frames

@@ -274,6 +274,12 @@ TEST(TrajectoryH5md, WhatIsNoTrajectoryIsNamed) {
     const std::string part = whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size())));
     EXPECT_THAT(message(folder.write("part.h5", part)), HasSubstr("part.h5")) << share;
   }
+  // Its first block has a checksum: no bit of it may be lost, nor the reader for ever at it.
+  for (std::size_t at = 0; at < 48; ++at) {
+    std::string flipped = whole;
+    flipped[at] = static_cast<char>(flipped[at] ^ 1);
+    EXPECT_THAT(message(folder.write("flipped.h5", flipped)), HasSubstr("flipped.h5")) << at;
+  }
   EXPECT_THAT(message(folder.write("text.h5", "3\n")), HasSubstr("expected a trajectory.h5 that Carom wrote"));
   EXPECT_THAT(message((folder.path() / "none.h5").string()), HasSubstr("none.h5"));
   EXPECT_THROW(H5mdWriter("/proc/trajectory.h5", drifting_scene()), RunError);
