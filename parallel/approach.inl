@@ -2,6 +2,7 @@
 // in the compilers' own vector types: on a machine without them the compiler splits them.
 
 #include <bit>
+#include <cmath>
 #include <cstddef>
 
 #include "parallel/approach_kernel.hpp"
@@ -42,8 +43,16 @@ inline Doubles all(double a) {
 }
 
 // a where truth, else 0.
-inline Doubles where(Longs truth, double a) {
-  return std::bit_cast<Doubles>(truth & std::bit_cast<Longs>(all(a)));
+inline Doubles where(Longs truth, Doubles a) {
+  return std::bit_cast<Doubles>(truth & std::bit_cast<Longs>(a));
+}
+
+inline Doubles root(Doubles v) {
+#if defined(__AVX__)
+  return std::bit_cast<Doubles>(__builtin_ia32_sqrtpd256(v));
+#else
+  return Doubles{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+#endif
 }
 
 // Bit k is set where lane k is true.
@@ -71,8 +80,8 @@ inline unsigned test_four(const ApproachFrame& f, ApproachBatch& batch, std::uin
   const Doubles s = all(f.from) - Doubles{p[0]->start, p[1]->start, p[2]->start, p[3]->start};
   Doubles dx = __builtin_shufflevector(xs01, xs23, 0, 1, 4, 5) + vx * s - all(f.x);
   Doubles dy = __builtin_shufflevector(ys01, ys23, 0, 1, 4, 5) + (vy - all(0.5 * f.gravity) * s) * s - all(f.y);
-  dx = dx - where(dx > all(f.half_width), f.width) + where(dx < all(-f.half_width), f.width);
-  dy = dy - where(dy > all(f.half_height), f.height) + where(dy < all(-f.half_height), f.height);
+  dx = dx - where(dx > all(f.half_width), all(f.width)) + where(dx < all(-f.half_width), all(f.width));
+  dy = dy - where(dy > all(f.half_height), all(f.height)) + where(dy < all(-f.half_height), all(f.height));
   const Doubles dvx = vx - all(f.vx);
   const Doubles dvy = vy - all(f.gravity) * s - all(f.vy);
   const Doubles reach = load(batch.reach + k);
@@ -80,10 +89,11 @@ inline unsigned test_four(const ApproachFrame& f, ApproachBatch& batch, std::uin
   const Doubles b = dx * dvx + dy * dvy;
   const Doubles c = dx * dx + dy * dy - reach * reach;
   const Doubles b2 = b * b;
-  store(batch.b + k, b);
-  store(batch.c + k, c);
+  const Doubles d = b2 * all(1.0 + cancelled) - a * c;
+  const Longs overlaps = (c <= all(0.0)) | (b >= all(0.0));
+  store(batch.least + k, where(~overlaps, c / (root(where(d > all(0.0), d)) - b)));
   const Longs not_receding = (b <= all(0.0)) | (b2 <= all(f.blur2) * a);
-  return bits_of(not_receding & (b2 * all(1.0 + cancelled) >= a * c));
+  return bits_of(not_receding & (d >= all(0.0)));
 }
 
 }  // namespace

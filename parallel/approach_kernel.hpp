@@ -23,9 +23,7 @@ struct ApproachBatch {
   static constexpr std::uint32_t size = 32;
   const PathSegment* path[size];
   double reach[size];  // r1 + r2, with room for rounding
-  // Found: dr.dv and dr.dr - reach^2 at the time of the look. A contact comes no earlier than c / (-2 b) after it.
-  double b[size];
-  double c[size];
+  double least[size];  // found: a contact comes no earlier than this after the look, if one comes
 };
 
 // Bit k is set if the disk and neighbour k approach, or do not clearly recede, on straight paths that come within

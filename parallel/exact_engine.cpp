@@ -9,12 +9,14 @@
 
 #include "core/check.hpp"
 #include "core/disk_pair.hpp"
+#include "core/huge_pages.hpp"
 #include "core/step_start.hpp"
 #include "core/validity.hpp"
 #include "core/window_plan.hpp"
 #include "core/window_start.hpp"
 #include "parallel/compact.hpp"
 #include "parallel/exact_lists.hpp"
+#include "parallel/exact_sequence.hpp"
 #include "parallel/exact_slice.hpp"
 #include "parallel/executor.hpp"
 
@@ -30,8 +32,8 @@ constexpr double windows_ahead = 8.0;
 constexpr double events_per_slice = 0.1;
 // All disks are listed and sorted anew when one in so many has been listed anew by itself.
 constexpr std::size_t listed_share = 2;
-// Up to so many disks one slice serves the whole window.
-constexpr std::size_t one_slice_below = 40;
+// Up to so many disks their events run one after the other, on one thread.
+constexpr std::size_t sequence_below = 16384;
 
 class ParallelExact final : public Engine {
  public:
@@ -39,6 +41,7 @@ class ParallelExact final : public Engine {
       : scene_(scene),
         state_(std::move(initial)),
         executor_(threads.count, threads.block_divisor),
+        sequence_(field_, lists_, executor_),
         slices_(field_, lists_, executor_) {}
 
   void step() override {
@@ -47,7 +50,11 @@ class ParallelExact final : public Engine {
     const WindowPlan plan = plan_window(scene_, state_, summarise(), 1.0);
     list_if_due();
     load_paths(plan);
-    run_slices(plan);
+    if (in_sequence()) {
+      run_sequence(plan);
+    } else {
+      run_slices(plan);
+    }
     store_paths(plan);
   }
 
@@ -65,7 +72,10 @@ class ParallelExact final : public Engine {
   SpeedSummary summarise();
   void list_if_due();
   void load_paths(const WindowPlan& plan);
+  bool in_sequence() const { return state_.disks.size() <= executor_.grain(sequence_below); }
+  void run_sequence(const WindowPlan& plan);
   void run_slices(const WindowPlan& plan);
+  bool any_gone() const { return ran_sequence_ ? sequence_.any_gone() : slices_.any_gone(); }
   void store_paths(const WindowPlan& plan);
 
   Scene scene_;
@@ -76,7 +86,10 @@ class ParallelExact final : public Engine {
   SpeedSummary speeds_;
   ExactField field_;
   ExactLists lists_;
+  ExactSequence sequence_;
   ExactSlices slices_;
+  bool ran_sequence_ = false;     // the last window
+  std::vector<LoggedPiece> log_;  // of a sequence
   double largest_radius_ = 0.0;
   bool lists_good_ = false;  // lists_ and field_ go with the storage order
   bool listed_now_ = false;
@@ -190,6 +203,8 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
   field_.horizon = windows_ahead * plan.length;
   field_.safe_speed2 = lists_.safe_speed2(plan.length, field_.rules.gravity);
   field_.fastest2 = speeds_.largest2;
+  if (field_.flight.capacity() < n) resize_in_huge_pages(field_.flight, n);
+  if (field_.due.capacity() < n) resize_in_huge_pages(field_.due, n);
   field_.flight.resize(n);
   field_.due.resize(n);
   field_.slack = 1e-9 * 2.0 * largest_radius_ + 1e-14 * std::max(scene_.box.width, scene_.box.height);
@@ -219,8 +234,19 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
   listed_now_ = false;
 }
 
+void ParallelExact::run_sequence(const WindowPlan& plan) {
+  const PhaseTimer timer(times_, "events");
+  log_.clear();
+  ran_sequence_ = true;
+  const double events = static_cast<double>(state_.counters.collisions + state_.counters.wall_collisions);
+  const double rate = state_.time > 0.0 ? events / state_.time : 0.0;
+  const double expected = std::min(rate * plan.length, 4.0 * static_cast<double>(state_.disks.size()));
+  sequence_.run(static_cast<std::size_t>(expected), plan.start, slices_.keeps_paths() ? &log_ : nullptr);
+}
+
 void ParallelExact::run_slices(const WindowPlan& plan) {
   const PhaseTimer timer(times_, "events");
+  ran_sequence_ = false;
   slices_.begin_window();
   const std::size_t n = state_.disks.size();
   const double aimed = std::max(4.0, events_per_slice * static_cast<double>(n));
@@ -229,7 +255,7 @@ void ParallelExact::run_slices(const WindowPlan& plan) {
   Count seen = 0;
   while (start < plan.length) {
     const double left = plan.length - start;
-    const double parts = n <= one_slice_below ? 1.0 : std::ceil(left / slice_);
+    const double parts = std::ceil(left / slice_);
     double end = parts > 1.0 ? start + left / parts : never;
     while (!slices_.run(start, end, plan.start)) {
       end = start + 0.5 * (std::min(end, plan.length) - start);
@@ -248,7 +274,7 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
   const PhaseTimer timer(times_, "store");
   Disks& d = state_.disks;
   const std::size_t n = d.size();
-  const bool any_gone = slices_.any_gone();
+  const bool any_gone = this->any_gone();
   gone_.assign(any_gone ? n : 0, 0);
   executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -270,7 +296,7 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
   last_length_ = plan.length;
   last_plan_ = plan;
   if (any_gone) remove(gone_);
-  const ImpactTally tally = slices_.tally();
+  const ImpactTally tally = ran_sequence_ ? sequence_.tally() : slices_.tally();
   finish_window(state_, plan, tally, 1.0);
   validity_.see_step(scene_, {0.0, tally.amiss}, state_);
 }
@@ -281,19 +307,24 @@ double ParallelExact::disks_at(double t, Disks& out) const {
     return state_.time;
   }
   const double s = t > last_plan_.start ? t - last_plan_.start : 0.0;
-  out = slices_.any_gone() ? at_start_ : state_.disks;
+  out = any_gone() ? at_start_ : state_.disks;
   // The piece that is last of those begun by s; a block's log has a disk's pieces in order.
   std::vector<PathSegment> path(field_.flight.size());
   for (std::size_t i = 0; i < path.size(); ++i) path[i] = field_.flight[i].path;
   std::vector<unsigned char> gone(path.size(), 0);
   std::vector<unsigned char> logged(path.size(), 0);
-  for (const std::vector<LoggedPiece>& log : slices_.log()) {
+  const auto read = [&](const std::vector<LoggedPiece>& log) {
     for (const LoggedPiece& piece : log) {
       if (piece.path.start > s || (logged[piece.disk] != 0 && piece.path.start < path[piece.disk].start)) continue;
       path[piece.disk] = piece.path;
       gone[piece.disk] = piece.gone ? 1 : 0;
       logged[piece.disk] = 1;
     }
+  };
+  if (ran_sequence_) {
+    read(log_);
+  } else {
+    for (const std::vector<LoggedPiece>& log : slices_.log()) read(log);
   }
   for (std::size_t i = 0; i < path.size(); ++i) {
     PathSegment p = carried_to(path[i], s, scene_.physics.gravity);

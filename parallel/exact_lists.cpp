@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/boundary.hpp"
+#include "core/huge_pages.hpp"
 
 namespace carom {
 
@@ -23,8 +24,6 @@ constexpr double least_roam = 0.08;
 constexpr std::size_t anew_per_block = 64;
 // Columns of cells in a band: 2^5.
 constexpr unsigned band_shift = 5;
-// Room that a new list leaves for disks that are listed anew near it.
-constexpr std::size_t spare_room = 2;
 // Share of the roam that gravity may bend a path by before exit_time is asked again.
 constexpr double bend_share = 0.1;
 
@@ -65,49 +64,42 @@ void ExactLists::build(Disks& d, const Domain& box, const Executor& executor) {
     sort_into_cells(d, grid_, executor, cells_);
     head_.assign(grid_.keys, none);
   }
-  place_.resize(n);
-  lists_.resize(n);
-  sides_.resize(n);
+  if (rows_.capacity() < n) resize_in_huge_pages(rows_, n);
+  rows_.resize(n);
   block_shift_ = static_cast<unsigned>(std::bit_width(executor.grain(disks_per_block)) - 1);
   const std::size_t block = std::size_t{1} << block_shift_;
-  near_.resize((n + block - 1) >> block_shift_);
-  executor.for_ranges(n, disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) place_[i] = {d.x[i], d.y[i]};
+  wide_.resize((n + block - 1) >> block_shift_);
+  executor.run(wide_.size(), [&](std::size_t b) {
+    wide_[b].clear();
+    list_block(d, b * block, std::min(n, (b + 1) * block));
   });
-  executor.run(near_.size(), [&](std::size_t b) { list_block(d, b, b * block, std::min(n, (b + 1) * block)); });
 }
 
-void ExactLists::prefetch(std::uint32_t begin, std::uint32_t end) const {
-  constexpr std::uint32_t line = 64;
-  for (std::uint32_t i = begin; i < end; i += line / sizeof(Vec2)) __builtin_prefetch(&place_[i]);
-  for (std::uint32_t i = begin; i < end; i += line / sizeof(List)) __builtin_prefetch(&lists_[i]);
-  for (std::size_t b = begin >> block_shift_; b <= (end - 1) >> block_shift_; ++b) {
-    const std::uint32_t first = std::max(begin, static_cast<std::uint32_t>(b << block_shift_));
-    const std::uint32_t last = std::min(end, static_cast<std::uint32_t>((b + 1) << block_shift_)) - 1;
-    const std::uint32_t* const near = near_[b].data();
-    const std::uint32_t from = lists_[first].first;
-    const std::uint32_t to = lists_[last].first;
-    for (std::uint32_t k = from; k < to; k += line / sizeof(std::uint32_t)) __builtin_prefetch(near + k);
-  }
-}
-
-void ExactLists::list_block(const Disks& d, std::size_t b, std::size_t begin, std::size_t end) {
-  std::vector<std::uint32_t>& near = near_[b];
-  near.clear();
+void ExactLists::list_block(const Disks& d, std::size_t begin, std::size_t end) {
+  thread_local std::vector<std::uint32_t> found;
   for (std::size_t k = begin; k < end; ++k) {
     const auto i = static_cast<std::uint32_t>(k);
-    const std::size_t first = near.size();
-    find_neighbours(d, i, near);
-    const std::size_t count = near.size() - first;
-    near.resize(near.size() + (everybody() ? 0 : spare_room));
-    lists_[i] = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
-                 static_cast<std::uint32_t>(near.size() - first)};
-    sides_[i] = static_cast<std::uint8_t>(find_sides(d, i));
+    Row& row = rows_[i];
+    row.x = d.x[i];
+    row.y = d.y[i];
+    row.more = none;
+    row.count = 0;
+    found.clear();
+    find_neighbours(
+        d, i,
+        [&](std::uint32_t j) {
+          return Vec2{d.x[j], d.y[j]};
+        },
+        found);
+    for (const std::uint32_t j : found) insert(i, j);
+    row.sides = static_cast<std::uint8_t>(find_sides(d, i));
   }
 }
 
-void ExactLists::find_neighbours(const Disks& d, std::uint32_t i, std::vector<std::uint32_t>& found) const {
-  const Vec2 p = place_[i];
+template <class PlaceOf>
+void ExactLists::find_neighbours(const Disks& d, std::uint32_t i, PlaceOf&& place_of,
+                                 std::vector<std::uint32_t>& found) const {
+  const Vec2 p{rows_[i].x, rows_[i].y};
   const double own = d.radius_of(i) + 2.0 * roam_;
   const double width = box_.periodic_x() ? box_.width : 0.0;
   const double height = box_.periodic_y() ? box_.height : 0.0;
@@ -116,8 +108,9 @@ void ExactLists::find_neighbours(const Disks& d, std::uint32_t i, std::vector<st
   const double* const radius = d.radius.empty() ? nullptr : d.radius.data();
   // No branch depends on a place: which neighbours are near is as good as random.
   const auto is_near = [&](std::uint32_t j) {
-    double dx = std::abs(place_[j].x - p.x);
-    double dy = std::abs(place_[j].y - p.y);
+    const Vec2 q = place_of(j);
+    double dx = std::abs(q.x - p.x);
+    double dy = std::abs(q.y - p.y);
     dx -= dx > half_width ? width : 0.0;
     dy -= dy > half_height ? height : 0.0;
     const double reach = own + (radius != nullptr ? radius[j] : d.common_radius);
@@ -141,7 +134,7 @@ unsigned ExactLists::find_sides(const Disks& d, std::uint32_t i) const {
   unsigned sides = 0;
   for (const Side side : all_sides) {
     if (box_.side(side) == SideKind::periodic) continue;
-    const double gap = -reach_beyond(side, place_[i].x, place_[i].y, d.radius_of(i), box_);
+    const double gap = -reach_beyond(side, rows_[i].x, rows_[i].y, d.radius_of(i), box_);
     if (gap <= roam_) sides |= 1U << static_cast<unsigned>(side);
   }
   return sides;
@@ -150,8 +143,8 @@ unsigned ExactLists::find_sides(const Disks& d, std::uint32_t i) const {
 double ExactLists::exit_time(std::uint32_t i, const PathSegment& path, double from, double until, double g) const {
   if (everybody()) return never;
   const PathSegment p = carried_to(path, from, g);
-  double dx = p.x - place_[i].x;
-  double dy = p.y - place_[i].y;
+  double dx = p.x - rows_[i].x;
+  double dy = p.y - rows_[i].y;
   if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
   if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
   double room = roam_ * (1.0 - 1e-9);
@@ -179,8 +172,8 @@ bool ExactLists::stays(std::uint32_t i, const PathSegment& path, double from, do
   const double room = roam_ * (1.0 - 1e-9) - bend;
   const auto inside = [&](double t) {
     const double s = t - path.start;
-    double dx = path.x + path.vx * s - place_[i].x;
-    double dy = path.y + (path.vy - 0.5 * g * s) * s - place_[i].y;
+    double dx = path.x + path.vx * s - rows_[i].x;
+    double dy = path.y + (path.vy - 0.5 * g * s) * s - rows_[i].y;
     if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
     if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
     return dx * dx + dy * dy < room * room;
@@ -203,32 +196,37 @@ double ExactLists::safe_speed2(double length, double g) const {
 std::uint32_t ExactLists::key_of_place(const Disks& d, std::uint32_t i) const {
   const std::size_t level =
       d.radius.empty() || grid_.levels.size() == 1 ? 0 : class_of_radius(d.radius[i], grid_.levels[0].largest_radius);
-  return key_of(grid_.levels[level], place_[i].x, place_[i].y);
+  return key_of(grid_.levels[level], rows_[i].x, rows_[i].y);
 }
 
 // Looks at all of the list, so that the compiler can take several at a time.
 bool ExactLists::lists(std::uint32_t i, std::uint32_t j) const {
-  const Neighbours list = of(i);
   unsigned seen = 0;
-  for (std::uint32_t k = 0; k < list.count; ++k) seen |= static_cast<unsigned>(list.first[k] == j);
+  see_neighbours(i, [&](const std::uint32_t* near, std::uint32_t count) {
+    for (std::uint32_t k = 0; k < count; ++k) seen |= static_cast<unsigned>(near[k] == j);
+  });
   return seen != 0;
 }
 
 void ExactLists::insert(std::uint32_t i, std::uint32_t j) {
-  std::vector<std::uint32_t>& near = near_[i >> block_shift_];
-  List& list = lists_[i];
-  if (list.count == list.room) {
-    // Moves to the end of its block's vector with double the room.
-    const std::size_t first = near.size();
-    near.resize(first + 2 * std::size_t{list.count} + spare_room);
-    std::copy_n(near.begin() + list.first, list.count, near.begin() + static_cast<std::ptrdiff_t>(first));
-    list = {static_cast<std::uint32_t>(first), list.count, static_cast<std::uint32_t>(near.size() - first)};
+  Row& row = rows_[i];
+  const std::int64_t offset = std::int64_t{j} - std::int64_t{i};
+  if (row.count < chunk && offset == static_cast<std::int16_t>(offset)) {
+    row.offset[row.count++] = static_cast<std::int16_t>(offset);
+    return;
   }
-  near[list.first + list.count++] = j;
+  std::vector<WideRow>& wide = wide_[i >> block_shift_];
+  if (row.more == none || wide[row.more].count == std::size(wide[row.more].near)) {
+    wide.push_back({{}, 0, row.more});
+    row.more = static_cast<std::uint32_t>(wide.size() - 1);
+  }
+  WideRow& last = wide[row.more];
+  last.near[last.count++] = j;
 }
 
 void ExactLists::replace_list(std::uint32_t i, std::span<const std::uint32_t> found) {
-  lists_[i].count = 0;
+  rows_[i].count = 0;
+  rows_[i].more = none;
   for (const std::uint32_t j : found) {
     if (!lists(i, j)) insert(i, j);
     if (!lists(j, i)) insert(j, i);
@@ -239,8 +237,9 @@ void ExactLists::list_anew(std::span<const std::uint32_t> which, std::span<const
                            const Executor& executor) {
   for (std::size_t k = 0; k < which.size(); ++k) {
     const std::uint32_t i = which[k];
-    place_[i] = places[k];
-    sides_[i] = static_cast<std::uint8_t>(find_sides(d, i));
+    rows_[i].x = places[k].x;
+    rows_[i].y = places[k].y;
+    rows_[i].sides = static_cast<std::uint8_t>(find_sides(d, i));
     const std::uint32_t key = key_of_place(d, i);
     moved_.push_back({i, head_[key]});
     head_[key] = static_cast<std::uint32_t>(moved_.size() - 1);
@@ -253,7 +252,12 @@ void ExactLists::list_anew(std::span<const std::uint32_t> which, std::span<const
     found.clear();
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t first = found.size();
-      find_neighbours(d, which[k], found);
+      find_neighbours(
+          d, which[k],
+          [&](std::uint32_t j) {
+            return Vec2{rows_[j].x, rows_[j].y};
+          },
+          found);
       found.push_back(static_cast<std::uint32_t>(found.size() - first));
     }
   });

@@ -38,11 +38,13 @@ void for_each_keys_near(const GridLevel& level, const Domain& box, double x, dou
 // lists whenever their places are within r_i + r_j + 2 roam (nearest image); so while both are within roam of their
 // places, disks that are not listed together cannot touch. A disk that is about to roam too far is listed anew.
 class ExactLists {
+  static constexpr std::uint32_t none = 0xffffffffU;
+
  public:
   // Sorts the disks into cells (their storage order changes) and lists all of them where they are.
   void build(Disks& disks, const Domain& box, const Executor& executor);
 
-  bool empty() const { return place_.empty(); }
+  bool empty() const { return rows_.empty(); }
   // Disks listed anew since the last build.
   std::size_t listed_anew() const { return moved_.size(); }
   // Length that a disk may go from its place; infinite when everybody is in everybody's list.
@@ -52,22 +54,33 @@ class ExactLists {
   // length, nor a quarter round the box. Negative: any may.
   double safe_speed2(double length, double g) const;
 
-  struct Neighbours {
-    const std::uint32_t* first;
-    std::uint32_t count;
-    const std::uint32_t* begin() const { return first; }
-    const std::uint32_t* end() const { return first + count; }
-  };
-  Neighbours of(std::uint32_t i) const {
-    const List& list = lists_[i];
-    return {near_[i >> block_shift_].data() + list.first, list.count};
+  // Calls see(near, count) for the neighbours of disk i, some at a time: their storage indices, at most chunk of them.
+  static constexpr std::uint32_t chunk = 20;
+  template <class See>
+  void see_neighbours(std::uint32_t i, See&& see) const {
+    const Row& row = rows_[i];
+    std::uint32_t near[chunk];
+    for (std::uint32_t k = 0; k < chunk; ++k) near[k] = i + static_cast<std::uint32_t>(std::int32_t{row.offset[k]});
+    see(static_cast<const std::uint32_t*>(near), std::uint32_t{row.count});
+    for (std::uint32_t w = row.more; w != none;) {
+      const WideRow& wide = wide_[i >> block_shift_][w];
+      see(static_cast<const std::uint32_t*>(wide.near), wide.count);
+      w = wide.next;
+    }
+  }
+  // Calls see(j) for each neighbour j of disk i.
+  template <class See>
+  void for_each_neighbour(std::uint32_t i, See&& see) const {
+    see_neighbours(i, [&](const std::uint32_t* near, std::uint32_t count) {
+      for (std::uint32_t k = 0; k < count; ++k) see(near[k]);
+    });
   }
 
-  // Asks for the lists of disks [begin, end) as they were built.
-  void prefetch(std::uint32_t begin, std::uint32_t end) const;
+  // Asks the memory for the list of disk i.
+  void prefetch(std::uint32_t i) const { __builtin_prefetch(&rows_[i]); }
 
   // Bits (1 << side) of the walls and sinks that the disk can touch without roaming too far.
-  unsigned sides_near(std::uint32_t i) const { return sides_[i]; }
+  unsigned sides_near(std::uint32_t i) const { return rows_[i].sides; }
 
   // A time up to which the disk, now (at time `from`) on this path, stays within roam of its place; `from` itself when
   // it does not. Looks no further ahead than `until`, or as far as gravity bends the path little.
@@ -99,7 +112,7 @@ class ExactLists {
   template <class Run, class See>
   void visit_runs_near(double x, double y, double distance, Run&& run, See&& see) const {
     if (everybody()) {
-      run(0, static_cast<std::uint32_t>(place_.size()));
+      run(0, static_cast<std::uint32_t>(rows_.size()));
       return;
     }
     for (const GridLevel& level : grid_.levels) {
@@ -114,19 +127,31 @@ class ExactLists {
     }
   }
 
-  struct List {
-    std::uint32_t first = 0;  // in its block's vector
-    std::uint32_t count = 0, room = 0;
+  // A disk's place and list in one cache line. Neighbours are stored nearby, mostly; offsets to them fit in 16 bits.
+  struct alignas(64) Row {
+    double x = 0.0, y = 0.0;    // place; length
+    std::uint32_t more = none;  // number of a wide row in its block
+    std::uint8_t count = 0;
+    std::uint8_t sides = 0;
+    std::int16_t offset[chunk] = {};
+  };
+  static_assert(sizeof(Row) == 64);
+  // Those that did not fit in the row.
+  struct alignas(64) WideRow {
+    std::uint32_t near[14];
+    std::uint32_t count;
+    std::uint32_t next;
   };
   struct Moved {
     std::uint32_t disk, next;
   };
-  static constexpr std::uint32_t none = 0xffffffffU;
 
   bool everybody() const { return roam_ == HUGE_VAL; }
   void choose_roam(const Disks& disks);
-  void list_block(const Disks& disks, std::size_t b, std::size_t begin, std::size_t end);
-  void find_neighbours(const Disks& disks, std::uint32_t i, std::vector<std::uint32_t>& found) const;
+  void list_block(const Disks& disks, std::size_t begin, std::size_t end);
+  template <class PlaceOf>
+  void find_neighbours(const Disks& disks, std::uint32_t i, PlaceOf&& place_of,
+                       std::vector<std::uint32_t>& found) const;
   std::uint32_t key_of_place(const Disks& disks, std::uint32_t i) const;
   bool lists(std::uint32_t i, std::uint32_t j) const;
   unsigned find_sides(const Disks& disks, std::uint32_t i) const;
@@ -138,11 +163,9 @@ class ExactLists {
   SortedCells cells_;
   double roam_ = 0.0;
   double largest_radius_ = 0.0;
-  unsigned block_shift_ = 0;  // 2^block_shift_ disks share a vector for their lists
-  std::vector<Vec2> place_;
-  std::vector<std::uint8_t> sides_;
-  std::vector<List> lists_;
-  std::vector<std::vector<std::uint32_t>> near_;  // one a block
+  unsigned block_shift_ = 0;  // 2^block_shift_ disks share a vector for their wide rows
+  std::vector<Row> rows_;
+  std::vector<std::vector<WideRow>> wide_;  // one a block
   // Disks listed anew, chained by cell: head_[key] is the last one that came to that cell.
   std::vector<std::uint32_t> head_;
   std::vector<Moved> moved_;

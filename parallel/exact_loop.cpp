@@ -31,9 +31,9 @@ void ExactLoop::run_block(std::uint32_t begin, std::uint32_t end) {
   last_.time = -never;
   arena_.heap.clear();
   // Most of the block is looked at several times, in no order: asked for in order first, it comes much faster.
-  lists_.prefetch(begin, end);
   for (std::uint32_t i = begin; i < end; ++i) {
     __builtin_prefetch(&field_.flight[i]);
+    lists_.prefetch(i);
     if (field_.in_slice(field_.due_of(i)) && field_.owner_of(i) == nobody) push_due(i);
   }
   run();
@@ -183,6 +183,13 @@ double ExactLoop::exit_after(std::uint32_t i, const PathSegment& path, double fr
   return lists_.exit_time(i, path, from, std::min(field_.slice_end, field_.length), g);
 }
 
+// Events so far of the disk that an event is with; 0 if it is no member at hand.
+std::uint32_t ExactLoop::version_of(std::uint32_t other) {
+  if (other == nobody) return 0;
+  const std::uint32_t owner = field_.owner_of(other);
+  return is_at_hand(owner) ? arena_.members[member_of(owner)].version : 0;
+}
+
 // The time has come up to which nothing could happen to the disk.
 void ExactLoop::look_again(std::uint32_t i) {
   const std::uint32_t owner = field_.owner_of(i);
@@ -192,12 +199,13 @@ void ExactLoop::look_again(std::uint32_t i) {
   }
   const PathSegment& path = field_.flight[i].path;
   const double from = std::max(path.start, field_.slice_start);
-  const NextEvent next = scan_.earliest(i, path, from, [&](std::uint32_t j) {
+  NextEvent next = scan_.earliest(i, path, from, [&](std::uint32_t j) -> const PathSegment* {
     const std::uint32_t held = field_.owner_of(j);
-    if (!is_at_hand(held)) return Seen{&field_.flight[j].path, 0};
+    if (!is_at_hand(held)) return &field_.flight[j].path;
     const Member& other = arena_.members[member_of(held)];
-    return other.gone ? Seen{} : Seen{&other.now.path, other.version};
+    return other.gone ? nullptr : &other.now.path;
   });
+  if (next.other != i) next.other_version = version_of(next.other);
   const double exit = exit_after(i, path, field_.slice_start, next.time);
   if (field_.in_slice(exit)) {
     arena_.roaming.push_back(i);
@@ -212,16 +220,17 @@ void ExactLoop::look_around(std::uint32_t m) {
   const std::uint32_t i = arena_.members[m].disk;
   const PathSegment path = arena_.members[m].now.path;
   const double from = std::max(path.start, field_.slice_start);
-  const NextEvent next = scan_.earliest(i, path, from, [&](std::uint32_t j) {
+  NextEvent next = scan_.earliest(i, path, from, [&](std::uint32_t j) -> const PathSegment* {
     const std::uint32_t owner = field_.owner_of(j);
-    if (owner == nobody) return Seen{&field_.flight[j].path, 0};
+    if (owner == nobody) return &field_.flight[j].path;
     if (!is_at_hand(owner)) {
       arena_.cross_pairs.push_back({m, owner});
-      return Seen{};
+      return nullptr;
     }
     const Member& other = arena_.members[member_of(owner)];
-    return other.gone ? Seen{} : Seen{&other.now.path, other.version};
+    return other.gone ? nullptr : &other.now.path;
   });
+  if (next.other != i) next.other_version = version_of(next.other);
   const double exit = exit_after(i, path, from, next.time);
   Member& member = arena_.members[m];
   member.next = next;

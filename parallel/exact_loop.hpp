@@ -39,6 +39,7 @@ class ExactLoop {
 
   void push(std::uint32_t disk, std::uint32_t version, const NextEvent& event);
   void push_due(std::uint32_t disk);
+  std::uint32_t version_of(std::uint32_t other);
   void look_again(std::uint32_t disk);
   void look_around(std::uint32_t member);
   double exit_after(std::uint32_t disk, const PathSegment& path, double from, double next) const;

@@ -5,25 +5,25 @@
 namespace carom {
 
 // The exact formula; `best` becomes this meeting if it comes first.
-void ExactScan::meet(std::uint32_t i, const PathSegment& path, std::uint32_t j, const Seen& seen,
+void ExactScan::meet(std::uint32_t i, const PathSegment& path, std::uint32_t j, const PathSegment& seen,
                      NextEvent& best) const {
-  const Flight& own = field_.flight[i];
-  const Flight& other = field_.flight[j];
-  const ExactRules& rules = field_.rules;
+  const Flight& own = field_->flight[i];
+  const Flight& other = field_->flight[j];
+  const ExactRules& rules = field_->rules;
   const bool in_order = own.id < other.id;
   const double reach = own.radius + other.radius;
-  const PathSegment& first = in_order ? path : *seen.path;
-  const PathSegment& second = in_order ? *seen.path : path;
-  const double t = meeting_time(first, second, reach, rules.box, rules.gravity, field_.horizon);
+  const PathSegment& first = in_order ? path : seen;
+  const PathSegment& second = in_order ? seen : path;
+  const double t = meeting_time(first, second, reach, rules.box, rules.gravity, field_->horizon);
   if (t == never) return;
-  const NextEvent e{t, in_order ? own.id : other.id, in_order ? other.id : own.id, j, seen.version};
+  const NextEvent e{t, in_order ? own.id : other.id, in_order ? other.id : own.id, j, 0};
   if (e.before(best)) best = e;
 }
 
 ApproachFrame ExactScan::frame(const PathSegment& path, double from) const {
-  const ExactRules& rules = field_.rules;
+  const ExactRules& rules = field_->rules;
   const PathSegment p = carried_to(path, from, rules.gravity);
-  const double blur = 0.1 * field_.slack;
+  const double blur = 0.1 * field_->slack;
   ApproachFrame f{from, p.x, p.y, p.vx, p.vy, rules.gravity, 0.0, 0.0, HUGE_VAL, HUGE_VAL, blur * blur};
   if (rules.box.periodic_x()) {
     f.width = rules.box.width;
@@ -37,15 +37,15 @@ ApproachFrame ExactScan::frame(const PathSegment& path, double from) const {
 }
 
 NextEvent ExactScan::earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far) const {
-  const Flight& own = field_.flight[i];
-  const Domain& box = field_.rules.box;
-  const double g = field_.rules.gravity;
+  const Flight& own = field_->flight[i];
+  const Domain& box = field_->rules.box;
+  const double g = field_->rules.gravity;
   NextEvent best;
   const auto look = [&](Side side) {
-    const NextEvent e{side_time(path, side, own.radius, box, g, field_.horizon), own.id, wall_partner(side), i, 0};
+    const NextEvent e{side_time(path, side, own.radius, box, g, field_->horizon), own.id, wall_partner(side), i, 0};
     if (e.time < never && e.before(best)) best = e;
   };
-  const unsigned near = lists_.sides_near(i);
+  const unsigned near = lists_->sides_near(i);
   if (near != 0) {
     for (const Side side : all_sides) {
       if ((near >> static_cast<unsigned>(side) & 1U) != 0) look(side);
@@ -53,7 +53,7 @@ NextEvent ExactScan::earliest_at_sides(std::uint32_t i, const PathSegment& path,
   }
   if (!far) return best;
   // Crossing events can only happen to a disk that flies far within the window.
-  const double span = (field_.horizon - path.start) * (1.0 + 1e-9);
+  const double span = (field_->horizon - path.start) * (1.0 + 1e-9);
   if (box.periodic_x() && std::abs(path.vx) * span >= longest_flight * box.width) {
     look(path.vx > 0.0 ? Side::right : Side::left);
   }

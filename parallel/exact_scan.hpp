@@ -12,19 +12,14 @@
 
 namespace carom {
 
-// How a neighbour looks; path is null for one that is left out.
-struct Seen {
-  const PathSegment* path = nullptr;
-  std::uint32_t version = 0;
-};
-
 // One look around of disk i, on its path, at a time from which the future is wanted.
 class ExactScan {
  public:
   ExactScan(const ExactField& field, const ExactLists& lists)
-      : field_(field), lists_(lists), approaching_(choose_approach_kernel()), fastest2_(field.fastest2) {}
+      : field_(&field), lists_(&lists), approaching_(choose_approach_kernel()), fastest2_(field.fastest2) {}
 
-  // The earliest event with a side or a listed disk, up to the horizon. see(j) says how disk j is to be seen.
+  // The earliest event with a side or a listed disk, up to the horizon; its other_version is left to the caller.
+  // see(j) says on which path disk j is to be seen, null: not at all.
   template <class See>
   NextEvent earliest(std::uint32_t i, const PathSegment& path, double from, See&& see);
 
@@ -33,14 +28,14 @@ class ExactScan {
 
  private:
   bool flies_far(const PathSegment& path) const {
-    return !(std::max(fastest2_, path.vx * path.vx + path.vy * path.vy) <= field_.safe_speed2);
+    return !(std::max(fastest2_, path.vx * path.vx + path.vy * path.vy) <= field_->safe_speed2);
   }
   NextEvent earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far) const;
-  void meet(std::uint32_t i, const PathSegment& path, std::uint32_t j, const Seen& seen, NextEvent& best) const;
+  void meet(std::uint32_t i, const PathSegment& path, std::uint32_t j, const PathSegment& other, NextEvent& best) const;
   ApproachFrame frame(const PathSegment& path, double from) const;
 
-  const ExactField& field_;
-  const ExactLists& lists_;
+  const ExactField* field_;
+  const ExactLists* lists_;
   ApproachKernel approaching_;
   double fastest2_;  // largest v^2 so far
 };
@@ -48,36 +43,40 @@ class ExactScan {
 // Two passes: a test of signs leaves those that approach on paths that come near enough; the exact formula decides.
 template <class See>
 NextEvent ExactScan::earliest(std::uint32_t i, const PathSegment& path, double from, See&& see) {
-  const double own_reach = field_.flight[i].radius + field_.slack;
+  const double own_reach = field_->flight[i].radius + field_->slack;
   const bool far = flies_far(path);
   const ApproachFrame own = frame(path, from);
   NextEvent best = earliest_at_sides(i, path, far);
-  const ExactLists::Neighbours list = lists_.of(i);
+  static_assert(ExactLists::chunk < ApproachBatch::size);
   ApproachBatch batch;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled up to n
   std::uint32_t disk[ApproachBatch::size];
-  std::uint32_t version[ApproachBatch::size];
-  for (std::uint32_t first = 0; first < list.count; first += ApproachBatch::size) {
-    const std::uint32_t last = std::min(list.count, first + ApproachBatch::size);
+  lists_->see_neighbours(i, [&](const std::uint32_t* near, std::uint32_t count) {
     std::uint32_t n = 0;
-    for (std::uint32_t k = first; k < last; ++k) {
-      const std::uint32_t j = list.first[k];
-      const Seen seen = see(j);
-      if (seen.path == nullptr) continue;
-      batch.path[n] = seen.path;
-      batch.reach[n] = own_reach + field_.flight[j].radius;
-      disk[n] = j;
-      version[n] = seen.version;
-      ++n;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const PathSegment* const seen = see(near[k]);
+      if (seen == nullptr) continue;
+      batch.path[n] = seen;
+      batch.reach[n] = own_reach + field_->flight[near[k]].radius;
+      disk[n++] = near[k];
     }
     std::uint32_t candidates = approaching_(own, batch, n);
-    if (far) candidates = n == 32 ? 0xffffffffU : (1U << n) - 1U;
-    for (; candidates != 0; candidates &= candidates - 1U) {
-      const auto k = static_cast<std::uint32_t>(std::countr_zero(candidates));
-      const double time_left = std::min(best.time, field_.horizon) - from;
-      const bool too_late = batch.c[k] > -2.0 * std::min(batch.b[k], 0.0) * time_left * (1.0 + 1e-9);
-      if (far || !too_late) meet(i, path, disk[k], {batch.path[k], version[k]}, best);
+    if (far) {
+      for (std::uint32_t k = 0; k < n; ++k) meet(i, path, disk[k], *batch.path[k], best);
+      return;
     }
-  }
+    // The likely first one first: it spares most of the others.
+    while (candidates != 0) {
+      auto first = static_cast<std::uint32_t>(std::countr_zero(candidates));
+      for (std::uint32_t left = candidates & (candidates - 1U); left != 0; left &= left - 1U) {
+        const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
+        if (batch.least[k] < batch.least[first]) first = k;
+      }
+      const double latest = (std::min(best.time, field_->horizon) - from) * (1.0 + 1e-9);
+      if (batch.least[first] > latest) break;
+      candidates &= ~(1U << first);
+      meet(i, path, disk[first], *batch.path[first], best);
+    }
+  });
   return best;
 }
 

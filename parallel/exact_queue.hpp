@@ -1,0 +1,95 @@
+// The events to come of a window, in order of time: a calendar whose pages are heaps.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace carom {
+
+// What is to happen to a disk at a time.
+struct QueuedEvent {
+  double time = 0.0;
+  DiskId id1 = 0, id2 = 0;  // of the two that meet; 0, 0: the disk has to look, which comes before what meets
+  std::uint32_t disk = 0;   // storage index
+
+  // The canonical order, backwards.
+  bool after(const QueuedEvent& e) const {
+    if (time != e.time) return time > e.time;
+    if (id1 != e.id1) return id1 > e.id1;
+    return id2 > e.id2;
+  }
+};
+
+// Events are put on the page of their time, in any order; a page is made a heap when its time comes. So an event costs
+// the same however many there are, and little memory is touched but the page at hand. What became void
+// meanwhile stays in the queue; whoever takes it out has to see that.
+class ExactQueue {
+ public:
+  // Empty, for about `expected` events in [start, end). Others are welcome too, at some cost.
+  void begin(double start, double end, std::size_t expected);
+
+  void push(const QueuedEvent& e) {
+    const std::uint32_t page = page_of(e.time);
+    if (page < next_page_) {
+      heap_.push_back(e);
+      std::push_heap(heap_.begin(), heap_.end(), after);
+    } else {
+      write(page, {e.time, e.disk});
+    }
+  }
+
+  // Takes out the first event; false if there is none. name(e) sets the ids of an event.
+  template <class Name>
+  bool pop(QueuedEvent& e, Name&& name) {
+    while (heap_.empty()) {
+      if (next_page_ == first_.size()) return false;
+      turn_page();
+      for (QueuedEvent& now : heap_) name(now);
+      std::make_heap(heap_.begin(), heap_.end(), after);
+    }
+    std::pop_heap(heap_.begin(), heap_.end(), after);
+    e = heap_.back();
+    heap_.pop_back();
+    return true;
+  }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffU;
+  struct Note {
+    double time;
+    std::uint32_t disk;
+  };
+  static constexpr std::uint32_t chunk_notes = 7;
+  // Two cache lines of a page.
+  struct alignas(64) Chunk {
+    Note note[chunk_notes];
+    std::uint32_t next;
+    std::uint32_t count;
+  };
+  static_assert(sizeof(Chunk) == 128);
+
+  static bool after(const QueuedEvent& a, const QueuedEvent& b) { return a.after(b); }
+
+  std::uint32_t page_of(double time) const {
+    const double page = (time - start_) * pages_per_time_;
+    if (!(page > 0.0)) return 0;
+    return page < last_page_ ? static_cast<std::uint32_t>(page) : static_cast<std::uint32_t>(first_.size() - 1);
+  }
+  void write(std::uint32_t page, const Note& note);
+  void turn_page();
+
+  double start_ = 0.0;
+  double pages_per_time_ = 0.0;
+  double last_page_ = 0.0;
+  std::uint32_t next_page_ = 0;
+  std::uint32_t free_ = none;         // chunks that hold nothing, chained
+  std::vector<std::uint32_t> first_;  // chunk of each page
+  std::vector<Chunk> chunks_;
+  std::vector<QueuedEvent> heap_;  // what is left of the pages turned
+};
+
+}  // namespace carom
