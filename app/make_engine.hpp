@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/engine.hpp"
+#include "core/pair_distances.hpp"
 
 namespace carom {
 
@@ -24,6 +25,9 @@ EngineChoice choose_engine(const std::string& engine, std::optional<int> threads
 State make_initial_state(const EngineChoice& choice, const Scene& scene);
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial);
+
+// Who counts pairs by distance (core/pair_distances.hpp); either engine's way gives the same numbers.
+PairCounter make_pair_counter(const EngineChoice& choice);
 
 // Throws the InputError of a scene whose disks found no memory.
 [[noreturn]] void fail_memory(const Scene& scene);

@@ -14,6 +14,9 @@ inline constexpr std::array<std::string_view, 4> method_words{"rollback", "pairw
 inline constexpr std::array<std::string_view, 3> trajectory_names{"none", "xyz", "h5md"};          // TrajectoryFormat
 inline constexpr std::array<std::string_view, 3> position_names{"random", "square", "hexagonal"};  // PositionLaw::Kind
 inline constexpr std::array<std::string_view, 2> precision_names{"double", "single"};
+inline constexpr std::array<std::string_view, 6> quantity_names{
+    "pair_correlation", "displacement", "speeds", "density", "pressure", "collision_rate"};  // Quantity
+inline constexpr std::array<std::string_view, 2> axis_names{"x", "y"};
 inline constexpr std::array<std::string_view, 2> plot_names{"velocity", "energy"};
 
 }  // namespace carom
