@@ -17,7 +17,7 @@ constexpr std::size_t sum_block = 4096;
 
 std::int32_t part_of(double coordinate, double period) {
   const double part = std::floor(coordinate / period * static_cast<double>(parts));
-  return static_cast<std::int32_t>(std::clamp(part, 0.0, static_cast<double>(parts - 1)));
+  return part > 0.0 ? static_cast<std::int32_t>(std::min(part, static_cast<double>(parts - 1))) : 0;
 }
 
 bool is_followed(const AxisTally& axis, DiskId id) {

@@ -73,6 +73,9 @@ std::size_t DistanceCells::neighbours(std::size_t row, std::size_t column, std::
   return count;
 }
 
+// round_corner: the cells may be neighbours across a periodic side. Elsewhere the nearest image is the disk itself, or
+// it is further than r_max.
+template <bool round_corner>
 void DistanceCells::count_between(std::size_t cell, std::size_t other, std::vector<Count>& counts) const {
   const double r_max2 = bins_.r_max * bins_.r_max;
   const double bins_per_length = static_cast<double>(bins_.bins) / bins_.r_max;
@@ -82,8 +85,10 @@ void DistanceCells::count_between(std::size_t cell, std::size_t other, std::vect
       const Place& q = places_[b];
       double dx = q.x - p.x;
       double dy = q.y - p.y;
-      if (x_.periodic) dx = nearest_image(dx, x_.length);
-      if (y_.periodic) dy = nearest_image(dy, y_.length);
+      if constexpr (round_corner) {
+        if (x_.periodic) dx = nearest_image(dx, x_.length);
+        if (y_.periodic) dy = nearest_image(dy, y_.length);
+      }
       const double r2 = dx * dx + dy * dy;
       if (!(r2 < r_max2)) continue;
       const auto bin = static_cast<std::size_t>(std::sqrt(r2) * bins_per_length);
@@ -97,9 +102,13 @@ void DistanceCells::count(std::size_t begin, std::size_t end, std::vector<Count>
   for (std::size_t row = begin; row < end; ++row) {
     for (std::size_t column = 0; column < x_.cells; ++column) {
       const std::size_t home = row * x_.cells + column;
-      count_between(home, home, counts);
+      const bool at_side = row + 1 == y_.cells || column == 0 || column + 1 == x_.cells;
+      const auto count_with = [&](std::size_t other) {
+        at_side ? count_between<true>(home, other, counts) : count_between<false>(home, other, counts);
+      };
+      count_with(home);
       const std::size_t n = neighbours(row, column, around);
-      for (std::size_t k = 0; k < n; ++k) count_between(home, around[k], counts);
+      for (std::size_t k = 0; k < n; ++k) count_with(around[k]);
     }
   }
 }

@@ -46,6 +46,7 @@ class DistanceCells {
   };
   Axis axis(double length, bool periodic, std::size_t disks) const;
   std::size_t neighbours(std::size_t row, std::size_t column, std::array<std::size_t, 4>& cells) const;
+  template <bool round_corner>
   void count_between(std::size_t cell, std::size_t other, std::vector<Count>& counts) const;
 
   DistanceBins bins_;

@@ -85,6 +85,7 @@ void put_series(Hdf5Output& output, const AnalysisRecord& record, const Analysis
     group.numbers("mean_square", series.displacement, "length^2");
     group.whole("disks", series.followed);
     group.say("meaning", "since the first sample; of the disks of that time that are still there");
+    group.say("doubtful", static_cast<double>(record.displacement.doubtful));
   }
   if (plan.wants(Quantity::pressure)) {
     const Group group(output, "/pressure");

@@ -108,8 +108,8 @@ Figure displacement_figure(const Scene& scene, const AnalysisRecord& record) {
   const double end = curve.x.empty() ? 1.0 : curve.x.back();
   panel.lines.push_back(curve);
   if (curve.x.size() > 1) {
-    panel.lines.push_back(slope("t^2", curve, 0, 2.0));
-    panel.lines.push_back(slope("t", curve, curve.x.size() - 1, 1.0));
+    panel.lines.push_back(slope("~ t^2", curve, 0, 2.0));
+    panel.lines.push_back(slope("~ t", curve, curve.x.size() - 1, 1.0));
   }
   return {heading(scene, "displacement"), "time since the first sample", end, {panel}, true};
 }
@@ -131,7 +131,8 @@ bool draw_analysis(const std::string& folder, const Scene& scene, const Analysis
       case Quantity::pressure:
         return series_figure(scene, record, series.pressure, "pressure", "pressure");
       default:
-        return series_figure(scene, record, series.collision_rate, "collision rate", "collisions of a disk");
+        return series_figure(scene, record, series.collision_rate, "collision rate",
+                             "collisions per disk and unit time");
     }
   };
   for (std::size_t k = 0; k < quantity_names.size(); ++k) {
