@@ -60,9 +60,16 @@ double displacement(const AxisTally& axis, double coordinate, DiskId id, double 
 
 }  // namespace
 
+double largest_speed(const Disks& d) {
+  double largest2 = 0.0;
+  for (std::size_t i = 0; i < d.size(); ++i) largest2 = std::max(largest2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+  return std::sqrt(largest2);
+}
+
 void begin_displacement(DisplacementTally& tally, const Disks& d, const Domain& box, double time) {
   tally.begun = true;
-  tally.looked_at = time;
+  tally.looked_at = tally.checked_at = time;
+  tally.fastest = largest_speed(d);
   begin_axis(tally.x, d.x, d.id, box.width, box.periodic_x());
   begin_axis(tally.y, d.y, d.id, box.height, box.periodic_y());
 }

@@ -29,6 +29,9 @@ struct DisplacementTally {
   Count doubtful = 0;       // moves between two looks that were, or may have been, too long to be sure of
 };
 
+// sqrt(vx^2 + vy^2) of the fastest disk, 0 without disks.
+double largest_speed(const Disks& disks);
+
 // From here on displacements count, of the disks that are there.
 void begin_displacement(DisplacementTally& tally, const Disks& disks, const Domain& box, double time);
 

@@ -15,12 +15,6 @@ constexpr std::size_t few_disks = 4096;
 // Looks within one step beyond which a speed is no speed any more.
 constexpr double most_looks = 10'000.0;
 
-double largest_speed(const Disks& d) {
-  double largest2 = 0.0;
-  for (std::size_t i = 0; i < d.size(); ++i) largest2 = std::max(largest2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
-  return std::sqrt(largest2);
-}
-
 double shortest_period(const Domain& box) {
   return std::min(box.periodic_x() ? box.width : HUGE_VAL, box.periodic_y() ? box.height : HUGE_VAL);
 }
@@ -35,7 +29,8 @@ bool follow_disks(DisplacementTally& tally, const Engine& engine, const Scene& s
   // No disk can come further in a time, if none is faster at both its ends.
   const auto reach = [g](double speed, double time) { return (speed + g * time) * time; };
   double speed = tally.fastest;
-  const bool ask = scene.physics.diffusion > 0.0 || now.disks.size() < few_disks ||
+  // Brownian motion draws speeds anew, and sources bring in new ones.
+  const bool ask = scene.physics.diffusion > 0.0 || !scene.sources.empty() || now.disks.size() < few_disks ||
                    !(reach(speed, t - tally.checked_at) < check_share * period);
   if (ask) {
     tally.fastest = largest_speed(now.disks);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/input_message.hpp"
 #include "core/scene_names.hpp"
@@ -81,19 +80,25 @@ void settle_pairs(Scene& scene, double largest_radius, const PlaceOfKey& place) 
   AnalysisPlan& plan = scene.analysis;
   const Reach x = reach_along(scene.box.width, scene.box.periodic_x(), largest_radius);
   const Reach y = reach_along(scene.box.height, scene.box.periodic_y(), largest_radius);
-  const double most = std::min({x.most, y.most, std::numeric_limits<double>::max()});
+  const double most = std::min(x.most, y.most);
   const double diameter = 2.0 * largest_radius;
-  if (plan.r_max == 0.0) plan.r_max = std::min({default_reach * diameter, x.usual, y.usual});
+  if (!(most > 0.0)) {
+    fail_input(place("analysis.what"), "pair_correlation finds no room: a disk fills the box from wall to wall",
+               "expected a larger box");
+  }
+  // A scene may have no disk at all.
+  if (plan.r_max == 0.0) plan.r_max = std::min({x.usual, y.usual, diameter > 0.0 ? default_reach * diameter : x.usual});
   const bool periodic = scene.box.periodic_x() && scene.box.periodic_y();
-  if (!(plan.r_max > 0.0) || plan.r_max > most) {
+  if (plan.r_max > most) {
     fail_input(place("analysis.pair_correlation.r_max"), fmt::format("{} is too large for the box", plan.r_max),
                fmt::format("expected at most {}, {}", most,
                            periodic ? "half the shorter side"
                                     : "half a periodic side, and what leaves disks that far from all walls"));
   }
   if (plan.r_bins == 0) {
-    plan.r_bins = static_cast<Count>(
-        std::clamp(std::round(bins_per_diameter * plan.r_max / diameter), 10.0, static_cast<double>(most_bins)));
+    plan.r_bins = static_cast<Count>(diameter > 0.0 ? std::clamp(std::round(bins_per_diameter * plan.r_max / diameter),
+                                                                 10.0, static_cast<double>(most_bins))
+                                                    : bins_per_diameter);
   }
   plan.wall_margin = plan.r_max + largest_radius;
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/follow_disks.hpp"
@@ -25,7 +26,8 @@ std::vector<Disk> rows(std::size_t n, double speed) {
   std::vector<Disk> list;
   for (std::size_t i = 0; i < n; ++i) {
     const double y = 4.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
-    list.push_back({draws.in(0.0, 6.0), y, draws.in(-speed, speed), 0.3 * speed, 0.02, 1.0, 0});
+    const double radius = std::min(0.02, 0.8 / static_cast<double>(n));
+    list.push_back({draws.in(0.0, 6.0), y, draws.in(-speed, speed), 0.3 * speed, radius, 1.0, 0});
   }
   return list;
 }
@@ -67,6 +69,16 @@ TEST(Displacement, FreeFlightGoesRoundTheBox) {
       EXPECT_EQ(f.doubtful, 0U);
     }
   }
+}
+
+// So many that speeds are asked for seldom.
+TEST(Displacement, ManyDisksAreFollowedToo) {
+  const Scene scene = periodic_scene(Method::exact, 0.0, 3.0);
+  const std::vector<Disk> list = rows(5000, 10.0);
+  const auto engine = make_parallel_engine(scene, test::state_of(scene, list), {2});
+  const Followed f = follow(*engine, scene);
+  EXPECT_NEAR(f.mean.value / (mean_square_speed(list) * 9.0), 1.0, 1e-9);
+  EXPECT_EQ(f.doubtful, 0U);
 }
 
 // Falling for ever: g t^2 / 2 down, from rest.

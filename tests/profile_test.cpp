@@ -50,7 +50,7 @@ TEST(DensityProfile, StorageOrderChangesNoBit) {
   test::Draws draws(3);
   const Domain box{10.0, 10.0};
   std::vector<Disk> list = test::random_disks(draws, box, 40, {0.1, 0.5});
-  const auto covered = [&](std::vector<Disk> disks) {
+  const auto covered = [&](const std::vector<Disk>& disks) {
     DensityProfile profile{std::vector<Count>(30, 0), std::vector<double>(30, 0.0), 0};
     add_density(profile, test::disks_of(disks), box, false);
     return profile.covered;
