@@ -194,8 +194,13 @@ std::string outputs_text(const Scene& scene, const Findings& f) {
   for (const std::string& plot : plan.plots) files.push_back(plot + ".svg");
   if (plan.movie)
     files.push_back(fmt::format("movie ({} at 25 a second)", duration_text(static_cast<double>(f.frames) / 25.0)));
-  if (files.empty()) return "none asked for";
-  return fmt::format("{} frames: {}", f.frames, fmt::join(files, ", "));
+  std::vector<std::string> parts;
+  if (!files.empty()) parts.push_back(fmt::format("{} frames: {}", f.frames, fmt::join(files, ", ")));
+  if (scene.analysis.any()) {
+    const Count samples = frame_count(scene.analysis.every, scene.run.t_end - scene.analysis.start);
+    parts.push_back(fmt::format("analysis.h5 and its plots from {} samples", samples));
+  }
+  return parts.empty() ? "none asked for" : fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string offer_text(const MethodOffer& offer, bool best) {

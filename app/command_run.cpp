@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 // Where the results go: -o, or out/<name of the scene> if the scene asks for files at all.
 std::optional<fs::path> folder_of(const RunOptions& options, const Scene& scene) {
   if (options.folder) return *options.folder;
-  if (!wants_frames(scene.output) && !(scene.output.checkpoint > 0.0)) return std::nullopt;
+  if (!wants_files(scene)) return std::nullopt;
   return fs::path("out") / fs::path(options.scene).stem();
 }
 
@@ -64,14 +64,15 @@ const OutputFolder& with_files(OutputFolder& folder, const RunTask& task) {
 
 // The files of a run, if it has any, from the first byte to the finished folder.
 struct Results {
-  Results(const Scene& scene, const fs::path& path, bool force)
-      : folder(path, scene.file, force), outputs(scene, folder) {
-    write_file(folder.path("scene.toml"), resolved_toml(scene));
+  Results(const RunTask& task, const fs::path& path)
+      : folder(path, task.scene.file, task.force), outputs(task.scene, folder, make_pair_counter(task.choice)) {
+    write_file(folder.path("scene.toml"), resolved_toml(task.scene));
   }
   explicit Results(const RunTask& task)
       : folder(goes_elsewhere(task) ? OutputFolder(*task.folder, task.from->place.file, task.force)
                                     : OutputFolder(*task.folder)),
-        outputs(task.scene, with_files(folder, task), task.from->checkpoint.record.outputs) {
+        outputs(task.scene, with_files(folder, task), make_pair_counter(task.choice),
+                task.from->checkpoint.record.outputs) {
     write_file(folder.path("scene.toml"), resolved_toml(task.scene));
   }
   OutputFolder folder;
@@ -129,12 +130,25 @@ double run_watched(Engine& engine, const RunTask& task, Results* results, Checkp
     }
     return go_on;
   };
+  RunningAnalysis* const analysis = results != nullptr ? results->outputs.analysis() : nullptr;
   if (results != nullptr && wants_frames(scene.output)) {
     observer.frame = [&](const Disks& disks, double time) {
+      if (analysis != nullptr) analysis->follow(engine, time);
       results->outputs.frame(disks, time, engine.state());
       warn(results->outputs.take_warnings(), progress, task.quiet);
     };
     if (task.from && results->outputs.frames() > 0) observer.last_frame = results->outputs.last_time();
+  }
+  if (analysis != nullptr) {
+    observer.sample = [&](const Disks& disks, double time) {
+      analysis->follow(engine, time);
+      analysis->sample(disks, time, engine.state());
+      warn(results->outputs.take_warnings(), progress, task.quiet);
+    };
+    if (!analysis->record().series.time.empty()) observer.last_sample = analysis->last_time();
+    if (scene.analysis.wants(Quantity::displacement) && (scene.box.periodic_x() || scene.box.periodic_y())) {
+      observer.stepped = [&] { analysis->follow(engine, engine.state().time); };
+    }
   }
   try {
     return run_to_end(engine, scene, observer);
@@ -236,7 +250,7 @@ int carry_out(RunTask task) {
   try {
     std::optional<Results> results;
     if (task.folder && task.from) results.emplace(task);
-    if (task.folder && !task.from) results.emplace(scene, *task.folder, task.force);
+    if (task.folder && !task.from) results.emplace(task, *task.folder);
     Results* const files = results ? &*results : nullptr;
     if (files != nullptr) files->outputs.share_work(make_block_runner(task.choice));
     const bool there = task.from && !goes_elsewhere(task);

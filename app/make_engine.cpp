@@ -10,6 +10,7 @@
 
 #include "core/initial_state.hpp"
 #include "core/input_message.hpp"
+#include "parallel/pair_counting.hpp"
 #include "parallel/random_placement.hpp"
 #include "parallel/simulation.hpp"
 
@@ -52,6 +53,11 @@ BlockRunner make_block_runner(const EngineChoice& choice) {
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial) {
   if (choice.name == "reference") return make_reference_engine(scene, std::move(initial));
   return make_parallel_engine(scene, std::move(initial), {choice.threads});
+}
+
+PairCounter make_pair_counter(const EngineChoice& choice) {
+  if (choice.name == "reference") return count_pairs;
+  return parallel_pair_counter(choice.threads);
 }
 
 }  // namespace carom

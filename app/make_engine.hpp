@@ -11,6 +11,7 @@
 #include "core/block_runner.hpp"
 #include "core/engine.hpp"
 #include "core/growth.hpp"
+#include "core/pair_distances.hpp"
 
 namespace carom {
 
@@ -31,6 +32,9 @@ std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& sce
 
 // The threads that it chooses, for other work between its steps.
 BlockRunner make_block_runner(const EngineChoice& choice);
+
+// Who counts pairs by distance (core/pair_distances.hpp); either engine's way gives the same numbers.
+PairCounter make_pair_counter(const EngineChoice& choice);
 
 // Throws the InputError of a scene whose disks found no memory.
 [[noreturn]] void fail_memory(const Scene& scene);

@@ -1,7 +1,9 @@
 #include "app/run_loop.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstddef>
 
 #include "io/frame_schedule.hpp"
 
@@ -15,42 +17,71 @@ constexpr double pulse_seconds = 0.01;
 constexpr Count most_steps_between_looks = 100'000;
 
 // Time stepping adds up dt; an exact run can be looked at any time, and needs no slack.
-FrameSchedule schedule_of(const Scene& scene) {
+double slack_of(const Scene& scene) {
   constexpr double slack = 1e-6;
-  return {scene.output.every, scene.run.t_end, scene.run.method == Method::exact ? 0.0 : slack};
+  return scene.run.method == Method::exact ? 0.0 : slack;
 }
 
-// Makes the frames that have become due.
+// One of those who look at the disks at times of their own, from `start` on.
+struct Watcher {
+  const std::function<void(const Disks&, double)>* look = nullptr;
+  double start = 0.0, early = 0.0;  // early: how much sooner than start will do
+  FrameSchedule schedule;
+
+  // The time at which it is due in a run that has come to `now`, or a negative number.
+  double due(double now) const {
+    if (*look == nullptr || now < start - early) return -1.0;
+    const double since = schedule.due(std::max(now - start, 0.0));
+    return since < 0.0 ? since : start + since;
+  }
+};
+
+Watcher watcher(const std::function<void(const Disks&, double)>& look, const Scene& scene, double every, double start,
+                const std::optional<double>& last) {
+  const double slack = slack_of(scene);
+  Watcher w{&look, start, slack * every, {every, scene.run.t_end - start, slack}};
+  if (last) w.schedule.made(*last - start);
+  return w;
+}
+
+// Shows the disks to whom they are due.
 class FrameMaker {
  public:
   FrameMaker(const Engine& engine, const Scene& scene, const RunObserver& observer)
-      : engine_(engine), observer_(observer), schedule_(schedule_of(scene)), wanted_(observer.frame != nullptr) {
-    if (observer.last_frame) schedule_.made(*observer.last_frame);
+      : engine_(engine),
+        watchers_{watcher(observer.sample, scene, scene.analysis.every, scene.analysis.start, observer.last_sample),
+                  watcher(observer.frame, scene, scene.output.every, 0.0, observer.last_frame)} {}
+
+  bool due() const {
+    const double now = engine_.state().time;
+    return watchers_[0].due(now) >= 0.0 || watchers_[1].due(now) >= 0.0;
   }
 
-  bool due() const { return wanted_ && schedule_.due(engine_.state().time) >= 0.0; }
-
   void make_due() {
+    const double now = engine_.state().time;
+    double shown = -1.0;  // the time asked for that disks_ are of
     while (due()) {
-      const double time = engine_.disks_at(schedule_.due(engine_.state().time), disks_);
-      observer_.frame(disks_, time);
-      schedule_.made(time);
+      const double times[] = {watchers_[0].due(now), watchers_[1].due(now)};
+      const std::size_t first = times[1] < 0.0 || (times[0] >= 0.0 && times[0] <= times[1]) ? 0 : 1;
+      if (times[first] != shown) time_ = engine_.disks_at(times[first], disks_);
+      shown = times[first];
+      (*watchers_[first].look)(disks_, time_);
+      watchers_[first].schedule.made(time_ - watchers_[first].start);
     }
   }
 
  private:
   const Engine& engine_;
-  const RunObserver& observer_;
-  FrameSchedule schedule_;
-  bool wanted_;
+  std::array<Watcher, 2> watchers_;
   Disks disks_;
+  double time_ = 0.0;
 };
 
 }  // namespace
 
 double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observer) {
   FrameMaker frames(engine, scene, observer);
-  if (!observer.frame) engine.forget_paths();
+  if (!observer.frame && !observer.sample) engine.forget_paths();
   frames.make_due();
   double step_seconds = 0.0;
   // Steps between two looks at the clock: reading it costs as much as a step of two disks. How many they are depends on
@@ -58,12 +89,16 @@ double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observe
   Count batch = 1;
   while (engine.state().time < scene.run.t_end) {
     const auto start = Clock::now();
-    for (Count k = 0; k < batch && engine.state().time < scene.run.t_end && !frames.due(); ++k) engine.step();
+    for (Count k = 0; k < batch && engine.state().time < scene.run.t_end && !frames.due(); ++k) {
+      if (observer.stepped && k > 0) observer.stepped();
+      engine.step();
+    }
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     step_seconds += seconds;
     if (seconds < 0.5 * pulse_seconds) batch = std::min(2 * batch, most_steps_between_looks);
     if (seconds > pulse_seconds && batch > 1) batch /= 2;
     frames.make_due();
+    if (observer.stepped) observer.stepped();
     if (observer.pulse && !observer.pulse(step_seconds)) break;
   }
   return step_seconds;

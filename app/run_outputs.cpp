@@ -19,7 +19,11 @@ bool wants_frames(const OutputPlan& plan) {
   return plan.trajectory != TrajectoryFormat::none || plan.series || plan.movie || !plan.plots.empty();
 }
 
-RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder)
+bool wants_files(const Scene& scene) {
+  return wants_frames(scene.output) || scene.analysis.any() || scene.output.checkpoint > 0.0;
+}
+
+RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count)
     : scene_(scene),
       folder_(folder),
       meter_(scene, false),
@@ -32,9 +36,10 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder)
     h5md_ = std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene);
   }
   if (scene.output.series) series_ = std::make_unique<SeriesWriter>(folder.path("series.csv"), scene);
+  if (scene.analysis.any()) analysis_ = std::make_unique<RunningAnalysis>(scene, folder, count);
 }
 
-RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const OutputMark& from)
+RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count, const OutputMark& from)
     : scene_(scene),
       folder_(folder),
       frames_(from.frames),
@@ -53,16 +58,21 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Out
     }
   }
   if (from.series) series_ = std::make_unique<SeriesWriter>(folder.path(from.series->file.name), scene, *from.series);
+  if (scene.analysis.any()) {
+    analysis_ = std::make_unique<RunningAnalysis>(scene, folder, count,
+                                                  from.analysis ? *from.analysis : empty_record(scene.analysis));
+  }
   if (!from.movie) return;
   const FrameStyle style{scene.title, scene.box, from.movie->fastest, from.movie->time_decimals};
   movie_ = std::make_unique<MovieWriter>(folder_.unfinished(), style, *from.movie);
 }
 
 OutputMark RunOutputs::mark_without_movie() {
-  OutputMark mark{frames_, last_time_, {}, {}, meter_.mark(), {}, velocities_, energies_};
+  OutputMark mark{frames_, last_time_, {}, {}, meter_.mark(), {}, velocities_, energies_, {}};
   if (trajectory_) mark.trajectory = trajectory_->mark();
   if (h5md_) mark.trajectory = h5md_->mark();
   if (series_) mark.series = series_->mark();
+  if (analysis_) mark.analysis = analysis_->record();
   return mark;
 }
 
@@ -77,7 +87,10 @@ void RunOutputs::frame(const Disks& disks, double time, const State& now) {
   last_time_ = time;
   if (trajectory_) trajectory_->write(disks, time, run_);
   SeriesRow row{};
-  if (series_) row = series_->write(disks, time, now, run_);
+  if (series_) {
+    const bool displacement = scene_.analysis.wants(Quantity::displacement);
+    row = series_->write(disks, time, now, displacement ? analysis_->displacement(disks, time) : 0.0, run_);
+  }
   if (!series_ && h5md_) row = meter_.row(disks, now, run_);
   if (h5md_) h5md_->write(disks, time, now.counters.steps, row, run_);
   if (plot_velocity_) record(velocities_, disks, time);
@@ -102,6 +115,7 @@ void RunOutputs::draw_plots() {
   bool drawn = true;
   if (plot_velocity_) drawn = plot_velocity(folder_.path("velocity.svg"), scene_.title, velocities_);
   if (plot_energy_ && drawn) drawn = plot_energy(folder_.path("energy.svg"), scene_.title, energies_);
+  if (analysis_ && drawn) drawn = analysis_->draw();
   if (!drawn) warnings_.emplace_back("gnuplot is not installed: no plots are drawn");
 }
 
@@ -118,10 +132,14 @@ void RunOutputs::pause() {
   if (trajectory_) trajectory_->close();
   if (h5md_) h5md_->close();
   if (series_) series_->close();
+  if (analysis_) analysis_->write();
 }
 
 std::vector<std::string> RunOutputs::take_warnings() {
-  return std::exchange(warnings_, {});
+  std::vector<std::string> warnings = std::exchange(warnings_, {});
+  const std::string doubt = analysis_ ? analysis_->take_warning() : "";
+  if (!doubt.empty()) warnings.push_back(doubt);
+  return warnings;
 }
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/running_analysis.hpp"
 #include "core/block_runner.hpp"
 #include "core/engine.hpp"
 #include "io/movie.hpp"
@@ -17,21 +18,26 @@
 
 namespace carom {
 
-// Whether a scene asks for any file that is made of frames.
+// Whether a scene asks for any file that is made of frames; for any file at all.
 bool wants_frames(const OutputPlan& plan);
+bool wants_files(const Scene& scene);
 
 class RunOutputs {
  public:
-  // Opens the files in the folder. Throws RunError where one cannot be written, here and below.
-  RunOutputs(const Scene& scene, const OutputFolder& folder);
+  // Opens the files in the folder. count: who counts pairs for scene.analysis. Throws RunError where a file cannot be
+  // written, here and below.
+  RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count);
 
   // Goes on behind a mark: cuts back what came after it. Precondition: files_of(from) are in folder.unfinished().
-  RunOutputs(const Scene& scene, const OutputFolder& folder, const OutputMark& from);
+  RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count, const OutputMark& from);
 
   // Who shares the work of a frame; without, it is done in one thread. The files are the same.
   void share_work(BlockRunner run) { run_ = std::move(run); }
 
   void frame(const Disks& disks, double time, const State& now);
+
+  // What scene.analysis measures; null where it asks for nothing.
+  RunningAnalysis* analysis() const { return analysis_.get(); }
 
   // Brings all that was written onto the disk and says where it stands. Between two frames, whenever wanted.
   OutputMark mark();
@@ -61,6 +67,7 @@ class RunOutputs {
   std::unique_ptr<H5mdWriter> h5md_;
   SeriesMeter meter_;  // for trajectory.h5 where there is no series.csv
   std::unique_ptr<SeriesWriter> series_;
+  std::unique_ptr<RunningAnalysis> analysis_;
   std::unique_ptr<MovieWriter> movie_;  // from the first frame on, which sets its colour scale
   bool plot_velocity_ = false, plot_energy_ = false;
   VelocityRecord velocities_;

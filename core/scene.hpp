@@ -2,6 +2,7 @@
 // TOML, initial_state.hpp makes disks of it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -115,6 +116,27 @@ struct OutputPlan {
   double checkpoint = 0.0;  // seconds of wall time between checkpoints; 0: none but on a signal
 };
 
+// What can be measured while a run goes on.
+enum class Quantity : std::uint8_t { pair_correlation, displacement, speeds, density, pressure, collision_rate };
+
+// Measured at the times start + k every, and at t_end.
+struct AnalysisPlan {
+  std::array<bool, 6> wanted{};  // by Quantity
+  double every = 0.0;            // simulated time between samples; 0: only the first and the last
+  double start = 0.0;            // simulated time of the first
+  double r_max = 0.0;            // of the pair correlation; length
+  Count r_bins = 0;
+  double wall_margin =
+      0.0;                 // least distance from a side that is not periodic, of disks whose surroundings count; length
+  double speed_max = 0.0;  // of the speed histogram, in units of sqrt(T / m)
+  Count speed_bins = 0;
+  bool density_along_x = false;  // else along y
+  Count density_bins = 0;
+
+  bool wants(Quantity q) const { return wanted[static_cast<std::size_t>(q)]; }
+  bool any() const { return wanted != std::array<bool, 6>{}; }
+};
+
 struct Scene {
   std::string title;
   std::string file;  // as given on the command line
@@ -126,6 +148,7 @@ struct Scene {
   GrowthPlan growth;
   RunPlan run;
   OutputPlan output;
+  AnalysisPlan analysis;
 };
 
 }  // namespace carom

@@ -195,7 +195,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   return warnings;
 }
 
-void check_box(const Scene& scene, const PlaceOfKey& place) {
+double check_box(const Scene& scene, const PlaceOfKey& place) {
   double largest = 0.0;
   DiskId first_id = 0;
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
@@ -215,6 +215,7 @@ void check_box(const Scene& scene, const PlaceOfKey& place) {
   }
   check_axis(scene.box.width, scene.box.periodic_x(), largest, "width", place);
   check_axis(scene.box.height, scene.box.periodic_y(), largest, "height", place);
+  return largest;
 }
 
 }  // namespace carom

@@ -18,8 +18,8 @@ using PlaceOfKey = std::function<std::string(std::string_view key)>;
 void check_parts(const Scene& scene, const PlaceOfKey& place);
 
 // The box against the largest disk, and sources against the box. Precondition: check_parts passed, box.width and
-// box.height are known and positive. Throws InputError.
-void check_box(const Scene& scene, const PlaceOfKey& place);
+// box.height are known and positive. Throws InputError. Returns the largest radius that a disk of the scene can have.
+double check_box(const Scene& scene, const PlaceOfKey& place);
 
 // What is no error, but not what somebody may think it is: keys that the scene's method does not use. One line each.
 std::vector<std::string> scene_warnings(const Scene& scene);

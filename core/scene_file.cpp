@@ -12,6 +12,7 @@
 #include "core/duration.hpp"
 #include "core/input_message.hpp"
 #include "core/method_choice.hpp"
+#include "core/scene_analysis.hpp"
 #include "core/scene_check.hpp"
 #include "core/scene_laws.hpp"
 #include "core/scene_names.hpp"
@@ -303,8 +304,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   for (const Override& change : overrides) apply_override(tree, change);
   const SceneOrigin origin{name, folder, &tree, overrides, frames};
   const PlaceOfKey place = [&origin](std::string_view key) { return origin.where(key); };
-  const TableReader root(origin, "", tree,
-                         {"title", "seed", "box", "physics", "disks", "growth", "sources", "run", "output"});
+  const TableReader root(
+      origin, "", tree, {"title", "seed", "box", "physics", "disks", "growth", "sources", "run", "output", "analysis"});
   Scene scene;
   scene.file = name;
   scene.title = root.text("title").value_or("");
@@ -319,9 +320,11 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   scene.growth = read_growth(origin);
   scene.run = read_run(origin);
   scene.output = read_output(origin, scene.run.t_end);
+  const toml::table* analysis = section(origin, "analysis");
+  if (analysis != nullptr) scene.analysis = read_analysis(origin, *analysis, scene);
   check_parts(scene, place);
   settle_box(scene, size, place);
-  check_box(scene, place);
+  settle_analysis(scene, check_box(scene, place), place);
   if (scene.run.automatic) choose_run(scene, place);
   return scene;
 }

@@ -171,6 +171,28 @@ std::string output_text(const OutputPlan& output) {
          checkpoint;
 }
 
+// Empty where nothing is measured.
+std::string analysis_text(const AnalysisPlan& plan) {
+  if (!plan.any()) return "";
+  std::vector<std::string> names;
+  std::string tables;
+  for (std::size_t k = 0; k < quantity_names.size(); ++k) {
+    if (plan.wanted[k]) names.emplace_back(quantity_names[k]);
+  }
+  if (plan.wants(Quantity::pair_correlation)) {
+    tables += fmt::format("pair_correlation = {{ r_max = {}, bins = {} }}\n", number(plan.r_max), plan.r_bins);
+  }
+  if (plan.wants(Quantity::speeds)) {
+    tables += fmt::format("speeds = {{ max = {}, bins = {} }}\n", number(plan.speed_max), plan.speed_bins);
+  }
+  if (plan.wants(Quantity::density)) {
+    tables += fmt::format("density = {{ axis = \"{}\", bins = {} }}\n", axis_names[plan.density_along_x ? 0 : 1],
+                          plan.density_bins);
+  }
+  return fmt::format("\n[analysis]\nwhat = {}\nevery = {}\nstart = {}\n{}", list_of(names, quoted_toml),
+                     number(plan.every), number(plan.start), tables);
+}
+
 // TOML integers end at 2^63 - 1; a larger seed is written as a string.
 std::string seed_text(std::uint64_t seed) {
   constexpr auto largest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
@@ -186,7 +208,7 @@ std::string resolved_toml(const Scene& scene) {
   for (const DiskGroup& group : scene.groups) text += group_text(group);
   text += growth_text(scene);
   for (const Source& source : scene.sources) text += source_text(source);
-  return text + run_text(scene.run) + output_text(scene.output);
+  return text + run_text(scene.run) + output_text(scene.output) + analysis_text(scene.analysis);
 }
 
 }  // namespace carom

@@ -93,10 +93,52 @@ void fields(Stream& stream, T& value) {
   stream(t, kinetic, potential, total);
 }
 
+template <class Stream, Is<PairRecord> T>
+void fields(Stream& stream, T& value) {
+  auto& [counts, centres, expected] = value;
+  stream(counts, centres, expected);
+}
+
+template <class Stream, Is<SampleSeries> T>
+void fields(Stream& stream, T& value) {
+  auto& [time, disks, displacement, followed, temperature, interval, pressure, collision_rate] = value;
+  stream(time, disks, displacement, followed, temperature, interval, pressure, collision_rate);
+}
+
+template <class Stream, Is<SpeedHistogram> T>
+void fields(Stream& stream, T& value) {
+  auto& [counts, beyond, samples, temperature_sum, largest_seen] = value;
+  stream(counts, beyond, samples, temperature_sum, largest_seen);
+}
+
+template <class Stream, Is<DensityProfile> T>
+void fields(Stream& stream, T& value) {
+  auto& [centres, covered, samples] = value;
+  stream(centres, covered, samples);
+}
+
+template <class Stream, Is<AxisTally> T>
+void fields(Stream& stream, T& value) {
+  auto& [from, sixteenth] = value;
+  stream(from, sixteenth);
+}
+
+template <class Stream, Is<DisplacementTally> T>
+void fields(Stream& stream, T& value) {
+  auto& [begun, x, y, looked_at, fastest, checked_at, doubtful] = value;
+  stream(begun, x, y, looked_at, fastest, checked_at, doubtful);
+}
+
+template <class Stream, Is<AnalysisRecord> T>
+void fields(Stream& stream, T& value) {
+  auto& [counted_until, before, series, pairs, speeds, density, displacement] = value;
+  stream(counted_until, before, series, pairs, speeds, density, displacement);
+}
+
 template <class Stream, Is<OutputMark> T>
 void fields(Stream& stream, T& value) {
-  auto& [frames, last_time, trajectory, series, meter, movie, velocities, energies] = value;
-  stream(frames, last_time, trajectory, series, meter, movie, velocities, energies);
+  auto& [frames, last_time, trajectory, series, meter, movie, velocities, energies, analysis] = value;
+  stream(frames, last_time, trajectory, series, meter, movie, velocities, energies, analysis);
 }
 
 template <class Stream, Is<Energy> T>

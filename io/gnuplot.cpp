@@ -18,6 +18,8 @@ namespace {
 constexpr std::array<const char*, 10> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000",
                                               "#E69F00", "#56B4E9", "#332288", "#882255", "#888888"};
 
+constexpr const char* grey = "#666666";
+
 // More points than this on a line are more than pixels; the file would only grow.
 constexpr std::size_t most_points = 4000;
 
@@ -29,11 +31,20 @@ struct Range {
   double low = 0.0, high = 1.0;
 };
 
-Range vertical_range(const Panel& panel) {
+// Heights as the axis shows them: of a logarithmic one, their logarithms.
+double shown(double y, bool logarithmic) {
+  return logarithmic ? std::log10(y) : y;
+}
+double value_at(double height, bool logarithmic) {
+  return logarithmic ? std::pow(10.0, height) : height;
+}
+
+Range vertical_range(const Panel& panel, bool logarithmic) {
   bool any = false;
   Range r;
   for (const Line& line : panel.lines) {
-    for (const double y : line.y) {
+    for (const double value : line.y) {
+      const double y = shown(value, logarithmic);
       r.low = any ? std::min(r.low, y) : y;
       r.high = any ? std::max(r.high, y) : y;
       any = true;
@@ -66,11 +77,14 @@ void append_points(std::string& data, const Line& line) {
 }
 
 // Heights for the names of the lines: where the lines end, moved apart until no two overlap.
-std::vector<double> label_heights(const Panel& panel, const Range& range) {
+std::vector<double> label_heights(const Panel& panel, const Range& range, bool logarithmic) {
   const double distance = (range.high - range.low) * label_pixels / (0.9 * panel_pixels);
   std::vector<std::pair<double, std::size_t>> ends;
   for (std::size_t k = 0; k < panel.lines.size(); ++k) {
-    ends.emplace_back(panel.lines[k].y.empty() ? range.low : panel.lines[k].y.back(), k);
+    const Line& line = panel.lines[k];
+    if (line.style != LineStyle::guide) {
+      ends.emplace_back(line.y.empty() ? range.low : shown(line.y.back(), logarithmic), k);
+    }
   }
   std::sort(ends.begin(), ends.end());
   for (int round = 0; round < 200; ++round) {
@@ -82,13 +96,20 @@ std::vector<double> label_heights(const Panel& panel, const Range& range) {
     }
   }
   std::vector<double> heights(panel.lines.size());
-  for (const auto& [height, k] : ends) heights[k] = height;
+  for (const auto& [height, k] : ends) heights[k] = value_at(height, logarithmic);
   return heights;
 }
 
 // The name of a line in the margin, joined to the line's end; or, where it ends early, a cross there, as a stroke from
 // there to the margin would look like data.
 std::string name_commands(const Line& line, std::size_t tag, double height, double x_end, const char* colour) {
+  if (line.style == LineStyle::guide) {
+    // Beside its end; above its beginning where it ends at the margin, among the other names.
+    const bool at_end = line.x.back() < x_end;
+    return fmt::format("set label {} {} at first {}, first {} left offset 0.7,{} textcolor rgb '{}'\n", tag,
+                       gnuplot_quoted(line.name), at_end ? line.x.back() : line.x.front(),
+                       at_end ? line.y.back() : line.y.front(), at_end ? -0.4 : 0.9, colour);
+  }
   const bool to_the_end = line.x.back() >= x_end;
   std::string text = fmt::format("set label {} {} at graph 1.035, first {} left textcolor rgb '{}'\n", tag,
                                  gnuplot_quoted(to_the_end ? line.name : line.name + ", gone"), height, colour);
@@ -102,23 +123,44 @@ std::string name_commands(const Line& line, std::size_t tag, double height, doub
   return text;
 }
 
+// How gnuplot draws a line: "with lines ...".
+std::string drawn_with(const Line& line, const char* colour, bool wide) {
+  if (line.style == LineStyle::points) return fmt::format("with points pt 7 ps 0.55 lc rgb '{}'", colour);
+  if (line.style == LineStyle::solid) return fmt::format("with lines lw {} lc rgb '{}'", wide ? 3.0 : 1.6, colour);
+  return fmt::format("with lines lw 1.2 dt (8,6) lc rgb '{}'", colour);
+}
+
 // The commands of one panel; `block` is the number of its first line in the data file.
-std::string panel_commands(const Panel& panel, std::size_t block, double x_end) {
-  const Range range = vertical_range(panel);
-  const std::vector<double> heights = label_heights(panel, range);
-  std::string text = fmt::format("unset label\nunset arrow\nset ylabel {}\nset yrange [{}:{}]\n",
-                                 gnuplot_quoted(panel.y_label), range.low, range.high);
+std::string panel_commands(const Panel& panel, std::size_t block, double x_end, bool logarithmic) {
+  const Range range = vertical_range(panel, logarithmic);
+  const std::vector<double> heights = label_heights(panel, range, logarithmic);
+  std::string text =
+      fmt::format("unset label\nunset arrow\nset ylabel {}\nset yrange [{}:{}]\n", gnuplot_quoted(panel.y_label),
+                  value_at(range.low, logarithmic), value_at(range.high, logarithmic));
   std::string plot;
   for (std::size_t k = 0; k < panel.lines.size(); ++k) {
     const Line& line = panel.lines[k];
-    const char* const colour = colours[k % colours.size()];
+    const bool plain = line.style == LineStyle::solid || line.style == LineStyle::points;
+    const char* const colour = plain ? colours[k % colours.size()] : grey;
     if (line.x.empty()) continue;
     text += name_commands(line, k + 1, heights[k], x_end, colour);
-    plot += fmt::format("{} 'data' index {} with lines lw {} lc rgb '{}'", plot.empty() ? "plot" : ",", block + k,
-                        panel.wide_first && k == 0 ? 3.0 : 1.6, colour);
+    plot += fmt::format("{} 'data' index {} {}", plot.empty() ? "plot" : ",", block + k,
+                        drawn_with(line, colour, panel.wide_first && k == 0));
   }
   if (plot.empty()) plot = "plot NaN";
   return text + plot + "\n";
+}
+
+// Where the horizontal axis begins.
+double x_begin(const Figure& figure, double x_end) {
+  if (!figure.logarithmic) return 0.0;
+  double least = 0.1 * x_end;
+  for (const Panel& panel : figure.panels) {
+    for (const Line& line : panel.lines) {
+      if (!line.x.empty()) least = std::min(least, line.x.front());
+    }
+  }
+  return least;
 }
 
 std::string script_of(const Figure& figure) {
@@ -130,13 +172,13 @@ std::string script_of(const Figure& figure) {
       "set output 'plot.svg'\n"
       "set multiplot layout {},1 title {} font 'sans-serif,18' margins 0.115,0.87,{},{} spacing 0.06\n"
       "unset key\nset border 3 lc rgb '#555555'\nset tics nomirror out scale 0.5 textcolor rgb '#222222'\n"
-      "set grid lc rgb '#dddddd' lt 1 lw 0.6\nset format '%g'\nset xrange [0:{}]\n",
+      "set grid lc rgb '#dddddd' lt 1 lw 0.6\nset format '%g'\n{}set xrange [{}:{}]\n",
       width_pixels, height, panels, gnuplot_quoted(figure.title), bottom_pixels / height, 1.0 - top_pixels / height,
-      x_end);
+      figure.logarithmic ? "set logscale xy\n" : "", x_begin(figure, x_end), x_end);
   std::size_t block = 0;
   for (std::size_t p = 0; p < panels; ++p) {
     if (p + 1 == panels) text += fmt::format("set xlabel {}\n", gnuplot_quoted(figure.x_label));
-    text += panel_commands(figure.panels[p], block, x_end);
+    text += panel_commands(figure.panels[p], block, x_end, figure.logarithmic);
     block += figure.panels[p].lines.size();
   }
   return text + "unset multiplot\n";

@@ -1,15 +1,20 @@
 // One figure of stacked panels with lines that carry their names at their ends, as gnuplot draws it.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace carom {
 
+// dashed: thin and grey, for a value to compare with. guide: likewise, and named beside its end within the panel.
+enum class LineStyle : std::uint8_t { solid, points, dashed, guide };
+
 // A line; x and y have the same length, all finite, x ascending from 0 on.
 struct Line {
   std::string name;
   std::vector<double> x, y;
+  LineStyle style = LineStyle::solid;
 };
 
 struct Panel {
@@ -24,6 +29,7 @@ struct Figure {
   std::string x_label;  // under the lowest panel
   double x_end = 0.0;   // the horizontal axis goes from 0 to here; a line that ends earlier gets a cross there
   std::vector<Panel> panels;
+  bool logarithmic = false;  // both axes; then all x and y are above 0, and the horizontal axis begins with the data
 };
 
 // Writes the figure as SVG. Returns false, and writes nothing, where gnuplot is not installed. Throws RunError if it

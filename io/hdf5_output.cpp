@@ -41,6 +41,24 @@ Hdf5Output::Hdf5Output(std::string path, bool existing) : path_(std::move(path))
   }
 }
 
+Hdf5Output::Hdf5Output(std::string path) : path_(std::move(path)) {
+  silence_hdf5();
+  constexpr std::size_t growth = std::size_t{1} << 16;
+  const Hdf5Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  // The format that every version reads. Images of the newest one have a wrong checksum (HDF5 1.10.8).
+  checked(H5Pset_fapl_core(access.get(), growth, false));
+  file_ = checked(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
+}
+
+std::string Hdf5Output::image() const {
+  checked(H5Fflush(file(), H5F_SCOPE_LOCAL));
+  const ssize_t bytes = H5Fget_file_image(file(), nullptr, 0);
+  if (bytes < 0) fail_of_hdf5();
+  std::string image(static_cast<std::size_t>(bytes), '\0');
+  if (H5Fget_file_image(file(), image.data(), image.size()) < 0) fail_of_hdf5();
+  return image;
+}
+
 void Hdf5Output::fail(const std::string& why) const {
   throw RunError(fmt::format("cannot write {}: {}", path_, why));
 }
@@ -59,8 +77,20 @@ void Hdf5Output::checked(herr_t status) const {
   if (as_id(status) < 0) fail_of_hdf5();
 }
 
+namespace {
+
+// Properties of a group or dataset to be made, without the time at which it is.
+Hdf5Handle timeless(const Hdf5Output& output, hid_t kind) {
+  Hdf5Handle plan = output.checked(H5Pcreate(kind), H5Pclose);
+  output.checked(H5Pset_obj_track_times(plan.get(), false));
+  return plan;
+}
+
+}  // namespace
+
 void Hdf5Output::make_group(const std::string& name) const {
-  checked(H5Gcreate2(file(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  const Hdf5Handle plan = timeless(*this, H5P_GROUP_CREATE);
+  checked(H5Gcreate2(file(), name.c_str(), H5P_DEFAULT, plan.get(), H5P_DEFAULT), H5Gclose);
 }
 
 void Hdf5Output::link(const std::string& target, const std::string& name) const {
@@ -109,11 +139,16 @@ void Hdf5Output::attribute(const std::string& object, const char* name, const st
                   numbers.data());
 }
 
+void Hdf5Output::attribute(const std::string& object, const char* name, double number) const {
+  write_attribute(*this, object, name, space_of(*this, 1, false), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &number);
+}
+
 void Hdf5Output::text(const std::string& name, const std::string& text) const {
   const Hdf5Handle type = text_type(*this, text.size());
   const Hdf5Handle space = space_of(*this, 1, false);
+  const Hdf5Handle plan = timeless(*this, H5P_DATASET_CREATE);
   const Hdf5Handle set = checked(
-      H5Dcreate2(file(), name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+      H5Dcreate2(file(), name.c_str(), type.get(), space.get(), H5P_DEFAULT, plan.get(), H5P_DEFAULT), H5Dclose);
   checked(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
 }
 
@@ -121,7 +156,7 @@ Hdf5Handle Hdf5Output::make_dataset(const std::string& name, const Hdf5Kind& kin
                                     const Extent& limit, const Extent& chunk, Packing packing) const {
   const auto rank = static_cast<int>(size.size());
   const Hdf5Handle space = checked(H5Screate_simple(rank, size.data(), limit.data()), H5Sclose);
-  const Hdf5Handle plan = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const Hdf5Handle plan = timeless(*this, H5P_DATASET_CREATE);
   checked(H5Pset_chunk(plan.get(), rank, chunk.data()));
   checked(H5Pset_fill_value(plan.get(), kind.in_memory, kind.fill));
   if (packing == Packing::deflate) {

@@ -26,6 +26,11 @@ class Hdf5Output {
   // Makes the file, or opens one that is there. Throws RunError, "cannot write PATH: why", here and below.
   Hdf5Output(std::string path, bool existing);
 
+  // A file in memory, of which image() makes bytes; path is what messages call it. Nothing in it tells when or by whom
+  // it was made: the same content has the same bytes.
+  explicit Hdf5Output(std::string path);
+  std::string image() const;
+
   // The id, if the call that returned it went well.
   Hdf5Handle checked(hid_t id, Hdf5Handle::Close closer) const;
   void checked(herr_t status) const;
@@ -41,6 +46,7 @@ class Hdf5Output {
   void link(const std::string& target, const std::string& name) const;  // a second name for a dataset
   void attribute(const std::string& object, const char* name, const std::vector<std::string>& texts, bool list) const;
   void attribute(const std::string& object, const char* name, const std::vector<int>& numbers, bool list) const;
+  void attribute(const std::string& object, const char* name, double number) const;
   void text(const std::string& name, const std::string& text) const;  // as a dataset
 
   // limit: H5S_UNLIMITED where the dataset may grow.

@@ -19,9 +19,25 @@ namespace fs = std::filesystem;
 namespace {
 
 // Everything that a run may write. summary.json goes last: it is the sign that the rest is there.
-constexpr std::array result_names{"scene.toml", "trajectory.xyz",         "trajectory.h5", "trajectory.xdmf",
-                                  "series.csv", "velocity.svg",           "energy.svg",    "movie.mp4",
-                                  "frames",     previous_checkpoint_name, checkpoint_name, "summary.json"};
+constexpr std::array result_names{"scene.toml",
+                                  "trajectory.xyz",
+                                  "trajectory.h5",
+                                  "trajectory.xdmf",
+                                  "series.csv",
+                                  "analysis.h5",
+                                  "velocity.svg",
+                                  "energy.svg",
+                                  "pair_correlation.svg",
+                                  "displacement.svg",
+                                  "speeds.svg",
+                                  "density.svg",
+                                  "pressure.svg",
+                                  "collision_rate.svg",
+                                  "movie.mp4",
+                                  "frames",
+                                  previous_checkpoint_name,
+                                  checkpoint_name,
+                                  "summary.json"};
 
 bool is_checkpoint(std::string_view name) {
   return name == checkpoint_name || name == previous_checkpoint_name;

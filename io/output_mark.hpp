@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/analysis.hpp"
 #include "core/state.hpp"
 #include "io/plot.hpp"
 
@@ -49,6 +50,7 @@ struct OutputMark {
   std::optional<MovieMark> movie;
   VelocityRecord velocities;
   EnergyRecord energies;
+  std::optional<AnalysisRecord> analysis;  // the file is made anew from it
 };
 
 // A file (or the folder "frames") that must be there for a run to go on, with so many bytes or more.

@@ -40,21 +40,27 @@ SeriesRow SeriesMeter::row(const Disks& disks, const State& now, const BlockRunn
   return row;
 }
 
-SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene) : file_(path), meter_(scene, true) {
+SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
+    : file_(path), meter_(scene, true), with_displacement_(scene.analysis.wants(Quantity::displacement)) {
   std::string heading = "t";
   for (const SeriesColumn& column : series_columns) heading += fmt::format(",{}", column.name);
+  if (with_displacement_) heading += ",displacement";
   file_.write(heading + "\n");
 }
 
 SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from)
-    : file_(path, from.file.bytes), meter_(scene, true, from.meter), rows_(from.file.frames) {}
+    : file_(path, from.file.bytes),
+      meter_(scene, true, from.meter),
+      with_displacement_(scene.analysis.wants(Quantity::displacement)),
+      rows_(from.file.frames) {}
 
 SeriesMark SeriesWriter::mark() {
   file_.sync();
   return {{file_.name(), rows_, file_.bytes()}, meter_.mark()};
 }
 
-SeriesRow SeriesWriter::write(const Disks& disks, double time, const State& now, const BlockRunner& run) {
+SeriesRow SeriesWriter::write(const Disks& disks, double time, const State& now, double displacement,
+                              const BlockRunner& run) {
   const SeriesRow row = meter_.row(disks, now, run);
   // {} writes the shortest text that reads back as the same double.
   std::string line = fmt::format("{}", time);
@@ -65,6 +71,7 @@ SeriesRow SeriesWriter::write(const Disks& disks, double time, const State& now,
       fmt::format_to(std::back_inserter(line), ",{}", row[k]);
     }
   }
+  if (with_displacement_) fmt::format_to(std::back_inserter(line), ",{}", displacement);
   file_.write(line + "\n");
   file_.flush();
   ++rows_;

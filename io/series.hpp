@@ -70,8 +70,10 @@ class SeriesWriter {
   // shorter.
   SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from);
 
-  // One row, which it returns: see SeriesMeter::row.
-  SeriesRow write(const Disks& disks, double time, const State& now, const BlockRunner& run = run_in_order);
+  // One row, which it returns: see SeriesMeter::row. displacement: the mean square, the last column where
+  // scene.analysis asks for it.
+  SeriesRow write(const Disks& disks, double time, const State& now, double displacement = 0.0,
+                  const BlockRunner& run = run_in_order);
 
   // Where the file has come to; all up to there is on the disk.
   SeriesMark mark();
@@ -81,6 +83,7 @@ class SeriesWriter {
  private:
   OutputFile file_;
   SeriesMeter meter_;
+  bool with_displacement_;
   Count rows_ = 0;
 };
 

@@ -10,6 +10,7 @@
 
 #include "core/check.hpp"
 #include "io/child_process.hpp"
+#include "io/gnuplot.hpp"
 
 namespace carom {
 namespace {
@@ -92,6 +93,19 @@ TEST(Plot, NothingToShowIsStillAPlot) {
   EXPECT_TRUE(plot_energy(path, "one frame at rest", {{0.0}, {0.0}, {0.0}, {0.0}}));
   EXPECT_TRUE(plot_energy(path, "", {{0.0, 1.0}, {2.0, 1.0}, {0.0, 1.0}, {2.0, 2.0}}));
   EXPECT_TRUE(text_of(path).find("potential") != std::string::npos);
+  fs::remove(path);
+}
+
+TEST(Plot, LogarithmicAxesAndAGuide) {
+  const std::string path = temporary("carom_plot_log.svg");
+  const Line curve{"measured", {0.1, 1.0, 100.0}, {1e-3, 1.0, 1e3}};
+  const Line guide{"~ t", {0.1, 50.0}, {1e-3, 0.5}, LineStyle::guide};
+  ASSERT_TRUE(draw_svg({"log", "t", 100.0, {{"y", {curve, guide}}}, true}, path));
+  const std::string svg = text_of(path);
+  for (const char* const shown : {"measured", ">~ t<", ">0.1<", ">10<", ">0.001<"}) {
+    EXPECT_TRUE(svg.find(shown) != std::string::npos) << shown;
+  }
+  ASSERT_TRUE(draw_svg({"nothing", "t", 0.0, {{"y", {}}}, true}, path)) << "nor is nothing a reason to fail";
   fs::remove(path);
 }
 

@@ -1,0 +1,49 @@
+"""Reads the analysis.h5 of a run of analysis_run_test by h5py and holds it against the run's own series.csv and against
+itself. Says how many samples there are."""
+import csv
+import sys
+
+import h5py
+import numpy
+
+
+def main(h5_path, csv_path):
+    with h5py.File(h5_path, "r") as file:
+        assert file.attrs["creator"].decode().startswith("Carom ")
+        assert "[analysis]" in file["parameters/scene"][()].decode()
+        time = file["samples/time"][:]
+        disks = file["samples/disks"][:]
+        assert file["samples/time"].attrs["unit"] == b"time"
+        g = file["pair_correlation"]
+        assert len(g["r"]) == len(g["g"]) == len(g["pairs"]) and g.attrs["samples"] == len(time)
+        assert g["pairs"][:].sum() > 0 and (g["g"][:][g["pairs"][:] == 0] == 0).all()
+        speeds = file["speeds"]
+        counted = speeds["counts"][:].sum() + speeds.attrs["beyond"]
+        assert counted == disks.sum(), f"{counted} speeds of {disks.sum()} disks"
+        width = speeds["u"][1] - speeds["u"][0]
+        assert abs(speeds["measured"][:].sum() * width - 1.0) < 1e-9
+        density = file["density"]
+        assert density["centres"][:].sum() == disks.sum()
+        assert density.attrs["axis"] == b"y" and (density["packing_fraction"][:] < 1.0).all()
+        for name in ("pressure", "collision_rate"):
+            value, interval = file[name]["value"][:], file[name]["interval"][:]
+            known = numpy.isfinite(value)
+            assert not known[0] and (known == (interval > 0.0)).all() and known.any(), name
+            assert numpy.isclose(file[name].attrs["mean"], numpy.average(value[known], weights=interval[known]))
+        squares = file["displacement/mean_square"][:]
+        assert squares[0] == 0.0 and (squares[1:] > 0.0).all()
+        assert (numpy.diff(file["displacement/disks"][:]) <= 0).all()
+        if csv_path:
+            with open(csv_path, newline="") as table:
+                rows = {float(row["t"]): row for row in csv.DictReader(table)}
+            assert list(rows) == list(time), "a row a sample in this run"
+            for k, t in enumerate(time):
+                assert float(rows[t]["displacement"]) == squares[k], t
+                assert int(rows[t]["disks"]) == disks[k], t
+                if numpy.isfinite(file["pressure/value"][k]):
+                    assert float(rows[t]["pressure"]) == file["pressure/value"][k], t
+                    assert float(rows[t]["collision_rate"]) == file["collision_rate/value"][k], t
+        print(len(time))
+
+
+main(*sys.argv[1:])
