@@ -24,7 +24,7 @@ constexpr std::size_t million = 1'000'000;
 // A turn: about a million collisions (the yardstick half of it), and several windows, so that listing is shared out.
 constexpr double turn_work = 1e6;
 constexpr double windows_at_least = 2.0;
-constexpr double collisions_a_window = 0.25;  // a disk
+constexpr double collisions_a_window = 0.9;  // a disk
 
 int windows_a_turn(std::size_t disks) {
   return static_cast<int>(

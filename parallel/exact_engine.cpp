@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/check.hpp"
-#include "core/disk_pair.hpp"
 #include "core/huge_pages.hpp"
+#include "core/source.hpp"
 #include "core/step_start.hpp"
 #include "core/validity.hpp"
 #include "core/window_plan.hpp"
@@ -117,24 +117,11 @@ void ParallelExact::start_window() {
 
 // While disks come in, the lists still know those that were there before.
 bool ParallelExact::has_room(const Disk& newcomer) const {
-  const Disks& d = state_.disks;
-  const Domain& box = scene_.box;
-  const auto meets = [&](std::size_t i) {
-    double dx = newcomer.x - d.x[i];
-    double dy = newcomer.y - d.y[i];
-    if (box.periodic_x()) dx = nearest_image(dx, box.width);
-    if (box.periodic_y()) dy = nearest_image(dy, box.height);
-    return touches(dx * dx + dy * dy, newcomer.radius + d.radius_of(i));
-  };
   const std::size_t listed = lists_good_ ? field_.flight.size() : 0;
-  for (std::size_t i = listed; i < d.size(); ++i) {
-    if (meets(i)) return false;
-  }
-  bool met = false;
-  if (listed > 0) {
-    lists_.visit_near(newcomer.x, newcomer.y, newcomer.radius + lists_.roam(),
-                      [&](std::uint32_t i) { met = met || meets(i); });
-  }
+  bool met = meets(state_.disks, scene_.box, newcomer, listed, state_.disks.size());
+  if (met || listed == 0) return !met;
+  lists_.visit_near(newcomer.x, newcomer.y, newcomer.radius + lists_.roam(),
+                    [&](std::uint32_t i) { met = met || meets(state_.disks, scene_.box, newcomer, i, i + 1); });
   return !met;
 }
 
