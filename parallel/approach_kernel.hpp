@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/exact_path.hpp"
+#include "parallel/exact_flight.hpp"
 
 namespace carom {
 
@@ -16,6 +17,7 @@ struct ApproachFrame {
   double width = 0.0, height = 0.0;            // periods; 0: none
   double half_width = 0.0, half_height = 0.0;  // infinite where there is no period
   double blur2 = 0.0;                          // square of what rounding may do to a place; length^2
+  double own_reach = 0.0;                      // radius, with room for rounding
 };
 
 // Up to so many neighbours, in columns. Filled up to a whole number of four, with repetitions.
@@ -34,7 +36,18 @@ using ApproachKernel = std::uint32_t (*)(const ApproachFrame& frame, ApproachBat
 std::uint32_t approaching_baseline(const ApproachFrame& frame, ApproachBatch& batch, std::uint32_t count);
 std::uint32_t approaching_avx2(const ApproachFrame& frame, ApproachBatch& batch, std::uint32_t count);
 
+// The same for neighbours that are all seen on their own paths: flight[near[k]], k < count <= ApproachBatch::size. A
+// contact with neighbour k comes no earlier than least[k] after the look; least has room for a multiple of four.
+using FlightKernel = std::uint32_t (*)(const ApproachFrame& frame, const Flight* flight, const std::uint32_t* near,
+                                       std::uint32_t count, double* least);
+
+std::uint32_t approaching_flights_baseline(const ApproachFrame& frame, const Flight* flight, const std::uint32_t* near,
+                                           std::uint32_t count, double* least);
+std::uint32_t approaching_flights_avx2(const ApproachFrame& frame, const Flight* flight, const std::uint32_t* near,
+                                       std::uint32_t count, double* least);
+
 // The best version for the processor at hand.
 ApproachKernel choose_approach_kernel();
+FlightKernel choose_flight_kernel();
 
 }  // namespace carom

@@ -4,6 +4,26 @@
 
 namespace carom {
 
+NextEvent ExactScan::earliest(std::uint32_t i, double from) const {
+  const Flight* const flight = field_->flight.data();
+  const PathSegment& path = flight[i].path;
+  const bool far = flies_far(path);
+  ApproachFrame own = frame(path, from);
+  own.own_reach = flight[i].radius + field_->slack;
+  NextEvent best = earliest_at_sides(i, path, far);
+  lists_->see_neighbours(i, [&](const std::uint32_t* near, std::uint32_t n) {
+    const auto path_of = [&](std::uint32_t k) -> const PathSegment& { return flight[near[k]].path; };
+    if (far) {
+      for (std::uint32_t k = 0; k < n; ++k) meet(i, path, near[k], path_of(k), best);
+      return;
+    }
+    double least[ApproachBatch::size];
+    const std::uint32_t candidates = approaching_flights_(own, flight, near, n, least);
+    meet_candidates(i, path, from, candidates, least, near, path_of, best);
+  });
+  return best;
+}
+
 // The exact formula; `best` becomes this meeting if it comes first.
 void ExactScan::meet(std::uint32_t i, const PathSegment& path, std::uint32_t j, const PathSegment& seen,
                      NextEvent& best) const {

@@ -73,7 +73,7 @@ double ExactSequence::exit_after(std::uint32_t i, double from, double next) cons
 void ExactSequence::look(std::uint32_t i, double from) {
   const Flight& f = field_.flight[i];
   from = std::max(from, f.path.start);
-  const NextEvent next = scan_.earliest(i, f.path, from, [&](std::uint32_t j) { return &field_.flight[j].path; });
+  const NextEvent next = scan_.earliest(i, from);
   const double exit = exit_after(i, from, next.time);
   if (std::min(exit, next.time) >= field_.horizon) {
     expect(i, field_.horizon, nobody, 0, 0);
