@@ -13,7 +13,7 @@ namespace carom {
 // hundreds of megabytes is a walk through the page table besides. Changes no value; ignored where there is no such
 // page.
 template <class T>
-void resize_in_huge_pages(std::vector<T>& v, std::size_t n, T value = T{}) {
+void resize_in_huge_pages(std::vector<T>& v, std::size_t n, const T& value = T{}) {
   constexpr std::uintptr_t huge_page = std::uintptr_t{1} << 21;
   v.reserve(n);
   const auto begin = (reinterpret_cast<std::uintptr_t>(v.data()) + huge_page - 1) / huge_page * huge_page;
