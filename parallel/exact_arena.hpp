@@ -87,7 +87,6 @@ struct ExactArena {
   std::vector<CrossPair> cross_pairs;
   std::vector<Conflict> conflicts;
   std::vector<std::uint32_t> roaming;  // disks to be listed anew before they can be looked at
-  std::vector<HeapEntry> heap;         // scratch
 
   void clear() {
     members.clear();

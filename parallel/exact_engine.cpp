@@ -30,6 +30,9 @@ constexpr std::size_t pass_block = 8192;
 constexpr double windows_ahead = 8.0;
 // Events a disk a slice: fewer make components smaller and conflicts rarer, more save looking through the due times.
 constexpr double events_per_slice = 0.1;
+// With so many disks memory counts more than time: what a slice holds, some 100 bytes a disk, becomes a tenth.
+constexpr std::size_t many_disks = 50'000'000;
+constexpr double lean_events_per_slice = 0.01;
 // All disks are listed and sorted anew when one in so many has been listed anew by itself.
 constexpr std::size_t listed_share = 2;
 // Up to so many disks their events run one after the other, on one thread.
@@ -236,7 +239,8 @@ void ParallelExact::run_slices(const WindowPlan& plan) {
   ran_sequence_ = false;
   slices_.begin_window();
   const std::size_t n = state_.disks.size();
-  const double aimed = std::max(4.0, events_per_slice * static_cast<double>(n));
+  const double aimed =
+      std::max(4.0, (n < many_disks ? events_per_slice : lean_events_per_slice) * static_cast<double>(n));
   if (!(slice_ > 0.0)) slice_ = 0.125 * plan.length;
   double start = 0.0;
   Count seen = 0;

@@ -24,12 +24,17 @@ void put_off(ExactField& field, std::uint32_t i, const NextEvent& next, double e
   }
 }
 
+std::vector<HeapEntry>& ExactLoop::heap_of_this_thread() {
+  thread_local std::vector<HeapEntry> heap;
+  return heap;
+}
+
 void ExactLoop::run_block(std::uint32_t begin, std::uint32_t end) {
   joint_ = false;
   begin_ = begin;
   end_ = end;
   last_.time = -never;
-  arena_.heap.clear();
+  heap_.clear();
   // Most of the block is looked at several times, in no order: asked for in order first, it comes much faster.
   for (std::uint32_t i = begin; i < end; ++i) {
     __builtin_prefetch(&field_.flight[i]);
@@ -42,7 +47,7 @@ void ExactLoop::run_block(std::uint32_t begin, std::uint32_t end) {
 std::uint32_t ExactLoop::solve(const std::vector<std::uint32_t>& disks) {
   joint_ = true;
   last_.time = -never;
-  arena_.heap.clear();
+  heap_.clear();
   component_ = static_cast<std::uint32_t>(arena_.components.size());
   arena_.components.push_back({nobody, nobody, 0});
   for (const std::uint32_t i : disks) {
@@ -54,11 +59,10 @@ std::uint32_t ExactLoop::solve(const std::vector<std::uint32_t>& disks) {
 }
 
 void ExactLoop::run() {
-  std::vector<HeapEntry>& heap = arena_.heap;
-  while (!heap.empty()) {
-    std::pop_heap(heap.begin(), heap.end(), later);
-    const HeapEntry e = heap.back();
-    heap.pop_back();
+  while (!heap_.empty()) {
+    std::pop_heap(heap_.begin(), heap_.end(), later);
+    const HeapEntry e = heap_.back();
+    heap_.pop_back();
     process(e);
   }
 }
@@ -143,7 +147,7 @@ bool ExactLoop::take_in(std::uint32_t disk) {
 void ExactLoop::start_over() {
   const Component c = arena_.components[component_];
   last_.time = -never;
-  arena_.heap.clear();
+  heap_.clear();
   for (std::uint32_t m = c.first; m != nobody; m = arena_.members[m].next_member) {
     const std::uint32_t next = arena_.members[m].next_member;
     arena_.members[m] = fresh_member(arena_.members[m].disk, component_);
@@ -153,8 +157,8 @@ void ExactLoop::start_over() {
 }
 
 void ExactLoop::push(std::uint32_t disk, std::uint32_t version, const NextEvent& event) {
-  arena_.heap.push_back({event, disk, version});
-  std::push_heap(arena_.heap.begin(), arena_.heap.end(), later);
+  heap_.push_back({event, disk, version});
+  std::push_heap(heap_.begin(), heap_.end(), later);
 }
 
 // What is known of a disk since an earlier slice. An event found then still stands if the partner's path has not

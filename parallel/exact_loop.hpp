@@ -19,7 +19,7 @@ void put_off(ExactField& field, std::uint32_t i, const NextEvent& next, double e
 class ExactLoop {
  public:
   ExactLoop(ExactField& field, const ExactLists& lists, ExactArena& arena)
-      : field_(field), lists_(lists), arena_(arena), scan_(field, lists) {}
+      : field_(field), lists_(lists), arena_(arena), heap_(heap_of_this_thread()), scan_(field, lists) {}
 
   // All events of disks [begin, end). One with a disk of another block happens if that disk can have none before and
   // nobody holds it; otherwise the component is in conflict, and frozen.
@@ -30,6 +30,7 @@ class ExactLoop {
   std::uint32_t solve(const std::vector<std::uint32_t>& disks);
 
  private:
+  static std::vector<HeapEntry>& heap_of_this_thread();
   void run();
   void process(const HeapEntry& e);
   void process_pair(const HeapEntry& e);
@@ -64,6 +65,7 @@ class ExactLoop {
   ExactField& field_;
   const ExactLists& lists_;
   ExactArena& arena_;
+  std::vector<HeapEntry>& heap_;  // scratch, which all blocks of a thread share
   ExactScan scan_;
   bool joint_ = false;
   std::uint32_t begin_ = 0, end_ = 0;  // the block
