@@ -27,6 +27,7 @@ std::vector<std::string> scene_files() {
 // The scene as it stands, but with at most a few thousand disks and by the method given.
 Scene short_scene(const std::string& name, const std::string& method) {
   std::vector<Override> changes{{"run.method", method}};
+  if (name == "analysis") changes.push_back({"disks.0.count", "400"});
   if (name == "gas_million") changes.push_back({"disks.0.count", "2000"});
   if (name == "dense_mixture") changes.push_back({"disks.0.count", "200"});  // grown anew for each method
   if (method == "exact") changes.push_back({"physics.collapse", "{ model = \"tc\", contact_time = 1e-3 }"});
