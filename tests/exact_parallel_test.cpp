@@ -27,9 +27,9 @@ std::string fingerprint(const State& s) {
       c.emitted, c.waiting, c.virial, c.wall_impulse[0], c.wall_impulse[1], c.wall_impulse[2], c.wall_impulse[3]);
 }
 
-State run_parallel(const Scene& scene, const State& initial, int threads) {
-  // Blocks so small that even these scenes have many.
-  const auto engine = make_parallel_engine(scene, initial, {threads, 128});
+// Blocks so small that even these scenes have many; with 1 in place of 128 all events run in sequence.
+State run_parallel(const Scene& scene, const State& initial, int threads, std::size_t block_divisor = 128) {
+  const auto engine = make_parallel_engine(scene, initial, {threads, block_divisor});
   run_to_end(*engine, scene);
   return engine->state();
 }
@@ -41,6 +41,7 @@ void expect_same_bits(const Scene& scene) {
   for (const int threads : {1, 2, 3, 5, 8}) {
     ASSERT_EQ(fingerprint(run_parallel(scene, initial, threads)), fingerprint(reference)) << threads << " threads";
   }
+  ASSERT_EQ(fingerprint(run_parallel(scene, initial, 2, 1)), fingerprint(reference)) << "in sequence";
 }
 
 class ExactParallel : public testing::TestWithParam<ParallelCase> {};
