@@ -14,11 +14,10 @@ namespace {
 constexpr double stepping_bytes = 62.0;
 constexpr double exact_bytes = 290.0;
 constexpr double lean_exact_bytes = 255.0;
-constexpr Count many_disks = 50'000'000;
 
 double bytes_a_disk(Method method, Count disks) {
   if (method != Method::exact) return stepping_bytes;
-  return disks < many_disks ? exact_bytes : lean_exact_bytes;
+  return disks < lean_exact_disks ? exact_bytes : lean_exact_bytes;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "core/check.hpp"
 #include "core/huge_pages.hpp"
+#include "core/memory_need.hpp"
 #include "core/source.hpp"
 #include "core/step_start.hpp"
 #include "core/validity.hpp"
@@ -30,8 +31,7 @@ constexpr std::size_t pass_block = 8192;
 constexpr double windows_ahead = 8.0;
 // Events a disk a slice: fewer make components smaller and conflicts rarer, more save looking through the due times.
 constexpr double events_per_slice = 0.1;
-// With so many disks memory counts more than time: what a slice holds, some 100 bytes a disk, becomes a tenth.
-constexpr std::size_t many_disks = 50'000'000;
+// The same from lean_exact_disks on: what a slice holds, some 100 bytes a disk, becomes a tenth.
 constexpr double lean_events_per_slice = 0.01;
 // All disks are listed and sorted anew when one in so many has been listed anew by itself.
 constexpr std::size_t listed_share = 2;
@@ -240,7 +240,7 @@ void ParallelExact::run_slices(const WindowPlan& plan) {
   slices_.begin_window();
   const std::size_t n = state_.disks.size();
   const double aimed =
-      std::max(4.0, (n < many_disks ? events_per_slice : lean_events_per_slice) * static_cast<double>(n));
+      std::max(4.0, (n < lean_exact_disks ? events_per_slice : lean_events_per_slice) * static_cast<double>(n));
   if (!(slice_ > 0.0)) slice_ = 0.125 * plan.length;
   double start = 0.0;
   Count seen = 0;

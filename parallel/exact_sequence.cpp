@@ -61,12 +61,14 @@ void ExactSequence::process_pair(std::uint32_t i, const QueuedEvent& e) {
   }
 }
 
-// When disk i leaves its list's range; never, if that is after its next event.
+// When disk i leaves its list's range; never, if that is after its next event. Asked no further ahead than gravity
+// bends the path little: the answer is later than `from` then, however long the window is, so listing anew always gets
+// on.
 double ExactSequence::exit_after(std::uint32_t i, double from, double next) const {
   const double g = field_.rules.gravity;
   const PathSegment& path = field_.flight[i].path;
   if (lists_.stays(i, path, from, std::min(next, field_.horizon), g)) return never;
-  return lists_.exit_time(i, path, from, field_.length, g);
+  return lists_.exit_time(i, path, from, from, g);
 }
 
 // Finds the earliest event of the disk on its present path. Nothing happens to it up to `from`.
