@@ -7,9 +7,6 @@
 
 namespace carom {
 
-// From so many disks on the exact method trades time for memory: its slices are shorter, so that less is held in each.
-inline constexpr Count lean_exact_disks = 50'000'000;
-
 // Bytes that a run of so many disks takes at the very least: state, cells and lists of the method; what contacts add is
 // left out. Measured peaks are in docs/benchmarks.md.
 double least_memory(Method method, Count disks);

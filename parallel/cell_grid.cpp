@@ -16,10 +16,11 @@ std::uint32_t cells_along(double length, double least, double most, bool periodi
 
 }  // namespace
 
-void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid,
-               unsigned band_shift) {
+void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid) {
   grid.levels.clear();
   grid.keys = 0;
+  grid.tiles = 1;
+  grid.tile_keys = 0;
   double radius = largest_radius;
   for (std::size_t k = 0; k < count.size(); ++k, radius /= class_ratio) {
     GridLevel level;
@@ -35,10 +36,7 @@ void make_grid(const Domain& box, double largest_radius, const std::vector<std::
     level.cell_height = box.height / level.rows;
     level.columns_per_length = level.columns / box.width;
     level.rows_per_length = level.rows / box.height;
-    const bool banded = level.columns > 1U << band_shift;
-    level.band_shift = banded ? band_shift : 31;
-    level.stride = banded ? 1U << band_shift : level.columns + 1;
-    level.band_keys = banded ? level.rows * level.stride : 0;
+    level.stride = level.columns + 1;
     level.first_key = grid.keys;
     grid.keys += level.keys();
     grid.levels.push_back(level);

@@ -20,8 +20,8 @@ inline constexpr double class_ratio = 2.0;
 
 // The grid of one size class. Row r's cells are keys first_key + r * stride + column; each row ends in one empty cell
 // and one empty row follows the last, so that the neighbours of every cell can be looked up without asking where it
-// lies. A banded level is cut into bands of columns, one after the other in memory, each with rows of its own and
-// without the empty cells: a run of disks then is about as wide as high, and has a short border.
+// lies. A tiled level is cut into tiles of 2^band_shift columns and 2^group_shift rows, without the empty cells: bands
+// of columns, one after the other in memory, each cut into groups of rows.
 struct GridLevel {
   double largest_radius = 0.0;      // of the class; length
   double cell_width = 0.0;          // length
@@ -32,29 +32,32 @@ struct GridLevel {
   std::uint32_t columns = 1, rows = 1;
   std::uint32_t stride = 2;
   std::uint32_t first_key = 0;
-  unsigned band_shift = 31;  // columns in a band: 2^band_shift
-  std::uint32_t band_keys = 0;
+  unsigned band_shift = 31;   // columns in a band: 2^band_shift
+  unsigned group_shift = 31;  // rows in a group: 2^group_shift
+  std::uint32_t band_keys = 0, group_keys = 0;
 
-  std::uint32_t keys() const { return ((columns - 1) >> band_shift) * band_keys + (rows + 1) * stride + 2; }
+  std::uint32_t keys() const { return (rows + 1) * stride + 2; }  // of a level that is not tiled
   std::uint32_t columns_left_in_band(std::uint32_t column) const {
     return (1U << band_shift) - (column & ((1U << band_shift) - 1U));
   }
   std::uint32_t key_at(std::uint32_t row, std::uint32_t column) const {
-    return first_key + (column >> band_shift) * band_keys + row * stride + (column & ((1U << band_shift) - 1U));
+    return first_key + (column >> band_shift) * band_keys + (row >> group_shift) * group_keys +
+           (row & ((1U << group_shift) - 1U)) * stride + (column & ((1U << band_shift) - 1U));
   }
 };
 
 struct CellGrid {
   std::vector<GridLevel> levels;  // from the largest disks to the smallest
   std::uint32_t keys = 0;         // of all levels
+  std::uint32_t tiles = 1;
+  std::uint32_t tile_keys = 0;  // of all levels in a tile, which are neighbours in memory; 0: not tiled
 };
 
 // Levels for radii between smallest and largest in the box. count[k] is the number of disks of class k
 // (class_of_radius). A level's cells are at least a diameter and twice the margin wide, and not many more than its
 // disks; where fewer than three would fit across a periodic side there is one, which is its own neighbour.
-// The memory that grid has is used again. band_shift < 31: banded.
-void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid,
-               unsigned band_shift = 31);
+// The memory that grid has is used again.
+void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid);
 CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count);
 
 // Class k holds radii r with largest / 2^(k+1) < r <= largest / 2^k.

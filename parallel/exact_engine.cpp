@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/check.hpp"
 #include "core/huge_pages.hpp"
-#include "core/memory_need.hpp"
 #include "core/source.hpp"
 #include "core/step_start.hpp"
 #include "core/validity.hpp"
@@ -17,8 +15,7 @@
 #include "core/window_start.hpp"
 #include "parallel/compact.hpp"
 #include "parallel/exact_lists.hpp"
-#include "parallel/exact_sequence.hpp"
-#include "parallel/exact_slice.hpp"
+#include "parallel/exact_sweep.hpp"
 #include "parallel/executor.hpp"
 
 namespace carom {
@@ -29,14 +26,14 @@ namespace {
 constexpr std::size_t pass_block = 8192;
 // Events are looked for this many windows ahead; a disk without any in sight is looked at again then.
 constexpr double windows_ahead = 8.0;
-// Events a disk a slice: fewer make components smaller and conflicts rarer, more save looking through the due times.
-constexpr double events_per_slice = 0.1;
-// The same from lean_exact_disks on: what a slice holds, some 100 bytes a disk, becomes a tenth.
-constexpr double lean_events_per_slice = 0.01;
+// Events a disk a slice: fewer leave less over for other tiles, more save going through all tiles.
+constexpr double events_per_slice = 0.25;
 // All disks are listed and sorted anew when one in so many has been listed anew by itself.
 constexpr std::size_t listed_share = 2;
-// Up to so many disks their events run one after the other, on one thread.
-constexpr std::size_t sequence_below = 16384;
+// Where there are tiles, nobody gets faster within a window than the fastest disk at its start by this factor; a window
+// that finds otherwise is done again with a larger one, at last without tiles.
+constexpr double allowed_speed = 1.25;
+constexpr int most_tries = 4;
 
 class ParallelExact final : public Engine {
  public:
@@ -44,26 +41,24 @@ class ParallelExact final : public Engine {
       : scene_(scene),
         state_(std::move(initial)),
         executor_(threads.count, threads.block_divisor),
-        sequence_(field_, lists_, executor_),
-        slices_(field_, lists_, executor_) {}
+        sweep_(field_, lists_, executor_) {}
 
   void step() override {
     if (!(state_.time < scene_.run.t_end)) return;
     start_window();
     const WindowPlan plan = plan_window(scene_, state_, summarise(), 1.0);
-    list_if_due();
-    load_paths(plan);
-    if (in_sequence()) {
-      run_sequence(plan);
-    } else {
-      run_slices(plan);
+    double allowed = allowed_speed;
+    for (int tries = 1; !run_window(plan, allowed); ++tries) {
+      if (tries == most_tries) throw PhysicsError("exact: disks are too fast at t = " + std::to_string(plan.start));
+      allowed *= 2.0 * allowed_speed;
+      lists_good_ = due_good_ = false;
     }
     store_paths(plan);
   }
 
   const State& state() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
-  void forget_paths() override { slices_.forget_paths(); }
+  void forget_paths() override { field_.keeps_paths = false; }
   const PhaseTimes& phase_times() const override { return times_; }
   std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }
 
@@ -75,10 +70,8 @@ class ParallelExact final : public Engine {
   SpeedSummary summarise();
   void list_if_due();
   void load_paths(const WindowPlan& plan);
-  bool in_sequence() const { return state_.disks.size() <= executor_.grain(sequence_below); }
-  void run_sequence(const WindowPlan& plan);
-  void run_slices(const WindowPlan& plan);
-  bool any_gone() const { return ran_sequence_ ? sequence_.any_gone() : slices_.any_gone(); }
+  bool run_window(const WindowPlan& plan, double allowed);
+  double slice_end(const WindowPlan& plan, double start) const;
   void store_paths(const WindowPlan& plan);
 
   Scene scene_;
@@ -89,16 +82,13 @@ class ParallelExact final : public Engine {
   SpeedSummary speeds_;
   ExactField field_;
   ExactLists lists_;
-  ExactSequence sequence_;
-  ExactSlices slices_;
-  bool ran_sequence_ = false;     // the last window
-  std::vector<LoggedPiece> log_;  // of a sequence
+  ExactSweep sweep_;
   double largest_radius_ = 0.0;
   bool lists_good_ = false;  // lists_ and field_ go with the storage order
   bool listed_now_ = false;
   bool due_good_ = false;     // so do the due times, on paths that have not changed
   double last_length_ = 0.0;  // of the window before
-  double slice_ = 0.0;        // length of the last slice; time
+  double rate_ = 0.0;         // events a time, of the last slice
   WindowPlan last_plan_;
   std::vector<unsigned char> gone_;
   Disks at_start_;  // the columns before the last window's sinks took any; else empty
@@ -163,24 +153,17 @@ SpeedSummary ParallelExact::summarise() {
 }
 
 void ParallelExact::list_if_due() {
-  if (lists_good_ && lists_.listed_anew() * listed_share <= state_.disks.size()) return;
+  if (lists_good_ && sweep_.listed_anew() * listed_share <= state_.disks.size()) return;
   const PhaseTimer timer(times_, "list");
   const bool only_moved = lists_good_ && due_good_;
-  lists_.build(state_.disks, scene_.box, executor_);
+  const std::size_t n = state_.disks.size();
+  lists_.build(state_.disks, scene_.box, sweep_.disks_per_tile(n), sweep_.range_share(n), executor_);
   largest_radius_ = largest_radius(state_.disks);
   lists_good_ = true;
   due_good_ = only_moved;
   listed_now_ = true;
   // Nobody that was not listed before can be met before one of the two is due: to leave its old range at the latest.
-  for (Flight& f : field_.flight) f.partner = nobody;
-  if (only_moved && !lists_.order().empty()) {
-    const std::span<const std::uint32_t> order = lists_.order();
-    column_scratch_.resize(order.size());
-    executor_.for_ranges(order.size(), pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) column_scratch_[i] = field_.due[order[i]];
-    });
-    field_.due.swap(column_scratch_);
-  }
+  if (only_moved) lists_.sort_along(field_.due, executor_);
 }
 
 void ParallelExact::load_paths(const WindowPlan& plan) {
@@ -209,8 +192,8 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
     for (std::size_t i = begin; i < end; ++i) {
       Flight& f = field_.flight[i];
       // The rounding of paths that begin afresh may make other events the first.
-      const std::uint32_t partner = due_good_ && f.partner == leaving ? leaving : nobody;
-      f = {{0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]}, d.radius_of(i), d.id[i], nobody, partner, 0, 0};
+      const std::uint32_t partner = due_good_ && !listed_now_ && f.partner == leaving ? leaving : nobody;
+      f = {{0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]}, d.radius_of(i), d.id[i], partner, 0, 0};
       // A little early, for the rounding of paths that begin afresh.
       field_.due[i] = due_good_ ? (field_.due[i] - last_length_) - 1e-9 * last_length_ : 0.0;
       if (listed_now_ && due_good_) {
@@ -221,51 +204,50 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
       if (may_collapse) field_.burst[i] = {};
     }
   });
+}
+
+// False: somebody was faster than allowed, a factor on the speed at the window's start. The state is as it was.
+bool ParallelExact::run_window(const WindowPlan& plan, double allowed) {
+  list_if_due();
+  load_paths(plan);
+  const PhaseTimer timer(times_, "events");
+  sweep_.begin_window(listed_now_);
   listed_now_ = false;
-}
-
-void ParallelExact::run_sequence(const WindowPlan& plan) {
-  const PhaseTimer timer(times_, "events");
-  log_.clear();
-  ran_sequence_ = true;
-  const double events = static_cast<double>(state_.counters.collisions + state_.counters.wall_collisions);
-  const double rate = state_.time > 0.0 ? events / state_.time : 0.0;
-  const double expected = std::min(rate * plan.length, 4.0 * static_cast<double>(state_.disks.size()));
-  sequence_.run(static_cast<std::size_t>(expected), plan.start, slices_.keeps_paths() ? &log_ : nullptr);
-}
-
-void ParallelExact::run_slices(const WindowPlan& plan) {
-  const PhaseTimer timer(times_, "events");
-  ran_sequence_ = false;
-  slices_.begin_window();
-  const std::size_t n = state_.disks.size();
-  const double aimed =
-      std::max(4.0, (n < lean_exact_disks ? events_per_slice : lean_events_per_slice) * static_cast<double>(n));
-  if (!(slice_ > 0.0)) slice_ = 0.125 * plan.length;
-  double start = 0.0;
-  Count seen = 0;
-  while (start < plan.length) {
-    const double left = plan.length - start;
-    const double parts = std::ceil(left / slice_);
-    double end = parts > 1.0 ? start + left / parts : never;
-    while (!slices_.run(start, end, plan.start)) {
-      end = start + 0.5 * (std::min(end, plan.length) - start);
-      if (!(end > start))
-        throw PhysicsError("exact: a disk is too fast for the window at t = " + std::to_string(plan.start));
-    }
-    const double events = std::max(0.5, static_cast<double>(slices_.events() - seen));
+  const bool tiled = sweep_.has_tiles(state_.disks.size());
+  const double fall = field_.rules.gravity * plan.length;
+  const double fastest = allowed * std::sqrt(field_.fastest2) + fall;
+  field_.allowed2 = tiled ? fastest * fastest : HUGE_VAL;
+  field_.bound = fastest + fall;
+  Count before = 0;
+  for (double start = 0.0; start < plan.length;) {
+    const double end = slice_end(plan, start);
     const double elapsed = std::min(end, plan.length) - start;
-    slice_ = elapsed * std::clamp(aimed / events, 0.5, 2.0);
-    seen = slices_.events();
+    if (!sweep_.run(start, end, std::min(rate_ * elapsed, 4.0 * static_cast<double>(state_.disks.size())),
+                    plan.start)) {
+      return false;
+    }
+    rate_ = static_cast<double>(sweep_.events() - before) / elapsed;
+    before = sweep_.events();
     start = end;
   }
+  return true;
+}
+
+// Slices of a window are alike.
+double ParallelExact::slice_end(const WindowPlan& plan, double start) const {
+  const double n = static_cast<double>(state_.disks.size());
+  double longest = sweep_.longest_slice();
+  if (longest < never && rate_ > 0.0) longest = std::min(longest, events_per_slice * n / rate_);
+  const double left = plan.length - start;
+  const double parts = std::ceil(left / longest);
+  return parts > 1.0 ? start + left / parts : never;
 }
 
 void ParallelExact::store_paths(const WindowPlan& plan) {
   const PhaseTimer timer(times_, "store");
   Disks& d = state_.disks;
   const std::size_t n = d.size();
-  const bool any_gone = this->any_gone();
+  const bool any_gone = sweep_.any_gone();
   gone_.assign(any_gone ? n : 0, 0);
   executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -287,18 +269,18 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
   last_length_ = plan.length;
   last_plan_ = plan;
   if (any_gone) remove(gone_);
-  const ImpactTally tally = ran_sequence_ ? sequence_.tally() : slices_.tally();
+  const ImpactTally tally = sweep_.tally();
   finish_window(state_, plan, tally, 1.0);
   validity_.see_step(scene_, {0.0, tally.amiss}, state_);
 }
 
 double ParallelExact::disks_at(double t, Disks& out) const {
-  if (!(t < state_.time) || state_.counters.steps == 0 || !slices_.keeps_paths()) {
+  if (!(t < state_.time) || state_.counters.steps == 0 || !field_.keeps_paths) {
     out = state_.disks;
     return state_.time;
   }
   const double s = t > last_plan_.start ? t - last_plan_.start : 0.0;
-  out = any_gone() ? at_start_ : state_.disks;
+  out = sweep_.any_gone() ? at_start_ : state_.disks;
   // The piece that is last of those begun by s; a block's log has a disk's pieces in order.
   std::vector<PathSegment> path(field_.flight.size());
   for (std::size_t i = 0; i < path.size(); ++i) path[i] = field_.flight[i].path;
@@ -312,11 +294,7 @@ double ParallelExact::disks_at(double t, Disks& out) const {
       logged[piece.disk] = 1;
     }
   };
-  if (ran_sequence_) {
-    read(log_);
-  } else {
-    for (const std::vector<LoggedPiece>& log : slices_.log()) read(log);
-  }
+  sweep_.read_logs(read);
   for (std::size_t i = 0; i < path.size(); ++i) {
     PathSegment p = carried_to(path[i], s, scene_.physics.gravity);
     wrap_into(p, scene_.box);

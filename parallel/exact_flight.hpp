@@ -1,7 +1,6 @@
-// What the exact engine knows of every disk during a slice of a window.
+// What the exact engine knows of every disk during a window.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -19,62 +18,65 @@ struct alignas(64) Flight {
   PathSegment path;
   double radius = 0.0;
   DiskId id = 0;
-  std::uint32_t owner = nobody;  // handle of the member that the disk is in this slice
   // Whom it meets when it is due: a storage index or a wall_partner; leaving; nobody: not known, it has to look.
   std::uint32_t partner = nobody;
-  // Slices of the window (from 1 on): the one in which the path began, 0 at the window's start, and the one in which
-  // the partner was found. A partner on a path begun in an earlier slice than that is still met as found.
-  std::uint16_t changed = 0;
-  std::uint16_t looked = 0;
+  std::uint32_t version = 0;          // paths begun in the window
+  std::uint32_t partner_version = 0;  // of the path that the partner was found on
 };
 static_assert(sizeof(Flight) == 64);
 
-// Only `owner`, and `due` and `partner` of disks that nobody owns, change while a slice is solved.
+// In ExactField::standing. The disk's motion is known up to the slice's end; as far as events have happened; up to the
+// slice's start only; any other number: that of a Doubt.
+inline constexpr std::uint32_t settled = 0xffffffffU;
+inline constexpr std::uint32_t at_hand = 0xfffffffeU;
+inline constexpr std::uint32_t waiting = 0xfffffffdU;
+
+// Bits of ExactField::mark.
+inline constexpr std::uint8_t at_edge = 1;    // lists a disk of another region
+inline constexpr std::uint8_t at_border = 2;  // lists a disk of a later tile, or one at the edge
+inline constexpr std::uint8_t wary = 4;       // may list a disk that is in doubt, or waits, in this slice
+
+// All by storage index.
 struct ExactField {
   ExactRules rules;
   const Disks* disks = nullptr;  // masses
-  std::vector<Flight> flight;    // by storage index
+  std::vector<Flight> flight;
   // No event that this disk answers for happens before; each pair is answered for by the one whose path changed last
   // (or both), each disk for its own sides and for leaving its list's range.
   std::vector<double> due;
   std::vector<double> last_contact;  // with the TC model
   std::vector<Burst> burst;          // where collapse is possible
-  double length = 0.0;               // of the window; time
-  double horizon = 0.0;              // events are looked for up to here, beyond the window
-  double slack = 0.0;                // rounding of a place, generously; length
+  // Where there are tiles.
+  std::vector<std::uint32_t> standing;
+  std::vector<std::uint8_t> mark;
+  std::vector<std::uint16_t> region_of_tile;
+  double length = 0.0;   // of the window; time
+  double horizon = 0.0;  // events are looked for up to here, beyond the window
+  double slack = 0.0;    // rounding of a place, generously; length
   // Up to this v^2 nobody flies so far in a window that images beyond the nearest one, or crossing events, come into
   // play; fastest2 is the largest v^2 so far.
   double safe_speed2 = 0.0;
   double fastest2 = 0.0;
+  // Where there are tiles: paths that begin with more than allowed2 (v^2) void the window; then nobody's speed exceeds
+  // bound, not even under gravity.
+  double allowed2 = 0.0;
+  double bound = 0.0;
   double slice_start = 0.0;
-  double slice_end = 0.0;   // events before this time; in the last slice up to and including `length`
-  std::uint16_t slice = 0;  // number, from 1 on; stays at its largest value
+  double slice_end = 0.0;  // events before this time; in the last slice up to and including `length`
+  bool keeps_paths = true;
 
   bool in_slice(double t) const { return t < slice_end && t <= length; }
-
-  // While components are solved, others may claim a disk or put its due time off at any moment.
-  std::uint32_t owner_of(std::uint32_t i) {
-    return std::atomic_ref<std::uint32_t>(flight[i].owner).load(std::memory_order_seq_cst);
-  }
-  double due_of(std::uint32_t i) { return std::atomic_ref<double>(due[i]).load(std::memory_order_relaxed); }
-  std::uint32_t partner_of(std::uint32_t i) {
-    return std::atomic_ref<std::uint32_t>(flight[i].partner).load(std::memory_order_relaxed);
-  }
-  void put_off(std::uint32_t i, double time, std::uint32_t partner) {
-    std::atomic_ref<double>(due[i]).store(time, std::memory_order_relaxed);
-    std::atomic_ref<std::uint32_t>(flight[i].partner).store(partner, std::memory_order_relaxed);
-    std::atomic_ref<std::uint16_t>(flight[i].looked).store(slice, std::memory_order_relaxed);
-  }
+  bool is_known(std::uint32_t i) const { return standing[i] >= at_hand; }
+  bool is_settled(std::uint32_t i) const { return !standing.empty() && standing[i] == settled; }
 };
 
-// The earliest event that a disk answers for, or that it has to look for one.
+// The earliest event of a disk that looks.
 struct NextEvent {
   double time = never;
   DiskId id1 = 0, id2 = 0;       // of the event; id2 may be a wall_partner
-  std::uint32_t other = nobody;  // storage index of the disk met, or of the disk itself for a side; nobody: to look
-  std::uint32_t other_version = 0;
+  std::uint32_t other = nobody;  // storage index of the disk met, or of the disk itself for a side
 
-  // The canonical order. To look comes first: ids 0, 0.
+  // The canonical order.
   bool before(const NextEvent& e) const {
     if (time != e.time) return time < e.time;
     if (id1 != e.id1) return id1 < e.id1;

@@ -6,33 +6,31 @@
 
 #include "core/boundary.hpp"
 #include "core/huge_pages.hpp"
+#include "parallel/tiled_grid.hpp"
 
 namespace carom {
 
 namespace {
 
-// Disks whose lists share a vector: enough that vectors are few, few enough to share out among threads.
+// Disks whose lists share a vector where there are no tiles: enough that vectors are few, few enough to share out among
+// threads.
 constexpr std::size_t disks_per_block = 4096;
 // Up to so many disks everybody is in everybody's list: nothing to keep in order, and windows of few disks are long.
 constexpr std::size_t everybody_below = 40;
 // Twice the roam and a diameter reach this many spacings: about eleven neighbours. Longer lists are looked through more
 // often, shorter ones made more often.
-constexpr double reach_in_spacings = 1.9;
+constexpr double reach_in_spacings = 2.0;
 // In very dense systems the roam is at least this share of a mean diameter.
 constexpr double least_roam = 0.08;
-// Disks a block when some are listed anew.
-constexpr std::size_t anew_per_block = 64;
-// Columns of cells in a band: 2^5.
-constexpr unsigned band_shift = 5;
 // Share of the roam that gravity may bend a path by before exit_time is asked again.
 constexpr double bend_share = 0.1;
 
 }  // namespace
 
-void ExactLists::choose_roam(const Disks& d) {
+void ExactLists::choose_roam(const Disks& d, double share) {
   const double n = static_cast<double>(d.size());
   if (d.size() <= everybody_below) {
-    roam_ = HUGE_VAL;
+    roam_ = range_ = HUGE_VAL;
     return;
   }
   double radius = d.common_radius;
@@ -43,115 +41,131 @@ void ExactLists::choose_roam(const Disks& d) {
   }
   const double spacing = std::sqrt(box_.width * box_.height / n);
   roam_ = std::max(0.5 * (reach_in_spacings * spacing - 2.0 * radius), least_roam * 2.0 * radius);
+  range_ = share * roam_;
 }
 
-void ExactLists::build(Disks& d, const Domain& box, const Executor& executor) {
-  box_ = box;
-  choose_roam(d);
-  const std::size_t n = d.size();
-  moved_.clear();
-  largest_radius_ = largest_radius(d);
-  if (!everybody()) {
-    const double largest = largest_radius_;
-    std::vector<std::size_t> count(class_of_radius(smallest_radius(d), largest) + 1, 0);
-    if (count.size() == 1) count[0] = n;
-    if (count.size() > 1) {
-      for (const double r : d.radius) ++count[class_of_radius(r, largest)];
-    }
+void ExactLists::sort(Disks& d, std::size_t disks_per_tile, const Executor& executor) {
+  const double largest = largest_radius_;
+  std::vector<std::size_t> count(class_of_radius(smallest_radius(d), largest) + 1, 0);
+  if (count.size() == 1) count[0] = d.size();
+  if (count.size() > 1) {
+    for (const double r : d.radius) ++count[class_of_radius(r, largest)];
+  }
+  if (disks_per_tile > 0) {
+    make_tiled_grid(box_, largest, count, disks_per_tile, grid_);
+  } else {
     // About a disk a cell: lists reach over several cells, and empty ones cost as much to visit as others.
     for (std::size_t& c : count) c = c / 2 + 1;
-    make_grid(box, largest, count, grid_, band_shift);
-    sort_into_cells(d, grid_, executor, cells_);
-    head_.assign(grid_.keys, none);
+    make_grid(box_, largest, count, grid_);
   }
+  sort_into_cells(d, grid_, executor, cells_);
+  head_.assign(grid_.keys, none);
+  next_.assign(d.size(), unchained);
+}
+
+void ExactLists::build(Disks& d, const Domain& box, std::size_t disks_per_tile, double share,
+                       const Executor& executor) {
+  box_ = box;
+  choose_roam(d, share);
+  const std::size_t n = d.size();
+  largest_radius_ = largest_radius(d);
+  grid_.tiles = 1;
+  grid_.tile_keys = 0;
+  if (!everybody()) sort(d, disks_per_tile, executor);
   if (rows_.capacity() < n) resize_in_huge_pages(rows_, n);
   rows_.resize(n);
-  block_shift_ = static_cast<unsigned>(std::bit_width(executor.grain(disks_per_block)) - 1);
-  const std::size_t block = std::size_t{1} << block_shift_;
-  wide_.resize((n + block - 1) >> block_shift_);
-  executor.run(wide_.size(), [&](std::size_t b) {
-    wide_[b].clear();
-    list_block(d, b * block, std::min(n, (b + 1) * block));
+  if (place_.capacity() < n) resize_in_huge_pages(place_, n);
+  place_.resize(n);
+  executor.for_ranges(n, disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) place_[i] = {d.x[i], d.y[i]};
   });
-}
-
-void ExactLists::list_block(const Disks& d, std::size_t begin, std::size_t end) {
-  thread_local std::vector<std::uint32_t> found;
-  for (std::size_t k = begin; k < end; ++k) {
-    const auto i = static_cast<std::uint32_t>(k);
-    Row& row = rows_[i];
-    row.x = d.x[i];
-    row.y = d.y[i];
-    row.more = none;
-    row.count = 0;
-    found.clear();
-    find_neighbours(
-        d, i,
-        [&](std::uint32_t j) {
-          return Vec2{d.x[j], d.y[j]};
-        },
-        found);
-    for (const std::uint32_t j : found) insert(i, j);
-    row.sides = static_cast<std::uint8_t>(find_sides(d, i));
+  if (grid_.tile_keys > 0) {
+    wide_.resize(grid_.tiles);
+    executor.run(wide_.size(), [&](std::size_t t) {
+      const auto tile = static_cast<std::uint32_t>(t);
+      list_block(d, t, first_disk_of(tile), first_disk_of(tile + 1));
+    });
+  } else {
+    wide_.resize(executor.blocks(n, disks_per_block));
+    executor.for_ranges(n, disks_per_block,
+                        [&](std::size_t b, std::size_t begin, std::size_t end) { list_block(d, b, begin, end); });
   }
 }
 
-template <class PlaceOf>
-void ExactLists::find_neighbours(const Disks& d, std::uint32_t i, PlaceOf&& place_of,
+void ExactLists::list_block(const Disks& d, std::size_t home, std::size_t begin, std::size_t end) {
+  thread_local std::vector<std::uint32_t> found;
+  wide_[home].clear();
+  ListsPart everything;
+  everything.nobody_moved = true;
+  for (std::size_t k = begin; k < end; ++k) {
+    const auto i = static_cast<std::uint32_t>(k);
+    rows_[i].home = static_cast<std::uint16_t>(home);
+    rows_[i].sides = static_cast<std::uint8_t>(find_sides(d, i));
+    find_neighbours(d, i, place_[i], everything, found);
+    fill(i, found);
+  }
+}
+
+bool ExactLists::find_neighbours(const Disks& d, std::uint32_t i, Vec2 p, const ListsPart& part,
                                  std::vector<std::uint32_t>& found) const {
-  const Vec2 p{rows_[i].x, rows_[i].y};
-  const double own = d.radius_of(i) + 2.0 * roam_;
-  const double width = box_.periodic_x() ? box_.width : 0.0;
-  const double height = box_.periodic_y() ? box_.height : 0.0;
-  const double half_width = box_.periodic_x() ? 0.5 * width : HUGE_VAL;
-  const double half_height = box_.periodic_y() ? 0.5 * height : HUGE_VAL;
-  const double* const radius = d.radius.empty() ? nullptr : d.radius.data();
-  // No branch depends on a place: which neighbours are near is as good as random.
-  const auto is_near = [&](std::uint32_t j) {
-    const Vec2 q = place_of(j);
-    double dx = std::abs(q.x - p.x);
-    double dy = std::abs(q.y - p.y);
-    dx -= dx > half_width ? width : 0.0;
-    dy -= dy > half_height ? height : 0.0;
-    const double reach = own + (radius != nullptr ? radius[j] : d.common_radius);
-    return static_cast<unsigned>(dx * dx + dy * dy <= reach * reach) & static_cast<unsigned>(j != i);
-  };
+  NearbyFrame frame{p, d.radius_of(i) + 2.0 * roam_, d.common_radius, 0.0, 0.0, HUGE_VAL, HUGE_VAL, i};
+  if (box_.periodic_x()) {
+    frame.width = box_.width;
+    frame.half_width = 0.5 * box_.width;
+  }
+  if (box_.periodic_y()) {
+    frame.height = box_.height;
+    frame.half_height = 0.5 * box_.height;
+  }
+  // Who was listed anew since is found where he is now.
+  const NearbyColumns columns{place_.data(), d.radius.empty() ? nullptr : d.radius.data(),
+                              everybody() ? nullptr : next_.data(),
+                              std::min(static_cast<std::uint32_t>(place_.size()), part.last_disk)};
+  std::size_t n = 0;
   const auto run = [&](std::uint32_t first, std::uint32_t last) {
-    std::size_t n = found.size();
-    found.resize(n + (last - first));
-    for (std::uint32_t j = first; j < last; ++j) {
-      found[n] = j;
-      n += is_near(j);
-    }
-    found.resize(n);
+    if (found.size() < n + (last - first) + nearby_room) found.resize(2 * (n + (last - first) + nearby_room));
+    n += nearby_(frame, columns, first, last, found.data() + n);
   };
-  visit_runs_near(p.x, p.y, own, run, [&](std::uint32_t j) {
-    if (is_near(j) != 0) found.push_back(j);
+  const bool inside = visit_runs_near(p.x, p.y, frame.reach, part, run, [&](std::uint32_t j) {
+    if (found.size() <= n) found.resize(2 * (n + nearby_room));
+    found[n] = j;
+    n += is_nearby(frame, place_[j], columns.radius != nullptr ? columns.radius[j] : frame.common_radius) && j != i;
   });
+  found.resize(n);
+  return inside;
 }
 
 unsigned ExactLists::find_sides(const Disks& d, std::uint32_t i) const {
   unsigned sides = 0;
   for (const Side side : all_sides) {
     if (box_.side(side) == SideKind::periodic) continue;
-    const double gap = -reach_beyond(side, rows_[i].x, rows_[i].y, d.radius_of(i), box_);
+    const double gap = -reach_beyond(side, place_[i].x, place_[i].y, d.radius_of(i), box_);
     if (gap <= roam_) sides |= 1U << static_cast<unsigned>(side);
   }
   return sides;
 }
 
+void ExactLists::sort_along(std::vector<double>& column, const Executor& executor) {
+  if (everybody()) return;
+  std::vector<double>& sorted = cells_.column;
+  executor.for_ranges(column.size(), disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) sorted[i] = column[cells_.order[i]];
+  });
+  column.swap(sorted);
+}
+
 double ExactLists::exit_time(std::uint32_t i, const PathSegment& path, double from, double until, double g) const {
   if (everybody()) return never;
   const PathSegment p = carried_to(path, from, g);
-  double dx = p.x - rows_[i].x;
-  double dy = p.y - rows_[i].y;
+  double dx = p.x - place_[i].x;
+  double dy = p.y - place_[i].y;
   if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
   if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
-  double room = roam_ * (1.0 - 1e-9);
+  double room = range_ * (1.0 - 1e-9);
   double ahead = never;
   if (g > 0.0) {
     // The straight path, less what gravity can bend it by in the time looked ahead.
-    ahead = std::max(std::sqrt(2.0 * bend_share * roam_ / g), until - from);
+    ahead = std::max(std::sqrt(2.0 * bend_share * range_ / g), until - from);
     room -= 0.5 * g * ahead * ahead;
     if (!(room > 0.0)) return from;
   }
@@ -169,11 +183,11 @@ double ExactLists::exit_time(std::uint32_t i, const PathSegment& path, double fr
 bool ExactLists::stays(std::uint32_t i, const PathSegment& path, double from, double until, double g) const {
   if (everybody()) return true;
   const double bend = 0.125 * g * (until - from) * (until - from);
-  const double room = roam_ * (1.0 - 1e-9) - bend;
+  const double room = range_ * (1.0 - 1e-9) - bend;
   const auto inside = [&](double t) {
     const double s = t - path.start;
-    double dx = path.x + path.vx * s - rows_[i].x;
-    double dy = path.y + (path.vy - 0.5 * g * s) * s - rows_[i].y;
+    double dx = path.x + path.vx * s - place_[i].x;
+    double dy = path.y + (path.vy - 0.5 * g * s) * s - place_[i].y;
     if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
     if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
     return dx * dx + dy * dy < room * room;
@@ -193,83 +207,83 @@ double ExactLists::safe_speed2(double length, double g) const {
   return flight > 0.0 ? (flight / length) * (flight / length) : -1.0;
 }
 
-std::uint32_t ExactLists::key_of_place(const Disks& d, std::uint32_t i) const {
+std::uint32_t ExactLists::key_of_place(const Disks& d, std::uint32_t i, Vec2 place) const {
   const std::size_t level =
       d.radius.empty() || grid_.levels.size() == 1 ? 0 : class_of_radius(d.radius[i], grid_.levels[0].largest_radius);
-  return key_of(grid_.levels[level], rows_[i].x, rows_[i].y);
+  return key_of(grid_.levels[level], place.x, place.y);
 }
 
-// Looks at all of the list, so that the compiler can take several at a time.
 bool ExactLists::lists(std::uint32_t i, std::uint32_t j) const {
-  unsigned seen = 0;
-  see_neighbours(i, [&](const std::uint32_t* near, std::uint32_t count) {
-    for (std::uint32_t k = 0; k < count; ++k) seen |= static_cast<unsigned>(near[k] == j);
-  });
-  return seen != 0;
+  const Row& row = rows_[i];
+  const auto offset = static_cast<std::int32_t>(j - i);
+  // All of the row, so that the compiler can take several at a time; those beyond count are 0.
+  const auto sought = static_cast<std::int16_t>(offset);
+  std::int16_t seen = 0;
+  for (std::uint32_t k = 0; k < chunk; ++k) seen = static_cast<std::int16_t>(seen | -(row.offset[k] == sought));
+  if (seen != 0 && sought == offset) return true;
+  for (std::uint32_t w = row.more; w != none; w = wide_[row.home][w].next) {
+    const WideRow& wide = wide_[row.home][w];
+    if (std::find(wide.offset, wide.offset + wide.count, offset) != wide.offset + wide.count) return true;
+  }
+  return false;
+}
+
+// Disk i's list becomes these.
+void ExactLists::fill(std::uint32_t i, std::span<const std::uint32_t> found) {
+  Row& row = rows_[i];
+  row.more = none;
+  row.count = 0;
+  std::fill(std::begin(row.offset), std::end(row.offset), std::int16_t{0});
+  for (const std::uint32_t j : found) insert(i, j);
 }
 
 void ExactLists::insert(std::uint32_t i, std::uint32_t j) {
   Row& row = rows_[i];
-  const std::int64_t offset = std::int64_t{j} - std::int64_t{i};
+  const auto offset = static_cast<std::int32_t>(j - i);
   if (row.count < chunk && offset == static_cast<std::int16_t>(offset)) {
     row.offset[row.count++] = static_cast<std::int16_t>(offset);
-    return;
+  } else {
+    insert_wide(row, offset);
   }
-  std::vector<WideRow>& wide = wide_[i >> block_shift_];
-  if (row.more == none || wide[row.more].count == std::size(wide[row.more].near)) {
+}
+
+void ExactLists::insert_wide(Row& row, std::int32_t offset) {
+  std::vector<WideRow>& wide = wide_[row.home];
+  if (row.more == none || wide[row.more].count == wide_chunk) {
     wide.push_back({{}, 0, row.more});
     row.more = static_cast<std::uint32_t>(wide.size() - 1);
   }
   WideRow& last = wide[row.more];
-  last.near[last.count++] = j;
+  last.offset[last.count++] = offset;
 }
 
-void ExactLists::replace_list(std::uint32_t i, std::span<const std::uint32_t> found) {
-  rows_[i].count = 0;
-  rows_[i].more = none;
+// Takes the disk out of the chain of this cell.
+void ExactLists::unchain(std::uint32_t i, std::uint32_t key) {
+  std::uint32_t* link = &head_[key];
+  while (*link != i) link = &next_[*link];
+  *link = next_[i];
+}
+
+bool ExactLists::list_anew(std::uint32_t i, Vec2 place, const Disks& d, const ListsPart& part,
+                           std::vector<std::uint32_t>& found) {
+  if (!find_neighbours(d, i, place, part, found)) return false;
+  if (!everybody()) {
+    if (!std::all_of(found.begin(), found.end(), [&](std::uint32_t j) { return part.holds(j); })) return false;
+    const bool chained = next_[i] != unchained;
+    const std::uint32_t old_key = chained ? key_of_place(d, i, place_[i]) : 0;
+    if (chained && (old_key < part.first_key || old_key >= part.last_key)) return false;
+    if (chained) unchain(i, old_key);
+    const std::uint32_t key = key_of_place(d, i, place);
+    next_[i] = head_[key];
+    head_[key] = i;
+  }
+  place_[i] = place;
+  rows_[i].sides = static_cast<std::uint8_t>(find_sides(d, i));
+  fill(i, found);
   for (const std::uint32_t j : found) {
-    if (!lists(i, j)) insert(i, j);
     if (!lists(j, i)) insert(j, i);
   }
-}
-
-void ExactLists::list_anew(std::span<const std::uint32_t> which, std::span<const Vec2> places, const Disks& d,
-                           const Executor& executor) {
-  for (std::size_t k = 0; k < which.size(); ++k) {
-    const std::uint32_t i = which[k];
-    rows_[i].x = places[k].x;
-    rows_[i].y = places[k].y;
-    rows_[i].sides = static_cast<std::uint8_t>(find_sides(d, i));
-    const std::uint32_t key = key_of_place(d, i);
-    moved_.push_back({i, head_[key]});
-    head_[key] = static_cast<std::uint32_t>(moved_.size() - 1);
-  }
-  const std::size_t blocks = executor.blocks(which.size(), anew_per_block);
-  if (found_.size() < blocks) found_.resize(blocks);
-  // Each block's finds, one list after the other, each before its length.
-  executor.for_ranges(which.size(), anew_per_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t>& found = found_[b];
-    found.clear();
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t first = found.size();
-      find_neighbours(
-          d, which[k],
-          [&](std::uint32_t j) {
-            return Vec2{rows_[j].x, rows_[j].y};
-          },
-          found);
-      found.push_back(static_cast<std::uint32_t>(found.size() - first));
-    }
-  });
-  const std::size_t grain = executor.grain(anew_per_block);
-  for (std::size_t b = 0; b < blocks; ++b) {
-    std::size_t end = found_[b].size();
-    for (std::size_t k = std::min(which.size(), (b + 1) * grain); k-- > b * grain;) {
-      const std::size_t count = found_[b][--end];
-      end -= count;
-      replace_list(which[k], {found_[b].data() + end, count});
-    }
-  }
+  return true;
 }
 
 }  // namespace carom

@@ -4,8 +4,8 @@ namespace carom {
 
 namespace {
 
-// Few enough that a heap is shallow, enough that a page is not an empty one.
-constexpr std::size_t events_per_page = 6;
+// Few enough to be looked through for the first, enough that a page is not an empty one.
+constexpr std::size_t events_per_page = 3;
 
 }  // namespace
 
@@ -13,7 +13,8 @@ void ExactQueue::begin(double start, double end, std::size_t expected) {
   const std::size_t pages = expected / events_per_page + 1;
   first_.assign(pages, none);
   chunks_.clear();
-  heap_.clear();
+  now_.clear();
+  is_heap_ = false;
   free_ = none;
   next_page_ = 0;
   start_ = start;
@@ -44,7 +45,7 @@ void ExactQueue::turn_page() {
   while (c != none) {
     Chunk& chunk = chunks_[c];
     for (std::uint32_t k = 0; k < chunk.count; ++k) {
-      heap_.push_back({chunk.note[k].time, 0, 0, chunk.note[k].disk});
+      now_.push_back({chunk.note[k].time, 0, 0, chunk.note[k].disk});
     }
     const std::uint32_t next = chunk.next;
     chunk.next = free_;

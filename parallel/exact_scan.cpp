@@ -1,50 +1,58 @@
 #include "parallel/exact_scan.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 namespace carom {
 
-NextEvent ExactScan::earliest(std::uint32_t i, double from) const {
+NextEvent ExactScan::earliest(std::uint32_t i) const {
   const Flight* const flight = field_->flight.data();
-  const PathSegment& path = flight[i].path;
-  const bool far = flies_far(path);
-  ApproachFrame own = frame(path, from);
-  own.own_reach = flight[i].radius + field_->slack;
-  NextEvent best = earliest_at_sides(i, path, far);
-  lists_->see_neighbours(i, [&](const std::uint32_t* near, std::uint32_t n) {
-    const auto path_of = [&](std::uint32_t k) -> const PathSegment& { return flight[near[k]].path; };
-    if (far) {
-      for (std::uint32_t k = 0; k < n; ++k) meet(i, path, near[k], path_of(k), best);
-      return;
+  const bool far = flies_far(flight[i].path);
+  const MeetingFrame own = frame(flight[i]);
+  NextEvent best = earliest_at_sides(i, flight[i].path, far);
+  if (far) {
+    lists_->for_each_neighbour(i, [&](std::uint32_t j) { meet(i, j, best); });
+    return best;
+  }
+  const auto look = [&](const auto& kernel, const auto* offset, std::uint32_t count) {
+    const FirstMeetings first = kernel(own, flight + i, offset, count);
+    if (!(first.time <= field_->horizon)) return;
+    for (std::uint32_t left = first.bits; left != 0; left &= left - 1U) {
+      see(i, i + static_cast<std::uint32_t>(std::int32_t{offset[std::countr_zero(left)]}), first.time, best);
     }
-    double least[ApproachBatch::size];
-    const std::uint32_t candidates = approaching_flights_(own, flight, near, n, least);
-    meet_candidates(i, path, from, candidates, least, near, path_of, best);
-  });
+  };
+  static_assert(ExactLists::chunk <= most_neighbours);
+  lists_->see_offsets(
+      i, [&](const std::int16_t* offset, std::uint32_t count) { look(kernels_.near, offset, count); },
+      [&](const std::int32_t* offset, std::uint32_t count) { look(kernels_.far, offset, count); });
   return best;
 }
 
-// The exact formula; `best` becomes this meeting if it comes first.
-void ExactScan::meet(std::uint32_t i, const PathSegment& path, std::uint32_t j, const PathSegment& seen,
-                     NextEvent& best) const {
+// With images beyond the nearest one.
+void ExactScan::meet(std::uint32_t i, std::uint32_t j, NextEvent& best) const {
   const Flight& own = field_->flight[i];
   const Flight& other = field_->flight[j];
   const ExactRules& rules = field_->rules;
   const bool in_order = own.id < other.id;
   const double reach = own.radius + other.radius;
-  const PathSegment& first = in_order ? path : seen;
-  const PathSegment& second = in_order ? seen : path;
-  const double t = meeting_time(first, second, reach, rules.box, rules.gravity, field_->horizon);
-  if (t == never) return;
-  const NextEvent e{t, in_order ? own.id : other.id, in_order ? other.id : own.id, j, 0};
+  const double t = meeting_time(in_order ? own.path : other.path, in_order ? other.path : own.path, reach, rules.box,
+                                rules.gravity, field_->horizon);
+  if (t < never) see(i, j, t, best);
+}
+
+// `best` becomes this meeting if it comes first.
+void ExactScan::see(std::uint32_t i, std::uint32_t j, double time, NextEvent& best) const {
+  const DiskId own = field_->flight[i].id;
+  const DiskId other = field_->flight[j].id;
+  const NextEvent e{time, std::min(own, other), std::max(own, other), j};
   if (e.before(best)) best = e;
 }
 
-ApproachFrame ExactScan::frame(const PathSegment& path, double from) const {
+MeetingFrame ExactScan::frame(const Flight& flight) const {
   const ExactRules& rules = field_->rules;
-  const PathSegment p = carried_to(path, from, rules.gravity);
-  const double blur = 0.1 * field_->slack;
-  ApproachFrame f{from, p.x, p.y, p.vx, p.vy, rules.gravity, 0.0, 0.0, HUGE_VAL, HUGE_VAL, blur * blur};
+  const double reach = flight.radius + flight.radius;
+  MeetingFrame f{flight.path, rules.gravity, flight.radius, reach * reach, 0.0, 0.0, HUGE_VAL, HUGE_VAL};
   if (rules.box.periodic_x()) {
     f.width = rules.box.width;
     f.half_width = 0.5 * f.width;
@@ -62,7 +70,7 @@ NextEvent ExactScan::earliest_at_sides(std::uint32_t i, const PathSegment& path,
   const double g = field_->rules.gravity;
   NextEvent best;
   const auto look = [&](Side side) {
-    const NextEvent e{side_time(path, side, own.radius, box, g, field_->horizon), own.id, wall_partner(side), i, 0};
+    const NextEvent e{side_time(path, side, own.radius, box, g, field_->horizon), own.id, wall_partner(side), i};
     if (e.time < never && e.before(best)) best = e;
   };
   const unsigned near = lists_->sides_near(i);

@@ -13,6 +13,7 @@ namespace carom {
 namespace {
 
 void keep_ids(QueuedEvent&) {}
+void ignore(std::uint32_t) {}
 
 // Events that lie on a page not yet turned get their ids when it is: here from a list, by disk.
 std::vector<QueuedEvent> random_events(test::Draws& draws, std::uint32_t count) {
@@ -36,12 +37,13 @@ TEST(ExactQueue, GivesBackInCanonicalOrder) {
     std::sort(sorted.begin(), sorted.end(), [](const QueuedEvent& a, const QueuedEvent& b) { return b.after(a); });
     QueuedEvent e;
     for (const QueuedEvent& next : sorted) {
-      ASSERT_TRUE(queue.pop(e, [&](QueuedEvent& now) { now = events[now.disk]; }));
+      ASSERT_TRUE(queue.pop(
+          e, [&](QueuedEvent& now) { now = events[now.disk]; }, ignore));
       EXPECT_EQ(e.time, next.time);
       EXPECT_EQ(e.id1, next.id1);
       EXPECT_EQ(e.id2, next.id2);
     }
-    EXPECT_FALSE(queue.pop(e, keep_ids));
+    EXPECT_FALSE(queue.pop(e, keep_ids, ignore));
   }
 }
 
@@ -54,7 +56,7 @@ TEST(ExactQueue, TakesMoreWhileItGivesBack) {
   QueuedEvent e;
   double last = 0.0;
   std::size_t happened = 0;
-  while (queue.pop(e, keep_ids)) {
+  while (queue.pop(e, keep_ids, ignore)) {
     EXPECT_GE(e.time, last);
     last = e.time;
     ++happened;
