@@ -33,7 +33,7 @@ constexpr std::size_t listed_share = 2;
 // Where there are tiles, nobody gets faster within a window than the fastest disk at its start by this factor; a window
 // that finds otherwise is done again with a larger one, at last without tiles.
 constexpr double allowed_speed = 1.25;
-constexpr int most_tries = 4;
+constexpr int most_tries = 4;  // with tiles
 
 class ParallelExact final : public Engine {
  public:
@@ -47,12 +47,7 @@ class ParallelExact final : public Engine {
     if (!(state_.time < scene_.run.t_end)) return;
     start_window();
     const WindowPlan plan = plan_window(scene_, state_, summarise(), 1.0);
-    double allowed = allowed_speed;
-    for (int tries = 1; !run_window(plan, allowed); ++tries) {
-      if (tries == most_tries) throw PhysicsError("exact: disks are too fast at t = " + std::to_string(plan.start));
-      allowed *= 2.0 * allowed_speed;
-      lists_good_ = due_good_ = false;
-    }
+    run_window_surely(plan);
     store_paths(plan);
   }
 
@@ -70,6 +65,7 @@ class ParallelExact final : public Engine {
   SpeedSummary summarise();
   void list_if_due();
   void load_paths(const WindowPlan& plan);
+  void run_window_surely(const WindowPlan& plan);
   bool run_window(const WindowPlan& plan, double allowed);
   double slice_end(const WindowPlan& plan, double start) const;
   void store_paths(const WindowPlan& plan);
@@ -204,6 +200,20 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
       if (may_collapse) field_.burst[i] = {};
     }
   });
+}
+
+void ParallelExact::run_window_surely(const WindowPlan& plan) {
+  double allowed = allowed_speed;
+  for (int tries = 0; !run_window(plan, allowed); ++tries) {
+    if (tries == most_tries)
+      throw PhysicsError("exact: no way through the window at t = " + std::to_string(plan.start));
+    sweep_.allow_tiles(tries + 1 < most_tries);
+    allowed *= 2.0 * allowed_speed;
+    lists_good_ = due_good_ = false;
+  }
+  if (sweep_.tiles_allowed()) return;
+  sweep_.allow_tiles(true);
+  lists_good_ = false;
 }
 
 // False: somebody was faster than allowed, a factor on the speed at the window's start. The state is as it was.

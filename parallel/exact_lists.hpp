@@ -55,7 +55,6 @@ class ExactLists {
   // the grid; 0: it has no tiles. share: of the roam, after which a disk is to be listed anew.
   void build(Disks& disks, const Domain& box, std::size_t disks_per_tile, double share, const Executor& executor);
 
-  bool empty() const { return rows_.empty(); }
   // Length that a disk may go from its place, and after which it is to be listed anew; infinite when everybody is in
   // everybody's list.
   double roam() const { return roam_; }

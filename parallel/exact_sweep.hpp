@@ -23,11 +23,16 @@ class ExactSweep {
       : field_(field), lists_(lists), executor_(executor) {}
 
   // Is the sweep to have tiles for so many disks? And how many disks each, in build(): 0, none.
-  bool has_tiles(std::size_t disks) const { return disks > executor_.grain(alone_below); }
+  bool has_tiles(std::size_t disks) const { return tiles_allowed_ && disks > executor_.grain(alone_below); }
   std::size_t disks_per_tile(std::size_t disks) const { return has_tiles(disks) ? executor_.grain(tile_disks) : 0; }
   // Of the roam, after which a disk is to be listed anew: where there are tiles, none whose motion is unknown may go
   // the whole way within a slice.
   double range_share(std::size_t disks) const { return has_tiles(disks) ? tiled_share : 1.0; }
+
+  // Without tiles any number of disks runs alone: slower, but nothing is taken for granted of their speeds. Lists have
+  // to be built anew after a change.
+  void allow_tiles(bool allowed) { tiles_allowed_ = allowed; }
+  bool tiles_allowed() const { return tiles_allowed_; }
 
   // A window begins; listed: the lists are new.
   void begin_window(bool listed);
@@ -83,6 +88,7 @@ class ExactSweep {
   std::vector<std::vector<std::uint32_t>> handed_on_;  // to each tile: numbers of doubts
   ExactPart rest_;                                     // everything where there are no tiles
   Count listed_anew_ = 0;
+  bool tiles_allowed_ = true;
 };
 
 }  // namespace carom
