@@ -40,9 +40,15 @@ struct GridLevel {
   std::uint32_t columns_left_in_band(std::uint32_t column) const {
     return (1U << band_shift) - (column & ((1U << band_shift) - 1U));
   }
+  // What a row and a column add to first_key.
+  std::uint32_t key_of_row(std::uint32_t row) const {
+    return (row >> group_shift) * group_keys + (row & ((1U << group_shift) - 1U)) * stride;
+  }
+  std::uint32_t key_of_column(std::uint32_t column) const {
+    return (column >> band_shift) * band_keys + (column & ((1U << band_shift) - 1U));
+  }
   std::uint32_t key_at(std::uint32_t row, std::uint32_t column) const {
-    return first_key + (column >> band_shift) * band_keys + (row >> group_shift) * group_keys +
-           (row & ((1U << group_shift) - 1U)) * stride + (column & ((1U << band_shift) - 1U));
+    return first_key + key_of_row(row) + key_of_column(column);
   }
 };
 

@@ -53,7 +53,7 @@ struct ExactPart {
   Count listed = 0;                  // disks listed anew in the slice
   std::vector<std::uint32_t> edge;   // disks that came to list one of another region in the slice
   std::vector<Doubt> doubts;         // of the slice
-  std::vector<std::uint32_t> found;  // scratch
+  FoundDisks found;                  // scratch
 
   void begin_window();
 };

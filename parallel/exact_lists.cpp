@@ -1,7 +1,7 @@
 #include "parallel/exact_lists.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
 
 #include "core/boundary.hpp"
@@ -22,10 +22,21 @@ constexpr std::size_t everybody_below = 40;
 constexpr double reach_in_spacings = 2.0;
 // In very dense systems the roam is at least this share of a mean diameter.
 constexpr double least_roam = 0.08;
+// The roam in units of spots, whose rounding must not count.
+constexpr double least_units = 1024.0;
+// Single precision finds a few too many rather than one too few.
+constexpr double single_margin = 1.0 + 1e-5;
+// Runs of disks that the kernel looks through in one call.
+constexpr std::size_t runs_at_once = 16;
+constexpr double two_to_31 = 2147483648.0;
 // Share of the roam that gravity may bend a path by before exit_time is asked again.
 constexpr double bend_share = 0.1;
 
 }  // namespace
+
+void FoundDisks::grow(std::size_t disks) {
+  room.resize(2 * (disks + nearby_room));
+}
 
 void ExactLists::choose_roam(const Disks& d, double share) {
   const double n = static_cast<double>(d.size());
@@ -40,7 +51,8 @@ void ExactLists::choose_roam(const Disks& d, double share) {
     radius /= n;
   }
   const double spacing = std::sqrt(box_.width * box_.height / n);
-  roam_ = std::max(0.5 * (reach_in_spacings * spacing - 2.0 * radius), least_roam * 2.0 * radius);
+  roam_ = std::max({0.5 * (reach_in_spacings * spacing - 2.0 * radius), least_roam * 2.0 * radius,
+                    least_units * std::max(unit_x_, unit_y_)});
   range_ = share * roam_;
 }
 
@@ -54,8 +66,8 @@ void ExactLists::sort(Disks& d, std::size_t disks_per_tile, const Executor& exec
   if (disks_per_tile > 0) {
     make_tiled_grid(box_, largest, count, disks_per_tile, grid_);
   } else {
-    // About a disk a cell: lists reach over several cells, and empty ones cost as much to visit as others.
-    for (std::size_t& c : count) c = c / 2 + 1;
+    // About two disks a cell: lists reach over several cells, and each costs as much to visit, empty or not.
+    for (std::size_t& c : count) c = c / 4 + 1;
     make_grid(box_, largest, count, grid_);
   }
   sort_into_cells(d, grid_, executor, cells_);
@@ -66,6 +78,8 @@ void ExactLists::sort(Disks& d, std::size_t disks_per_tile, const Executor& exec
 void ExactLists::build(Disks& d, const Domain& box, std::size_t disks_per_tile, double share,
                        const Executor& executor) {
   box_ = box;
+  unit_x_ = box.width / (box.periodic_x() ? 2.0 * two_to_31 : two_to_31);
+  unit_y_ = box.height / (box.periodic_y() ? 2.0 * two_to_31 : two_to_31);
   choose_roam(d, share);
   const std::size_t n = d.size();
   largest_radius_ = largest_radius(d);
@@ -74,10 +88,10 @@ void ExactLists::build(Disks& d, const Domain& box, std::size_t disks_per_tile, 
   if (!everybody()) sort(d, disks_per_tile, executor);
   if (rows_.capacity() < n) resize_in_huge_pages(rows_, n);
   rows_.resize(n);
-  if (place_.capacity() < n) resize_in_huge_pages(place_, n);
-  place_.resize(n);
+  if (spot_.capacity() < n) resize_in_huge_pages(spot_, n);
+  spot_.resize(n);
   executor.for_ranges(n, disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) place_[i] = {d.x[i], d.y[i]};
+    for (std::size_t i = begin; i < end; ++i) spot_[i] = spot_at(d.x[i], d.y[i]);
   });
   if (grid_.tile_keys > 0) {
     wide_.resize(grid_.tiles);
@@ -93,7 +107,7 @@ void ExactLists::build(Disks& d, const Domain& box, std::size_t disks_per_tile, 
 }
 
 void ExactLists::list_block(const Disks& d, std::size_t home, std::size_t begin, std::size_t end) {
-  thread_local std::vector<std::uint32_t> found;
+  thread_local FoundDisks found;
   wide_[home].clear();
   ListsPart everything;
   everything.nobody_moved = true;
@@ -101,45 +115,69 @@ void ExactLists::list_block(const Disks& d, std::size_t home, std::size_t begin,
     const auto i = static_cast<std::uint32_t>(k);
     rows_[i].home = static_cast<std::uint16_t>(home);
     rows_[i].sides = static_cast<std::uint8_t>(find_sides(d, i));
-    find_neighbours(d, i, place_[i], everything, found);
-    fill(i, found);
+    find_neighbours(d, i, spot_[i], everything, found);
+    fill(i, found.disks());
   }
 }
 
-bool ExactLists::find_neighbours(const Disks& d, std::uint32_t i, Vec2 p, const ListsPart& part,
-                                 std::vector<std::uint32_t>& found) const {
-  NearbyFrame frame{p, d.radius_of(i) + 2.0 * roam_, d.common_radius, 0.0, 0.0, HUGE_VAL, HUGE_VAL, i};
-  if (box_.periodic_x()) {
-    frame.width = box_.width;
-    frame.half_width = 0.5 * box_.width;
-  }
-  if (box_.periodic_y()) {
-    frame.height = box_.height;
-    frame.half_height = 0.5 * box_.height;
-  }
-  // Who was listed anew since is found where he is now.
-  const NearbyColumns columns{place_.data(), d.radius.empty() ? nullptr : d.radius.data(),
-                              everybody() ? nullptr : next_.data(),
-                              std::min(static_cast<std::uint32_t>(place_.size()), part.last_disk)};
-  std::size_t n = 0;
-  const auto run = [&](std::uint32_t first, std::uint32_t last) {
-    if (found.size() < n + (last - first) + nearby_room) found.resize(2 * (n + (last - first) + nearby_room));
-    n += nearby_(frame, columns, first, last, found.data() + n);
+// Round a period the whole number wraps by itself; between walls rounding may lead outside.
+Spot ExactLists::spot_at(double x, double y) const {
+  const auto units = [](double c, double unit, bool periodic) {
+    const auto whole = static_cast<std::int64_t>(c / unit + 0.5);
+    return static_cast<std::uint32_t>(periodic ? whole : std::clamp(whole, std::int64_t{0}, std::int64_t{1} << 31));
   };
-  const bool inside = visit_runs_near(p.x, p.y, frame.reach, part, run, [&](std::uint32_t j) {
-    if (found.size() <= n) found.resize(2 * (n + nearby_room));
-    found[n] = j;
-    n += is_nearby(frame, place_[j], columns.radius != nullptr ? columns.radius[j] : frame.common_radius) && j != i;
-  });
-  found.resize(n);
+  return {units(x, unit_x_, box_.periodic_x()), units(y, unit_y_, box_.periodic_y())};
+}
+
+bool ExactLists::find_neighbours(const Disks& d, std::uint32_t i, Spot spot, const ListsPart& part,
+                                 FoundDisks& found) const {
+  const double per_length = everybody() ? 0.0 : 1.0 / roam_;
+  const double distance = d.radius_of(i) + 2.0 * roam_;
+  const auto single = [&](double length) { return static_cast<float>(length * per_length); };
+  // Everybody is near where lengths are nothing.
+  const NearbyFrame frame{spot,
+                          single(unit_x_),
+                          single(unit_y_),
+                          everybody() ? 0.0F : single(distance * single_margin),
+                          single(d.common_radius * single_margin),
+                          per_length * single_margin,
+                          i};
+  // Who was listed anew since is found where he is now.
+  const NearbyColumns columns{spot_.data(), d.radius.empty() ? nullptr : d.radius.data(),
+                              everybody() || part.nobody_moved ? nullptr : next_.data(),
+                              std::min(static_cast<std::uint32_t>(spot_.size()), part.last_disk)};
+  std::array<DiskRun, runs_at_once> runs;
+  std::size_t held = 0;
+  std::size_t disks = 0;  // in the runs
+  std::size_t n = 0;
+  const auto search = [&] {
+    if (found.room.size() < n + disks + nearby_room) found.grow(n + disks);
+    n += nearby_(frame, columns, runs.data(), held, found.room.data() + n);
+    held = disks = 0;
+  };
+  const auto run = [&](std::uint32_t first, std::uint32_t last) {
+    if (held == runs.size()) search();
+    runs[held++] = {first, last};
+    disks += last - first;
+  };
+  const auto see = [&](std::uint32_t j) {
+    if (found.room.size() < n + nearby_room) found.grow(n);
+    found.room[n] = j;
+    n += is_nearby(frame, spot_[j], radius_in(frame, columns, j)) && j != i;
+  };
+  const Vec2 place{spot.x * unit_x_, spot.y * unit_y_};
+  const bool inside = visit_runs_near(place, distance, part, run, see);
+  search();
+  found.count = n;
   return inside;
 }
 
 unsigned ExactLists::find_sides(const Disks& d, std::uint32_t i) const {
   unsigned sides = 0;
+  const Vec2 place = place_of(i);
   for (const Side side : all_sides) {
     if (box_.side(side) == SideKind::periodic) continue;
-    const double gap = -reach_beyond(side, place_[i].x, place_[i].y, d.radius_of(i), box_);
+    const double gap = -reach_beyond(side, place.x, place.y, d.radius_of(i), box_);
     if (gap <= roam_) sides |= 1U << static_cast<unsigned>(side);
   }
   return sides;
@@ -157,8 +195,9 @@ void ExactLists::sort_along(std::vector<double>& column, const Executor& executo
 double ExactLists::exit_time(std::uint32_t i, const PathSegment& path, double from, double until, double g) const {
   if (everybody()) return never;
   const PathSegment p = carried_to(path, from, g);
-  double dx = p.x - place_[i].x;
-  double dy = p.y - place_[i].y;
+  const Vec2 place = place_of(i);
+  double dx = p.x - place.x;
+  double dy = p.y - place.y;
   if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
   if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
   double room = range_ * (1.0 - 1e-9);
@@ -184,10 +223,11 @@ bool ExactLists::stays(std::uint32_t i, const PathSegment& path, double from, do
   if (everybody()) return true;
   const double bend = 0.125 * g * (until - from) * (until - from);
   const double room = range_ * (1.0 - 1e-9) - bend;
+  const Vec2 place = place_of(i);
   const auto inside = [&](double t) {
     const double s = t - path.start;
-    double dx = path.x + path.vx * s - place_[i].x;
-    double dy = path.y + (path.vy - 0.5 * g * s) * s - place_[i].y;
+    double dx = path.x + path.vx * s - place.x;
+    double dy = path.y + (path.vy - 0.5 * g * s) * s - place.y;
     if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
     if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
     return dx * dx + dy * dy < room * room;
@@ -207,10 +247,10 @@ double ExactLists::safe_speed2(double length, double g) const {
   return flight > 0.0 ? (flight / length) * (flight / length) : -1.0;
 }
 
-std::uint32_t ExactLists::key_of_place(const Disks& d, std::uint32_t i, Vec2 place) const {
+std::uint32_t ExactLists::key_of_spot(const Disks& d, std::uint32_t i, Spot spot) const {
   const std::size_t level =
       d.radius.empty() || grid_.levels.size() == 1 ? 0 : class_of_radius(d.radius[i], grid_.levels[0].largest_radius);
-  return key_of(grid_.levels[level], place.x, place.y);
+  return key_of(grid_.levels[level], spot.x * unit_x_, spot.y * unit_y_);
 }
 
 bool ExactLists::lists(std::uint32_t i, std::uint32_t j) const {
@@ -264,23 +304,24 @@ void ExactLists::unchain(std::uint32_t i, std::uint32_t key) {
   *link = next_[i];
 }
 
-bool ExactLists::list_anew(std::uint32_t i, Vec2 place, const Disks& d, const ListsPart& part,
-                           std::vector<std::uint32_t>& found) {
-  if (!find_neighbours(d, i, place, part, found)) return false;
+bool ExactLists::list_anew(std::uint32_t i, Vec2 place, const Disks& d, const ListsPart& part, FoundDisks& found) {
+  const Spot spot = spot_at(place.x, place.y);
+  if (!find_neighbours(d, i, spot, part, found)) return false;
+  const std::span<const std::uint32_t> near = found.disks();
   if (!everybody()) {
-    if (!std::all_of(found.begin(), found.end(), [&](std::uint32_t j) { return part.holds(j); })) return false;
+    if (!std::all_of(near.begin(), near.end(), [&](std::uint32_t j) { return part.holds(j); })) return false;
     const bool chained = next_[i] != unchained;
-    const std::uint32_t old_key = chained ? key_of_place(d, i, place_[i]) : 0;
+    const std::uint32_t old_key = chained ? key_of_spot(d, i, spot_[i]) : 0;
     if (chained && (old_key < part.first_key || old_key >= part.last_key)) return false;
     if (chained) unchain(i, old_key);
-    const std::uint32_t key = key_of_place(d, i, place);
+    const std::uint32_t key = key_of_spot(d, i, spot);
     next_[i] = head_[key];
     head_[key] = i;
   }
-  place_[i] = place;
+  spot_[i] = spot;
   rows_[i].sides = static_cast<std::uint8_t>(find_sides(d, i));
-  fill(i, found);
-  for (const std::uint32_t j : found) {
+  fill(i, near);
+  for (const std::uint32_t j : near) {
     if (!lists(j, i)) insert(j, i);
   }
   return true;

@@ -22,16 +22,17 @@ template <class Visit>
 void for_each_keys_near(const GridLevel& level, const Domain& box, double x, double y, double reach, Visit&& visit) {
   const Span rows = span_around(y, reach, box.height, level.rows_per_length, level.rows, box.periodic_y());
   const Span columns = span_around(x, reach, box.width, level.columns_per_length, level.columns, box.periodic_x());
-  for (std::uint32_t k = 0, row = rows.first; k < rows.count; ++k, row = row + 1 < level.rows ? row + 1 : 0) {
-    for (std::uint32_t left = columns.count, column = columns.first; left > 0;) {
-      // Up to the end of the band or of the row.
-      const std::uint32_t band = std::min(level.columns - column, level.columns_left_in_band(column));
-      const std::uint32_t run = std::min(left, band);
-      const std::uint32_t first = level.key_at(row, column);
+  for (std::uint32_t left = columns.count, column = columns.first; left > 0;) {
+    // Up to the end of the band or of the row.
+    const std::uint32_t band = std::min(level.columns - column, level.columns_left_in_band(column));
+    const std::uint32_t run = std::min(left, band);
+    const std::uint32_t column_key = level.first_key + level.key_of_column(column);
+    for (std::uint32_t k = 0, row = rows.first; k < rows.count; ++k, row = row + 1 < level.rows ? row + 1 : 0) {
+      const std::uint32_t first = column_key + level.key_of_row(row);
       visit(first, first + run);
-      left -= run;
-      column = column + run < level.columns ? column + run : 0;
     }
+    left -= run;
+    column = column + run < level.columns ? column + run : 0;
   }
 }
 
@@ -41,6 +42,14 @@ struct ListsPart {
   std::uint32_t first_disk = 0, last_disk = 0xffffffffU;  // disks stored in [first, last)
   bool nobody_moved = false;                              // all are in the cells that they were sorted into
   bool holds(std::uint32_t disk) const { return disk >= first_disk && disk < last_disk; }
+};
+
+// Scratch of the search for neighbours, and whom it found.
+struct FoundDisks {
+  std::vector<std::uint32_t> room;
+  std::size_t count = 0;
+  std::span<const std::uint32_t> disks() const { return {room.data(), count}; }
+  void grow(std::size_t disks);
 };
 
 // Each disk has a place, where it was when listed, and may move by `roam` from it. Disks i and j are in each other's
@@ -59,6 +68,8 @@ class ExactLists {
   // everybody's list.
   double roam() const { return roam_; }
   double range() const { return range_; }
+  // Of disk i; inside the box, but for rounding.
+  Vec2 place_of(std::uint32_t i) const { return {spot_[i].x * unit_x_, spot_[i].y * unit_y_}; }
 
   // Runs of disks in storage that are neighbours in space; one if the grid has no tiles.
   std::uint32_t tiles() const { return grid_.tiles; }
@@ -98,10 +109,14 @@ class ExactLists {
     see_offsets(i, some, some);
   }
 
-  // Asks the memory for the list of disk i.
+  // Asks the memory for the list of disk i, or of disks [first, last).
   void prefetch(std::uint32_t i) const {
     __builtin_prefetch(&rows_[i]);
-    __builtin_prefetch(&place_[i]);
+    __builtin_prefetch(&spot_[i]);
+  }
+  void prefetch(std::uint32_t first, std::uint32_t last) const {
+    for (std::uint32_t i = first; i < last; ++i) __builtin_prefetch(&rows_[i]);
+    for (std::uint32_t i = first; i < last; i += 64 / sizeof(Spot)) __builtin_prefetch(&spot_[i]);
   }
 
   // Bits (1 << side) of the walls and sinks that the disk can touch without roaming too far.
@@ -121,8 +136,7 @@ class ExactLists {
 
   // Lists disk i anew at this place, inside the box. Reads and writes nothing outside the part; if that will not do, it
   // changes nothing and returns false. found: scratch.
-  bool list_anew(std::uint32_t i, Vec2 place, const Disks& disks, const ListsPart& part,
-                 std::vector<std::uint32_t>& found);
+  bool list_anew(std::uint32_t i, Vec2 place, const Disks& disks, const ListsPart& part, FoundDisks& found);
 
   // Calls see(j) for all disks whose places are within `distance` of a place for some disk of radius 0, their radii
   // added; for a few others too, and for some twice.
@@ -131,21 +145,22 @@ class ExactLists {
     const auto run = [&](std::uint32_t first, std::uint32_t last) {
       for (std::uint32_t j = first; j < last; ++j) see(j);
     };
-    visit_runs_near(x, y, distance, ListsPart{}, run, see);
+    visit_runs_near({x, y}, distance, ListsPart{}, run, see);
   }
 
  private:
   // The same, most of them as runs of disks [first, last). False, perhaps too early, if it would leave the part.
   template <class Run, class See>
-  bool visit_runs_near(double x, double y, double distance, const ListsPart& part, Run&& run, See&& see) const {
+  bool visit_runs_near(Vec2 place, double distance, const ListsPart& part, Run&& run, See&& see) const {
     if (everybody()) {
       run(0, static_cast<std::uint32_t>(rows_.size()));
       return true;
     }
     bool inside = true;
     for (const GridLevel& level : grid_.levels) {
-      const double reach = (distance + level.largest_radius) * (1.0 + 1e-9);
-      for_each_keys_near(level, box_, x, y, reach, [&](std::uint32_t first, std::uint32_t last) {
+      // Cells know where disks were, spots where they are taken to be.
+      const double reach = (distance + level.largest_radius) * (1.0 + 1e-9) + std::max(unit_x_, unit_y_);
+      for_each_keys_near(level, box_, place.x, place.y, reach, [&](std::uint32_t first, std::uint32_t last) {
         inside = inside && first >= part.first_key && last <= part.last_key;
         if (!inside) return;
         run(cells_.start[first], cells_.start[last]);
@@ -180,9 +195,9 @@ class ExactLists {
   void choose_roam(const Disks& disks, double share);
   void sort(Disks& disks, std::size_t disks_per_tile, const Executor& executor);
   void list_block(const Disks& disks, std::size_t home, std::size_t begin, std::size_t end);
-  bool find_neighbours(const Disks& disks, std::uint32_t i, Vec2 place, const ListsPart& part,
-                       std::vector<std::uint32_t>& found) const;
-  std::uint32_t key_of_place(const Disks& disks, std::uint32_t i, Vec2 place) const;
+  Spot spot_at(double x, double y) const;
+  bool find_neighbours(const Disks& disks, std::uint32_t i, Spot spot, const ListsPart& part, FoundDisks& found) const;
+  std::uint32_t key_of_spot(const Disks& disks, std::uint32_t i, Spot spot) const;
   bool lists(std::uint32_t i, std::uint32_t j) const;
   unsigned find_sides(const Disks& disks, std::uint32_t i) const;
   void insert(std::uint32_t i, std::uint32_t j);
@@ -196,8 +211,9 @@ class ExactLists {
   double roam_ = 0.0;
   double range_ = 0.0;
   double largest_radius_ = 0.0;
+  double unit_x_ = 0.0, unit_y_ = 0.0;  // of a Spot; length
   std::vector<Row> rows_;
-  std::vector<Vec2> place_;
+  std::vector<Spot> spot_;                  // everybody's place
   std::vector<std::vector<WideRow>> wide_;  // of each home
   // Disks listed anew, chained by the cell of their places: head_[key] is the last one that came to that cell.
   std::vector<std::uint32_t> head_;

@@ -9,15 +9,15 @@ namespace carom {
 NextEvent ExactScan::earliest(std::uint32_t i) const {
   const Flight* const flight = field_->flight.data();
   const bool far = flies_far(flight[i].path);
-  const MeetingFrame own = frame(flight[i]);
-  NextEvent best = earliest_at_sides(i, flight[i].path, far);
+  NextEvent best;
+  if (far || lists_->sides_near(i) != 0) best = earliest_at_sides(i, flight[i].path, far);
   if (far) {
     lists_->for_each_neighbour(i, [&](std::uint32_t j) { meet(i, j, best); });
     return best;
   }
   const auto look = [&](const auto& kernel, const auto* offset, std::uint32_t count) {
-    const FirstMeetings first = kernel(own, flight + i, offset, count);
-    if (!(first.time <= field_->horizon)) return;
+    const FirstMeetings first = kernel(frame_, flight + i, offset, count);
+    if (!(first.time <= field_->horizon) || first.time > best.time) return;
     for (std::uint32_t left = first.bits; left != 0; left &= left - 1U) {
       see(i, i + static_cast<std::uint32_t>(std::int32_t{offset[std::countr_zero(left)]}), first.time, best);
     }
@@ -49,10 +49,8 @@ void ExactScan::see(std::uint32_t i, std::uint32_t j, double time, NextEvent& be
   if (e.before(best)) best = e;
 }
 
-MeetingFrame ExactScan::frame(const Flight& flight) const {
-  const ExactRules& rules = field_->rules;
-  const double reach = flight.radius + flight.radius;
-  MeetingFrame f{flight.path, rules.gravity, flight.radius, reach * reach, 0.0, 0.0, HUGE_VAL, HUGE_VAL};
+MeetingFrame ExactScan::frame_of(const ExactRules& rules) {
+  MeetingFrame f{rules.gravity, 0.0, 0.0, HUGE_VAL, HUGE_VAL};
   if (rules.box.periodic_x()) {
     f.width = rules.box.width;
     f.half_width = 0.5 * f.width;

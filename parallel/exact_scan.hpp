@@ -16,6 +16,7 @@ class ExactScan {
       : field_(&field),
         lists_(&lists),
         kernels_(choose_meeting_kernels(field.rules.gravity != 0.0, !field.disks->radius.empty())),
+        frame_(frame_of(field.rules)),
         fastest2_(field.fastest2) {}
 
   // The earliest event of disk i with a side or a listed disk, up to the horizon, all on the paths that they are on
@@ -33,11 +34,12 @@ class ExactScan {
   NextEvent earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far) const;
   void meet(std::uint32_t i, std::uint32_t j, NextEvent& best) const;
   void see(std::uint32_t i, std::uint32_t j, double time, NextEvent& best) const;
-  MeetingFrame frame(const Flight& flight) const;
+  static MeetingFrame frame_of(const ExactRules& rules);
 
   const ExactField* field_;
   const ExactLists* lists_;
   MeetingKernels kernels_;
+  MeetingFrame frame_;
   double fastest2_;  // largest v^2 so far
 };
 

@@ -109,10 +109,9 @@ void ExactSweep::run_tiles(double expected) {
 // expected: events a disk.
 void ExactSweep::sweep_region(Region& region, double expected) {
   const ListsPart& part = region.part.lists;
-  for (std::uint32_t i = part.first_disk; i < part.last_disk; ++i) {
-    field_.standing[i] = waiting;
-    field_.mark[i] &= static_cast<std::uint8_t>(~wary);
-  }
+  std::fill(field_.standing.begin() + part.first_disk, field_.standing.begin() + part.last_disk, waiting);
+  std::uint8_t* const mark = field_.mark.data();
+  for (std::uint32_t i = part.first_disk; i < part.last_disk; ++i) mark[i] &= static_cast<std::uint8_t>(~wary);
   region.part.listed = 0;
   region.part.doubts.clear();
   region.left_over.clear();
@@ -139,21 +138,23 @@ void ExactSweep::sweep_tile(Region& region, ExactEvents& events, std::uint32_t t
     __builtin_prefetch(&field_.flight[i]);
     lists_.prefetch(i);
   }
-  for (std::uint32_t i = first; i < last; ++i) field_.standing[i] = (field_.mark[i] & at_edge) != 0 ? waiting : at_hand;
-  for (const std::uint32_t k : handed_on) field_.standing[doubts[k].disk] = at_hand;
+  const double most = std::min(field_.slice_end, field_.length);
+  const double* const due = field_.due.data();
+  std::uint32_t* const standing = field_.standing.data();
+  const std::uint8_t* const mark = field_.mark.data();
+  for (std::uint32_t i = first; i < last; ++i) standing[i] = (mark[i] & at_edge) != 0 ? waiting : at_hand;
+  for (const std::uint32_t k : handed_on) standing[doubts[k].disk] = at_hand;
   for (std::uint32_t i = first; i < last; ++i) {
-    if (field_.standing[i] != at_hand) continue;
-    events.push_due(i);
-    if ((field_.mark[i] & (at_border | wary)) != 0) events.watch(i, field_.slice_start);
+    if (standing[i] != at_hand) continue;
+    if (due[i] <= most) events.push_due(i);
+    if ((mark[i] & (at_border | wary)) != 0) events.watch(i, field_.slice_start);
   }
   for (const std::uint32_t k : handed_on) {
     events.push_due(doubts[k].disk);
     events.watch(doubts[k].disk, doubts[k].until);
   }
   events.run();
-  const auto settle = [&](std::uint32_t i) {
-    field_.standing[i] = field_.standing[i] == at_hand ? settled : field_.standing[i];
-  };
+  const auto settle = [&](std::uint32_t i) { standing[i] = standing[i] == at_hand ? settled : standing[i]; };
   for (std::uint32_t i = first; i < last; ++i) settle(i);
   for (const std::uint32_t k : handed_on) settle(doubts[k].disk);
   for (std::size_t k = before; k < doubts.size(); ++k) {

@@ -134,9 +134,21 @@ inline Doubles meet_four(const Lanes& own, const Flight& f0, const Flight& f1, c
 
 template <bool gravity, bool unequal_radii, class Offset>
 FirstMeetings first_meetings(const MeetingFrame& f, const Flight* flight, const Offset* offset, std::uint32_t count) {
-  const Lanes own{all(f.path.start), all(f.path.x),        all(f.path.y),     all(f.path.vx), all(f.path.vy),
-                  all(f.gravity),    all(0.5 * f.gravity), all(f.radius),     all(f.reach2),  all(f.width),
-                  all(f.height),     all(f.half_width),    all(f.half_height)};
+  const PathSegment& p = flight->path;
+  const double reach = flight->radius + flight->radius;
+  const Lanes own{all(p.start),
+                  all(p.x),
+                  all(p.y),
+                  all(p.vx),
+                  all(p.vy),
+                  all(f.gravity),
+                  all(0.5 * f.gravity),
+                  all(flight->radius),
+                  all(reach * reach),
+                  all(f.width),
+                  all(f.height),
+                  all(f.half_width),
+                  all(f.half_height)};
   Doubles time[most_neighbours / lanes];
   Doubles least = all(never);
   const std::uint32_t fours = (count + lanes - 1) / lanes;

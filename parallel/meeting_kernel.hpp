@@ -8,12 +8,9 @@
 
 namespace carom {
 
-// The disk that looks, and what all its neighbours have in common.
+// What all disks have in common.
 struct MeetingFrame {
-  PathSegment path;
   double gravity = 0.0;                        // length / time^2
-  double radius = 0.0;                         // length
-  double reach2 = 0.0;                         // (2 radius)^2
   double width = 0.0, height = 0.0;            // periods; 0: none
   double half_width = 0.0, half_height = 0.0;  // infinite where there is no period
 };

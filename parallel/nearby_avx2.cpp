@@ -12,66 +12,98 @@ namespace carom {
 
 namespace {
 
-constexpr std::uint32_t lanes = 4;
+constexpr std::uint32_t lanes = 8;
 
 // For each set of lanes, those in it first.
 constexpr auto packing = [] {
-  std::array<std::array<std::uint32_t, lanes>, 16> table{};
+  std::array<std::array<std::uint8_t, lanes>, 256> table{};
   for (std::uint32_t bits = 0; bits < table.size(); ++bits) {
     std::uint32_t n = 0;
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-      if ((bits >> lane & 1U) != 0) table[bits][n++] = lane;
+      if ((bits >> lane & 1U) != 0) table[bits][n++] = static_cast<std::uint8_t>(lane);
     }
   }
   return table;
 }();
 
-// |d|, at the nearest image.
-inline __m256d apart(__m256d a, __m256d b, __m256d period, __m256d half) {
-  const __m256d d = _mm256_andnot_pd(_mm256_set1_pd(-0.0), _mm256_sub_pd(a, b));
-  return _mm256_sub_pd(d, _mm256_and_pd(_mm256_cmp_pd(d, half, _CMP_GT_OQ), period));
+// The frame in every lane.
+struct Lanes {
+  __m256i x, y, self;
+  __m256 unit_x, unit_y, reach, reach2;
+};
+
+// Lanes that are near.
+template <bool unequal_radii>
+inline __m256 near(const Lanes& l, const NearbyFrame& f, const NearbyColumns& columns, std::uint32_t j) {
+  const auto* const p = reinterpret_cast<const float*>(columns.spot + j);
+  const __m256 a = _mm256_loadu_ps(p);
+  const __m256 b = _mm256_loadu_ps(p + lanes);
+  // Lanes 0, 1, 4, 5, 2, 3, 6, 7, put in order at the end.
+  const __m256i x = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0x88));
+  const __m256i y = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0xdd));
+  const __m256 dx = _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_sub_epi32(x, l.x)), l.unit_x);
+  const __m256 dy = _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_sub_epi32(y, l.y)), l.unit_y);
+  const __m256 unordered = _mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy));
+  const __m256 distance2 = _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(unordered), 0xd8));
+  if constexpr (!unequal_radii) return _mm256_cmp_ps(distance2, l.reach2, _CMP_LE_OQ);
+  const __m256d per_length = _mm256_set1_pd(f.per_length);
+  const __m128 low = _mm256_cvtpd_ps(_mm256_mul_pd(_mm256_loadu_pd(columns.radius + j), per_length));
+  const __m128 high = _mm256_cvtpd_ps(_mm256_mul_pd(_mm256_loadu_pd(columns.radius + j + 4), per_length));
+  const __m256 reach = _mm256_add_ps(l.reach, _mm256_set_m128(high, low));
+  return _mm256_cmp_ps(distance2, _mm256_mul_ps(reach, reach), _CMP_LE_OQ);
+}
+
+// Packs the lanes of a run of up to `left` disks from j on.
+inline std::size_t take(const Lanes& l, const NearbyColumns& columns, std::uint32_t j, std::uint32_t left, __m256 near,
+                        std::uint32_t* found) {
+  const __m256i number = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  const __m256i at = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(j)), number);
+  __m256i taken = _mm256_andnot_si256(_mm256_cmpeq_epi32(at, l.self), _mm256_castps_si256(near));
+  taken = _mm256_and_si256(taken, _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(left)), number));
+  if (columns.next != nullptr) {
+    const __m256i next = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(columns.next + j));
+    taken = _mm256_and_si256(taken, _mm256_cmpeq_epi32(next, _mm256_set1_epi32(static_cast<int>(unchained))));
+  }
+  const auto bits = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(taken)));
+  const __m128i order = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(packing[bits].data()));
+  const __m256i packed = _mm256_add_epi32(_mm256_cvtepu8_epi32(order), _mm256_set1_epi32(static_cast<int>(j)));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(found), packed);
+  return static_cast<std::size_t>(std::popcount(bits));
+}
+
+template <bool unequal_radii>
+std::size_t nearby(const NearbyFrame& f, const NearbyColumns& columns, const DiskRun* runs, std::size_t count,
+                   std::uint32_t* found) {
+  const float reach = f.reach + f.common_radius;
+  const Lanes l{_mm256_set1_epi32(static_cast<int>(f.spot.x)),
+                _mm256_set1_epi32(static_cast<int>(f.spot.y)),
+                _mm256_set1_epi32(static_cast<int>(f.self)),
+                _mm256_set1_ps(f.unit_x),
+                _mm256_set1_ps(f.unit_y),
+                _mm256_set1_ps(f.reach),
+                _mm256_set1_ps(reach * reach)};
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::uint32_t j = runs[k].first;
+    const std::uint32_t last = runs[k].last;
+    // The last few with some that come after them, which are masked out; where there are none, one by one.
+    for (; j < last && j + lanes <= columns.count; j += lanes) {
+      n += take(l, columns, j, last - j, near<unequal_radii>(l, f, columns, j), found + n);
+    }
+    if (j < last) {
+      const DiskRun rest{j, last};
+      n += nearby_baseline(f, columns, &rest, 1, found + n);
+    }
+  }
+  return n;
 }
 
 }  // namespace
 
-std::size_t nearby_avx2(const NearbyFrame& f, const NearbyColumns& columns, std::uint32_t first, std::uint32_t last,
+std::size_t nearby_avx2(const NearbyFrame& frame, const NearbyColumns& columns, const DiskRun* runs, std::size_t count,
                         std::uint32_t* found) {
-  const __m256d px = _mm256_set1_pd(f.place.x);
-  const __m256d py = _mm256_set1_pd(f.place.y);
-  const __m256d width = _mm256_set1_pd(f.width);
-  const __m256d height = _mm256_set1_pd(f.height);
-  const __m256d half_width = _mm256_set1_pd(f.half_width);
-  const __m256d half_height = _mm256_set1_pd(f.half_height);
-  std::size_t n = 0;
-  std::uint32_t j = first;
-  // The last few with some that come after them, which are masked out; where there are none, one by one.
-  for (; j < last && j + lanes <= columns.count; j += lanes) {
-    const double* const p = &columns.place[j].x;
-    const __m256d a = _mm256_loadu_pd(p);
-    const __m256d b = _mm256_loadu_pd(p + 4);
-    // Lanes 0, 2, 1, 3.
-    const __m256d dx = apart(_mm256_unpacklo_pd(a, b), px, width, half_width);
-    const __m256d dy = apart(_mm256_unpackhi_pd(a, b), py, height, half_height);
-    __m256d radius = _mm256_set1_pd(f.common_radius);
-    if (columns.radius != nullptr) radius = _mm256_permute4x64_pd(_mm256_loadu_pd(columns.radius + j), 0xd8);
-    const __m256d reach = _mm256_add_pd(_mm256_set1_pd(f.reach), radius);
-    const __m256d distance2 = _mm256_add_pd(_mm256_mul_pd(dx, dx), _mm256_mul_pd(dy, dy));
-    const __m256d near = _mm256_cmp_pd(distance2, _mm256_mul_pd(reach, reach), _CMP_LE_OQ);
-    auto bits = static_cast<unsigned>(_mm256_movemask_pd(_mm256_permute4x64_pd(near, 0xd8)));
-    const __m128i at = _mm_add_epi32(_mm_set1_epi32(static_cast<int>(j)), _mm_setr_epi32(0, 1, 2, 3));
-    const __m128i self = _mm_cmpeq_epi32(at, _mm_set1_epi32(static_cast<int>(f.self)));
-    bits &= ~static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(self)));
-    if (last - j < lanes) bits &= (1U << (last - j)) - 1U;
-    if (columns.next != nullptr) {
-      const __m128i next = _mm_loadu_si128(reinterpret_cast<const __m128i*>(columns.next + j));
-      const __m128i here = _mm_cmpeq_epi32(next, _mm_set1_epi32(static_cast<int>(unchained)));
-      bits &= static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(here)));
-    }
-    const __m128i pack = _mm_loadu_si128(reinterpret_cast<const __m128i*>(packing[bits].data()));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(found + n), _mm_add_epi32(pack, _mm_set1_epi32(static_cast<int>(j))));
-    n += static_cast<std::size_t>(std::popcount(bits));
-  }
-  return j < last ? n + nearby_baseline(f, columns, j, last, found + n) : n;
+  return columns.radius == nullptr ? nearby<false>(frame, columns, runs, count, found)
+                                   : nearby<true>(frame, columns, runs, count, found);
 }
 
 }  // namespace carom
@@ -80,9 +112,9 @@ std::size_t nearby_avx2(const NearbyFrame& f, const NearbyColumns& columns, std:
 
 namespace carom {
 
-std::size_t nearby_avx2(const NearbyFrame& frame, const NearbyColumns& columns, std::uint32_t first, std::uint32_t last,
+std::size_t nearby_avx2(const NearbyFrame& frame, const NearbyColumns& columns, const DiskRun* runs, std::size_t count,
                         std::uint32_t* found) {
-  return nearby_baseline(frame, columns, first, last, found);
+  return nearby_baseline(frame, columns, runs, count, found);
 }
 
 }  // namespace carom

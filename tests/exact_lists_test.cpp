@@ -32,8 +32,16 @@ double apart(double a, double b, double period, bool periodic) {
   return periodic ? std::min(d, period - d) : d;
 }
 
-// Everybody whose places are within r_i + r_j + 2 roam of each other lists the other, once.
-void expect_complete(const ExactLists& lists, const Disks& d, const std::vector<Vec2>& place, const Domain& box) {
+// Everybody whose places are within r_i + r_j + 2 roam of each other lists the other, once; places are where they
+// were said to be, as far as a small part of the roam.
+void expect_complete(const ExactLists& lists, const Disks& d, const std::vector<Vec2>& said, const Domain& box) {
+  std::vector<Vec2> place;
+  for (std::uint32_t i = 0; i < d.size(); ++i) {
+    place.push_back(lists.place_of(i));
+    const double tolerance = 1e-9 * (box.width + box.height);
+    ASSERT_LE(apart(place[i].x, said[i].x, box.width, box.periodic_x()), tolerance);
+    ASSERT_LE(apart(place[i].y, said[i].y, box.height, box.periodic_y()), tolerance);
+  }
   for (std::uint32_t i = 0; i < d.size(); ++i) {
     std::vector<std::uint32_t> listed;
     lists.for_each_neighbour(i, [&](std::uint32_t j) { listed.push_back(j); });
@@ -66,7 +74,7 @@ void expect_lists(std::size_t n, std::size_t disks_per_tile, bool mixed, bool pe
   std::vector<Vec2> place;
   for (std::size_t i = 0; i < n; ++i) place.push_back({d.x[i], d.y[i]});
   expect_complete(lists, d, place, box);
-  std::vector<std::uint32_t> found;
+  FoundDisks found;
   for (std::size_t k = 0; k < 2 * n; ++k) {
     const auto i = static_cast<std::uint32_t>(draws.bits() % n);
     place[i] = {draws.in(0.0, box.width), draws.in(0.0, box.height)};
@@ -97,7 +105,7 @@ TEST(ExactLists, KeepToTheirPart) {
   lists.build(d, box, 100, 0.9, executor);
   const std::uint32_t half = lists.tiles() / 2;
   const ListsPart part = lists.part_of_tiles(0, half);
-  std::vector<std::uint32_t> found;
+  FoundDisks found;
   int refused = 0;
   int listed = 0;
   for (std::uint32_t i = part.first_disk; i < part.last_disk; ++i) {
@@ -105,7 +113,8 @@ TEST(ExactLists, KeepToTheirPart) {
     lists.for_each_neighbour(i, [&](std::uint32_t j) { before.push_back(j); });
     if (lists.list_anew(i, {d.x[i], d.y[i]}, d, part, found)) {
       ++listed;
-      EXPECT_TRUE(std::all_of(found.begin(), found.end(), [&](std::uint32_t j) { return part.holds(j); }));
+      EXPECT_TRUE(
+          std::all_of(found.disks().begin(), found.disks().end(), [&](std::uint32_t j) { return part.holds(j); }));
       continue;
     }
     ++refused;
@@ -120,26 +129,39 @@ TEST(ExactLists, KeepToTheirPart) {
 TEST(NearbyKernel, AllVersionsFindTheSame) {
   test::Draws draws(8);
   const Disks d = random_disks(draws, 203, 10.0, 8.0, true);
-  std::vector<Vec2> place;
+  std::vector<Spot> spot;
   std::vector<std::uint32_t> next;
   for (std::size_t i = 0; i < d.size(); ++i) {
-    place.push_back({d.x[i], d.y[i]});
+    spot.push_back({static_cast<std::uint32_t>(draws.bits()), static_cast<std::uint32_t>(draws.bits())});
     next.push_back(draws.bits() % 4 == 0 ? 7U : unchained);
   }
+  std::size_t found = 0;
   for (std::uint32_t round = 0; round < 300; ++round) {
-    const auto self = static_cast<std::uint32_t>(draws.bits() % d.size());
-    NearbyFrame frame{place[self], draws.in(0.2, 3.0), 0.5, 10.0, 8.0, 5.0, 4.0, self};
-    if (round % 3 == 0) frame.half_width = frame.half_height = HUGE_VAL;
-    const NearbyColumns columns{place.data(), round % 2 == 0 ? d.radius.data() : nullptr,
+    NearbyFrame frame;
+    frame.self = static_cast<std::uint32_t>(draws.bits() % d.size());
+    frame.spot = spot[frame.self];
+    frame.unit_x = 0x1p-32F * 10.0F;
+    frame.unit_y = 0x1p-32F * 8.0F;
+    frame.reach = static_cast<float>(draws.in(0.2, 3.0));
+    frame.common_radius = 0.5F;
+    frame.per_length = 0.7;
+    const NearbyColumns columns{spot.data(), round % 2 == 0 ? d.radius.data() : nullptr,
                                 round % 5 < 2 ? next.data() : nullptr, static_cast<std::uint32_t>(d.size())};
-    const auto first = static_cast<std::uint32_t>(draws.bits() % d.size());
-    const auto last = first + static_cast<std::uint32_t>(draws.bits() % (d.size() + 1 - first));
-    std::vector<std::uint32_t> a(last - first + nearby_room);
-    std::vector<std::uint32_t> b(a.size());
-    a.resize(nearby_baseline(frame, columns, first, last, a.data()));
-    b.resize(choose_nearby_kernel()(frame, columns, first, last, b.data()));
+    std::vector<DiskRun> runs;
+    std::size_t room = nearby_room;
+    for (std::uint32_t k = 0; k < round % 4; ++k) {
+      const auto first = static_cast<std::uint32_t>(draws.bits() % d.size());
+      runs.push_back({first, first + static_cast<std::uint32_t>(draws.bits() % (d.size() + 1 - first))});
+      room += runs.back().last - runs.back().first;
+    }
+    std::vector<std::uint32_t> a(room);
+    std::vector<std::uint32_t> b(room);
+    a.resize(nearby_baseline(frame, columns, runs.data(), runs.size(), a.data()));
+    b.resize(choose_nearby_kernel()(frame, columns, runs.data(), runs.size(), b.data()));
     ASSERT_EQ(a, b);
+    found += a.size();
   }
+  EXPECT_GT(found, 1000U);
 }
 
 }  // namespace

@@ -86,8 +86,7 @@ TEST_P(MeetingKernelVersions, HaveTheBitsOfTheFormula) {
       const int j = static_cast<int>(draws.bits() % at_hand);
       if (j != static_cast<int>(own)) offset.push_back(j - static_cast<int>(own));
     }
-    const double reach = flight[own].radius + flight[own].radius;
-    MeetingFrame frame{flight[own].path, g, flight[own].radius, reach * reach, 0.0, 0.0, HUGE_VAL, HUGE_VAL};
+    MeetingFrame frame{g, 0.0, 0.0, HUGE_VAL, HUGE_VAL};
     if (c.periodic) {
       frame.width = box.width;
       frame.height = box.height;
