@@ -132,11 +132,11 @@ WindowResult fresh_result(const State& state) {
   return result;
 }
 
-// A first guess at how far disks go: twice the way of the fastest one.
+// A first guess at how far disks go: somewhat more than the way of the fastest one.
 double guess_travel(const ExactRules& rules, const Disks& d, double length) {
   double fastest2 = 0.0;
   for (std::size_t i = 0; i < d.size(); ++i) fastest2 = std::max(fastest2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
-  return 2.0 * (std::sqrt(fastest2) + rules.gravity * length) * length;
+  return 1.25 * (std::sqrt(fastest2) + rules.gravity * length) * length;
 }
 
 }  // namespace

@@ -9,13 +9,13 @@ namespace {
 
 // Events a disk a window: more save advancing everybody at its end, fewer keep the paths that frames are read from
 // short.
-constexpr double events_per_disk = 1.0;
+constexpr double events_per_disk = 2.0;
 constexpr double least_events = 32.0;
-// Half the distance to the neighbours, for the disk of root mean square speed.
-constexpr double longest_travel = 0.5;
+// The distance to the neighbours, for the disk of root mean square speed.
+constexpr double longest_travel = 1.0;
 constexpr double few_disks = 64.0;
-constexpr double shortest_share = 1.0 / 256.0;
-constexpr double first_share = 1.0 / 16.0;
+constexpr double shortest_share = 1.0 / 512.0;
+constexpr double first_share = 1.0 / 32.0;
 
 }  // namespace
 

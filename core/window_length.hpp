@@ -28,7 +28,7 @@ struct SpeedSummary {
 
 SpeedSummary summarise_speeds(const SpeedTally& tally, std::size_t disks);
 
-// Longest window that pays: the typical disk crosses half the distance to its neighbours, and 64 disks or fewer go
+// Longest window that pays: the typical disk crosses the distance to its neighbours, and 64 disks or fewer go
 // proportionally further, so that a window of two disks still holds some tens of events. Infinity when nothing moves.
 double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_t disks);
 
@@ -36,7 +36,7 @@ double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_
 // most a factor of two at a time. window: the length that was meant before anything cut it short.
 double next_window(double window, double elapsed, Count events, std::size_t disks);
 
-// `window` (0: the first one) kept within longest / 256 and longest. A window that is too short for its events only
+// `window` (0: the first one) kept within longest / 512 and longest. A window that is too short for its events only
 // holds more of them, so the lower bound costs nothing and inelastic collapse cannot shrink windows to nothing.
 double clamped_window(double window, double longest);
 

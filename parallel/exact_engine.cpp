@@ -25,7 +25,7 @@ namespace {
 // Disks a block in passes that look at each disk once.
 constexpr std::size_t pass_block = 8192;
 // Events are looked for this many windows ahead; a disk without any in sight is looked at again then.
-constexpr double windows_ahead = 8.0;
+constexpr double windows_ahead = 4.0;
 // Events a disk a slice: fewer leave less over for other tiles, more save going through all tiles.
 constexpr double events_per_slice = 0.25;
 // All disks are listed and sorted anew when one in so many has been listed anew by itself.
