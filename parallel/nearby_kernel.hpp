@@ -9,8 +9,8 @@ namespace carom {
 // In the chains of disks listed anew: the disk is still in the cell that it was sorted into.
 inline constexpr std::uint32_t unchained = 0xfffffffeU;
 
-// A place in the box, in 2^-32 of a period or 2^-31 of a side between walls: differences of whole numbers wrap round a
-// period by themselves, and lead to the nearest image.
+// A place in the box, rounded down, in 2^-32 of a period or 2^-31 of a side between walls: differences of whole numbers
+// wrap round a period by themselves, and lead to the nearest image.
 struct Spot {
   std::uint32_t x = 0, y = 0;
 };
