@@ -101,6 +101,8 @@ double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observe
     if (observer.stepped) observer.stepped();
     if (observer.pulse && !observer.pulse(step_seconds)) break;
   }
+  // What is left to do has needs of its own: sums, checkpoints, plots.
+  engine.release_memory();
   return step_seconds;
 }
 

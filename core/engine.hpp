@@ -34,6 +34,10 @@ class Engine {
   // state(). Changes no bit of the state.
   virtual void forget_paths() {}
 
+  // Gives back memory that only steps need: disks_at then gives state(), and a further step makes all of it anew.
+  // Changes no bit of the state.
+  virtual void release_memory() {}
+
   virtual const PhaseTimes& phase_times() const = 0;
 
   // Warnings raised since the last call, one line each (a step longer than the safe one, overlaps beyond a bound).

@@ -114,4 +114,11 @@ void sort_into_cells(Disks& d, const CellGrid& grid, const Executor& executor, S
   move_column(cells.key, cells.pass, cells.order, executor);
 }
 
+void release_sort_scratch(SortedCells& cells) {
+  for (std::vector<std::uint32_t>* scratch : {&cells.key, &cells.order, &cells.pass, &cells.counts}) {
+    std::vector<std::uint32_t>().swap(*scratch);
+  }
+  std::vector<double>().swap(cells.column);
+}
+
 }  // namespace carom

@@ -24,4 +24,7 @@ struct SortedCells {
 // histograms of fixed blocks are scanned in (bucket, block) order, then every bucket is sorted by itself.
 void sort_into_cells(Disks& disks, const CellGrid& grid, const Executor& executor, SortedCells& cells);
 
+// Gives back all but where each cell's disks lie.
+void release_sort_scratch(SortedCells& cells);
+
 }  // namespace carom

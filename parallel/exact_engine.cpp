@@ -54,6 +54,7 @@ class ParallelExact final : public Engine {
   const State& state() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
   void forget_paths() override { field_.keeps_paths = false; }
+  void release_memory() override;
   const PhaseTimes& phase_times() const override { return times_; }
   std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }
 
@@ -102,6 +103,15 @@ void ParallelExact::start_window() {
   }
   if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
   if (brownian_interval_begins(scene_, state_)) begin_brownian();
+}
+
+void ParallelExact::release_memory() {
+  std::vector<Flight>().swap(field_.flight);
+  std::vector<double>().swap(field_.due);
+  std::vector<std::uint32_t>().swap(field_.standing);
+  std::vector<std::uint8_t>().swap(field_.mark);
+  lists_ = ExactLists();
+  lists_good_ = due_good_ = false;
 }
 
 // While disks come in, the lists still know those that were there before.
@@ -160,6 +170,7 @@ void ParallelExact::list_if_due() {
   listed_now_ = true;
   // Nobody that was not listed before can be met before one of the two is due: to leave its old range at the latest.
   if (only_moved) lists_.sort_along(field_.due, executor_);
+  lists_.release_scratch();
 }
 
 void ParallelExact::load_paths(const WindowPlan& plan) {
@@ -285,7 +296,7 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
 }
 
 double ParallelExact::disks_at(double t, Disks& out) const {
-  if (!(t < state_.time) || state_.counters.steps == 0 || !field_.keeps_paths) {
+  if (!(t < state_.time) || state_.counters.steps == 0 || !field_.keeps_paths || field_.flight.empty()) {
     out = state_.disks;
     return state_.time;
   }

@@ -85,6 +85,8 @@ void ExactLists::build(Disks& d, const Domain& box, std::size_t disks_per_tile, 
   largest_radius_ = largest_radius(d);
   grid_.tiles = 1;
   grid_.tile_keys = 0;
+  // Rows give way to what sorting needs.
+  if (disks_per_tile > 0) std::vector<Row>().swap(rows_);
   if (!everybody()) sort(d, disks_per_tile, executor);
   if (rows_.capacity() < n) resize_in_huge_pages(rows_, n);
   rows_.resize(n);
@@ -120,10 +122,10 @@ void ExactLists::list_block(const Disks& d, std::size_t home, std::size_t begin,
   }
 }
 
-// Round a period the whole number wraps by itself; between walls rounding may lead outside.
+// Round a period the whole number wraps by itself; between walls a rounding error may lead outside.
 Spot ExactLists::spot_at(double x, double y) const {
   const auto units = [](double c, double unit, bool periodic) {
-    const auto whole = static_cast<std::int64_t>(c / unit + 0.5);
+    const auto whole = static_cast<std::int64_t>(c / unit);
     return static_cast<std::uint32_t>(periodic ? whole : std::clamp(whole, std::int64_t{0}, std::int64_t{1} << 31));
   };
   return {units(x, unit_x_, box_.periodic_x()), units(y, unit_y_, box_.periodic_y())};
@@ -190,6 +192,10 @@ void ExactLists::sort_along(std::vector<double>& column, const Executor& executo
     for (std::size_t i = begin; i < end; ++i) sorted[i] = column[cells_.order[i]];
   });
   column.swap(sorted);
+}
+
+void ExactLists::release_scratch() {
+  if (grid_.tile_keys > 0) release_sort_scratch(cells_);
 }
 
 double ExactLists::exit_time(std::uint32_t i, const PathSegment& path, double from, double until, double g) const {

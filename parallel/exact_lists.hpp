@@ -130,6 +130,9 @@ class ExactLists {
   // say yes, never the other way round; much faster.
   bool stays(std::uint32_t i, const PathSegment& path, double from, double until, double g) const;
 
+  // Gives back memory that only building needs, where that is much.
+  void release_scratch();
+
   // Brings a column of the disks that were there at the last build, in the storage order before it, into the present
   // one.
   void sort_along(std::vector<double>& column, const Executor& executor);

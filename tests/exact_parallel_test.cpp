@@ -171,6 +171,26 @@ TEST(ExactParallelSize, TilesAsTheyAre) {
 }
 
 // Frames: the same bits too, and looking changes nothing.
+// Without its memory the engine knows no paths, only the state; what it makes anew leads to the same bits.
+TEST(ExactParallelMemory, GivenBackChangesNoBit) {
+  const Scene scene = make_scene({30, 30, "periodic", "", disks(500, mixed), 50.0, ""});
+  const State initial = initial_state(scene);
+  for (const std::size_t block_divisor : {1U, 128U}) {
+    const auto kept = make_parallel_engine(scene, initial, {2, block_divisor});
+    const auto released = make_parallel_engine(scene, initial, {2, block_divisor});
+    for (int k = 0; k < 12; ++k) {
+      kept->step();
+      released->step();
+      if (k % 3 != 0) continue;
+      released->release_memory();
+      Disks disks;
+      EXPECT_EQ(released->disks_at(0.0, disks), released->state().time);
+      EXPECT_EQ(state_hash(disks), state_hash(released->state().disks));
+    }
+    EXPECT_EQ(fingerprint(released->state()), fingerprint(kept->state()));
+  }
+}
+
 TEST(ExactParallelFrames, SameBitsAtAnyTime) {
   const Scene scene = make_scene({20, 20, open_sides, "gravity = 0.4", disks(150, mixed), 2.0, ""});
   const State initial = initial_state(scene);
