@@ -19,6 +19,7 @@ namespace carom::bench {
 namespace {
 
 constexpr int rounds = 5;
+constexpr int growth_rounds = 2;  // of half a minute each, and as long to begin with
 constexpr std::size_t million = 1'000'000;
 
 // A turn: about a million collisions (the yardstick half of it), and several windows, so that listing is shared out.
@@ -115,10 +116,10 @@ int write_table(const std::string& path, const std::vector<Entry>& all) {
   return differ;
 }
 
-void take_turns(std::vector<Entry>& all) {
+void take_turns(std::vector<Entry>& all, int times) {
   std::vector<Contender> turns;
   for (Entry& e : all) turns.push_back(std::move(e.turns));
-  interleave(turns, rounds);
+  interleave(turns, times);
   for (std::size_t k = 0; k < all.size(); ++k) all[k].turns = std::move(turns[k]);
 }
 
@@ -134,7 +135,7 @@ std::vector<Figure> measure_exact_growth(const std::string& folder) {
     const Start start = exact_gas(disks);
     for (const int threads : {1, 2}) all.push_back(exact_entry(start, 0.5, threads));
   }
-  take_turns(all);
+  take_turns(all, growth_rounds);
   const int differ = write_table(folder + "/exact_growth.csv", all);
   const auto growth = [&](int threads) {
     return ratio(turns_of(all, 10 * million, threads), turns_of(all, 10'000, threads));
@@ -146,7 +147,7 @@ std::vector<Figure> measure_exact_growth(const std::string& folder) {
 
 std::vector<Figure> measure_exact(const std::string& folder) {
   std::vector<Entry> all = make_entries();
-  take_turns(all);
+  take_turns(all, rounds);
   const int differ = write_table(folder + "/exact.csv", all);
 
   const auto over_yardstick = [&](std::size_t disks, int threads) {
