@@ -167,7 +167,7 @@ bool ExactLists::find_neighbours(const Disks& d, std::uint32_t i, Spot spot, con
     found.room[n] = j;
     n += is_nearby(frame, spot_[j], radius_in(frame, columns, j)) && j != i;
   };
-  const Vec2 place{spot.x * unit_x_, spot.y * unit_y_};
+  const Vec2 place = place_at(spot);
   const bool inside = visit_runs_near(place, distance, part, run, see);
   search();
   found.count = n;
@@ -256,7 +256,8 @@ double ExactLists::safe_speed2(double length, double g) const {
 std::uint32_t ExactLists::key_of_spot(const Disks& d, std::uint32_t i, Spot spot) const {
   const std::size_t level =
       d.radius.empty() || grid_.levels.size() == 1 ? 0 : class_of_radius(d.radius[i], grid_.levels[0].largest_radius);
-  return key_of(grid_.levels[level], spot.x * unit_x_, spot.y * unit_y_);
+  const Vec2 place = place_at(spot);
+  return key_of(grid_.levels[level], place.x, place.y);
 }
 
 bool ExactLists::lists(std::uint32_t i, std::uint32_t j) const {

@@ -69,7 +69,7 @@ class ExactLists {
   double roam() const { return roam_; }
   double range() const { return range_; }
   // Of disk i; inside the box, but for rounding.
-  Vec2 place_of(std::uint32_t i) const { return {spot_[i].x * unit_x_, spot_[i].y * unit_y_}; }
+  Vec2 place_of(std::uint32_t i) const { return place_at(spot_[i]); }
 
   // Runs of disks in storage that are neighbours in space; one if the grid has no tiles.
   std::uint32_t tiles() const { return grid_.tiles; }
@@ -199,6 +199,7 @@ class ExactLists {
   void sort(Disks& disks, std::size_t disks_per_tile, const Executor& executor);
   void list_block(const Disks& disks, std::size_t home, std::size_t begin, std::size_t end);
   Spot spot_at(double x, double y) const;
+  Vec2 place_at(Spot spot) const { return {spot.x * unit_x_, spot.y * unit_y_}; }
   bool find_neighbours(const Disks& disks, std::uint32_t i, Spot spot, const ListsPart& part, FoundDisks& found) const;
   std::uint32_t key_of_spot(const Disks& disks, std::uint32_t i, Spot spot) const;
   bool lists(std::uint32_t i, std::uint32_t j) const;
