@@ -2,12 +2,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <utility>
 
 #include "core/check.hpp"
 #include "io/checkpoint_place.hpp"
@@ -64,20 +64,60 @@ bool holds_frames_only(const fs::path& frames) {
   return !error;
 }
 
-// A descriptor that holds the lock on a folder; -1 where another process has it. File systems that know no locks have
+// The lock of a folder is a record lock on a file in it: it belongs to the process alone, so no child inherits it, not
+// even between its fork and its exec, and it ends with the process however that ends. The process loses it when it
+// closes any descriptor of the file, so it opens no second one: it knows which files it holds.
+constexpr const char* lock_name = "lock";
+
+std::vector<fs::path>& locks_held() {
+  static std::vector<fs::path> held;
+  return held;
+}
+
+bool is_held(const fs::path& file) {
+  std::error_code error;
+  return std::any_of(locks_held().begin(), locks_held().end(),
+                     [&](const fs::path& held) { return fs::equivalent(held, file, error); });
+}
+
+struct flock whole_file() {
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  return lock;
+}
+
+// A descriptor that holds the lock on a folder; -1 where another run has it. File systems that know no locks have
 // none.
 int take_lock(const fs::path& folder, bool& another) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  another = descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  if (!another) return descriptor;
+  const fs::path file = folder / lock_name;
+  another = is_held(file);
+  if (another) return -1;
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  struct flock lock = whole_file();
+  another = descriptor >= 0 && fcntl(descriptor, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN);
+  if (!another) {
+    if (descriptor >= 0) locks_held().push_back(fs::absolute(file));
+    return descriptor;
+  }
   ::close(descriptor);
   return -1;
 }
 
+void give_up_lock(const fs::path& folder, int descriptor) {
+  if (descriptor < 0) return;
+  std::erase(locks_held(), fs::absolute(folder / lock_name));
+  ::close(descriptor);
+}
+
 bool locked_by_another(const fs::path& folder) {
-  bool another = false;
-  const int descriptor = take_lock(folder, another);
-  if (descriptor >= 0) ::close(descriptor);
+  const fs::path file = folder / lock_name;
+  if (is_held(file)) return true;
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  struct flock lock = whole_file();
+  const bool another = fcntl(descriptor, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+  ::close(descriptor);
   return another;
 }
 
@@ -161,7 +201,7 @@ OutputFolder::OutputFolder(const fs::path& folder)
 
 OutputFolder::~OutputFolder() {
   if (!done_) remove_unfinished();
-  if (lock_ >= 0) ::close(lock_);
+  give_up_lock(unfinished_, lock_);
 }
 
 void OutputFolder::lock() {
@@ -209,6 +249,7 @@ void OutputFolder::finish(bool keep_checkpoints) {
   }
   fs::remove_all(unfinished_, error);
   done_ = true;
+  give_up_lock(unfinished_, std::exchange(lock_, -1));
 }
 
 std::string OutputFolder::keep_unfinished() {

@@ -58,7 +58,7 @@ class OutputFolder {
   std::filesystem::path unfinished_;
   std::vector<std::filesystem::path> made_;  // folders that were not there before, innermost last
   bool done_ = false;
-  int lock_ = -1;  // descriptor of carom-unfinished; the lock ends with the process, however that ends
+  int lock_ = -1;  // descriptor of carom-unfinished/lock
 };
 
 // Where a file of a run lies: in folder/carom-unfinished, or in folder if the run finished.

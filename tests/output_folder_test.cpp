@@ -2,7 +2,11 @@
 #include "io/output_folder.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -98,6 +102,49 @@ TEST_F(OutputFolderTest, AnUnfinishedRunIsSeen) {
   fs::create_directories(base_ / "out" / "carom-unfinished");
   EXPECT_THAT(refusal(base_ / "out", false), HasSubstr("another run is writing there, or stopped"));
   EXPECT_EQ(refusal(base_ / "out", true), "");
+}
+
+// A run is killed just after it has forked a child, which has not come to its exec: the child has every descriptor of
+// the run, but not its lock.
+TEST_F(OutputFolderTest, TheLockGoesWithTheProcess) {
+  std::array<int, 2> held{};
+  std::array<int, 2> child_may_end{};
+  ASSERT_EQ(pipe(held.data()), 0);
+  ASSERT_EQ(pipe(child_may_end.data()), 0);
+  const fs::path folder = base_ / "out";
+  const pid_t run = fork();
+  if (run == 0) {
+    OutputFolder out(folder, base_ / "input.toml", false);
+    out.keep_unfinished();
+    char byte = 0;
+    if (fork() == 0) {
+      close(child_may_end[1]);
+      _exit(read(child_may_end[0], &byte, 1) == 0 ? 0 : 1);
+    }
+    if (write(held[1], &byte, 1) != 1) _exit(1);
+    pause();
+  }
+  close(child_may_end[0]);
+  char byte = 0;
+  ASSERT_EQ(read(held[0], &byte, 1), 1);
+  EXPECT_THAT(refusal(folder, true), HasSubstr("another run is writing there"));
+  EXPECT_THROW(OutputFolder{folder}, InputError);
+  ASSERT_EQ(kill(run, SIGKILL), 0);
+  ASSERT_EQ(waitpid(run, nullptr, 0), run);
+  EXPECT_EQ(refusal(folder, true), "");
+  EXPECT_NO_THROW(OutputFolder{folder});
+  for (const int end : {held[0], held[1], child_may_end[1]}) close(end);
+}
+
+TEST_F(OutputFolderTest, OneProcessLocksAFolderOnce) {
+  const fs::path folder = base_ / "out";
+  {
+    const OutputFolder first(folder, base_ / "input.toml", false);
+    EXPECT_THAT(refusal(folder, true), HasSubstr("another run is writing there"));
+    EXPECT_THROW(OutputFolder{folder}, InputError);
+  }
+  OutputFolder(folder, base_ / "input.toml", false).finish();
+  EXPECT_FALSE(fs::exists(folder / "carom-unfinished"));
 }
 
 TEST_F(OutputFolderTest, WhatIsNotOursIsNeverTouched) {
