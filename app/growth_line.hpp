@@ -1,4 +1,4 @@
-// The line on a terminal that tells how far the growth of an initial state has come.
+// The line that tells how far the growth of an initial state has come.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace carom {
 
-// Whom to tell of the growth's steps: writes the line to standard error, at most five times a second, and takes it away
-// when the last copy goes. Empty where nothing is wanted, or standard error is no terminal.
+// To be told of the growth's steps: keeps the line (status_line.hpp) on standard error and takes it away when the last
+// copy goes. Empty where nothing is wanted.
 std::function<void(const GrowthProgress&)> growth_line(bool wanted);
 
 }  // namespace carom

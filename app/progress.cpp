@@ -1,27 +1,17 @@
 #include "app/progress.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace carom {
 
 namespace {
 
-constexpr double update_seconds = 0.2;
 constexpr double rate_seconds = 2.0;  // rates are means over once to twice this time
-
-std::size_t terminal_columns() {
-  winsize size{};
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
-  return size.ws_col;
-}
 
 }  // namespace
 
@@ -55,29 +45,18 @@ std::string progress_text(const ProgressPoint& then, const ProgressPoint& now, s
   return text;
 }
 
-Progress::Progress(bool wanted, double t_end, const State& start)
-    : shown_(wanted && isatty(STDERR_FILENO) == 1),
+Progress::Progress(bool wanted, double t_end, const State& start, StatusPlace place)
+    : line_(wanted, std::move(place)),
       t_end_(t_end),
+      start_(line_.seconds()),
       older_{0.0, start.time, start.counters.steps},
       newer_(older_) {}
 
 void Progress::update(const State& state) {
-  if (!shown_) return;
-  const auto now = Clock::now();
-  if (std::chrono::duration<double>(now - last_).count() < update_seconds) return;
-  last_ = now;
-  const ProgressPoint point{std::chrono::duration<double>(now - start_).count(), state.time, state.counters.steps};
-  std::string line = progress_text(older_, point, state.disks.size(), t_end_);
+  if (!line_.due()) return;
+  const ProgressPoint point{line_.seconds() - start_, state.time, state.counters.steps};
+  line_.show(progress_text(older_, point, state.disks.size(), t_end_));
   if (point.elapsed - newer_.elapsed > rate_seconds) older_ = std::exchange(newer_, point);
-  line.resize(std::min(line.size(), terminal_columns() - 1));
-  std::fputs(fmt::format("\r{}\x1b[K", line).c_str(), stderr);  // ESC [ K clears what a longer line left
-  on_screen_ = true;
-}
-
-void Progress::clear() {
-  if (!on_screen_) return;
-  std::fputs("\r\x1b[K", stderr);
-  on_screen_ = false;
 }
 
 }  // namespace carom

@@ -1,10 +1,10 @@
-// The line on a terminal that tells how far a run has come.
+// The line that tells how far a run has come.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <string>
 
+#include "app/status_line.hpp"
 #include "core/state.hpp"
 
 namespace carom {
@@ -26,28 +26,22 @@ std::string duration_text(double seconds);
 // A number with a prefix: 950, 12.3 k, 4.56 M.
 std::string short_number(double number);
 
-// Writes the line to standard error and keeps it there; nothing at all where that is no terminal.
+// The line of a run: kept up to date on a terminal, a line a minute elsewhere.
 class Progress {
  public:
   // start: the state that the run begins or goes on from.
-  Progress(bool wanted, double t_end, const State& start);
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  ~Progress() { clear(); }
+  Progress(bool wanted, double t_end, const State& start, StatusPlace place = on_standard_error());
 
-  // Brings the line up to date, at most five times a second.
+  // Brings the line up to date, if it is time.
   void update(const State& state);
 
   // Takes the line away, so that something else can be written.
-  void clear();
+  void clear() { line_.clear(); }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  bool shown_;
-  bool on_screen_ = false;
+  StatusLine line_;
   double t_end_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point last_ = start_;
+  double start_;                 // by the line's clock
   ProgressPoint older_, newer_;  // rates are taken since older_, which follows newer_ at some distance
 };
 

@@ -1,0 +1,45 @@
+// A line on standard error that tells how far something has come.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace carom {
+
+// Where the line is shown, and the clock that it goes by.
+struct StatusPlace {
+  bool terminal = false;
+  std::size_t columns = 80;
+  std::function<double()> seconds;  // any steady clock
+  std::function<void(const std::string&)> write;
+};
+StatusPlace on_standard_error();
+
+// On a terminal one line that is renewed in place, five times a second at most; elsewhere, where a line stays for ever,
+// a line each minute, the first after the first minute.
+class StatusLine {
+ public:
+  explicit StatusLine(bool wanted, StatusPlace place = on_standard_error());
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+  ~StatusLine() { clear(); }
+
+  // Is it time for the next line? If so, the caller shows one.
+  bool due() const;
+  void show(const std::string& text);
+
+  // Takes the line away, so that something else can be written. What is not on a terminal stays.
+  void clear();
+
+  bool terminal() const { return place_.terminal; }
+  double seconds() const { return place_.seconds(); }
+
+ private:
+  bool wanted_;
+  bool on_screen_ = false;
+  StatusPlace place_;
+  double last_;
+};
+
+}  // namespace carom
