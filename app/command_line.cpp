@@ -243,6 +243,11 @@ void check_command_name(int argc, const char* const* argv) {
     throw InputError(
         fmt::format("there is no option {} before the command; {}", in_quotes(name), expected_one_of(general, name)));
   }
+  constexpr std::array<std::string_view, 3> of_the_launcher{"test", "bench", "packages"};
+  if (std::find(of_the_launcher.begin(), of_the_launcher.end(), name) != of_the_launcher.end()) {
+    throw InputError(
+        fmt::format("{} is a command of the launcher ./carom in the sources, not of this program", in_quotes(name)));
+  }
   if (std::find(command_names.begin(), command_names.end(), name) == command_names.end()) {
     throw InputError(fmt::format("there is no command {}; {}", in_quotes(name), expected_one_of(command_names, name)));
   }

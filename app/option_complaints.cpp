@@ -21,6 +21,13 @@ std::vector<std::string_view> option_names(const CLI::App* command, std::vector<
   return {storage.begin(), storage.end()};
 }
 
+// What ./carom, which builds the program and then becomes it, does besides.
+constexpr const char* launcher_help = R"(The launcher ./carom in the sources has three more:
+  test [ctest's arguments]    build and run the tests
+  bench                       build and run the benchmarks
+  packages [SECTION]          only install what cmake/packages.txt lists
+)";
+
 }  // namespace
 
 void check_leftovers(const CLI::App* command) {
@@ -48,6 +55,7 @@ void fail_as_one_line(const CLI::ParseError& error) {
 
 std::string help_of(const CLI::App& app, const CLI::App& shown) {
   std::string text = shown.help(&shown == &app ? "" : app.get_name());
+  if (&shown == &app) text += launcher_help;
   for (const std::string argument : {"SCENE", "CHECKPOINT", "A", "B", "DIR"}) {
     const std::string optional = "[" + argument + "]";
     const std::size_t at = text.find(optional);
