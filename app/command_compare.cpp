@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <filesystem>
@@ -62,15 +63,33 @@ std::string text_of(const Difference& d) {
   return fmt::format("{}, disk {}, {}: {} against {}", place, d.id, d.quantity, d.a, d.b);
 }
 
-std::string text_of(const TrajectoryDifference& d) {
-  std::string text = fmt::format("different: first in {}\n", text_of(*d.first));
+// The largest difference of each quantity, those within the tolerance too.
+std::string largest_text(const TrajectoryDifference& d) {
+  std::string text;
   for (const auto& largest : d.largest) {
     if (!largest) continue;
     text += fmt::format("  {:<8}differs by at most {:.6g}, in frame {} (t = {}), disk {}\n", largest->quantity,
-                        std::abs(largest->a - largest->b), largest->frame, largest->time, largest->id);
+                        largest->by, largest->frame, largest->time, largest->id);
   }
+  return text;
+}
+
+std::string text_of(const TrajectoryDifference& d) {
+  std::string text = fmt::format("different: first in {}\n", text_of(*d.first)) + largest_text(d);
   if (d.frames_a != d.frames_b) text += fmt::format("  frames  {} against {}\n", d.frames_a, d.frames_b);
   return text;
+}
+
+std::string same_text(const TrajectoryDifference& d, const CompareRule& rule) {
+  const std::string how = rule.tolerance ? fmt::format("the same to {:g}", *rule.tolerance) : "same bits";
+  std::vector<std::string> fields;
+  for (std::size_t q = 0; q < rule.fields.size(); ++q) {
+    if (rule.fields[q]) fields.emplace_back(compared_quantities[q]);
+  }
+  const bool all = fields.size() == rule.fields.size();
+  return fmt::format("{} in {} frame{}{}\n", how, d.frames_a, d.frames_a == 1 ? "" : "s",
+                     all ? "" : fmt::format(", of {}", fmt::join(fields, ", "))) +
+         largest_text(d);
 }
 
 std::string text_of(const std::vector<std::string>& keys, const Json& a, const Json& b) {
@@ -81,11 +100,14 @@ std::string text_of(const std::vector<std::string>& keys, const Json& a, const J
 }
 
 Json json_of(const Difference& d) {
-  return {{"frame", d.frame}, {"time", d.time}, {"disk", d.id}, {"quantity", d.quantity}, {"a", d.a}, {"b", d.b}};
+  return {{"frame", d.frame}, {"time", d.time}, {"disk", d.id}, {"quantity", d.quantity},
+          {"a", d.a},         {"b", d.b},       {"by", d.by}};
 }
 
-Json json_of(bool same, const std::optional<TrajectoryDifference>& frames, const std::vector<std::string>& keys) {
+Json json_of(bool same, const std::optional<CompareRule>& rule, const std::optional<TrajectoryDifference>& frames,
+             const std::vector<std::string>& keys) {
   Json j{{"same", same}, {"different_keys", keys}};
+  if (rule) j["tolerance"] = rule->tolerance ? Json(*rule->tolerance) : Json(nullptr);
   if (!frames) return j;
   j["frames"] = {frames->frames_a, frames->frames_b};
   j["first"] = frames->first ? json_of(*frames->first) : Json(nullptr);
@@ -105,17 +127,25 @@ int command_compare(const CompareOptions& options) {
     fail_input(fmt::format("{} and {}", a.name, b.name), "have nothing in common to compare",
                "expected two trajectories or two summaries");
   }
+  if (options.rule && !both_trajectories) {
+    fail_input((a.trajectory.empty() ? a : b).name, "holds no trajectory",
+               "expected one: --tolerance, --fields, --times and --at compare trajectories");
+  }
   std::optional<TrajectoryDifference> frames;
-  if (both_trajectories) frames = compare_trajectories(a.trajectory, b.trajectory);
-  const std::vector<std::string> keys = different_keys(a.summary, b.summary);
+  if (both_trajectories) {
+    frames = compare_trajectories(a.trajectory, b.trajectory, options.rule.value_or(CompareRule{}));
+  }
+  const std::vector<std::string> keys =
+      options.rule ? std::vector<std::string>{} : different_keys(a.summary, b.summary);
   const bool same = keys.empty() && !(frames && frames->first);
   if (options.json) {
-    print_out(json_of(same, frames, keys).dump(2) + "\n");
+    print_out(json_of(same, options.rule, frames, keys).dump(2) + "\n");
     return same ? 0 : 1;
   }
   if (frames && frames->first) print_out(text_of(*frames));
   if (!keys.empty()) print_out(text_of(keys, a.summary, b.summary));
-  if (same && frames) print_out(fmt::format("same bits in all {} frames\n", frames->frames_a));
+  if (same && options.rule) print_out(same_text(*frames, *options.rule));
+  if (same && frames && !options.rule) print_out(fmt::format("same bits in all {} frames\n", frames->frames_a));
   if (same && !frames) print_out("same summary, state hash included\n");
   return same ? 0 : 1;
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/compare_rule.hpp"
 #include "app/option_complaints.hpp"
 #include "app/option_values.hpp"
 #include "core/check.hpp"
@@ -36,7 +37,8 @@ constexpr std::size_t t_end_option = 2;  // its place among them
 
 // What CLI11 reads; checked and turned into a Command afterwards, so that all messages are ours.
 struct Words {
-  std::string first, second, folder, engine, threads, frame, walltime, seeds, jobs, emit, accuracy;
+  std::string first, second, folder, engine, threads, frame, walltime, seeds, jobs, emit, accuracy, tolerance, fields,
+      times, at;
   std::array<std::string, scene_options.size()> scene_values;
   std::vector<std::string> sets, over;
   bool json = false, quiet = false, force = false, strict = false, quick = false, tiny = false;
@@ -113,8 +115,14 @@ void describe_resume(CLI::App* resume, Words& words) {
 void describe_compare(CLI::App* compare, Words& words) {
   compare->add_option("A", words.first, "folder of a run, or a trajectory")->type_name("");
   compare->add_option("B", words.second, "the other one")->type_name("");
+  add_value(compare, "--tolerance", words.tolerance, "X", "values count as the same that differ by at most X");
+  add_value(compare, "--fields", words.fields, "x,y,...", "only these of x, y, vx, vy, radius, mass");
+  add_value(compare, "--times", words.times, "T0:T1", "only frames of these times; either may be left out");
+  add_value(compare, "--at", words.at, "T", "only the frame of each that is nearest to this time");
   compare->add_flag("--json", words.json, "print the result as JSON");
-  compare->footer("Exit status: 0 the same bits, 1 different.");
+  compare->footer(
+      "Without these options every bit of the trajectories counts, and what the summaries say; with any of them only "
+      "the trajectories do.\nExit status: 0 the same, 1 different, 2 they cannot be compared.");
 }
 
 void describe_render(CLI::App* render, Words& words) {
@@ -195,7 +203,7 @@ CheckOptions check_options(const Words& words) {
 
 CompareOptions compare_options(const Words& words) {
   require(words.second, "compare", "two outputs are needed", "expected carom compare A B");
-  return {words.first, words.second, words.json};
+  return {words.first, words.second, compare_rule(words.tolerance, words.fields, words.times, words.at), words.json};
 }
 
 RenderOptions render_options(const Words& words) {

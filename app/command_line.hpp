@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/trajectory_difference.hpp"
 #include "core/scene_file.hpp"
 
 namespace carom {
@@ -48,6 +49,7 @@ struct CheckOptions {
 
 struct CompareOptions {
   std::string a, b;
+  std::optional<CompareRule> rule;  // absent: all bits, and the summaries as well
   bool json = false;
 };
 
