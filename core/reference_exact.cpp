@@ -32,13 +32,14 @@ class ReferenceExact final : public Engine {
     if (log_ != nullptr) log_->insert(log_->end(), result.collisions.begin(), result.collisions.end());
     paths_ = std::move(result.paths);
     at_start_ = state_.disks;
+    has_paths_ = true;
     finish(plan, result);
   }
 
   const State& state() const override { return state_; }
 
   double disks_at(double t, Disks& out) const override {
-    if (!(t < state_.time) || state_.counters.steps == 0) {
+    if (!(t < state_.time) || !has_paths_) {
       out = state_.disks;
       return state_.time;
     }
@@ -106,6 +107,7 @@ class ReferenceExact final : public Engine {
   PhaseTimes times_;
   WindowPlan last_plan_;
   WindowPaths paths_;
+  bool has_paths_ = false;
   Disks at_start_;  // of the last window; columns other than the places are read
 };
 

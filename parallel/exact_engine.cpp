@@ -86,6 +86,7 @@ class ParallelExact final : public Engine {
   bool due_good_ = false;     // so do the due times, on paths that have not changed
   double last_length_ = 0.0;  // of the window before
   double rate_ = 0.0;         // events a time, of the last slice
+  bool has_paths_ = false;    // of the last window, which may have had no disk
   WindowPlan last_plan_;
   std::vector<unsigned char> gone_;
   Disks at_start_;  // the columns before the last window's sinks took any; else empty
@@ -111,6 +112,7 @@ void ParallelExact::release_memory() {
   std::vector<std::uint32_t>().swap(field_.standing);
   std::vector<std::uint8_t>().swap(field_.mark);
   lists_ = ExactLists();
+  has_paths_ = false;
   lists_good_ = due_good_ = false;
 }
 
@@ -289,6 +291,7 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
   due_good_ = true;
   last_length_ = plan.length;
   last_plan_ = plan;
+  has_paths_ = true;
   if (any_gone) remove(gone_);
   const ImpactTally tally = sweep_.tally();
   finish_window(state_, plan, tally, 1.0);
@@ -296,7 +299,7 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
 }
 
 double ParallelExact::disks_at(double t, Disks& out) const {
-  if (!(t < state_.time) || state_.counters.steps == 0 || !field_.keeps_paths || field_.flight.empty()) {
+  if (!(t < state_.time) || !field_.keeps_paths || !has_paths_) {
     out = state_.disks;
     return state_.time;
   }
