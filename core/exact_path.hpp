@@ -108,11 +108,14 @@ inline double time_to_crossing(Side side, const PathSegment& p, const Domain& bo
   return this_side ? 2.0 * flight / (fast + root) : never;
 }
 
-// When a path meets a side: a wall's or sink's contact, a periodic side's crossing event. `never` if after `end`.
+// When a path meets a side: a wall's or sink's contact, a periodic side's crossing event. A sink takes what touches it,
+// wherever that moves. `never` if after `end`.
 inline double side_time(const PathSegment& p, Side side, double radius, const Domain& box, double g, double end) {
-  const double t = box.side(side) == SideKind::periodic ? time_to_crossing(side, p, box, g)
-                                                        : time_to_side(side, -reach_beyond(side, p.x, p.y, radius, box),
-                                                                       outward_speed(side, p.vx, p.vy), g);
+  const SideKind kind = box.side(side);
+  const double gap = -reach_beyond(side, p.x, p.y, radius, box);
+  const double t = kind == SideKind::periodic           ? time_to_crossing(side, p, box, g)
+                   : kind == SideKind::sink && gap <= 0 ? 0.0
+                                                        : time_to_side(side, gap, outward_speed(side, p.vx, p.vy), g);
   const double s = p.start + t;
   return s <= end ? s : never;
 }

@@ -22,6 +22,7 @@ std::vector<std::string> ReferenceEngine::take_warnings() {
 }
 
 void ReferenceEngine::start_interval(double t, double dt, Count step) {
+  if (t == 0.0) remove_at_sinks();
   const PhaseTimer timer(times_, "start");
   emit_due(scene_, state_, t, step, [&](const Disk& disk) { return has_room(state_.disks, scene_.box, disk); });
   if (!(scene_.physics.diffusion > 0.0)) return;

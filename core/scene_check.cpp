@@ -70,6 +70,16 @@ void check_source(const Source& source, const Domain& box, const std::string& pa
   }
 }
 
+// What starts at a sink as a Brownian disk crosses it within its first interval, all but surely.
+void check_source_at_sink(const Scene& scene, const Source& source, const std::string& where) {
+  const bool sink = source.side && scene.box.side(*source.side) == SideKind::sink;
+  if (!sink || !(scene.physics.diffusion > 0.0) || scene.physics.accumulate) return;
+  fail_input(where,
+             fmt::format("{} is a sink, which takes Brownian disks that start at it at once",
+                         side_names[static_cast<std::size_t>(*source.side)]),
+             "expected a wall side, or a region away from the sink");
+}
+
 void check_sides(const Domain& box, const PlaceOfKey& place) {
   for (const auto& [a, b] : {std::pair(Side::left, Side::right), std::pair(Side::bottom, Side::top)}) {
     const bool first = box.side(a) == SideKind::periodic;
@@ -174,6 +184,7 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
   }
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
     check_source(scene.sources[k], scene.box, fmt::format("sources.{}", k), place);
+    check_source_at_sink(scene, scene.sources[k], place(fmt::format("sources.{}.side", k)));
   }
   if (scene.physics.accumulate && scene.physics.diffusion == 0.0) {
     fail_input(place("physics.accumulate"), "needs Brownian motion", "expected diffusion as well");

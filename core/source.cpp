@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/boundary.hpp"
 #include "core/disk_pair.hpp"
 #include "core/random.hpp"
 #include "core/size_law.hpp"
@@ -16,6 +17,9 @@ Stream stream_of(Stream base, std::size_t source) {
   return static_cast<Stream>(static_cast<std::uint32_t>(base) + (static_cast<std::uint32_t>(source) << 8U));
 }
 
+// A sink takes what touches it: through one, a disk enters this share of its radius away from it.
+constexpr double clear_of_sink = 0x1p-20;
+
 void draw_place(const Scene& scene, const Source& source, const TwoUniforms& u, Disk& disk) {
   const Domain& box = scene.box;
   if (!source.side) {
@@ -27,9 +31,10 @@ void draw_place(const Scene& scene, const Source& source, const TwoUniforms& u, 
   const double length = vertical ? box.height : box.width;
   const bool periodic = vertical ? box.periodic_y() : box.periodic_x();
   const double along = periodic ? length * u.a : disk.radius + (length - 2.0 * disk.radius) * u.a;
-  double across = disk.radius;
-  if (*source.side == Side::right) across = box.width - disk.radius;
-  if (*source.side == Side::top) across = box.height - disk.radius;
+  const double out = box.side(*source.side) == SideKind::sink ? (1.0 + clear_of_sink) * disk.radius : disk.radius;
+  double across = out;
+  if (*source.side == Side::right) across = box.width - out;
+  if (*source.side == Side::top) across = box.height - out;
   disk.x = vertical ? across : along;
   disk.y = vertical ? along : across;
 }
@@ -68,8 +73,12 @@ void draw_velocity(const Scene& scene, const Source& source, std::size_t index, 
   }
 }
 
-// Is the whole disk inside every side that is not periodic? A region may reach closer to a side than a radius.
+// Is the whole disk inside every side that is not periodic, and clear of every sink? A region may reach closer to a
+// side than a radius.
 bool inside(const Domain& box, const Disk& d) {
+  for (const Side side : all_sides) {
+    if (box.side(side) == SideKind::sink && reach_beyond(side, d.x, d.y, d.radius, box) >= 0.0) return false;
+  }
   const bool x = box.periodic_x() || (d.x >= d.radius && d.x <= box.width - d.radius);
   const bool y = box.periodic_y() || (d.y >= d.radius && d.y <= box.height - d.radius);
   return x && y;

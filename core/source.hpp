@@ -10,9 +10,9 @@
 namespace carom {
 
 // The disk that source number `index` tries to emit in step `step` under identity id, after `emitted` others: place,
-// size and velocity drawn by (seed, stream of the source, id, step). Through a side it touches the side and moves
-// inward; maxwell speeds along the normal are those of a gas behind a hole (flux-weighted, v^2 = a^2 + b^2 of two
-// normals), across it plain normal.
+// size and velocity drawn by (seed, stream of the source, id, step). Through a side it touches the side (a sink: all
+// but touches it) and moves inward; maxwell speeds along the normal are those of a gas behind a hole (flux-weighted,
+// v^2 = a^2 + b^2 of two normals), across it plain normal.
 Disk draw_emission(const Scene& scene, std::size_t index, DiskId id, Count emitted, Count step);
 
 // Does newcomer overlap or touch one of disks first to last - 1 (nearest image)?

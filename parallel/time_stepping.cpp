@@ -36,6 +36,7 @@ std::vector<std::string> TimeStepping::take_warnings() {
 }
 
 void TimeStepping::start_interval(double t, double dt, Count step) {
+  if (t == 0.0) remove_at_sinks();
   if (scene_.sources.empty() && !(scene_.physics.diffusion > 0.0)) return;
   const PhaseTimer timer(times_, "start");
   if (!scene_.sources.empty()) emit_from_sources(t, step);
