@@ -10,6 +10,7 @@
 #include "app/compare_rule.hpp"
 #include "app/option_complaints.hpp"
 #include "app/option_values.hpp"
+#include "app/scene_page.hpp"
 #include "core/check.hpp"
 #include "core/input_message.hpp"
 #include "core/method_choice.hpp"
@@ -238,8 +239,15 @@ ChartOptions chart_options(const Words& words) {
   return {file_option(words.folder), words.quick, words.tiny, words.quiet, words.force};
 }
 
-constexpr std::array<std::string_view, 7> command_names{"run",    "check", "resume", "compare",
-                                                        "render", "sweep", "chart"};
+TextRequest docs_page(const Words& words) {
+  constexpr std::array<std::string_view, 1> pages{"scene"};
+  require(words.first, "docs", "no page given", "expected carom docs scene");
+  if (words.first == pages[0]) return {scene_page()};
+  fail_input("docs", fmt::format("there is no page {}", in_quotes(words.first)), expected_one_of(pages, words.first));
+}
+
+constexpr std::array<std::string_view, 8> command_names{"run",    "check", "resume", "compare",
+                                                        "render", "sweep", "chart",  "docs"};
 
 void check_command_name(int argc, const char* const* argv) {
   if (argc < 2)
@@ -277,7 +285,8 @@ Command parse_command_line(int argc, const char* const* argv) {
   CLI::App* const render = app.add_subcommand("render", "a movie or a picture from a trajectory");
   CLI::App* const sweep = app.add_subcommand("sweep", "run a scene for every combination of values and seeds");
   CLI::App* const chart = app.add_subcommand("chart", "the speed-accuracy chart of all methods, from runs made now");
-  for (CLI::App* const command : {run, check, resume, compare, render, sweep, chart}) command->allow_extras();
+  CLI::App* const docs = app.add_subcommand("docs", "print a page of the documentation that is made from the program");
+  for (CLI::App* const command : {run, check, resume, compare, render, sweep, chart, docs}) command->allow_extras();
   describe_run(run, words);
   add_scene_options(check, words);
   add_value(check, "--accuracy", words.accuracy, "X",
@@ -288,6 +297,8 @@ Command parse_command_line(int argc, const char* const* argv) {
   describe_render(render, words);
   describe_sweep(sweep, words);
   describe_chart(chart, words);
+  docs->add_option("PAGE", words.first, "scene: every key of a scene, column of series.csv and key of --json")
+      ->type_name("");
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
@@ -305,6 +316,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   if (compare->parsed()) return compare_options(words);
   if (sweep->parsed()) return sweep_options(words);
   if (chart->parsed()) return chart_options(words);
+  if (docs->parsed()) return docs_page(words);
   return render_options(words);
 }
 

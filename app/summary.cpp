@@ -14,10 +14,72 @@ namespace carom {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 // JSON knows no infinity and no NaN.
-nlohmann::ordered_json number(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
+
+constexpr std::string_view resume_key = "resume_with";
+
+Json phase_seconds(const Summary& s) {
+  Json phases = Json::object();
+  for (const Phase& phase : s.phases.phases()) phases[std::string(phase.name)] = number(phase.seconds);
+  return phases;
+}
+
+// One row a key of the JSON object, in its order: a new key is a row here.
+struct SummaryKey {
+  std::string_view name, unit, meaning;
+  Json (*value)(const Summary&);
+};
+
+const SummaryKey summary_keys[] = {
+    {"scene", "", "the scene's file", [](const Summary& s) -> Json { return s.scene; }},
+    {"method", "", "`rollback`, `pairwise` or `exact`", [](const Summary& s) -> Json { return s.method; }},
+    {"engine", "", "`parallel` or `reference`", [](const Summary& s) -> Json { return s.engine.name; }},
+    {"threads", "", "threads of the engine", [](const Summary& s) -> Json { return s.engine.threads; }},
+    {"particles", "", "disks in the box at the end", [](const Summary& s) -> Json { return s.particles; }},
+    {"steps", "", "steps done; with `exact`, windows", [](const Summary& s) -> Json { return s.counters.steps; }},
+    {"time", "time", "simulated time at the end", [](const Summary& s) -> Json { return number(s.time); }},
+    {"collisions", "", "of two disks", [](const Summary& s) -> Json { return s.counters.collisions; }},
+    {"wall_collisions", "", "of a disk and a wall",
+     [](const Summary& s) -> Json { return s.counters.wall_collisions; }},
+    {"wall_s", "s", "wall time of the whole run", [](const Summary& s) -> Json { return number(s.wall_s); }},
+    {"cpu_s", "s", "processor time of the whole run", [](const Summary& s) -> Json { return number(s.cpu_s); }},
+    {"step_s", "s", "wall time of the steps alone, without set-up and output",
+     [](const Summary& s) -> Json { return number(s.step_s); }},
+    {"energy_initial", "energy", "kinetic and potential energy at the start",
+     [](const Summary& s) -> Json { return number(s.energy_initial); }},
+    {"energy_final", "energy", "the same at the end", [](const Summary& s) -> Json { return number(s.energy_final); }},
+    {"momentum_drift", "", "change of sum m v over sum m abs(v), the larger of start and end",
+     [](const Summary& s) -> Json { return number(s.momentum_drift); }},
+    {"max_overlap", "", "largest overlap of two disks in the last state, over the sum of their radii; 0 if none",
+     [](const Summary& s) -> Json { return number(s.max_overlap); }},
+    {"wall_overlap", "", "likewise of a disk and a wall, over its radius",
+     [](const Summary& s) -> Json { return number(s.wall_overlap); }},
+    {"pressure", "energy / area",
+     "mean over the run, from collisions and the kinetic energy halfway between start and end",
+     [](const Summary& s) -> Json { return number(s.pressure); }},
+    {"collision_rate", "1 / time", "collisions that a disk takes part in per unit time",
+     [](const Summary& s) -> Json { return number(s.collision_rate); }},
+    {"removed", "", "disks that sinks have taken", [](const Summary& s) -> Json { return s.counters.removed; }},
+    {"emitted", "", "disks that came from sources", [](const Summary& s) -> Json { return s.counters.emitted; }},
+    {"state_hash", "", "64-bit hash of (id, x, y, vx, vy) of all disks at the end",
+     [](const Summary& s) -> Json { return s.state_hash; }},
+    {"version", "", "of Carom", [](const Summary&) -> Json { return CAROM_VERSION; }},
+    {"seed", "", "of the random numbers", [](const Summary& s) -> Json { return s.seed; }},
+    {"waiting", "", "disks that are due from sources and find no room",
+     [](const Summary& s) -> Json { return s.counters.waiting; }},
+    {"frames", "", "frames written", [](const Summary& s) -> Json { return s.frames; }},
+    {"resumed", "", "how often the run went on from a checkpoint", [](const Summary& s) -> Json { return s.resumed; }},
+    {"resume_with", "", "only of a run that stopped early: the command that goes on",
+     [](const Summary& s) -> Json { return s.resume_with; }},
+    {"warnings", "", "what the physics warned of, in order", [](const Summary& s) -> Json { return s.warnings; }},
+    {"phase_s", "s", "an object: wall time of each phase of a step, in this part of the run",
+     [](const Summary& s) -> Json { return phase_seconds(s); }},
+};
 
 double momentum_drift(const Momentum& start, const Momentum& end) {
   const double dx = end.x - start.x;
@@ -70,39 +132,18 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
 }
 
 std::string json_text(const Summary& s) {
-  nlohmann::ordered_json j;
-  j["scene"] = s.scene;
-  j["method"] = s.method;
-  j["engine"] = s.engine.name;
-  j["threads"] = s.engine.threads;
-  j["particles"] = s.particles;
-  j["steps"] = s.counters.steps;
-  j["time"] = number(s.time);
-  j["collisions"] = s.counters.collisions;
-  j["wall_collisions"] = s.counters.wall_collisions;
-  j["wall_s"] = number(s.wall_s);
-  j["cpu_s"] = number(s.cpu_s);
-  j["step_s"] = number(s.step_s);
-  j["energy_initial"] = number(s.energy_initial);
-  j["energy_final"] = number(s.energy_final);
-  j["momentum_drift"] = number(s.momentum_drift);
-  j["max_overlap"] = number(s.max_overlap);
-  j["wall_overlap"] = number(s.wall_overlap);
-  j["pressure"] = number(s.pressure);
-  j["collision_rate"] = number(s.collision_rate);
-  j["removed"] = s.counters.removed;
-  j["emitted"] = s.counters.emitted;
-  j["state_hash"] = s.state_hash;
-  j["version"] = CAROM_VERSION;
-  j["seed"] = s.seed;
-  j["waiting"] = s.counters.waiting;
-  j["frames"] = s.frames;
-  j["resumed"] = s.resumed;
-  if (!s.resume_with.empty()) j["resume_with"] = s.resume_with;
-  j["warnings"] = s.warnings;
-  nlohmann::ordered_json& phases = j["phase_s"] = nlohmann::ordered_json::object();
-  for (const Phase& phase : s.phases.phases()) phases[std::string(phase.name)] = number(phase.seconds);
-  return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  Json j;
+  for (const SummaryKey& key : summary_keys) {
+    if (key.name == resume_key && s.resume_with.empty()) continue;
+    j[std::string(key.name)] = key.value(s);
+  }
+  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<KeyText> summary_key_texts() {
+  std::vector<KeyText> texts;
+  for (const SummaryKey& key : summary_keys) texts.push_back({key.name, key.unit, key.meaning});
+  return texts;
 }
 
 std::string table_text(const Summary& s, const std::string& folder) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/make_engine.hpp"
@@ -35,10 +36,15 @@ struct Summary {
 // Everything but the times, the number of frames and the warnings, which the caller knows.
 Summary summarize(const RunStart& start, const Engine& engine, const Scene& scene, const EngineChoice& choice);
 
-// One JSON object with the keys of design.md, in that order, then seed, waiting, frames, resumed, for a run
-// that stopped early resume_with, then warnings and phase_s (of this part of the run). Numbers in full
-// precision; null for one that is not finite.
+// One JSON object with the keys of the table in summary.cpp, in its order (resume_with only of a run that stopped
+// early). Numbers in full precision; null for one that is not finite.
 std::string json_text(const Summary& summary);
+
+// What docs/scene.md says of each of these keys.
+struct KeyText {
+  std::string_view name, unit, meaning;
+};
+std::vector<KeyText> summary_key_texts();
 
 // A few aligned lines. folder: where the results are, empty if nowhere.
 std::string table_text(const Summary& summary, const std::string& folder);

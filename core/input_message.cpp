@@ -24,8 +24,9 @@ std::string in_quotes(std::string_view text) {
 }
 
 std::string expected_one_of(std::span<const std::string_view> known, std::string_view name) {
+  if (known.size() == 1) return fmt::format("expected {}", known.front());
   const std::string_view nearest = nearest_name(name.substr(0, 60), known);
-  if (known.size() == 1) return fmt::format("expected {}", nearest);
+  if (!is_near(name, nearest)) return fmt::format("expected one of {}", fmt::join(known, ", "));
   return fmt::format("expected one of {} (nearest: {})", fmt::join(known, ", "), nearest);
 }
 

@@ -14,7 +14,7 @@ namespace carom {
 // Text from the user in double quotes, cut short after 60 characters.
 std::string in_quotes(std::string_view text);
 
-// "expected one of a, b, c (nearest: b)" for a name that is none of them.
+// "expected one of a, b, c (nearest: b)" for a name that is none of them; the nearest only if it is near.
 std::string expected_one_of(std::span<const std::string_view> known, std::string_view name);
 
 }  // namespace carom

@@ -39,4 +39,10 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
   });
 }
 
+bool is_near(std::string_view name, std::string_view known) {
+  for (std::string_view* word : {&name, &known})
+    word->remove_prefix(std::min(word->find_first_not_of('-'), word->size()));
+  return 2 * edit_distance(name, known) <= std::max(name.size(), known.size());
+}
+
 }  // namespace carom

@@ -48,19 +48,19 @@ Count read_bins(const TableReader& reader) {
 
 // read(table) of the table with the options of one quantity, if there is one.
 template <class Read>
-void read_options(const TableReader& analysis, const AnalysisPlan& plan, Quantity quantity,
-                  std::initializer_list<std::string_view> keys, Read read) {
+void read_options(const TableReader& analysis, const AnalysisPlan& plan, Quantity quantity, Read read) {
   const std::string_view name = quantity_names[static_cast<std::size_t>(quantity)];
   const toml::node* node = analysis.find(name);
   if (node == nullptr) return;
   if (!node->is_table()) {
     analysis.fail(name, fmt::format("is {}", type_name(*node)),
-                  fmt::format("expected a table with {}, and the name among what", fmt::join(keys, ", ")));
+                  fmt::format("expected a table with {}, and the name among what",
+                              fmt::join(key_names(analysis.key(name)), ", ")));
   }
   if (!plan.wants(quantity)) {
     analysis.fail(name, "has options, but what does not name it", fmt::format("expected \"{}\" in what", name));
   }
-  read(TableReader(analysis.origin(), analysis.key(name), *node->as_table(), keys));
+  read(TableReader(analysis.origin(), analysis.key(name), *node->as_table()));
 }
 
 // The largest r_max that a side of this length takes, and what is taken where nothing is said; both lengths.
@@ -106,27 +106,26 @@ void settle_pairs(Scene& scene, double largest_radius, const PlaceOfKey& place) 
 }  // namespace
 
 AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, const Scene& scene) {
-  const TableReader reader(origin, "analysis", table,
-                           {"what", "every", "start", "pair_correlation", "speeds", "density"});
+  const TableReader reader(origin, "analysis", table);
   AnalysisPlan plan;
   read_wanted(reader, plan);
   const double usual = scene.output.every > 0.0 ? scene.output.every : scene.run.t_end / default_samples;
-  plan.every = reader.non_negative("every").value_or(usual);
-  plan.start = reader.non_negative("start").value_or(0.0);
+  plan.every = reader.number("every").value_or(usual);
+  plan.start = reader.number_or_initial("start");
   if (plan.start > scene.run.t_end) {
     reader.fail("start", fmt::format("is {}, after the end of the run", plan.start),
                 fmt::format("expected at most run.t_end = {}", scene.run.t_end));
   }
-  read_options(reader, plan, Quantity::pair_correlation, {"r_max", "bins"}, [&](const TableReader& options) {
-    plan.r_max = options.positive("r_max").value_or(0.0);
+  read_options(reader, plan, Quantity::pair_correlation, [&](const TableReader& options) {
+    plan.r_max = options.number("r_max").value_or(0.0);
     plan.r_bins = read_bins(options);
   });
-  read_options(reader, plan, Quantity::speeds, {"max", "bins"}, [&](const TableReader& options) {
-    plan.speed_max = options.positive("max").value_or(0.0);
+  read_options(reader, plan, Quantity::speeds, [&](const TableReader& options) {
+    plan.speed_max = options.number("max").value_or(0.0);
     plan.speed_bins = read_bins(options);
   });
-  read_options(reader, plan, Quantity::density, {"axis", "bins"}, [&](const TableReader& options) {
-    plan.density_along_x = options.choice("axis", axis_names).value_or(1) == 0;
+  read_options(reader, plan, Quantity::density, [&](const TableReader& options) {
+    plan.density_along_x = options.choice_or_initial("axis") == 0;
     plan.density_bins = read_bins(options);
   });
   if (plan.speed_max == 0.0) plan.speed_max = default_speed_max;

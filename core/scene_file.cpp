@@ -67,15 +67,13 @@ struct BoxSize {
 };
 
 BoxSize read_box(const SceneOrigin& origin, Domain& box) {
-  const TableReader reader(
-      origin, "box", required_section(origin, "box", "width and height"),
-      {"width", "height", "packing_fraction", "aspect", "left", "right", "bottom", "top", "wall_restitution"});
+  const TableReader reader(origin, "box", required_section(origin, "box", "width and height"));
   for (std::size_t s = 0; s < side_names.size(); ++s) {
-    box.sides[s] = static_cast<SideKind>(reader.choice(side_names[s], side_kind_names).value_or(0));
+    box.sides[s] = static_cast<SideKind>(reader.choice_or_initial(side_names[s]));
   }
-  box.wall_restitution = reader.in_unit("wall_restitution").value_or(1.0);
-  const BoxSize size{reader.positive("width"), reader.positive("height"), reader.positive("packing_fraction"),
-                     reader.positive("aspect")};
+  box.wall_restitution = reader.number_or_initial("wall_restitution");
+  const BoxSize size{reader.number("width"), reader.number("height"), reader.number("packing_fraction"),
+                     reader.number("aspect")};
   if (size.packing_fraction) {
     if (size.width || size.height) {
       reader.fail("packing_fraction", fmt::format("given beside {}", size.width ? "width" : "height"),
@@ -97,27 +95,25 @@ Physics read_physics(const SceneOrigin& origin) {
   Physics physics;
   const toml::table* table = section(origin, "physics");
   if (table == nullptr) return physics;
-  const TableReader reader(origin, "physics", *table,
-                           {"gravity", "restitution", "diffusion", "accumulate", "collapse"});
-  physics.gravity = reader.non_negative("gravity").value_or(0.0);
-  physics.restitution = reader.in_unit("restitution").value_or(1.0);
-  physics.diffusion = reader.positive("diffusion").value_or(0.0);
-  physics.accumulate = reader.flag("accumulate").value_or(false);
+  const TableReader reader(origin, "physics", *table);
+  physics.gravity = reader.number_or_initial("gravity");
+  physics.restitution = reader.number_or_initial("restitution");
+  physics.diffusion = reader.number("diffusion").value_or(0.0);
+  physics.accumulate = reader.flag_or_initial("accumulate");
   const toml::node* node = reader.find("collapse");
   if (node == nullptr) return physics;
   constexpr std::string_view expected = "expected { model = \"tc\", contact_time = t }";
-  constexpr std::array<std::string_view, 1> models{"tc"};
   const toml::table* collapse = node->as_table();
   if (collapse == nullptr) reader.fail("collapse", fmt::format("is {}", type_name(*node)), expected);
-  const TableReader remedy(origin, "physics.collapse", *collapse, {"model", "contact_time"});
-  if (!remedy.choice("model", models)) remedy.fail("model", "missing", expected);
-  physics.collapse_contact_time = remedy.positive("contact_time");
+  const TableReader remedy(origin, "physics.collapse", *collapse);
+  if (!remedy.choice("model")) remedy.fail("model", "missing", expected);
+  physics.collapse_contact_time = remedy.number("contact_time");
   if (!physics.collapse_contact_time) remedy.fail("contact_time", "missing", expected);
   return physics;
 }
 
 DiskGroup read_group(const SceneOrigin& origin, const std::string& path, const toml::table& table) {
-  const TableReader reader(origin, path, table, {"count", "positions", "velocities", "radius", "mass"});
+  const TableReader reader(origin, path, table);
   DiskGroup group;
   group.line = static_cast<int>(table.source().begin.line);
   reader.require("count", "expected how many disks the group has");
@@ -133,22 +129,22 @@ GrowthPlan read_growth(const SceneOrigin& origin) {
   GrowthPlan growth;
   const toml::table* table = section(origin, "growth");
   if (table == nullptr) return growth;
-  const TableReader reader(origin, "growth", *table, {"slowness", "steps"});
+  const TableReader reader(origin, "growth", *table);
   growth.given = true;
-  growth.slowness = reader.positive("slowness").value_or(growth.slowness);
+  growth.slowness = reader.number_or_initial("slowness");
   if (growth.slowness < 1e-3 || growth.slowness > 1e4) {
     reader.fail("slowness", fmt::format("is {}", growth.slowness), "expected a number from 0.001 to 10000");
   }
-  growth.steps = reader.count("steps").value_or(growth.steps);
+  growth.steps = reader.count_or_initial("steps");
   return growth;
 }
 
 Source read_source(const SceneOrigin& origin, const std::string& path, const toml::table& table) {
-  const TableReader reader(origin, path, table, {"side", "region", "rate", "radius", "mass", "velocities", "limit"});
+  const TableReader reader(origin, path, table);
   Source source;
   source.line = static_cast<int>(table.source().begin.line);
   const toml::node* region = reader.find("region");
-  const std::optional<std::size_t> side = reader.choice("side", side_names);
+  const std::optional<std::size_t> side = reader.choice("side");
   constexpr std::string_view expected = "expected either side = \"left\" or region = [x0, y0, x1, y1]";
   if (side && region != nullptr) reader.fail("region", "given beside side", expected);
   if (!side && region == nullptr) reader.fail("side", "missing", expected);
@@ -160,7 +156,7 @@ Source read_source(const SceneOrigin& origin, const std::string& path, const tom
     source.region_high = {corners[2], corners[3]};
   }
   reader.require("rate", "expected disks per unit time");
-  source.rate = reader.non_negative("rate").value();
+  source.rate = reader.number("rate").value();
   source.radius = read_size(reader, "radius", "from_mass");
   source.mass = read_size(reader, "mass", "from_radius");
   source.velocities = read_velocities(reader);
@@ -187,7 +183,7 @@ auto read_tables(const SceneOrigin& origin, std::string_view name, Read read) {
 
 double read_accuracy(const TableReader& reader, bool automatic) {
   constexpr std::string_view expected = "expected the relative error that method \"auto\" may make, as in 1e-3";
-  const double accuracy = reader.positive("accuracy").value_or(0.0);
+  const double accuracy = reader.number("accuracy").value_or(0.0);
   if (automatic && accuracy == 0.0) reader.fail("accuracy", "missing", expected);
   if (accuracy > most_accuracy) {
     reader.fail("accuracy", fmt::format("is {}", accuracy), fmt::format("expected at most {}", most_accuracy));
@@ -209,16 +205,15 @@ void choose_run(Scene& scene, const PlaceOfKey& place) {
 }
 
 RunPlan read_run(const SceneOrigin& origin) {
-  const TableReader reader(origin, "run", required_section(origin, "run", "t_end"),
-                           {"method", "dt", "t_end", "accuracy"});
+  const TableReader reader(origin, "run", required_section(origin, "run", "t_end"));
   RunPlan run;
-  const std::size_t word = reader.choice("method", method_words).value_or(static_cast<std::size_t>(Method::exact));
+  const std::size_t word = reader.choice_or_initial("method");
   run.automatic = word == method_names.size();
   run.method = run.automatic ? Method::exact : static_cast<Method>(word);
   run.accuracy = read_accuracy(reader, run.automatic);
-  run.dt = reader.positive("dt").value_or(0.0);
+  run.dt = reader.number("dt").value_or(0.0);
   reader.require("t_end", "expected the time at which the run ends");
-  run.t_end = reader.non_negative("t_end").value();
+  run.t_end = reader.number("t_end").value();
   return run;
 }
 
@@ -243,7 +238,7 @@ std::vector<std::string> read_plots(const TableReader& output) {
 double read_checkpoint_interval(const TableReader& output) {
   const toml::node* node = output.find("checkpoint");
   if (node == nullptr) return 0.0;
-  if (!node->is_string()) return output.positive("checkpoint").value();
+  if (!node->is_string()) return output.number("checkpoint").value();
   const std::string text = output.text("checkpoint").value();
   const std::optional<double> seconds = parse_duration(text);
   if (!seconds) output.fail("checkpoint", fmt::format("is {}", in_quotes(text)), expected_duration);
@@ -254,18 +249,17 @@ OutputPlan read_output(const SceneOrigin& origin, double t_end) {
   OutputPlan output;
   const toml::table* table = section(origin, "output");
   if (table == nullptr) return output;
-  const TableReader reader(origin, "output", *table,
-                           {"every", "trajectory", "select", "precision", "series", "plots", "movie", "checkpoint"});
-  output.trajectory = static_cast<TrajectoryFormat>(reader.choice("trajectory", trajectory_names).value_or(0));
+  const TableReader reader(origin, "output", *table);
+  output.trajectory = static_cast<TrajectoryFormat>(reader.choice_or_initial("trajectory"));
   output.select = read_selection(reader);
   output.single_precision = read_single_precision(reader);
-  output.series = reader.flag("series").value_or(false);
+  output.series = reader.flag_or_initial("series");
   output.plots = read_plots(reader);
-  output.movie = reader.flag("movie").value_or(false);
+  output.movie = reader.flag_or_initial("movie");
   output.checkpoint = read_checkpoint_interval(reader);
   const bool frames =
       output.trajectory != TrajectoryFormat::none || output.series || output.movie || !output.plots.empty();
-  output.every = reader.non_negative("every").value_or(frames ? t_end / 100.0 : 0.0);
+  output.every = reader.number("every").value_or(frames ? t_end / 100.0 : 0.0);
   return output;
 }
 
@@ -304,8 +298,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   for (const Override& change : overrides) apply_override(tree, change);
   const SceneOrigin origin{name, folder, &tree, overrides, frames};
   const PlaceOfKey place = [&origin](std::string_view key) { return origin.where(key); };
-  const TableReader root(
-      origin, "", tree, {"title", "seed", "box", "physics", "disks", "growth", "sources", "run", "output", "analysis"});
+  const TableReader root(origin, "", tree);
   Scene scene;
   scene.file = name;
   scene.title = root.text("title").value_or("");

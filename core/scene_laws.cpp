@@ -42,7 +42,7 @@ std::vector<Vec2> read_csv_law(const TableReader& law, std::string& file) {
 // { frame = "DIR or trajectory" }, with index = n (from 1) or time = t; the last frame without. file gets what messages
 // call it. Relative paths start where the scene lies, as those of CSV files do.
 SceneFrame read_frame(const TableReader& owner, std::string_view name, const toml::table& table, std::string& file) {
-  const TableReader law(owner.origin(), owner.key(name), table, {"frame", "index", "time"});
+  const TableReader law(owner.origin(), owner.key(name), table, "frame");
   constexpr std::string_view expected = "expected { frame = \"DIR\" }, with index = n (from 1) or time = t";
   FrameAsked asked;
   law.require("frame", expected);
@@ -99,12 +99,12 @@ PositionLaw read_positions(const TableReader& group) {
   PositionLaw law;
   law.where = group.origin().where(key);
   if (node.is_string()) {
-    law.kind = static_cast<PositionLaw::Kind>(group.choice("positions", position_names).value());
+    law.kind = static_cast<PositionLaw::Kind>(group.choice("positions").value());
   } else if (const toml::table* table = node.as_table(); table != nullptr && is_frame(*table)) {
     law.kind = PositionLaw::Kind::list;
     law.list = read_frame(group, "positions", *table, law.file).positions;
   } else if (table != nullptr) {
-    const TableReader reader(group.origin(), key, *table, {"file"});
+    const TableReader reader(group.origin(), key, *table, "disks.positions");
     only_key(group, "positions", *table, positions_expected);
     law.kind = PositionLaw::Kind::list;
     law.list = read_csv_law(reader, law.file);
@@ -133,14 +133,14 @@ VelocityLaw read_velocities(const TableReader& owner) {
     law.list = read_frame(owner, "velocities", *table, law.file).velocities;
     return law;
   }
-  const TableReader reader(owner.origin(), key, *table, {"maxwell", "uniform", "file", "frame"});
+  const TableReader reader(owner.origin(), key, *table, "disks.velocities");
   const std::string_view kind = only_key(owner, "velocities", *table, velocities_expected);
   if (kind == "maxwell") {
     law.kind = VelocityLaw::Kind::maxwell;
-    law.temperature = reader.non_negative("maxwell").value();
+    law.temperature = reader.number("maxwell").value();
   } else if (kind == "uniform") {
     law.kind = VelocityLaw::Kind::uniform;
-    law.limit = reader.non_negative("uniform").value();
+    law.limit = reader.number("uniform").value();
   } else {
     law.kind = VelocityLaw::Kind::list;
     law.list = read_csv_law(reader, law.file);
@@ -164,14 +164,14 @@ SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_v
       law.values = name == "radius" ? frame.radius : frame.mass;
       return law;
     }
-    const TableReader reader(owner.origin(), key, *table, {"uniform", other_key, "frame"});
+    const TableReader reader(owner.origin(), key, *table, fmt::format("disks.{}", name));
     if (only_key(owner, name, *table, expected) == "uniform") return read_uniform_size(reader, *table->get("uniform"));
     law.kind = SizeLaw::Kind::from_other;
-    law.density = reader.positive(other_key).value();
+    law.density = reader.number(other_key).value();
     return law;
   }
   if (!node.is_number()) owner.fail(name, fmt::format("is {}", type_name(node)), expected);
-  law.value = owner.positive(name).value();
+  law.value = owner.number(name).value();
   return law;
 }
 

@@ -18,6 +18,7 @@ inline constexpr std::array<std::string_view, 2> precision_names{"double", "sing
 inline constexpr std::array<std::string_view, 6> quantity_names{
     "pair_correlation", "displacement", "speeds", "density", "pressure", "collision_rate"};  // Quantity
 inline constexpr std::array<std::string_view, 2> axis_names{"x", "y"};
+inline constexpr std::array<std::string_view, 1> collapse_models{"tc"};
 inline constexpr std::array<std::string_view, 2> plot_names{"velocity", "energy"};
 
 }  // namespace carom

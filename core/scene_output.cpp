@@ -58,7 +58,7 @@ Selection read_selection(const TableReader& output) {
 }
 
 bool read_single_precision(const TableReader& output) {
-  const std::size_t precision = output.choice("precision", precision_names).value_or(0);
+  const std::size_t precision = output.choice_or_initial("precision");
   if (output.find("precision") != nullptr && output.text("trajectory").value_or("none") != "h5md") {
     output.fail("precision", "is a matter of trajectory.h5", "expected trajectory = \"h5md\" as well");
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/input_message.hpp"
 
@@ -41,6 +42,30 @@ unsigned line_of(const toml::table& root, std::string_view key) {
 bool lies_at_or_below(std::string_view path, std::string_view prefix) {
   return path == prefix ||
          (path.size() > prefix.size() && path.substr(0, prefix.size()) == prefix && path[prefix.size()] == '.');
+}
+
+// What was expected of a value that breaks the bound of its kind; empty if it keeps it.
+std::string_view broken_bound(KeyKind kind, double value) {
+  switch (kind) {
+    case KeyKind::positive:
+      return value > 0.0 ? "" : "expected a number above 0";
+    case KeyKind::non_negative:
+      return value >= 0.0 ? "" : "expected a number, 0 or more";
+    case KeyKind::unit_interval:
+      return value >= 0.0 && value <= 1.0 ? "" : "expected a number from 0 to 1";
+    default:
+      return "";
+  }
+}
+
+// The number that a row says of an absent key.
+template <class Number>
+Number initial_number(const SceneKey& row) {
+  Number value{};
+  const char* const last = row.initial.data() + row.initial.size();
+  const auto [end, error] = std::from_chars(row.initial.data(), last, value);
+  if (error == std::errc() && end == last) return value;
+  throw std::logic_error(fmt::format("scene_keys.cpp: {} of {} is no number", row.initial, row.name));
 }
 
 constexpr double largest_exact_count = 9007199254740992.0;  // 2^53: above it a float cannot tell neighbours apart
@@ -148,12 +173,12 @@ std::vector<Vec2> as_pairs(const SceneOrigin& origin, const std::string& key, co
   return pairs;
 }
 
-TableReader::TableReader(const SceneOrigin& origin, std::string path, const toml::table& table,
-                         std::initializer_list<std::string_view> known)
-    : origin_(&origin), path_(std::move(path)), table_(&table) {
+TableReader::TableReader(const SceneOrigin& origin, std::string path, const toml::table& table, std::string_view kind)
+    : origin_(&origin), path_(std::move(path)), kind_(kind.empty() ? table_of_path(path_) : kind), table_(&table) {
   for (const auto& [name, node] : table) {
-    if (std::find(known.begin(), known.end(), name.str()) != known.end()) continue;
-    fail(name.str(), "unknown key", expected_one_of(std::span(known.begin(), known.size()), name.str()));
+    if (find_scene_key(kind_, name.str()) == nullptr) {
+      fail(name.str(), "unknown key", expected_one_of(key_names(kind_), name.str()));
+    }
   }
 }
 
@@ -165,6 +190,12 @@ void TableReader::fail(std::string_view name, std::string_view what, std::string
   origin_->fail(key(name), what, expected);
 }
 
+const SceneKey& TableReader::row(std::string_view name) const {
+  const SceneKey* const found = find_scene_key(kind_, name);
+  if (found == nullptr) throw std::logic_error(fmt::format("scene_keys.cpp has no key {} in {}", name, kind_));
+  return *found;
+}
+
 const toml::node& TableReader::require(std::string_view name, std::string_view expected) const {
   const toml::node* node = find(name);
   if (node == nullptr) fail(name, "missing", expected);
@@ -172,51 +203,67 @@ const toml::node& TableReader::require(std::string_view name, std::string_view e
 }
 
 std::optional<double> TableReader::number(std::string_view name) const {
+  const SceneKey& key_row = row(name);
   const toml::node* node = find(name);
-  return node == nullptr ? std::nullopt : std::optional(as_number(*origin_, key(name), *node));
-}
-
-std::optional<double> TableReader::positive(std::string_view name) const {
-  const std::optional<double> value = number(name);
-  if (value && !(*value > 0.0)) fail(name, fmt::format("is {}", *value), "expected a number above 0");
-  return value;
-}
-
-std::optional<double> TableReader::non_negative(std::string_view name) const {
-  const std::optional<double> value = number(name);
-  if (value && !(*value >= 0.0)) fail(name, fmt::format("is {}", *value), "expected a number, 0 or more");
-  return value;
-}
-
-std::optional<double> TableReader::in_unit(std::string_view name) const {
-  const std::optional<double> value = number(name);
-  if (value && !(*value >= 0.0 && *value <= 1.0)) {
-    fail(name, fmt::format("is {}", *value), "expected a number from 0 to 1");
+  if (node == nullptr) return std::nullopt;
+  const double value = as_number(*origin_, key(name), *node);
+  const std::string_view broken = broken_bound(key_row.kind, value);
+  if (!broken.empty()) fail(name, fmt::format("is {}", value), broken);
+  if (!in_range(key_row.dimension, value)) {
+    fail(name, fmt::format("is {}", value), expected_range(key_row.dimension));
   }
   return value;
 }
 
 std::optional<Count> TableReader::count(std::string_view name) const {
+  row(name);
   const toml::node* node = find(name);
   return node == nullptr ? std::nullopt : std::optional(as_count(*origin_, key(name), *node));
 }
 
 std::optional<bool> TableReader::flag(std::string_view name) const {
+  row(name);
   const toml::node* node = find(name);
   return node == nullptr ? std::nullopt : std::optional(as_flag(*origin_, key(name), *node));
 }
 
 std::optional<std::string> TableReader::text(std::string_view name) const {
+  row(name);
   const toml::node* node = find(name);
   return node == nullptr ? std::nullopt : std::optional(as_text(*origin_, key(name), *node));
 }
 
-std::optional<std::size_t> TableReader::choice(std::string_view name, std::span<const std::string_view> known) const {
+std::optional<std::size_t> TableReader::choice(std::string_view name) const {
   const std::optional<std::string> value = text(name);
   if (!value) return std::nullopt;
+  const std::span<const std::string_view> known = row(name).names;
   const auto it = std::find(known.begin(), known.end(), *value);
   if (it == known.end()) fail(name, fmt::format("unknown name {}", in_quotes(*value)), expected_one_of(known, *value));
   return static_cast<std::size_t>(it - known.begin());
+}
+
+double TableReader::number_or_initial(std::string_view name) const {
+  const std::optional<double> given = number(name);
+  return given ? *given : initial_number<double>(row(name));
+}
+
+Count TableReader::count_or_initial(std::string_view name) const {
+  const std::optional<Count> given = count(name);
+  return given ? *given : initial_number<Count>(row(name));
+}
+
+bool TableReader::flag_or_initial(std::string_view name) const {
+  return flag(name).value_or(row(name).initial == "true");
+}
+
+std::size_t TableReader::choice_or_initial(std::string_view name) const {
+  const std::optional<std::size_t> given = choice(name);
+  if (given) return *given;
+  const SceneKey& key_row = row(name);
+  for (std::size_t k = 0; k < key_row.names.size(); ++k) {
+    if (key_row.initial == fmt::format("\"{}\"", key_row.names[k])) return k;
+  }
+  throw std::logic_error(fmt::format("scene_keys.cpp: {} is no name of {}", key_row.initial, name));
 }
 
 }  // namespace carom

@@ -14,14 +14,13 @@
 #pragma pop_macro("NDEBUG")
 
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/scene_file.hpp"
+#include "core/scene_keys.hpp"
 #include "core/types.hpp"
 
 namespace carom {
@@ -56,34 +55,43 @@ std::vector<double> as_numbers(const SceneOrigin& origin, const std::string& key
 // A list of [x, y].
 std::vector<Vec2> as_pairs(const SceneOrigin& origin, const std::string& key, const toml::node& node);
 
-// One table and its key path ("" for the root). Missing keys read as nullopt.
+// One table and its key path ("" for the root). What its keys are and may be, scene_keys.hpp says. Missing keys read as
+// nullopt.
 class TableReader {
  public:
-  // Throws InputError when the table has a key that is not in known.
-  TableReader(const SceneOrigin& origin, std::string path, const toml::table& table,
-              std::initializer_list<std::string_view> known);
+  // Throws InputError when the table has a key that it should not have. kind: its name in scene_keys.hpp, where the
+  // path does not tell.
+  TableReader(const SceneOrigin& origin, std::string path, const toml::table& table, std::string_view kind = {});
 
   std::string key(std::string_view name) const;  // its full path
   const toml::node* find(std::string_view name) const { return table_->get(name); }
   // Throws InputError when the key is missing.
   const toml::node& require(std::string_view name, std::string_view expected) const;
 
+  // Held against the bounds and the range of the key's row.
   std::optional<double> number(std::string_view name) const;
-  std::optional<double> positive(std::string_view name) const;      // > 0
-  std::optional<double> non_negative(std::string_view name) const;  // >= 0
-  std::optional<double> in_unit(std::string_view name) const;       // in [0, 1]
   std::optional<Count> count(std::string_view name) const;
   std::optional<bool> flag(std::string_view name) const;
   std::optional<std::string> text(std::string_view name) const;
-  // One of known, as its index.
-  std::optional<std::size_t> choice(std::string_view name, std::span<const std::string_view> known) const;
+  // One of the row's names, as its index.
+  std::optional<std::size_t> choice(std::string_view name) const;
+
+  // The same, or what the row says of an absent key.
+  double number_or_initial(std::string_view name) const;
+  Count count_or_initial(std::string_view name) const;
+  bool flag_or_initial(std::string_view name) const;
+  std::size_t choice_or_initial(std::string_view name) const;
 
   [[noreturn]] void fail(std::string_view name, std::string_view what, std::string_view expected) const;
   const SceneOrigin& origin() const { return *origin_; }
 
  private:
+  // The row of a key that is read. Throws std::logic_error where scene_keys.cpp has none.
+  const SceneKey& row(std::string_view name) const;
+
   const SceneOrigin* origin_;
   std::string path_;
+  std::string kind_;
   const toml::table* table_;
 };
 

@@ -44,7 +44,7 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
     : file_(path), meter_(scene, true), with_displacement_(scene.analysis.wants(Quantity::displacement)) {
   std::string heading = "t";
   for (const SeriesColumn& column : series_columns) heading += fmt::format(",{}", column.name);
-  if (with_displacement_) heading += ",displacement";
+  if (with_displacement_) heading += fmt::format(",{}", displacement_column);
   file_.write(heading + "\n");
 }
 

@@ -13,30 +13,36 @@
 
 namespace carom {
 
-// The columns of series.csv after the time, and the observables of trajectory.h5.
+// The columns of series.csv after the time, and the observables of trajectory.h5. docs/scene.md has them from here.
 struct SeriesColumn {
   const char* name;
   bool whole;  // a count
+  const char* unit;
+  const char* meaning;
 };
-inline constexpr std::array<SeriesColumn, 18> series_columns{{{"disks", true},
-                                                              {"kinetic", false},
-                                                              {"potential", false},
-                                                              {"total", false},
-                                                              {"px", false},
-                                                              {"py", false},
-                                                              {"collisions", true},
-                                                              {"wall_collisions", true},
-                                                              {"pressure", false},
-                                                              {"collision_rate", false},
-                                                              {"max_overlap", false},
-                                                              {"removed", true},
-                                                              {"emitted", true},
-                                                              {"waiting", true},
-                                                              {"force_left", false},
-                                                              {"force_right", false},
-                                                              {"force_bottom", false},
-                                                              {"force_top", false}}};
-using SeriesRow = std::array<double, series_columns.size()>;  // counts are exact up to 2^53
+inline constexpr std::array<SeriesColumn, 18> series_columns{{
+    {"disks", true, "", "disks in the box"},
+    {"kinetic", false, "energy", "sum of m v^2 / 2"},
+    {"potential", false, "energy", "sum of m g y, from the bottom"},
+    {"total", false, "energy", "kinetic + potential"},
+    {"px", false, "momentum", "sum of m vx"},
+    {"py", false, "momentum", "sum of m vy"},
+    {"collisions", true, "", "of two disks, since the start"},
+    {"wall_collisions", true, "", "of a disk and a wall, since the start"},
+    {"pressure", false, "energy / area",
+     "mean since the row before, from kinetic energy and collisions; 0 in the first"},
+    {"collision_rate", false, "1 / time", "collisions a disk takes part in per unit time, mean since the row before"},
+    {"max_overlap", false, "", "largest overlap of two disks in this frame, over the sum of their radii; 0 if none"},
+    {"removed", true, "", "disks that sinks have taken, since the start"},
+    {"emitted", true, "", "disks that came from sources, since the start"},
+    {"waiting", true, "", "disks that are due from sources and find no room"},
+    {"force_left", false, "force", "outwards on the left wall, mean since the row before; 0 in the first"},
+    {"force_right", false, "force", "likewise on the right wall"},
+    {"force_bottom", false, "force", "likewise on the floor"},
+    {"force_top", false, "force", "likewise on the ceiling"},
+}};
+inline constexpr const char* displacement_column = "displacement";  // the last, where [analysis] asks for it
+using SeriesRow = std::array<double, series_columns.size()>;        // counts are exact up to 2^53
 
 inline constexpr std::size_t overlap_column = 10;  // max_overlap
 

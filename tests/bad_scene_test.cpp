@@ -49,7 +49,9 @@ const Fault unknown_names[] = {
     {"KeyInVelocities", "maxwell = 1.0", "maxwel = 1.0", "16: disks.0.velocities.maxwel: ", "(nearest: maxwell)"},
     {"KeyInRadius", "radius = 1.0", "radius = { unifrom = [1, 2] }", "17: disks.0.radius.unifrom: ", "uniform)"},
     {"KeyInMass", "mass = 2.0", "mass = { from_mass = 1 }", "18: disks.0.mass.from_mass: ", "(nearest: from_radius)"},
-    {"KeyInPositions", positions, "positions = { fil = \"p\" }", "15: disks.0.positions.fil: ", "expected file"},
+    {"KeyInPositions", positions, "positions = { fil = \"p\" }", "15: disks.0.positions.fil: ", "(nearest: file)"},
+    {"KeyLikeNoOther", "radius = 1.0", "colour = 1.0",
+     "17: disks.0.colour: ", "expected one of count, positions, velocities, radius, mass"},
     {"Section", "[physics]", "[phsyics]", "10: phsyics: ", "(nearest: physics)"},
     {"SideKind", "left = \"wall\"", "left = \"wal\"", "7: box.left: ", "unknown name \"wal\""},
     {"SideKindNearest", "left = \"wall\"", "left = \"wal\"", "7: box.left: ", "(nearest: wall)"},
@@ -145,9 +147,9 @@ const Fault out_of_range[] = {
     {"TooManyDisks", "count = 3", "count = 5000000000", "14: disks.0.count: ", "at most 4000000000"},
     {"CountBeyondAnyInteger", "count = 3", "count = 1e30", "14: disks.0.count: ", "is 1e+30"},
     {"MassOverflows", "radius = 1.0\nmass = 2.0", "radius = 1.0\nmass = { from_radius = 1e308 }",
-     "18: disks.0.mass: ", "comes out between"},
+     "18: disks.0.mass.from_radius: ", "is 1e+308"},
     {"RadiusVanishes", "radius = 1.0\nmass = 2.0", "radius = { from_mass = 1e300 }\nmass = 1e-300",
-     "17: disks.0.radius: ", "comes out between"},
+     "17: disks.0.radius.from_mass: ", "is 1e+300"},
 };
 INSTANTIATE_TEST_SUITE_P(OutOfRange, BadScene, testing::ValuesIn(out_of_range), name_of);
 

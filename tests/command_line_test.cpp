@@ -17,9 +17,10 @@ using CommandLine = test::CommandTest;
 
 TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "no command given; expected one of run, check, resume, compare, render, sweep, chart"},
+      {"", "no command given; expected one of run, check, resume, compare, render, sweep, chart, docs"},
       {"rnu small.toml",
-       "there is no command \"rnu\"; expected one of run, check, resume, compare, render, sweep, chart (nearest: run)"},
+       "there is no command \"rnu\"; expected one of run, check, resume, compare, render, sweep, chart, docs (nearest: "
+       "run)"},
       {"--jsn", "no option \"--jsn\" before the command"},
       {"run", "run: no scene file given"},
       {"run --methd pairwise small.toml", "run: there is no option \"--methd\""},

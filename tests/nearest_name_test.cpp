@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "core/input_message.hpp"
 #include "tests/support.hpp"
 
 namespace carom {
@@ -47,6 +48,18 @@ TEST(NearestName, IsTheClosestThenTheFirst) {
   EXPECT_EQ(nearest_name("rolback", methods), "rollback");
   constexpr std::array<std::string_view, 2> tie{"left", "lift"};
   EXPECT_EQ(nearest_name("loft", tie), "left");
+}
+
+TEST(NearestName, IsNamedOnlyWhereItIsNear) {
+  EXPECT_TRUE(is_near("restituton", "restitution"));
+  EXPECT_TRUE(is_near("from_mass", "from_radius"));
+  EXPECT_TRUE(is_near("--thread", "--threads"));
+  EXPECT_FALSE(is_near("colour", "count"));
+  EXPECT_FALSE(is_near("--foo", "--force")) << "dashes are no likeness";
+  EXPECT_FALSE(is_near("x", "title"));
+  constexpr std::array<std::string_view, 3> keys{"width", "height", "left"};
+  EXPECT_EQ(expected_one_of(keys, "widht"), "expected one of width, height, left (nearest: width)");
+  EXPECT_EQ(expected_one_of(keys, "temperature"), "expected one of width, height, left");
 }
 
 }  // namespace
