@@ -33,7 +33,7 @@ constexpr double trial_seconds = 0.2;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Bytes that a disk takes in a frame of trajectory.xyz, with all digits, and of trajectory.h5, packed.
-constexpr double xyz_bytes = 130.0, h5md_bytes = 32.0, h5md_single_bytes = 15.0;
+constexpr double xyz_bytes = 134.0, h5md_bytes = 32.0, h5md_single_bytes = 15.0;
 
 double trajectory_bytes(const OutputPlan& plan) {
   const double all = plan.trajectory == TrajectoryFormat::xyz ? xyz_bytes

@@ -133,7 +133,7 @@ double run_watched(Engine& engine, const RunTask& task, Results* results, Checkp
   RunningAnalysis* const analysis = results != nullptr ? results->outputs.analysis() : nullptr;
   if (results != nullptr && wants_frames(scene.output)) {
     observer.frame = [&](const Disks& disks, double time) {
-      if (analysis != nullptr) analysis->follow(engine, time);
+      results->outputs.follow(engine, time);
       results->outputs.frame(disks, time, engine.state());
       warn(results->outputs.take_warnings(), progress, task.quiet);
     };
@@ -141,14 +141,14 @@ double run_watched(Engine& engine, const RunTask& task, Results* results, Checkp
   }
   if (analysis != nullptr) {
     observer.sample = [&](const Disks& disks, double time) {
-      analysis->follow(engine, time);
+      results->outputs.follow(engine, time);
       analysis->sample(disks, time, engine.state());
       warn(results->outputs.take_warnings(), progress, task.quiet);
     };
     if (!analysis->record().series.time.empty()) observer.last_sample = analysis->last_time();
-    if (scene.analysis.wants(Quantity::displacement) && (scene.box.periodic_x() || scene.box.periodic_y())) {
-      observer.stepped = [&] { analysis->follow(engine, engine.state().time); };
-    }
+  }
+  if (results != nullptr && results->outputs.follows()) {
+    observer.stepped = [&] { results->outputs.follow(engine, engine.state().time); };
   }
   try {
     return run_to_end(engine, scene, observer);

@@ -1,8 +1,12 @@
 #include "app/run_outputs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
+#include "core/disk_group.hpp"
+#include "core/follow_disks.hpp"
 #include "core/invariants.hpp"
 
 namespace carom {
@@ -30,7 +34,7 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
       plot_velocity_(has_plot(scene.output, "velocity")),
       plot_energy_(has_plot(scene.output, "energy")) {
   if (scene.output.trajectory == TrajectoryFormat::xyz) {
-    trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), scene.box, scene.output.select);
+    trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), xyz_plan());
   }
   if (scene.output.trajectory == TrajectoryFormat::h5md) {
     h5md_ = std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene);
@@ -44,6 +48,8 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
       folder_(folder),
       frames_(from.frames),
       last_time_(from.last_time),
+      rounds_(from.rounds),
+      doubt_told_(from.rounds.doubtful > 0),
       meter_(scene, false, from.meter),
       plot_velocity_(has_plot(scene.output, "velocity")),
       plot_energy_(has_plot(scene.output, "energy")),
@@ -54,7 +60,7 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
     if (scene.output.trajectory == TrajectoryFormat::h5md) {
       h5md_ = std::make_unique<H5mdWriter>(path, scene, from.trajectory->frames);
     } else {
-      trajectory_ = std::make_unique<XyzWriter>(path, scene.box, scene.output.select, *from.trajectory);
+      trajectory_ = std::make_unique<XyzWriter>(path, xyz_plan(), *from.trajectory);
     }
   }
   if (from.series) series_ = std::make_unique<SeriesWriter>(folder.path(from.series->file.name), scene, *from.series);
@@ -67,8 +73,20 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
   movie_ = std::make_unique<MovieWriter>(folder_.unfinished(), style, *from.movie);
 }
 
+bool RunOutputs::shows_rounds() const {
+  return scene_.output.trajectory != TrajectoryFormat::none && (scene_.box.periodic_x() || scene_.box.periodic_y());
+}
+
+// Groups are told apart where there are several, sources among them.
+XyzPlan RunOutputs::xyz_plan() const {
+  XyzPlan plan{scene_.box, scene_.output.select};
+  if (scene_.groups.size() + (scene_.sources.empty() ? 0 : 1) > 1) plan.group_ends = ends_of_groups(scene_);
+  if (shows_rounds()) plan.rounds = &rounds_;
+  return plan;
+}
+
 OutputMark RunOutputs::mark_without_movie() {
-  OutputMark mark{frames_, last_time_, {}, {}, meter_.mark(), {}, velocities_, energies_, {}};
+  OutputMark mark{frames_, last_time_, {}, {}, meter_.mark(), {}, velocities_, energies_, {}, rounds_};
   if (trajectory_) mark.trajectory = trajectory_->mark();
   if (h5md_) mark.trajectory = h5md_->mark();
   if (series_) mark.series = series_->mark();
@@ -82,9 +100,22 @@ OutputMark RunOutputs::mark() {
   return mark;
 }
 
+bool RunOutputs::follows() const {
+  const bool displacement = scene_.analysis.wants(Quantity::displacement);
+  return shows_rounds() || (displacement && (scene_.box.periodic_x() || scene_.box.periodic_y()));
+}
+
+void RunOutputs::follow(const Engine& engine, double t) {
+  if (analysis_) analysis_->follow(engine, t);
+  if (!shows_rounds()) return;
+  const State& now = engine.state();
+  if (follow_disks(rounds_, engine, scene_, t) && t == now.time) look_at(rounds_, now.disks, scene_.box, t);
+}
+
 void RunOutputs::frame(const Disks& disks, double time, const State& now) {
   ++frames_;
   last_time_ = time;
+  if (shows_rounds()) follow_rounds(rounds_, disks, scene_.box, time, run_);
   if (trajectory_) trajectory_->write(disks, time, run_);
   SeriesRow row{};
   if (series_) {
@@ -139,6 +170,12 @@ std::vector<std::string> RunOutputs::take_warnings() {
   std::vector<std::string> warnings = std::exchange(warnings_, {});
   const std::string doubt = analysis_ ? analysis_->take_warning() : "";
   if (!doubt.empty()) warnings.push_back(doubt);
+  if (rounds_.doubtful > 0 && !std::exchange(doubt_told_, true)) {
+    warnings.push_back(
+        fmt::format("trajectory: at t = {:g} disks came too far within a step to tell how often they went round the "
+                    "periodic box; its counts of rounds may be wrong from there on; use a smaller dt",
+                    rounds_.looked_at));
+  }
   return warnings;
 }
 

@@ -34,7 +34,14 @@ class RunOutputs {
   // Who shares the work of a frame; without, it is done in one thread. The files are the same.
   void share_work(BlockRunner run) { run_ = std::move(run); }
 
+  // To be called after each step, and before a frame or a sample at time t: how often disks go round periodic sides.
+  void follow(const Engine& engine, double t);
+  bool follows() const;  // whether that changes anything
+
   void frame(const Disks& disks, double time, const State& now);
+
+  RunOutputs(const RunOutputs&) = delete;  // the trajectory refers to the counts of rounds
+  RunOutputs& operator=(const RunOutputs&) = delete;
 
   // What scene.analysis measures; null where it asks for nothing.
   RunningAnalysis* analysis() const { return analysis_.get(); }
@@ -57,12 +64,16 @@ class RunOutputs {
 
  private:
   OutputMark mark_without_movie();
+  bool shows_rounds() const;
+  XyzPlan xyz_plan() const;
   void draw_plots();
 
   const Scene& scene_;
   const OutputFolder& folder_;
   Count frames_ = 0;
   double last_time_ = 0.0;
+  DisplacementTally rounds_;  // of the disks in a trajectory; begins with its first frame
+  bool doubt_told_ = false;
   std::unique_ptr<XyzWriter> trajectory_;
   std::unique_ptr<H5mdWriter> h5md_;
   SeriesMeter meter_;  // for trajectory.h5 where there is no series.csv

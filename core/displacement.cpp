@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace carom {
 
@@ -12,6 +13,8 @@ constexpr std::int32_t parts = 16;  // of a period
 // A quarter period is four parts, five with the rounding of both ends.
 constexpr std::int32_t most_parts = 5;
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+// Disks a block of a look: a few milliseconds of work.
+constexpr std::size_t look_block = std::size_t{1} << 16;
 // Ids a block of the sum.
 constexpr std::size_t sum_block = 4096;
 
@@ -28,19 +31,19 @@ void begin_axis(AxisTally& axis, const std::vector<double>& coordinate, const st
                 bool periodic) {
   const std::size_t ids = id.empty() ? 0 : std::size_t{*std::max_element(id.begin(), id.end())} + 1;
   axis.from.assign(ids, nowhere);
-  axis.sixteenth.assign(periodic ? ids : 0, 0);
+  axis.sixteenth.assign(periodic ? ids : 0, not_followed);
   for (std::size_t i = 0; i < id.size(); ++i) {
     axis.from[id[i]] = coordinate[i];
     if (periodic) axis.sixteenth[id[i]] = part_of(coordinate[i], period);
   }
 }
 
-// Returns how many moves were too long.
-Count look_along(AxisTally& axis, const std::vector<double>& coordinate, const std::vector<DiskId>& id, double period) {
+// Disks begin to end - 1. Returns how many moves were too long.
+Count look_along(AxisTally& axis, const std::vector<double>& coordinate, const std::vector<DiskId>& id, double period,
+                 std::size_t begin, std::size_t end) {
   Count doubtful = 0;
-  if (axis.sixteenth.empty()) return doubtful;
-  for (std::size_t i = 0; i < id.size(); ++i) {
-    if (!is_followed(axis, id[i])) continue;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (id[i] >= axis.sixteenth.size() || axis.sixteenth[id[i]] == not_followed) continue;
     std::int32_t& unwrapped = axis.sixteenth[id[i]];
     // Of all coordinates that wrap to the present one, the nearest: -8 to 7 parts away.
     const std::int32_t ahead = (part_of(coordinate[i], period) - unwrapped) & (parts - 1);
@@ -54,8 +57,17 @@ Count look_along(AxisTally& axis, const std::vector<double>& coordinate, const s
 double displacement(const AxisTally& axis, double coordinate, DiskId id, double period) {
   const double moved = coordinate - axis.from[id];
   if (axis.sixteenth.empty()) return moved;
-  const std::int32_t rounds = axis.sixteenth[id] >> 4;  // rounds down
-  return moved + period * static_cast<double>(rounds);
+  return moved + period * static_cast<double>(rounds_of(axis, id));
+}
+
+void follow_along(AxisTally& axis, const std::vector<double>& coordinate, const std::vector<DiskId>& id,
+                  double period) {
+  const std::size_t ids = id.empty() ? 0 : std::size_t{*std::max_element(id.begin(), id.end())} + 1;
+  if (ids > axis.sixteenth.size()) axis.sixteenth.resize(ids, not_followed);
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    std::int32_t& unwrapped = axis.sixteenth[id[i]];
+    if (unwrapped == not_followed) unwrapped = part_of(coordinate[i], period);
+  }
 }
 
 }  // namespace
@@ -75,9 +87,31 @@ void begin_displacement(DisplacementTally& tally, const Disks& d, const Domain& 
 }
 
 void look_at(DisplacementTally& tally, const Disks& d, const Domain& box, double time) {
-  tally.doubtful += look_along(tally.x, d.x, d.id, box.width);
-  tally.doubtful += look_along(tally.y, d.y, d.id, box.height);
+  tally.doubtful += look_along(tally.x, d.x, d.id, box.width, 0, d.size());
+  tally.doubtful += look_along(tally.y, d.y, d.id, box.height, 0, d.size());
   tally.looked_at = time;
+}
+
+void follow_rounds(DisplacementTally& tally, const Disks& d, const Domain& box, double time, const BlockRunner& run) {
+  if (!tally.begun) {
+    tally.begun = true;
+    tally.checked_at = time;
+    tally.fastest = largest_speed(d);
+  }
+  std::vector<Count> doubtful((d.size() + look_block - 1) / look_block, 0);
+  run(doubtful.size(), [&](std::size_t b) {
+    const std::size_t begin = b * look_block, end = std::min(begin + look_block, d.size());
+    doubtful[b] =
+        look_along(tally.x, d.x, d.id, box.width, begin, end) + look_along(tally.y, d.y, d.id, box.height, begin, end);
+  });
+  tally.doubtful = std::accumulate(doubtful.begin(), doubtful.end(), tally.doubtful);
+  if (box.periodic_x()) follow_along(tally.x, d.x, d.id, box.width);
+  if (box.periodic_y()) follow_along(tally.y, d.y, d.id, box.height);
+  tally.looked_at = time;
+}
+
+std::int32_t rounds_of(const AxisTally& axis, DiskId id) {
+  return id < axis.sixteenth.size() ? axis.sixteenth[id] >> 4 : 0;  // rounds down
 }
 
 MeanSquare mean_square_displacement(const DisplacementTally& tally, const Disks& d, const Domain& box) {

@@ -1,20 +1,25 @@
-// How far disks have come, across periodic sides too: the mean square displacement.
+// How far disks have come, across periodic sides too: the mean square displacement, and how often a disk has gone
+// round.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "core/block_runner.hpp"
 #include "core/disks.hpp"
 #include "core/domain.hpp"
 #include "core/types.hpp"
 
 namespace carom {
 
-// Along an axis: where each disk was at the start, by id (NaN: no such disk), and, where the axis is periodic, its
-// unwrapped coordinate in sixteenths of the period, rounded down. Who knows a coordinate to a sixteenth tells from the
+// Along an axis: where each disk was at the start, by id (NaN: no such disk; empty where only rounds are counted), and,
+// where the axis is periodic, its unwrapped coordinate in sixteenths of the period, rounded down (not_followed: no such
+// disk). Who knows a coordinate to a sixteenth tells from the
 // next look how often it went round, as long as nobody moves further than a quarter period between two looks. The
 // sixteenths only count periods: the displacement itself is the difference of two coordinates and does not depend on
 // when anybody looked. 2^27 periods fit.
+inline constexpr std::int32_t not_followed = std::numeric_limits<std::int32_t>::min();
 struct AxisTally {
   std::vector<double> from;             // length
   std::vector<std::int32_t> sixteenth;  // empty where the axis is not periodic
@@ -37,6 +42,15 @@ void begin_displacement(DisplacementTally& tally, const Disks& disks, const Doma
 
 // Takes note of where the disks are; a disk that came later is not followed.
 void look_at(DisplacementTally& tally, const Disks& disks, const Domain& box, double time);
+
+// Takes note of where the disks are, and follows those that it does not know yet from here on, for their rounds alone:
+// a disk that it meets for the first time has gone round 0 times.
+void follow_rounds(DisplacementTally& tally, const Disks& disks, const Domain& box, double time,
+                   const BlockRunner& run = run_in_order);
+
+// How often a disk has gone round, upwards along the axis less downwards: its unwrapped coordinate is x + period *
+// rounds. 0 where the axis is not periodic.
+std::int32_t rounds_of(const AxisTally& axis, DiskId id);
 
 // Mean of (x - x_0)^2 + (y - y_0)^2 over the disks of the start that are still there; length^2, NaN without any.
 // Precondition: look_at was the last to see these disks. Sums in order of ids: the same bits in any storage order.

@@ -137,8 +137,8 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<OutputMark> T>
 void fields(Stream& stream, T& value) {
-  auto& [frames, last_time, trajectory, series, meter, movie, velocities, energies, analysis] = value;
-  stream(frames, last_time, trajectory, series, meter, movie, velocities, energies, analysis);
+  auto& [frames, last_time, trajectory, series, meter, movie, velocities, energies, analysis, rounds] = value;
+  stream(frames, last_time, trajectory, series, meter, movie, velocities, energies, analysis, rounds);
 }
 
 template <class Stream, Is<Energy> T>

@@ -1,18 +1,14 @@
 #include "io/h5md_values.hpp"
 
-#include <algorithm>
 #include <cstring>
 
+#include "core/disk_group.hpp"
 #include "io/disk_selection.hpp"
 #include "io/h5md_layout.hpp"
 
 namespace carom {
 
 namespace {
-
-DiskId species_of(const std::vector<DiskId>& group_ends, DiskId id) {
-  return static_cast<DiskId>(std::upper_bound(group_ends.begin(), group_ends.end(), id) - group_ends.begin());
-}
 
 // value(i) of the disk at each place; nothing where there is none.
 template <class T, class Value>
@@ -59,7 +55,7 @@ void fill_with_values(H5mdQuantity quantity, bool single, const Disks& disks, co
     case H5mdQuantity::radius:
       return fill_with(buffer, places, h5md_nothing, [&](std::uint32_t i) { return disks.radius_of(i); });
     case H5mdQuantity::species:
-      fill_with(buffer, places, h5md_no_species, [&](std::uint32_t i) { return species_of(group_ends, disks.id[i]); });
+      fill_with(buffer, places, h5md_no_species, [&](std::uint32_t i) { return group_of(group_ends, disks.id[i]); });
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/analysis.hpp"
+#include "core/displacement.hpp"
 #include "core/state.hpp"
 #include "io/plot.hpp"
 
@@ -51,6 +52,7 @@ struct OutputMark {
   VelocityRecord velocities;
   EnergyRecord energies;
   std::optional<AnalysisRecord> analysis;  // the file is made anew from it
+  DisplacementTally rounds;                // of the disks in a trajectory, round the periodic sides
 };
 
 // A file (or the folder "frames") that must be there for a run to go on, with so many bytes or more.

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/disk_group.hpp"
 #include "core/scene_file.hpp"
 #include "io/disk_selection.hpp"
 #include "io/h5md_layout.hpp"
@@ -77,13 +78,6 @@ Count disks_at_start(const Scene& scene) {
   Count disks = 0;
   for (const DiskGroup& group : scene.groups) disks += group.count;
   return disks;
-}
-
-std::vector<DiskId> ends_of_groups(const Scene& scene) {
-  std::vector<DiskId> ends;
-  Count end = 0;
-  for (const DiskGroup& group : scene.groups) ends.push_back(static_cast<DiskId>(end += group.count));
-  return ends;
 }
 
 }  // namespace

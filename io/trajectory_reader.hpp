@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/disks.hpp"
 #include "core/domain.hpp"
@@ -16,6 +17,7 @@ struct TrajectoryFrame {
   Disks disks;
   double time = 0.0;
   Domain box;
+  std::vector<DiskId> group;  // of each disk (disk_group.hpp); empty where the file does not tell
 };
 
 class TrajectoryReader {

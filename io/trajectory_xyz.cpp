@@ -2,14 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "core/check.hpp"
+#include "core/disk_group.hpp"
 #include "io/disk_selection.hpp"
 
 namespace carom {
@@ -24,12 +28,12 @@ void append_number(std::string& text, double value) {
   text.append(digits, end.ptr);
 }
 
-void append_id(std::string& text, DiskId id) {
+template <class Whole>
+void append_whole(std::string& text, Whole number) {
   char digits[16];
-  const auto end = std::to_chars(digits, digits + sizeof digits, id);
+  const auto end = std::to_chars(digits, digits + sizeof digits, number);
   text += ' ';
   text.append(digits, end.ptr);
-  text += '\n';
 }
 
 // Lines are made in blocks of so many, some hundreds of KB of text, so many blocks at the same time.
@@ -51,22 +55,23 @@ struct RepeatedNumber {
 };
 
 // The constant part of each frame's second line.
-std::string lattice_text(const Domain& box) {
+std::string lattice_text(const XyzPlan& plan) {
   std::string width, height;
-  append_number(width, box.width);
-  append_number(height, box.height);
+  append_number(width, plan.box.width);
+  append_number(height, plan.box.height);
   return fmt::format(
-      "Lattice=\"{} 0 0 0{} 0 0 0 1\" Origin=\"0 0 0\" pbc=\"{} {} F\" Properties={} Time=", width.substr(1), height,
-      box.periodic_x() ? 'T' : 'F', box.periodic_y() ? 'T' : 'F', xyz_properties);
+      "Lattice=\"{} 0 0 0{} 0 0 0 1\" Origin=\"0 0 0\" pbc=\"{} {} F\" Properties={}{}{} Time=", width.substr(1),
+      height, plan.box.periodic_x() ? 'T' : 'F', plan.box.periodic_y() ? 'T' : 'F', xyz_properties,
+      plan.group_ends.empty() ? "" : ":group:I:1", plan.rounds == nullptr ? "" : ":map_shift:I:3");
 }
 
 }  // namespace
 
-XyzWriter::XyzWriter(const std::string& path, const Domain& box, const Selection& select)
-    : file_(path), select_(select), lattice_(lattice_text(box)) {}
+XyzWriter::XyzWriter(const std::string& path, XyzPlan plan)
+    : file_(path), plan_(std::move(plan)), lattice_(lattice_text(plan_)) {}
 
-XyzWriter::XyzWriter(const std::string& path, const Domain& box, const Selection& select, const FileMark& from)
-    : file_(path, from.bytes), frames_(from.frames), select_(select), lattice_(lattice_text(box)) {}
+XyzWriter::XyzWriter(const std::string& path, XyzPlan plan, const FileMark& from)
+    : file_(path, from.bytes), frames_(from.frames), plan_(std::move(plan)), lattice_(lattice_text(plan_)) {}
 
 FileMark XyzWriter::mark() {
   file_.sync();
@@ -74,26 +79,37 @@ FileMark XyzWriter::mark() {
 }
 
 void XyzWriter::write_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin,
-                            std::size_t end, std::string& text) {
+                            std::size_t end, std::string& text) const {
   text.clear();
   RepeatedNumber radius, mass;
   for (std::size_t k = begin; k < end; ++k) {
     const std::size_t i = order[k];
-    text += 'D';
+    const DiskId id = disks.id[i];
+    text += 'X';
     append_number(text, disks.x[i]);
     append_number(text, disks.y[i]);
+    text += " 0";
     append_number(text, disks.vx[i]);
     append_number(text, disks.vy[i]);
+    text += " 0";
     radius.append_to(text, disks.radius_of(i));
     mass.append_to(text, disks.mass_of(i));
-    append_id(text, disks.id[i]);
+    append_whole(text, id);
+    if (!plan_.group_ends.empty()) append_whole(text, group_of(plan_.group_ends, id));
+    if (plan_.rounds != nullptr) {
+      append_whole(text, rounds_of(plan_.rounds->x, id));
+      append_whole(text, rounds_of(plan_.rounds->y, id));
+      text += " 0";
+    }
+    text += '\n';
   }
 }
 
 void XyzWriter::write(const Disks& disks, double time, const BlockRunner& run) {
   std::vector<std::size_t> order = by_id(disks);
-  if (select_.by_region || select_.stride != 1) {
-    std::erase_if(order, [&](std::size_t i) { return !is_selected(select_, disks, i); });
+  const Selection& select = plan_.select;
+  if (select.by_region || select.stride != 1) {
+    std::erase_if(order, [&](std::size_t i) { return !is_selected(select, disks, i); });
   }
   std::string head = fmt::format("{}\n{}", order.size(), lattice_);
   std::string time_text;
@@ -165,8 +181,57 @@ std::string_view value_of(std::string_view line, std::string_view key) {
 
 }  // namespace
 
-void XyzReader::read_header(XyzFrame& frame) const {
-  if (value_of(line_, "Properties=") != xyz_properties) fail(fmt::format("expected Properties={}", xyz_properties));
+// name:type:number of columns, and so on.
+void XyzReader::read_layout(std::string_view properties) {
+  const auto refuse = [&](std::string_view what) {
+    fail(fmt::format("expected Properties={}, or more columns; {}", xyz_properties, what));
+  };
+  Layout layout;
+  std::size_t radius_width = 0, mass_width = 0, id_width = 0, group_width = 0;
+  std::array<std::tuple<std::string_view, std::size_t*, std::size_t*>, 6> known{
+      {{"pos", &layout.position, &layout.position_width},
+       {"velo", &layout.velocity, &layout.velocity_width},
+       {"radius", &layout.radius, &radius_width},
+       {"mass", &layout.mass, &mass_width},
+       {"id", &layout.id, &id_width},
+       {"group", &layout.group, &group_width}}};
+  std::string_view rest = properties;
+  const auto next_word = [&rest] {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    const std::string_view word = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    return word;
+  };
+  while (!rest.empty()) {
+    const std::string_view name = next_word();
+    next_word();  // the type
+    const std::string_view width_text = next_word();
+    std::size_t width = 0;
+    const auto result = std::from_chars(width_text.data(), width_text.data() + width_text.size(), width);
+    constexpr std::size_t most_columns = 1000;  // beyond any file that makes sense
+    if (result.ec != std::errc{} || width == 0 || width > most_columns || layout.all > most_columns) {
+      refuse(fmt::format("'{}' is no number of columns", width_text));
+    }
+    for (const auto& [known_name, begin, known_width] : known) {
+      if (name != known_name) continue;
+      *begin = layout.all;
+      *known_width = width;
+    }
+    layout.all += width;
+  }
+  for (const auto& [name, begin, width] : known) {
+    const bool vector = name == "pos" || name == "velo";
+    if (name == "group" && *width == 0) continue;
+    if (vector ? *width != 2 && *width != 3 : *width != 1) refuse(fmt::format("'{}' has {} columns", name, *width));
+  }
+  layout.has_group = group_width > 0;
+  layout_ = layout;
+  properties_ = properties;
+}
+
+void XyzReader::read_header(XyzFrame& frame) {
+  const std::string_view properties = value_of(line_, "Properties=");
+  if (properties.empty() || properties != properties_) read_layout(properties);
   const auto lattice = words(value_of(line_, "Lattice="));
   const auto periodic = words(value_of(line_, "pbc="));
   if (lattice.size() != 9) fail("expected Lattice=\"W 0 0 0 H 0 0 0 1\"");
@@ -179,19 +244,34 @@ void XyzReader::read_header(XyzFrame& frame) const {
   frame.time = number(value_of(line_, "Time="));
 }
 
-void XyzReader::read_disk(Disks& disks) const {
+DiskId XyzReader::whole_number(std::string_view text, const char* what) const {
+  DiskId value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size())
+    fail(fmt::format("'{}' is no {}", text, what));
+  return value;
+}
+
+void XyzReader::read_disk(XyzFrame& frame) const {
   const auto columns = words(line_);
-  if (columns.size() != 8) fail(fmt::format("{} columns, expected 8: {}", columns.size(), xyz_properties));
-  DiskId id = 0;
-  const auto result = std::from_chars(columns[7].data(), columns[7].data() + columns[7].size(), id);
-  if (result.ec != std::errc{}) fail(fmt::format("'{}' is no disk id", columns[7]));
-  disks.x.push_back(number(columns[1]));
-  disks.y.push_back(number(columns[2]));
-  disks.vx.push_back(number(columns[3]));
-  disks.vy.push_back(number(columns[4]));
-  disks.radius.push_back(number(columns[5]));
-  disks.mass.push_back(number(columns[6]));
-  disks.id.push_back(id);
+  const Layout& at = layout_;
+  if (columns.size() != at.all) fail(fmt::format("{} columns, expected {}: {}", columns.size(), at.all, properties_));
+  const auto flat = [&](std::size_t begin, std::size_t width) {
+    if (width == 3 && number(columns[begin + 2]) != 0.0) {
+      fail(fmt::format("z is {}, expected 0: disks move in a plane", columns[begin + 2]));
+    }
+  };
+  flat(at.position, at.position_width);
+  flat(at.velocity, at.velocity_width);
+  Disks& disks = frame.disks;
+  disks.id.push_back(whole_number(columns[at.id], "disk id"));
+  disks.x.push_back(number(columns[at.position]));
+  disks.y.push_back(number(columns[at.position + 1]));
+  disks.vx.push_back(number(columns[at.velocity]));
+  disks.vy.push_back(number(columns[at.velocity + 1]));
+  disks.radius.push_back(number(columns[at.radius]));
+  disks.mass.push_back(number(columns[at.mass]));
+  if (at.has_group) frame.group.push_back(whole_number(columns[at.group], "group"));
 }
 
 bool XyzReader::read(XyzFrame& frame) {
@@ -200,11 +280,12 @@ bool XyzReader::read(XyzFrame& frame) {
   const auto result = std::from_chars(line_.data(), line_.data() + line_.size(), count);
   if (result.ec != std::errc{}) fail(fmt::format("'{}' is no number of disks", line_.substr(0, 40)));
   frame.disks = {};
+  frame.group.clear();
   if (!next_line()) fail("the file ends inside a frame");
   read_header(frame);
   for (std::size_t k = 0; k < count; ++k) {
     if (!next_line()) fail("the file ends inside a frame");
-    read_disk(frame.disks);
+    read_disk(frame);
   }
   return true;
 }

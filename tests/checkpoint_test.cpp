@@ -60,6 +60,8 @@ RunRecord full_record() {
   r.outputs.velocities.curves = {{1, {0.0, 0.1}, {1.0, 2.0}, {3.0, 4.0}}};
   r.outputs.velocities.end = 0.1;
   r.outputs.energies = {{0.0}, {1.0}, {2.0}, {3.0}};
+  r.outputs.rounds.begun = true;
+  r.outputs.rounds.x.sixteenth = {-5, not_followed, 33};
   r.wall_s = 1.5;
   r.cpu_s = 2.5;
   r.step_s = 0.5;
@@ -106,6 +108,7 @@ TEST_F(CheckpointFile, GivesBackEveryBit) {
   EXPECT_EQ(back.state.counters.wall_impulse[3], 4.0);
   EXPECT_EQ(back.state.loads[1].id2, 4294967295U);
   EXPECT_EQ(back.record.outputs.series->meter.before.collisions, 1'000'000'000'000'000U);
+  EXPECT_EQ(back.record.outputs.rounds.x.sixteenth, full_record().outputs.rounds.x.sixteenth);
   EXPECT_EQ(back.record.outputs.movie->parts, (std::vector<std::string>{"a.mp4", "b.mp4"}));
 }
 
