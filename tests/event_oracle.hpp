@@ -8,6 +8,7 @@
 #pragma clang diagnostic ignored "-Wdouble-promotion"
 #endif
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -31,6 +32,8 @@ struct System {
   Real time = 0.0L;
   std::size_t collisions = 0;
   std::size_t wall_collisions = 0;
+  Real last_event = -HUGE_VALL;
+  Real shortest = HUGE_VALL;  // time between two events
 };
 
 inline System make_system(const Disks& disks, const Domain& box, double gravity, double restitution) {
@@ -145,8 +148,9 @@ inline void resolve(System& s, const Happening& e) {
   ++s.collisions;
 }
 
-// Runs to time t.
-inline void run(System& s, Real t) {
+// Runs to time t. False: there were more than so many events before, and the system is at the last of them.
+inline bool run(System& s, Real t, std::size_t most_events = static_cast<std::size_t>(-1)) {
+  std::size_t events = 0;
   for (;;) {
     // Periodic images are looked at one period away, so nobody may fly further than a quarter of it unseen.
     Real longest = no_event;
@@ -158,13 +162,16 @@ inline void run(System& s, Real t) {
     const Real left = t - s.time;
     if (e.time > left && left <= longest) {
       advance(s, left);
-      return;
+      return true;
     }
     if (e.time > longest) {
       advance(s, longest);
     } else {
+      if (++events > most_events) return false;
       advance(s, e.time);
       resolve(s, e);
+      s.shortest = std::min(s.shortest, s.time - s.last_event);
+      s.last_event = s.time;
     }
   }
 }

@@ -10,28 +10,11 @@
 #include "io/checkpoint.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/feature_scenes.hpp"
+#include "tests/state_bits.hpp"
 
 namespace carom::test {
 // Steps (frames, windows) of a run, unless it ends before.
 inline constexpr Count resumed_steps = 12;
-
-// All that a state is, in bits; storage order is free, so disks stand in the order of their ids.
-inline std::string all_bits(const State& state) {
-  State sorted = state;
-  const std::vector<std::size_t> order = by_id(state.disks);
-  const auto sort = [&](auto& to, const auto& from) {
-    for (std::size_t k = 0; k < to.size(); ++k) to[k] = from[order[k]];
-  };
-  Disks& d = sorted.disks;
-  sort(d.x, state.disks.x);
-  sort(d.y, state.disks.y);
-  sort(d.vx, state.disks.vx);
-  sort(d.vy, state.disks.vy);
-  sort(d.id, state.disks.id);
-  sort(d.radius, state.disks.radius);
-  sort(d.mass, state.disks.mass);
-  return encode_checkpoint({}, sorted);
-}
 
 inline bool goes_on(const State& state, const Scene& scene, Count steps) {
   return state.time < scene.run.t_end && state.counters.steps < steps;

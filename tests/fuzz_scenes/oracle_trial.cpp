@@ -1,0 +1,181 @@
+// How the comparison knows when to stop: beside the oracle runs a second one, whose disks stand a little elsewhere. Two
+// runs can be compared as long as those two stay together, and what lies between them bounds what rounding may do.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+#include "core/check.hpp"
+#include "core/initial_state.hpp"
+#include "core/scene_file.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/event_oracle.hpp"
+#include "tests/fuzz_scenes/dice.hpp"
+#include "tests/fuzz_scenes/trial.hpp"
+
+namespace carom::fuzz {
+
+namespace {
+
+// All in the smallest radius, and for velocities the largest speed.
+constexpr double displaced = 1e-10;  // the second oracle's disks, at the start
+constexpr double horizon = 1e-4;     // it is lost beyond this
+constexpr double rounding = 1e-9;    // what may always lie between, and
+constexpr double unit = 3e-14;       // of the ways gone and the box's length beside it
+constexpr double vanishing = 1e-9;   // time between two events, over t_end
+constexpr int looks = 24;
+constexpr std::size_t most_events = 4000;
+
+struct Scales {
+  double radius = 0.0, speed = 0.0;
+};
+
+double period(double d, double length, bool periodic) {
+  return periodic ? d - std::round(d / length) * length : d;
+}
+
+// Largest distance of two that should be one, in places and velocities.
+template <class A, class B>
+double distance(const A& a, const B& b, std::size_t disks, const Domain& box, const Scales& scales) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < disks; ++i) {
+    const oracle::Ball p = a(i);
+    const oracle::Ball q = b(i);
+    const double dx = period(static_cast<double>(p.x - q.x), box.width, box.periodic_x());
+    const double dy = period(static_cast<double>(p.y - q.y), box.height, box.periodic_y());
+    const auto du = static_cast<double>(p.vx - q.vx);
+    const auto dv = static_cast<double>(p.vy - q.vy);
+    const double far = std::max({std::abs(dx), std::abs(dy)}) / scales.radius;
+    largest = std::max({largest, far, std::max(std::abs(du), std::abs(dv)) / scales.speed});
+  }
+  return largest;
+}
+
+double fastest(const oracle::System& system, double speed) {
+  for (const oracle::Ball& b : system.balls) {
+    speed = std::max(speed, static_cast<double>(std::sqrt(b.vx * b.vx + b.vy * b.vy)));
+  }
+  return speed;
+}
+
+oracle::System displaced_system(oracle::System system, double radius) {
+  Dice dice(1, 0, 0);
+  for (oracle::Ball& b : system.balls) {
+    b.x += displaced * radius * dice.in(-1.0, 1.0);
+    b.y += displaced * radius * dice.in(-1.0, 1.0);
+  }
+  return system;
+}
+
+// The engine beside two oracles, look after look.
+class Comparison {
+ public:
+  Comparison(const Scene& scene, const State& start, Trial& trial)
+      : scene_(scene),
+        trial_(trial),
+        disks_(start.disks.size()),
+        first_(oracle::make_system(start.disks, scene.box, scene.physics.gravity, scene.physics.restitution)),
+        scales_{smallest_radius(start.disks), 0.0},
+        second_(displaced_system(first_, scales_.radius)),
+        engine_(make_parallel_engine(scene, start, {1 + static_cast<int>(disks_ % 3), disks_ % 2 == 0 ? 1U : 1024U})),
+        elastic_(scene.physics.restitution == 1.0 && scene.box.wall_restitution == 1.0) {}
+
+  void run() {
+    int look = 1;  // at the start a contact may have happened or not
+    for (; look <= looks && trial_.faults.empty(); ++look) {
+      const double t = look < looks ? scene_.run.t_end * look / looks : scene_.run.t_end;
+      if (!advance_oracles(t)) break;
+      advance_engine(t);
+      if (!ended_.empty() && ended_at_ < t && decided()) {
+        trial_.faults.push_back(fmt::format("ended by [{}] where the oracle goes on to t = {}", ended_, t));
+      }
+      if (ended_.empty()) hold_against(t);
+    }
+    trial_.account = fmt::format("{} disks, {} + {} events, {} of {} looks", disks_, first_.collisions,
+                                 first_.wall_collisions, look - 1, looks);
+  }
+
+ private:
+  // Where rebounds die away it is rounding that decides how many there are, and whether they are a collapse.
+  bool decided() const {
+    const bool bounces = scene_.physics.restitution > 0.0 && scene_.box.wall_restitution > 0.0;
+    return elastic_ || (bounces && first_.shortest > vanishing * static_cast<oracle::Real>(scene_.run.t_end));
+  }
+
+  // False where nothing can be said of what comes: chaos, or so many events in little time that they may be a collapse.
+  bool advance_oracles(double t) {
+    if (!oracle::run(first_, t, most_events) || !oracle::run(second_, t, most_events)) return false;
+    scales_.speed = std::max(fastest(first_, scales_.speed), 1e-300);
+    apart_ = distance([&](std::size_t i) { return first_.balls[i]; }, [&](std::size_t i) { return second_.balls[i]; },
+                      disks_, scene_.box, scales_);
+    return apart_ < horizon && first_.collisions == second_.collisions &&
+           first_.wall_collisions == second_.wall_collisions;
+  }
+
+  // A window reaches further than t: where it fails, the error's line says when.
+  void advance_engine(double t) {
+    try {
+      while (ended_.empty() && engine_->state().time < t) engine_->step();
+    } catch (const PhysicsError& error) {
+      ended_ = error.what();
+      const std::size_t at = ended_.find("t = ");
+      ended_at_ = at == std::string::npos ? engine_->state().time : std::strtod(ended_.c_str() + at + 4, nullptr);
+    }
+  }
+
+  void hold_against(double t) {
+    Disks now;
+    const double at = engine_->disks_at(t, now);
+    const std::vector<std::size_t> order = by_id(now);
+    const auto ball = [&](std::size_t i) {
+      const std::size_t k = order[i];
+      return oracle::Ball{now.x[k], now.y[k], now.vx[k], now.vy[k], 0.0L, 0.0L};
+    };
+    const double off = at == t && now.size() == disks_
+                           ? distance(
+                                 ball, [&](std::size_t i) { return first_.balls[i]; }, disks_, scene_.box, scales_)
+                           : HUGE_VAL;
+    const double way = std::max(scene_.box.width, scene_.box.height) + scales_.speed * t;
+    const double allowed = rounding + 4.0 * apart_ + unit * way / scales_.radius;
+    const std::string events = fmt::format("{} + {}", first_.collisions, first_.wall_collisions);
+    if (!(off <= allowed)) {
+      trial_.faults.push_back(fmt::format(
+          "at t = {} of {} it is {} radii or speeds off, after {} events; an oracle displaced by {} is {} off", at, t,
+          off, events, displaced, apart_));
+    }
+    const Counters& c = engine_->state().counters;
+    if (engine_->state().time != t || !decided()) return;
+    if (c.collisions == first_.collisions && c.wall_collisions == first_.wall_collisions) return;
+    trial_.faults.push_back(
+        fmt::format("by t = {} {} + {} events, not {}", t, c.collisions, c.wall_collisions, events));
+  }
+
+  const Scene& scene_;
+  Trial& trial_;
+  std::size_t disks_;
+  oracle::System first_;
+  Scales scales_;
+  oracle::System second_;
+  std::unique_ptr<Engine> engine_;
+  bool elastic_;
+  double apart_ = 0.0;
+  std::string ended_;      // why the engine stopped, empty if it did not
+  double ended_at_ = 0.0;  // the time that it gave
+};
+
+}  // namespace
+
+Trial try_against_oracle(const std::string& text, const std::string& name) {
+  Trial trial;
+  try {
+    const Scene scene = parse_scene(text, name, "");
+    Comparison(scene, initial_state(scene), trial).run();
+  } catch (const InputError& error) {
+    trial.refusal = error.what();
+  }
+  return trial;
+}
+
+}  // namespace carom::fuzz

@@ -1,0 +1,240 @@
+#include "tests/fuzz_scenes/random_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tests/fuzz_scenes/random_disks.hpp"
+
+namespace carom::fuzz {
+
+namespace {
+
+enum Sides : std::size_t { left, right, bottom, top };
+
+struct Draft {
+  std::string method;
+  Units units;
+  Cast cast = Cast::gas;
+  Crowd crowd;
+  double width = 0.0, height = 0.0;
+  std::array<std::string, 4> sides;
+  double gravity = 0.0, restitution = 1.0, wall_restitution = 1.0, diffusion = 0.0;
+  double speed = 0.0;  // that disks have, about
+  double dt = 0.0, t_end = 0.0;
+
+  double spacing() const {
+    return std::sqrt(width * height / static_cast<double>(std::max<std::size_t>(crowd.disks, 1)));
+  }
+};
+
+Units random_units(Dice& dice) {
+  if (dice.chance(0.7)) return {};
+  const auto power = [&](int most) {
+    const int k = static_cast<int>(dice.below(static_cast<std::size_t>(2 * most + 1))) - most;
+    return std::ldexp(1.0, k);
+  };
+  return {power(20), power(30), power(20)};
+}
+
+Cast random_cast(Dice& dice) {
+  const double u = dice.unit();
+  if (u < 0.36) return Cast::gas;
+  if (u < 0.48) return Cast::few;
+  if (u < 0.68) return Cast::touching;
+  if (u < 0.78) return Cast::giants;
+  if (u < 0.82) return Cast::grown;
+  if (u < 0.86) return Cast::crowd;
+  if (u < 0.96) return Cast::pile;
+  return Cast::none;
+}
+
+std::string random_method(Dice& dice) {
+  const double u = dice.unit();
+  return u < 0.45 ? "exact" : u < 0.78 ? "pairwise" : u < 0.98 ? "rollback" : "auto";
+}
+
+void choose_sides(Dice& dice, Draft& draft) {
+  draft.sides.fill("wall");
+  const std::size_t kind = dice.below(8);
+  if (kind == 0 || kind == 1 || kind == 2) draft.sides[left] = draft.sides[right] = "periodic";
+  if (kind == 1 || kind == 2 || kind == 3) draft.sides[bottom] = draft.sides[top] = "periodic";
+  if (kind < 5) return;
+  for (std::string& side : draft.sides) {
+    if (side == "wall" && dice.chance(0.4)) side = "sink";
+  }
+}
+
+void choose_box(Dice& dice, Draft& draft) {
+  const double r = draft.crowd.largest;
+  if (draft.crowd.width > 0.0) {
+    draft.width = draft.crowd.width;
+    draft.height = draft.crowd.height;
+    return;
+  }
+  const double area =
+      draft.crowd.disks == 0 ? r * r * dice.in(20.0, 1000.0) : draft.crowd.area / draft.crowd.packing_fraction;
+  const double aspect = dice.chance(0.7) ? dice.in(0.5, 2.0) : dice.decades(-2, 2);
+  const double narrowest = dice.chance(0.1) ? 4.0 * r : 4.01 * r;  // two diameters: as narrow as a periodic box may be
+  draft.height = std::max(narrowest, std::sqrt(area / aspect));
+  draft.width = std::max(narrowest, area / draft.height);
+  draft.height = std::max(narrowest, area / draft.width);
+}
+
+double random_restitution(Dice& dice) {
+  return dice.chance(0.5) ? 1.0 : dice.pick({0.0, 0.2, 0.5, 0.8, 0.9, 0.99, rounded(dice.unit())});
+}
+
+void choose_physics(Dice& dice, Draft& draft) {
+  const bool pile = draft.cast == Cast::pile;
+  const Units& units = draft.units;
+  const double v2 = units.speed * units.speed;
+  if (pile || dice.chance(0.35)) {
+    draft.gravity =
+        pile ? rounded(v2 / units.length * dice.in(0.1, 2.0)) : rounded(v2 / draft.height * dice.decades(-2, 1));
+  }
+  draft.restitution = pile ? dice.pick({0.0, 0.2, 0.5, 0.8}) : random_restitution(dice);
+  draft.wall_restitution = random_restitution(dice);
+  draft.speed = units.speed;
+  if (draft.crowd.at_rest) draft.speed = std::max(1e-3 * units.speed, std::sqrt(draft.gravity * units.length));
+}
+
+void choose_times(Dice& dice, Draft& draft) {
+  const bool crowd = draft.cast == Cast::crowd;
+  const bool exact = draft.method == "exact";
+  const double share = dice.chance(0.85) ? dice.pick({0.03, 0.1, 0.3, 0.5, 1.0}) : dice.pick({1e-6, 1e-3, 3.0, 10.0});
+  const double dt = rounded(share * draft.crowd.smallest / draft.speed);
+  const auto steps = static_cast<double>(crowd ? 3 + dice.below(6) : 5 + dice.below(60));
+  const double part = dice.chance(0.7) ? 0.0 : dice.unit();  // of a step, left over at the end
+  const bool brownian = dice.chance(0.18);
+  if (!exact || brownian) draft.dt = dt;
+  if (brownian) draft.diffusion = rounded(0.5 * draft.speed * draft.speed * dt);
+  draft.t_end = (steps + part) * dt;
+  if (exact && !brownian) {
+    draft.t_end = draft.spacing() / draft.speed * (crowd ? dice.in(0.2, 2.0) : dice.in(0.3, 30.0));
+  }
+  if (draft.method == "auto") draft.t_end = 3.0 * draft.crowd.smallest / draft.speed;
+  if (dice.chance(0.01)) draft.t_end = 0.0;
+}
+
+std::string box_text(Dice& dice, const Draft& draft) {
+  std::string text = "[box]\n";
+  if (draft.crowd.packing_fraction > 0.0 && dice.chance(0.25)) {
+    text += fmt::format("packing_fraction = {}\naspect = {}\n",
+                        rounded(draft.crowd.area / (draft.width * draft.height)), rounded(draft.width / draft.height));
+  } else {
+    text += fmt::format("width = {}\nheight = {}\n", draft.width, draft.height);
+  }
+  constexpr std::array<const char*, 4> names{"left", "right", "bottom", "top"};
+  for (std::size_t s = 0; s < names.size(); ++s) text += fmt::format("{} = \"{}\"\n", names[s], draft.sides[s]);
+  if (draft.wall_restitution < 1.0) text += fmt::format("wall_restitution = {}\n", draft.wall_restitution);
+  return text;
+}
+
+std::string physics_text(Dice& dice, const Draft& draft) {
+  std::string text = "[physics]\n";
+  if (draft.gravity > 0.0) text += fmt::format("gravity = {}\n", draft.gravity);
+  if (draft.restitution < 1.0) text += fmt::format("restitution = {}\n", draft.restitution);
+  if (draft.diffusion > 0.0) text += fmt::format("diffusion = {}\n", draft.diffusion);
+  if (draft.diffusion > 0.0 && dice.chance(0.3)) text += "accumulate = true\n";
+  const bool dissipates = draft.restitution < 1.0 || draft.wall_restitution < 1.0;
+  if (!dice.chance(draft.method != "exact" ? 0.04 : dissipates ? 0.85 : 0.1)) return text;
+  // A heap at rest has some events a contact and contact time.
+  const double least = 2e-5 * static_cast<double>(draft.crowd.disks) * draft.t_end;
+  const double time = std::max(least, draft.units.length / draft.units.speed * dice.decades(-6, 0));
+  return text + fmt::format("collapse = {{ model = \"tc\", contact_time = {} }}\n", rounded(time));
+}
+
+std::string sources_text(Dice& dice, const Draft& draft) {
+  const std::size_t sources = draft.cast == Cast::none ? 1 + dice.below(2) : dice.chance(0.2) ? 1 + dice.below(3) : 0;
+  std::string text;
+  for (std::size_t k = 0; k < sources; ++k) {
+    text += "[[sources]]\n";
+    constexpr std::array<const char*, 4> names{"left", "right", "bottom", "top"};
+    const std::size_t side = dice.below(names.size());
+    if (draft.sides[side] != "periodic" && dice.chance(0.6)) {
+      text += fmt::format("side = \"{}\"\n", names[side]);
+    } else {
+      const double x = dice.in(0.0, 0.5);
+      const double y = dice.in(0.0, 0.5);
+      const double x1 = dice.in(x, 1.0);
+      const double y1 = dice.in(y, 1.0);
+      text += fmt::format("region = [{}, {}, {}, {}]\n", x * draft.width, y * draft.height, x1 * draft.width,
+                          y1 * draft.height);
+    }
+    const double time = draft.t_end > 0.0 ? draft.t_end : 1.0;
+    text += fmt::format("rate = {}\n", rounded(dice.decades(-1, 2) / time));
+    if (dice.chance(0.3)) text += fmt::format("limit = {}\n", dice.below(12));
+    if (dice.chance(0.4)) {
+      text += fmt::format("velocities = {{ uniform = {} }}\n", rounded(draft.units.speed * dice.unit()));
+    } else if (dice.chance(0.8)) {
+      const double mass = draft.units.mass * draft.units.speed * draft.units.speed;
+      text += fmt::format("velocities = {{ maxwell = {} }}\n", rounded(mass * dice.unit()));
+    }
+    text += random_sizes(dice, draft.units, draft.crowd.largest * dice.in(0.05, 1.0));
+  }
+  return text;
+}
+
+std::string seed_text(Dice& dice) {
+  return dice.chance(0.02) ? "seed = \"18446744073709551615\"\n" : fmt::format("seed = {}\n", dice.below(1'000'000));
+}
+
+std::string run_text(Dice& dice, const Draft& draft) {
+  std::string text = fmt::format("[run]\nmethod = \"{}\"\n", draft.method);
+  if (draft.method == "auto") text += "accuracy = 0.01\n";
+  if (draft.dt > 0.0 && draft.method != "auto") text += fmt::format("dt = {}\n", draft.dt);
+  text += fmt::format("t_end = {}\n[output]\nseries = true\n", draft.t_end);
+  if (dice.chance(0.8)) text += fmt::format("every = {}\n", rounded(draft.t_end / dice.in(1.0, 40.0)));
+  if (!dice.chance(0.1)) return text;
+  text += fmt::format("[analysis]\nwhat = [\"speeds\", \"density\", \"pressure\"]\nevery = {}\n",
+                      rounded(draft.t_end / 7.0));
+  return text;
+}
+
+}  // namespace
+
+std::string random_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t attempt) {
+  Dice dice(seed, number, attempt);
+  Draft draft;
+  draft.method = random_method(dice);
+  draft.units = random_units(dice);
+  draft.cast = random_cast(dice);
+  draft.crowd = random_crowd(dice, draft.cast, draft.units);
+  choose_sides(dice, draft);
+  choose_box(dice, draft);
+  choose_physics(dice, draft);
+  choose_times(dice, draft);
+  std::string text = fmt::format("title = \"random scene {}.{} of seed {}\"\n", number, attempt, seed);
+  text += seed_text(dice);
+  text += box_text(dice, draft);
+  text += physics_text(dice, draft);
+  text += draft.crowd.text;
+  text += sources_text(dice, draft);
+  if (draft.cast == Cast::grown && dice.chance(0.3)) text += "[growth]\nslowness = 0.5\nsteps = 2000\n";
+  return text + run_text(dice, draft);
+}
+
+std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t attempt) {
+  Dice dice(seed ^ 0x6f7261636c65ULL, number, attempt);
+  Draft draft;
+  draft.method = "exact";
+  draft.units = random_units(dice);
+  draft.cast = dice.chance(0.3) ? Cast::few : Cast::gas;
+  const std::size_t disks = draft.cast == Cast::few ? 1 + dice.below(4) : 5 + dice.below(18);
+  draft.crowd = random_gas(dice, disks, draft.units);
+  draft.sides.fill("wall");
+  if (dice.chance(0.5)) draft.sides[left] = draft.sides[right] = "periodic";
+  if (dice.chance(0.4)) draft.sides[bottom] = draft.sides[top] = "periodic";
+  choose_box(dice, draft);
+  choose_physics(dice, draft);
+  draft.t_end = draft.spacing() / draft.speed * dice.in(1.0, 15.0);
+  std::string text = fmt::format("title = \"oracle scene {}.{} of seed {}\"\n", number, attempt, seed);
+  text += seed_text(dice);
+  text += box_text(dice, draft);
+  text += fmt::format("[physics]\ngravity = {}\nrestitution = {}\n", draft.gravity, draft.restitution);
+  text += draft.crowd.text;
+  return text + run_text(dice, draft);
+}
+
+}  // namespace carom::fuzz

@@ -1,0 +1,41 @@
+// What must hold in any run, whatever the scene: numbers are numbers, disks stay in the box, nothing comes from nowhere
+// or is lost, unless a warning says so.
+#pragma once
+
+#include <string>
+
+#include "core/invariants.hpp"
+#include "core/scene.hpp"
+#include "core/state.hpp"
+
+namespace carom::fuzz {
+
+class Sanity {
+ public:
+  Sanity(const Scene& scene, const State& start);
+
+  // After a step, with what was warned of in it.
+  void look(const State& state, const std::string& warnings);
+
+  // The first thing that was wrong, empty if nothing was.
+  const std::string& fault() const { return fault_; }
+
+ private:
+  void blame(const State& state, const std::string& what);
+  void look_at_places(const State& state);
+  void look_at_overlaps(const State& state);
+  void look_at_counts(const State& state);
+  void look_at_motion(const State& state);
+
+  const Scene& scene_;
+  std::size_t disks_ = 0;  // at the start
+  Counters before_;
+  double time_ = 0.0;
+  Energy energy_;      // at the start
+  Momentum momentum_;  // at the start
+  double largest_energy_ = 0.0, largest_momentum_ = 0.0;
+  double unsaid_overlap_ = 0.0;  // after the step before
+  std::string warnings_, fault_;
+};
+
+}  // namespace carom::fuzz

@@ -1,0 +1,220 @@
+#include "tests/fuzz_scenes/trial.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "app/run_loop.hpp"
+#include "core/check.hpp"
+#include "core/initial_state.hpp"
+#include "core/scene_file.hpp"
+#include "core/scene_names.hpp"
+#include "core/state_hash.hpp"
+#include "io/checkpoint.hpp"
+#include "io/frame_schedule.hpp"
+#include "parallel/random_placement.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/fuzz_scenes/sanity.hpp"
+#include "tests/fuzz_scenes/trace.hpp"
+
+namespace carom::fuzz {
+
+namespace {
+
+// Steps that are looked at, and disks times steps.
+constexpr std::size_t most_steps = 100;
+constexpr std::size_t most_work = 20'000;
+constexpr std::size_t least_steps = 8;
+
+struct Variant {
+  Threads threads;  // count 0: the reference
+  Handling handling;
+};
+
+// Blocks so small that small scenes have many; with a divisor of 1 they have one.
+constexpr Variant variants[] = {
+    {{1, 1}, Handling::looked_at},   {{1, 128}, Handling::left_alone}, {{2, 128}, Handling::looked_at},
+    {{2, 1}, Handling::left_alone},  {{3, 1024}, Handling::released},  {{5, 64}, Handling::looked_at},
+    {{8, 512}, Handling::looked_at},
+};
+// Those that take turns in a run that is interrupted.
+constexpr Threads turns[] = {{3, 512}, {0, 1}, {1, 1}, {2, 128}, {5, 1024}};
+
+std::unique_ptr<Engine> make_engine(const Threads& threads, const Scene& scene, State state) {
+  if (threads.count == 0) return make_reference_engine(scene, std::move(state));
+  return make_parallel_engine(scene, std::move(state), threads);
+}
+
+std::string name_of(const Threads& threads) {
+  return threads.count == 0 ? "reference"
+                            : fmt::format("{} threads (divisor {})", threads.count, threads.block_divisor);
+}
+
+class Court {
+ public:
+  Court(Scene scene, State start, Trial& trial) : scene_(std::move(scene)), start_(std::move(start)), trial_(trial) {
+    const std::size_t n = std::max<std::size_t>(start_.disks.size(), 1);
+    steps_ = std::clamp(most_work / n, least_steps, most_steps);
+  }
+
+  void run() {
+    run_reference();
+    for (const Variant& v : variants) compare(v);
+    for (const std::size_t first : {0U, 2U}) interrupt(first);
+    if (expected_.error.empty()) {
+      if (expected_.finished) look_at_cadences();
+    } else {
+      fail_again();
+    }
+  }
+
+ private:
+  void blame(const std::string& what) { trial_.faults.push_back(what); }
+
+  void run_reference() {
+    Sanity sanity(scene_, start_);
+    const auto engine = make_reference_engine(scene_, start_);
+    follow(*engine, scene_, steps_, Handling::looked_at, expected_, [&](const State& state, const Moment& moment) {
+      if (expected_.error.empty()) sanity.look(state, moment.warnings);
+    });
+    end_ = engine->state();
+    if (!sanity.fault().empty()) blame(sanity.fault());
+    trial_.account = fmt::format("{}, {} disks, {} steps, {} collisions, {}",
+                                 method_names[static_cast<std::size_t>(scene_.run.method)], start_.disks.size(),
+                                 expected_.moments.size(), end_.counters.collisions,
+                                 !expected_.error.empty() ? "status 3"
+                                 : expected_.finished     ? "finished"
+                                                          : "cut short");
+  }
+
+  void compare(const Variant& v) {
+    Trace found;
+    const auto engine = make_parallel_engine(scene_, start_, v.threads);
+    follow(*engine, scene_, steps_, v.handling, found);
+    const std::string what = difference(expected_, found);
+    if (!what.empty()) blame(fmt::format("{}: {}", name_of(v.threads), what));
+  }
+
+  // Stopped after every second or third step, it goes on from what a checkpoint holds of it.
+  void interrupt(std::size_t first) {
+    RunRecord record;
+    record.scene_text = resolved_toml(scene_);
+    Checkpoint checkpoint{record, start_};
+    Trace found;
+    for (std::size_t turn = 0; !found.finished && found.error.empty() && found.moments.size() < steps_; ++turn) {
+      const Scene again = parse_scene(checkpoint.record.scene_text, scene_.file, "");
+      const auto engine = make_engine(turns[(first + turn) % std::size(turns)], again, checkpoint.state);
+      const std::size_t until = std::min(steps_, found.moments.size() + 2 + turn % 2);
+      follow(*engine, again, until, Handling::looked_at, found);
+      checkpoint = decode_checkpoint(encode_checkpoint(record, engine->state()), "checkpoint");
+    }
+    const std::string what = difference(expected_, found);
+    if (!what.empty()) blame(fmt::format("interrupted and resumed ({}): {}", first, what));
+  }
+
+  // What a run that was stopped by its physics left fails again, at the same place.
+  void fail_again() {
+    for (const Threads& threads : {turns[1], turns[3]}) {
+      const auto engine = make_engine(threads, scene_, end_);
+      Trace again;
+      follow(*engine, scene_, 1, Handling::left_alone, again);
+      if (again.error != expected_.error) {
+        blame(fmt::format("{}: taken up where it failed it says [{}] instead of [{}]", name_of(threads), again.error,
+                          expected_.error));
+      }
+    }
+  }
+
+  // The run as the program drives it, with frames every so often, or (every < 0) without any.
+  std::vector<Frame> run_with(const Threads& threads, double every) {
+    Scene scene = scene_;
+    scene.output.every = std::max(every, 0.0);
+    const auto engine = make_engine(threads, scene, start_);
+    std::vector<Frame> frames;
+    RunObserver observer;
+    if (every >= 0.0) {
+      observer.frame = [&](const Disks& disks, double time) { frames.push_back({time, state_hash(disks)}); };
+    }
+    run_to_end(*engine, scene, observer);
+    if (hash_of(engine->state()) != hash_of(end_)) {
+      blame(fmt::format("{}: frames every {} change the run", name_of(threads), every));
+    }
+    return frames;
+  }
+
+  void look_at_cadences() {
+    run_with({2, 128}, -1.0);
+    for (const double every : {0.0, scene_.output.every, scene_.run.t_end / 57.3}) {
+      const std::vector<Frame> frames = run_with({0, 1}, every);
+      const std::vector<Frame> found = run_with({3, 512}, every);
+      if (frames != found) {
+        blame(fmt::format("frames every {}: other ones, {} instead of {}", every, found.size(), frames.size()));
+      }
+      const Count all = every > 0.0 ? frame_count(every, scene_.run.t_end) : scene_.run.t_end > 0.0 ? 2 : 1;
+      if (scene_.run.method == Method::exact && frames.size() != all) {
+        blame(fmt::format("frames every {}: {} instead of {}", every, frames.size(), all));
+      }
+    }
+  }
+
+  Scene scene_;
+  State start_, end_;
+  Trial& trial_;
+  std::size_t steps_ = 0;
+  Trace expected_;
+};
+
+// The scene's disks, made in every way; what is refused is refused alike. False if it is.
+bool make_start(const Scene& scene, State& start, Trial& trial) {
+  try {
+    start = initial_state(scene);
+  } catch (const InputError& error) {
+    trial.refusal = error.what();
+  }
+  std::string refusal;
+  try {
+    const State other = parallel_initial_state(scene, 3);
+    if (trial.refusal.empty() && hash_of(other) != hash_of(start))
+      trial.faults.push_back("made in parallel it starts otherwise");
+  } catch (const InputError& error) {
+    refusal = error.what();
+  }
+  if (refusal != trial.refusal) {
+    trial.faults.push_back(
+        fmt::format("made in parallel it is refused by [{}] instead of [{}]", refusal, trial.refusal));
+  }
+  return trial.refusal.empty();
+}
+
+// The scene as the program writes it down is the same scene. A choice of method = "auto" is made once.
+void read_again(Scene scene, const State& start, Trial& trial) {
+  scene.run.automatic = false;
+  const std::string text = resolved_toml(scene);
+  const Scene again = parse_scene(text, scene.file, "");
+  if (resolved_toml(again) != text) trial.faults.push_back("written, read and written again it is another scene");
+  if (hash_of(initial_state(again)) != hash_of(start)) trial.faults.push_back("written and read it starts otherwise");
+}
+
+}  // namespace
+
+Trial try_scene(const std::string& text, const std::string& name, const std::string& folder) {
+  Trial trial;
+  Scene scene;
+  try {
+    scene = parse_scene(text, name, folder);
+  } catch (const InputError& error) {
+    trial.refusal = error.what();
+  }
+  State start;
+  if (trial.refusal.empty() && make_start(scene, start, trial)) {
+    read_again(scene, start, trial);
+    Court(scene, start, trial).run();
+  }
+  if (trial.refusal.find('\n') != std::string::npos) trial.faults.push_back("refused in more than one line");
+  return trial;
+}
+
+}  // namespace carom::fuzz

@@ -1,0 +1,23 @@
+// One scene on trial: every engine, at every number of threads, looked at, interrupted and resumed, has the reference's
+// bits, and they make sense.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace carom::fuzz {
+
+struct Trial {
+  std::string refusal;              // why there is no such scene: the error's line; empty if there is
+  std::string account;              // what the run was: method, disks, steps, how it ended
+  std::vector<std::string> faults;  // one line each
+};
+
+// folder: where relative paths of the scene start.
+Trial try_scene(const std::string& text, const std::string& name, const std::string& folder = "");
+
+// The method `exact` against the all-pairs simulation of tests/event_oracle.hpp, for as long as chaos lets two runs be
+// compared.
+Trial try_against_oracle(const std::string& text, const std::string& name);
+
+}  // namespace carom::fuzz
