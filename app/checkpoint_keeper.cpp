@@ -88,10 +88,6 @@ void CheckpointKeeper::write(const State& state, double step_s, OutputMark mark)
   if (interval_ > 0.0) due_ = seconds() + interval_;
 }
 
-void CheckpointKeeper::remember(const std::vector<std::string>& warnings) {
-  before_.warnings.insert(before_.warnings.end(), warnings.begin(), warnings.end());
-}
-
 RunRecord CheckpointKeeper::record(double step_s) const {
   RunRecord now = before_;
   now.wall_s += seconds();

@@ -37,9 +37,6 @@ class CheckpointKeeper {
   // The record as it is now, for the summary; step_s is that of this process.
   RunRecord record(double step_s) const;
 
-  // What the physics warned of goes into the record.
-  void remember(const std::vector<std::string>& warnings);
-
   // Why look() returned false, such as "SIGTERM"; empty if it did not.
   const std::string& stopped_by() const { return stopped_by_; }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -108,7 +109,9 @@ void warn(const std::vector<std::string>& warnings, Progress& progress, bool qui
 }
 
 // Steps to the end with everybody watching, or until the keeper says stop; returns the seconds in steps.
-double run_watched(Engine& engine, const RunTask& task, Results* results, CheckpointKeeper& keeper) {
+// told: what the engine warned of.
+double run_watched(Engine& engine, const RunTask& task, Results* results, CheckpointKeeper& keeper,
+                   std::vector<std::string>& told) {
   const Scene& scene = task.scene;
   Progress progress(!task.quiet, scene.run.t_end, engine.state());
   RunObserver observer;
@@ -116,7 +119,7 @@ double run_watched(Engine& engine, const RunTask& task, Results* results, Checkp
   const auto take_news = [&](bool silent) {
     const std::vector<std::string> news = engine.take_warnings();
     warn(news, progress, silent);
-    keeper.remember(news);
+    told.insert(told.end(), news.begin(), news.end());
   };
   observer.pulse = [&](double seconds) {
     step_s = seconds;
@@ -160,6 +163,13 @@ double run_watched(Engine& engine, const RunTask& task, Results* results, Checkp
   }
 }
 
+// What the run warns of when it has come to this state: of its start, and the worst of what was seen.
+std::vector<std::string> warnings_so_far(const RunRecord& record, const Scene& scene, const State& state) {
+  std::vector<std::string> warnings = record.warnings;
+  for (std::string& warning : validity_so_far(scene, state)) warnings.push_back(std::move(warning));
+  return warnings;
+}
+
 Summary summary_of(const Engine& engine, const RunTask& task, const Results* results, const RunRecord& record) {
   Summary summary = summarize(record.start, engine, task.scene, task.choice);
   summary.frames = results != nullptr ? results->outputs.frames() : 0;
@@ -167,7 +177,7 @@ Summary summary_of(const Engine& engine, const RunTask& task, const Results* res
   summary.wall_s = record.wall_s;
   summary.cpu_s = record.cpu_s;
   summary.resumed = record.resumed;
-  summary.warnings = record.warnings;
+  summary.warnings = warnings_so_far(record, task.scene, engine.state());
   return summary;
 }
 
@@ -185,13 +195,19 @@ int report_stop(const Engine& engine, const RunTask& task, Results* results, con
 }
 
 // Completes the files and reports.
-void report_end(const Engine& engine, const RunTask& task, Results* results, CheckpointKeeper& keeper, double step_s) {
+void report_end(const Engine& engine, const RunTask& task, Results* results, CheckpointKeeper& keeper, double step_s,
+                const std::vector<std::string>& told) {
   const bool keeps_checkpoints = task.scene.output.checkpoint > 0.0;
   if (results != nullptr) {
     const OutputMark mark = results->outputs.finish(true);
     if (keeps_checkpoints) keeper.write(engine.state(), step_s, mark);
     if (!task.quiet) {
       for (const std::string& warning : results->outputs.take_warnings()) print_warning(warning);
+    }
+  }
+  if (!task.quiet) {
+    for (const std::string& warning : worst_moments(task.scene, engine.state())) {
+      if (std::find(told.begin(), told.end(), warning) == told.end()) print_warning(warning);
     }
   }
   keeper.discard_own_folder();
@@ -236,7 +252,7 @@ int carry_out(RunTask task) {
   const std::vector<std::string> warnings = validity_of(scene, smallest_radius(engine->state().disks));
   if (task.strict) {
     fail_if_any(warnings);
-    if (task.from) fail_if_any(task.from->checkpoint.record.warnings);
+    if (task.from) fail_if_any(warnings_so_far(task.from->checkpoint.record, scene, engine->state()));
     engine = make_strict(std::move(engine));
   }
   for (const std::string& warning : warnings) {
@@ -257,9 +273,10 @@ int carry_out(RunTask task) {
     if (files != nullptr) keeper.write_to(&files->folder, &files->outputs, there);
     // A run that is killed in its first minutes is not lost either, nor what it was told when it was taken up again.
     if (new_plan || (!there && (task.from || scene.output.checkpoint > 0.0))) keeper.write(engine->state(), 0.0);
-    const double step_s = run_watched(*engine, task, files, keeper);
+    std::vector<std::string> told;
+    const double step_s = run_watched(*engine, task, files, keeper, told);
     if (!keeper.stopped_by().empty()) return report_stop(*engine, task, files, keeper, step_s);
-    report_end(*engine, task, files, keeper, step_s);
+    report_end(*engine, task, files, keeper, step_s, told);
   } catch (const RunError& error) {
     fail_resumable(error.what(), keeper);
   } catch (const std::bad_alloc&) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/progress.hpp"
 #include "core/scene_names.hpp"
@@ -27,6 +28,11 @@ Json phase_seconds(const Summary& s) {
   Json phases = Json::object();
   for (const Phase& phase : s.phases.phases()) phases[std::string(phase.name)] = number(phase.seconds);
   return phases;
+}
+
+// These ids, if there was an overlap.
+Json ids_of(const WorstOverlap& worst, const std::vector<DiskId>& ids) {
+  return worst.overlap.size > 0.0 ? Json(ids) : Json::array();
 }
 
 // One row a key of the JSON object, in its order: a new key is a row here.
@@ -76,7 +82,23 @@ const SummaryKey summary_keys[] = {
     {"resumed", "", "how often the run went on from a checkpoint", [](const Summary& s) -> Json { return s.resumed; }},
     {"resume_with", "", "only of a run that stopped early: the command that goes on",
      [](const Summary& s) -> Json { return s.resume_with; }},
-    {"warnings", "", "what the physics warned of, in order", [](const Summary& s) -> Json { return s.warnings; }},
+    {"worst_overlap", "",
+     "largest overlap of two disks at the end of any step of the run, over the sum of their radii; 0 if none",
+     [](const Summary& s) -> Json { return number(s.worst_disks.overlap.size); }},
+    {"worst_overlap_time", "time", "when it was; 0 if none",
+     [](const Summary& s) -> Json { return number(s.worst_disks.time); }},
+    {"worst_overlap_ids", "", "of which two disks; empty if none",
+     [](const Summary& s) -> Json {
+       return ids_of(s.worst_disks, {s.worst_disks.overlap.id1, s.worst_disks.overlap.id2});
+     }},
+    {"worst_wall_overlap", "", "likewise of a disk and a wall, over its radius",
+     [](const Summary& s) -> Json { return number(s.worst_wall.overlap.size); }},
+    {"worst_wall_overlap_time", "time", "when it was; 0 if none",
+     [](const Summary& s) -> Json { return number(s.worst_wall.time); }},
+    {"worst_wall_overlap_ids", "", "of which disk; empty if none",
+     [](const Summary& s) -> Json { return ids_of(s.worst_wall, {s.worst_wall.overlap.id1}); }},
+    {"warnings", "", "what the physics warned of, with the worst that was seen",
+     [](const Summary& s) -> Json { return s.warnings; }},
     {"phase_s", "s", "an object: wall time of each phase of a step, in this part of the run",
      [](const Summary& s) -> Json { return phase_seconds(s); }},
 };
@@ -91,6 +113,20 @@ double momentum_drift(const Momentum& start, const Momentum& end) {
 // "1 disk", "2 disks".
 std::string counted(Count n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+// What was seen on the way, or what there is now if that is deeper.
+WorstOverlap worst_of(const WorstOverlap& before, const Overlap& now, double time) {
+  return now.size > before.overlap.size ? WorstOverlap{now, time} : before;
+}
+
+// "0.003 of two disks, 0.001 with a wall" and when that was.
+std::string worst_line(const WorstOverlap& disks, const WorstOverlap& wall) {
+  const auto when = [](const WorstOverlap& worst) {
+    return worst.overlap.size > 0.0 ? fmt::format(" at time {:g}", worst.time) : "";
+  };
+  return fmt::format("at most {:.2g} of two disks{}, {:.2g} with a wall{}", disks.overlap.size, when(disks),
+                     wall.overlap.size, when(wall));
 }
 
 std::string disks_line(const Summary& s) {
@@ -118,8 +154,12 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.energy_initial = start.energy.total();
   s.energy_final = energy.total();
   s.momentum_drift = momentum_drift(start.momentum, momentum_of(state.disks));
-  s.max_overlap = max_overlap(state.disks, scene.box);
-  s.wall_overlap = wall_overlap(state.disks, scene.box);
+  const Overlap of_disks = deepest_overlap(state.disks, scene.box);
+  const Overlap of_wall = deepest_wall_overlap(state.disks, scene.box);
+  s.max_overlap = of_disks.size;
+  s.wall_overlap = of_wall.size;
+  s.worst_disks = worst_of(state.validity.disks, of_disks, state.time);
+  s.worst_wall = worst_of(state.validity.wall, of_wall, state.time);
   const Energy halfway{0.5 * (start.energy.kinetic + energy.kinetic), 0.0};
   s.pressure = pressure(halfway, state.counters.virial, elapsed, scene.box);
   const double mean_disks = 0.5 * (static_cast<double>(start.particles) + static_cast<double>(s.particles));
@@ -160,7 +200,7 @@ std::string table_text(const Summary& s, const std::string& folder) {
                                  s.counters.wall_collisions, s.collision_rate));
   line("energy", fmt::format("{:.6g} at the start, {:.6g} at the end", s.energy_initial, s.energy_final));
   line("momentum", fmt::format("changed by {:.2g} of sum m |v|", s.momentum_drift));
-  line("overlap", fmt::format("{:.2g} of two disks, {:.2g} with a wall", s.max_overlap, s.wall_overlap));
+  line("overlap", worst_line(s.worst_disks, s.worst_wall));
   line("pressure", fmt::format("{:.6g}", s.pressure));
   line("state hash", s.state_hash);
   line("speed", fmt::format("{} steps/s, {} disk-steps/s; {} in all", short_number(rate),

@@ -2,7 +2,6 @@
 // order, and added.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -16,8 +15,7 @@ namespace carom {
 struct ImpactTally {
   Count collisions = 0;
   Count wall_collisions = 0;
-  Count amiss = 0;       // of both, see Impact
-  float overlap = 0.0F;  // the largest
+  Count amiss = 0;  // of both, see Impact
   ExactSum virial;
   std::array<ExactSum, 4> wall_impulse;
 
@@ -25,7 +23,6 @@ struct ImpactTally {
   void add(DiskId partner, const Impact& impact) {
     if (!impact.happened) return;
     amiss += impact.amiss ? 1 : 0;
-    overlap = std::max(overlap, impact.overlap);
     if (is_wall(partner)) {
       ++wall_collisions;
       wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.virial);
@@ -38,7 +35,6 @@ struct ImpactTally {
   void add(const ImpactTally& other) {
     collisions += other.collisions;
     amiss += other.amiss;
-    overlap = std::max(overlap, other.overlap);
     wall_collisions += other.wall_collisions;
     if (other.collisions > 0) virial.add(other.virial);
     if (other.wall_collisions > 0) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/boundary.hpp"
+#include "core/contact_event.hpp"
 #include "core/pair_search.hpp"
 
 namespace carom {
@@ -56,7 +57,7 @@ Momentum momentum_of(const Disks& d) {
   return momentum_of(d, by_id(d), run_in_order);
 }
 
-double max_overlap(const Disks& d, const Domain& box, const BlockRunner& run) {
+Overlap deepest_overlap(const Disks& d, const Domain& box, const BlockRunner& run) {
   const auto overlap = [&](std::uint32_t i, std::uint32_t j) {
     double dx = d.x[j] - d.x[i];
     double dy = d.y[j] - d.y[i];
@@ -65,20 +66,29 @@ double max_overlap(const Disks& d, const Domain& box, const BlockRunner& run) {
     const double reach = d.radius_of(i) + d.radius_of(j);
     return (reach - std::sqrt(dx * dx + dy * dy)) / reach;
   };
-  double worst = 0.0;
-  for (const double found : worst_of_touching_pairs(d, box, run, overlap)) worst = std::max(worst, found);
-  return worst;
+  Overlap deepest;
+  for (const Overlap& found : deepest_of_touching_pairs(d, box, run, overlap)) deepest.see(found);
+  return deepest;
 }
 
-double wall_overlap(const Disks& d, const Domain& box) {
-  double worst = 0.0;
+double max_overlap(const Disks& d, const Domain& box, const BlockRunner& run) {
+  return deepest_overlap(d, box, run).size;
+}
+
+Overlap deepest_wall_overlap(const Disks& d, const Domain& box) {
+  Overlap deepest;
   for (std::size_t i = 0; i < d.size(); ++i) {
     for (Side side : all_sides) {
       if (box.side(side) != SideKind::wall) continue;
-      worst = std::max(worst, reach_beyond(side, d.x[i], d.y[i], d.radius_of(i), box) / d.radius_of(i));
+      const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius_of(i), box) / d.radius_of(i);
+      if (beyond > 0.0) deepest.see({beyond, d.id[i], wall_partner(side)});
     }
   }
-  return worst;
+  return deepest;
+}
+
+double wall_overlap(const Disks& d, const Domain& box) {
+  return deepest_wall_overlap(d, box).size;
 }
 
 double pressure(const Energy& energy, double virial, double elapsed, const Domain& box) {

@@ -6,6 +6,7 @@
 #include "core/block_runner.hpp"
 #include "core/disks.hpp"
 #include "core/domain.hpp"
+#include "core/overlap.hpp"
 #include "core/scene.hpp"
 #include "core/state.hpp"
 
@@ -35,6 +36,10 @@ double max_overlap(const Disks& disks, const Domain& box, const BlockRunner& run
 
 // Largest reach of a disk beyond a wall side over its radius, 0 if none.
 double wall_overlap(const Disks& disks, const Domain& box);
+
+// The same, and of which disks.
+Overlap deepest_overlap(const Disks& disks, const Domain& box, const BlockRunner& run = run_in_order);
+Overlap deepest_wall_overlap(const Disks& disks, const Domain& box);
 
 // P A = K + virial / (2 elapsed) (virial theorem in two dimensions; ideal part K = N kT). 0 if elapsed is 0.
 double pressure(const Energy& energy, double virial, double elapsed, const Domain& box);

@@ -124,16 +124,17 @@ std::vector<Pair> find_touching_pairs(const Disks& d, const Domain& box) {
   return pairs;
 }
 
-std::vector<double> worst_of_touching_pairs(const Disks& d, const Domain& box, const BlockRunner& run,
-                                            const std::function<double(std::uint32_t, std::uint32_t)>& measure) {
+std::vector<Overlap> deepest_of_touching_pairs(const Disks& d, const Domain& box, const BlockRunner& run,
+                                               const std::function<double(std::uint32_t, std::uint32_t)>& overlap) {
   if (d.size() < 2) return {};
   const UniformGrid grid = make_grid(d, box);
-  std::vector<double> worst(grid.rows, 0.0);
+  std::vector<Overlap> deepest(grid.rows);
   run(grid.rows, [&](std::size_t row) {
-    for_pairs_of_row(grid, row, d, box,
-                     [&](std::uint32_t i, std::uint32_t j) { worst[row] = std::max(worst[row], measure(i, j)); });
+    for_pairs_of_row(grid, row, d, box, [&](std::uint32_t i, std::uint32_t j) {
+      deepest[row].see({overlap(i, j), d.id[i], d.id[j]});
+    });
   });
-  return worst;
+  return deepest;
 }
 
 std::vector<Pair> find_touching_pairs_by_force(const Disks& d, const Domain& box) {

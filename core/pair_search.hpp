@@ -8,6 +8,7 @@
 #include "core/block_runner.hpp"
 #include "core/disks.hpp"
 #include "core/domain.hpp"
+#include "core/overlap.hpp"
 
 namespace carom {
 
@@ -22,9 +23,9 @@ struct Pair {
 // an edge belong to the nearest cell (F7, F13); across a periodic side the neighbour is the opposite cell (F10).
 std::vector<Pair> find_touching_pairs(const Disks& disks, const Domain& box);
 
-// The largest measure(i, j), and 0 at least, of the touching pairs in each of some parts of the box.
-std::vector<double> worst_of_touching_pairs(const Disks& disks, const Domain& box, const BlockRunner& run,
-                                            const std::function<double(std::uint32_t, std::uint32_t)>& measure);
+// The deepest overlap of the touching pairs in each of some parts of the box.
+std::vector<Overlap> deepest_of_touching_pairs(const Disks& disks, const Domain& box, const BlockRunner& run,
+                                               const std::function<double(std::uint32_t, std::uint32_t)>& overlap);
 
 // The same as find_touching_pairs by looking at every pair: O(N^2), the oracle.
 std::vector<Pair> find_touching_pairs_by_force(const Disks& disks, const Domain& box);

@@ -53,8 +53,7 @@ class ReferenceRollback final : public ReferenceEngine {
       const PhaseTimer timer(times_, "search");
       events = find_contacts(state_.disks, rules);
       for (const ContactEvent& e : events) {
-        if (!is_met(state_.disks, rules, e))
-          figures_.overlap = std::max(figures_.overlap, parting_overlap(state_.disks, rules, e));
+        if (!is_met(state_.disks, rules, e)) figures_.left.see(parting_overlap(state_.disks, rules, e));
       }
       std::erase_if(events, [&](const ContactEvent& e) { return !is_met(state_.disks, rules, e); });
       std::sort(events.begin(), events.end(), earlier);

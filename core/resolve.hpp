@@ -29,7 +29,6 @@ struct Impact {
   double virial = 0.0;  // |impulse| x distance of a disk pair, |impulse| of a wall; mass length^2 / time or m l / t
   bool happened = false;
   bool amiss = false;  // late: the disks have overlapped since before the step; or made elastic by the TC model (exact)
-  float overlap = 0.0F;  // of late disks before the step, over the sum of radii
 };
 
 template <class View>
@@ -83,13 +82,6 @@ void drift_one(const View& d, std::uint32_t i, double t, double g) {
   drift<true>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
 }
 
-// Overlap that two disks had when the step began, over reach, by the relative path that they are on now.
-inline float overlap_before(const Relative& r, double reach, double dt) {
-  const double dx = r.dx - r.dvx * dt;
-  const double dy = r.dy - r.dvy * dt;
-  return static_cast<float>((reach - std::sqrt(dx * dx + dy * dy)) / reach);
-}
-
 // The pair goes back to its own contact, collides by (23), goes forward again. The state may have changed since the
 // contact was found: a pair that no longer overlaps or approaches is left alone (F3, F8). A contact older than the step
 // (an overlap left from before) collides where it is.
@@ -110,7 +102,6 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
     const Shares share = shares_of(d, i, j);
     const double change = collide(r, share, rules.restitution, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
     impact = {reduced_mass(d.mass(i), d.mass(j)) * change, true, !inside_step};
-    if (!inside_step) impact.overlap = overlap_before(r, reach, rules.dt);
   }
   if (inside_step) {
     drift_one(d, i, ago, rules.gravity);

@@ -14,11 +14,11 @@ bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& e) {
   return with_view(disks, [&](const auto& d) { return relative(d, e.i1, e.i2, rules.box).approach() < 0.0; });
 }
 
-double parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& e) {
-  if (is_wall(e.id2)) return 0.0;
+Overlap parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& e) {
+  if (is_wall(e.id2)) return {};
   return with_view(disks, [&](const auto& d) {
     const double reach = d.radius(e.i1) + d.radius(e.i2);
-    return (reach - std::sqrt(relative(d, e.i1, e.i2, rules.box).distance2())) / reach;
+    return Overlap{(reach - std::sqrt(relative(d, e.i1, e.i2, rules.box).distance2())) / reach, e.id1, e.id2};
   });
 }
 

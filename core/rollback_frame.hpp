@@ -28,8 +28,8 @@ Impact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::
   return {reduced_mass(d.mass(i), d.mass(j)) * change, true};
 }
 
-// How far a pair that is not met overlaps, over the sum of radii; 0 for a wall. Nothing in the frame will see to it.
-double parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& event);
+// How far a pair that is not met overlaps; 0 for a wall. Nothing in the frame will see to it.
+Overlap parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& event);
 
 // Had the pair met not yet touched, now that everybody has gone back by `back` (F2)? Where one of its disks bounces in
 // another pair as well, it might never have.

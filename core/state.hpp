@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/disks.hpp"
+#include "core/overlap.hpp"
 #include "core/types.hpp"
 
 namespace carom {
@@ -35,12 +36,24 @@ struct StallWatch {
   double since = 0.0;
 };
 
+// The worst that was seen of something, and when.
+struct WorstOverlap {
+  Overlap overlap;
+  double time = 0.0;  // end of the step
+};
+struct WorstFigure {
+  double figure = 0.0;
+  double time = 0.0;  // of the step or frame
+};
+
 // What the method was seen to do wrong, and what has been said of it (core/validity.hpp). No disk depends on it.
 struct ValidityCounts {
   Count amiss = 0;     // collisions that went amiss
   Count frames = 0;    // of rollback, since `since`
   double since = 0.0;  // simulated time at which the frames that are watched begin
   bool split_told = false, overlap_told = false, amiss_told = false, slow_told = false;
+  WorstOverlap disks, wall;    // of two disks, of a disk and a wall
+  WorstFigure parts, advance;  // most parts that a step was split into; least advance of a frame in dt, if told
 };
 
 struct State {

@@ -25,11 +25,10 @@ bool is_crowded(const std::vector<std::uint32_t>& contacts, const ContactEvent& 
   return contacts[e.i1] > 1 || (!is_wall(e.id2) && contacts[e.i2] > 1);
 }
 
-// Returns what came late, and how far it overlapped.
+// Returns how many went amiss.
 template <class View>
-StepFigures resolve_impacts(const View& d, State& state, const StepRules& rules,
-                            const std::vector<ContactEvent>& events, const std::vector<std::uint32_t>& contacts,
-                            CollisionLog* log) {
+Count resolve_impacts(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
+                      const std::vector<std::uint32_t>& contacts, CollisionLog* log) {
   ImpactTally tally;
   bool any = true;
   for (int pass = 0; pass < most_impact_passes && any; ++pass) {
@@ -45,7 +44,7 @@ StepFigures resolve_impacts(const View& d, State& state, const StepRules& rules,
     }
   }
   tally.count_into(state.counters);
-  return {telling_overlap(tally.overlap), tally.amiss};
+  return tally.amiss;
 }
 
 // Solves the supports; their loads go to state.loads, in id order as the events are.
@@ -76,10 +75,9 @@ void bear_loads(const View& d, State& state, const StepRules& rules, const std::
 }
 
 // One sweep over all contacts; then over the crowded ones, which can undo one another's work, until nothing is deep.
-// Returns the largest overlap that the last of the sweeps still found, 0 if they ended before.
 template <class View>
-double push_all(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
-                const std::vector<std::uint32_t>& contacts) {
+void push_all(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
+              const std::vector<std::uint32_t>& contacts) {
   const double slop = contact_slop * rules.gravity * rules.dt * rules.dt;
   const auto push = [&](const ContactEvent& e) {
     const bool loaded = rules.settles && load_of(state.loads, e) > 0.0;
@@ -87,17 +85,14 @@ double push_all(const View& d, const State& state, const StepRules& rules, const
   };
   for (const ContactEvent& e : events) push(e);
   bool any_deep = true;
-  double left = 0.0;
   for (int sweep = 1; sweep < most_push_sweeps && any_deep; ++sweep) {
     any_deep = false;
     for (const ContactEvent& e : events) {
       if (!is_crowded(contacts, e) || !is_deep(d, rules.box, e)) continue;
-      const double overlap = push(e);
-      if (sweep + 1 == most_push_sweeps) left = std::max(left, overlap);
+      push(e);
       any_deep = true;
     }
   }
-  return left;
 }
 
 }  // namespace
@@ -121,10 +116,15 @@ StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<C
   StepFigures figures;
   with_view(state.disks, [&](const auto& d) {
     const std::vector<std::uint32_t> contacts = contacts_per_disk(state.disks.size(), events);
-    figures = resolve_impacts(d, state, rules, events, contacts, log);
+    for (const ContactEvent& e : events) {
+      const bool bore = load_of(state.loads, e) > 0.0 && is_crowded(contacts, e);  // seen at the end of that step
+      if (!is_wall(e.id2) && !bore) see_overlap_before(d, rules, e.i1, e.i2, figures);
+    }
+    figures.amiss = resolve_impacts(d, state, rules, events, contacts, log);
     std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
     if (rules.settles) bear_loads(d, state, rules, events, contacts);
-    figures.overlap = std::max(figures.overlap, push_all(d, state, rules, events, contacts));
+    push_all(d, state, rules, events, contacts);
+    for (const ContactEvent& e : events) see_overlap_left(d, rules.box, e, figures);
   });
   return figures;
 }

@@ -2,6 +2,7 @@
 // reference.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "core/collision_log.hpp"
@@ -12,12 +13,36 @@
 
 namespace carom {
 
-// What disks that collide late overlapped by, over the sum of their radii, as far as it tells that something is wrong:
-// a few per cent are what disks move in any step, and the next one sees to them.
-inline constexpr double least_late_overlap = 0.1;
-inline double telling_overlap(float late) {
-  const auto overlap = static_cast<double>(late);
-  return overlap > least_late_overlap ? overlap : 0.0;
+// How deep two disks overlapped when the step began: impacts of the step before may have brought them together that
+// were in no contact then. To be asked before anything is resolved, while the disks are on the paths of their drift.
+template <class View>
+void see_overlap_before(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j, StepFigures& figures) {
+  const Relative r = relative(d, i, j, rules.box);
+  const double dx = r.dx - r.dvx * rules.dt;
+  const double dy = r.dy - r.dvy * rules.dt;
+  const double reach = d.radius(i) + d.radius(j);
+  const double distance2 = dx * dx + dy * dy;
+  if (distance2 < reach * reach) figures.before.see({(reach - std::sqrt(distance2)) / reach, d.id[i], d.id[j]});
+}
+
+template <class View>
+void see_wall_overlap(const View& d, const Domain& box, std::uint32_t i, StepFigures& figures) {
+  for (Side side : all_sides) {
+    if (box.side(side) != SideKind::wall) continue;
+    const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius(i), box);
+    if (beyond > 0.0) figures.wall.see({beyond / d.radius(i), d.id[i], wall_partner(side)});
+  }
+}
+
+// How deep the disks of a contact lie in one another and in walls at the end of the step.
+template <class View>
+void see_overlap_left(const View& d, const Domain& box, const ContactEvent& e, StepFigures& figures) {
+  see_wall_overlap(d, box, e.i1, figures);
+  if (is_wall(e.id2)) return;
+  see_wall_overlap(d, box, e.i2, figures);
+  const double reach = d.radius(e.i1) + d.radius(e.i2);
+  const double distance2 = relative(d, e.i1, e.i2, box).distance2();
+  if (distance2 < reach * reach) figures.left.see({(reach - std::sqrt(distance2)) / reach, e.id1, e.id2});
 }
 
 // Pair and wall contacts at the end of a drift of length rules.dt, in no particular order.

@@ -6,12 +6,19 @@
 #include <cmath>
 #include <utility>
 
+#include "core/contact_event.hpp"
+#include "core/scene_names.hpp"
 #include "core/step_clock.hpp"
 #include "core/step_start.hpp"
 
 namespace carom {
 
 namespace {
+
+// The collisions of which some may go amiss.
+Count collisions_watched(const Scene& scene, const State& state) {
+  return state.counters.collisions + (scene.run.method == Method::exact ? state.counters.wall_collisions : Count{0});
+}
 
 // What went amiss with collisions, and the remedy.
 std::string amiss_text(const Scene& scene) {
@@ -27,44 +34,82 @@ std::string amiss_text(const Scene& scene) {
       scene.run.dt);
 }
 
+std::string_view side_name(DiskId wall) {
+  return side_names[static_cast<std::size_t>(wall_side(wall))];
+}
+
+// The deeper of the two, and what it says.
+std::string overlap_text(const Scene& scene, const WorstOverlap& disks, const WorstOverlap& wall) {
+  const bool of_disks = disks.overlap.size >= wall.overlap.size;
+  const WorstOverlap& worst = of_disks ? disks : wall;
+  const Overlap& o = worst.overlap;
+  const std::string what = of_disks
+                               ? fmt::format("two disks overlap by {:.2g} % of the sum of their radii (ids {} and {})",
+                                             100.0 * o.size, o.id1, o.id2)
+                               : fmt::format("disk {} reaches {:.2g} % of its radius beyond the {} wall", o.id1,
+                                             100.0 * o.size, side_name(o.id2));
+  return fmt::format(
+      "at time {:g} {}, more than {:g} %: dt = {:g} is too long where disks are pressed together; use a smaller dt or "
+      "--method exact",
+      worst.time, what, 100.0 * largest_overlap, scene.run.dt);
+}
+
+std::string amiss_text(const Scene& scene, const State& state) {
+  return fmt::format("by time {:g} {} of {} collisions {}", state.time, state.validity.amiss,
+                     collisions_watched(scene, state), amiss_text(scene));
+}
+
+std::string slow_text(const WorstFigure& advance, std::size_t disks) {
+  return fmt::format(
+      "at time {:g} a frame advances time by {:.2g} dt, with {} disks: time stalls; use --method pairwise or exact",
+      advance.time, advance.figure, disks);
+}
+
 }  // namespace
 
 void Validity::see_split(State& state, double dt, Count parts) {
-  if (std::exchange(state.validity.split_told, true)) return;
+  ValidityCounts& seen = state.validity;
+  if (static_cast<double>(parts) > seen.parts.figure) seen.parts = {static_cast<double>(parts), state.time};
+  if (std::exchange(seen.split_told, true)) return;
   warnings_.push_back(split_warning(state.time, dt, parts));
 }
 
 void Validity::see_step(const Scene& scene, const StepFigures& figures, State& state) {
   const bool rollback = scene.run.method == Method::rollback;
-  if (figures.overlap > largest_overlap && !std::exchange(state.validity.overlap_told, true)) {
-    warnings_.push_back(fmt::format(
-        "at time {:g} two disks overlap by {:.2g} % of the sum of their radii, more than {:g} %: dt = {:g} is too long "
-        "where disks are pressed together; use a smaller dt or --method exact",
-        state.time, 100.0 * figures.overlap, 100.0 * largest_overlap, scene.run.dt));
-  }
+  see_overlap(scene, figures, state);
   // Supports keep a little overlap, so that a pile's impacts are often late without harm: its overlaps tell.
   const bool pile = scene.run.method == Method::pairwise && settles(scene);
   if (figures.amiss > 0 && !pile) see_amiss(scene, figures.amiss, state);
   if (rollback) see_advance(scene, state);
 }
 
+void Validity::see_overlap(const Scene& scene, const StepFigures& figures, State& state) {
+  ValidityCounts& seen = state.validity;
+  Overlap deepest = figures.left;
+  deepest.see(figures.before);
+  if (deepest.size > seen.disks.overlap.size) seen.disks = {deepest, state.time};
+  if (figures.wall.size > seen.wall.overlap.size) seen.wall = {figures.wall, state.time};
+  const double next_step = std::max(figures.before.size, figures.wall.size);
+  if (!(figures.left.size > largest_overlap) && !(next_step > largest_overlap_before)) return;
+  if (std::exchange(seen.overlap_told, true)) return;
+  warnings_.push_back(overlap_text(scene, {deepest, state.time}, {figures.wall, state.time}));
+}
+
 void Validity::see_amiss(const Scene& scene, Count count, State& state) {
   const Count amiss = state.validity.amiss += count;
-  const Count all =
-      state.counters.collisions + (scene.run.method == Method::exact ? state.counters.wall_collisions : Count{0});
+  const Count all = collisions_watched(scene, state);
   if (amiss <= least_amiss || static_cast<double>(amiss) <= largest_amiss_share * static_cast<double>(all)) return;
   if (std::exchange(state.validity.amiss_told, true)) return;
-  warnings_.push_back(fmt::format("by time {:g} {} of {} collisions {}", state.time, amiss, all, amiss_text(scene)));
+  warnings_.push_back(amiss_text(scene, state));
 }
 
 void Validity::see_advance(const Scene& scene, State& state) {
   ValidityCounts& seen = state.validity;
   if (++seen.frames < frames_watched) return;
   const double advance = (state.time - seen.since) / (static_cast<double>(seen.frames) * scene.run.dt);
-  if (advance < least_advance && state.time < scene.run.t_end && !std::exchange(seen.slow_told, true)) {
-    warnings_.push_back(fmt::format(
-        "at time {:g} a frame advances time by {:.2g} dt, with {} disks: time stalls; use --method pairwise or exact",
-        state.time, advance, state.disks.size()));
+  if (advance < least_advance && state.time < scene.run.t_end) {
+    if (!seen.slow_told || advance < seen.advance.figure) seen.advance = {advance, state.time};
+    if (!std::exchange(seen.slow_told, true)) warnings_.push_back(slow_text(seen.advance, state.disks.size()));
   }
   seen.frames = 0;
   seen.since = state.time;
@@ -72,6 +117,23 @@ void Validity::see_advance(const Scene& scene, State& state) {
 
 std::vector<std::string> Validity::take_warnings() {
   return std::exchange(warnings_, {});
+}
+
+std::vector<std::string> validity_so_far(const Scene& scene, const State& state) {
+  std::vector<std::string> warnings = worst_moments(scene, state);
+  if (state.validity.amiss_told) warnings.push_back(amiss_text(scene, state));
+  return warnings;
+}
+
+std::vector<std::string> worst_moments(const Scene& scene, const State& state) {
+  const ValidityCounts& seen = state.validity;
+  std::vector<std::string> warnings;
+  if (seen.split_told) {
+    warnings.push_back(split_warning(seen.parts.time, scene.run.dt, static_cast<Count>(seen.parts.figure)));
+  }
+  if (seen.overlap_told) warnings.push_back(overlap_text(scene, seen.disks, seen.wall));
+  if (seen.slow_told) warnings.push_back(slow_text(seen.advance, state.disks.size()));
+  return warnings;
 }
 
 std::vector<std::string> validity_of(const Scene& scene, double smallest_radius) {

@@ -3,10 +3,10 @@
 // depends on it.
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "core/overlap.hpp"
 #include "core/scene.hpp"
 #include "core/state.hpp"
 #include "core/types.hpp"
@@ -15,6 +15,9 @@ namespace carom {
 
 // Overlap left to two disks (or a disk and a wall) after a step, over the sum of radii: what a pile may have.
 inline constexpr double largest_overlap = 0.02;
+// The same of two disks that impacts of the step before have brought together, and of a disk and a wall: a few per cent
+// are what disks move in a step, and the next one sees to them.
+inline constexpr double largest_overlap_before = 0.1;
 // Share of the collisions that went amiss: seen a step late (pairwise), bounced together with another of the same disk
 // (rollback, F2), made elastic by the TC model (exact). Measured on gases of packing fraction 0.3 to 0.88, with such a
 // share the collision rate (for the TC model, the dissipation) is off by about 1 % (pairwise, rollback) or 5 % (TC).
@@ -31,11 +34,15 @@ inline constexpr double largest_brownian_step = 0.5;
 
 // What a step (or a part of it) did that no exact motion does.
 struct StepFigures {
-  double overlap = 0.0;  // left after pushing apart, or met in disks that part; over the sum of radii
-  Count amiss = 0;       // collisions, see largest_amiss_share
+  Overlap left;     // the deepest of two disks after pushing apart, or of disks that part
+  Overlap before;   // that two disks in contact had when the step began
+  Overlap wall;     // of a disk and a wall, after pushing
+  Count amiss = 0;  // collisions, see largest_amiss_share
 
   void add(const StepFigures& other) {
-    overlap = std::max(overlap, other.overlap);
+    left.see(other.left);
+    before.see(other.before);
+    wall.see(other.wall);
     amiss += other.amiss;
   }
 };
@@ -48,15 +55,23 @@ class Validity {
   // A step, frame or window has ended in this state. Of it, only state.validity changes.
   void see_step(const Scene& scene, const StepFigures& figures, State& state);
 
-  // Those since the last call. What was counted, and that it was told, is in the state: who keeps a state keeps these.
+  // Those since the last call, one of each kind in a run: with what was seen first. What was counted, and that it was
+  // told, is in the state: who keeps a state keeps these.
   std::vector<std::string> take_warnings();
 
  private:
+  void see_overlap(const Scene& scene, const StepFigures& figures, State& state);
   void see_amiss(const Scene& scene, Count count, State& state);
   void see_advance(const Scene& scene, State& state);
 
   std::vector<std::string> warnings_;
 };
+
+// The same warnings for a run that has come to this state, in order of kind: with the worst that was seen.
+std::vector<std::string> validity_so_far(const Scene& scene, const State& state);
+
+// Those of them that tell of one moment, the worst; not of a share that goes on with every step.
+std::vector<std::string> worst_moments(const Scene& scene, const State& state);
 
 // What can be said before the first step: places too coarse for the radii, Brownian intervals too long. One line each.
 // smallest_radius: of the disks at the start, 0 if there are none.

@@ -21,7 +21,7 @@ struct RunRecord {
   OutputMark outputs;
   double wall_s = 0.0, cpu_s = 0.0, step_s = 0.0;  // spent so far, as in the summary
   Count resumed = 0;                               // how often the run went on from a checkpoint
-  std::vector<std::string> warnings;               // of the physics, so far
+  std::vector<std::string> warnings;               // of its start; the state knows the others
 };
 
 struct Checkpoint {

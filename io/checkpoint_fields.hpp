@@ -38,10 +38,28 @@ void fields(Stream& stream, T& value) {
   stream(frames, since);
 }
 
+template <class Stream, Is<Overlap> T>
+void fields(Stream& stream, T& value) {
+  auto& [size, id1, id2] = value;
+  stream(size, id1, id2);
+}
+
+template <class Stream, Is<WorstOverlap> T>
+void fields(Stream& stream, T& value) {
+  auto& [overlap, time] = value;
+  stream(overlap, time);
+}
+
+template <class Stream, Is<WorstFigure> T>
+void fields(Stream& stream, T& value) {
+  auto& [figure, time] = value;
+  stream(figure, time);
+}
+
 template <class Stream, Is<ValidityCounts> T>
 void fields(Stream& stream, T& value) {
-  auto& [amiss, frames, since, split_told, overlap_told, amiss_told, slow_told] = value;
-  stream(amiss, frames, since, split_told, overlap_told, amiss_told, slow_told);
+  auto& [amiss, frames, since, split_told, overlap_told, amiss_told, slow_told, disks, wall, parts, advance] = value;
+  stream(amiss, frames, since, split_told, overlap_told, amiss_told, slow_told, disks, wall, parts, advance);
 }
 
 template <class Stream, Is<State> T>

@@ -70,6 +70,7 @@ double resolve_alone(const View& d, const StepRules& rules, const FoundPairs& fo
   lists.crowded.reserve(contact_block);
   lists.tallies.assign(blocks, {});
   lists.largest.assign(blocks, 0.0);
+  assign_amply(lists.seen, blocks, {});
   executor.run(found.used, [&](std::size_t b) {
     const std::vector<Pair>& pairs = found.buffers[b].pairs;
     lists.crowded_blocks[b].clear();
@@ -79,12 +80,14 @@ double resolve_alone(const View& d, const StepRules& rules, const FoundPairs& fo
         prefetch_disk(d, pairs[k + ahead].i1);
         prefetch_disk(d, pairs[k + ahead].i2);
       }
+      see_overlap_before(d, rules, i, j, lists.seen[b]);
       if (lists.contacts[i] != 1 || lists.contacts[j] != 1) {
         lists.crowded_blocks[b].push_back(pair_event(d, rules, i, j));
         continue;
       }
       lists.tallies[b].add(d.id[j], resolve_pair(d, rules, i, j));
       push_pair(d, rules.box, i, j, 0.0);
+      see_overlap_left(d, rules.box, {0.0, d.id[i], d.id[j], i, j}, lists.seen[b]);
       lists.largest[b] = std::max({lists.largest[b], finish_disk(d, rules.box, i), finish_disk(d, rules.box, j)});
       lists.contacts[i] = lists.contacts[j] = 0;
     }
@@ -99,10 +102,12 @@ double resolve_alone(const View& d, const StepRules& rules, const FoundPairs& fo
       }
       lists.tallies[b].add(e.id2, resolve_event(d, rules, e));
       push_apart(d, rules.box, e, 0.0);
+      see_wall_overlap(d, rules.box, e.i1, lists.seen[b]);
       lists.largest[b] = std::max(lists.largest[b], finish_disk(d, rules.box, e.i1));
       lists.contacts[e.i1] = 0;
     }
   });
+  add_seen(lists);
   collect_crowded(blocks, executor, lists, tally);
   return blocks == 0 ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
 }
@@ -128,10 +133,13 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
     assign_amply(lists.largest, lists.patches.count(), 0.0);
     run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
       if (!is_deep(d, rules.box, e)) return;
-      lists.largest[q] = std::max({lists.largest[q], seen_deep, push_apart(d, rules.box, e, 0.0)});
+      push_apart(d, rules.box, e, 0.0);
+      lists.largest[q] = 1.0;
     });
-    if (!keep_overlap_left(sweep, lists)) break;
+    if (!any_deep(lists)) break;
   }
+  see_overlaps_left(d, rules.box, lists.crowded.size(), executor, lists,
+                    [&](std::size_t k) { return lists.crowded[k]; });
 }
 
 }  // namespace
@@ -142,10 +150,12 @@ bool any_impact_since(Count& before, const std::vector<ImpactTally>& tallies) {
   return std::exchange(before, now) != now;
 }
 
-bool keep_overlap_left(int sweep, ContactLists& lists) {
-  const double largest = lists.largest.empty() ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
-  if (sweep + 1 == most_push_sweeps && largest > seen_deep) lists.figures.overlap = largest;
-  return largest > 0.0;
+void add_seen(ContactLists& lists) {
+  for (const StepFigures& block : lists.seen) lists.figures.add(block);
+}
+
+bool any_deep(const ContactLists& lists) {
+  return std::find(lists.largest.begin(), lists.largest.end(), 1.0) != lists.largest.end();
 }
 
 void join_crowded(std::size_t blocks, ContactLists& lists) {
@@ -229,7 +239,7 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
     // Contacts that were alone are finished.
     speed2 = std::max(speed2, finish_contacts(state.disks, rules.box, executor, lists.crowded, lists));
   }
-  lists.figures.add({telling_overlap(tally.overlap), tally.amiss});
+  lists.figures.amiss += tally.amiss;
   tally.count_into(state.counters);
   return speed2;
 }

@@ -4,17 +4,18 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "core/contact_event.hpp"
 #include "core/impact_tally.hpp"
 #include "core/resolve.hpp"
 #include "core/state.hpp"
+#include "core/step_contacts.hpp"
 #include "core/validity.hpp"
 #include "parallel/executor.hpp"
 #include "parallel/find_contacts.hpp"
 #include "parallel/patches.hpp"
+#include "parallel/resize_amply.hpp"
 #include "parallel/settle_contacts.hpp"
 
 namespace carom {
@@ -31,7 +32,8 @@ struct ContactLists {
   std::vector<std::size_t> offsets;  // of each block's part of a list
   Patches patches;
   SettleLists settle;
-  StepFigures figures;  // of the last resolve
+  std::vector<StepFigures> seen;  // of each block
+  StepFigures figures;            // of the last resolve
 };
 
 // The events of the pairs found and the wall contacts, in one list, and how many contacts each disk has.
@@ -95,13 +97,29 @@ void run_crowded(const Executor& executor, const ContactLists& lists, Task&& tas
 // Are there more impacts than before? Takes the new number down.
 bool any_impact_since(Count& before, const std::vector<ImpactTally>& tallies);
 
-// What a sweep that pushes apart leaves in lists.largest, a patch each: the largest overlap it found, and this where
-// that is nothing but a contact was deep. Returns whether any was, and keeps the overlap of the last sweep.
-inline constexpr double seen_deep = std::numeric_limits<double>::min();
-bool keep_overlap_left(int sweep, ContactLists& lists);
+// Did a sweep that pushes apart find a contact deep, so that it set lists.largest of its patch to 1?
+bool any_deep(const ContactLists& lists);
+
+// The deepest overlap left to the contacts event(0) to event(n - 1) goes to lists.figures.
+template <class View, class Event>
+void see_overlaps_left(const View& d, const Domain& box, std::size_t n, const Executor& executor, ContactLists& lists,
+                       Event&& event);
+
+// What the blocks have seen goes to lists.figures.
+void add_seen(ContactLists& lists);
 
 // Contacts a block of the parallel passes over them.
 inline constexpr std::size_t contact_block = 1024;
+
+template <class View, class Event>
+void see_overlaps_left(const View& d, const Domain& box, std::size_t n, const Executor& executor, ContactLists& lists,
+                       Event&& event) {
+  assign_amply(lists.seen, executor.blocks(n, contact_block), {});
+  executor.for_ranges(n, contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) see_overlap_left(d, box, event(k), lists.seen[b]);
+  });
+  add_seen(lists);
+}
 
 template <class Alone>
 void split_crowded(const Executor& executor, ContactLists& lists, ImpactTally& tally, Alone&& alone) {

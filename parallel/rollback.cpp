@@ -53,7 +53,7 @@ class ParallelRollback final : public TimeStepping {
     lists_.figures = {};
     keep_events(lists_, executor_, [&](const ContactEvent& e) {
       if (is_met(state_.disks, rules, e)) return true;
-      lists_.figures.overlap = std::max(lists_.figures.overlap, parting_overlap(state_.disks, rules, e));
+      lists_.figures.left.see(parting_overlap(state_.disks, rules, e));
       return false;
     });
     for (const ContactEvent& e : lists_.events) back = std::max(back, e.ago);

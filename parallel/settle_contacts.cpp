@@ -76,6 +76,7 @@ bool look_up_loads(const View& d, const State& state, const StepRules& rules, co
   reserve_crowded_blocks(blocks, executor, lists);
   resize_amply(lists.settle.borne, pairs.size());
   assign_amply(lists.largest, blocks, 0.0);
+  assign_amply(lists.seen, blocks, {});
   executor.for_ranges(pairs.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     lists.crowded_blocks[b].clear();
     const auto key_of = [](const ContactLoad& load) { return id_key(load.id1, load.id2); };
@@ -88,10 +89,12 @@ bool look_up_loads(const View& d, const State& state, const StepRules& rules, co
       lists.settle.borne[k] = force;
       const bool crowded = is_crowded(lists, p);
       if (force > 0.0 && crowded) continue;
+      if (!is_wall(p.id2())) see_overlap_before(d, rules, p.i1, p.i2, lists.seen[b]);
       lists.crowded_blocks[b].push_back(timed_event(d, rules, p));
       if (!is_support(d, rules, p.event(), force > 0.0, crowded)) lists.largest[b] = 1.0;
     }
   });
+  add_seen(lists);
   join_crowded(blocks, lists);
   return std::find(lists.largest.begin(), lists.largest.end(), 1.0) != lists.largest.end();
 }
@@ -215,12 +218,14 @@ void push_contacts(const View& d, const StepRules& rules, const Executor& execut
         const IdPair& p = settle.placed[at];
         const ContactEvent e = p.event();
         if (sweep > 0 && (!is_crowded(lists, p) || !is_deep(d, rules.box, e))) continue;
-        const double overlap = push_apart(d, rules.box, e, settle.holding[at] != 0 ? slop : 0.0);
-        lists.largest[q] = std::max({lists.largest[q], seen_deep, overlap});
+        push_apart(d, rules.box, e, settle.holding[at] != 0 ? slop : 0.0);
+        lists.largest[q] = 1.0;
       }
     });
-    if (!keep_overlap_left(sweep, lists)) break;
+    if (!any_deep(lists)) break;
   }
+  see_overlaps_left(d, rules.box, settle.placed.size(), executor, lists,
+                    [&](std::size_t k) { return settle.placed[k].event(); });
 }
 
 // Wraps the disks that had contacts, clears their counts, and returns the largest squared speed among them.

@@ -36,7 +36,17 @@ State full_state() {
   s.sources = {{7}, {8}};
   s.loads = {{1, 4, 0.7}, {4, 4294967295U, 0.9}};
   s.stall = {99, 0.25};
-  s.validity = {17, 18, 0.375, true, false, true, false};
+  s.validity = {17,
+                18,
+                0.375,
+                true,
+                false,
+                true,
+                false,
+                {{0.25, 1, 4}, 0.5},
+                {{0.125, 4, 4294967295U}, 0.625},
+                {60.0, 0.75},
+                {0.0625, 0.875}};
   s.window = 0.0625;
   s.last_contact = {0.5, -std::numeric_limits<double>::infinity(), 1.5, 2.5};
   return s;

@@ -20,13 +20,19 @@ using RunResults = test::CommandTest;
 // then.
 TEST_F(RunResults, StrictEndsARunAtItsFirstWarning) {
   const std::string fast = "run small.toml --set disks.0.velocities='{ uniform = 200.0 }' ";
-  const Outcome lenient = carom(fast + "--quiet --json -o a");
+  const Outcome lenient = carom(fast + "--json -o a");
   EXPECT_EQ(lenient.status, 0) << lenient.err;
   const Json warnings = Json::parse(lenient.out)["warnings"];
   ASSERT_FALSE(warnings.empty());
   EXPECT_THAT(warnings[0].get<std::string>(), HasSubstr("the step is split into"));
   EXPECT_EQ(Json::parse(text_of(at("a/summary.json")))["warnings"], warnings);
-  expect_error("$C " + fast + "--quiet --strict -o b", 3, warnings[0].get<std::string>() + " (--strict)");
+  // While it runs it tells of what it sees first, in the summary of the worst.
+  const std::string before = "carom: warning: ";
+  ASSERT_THAT(lenient.err, StartsWith(before));
+  const std::string first = lenient.err.substr(before.size(), lenient.err.find('\n') - before.size());
+  EXPECT_THAT(first, HasSubstr("the step is split into"));
+  EXPECT_THAT(lenient.err, HasSubstr(before + warnings[0].get<std::string>()));
+  expect_error("$C " + fast + "--quiet --strict -o b", 3, first + " (--strict)");
   EXPECT_THAT(text_of(at("b/carom-unfinished/trajectory.xyz")), StartsWith("5\n"));
   const Outcome sound = carom("run small.toml --quiet --strict --json -o c");
   EXPECT_EQ(sound.status, 0) << sound.err;
@@ -66,6 +72,29 @@ TEST_F(RunResults, RatesFollowFromTheCounts) {
   EXPECT_DOUBLE_EQ(s["collision_rate"], 2.0 * s["collisions"].get<double>() / (40.0 * 20.0));
   EXPECT_GT(s["pressure"], s["energy_final"].get<double>() / 100.0) << "more than the ideal gas";
   EXPECT_NEAR(s["energy_final"].get<double>() / s["energy_initial"].get<double>(), 1.0, 1e-12);
+}
+
+// Disks that are pressed together in the middle of a run and free again at its end: the summary knows of it, and an
+// interrupted run knows the same.
+TEST_F(RunResults, TheWorstOverlapOfTheRunBesideThatOfItsEnd) {
+  const std::string scene = CAROM_SOURCE_DIR "/scenes/stability/mass_ratio_1e6.toml --method pairwise --dt 0.02";
+  const Outcome o = carom("run " + scene + " --quiet --json -o out");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const Json s = Json::parse(o.out);
+  EXPECT_EQ(s["max_overlap"], 0.0);
+  EXPECT_GT(s["worst_overlap"], 0.1);
+  EXPECT_EQ(s["worst_overlap_ids"], Json({0, 1}));
+  EXPECT_GT(s["worst_overlap_time"], 15.0);
+  EXPECT_LT(s["worst_overlap_time"], 20.0);
+  EXPECT_GT(s["worst_wall_overlap"], 0.1);
+  EXPECT_EQ(s["worst_wall_overlap_ids"], Json({0}));
+  ASSERT_EQ(carom("run " + scene + " --quiet -o parts --max-walltime 1e-9").status, 4);
+  ASSERT_EQ(carom("resume parts --quiet --engine reference").status, 0);
+  const Json parts = Json::parse(text_of(at("parts/summary.json")));
+  for (const char* const key : {"worst_overlap", "worst_overlap_time", "worst_overlap_ids", "worst_wall_overlap",
+                                "worst_wall_overlap_time", "worst_wall_overlap_ids", "warnings"}) {
+    EXPECT_EQ(parts[key], s[key]) << key;
+  }
 }
 
 TEST_F(RunResults, NothingIsNotANumber) {

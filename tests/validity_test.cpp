@@ -1,10 +1,12 @@
 // A run that leaves what its method can do says so: once, with the figure and the remedy, in both engines alike.
 #include "core/validity.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/check.hpp"
 #include "core/engine.hpp"
+#include "core/invariants.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/scene_support.hpp"
 
@@ -78,6 +80,68 @@ TEST(Validity, PairwiseSaysHowFarDisksOverlap) {
   const Scene pressed = stability_scene("mass_ratio_1e6", {{"run.method", "pairwise"}, {"run.dt", "0.05"}});
   EXPECT_THAT(warnings_of(pressed), ::testing::Contains(AllOf(HasSubstr("two disks overlap by"),
                                                               HasSubstr("more than 2 %: dt = 0.05 is too long"))));
+}
+
+// What a run has come to, step by step: the deepest overlaps of the states that it went through.
+struct Deepest {
+  WorstOverlap disks, wall;
+  explicit Deepest(Engine& engine, const Scene& scene) {
+    while (engine.state().time < scene.run.t_end) {
+      engine.step();
+      const State& state = engine.state();
+      const Overlap of_disks = deepest_overlap(state.disks, scene.box);
+      const Overlap of_wall = deepest_wall_overlap(state.disks, scene.box);
+      if (of_disks.size > disks.overlap.size) disks = {of_disks, state.time};
+      if (of_wall.size > wall.overlap.size) wall = {of_wall, state.time};
+    }
+  }
+};
+
+void expect_same(const WorstOverlap& a, const WorstOverlap& b) {
+  EXPECT_EQ(a.overlap.size, b.overlap.size);
+  EXPECT_EQ(a.overlap.id1, b.overlap.id1);
+  EXPECT_EQ(a.overlap.id2, b.overlap.id2);
+  EXPECT_EQ(a.time, b.time);
+}
+
+// The state of both engines at the end of the run, which must have kept the same.
+ValidityCounts kept_by_both(const Scene& scene, const State& start, Engine& reference) {
+  const auto parallel = make_parallel_engine(scene, start, {3, 512});
+  while (parallel->state().time < scene.run.t_end) parallel->step();
+  const ValidityCounts& kept = reference.state().validity;
+  expect_same(parallel->state().validity.disks, kept.disks);
+  expect_same(parallel->state().validity.wall, kept.wall);
+  EXPECT_EQ(validity_so_far(scene, parallel->state()), validity_so_far(scene, reference.state()));
+  return kept;
+}
+
+TEST(Validity, TheDeepestOverlapsOfARunAreKeptWithTimeAndIds) {
+  const Scene pile = stability_scene("wedge", {{"run.method", "pairwise"}, {"run.dt", "0.02"}, {"run.t_end", "10"}});
+  const State start = initial_state(pile);
+  const auto engine = make_reference_engine(pile, start);
+  const Deepest seen(*engine, pile);
+  const ValidityCounts kept = kept_by_both(pile, start, *engine);
+  EXPECT_GT(seen.disks.overlap.size, 0.0);
+  EXPECT_GT(seen.wall.overlap.size, 0.0);
+  expect_same(kept.disks, seen.disks);
+  expect_same(kept.wall, seen.wall);
+}
+
+// A heavy disk presses a light one against the wall, ever deeper, and lets go of it long before the end: the warning
+// tells first of what it sees, and of the worst at the end. Steps are split, so parts of a step count, too.
+TEST(Validity, TheWorstIsToldAtTheEnd) {
+  const Scene scene = stability_scene("mass_ratio_1e6", {{"run.method", "pairwise"}, {"run.dt", "0.02"}});
+  const State start = initial_state(scene);
+  const auto engine = make_reference_engine(scene, start);
+  const Deepest seen(*engine, scene);
+  const ValidityCounts kept = kept_by_both(scene, start, *engine);
+  EXPECT_EQ(max_overlap(engine->state().disks, scene.box), 0.0);
+  EXPECT_GE(kept.disks.overlap.size, seen.disks.overlap.size);
+  EXPECT_GE(kept.wall.overlap.size, seen.wall.overlap.size);
+  const std::string worst = fmt::format("at time {:g} disk {} reaches {:.2g} % of its radius beyond the left wall",
+                                        kept.wall.time, kept.wall.overlap.id1, 100.0 * kept.wall.overlap.size);
+  EXPECT_THAT(engine->take_warnings(), ::testing::Not(::testing::Contains(HasSubstr(worst))));
+  EXPECT_THAT(validity_so_far(scene, engine->state()), ::testing::Contains(HasSubstr(worst)));
 }
 
 TEST(Validity, ExactSaysThatTheCollapseModelTakesOver) {
