@@ -19,7 +19,7 @@
 #include "app/stop_signals.hpp"
 #include "app/sweep_plan.hpp"
 #include "core/check.hpp"
-#include "core/csv.hpp"
+#include "core/input_file.hpp"
 #include "core/input_message.hpp"
 #include "io/checkpoint_place.hpp"
 #include "io/child_process.hpp"

@@ -4,8 +4,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <system_error>
 
@@ -76,23 +74,6 @@ std::vector<Vec2> parse_csv_pairs(std::string_view text, const std::string& name
     rows.push_back({*x, *y});
   }
   return rows;
-}
-
-std::string read_text_file(const std::string& path, std::string_view where) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) fail_input(where, "is a directory", "expected a file");
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) {
-    fail_input(where, fmt::format("cannot be opened: {}", std::generic_category().message(errno)),
-               "expected a file that can be read");
-  }
-  std::string text;
-  char block[1 << 16];
-  for (std::size_t n = 0; (n = std::fread(block, 1, sizeof block, file)) > 0;) text.append(block, n);
-  const bool failed = std::ferror(file) != 0;
-  std::fclose(file);
-  if (failed) fail_input(where, "cannot be read", "expected a file that can be read");
-  return text;
 }
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// Positions and velocities from CSV files.
+// Positions and velocities from the text of CSV files.
 #pragma once
 
 #include <string>
@@ -13,9 +13,5 @@ namespace carom {
 // header of two names. name stands for the file in messages, key for what is read. Throws InputError with
 // "name:line: key: ..." for any line that is not two finite numbers.
 std::vector<Vec2> parse_csv_pairs(std::string_view text, const std::string& name, std::string_view key);
-
-// The whole file as text. where ("file:line: key") is who asked for it; shown is how messages call the file, without
-// quotes. Throws InputError when it is missing, a directory or unreadable.
-std::string read_text_file(const std::string& path, std::string_view where);
 
 }  // namespace carom

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "core/csv.hpp"
 #include "core/duration.hpp"
+#include "core/input_file.hpp"
 #include "core/input_message.hpp"
 #include "core/method_choice.hpp"
 #include "core/scene_analysis.hpp"

@@ -8,6 +8,7 @@
 
 #include "core/check.hpp"
 #include "core/csv.hpp"
+#include "core/input_file.hpp"
 #include "core/input_message.hpp"
 #include "core/scene_names.hpp"
 

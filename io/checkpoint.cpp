@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "core/check.hpp"
+#include "core/input_file.hpp"
 #include "io/block_hash.hpp"
 #include "io/checkpoint_fields.hpp"
 #include "io/output_file.hpp"
@@ -76,6 +77,7 @@ class SummedFile {
 std::ifstream open_file(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) refuse(path, "is a folder; expected a checkpoint");
+  check_regular_file(path);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(path, fmt::format("{}; expected a checkpoint", std::strerror(errno)));

@@ -3,6 +3,7 @@
 #include <array>
 #include <fstream>
 
+#include "core/input_file.hpp"
 #include "io/h5md_reader.hpp"
 #include "io/trajectory_xyz.hpp"
 
@@ -16,6 +17,7 @@ std::filesystem::path trajectory_in(const std::filesystem::path& folder) {
 }
 
 std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path) {
+  if (!std::filesystem::is_directory(path)) check_regular_file(path);  // a folder gets the reader's own words
   std::array<char, 4> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());
   if (std::string_view(head.data(), head.size()) == "\x89HDF") return std::make_unique<H5mdReader>(path);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/check.hpp"
+#include "core/input_file.hpp"
 #include "tests/scene_support.hpp"
 #include "tests/support.hpp"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/check.hpp"
-#include "core/csv.hpp"
+#include "core/input_file.hpp"
 #include "core/scene_reader.hpp"
 #include "core/scene_tree.hpp"
 

@@ -1,0 +1,17 @@
+// Files that the user names: read only where they can end.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace carom {
+
+// The whole file as text. where ("file:line: key") is who asked for it. Throws InputError unless it is a regular file
+// that can be read and fits into memory, or an open stream of this process (/dev/stdin, /dev/fd/N) of at most 1 GB.
+std::string read_text_file(const std::string& path, std::string_view where);
+
+// Throws InputError, "path: ...", where there is something else than a regular file: it may never end. A file that is
+// not there is left to whoever opens it.
+void check_regular_file(const std::string& path);
+
+}  // namespace carom
