@@ -127,7 +127,7 @@ void PlacementSearch::fail_jammed(std::size_t k) const {
       place_in_group(scene, group_of(scene, members[k]), "positions"),
       fmt::format("\"random\" finds no room for disk {} after {} trials; {} of {} placed, packing fraction {:.4f}",
                   members[k], trials_of_one, k, members.size(), reached),
-      "expected fewer disks or a larger box, or positions = \"hexagonal\" or \"square\"");
+      "expected fewer disks or a larger box, or positions = \"growth\" (denser), \"hexagonal\" or \"square\"");
 }
 
 PlacementSearch make_placement_search(const Scene& scene, Disks& disks, PlacementGrid& grid,

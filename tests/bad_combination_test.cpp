@@ -104,7 +104,8 @@ TEST(BadStart, RandomFindsNoRoom) {
   const std::string text =
       replaced(replaced(sound_scene, positions, "positions = \"random\""), "count = 3", "count = 48");
   EXPECT_THAT(complaint(text), AllOf(StartsWith("gas.toml:15: disks.0.positions: \"random\" finds no room for disk "),
-                                     HasSubstr("of 48 placed, packing fraction 0."), HasSubstr("\"hexagonal\"")));
+                                     HasSubstr("of 48 placed, packing fraction 0."), HasSubstr("\"hexagonal\""),
+                                     HasSubstr("positions = \"growth\" (denser)")));
 }
 
 TEST(BadStart, MaxwellWithOneDisk) {
