@@ -48,6 +48,10 @@ int count_of(const std::string& option, const std::string& text) {
   int value = 0;
   const char* const end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec == std::errc::result_out_of_range) {
+    fail_input(option, fmt::format("is {}", in_quotes(text)),
+               fmt::format("expected a whole number from 1 to {}", std::numeric_limits<int>::max()));
+  }
   if (result.ec != std::errc{} || result.ptr != end || value < 1) {
     fail_input(option, fmt::format("is {}", in_quotes(text)), "expected a whole number of 1 or more");
   }

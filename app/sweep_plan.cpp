@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "core/input_message.hpp"
 
@@ -59,6 +60,19 @@ std::vector<std::string> range_values(const std::string& text, const std::vector
   return values;
 }
 
+// Every seed fits into 64 bits, and nobody has to wait for a list of runs that no machine could do.
+void check_number_of_runs(const std::vector<SweepAxis>& axes, std::uint64_t seed, int seeds) {
+  constexpr double most_runs = 1e6;
+  const std::uint64_t beyond = std::numeric_limits<std::uint64_t>::max() - seed;  // seeds after the first
+  if (static_cast<std::uint64_t>(seeds) - 1 > beyond) {
+    fail_input("--seeds", fmt::format("{} seeds from {} on go beyond 2^64 - 1", seeds, seed),
+               fmt::format("expected at most {}, or a smaller seed of the scene", beyond + 1));
+  }
+  double runs = seeds;
+  for (const SweepAxis& axis : axes) runs *= static_cast<double>(axis.values.size());
+  if (runs > most_runs) fail_input("sweep", fmt::format("{:g} runs are too many", runs), "expected at most 1000000");
+}
+
 }  // namespace
 
 SweepAxis parse_sweep_axis(const std::string& text) {
@@ -85,6 +99,7 @@ SweepAxis parse_sweep_axis(const std::string& text) {
 
 std::vector<SweepRun> sweep_runs(const SceneChanges& changes, const std::vector<SweepAxis>& axes, std::uint64_t seed,
                                  int seeds) {
+  check_number_of_runs(axes, seed, seeds);
   std::vector<SweepRun> runs;
   std::vector<std::size_t> at(axes.size(), 0);
   for (bool more = true; more;) {

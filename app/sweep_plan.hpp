@@ -23,7 +23,8 @@ struct SweepRun {
   std::vector<Override> overrides;  // those of the command line, then one an axis, then the seed
 };
 
-// The last axis turns fastest, seeds faster still. Seeds run on from the scene's own.
+// The last axis turns fastest, seeds faster still. Seeds run on from the scene's own. Throws InputError for more than a
+// million runs, and for seeds beyond 64 bits.
 std::vector<SweepRun> sweep_runs(const SceneChanges& changes, const std::vector<SweepAxis>& axes, std::uint64_t seed,
                                  int seeds);
 

@@ -131,6 +131,9 @@ TEST_F(SweepTest, NothingRunsWhereAnythingIsWrong) {
       {"--over seed=1,2", "expected --seeds N"},
       {"--over run.t_end=1 --over run.t_end=2", "run.t_end is given twice"},
       {"", "nothing to sweep over"},
+      {"--seeds 3 --set seed=18446744073709551614", "--seeds: 3 seeds from 18446744073709551614 on go beyond 2^64 - 1"},
+      {"--seeds 18446744073709551616", "expected a whole number from 1 to 2147483647"},
+      {"--seeds 2000000000", "2e+09 runs are too many; expected at most 1000000"},
       {"--seeds 2 --emit pbs", "expected one of slurm, parallel"}};
   for (const auto& [options, expected] : cases) {
     const auto [status, text] = carom("sweep gas.toml -o never " + options);
