@@ -211,7 +211,11 @@ void report_end(const Engine& engine, const RunTask& task, Results* results, Che
     }
   }
   keeper.discard_own_folder();
-  const Summary summary = summary_of(engine, task, results, keeper.record(step_s));
+  Summary summary = summary_of(engine, task, results, keeper.record(step_s));
+  for (const std::string& warning : waiting_warnings(task.scene, engine.state())) {
+    summary.warnings.push_back(warning);
+    if (!task.quiet) print_warning(warning);
+  }
   if (results != nullptr) {
     write_file(results->folder.path("summary.json"), json_text(summary));
     results->folder.finish(keeps_checkpoints);

@@ -10,6 +10,7 @@
 #include "core/scene_names.hpp"
 #include "core/step_clock.hpp"
 #include "core/step_start.hpp"
+#include "core/window_start.hpp"
 
 namespace carom {
 
@@ -153,6 +154,26 @@ std::vector<std::string> validity_of(const Scene& scene, double smallest_radius)
         fmt::format("a Brownian disk moves by {:.2g} of the smallest radius in dt = {:g}: collisions are "
                     "wrong; use dt <= {:.2g}",
                     step, scene.run.dt, share * share / (2.0 * scene.physics.diffusion)));
+  }
+  return warnings;
+}
+
+std::vector<std::string> waiting_warnings(const Scene& scene, const State& state) {
+  std::vector<std::string> warnings;
+  if (state.counters.waiting == 0) return warnings;
+  for (std::size_t s = 0; s < scene.sources.size(); ++s) {
+    const Source& source = scene.sources[s];
+    const Count emitted = state.sources[s].emitted;
+    Count due = emissions_due(source.rate, state.time);
+    if (source.limit) due = std::min(due, *source.limit);
+    if (due <= emitted) continue;
+    const Count waiting = due - emitted;
+    const double allowed = std::max(1.0, most_waiting * static_cast<double>(due));
+    if (emitted > 0 && static_cast<double>(waiting) <= allowed) continue;
+    warnings.push_back(
+        fmt::format("at the end, time {:g}, {} of the {} disks due from sources.{} still wait for room: use a lower "
+                    "rate, a limit, or more room where they come in",
+                    state.time, waiting, due, s));
   }
   return warnings;
 }

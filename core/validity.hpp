@@ -32,6 +32,10 @@ inline constexpr double least_radius_share = 1e-9;
 // Root mean square displacement of a Brownian interval, over the smallest radius.
 inline constexpr double largest_brownian_step = 0.5;
 
+// Share of the disks due from a source that may wait for room at the end of a run: some always do where disks are
+// dense.
+inline constexpr double most_waiting = 0.05;
+
 // What a step (or a part of it) did that no exact motion does.
 struct StepFigures {
   Overlap left;     // the deepest of two disks after pushing apart, or of disks that part
@@ -76,5 +80,9 @@ std::vector<std::string> worst_moments(const Scene& scene, const State& state);
 // What can be said before the first step: places too coarse for the radii, Brownian intervals too long. One line each.
 // smallest_radius: of the disks at the start, 0 if there are none.
 std::vector<std::string> validity_of(const Scene& scene, double smallest_radius);
+
+// What a run at its end has to say of disks that still wait for room: a line for each source whose share of them is
+// above most_waiting, or that never gave one.
+std::vector<std::string> waiting_warnings(const Scene& scene, const State& state);
 
 }  // namespace carom

@@ -7,6 +7,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using test::Outcome;
+using test::replaced;
 using test::text_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -37,6 +38,24 @@ TEST_F(RunResults, StrictEndsARunAtItsFirstWarning) {
   const Outcome sound = carom("run small.toml --quiet --strict --json -o c");
   EXPECT_EQ(sound.status, 0) << sound.err;
   EXPECT_TRUE(Json::parse(sound.out)["warnings"].empty());
+}
+
+// A source between disks that never leave it room; one with room enough says nothing.
+TEST_F(RunResults, DisksThatStillWaitAtTheEndAreWarnedOf) {
+  const std::string source = "[[sources]]\nregion = [4.9, 4.9, 5.1, 5.1]\nrate = 20\nradius = 0.5\nmass = 1\n";
+  write("blocked.toml", replaced(test::small_scene, "[run]", source + "[run]"));
+  for (const std::string method : {"rollback", "pairwise", "exact"}) {
+    const Outcome o = carom("run blocked.toml --json -o " + method + " --method " + method);
+    EXPECT_EQ(o.status, 0) << o.err;
+    const Json summary = Json::parse(o.out);
+    EXPECT_GT(summary["waiting"], 10);
+    ASSERT_EQ(summary["warnings"].size(), 1U) << o.out;
+    const auto warning = summary["warnings"][0].get<std::string>();
+    EXPECT_THAT(warning, HasSubstr("disks due from sources.0 still wait for room"));
+    EXPECT_THAT(o.err, HasSubstr(warning));
+  }
+  const Outcome room = carom("run blocked.toml --json --quiet -o room --set sources.0.region='[1, 1, 9, 9]'");
+  EXPECT_TRUE(Json::parse(room.out)["warnings"].empty()) << room.out;
 }
 
 TEST_F(RunResults, JsonIsAllThatIsPrintedAndHasEveryKeyInOrder) {
