@@ -16,8 +16,7 @@ constexpr std::string_view beginning =
 
 Made by `carom docs scene` from the tables that read scenes and write results; not edited by hand.
 
-A scene is a [TOML](https://toml.io) file of at most 1 GB: a title and a seed, tables (`[box]`), and lists of tables
-(`[[disks]]`). A key that is not on this page is an error, never ignored. No unit is built in: lengths, times and masses are
+A scene is a [TOML](https://toml.io) file: a title and a seed, tables (`[box]`), and lists of tables (`[[disks]]`). A key that is not on this page is an error, never ignored. No unit is built in: lengths, times and masses are
 the scene's own, and all else follows from them (k_B = 1). Any key can be set on the command line, as in `--set
 physics.gravity=0.5` or `--set disks.0.count=100`. The smallest scene:
 
@@ -100,6 +99,8 @@ std::string range_rows() {
     if (m.dimension == Dimension::none) continue;
     text += fmt::format("| {} | {} | {} | {} | {} |\n", m.noun, m.unit, m.least, m.most, m.why);
   }
+  text += "\nAgainst each other:\n\n| what | at most | why |\n| --- | --- | --- |\n";
+  for (const Proportion& p : proportions) text += fmt::format("| {} | {:g} | {} |\n", p.what, p.most, p.why);
   return text;
 }
 

@@ -4,19 +4,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/input_message.hpp"
 #include "core/memory_need.hpp"
 #include "core/scene_names.hpp"
+#include "core/scene_range_check.hpp"
+#include "core/scene_ranges.hpp"
 #include "core/size_law.hpp"
 
 namespace carom {
 
 namespace {
-
-// Ids have 32 bits; the rest of them is left to sources.
-constexpr Count most_disks = 4'000'000'000;
 
 void check_length(std::size_t length, Count count, const std::string& where) {
   if (length == count) return;
@@ -43,6 +41,7 @@ void check_sizes_differ(const SizeLaw& radius, const SizeLaw& mass, const std::s
 void check_group(const DiskGroup& group, const std::string& path, const PlaceOfKey& place) {
   const auto at = [&](std::string_view name) { return place(fmt::format("{}.{}", path, name)); };
   check_sizes_differ(group.radius, group.mass, at("radius"));
+  check_positions(group.positions, path, place);
   if (group.positions.kind == PositionLaw::Kind::list) {
     check_length(group.positions.list.size(), group.count, at("positions"));
   }
@@ -118,18 +117,16 @@ void check_growth(const Scene& scene, const PlaceOfKey& place) {
       "expected \"growth\" for every group, or for none");
 }
 
-// Sizes that overflow or vanish when one is derived from the other.
-void check_range(const DiskSize& smallest, const DiskSize& largest, const std::string& path, const PlaceOfKey& place) {
-  const auto good = [](double low, double high) { return low > 0.0 && std::isfinite(high); };
-  constexpr std::string_view expected = "expected finite numbers above 0";
-  const std::string radius = place(fmt::format("{}.radius", path));
-  if (!good(smallest.radius, largest.radius)) {
-    fail_input(radius, fmt::format("comes out between {} and {}", smallest.radius, largest.radius), expected);
-  }
-  if (!good(smallest.mass, largest.mass)) {
-    fail_input(place(fmt::format("{}.mass", path)),
-               fmt::format("comes out between {} and {}", smallest.mass, largest.mass), expected);
-  }
+// Sizes out of range: drawn, from a list or an earlier run, or derived from each other.
+void check_sizes(const DiskSize& smallest, const DiskSize& largest, const std::string& path, const PlaceOfKey& place) {
+  const auto check = [&](std::string_view name, Dimension dimension, double low, double high) {
+    if (low > 0.0 && in_range(dimension, low) && in_range(dimension, high)) return;
+    const std::string what =
+        low == high ? fmt::format("comes out as {}", low) : fmt::format("comes out between {} and {}", low, high);
+    fail_input(place(fmt::format("{}.{}", path, name)), what, expected_range(dimension));
+  };
+  check("radius", Dimension::length, smallest.radius, largest.radius);
+  check("mass", Dimension::mass, smallest.mass, largest.mass);
 }
 
 void check_axis(double length, bool periodic, double radius, std::string_view name, const PlaceOfKey& place) {
@@ -156,13 +153,29 @@ std::pair<DiskSize, DiskSize> source_sizes(const Source& source) {
   return {size(false), size(true)};
 }
 
-void check_region(const Source& source, const Domain& box, const std::string& where) {
+// Is there a place in [low, high] for the centre of a disk of this radius?
+bool fits_along(double low, double high, double length, bool periodic, double radius) {
+  if (periodic) return true;
+  const double first = std::max(low, radius);
+  const double last = std::min(high, length - radius);
+  return low < high ? first < last : first <= last;
+}
+
+// radius: the largest that the source can give. A larger disk than fits would hold up all behind it.
+void check_region(const Source& source, const Domain& box, double radius, const std::string& where) {
   const Vec2 low = source.region_low;
   const Vec2 high = source.region_high;
   constexpr std::string_view expected = "expected [x0, y0, x1, y1] with x0 <= x1, y0 <= y1, inside the box";
   if (!(low.x <= high.x && low.y <= high.y)) fail_input(where, "its corners are not in order", expected);
-  if (low.x >= 0.0 && low.y >= 0.0 && high.x <= box.width && high.y <= box.height) return;
-  fail_input(where, fmt::format("reaches out of the box of {} x {}", box.width, box.height), expected);
+  if (!(low.x >= 0.0 && low.y >= 0.0 && high.x <= box.width && high.y <= box.height)) {
+    fail_input(where, fmt::format("reaches out of the box of {} x {}", box.width, box.height), expected);
+  }
+  if (fits_along(low.x, high.x, box.width, box.periodic_x(), radius) &&
+      fits_along(low.y, high.y, box.height, box.periodic_y(), radius)) {
+    return;
+  }
+  fail_input(where, fmt::format("is no place for the centre of a disk of radius {}: it lies nearer to a side", radius),
+             "expected a region that reaches a radius or more from each side that is not periodic");
 }
 
 }  // namespace
@@ -207,25 +220,38 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
 }
 
 double check_box(const Scene& scene, const PlaceOfKey& place) {
+  check_box_range(scene, place);
+  double smallest = 0.0;  // radius; 0: no disk yet
   double largest = 0.0;
+  const auto add = [&](const DiskSize& low, const DiskSize& high) {
+    smallest = smallest > 0.0 ? std::min(smallest, low.radius) : low.radius;
+    largest = std::max(largest, high.radius);
+  };
   DiskId first_id = 0;
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     const DiskGroup& group = scene.groups[g];
     if (group.count == 0) continue;
+    const std::string path = fmt::format("disks.{}", g);
     const SizeSummary sizes = summarise_sizes(group, scene.seed, first_id);
-    check_range(sizes.smallest, sizes.largest, fmt::format("disks.{}", g), place);
-    largest = std::max(largest, sizes.largest.radius);
+    check_sizes(sizes.smallest, sizes.largest, path, place);
+    check_velocities(scene, group.velocities, sizes.smallest.mass, path, place);
+    add(sizes.smallest, sizes.largest);
     first_id += static_cast<DiskId>(group.count);
   }
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
+    const Source& source = scene.sources[k];
     const std::string path = fmt::format("sources.{}", k);
-    const auto [low, high] = source_sizes(scene.sources[k]);
-    check_range(low, high, path, place);
-    largest = std::max(largest, high.radius);
-    if (!scene.sources[k].side) check_region(scene.sources[k], scene.box, place(path + ".region"));
+    const auto [low, high] = source_sizes(source);
+    check_sizes(low, high, path, place);
+    check_velocities(scene, source.velocities, low.mass, path, place);
+    check_emissions(scene, source, path, place);
+    add(low, high);
+    if (!source.side) check_region(source, scene.box, high.radius, place(path + ".region"));
   }
   check_axis(scene.box.width, scene.box.periodic_x(), largest, "width", place);
   check_axis(scene.box.height, scene.box.periodic_y(), largest, "height", place);
+  check_resolution(scene, smallest, place);
+  check_times(scene, place);
   return largest;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -18,6 +19,7 @@
 #include "core/scene_names.hpp"
 #include "core/scene_output.hpp"
 #include "core/scene_override.hpp"
+#include "core/scene_range_check.hpp"
 #include "core/scene_reader.hpp"
 #include "core/scene_tree.hpp"
 #include "core/size_law.hpp"
@@ -59,6 +61,19 @@ std::uint64_t read_seed(const TableReader& root) {
     root.fail("seed", fmt::format("is {}", in_quotes(text)), expected);
   }
   return seed;
+}
+
+// Shown in one line of pictures, files and messages.
+std::string read_title(const TableReader& root) {
+  constexpr std::ptrdiff_t longest = 1000;
+  std::string title = root.text("title").value_or("");
+  // Bytes of UTF-8 that begin a character.
+  const auto characters =
+      std::count_if(title.begin(), title.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80; });
+  if (characters > longest) {
+    root.fail("title", fmt::format("has {} characters", characters), fmt::format("expected at most {}", longest));
+  }
+  return title;
 }
 
 // How large the scene wants its box: both lengths, or a packing fraction with an aspect.
@@ -280,9 +295,7 @@ void settle_box(Scene& scene, const BoxSize& size, const PlaceOfKey& place) {
   const double aspect = size.aspect.value_or(1.0);
   scene.box.height = std::sqrt(area / aspect);
   scene.box.width = aspect * scene.box.height;
-  const bool good = scene.box.width > 0.0 && scene.box.height > 0.0 && std::isfinite(scene.box.width) &&
-                    std::isfinite(scene.box.height);
-  if (good) return;
+  if (area > 0.0) return;  // check_box looks at the range
   fail_input(place("box.packing_fraction"), fmt::format("gives a box of {} x {}", scene.box.width, scene.box.height),
              "expected disks to take up the box, or width and height");
 }
@@ -301,7 +314,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   const TableReader root(origin, "", tree);
   Scene scene;
   scene.file = name;
-  scene.title = root.text("title").value_or("");
+  scene.title = read_title(root);
   scene.seed = read_seed(root);
   const BoxSize size = read_box(origin, scene.box);
   scene.physics = read_physics(origin);
@@ -318,7 +331,10 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   check_parts(scene, place);
   settle_box(scene, size, place);
   settle_analysis(scene, check_box(scene, place), place);
-  if (scene.run.automatic) choose_run(scene, place);
+  if (scene.run.automatic) {
+    choose_run(scene, place);
+    check_times(scene, place);  // of the step chosen
+  }
   return scene;
 }
 

@@ -53,7 +53,8 @@ constexpr std::string_view velocities_allowed =
 constexpr std::string_view range_allowed = "[low, high] with 0 < low <= high";
 
 constexpr SceneKey keys[] = {
-    {"", "title", text, none, "\"\"", "Shown in messages, movies and files.", R"(title = "gas")"},
+    {"", "title", text, none, "\"\"", "Shown in messages, movies and files.", R"(title = "gas")",
+     "text of at most 1000 characters"},
     {"", "seed", special, none, "1", "Of all random numbers: the same seed, the same run.", "seed = 7",
      "a whole number from 0 to 18446744073709551615"},
     {"", "box", special, none, "required", "The rectangle.", "[box]", "a table"},

@@ -80,14 +80,15 @@ SizeLaw read_uniform_size(const TableReader& law, const toml::node& node) {
   return size;
 }
 
-SizeLaw read_size_list(const TableReader& owner, const std::string& key, const toml::node& node) {
+SizeLaw read_size_list(const TableReader& owner, const std::string& key, Dimension dimension, const toml::node& node) {
   SizeLaw size;
   size.kind = SizeLaw::Kind::list;
   size.values = as_numbers(owner.origin(), key, node);
   for (std::size_t i = 0; i < size.values.size(); ++i) {
-    if (size.values[i] > 0.0) continue;
-    owner.origin().fail(fmt::format("{}.{}", key, i), fmt::format("is {}", size.values[i]),
-                        "expected a number above 0");
+    const double value = size.values[i];
+    if (value > 0.0 && in_range(dimension, value)) continue;
+    owner.origin().fail(fmt::format("{}.{}", key, i), fmt::format("is {}", value),
+                        value > 0.0 ? expected_range(dimension) : "expected a number above 0");
   }
   return size;
 }
@@ -155,7 +156,7 @@ SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_v
       other_key);
   const toml::node& node = owner.require(name, expected);
   const std::string key = owner.key(name);
-  if (node.is_array()) return read_size_list(owner, key, node);
+  if (node.is_array()) return read_size_list(owner, key, name == "radius" ? Dimension::length : Dimension::mass, node);
   SizeLaw law;
   if (const toml::table* table = node.as_table()) {
     if (is_frame(*table)) {

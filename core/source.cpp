@@ -1,11 +1,15 @@
 #include "core/source.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/boundary.hpp"
+#include "core/check.hpp"
 #include "core/disk_pair.hpp"
 #include "core/random.hpp"
+#include "core/scene_ranges.hpp"
 #include "core/size_law.hpp"
 
 namespace carom {
@@ -119,6 +123,12 @@ void emit_from_source(const Scene& scene, State& state, std::size_t index, Count
   if (scene.sources[index].limit) due = std::min(due, *scene.sources[index].limit);
   Count& emitted = state.sources[index].emitted;
   while (emitted < due) {
+    if (state.next_id >= most_disks) {
+      throw PhysicsError(
+          fmt::format("sources: {} disks have been in the run, and there is no id for another; use a "
+                      "lower rate, or a limit",
+                      state.next_id));
+    }
     const Disk disk = draw_emission(scene, index, state.next_id, emitted, step);
     if (!inside(scene.box, disk) || !room(disk)) break;
     append(state.disks, disk);

@@ -113,7 +113,7 @@ TEST(SceneKeys, EveryExampleIsAScenes) {
     std::string text(full_scene);
     if (key.name == "packing_fraction" || key.name == "aspect") {
       text = test::replaced(text, "width = 100.0\nheight = 100.0", "packing_fraction = 0.1");
-      changes.push_back({"sources.0.region", "[0, 0, 1, 1]"});
+      changes.push_back({"sources.0.region", "[1, 1, 2, 2]"});
     }
     if (const auto more = companions.find(key.name); more != companions.end()) {
       changes.insert(changes.end(), more->second.begin(), more->second.end());
