@@ -33,7 +33,8 @@ constexpr SceneTable tables[] = {
     {"growth", "`[growth]`", "How `positions = \"growth\"` goes about it; only where some group grows."},
     {"sources", "`[[sources]]`",
      "Disks that come while the run goes on, the k-th at time k / `rate`, through a side or anywhere in a region. A "
-     "disk that would overlap another waits until there is room; how many wait is counted (`waiting`)."},
+     "disk that would overlap another waits until there is room; how many wait is counted (`waiting`), and a run warns "
+     "at its end where more than a twentieth of them do."},
     {"run", "`[run]`", "How the scene is run."},
     {"output", "`[output]`", "What a run writes."},
     {"analysis", "`[analysis]`", "What a run measures on its way, see [output.md](output.md#measuring-on-the-way)."},
