@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t most_attempts = 50;
 constexpr int fault_status = 1;
-constexpr rlim_t most_memory = rlim_t{4} << 30U;
+constexpr rlim_t most_memory = rlim_t{2} << 30U;
 
 struct Options {
   std::uint32_t scenes = 0;

@@ -106,7 +106,7 @@ void add_gas(Crowd& crowd, Dice& dice, const Units& units, std::size_t disks) {
     const bool square = dice.chance(0.5);
     add_group(crowd, dice, units, disks, square ? "square" : "hexagonal", units.length);
     const double equal = crowd.area / (static_cast<double>(disks) * pi * crowd.largest * crowd.largest);
-    crowd.packing_fraction = equal * dice.in(0.02, square ? 0.72 : 0.86);
+    crowd.packing_fraction = equal * dice.in(0.1, square ? 0.74 : 0.86);
     return;
   }
   const std::size_t groups = std::min<std::size_t>(disks, 1 + dice.below(3));
@@ -115,7 +115,7 @@ void add_gas(Crowd& crowd, Dice& dice, const Units& units, std::size_t disks) {
     const double largest = units.length * (g == 0 ? 1.0 : dice.in(0.1, 1.0));
     add_group(crowd, dice, units, count, "random", largest);
   }
-  crowd.packing_fraction = dice.chance(0.2) ? dice.decades(-5, -1) : dice.in(0.02, 0.45);
+  crowd.packing_fraction = dice.chance(0.1) ? dice.decades(-5, -1) : dice.in(0.1, 0.47);
 }
 
 void add_giants(Crowd& crowd, Dice& dice, const Units& units) {

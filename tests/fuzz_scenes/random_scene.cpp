@@ -101,10 +101,12 @@ void choose_physics(Dice& dice, Draft& draft) {
 
 void choose_times(Dice& dice, Draft& draft) {
   const bool crowd = draft.cast == Cast::crowd;
+  const bool pile = draft.cast == Cast::pile;
   const bool exact = draft.method == "exact";
-  const double share = dice.chance(0.85) ? dice.pick({0.03, 0.1, 0.3, 0.5, 1.0}) : dice.pick({1e-6, 1e-3, 3.0, 10.0});
+  const double share =
+      dice.chance(0.85) ? dice.pick({0.03, 0.1, 0.3, 0.5, 0.7, 1.0}) : dice.pick({1e-6, 1e-3, 3.0, 10.0});
   const double dt = rounded(share * draft.crowd.smallest / draft.speed);
-  const auto steps = static_cast<double>(crowd ? 3 + dice.below(6) : 5 + dice.below(60));
+  const auto steps = static_cast<double>(crowd ? 3 + dice.below(6) : pile ? 20 + dice.below(300) : 10 + dice.below(70));
   const double part = dice.chance(0.7) ? 0.0 : dice.unit();  // of a step, left over at the end
   const bool brownian = dice.chance(0.18);
   if (!exact || brownian) draft.dt = dt;

@@ -54,14 +54,22 @@ void Sanity::look(const State& state, const std::string& warnings) {
 
 void Sanity::look_at_places(const State& state) {
   const Disks& d = state.disks;
+  std::string outside;
   for (std::size_t i = 0; i < d.size(); ++i) {
     const bool numbers =
         std::isfinite(d.x[i]) && std::isfinite(d.y[i]) && std::isfinite(d.vx[i]) && std::isfinite(d.vy[i]);
     const bool inside = d.x[i] >= 0.0 && d.x[i] <= scene_.box.width && d.y[i] >= 0.0 && d.y[i] <= scene_.box.height;
     if (numbers && inside) continue;
-    blame(state, fmt::format("disk {} at ({}, {}) with velocity ({}, {})", d.id[i], d.x[i], d.y[i], d.vx[i], d.vy[i]));
-    return;
+    outside = fmt::format("disk {} at ({}, {}) with velocity ({}, {})", d.id[i], d.x[i], d.y[i], d.vx[i], d.vy[i]);
+    if (!numbers || scene_.run.method == Method::exact) blame(state, outside);
   }
+  say_later(state, unsaid_place_, outside);
+}
+
+// What a disk meets on its way out of a collision is found a step later, and warned of then.
+void Sanity::say_later(const State& state, std::string& unsaid, const std::string& found) {
+  if (!unsaid.empty() && warnings_.empty()) blame(state, unsaid + ", a step ago and in silence");
+  unsaid = found;
 }
 
 void Sanity::look_at_counts(const State& state) {
@@ -97,11 +105,7 @@ void Sanity::look_at_overlaps(const State& state) {
     if (beyond > allowed && !through_sinks) blame(state, fmt::format("a disk is beyond a wall by {} radii", beyond));
     return;
   }
-  // What a disk meets on its way out of a collision is found a step later.
-  if (unsaid_overlap_ > 0.0 && warnings_.empty()) {
-    blame(state, fmt::format("an overlap of {} a step ago, in silence", unsaid_overlap_));
-  }
-  unsaid_overlap_ = overlap > silent_overlap ? overlap : 0.0;
+  say_later(state, unsaid_overlap_, overlap > silent_overlap ? fmt::format("an overlap of {}", overlap) : "");
 }
 
 // Momentum and energy, where nothing gives or takes any.

@@ -22,6 +22,7 @@ class Sanity {
 
  private:
   void blame(const State& state, const std::string& what);
+  void say_later(const State& state, std::string& unsaid, const std::string& found);
   void look_at_places(const State& state);
   void look_at_overlaps(const State& state);
   void look_at_counts(const State& state);
@@ -34,7 +35,7 @@ class Sanity {
   Energy energy_;      // at the start
   Momentum momentum_;  // at the start
   double largest_energy_ = 0.0, largest_momentum_ = 0.0;
-  double unsaid_overlap_ = 0.0;  // after the step before
+  std::string unsaid_place_, unsaid_overlap_;  // of the step before
   std::string warnings_, fault_;
 };
 

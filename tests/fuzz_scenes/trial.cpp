@@ -25,8 +25,8 @@ namespace carom::fuzz {
 namespace {
 
 // Steps that are looked at, and disks times steps.
-constexpr std::size_t most_steps = 100;
-constexpr std::size_t most_work = 20'000;
+constexpr std::size_t most_steps = 250;
+constexpr std::size_t most_work = 30'000;
 constexpr std::size_t least_steps = 8;
 
 struct Variant {
