@@ -75,6 +75,10 @@ bool CheckpointKeeper::look(const State& state, double t_end, double step_s) {
   return !stop;
 }
 
+bool CheckpointKeeper::wants_stop() const {
+  return stop_wished() || seconds() > max_walltime_;
+}
+
 void CheckpointKeeper::write(const State& state, double step_s) {
   write(state, step_s, outputs_ != nullptr ? outputs_->mark() : OutputMark{});
 }

@@ -30,6 +30,9 @@ class CheckpointKeeper {
   // Throws RunError where it cannot be written; the ones before stay.
   bool look(const State& state, double t_end, double step_s);
 
+  // Is the run to stop, by a signal or since its time is up? To be asked at any time, by any thread.
+  bool wants_stop() const;
+
   // Writes one now.
   void write(const State& state, double step_s);
   void write(const State& state, double step_s, OutputMark mark);

@@ -26,6 +26,8 @@ namespace {
 
 // Time spent on trying the scene's first steps, in seconds: long enough to tell the cost, short enough to wait for.
 constexpr double trial_seconds = 0.2;
+// A step that takes longer is given up; seconds.
+constexpr double longest_trial = 60.0;
 
 using Clock = std::chrono::steady_clock;
 
@@ -92,6 +94,7 @@ double seconds_with_sources(const Scene& scene, const Population& population, do
 // Runs the first steps, and extrapolates.
 void try_steps(Engine& engine, const Scene& scene, Findings& f) {
   const auto start = Clock::now();
+  engine.set_watch([&] { return seconds_since(start) < longest_trial; });
   double seconds = 0.0;
   try {
     while (engine.state().time < scene.run.t_end && seconds < trial_seconds) {
@@ -101,6 +104,7 @@ void try_steps(Engine& engine, const Scene& scene, Findings& f) {
   } catch (const PhysicsError& error) {
     f.stopped = error.what();
   }
+  engine.set_watch({});
   const double time = engine.state().time;
   f.step_seconds = time > 0.0 ? seconds * scene.run.t_end / time : std::numeric_limits<double>::infinity();
   look_as_a_run_does(engine, scene);

@@ -121,6 +121,7 @@ double run_watched(Engine& engine, const RunTask& task, Results* results, Checkp
     warn(news, progress, silent);
     told.insert(told.end(), news.begin(), news.end());
   };
+  observer.go_on = [&] { return !keeper.wants_stop(); };
   observer.pulse = [&](double seconds) {
     step_s = seconds;
     take_news(task.quiet);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 
@@ -43,6 +44,34 @@ Watcher watcher(const std::function<void(const Disks&, double)>& look, const Sce
   if (last) w.schedule.made(*last - start);
   return w;
 }
+
+// Looks at the clock, and asks whether to go on, while a step is made; what it finds out ends the batch of steps.
+class StepWatch {
+ public:
+  StepWatch(Engine& engine, const RunObserver& observer) : engine_(engine) {
+    engine_.set_watch([this, &observer] {
+      if (observer.go_on && !observer.go_on()) stopped_ = true;
+      if (seconds() > pulse_seconds) late_ = true;
+      return !stopped_;
+    });
+  }
+  StepWatch(const StepWatch&) = delete;
+  StepWatch& operator=(const StepWatch&) = delete;
+  ~StepWatch() { engine_.set_watch({}); }
+
+  void begin_batch() {
+    start_ = Clock::now();
+    late_ = false;
+  }
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  bool ends_batch() const { return stopped_ || late_; }
+  bool stopped() const { return stopped_; }
+
+ private:
+  Engine& engine_;
+  Clock::time_point start_;
+  std::atomic<bool> stopped_{false}, late_{false};
+};
 
 // Shows the disks to whom they are due.
 class FrameMaker {
@@ -87,18 +116,20 @@ double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observe
   // Steps between two looks at the clock: reading it costs as much as a step of two disks. How many they are depends on
   // the machine's speed, but nothing that they compute does.
   Count batch = 1;
+  StepWatch watch(engine, observer);
   while (engine.state().time < scene.run.t_end) {
-    const auto start = Clock::now();
+    watch.begin_batch();
     for (Count k = 0; k < batch && engine.state().time < scene.run.t_end && !frames.due(); ++k) {
+      if (watch.ends_batch()) break;
       if (observer.stepped && k > 0) observer.stepped();
       engine.step();
     }
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = watch.seconds();
     step_seconds += seconds;
     if (seconds < 0.5 * pulse_seconds) batch = std::min(2 * batch, most_steps_between_looks);
     if (seconds > pulse_seconds && batch > 1) batch /= 2;
     frames.make_due();
-    if (observer.stepped) observer.stepped();
+    if (observer.stepped && !watch.stopped()) observer.stepped();
     if (observer.pulse && !observer.pulse(step_seconds)) break;
   }
   // What is left to do has needs of its own: sums, checkpoints, plots.

@@ -20,6 +20,9 @@ struct RunObserver {
   // Between steps, about a hundred times a second, and once more at the end, with the seconds spent in steps so far.
   // All frames that are due have been made then. Returns whether to go on.
   std::function<bool(double)> pulse;
+  // Asked within long steps too, by any thread: may the step go on? Where not, the run stands where its last whole step
+  // ended, and pulse is asked.
+  std::function<bool()> go_on;
   // Time of the last frame (moment) that was made before, in a run that goes on from a checkpoint.
   std::optional<double> last_frame, last_sample;
 };

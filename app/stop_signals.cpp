@@ -1,5 +1,6 @@
 #include "app/stop_signals.hpp"
 
+#include <atomic>
 #include <csignal>
 
 namespace carom {
@@ -7,8 +8,9 @@ namespace carom {
 namespace {
 
 // What a handler may touch has to be static: it is called with a number and nothing else.
-volatile std::sig_atomic_t stop_signal = 0;
-volatile std::sig_atomic_t checkpoint_wanted = 0;
+std::atomic<int> stop_signal = 0;
+std::atomic<int> checkpoint_wanted = 0;
+static_assert(std::atomic<int>::is_always_lock_free);  // as a handler needs
 
 extern "C" void note_signal(int signal) {
   if (signal == SIGUSR1) {
@@ -43,6 +45,10 @@ Wish take_wish() {
   if (checkpoint_wanted == 0) return Wish::nothing;
   checkpoint_wanted = 0;
   return Wish::checkpoint;
+}
+
+bool stop_wished() {
+  return stop_signal != 0;
 }
 
 std::string_view stop_signal_name() {

@@ -1,4 +1,5 @@
-// Signals as wishes: what arrives while a run goes on is noted, and asked for between two steps.
+// Signals as wishes: what arrives while a run goes on is noted, and asked for between two steps and, a stop, within
+// long ones.
 #pragma once
 
 #include <string_view>
@@ -18,6 +19,9 @@ void catch_signals();
 
 // The strongest wish since the last call. A stop stays a wish.
 Wish take_wish();
+
+// Is a stop wished for? Any thread may ask.
+bool stop_wished();
 
 // "SIGTERM", after a wish to stop.
 std::string_view stop_signal_name();

@@ -21,6 +21,7 @@ class StrictEngine final : public Engine {
   double disks_at(double t, Disks& out) const override { return engine_->disks_at(t, out); }
   void forget_paths() override { engine_->forget_paths(); }
   void release_memory() override { engine_->release_memory(); }
+  void set_watch(const std::function<bool()>& go_on) override { engine_->set_watch(go_on); }
   const PhaseTimes& phase_times() const override { return engine_->phase_times(); }
   std::vector<std::string> take_warnings() override {
     std::vector<std::string> warnings = std::exchange(warnings_, {});

@@ -1,6 +1,7 @@
 // What the command line drives: any method, reference or parallel, behind four calls.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,6 +38,10 @@ class Engine {
   // Gives back memory that only steps need: disks_at then gives state(), and a further step makes all of it anew.
   // Changes no bit of the state.
   virtual void release_memory() {}
+
+  // Asked now and then within long steps, from any thread: shall the step go on? Where not, step() may return with the
+  // step not made, and state() that of its start. Empty: always. Changes no bit of the state.
+  virtual void set_watch(const std::function<bool()>& /*go_on*/) {}
 
   virtual const PhaseTimes& phase_times() const = 0;
 

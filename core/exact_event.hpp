@@ -81,18 +81,41 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
   return outcome;
 }
 
-// Inelastic collapse: more than this many events of one disk within this share of the window's length. Honest bursts
-// are far from it: 3141 collisions of a light disk between a wall and a heavy one take a millionth of their approach;
-// elastic clusters would have to be closed to 1e-14 of a diameter.
+// When an event happens and to which disks.
+struct EventMark {
+  double time = never;      // in the window
+  DiskId id1 = 0, id2 = 0;  // id2 may be a wall_partner
+
+  // The canonical order.
+  bool before(const EventMark& e) const {
+    if (time != e.time) return time < e.time;
+    return id1 != e.id1 ? id1 < e.id1 : id2 < e.id2;
+  }
+};
+
+// May any of the scene's contacts lose energy?
+inline bool dissipates(const Domain& box, double restitution) {
+  return restitution < 1.0 || (box.wall_restitution < 1.0 && box.has(SideKind::wall));
+}
+
+// Is this an impact that loses energy? partner: the second disk's id, or a wall_partner.
+inline bool loses_energy(const ExactRules& rules, DiskId partner, const Impact& impact) {
+  const double e = is_wall(partner) ? rules.box.wall_restitution : rules.restitution;
+  return e < 1.0 && impact.happened && !impact.amiss;
+}
+
+// Inelastic collapse: more than this many impacts of one disk that lose energy, within this share of the window's
+// length. Elastic ones do not count: 15,707,963 collisions of a light disk between a wall and a heavy one 10^14 times
+// its mass are as many as there are, and end.
 inline constexpr std::uint32_t collapse_events = 256;
 inline constexpr double collapse_share = 1e-12;
 
-// Counts a disk's events within a vanishing time.
+// Counts a disk's inelastic impacts within a vanishing time.
 struct Burst {
   double begin = -never;  // time in the window
   std::uint32_t events = 0;
 
-  // Returns true when the events pile up.
+  // Returns true when the impacts pile up.
   bool add(double s, double window) {
     if (s - begin > collapse_share * window) *this = {s, 0};
     return ++events > collapse_events;

@@ -25,9 +25,16 @@ class ReferenceExact final : public Engine {
     start_window();
     SpeedTally speeds;
     speeds.add(state_.disks, 0, state_.disks.size());
-    const WindowPlan plan = plan_window(scene_, state_, summarise_speeds(speeds, state_.disks.size()), scale_);
+    WindowPlan plan = plan_window(scene_, state_, summarise_speeds(speeds, state_.disks.size()), scale_);
     const PhaseTimer timer(times_, "window");
-    WindowResult result = run_window(exact_rules(scene_, state_.disks), state_, plan);
+    const ExactRules rules = exact_rules(scene_, state_.disks);
+    has_paths_ = false;
+    WindowResult result = run_window(rules, state_, plan, go_on_);
+    while (result.crowded && !result.given_up) {
+      plan = shortened(plan, rules, *result.crowded);
+      result = run_window(rules, state_, plan, go_on_);
+    }
+    if (result.given_up) return;
     last_plan_ = plan;
     if (log_ != nullptr) log_->insert(log_->end(), result.collisions.begin(), result.collisions.end());
     paths_ = std::move(result.paths);
@@ -57,6 +64,7 @@ class ReferenceExact final : public Engine {
     return t;
   }
 
+  void set_watch(const std::function<bool()>& go_on) override { go_on_ = go_on; }
   const PhaseTimes& phase_times() const override { return times_; }
   std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }
 
@@ -97,6 +105,7 @@ class ReferenceExact final : public Engine {
     state_.counters.removed += remove_marked(d, result.gone);
     finish_window(state_, plan, result.tally, scale_);
     validity_.see_step(scene_, {{}, {}, {}, result.tally.amiss}, state_);
+    check_pace(state_, plan);
   }
 
   Scene scene_;
@@ -104,6 +113,7 @@ class ReferenceExact final : public Engine {
   double scale_;
   Validity validity_;
   CollisionLog* log_;
+  std::function<bool()> go_on_;
   PhaseTimes times_;
   WindowPlan last_plan_;
   WindowPaths paths_;

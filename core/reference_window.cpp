@@ -9,6 +9,8 @@ namespace carom {
 
 namespace {
 
+constexpr Count events_between_looks = 1024;
+
 struct Event {
   double time;
   DiskId id1, id2;       // id2 may be a wall (a side of any kind)
@@ -27,10 +29,12 @@ struct Later {
 
 class EventLoop {
  public:
-  EventLoop(const ExactRules& rules, const State& state, const WindowPlan& plan, double travel, WindowResult& result)
+  EventLoop(const ExactRules& rules, const State& state, const WindowPlan& plan, const std::function<bool()>& go_on,
+            double travel, WindowResult& result)
       : rules_(rules),
         disks_(state.disks),
         plan_(plan),
+        go_on_(go_on),
         travel_(travel),
         near_(state.disks, rules.box, travel),
         result_(result),
@@ -41,16 +45,23 @@ class EventLoop {
   // Returns the longest way that any disk went; beyond `travel` the neighbourhood was too small and the result is void.
   double run() {
     for (std::uint32_t i = 0; i < disks_.size(); ++i) predict(i, true);
-    while (!queue_.empty()) {
+    double end = plan_.length;
+    for (Count taken = 1; !queue_.empty() && !result_.crowded && !collapse_; ++taken) {
       const Event e = queue_.top();
       queue_.pop();
+      if (taken % events_between_looks == 0 && go_on_ && !go_on_()) {
+        result_.given_up = true;
+        return farthest_;
+      }
       if (version_[e.i1] != e.version1 || version_[e.i2] != e.version2) continue;
       happen(e);
       if (farthest_ > travel_) return farthest_;
+      if (result_.crowded || collapse_) end = e.time;
     }
     for (std::uint32_t i = 0; i < disks_.size(); ++i) {
-      if (result_.gone[i] == 0) add_travel(i, plan_.length);
+      if (result_.gone[i] == 0) add_travel(i, end);
     }
+    if (collapse_ && !result_.crowded && farthest_ <= travel_) fail_collapse(*collapse_, plan_.start);
     return farthest_;
   }
 
@@ -84,16 +95,20 @@ class EventLoop {
     result_.tally.add(e.id2, outcome);
     if (pair && outcome.happened) result_.collisions.emplace_back(e.id1, e.id2);
     if (!pair && rules_.box.side(wall_side(e.id2)) == SideKind::sink) result_.gone[e.i1] = 1;
-    begin_segment(e, e.i1);
-    if (pair) begin_segment(e, e.i2);
+    const bool inelastic = loses_energy(rules_, e.id2, outcome);
+    begin_segment(e, e.i1, inelastic);
+    if (pair) begin_segment(e, e.i2, inelastic);
     if (pair) predict(e.i2, false);
     if (result_.gone[e.i1] == 0) predict(e.i1, false);
   }
 
-  void begin_segment(const Event& e, std::uint32_t i) {
+  void begin_segment(const Event& e, std::uint32_t i, bool inelastic) {
     ++version_[i];
     result_.paths.later.push_back({i, path(i), result_.gone[i] != 0});
-    if (burst_[i].add(e.time, plan_.length)) fail_collapse(e.id1, e.id2, plan_.start + e.time);
+    const EventMark mark{e.time, e.id1, e.id2};
+    const bool many = version_[i] > most_paths_of_disk || result_.paths.later.size() > most_paths(disks_.size());
+    if (many) result_.crowded = mark;
+    if (inelastic && burst_[i].add(e.time, plan_.length)) collapse_ = mark;
   }
 
   // Adds the way along the present segment up to time s; under gravity a bound.
@@ -107,6 +122,7 @@ class EventLoop {
   const ExactRules& rules_;
   const Disks& disks_;
   const WindowPlan& plan_;
+  const std::function<bool()>& go_on_;
   const double travel_;
   const Neighbourhood near_;
   WindowResult& result_;
@@ -114,6 +130,7 @@ class EventLoop {
   std::vector<std::uint32_t> version_;
   std::vector<double> travelled_;
   std::vector<Burst> burst_;
+  std::optional<EventMark> collapse_;
   double farthest_ = 0.0;
 };
 
@@ -141,12 +158,13 @@ double guess_travel(const ExactRules& rules, const Disks& d, double length) {
 
 }  // namespace
 
-WindowResult run_window(const ExactRules& rules, const State& state, const WindowPlan& plan) {
+WindowResult run_window(const ExactRules& rules, const State& state, const WindowPlan& plan,
+                        const std::function<bool()>& go_on) {
   double travel = guess_travel(rules, state.disks, plan.length);
   for (;;) {
     WindowResult result = fresh_result(state);
-    const double farthest = EventLoop(rules, state, plan, travel, result).run();
-    if (farthest <= travel) return result;
+    const double farthest = EventLoop(rules, state, plan, go_on, travel, result).run();
+    if (farthest <= travel || result.given_up) return result;
     travel = 2.0 * farthest;
   }
 }

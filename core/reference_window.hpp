@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/collision_log.hpp"
@@ -29,10 +31,13 @@ struct WindowResult {
   std::vector<unsigned char> gone;  // left through a sink
   ImpactTally tally;
   CollisionLog collisions;
+  std::optional<EventMark> crowded;  // the window is to be shortened: nothing of it counts
+  bool given_up = false;             // nor where go_on said no
 };
 
 // Finds and resolves every event of [0, plan.length]; `state` is that of the window's start and is not changed.
-// Throws PhysicsError at inelastic collapse.
-WindowResult run_window(const ExactRules& rules, const State& state, const WindowPlan& plan);
+// go_on: as in Engine::set_watch. Throws PhysicsError at inelastic collapse.
+WindowResult run_window(const ExactRules& rules, const State& state, const WindowPlan& plan,
+                        const std::function<bool()>& go_on);
 
 }  // namespace carom

@@ -30,9 +30,9 @@ struct ContactLoad {
   double force = 0.0;  // mass length / time^2, > 0
 };
 
-// How far time had come when rollback was last seen to advance (core/rollback_frame.hpp).
+// How far time had come when the method was last seen to advance (core/rollback_frame.hpp, core/window_plan.hpp).
 struct StallWatch {
-  Count frames = 0;  // since then
+  Count frames = 0;  // since then; of exact: crowded windows in a row
   double since = 0.0;
 };
 
@@ -65,9 +65,9 @@ struct State {
   bool step_begun = false;           // pairwise: the coming step failed after its sources and Brownian draws
   std::vector<SourceState> sources;  // one per scene source
   std::vector<ContactLoad> loads;    // in order of (id1, id2); empty unless the scene settles
-  StallWatch stall;                  // rollback
+  StallWatch stall;                  // rollback, exact
   ValidityCounts validity;           // counted on in a run that is taken up again, so that it warns of the same
-  double window = 0.0;               // exact: length meant for the next window; time, 0 before the first
+  double window = 0.0;  // exact: length meant for the next window; time, 0 before the first, < 0 after a crowded one
   std::vector<double> last_contact;  // exact with the TC model: by id, time of the last collision; else empty
 };
 

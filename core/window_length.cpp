@@ -55,9 +55,20 @@ double next_window(double window, double elapsed, Count events, std::size_t disk
 }
 
 double clamped_window(double window, double longest) {
+  if (window < 0.0) return std::min(-window, longest);
   if (longest == HUGE_VAL) return longest;
   if (!(window > 0.0) || window == HUGE_VAL) window = first_share * longest;
-  return std::clamp(window, shortest_share * longest, longest);
+  return std::clamp(window, least_window(longest), longest);
+}
+
+double least_window(double longest) {
+  return shortest_share * longest;
+}
+
+Count most_paths(std::size_t disks) {
+  constexpr Count few = 1U << 16;
+  constexpr Count of_a_disk = 32;
+  return std::max(few, of_a_disk * static_cast<Count>(disks));
 }
 
 }  // namespace carom

@@ -36,8 +36,16 @@ double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_
 // most a factor of two at a time. window: the length that was meant before anything cut it short.
 double next_window(double window, double elapsed, Count events, std::size_t disks);
 
-// `window` (0: the first one) kept within longest / 512 and longest. A window that is too short for its events only
-// holds more of them, so the lower bound costs nothing and inelastic collapse cannot shrink windows to nothing.
+// `window` (0: the first one) kept within least_window and longest. A window that is longer than its events ask for
+// only holds more of them, so that inelastic collapse cannot shrink windows to nothing. Negative: a length below that,
+// since a longer window was crowded.
 double clamped_window(double window, double longest);
+double least_window(double longest);
+
+// A window is crowded when a disk begins more than most_paths_of_disk paths in it, or all disks together more than
+// most_paths; it is then made shorter. So every window ends, and the paths that frames are read from stay within 1.8 kB
+// a disk, or 4 MB.
+inline constexpr std::uint32_t most_paths_of_disk = 1U << 15;
+Count most_paths(std::size_t disks);
 
 }  // namespace carom

@@ -14,6 +14,9 @@ struct WindowPlan {
   double length = 0.0;  // > 0
   double end = 0.0;     // absolute time; a cut's own value where the window ends at one
   double meant = 0.0;   // length before a cut shortened it
+  double least = 0.0;   // length below which only crowded windows go
+  double pace = 0.0;    // mean length of windows below which time all but stands still
+  bool tc = false;      // the TC model makes collisions elastic
 };
 
 ExactRules exact_rules(const Scene& scene, const Disks& disks);
@@ -22,10 +25,17 @@ ExactRules exact_rules(const Scene& scene, const Disks& disks);
 // windows by. Throws PhysicsError when time no longer advances.
 WindowPlan plan_window(const Scene& scene, const State& state, const SpeedSummary& speeds, double scale);
 
+// What takes the place of a window that proved to be crowded (window_length.hpp) with event `last`: half the way to
+// that event. Throws PhysicsError where time cannot be divided any further.
+WindowPlan shortened(const WindowPlan& plan, const ExactRules& rules, const EventMark& last);
+
 // The window is over: time, counters and the length meant for the next one.
 void finish_window(State& state, const WindowPlan& plan, const ImpactTally& tally, double scale);
 
-// The one line about disks id1 and id2 (a wall, perhaps) whose collisions pile up at a time. Status 3.
-[[noreturn]] void fail_collapse(DiskId id1, DiskId id2, double time);
+// After finish_window: throws PhysicsError when a row of crowded windows has hardly advanced time.
+void check_pace(State& state, const WindowPlan& plan);
+
+// The one line about two disks (or a disk and a wall) whose collisions pile up. start: of the window. Status 3.
+[[noreturn]] void fail_collapse(const EventMark& event, double start);
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "core/source.hpp"
 #include "core/step_start.hpp"
 #include "core/validity.hpp"
+#include "core/window_length.hpp"
 #include "core/window_plan.hpp"
 #include "core/window_start.hpp"
 #include "parallel/compact.hpp"
@@ -46,13 +48,16 @@ class ParallelExact final : public Engine {
   void step() override {
     if (!(state_.time < scene_.run.t_end)) return;
     start_window();
-    const WindowPlan plan = plan_window(scene_, state_, summarise(), 1.0);
-    run_window_surely(plan);
+    WindowPlan plan = plan_window(scene_, state_, summarise(), 1.0);
+    has_paths_ = false;
+    if (!run_window_surely(plan)) return;
     store_paths(plan);
+    check_pace(state_, plan);
   }
 
   const State& state() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
+  void set_watch(const std::function<bool()>& go_on) override { field_.go_on = go_on; }
   void forget_paths() override { field_.keeps_paths = false; }
   void release_memory() override;
   const PhaseTimes& phase_times() const override { return times_; }
@@ -66,8 +71,8 @@ class ParallelExact final : public Engine {
   SpeedSummary summarise();
   void list_if_due();
   void load_paths(const WindowPlan& plan);
-  void run_window_surely(const WindowPlan& plan);
-  bool run_window(const WindowPlan& plan, double allowed);
+  bool run_window_surely(WindowPlan& plan);
+  SliceEnd run_window(const WindowPlan& plan, double allowed);
   double slice_end(const WindowPlan& plan, double start) const;
   void store_paths(const WindowPlan& plan);
 
@@ -183,6 +188,7 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
   field_.disks = &d;
   field_.length = plan.length;
   field_.horizon = windows_ahead * plan.length;
+  field_.most_paths = most_paths(n);
   field_.safe_speed2 = lists_.safe_speed2(plan.length, field_.rules.gravity);
   field_.fastest2 = speeds_.largest2;
   if (field_.flight.capacity() < n) resize_in_huge_pages(field_.flight, n);
@@ -193,9 +199,7 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
   const double g = field_.rules.gravity;
   const bool tc = !state_.last_contact.empty();
   field_.last_contact.resize(tc ? n : 0);
-  // Only what dissipates can collapse, or what rests on the floor.
-  const bool may_collapse =
-      field_.rules.restitution < 1.0 || scene_.box.wall_restitution < 1.0 || field_.rules.gravity > 0.0;
+  const bool may_collapse = dissipates(scene_.box, field_.rules.restitution);
   field_.burst.resize(may_collapse ? n : 0);
   executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -215,22 +219,34 @@ void ParallelExact::load_paths(const WindowPlan& plan) {
   });
 }
 
-void ParallelExact::run_window_surely(const WindowPlan& plan) {
+// Runs the window, again where somebody was too fast or where it is crowded, which shortens it. False: given up; the
+// state is as it was.
+bool ParallelExact::run_window_surely(WindowPlan& plan) {
   double allowed = allowed_speed;
-  for (int tries = 0; !run_window(plan, allowed); ++tries) {
-    if (tries == most_tries)
-      throw PhysicsError("exact: no way through the window at t = " + std::to_string(plan.start));
-    sweep_.allow_tiles(tries + 1 < most_tries);
-    allowed *= 2.0 * allowed_speed;
+  int tries = 0;
+  SliceEnd end = run_window(plan, allowed);
+  for (; end == SliceEnd::too_fast || end == SliceEnd::crowded; end = run_window(plan, allowed)) {
     lists_good_ = due_good_ = false;
+    if (end == SliceEnd::crowded) {
+      // Only without tiles events come in canonical order, and tell at which of them it was too much.
+      if (!sweep_.has_tiles(state_.disks.size())) plan = shortened(plan, field_.rules, sweep_.crowding());
+      sweep_.allow_tiles(false);
+      continue;
+    }
+    if (tries++ == most_tries) {
+      throw PhysicsError("exact: no way through the window at t = " + std::to_string(plan.start));
+    }
+    if (tries == most_tries) sweep_.allow_tiles(false);
+    allowed *= 2.0 * allowed_speed;
   }
-  if (sweep_.tiles_allowed()) return;
+  if (end == SliceEnd::given_up) lists_good_ = due_good_ = false;
+  if (!sweep_.tiles_allowed()) lists_good_ = false;
   sweep_.allow_tiles(true);
-  lists_good_ = false;
+  return end == SliceEnd::done;
 }
 
-// False: somebody was faster than allowed, a factor on the speed at the window's start. The state is as it was.
-bool ParallelExact::run_window(const WindowPlan& plan, double allowed) {
+// Unless it is done, the state is as it was. allowed: a factor on the largest speed at the window's start.
+SliceEnd ParallelExact::run_window(const WindowPlan& plan, double allowed) {
   list_if_due();
   load_paths(plan);
   const PhaseTimer timer(times_, "events");
@@ -245,15 +261,14 @@ bool ParallelExact::run_window(const WindowPlan& plan, double allowed) {
   for (double start = 0.0; start < plan.length;) {
     const double end = slice_end(plan, start);
     const double elapsed = std::min(end, plan.length) - start;
-    if (!sweep_.run(start, end, std::min(rate_ * elapsed, 4.0 * static_cast<double>(state_.disks.size())),
-                    plan.start)) {
-      return false;
-    }
+    const double expected = std::min(rate_ * elapsed, 4.0 * static_cast<double>(state_.disks.size()));
+    const SliceEnd reached = sweep_.run(start, end, expected, plan.start);
+    if (reached != SliceEnd::done) return reached;
     rate_ = static_cast<double>(sweep_.events() - before) / elapsed;
     before = sweep_.events();
     start = end;
   }
-  return true;
+  return SliceEnd::done;
 }
 
 // Slices of a window are alike.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/window_length.hpp"
+
 namespace carom {
 
 namespace {
@@ -13,6 +15,7 @@ namespace {
 constexpr std::uint32_t doubt_bit = 0x80000000U;
 // A disk that was to come into doubt and has more time after all, as long as this share of the slice, is asked again.
 constexpr double patience = 1.0 / 16.0;
+constexpr Count events_between_looks = 4096;
 
 }  // namespace
 
@@ -21,8 +24,10 @@ void ExactPart::begin_window() {
   log.clear();
   any_gone = false;
   fastest2 = 0.0;
+  paths = 0;
   collapse.reset();
-  is_void = false;
+  crowded.reset();
+  is_void = given_up = ended = false;
 }
 
 void ExactEvents::run() {
@@ -32,8 +37,17 @@ void ExactEvents::run() {
     lists_.prefetch(disk & ~doubt_bit);
   };
   QueuedEvent e;
-  while (!part_.is_void && !(part_.alone && part_.collapse) && part_.queue.pop(e, name_event, ask_for)) process(e);
+  while (!part_.ended && part_.queue.pop(e, name_event, ask_for)) {
+    process(e);
+    if (part_.until_look-- == 0) ask_to_go_on();
+  }
   part_.fastest2 = std::max(part_.fastest2, scan_.fastest2());
+}
+
+void ExactEvents::ask_to_go_on() {
+  part_.until_look = events_between_looks;
+  if (!field_.go_on || field_.go_on()) return;
+  part_.given_up = part_.ended = true;
 }
 
 // The ids of the event that the disk is due for. What is void by now may get any.
@@ -229,15 +243,17 @@ void ExactEvents::meet_side(std::uint32_t i, double time) {
   const DiskId partner = field_.flight[i].partner;
   const Side side = wall_side(partner);
   ExactDisk now = disk(i);
-  part_.tally.add(partner, meet_side_at(field_.rules, time, side, field_.disks->mass_of(i), now));
+  const Impact impact = meet_side_at(field_.rules, time, side, field_.disks->mass_of(i), now);
+  part_.tally.add(partner, impact);
   const bool gone = field_.rules.box.side(side) == SideKind::sink;
-  begin_path(i, now, gone);
+  const EventMark event{time, field_.flight[i].id, partner};
+  begin_path(i, now, gone, event);
   if (gone) {
     expect(i, never, nobody, 0, 0);
   } else {
     look(i, time);
   }
-  count_burst(i, {time, field_.flight[i].id, partner});
+  if (!field_.burst.empty() && loses_energy(field_.rules, partner, impact)) count_burst(i, event);
 }
 
 void ExactEvents::meet_disk(std::uint32_t i, std::uint32_t j, double time) {
@@ -249,29 +265,35 @@ void ExactEvents::meet_disk(std::uint32_t i, std::uint32_t j, double time) {
   ExactDisk b = disk(j);
   // One of them was thought to be out of reach.
   if (field_.is_settled(i) || field_.is_settled(j) || !(std::max(a.path.start, b.path.start) <= time)) {
-    part_.is_void = true;
+    part_.is_void = part_.ended = true;
     return;
   }
-  part_.tally.add(id2, collide_at(field_.rules, time, d.mass_of(i), d.mass_of(j), a, b));
-  begin_path(i, a, false);
-  begin_path(j, b, false);
+  const Impact impact = collide_at(field_.rules, time, d.mass_of(i), d.mass_of(j), a, b);
+  part_.tally.add(id2, impact);
+  const EventMark event{time, id1, id2};
+  begin_path(i, a, false, event);
+  begin_path(j, b, false, event);
   look(i, time);
   look(j, time);
-  count_burst(i, {time, id1, id2});
-  count_burst(j, {time, id1, id2});
+  if (field_.burst.empty() || !loses_energy(field_.rules, id2, impact)) return;
+  count_burst(i, event);
+  count_burst(j, event);
 }
 
-void ExactEvents::begin_path(std::uint32_t i, const ExactDisk& now, bool gone) {
+void ExactEvents::begin_path(std::uint32_t i, const ExactDisk& now, bool gone, const EventMark& event) {
   Flight& f = field_.flight[i];
   if (field_.keeps_paths) {
     if (f.version == 0) part_.log.push_back({i, false, f.path});
     part_.log.push_back({i, gone, now.path});
   }
   f.path = now.path;
-  ++f.version;
+  if (++f.version > most_paths_of_disk || ++part_.paths > field_.most_paths) [[unlikely]] {
+    part_.crowded = event;
+    part_.ended = true;
+  }
   const double v2 = f.path.vx * f.path.vx + f.path.vy * f.path.vy;
   scan_.saw_speed(v2);
-  if (v2 > field_.allowed2) part_.is_void = true;
+  if (v2 > field_.allowed2) part_.is_void = part_.ended = true;
   if (!field_.last_contact.empty()) field_.last_contact[i] = now.last_contact;
   if (gone) {
     // Nobody can meet a path that is not a number.
@@ -283,9 +305,10 @@ void ExactEvents::begin_path(std::uint32_t i, const ExactDisk& now, bool gone) {
 }
 
 // A disk whose events pile up is left to whoever sees everybody; the first collapse of all is the one to report.
-void ExactEvents::count_burst(std::uint32_t i, const Collapse& event) {
-  if (field_.burst.empty() || !field_.burst[i].add(event.time, field_.length)) return;
+void ExactEvents::count_burst(std::uint32_t i, const EventMark& event) {
+  if (!field_.burst[i].add(event.time, field_.length)) return;
   if (!part_.collapse || event.before(*part_.collapse)) part_.collapse = event;
+  part_.ended = part_.ended || part_.alone;
   if (!part_.alone && field_.standing[i] == at_hand) doubt(i, event.time, no_tile);
 }
 

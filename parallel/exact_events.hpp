@@ -20,17 +20,6 @@ struct LoggedPiece {
   PathSegment path;
 };
 
-// Where an inelastic collapse began.
-struct Collapse {
-  double time = never;
-  DiskId id1 = 0, id2 = 0;  // of the last event; id2 may be a wall_partner
-
-  bool before(const Collapse& c) const {
-    if (time != c.time) return time < c.time;
-    return id1 != c.id1 ? id1 < c.id1 : id2 < c.id2;
-  }
-};
-
 // A disk whose motion is known up to a time within the slice only, for want of the motion of disks of another tile.
 struct Doubt {
   std::uint32_t disk;
@@ -47,13 +36,20 @@ struct ExactPart {
   ImpactTally tally;
   std::vector<LoggedPiece> log;  // a disk's pieces in order
   bool any_gone = false;
-  double fastest2 = 0.0;             // largest v^2
-  std::optional<Collapse> collapse;  // the first one
-  bool is_void = false;              // what was taken for granted proved wrong: nothing of the window counts
-  Count listed = 0;                  // disks listed anew in the slice
-  std::vector<std::uint32_t> edge;   // disks that came to list one of another region in the slice
-  std::vector<Doubt> doubts;         // of the slice
-  FoundDisks found;                  // scratch
+  double fastest2 = 0.0;              // largest v^2
+  Count paths = 0;                    // begun
+  std::optional<EventMark> collapse;  // the first one
+  // Nothing of the window counts: what was taken for granted proved wrong; it is too long (with the event that tells,
+  // the first one if alone); it was given up.
+  bool is_void = false;
+  std::optional<EventMark> crowded;
+  bool given_up = false;
+  bool ended = false;               // one of these, or a collapse if alone: no further event
+  Count until_look = 0;             // events before go_on is asked again
+  Count listed = 0;                 // disks listed anew in the slice
+  std::vector<std::uint32_t> edge;  // disks that came to list one of another region in the slice
+  std::vector<Doubt> doubts;        // of the slice
+  FoundDisks found;                 // scratch
 
   void begin_window();
 };
@@ -102,8 +98,9 @@ class ExactEvents {
   std::uint16_t region_of(std::uint32_t i) const { return field_.region_of_tile[lists_.tile_of(i)]; }
   void meet_side(std::uint32_t i, double time);
   void meet_disk(std::uint32_t i, std::uint32_t j, double time);
-  void begin_path(std::uint32_t i, const ExactDisk& now, bool gone);
-  void count_burst(std::uint32_t i, const Collapse& event);
+  void begin_path(std::uint32_t i, const ExactDisk& now, bool gone, const EventMark& event);
+  void count_burst(std::uint32_t i, const EventMark& event);
+  void ask_to_go_on();
   ExactDisk disk(std::uint32_t i) const;
 
   ExactField& field_;

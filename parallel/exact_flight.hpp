@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/exact_event.hpp"
@@ -45,7 +46,7 @@ struct ExactField {
   // (or both), each disk for its own sides and for leaving its list's range.
   std::vector<double> due;
   std::vector<double> last_contact;  // with the TC model
-  std::vector<Burst> burst;          // where collapse is possible
+  std::vector<Burst> burst;          // where anything dissipates
   // Where there are tiles.
   std::vector<std::uint32_t> standing;
   std::vector<std::uint8_t> mark;
@@ -64,6 +65,8 @@ struct ExactField {
   double slice_start = 0.0;
   double slice_end = 0.0;  // events before this time; in the last slice up to and including `length`
   bool keeps_paths = true;
+  Count most_paths = 0;         // of all disks, beyond which the window is crowded (core/window_length.hpp)
+  std::function<bool()> go_on;  // as in Engine::set_watch
 
   bool in_slice(double t) const { return t < slice_end && t <= length; }
   bool is_known(std::uint32_t i) const { return standing[i] >= at_hand; }

@@ -71,7 +71,7 @@ double ExactSweep::longest_slice() const {
   return tiled() ? 2.0 * (lists_.roam() - lists_.range()) / field_.bound : never;
 }
 
-bool ExactSweep::run(double start, double end, double expected, double window_start) {
+SliceEnd ExactSweep::run(double start, double end, double expected, double window_start) {
   field_.slice_start = start;
   field_.slice_end = end;
   if (tiled()) {
@@ -79,12 +79,30 @@ bool ExactSweep::run(double start, double end, double expected, double window_st
   } else {
     run_alone(expected);
   }
-  const auto is_void = [](const Region& region) { return region.part.is_void; };
-  if (rest_.is_void || std::any_of(regions_.begin(), regions_.end(), is_void)) return false;
+  const SliceEnd reached = end_of_slice();
+  if (reached != SliceEnd::done) return reached;
   fail_if_collapsed(window_start);
   for (const Region& region : regions_) field_.fastest2 = std::max(field_.fastest2, region.part.fastest2);
   field_.fastest2 = std::max(field_.fastest2, rest_.fastest2);
-  return true;
+  return SliceEnd::done;
+}
+
+SliceEnd ExactSweep::end_of_slice() const {
+  bool is_void = false;
+  bool crowded = false;
+  bool given_up = false;
+  Count paths = 0;
+  const auto see = [&](const ExactPart& part) {
+    is_void = is_void || part.is_void;
+    crowded = crowded || part.crowded;
+    given_up = given_up || part.given_up;
+    paths += part.paths;
+  };
+  for (const Region& region : regions_) see(region.part);
+  see(rest_);
+  if (given_up) return SliceEnd::given_up;
+  if (is_void) return SliceEnd::too_fast;
+  return crowded || paths > field_.most_paths ? SliceEnd::crowded : SliceEnd::done;
 }
 
 void ExactSweep::run_alone(double expected) {
@@ -101,7 +119,7 @@ void ExactSweep::run_tiles(double expected) {
   executor_.run(regions_.size(), [&](std::size_t r) { sweep_region(regions_[r], each); });
   for (const Region& region : regions_) {
     listed_anew_ += region.part.listed;
-    if (region.part.is_void) return;
+    if (region.part.ended) return;
   }
   run_rest(each);
 }
@@ -119,7 +137,7 @@ void ExactSweep::sweep_region(Region& region, double expected) {
   for (std::uint32_t tile = region.first; tile < region.last; ++tile) handed_on_[tile].clear();
   ExactEvents events(field_, lists_, region.part);
   for (std::uint32_t tile = region.first; tile < region.last; ++tile) {
-    if (region.part.is_void) return;
+    if (region.part.ended) return;
     sweep_tile(region, events, tile, expected);
   }
 }
@@ -183,13 +201,13 @@ void ExactSweep::run_rest(double expected) {
 }
 
 void ExactSweep::fail_if_collapsed(double window_start) const {
-  Collapse first;
+  EventMark first;
   const auto see = [&](const ExactPart& part) {
     if (part.collapse && part.collapse->before(first)) first = *part.collapse;
   };
   for (const Region& region : regions_) see(region.part);
   see(rest_);
-  if (first.time < never) fail_collapse(first.id1, first.id2, window_start + first.time);
+  if (first.time < never) fail_collapse(first, window_start);
 }
 
 ImpactTally ExactSweep::tally() const {

@@ -12,6 +12,10 @@
 
 namespace carom {
 
+// How a slice ended: only `done` counts. Or somebody was too fast for what was taken for granted; the window is crowded
+// (core/window_length.hpp); it was given up.
+enum class SliceEnd : std::uint8_t { done, too_fast, crowded, given_up };
+
 // Few disks run alone, in one slice a window. More of them are swept in tiles that a cache holds: each thread has a
 // region of tiles and goes through them in order, running all events of a tile that do not depend on what is still
 // unknown. A disk of which something depends on a later tile is handed on to it. What depends on other regions is left
@@ -40,9 +44,11 @@ class ExactSweep {
   // Time that a slice may last, field.bound being set.
   double longest_slice() const;
 
-  // Runs the slice, with about `expected` events. False: somebody was too fast; nothing of the window counts. Throws
-  // PhysicsError at inelastic collapse.
-  bool run(double start, double end, double expected, double window_start);
+  // Runs the slice, with about `expected` events. Unless it is done, nothing of the window counts. Throws PhysicsError
+  // at inelastic collapse.
+  SliceEnd run(double start, double end, double expected, double window_start);
+  // Without tiles: the event that tells that the window is crowded, the reference's.
+  const EventMark& crowding() const { return *rest_.crowded; }
 
   // Of the window so far.
   ImpactTally tally() const;
@@ -79,6 +85,7 @@ class ExactSweep {
   void sweep_region(Region& region, double expected);
   void sweep_tile(Region& region, ExactEvents& events, std::uint32_t tile, double expected);
   void run_rest(double expected);
+  SliceEnd end_of_slice() const;
   void fail_if_collapsed(double window_start) const;
 
   ExactField& field_;
