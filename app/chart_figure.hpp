@@ -12,4 +12,7 @@ LogFigure main_figure(const chart::ChartResult& result);
 // Every scene (a row) with every error (a column).
 LogFigure whole_figure(const chart::ChartResult& result);
 
+// One scene of the user's own with every error.
+LogFigure own_figure(const chart::ChartResult& result);
+
 }  // namespace carom

@@ -11,8 +11,10 @@
 #include <thread>
 
 #include "app/chart_figure.hpp"
+#include "app/chart_text.hpp"
 #include "app/commands.hpp"
 #include "app/progress.hpp"
+#include "bench/chart_own.hpp"
 #include "bench/chart_table.hpp"
 #include "core/check.hpp"
 #include "core/input_message.hpp"
@@ -55,31 +57,21 @@ void check_folder(const fs::path& folder, bool force) {
   if (!made.empty()) fs::remove_all(made, error);
 }
 
-// Share done and time left, on a terminal as a line that renews itself, elsewhere at every tenth.
+// Share done and time left.
 class ChartProgress {
  public:
-  explicit ChartProgress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+  explicit ChartProgress(bool quiet) : line_(!quiet) {}
 
   void show(double share) {
-    if (quiet_ || share <= 0.0) return;
+    if (share <= 0.0 || !line_.due()) return;
     const double seconds = seconds_since(start_);
-    const std::string text =
-        fmt::format("chart: {:3.0f} %, {} left", 100.0 * share, duration_text(seconds * (1.0 - share) / share));
-    if (terminal_) {
-      std::fputs(fmt::format("\r{}\x1b[K", text).c_str(), stderr);
-    } else if (share >= next_) {
-      print_note(text);
-      while (next_ <= share) next_ += 0.1;
-    }
+    line_.show(fmt::format("chart: {:3.0f} %, {} left", 100.0 * share, duration_text(seconds * (1.0 - share) / share)));
   }
 
-  void clear() const {
-    if (!quiet_ && terminal_) std::fputs("\r\x1b[K", stderr);
-  }
+  void clear() { line_.clear(); }
 
  private:
-  bool quiet_, terminal_;
-  double next_ = 0.0;
+  StatusLine line_;
   Clock::time_point start_ = Clock::now();
 };
 
@@ -177,23 +169,30 @@ chart::Effort effort_of(const ChartOptions& options) {
 }  // namespace
 
 int command_chart(const ChartOptions& options) {
-  const fs::path folder = options.folder.value_or("out/chart");
+  const std::string name = options.scene.empty() ? "chart" : "chart_" + fs::path(options.scene).stem().string();
+  const fs::path folder = options.folder.value_or((fs::path("out") / name).string());
+  const bool own = !options.scene.empty();
   check_folder(folder, options.force);
   const auto start = Clock::now();
-  const chart::Effort effort = effort_of(options);
   const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const chart::Effort effort = own ? chart::for_own(effort_of(options)) : effort_of(options);
   ChartProgress progress(options.quiet);
-  const chart::ChartResult result = chart::measure_chart(effort, threads, [&](double share) { progress.show(share); });
+  const auto watch = [&](double share) { progress.show(share); };
+  const Scene scene = own ? load_scene_as_told(options.scene, options.changes) : Scene{};
+  const chart::ChartResult result = own ? chart::measure_scenes({chart::own_scene(scene)}, effort, threads, watch)
+                                        : chart::measure_chart(effort, threads, watch);
   progress.clear();
   fs::create_directories(folder);
   replace_file(folder / "chart.csv", chart::csv_of(result));
   replace_file(folder / "chart.json", json_of(result, effort, threads, seconds_since(start)).dump(2) + "\n");
-  const bool drawn = draw(main_figure(result), folder, "chart") && draw(whole_figure(result), folder, "chart_all");
+  const bool drawn =
+      own ? draw(own_figure(result), folder, "chart")
+          : draw(main_figure(result), folder, "chart") && draw(whole_figure(result), folder, "chart_all");
   if (!drawn && !options.quiet) print_warning("gnuplot is not installed: no pictures are drawn");
-  if (!options.quiet) {
-    print_out(fmt::format("{} after {}\n", (folder / (drawn ? "chart.svg" : "chart.csv")).string(),
-                          duration_text(seconds_since(start))));
-  }
+  if (options.quiet) return 0;
+  if (own) print_out(own_chart_text(result.scenes.front(), scene));
+  print_out(fmt::format("{} after {}\n", (folder / (drawn ? "chart.svg" : "chart.csv")).string(),
+                        duration_text(seconds_since(start))));
   return 0;
 }
 

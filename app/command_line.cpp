@@ -70,8 +70,7 @@ void add_value(CLI::App* command, const std::string& names, std::string& value, 
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
-void add_scene_options(CLI::App* command, Words& words) {
-  command->add_option("SCENE", words.first, "scene file (TOML)")->type_name("");
+void add_scene_changes(CLI::App* command, Words& words) {
   for (std::size_t k = 0; k < scene_options.size(); ++k) {
     const SceneOption& o = scene_options[k];
     add_value(command, o.option, words.scene_values[k], o.value, o.help);
@@ -79,6 +78,11 @@ void add_scene_options(CLI::App* command, Words& words) {
   command->add_option("--set", words.sets, "change any key of the scene; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+void add_scene_options(CLI::App* command, Words& words) {
+  command->add_option("SCENE", words.first, "scene file (TOML)")->type_name("");
+  add_scene_changes(command, words);
 }
 
 constexpr const char* early_stop =
@@ -148,11 +152,18 @@ void describe_sweep(CLI::App* sweep, Words& words) {
 }
 
 void describe_chart(CLI::App* chart, Words& words) {
-  add_value(chart, "-o,--output", words.folder, "DIR", "folder for chart.svg, .png, .csv and .json; default out/chart");
+  add_value(chart, "--scene", words.first, "SCENE.toml", "of this scene, in place of the seven built in");
+  add_scene_changes(chart, words);
+  add_value(chart, "-o,--output", words.folder, "DIR",
+            "folder for chart.svg, .png, .csv and .json; default out/chart, or out/chart_<name of the scene>");
   chart->add_flag("--quick", words.quick, "fewer points, within a minute");
   chart->add_flag("--tiny", words.tiny, "a test of the command itself")->group("");
   chart->add_flag("--quiet", words.quiet, "print nothing but errors");
   chart->add_flag("--force", words.force, "replace an earlier chart in the folder");
+  chart->footer(
+      "--scene takes scenes whose disks stay, collide, and can be run by exact; their own --dt is one of the steps. "
+      "See "
+      "docs/chart.md.");
 }
 
 void require(const std::string& value, const char* where, const char* what, const char* example) {
@@ -236,7 +247,10 @@ SweepOptions sweep_options(const Words& words) {
 }
 
 ChartOptions chart_options(const Words& words) {
-  return {file_option(words.folder), words.quick, words.tiny, words.quiet, words.force};
+  ChartOptions o{
+      file_option(words.folder), words.first, changes_of(words), words.quick, words.tiny, words.quiet, words.force};
+  if (!o.scene.empty() || o.changes.overrides.empty()) return o;
+  fail_input("chart", "changes to a scene, and no scene", "expected --scene SCENE.toml with them");
 }
 
 TextRequest docs_page(const Words& words) {

@@ -29,14 +29,21 @@ std::uint64_t seeds_of(const Effort& effort, Method method, int power) {
 
 std::vector<Setting> settings_of(const Effort& effort, const ChartScene& scene) {
   const bool brownian = scene.figure == Figure::spread;
+  const std::uint64_t most = scene.same_start ? 1 : effort.most_seeds;
   std::vector<Setting> settings;
-  if (!brownian) settings.push_back({Method::exact, 0.0, effort.most_seeds});
-  for (const int power : effort.powers) {
+  if (!brownian) settings.push_back({Method::exact, 0.0, most});
+  const auto add_step = [&](double dt, int power) {
     for (const Method method : {Method::rollback, Method::pairwise, Method::exact}) {
       if (method == Method::exact && !brownian) continue;
-      settings.push_back({method, step_of(scene, power), seeds_of(effort, method, power)});
+      settings.push_back({method, dt, std::min(most, seeds_of(effort, method, power))});
     }
+  };
+  bool own_seen = !(scene.own_step > 0.0);
+  for (const int power : effort.powers) {
+    own_seen = own_seen || step_of(scene, power) == scene.own_step;
+    add_step(step_of(scene, power), power);
   }
+  if (!own_seen) add_step(scene.own_step, 0);
   return settings;
 }
 
@@ -114,12 +121,19 @@ Effort tiny_effort() {
   return {"tiny", {0, 2}, 2, 2, {16, 64}, 0.02};
 }
 
-ChartResult measure_chart(const Effort& effort, int threads, const Watch& watch) {
+Effort for_own(Effort effort) {
+  constexpr std::uint64_t most_own_seeds = 24;
+  effort.most_seeds = std::min(effort.most_seeds, most_own_seeds);
+  effort.crowds.clear();
+  return effort;
+}
+
+ChartResult measure_scenes(const std::vector<ChartScene>& wanted, const Effort& effort, int threads,
+                           const Watch& watch) {
   ChartResult result;
-  result.crowd = crowd_settings(effort);
   std::vector<ChartScene> scenes;
   std::vector<std::vector<Setting>> settings;
-  for (const ChartScene& scene : chart_scenes()) {
+  for (const ChartScene& scene : wanted) {
     scenes.push_back(scaled(scene, effort.scale));
     settings.push_back(settings_of(effort, scenes.back()));
   }
@@ -128,6 +142,7 @@ ChartResult measure_chart(const Effort& effort, int threads, const Watch& watch)
   double total = 0.0, done = 0.0;
   for (std::uint64_t seed = 1; seed <= effort.most_seeds; ++seed) {
     for (std::size_t s = 0; s < scenes.size(); ++s) {
+      if (scenes[s].same_start && seed > 1) continue;
       tasks.push_back({s, seed, weight_of(scenes[s], seed, settings[s])});
       total += tasks.back().weight;
     }
@@ -142,7 +157,17 @@ ChartResult measure_chart(const Effort& effort, int threads, const Watch& watch)
     done += task.weight;
     watch(done / total);
   });
-  for (std::size_t s = 0; s < scenes.size(); ++s) result.scenes.push_back(summed_up(scenes[s], samples[s]));
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    // One run that stands for all has no scatter: as if a second had come to the same.
+    if (scenes[s].same_start) samples[s] = {samples[s][0], samples[s][0]};
+    result.scenes.push_back(summed_up(scenes[s], samples[s]));
+  }
+  return result;
+}
+
+ChartResult measure_chart(const Effort& effort, int threads, const Watch& watch) {
+  ChartResult result = measure_scenes(chart_scenes(), effort, threads, watch);
+  result.crowd = crowd_settings(effort);
   // Each of these is timed alone on its thread, long after the others of its size; the least of three counts.
   const double unit = result.scenes[1].unit;
   run_all(result.crowd.size(), threads, [&](std::size_t k) {

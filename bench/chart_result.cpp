@@ -64,10 +64,10 @@ std::vector<double> column(const std::vector<Sample>& samples, Measure m) {
   return values;
 }
 
-Point point_of(const Series& series, double unit) {
+Point point_of(const Series& series, double unit, bool same_start) {
   Point p;
   p.dt = series.dt;
-  p.seeds = series.own.size();
+  p.seeds = same_start ? 1 : series.own.size();
   const std::vector<double> costs = column(series.own, Measure::cost);
   p.cost = unit * *std::min_element(costs.begin(), costs.end());
   for (std::size_t m = 0; m < measure_count; ++m) p.errors[m] = mean_of(column(series.own, static_cast<Measure>(m)));
@@ -132,13 +132,14 @@ SceneResult summed_up(const ChartScene& scene, const std::vector<std::vector<Sam
     }
   }
   std::sort(steps.rbegin(), steps.rend());
+  if (brownian) result.unit = scene.unit;
   if (!brownian) result.unit = 1.0 / mean_of(column(exact, Measure::rate)).value;
   result.figure = mean_of(column(exact, Measure::figure)).value;
   for (const Method method : methods) {
     Curve curve{method, {}, {}};
     for (const double dt : steps) {
       const Series series = series_of(samples, method, dt, brownian);
-      if (!series.own.empty()) curve.points.push_back(point_of(series, result.unit));
+      if (!series.own.empty()) curve.points.push_back(point_of(series, result.unit, scene.same_start));
     }
     result.curves.push_back(std::move(curve));
   }

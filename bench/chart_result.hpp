@@ -72,6 +72,8 @@ struct Effort {
 Effort full_effort();
 Effort quick_effort();
 Effort tiny_effort();  // seconds; numbers of no use, for tests
+// The same for a scene of the user's own, whose size nobody knows: without crowds, and with fewer seeds.
+Effort for_own(Effort effort);
 
 // The predicted order in dt (docs/methods.md); none where dt does not matter or nothing is said. What is wrong is a
 // share Gamma dt of all collisions, those of disks that collide twice in a step: first order. Brownian disks of speed
@@ -80,6 +82,10 @@ std::optional<double> predicted_order(const ChartScene& scene, Method method, Me
 
 // Is told what share of the work is done.
 using Watch = std::function<void(double share)>;
+
+// These scenes, without crowds.
+ChartResult measure_scenes(const std::vector<ChartScene>& scenes, const Effort& effort, int threads,
+                           const Watch& watch);
 
 // All of it, on `threads` threads, one run a thread. Reads the clock only to know costs.
 ChartResult measure_chart(const Effort& effort, int threads, const Watch& watch);

@@ -60,6 +60,15 @@ ChartScene fluid_of(std::size_t disks) {
 }
 
 Scene scene_of(const ChartScene& scene, std::uint64_t seed, Method method, double dt, double t_end) {
+  if (scene.own) {
+    Scene own = *scene.own;
+    own.seed += seed - 1;
+    own.run = RunPlan{};
+    own.run.method = method;
+    own.run.dt = dt;
+    own.run.t_end = t_end;
+    return own;
+  }
   // A step for parsing's sake; the melting of a Brownian scene has none.
   Scene s = parse_scene(scene.text + "[run]\nmethod = \"exact\"\ndt = 1.0\nt_end = 0.0\n", scene.name, "",
                         {{"seed", fmt::format("{}", seed)}});

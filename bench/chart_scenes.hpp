@@ -1,6 +1,7 @@
 // The scenes of the speed-accuracy chart, each with what is looked at in it and for how long.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ struct ChartScene {
   Figure figure = Figure::pressure;
   bool keeps_energy = true;
   bool keeps_momentum = true;
+  // Of a scene of the user's own (chart_own.hpp): it starts as it says, not melted.
+  std::shared_ptr<const Scene> own{};
+  bool same_start = false;  // whatever the seed: one run tells all
+  double own_step = 0.0;    // a step to run besides; 0: none
+  double unit = 1.0;        // time that costs are given in where there is Brownian motion: diameter^2 / D
 };
 
 const std::vector<ChartScene>& chart_scenes();
