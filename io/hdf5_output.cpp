@@ -23,6 +23,21 @@ hid_t as_id(herr_t status) {
 
 }  // namespace
 
+namespace {
+
+// The superblock's extension is made like any group without a plan of its own, and would tell when it was made.
+class TimelessGroups {
+ public:
+  explicit TimelessGroups(const Hdf5Output& output) {
+    output.checked(H5Pset_obj_track_times(H5P_GROUP_CREATE_DEFAULT, false));
+  }
+  TimelessGroups(const TimelessGroups&) = delete;
+  TimelessGroups& operator=(const TimelessGroups&) = delete;
+  ~TimelessGroups() { H5Pset_obj_track_times(H5P_GROUP_CREATE_DEFAULT, true); }
+};
+
+}  // namespace
+
 Hdf5Output::Hdf5Output(std::string path, bool existing) : path_(std::move(path)) {
   silence_hdf5();
   const Hdf5Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -37,6 +52,8 @@ Hdf5Output::Hdf5Output(std::string path, bool existing) : path_(std::move(path))
     const Hdf5Handle plan = checked(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     checked(H5Pset_file_space_strategy(plan.get(), H5F_FSPACE_STRATEGY_PAGE, false, 1));
     checked(H5Pset_file_space_page_size(plan.get(), system_page));
+    checked(H5Pset_obj_track_times(plan.get(), false));  // of the root group
+    const TimelessGroups timeless(*this);
     file_ = checked(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, plan.get(), access.get()), H5Fclose);
   }
 }

@@ -30,7 +30,8 @@ class H5mdWriter {
   // exact run, whose frames may share a window, shows the number of the frame instead.
   void write(const Disks& disks, double time, Count step, const SeriesRow& row, const BlockRunner& run = run_in_order);
 
-  // Hands all frames so far to the system. write() does it twice a second.
+  // Hands all frames so far to the system. write() does it about twice a second, by the work of the run and not by a
+  // clock, so that equal runs leave equal files.
   void flush();
 
   // Where the file has come to; all up to there has been handed to the system.

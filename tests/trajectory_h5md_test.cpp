@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -210,6 +211,35 @@ TEST(TrajectoryH5md, GoesOnAfterAnyFrame) {
   Scene other = drifting_scene();
   other.sources.clear();
   EXPECT_THROW(H5mdWriter(path, other, 2), RunError);
+}
+
+// The same frames are the same bytes, whenever they were written and however long that took.
+TEST(TrajectoryH5md, EqualRunsLeaveEqualFiles) {
+  const TestFolder folder("h5md_equal");
+  const std::string path = (folder.path() / "trajectory.h5").string();
+  // Until the clock shows another second: longer than anything that a clock might decide, or leave in the file.
+  const auto await_next_second = [] {
+    const auto second = [] { return std::chrono::system_clock::now().time_since_epoch() / std::chrono::seconds(1); };
+    for (const auto begun = second(); second() == begun;) usleep(1000);
+  };
+  Scene fixed = drifting_scene();
+  fixed.sources.clear();
+  fixed.groups[0].count = 1300;
+  for (const Scene& scene : {drifting_scene(), fixed}) {
+    std::string expected;
+    for (const bool slow : {false, true}) {
+      H5mdWriter writer(path, scene);
+      for (Count k = 0; k < 1200; ++k) {
+        if (slow && k % 500 == 33) await_next_second();
+        writer.write(frame_disks(k), 0.5 * static_cast<double>(k), 10'000 * k, {});
+      }
+      writer.close();
+      std::ostringstream text;
+      text << std::ifstream(path, std::ios::binary).rdbuf();
+      if (!slow) expected = text.str();
+      EXPECT_TRUE(text.str() == expected);
+    }
+  }
 }
 
 // A child writes and flushes frame after frame, and is killed at once when it has told of the k-th: somewhere in the
