@@ -37,7 +37,7 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
     trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), xyz_plan());
   }
   if (scene.output.trajectory == TrajectoryFormat::h5md) {
-    h5md_ = std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene);
+    h5md_ = std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene, shows_rounds() ? &rounds_ : nullptr);
   }
   if (scene.output.series) series_ = std::make_unique<SeriesWriter>(folder.path("series.csv"), scene);
   if (scene.analysis.any()) analysis_ = std::make_unique<RunningAnalysis>(scene, folder, count);
@@ -58,7 +58,8 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
   if (from.trajectory) {
     const std::string path = folder.path(from.trajectory->name);
     if (scene.output.trajectory == TrajectoryFormat::h5md) {
-      h5md_ = std::make_unique<H5mdWriter>(path, scene, from.trajectory->frames);
+      const DisplacementTally* const rounds = shows_rounds() ? &rounds_ : nullptr;
+      h5md_ = std::make_unique<H5mdWriter>(path, scene, from.trajectory->frames, rounds);
     } else {
       trajectory_ = std::make_unique<XyzWriter>(path, xyz_plan(), *from.trajectory);
     }

@@ -105,6 +105,18 @@ struct Selection {
   Vec2 low, high;  // of the rectangle, corners included
 };
 
+// What the colour of a disk tells in movies and pictures.
+enum class ColourBy : std::uint8_t { speed, group, radius, mass, id };
+
+// How movies and pictures look.
+struct PictureLook {
+  ColourBy colour = ColourBy::speed;
+  double fps = 25.0;                           // frames a second of a movie
+  int width = 0, height = 0;                   // pixels, both even; 0: as the shape of the box asks
+  std::optional<std::array<double, 2>> range;  // ends of the colour scale; absent: as the run asks
+  bool operator==(const PictureLook&) const = default;
+};
+
 struct OutputPlan {
   double every = 0.0;  // simulated time between frames; 0: only the first and the last
   TrajectoryFormat trajectory = TrajectoryFormat::none;
@@ -112,7 +124,9 @@ struct OutputPlan {
   bool single_precision = false;  // of positions and velocities in trajectory.h5
   bool series = false;
   std::vector<std::string> plots;  // "velocity", "energy"
+  int dimensions = 2;              // components of positions and velocities in trajectory.h5: z is 0 in a third
   bool movie = false;
+  PictureLook look;
   double checkpoint = 0.0;  // seconds of wall time between checkpoints; 0: none but on a signal
 };
 

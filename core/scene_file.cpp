@@ -268,9 +268,10 @@ OutputPlan read_output(const SceneOrigin& origin, double t_end) {
   output.trajectory = static_cast<TrajectoryFormat>(reader.choice_or_initial("trajectory"));
   output.select = read_selection(reader);
   output.single_precision = read_single_precision(reader);
+  output.dimensions = read_third_dimension(reader) ? 3 : 2;
   output.series = reader.flag_or_initial("series");
   output.plots = read_plots(reader);
-  output.movie = reader.flag_or_initial("movie");
+  read_movie(reader, output);
   output.checkpoint = read_checkpoint_interval(reader);
   const bool frames =
       output.trajectory != TrajectoryFormat::none || output.series || output.movie || !output.plots.empty();

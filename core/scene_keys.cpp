@@ -37,6 +37,9 @@ constexpr SceneTable tables[] = {
      "at its end where more than a twentieth of them do."},
     {"run", "`[run]`", "How the scene is run."},
     {"output", "`[output]`", "What a run writes."},
+    {"output.movie", "`movie = { ... }` in `[output]`",
+     "How the movie looks, and what `carom render` makes of the trajectory; see "
+     "[output.md](output.md#movies-and-pictures)."},
     {"analysis", "`[analysis]`", "What a run measures on its way, see [output.md](output.md#measuring-on-the-way)."},
     {"analysis.pair_correlation", "`pair_correlation = { ... }` in `[analysis]`", ""},
     {"analysis.speeds", "`speeds = { ... }` in `[analysis]`", ""},
@@ -45,6 +48,8 @@ constexpr SceneTable tables[] = {
 
 constexpr std::string_view side_says = "What this side does.";
 constexpr std::string_view bins_allowed = "a whole number from 1 to 100000";
+constexpr std::string_view fps_allowed = "a number from 0.1 to 1000";
+constexpr std::string_view size_allowed = "two even whole numbers from 320 to 8192";
 constexpr std::string_view radius_allowed =
     "a number above 0, a list of them, `{ uniform = ... }`, `{ from_mass = ... }`, or `{ frame = ... }`";
 constexpr std::string_view mass_allowed =
@@ -215,11 +220,30 @@ constexpr SceneKey keys[] = {
      R"(precision = "single")",
      {},
      precision_names},
+    {"output", "dimensions", count, none, "2",
+     "Components of positions and velocities in trajectory.h5; with 3, z is 0 and MDAnalysis reads the file.",
+     "dimensions = 3", "2 or 3"},
     {"output", "series", flag, none, "false", "Writes series.csv, a row a frame.", "series = true"},
     {"output", "plots", special, none, "[]",
      "velocity.svg: velocities of up to ten disks against time; energy.svg: energies.",
      R"(plots = ["velocity", "energy"])", "a list of NAMES", plot_names},
-    {"output", "movie", flag, none, "false", "Writes movie.mp4.", "movie = true"},
+    {"output", "movie", special, none, "false", "Writes movie.mp4; a table says how it looks.", "movie = true",
+     "`true`, `false` or a table"},
+    {"output.movie",
+     "colour",
+     choice,
+     none,
+     "\"speed\"",
+     "What the colour of a disk tells; groups are those of `[[disks]]`.",
+     R"(movie = { colour = "radius" })",
+     {},
+     colour_names},
+    {"output.movie", "fps", positive, none, "25", "Frames a second.", "movie = { fps = 30 }", fps_allowed},
+    {"output.movie", "size", special, none, "as the box's shape asks", "Width and height of the picture in pixels.",
+     "movie = { size = [1280, 720] }", size_allowed},
+    {"output.movie", "range", special, none, "as the run asks",
+     "The ends of the colour scale, in the unit of what colour tells; disks beyond them have the colour of the end.",
+     "movie = { range = [0, 2] }", "[low, high] with low < high; not with `\"group\"`"},
     {"output", "checkpoint", positive, none, "only when a run is stopped",
      "Wall time between checkpoints, in seconds or with a unit.", R"(checkpoint = "10 min")",
      "a number above 0, or text such as `\"90 s\"`, `\"10 min\"`, `\"2 h\"`"},

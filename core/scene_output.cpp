@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <optional>
 
 #include "core/input_message.hpp"
 #include "core/scene_names.hpp"
@@ -63,6 +65,73 @@ bool read_single_precision(const TableReader& output) {
     output.fail("precision", "is a matter of trajectory.h5", "expected trajectory = \"h5md\" as well");
   }
   return precision == 1;
+}
+
+bool read_third_dimension(const TableReader& output) {
+  const Count dimensions = output.count_or_initial("dimensions");
+  if (dimensions != 2 && dimensions != 3)
+    output.fail("dimensions", fmt::format("is {}", dimensions), "expected 2 or 3");
+  if (output.find("dimensions") != nullptr && output.text("trajectory").value_or("none") != "h5md") {
+    output.fail("dimensions", "is a matter of trajectory.h5", "expected trajectory = \"h5md\" as well");
+  }
+  return dimensions == 3;
+}
+
+std::string complaint_of_fps(double fps) {
+  constexpr double least = 0.1, most = 1000.0;
+  return fps >= least && fps <= most ? "" : fmt::format("expected from {} to {} frames a second", least, most);
+}
+
+std::string complaint_of_size(double width, double height) {
+  constexpr double least = 320.0, most = 8192.0;
+  const auto good = [](double x) { return x >= least && x <= most && std::fmod(x, 2.0) == 0.0; };
+  if (good(width) && good(height)) return "";
+  return fmt::format("expected a width and a height in pixels, even numbers from {} to {}", least, most);
+}
+
+std::string complaint_of_range(ColourBy colour, double low, double high) {
+  if (colour == ColourBy::group) return "groups have colours of their own; expected another colour, or no range";
+  return low < high ? "" : "expected two numbers, the lower first";
+}
+
+namespace {
+
+// The two numbers of a key, if it is there.
+std::optional<std::array<double, 2>> two_numbers(const TableReader& movie, std::string_view name) {
+  const toml::node* const node = movie.find(name);
+  if (node == nullptr) return {};
+  const std::vector<double> values = as_numbers(movie.origin(), movie.key(name), *node);
+  if (values.size() != 2) movie.fail(name, fmt::format("has {} numbers", values.size()), "expected two numbers");
+  return std::array{values[0], values[1]};
+}
+
+}  // namespace
+
+void read_movie(const TableReader& output, OutputPlan& plan) {
+  const toml::node* const node = output.find("movie");
+  if (node == nullptr) return;
+  const toml::table* const table = node->as_table();
+  if (table == nullptr && !node->is_boolean()) {
+    output.fail("movie", fmt::format("is {}", type_name(*node)),
+                "expected true or false, or a table such as { fps = 30 }");
+  }
+  plan.movie = table != nullptr || as_flag(output.origin(), output.key("movie"), *node);
+  if (table == nullptr) return;
+  const TableReader movie(output.origin(), "output.movie", *table);
+  PictureLook& look = plan.look;
+  look.colour = static_cast<ColourBy>(movie.choice_or_initial("colour"));
+  look.fps = movie.number_or_initial("fps");
+  const auto check = [&movie](const char* name, const std::string& complaint) {
+    if (!complaint.empty()) movie.fail(name, "is out of its bounds", complaint);
+  };
+  check("fps", complaint_of_fps(look.fps));
+  if (const auto size = two_numbers(movie, "size")) {
+    check("size", complaint_of_size((*size)[0], (*size)[1]));
+    look.width = static_cast<int>((*size)[0]);
+    look.height = static_cast<int>((*size)[1]);
+  }
+  look.range = two_numbers(movie, "range");
+  if (look.range) check("range", complaint_of_range(look.colour, (*look.range)[0], (*look.range)[1]));
 }
 
 }  // namespace carom

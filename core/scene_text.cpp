@@ -158,7 +158,17 @@ std::string selection_lines(const OutputPlan& output) {
     text += fmt::format("select = \"every {}th\"\n", select.stride);
   }
   if (output.single_precision) text += "precision = \"single\"\n";
+  if (output.dimensions != 2) text += fmt::format("dimensions = {}\n", output.dimensions);
   return text;
+}
+
+std::string movie_text(const OutputPlan& output) {
+  const PictureLook& look = output.look;
+  if (!output.movie || look == PictureLook{}) return output.movie ? "true" : "false";
+  std::string text = fmt::format("{{ colour = \"{}\", fps = {}", colour_names[index(look.colour)], number(look.fps));
+  if (look.width > 0) text += fmt::format(", size = [{}, {}]", look.width, look.height);
+  if (look.range) text += fmt::format(", range = [{}, {}]", number((*look.range)[0]), number((*look.range)[1]));
+  return text + " }";
 }
 
 std::string output_text(const OutputPlan& output) {
@@ -167,7 +177,7 @@ std::string output_text(const OutputPlan& output) {
   return fmt::format("\n[output]\nevery = {}\ntrajectory = \"{}\"\n{}series = {}\nplots = {}\nmovie = {}\n",
                      number(output.every), trajectory_names[index(output.trajectory)], selection_lines(output),
                      output.series, list_of(output.plots, [](const std::string& name) { return quoted_toml(name); }),
-                     output.movie) +
+                     movie_text(output)) +
          checkpoint;
 }
 

@@ -37,12 +37,13 @@ struct H5mdReader::File {
   void read_frame(TrajectoryFrame& frame);
 
   std::string path;
-  Hdf5Handle file, position, velocity, id, radius, mass;
+  Hdf5Handle file, position, velocity, id, radius, mass, species;
   Domain box;
   std::vector<double> times;
   Count next = 0;
+  std::size_t dimensions = 2;
   std::vector<double> xy, vxy, radii, masses;  // of all places in one frame
-  std::vector<DiskId> ids;
+  std::vector<DiskId> ids, groups;
 };
 
 H5mdReader::File::File(const std::string& file_path) : path(file_path) {
@@ -66,10 +67,15 @@ H5mdReader::File::File(const std::string& file_path) : path(file_path) {
                           H5Lexists(file.get(), group.c_str(), H5P_DEFAULT) > 0;
   mass = open_set(each_frame ? "mass/value" : "mass");
   radius = open_set(each_frame ? "radius/value" : "radius");
+  species = open_set(each_frame ? "species/value" : "species");
   const Hdf5Handle time = open_set("position/time");
   const std::vector<hsize_t> length = size_of(time);
   const std::vector<hsize_t> places = size_of(position);
-  if (length.size() != 1 || places.size() != 3 || places[2] != 2) fail("its datasets have other shapes");
+  const bool known_shape = length.size() == 1 && places.size() == 3 && (places[2] == 2 || places[2] == 3);
+  if (!known_shape || size_of(velocity).size() != 3 || size_of(velocity)[2] != places[2]) {
+    fail("its datasets have other shapes");
+  }
+  dimensions = places[2];
   times.resize(length[0]);
   if (!times.empty() && H5Dread(time.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data()) < 0) {
     fail(hdf5_reason());
@@ -84,21 +90,31 @@ std::vector<hsize_t> H5mdReader::File::size_of(const Hdf5Handle& set) const {
 }
 
 void H5mdReader::File::read_box() {
-  const Hdf5Handle edges = open_set("box/edges");
-  std::array<double, 2> lengths{};
-  if (size_of(edges) != std::vector<hsize_t>{2} ||
-      H5Dread(edges.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, lengths.data()) < 0) {
+  const std::string name = std::string(h5md_disks) + "/box/edges";
+  const bool each_frame = H5Lexists(file.get(), name.c_str(), H5P_DEFAULT) > 0 &&
+                          H5Oexists_by_name(file.get(), name.c_str(), H5P_DEFAULT) > 0 &&
+                          H5Lexists(file.get(), (name + "/value").c_str(), H5P_DEFAULT) > 0;
+  const Hdf5Handle edges = open_set(each_frame ? "box/edges/value" : "box/edges");
+  const std::vector<hsize_t> size = size_of(edges);
+  // Three vectors a frame, the same in all: those of the first will do.
+  std::vector<double> lengths(each_frame ? 9 : 2);
+  if (each_frame) {
+    if (size.size() != 3 || size[1] != 3 || size[2] != 3) fail("has no box of three edges");
+    if (size[0] > 0) read_row(edges, H5T_NATIVE_DOUBLE, 0, lengths);
+  } else if (size != std::vector<hsize_t>{2} ||
+             H5Dread(edges.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, lengths.data()) < 0) {
     fail("has no box of two edges");
   }
-  box.width = lengths[0];
-  box.height = lengths[1];
+  box.width = lengths.front();
+  box.height = lengths[each_frame ? 4 : 1];
   const Hdf5Handle group =
       checked(H5Oopen(file.get(), (std::string(h5md_disks) + "/box").c_str(), H5P_DEFAULT), H5Oclose);
   const Hdf5Handle boundary = checked(H5Aopen(group.get(), "boundary", H5P_DEFAULT), H5Aclose);
   const Hdf5Handle type = checked(H5Aget_type(boundary.get()), H5Tclose);
   const std::size_t width = H5Tget_size(type.get());
-  if (H5Aget_storage_size(boundary.get()) != 2 * width) fail("has no boundary of two words");
-  std::string words(2 * width, '\0');
+  const hsize_t stored = H5Aget_storage_size(boundary.get());
+  if (width == 0 || (stored != 2 * width && stored != 3 * width)) fail("has no boundary of two words");
+  std::string words(stored, '\0');
   if (H5Aread(boundary.get(), type.get(), words.data()) < 0) fail(hdf5_reason());
   if (words.starts_with("periodic")) box.sides[0] = box.sides[1] = SideKind::periodic;
   if (words.compare(width, 8, "periodic") == 0) box.sides[2] = box.sides[3] = SideKind::periodic;
@@ -130,19 +146,27 @@ void H5mdReader::File::read_frame(TrajectoryFrame& frame) {
   read_row(radius, H5T_NATIVE_DOUBLE, next, radii);
   read_row(mass, H5T_NATIVE_DOUBLE, next, masses);
   read_row(id, H5T_NATIVE_UINT32, next, ids);
+  read_row(species, H5T_NATIVE_UINT32, next, groups);
   // A writer killed while places were added has lengthened some datasets and not the others, for frames to come.
-  const std::size_t places = std::min({ids.size(), xy.size() / 2, vxy.size() / 2});
+  const std::size_t places = std::min({ids.size(), xy.size() / dimensions, vxy.size() / dimensions});
   frame = {};
   frame.box = box;
   frame.time = times[next];
   for (std::size_t p = 0; p < places; ++p) {
     if (ids[p] == h5md_no_id) continue;
-    if (p >= radii.size() || p >= masses.size()) fail(fmt::format("disk {} has no radius or mass", ids[p]));
+    if (p >= radii.size() || p >= masses.size() || p >= groups.size()) {
+      fail(fmt::format("disk {} has no radius, mass or species", ids[p]));
+    }
+    const std::size_t at = p * dimensions;
+    if (dimensions == 3 && (xy[at + 2] != 0.0 || vxy[at + 2] != 0.0)) {
+      fail(fmt::format("frame {}: disk {} has left the plane z = 0", next + 1, ids[p]));
+    }
+    frame.group.push_back(groups[p]);
     Disks& d = frame.disks;
-    d.x.push_back(xy[2 * p]);
-    d.y.push_back(xy[2 * p + 1]);
-    d.vx.push_back(vxy[2 * p]);
-    d.vy.push_back(vxy[2 * p + 1]);
+    d.x.push_back(xy[at]);
+    d.y.push_back(xy[at + 1]);
+    d.vx.push_back(vxy[at]);
+    d.vy.push_back(vxy[at + 1]);
     d.radius.push_back(radii[p]);
     d.mass.push_back(masses[p]);
     d.id.push_back(ids[p]);

@@ -1,5 +1,6 @@
 #include "io/h5md_values.hpp"
 
+#include <array>
 #include <cstring>
 
 #include "core/disk_group.hpp"
@@ -22,40 +23,55 @@ void fill_with(std::vector<unsigned char>& buffer, const H5mdPlaces& places, T n
   }
 }
 
-template <class T>
-struct Pair {
-  T x, y;
+template <class T, std::size_t n>
+struct Vector {
+  std::array<T, n> components;
 };
 
-template <class T>
-void fill_with_pairs(std::vector<unsigned char>& buffer, const H5mdPlaces& places, T nothing,
-                     const std::vector<double>& x, const std::vector<double>& y) {
-  fill_with(buffer, places, Pair<T>{nothing, nothing}, [&](std::uint32_t i) {
-    return Pair<T>{static_cast<T>(x[i]), static_cast<T>(y[i])};
-  });
+// x(i) and y(i) of the disk i, and 0 where there is a third component.
+template <class T, class X, class Y>
+void fill_with_vectors(std::vector<unsigned char>& buffer, const H5mdPlaces& places, int dimensions, T nothing, X x,
+                       Y y) {
+  if (dimensions == 3) {
+    fill_with(buffer, places, Vector<T, 3>{{nothing, nothing, nothing}}, [&](std::uint32_t i) {
+      return Vector<T, 3>{{static_cast<T>(x(i)), static_cast<T>(y(i)), T{}}};
+    });
+  } else {
+    fill_with(buffer, places, Vector<T, 2>{{nothing, nothing}}, [&](std::uint32_t i) {
+      return Vector<T, 2>{{static_cast<T>(x(i)), static_cast<T>(y(i))}};
+    });
+  }
 }
 
 }  // namespace
 
-void fill_with_values(H5mdQuantity quantity, bool single, const Disks& disks, const std::vector<DiskId>& group_ends,
-                      const H5mdPlaces& places, std::vector<unsigned char>& buffer) {
-  const auto pairs = [&](const std::vector<double>& x, const std::vector<double>& y) {
-    if (single) return fill_with_pairs(buffer, places, h5md_single_nothing, x, y);
-    fill_with_pairs(buffer, places, h5md_nothing, x, y);
+void fill_with_values(H5mdQuantity quantity, const H5mdForm& form, const Disks& disks, const H5mdPlaces& places,
+                      std::vector<unsigned char>& buffer) {
+  const auto vectors = [&](const std::vector<double>& x, const std::vector<double>& y) {
+    const auto of_x = [&x](std::uint32_t i) { return x[i]; };
+    const auto of_y = [&y](std::uint32_t i) { return y[i]; };
+    if (form.single) return fill_with_vectors(buffer, places, form.dimensions, h5md_single_nothing, of_x, of_y);
+    fill_with_vectors(buffer, places, form.dimensions, h5md_nothing, of_x, of_y);
   };
   switch (quantity) {
     case H5mdQuantity::position:
-      return pairs(disks.x, disks.y);
+      return vectors(disks.x, disks.y);
     case H5mdQuantity::velocity:
-      return pairs(disks.vx, disks.vy);
+      return vectors(disks.vx, disks.vy);
     case H5mdQuantity::id:
       return fill_with(buffer, places, h5md_no_id, [&](std::uint32_t i) { return disks.id[i]; });
     case H5mdQuantity::mass:
       return fill_with(buffer, places, h5md_nothing, [&](std::uint32_t i) { return disks.mass_of(i); });
     case H5mdQuantity::radius:
       return fill_with(buffer, places, h5md_nothing, [&](std::uint32_t i) { return disks.radius_of(i); });
+    case H5mdQuantity::image:
+      return fill_with_vectors(
+          buffer, places, form.dimensions, h5md_no_image,
+          [&](std::uint32_t i) { return rounds_of(form.rounds->x, disks.id[i]); },
+          [&](std::uint32_t i) { return rounds_of(form.rounds->y, disks.id[i]); });
     case H5mdQuantity::species:
-      fill_with(buffer, places, h5md_no_species, [&](std::uint32_t i) { return group_of(group_ends, disks.id[i]); });
+      fill_with(buffer, places, h5md_no_species,
+                [&](std::uint32_t i) { return group_of(form.group_ends, disks.id[i]); });
   }
 }
 

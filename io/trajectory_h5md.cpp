@@ -46,11 +46,14 @@ Hdf5Kind single_kind() {
 Hdf5Kind id_kind() {
   return {H5T_STD_U32LE, H5T_NATIVE_UINT32, sizeof(DiskId), &h5md_no_id};
 }
+Hdf5Kind image_kind() {
+  return {H5T_STD_I32LE, H5T_NATIVE_INT32, sizeof(std::int32_t), &h5md_no_image};
+}
 Hdf5Kind count_kind() {
   return {H5T_STD_I64LE, H5T_NATIVE_INT64, sizeof(std::int64_t), &no_count};
 }
 
-// What every disk has: one value or two (x and y), at a place of its own, in each frame or once for all.
+// What every disk has: one value or several (x, y and perhaps z), at a place of its own, in each frame or once for all.
 struct Element {
   H5mdQuantity quantity = H5mdQuantity::position;
   std::string name;  // of the dataset
@@ -67,13 +70,22 @@ struct Packer {
 };
 constexpr std::size_t chunks_at_once = 16;
 
-// One number a frame, kept here between flushes.
+// One number a frame, kept here between flushes; or the same numbers in every frame.
 struct Column {
   std::string name;  // of the dataset
   Hdf5Kind kind;
   Hdf5Handle set;
   std::vector<double> values;
+  Extent shape{};                  // of what a frame has, where it is more than a number
+  std::vector<double> constant{};  // in every frame
 };
+
+// Lengths of a column over so many frames.
+Extent shape_of(const Column& column, Count frames) {
+  Extent extent{frames};
+  extent.insert(extent.end(), column.shape.begin(), column.shape.end());
+  return extent;
+}
 
 std::string user_name() {
   const char* const name = std::getenv("USER");  // NOLINT(concurrency-mt-unsafe): nobody sets it
@@ -89,7 +101,7 @@ Count disks_at_start(const Scene& scene) {
 }  // namespace
 
 struct H5mdWriter::File {
-  File(const std::string& file_path, const Scene& scene, bool existing);
+  File(const std::string& file_path, const Scene& scene, bool existing, const DisplacementTally* rounds);
   File(const File&) = delete;
   File& operator=(const File&) = delete;
   ~File();
@@ -102,8 +114,7 @@ struct H5mdWriter::File {
   void write_once(Element& element, const Disks& disks, hsize_t first, hsize_t last);
   void fill(const Element& element, const Disks& disks, hsize_t begin, hsize_t end,
             std::vector<unsigned char>& buffer) const {
-    const bool single = element.kind.width == sizeof(float);
-    fill_with_values(element.quantity, single, disks, group_ends, {disk_at, begin, end}, buffer);
+    fill_with_values(element.quantity, form, disks, {disk_at, begin, end}, buffer);
   }
   void flush();
   void close();
@@ -111,13 +122,13 @@ struct H5mdWriter::File {
   std::string path;
   Hdf5Output output;
   Selection select;
-  std::vector<DiskId> group_ends;
+  H5mdForm form;
   bool exact = false, growing = false;
   hsize_t chunk = 1;   // places
   hsize_t places = 0;  // that the file has
   hsize_t known = 0;   // places whose mass, radius and species are in the file
   Count frames = 0, flushed_frames = 0;
-  std::array<Element, 6> elements;
+  std::vector<Element> elements;           // positions first
   std::vector<std::size_t> shown_columns;  // of series_columns
   std::vector<Column> columns;  // step, the observables, and time, which says how many frames are whole, at last
   std::vector<std::uint32_t> disk_at;
@@ -126,11 +137,11 @@ struct H5mdWriter::File {
   double unflushed_work = 0.0;
 };
 
-H5mdWriter::File::File(const std::string& file_path, const Scene& scene, bool existing)
+H5mdWriter::File::File(const std::string& file_path, const Scene& scene, bool existing, const DisplacementTally* rounds)
     : path(file_path),
       output(file_path, existing),
       select(scene.output.select),
-      group_ends(ends_of_groups(scene)),
+      form{scene.output.single_precision, scene.output.dimensions, ends_of_groups(scene), rounds},
       exact(scene.run.method == Method::exact),
       growing(!scene.sources.empty() || select.by_region) {
   const Count disks = disks_at_start(scene);
@@ -140,12 +151,17 @@ H5mdWriter::File::File(const std::string& file_path, const Scene& scene, bool ex
   const std::string root = std::string(h5md_disks) + "/";
   const bool moving = select.by_region;
   const auto once = [&](const std::string& name) { return root + name + (moving ? "/value" : ""); };
-  elements = {{{H5mdQuantity::position, root + "position/value", place_kind, 2, true, {}},
-               {H5mdQuantity::velocity, root + "velocity/value", place_kind, 2, true, {}},
-               {H5mdQuantity::id, root + "id/value", id_kind(), 1, true, {}},
-               {H5mdQuantity::mass, once("mass"), double_kind(), 1, moving, {}},
-               {H5mdQuantity::radius, once("radius"), double_kind(), 1, moving, {}},
-               {H5mdQuantity::species, once("species"), id_kind(), 1, moving, {}}}};
+  const auto components = static_cast<hsize_t>(form.dimensions);
+  const auto add = [this](H5mdQuantity quantity, const std::string& name, Hdf5Kind kind, hsize_t width, bool each) {
+    elements.push_back({quantity, name, kind, width, each, {}});
+  };
+  add(H5mdQuantity::position, root + "position/value", place_kind, components, true);
+  add(H5mdQuantity::velocity, root + "velocity/value", place_kind, components, true);
+  add(H5mdQuantity::id, root + "id/value", id_kind(), 1, true);
+  add(H5mdQuantity::mass, once("mass"), double_kind(), 1, moving);
+  add(H5mdQuantity::radius, once("radius"), double_kind(), 1, moving);
+  add(H5mdQuantity::species, once("species"), id_kind(), 1, moving);
+  if (rounds != nullptr) add(H5mdQuantity::image, root + "image/value", image_kind(), components, true);
   columns.push_back({root + "position/step", count_kind(), {}, {}});
   for (std::size_t k = 0; k < series_columns.size(); ++k) {
     const SeriesColumn& column = series_columns[k];
@@ -153,6 +169,11 @@ H5mdWriter::File::File(const std::string& file_path, const Scene& scene, bool ex
     shown_columns.push_back(k);
     columns.push_back(
         {fmt::format("/observables/{}/value", column.name), column.whole ? count_kind() : double_kind(), {}, {}});
+  }
+  if (form.dimensions == 3) {
+    // MDAnalysis takes the box of each frame for three vectors.
+    const std::vector<double> edges{scene.box.width, 0.0, 0.0, 0.0, scene.box.height, 0.0, 0.0, 0.0, 1.0};
+    columns.push_back({root + "box/edges/value", double_kind(), {}, {}, {3, 3}, edges});
   }
   columns.push_back({root + "position/time", double_kind(), {}, {}});
 }
@@ -176,9 +197,12 @@ void H5mdWriter::File::describe(const Scene& scene) const {
   output.text("/parameters/scene", resolved_toml(scene));
   const std::string box = std::string(h5md_disks) + "/box";
   output.make_group(box);
-  output.attribute(box, "dimension", std::vector<int>{2}, false);
+  output.attribute(box, "dimension", std::vector<int>{form.dimensions}, false);
   const auto boundary = [](bool periodic) { return std::string(periodic ? "periodic" : "none"); };
-  output.attribute(box, "boundary", {boundary(scene.box.periodic_x()), boundary(scene.box.periodic_y())}, true);
+  std::vector<std::string> boundaries{boundary(scene.box.periodic_x()), boundary(scene.box.periodic_y())};
+  if (form.dimensions == 3) boundaries.push_back(boundary(false));
+  output.attribute(box, "boundary", boundaries, true);
+  if (form.dimensions == 3) return;  // its edges are a column
   const std::array<double, 2> edges{scene.box.width, scene.box.height};
   const Hdf5Handle set = output.make_dataset(box + "/edges", double_kind(), {2}, {2}, {2}, Packing::plain);
   output.write_block(set, double_kind(), {0}, {2}, edges.data());
@@ -204,8 +228,10 @@ void H5mdWriter::File::make_elements() {
   output.make_group("/observables");
   for (Column& c : columns) {
     const std::string group = c.name.substr(0, c.name.rfind('/'));
-    if (group.starts_with("/observables")) output.make_group(group);
-    c.set = output.make_dataset(c.name, c.kind, {0}, {H5S_UNLIMITED}, {frames_per_column_chunk}, Packing::plain);
+    if (group != root + "position") output.make_group(group);
+    Extent size{0}, most{H5S_UNLIMITED}, block{frames_per_column_chunk};
+    for (Extent* const extent : {&size, &most, &block}) extent->insert(extent->end(), c.shape.begin(), c.shape.end());
+    c.set = output.make_dataset(c.name, c.kind, size, most, block, Packing::plain);
   }
   const auto share = [&](const std::string& name) {
     const std::string group = name.substr(0, name.rfind('/'));
@@ -225,7 +251,7 @@ void H5mdWriter::File::open_elements(Count kept) {
   const Count there = output.size_of(columns.back().set).at(0);
   const Extent held = output.size_of(elements[0].set);
   if (there < kept) output.fail(fmt::format("it holds {} frames, and {} were written before", there, kept));
-  if (held.size() != 3 || held[1] < places || (!growing && held[1] != places)) {
+  if (held.size() != 3 || held[2] != elements[0].components || held[1] < places || (!growing && held[1] != places)) {
     output.fail("it was written for other disks");
   }
   places = held[1];
@@ -241,7 +267,7 @@ void H5mdWriter::File::open_elements(Count kept) {
     size[1] = places;
     output.resize(e.set, size);
   }
-  for (Column& c : columns) output.resize(c.set, {kept});
+  for (Column& c : columns) output.resize(c.set, shape_of(c, kept));
 }
 
 // The frame's row of an element, chunk by chunk. Chunks without a disk are not written: they read as fill values.
@@ -305,13 +331,20 @@ void H5mdWriter::File::flush() {
     for (Element& e : elements) output.flush(e.set);
     std::vector<std::int64_t> whole;
     for (Column& c : columns) {
+      const Count fresh = frames - flushed_frames;
+      if (!c.constant.empty()) {
+        c.values.clear();
+        for (Count k = 0; k < fresh; ++k) c.values.insert(c.values.end(), c.constant.begin(), c.constant.end());
+      }
       const void* data = c.values.data();
       if (c.kind.width == sizeof(std::int64_t) && c.kind.fill == &no_count) {
         whole.assign(c.values.begin(), c.values.end());
         data = whole.data();
       }
-      output.resize(c.set, {frames});
-      output.write_block(c.set, c.kind, {flushed_frames}, {frames - flushed_frames}, data);
+      output.resize(c.set, shape_of(c, frames));
+      Extent begin(1 + c.shape.size(), 0);
+      begin[0] = flushed_frames;
+      output.write_block(c.set, c.kind, begin, shape_of(c, fresh), data);
       output.flush(c.set);
       c.values.clear();
     }
@@ -329,18 +362,18 @@ void H5mdWriter::File::close() {
   for (Element& e : elements) output.checked(e.set.close());
   for (Column& c : columns) output.checked(c.set.close());
   output.close();
-  write_xdmf(path, {times, places, elements[0].kind.width, elements[3].each_frame});
+  write_xdmf(path, {times, places, elements[0].kind.width, form.dimensions, select.by_region});
 }
 
-H5mdWriter::H5mdWriter(const std::string& path, const Scene& scene)
-    : file_(std::make_unique<File>(path, scene, false)) {
+H5mdWriter::H5mdWriter(const std::string& path, const Scene& scene, const DisplacementTally* rounds)
+    : file_(std::make_unique<File>(path, scene, false, rounds)) {
   file_->describe(scene);
   file_->make_elements();
   file_->output.start_safe_writing();
 }
 
-H5mdWriter::H5mdWriter(const std::string& path, const Scene& scene, Count frames)
-    : file_(std::make_unique<File>(path, scene, true)) {
+H5mdWriter::H5mdWriter(const std::string& path, const Scene& scene, Count frames, const DisplacementTally* rounds)
+    : file_(std::make_unique<File>(path, scene, true, rounds)) {
   file_->open_elements(frames);
   file_->output.start_safe_writing();
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/disks.hpp"
+#include "core/displacement.hpp"
 #include "core/scene.hpp"
 #include "io/output_mark.hpp"
 #include "io/series.hpp"
@@ -15,12 +16,13 @@ namespace carom {
 // reader, with every frame up to the last flush.
 class H5mdWriter {
  public:
-  // Creates or replaces the file. Throws RunError where it cannot be written, here and below.
-  H5mdWriter(const std::string& path, const Scene& scene);
+  // Creates or replaces the file. rounds: how often each disk has gone round the periodic sides, kept by the caller;
+  // null: the file does not tell. Throws RunError where it cannot be written, here and below.
+  H5mdWriter(const std::string& path, const Scene& scene, const DisplacementTally* rounds = nullptr);
 
   // Goes on with the file that a writer of this scene left, closed or killed, after its first `frames` frames; what
   // follows them is cut off. Throws RunError if it has fewer, or was written for other disks.
-  H5mdWriter(const std::string& path, const Scene& scene, Count frames);
+  H5mdWriter(const std::string& path, const Scene& scene, Count frames, const DisplacementTally* rounds = nullptr);
 
   ~H5mdWriter();
   H5mdWriter(const H5mdWriter&) = delete;

@@ -42,9 +42,9 @@ std::string grid(const XdmfPlan& plan, const std::string& h5, std::size_t frame)
   };
   return fmt::format("<Grid Name=\"disks\">\n<Time Value=\"{}\"/>\n", plan.times[frame]) +
          fmt::format("<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n", plan.places) +
-         fmt::format("<Geometry GeometryType=\"XY\">{}</Geometry>\n",
-                     row_of(plan, data("position/value"), frame, 2, place_type)) +
-         attribute("velocity", "Vector", row_of(plan, data("velocity/value"), frame, 2, place_type)) +
+         fmt::format("<Geometry GeometryType=\"{}\">{}</Geometry>\n", plan.dimensions == 3 ? "XYZ" : "XY",
+                     row_of(plan, data("position/value"), frame, plan.dimensions, place_type)) +
+         attribute("velocity", "Vector", row_of(plan, data("velocity/value"), frame, plan.dimensions, place_type)) +
          attribute("id", "Scalar", row_of(plan, data("id/value"), frame, 1, id_type)) +
          attribute("radius", "Scalar", size("radius")) + attribute("mass", "Scalar", size("mass")) + "</Grid>\n";
 }

@@ -10,9 +10,10 @@
 namespace carom {
 
 struct XdmfPlan {
-  std::vector<double> times;      // of the frames
-  Count places = 0;               // a frame
-  std::size_t width = 8;          // bytes of a coordinate
+  std::vector<double> times;  // of the frames
+  Count places = 0;           // a frame
+  std::size_t width = 8;      // bytes of a coordinate
+  int dimensions = 2;
   bool sizes_each_frame = false;  // radius and mass are written frame by frame
 };
 

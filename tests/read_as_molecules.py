@@ -6,6 +6,7 @@ import warnings
 warnings.simplefilter("ignore")  # of MDAnalysis: masses that it cannot guess from an element
 
 import ase.io  # noqa: E402
+import h5py  # noqa: E402
 import MDAnalysis  # noqa: E402
 import numpy  # noqa: E402
 
@@ -59,8 +60,16 @@ def main(xyz_path, h5_path=None):
     check_mdanalysis(MDAnalysis.Universe(xyz_path), frames, False)
     if h5_path is None:
         return
-    universe = MDAnalysis.Universe(xyz_path).load_new(h5_path, convert_units=False)
+    universe = MDAnalysis.Universe.empty(len(frames[0][1]["pos"]), trajectory=True)
+    universe.load_new(h5_path, format="H5MD", convert_units=False)
     check_mdanalysis(universe, frames, True)
+    with h5py.File(h5_path, "r") as file:
+        disks = file["particles/disks"]
+        box = disks["box"]
+        assert box.attrs["dimension"] == 3 and len(box.attrs["boundary"]) == 3
+        assert box["edges/time"] == disks["position/time"] and box["edges/step"] == disks["position/step"]
+        for k, (_, columns) in enumerate(frames):
+            assert (disks["image/value"][k] == columns["map_shift"]).all(), "image"
 
 
 main(*sys.argv[1:])

@@ -62,6 +62,15 @@ TEST_F(TrajectoryPrograms, AseAndMdanalysisReadTheText) {
   EXPECT_THAT(read_as_molecules("out/trajectory.xyz"), HasSubstr("cell 20.0 12.0 1.0 pbc False False False"));
 }
 
+TEST_F(TrajectoryPrograms, MdanalysisReadsTheThreeDimensionsOfH5md) {
+  run_scene("xyz");
+  run_scene("h5", "--set output.trajectory=h5md --set output.dimensions=3");
+  const std::string said = read_as_molecules("xyz/trajectory.xyz h5/trajectory.h5");
+  EXPECT_THAT(said, HasSubstr("dimensions [20. 12.  1. 90. 90. 90.]"));
+  EXPECT_THAT(carom("compare xyz h5").out, HasSubstr("same bits in all 33 frames"));
+  EXPECT_EQ(carom("render h5 --frame 3").status, 0);
+}
+
 // Unwrapped, a disk goes no further between two frames than it can have flown.
 TEST_F(TrajectoryPrograms, RoundsMakePathsContinuous) {
   std::istringstream file(run_scene("out", "--set output.every=0.05"));
@@ -111,6 +120,13 @@ TEST_F(TrajectoryPrograms, AStoppedAndResumedRunCountsOn) {
   while (o.status == 4) o = carom("resume parts --quiet --max-walltime 0.01");
   ASSERT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(text_of(at("parts/trajectory.xyz")), whole);
+  const std::string h5md = " --set output.trajectory=h5md --set output.dimensions=3 --force";
+  o = carom("run scene.toml --quiet -o parts --max-walltime 1e-6 " + longer + h5md);
+  while (o.status == 4) o = carom("resume parts --quiet --max-walltime 0.01");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const Outcome read = shell("/usr/bin/python3 " CAROM_SOURCE_DIR
+                             "/tests/read_as_molecules.py whole/trajectory.xyz parts/trajectory.h5");
+  EXPECT_EQ(read.status, 0) << read.err;
 }
 
 }  // namespace
