@@ -17,22 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// For a run that has no folder: the first that is free.
-fs::path free_folder(const std::string& scene_file) {
-  const fs::path wanted = fs::path("out") / fs::path(scene_file).stem();
-  fs::path folder = wanted;
-  for (int k = 2;; ++k) {
-    try {
-      check_output_folder(folder, scene_file, false);
-      return folder;
-    } catch (const InputError&) {
-      constexpr int patience = 1000;
-      if (k > patience) throw;
-    }
-    folder = fmt::format("{}-{}", wanted.string(), k);
-  }
-}
-
 }  // namespace
 
 double cpu_seconds() {
@@ -55,7 +39,10 @@ void CheckpointKeeper::write_to(OutputFolder* folder, RunOutputs* outputs, bool 
 }
 
 OutputFolder& CheckpointKeeper::folder() {
-  if (folder_ == nullptr) folder_ = &own_folder_.emplace(free_folder(before_.scene_file), before_.scene_file, false);
+  if (folder_ == nullptr) {
+    const fs::path wanted = fs::path("out") / fs::path(before_.scene_file).stem();
+    folder_ = &own_folder_.emplace(free_output_folder(wanted, before_.scene_file), before_.scene_file, false);
+  }
   return *folder_;
 }
 

@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/commands.hpp"
 #include "app/run_task.hpp"
+#include "app/stop_signals.hpp"
 #include "core/check.hpp"
 #include "core/input_message.hpp"
+#include "core/scene_names.hpp"
 #include "core/step_clock.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
@@ -50,6 +54,15 @@ void check_end(const Scene& before, const Scene& now, const State& state) {
              "expected an earlier checkpoint");
 }
 
+// Was a plot lost at the end of the run, or taken away since? Going on from the end draws it.
+bool lacks_plots(const Scene& scene, const fs::path& folder) {
+  const auto lacks = [&](std::string_view name) { return !fs::exists(folder / fmt::format("{}.svg", name)); };
+  for (std::size_t k = 0; k < quantity_names.size(); ++k) {
+    if (scene.analysis.wanted[k] && lacks(quantity_names[k])) return true;
+  }
+  return std::any_of(scene.output.plots.begin(), scene.output.plots.end(), lacks);
+}
+
 Scene scene_of(const RunRecord& record, const SceneChanges& changes) {
   return scene_as_told(changes, [&](const std::vector<Override>& overrides) {
     return parse_scene(record.scene_text, record.scene_file, "", overrides);
@@ -60,6 +73,7 @@ Scene scene_of(const RunRecord& record, const SceneChanges& changes) {
 
 int command_resume(const ResumeOptions& options) {
   const auto start_time = std::chrono::steady_clock::now();
+  catch_signals();
   const CheckpointPlace place = find_checkpoint(options.checkpoint);
   Checkpoint checkpoint = read_checkpoint_at(place);
   const RunRecord& record = checkpoint.record;
@@ -69,7 +83,8 @@ int command_resume(const ResumeOptions& options) {
   }
   check_end(scene_of(record, {}), scene, checkpoint.state);
   check_files(place, record.outputs);
-  if (place.finished && checkpoint.state.time >= scene.run.t_end && fs::exists(place.folder / "summary.json")) {
+  if (place.finished && checkpoint.state.time >= scene.run.t_end && fs::exists(place.folder / "summary.json") &&
+      !lacks_plots(scene, place.folder)) {
     fail_input(options.checkpoint, fmt::format("the run came to its end at t = {}", checkpoint.state.time),
                "expected --t-end beyond that");
   }

@@ -21,6 +21,7 @@
 #include "core/method_choice.hpp"
 #include "core/scene_check.hpp"
 #include "core/validity.hpp"
+#include "io/checkpoint_place.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 
@@ -30,11 +31,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where the results go: -o, or out/<name of the scene> if the scene asks for files at all.
+// Where the results go: -o, or out/<name of the scene> if the scene asks for files at all, and the first free of
+// out/<name>-2 and so on where that holds a run. Says which.
 std::optional<fs::path> folder_of(const RunOptions& options, const Scene& scene) {
-  if (options.folder) return *options.folder;
-  if (!wants_files(scene)) return std::nullopt;
-  return fs::path("out") / fs::path(options.scene).stem();
+  if (options.folder || !wants_files(scene)) {
+    if (options.folder) check_output_folder(*options.folder, options.scene, options.force);
+    return options.folder ? std::optional<fs::path>(*options.folder) : std::nullopt;
+  }
+  const fs::path wanted = fs::path("out") / fs::path(options.scene).stem();
+  if (options.force) check_output_folder(wanted, options.scene, true);
+  const fs::path folder = options.force ? wanted : free_output_folder(wanted, options.scene);
+  if (options.quiet) return folder;
+  std::string note = fmt::format("results go to {}", folder.string());
+  if (folder != wanted) {
+    const bool stopped = fs::exists(present_path(wanted, checkpoint_name)) && !fs::exists(wanted / "summary.json");
+    note += fmt::format(
+        " ({} holds another run; {})", wanted.string(),
+        stopped ? fmt::format("carom resume {} goes on with that", wanted.string()) : "--force replaces it");
+  }
+  print_note(note);
+  return folder;
 }
 
 // Goes on where the run's files lie, or in another folder with copies of them.
@@ -195,13 +211,44 @@ int report_stop(const Engine& engine, const RunTask& task, Results* results, con
   return 4;
 }
 
-// Completes the files and reports.
-void report_end(const Engine& engine, const RunTask& task, Results* results, CheckpointKeeper& keeper, double step_s,
-                const std::vector<std::string>& told) {
-  const bool keeps_checkpoints = task.scene.output.checkpoint > 0.0;
+// Pictures that could not be made, on one line, and how to make them.
+std::string lost_pictures(const RunTask& task, const Results& results, bool resumable) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+  for (const std::string& plot : results.outputs.lost_plots()) add(plot);
+  const std::string& folder = results.folder.name();
+  const std::string& movie = results.outputs.lost_movie();
+  if (!movie.empty()) add(movie);
+  if (text.empty()) return text;
+  add(fmt::format("all else of the run is in {}", folder));
+  if (resumable && !results.outputs.lost_plots().empty()) add(fmt::format("carom resume {} draws the plots", folder));
+  if (!movie.empty() && task.scene.output.trajectory != TrajectoryFormat::none) {
+    add(fmt::format("carom render {} makes the movie", folder));
+  }
+  return text;
+}
+
+// The last checkpoint of a run that is done: asked for, or needed to draw lost plots from. Is there one?
+bool keep_last_checkpoint(const Engine& engine, const RunTask& task, const Results& results, CheckpointKeeper& keeper,
+                          double step_s, const OutputMark& mark) {
+  const bool wanted = task.scene.output.checkpoint > 0.0;
+  if (!wanted && results.outputs.lost_plots().empty()) return false;
+  try {
+    keeper.write(engine.state(), step_s, mark);
+  } catch (const RunError&) {
+    if (wanted) throw;
+    return false;
+  }
+  return true;
+}
+
+// Completes the files and reports. Returns the exit status.
+int report_end(const Engine& engine, const RunTask& task, Results* results, CheckpointKeeper& keeper, double step_s,
+               const std::vector<std::string>& told) {
+  bool keeps_checkpoint = false;
   if (results != nullptr) {
     const OutputMark mark = results->outputs.finish(true);
-    if (keeps_checkpoints) keeper.write(engine.state(), step_s, mark);
+    keeps_checkpoint = keep_last_checkpoint(engine, task, *results, keeper, step_s, mark);
     if (!task.quiet) {
       for (const std::string& warning : results->outputs.take_warnings()) print_warning(warning);
     }
@@ -219,13 +266,17 @@ void report_end(const Engine& engine, const RunTask& task, Results* results, Che
   }
   if (results != nullptr) {
     write_file(results->folder.path("summary.json"), json_text(summary));
-    results->folder.finish(keeps_checkpoints);
+    results->folder.finish(keeps_checkpoint);
   }
   if (task.json) {
     print_out(json_text(summary));
   } else if (!task.quiet) {
     print_out(table_text(summary, results != nullptr ? results->folder.name() : ""));
   }
+  const std::string lost = results != nullptr ? lost_pictures(task, *results, keeps_checkpoint) : "";
+  if (lost.empty()) return 0;
+  print_note(fmt::format("error: {}", lost));
+  return 1;
 }
 
 // The record of a run that begins, or of one that goes on.
@@ -263,7 +314,7 @@ int carry_out(RunTask task) {
   for (const std::string& warning : warnings) {
     if (!task.quiet) print_warning(warning);
   }
-  catch_signals();
+  task.setup = nullptr;
   RunRecord record = record_of(task, *engine);
   if (!task.from) record.warnings = warnings;
   const bool new_plan = task.from && record.scene_text != task.from->checkpoint.record.scene_text;
@@ -281,28 +332,29 @@ int carry_out(RunTask task) {
     std::vector<std::string> told;
     const double step_s = run_watched(*engine, task, files, keeper, told);
     if (!keeper.stopped_by().empty()) return report_stop(*engine, task, files, keeper, step_s);
-    report_end(*engine, task, files, keeper, step_s, told);
+    return report_end(*engine, task, files, keeper, step_s, told);
   } catch (const RunError& error) {
     fail_resumable(error.what(), keeper);
   } catch (const std::bad_alloc&) {
     fail_resumable("out of memory", keeper);
   }
-  return 0;
 }
 
 int command_run(const RunOptions& options) {
   const auto start_time = std::chrono::steady_clock::now();
+  catch_signals();
+  const auto watch = [&] { return std::make_unique<SetupWatch>(start_time, options.max_walltime); };
+  auto setup = watch();
   const Scene scene = load_scene_as_told(options.scene, options.changes);
+  setup = nullptr;  // looking for a folder makes some
   const EngineChoice choice = choose_engine(options.engine, options.threads);
   if (!options.quiet) {
     for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
     if (scene.run.automatic) print_note(choice_text(scene));
   }
   const std::optional<fs::path> path = folder_of(options, scene);
-  if (path) check_output_folder(*path, options.scene, options.force);
-  if (path && !options.folder && !options.quiet) print_note(fmt::format("results go to {}", path->string()));
   return carry_out({start_time, scene, choice, path, std::nullopt, options.max_walltime, options.json, options.quiet,
-                    options.force, options.strict});
+                    options.force, options.strict, watch()});
 }
 
 }  // namespace carom

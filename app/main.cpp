@@ -11,6 +11,7 @@
 
 #include "app/commands.hpp"
 #include "core/check.hpp"
+#include "io/child_process.hpp"
 
 namespace carom {
 
@@ -63,6 +64,7 @@ int fail(int status, const char* what) {
 int main(int argc, char** argv) {
   using namespace carom;
   occupy_standard_streams();
+  end_with_parent();
   // A write that cannot be done shall return an error, which we report, rather than end the program.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/check.hpp"
 #include "core/disk_group.hpp"
 #include "core/follow_disks.hpp"
 #include "core/invariants.hpp"
@@ -69,7 +70,10 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
     analysis_ = std::make_unique<RunningAnalysis>(scene, folder, count,
                                                   from.analysis ? *from.analysis : empty_record(scene.analysis));
   }
-  if (!from.movie) return;
+  if (!from.movie) {
+    if (scene.output.movie && from.frames > 0) lost_movie_ = "the movie broke off before the checkpoint";
+    return;
+  }
   const FrameStyle style{scene.title, scene.box, from.movie->fastest, from.movie->time_decimals};
   movie_ = std::make_unique<MovieWriter>(folder_.unfinished(), style, *from.movie);
 }
@@ -97,7 +101,13 @@ OutputMark RunOutputs::mark_without_movie() {
 
 OutputMark RunOutputs::mark() {
   OutputMark mark = mark_without_movie();
-  if (movie_) mark.movie = movie_->mark();
+  if (!movie_) return mark;
+  try {
+    mark.movie = movie_->mark();
+  } catch (const RunError& error) {
+    lose_movie(error.what());
+    warnings_.push_back(fmt::format("{}; the run goes on without a movie", lost_movie_));
+  }
   return mark;
 }
 
@@ -133,30 +143,64 @@ void RunOutputs::frame(const Disks& disks, double time, const State& now) {
     energies_.potential.push_back(energy.potential);
     energies_.total.push_back(energy.total());
   }
-  if (!scene_.output.movie) return;
-  if (!movie_) {
-    movie_ = std::make_unique<MovieWriter>(folder_.unfinished(), frame_style(scene_, disks));
-    if (movie_->single_frames()) {
-      warnings_.emplace_back("ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on");
+  if (scene_.output.movie && lost_movie_.empty()) add_to_movie(disks, time);
+}
+
+void RunOutputs::add_to_movie(const Disks& disks, double time) {
+  try {
+    if (!movie_) {
+      movie_ = std::make_unique<MovieWriter>(folder_.unfinished(), frame_style(scene_, disks));
+      if (movie_->single_frames()) {
+        warnings_.emplace_back("ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on");
+      }
     }
+    movie_->add(disks, time);
+  } catch (const RunError& error) {
+    lose_movie(error.what());
+    warnings_.push_back(fmt::format("{}; the run goes on without a movie", lost_movie_));
   }
-  movie_->add(disks, time);
+}
+
+void RunOutputs::lose_movie(const std::string& why) {
+  lost_movie_ = why;
+  movie_ = nullptr;
+}
+
+bool RunOutputs::draw(const std::function<bool()>& plot) {
+  try {
+    return plot();
+  } catch (const RunError& error) {
+    lost_plots_.emplace_back(error.what());
+    return true;
+  }
 }
 
 void RunOutputs::draw_plots() {
   bool drawn = true;
-  if (plot_velocity_) drawn = plot_velocity(folder_.path("velocity.svg"), scene_.title, velocities_);
-  if (plot_energy_ && drawn) drawn = plot_energy(folder_.path("energy.svg"), scene_.title, energies_);
-  if (analysis_ && drawn) drawn = analysis_->draw();
+  if (plot_velocity_) {
+    drawn = draw([&] { return plot_velocity(folder_.path("velocity.svg"), scene_.title, velocities_); });
+  }
+  if (plot_energy_ && drawn) {
+    drawn = draw([&] { return plot_energy(folder_.path("energy.svg"), scene_.title, energies_); });
+  }
+  if (analysis_ && drawn) drawn = draw([&] { return analysis_->draw(); });
   if (!drawn) warnings_.emplace_back("gnuplot is not installed: no plots are drawn");
 }
 
 OutputMark RunOutputs::finish(bool whole) {
-  OutputMark mark;
-  if (scene_.output.checkpoint > 0.0) mark = mark_without_movie();
-  if (movie_) mark.movie = movie_->finish();
-  pause();
+  std::optional<MovieMark> movie;
+  if (movie_) {
+    try {
+      movie = movie_->finish();
+    } catch (const RunError& error) {
+      lose_movie(error.what());
+    }
+  }
   if (whole) draw_plots();
+  OutputMark mark;
+  if (scene_.output.checkpoint > 0.0 || !lost_plots_.empty()) mark = mark_without_movie();
+  mark.movie = movie;
+  pause();
   return mark;
 }
 

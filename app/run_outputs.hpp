@@ -1,6 +1,7 @@
 // All files that a scene asks for, fed frame by frame.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -50,8 +51,12 @@ class RunOutputs {
   OutputMark mark();
 
   // Completes all files. After a run that stopped early (whole = false) no plots are drawn. Returns the mark from which
-  // a longer run could go on, if the scene asks for checkpoints.
+  // a longer run could go on, if the scene asks for checkpoints or a plot was lost.
   OutputMark finish(bool whole);
+
+  // Pictures that gnuplot or ffmpeg failed to make cost the run nothing else: what failed, one entry each.
+  const std::vector<std::string>& lost_plots() const { return lost_plots_; }
+  const std::string& lost_movie() const { return lost_movie_; }  // empty if it was not
 
   // Ends writing where a later run will go on from the last mark.
   void pause();
@@ -67,6 +72,9 @@ class RunOutputs {
   bool shows_rounds() const;
   XyzPlan xyz_plan() const;
   void draw_plots();
+  bool draw(const std::function<bool()>& plot);  // false: there is no gnuplot
+  void add_to_movie(const Disks& disks, double time);
+  void lose_movie(const std::string& why);
 
   const Scene& scene_;
   const OutputFolder& folder_;
@@ -84,6 +92,8 @@ class RunOutputs {
   VelocityRecord velocities_;
   EnergyRecord energies_;
   std::vector<std::string> warnings_;
+  std::vector<std::string> lost_plots_;
+  std::string lost_movie_;
   BlockRunner run_ = run_in_order;
 };
 

@@ -4,9 +4,11 @@
 #include <chrono>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "app/make_engine.hpp"
+#include "app/setup_watch.hpp"
 #include "core/scene.hpp"
 #include "io/checkpoint_place.hpp"
 
@@ -26,9 +28,11 @@ struct RunTask {
   std::optional<ResumeFrom> from;                                 // absent: from the scene's start
   double max_walltime = std::numeric_limits<double>::infinity();  // seconds from start_time
   bool json = false, quiet = false, force = false, strict = false;
+  std::unique_ptr<SetupWatch> setup = nullptr;  // until the first step
 };
 
-// Runs to the end, or until it is told to stop, and reports. Returns the exit status: 0, or 4 if stopped early.
+// Runs to the end, or until it is told to stop, and reports. Returns the exit status: 0, 4 if stopped early, or 1 if
+// a picture could not be made.
 int carry_out(RunTask task);
 
 }  // namespace carom

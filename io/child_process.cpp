@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -59,17 +60,48 @@ struct SpawnSettings {
 
 }  // namespace
 
+namespace {
+
+constexpr const char* parent_name = "CAROM_PARENT";
+
+// The environment of this process, and who its parent is for a child that must not outlive it.
+std::vector<std::string> environment_for(ChildSignals signals) {
+  std::vector<std::string> environment;
+  for (char** entry = environ; *entry != nullptr; ++entry) environment.emplace_back(*entry);
+  if (signals == ChildSignals::reach_it) environment.push_back(fmt::format("{}={}", parent_name, getpid()));
+  return environment;
+}
+
+std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(const_cast<char*>(text.c_str()));
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+}  // namespace
+
+void end_with_parent() {
+  const char* const parent = std::getenv(parent_name);
+  if (parent == nullptr) return;
+  const std::string wanted = parent;
+  unsetenv(parent_name);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  // It may have died before; then nothing will come.
+  if (fmt::format("{}", getppid()) != wanted) std::raise(SIGTERM);
+}
+
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::string& folder,
                            const std::string& log_path, ChildSignals signals) {
   std::signal(SIGPIPE, SIG_IGN);
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw RunError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
   input_ = ends[1];
-  std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
+  const std::vector<char*> argv = pointers_to(arguments);
+  const std::vector<std::string> environment = environment_for(signals);
   const SpawnSettings spawn(ends[0], folder, log_path, signals);
-  const int error = posix_spawn(&pid_, argv[0], &spawn.actions, &spawn.attributes, argv.data(), environ);
+  const int error =
+      posix_spawn(&pid_, argv[0], &spawn.actions, &spawn.attributes, argv.data(), pointers_to(environment).data());
   ::close(ends[0]);
   if (error != 0) {
     close_input();

@@ -14,6 +14,10 @@ namespace carom {
 // Full path of an executable on PATH, empty if there is none.
 std::string find_program(const std::string& name);
 
+// To be called first thing by a program that may have been started by a ChildProcess with ChildSignals::reach_it: when
+// that process ends, however it does, SIGTERM comes. Does nothing for others.
+void end_with_parent();
+
 // Does a signal that is sent to the child itself reach it, or are those that ask it to stop held back? Batch systems
 // send them to every process of a job: we stop in order then, and need an encoder to the end.
 enum class ChildSignals : std::uint8_t { held_back, reach_it };

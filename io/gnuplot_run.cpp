@@ -19,14 +19,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A scratch folder that goes away with everything in it.
+// A scratch folder beside the picture, where there must be room anyway; it goes away with everything in it.
 struct ScratchFolder {
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "carom-plot-XXXXXX").string();
+  explicit ScratchFolder(const fs::path& picture) {
+    std::string name = (picture.parent_path() / "carom-plot-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) {
       throw RunError(fmt::format("cannot make the folder {}: {}", name, std::strerror(errno)));
     }
-    path = name;
+    path = fs::absolute(name);
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
@@ -59,7 +59,7 @@ std::string gnuplot_quoted(const std::string& text) {
 bool run_gnuplot(const std::string& script, const std::string& data, const std::vector<GnuplotPicture>& pictures) {
   const std::string gnuplot = find_program("gnuplot");
   if (gnuplot.empty()) return false;
-  const ScratchFolder scratch;
+  const ScratchFolder scratch(pictures.front().path);
   const std::string log = scratch.path / "log";
   write_file(scratch.path / "data", data);
   write_file(scratch.path / "script", script);

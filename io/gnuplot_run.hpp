@@ -16,9 +16,9 @@ struct GnuplotPicture {
   std::string path;
 };
 
-// Runs the script in a folder where `data` lies in the file "data", and then moves the pictures to their places, all or
-// none. Returns false, and writes nothing, where gnuplot is not installed. Throws RunError if it fails or a picture
-// cannot be written.
+// Runs the script in a folder of its own beside the first picture, where `data` lies in the file "data", and then moves
+// the pictures to their places, all or none. Returns false, and writes nothing, where gnuplot is not installed. Throws
+// RunError if it fails or a picture cannot be written.
 bool run_gnuplot(const std::string& script, const std::string& data, const std::vector<GnuplotPicture>& pictures);
 
 }  // namespace carom

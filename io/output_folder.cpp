@@ -121,6 +121,21 @@ bool locked_by_another(const fs::path& folder) {
   return another;
 }
 
+// Makes sure that a folder could be made here, by making one that goes away again, and what is missing above it.
+void check_writable(const fs::path& name, const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> made;
+  for (fs::path p = folder; !p.empty() && !fs::exists(p, error); p = p.parent_path()) made.push_back(p);
+  const fs::path probe = folder / fmt::format("carom-probe-{}", getpid());
+  fs::create_directories(probe, error);
+  const std::error_code why = error;
+  fs::remove(probe, error);
+  for (const fs::path& p : made) fs::remove(p, error);  // takes empty ones only
+  if (!why || why == std::errc::no_space_on_device) return;
+  throw InputError(fmt::format("{}: cannot be {}: {}; expected a folder for the results (-o)", name.string(),
+                               made.empty() ? "written to" : "made", why.message()));
+}
+
 [[noreturn]] void fail_locked(const fs::path& name) {
   throw InputError(fmt::format("{}: another run is writing there; expected a folder of its own (-o)", name.string()));
 }
@@ -140,10 +155,15 @@ fs::path present_path(const fs::path& folder, const std::string& file) {
 void check_output_folder(const fs::path& name, const fs::path& input, bool force) {
   const fs::path folder = normal(name);
   std::error_code error;
-  if (!fs::exists(folder, error)) return;
-  if (!fs::is_directory(folder, error)) {
+  if (fs::absolute(folder, error) == fs::absolute(folder, error).root_path()) {
+    throw InputError(fmt::format("{}: is the root of all folders; expected one of the run's own, such as -o out/{}",
+                                 name.string(), input.stem().string()));
+  }
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
     throw InputError(fmt::format("{}: is a file; expected a folder for the results (-o)", name.string()));
   }
+  check_writable(name, folder);
+  if (!fs::exists(folder, error)) return;
   for (const char* const result : result_names) {
     if (fs::equivalent(folder / result, input, error)) {
       throw InputError(
@@ -171,6 +191,27 @@ void check_output_folder(const fs::path& name, const fs::path& input, bool force
       fmt::format("{}: another run is writing there, or stopped before its end ({}); {}choose another "
                   "folder with -o, or replace it with --force",
                   name.string(), unfinished.string(), remedy));
+}
+
+fs::path free_output_folder(const fs::path& wanted, const fs::path& input) {
+  constexpr int patience = 10'000;
+  try {
+    check_output_folder(wanted, input, false);
+    return wanted;
+  } catch (const InputError&) {
+    std::error_code error;
+    if (!fs::is_directory(wanted, error)) throw;
+    for (int k = 2; k <= patience; ++k) {
+      const fs::path next = fmt::format("{}-{}", wanted.string(), k);
+      try {
+        check_output_folder(next, input, false);
+        return next;
+      } catch (const InputError&) {
+        if (!fs::exists(next, error)) throw;
+      }
+    }
+    throw;
+  }
 }
 
 OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool force)

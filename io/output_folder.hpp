@@ -68,4 +68,8 @@ std::filesystem::path present_path(const std::filesystem::path& folder, const st
 // asked early, before anything takes time.
 void check_output_folder(const std::filesystem::path& folder, const std::filesystem::path& input, bool force);
 
+// The first of `wanted`, wanted-2, wanted-3 and so on that can take the results of a run. Throws InputError where none
+// could be made at all.
+std::filesystem::path free_output_folder(const std::filesystem::path& wanted, const std::filesystem::path& input);
+
 }  // namespace carom

@@ -7,6 +7,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using test::Outcome;
+namespace fs = std::filesystem;
 using test::replaced;
 using test::text_of;
 using ::testing::ElementsAre;
@@ -180,8 +181,20 @@ TEST_F(RunResults, WhereResultsGo) {
   EXPECT_THAT(o.err, HasSubstr("results go to out/small"));
   EXPECT_THAT(o.out, HasSubstr("state hash"));
   EXPECT_THAT(files_in("out/small"), ElementsAre("scene.toml", "series.csv", "summary.json", "trajectory.xyz"));
-  expect_error("$C run small.toml", 2, "out/small: holds scene.toml of an earlier run");
+  expect_error("$C run small.toml -o out/small", 2, "out/small: holds scene.toml of an earlier run");
   const std::string before = text_of(at("out/small/summary.json"));
+  o = carom("run small.toml");
+  EXPECT_EQ(o.status, 0) << "the second time too";
+  EXPECT_THAT(o.err, HasSubstr("results go to out/small-2 (out/small holds another run; --force replaces it)\n"));
+  EXPECT_THAT(files_in("out/small-2"), ElementsAre("scene.toml", "series.csv", "summary.json", "trajectory.xyz"));
+  EXPECT_THAT(carom("run small.toml --max-walltime 1e-9 --t-end 1e6").err, HasSubstr("results go to out/small-3"));
+  fs::remove_all(at("out/small"));
+  ASSERT_EQ(carom("run small.toml --max-walltime 1e-9 --t-end 1e6").status, 4);
+  EXPECT_THAT(carom("run small.toml").err,
+              HasSubstr("results go to out/small-4 (out/small holds another run; carom resume out/small goes on with "
+                        "that)\n"));
+  EXPECT_EQ(carom("resume out/small --quiet --t-end 1").status, 0);
+  EXPECT_EQ(text_of(at("out/small/trajectory.xyz")), text_of(at("out/small-2/trajectory.xyz")));
   o = carom("run small.toml --force --quiet --seed 7");
   EXPECT_EQ(o.status, 0);
   EXPECT_THAT(o.out + o.err, IsEmpty());
@@ -196,9 +209,12 @@ TEST_F(RunResults, AFullDiskLeavesNothing) {
   const std::string run = "ulimit -f 8; $C run small.toml --quiet -o full/out ";
   expect_error(run + "--set output.every=0.01", 1, "trajectory.xyz: File too large");
   const std::string no_files = "--set output.series=false --set output.trajectory='\"none\"' ";
-  expect_error(run + no_files + "--set output.movie=true", 1, "movie.mp4: ");
-  expect_error(run + no_files + "--set output.plots='[\"energy\"]'", 1, "energy.svg: ");
   EXPECT_THAT(files_in(""), ElementsAre("small.toml"));
+  // Pictures cost nothing but themselves.
+  expect_error(run + no_files + "--set output.movie=true", 1, "movie.mp4: ");
+  EXPECT_THAT(files_in("full/out"), ElementsAre("scene.toml", "summary.json"));
+  expect_error(run + no_files + "--force --set output.plots='[\"energy\"]'", 1, "energy.svg: ");
+  EXPECT_THAT(files_in("full/out"), ::testing::IsSupersetOf({"scene.toml", "summary.json"}));
   expect_error("$C run small.toml --json --quiet -o out >/dev/full", 1, "standard output: No space left on device");
 }
 
@@ -230,6 +246,53 @@ TEST_F(RunResults, WithoutGnuplotAndFfmpegTheRunSucceeds) {
             "carom: warning: ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on\n"
             "carom: warning: gnuplot is not installed: no plots are drawn\n");
   EXPECT_EQ(files_in("out/frames").size(), 3U);
+}
+
+TEST_F(RunResults, PlotsNeedNoFolderForTemporaryFiles) {
+  const Outcome o = shell("TMPDIR=/nonexistent $C run small.toml --quiet -o out --set output.plots='[\"energy\"]'");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(files_in("out"), ElementsAre("energy.svg", "scene.toml", "series.csv", "summary.json", "trajectory.xyz"));
+}
+
+// Plots that gnuplot fails to draw are lost, and nothing else; they are drawn when the run is resumed.
+TEST_F(RunResults, APlotThatFailsCostsNothingElse) {
+  fs::create_directories(at("bin"));
+  write("bin/gnuplot", "#!/bin/sh\necho no fonts >&2\nexit 1\n");
+  fs::permissions(at("bin/gnuplot"), fs::perms::owner_all);
+  const std::string plots = " --set output.plots='[\"velocity\", \"energy\"]' --set output.movie=true";
+  ASSERT_EQ(carom("run small.toml --quiet -o whole" + plots).status, 0);
+  const std::string fails = "PATH=\"$PWD/bin:$PATH\" $C ";
+  expect_error(fails + "run small.toml --quiet -o out" + plots, 1,
+               "gnuplot could not draw out/carom-unfinished/velocity.svg: no fonts; gnuplot could not draw "
+               "out/carom-unfinished/energy.svg: no fonts; all else of the run is in out; carom resume out draws the "
+               "plots\n");
+  EXPECT_THAT(files_in("out"), ElementsAre("checkpoint.carom", "movie.mp4", "scene.toml", "series.csv", "summary.json",
+                                           "trajectory.xyz"));
+  expect_error(fails + "resume out --quiet", 1, "no fonts");
+  EXPECT_EQ(carom("resume out --quiet").status, 0);
+  expect_same_results("whole", "out");
+  EXPECT_FALSE(fs::exists(at("out/checkpoint.carom")));
+}
+
+TEST_F(RunResults, AMovieThatFailsCostsNothingElse) {
+  fs::create_directories(at("bin"));
+  write("bin/ffmpeg", "#!/bin/sh\nhead -c 1000 >/dev/null\necho broken >&2\nexit 1\n");
+  fs::permissions(at("bin/ffmpeg"), fs::perms::owner_all);
+  ASSERT_EQ(carom("run small.toml --quiet -o whole").status, 0);
+  expect_error("PATH=\"$PWD/bin:$PATH\" $C run small.toml --quiet -o out --set output.movie=true", 1,
+               "movie.mp4: broken; all else of the run is in out; carom render out makes the movie\n");
+  EXPECT_EQ(text_of(at("out/trajectory.xyz")), text_of(at("whole/trajectory.xyz")));
+  EXPECT_EQ(Json::parse(text_of(at("out/summary.json")))["state_hash"],
+            Json::parse(text_of(at("whole/summary.json")))["state_hash"]);
+  EXPECT_EQ(carom("render out --quiet").status, 0);
+}
+
+TEST_F(RunResults, AFolderThatCannotBeIsRefusedBeforeAnythingIsDone) {
+  expect_error("$C run small.toml -o /", 2, "/: is the root of all folders; expected one of the run's own, such as");
+  expect_error("$C run small.toml -o / --force", 2, "-o out/small");
+  expect_error("$C run small.toml -o /proc/nothing/out", 2, "/proc/nothing/out: cannot be made: ");
+  expect_error("$C run small.toml -o small.toml/out", 2, "small.toml/out: cannot be made: Not a directory");
+  EXPECT_THAT(files_in(""), ElementsAre("small.toml"));
 }
 
 TEST_F(RunResults, AllOutputsAtOnce) {

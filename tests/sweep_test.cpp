@@ -1,8 +1,11 @@
 // carom sweep: the grid, the table, going on, scripts, complaints; and scenes that start from a frame.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -101,6 +104,37 @@ TEST_F(SweepTest, RunsTheGridAndGoesOnWhereItStopped) {
   EXPECT_THAT(other, HasSubstr("holds another sweep"));
   EXPECT_EQ(carom("sweep gas.toml -o s --seeds 3 --force").first, 0);
   EXPECT_EQ(rows("s/sweep.csv").size(), 4U);
+}
+
+// A sweep that is killed takes its runs with it, and they leave checkpoints.
+TEST_F(SweepTest, ItsRunsEndWithIt) {
+  const pid_t sweep = fork();
+  if (sweep == 0) {
+    if (chdir(folder_.path().c_str()) != 0) _exit(1);
+    execl(CAROM_PROGRAM, "carom", "sweep", "gas.toml", "-o", "s", "--jobs", "2", "--over", "physics.restitution=1,0.99",
+          "--set", "run.t_end=1e9", "--set", "output.checkpoint=1", nullptr);
+    _exit(1);
+  }
+  const auto checkpoint = [&](const char* run) { return folder_.path() / "s/runs" / run / "carom-unfinished"; };
+  for (const char* const run : {"0001", "0002"}) {
+    while (!fs::exists(checkpoint(run) / "checkpoint.carom")) usleep(1000);
+  }
+  kill(sweep, SIGKILL);
+  waitpid(sweep, nullptr, 0);
+  // Their locks go with them.
+  for (const char* const run : {"0001", "0002"}) {
+    const int lock = open((checkpoint(run) / "lock").c_str(), O_RDONLY | O_CLOEXEC);
+    ASSERT_GE(lock, 0);
+    struct flock other {};
+    do {
+      other.l_type = F_WRLCK;
+      other.l_whence = SEEK_SET;
+      ASSERT_EQ(fcntl(lock, F_GETLK, &other), 0);
+      usleep(1000);
+    } while (other.l_type != F_UNLCK);
+    close(lock);
+    EXPECT_EQ(carom(std::string("resume --quiet --max-walltime 1e-9 s/runs/") + run).first, 4);
+  }
 }
 
 TEST_F(SweepTest, ScriptsRunWhatIsLeft) {

@@ -1,0 +1,26 @@
+// Signals and the wall time while the initial state is made, which no step interrupts.
+#pragma once
+
+#include <chrono>
+#include <thread>
+
+namespace carom {
+
+// From its construction on, a thread of its own sees to it that SIGINT, SIGTERM, SIGHUP and the end of the wall time
+// end the process, with one line and status 4; SIGUSR1 is told that there is no checkpoint yet. Signals are those of
+// stop_signals.hpp, whose catch_signals() has been called. It must be gone before anything is written.
+class SetupWatch {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  // The process began at `started` and may take max_walltime seconds.
+  SetupWatch(Clock::time_point started, double max_walltime);
+  SetupWatch(const SetupWatch&) = delete;
+  SetupWatch& operator=(const SetupWatch&) = delete;
+  ~SetupWatch();
+
+ private:
+  std::jthread thread_;
+};
+
+}  // namespace carom
