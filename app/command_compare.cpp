@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/trajectory_difference.hpp"
 #include "core/input_message.hpp"
+#include "io/output_folder.hpp"
 #include "io/trajectory_reader.hpp"
 
 namespace carom {
@@ -39,6 +40,11 @@ Output open_output(const std::string& name) {
   if (file) output.summary = Json::parse(file, nullptr, false);
   if (output.summary.is_discarded()) fail_input(name + "/summary.json", "is no JSON", "expected the summary of a run");
   if (output.trajectory.empty() && output.summary.is_null()) {
+    if (fs::exists(fs::path(name) / unfinished_name)) {
+      fail_input(name, "holds a run that is not finished",
+                 fmt::format("expected a finished one (carom resume {}), or a trajectory in {}", name,
+                             (fs::path(name) / unfinished_name).string()));
+    }
     fail_input(name, "holds neither trajectory.xyz, trajectory.h5 nor summary.json", "expected a folder of a run");
   }
   return output;

@@ -1,12 +1,14 @@
 #include "app/command_line.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <system_error>
 
+#include "app/command_words.hpp"
 #include "app/compare_rule.hpp"
 #include "app/option_complaints.hpp"
 #include "app/option_values.hpp"
@@ -260,33 +262,12 @@ TextRequest docs_page(const Words& words) {
   fail_input("docs", fmt::format("there is no page {}", in_quotes(words.first)), expected_one_of(pages, words.first));
 }
 
-constexpr std::array<std::string_view, 8> command_names{"run",    "check", "resume", "compare",
-                                                        "render", "sweep", "chart",  "docs"};
-
-void check_command_name(int argc, const char* const* argv) {
-  if (argc < 2)
-    throw InputError(fmt::format("no command given; expected one of {} (or --help)", fmt::join(command_names, ", ")));
-  const std::string_view name = argv[1];
-  if (name.starts_with("-")) {
-    constexpr std::array<std::string_view, 2> general{"--help", "--version"};
-    if (name == "-h" || std::find(general.begin(), general.end(), name) != general.end()) return;
-    throw InputError(
-        fmt::format("there is no option {} before the command; {}", in_quotes(name), expected_one_of(general, name)));
-  }
-  constexpr std::array<std::string_view, 3> of_the_launcher{"test", "bench", "packages"};
-  if (std::find(of_the_launcher.begin(), of_the_launcher.end(), name) != of_the_launcher.end()) {
-    throw InputError(
-        fmt::format("{} is a command of the launcher ./carom in the sources, not of this program", in_quotes(name)));
-  }
-  if (std::find(command_names.begin(), command_names.end(), name) == command_names.end()) {
-    throw InputError(fmt::format("there is no command {}; {}", in_quotes(name), expected_one_of(command_names, name)));
-  }
-}
-
 }  // namespace
 
-Command parse_command_line(int argc, const char* const* argv) {
-  check_command_name(argc, argv);
+Command parse_command_line(int given, const char* const* given_words) {
+  const std::vector<const char*> checked = checked_words(given, given_words);
+  const int argc = static_cast<int>(checked.size());
+  const char* const* const argv = checked.data();
   Words words;
   CLI::App app("Carom simulates hard disks in a rectangle.", "carom");
   app.set_version_flag("--version", "carom " CAROM_VERSION);
@@ -335,6 +316,15 @@ Command parse_command_line(int argc, const char* const* argv) {
 }
 
 Scene load_scene_as_told(const std::string& path, const SceneChanges& changes) {
+  std::error_code error;
+  const std::filesystem::path folder = path;
+  if (std::filesystem::is_directory(folder, error)) {
+    const std::filesystem::path inside = folder / "scene.toml";
+    fail_input(path, "is a directory",
+               std::filesystem::exists(inside, error)
+                   ? fmt::format("expected a scene file, such as the {} of the run that is there", inside.string())
+                   : "expected a scene file");
+  }
   return scene_as_told(
       changes, [&](const std::vector<Override>& overrides) { return load_scene(path, overrides, read_scene_frame); });
 }

@@ -36,7 +36,8 @@ void check_leftovers(const CLI::App* command) {
   const auto option = std::find_if(rest.begin(), rest.end(), [](const auto& word) { return word.starts_with("-"); });
   if (option == rest.end()) {
     fail_input(command->get_name(), fmt::format("one argument too many, {}", in_quotes(rest[0])),
-               fmt::format("see carom {} --help", command->get_name()));
+               command->get_name() == "chart" ? fmt::format("expected carom chart --scene {}", rest[0])
+                                              : fmt::format("see carom {} --help", command->get_name()));
   }
   std::vector<std::string> storage;
   const std::string name = option->substr(0, option->find('='));

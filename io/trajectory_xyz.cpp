@@ -278,7 +278,11 @@ bool XyzReader::read(XyzFrame& frame) {
   if (!next_line()) return false;
   std::size_t count = 0;
   const auto result = std::from_chars(line_.data(), line_.data() + line_.size(), count);
-  if (result.ec != std::errc{}) fail(fmt::format("'{}' is no number of disks", line_.substr(0, 40)));
+  if (result.ec != std::errc{}) {
+    const char* const expected =
+        line_number_ == 1 ? "; expected trajectory.xyz or trajectory.h5 of a run, or its folder" : "";
+    fail(fmt::format("'{}' is no number of disks{}", line_.substr(0, 40), expected));
+  }
   frame.disks = {};
   frame.group.clear();
   if (!next_line()) fail("the file ends inside a frame");

@@ -70,6 +70,10 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
       {"render", "render: no folder given"},
       {"render .", ".: holds no trajectory.xyz"},
       {"render small.toml", "small.toml:1: "},
+      {"render small.toml", "is no number of disks; expected trajectory.xyz or trajectory.h5 of a run, or its folder"},
+      {"run .", ".: is a directory; expected a scene file"},
+      {"run small.toml --dt \"$UNSET\"", "--dt: what follows it is empty; expected a value; is a variable"},
+      {"chart small.toml", "one argument too many, \"small.toml\"; expected carom chart --scene small.toml"},
       {"render small.toml --frame 0", "--frame: is \"0\""},
   };
   for (const auto& [arguments, what] : cases) expect_error("$C " + arguments, 2, what);
@@ -84,6 +88,22 @@ TEST_F(CommandLine, HelpAndVersion) {
     EXPECT_THAT(o.out, HasSubstr("Usage: carom")) << command;
     EXPECT_THAT(o.err, IsEmpty());
   }
+}
+
+TEST_F(CommandLine, HelpIsAWordToo) {
+  EXPECT_EQ(carom("help").out, carom("--help").out);
+  EXPECT_EQ(carom("help run").out, carom("run --help").out);
+  EXPECT_EQ(carom("help").status, 0);
+  expect_error("$C help rnu", 2, "there is no command \"rnu\"");
+}
+
+TEST_F(CommandLine, FoldersAreToldByWhatIsInThem) {
+  ASSERT_EQ(carom("run small.toml --quiet -o out").status, 0);
+  expect_error("$C run out", 2, "out: is a directory; expected a scene file, such as the out/scene.toml of the run");
+  std::filesystem::create_directories(at("half/carom-unfinished"));
+  expect_error("$C compare out half", 2,
+               "half: holds a run that is not finished; expected a finished one (carom resume "
+               "half), or a trajectory in half/carom-unfinished");
 }
 
 TEST_F(CommandLine, ChartWritesAllItsFilesOrNone) {
