@@ -180,10 +180,13 @@ double ExactEvents::exit_after(std::uint32_t i, double from, double next) const 
 // Finds the earliest event of the disk on its present path. Nothing happens to it up to `from`.
 void ExactEvents::look(std::uint32_t i, double from) {
   from = std::max(from, field_.flight[i].path.start);
-  const NextEvent next = scan_.earliest(i);
+  bool lasting = false;
+  const NextEvent next = scan_.earliest(i, lasting);
   const double exit = exit_after(i, from, next.time);
-  if (std::min(exit, next.time) >= field_.horizon) {
-    expect(i, field_.horizon, nobody, 0, 0);
+  // What lasts is looked at anew when the next window starts.
+  const double until = lasting ? field_.next_start : field_.horizon;
+  if (std::min(exit, next.time) >= until) {
+    expect(i, until, nobody, 0, 0);
   } else if (exit < next.time) {
     expect(i, exit, leaving, 0, 0);
   } else if (is_wall(next.id2)) {

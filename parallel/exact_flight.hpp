@@ -51,9 +51,15 @@ struct ExactField {
   std::vector<std::uint32_t> standing;
   std::vector<std::uint8_t> mark;
   std::vector<std::uint16_t> region_of_tile;
-  double length = 0.0;   // of the window; time
-  double horizon = 0.0;  // events are looked for up to here, beyond the window
-  double slack = 0.0;    // rounding of a place, generously; length
+  double length = 0.0;      // of the window; time
+  double horizon = 0.0;     // events are looked for up to here, beyond the window
+  double next_start = 0.0;  // just beyond the window
+  double slack = 0.0;       // rounding of a place, generously; length
+  // Two disks (a disk and a side) that are so close and so slow, one as seen from the other, may touch or not, and
+  // approach or not, by the rounding of each window's start.
+  double close = 0.0;  // length
+  double slow = 0.0;   // length / time
+  double largest_radius = 0.0;
   // Up to this v^2 nobody flies so far in a window that images beyond the nearest one, or crossing events, come into
   // play; fastest2 is the largest v^2 so far.
   double safe_speed2 = 0.0;
@@ -73,7 +79,7 @@ struct ExactField {
   bool is_settled(std::uint32_t i) const { return !standing.empty() && standing[i] == settled; }
 };
 
-// The earliest event of a disk that looks.
+// An event of a disk that looks.
 struct NextEvent {
   double time = never;
   DiskId id1 = 0, id2 = 0;       // of the event; id2 may be a wall_partner

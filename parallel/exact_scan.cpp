@@ -6,17 +6,19 @@
 
 namespace carom {
 
-NextEvent ExactScan::earliest(std::uint32_t i) const {
+NextEvent ExactScan::earliest(std::uint32_t i, bool& lasting) const {
   const Flight* const flight = field_->flight.data();
   const bool far = flies_far(flight[i].path);
+  lasting = far;  // rare, and not worth telling
   NextEvent best;
-  if (far || lists_->sides_near(i) != 0) best = earliest_at_sides(i, flight[i].path, far);
+  if (far || lists_->sides_near(i) != 0) best = earliest_at_sides(i, flight[i].path, far, lasting);
   if (far) {
     lists_->for_each_neighbour(i, [&](std::uint32_t j) { meet(i, j, best); });
     return best;
   }
   const auto look = [&](const auto& kernel, const auto* offset, std::uint32_t count) {
     const FirstMeetings first = kernel(frame_, flight + i, offset, count);
+    lasting = lasting || first.lasting;
     if (!(first.time <= field_->horizon) || first.time > best.time) return;
     for (std::uint32_t left = first.bits; left != 0; left &= left - 1U) {
       see(i, i + static_cast<std::uint32_t>(std::int32_t{offset[std::countr_zero(left)]}), first.time, best);
@@ -49,8 +51,12 @@ void ExactScan::see(std::uint32_t i, std::uint32_t j, double time, NextEvent& be
   if (e.before(best)) best = e;
 }
 
-MeetingFrame ExactScan::frame_of(const ExactRules& rules) {
+MeetingFrame ExactScan::frame_of(const ExactField& field) {
+  const ExactRules& rules = field.rules;
   MeetingFrame f{rules.gravity, 0.0, 0.0, HUGE_VAL, HUGE_VAL};
+  const double reach = 2.0 * field.largest_radius;
+  f.close2 = 4.0 * (reach * reach) * (field.close * field.close);
+  f.slow2 = (reach * reach) * (field.slow * field.slow);
   if (rules.box.periodic_x()) {
     f.width = rules.box.width;
     f.half_width = 0.5 * f.width;
@@ -62,7 +68,7 @@ MeetingFrame ExactScan::frame_of(const ExactRules& rules) {
   return f;
 }
 
-NextEvent ExactScan::earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far) const {
+NextEvent ExactScan::earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far, bool& lasting) const {
   const Flight& own = field_->flight[i];
   const Domain& box = field_->rules.box;
   const double g = field_->rules.gravity;
@@ -74,7 +80,10 @@ NextEvent ExactScan::earliest_at_sides(std::uint32_t i, const PathSegment& path,
   const unsigned near = lists_->sides_near(i);
   if (near != 0) {
     for (const Side side : all_sides) {
-      if ((near >> static_cast<unsigned>(side) & 1U) != 0) look(side);
+      if ((near >> static_cast<unsigned>(side) & 1U) == 0) continue;
+      look(side);
+      const bool close = std::abs(reach_beyond(side, path.x, path.y, own.radius, box)) <= field_->close;
+      lasting = lasting || (close && std::abs(outward_speed(side, path.vx, path.vy)) <= field_->slow);
     }
   }
   if (!far) return best;

@@ -16,12 +16,12 @@ class ExactScan {
       : field_(&field),
         lists_(&lists),
         kernels_(choose_meeting_kernels(field.rules.gravity != 0.0, !field.disks->radius.empty())),
-        frame_(frame_of(field.rules)),
+        frame_(frame_of(field)),
         fastest2_(field.fastest2) {}
 
   // The earliest event of disk i with a side or a listed disk, up to the horizon, all on the paths that they are on
-  // now.
-  NextEvent earliest(std::uint32_t i) const;
+  // now. lasting: one of its contacts lasts (ExactField::close), so that the next window may see other events.
+  NextEvent earliest(std::uint32_t i, bool& lasting) const;
 
   // Somebody flies at this speed (v^2) from now on.
   void saw_speed(double v2) { fastest2_ = std::max(fastest2_, v2); }
@@ -31,10 +31,10 @@ class ExactScan {
   bool flies_far(const PathSegment& path) const {
     return !(std::max(fastest2_, path.vx * path.vx + path.vy * path.vy) <= field_->safe_speed2);
   }
-  NextEvent earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far) const;
+  NextEvent earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far, bool& lasting) const;
   void meet(std::uint32_t i, std::uint32_t j, NextEvent& best) const;
   void see(std::uint32_t i, std::uint32_t j, double time, NextEvent& best) const;
-  static MeetingFrame frame_of(const ExactRules& rules);
+  static MeetingFrame frame_of(const ExactField& field);
 
   const ExactField* field_;
   const ExactLists* lists_;

@@ -79,6 +79,7 @@ struct Lanes {
   Doubles start, x, y, vx, vy;
   Doubles g, half_g, radius, reach2;
   Doubles width, height, half_width, half_height;
+  Doubles close2, slow2;
 };
 
 inline Doubles nearest(Doubles d, Doubles period, Doubles half) {
@@ -86,9 +87,10 @@ inline Doubles nearest(Doubles d, Doubles period, Doubles half) {
 }
 
 // core's meeting_time(), operation by operation: carried_to, relative, time_to_contact, contact_time. All differences
-// may have the other sign, which changes no bit of the time.
+// may have the other sign, which changes no bit of the time. lasting: set where a contact lasts.
 template <bool gravity, bool unequal_radii>
-inline Doubles meet_four(const Lanes& own, const Flight& f0, const Flight& f1, const Flight& f2, const Flight& f3) {
+inline Doubles meet_four(const Lanes& own, const Flight& f0, const Flight& f1, const Flight& f2, const Flight& f3,
+                         Longs& lasting) {
   const Doubles m0 = load_motion(f0.path);
   const Doubles m1 = load_motion(f1.path);
   const Doubles m2 = load_motion(f2.path);
@@ -127,6 +129,7 @@ inline Doubles meet_four(const Lanes& own, const Flight& f0, const Flight& f1, c
   }
   const Doubles discriminant = (dvx * dvx + dvy * dvy) * reach2 - cross * cross;
   const Doubles gap = (dx * dx + dy * dy) - reach2;
+  lasting |= (gap * gap <= own.close2) & (approach * approach <= own.slow2);
   const Doubles contact = gap / (root(discriminant) - approach);
   const Longs meets = (approach < all(0.0)) & ~(discriminant < all(0.0));
   return choose(meets, both + where(contact > all(0.0), contact), all(never));
@@ -148,16 +151,20 @@ FirstMeetings first_meetings(const MeetingFrame& f, const Flight* flight, const 
                   all(f.width),
                   all(f.height),
                   all(f.half_width),
-                  all(f.half_height)};
+                  all(f.half_height),
+                  all(f.close2),
+                  all(f.slow2)};
   Doubles time[most_neighbours / lanes];
   Doubles least = all(never);
+  Longs lasting{};
   const std::uint32_t fours = (count + lanes - 1) / lanes;
   for (std::uint32_t k = 0; k < fours; ++k) {
     const Offset* const n = offset + std::size_t{k} * lanes;
-    time[k] = meet_four<gravity, unequal_radii>(own, flight[n[0]], flight[n[1]], flight[n[2]], flight[n[3]]);
+    time[k] = meet_four<gravity, unequal_radii>(own, flight[n[0]], flight[n[1]], flight[n[2]], flight[n[3]], lasting);
     least = smaller(time[k], least);
   }
   FirstMeetings first;
+  first.lasting = bits_of(lasting) != 0;
   const double least01 = least[0] < least[1] ? least[0] : least[1];
   const double least23 = least[2] < least[3] ? least[2] : least[3];
   first.time = least01 < least23 ? least01 : least23;

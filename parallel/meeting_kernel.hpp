@@ -13,12 +13,16 @@ struct MeetingFrame {
   double gravity = 0.0;                        // length / time^2
   double width = 0.0, height = 0.0;            // periods; 0: none
   double half_width = 0.0, half_height = 0.0;  // infinite where there is no period
+  // A contact lasts where distance^2 - reach^2 and dr.dv are within these, squared: rounding may turn it into a meeting
+  // or no meeting in every window.
+  double close2 = 0.0, slow2 = 0.0;
 };
 
 // The first meetings: their time, `never` if there is none, and bit k for each neighbour k that is met then.
 struct FirstMeetings {
   double time = never;
   std::uint32_t bits = 0;
+  bool lasting = false;  // a contact with one of the neighbours lasts
 };
 
 // Up to so many neighbours at a time.

@@ -126,6 +126,40 @@ TEST(ExactParallelRandom, ScenesOfAllFeatures) {
   }
 }
 
+// Disks that lie on each other without rebound: whether two of them touch and approach is decided by rounding, anew
+// where each window's paths begin.
+TEST(ExactParallelContacts, ThatLast) {
+  std::string column = "[[disks]]\ncount = 11\nradius = 1\nmass = 1\npositions = [";
+  std::string velocities = "velocities = [";
+  for (int k = 0; k < 11; ++k) {
+    column += fmt::format("{}[2, {}]", k == 0 ? "" : ", ", 2 + 2 * k);
+    velocities += fmt::format("{}{}", k == 0 ? "" : ", ", k == 3 ? "[-0.7434, 0.6309]" : "[0, 0]");
+  }
+  const std::string physics =
+      "gravity = 0.2548\nrestitution = 0\ncollapse = { model = \"tc\", contact_time = 0.02313 }";
+  expect_same_bits(make_scene(
+      {4, 24, "left = \"sink\"\nwall_restitution = 0.99", physics, column + "]\n" + velocities + "]\n", 30, ""}));
+}
+
+// Seven disks fill a periodic row: windows so short that the rounding of places is all that moves.
+TEST(ExactParallelContacts, OfDisksWithoutRoom) {
+  const std::string chain =
+      "[[disks]]\ncount = 7\nradius = [0.09, 0.075, 0.3, 0.15, 0.3, 0.0375, 0.0375]\nmass = 1\n"
+      "positions = [[0.09, 0.6], [0.255, 0.6], [0.63, 0.6], [1.08, 0.6], [1.53, 0.6], [1.8675, 0.6], [1.9425, 0.6]]\n"
+      "velocities = [[-0.5677, 0.5323], [-0.8774, -0.9481], [0.2839, -0.6561], [0.02699, -0.5021], [-0.4054, "
+      "-0.02009], "
+      "[-0.1341, 0.02006], [-0.3667, 0.5227]]\n";
+  const Scene scene = make_scene({1.98, 1.2, "periodic", "", chain, 10, ""});
+  const State initial = initial_state(scene);
+  const auto reference = make_reference_exact(scene, initial);
+  const auto parallel = make_parallel_engine(scene, initial, {2, 128});
+  for (int k = 0; k < 80; ++k) {
+    reference->step();
+    parallel->step();
+    ASSERT_EQ(fingerprint(parallel->state()), fingerprint(reference->state())) << "window " << k;
+  }
+}
+
 // Nothing is known beforehand of how fast disks get: a projectile that scatters a cold gas, light disks hit by heavy
 // ones. Whatever the engine takes for granted of the speeds then proves wrong, and the window is done again.
 TEST(ExactParallelSpeeds, ThatRiseWithinAWindow) {

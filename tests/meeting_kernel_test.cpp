@@ -37,7 +37,7 @@ std::vector<Flight> random_flights(test::Draws& draws, const MeetingCase& c, dou
 
 // The first meetings by the formula of core, one after the other.
 FirstMeetings expected_meetings(const std::vector<Flight>& flight, std::uint32_t own, const std::vector<int>& offset,
-                                const Domain& box, double g) {
+                                const Domain& box, double g, const MeetingFrame& frame) {
   FirstMeetings first;
   for (std::size_t k = 0; k < offset.size(); ++k) {
     const auto j = static_cast<std::uint32_t>(static_cast<int>(own) + offset[k]);
@@ -45,12 +45,19 @@ FirstMeetings expected_meetings(const std::vector<Flight>& flight, std::uint32_t
     const Flight& b = flight[std::max(own, j)];
     const double both = std::max(a.path.start, b.path.start);
     const Relative r = relative(carried_to(a.path, both, g), carried_to(b.path, both, g), box);
-    const double t = both + time_to_contact(r, a.radius + b.radius);
+    const double reach = a.radius + b.radius;
+    const double gap = r.distance2() - reach * reach;
+    first.lasting |= gap * gap <= frame.close2 && r.approach() * r.approach() <= frame.slow2;
+    const double t = both + time_to_contact(r, reach);
     if (!(t < never) || t > first.time) continue;
     if (t < first.time) first.bits = 0;
     first.time = t;
     first.bits |= 1U << k;
   }
+  // What fills up a group of four is the disk itself.
+  const double own_reach = 2.0 * flight[own].radius;
+  first.lasting |= offset.size() % 4 != 0 && !std::isnan(flight[own].path.x) &&
+                   std::pow(own_reach, 4) <= frame.close2 && frame.slow2 > 0.0;
   return first;
 }
 
@@ -61,6 +68,7 @@ void expect_meetings(MeetingKernel<Offset> kernel, const MeetingFrame& frame, co
   for (std::size_t k = 0; k < offset.size(); ++k) packed[k] = static_cast<Offset>(offset[k]);
   const FirstMeetings found = kernel(frame, &flight[own], packed.data(), static_cast<std::uint32_t>(offset.size()));
   ASSERT_EQ(found.time, expected.time);
+  ASSERT_EQ(found.lasting, expected.lasting);
   if (expected.time < never) {
     ASSERT_EQ(found.bits, expected.bits);
   }
@@ -73,6 +81,7 @@ TEST_P(MeetingKernelVersions, HaveTheBitsOfTheFormula) {
   test::Draws draws(17);
   const double g = c.gravity ? 0.7 : 0.0;
   int met = 0;
+  int lasting = 0;
   for (int round = 0; round < 400; ++round) {
     Domain box;
     box.width = 6.0;
@@ -93,8 +102,11 @@ TEST_P(MeetingKernelVersions, HaveTheBitsOfTheFormula) {
       frame.half_width = 0.5 * box.width;
       frame.half_height = 0.5 * box.height;
     }
-    const FirstMeetings expected = expected_meetings(flight, own, offset, box, g);
+    frame.close2 = 0.3 * 0.3;
+    frame.slow2 = 0.3 * 0.3;
+    const FirstMeetings expected = expected_meetings(flight, own, offset, box, g, frame);
     met += expected.time < never ? 1 : 0;
+    lasting += expected.lasting ? 1 : 0;
     for (const MeetingKernels& kernels :
          {choose_meeting_kernels(c.gravity, c.unequal_radii), meeting_kernels_baseline(c.gravity, c.unequal_radii)}) {
       expect_meetings(kernels.near, frame, flight, own, offset, expected);
@@ -102,6 +114,8 @@ TEST_P(MeetingKernelVersions, HaveTheBitsOfTheFormula) {
     }
   }
   EXPECT_GT(met, 100);
+  EXPECT_GT(lasting, 20);
+  EXPECT_LT(lasting, 380);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MeetingKernelVersions,
