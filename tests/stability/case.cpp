@@ -52,7 +52,7 @@ Check read_check(const std::string& path, const toml::table& table) {
 Case read_case(const std::string& path, const toml::table& table) {
   check_keys(path, table,
              {"name", "title", "scene", "set", "set_exact", "set_pairwise", "set_rollback", "check", "right",
-              "most_steps", "slow"});
+              "most_steps", "slow", "every_step"});
   Case c;
   c.name = table["name"].value_or(std::string());
   c.title = table["title"].value_or(std::string());
@@ -72,6 +72,7 @@ Case read_case(const std::string& path, const toml::table& table) {
   }
   c.most_steps = static_cast<Count>(table["most_steps"].value_or(std::int64_t{0}));
   c.slow = table["slow"].value_or(false);
+  c.every_step = table["every_step"].value_or(false);
   return c;
 }
 

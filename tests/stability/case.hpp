@@ -31,6 +31,7 @@ struct Case {
   std::vector<std::string> right;  // methods that must be right; the others may be wrong if they say so
   Count most_steps = 0;            // a run that needs more is ended; 0: no bound
   bool slow = false;               // takes more than a few seconds
+  bool every_step = false;         // what is worst is looked for after every step, not at some moments
 };
 
 // Throws InputError.

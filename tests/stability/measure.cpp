@@ -113,6 +113,7 @@ double measure(const std::string& what, const Measured& run) {
       {"energy_gain", [&] { return run.worst.energy_gain; }},
       {"energy", [&] { return ratio(energy_of(d, g).total(), energy_of(run.start.disks, g).total()); }},
       {"kinetic", [&] { return ratio(energy_of(d, g).kinetic, energy_of(run.start.disks, g).kinetic); }},
+      {"unrest", [&] { return ratio(energy_of(d, g).kinetic, energy_of(run.start.disks, g).total()); }},
       {"kinetic_now", [&] { return energy_of(d, g).kinetic; }},
       {"momentum", [&] { return run.worst.momentum; }},
       {"overlap", [&] { return run.worst.overlap; }},

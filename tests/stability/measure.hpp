@@ -30,7 +30,8 @@ struct Measured {
 };
 
 // Names: time, advance (of a step, in dt), collisions, events (with walls), rate (disk collisions a disk and unit
-// time), energy_drift, energy_gain, energy (end over start), kinetic (end over start), momentum, overlap, wall_overlap,
+// time), energy_drift, energy_gain, energy (end over start), kinetic (end over start), unrest (kinetic at
+// the end over all energy at the start), momentum, overlap, wall_overlap,
 // outside, passed (pairs that were left and right of each other and have changed places), x0, y0, vx0, vy0 (of the disk
 // with id 0, and so on), kinetic_now (energy), fastest (largest speed at the end), disks, lean (largest |x - x(0)|).
 // Throws InputError for a name it does not know.

@@ -65,7 +65,7 @@ void step_through(const Case& c, Engine& engine, Run& run) {
         break;
       }
       engine.step();
-      if (engine.state().time < due) continue;
+      if (engine.state().time < due && !c.every_step) continue;
       run.worst.look(*run.scene, run.start, engine.state());
       due = every * (std::floor(engine.state().time / every) + 1.0);
     }
