@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -64,37 +62,28 @@ struct SweepCount {
   bool stopped = false;  // by a signal, before all had run
 };
 
-// How many runs have ended, on one line of a terminal.
+// How many runs have ended.
 class SweepProgress {
  public:
-  explicit SweepProgress(std::size_t all) : all_(all), shown_(isatty(STDERR_FILENO) == 1) {}
+  explicit SweepProgress(std::size_t all) : all_(all), start_(line_.seconds()) {}
 
   void update(std::size_t ended, std::size_t failed) {
-    constexpr double update_seconds = 0.2;
-    const double now = seconds();
-    if (!shown_ || now - last_ < update_seconds) return;
-    last_ = now;
-    std::string line = fmt::format("{} of {} runs done", ended - failed, all_);
-    if (failed > 0) line += fmt::format(", {} failed", failed);
+    if (!line_.due()) return;
+    std::string text = fmt::format("{} of {} runs done", ended - failed, all_);
+    if (failed > 0) text += fmt::format(", {} failed", failed);
     if (ended > 0) {
-      const double each = now / static_cast<double>(ended);
-      line += fmt::format("  {} left", duration_text(each * static_cast<double>(all_ - ended)));
+      const double each = (line_.seconds() - start_) / static_cast<double>(ended);
+      text += fmt::format("  {} left", duration_text(each * static_cast<double>(all_ - ended)));
     }
-    std::fputs(fmt::format("\r{}\x1b[K", line).c_str(), stderr);  // ESC [ K clears what a longer line left
-    on_screen_ = true;
+    line_.show(text);
   }
 
-  void clear() {
-    if (std::exchange(on_screen_, false)) std::fputs("\r\x1b[K", stderr);
-  }
+  void clear() { line_.clear(); }
 
  private:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
+  StatusLine line_{true};
   std::size_t all_;
-  bool shown_, on_screen_ = false;
-  double last_ = 0.0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double start_;
 };
 
 class Sweep {

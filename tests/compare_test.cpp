@@ -1,4 +1,6 @@
 // carom compare with a tolerance, on chosen fields and times: what it finds, and its exit status.
+#include <fmt/format.h>
+
 #include <regex>
 
 #include "tests/command_support.hpp"
