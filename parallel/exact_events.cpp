@@ -307,10 +307,10 @@ void ExactEvents::begin_path(std::uint32_t i, const ExactDisk& now, bool gone, c
   }
 }
 
-// A disk whose events pile up is left to whoever sees everybody; the first collapse of all is the one to report.
+// A disk whose events pile up is left to whoever sees everybody; with tiles, the window is done again without.
 void ExactEvents::count_burst(std::uint32_t i, const EventMark& event) {
   if (!field_.burst[i].add(event.time, field_.length)) return;
-  if (!part_.collapse || event.before(*part_.collapse)) part_.collapse = event;
+  if (!part_.collapse) part_.collapse = event;
   part_.ended = part_.ended || part_.alone;
   if (!part_.alone && field_.standing[i] == at_hand) doubt(i, event.time, no_tile);
 }

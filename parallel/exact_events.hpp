@@ -38,7 +38,7 @@ struct ExactPart {
   bool any_gone = false;
   double fastest2 = 0.0;              // largest v^2
   Count paths = 0;                    // begun
-  std::optional<EventMark> collapse;  // the first one
+  std::optional<EventMark> collapse;  // without tiles, the first one
   // Nothing of the window counts: what was taken for granted proved wrong; it is too long (with the event that tells,
   // the first one if alone); it was given up.
   bool is_void = false;

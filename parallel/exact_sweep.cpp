@@ -81,7 +81,7 @@ SliceEnd ExactSweep::run(double start, double end, double expected, double windo
   }
   const SliceEnd reached = end_of_slice();
   if (reached != SliceEnd::done) return reached;
-  fail_if_collapsed(window_start);
+  if (rest_.collapse && !tiled()) fail_collapse(*rest_.collapse, window_start);
   for (const Region& region : regions_) field_.fastest2 = std::max(field_.fastest2, region.part.fastest2);
   field_.fastest2 = std::max(field_.fastest2, rest_.fastest2);
   return SliceEnd::done;
@@ -91,17 +91,21 @@ SliceEnd ExactSweep::end_of_slice() const {
   bool is_void = false;
   bool crowded = false;
   bool given_up = false;
+  bool collapsed = false;
   Count paths = 0;
   const auto see = [&](const ExactPart& part) {
     is_void = is_void || part.is_void;
     crowded = crowded || part.crowded;
     given_up = given_up || part.given_up;
+    collapsed = collapsed || part.collapse;
     paths += part.paths;
   };
   for (const Region& region : regions_) see(region.part);
   see(rest_);
   if (given_up) return SliceEnd::given_up;
   if (is_void) return SliceEnd::too_fast;
+  // Events pile up at one moment: which of them is the reference's first, tiles cannot tell.
+  if (collapsed && tiled()) return SliceEnd::crowded;
   return crowded || paths > field_.most_paths ? SliceEnd::crowded : SliceEnd::done;
 }
 
@@ -198,16 +202,6 @@ void ExactSweep::run_rest(double expected) {
   events.run();
   for (const std::uint32_t i : rest_.edge) regions_[field_.region_of_tile[lists_.tile_of(i)]].edge.push_back(i);
   listed_anew_ += rest_.listed;
-}
-
-void ExactSweep::fail_if_collapsed(double window_start) const {
-  EventMark first;
-  const auto see = [&](const ExactPart& part) {
-    if (part.collapse && part.collapse->before(first)) first = *part.collapse;
-  };
-  for (const Region& region : regions_) see(region.part);
-  see(rest_);
-  if (first.time < never) fail_collapse(first, window_start);
 }
 
 ImpactTally ExactSweep::tally() const {

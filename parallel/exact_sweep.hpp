@@ -44,8 +44,8 @@ class ExactSweep {
   // Time that a slice may last, field.bound being set.
   double longest_slice() const;
 
-  // Runs the slice, with about `expected` events. Unless it is done, nothing of the window counts. Throws PhysicsError
-  // at inelastic collapse.
+  // Runs the slice, with about `expected` events. Unless it is done, nothing of the window counts. Inelastic collapse:
+  // throws PhysicsError, or in tiles is `crowded`.
   SliceEnd run(double start, double end, double expected, double window_start);
   // Without tiles: the event that tells that the window is crowded, the reference's.
   const EventMark& crowding() const { return *rest_.crowded; }
@@ -86,7 +86,6 @@ class ExactSweep {
   void sweep_tile(Region& region, ExactEvents& events, std::uint32_t tile, double expected);
   void run_rest(double expected);
   SliceEnd end_of_slice() const;
-  void fail_if_collapsed(double window_start) const;
 
   ExactField& field_;
   ExactLists& lists_;

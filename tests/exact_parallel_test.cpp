@@ -160,6 +160,44 @@ TEST(ExactParallelContacts, OfDisksWithoutRoom) {
   }
 }
 
+// Where events pile up at one moment, the report names the reference's, whatever the tiles.
+TEST(ExactParallelCollapse, IsReportedAlike) {
+  const auto report_of = [](Engine& engine, const Scene& scene) -> std::string {
+    try {
+      run_to_end(engine, scene);
+    } catch (const PhysicsError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const Scene scene = parse_scene(R"(seed = 712775
+[box]
+packing_fraction = 0.3403
+aspect = 0.1441
+bottom = "periodic"
+top = "periodic"
+[physics]
+restitution = 0.2
+[[disks]]
+count = 26
+positions = "growth"
+velocities = { uniform = 1.005 }
+radius = { from_mass = 0.6127 }
+mass = { uniform = [0.04807, 1.923] }
+[run]
+method = "exact"
+t_end = 60
+)",
+                                  "test", ".");
+  const State initial = initial_state(scene);
+  const std::string expected = report_of(*make_reference_exact(scene, initial), scene);
+  EXPECT_NE(expected.find("inelastic collapse"), std::string::npos) << expected;
+  for (const std::size_t block_divisor : {1U, 128U, 512U, 1024U}) {
+    const auto engine = make_parallel_engine(scene, initial, {3, block_divisor});
+    EXPECT_EQ(report_of(*engine, scene), expected) << "divisor " << block_divisor;
+  }
+}
+
 // Nothing is known beforehand of how fast disks get: a projectile that scatters a cold gas, light disks hit by heavy
 // ones. Whatever the engine takes for granted of the speeds then proves wrong, and the window is done again.
 TEST(ExactParallelSpeeds, ThatRiseWithinAWindow) {
