@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "app/progress.hpp"
 #include "core/method_choice.hpp"
@@ -139,9 +138,9 @@ std::string choice_text(const Scene& scene, double accuracy) {
                             method_names[static_cast<std::size_t>(best.method)], dt, accuracy);
 }
 
-nlohmann::ordered_json choice_json(const Scene& scene, double accuracy) {
+Json choice_json(const Scene& scene, double accuracy) {
   const MethodChoice choice = choose_method(scene, accuracy);
-  nlohmann::ordered_json j{{"accuracy", accuracy}, {"method", nullptr}, {"why", choice.why}};
+  Json j{{"accuracy", accuracy}, {"method", nullptr}, {"why", choice.why}};
   for (std::size_t k = 0; k < choice.offers.size(); ++k) {
     const MethodOffer& o = choice.offers[k];
     const std::string_view name = method_names[static_cast<std::size_t>(o.method)];
@@ -155,6 +154,60 @@ nlohmann::ordered_json choice_json(const Scene& scene, double accuracy) {
   }
   return j;
 }
+
+struct Told {
+  const Scene& scene;
+  const Findings& found;
+  const std::optional<double>& accuracy;
+};
+
+Json file_sizes(const OutputForesight& outputs) {
+  Json sizes = Json::object();
+  for (const auto& [name, bytes] : outputs.files) sizes[name] = std::round(bytes);
+  return sizes;
+}
+
+// A new key is a row here.
+const JsonKey<Told> check_keys[] = {
+    {"scene", "", "the scene's file", [](const Told& t) -> Json { return t.scene.file; }},
+    {"method", "", "`rollback`, `pairwise` or `exact`",
+     [](const Told& t) -> Json { return method_names[static_cast<std::size_t>(t.scene.run.method)]; }},
+    {"particles", "", "disks at the start", [](const Told& t) -> Json { return t.found.disks; }},
+    {"particles_at_end", "", "disks at the end, as far as sources and sinks tell",
+     [](const Told& t) -> Json { return t.found.population.end; }},
+    {"width", "length", "of the box", [](const Told& t) -> Json { return t.scene.box.width; }},
+    {"height", "length", "of the box", [](const Told& t) -> Json { return t.scene.box.height; }},
+    {"packing_fraction", "", "at the start",
+     [](const Told& t) -> Json { return json_number(t.found.packing_fraction); }},
+    {"dt", "time", "the step; 0 where the scene gives none", [](const Told& t) -> Json { return t.scene.run.dt; }},
+    {"safe_dt", "time", "the longest step that is not split; null if any is",
+     [](const Told& t) -> Json { return json_number(t.found.steps.safe()); }},
+    {"landing_speed", "length / time", "the largest after a fall; 0 without gravity",
+     [](const Told& t) -> Json { return json_number(t.found.steps.landing_speed); }},
+    {"t_end", "time", "the end of the run", [](const Told& t) -> Json { return t.scene.run.t_end; }},
+    {"frames", "", "frames that a run makes", [](const Told& t) -> Json { return t.found.outputs.frames; }},
+    {"memory_bytes", "bytes", "of a run", [](const Told& t) -> Json { return t.found.memory_bytes; }},
+    {"cost_s", "s", "wall time of a run on this machine, null if unknown",
+     [](const Told& t) -> Json { return json_number(t.found.seconds()); }},
+    {"cost_parts_s", "s", "an object: the same in parts, `start`, `steps`, `frames`, `analysis`, `plots`",
+     [](const Told& t) -> Json {
+       return Json{{"start", t.found.start_seconds},
+                   {"steps", json_number(t.found.step_seconds)},
+                   {"frames", t.found.outputs.files_s},
+                   {"analysis", t.found.outputs.analysis_s},
+                   {"plots", t.found.outputs.plots_s}};
+     }},
+    {"files_bytes", "bytes", "an object: the size of each file",
+     [](const Told& t) -> Json { return file_sizes(t.found.outputs); }},
+    {"collapse_expected", "", "whether inelastic collapse is to be expected",
+     [](const Told& t) -> Json { return t.found.collapse.expected; }},
+    {"troubles", "", "what a run would run into, a list of texts",
+     [](const Told& t) -> Json { return t.found.troubles; }},
+    {"growth_s", "s", "only where disks grow: processor time of that",
+     [](const Told& t) -> Json { return t.found.growth_seconds > 0.0 ? Json(t.found.growth_seconds) : absent(); }},
+    {"choice", "", "only with `--accuracy`: an object with the method and step that it needs, and all `offers`",
+     [](const Told& t) -> Json { return t.accuracy ? choice_json(t.scene, *t.accuracy) : absent(); }},
+};
 
 std::string main_text(const Scene& scene, const Findings& f) {
   std::string text = fmt::format("{}: {}\n", scene.file, scene.title.empty() ? "a scene" : scene.title);
@@ -190,37 +243,12 @@ std::string check_text(const Scene& scene, const Findings& found, const std::opt
   return main_text(scene, found) + (accuracy ? choice_text(scene, *accuracy) : hint);
 }
 
-std::string check_json(const Scene& scene, const Findings& f, const std::optional<double>& accuracy) {
-  nlohmann::ordered_json j;
-  const auto number = [](double x) {
-    return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
-  };
-  j["scene"] = scene.file;
-  j["method"] = method_names[static_cast<std::size_t>(scene.run.method)];
-  j["particles"] = f.disks;
-  j["particles_at_end"] = f.population.end;
-  j["width"] = scene.box.width;
-  j["height"] = scene.box.height;
-  j["packing_fraction"] = number(f.packing_fraction);
-  j["dt"] = scene.run.dt;
-  j["safe_dt"] = number(f.steps.safe());
-  j["landing_speed"] = number(f.steps.landing_speed);
-  j["t_end"] = scene.run.t_end;
-  j["frames"] = f.outputs.frames;
-  j["memory_bytes"] = f.memory_bytes;
-  j["cost_s"] = number(f.seconds());
-  j["cost_parts_s"] = {{"start", f.start_seconds},
-                       {"steps", number(f.step_seconds)},
-                       {"frames", f.outputs.files_s},
-                       {"analysis", f.outputs.analysis_s},
-                       {"plots", f.outputs.plots_s}};
-  j["files_bytes"] = nlohmann::ordered_json::object();
-  for (const auto& [name, bytes] : f.outputs.files) j["files_bytes"][name] = std::round(bytes);
-  j["collapse_expected"] = f.collapse.expected;
-  j["troubles"] = f.troubles;
-  if (f.growth_seconds > 0.0) j["growth_s"] = f.growth_seconds;
-  if (accuracy) j["choice"] = choice_json(scene, *accuracy);
-  return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+std::string check_json(const Scene& scene, const Findings& found, const std::optional<double>& accuracy) {
+  return json_object(check_keys, {scene, found, accuracy});
+}
+
+std::vector<KeyText> check_key_texts() {
+  return key_texts(check_keys);
 }
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/check_outputs.hpp"
+#include "app/json_keys.hpp"
 #include "core/scene.hpp"
 
 namespace carom {
@@ -34,5 +35,8 @@ struct Findings {
 
 std::string check_text(const Scene& scene, const Findings& found, const std::optional<double>& accuracy);
 std::string check_json(const Scene& scene, const Findings& found, const std::optional<double>& accuracy);
+
+// What docs/scene.md says of each key of that object.
+std::vector<KeyText> check_key_texts();
 
 }  // namespace carom

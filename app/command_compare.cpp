@@ -17,7 +17,6 @@ namespace carom {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 // What a run came to, whoever computed it and however long that took.
 constexpr std::array<const char*, 17> compared_keys{
@@ -110,19 +109,42 @@ Json json_of(const Difference& d) {
           {"a", d.a},         {"b", d.b},       {"by", d.by}};
 }
 
-Json json_of(bool same, const std::optional<CompareRule>& rule, const std::optional<TrajectoryDifference>& frames,
-             const std::vector<std::string>& keys) {
-  Json j{{"same", same}, {"different_keys", keys}};
-  if (rule) j["tolerance"] = rule->tolerance ? Json(*rule->tolerance) : Json(nullptr);
-  if (!frames) return j;
-  j["frames"] = {frames->frames_a, frames->frames_b};
-  j["first"] = frames->first ? json_of(*frames->first) : Json(nullptr);
-  j["largest"] = Json::object();
-  for (const auto& largest : frames->largest) {
-    if (largest) j["largest"][largest->quantity] = json_of(*largest);
+struct Comparison {
+  bool same;
+  std::vector<std::string> keys;  // of the summaries, that differ
+  std::optional<CompareRule> rule;
+  std::optional<TrajectoryDifference> frames;
+};
+
+Json largest_json(const TrajectoryDifference& d) {
+  Json j = Json::object();
+  for (const auto& largest : d.largest) {
+    if (largest) j[largest->quantity] = json_of(*largest);
   }
   return j;
 }
+
+// A new key is a row here.
+const JsonKey<Comparison> compare_keys[] = {
+    {"same", "", "true or false", [](const Comparison& c) -> Json { return c.same; }},
+    {"different_keys", "", "keys of the two summaries that differ", [](const Comparison& c) -> Json { return c.keys; }},
+    {"tolerance", "", "only with `--tolerance`, `--fields`, `--times` or `--at`: null where bits count",
+     [](const Comparison& c) -> Json {
+       if (!c.rule) return absent();
+       return c.rule->tolerance ? Json(*c.rule->tolerance) : Json(nullptr);
+     }},
+    {"frames", "", "only of trajectories: how many frames each has",
+     [](const Comparison& c) -> Json {
+       return c.frames ? Json{c.frames->frames_a, c.frames->frames_b} : absent();
+     }},
+    {"first", "", "only of trajectories: the first difference (frame, time, disk, quantity, a, b, by), or null",
+     [](const Comparison& c) -> Json {
+       if (!c.frames) return absent();
+       return c.frames->first ? json_of(*c.frames->first) : Json(nullptr);
+     }},
+    {"largest", "", "only of trajectories: the largest difference of each quantity that differs",
+     [](const Comparison& c) -> Json { return c.frames ? largest_json(*c.frames) : absent(); }},
+};
 
 }  // namespace
 
@@ -145,7 +167,7 @@ int command_compare(const CompareOptions& options) {
       options.rule ? std::vector<std::string>{} : different_keys(a.summary, b.summary);
   const bool same = keys.empty() && !(frames && frames->first);
   if (options.json) {
-    print_out(json_of(same, options.rule, frames, keys).dump(2) + "\n");
+    print_out(json_object(compare_keys, {same, keys, options.rule, frames}));
     return same ? 0 : 1;
   }
   if (frames && frames->first) print_out(text_of(*frames));
@@ -154,6 +176,10 @@ int command_compare(const CompareOptions& options) {
   if (same && frames && !options.rule) print_out(fmt::format("same bits in all {} frames\n", frames->frames_a));
   if (same && !frames) print_out("same summary, state hash included\n");
   return same ? 0 : 1;
+}
+
+std::vector<KeyText> compare_key_texts() {
+  return key_texts(compare_keys);
 }
 
 }  // namespace carom

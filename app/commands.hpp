@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "app/command_line.hpp"
+#include "app/json_keys.hpp"
 
 namespace carom {
 
@@ -22,5 +24,8 @@ void print_out(std::string_view text);
 // "carom: ..." and "carom: warning: ..." on standard error.
 void print_note(std::string_view text);
 void print_warning(std::string_view text);
+
+// What docs/scene.md says of each key of compare --json.
+std::vector<KeyText> compare_key_texts();
 
 }  // namespace carom

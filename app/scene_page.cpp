@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "app/check_report.hpp"
+#include "app/commands.hpp"
 #include "app/summary.hpp"
 #include "core/scene_keys.hpp"
 #include "core/scene_ranges.hpp"
@@ -120,17 +122,21 @@ std::string series_rows() {
                     displacement_column);
 }
 
-std::string summary_rows() {
+std::string json_rows(std::string_view heading, std::string_view meaning, const std::vector<KeyText>& keys) {
   std::string text =
-      "\n## Keys of --json and summary.json\n\n`carom run --json` prints one object, and nothing else on standard "
-      "output; "
-      "summary.json in the results is the same. A number that is not finite is null.\n\n| key | unit | what it is |\n| "
-      "--- "
-      "| --- | --- |\n";
-  for (const KeyText& key : summary_key_texts()) {
-    text += fmt::format("| `{}` | {} | {} |\n", key.name, key.unit, key.meaning);
-  }
+      fmt::format("\n## {}\n\n{}\n\n| key | unit | what it is |\n| --- | --- | --- |\n", heading, meaning);
+  for (const KeyText& key : keys) text += fmt::format("| `{}` | {} | {} |\n", key.name, key.unit, key.meaning);
   return text;
+}
+
+std::string json_sections() {
+  return json_rows(
+             "Keys of `run --json` and summary.json",
+             "`carom run --json` and `carom resume --json` print one object, and nothing else on standard output; "
+             "summary.json in the results is the same. A number that is not finite is null.",
+             summary_key_texts()) +
+         json_rows("Keys of `check --json`", "What is foreseen, without a run.", check_key_texts()) +
+         json_rows("Keys of `compare --json`", "Two outputs against each other.", compare_key_texts());
 }
 
 }  // namespace
@@ -142,7 +148,7 @@ std::string scene_page() {
     if (!table.meaning.empty()) text += fmt::format("{}\n\n", table.meaning);
     text += key_rows(table.name);
   }
-  return text + range_rows() + series_rows() + summary_rows();
+  return text + range_rows() + series_rows() + json_sections();
 }
 
 }  // namespace carom

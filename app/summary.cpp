@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/progress.hpp"
@@ -15,18 +14,9 @@ namespace carom {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-// JSON knows no infinity and no NaN.
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-constexpr std::string_view resume_key = "resume_with";
-
 Json phase_seconds(const Summary& s) {
   Json phases = Json::object();
-  for (const Phase& phase : s.phases.phases()) phases[std::string(phase.name)] = number(phase.seconds);
+  for (const Phase& phase : s.phases.phases()) phases[std::string(phase.name)] = json_number(phase.seconds);
   return phases;
 }
 
@@ -35,41 +25,37 @@ Json ids_of(const WorstOverlap& worst, const std::vector<DiskId>& ids) {
   return worst.overlap.size > 0.0 ? Json(ids) : Json::array();
 }
 
-// One row a key of the JSON object, in its order: a new key is a row here.
-struct SummaryKey {
-  std::string_view name, unit, meaning;
-  Json (*value)(const Summary&);
-};
-
-const SummaryKey summary_keys[] = {
+// A new key is a row here.
+const JsonKey<Summary> summary_keys[] = {
     {"scene", "", "the scene's file", [](const Summary& s) -> Json { return s.scene; }},
     {"method", "", "`rollback`, `pairwise` or `exact`", [](const Summary& s) -> Json { return s.method; }},
     {"engine", "", "`parallel` or `reference`", [](const Summary& s) -> Json { return s.engine.name; }},
     {"threads", "", "threads of the engine", [](const Summary& s) -> Json { return s.engine.threads; }},
     {"particles", "", "disks in the box at the end", [](const Summary& s) -> Json { return s.particles; }},
     {"steps", "", "steps done; with `exact`, windows", [](const Summary& s) -> Json { return s.counters.steps; }},
-    {"time", "time", "simulated time at the end", [](const Summary& s) -> Json { return number(s.time); }},
+    {"time", "time", "simulated time at the end", [](const Summary& s) -> Json { return json_number(s.time); }},
     {"collisions", "", "of two disks", [](const Summary& s) -> Json { return s.counters.collisions; }},
     {"wall_collisions", "", "of a disk and a wall",
      [](const Summary& s) -> Json { return s.counters.wall_collisions; }},
-    {"wall_s", "s", "wall time of the whole run", [](const Summary& s) -> Json { return number(s.wall_s); }},
-    {"cpu_s", "s", "processor time of the whole run", [](const Summary& s) -> Json { return number(s.cpu_s); }},
+    {"wall_s", "s", "wall time of the whole run", [](const Summary& s) -> Json { return json_number(s.wall_s); }},
+    {"cpu_s", "s", "processor time of the whole run", [](const Summary& s) -> Json { return json_number(s.cpu_s); }},
     {"step_s", "s", "wall time of the steps alone, without set-up and output",
-     [](const Summary& s) -> Json { return number(s.step_s); }},
+     [](const Summary& s) -> Json { return json_number(s.step_s); }},
     {"energy_initial", "energy", "kinetic and potential energy at the start",
-     [](const Summary& s) -> Json { return number(s.energy_initial); }},
-    {"energy_final", "energy", "the same at the end", [](const Summary& s) -> Json { return number(s.energy_final); }},
+     [](const Summary& s) -> Json { return json_number(s.energy_initial); }},
+    {"energy_final", "energy", "the same at the end",
+     [](const Summary& s) -> Json { return json_number(s.energy_final); }},
     {"momentum_drift", "", "change of sum m v over sum m abs(v), the larger of start and end",
-     [](const Summary& s) -> Json { return number(s.momentum_drift); }},
+     [](const Summary& s) -> Json { return json_number(s.momentum_drift); }},
     {"max_overlap", "", "largest overlap of two disks in the last state, over the sum of their radii; 0 if none",
-     [](const Summary& s) -> Json { return number(s.max_overlap); }},
+     [](const Summary& s) -> Json { return json_number(s.max_overlap); }},
     {"wall_overlap", "", "likewise of a disk and a wall, over its radius",
-     [](const Summary& s) -> Json { return number(s.wall_overlap); }},
+     [](const Summary& s) -> Json { return json_number(s.wall_overlap); }},
     {"pressure", "energy / area",
      "mean over the run, from collisions and the kinetic energy halfway between start and end",
-     [](const Summary& s) -> Json { return number(s.pressure); }},
+     [](const Summary& s) -> Json { return json_number(s.pressure); }},
     {"collision_rate", "1 / time", "collisions that a disk takes part in per unit time",
-     [](const Summary& s) -> Json { return number(s.collision_rate); }},
+     [](const Summary& s) -> Json { return json_number(s.collision_rate); }},
     {"removed", "", "disks that sinks have taken", [](const Summary& s) -> Json { return s.counters.removed; }},
     {"emitted", "", "disks that came from sources", [](const Summary& s) -> Json { return s.counters.emitted; }},
     {"state_hash", "", "64-bit hash of (id, x, y, vx, vy) of all disks at the end",
@@ -81,20 +67,20 @@ const SummaryKey summary_keys[] = {
     {"frames", "", "frames written", [](const Summary& s) -> Json { return s.frames; }},
     {"resumed", "", "how often the run went on from a checkpoint", [](const Summary& s) -> Json { return s.resumed; }},
     {"resume_with", "", "only of a run that stopped early: the command that goes on",
-     [](const Summary& s) -> Json { return s.resume_with; }},
+     [](const Summary& s) -> Json { return s.resume_with.empty() ? absent() : Json(s.resume_with); }},
     {"worst_overlap", "",
      "largest overlap of two disks at the end of any step of the run, over the sum of their radii; 0 if none",
-     [](const Summary& s) -> Json { return number(s.worst_disks.overlap.size); }},
+     [](const Summary& s) -> Json { return json_number(s.worst_disks.overlap.size); }},
     {"worst_overlap_time", "time", "when it was; 0 if none",
-     [](const Summary& s) -> Json { return number(s.worst_disks.time); }},
+     [](const Summary& s) -> Json { return json_number(s.worst_disks.time); }},
     {"worst_overlap_ids", "", "of which two disks; empty if none",
      [](const Summary& s) -> Json {
        return ids_of(s.worst_disks, {s.worst_disks.overlap.id1, s.worst_disks.overlap.id2});
      }},
     {"worst_wall_overlap", "", "likewise of a disk and a wall, over its radius",
-     [](const Summary& s) -> Json { return number(s.worst_wall.overlap.size); }},
+     [](const Summary& s) -> Json { return json_number(s.worst_wall.overlap.size); }},
     {"worst_wall_overlap_time", "time", "when it was; 0 if none",
-     [](const Summary& s) -> Json { return number(s.worst_wall.time); }},
+     [](const Summary& s) -> Json { return json_number(s.worst_wall.time); }},
     {"worst_wall_overlap_ids", "", "of which disk; empty if none",
      [](const Summary& s) -> Json { return ids_of(s.worst_wall, {s.worst_wall.overlap.id1}); }},
     {"warnings", "", "what the physics warned of, with the worst that was seen",
@@ -172,18 +158,11 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
 }
 
 std::string json_text(const Summary& s) {
-  Json j;
-  for (const SummaryKey& key : summary_keys) {
-    if (key.name == resume_key && s.resume_with.empty()) continue;
-    j[std::string(key.name)] = key.value(s);
-  }
-  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_object(summary_keys, s);
 }
 
 std::vector<KeyText> summary_key_texts() {
-  std::vector<KeyText> texts;
-  for (const SummaryKey& key : summary_keys) texts.push_back({key.name, key.unit, key.meaning});
-  return texts;
+  return key_texts(summary_keys);
 }
 
 std::string table_text(const Summary& s, const std::string& folder) {

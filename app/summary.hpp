@@ -2,9 +2,9 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "app/json_keys.hpp"
 #include "app/make_engine.hpp"
 #include "core/run_start.hpp"
 
@@ -42,9 +42,6 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
 std::string json_text(const Summary& summary);
 
 // What docs/scene.md says of each of these keys.
-struct KeyText {
-  std::string_view name, unit, meaning;
-};
 std::vector<KeyText> summary_key_texts();
 
 // A few aligned lines. folder: where the results are, empty if nowhere.

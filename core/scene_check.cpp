@@ -221,6 +221,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
 
 double check_box(const Scene& scene, const PlaceOfKey& place) {
   check_box_range(scene, place);
+  check_times(scene, place);
   double smallest = 0.0;  // radius; 0: no disk yet
   double largest = 0.0;
   const auto add = [&](const DiskSize& low, const DiskSize& high) {
@@ -251,7 +252,6 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
   check_axis(scene.box.width, scene.box.periodic_x(), largest, "width", place);
   check_axis(scene.box.height, scene.box.periodic_y(), largest, "height", place);
   check_resolution(scene, smallest, place);
-  check_times(scene, place);
   return largest;
 }
 

@@ -9,7 +9,7 @@
 
 #include "core/invariants.hpp"
 #include "parallel/simulation.hpp"
-#include "tests/scene_support.hpp"
+#include "tests/command_support.hpp"
 #include "tests/support.hpp"
 
 namespace carom {
@@ -55,6 +55,21 @@ TEST(Range, OfEachNumber) {
       StartsWith("gas.toml:16: disks.0.velocities.1: is [1e+61, 0]: it has a speed of 1e+61; expected a speed of"));
   EXPECT_THAT(with("[5, 5]", "[5, 1e31]"),
               StartsWith("gas.toml:15: disks.0.positions.1: is [5, 1e+31]; expected lengths"));
+  const FrameReader frames = [](const FrameAsked&) -> SceneFrame {
+    return {{}, {}, {1.0, -1.0, 1.0}, {1.0, 1e60, 1.0}};
+  };
+  const auto with_frame = [&](std::string_view from, std::string_view to) -> std::string {
+    try {
+      parse_scene(replaced(sound_scene, from, to), "gas.toml", "", {}, frames);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(with_frame("radius = 1.0", "radius = { frame = \"out\" }"),
+              HasSubstr("radius: comes out between -1 and 1;"));
+  EXPECT_THAT(with_frame("mass = 2.0", "mass = { frame = \"out\" }"),
+              HasSubstr("mass: comes out between 1 and 1e+60;"));
   EXPECT_EQ(with("t_end = 10.0", "t_end = 0"), "");
   EXPECT_EQ(with("{ maxwell = 1.0 }", "[[0, 5e-324], [-0.0, 0], [1e-200, 0]]"), "") << "no speed is too small";
 }
@@ -77,7 +92,7 @@ TEST(Range, OfNumbersAgainstEachOther) {
       with("width = 20.0", "width = 1e13"),
       StartsWith("gas.toml:5: box.width: 10000000000000 is 1e+13 times the smallest radius, 1; expected at most 2^40"));
   EXPECT_EQ(with("width = 20.0", "width = 1e12"), "");
-  EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "1e29"}}),
+  EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "1e29"}, {"run.method", "exact"}}),
               StartsWith("gas.toml:16: disks.0.velocities: maxwell = 1 "));
   EXPECT_THAT(complaint(sound_scene, {{"run.method", "auto"}, {"run.accuracy", "1e-300"}}), HasSubstr("run."));
 }
@@ -99,6 +114,22 @@ TEST(Range, OfSources) {
               HasSubstr(std::string(nowhere)));
   EXPECT_EQ(source("region = [0.5, 5, 0.5, 5]\nradius = 0.5\nrate = 1"), "") << "a single place";
   EXPECT_EQ(source("region = [0, 0, 0.6, 10]\nradius = 0.5\nrate = 1"), "");
+}
+
+using RangeOnTheCommandLine = test::CommandTest;
+
+TEST_F(RangeOnTheCommandLine, IsNamedByTheOption) {
+  for (const std::string command : {"run", "check"}) {
+    expect_error("$C " + command + " small.toml --dt 1e-200", 2,
+                 "--dt: is 1e-200; expected a time from 1e-30 to 1e+30");
+    expect_error("$C " + command + " small.toml --dt 1e-20", 2, "--dt: is 1e-20: 1e+20 steps until run.t_end = 1");
+    expect_error("$C " + command + " small.toml --t-end 1e155", 2, "--t-end: is 1e+155; expected a time");
+    expect_error("$C " + command + " small.toml --set box.width=1e300", 2,
+                 "--set box.width: is 1e+300; expected a length");
+  }
+  ASSERT_EQ(carom("run small.toml -o out --quiet --set output.checkpoint=3600").status, 0);
+  expect_error("$C resume out --t-end 1e155", 2, "--t-end: is 1e+155; expected a time");
+  expect_error("$C resume out --t-end 1e20", 2, "run.dt: is 0.01: 1e+22 steps until run.t_end = 1e+20");
 }
 
 TEST(Title, IsOneThatFitsOnALine) {
