@@ -305,7 +305,8 @@ State state_of(RunTask& task) {
 int carry_out(RunTask task) {
   const Scene& scene = task.scene;
   auto engine = within_memory(scene, [&] { return make_engine(task.choice, scene, state_of(task)); });
-  const std::vector<std::string> warnings = validity_of(scene, smallest_radius(engine->state().disks));
+  const std::vector<std::string> warnings =
+      validity_of(scene, smallest_radius(engine->state().disks), fastest_speed(engine->state().disks));
   if (task.strict) {
     fail_if_any(warnings);
     if (task.from) fail_if_any(warnings_so_far(task.from->checkpoint.record, scene, engine->state()));

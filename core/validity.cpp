@@ -137,7 +137,15 @@ std::vector<std::string> worst_moments(const Scene& scene, const State& state) {
   return warnings;
 }
 
-std::vector<std::string> validity_of(const Scene& scene, double smallest_radius) {
+double fastest_speed(const Disks& disks) {
+  double fastest2 = 0.0;
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    fastest2 = std::max(fastest2, disks.vx[i] * disks.vx[i] + disks.vy[i] * disks.vy[i]);
+  }
+  return std::sqrt(fastest2);
+}
+
+std::vector<std::string> validity_of(const Scene& scene, double smallest_radius, double fastest) {
   std::vector<std::string> warnings;
   if (!(smallest_radius > 0.0)) return warnings;
   const double side = std::max(scene.box.width, scene.box.height);
@@ -146,6 +154,17 @@ std::vector<std::string> validity_of(const Scene& scene, double smallest_radius)
         fmt::format("in a box of {:g} places are known to {:.2g} of the smallest radius only; use a "
                     "smaller box or larger disks",
                     side, side * 0x1p-53 / smallest_radius));
+  }
+  // Gravity and Brownian motion bring their own speeds.
+  const bool steps =
+      scene.run.method != Method::exact && scene.physics.diffusion == 0.0 && scene.physics.gravity == 0.0;
+  const double way = steps ? fastest * scene.run.dt : 0.0;
+  const double rounding = side * 0x1p-53;
+  if (way > 0.0 && way < least_step_roundings * rounding) {
+    warnings.push_back(
+        fmt::format("the fastest disk moves by {:.2g} in dt = {:g}, and in a box of {:g} places are known to {:.2g}: "
+                    "motion is lost in rounding; use a longer dt or --method exact",
+                    way, scene.run.dt, side, rounding));
   }
   const double step = std::sqrt(2.0 * scene.physics.diffusion * scene.run.dt) / smallest_radius;
   if (step > largest_brownian_step) {

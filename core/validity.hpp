@@ -29,6 +29,9 @@ inline constexpr double least_advance = 0.1;
 inline constexpr Count frames_watched = 1000;
 // Places are known to the size of the box times 1e-16. Radii below this share of it see that.
 inline constexpr double least_radius_share = 1e-9;
+// Steps that move even the fastest disk by less than so many times the rounding of its place are lost in it, by a
+// thousandth and more.
+inline constexpr double least_step_roundings = 1e3;
 // Root mean square displacement of a Brownian interval, over the smallest radius.
 inline constexpr double largest_brownian_step = 0.5;
 
@@ -77,9 +80,11 @@ std::vector<std::string> validity_so_far(const Scene& scene, const State& state)
 // Those of them that tell of one moment, the worst; not of a share that goes on with every step.
 std::vector<std::string> worst_moments(const Scene& scene, const State& state);
 
-// What can be said before the first step: places too coarse for the radii, Brownian intervals too long. One line each.
-// smallest_radius: of the disks at the start, 0 if there are none.
-std::vector<std::string> validity_of(const Scene& scene, double smallest_radius);
+// What can be said before the first step: places too coarse for the radii or for the way of a step, Brownian intervals
+// too long. One line each. smallest_radius, fastest speed: of the disks at the start, 0 if there are none or none
+// moves.
+std::vector<std::string> validity_of(const Scene& scene, double smallest_radius, double fastest = 0.0);
+double fastest_speed(const Disks& disks);
 
 // What a run at its end has to say of disks that still wait for room: a line for each source whose share of them is
 // above most_waiting, or that never gave one.

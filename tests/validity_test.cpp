@@ -162,6 +162,13 @@ TEST(Validity, ScenesThatNoMethodServesAreToldBeforeTheFirstStep) {
   EXPECT_THAT(validity_of(scene, 1.0), IsEmpty());
   EXPECT_THAT(validity_of(scene, 0.0), IsEmpty());
   EXPECT_THAT(validity_of(scene, 1e-9), ElementsAre(HasSubstr("in a box of 20 places are known to 2.2e-06 of the")));
+  EXPECT_THAT(validity_of(scene, 1.0, 3.0), IsEmpty());
+  scene.run.dt = 1e-16;
+  EXPECT_THAT(
+      validity_of(scene, 1.0, 3.0),
+      ElementsAre(AllOf(HasSubstr("the fastest disk moves by 3e-16 in dt = 1e-16, and in a box of 20 places are"),
+                        HasSubstr("motion is lost in rounding; use a longer dt"))));
+  EXPECT_THAT(validity_of(scene, 1.0, 0.0), IsEmpty()) << "nothing moves";
   scene.physics.diffusion = 2.0;
   scene.run.dt = 1.0;
   EXPECT_THAT(validity_of(scene, 1.0), ElementsAre(AllOf(HasSubstr("a Brownian disk moves by 2 of the smallest radius"),
