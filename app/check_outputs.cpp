@@ -1,6 +1,7 @@
 #include "app/check_outputs.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -41,6 +42,19 @@ constexpr double plot_bytes = 16e3, point_bytes = 19.0;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Processor time of this process and of those that it has waited for.
+double cpu_seconds() {
+  double seconds = 0.0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    for (const timeval& t : {usage.ru_utime, usage.ru_stime}) {
+      seconds += static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    }
+  }
+  return seconds;
 }
 
 // A folder of its own that goes away again.
@@ -112,8 +126,8 @@ Disks typical_disks(const Scene& scene, const State& state, double count) {
 }
 
 struct Rehearsed {
-  double seconds = 0.0;
-  double sample_seconds = 0.0;  // each
+  double wall = 0.0, cpu = 0.0;  // seconds
+  double sample_seconds = 0.0;   // each
   Sizes sizes;
 };
 
@@ -123,6 +137,7 @@ Rehearsed rehearse(const Scene& scene, const EngineChoice& choice, const Engine&
   const double every = scene.output.every > 0.0 ? scene.output.every : scene.run.t_end;
   const OutputFolder folder(path, scene.file, true);
   auto start = Clock::now();
+  const double cpu_before = cpu_seconds();
   RunOutputs outputs(scene, folder, make_pair_counter(choice));
   outputs.share_work(make_block_runner(choice));
   for (Count k = 0; k < frames; ++k) {
@@ -130,7 +145,8 @@ Rehearsed rehearse(const Scene& scene, const EngineChoice& choice, const Engine&
     outputs.frame(moved(disks, scene, time), time, tried.state());
   }
   outputs.finish(false);
-  r.seconds = seconds_since(start);
+  r.wall = seconds_since(start);
+  r.cpu = cpu_seconds() - cpu_before;
   for (const auto& entry : fs::recursive_directory_iterator(folder.unfinished())) {
     if (!entry.is_regular_file()) continue;
     const bool picture = entry.path().parent_path() != fs::path(folder.unfinished());
@@ -177,8 +193,10 @@ void guess_files(const Scene& scene, double disks, OutputForesight& f) {
 void extrapolate(const Rehearsed& one, const Rehearsed& several, Count rehearsed, double scale, OutputForesight& f) {
   const double more = std::max(1.0, static_cast<double>(rehearsed - 1));
   const double rest = static_cast<double>(f.frames) - 1.0;
-  const double each = std::max(0.0, several.seconds - one.seconds) / more;
-  f.files_s = scale * (one.seconds + each * rest);
+  // Processor time tells a frame's share, which wall time does not on a busy machine; both together how busy it is.
+  const double each = std::max(0.0, several.cpu - one.cpu) / more;
+  const double busy = (one.wall + several.wall) / std::max(1e-9, one.cpu + several.cpu);
+  f.files_s = scale * busy * (one.cpu + each * rest);
   for (const auto& [name, bytes] : several.sizes) {
     const auto first = one.sizes.find(name);
     const double first_bytes = first == one.sizes.end() ? 0.0 : first->second;
@@ -202,7 +220,7 @@ void rehearse_files(const Scene& scene, const EngineChoice& choice, const Engine
   f.analysis_s = one.sample_seconds * static_cast<double>(f.samples);
   if (f.frames == 0) return;
   // A frame that takes long tells enough by itself, but for what comes before it.
-  const Count several = std::min(f.frames, one.seconds < slow_frame ? rehearsed_frames : 2);
+  const Count several = std::min(f.frames, one.cpu < slow_frame ? rehearsed_frames : 2);
   const Rehearsed more =
       several > 1 ? rehearse(rehearsal, choice, tried, shown, workshop / "more", several, false) : one;
   extrapolate(one, more, several, scale, f);

@@ -91,6 +91,16 @@ double seconds_with_sources(const Scene& scene, const Population& population, do
   return std::max(extrapolated, by_rates + (growth > 0.0 ? 0.0 : first_steps));
 }
 
+// What sinks will have left in the mean over the run, as a share: they take ever less as the disks near them are gone,
+// so it lies between nothing lost and a loss at the rate of the trial; the geometric mean of these.
+double share_left(const Engine& engine, const Scene& scene, const Population& population) {
+  const State& now = engine.state();
+  const auto left = static_cast<double>(now.disks.size());
+  if (!scene.sources.empty() || !(now.time > 0.0) || !(left < population.start)) return 1.0;
+  const double losses = std::log(population.start / std::max(0.5, left)) * scene.run.t_end / now.time;
+  return std::sqrt(-std::expm1(-losses) / losses);
+}
+
 // Runs the first steps, and extrapolates.
 void try_steps(Engine& engine, const Scene& scene, Findings& f) {
   const auto start = Clock::now();
@@ -107,6 +117,9 @@ void try_steps(Engine& engine, const Scene& scene, Findings& f) {
   engine.set_watch({});
   const double time = engine.state().time;
   f.step_seconds = time > 0.0 ? seconds * scene.run.t_end / time : std::numeric_limits<double>::infinity();
+  const double share = share_left(engine, scene, f.population);
+  if (time < scene.run.t_end) f.step_seconds *= share;
+  f.population.mean *= share;
   look_as_a_run_does(engine, scene);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

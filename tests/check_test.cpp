@@ -137,6 +137,20 @@ TEST_F(Check, EveryFileIsForeseenWithItsSize) {
   }
 }
 
+// Disks that fly out of the box: most frames have hardly any.
+TEST_F(Check, WhatSinksTakeIsLeftOutOfFiles) {
+  std::string sinks;
+  for (const char* const side : {"left", "right", "bottom", "top"}) {
+    sinks += std::string(" --set box.") + side + "='\"sink\"'";
+  }
+  const std::string scene = "small.toml --t-end 1000 --set run.dt=0.001 --set disks.0.count=20" + sinks;
+  const double foreseen = check(scene)["files_bytes"]["trajectory.xyz"];
+  const double full =
+      check("small.toml --t-end 1000 --set run.dt=0.001 --set disks.0.count=20")["files_bytes"]["trajectory.xyz"];
+  EXPECT_LT(foreseen, 0.6 * full);
+  EXPECT_GT(foreseen, 0.05 * full);
+}
+
 TEST_F(Check, AMovieIsWhatAShortRunCosts) {
   const Json j = check("small.toml --set output.movie=true");
   EXPECT_GT(j["cost_parts_s"]["frames"].get<double>(), j["cost_parts_s"]["steps"].get<double>());
