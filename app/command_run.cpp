@@ -171,7 +171,11 @@ double run_watched(Engine& engine, const RunTask& task, Results* results, Checkp
     observer.stepped = [&] { results->outputs.follow(engine, engine.state().time); };
   }
   try {
-    return run_to_end(engine, scene, observer);
+    step_s = run_to_end(engine, scene, observer);
+    if (task.strict && keeper.stopped_by().empty()) {
+      fail_if_any(energy_warnings(scene, keeper.record(step_s).start, engine.state()));
+    }
+    return step_s;
   } catch (const PhysicsError& error) {
     take_news(task.quiet ||
               task.strict);  // the state, which is kept, knows them as told; with --strict the error tells
@@ -260,7 +264,9 @@ int report_end(const Engine& engine, const RunTask& task, Results* results, Chec
   }
   keeper.discard_own_folder();
   Summary summary = summary_of(engine, task, results, keeper.record(step_s));
-  for (const std::string& warning : waiting_warnings(task.scene, engine.state())) {
+  std::vector<std::string> at_end = energy_warnings(task.scene, keeper.record(step_s).start, engine.state());
+  for (const std::string& warning : waiting_warnings(task.scene, engine.state())) at_end.push_back(warning);
+  for (const std::string& warning : at_end) {
     summary.warnings.push_back(warning);
     if (!task.quiet) print_warning(warning);
   }

@@ -11,6 +11,7 @@
 #include "core/scene_range_check.hpp"
 #include "core/scene_ranges.hpp"
 #include "core/size_law.hpp"
+#include "core/window_plan.hpp"
 
 namespace carom {
 
@@ -211,6 +212,12 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   if (scene.physics.collapse_contact_time && scene.run.method != Method::exact) {
     warnings.push_back(fmt::format("{}: physics.collapse: only the exact method uses it, method {} does not",
                                    scene.file, method_names[static_cast<std::size_t>(scene.run.method)]));
+  }
+  if (scene.physics.collapse_contact_time && scene.run.method == Method::exact && !has_tc(scene)) {
+    warnings.push_back(
+        fmt::format("{}: physics.collapse: restitution and wall_restitution are 1, so no energy is lost and the TC "
+                    "model does nothing",
+                    scene.file));
   }
   if (scene.run.accuracy > 0.0 && !scene.run.automatic) {
     warnings.push_back(fmt::format("{}: run.accuracy: only method \"auto\" uses it, method {} does not", scene.file,

@@ -17,6 +17,7 @@ struct Counters {
   Count emitted = 0;                      // by sources
   Count waiting = 0;                      // due from a source, no room found yet
   double virial = 0.0;                    // sum over disk-disk collisions of |impulse| (r1 + r2); mass length^2 / time
+  double emitted_energy = 0.0;            // that disks from sources came with, kinetic and potential
   double wall_impulse[4] = {0, 0, 0, 0};  // sum of |impulse| on each side (order of Side); mass length / time
 };
 

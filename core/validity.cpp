@@ -10,6 +10,7 @@
 #include "core/scene_names.hpp"
 #include "core/step_clock.hpp"
 #include "core/step_start.hpp"
+#include "core/window_plan.hpp"
 #include "core/window_start.hpp"
 
 namespace carom {
@@ -23,10 +24,16 @@ Count collisions_watched(const Scene& scene, const State& state) {
 
 // What went amiss with collisions, and the remedy.
 std::string amiss_text(const Scene& scene) {
+  if (scene.run.method == Method::exact && settles(scene)) {
+    return fmt::format(
+        "were made elastic by the TC model (contact_time = {:g}), as all are of disks that rest on each other; use "
+        "--method pairwise for a pile, or a smaller contact_time where disks still fly",
+        scene.physics.collapse_contact_time.value_or(0.0));
+  }
   if (scene.run.method == Method::exact) {
     return fmt::format(
         "were made elastic by the TC model, so that less energy is lost: contact_time = {:g} is long against the time "
-        "between them; use a smaller one, or --method pairwise for a pile",
+        "between them; use a smaller one",
         scene.physics.collapse_contact_time.value_or(0.0));
   }
   return fmt::format(
@@ -175,6 +182,25 @@ std::vector<std::string> validity_of(const Scene& scene, double smallest_radius,
                     step, scene.run.dt, share * share / (2.0 * scene.physics.diffusion)));
   }
   return warnings;
+}
+
+std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state) {
+  if (scene.physics.diffusion > 0.0) return {};
+  const bool exact = scene.run.method == Method::exact;
+  const double before = start.energy.total() + state.counters.emitted_energy;
+  const double after = energy_of(state.disks, scene.physics.gravity).total();
+  if (!(after - before > (exact ? most_gain_exact : most_gain_stepping) * before)) return {};
+  std::string why = "speeds or sizes differ too much for double precision";
+  if (exact && has_tc(scene)) {
+    why = fmt::format(
+        "the TC model makes disks that lie on the floor hop, and contact_time = {:g} is long against their motion; use "
+        "a "
+        "smaller one",
+        *scene.physics.collapse_contact_time);
+  }
+  if (!exact) why = fmt::format("dt = {:g} is too long; use a smaller dt or --method exact", scene.run.dt);
+  return {fmt::format("at the end, time {:g}, the energy is {:.6g} where {:.6g} was put in: {}", state.time, after,
+                      before, why)};
 }
 
 std::vector<std::string> waiting_warnings(const Scene& scene, const State& state) {

@@ -46,12 +46,16 @@ std::string partner_text(DiskId id) {
 
 }  // namespace
 
+bool has_tc(const Scene& scene) {
+  return scene.physics.collapse_contact_time && dissipates(scene.box, scene.physics.restitution);
+}
+
 ExactRules exact_rules(const Scene& scene, const Disks& disks) {
   ExactRules rules;
   rules.box = scene.box;
   rules.gravity = scene.physics.gravity;
   rules.restitution = scene.physics.restitution;
-  rules.contact_time = scene.physics.collapse_contact_time.value_or(-1.0);
+  if (has_tc(scene)) rules.contact_time = *scene.physics.collapse_contact_time;
   rules.common_mass = disks.mass.empty();
   return rules;
 }
@@ -62,7 +66,7 @@ WindowPlan plan_window(const Scene& scene, const State& state, const SpeedSummar
   const double longest = longest_window(scene, speeds, state.disks.size());
   plan.meant = clamped_window(state.window, longest) * scale;
   plan.least = least_window(longest) * scale;
-  plan.tc = scene.physics.collapse_contact_time.has_value();
+  plan.tc = has_tc(scene);
   plan.pace = (plan.tc ? least_pace_tc : least_pace) * longest * scale;
   const double cut = next_cut(scene, state);
   plan.end = state.time + plan.meant;

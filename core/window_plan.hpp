@@ -19,6 +19,9 @@ struct WindowPlan {
   bool tc = false;      // the TC model makes collisions elastic
 };
 
+// Does the TC model make collisions elastic? Not where all are, whatever the scene says.
+bool has_tc(const Scene& scene);
+
 ExactRules exact_rules(const Scene& scene, const Disks& disks);
 
 // The window that starts at state.time, from state.window and the disks' speeds. scale: 1, or what a test multiplies

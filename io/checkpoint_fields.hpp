@@ -16,8 +16,8 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<Counters> T>
 void fields(Stream& stream, T& value) {
-  auto& [steps, collisions, wall_collisions, removed, emitted, waiting, virial, wall_impulse] = value;
-  stream(steps, collisions, wall_collisions, removed, emitted, waiting, virial, wall_impulse);
+  auto& [steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse] = value;
+  stream(steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse);
 }
 
 template <class Stream, Is<SourceState> T>

@@ -85,6 +85,9 @@ Run run_method(const Case& c, const std::string& folder, const std::string& meth
   step_through(c, *engine, run);
   take(*engine, run.result);
   run.end = engine->state();
+  for (std::string& warning : energy_warnings(*run.scene, run_start(run.start, *run.scene), run.end)) {
+    run.result.warnings.push_back(std::move(warning));
+  }
   run.worst.look(*run.scene, run.start, run.end);
   const double n = static_cast<double>(run.start.disks.size());
   const Counters& counters = run.end.counters;
