@@ -142,7 +142,7 @@ std::string physics_text(Dice& dice, const Draft& draft) {
   const bool dissipates = draft.restitution < 1.0 || draft.wall_restitution < 1.0;
   if (!dice.chance(draft.method != "exact" ? 0.04 : dissipates ? 0.85 : 0.1)) return text;
   // A heap at rest has some events a contact and contact time.
-  const double least = 2e-5 * static_cast<double>(draft.crowd.disks) * draft.t_end;
+  const double least = dice.chance(0.05) ? 0.0 : 2e-5 * static_cast<double>(draft.crowd.disks) * draft.t_end;
   const double time = std::max(least, draft.units.length / draft.units.speed * dice.decades(-6, 0));
   return text + fmt::format("collapse = {{ model = \"tc\", contact_time = {} }}\n", rounded(time));
 }

@@ -66,10 +66,15 @@ void Sanity::look_at_places(const State& state) {
   say_later(state, unsaid_place_, outside);
 }
 
-// What a disk meets on its way out of a collision is found a step later, and warned of then.
-void Sanity::say_later(const State& state, std::string& unsaid, const std::string& found) {
-  if (!unsaid.empty() && warnings_.empty()) blame(state, unsaid + ", a step ago and in silence");
-  unsaid = found;
+// What a disk meets on its way out of a collision is found a step later, and warned of then; by rollback some frames
+// later, when the two part.
+void Sanity::say_later(const State& state, Unsaid& unsaid, const std::string& found) {
+  const int patience = scene_.run.method == Method::rollback ? 30 : 1;
+  if (!warnings_.empty()) return;
+  if (!unsaid.what.empty() && ++unsaid.steps >= patience) {
+    blame(state, fmt::format("{}, {} steps ago and in silence", unsaid.what, unsaid.steps));
+  }
+  if (unsaid.what.empty()) unsaid.what = found;
 }
 
 void Sanity::look_at_counts(const State& state) {

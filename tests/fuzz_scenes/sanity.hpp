@@ -22,7 +22,12 @@ class Sanity {
 
  private:
   void blame(const State& state, const std::string& what);
-  void say_later(const State& state, std::string& unsaid, const std::string& found);
+  // Something that a warning has to tell.
+  struct Unsaid {
+    std::string what;
+    int steps = 0;  // since
+  };
+  void say_later(const State& state, Unsaid& unsaid, const std::string& found);
   void look_at_places(const State& state);
   void look_at_overlaps(const State& state);
   void look_at_counts(const State& state);
@@ -35,7 +40,7 @@ class Sanity {
   Energy energy_;      // at the start
   Momentum momentum_;  // at the start
   double largest_energy_ = 0.0, largest_momentum_ = 0.0;
-  std::string unsaid_place_, unsaid_overlap_;  // of the step before
+  Unsaid unsaid_place_, unsaid_overlap_;
   std::string warnings_, fault_;
 };
 

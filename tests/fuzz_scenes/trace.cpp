@@ -16,6 +16,8 @@ namespace {
 // Shares of a step at which frames are taken.
 constexpr std::array<double, 2> looks{0.3125, 0.75};
 constexpr std::size_t release_interval = 3;
+// A run with more events than this is cut short.
+constexpr Count most_events = 100'000;
 
 Moment moment_of(Engine& engine, double before, Handling handling) {
   const State& state = engine.state();
@@ -59,7 +61,9 @@ std::uint64_t hash_of(const State& state) {
 void follow(Engine& engine, const Scene& scene, std::size_t most_steps, Handling handling, Trace& trace,
             const Look& look) {
   if (handling == Handling::left_alone) engine.forget_paths();
-  while (trace.moments.size() < most_steps && trace.error.empty()) {
+  const Counters& counts = engine.state().counters;
+  const auto few = [&] { return counts.collisions + counts.wall_collisions < most_events; };
+  while (trace.moments.size() < most_steps && trace.error.empty() && few()) {
     const double before = engine.state().time;
     if (!(before < scene.run.t_end)) break;
     try {

@@ -43,7 +43,7 @@ enum class Handling : std::uint8_t {
 
 using Look = std::function<void(const State&, const Moment&)>;
 
-// Steps until the end, an error, or most_steps moments are in the trace. look may be empty.
+// Steps until the end, an error, very many events, or most_steps moments in the trace. look may be empty.
 void follow(Engine& engine, const Scene& scene, std::size_t most_steps, Handling handling, Trace& trace,
             const Look& look = {});
 

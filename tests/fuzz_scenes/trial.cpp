@@ -104,11 +104,14 @@ class Court {
     record.scene_text = resolved_toml(scene_);
     Checkpoint checkpoint{record, start_};
     Trace found;
-    for (std::size_t turn = 0; !found.finished && found.error.empty() && found.moments.size() < steps_; ++turn) {
+    bool goes_on = true;
+    for (std::size_t turn = 0; goes_on && found.error.empty(); ++turn) {
       const Scene again = parse_scene(checkpoint.record.scene_text, scene_.file, "");
       const auto engine = make_engine(turns[(first + turn) % std::size(turns)], again, checkpoint.state);
-      const std::size_t until = std::min(steps_, found.moments.size() + 2 + turn % 2);
+      const std::size_t until = std::min(expected_.moments.size(), found.moments.size() + 2 + turn % 2);
+      const std::size_t before = found.moments.size();
       follow(*engine, again, until, Handling::looked_at, found);
+      goes_on = found.moments.size() > before;
       checkpoint = decode_checkpoint(encode_checkpoint(record, engine->state()), "checkpoint");
     }
     const std::string what = difference(expected_, found);
