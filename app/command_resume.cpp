@@ -6,6 +6,7 @@
 #include "app/run_task.hpp"
 #include "app/stop_signals.hpp"
 #include "core/check.hpp"
+#include "core/drawn_velocities.hpp"
 #include "core/input_message.hpp"
 #include "core/scene_names.hpp"
 #include "core/step_clock.hpp"
@@ -50,8 +51,10 @@ void check_end(const Scene& before, const Scene& now, const State& state) {
     fail_input("--t-end", told, fmt::format("expected a step of {} or more beyond {}", now.run.dt, state.time));
   }
   if (old_clock.length(begun - 1) == new_clock.length(begun - 1)) return;
-  fail_input("--t-end", fmt::format("{}, but the run's last step was cut short to end at {}", told, before.run.t_end),
-             "expected an earlier checkpoint");
+  fail_input(
+      "--t-end", fmt::format("{}, but the run's last step was cut short to end at {}", told, before.run.t_end),
+      fmt::format("expected an earlier checkpoint, or a new run to the later end: carom run {} --t-end {} -o DIR",
+                  now.file, t_end));
 }
 
 // Was a plot lost at the end of the run, or taken away since? Going on from the end draws it.
@@ -60,7 +63,9 @@ bool lacks_plots(const Scene& scene, const fs::path& folder) {
   for (std::size_t k = 0; k < quantity_names.size(); ++k) {
     if (scene.analysis.wanted[k] && lacks(quantity_names[k])) return true;
   }
-  return std::any_of(scene.output.plots.begin(), scene.output.plots.end(), lacks);
+  return std::any_of(scene.output.plots.begin(), scene.output.plots.end(), [&](const std::string& plot) {
+    return lacks(plot) && !(plot == "energy" && velocities_are_drawn(scene));
+  });
 }
 
 Scene scene_of(const RunRecord& record, const SceneChanges& changes) {
@@ -79,14 +84,16 @@ int command_resume(const ResumeOptions& options) {
   const RunRecord& record = checkpoint.record;
   const Scene scene = scene_of(record, options.changes);
   if (checkpoint.state.sources.size() != scene.sources.size()) {
-    fail_input(options.checkpoint, "holds a state that does not go with its scene");
+    fail_input(options.checkpoint, "holds a state that does not go with its scene",
+               "expected a checkpoint as Carom wrote it; the one before may serve (checkpoint.previous.carom)");
   }
   check_end(scene_of(record, {}), scene, checkpoint.state);
   check_files(place, record.outputs);
   if (place.finished && checkpoint.state.time >= scene.run.t_end && fs::exists(place.folder / "summary.json") &&
       !lacks_plots(scene, place.folder)) {
     fail_input(options.checkpoint, fmt::format("the run came to its end at t = {}", checkpoint.state.time),
-               "expected --t-end beyond that");
+               fmt::format("expected --t-end beyond that, such as carom resume {} --t-end {}", options.checkpoint,
+                           2.0 * checkpoint.state.time));
   }
   const EngineChoice choice = choose_engine(options.engine.empty() ? record.engine : options.engine, options.threads);
   if (record.version != CAROM_VERSION && !options.quiet) {

@@ -97,16 +97,25 @@ class Sweep {
     for (const SweepRun& run : runs_) check_run(run);
   }
 
-  // Makes the folder, or makes sure that it holds this very sweep.
-  void open_folder() const {
-    const std::string identity = sweep_identity(read_text_file(options_.scene, options_.scene), runs_);
+  // Makes the folder, or makes sure that it holds this very sweep, or one that this one goes on with more values or
+  // seeds.
+  void open_folder() {
+    const std::string scene_text = read_text_file(options_.scene, options_.scene);
     const fs::path plan = folder_ / "sweep.txt";
     std::error_code error;
     if (fs::exists(plan)) {
-      if (read_text_file(plan.string(), plan.string()) == identity) return;
+      std::vector<SweepRun> runs = runs_;
+      const std::string before = read_text_file(plan.string(), plan.string());
+      const std::string against = take_names(before, scene_text, runs);
+      if (against.empty()) {
+        runs_ = std::move(runs);
+        const std::string identity = sweep_identity(scene_text, runs_);
+        if (identity != before) write_file(plan.string(), identity);
+        return;
+      }
       if (!options_.force) {
-        fail_input(folder_.string(), "holds another sweep, or the scene has changed since",
-                   "choose another folder with -o, or replace it with --force");
+        fail_input(folder_.string(), fmt::format("holds another sweep: {}", against),
+                   "give it all of that and more, choose another folder with -o, or replace it with --force");
       }
       fs::remove_all(folder_ / "runs", error);
       fs::remove(folder_ / "sweep.csv", error);
@@ -115,7 +124,7 @@ class Sweep {
     }
     fs::create_directories(folder_ / "runs", error);
     if (error) fail_input(folder_.string(), "cannot be made: " + error.message(), "expected a folder (-o)");
-    write_file(plan.string(), identity);
+    write_file(plan.string(), sweep_identity(scene_text, runs_));
   }
 
   bool finished(const SweepRun& run) const { return fs::exists(folder_of(run) / "summary.json"); }

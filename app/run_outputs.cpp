@@ -7,6 +7,7 @@
 
 #include "core/check.hpp"
 #include "core/disk_group.hpp"
+#include "core/drawn_velocities.hpp"
 #include "core/follow_disks.hpp"
 #include "core/invariants.hpp"
 
@@ -33,7 +34,7 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
       folder_(folder),
       meter_(scene, false),
       plot_velocity_(has_plot(scene.output, "velocity")),
-      plot_energy_(has_plot(scene.output, "energy")) {
+      plot_energy_(has_plot(scene.output, "energy") && !velocities_are_drawn(scene)) {
   if (scene.output.trajectory == TrajectoryFormat::xyz) {
     trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), xyz_plan());
   }
@@ -53,7 +54,7 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
       doubt_told_(from.rounds.doubtful > 0),
       meter_(scene, false, from.meter),
       plot_velocity_(has_plot(scene.output, "velocity")),
-      plot_energy_(has_plot(scene.output, "energy")),
+      plot_energy_(has_plot(scene.output, "energy") && !velocities_are_drawn(scene)),
       velocities_(from.velocities),
       energies_(from.energies) {
   if (from.trajectory) {

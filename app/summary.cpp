@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "app/progress.hpp"
+#include "core/drawn_velocities.hpp"
 #include "core/scene_names.hpp"
 #include "core/state_hash.hpp"
 
@@ -41,18 +43,21 @@ const JsonKey<Summary> summary_keys[] = {
     {"cpu_s", "s", "processor time of the whole run", [](const Summary& s) -> Json { return json_number(s.cpu_s); }},
     {"step_s", "s", "wall time of the steps alone, without set-up and output",
      [](const Summary& s) -> Json { return json_number(s.step_s); }},
-    {"energy_initial", "energy", "kinetic and potential energy at the start",
+    {"energy_initial", "energy",
+     "kinetic and potential energy at the start; null for Brownian motion, whose u / dt is no velocity",
      [](const Summary& s) -> Json { return json_number(s.energy_initial); }},
-    {"energy_final", "energy", "the same at the end",
+    {"energy_final", "energy", "the same at the end; null likewise",
      [](const Summary& s) -> Json { return json_number(s.energy_final); }},
-    {"momentum_drift", "", "change of sum m v over sum m abs(v), the larger of start and end",
+    {"momentum_drift", "",
+     "change of sum m v over sum m abs(v), the larger of start and end; kept to rounding where sides are periodic and "
+     "neither gravity nor sources give momentum; null likewise",
      [](const Summary& s) -> Json { return json_number(s.momentum_drift); }},
     {"max_overlap", "", "largest overlap of two disks in the last state, over the sum of their radii; 0 if none",
      [](const Summary& s) -> Json { return json_number(s.max_overlap); }},
     {"wall_overlap", "", "likewise of a disk and a wall, over its radius",
      [](const Summary& s) -> Json { return json_number(s.wall_overlap); }},
     {"pressure", "energy / area",
-     "mean over the run, from collisions and the kinetic energy halfway between start and end",
+     "mean over the run, from collisions and the kinetic energy halfway between start and end; null likewise",
      [](const Summary& s) -> Json { return json_number(s.pressure); }},
     {"collision_rate", "1 / time", "collisions that a disk takes part in per unit time",
      [](const Summary& s) -> Json { return json_number(s.collision_rate); }},
@@ -137,9 +142,14 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.particles = state.disks.size();
   s.time = state.time;
   s.counters = state.counters;
-  s.energy_initial = start.energy.total();
-  s.energy_final = energy.total();
-  s.momentum_drift = momentum_drift(start.momentum, momentum_of(state.disks));
+  s.drawn_velocities = velocities_are_drawn(scene);
+  s.keeps_momentum = keeps_momentum(scene);
+  const auto of_velocities = [&](double value) {
+    return s.drawn_velocities ? std::numeric_limits<double>::quiet_NaN() : value;
+  };
+  s.energy_initial = of_velocities(start.energy.total());
+  s.energy_final = of_velocities(energy.total());
+  s.momentum_drift = of_velocities(momentum_drift(start.momentum, momentum_of(state.disks)));
   const Overlap of_disks = deepest_overlap(state.disks, scene.box);
   const Overlap of_wall = deepest_wall_overlap(state.disks, scene.box);
   s.max_overlap = of_disks.size;
@@ -147,7 +157,7 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.worst_disks = worst_of(state.validity.disks, of_disks, state.time);
   s.worst_wall = worst_of(state.validity.wall, of_wall, state.time);
   const Energy halfway{0.5 * (start.energy.kinetic + energy.kinetic), 0.0};
-  s.pressure = pressure(halfway, state.counters.virial, elapsed, scene.box);
+  s.pressure = of_velocities(pressure(halfway, state.counters.virial, elapsed, scene.box));
   const double mean_disks = 0.5 * (static_cast<double>(start.particles) + static_cast<double>(s.particles));
   const double disk_time = mean_disks * elapsed;
   if (disk_time > 0.0) s.collision_rate = 2.0 * static_cast<double>(state.counters.collisions) / disk_time;
@@ -177,10 +187,11 @@ std::string table_text(const Summary& s, const std::string& folder) {
   line("time", fmt::format("{:g} in {}", s.time, counted(s.counters.steps, "step")));
   line("collisions", fmt::format("{} of disks, {} with walls; {:.4g} per disk and unit time", s.counters.collisions,
                                  s.counters.wall_collisions, s.collision_rate));
-  line("energy", fmt::format("{:.6g} at the start, {:.6g} at the end", s.energy_initial, s.energy_final));
-  line("momentum", fmt::format("changed by {:.2g} of sum m |v|", s.momentum_drift));
+  if (!s.drawn_velocities)
+    line("energy", fmt::format("{:.6g} at the start, {:.6g} at the end", s.energy_initial, s.energy_final));
+  if (s.keeps_momentum) line("momentum", fmt::format("changed by {:.2g} of sum m |v|", s.momentum_drift));
   line("overlap", worst_line(s.worst_disks, s.worst_wall));
-  line("pressure", fmt::format("{:.6g}", s.pressure));
+  if (!s.drawn_velocities) line("pressure", fmt::format("{:.6g}", s.pressure));
   line("state hash", s.state_hash);
   line("speed", fmt::format("{} steps/s, {} disk-steps/s; {} in all", short_number(rate),
                             short_number(rate * static_cast<double>(s.particles)), duration_text(s.wall_s)));

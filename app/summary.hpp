@@ -19,6 +19,8 @@ struct Summary {
   double time = 0.0;
   Counters counters;
   double wall_s = 0.0, cpu_s = 0.0, step_s = 0.0;
+  bool drawn_velocities = false;  // energies, momentum and pressure mean nothing, and are NaN
+  bool keeps_momentum = false;    // so that its drift is an error
   double energy_initial = 0.0, energy_final = 0.0;
   double momentum_drift = 0.0;                   // |change of sum m v| over sum |m v|, the larger of start and end
   double max_overlap = 0.0, wall_overlap = 0.0;  // now

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "core/input_message.hpp"
 
@@ -73,6 +75,16 @@ void check_number_of_runs(const std::vector<SweepAxis>& axes, std::uint64_t seed
   if (runs > most_runs) fail_input("sweep", fmt::format("{:g} runs are too many", runs), "expected at most 1000000");
 }
 
+// " KEY=VALUE" for each key that a run changes; 1.0 and 1 are the same.
+std::string changes_of(const SweepRun& run) {
+  std::string text;
+  for (const auto& [key, value] : run.overrides) {
+    const bool fraction = is_number(value) && value.find_first_of(".e") != std::string::npos;
+    text += fmt::format(" {}={}", key, fraction ? fmt::format("{}", std::stod(value)) : value);
+  }
+  return text;
+}
+
 }  // namespace
 
 SweepAxis parse_sweep_axis(const std::string& text) {
@@ -120,12 +132,28 @@ std::vector<SweepRun> sweep_runs(const SceneChanges& changes, const std::vector<
 
 std::string sweep_identity(const std::string& scene_text, const std::vector<SweepRun>& runs) {
   std::string text;
-  for (const SweepRun& run : runs) {
-    text += run.name;
-    for (const Override& change : run.overrides) text += fmt::format(" {}={}", change.key, change.value);
-    text += '\n';
-  }
+  for (const SweepRun& run : runs) text += run.name + changes_of(run) + '\n';
   return text + "\n" + scene_text;
+}
+
+std::string take_names(const std::string& identity, const std::string& scene_text, std::vector<SweepRun>& runs) {
+  const std::size_t end = identity.find("\n\n");
+  if (end == std::string::npos || identity.substr(end + 2) != scene_text) return "the scene has changed since";
+  std::map<std::string, std::string> names;  // of the runs there, by what they change
+  std::size_t last = 0;
+  for (const std::string& line : split(identity.substr(0, end), '\n')) {
+    const std::size_t name_end = std::min(line.find(' '), line.size());
+    names.emplace(line.substr(name_end), line.substr(0, name_end));
+    std::size_t number = 0;
+    std::from_chars(line.data(), line.data() + name_end, number);
+    last = std::max(last, number);
+  }
+  for (SweepRun& run : runs) {
+    const auto there = names.find(changes_of(run));
+    run.name = there != names.end() ? there->second : fmt::format("{:04}", ++last);
+    if (there != names.end()) names.erase(there);
+  }
+  return names.empty() ? "" : fmt::format("this one lacks its run{}", names.begin()->first);
 }
 
 }  // namespace carom

@@ -28,7 +28,11 @@ struct SweepRun {
 std::vector<SweepRun> sweep_runs(const SceneChanges& changes, const std::vector<SweepAxis>& axes, std::uint64_t seed,
                                  int seeds);
 
-// Everything that tells one sweep from another, as text: the scene, the axes, the seeds.
+// Everything that tells one sweep from another, as text: the runs with what they change, and the scene.
 std::string sweep_identity(const std::string& scene_text, const std::vector<SweepRun>& runs);
+
+// Enlarges a sweep: the runs that the one of this identity has keep its names, so that nothing of it is run again; the
+// others are numbered on from there. Returns what does not go together, empty if all does.
+std::string take_names(const std::string& identity, const std::string& scene_text, std::vector<SweepRun>& runs);
 
 }  // namespace carom

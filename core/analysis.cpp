@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/drawn_velocities.hpp"
 #include "core/invariants.hpp"
 
 namespace carom {
@@ -37,7 +38,8 @@ void add_means(AnalysisRecord& record, const Scene& scene, const Disks& disks, c
   record.series.interval.push_back(elapsed);
   if (scene.analysis.wants(Quantity::pressure)) {
     const double virial = now.counters.virial - record.before.virial;
-    record.series.pressure.push_back(elapsed > 0.0 ? pressure(energy, virial, elapsed, scene.box) : nothing);
+    const bool known = elapsed > 0.0 && !velocities_are_drawn(scene);
+    record.series.pressure.push_back(known ? pressure(energy, virial, elapsed, scene.box) : nothing);
   }
   if (scene.analysis.wants(Quantity::collision_rate)) {
     const auto collisions = static_cast<double>(now.counters.collisions - record.before.collisions);

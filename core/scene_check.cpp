@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/drawn_velocities.hpp"
 #include "core/input_message.hpp"
 #include "core/memory_need.hpp"
 #include "core/scene_names.hpp"
@@ -218,6 +219,16 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
         fmt::format("{}: physics.collapse: restitution and wall_restitution are 1, so no energy is lost and the TC "
                     "model does nothing",
                     scene.file));
+  }
+  if (velocities_are_drawn(scene)) {
+    const auto warn = [&](const std::string& key, const char* what) {
+      warnings.push_back(fmt::format(
+          "{}: {}: Brownian disks have no velocity, u / dt is the displacement of a step: {}", scene.file, key, what));
+    };
+    const auto& plots = scene.output.plots;
+    if (std::find(plots.begin(), plots.end(), "energy") != plots.end()) warn("output.plots", "no energy is drawn");
+    if (scene.analysis.wants(Quantity::pressure)) warn("analysis.what", "there is no pressure");
+    if (scene.analysis.wants(Quantity::speeds)) warn("analysis.what", "speeds are those of u / dt");
   }
   if (scene.run.accuracy > 0.0 && !scene.run.automatic) {
     warnings.push_back(fmt::format("{}: run.accuracy: only method \"auto\" uses it, method {} does not", scene.file,

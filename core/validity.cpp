@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/contact_event.hpp"
+#include "core/drawn_velocities.hpp"
 #include "core/scene_names.hpp"
 #include "core/step_clock.hpp"
 #include "core/step_start.hpp"
@@ -20,6 +21,11 @@ namespace {
 // The collisions of which some may go amiss.
 Count collisions_watched(const Scene& scene, const State& state) {
   return state.counters.collisions + (scene.run.method == Method::exact ? state.counters.wall_collisions : Count{0});
+}
+
+// The exact method is no remedy for Brownian motion: what a step draws is as coarse with it.
+const char* or_exact(const Scene& scene) {
+  return velocities_are_drawn(scene) ? "" : " or --method exact";
 }
 
 // What went amiss with collisions, and the remedy.
@@ -37,9 +43,9 @@ std::string amiss_text(const Scene& scene) {
         scene.physics.collapse_contact_time.value_or(0.0));
   }
   return fmt::format(
-      "were {}: dt = {:g} is long against the time between them; use a smaller dt or --method exact",
+      "were {}: dt = {:g} is long against the time between them; use a smaller dt{}",
       scene.run.method == Method::rollback ? "bounced at one moment with another of the same disk" : "seen a step late",
-      scene.run.dt);
+      scene.run.dt, or_exact(scene));
 }
 
 std::string_view side_name(DiskId wall) {
@@ -57,9 +63,8 @@ std::string overlap_text(const Scene& scene, const WorstOverlap& disks, const Wo
                                : fmt::format("disk {} reaches {:.2g} % of its radius beyond the {} wall", o.id1,
                                              100.0 * o.size, side_name(o.id2));
   return fmt::format(
-      "at time {:g} {}, more than {:g} %: dt = {:g} is too long where disks are pressed together; use a smaller dt or "
-      "--method exact",
-      worst.time, what, 100.0 * largest_overlap, scene.run.dt);
+      "at time {:g} {}, more than {:g} %: dt = {:g} is too long where disks are pressed together; use a smaller dt{}",
+      worst.time, what, 100.0 * largest_overlap, scene.run.dt, or_exact(scene));
 }
 
 std::string amiss_text(const Scene& scene, const State& state) {
@@ -67,10 +72,10 @@ std::string amiss_text(const Scene& scene, const State& state) {
                      collisions_watched(scene, state), amiss_text(scene));
 }
 
-std::string slow_text(const WorstFigure& advance, std::size_t disks) {
+std::string slow_text(const Scene& scene, const WorstFigure& advance, std::size_t disks) {
   return fmt::format(
-      "at time {:g} a frame advances time by {:.2g} dt, with {} disks: time stalls; use --method pairwise or exact",
-      advance.time, advance.figure, disks);
+      "at time {:g} a frame advances time by {:.2g} dt, with {} disks: time stalls; use --method pairwise{}",
+      advance.time, advance.figure, disks, velocities_are_drawn(scene) ? "" : " or exact");
 }
 
 }  // namespace
@@ -117,7 +122,7 @@ void Validity::see_advance(const Scene& scene, State& state) {
   const double advance = (state.time - seen.since) / (static_cast<double>(seen.frames) * scene.run.dt);
   if (advance < least_advance && state.time < scene.run.t_end) {
     if (!seen.slow_told || advance < seen.advance.figure) seen.advance = {advance, state.time};
-    if (!std::exchange(seen.slow_told, true)) warnings_.push_back(slow_text(seen.advance, state.disks.size()));
+    if (!std::exchange(seen.slow_told, true)) warnings_.push_back(slow_text(scene, seen.advance, state.disks.size()));
   }
   seen.frames = 0;
   seen.since = state.time;
@@ -140,7 +145,7 @@ std::vector<std::string> worst_moments(const Scene& scene, const State& state) {
     warnings.push_back(split_warning(seen.parts.time, scene.run.dt, static_cast<Count>(seen.parts.figure)));
   }
   if (seen.overlap_told) warnings.push_back(overlap_text(scene, seen.disks, seen.wall));
-  if (seen.slow_told) warnings.push_back(slow_text(seen.advance, state.disks.size()));
+  if (seen.slow_told) warnings.push_back(slow_text(scene, seen.advance, state.disks.size()));
   return warnings;
 }
 

@@ -32,6 +32,20 @@ void save_checkpoint(const std::string& folder, const RunRecord& record, const S
   sync_path(folder);
 }
 
+namespace {
+
+[[noreturn]] void fail_without_checkpoint(const std::string& name, const fs::path& folder) {
+  if (!fs::exists(folder / "summary.json")) {
+    fail_input(name, "holds no checkpoint", "expected a checkpoint, or the folder of a run that wrote one");
+  }
+  fail_input(name, "holds a finished run that kept no checkpoint",
+             fmt::format("to go further, run it once more with one: carom run {} --set output.checkpoint=600 --t-end T "
+                         "-o DIR",
+                         (folder / "scene.toml").string()));
+}
+
+}  // namespace
+
 CheckpointPlace find_checkpoint(const std::string& name) {
   std::error_code error;
   fs::path file = fs::path(name).lexically_normal();
@@ -40,8 +54,7 @@ CheckpointPlace find_checkpoint(const std::string& name) {
     file = folder / unfinished_name / checkpoint_name;
     if (!fs::exists(file, error)) file = folder / checkpoint_name;
     if (!fs::exists(file, error)) file = folder / unfinished_name / previous_checkpoint_name;
-    if (!fs::exists(file, error))
-      fail_input(name, "holds no checkpoint", "expected a checkpoint, or the folder of a run that wrote one");
+    if (!fs::exists(file, error)) fail_without_checkpoint(name, folder);
   }
   if (!fs::exists(file, error)) fail_input(name, "does not exist", "expected a checkpoint, or the folder of a run");
   const fs::path beside = file.has_parent_path() ? file.parent_path() : fs::path(".");

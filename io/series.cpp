@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "core/invariants.hpp"
 
 namespace carom {
@@ -17,24 +19,25 @@ SeriesRow SeriesMeter::row(const Disks& disks, const State& now, const BlockRunn
   const auto force = [&](int side) {
     return elapsed > 0.0 ? (c.wall_impulse[side] - done_.before.wall_impulse[side]) / elapsed : 0.0;
   };
+  const auto of_velocities = [&](double value) { return drawn_ ? std::numeric_limits<double>::quiet_NaN() : value; };
   const SeriesRow row{static_cast<double>(disks.size()),
-                      energy.kinetic,
+                      of_velocities(energy.kinetic),
                       energy.potential,
-                      energy.total(),
-                      momentum.x,
-                      momentum.y,
+                      of_velocities(energy.total()),
+                      of_velocities(momentum.x),
+                      of_velocities(momentum.y),
                       static_cast<double>(c.collisions),
                       static_cast<double>(c.wall_collisions),
-                      pressure(energy, c.virial - done_.before.virial, elapsed, box_),
+                      of_velocities(pressure(energy, c.virial - done_.before.virial, elapsed, box_)),
                       disk_time > 0.0 ? 2.0 * collisions / disk_time : 0.0,
                       with_overlap_ ? max_overlap(disks, box_, run) : 0.0,
                       static_cast<double>(c.removed),
                       static_cast<double>(c.emitted),
                       static_cast<double>(c.waiting),
-                      force(0),
-                      force(1),
-                      force(2),
-                      force(3)};
+                      of_velocities(force(0)),
+                      of_velocities(force(1)),
+                      of_velocities(force(2)),
+                      of_velocities(force(3))};
   done_.before = c;
   done_.counted_until = now.time;
   return row;

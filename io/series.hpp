@@ -6,6 +6,7 @@
 
 #include "core/block_runner.hpp"
 #include "core/disks.hpp"
+#include "core/drawn_velocities.hpp"
 #include "core/scene.hpp"
 #include "core/state.hpp"
 #include "io/output_file.hpp"
@@ -22,21 +23,22 @@ struct SeriesColumn {
 };
 inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"disks", true, "", "disks in the box"},
-    {"kinetic", false, "energy", "sum of m v^2 / 2"},
+    {"kinetic", false, "energy", "sum of m v^2 / 2; nan for Brownian motion, whose u / dt is no velocity"},
     {"potential", false, "energy", "sum of m g y, from the bottom"},
-    {"total", false, "energy", "kinetic + potential"},
-    {"px", false, "momentum", "sum of m vx"},
-    {"py", false, "momentum", "sum of m vy"},
+    {"total", false, "energy", "kinetic + potential; likewise"},
+    {"px", false, "momentum", "sum of m vx; likewise"},
+    {"py", false, "momentum", "sum of m vy; likewise"},
     {"collisions", true, "", "of two disks, since the start"},
     {"wall_collisions", true, "", "of a disk and a wall, since the start"},
     {"pressure", false, "energy / area",
-     "mean since the row before, from kinetic energy and collisions; 0 in the first"},
+     "mean since the row before, from kinetic energy and collisions; 0 in the first; nan likewise"},
     {"collision_rate", false, "1 / time", "collisions a disk takes part in per unit time, mean since the row before"},
     {"max_overlap", false, "", "largest overlap of two disks in this frame, over the sum of their radii; 0 if none"},
     {"removed", true, "", "disks that sinks have taken, since the start"},
     {"emitted", true, "", "disks that came from sources, since the start"},
     {"waiting", true, "", "disks that are due from sources and find no room"},
-    {"force_left", false, "force", "outwards on the left wall, mean since the row before; 0 in the first"},
+    {"force_left", false, "force",
+     "outwards on the left wall, mean since the row before; 0 in the first; nan likewise"},
     {"force_right", false, "force", "likewise on the right wall"},
     {"force_bottom", false, "force", "likewise on the floor"},
     {"force_top", false, "force", "likewise on the ceiling"},
@@ -51,12 +53,16 @@ class SeriesMeter {
  public:
   // The largest overlap needs a search among all disks, many times the cost of all the rest; without it the row has 0.
   SeriesMeter(const Scene& scene, bool with_overlap, const MeterMark& from = {})
-      : box_(scene.box), gravity_(scene.physics.gravity), with_overlap_(with_overlap), done_(from) {}
+      : box_(scene.box),
+        gravity_(scene.physics.gravity),
+        with_overlap_(with_overlap),
+        drawn_(velocities_are_drawn(scene)),
+        done_(from) {}
 
   // Disks at the time of a frame, and what `now` has counted. An exact run counts to the end of its window, which may
   // lie a little after the frame; intervals are taken between the states, so that no collision is lost or counted
   // twice. pressure, collision_rate (per disk) and the four wall forces are means over the time since the row before,
-  // and 0 in the first row.
+  // and 0 in the first row. What is made of velocities is NaN for Brownian motion (core/drawn_velocities.hpp).
   SeriesRow row(const Disks& disks, const State& now, const BlockRunner& run = run_in_order);
 
   const MeterMark& mark() const { return done_; }
@@ -65,6 +71,7 @@ class SeriesMeter {
   Domain box_;
   double gravity_;
   bool with_overlap_;
+  bool drawn_;  // what is made of velocities means nothing, and is NaN
   MeterMark done_;
 };
 

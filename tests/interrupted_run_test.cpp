@@ -270,7 +270,11 @@ TEST_F(InterruptedRun, AFinishedRunGoesOnToALaterEnd) {
   expect_same_results("whole", "out");
   EXPECT_EQ(nlohmann::json::parse(test::text_of(at("out/summary.json")))["resumed"], 1);
 
-  // A last step that was cut short cannot be taken back.
+  // Without a checkpoint, or with a last step that was cut short, only a new run gets further, and it says so.
+  ASSERT_EQ(carom("run busy.toml -o bare --t-end 3" + seldom).status, 0);
+  EXPECT_THAT(carom("resume bare --t-end 6").err,
+              HasSubstr("bare: holds a finished run that kept no checkpoint; to go further, run it once more with one: "
+                        "carom run bare/scene.toml --set output.checkpoint=600 --t-end T -o DIR\n"));
   ASSERT_EQ(carom("run asks.toml -o cut --set output.movie=false --t-end 3.001" + seldom).status, 0);
   EXPECT_THAT(carom("resume cut --t-end 6").err, HasSubstr("the run's last step was cut short to end at 3.001"));
 }

@@ -117,6 +117,43 @@ TEST_F(RunResults, TheWorstOverlapOfTheRunBesideThatOfItsEnd) {
   }
 }
 
+// u / dt is no velocity: what is made of it is in no file, and no plot.
+TEST_F(RunResults, BrownianDisksHaveNoEnergy) {
+  const std::string scene = "run small.toml --set physics.diffusion=0.1 --set output.plots='[\"energy\"]'";
+  const Outcome o = carom(scene + " --json -o out");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.err, HasSubstr("small.toml: output.plots: Brownian disks have no velocity, u / dt is the displacement "
+                               "of a step: no energy is drawn\n"));
+  const Json s = Json::parse(o.out);
+  for (const char* const key : {"energy_initial", "energy_final", "momentum_drift", "pressure"}) {
+    EXPECT_TRUE(s[key].is_null()) << key;
+  }
+  EXPECT_THAT(files_in("out"), ElementsAre("scene.toml", "series.csv", "summary.json", "trajectory.xyz"));
+  std::istringstream rows(text_of(at("out/series.csv")));
+  std::string row;
+  std::getline(rows, row);
+  ASSERT_THAT(row, StartsWith("t,disks,kinetic,potential,total,px,py,collisions,wall_collisions,pressure,"));
+  while (std::getline(rows, row)) {
+    EXPECT_THAT(row.substr(row.find(',')), StartsWith(",5,nan,0,nan,nan,nan,"));
+  }
+  const Outcome table = carom(scene + " -o table");
+  EXPECT_THAT(table.out, Not(HasSubstr("energy")));
+  EXPECT_THAT(table.out, Not(HasSubstr("pressure")));
+  // As the original has it, velocities add up and have an energy.
+  EXPECT_TRUE(Json::parse(carom(scene + " --set physics.accumulate=true --quiet --json -o more").out)["energy_final"]
+                  .is_number());
+}
+
+TEST_F(RunResults, MomentumIsShownWhereItIsKept) {
+  EXPECT_THAT(carom("run small.toml -o walls").out, Not(HasSubstr("momentum")));
+  std::string periodic;
+  for (const char* const side : {"left", "right", "bottom", "top"}) {
+    periodic += std::string(" --set box.") + side + "='\"periodic\"'";
+  }
+  EXPECT_THAT(carom("run small.toml -o periodic" + periodic).out, HasSubstr("momentum    changed by "));
+  EXPECT_THAT(carom("run small.toml -o falling --set physics.gravity=0.1" + periodic).out, Not(HasSubstr("momentum")));
+}
+
 TEST_F(RunResults, NothingIsNotANumber) {
   const Outcome o = carom("run small.toml --json --quiet -o out --t-end 0 --set disks.0.count=0");
   ASSERT_EQ(o.status, 0) << o.err;

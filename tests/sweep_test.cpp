@@ -106,6 +106,35 @@ TEST_F(SweepTest, RunsTheGridAndGoesOnWhereItStopped) {
   EXPECT_EQ(rows("s/sweep.csv").size(), 4U);
 }
 
+// More seeds and values: what is there stays, with its names, and only the rest is run.
+TEST_F(SweepTest, GrowsWithoutLosingWhatIsThere) {
+  ASSERT_EQ(carom("sweep gas.toml -o s --over physics.restitution=0.5,1.0 --seeds 2").first, 0);
+  const std::vector<std::string> before = rows("s/sweep.csv");
+  const std::string kept = read("s/runs/0003/summary.json");
+  const auto [status, text] = carom("sweep gas.toml -o s --over physics.restitution=0.5:1.0:3 --seeds 3");
+  EXPECT_EQ(status, 0) << text;
+  EXPECT_THAT(text, HasSubstr("5 of 9 runs are left"));
+  EXPECT_EQ(read("s/runs/0003/summary.json"), kept);
+  const std::vector<std::string> after = rows("s/sweep.csv");
+  ASSERT_EQ(after.size(), 10U);
+  for (const std::size_t k : {1U, 2U}) EXPECT_THAT(after, testing::Contains(before[k]));
+  EXPECT_THAT(after[7], testing::StartsWith("0003,1,3,20,")) << "1.0 before, and 1 now";
+  EXPECT_THAT(after[3], testing::StartsWith("0005,0.5,5,20,"));
+  EXPECT_THAT(after[9], testing::StartsWith("0009,1,5,20,"));
+  EXPECT_THAT(carom("sweep gas.toml -o s --over physics.restitution=0.5:1.0:3 --seeds 3").second,
+              HasSubstr("0 of 9 runs are left"));
+
+  // Less, or another scene, is another sweep.
+  const auto [less_status, less] = carom("sweep gas.toml -o s --over physics.restitution=0.5,1.0 --seeds 2");
+  EXPECT_EQ(less_status, 2);
+  EXPECT_THAT(less, HasSubstr("s: holds another sweep: this one lacks its run physics.restitution="));
+  EXPECT_THAT(less,
+              HasSubstr("give it all of that and more, choose another folder with -o, or replace it with --force"));
+  folder_.write("gas.toml", std::string(gas) + "# changed\n");
+  EXPECT_THAT(carom("sweep gas.toml -o s --over physics.restitution=0.5:1.0:3 --seeds 3").second,
+              HasSubstr("s: holds another sweep: the scene has changed since; "));
+}
+
 // A sweep that is killed takes its runs with it, and they leave checkpoints.
 TEST_F(SweepTest, ItsRunsEndWithIt) {
   const pid_t sweep = fork();

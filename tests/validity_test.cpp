@@ -75,6 +75,18 @@ TEST(Validity, RollbackSaysThatTimeStallsBeforeItStops) {
   EXPECT_THAT(warnings.back(), HasSubstr("rollback: time stands still at t = "));
 }
 
+TEST(Validity, BrownianMotionIsNotSentToExact) {
+  Scene gas = stability_scene("f02_bounce_at_a_distance", {{"disks.0.count", "300"},
+                                                           {"box.packing_fraction", "0.5"},
+                                                           {"run.t_end", "20"},
+                                                           {"run.method", "pairwise"},
+                                                           {"run.dt", "0.5"}});
+  gas.physics.diffusion = 0.05;
+  const std::vector<std::string> warnings = warnings_of(gas);
+  EXPECT_THAT(warnings, ::testing::Contains(HasSubstr("use a smaller dt")));
+  for (const std::string& warning : warnings) EXPECT_THAT(warning, ::testing::Not(HasSubstr("exact")));
+}
+
 // A heavy disk presses a light one against the wall.
 TEST(Validity, PairwiseSaysHowFarDisksOverlap) {
   const Scene pressed = stability_scene("mass_ratio_1e6", {{"run.method", "pairwise"}, {"run.dt", "0.05"}});
