@@ -196,7 +196,8 @@ void extrapolate(const Rehearsed& one, const Rehearsed& several, Count rehearsed
   // Processor time tells a frame's share, which wall time does not on a busy machine; both together how busy it is.
   const double each = std::max(0.0, several.cpu - one.cpu) / more;
   const double busy = (one.wall + several.wall) / std::max(1e-9, one.cpu + several.cpu);
-  f.files_s = scale * busy * (one.cpu + each * rest);
+  const double start = several.cpu > one.cpu ? std::max(0.0, one.cpu - each) : 0.0;  // ffmpeg's, whatever the disks
+  f.files_s = busy * (start + scale * (one.cpu - start + each * rest));
   for (const auto& [name, bytes] : several.sizes) {
     const auto first = one.sizes.find(name);
     const double first_bytes = first == one.sizes.end() ? 0.0 : first->second;

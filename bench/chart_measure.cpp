@@ -125,6 +125,7 @@ Effort for_own(Effort effort) {
   constexpr std::uint64_t most_own_seeds = 24;
   effort.most_seeds = std::min(effort.most_seeds, most_own_seeds);
   effort.crowds.clear();
+  effort.scale = 1.0;  // its times were found for it: in shorter ones nothing might collide
   return effort;
 }
 

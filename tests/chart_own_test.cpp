@@ -72,7 +72,7 @@ mass = 1.0
 method = "exact"
 t_end = 20.0
 )");
-  const Outcome o = carom("chart --quick --scene two.toml -o two");
+  const Outcome o = carom("chart --tiny --scene two.toml -o two");
   ASSERT_EQ(o.status, 0) << o.err;
   const std::string csv = text_of(at("two/chart.csv"));
   EXPECT_THAT(csv, HasSubstr("\ntwo,exact,0,1,"));
