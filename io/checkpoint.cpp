@@ -92,8 +92,10 @@ std::uint64_t verified_content(std::ifstream& file, const std::string& path) {
   Header header;
   header.magic = {};
   file.read(reinterpret_cast<char*>(&header), sizeof header);
-  if (header.magic != Header{}.magic) refuse(path, "is no checkpoint of Carom, or a damaged one");
-  if (header.byte_order == 0x0807060504030201ULL) refuse(path, "comes from a machine of the other byte order");
+  if (header.magic != Header{}.magic)
+    refuse(path, "is no checkpoint of Carom, or a damaged one; expected a checkpoint.carom, or the folder of a run");
+  if (header.byte_order == 0x0807060504030201ULL)
+    refuse(path, "comes from a machine of the other byte order; expected to go on with it there");
   if (error || !file || size < sizeof(Header) + sizeof(Tail) || size % 8 != 0) refuse(path, damaged);
   BlockHash hash;
   hash.add(reinterpret_cast<const char*>(&header), sizeof header);

@@ -73,7 +73,9 @@ Checkpoint read_checkpoint_at(const CheckpointPlace& place) {
     try {
       read_checkpoint(previous.string());
     } catch (const InputError&) {
-      throw error;
+      // Of one that this program cannot read the message says what can.
+      if (std::string_view(error.what()).find("is damaged") == std::string_view::npos) throw error;
+      throw InputError(fmt::format("{}; there is no whole one before it, so run the scene again", error.what()));
     }
     throw InputError(fmt::format("{}; the one before it is whole: carom resume {}", error.what(), previous.string()));
   }

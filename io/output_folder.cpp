@@ -236,7 +236,9 @@ OutputFolder::OutputFolder(const fs::path& folder)
     : folder_(normal(folder)), unfinished_(unfinished_of(folder_)), done_(true) {
   std::error_code error;
   fs::create_directories(unfinished_, error);
-  if (error) throw InputError(fmt::format("{}: cannot be written to: {}", name(), error.message()));
+  if (error)
+    throw InputError(
+        fmt::format("{}: cannot be written to: {}; go on in another folder with -o", name(), error.message()));
   lock();
 }
 

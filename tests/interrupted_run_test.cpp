@@ -230,6 +230,12 @@ TEST_F(InterruptedRun, ACheckpointThatWasCutShortIsRefusedAndTheOneBeforeServes)
             "carom: error: out/carom-unfinished/checkpoint.carom: is damaged: it was cut short or changed after it was "
             "written; the one before it is whole: carom resume out/carom-unfinished/checkpoint.previous.carom\n");
   EXPECT_EQ(test::text_of(at("out/carom-unfinished/series.csv")), before) << "nothing was touched";
+  fs::create_directories(at("alone"));
+  fs::copy_file(newest, at("alone/checkpoint.carom"));
+  EXPECT_EQ(
+      carom("resume alone").err,
+      "carom: error: alone/checkpoint.carom: is damaged: it was cut short or changed after it was written; there is "
+      "no whole one before it, so run the scene again\n");
   EXPECT_EQ(carom("resume out/carom-unfinished/checkpoint.previous.carom --quiet").status, 0);
   expect_same_results("whole", "out");
 }
