@@ -241,6 +241,18 @@ double checkpoint_bytes(const State& state, double scale) {
   return scale * static_cast<double>(encode_checkpoint({}, state).size());
 }
 
+// What a checkpoint keeps for plots that are drawn at the end, a frame: ten curves and the bands, or energies; and the
+// counts of rounds for trajectories, a disk.
+double remembered_bytes(const Scene& scene, double frames, double disks) {
+  constexpr double velocity_bytes = 360.0, energy_bytes = 32.0, rounds_bytes = 8.0;
+  double bytes = 0.0;
+  for (const std::string& plot : scene.output.plots) {
+    bytes += frames * (plot == "velocity" ? velocity_bytes : energy_bytes);
+  }
+  const bool rounds = scene.output.trajectory != TrajectoryFormat::none && scene.box.has(SideKind::periodic);
+  return rounds ? bytes + rounds_bytes * disks : bytes;
+}
+
 }  // namespace
 
 double OutputForesight::bytes() const {
@@ -250,7 +262,7 @@ double OutputForesight::bytes() const {
 }
 
 OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, const Engine& tried,
-                                const Population& population) {
+                                const Population& population, double step_seconds) {
   OutputForesight f;
   f.frames = wants_frames(scene.output) ? frame_count(scene.output.every, scene.run.t_end) : 0;
   if (scene.analysis.any()) f.samples = frame_count(scene.analysis.every, scene.run.t_end - scene.analysis.start);
@@ -275,8 +287,11 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
   if (scene.output.checkpoint > 0.0) {
     const double bytes =
         checkpoint_bytes(tried.state(), std::max(1.0, population.end / std::max(1.0, population.start)));
-    f.files.emplace_back(checkpoint_name, bytes);
-    f.files.emplace_back(previous_checkpoint_name, bytes);
+    const double remembered = remembered_bytes(scene, static_cast<double>(f.frames), population.end);
+    // Where the run ends before its second checkpoint is due, the one before the last is that of its start.
+    const bool one_alone = step_seconds < scene.output.checkpoint;
+    f.files.emplace_back(checkpoint_name, bytes + remembered);
+    f.files.emplace_back(previous_checkpoint_name, one_alone ? bytes : bytes + remembered);
   }
   return f;
 }

@@ -23,8 +23,8 @@ struct OutputForesight {
   double seconds() const { return files_s + analysis_s + plots_s; }
 };
 
-// tried: the run's engine, at some moment.
+// tried: the run's engine, at some moment. step_seconds: that its steps will take.
 OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, const Engine& tried,
-                                const Population& population);
+                                const Population& population, double step_seconds);
 
 }  // namespace carom

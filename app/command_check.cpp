@@ -134,7 +134,7 @@ void try_run(const Scene& scene, const EngineChoice& choice, State initial, Find
   const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, std::move(initial)); });
   within_memory(scene, [&] {
     try_steps(*engine, scene, found);
-    found.outputs = foresee_outputs(scene, choice, *engine, found.population);
+    found.outputs = foresee_outputs(scene, choice, *engine, found.population, found.step_seconds);
   });
 }
 

@@ -225,7 +225,7 @@ constexpr SceneKey keys[] = {
      "dimensions = 3", "2 or 3"},
     {"output", "series", flag, none, "false", "Writes series.csv, a row a frame.", "series = true"},
     {"output", "plots", special, none, "[]",
-     "velocity.svg: velocities of up to ten disks against time; energy.svg: energies.",
+     "velocity.svg: velocities of up to ten disks, or the distribution of more, against time; energy.svg: energies.",
      R"(plots = ["velocity", "energy"])", "a list of NAMES", plot_names},
     {"output", "movie", special, none, "false", "Writes movie.mp4; a table says how it looks.", "movie = true",
      "`true`, `false` or a table"},

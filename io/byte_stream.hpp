@@ -2,6 +2,7 @@
 // A struct is written and read by one function, fields(stream, value), so that the two cannot differ.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -47,6 +48,10 @@ class ByteWriter {
   template <Number T, std::size_t N>
   void put(const T (&values)[N]) {
     raw(values, sizeof values);
+  }
+  template <Number T, std::size_t N>
+  void put(const std::array<T, N>& values) {
+    raw(values.data(), sizeof values);
   }
   template <class T>
   void put(const std::vector<T>& list) {
@@ -118,6 +123,10 @@ class ByteReader {
   template <Number T, std::size_t N>
   void get(T (&values)[N]) {
     raw(values, sizeof values);
+  }
+  template <Number T, std::size_t N>
+  void get(std::array<T, N>& values) {
+    raw(values.data(), sizeof values);
   }
   template <class T>
   void get(std::vector<T>& list) {

@@ -99,10 +99,16 @@ void fields(Stream& stream, T& value) {
   stream(id, t, vx, vy);
 }
 
+template <class Stream, Is<VelocityBand> T>
+void fields(Stream& stream, T& value) {
+  auto& [t, vx, vy] = value;
+  stream(t, vx, vy);
+}
+
 template <class Stream, Is<VelocityRecord> T>
 void fields(Stream& stream, T& value) {
-  auto& [curves, end] = value;
-  stream(curves, end);
+  auto& [curves, end, bands, most] = value;
+  stream(curves, end, bands, most);
 }
 
 template <class Stream, Is<EnergyRecord> T>

@@ -76,6 +76,19 @@ void append_points(std::string& data, const Line& line) {
   }
 }
 
+// The same of a band: the lowest and the highest of each stretch.
+void append_points(std::string& data, const Band& band) {
+  const std::size_t n = band.x.size();
+  const std::size_t stretch = (n + most_points - 1) / most_points;
+  for (std::size_t begin = 0; begin < n; begin += stretch) {
+    const auto first = static_cast<std::ptrdiff_t>(begin),
+               last = static_cast<std::ptrdiff_t>(std::min(begin + stretch, n));
+    fmt::format_to(std::back_inserter(data), "{} {} {}\n", band.x[begin],
+                   *std::min_element(band.low.begin() + first, band.low.begin() + last),
+                   *std::max_element(band.high.begin() + first, band.high.begin() + last));
+  }
+}
+
 // Heights for the names of the lines: where the lines end, moved apart until no two overlap.
 std::vector<double> label_heights(const Panel& panel, const Range& range, bool logarithmic) {
   const double distance = (range.high - range.low) * label_pixels / (0.9 * panel_pixels);
@@ -125,6 +138,7 @@ std::string name_commands(const Line& line, std::size_t tag, double height, doub
 
 // How gnuplot draws a line: "with lines ...".
 std::string drawn_with(const Line& line, const char* colour, bool wide) {
+  if (line.style == LineStyle::edge) return fmt::format("with lines lw 0.5 lc rgb '{}'", colour);
   if (line.style == LineStyle::points) return fmt::format("with points pt 7 ps 0.55 lc rgb '{}'", colour);
   if (line.style == LineStyle::solid) return fmt::format("with lines lw {} lc rgb '{}'", wide ? 3.0 : 1.6, colour);
   return fmt::format("with lines lw 1.2 dt (8,6) lc rgb '{}'", colour);
@@ -138,6 +152,13 @@ std::string panel_commands(const Panel& panel, std::size_t block, double x_end, 
       fmt::format("unset label\nunset arrow\nset ylabel {}\nset yrange [{}:{}]\n", gnuplot_quoted(panel.y_label),
                   value_at(range.low, logarithmic), value_at(range.high, logarithmic));
   std::string plot;
+  for (const Band& band : panel.bands) {
+    if (!band.x.empty()) {
+      plot += fmt::format("{} 'data' index {} using 1:2:3 with filledcurves lc rgb '{}'", plot.empty() ? "plot" : ",",
+                          block, band.colour);
+    }
+    ++block;
+  }
   for (std::size_t k = 0; k < panel.lines.size(); ++k) {
     const Line& line = panel.lines[k];
     const bool plain = line.style == LineStyle::solid || line.style == LineStyle::points;
@@ -179,7 +200,7 @@ std::string script_of(const Figure& figure) {
   for (std::size_t p = 0; p < panels; ++p) {
     if (p + 1 == panels) text += fmt::format("set xlabel {}\n", gnuplot_quoted(figure.x_label));
     text += panel_commands(figure.panels[p], block, x_end, figure.logarithmic);
-    block += figure.panels[p].lines.size();
+    block += figure.panels[p].bands.size() + figure.panels[p].lines.size();
   }
   return text + "unset multiplot\n";
 }
@@ -187,6 +208,10 @@ std::string script_of(const Figure& figure) {
 std::string data_of(const Figure& figure) {
   std::string data;
   for (const Panel& panel : figure.panels) {
+    for (const Band& band : panel.bands) {
+      append_points(data, band);
+      data += band.x.empty() ? "NaN NaN NaN\n\n\n" : "\n\n";
+    }
     for (const Line& line : panel.lines) {
       append_points(data, line);
       data += line.x.empty() ? "NaN NaN\n\n\n" : "\n\n";

@@ -7,8 +7,9 @@
 
 namespace carom {
 
-// dashed: thin and grey, for a value to compare with. guide: likewise, and named beside its end within the panel.
-enum class LineStyle : std::uint8_t { solid, points, dashed, guide };
+// dashed: thin and grey, for a value to compare with. guide: likewise, and named beside its end within the panel. edge:
+// of a band, thin.
+enum class LineStyle : std::uint8_t { solid, points, dashed, guide, edge };
 
 // A line; x and y have the same length, all finite, x ascending from 0 on.
 struct Line {
@@ -17,11 +18,18 @@ struct Line {
   LineStyle style = LineStyle::solid;
 };
 
+// The area between two lines, behind all lines of the panel.
+struct Band {
+  std::vector<double> x, low, high;
+  std::string colour;  // as gnuplot names it
+};
+
 struct Panel {
   std::string y_label;
   std::vector<Line> lines;
-  bool from_zero = false;   // the vertical axis includes 0
-  bool wide_first = false;  // the first line is drawn wide, so that it shows where a later one covers it
+  bool from_zero = false;     // the vertical axis includes 0
+  bool wide_first = false;    // the first line is drawn wide, so that it shows where a later one covers it
+  std::vector<Band> bands{};  // the first is the hindmost
 };
 
 struct Figure {

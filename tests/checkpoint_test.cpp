@@ -69,6 +69,8 @@ RunRecord full_record() {
   r.outputs.movie = MovieMark{3, false, {"a.mp4", "b.mp4"}, 2.5, -1};
   r.outputs.velocities.curves = {{1, {0.0, 0.1}, {1.0, 2.0}, {3.0, 4.0}}};
   r.outputs.velocities.end = 0.1;
+  r.outputs.velocities.bands = {{0.1, {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}, {}}};
+  r.outputs.velocities.most = 12;
   r.outputs.energies = {{0.0}, {1.0}, {2.0}, {3.0}};
   r.outputs.rounds.begun = true;
   r.outputs.rounds.x.sixteenth = {-5, not_followed, 33};

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <stdlib.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -73,6 +74,44 @@ TEST(Plot, VelocitiesOfTwoDisks) {
   }
   EXPECT_LT(svg.size(), 600000U) << "long lines are thinned out";
   fs::remove(path);
+}
+
+// Of more disks than there are colours, one sees how they are distributed.
+TEST(Plot, VelocitiesOfManyDisksAreBands) {
+  VelocityRecord r;
+  for (int k = 0; k < 9000; ++k) {
+    Disks d;
+    for (DiskId id = 0; id <= 100; ++id) {
+      const auto v = static_cast<double>((id * 37 + static_cast<DiskId>(k)) % 101) - 50.0;  // from -50 to 50
+      append(d, {0.0, 0.0, v, 2.0 * v, 1.0, 1.0, id});
+    }
+    record(r, d, 0.01 * k);
+  }
+  EXPECT_EQ(r.most, 101U);
+  ASSERT_EQ(r.bands.size(), 9000U);
+  EXPECT_THAT(r.bands[77].vx, ElementsAre(-50.0, -45.0, -25.0, 0.0, 25.0, 45.0, 50.0));
+  EXPECT_THAT(r.bands[77].vy, ElementsAre(-100.0, -90.0, -50.0, 0.0, 50.0, 90.0, 100.0));
+  const std::string path = temporary("carom_plot_bands.svg");
+  ASSERT_TRUE(plot_velocity(path, "many", r));
+  const std::string svg = text_of(path);
+  for (const char* const shown : {"velocities of all disks", "median", "95 %", "greatest", ">vx<", ">vy<"}) {
+    EXPECT_TRUE(svg.find(shown) != std::string::npos) << shown;
+  }
+  EXPECT_TRUE(svg.find("disk 0") == std::string::npos);
+  EXPECT_LT(svg.size(), 3'000'000U);
+  fs::remove(path);
+}
+
+TEST(Plot, BandsDoNotDependOnStorageOrder) {
+  VelocityRecord a, b;
+  Disks there, back;
+  for (DiskId id = 0; id < 50'000; ++id) append(there, {0.0, 0.0, std::sin(id), std::cos(id), 1.0, 1.0, id});
+  for (DiskId id = 50'000; id-- > 0;) append(back, {0.0, 0.0, std::sin(id), std::cos(id), 1.0, 1.0, id});
+  record(a, there, 0.0);
+  record(b, back, 0.0);
+  EXPECT_EQ(a.bands[0].vx, b.bands[0].vx);
+  EXPECT_EQ(a.bands[0].vy, b.bands[0].vy);
+  EXPECT_NEAR(a.bands[0].vx[5], std::sin(0.45 * M_PI), 0.01);
 }
 
 TEST(Plot, ALineThatEndsEarlyIsMarked) {
