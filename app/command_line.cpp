@@ -16,6 +16,8 @@
 #include "core/check.hpp"
 #include "core/input_message.hpp"
 #include "core/method_choice.hpp"
+#include "core/picture_look.hpp"
+#include "core/scene_names.hpp"
 #include "io/scene_frame_reader.hpp"
 
 namespace carom {
@@ -41,7 +43,7 @@ constexpr std::size_t t_end_option = 2;  // its place among them
 // What CLI11 reads; checked and turned into a Command afterwards, so that all messages are ours.
 struct Words {
   std::string first, second, folder, engine, threads, frame, walltime, seeds, jobs, emit, accuracy, tolerance, fields,
-      times, at;
+      times, at, colour, range, size, fps;
   std::array<std::string, scene_options.size()> scene_values;
   std::vector<std::string> sets, over;
   bool json = false, quiet = false, force = false, strict = false, quick = false, tiny = false;
@@ -134,8 +136,14 @@ void describe_compare(CLI::App* compare, Words& words) {
 
 void describe_render(CLI::App* render, Words& words) {
   render->add_option("DIR", words.first, "folder of a run with a trajectory, or a trajectory")->type_name("");
-  add_value(render, "-o,--output", words.folder, "FILE", "default DIR/movie.mp4, or DIR/frame_K.png with --frame");
-  add_value(render, "--frame", words.frame, "K", "one picture of the K-th frame, counted from 1, instead of a movie");
+  add_value(
+      render, "-o,--output", words.folder, "FILE",
+      "a movie (.mp4, .webm, .gif) or a picture (.png, .svg); default DIR/movie.mp4, or DIR/frame_K.png with --frame");
+  add_value(render, "--frame", words.frame, "K", "picture of the K-th frame, counted from 1; default the last");
+  add_value(render, "--colour", words.colour, "speed|group|radius|mass|id", "what the colour of a disk tells");
+  add_value(render, "--range", words.range, "LOW:HIGH", "ends of the colour scale; default as all frames ask");
+  add_value(render, "--size", words.size, "WIDTHxHEIGHT", "of the picture, in pixels");
+  add_value(render, "--fps", words.fps, "N", "frames a second; default 25");
   render->add_flag("--quiet", words.quiet, "print nothing but errors");
   render->add_flag("--force", words.force, "replace an existing file");
 }
@@ -222,8 +230,32 @@ CompareOptions compare_options(const Words& words) {
 
 RenderOptions render_options(const Words& words) {
   require(words.first, "render", "no folder given", "expected carom render DIR");
-  RenderOptions o{words.first, file_option(words.folder), std::nullopt, words.quiet, words.force};
+  RenderOptions o;
+  o.source = words.first;
+  o.file = file_option(words.folder);
+  o.quiet = words.quiet;
+  o.force = words.force;
   if (!words.frame.empty()) o.frame = count_of("--frame", words.frame);
+  if (!words.colour.empty()) {
+    const auto* const name = std::find(colour_names.begin(), colour_names.end(), words.colour);
+    if (name == colour_names.end()) {
+      fail_input("--colour", fmt::format("there is no {}", in_quotes(words.colour)),
+                 expected_one_of(colour_names, words.colour));
+    }
+    o.colour = static_cast<ColourBy>(name - colour_names.begin());
+  }
+  if (!words.range.empty()) o.range = pair_of("--range", words.range, ':', "expected LOW:HIGH, as in 0:2");
+  if (!words.size.empty()) {
+    const auto size = pair_of("--size", words.size, 'x', "expected WIDTHxHEIGHT, as in 1280x720");
+    const std::string complaint = complaint_of_size(size[0], size[1]);
+    if (!complaint.empty()) fail_input("--size", fmt::format("is {}", in_quotes(words.size)), complaint);
+    o.size = {static_cast<int>(size[0]), static_cast<int>(size[1])};
+  }
+  if (!words.fps.empty()) {
+    o.fps = number_of("--fps", words.fps);
+    const std::string complaint = complaint_of_fps(*o.fps);
+    if (!complaint.empty()) fail_input("--fps", fmt::format("is {}", in_quotes(words.fps)), complaint);
+  }
   return o;
 }
 

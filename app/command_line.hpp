@@ -1,6 +1,7 @@
 // From argv to what the user asked for, with every value checked that can be checked without the scene.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -56,7 +57,11 @@ struct CompareOptions {
 struct RenderOptions {
   std::string source;               // a folder with a trajectory, or such a file
   std::optional<std::string> file;  // -o
-  std::optional<int> frame;         // counted from 1; absent: all, as a movie
+  std::optional<int> frame;         // counted from 1; absent: all, or of a picture the last
+  std::optional<ColourBy> colour;
+  std::optional<std::array<double, 2>> range;
+  std::optional<std::array<int, 2>> size;
+  std::optional<double> fps;
   bool quiet = false;
   bool force = false;
 };

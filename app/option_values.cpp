@@ -58,6 +58,13 @@ int count_of(const std::string& option, const std::string& text) {
   return value;
 }
 
+std::array<double, 2> pair_of(const std::string& option, const std::string& text, char between,
+                              const std::string& expected) {
+  const std::size_t at = text.find(between);
+  if (at == std::string::npos) fail_input(option, fmt::format("is {}", in_quotes(text)), expected);
+  return {number_of(option, text.substr(0, at)), number_of(option, text.substr(at + 1))};
+}
+
 double walltime_of(const std::string& text) {
   if (text.empty()) return std::numeric_limits<double>::infinity();
   const std::optional<double> seconds = parse_duration(text);

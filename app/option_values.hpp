@@ -1,6 +1,7 @@
 // The values of options, from the text that the user wrote. All throw InputError with one line that names the option.
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace carom {
@@ -10,6 +11,10 @@ double number_of(const std::string& option, const std::string& text);
 
 // A whole number of 1 or more.
 int count_of(const std::string& option, const std::string& text);
+
+// Two numbers with `between` between them: "0:2", "1280x720".
+std::array<double, 2> pair_of(const std::string& option, const std::string& text, char between,
+                              const std::string& expected);
 
 // --max-walltime in seconds; infinity where the option was not given.
 double walltime_of(const std::string& text);

@@ -75,7 +75,10 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
     if (scene.output.movie && from.frames > 0) lost_movie_ = "the movie broke off before the checkpoint";
     return;
   }
-  const FrameStyle style{scene.title, scene.box, from.movie->fastest, from.movie->time_decimals};
+  FrameStyle style = frame_style(scene, scene.output.look, {});
+  style.low = from.movie->low;
+  style.high = from.movie->high;
+  style.time_decimals = from.movie->time_decimals;
   movie_ = std::make_unique<MovieWriter>(folder_.unfinished(), style, *from.movie);
 }
 
@@ -150,7 +153,8 @@ void RunOutputs::frame(const Disks& disks, double time, const State& now) {
 void RunOutputs::add_to_movie(const Disks& disks, double time) {
   try {
     if (!movie_) {
-      movie_ = std::make_unique<MovieWriter>(folder_.unfinished(), frame_style(scene_, disks));
+      movie_ = std::make_unique<MovieWriter>(folder_.unfinished(),
+                                             frame_style(scene_, scene_.output.look, foreseen_values(scene_, disks)));
       if (movie_->single_frames()) {
         warnings_.emplace_back("ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on");
       }

@@ -1,8 +1,6 @@
 // Reading which disks a trajectory shows, how precisely, and how movies look.
 #pragma once
 
-#include <string>
-
 #include "core/scene.hpp"
 #include "core/scene_reader.hpp"
 
@@ -20,10 +18,5 @@ bool read_third_dimension(const TableReader& output);
 
 // "movie": whether there is one, and how it looks.
 void read_movie(const TableReader& output, OutputPlan& plan);
-
-// What is wrong with a look, in words, or empty: the bounds that scene_keys.hpp names. Also for carom render.
-std::string complaint_of_fps(double fps);
-std::string complaint_of_size(double width, double height);
-std::string complaint_of_range(ColourBy colour, double low, double high);
 
 }  // namespace carom

@@ -89,8 +89,8 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<MovieMark> T>
 void fields(Stream& stream, T& value) {
-  auto& [frames, single_frames, parts, fastest, time_decimals] = value;
-  stream(frames, single_frames, parts, fastest, time_decimals);
+  auto& [frames, single_frames, parts, low, high, time_decimals] = value;
+  stream(frames, single_frames, parts, low, high, time_decimals);
 }
 
 template <class Stream, Is<VelocityRecord::Curve> T>

@@ -9,6 +9,8 @@ struct Colour {
   double red = 0.0, green = 0.0, blue = 0.0;  // in [0, 255], sRGB
 };
 
+inline constexpr int viridis_stops = 8;  // equal parts in which it is a straight line
+
 // Dark violet at 0 over blue and green to yellow at 1; values outside are taken as the nearer end.
 Colour viridis(double value);
 

@@ -8,10 +8,7 @@ namespace carom {
 
 namespace {
 
-constexpr double smallest_rimmed = 3.0;  // pixels; a rim on smaller disks would be all one sees
-constexpr double rim_width = 1.0;        // pixels
-constexpr double rim_shade = 0.35;       // of the disk's own colour
-constexpr double smallest_round = 0.7;   // pixels; below, shape cannot be seen
+constexpr double smallest_round = 0.7;  // pixels; below, shape cannot be seen
 
 // One component, `share` of the way from the pixel's value to the new one.
 std::uint32_t blend(std::uint32_t pixel, unsigned shift, double value, double share) {

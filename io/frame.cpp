@@ -1,5 +1,6 @@
 #include "io/frame.hpp"
 
+#include <cairo-svg.h>
 #include <cairo.h>
 #include <fmt/format.h>
 
@@ -7,9 +8,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numbers>
 
 #include "core/check.hpp"
+#include "core/disk_group.hpp"
 #include "io/disk_raster.hpp"
+#include "io/frame_legend.hpp"
 
 // fontconfig keeps what it has found until the program ends, and LeakSanitizer would fail every test that draws text.
 #if defined(__SANITIZE_ADDRESS__)
@@ -36,12 +40,13 @@ namespace carom {
 
 namespace {
 
-// All in pixels. The longer side of the box fills its limit; the margins hold title, time, legend and colour bar.
+// In units: the longer side of the box fills its limit.
 constexpr double widest_box = 960.0, highest_box = 800.0;
 constexpr double narrowest_picture = 420.0, lowest_picture = 300.0;  // of the part without margins
-constexpr double left_margin = 28.0, right_margin = 132.0, top_margin = 78.0, bottom_margin = 48.0;
-constexpr double side_width = 4.0;  // of a wall's line
-constexpr double bar_width = 22.0;
+// Of a picture of usual size, which one of a given size is measured against; pixels. Letters never get smaller than
+// they can be read.
+constexpr double usual_width = 1120.0, usual_height = 926.0;
+constexpr double smallest_unit = 0.6;
 
 // A few disks far smaller than a pixel would be invisible in a large box; they are drawn as large as this.
 constexpr std::size_t few_disks = 5000;
@@ -51,72 +56,39 @@ int even(double pixels) {
   return 2 * static_cast<int>(std::ceil(0.5 * pixels));
 }
 
-enum class Align { left, right, centre };
-
-void draw_text(cairo_t* c, const std::string& text, double x, double y, double size, Align align, bool bold = false) {
-  cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(c, size);
-  cairo_text_extents_t extents;
-  cairo_text_extents(c, text.c_str(), &extents);
-  const double shift = align == Align::left ? 0.0 : align == Align::right ? 1.0 : 0.5;
-  cairo_set_source_rgb(c, 0.13, 0.13, 0.13);
-  cairo_move_to(c, x - shift * extents.x_advance, y);
-  cairo_show_text(c, text.c_str());
+// A picture as large as the box asks for.
+FrameLayout usual_layout(const Domain& box) {
+  FrameLayout f;
+  f.scale = std::min(widest_box / box.width, highest_box / box.height);
+  const double box_width = box.width * f.scale, box_height = box.height * f.scale;
+  const double inner_width = std::max(box_width, narrowest_picture);
+  const double inner_height = std::max(box_height, lowest_picture);
+  f.width = even(left_margin + inner_width + right_margin);
+  f.height = even(top_margin + inner_height + bottom_margin);
+  f.left = std::round(left_margin + 0.5 * (inner_width - box_width));
+  f.bottom = std::round(top_margin + 0.5 * (inner_height + box_height));
+  return f;
 }
 
-// Cuts text at a character boundary until it is at most `room` wide at this size.
-std::string fitting(cairo_t* c, std::string text, double size, double room) {
-  cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
-  cairo_set_font_size(c, size);
-  cairo_text_extents_t extents;
-  cairo_text_extents(c, text.c_str(), &extents);
-  if (extents.x_advance <= room) return text;
-  while (!text.empty() && extents.x_advance > room) {
-    while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xc0U) == 0x80U) text.pop_back();
-    text.pop_back();
-    cairo_text_extents(c, (text + "…").c_str(), &extents);
-  }
-  return text + "…";
-}
-
-// Each kind of side has its own colour and dash, so that they differ without colour too.
-void set_stroke(cairo_t* c, SideKind kind) {
-  static constexpr double periodic_dash[] = {10.0, 7.0};
-  static constexpr double sink_dash[] = {3.0, 5.0};
-  switch (kind) {
-    case SideKind::wall:
-      cairo_set_source_rgb(c, 0.2, 0.2, 0.2);
-      cairo_set_line_width(c, side_width);
-      cairo_set_dash(c, nullptr, 0, 0.0);
-      break;
-    case SideKind::periodic:
-      cairo_set_source_rgb(c, 0.0, 0.447, 0.698);
-      cairo_set_line_width(c, 0.5 * side_width);
-      cairo_set_dash(c, periodic_dash, 2, 0.0);
-      break;
-    case SideKind::sink:
-      cairo_set_source_rgb(c, 0.835, 0.369, 0.0);
-      cairo_set_line_width(c, 1.5 * side_width);
-      cairo_set_dash(c, sink_dash, 2, 0.0);
-      break;
-  }
-}
-
-// How many intervals of the colour bar, 3 to 5, give the shortest numbers: 2.5 is cut into 0.5, 3 into 1.
-int intervals_of(double fastest) {
-  int best = 5;
-  for (const int n : {4, 3}) {
-    if (fmt::format("{:.4g}", fastest / n).size() < fmt::format("{:.4g}", fastest / best).size()) best = n;
-  }
-  return best;
-}
-
-std::string time_stamp(double time, int decimals) {
-  return decimals < 0 ? fmt::format("t = {:.4g}", time) : fmt::format("t = {:.{}f}", time, decimals);
+// The box as large as it fits into a picture of a given size.
+FrameLayout given_layout(const Domain& box, int width, int height) {
+  FrameLayout f;
+  f.width = width;
+  f.height = height;
+  f.unit = std::max(smallest_unit, std::min(width / usual_width, height / usual_height));
+  const double inner_width = width - (left_margin + right_margin) * f.unit;
+  const double inner_height = height - (top_margin + bottom_margin) * f.unit;
+  f.scale = std::min(inner_width / box.width, inner_height / box.height);
+  f.left = std::round(left_margin * f.unit + 0.5 * (inner_width - box.width * f.scale));
+  f.bottom = std::round(top_margin * f.unit + 0.5 * (inner_height + box.height * f.scale));
+  return f;
 }
 
 }  // namespace
+
+FrameLayout frame_layout(const FrameStyle& style) {
+  return style.look.width > 0 ? given_layout(style.box, style.look.width, style.look.height) : usual_layout(style.box);
+}
 
 void FramePainter::Free::operator()(_cairo* context) const {
   cairo_destroy(context);
@@ -125,18 +97,13 @@ void FramePainter::Free::operator()(_cairo_surface* surface) const {
   cairo_surface_destroy(surface);
 }
 
-FramePainter::FramePainter(FrameStyle style) : style_(std::move(style)) {
-  scale_ = std::min(widest_box / style_.box.width, highest_box / style_.box.height);
-  const double box_width = style_.box.width * scale_, box_height = style_.box.height * scale_;
-  const double inner_width = std::max(box_width, narrowest_picture);
-  const double inner_height = std::max(box_height, lowest_picture);
-  width_ = even(left_margin + inner_width + right_margin);
-  height_ = even(top_margin + inner_height + bottom_margin);
-  left_ = std::round(left_margin + 0.5 * (inner_width - box_width));
-  bottom_ = std::round(top_margin + 0.5 * (inner_height + box_height));
-  background_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
-  image_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
-  draw_background();
+FramePainter::FramePainter(FrameStyle style) : style_(std::move(style)), layout_(frame_layout(style_)) {
+  background_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width(), height()));
+  image_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width(), height()));
+  const Context context = context_of(background_);
+  cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
+  cairo_paint(context.get());
+  draw_legends(context.get(), style_, layout_);
 }
 
 FramePainter::~FramePainter() = default;
@@ -150,88 +117,38 @@ const unsigned char* FramePainter::pixels() const {
 }
 
 std::size_t FramePainter::bytes() const {
-  return static_cast<std::size_t>(cairo_image_surface_get_stride(image_.get())) * static_cast<std::size_t>(height_);
+  return static_cast<std::size_t>(cairo_image_surface_get_stride(image_.get())) * static_cast<std::size_t>(height());
 }
 
-void FramePainter::draw_background() {
-  const Context context = context_of(background_);
-  cairo_t* const c = context.get();
-  cairo_set_source_rgb(c, 1.0, 1.0, 1.0);
-  cairo_paint(c);
-  draw_text(c, fitting(c, style_.title, 22.0, width_ - 2.0 * left_margin), left_margin, 34.0, 22.0, Align::left, true);
-  draw_colour_bar(c);
-  draw_legend(c);
-}
-
-// Outside the box, so that a disk at the wall is seen whole.
-void FramePainter::draw_side(cairo_t* c, Side side) const {
-  const double out = 0.5 * side_width;
-  const double left = left_ - out, right = left_ + style_.box.width * scale_ + out;
-  const double low = bottom_ + out, high = bottom_ - style_.box.height * scale_ - out;
-  set_stroke(c, style_.box.side(side));
-  cairo_move_to(c, side == Side::right ? right : left, side == Side::top ? high : low);
-  cairo_line_to(c, side == Side::left ? left : right, side == Side::bottom ? low : high);
-  cairo_stroke(c);
-}
-
-void FramePainter::draw_colour_bar(cairo_t* c) const {
-  const double x = width_ - right_margin + 34.0;
-  const double height = height_ - top_margin - bottom_margin - 30.0;
-  const double low = height_ - bottom_margin;
-  const int rows = static_cast<int>(height);
-  for (int row = 0; row < rows; ++row) {
-    const Colour colour = viridis((row + 0.5) / rows);
-    cairo_set_source_rgb(c, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
-    cairo_rectangle(c, x, low - row - 1.0, bar_width, 1.0);
-    cairo_fill(c);
+Colour FramePainter::colour_of(const Disks& disks, std::size_t i, const std::vector<DiskId>& group) const {
+  double value = 0.0;
+  switch (style_.look.colour) {
+    case ColourBy::group:
+      return group_colour(group.empty() ? group_of(style_.group_ends, disks.id[i]) : group[i]);
+    case ColourBy::speed:
+      value = std::sqrt(disks.vx[i] * disks.vx[i] + disks.vy[i] * disks.vy[i]);
+      break;
+    case ColourBy::radius:
+      value = disks.radius_of(i);
+      break;
+    case ColourBy::mass:
+      value = disks.mass_of(i);
+      break;
+    case ColourBy::id:
+      value = static_cast<double>(disks.id[i]);
+      break;
   }
-  draw_text(c, "speed", x, low - rows - 12.0, 16.0, Align::left);
-  const int intervals = intervals_of(style_.fastest);
-  for (int tick = 0; tick <= intervals; ++tick) {
-    const double share = static_cast<double>(tick) / intervals;
-    const double y = low - share * rows;
-    cairo_set_source_rgb(c, 0.13, 0.13, 0.13);
-    cairo_set_line_width(c, 1.0);
-    cairo_move_to(c, x + bar_width, y);
-    cairo_line_to(c, x + bar_width + 5.0, y);
-    cairo_stroke(c);
-    const std::string number = fmt::format("{}{:.4g}", tick == intervals ? "≥ " : "", share * style_.fastest);
-    draw_text(c, number, x + bar_width + 9.0, y + 5.0, 14.0, Align::left);
-  }
+  return viridis(style_.high > style_.low ? (value - style_.low) / (style_.high - style_.low) : 0.5);
 }
 
-// Names the kinds of side, where there is anything but walls.
-void FramePainter::draw_legend(cairo_t* c) const {
-  if (!style_.box.has(SideKind::periodic) && !style_.box.has(SideKind::sink)) return;
-  double x = left_margin;
-  const double y = height_ - 18.0;
-  for (const auto& [kind, name] : {std::pair{SideKind::wall, "wall"}, std::pair{SideKind::periodic, "periodic"},
-                                   std::pair{SideKind::sink, "sink"}}) {
-    if (!style_.box.has(kind)) continue;
-    set_stroke(c, kind);
-    cairo_move_to(c, x, y - 5.0);
-    cairo_line_to(c, x + 34.0, y - 5.0);
-    cairo_stroke(c);
-    cairo_set_dash(c, nullptr, 0, 0.0);
-    draw_text(c, name, x + 42.0, y, 14.0, Align::left);
-    x += 134.0;
-  }
-}
-
-void FramePainter::draw_disks(const Disks& disks) {
+template <class Draw>
+void FramePainter::for_each_disk(const Disks& disks, const std::vector<DiskId>& group, Draw draw_at) const {
   const Domain& box = style_.box;
-  const PixelArea area{reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(image_.get())),
-                       cairo_image_surface_get_stride(image_.get()) / 4,
-                       static_cast<int>(left_),
-                       static_cast<int>(std::lround(bottom_ - box.height * scale_)),
-                       static_cast<int>(std::lround(left_ + box.width * scale_)),
-                       static_cast<int>(bottom_)};
   const double smallest = disks.size() <= few_disks ? smallest_of_few : 0.0;
   for (std::size_t i = 0; i < disks.size(); ++i) {
-    const double speed = std::sqrt(disks.vx[i] * disks.vx[i] + disks.vy[i] * disks.vy[i]);
-    const Colour colour = viridis(speed / style_.fastest);
+    const Colour colour = colour_of(disks, i, group);
     const double r = disks.radius_of(i);
-    const double pixels = std::max(r * scale_, smallest);
+    const double pixels = std::max(r * layout_.scale, smallest);
     // A disk across a periodic side is seen on the other one too.
     const double across = !box.periodic_x()            ? 0.0
                           : disks.x[i] < r             ? box.width
@@ -242,7 +159,7 @@ void FramePainter::draw_disks(const Disks& disks) {
                          : disks.y[i] > box.height - r ? -box.height
                                                        : 0.0;
     const auto draw = [&](double x, double y) {
-      fill_disk(area, left_ + x * scale_, bottom_ - y * scale_, pixels, colour);
+      draw_at(layout_.left + x * layout_.scale, layout_.bottom - y * layout_.scale, pixels, colour);
     };
     draw(disks.x[i], disks.y[i]);
     if (across != 0.0) draw(disks.x[i] + across, disks.y[i]);
@@ -251,24 +168,70 @@ void FramePainter::draw_disks(const Disks& disks) {
   }
 }
 
-void FramePainter::paint(const Disks& disks, double time) {
+void FramePainter::paint(const Disks& disks, double time, const std::vector<DiskId>& group) {
   cairo_surface_flush(image_.get());
   std::memcpy(cairo_image_surface_get_data(image_.get()), cairo_image_surface_get_data(background_.get()), bytes());
-  draw_disks(disks);
+  const PixelArea area{reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(image_.get())),
+                       cairo_image_surface_get_stride(image_.get()) / 4,
+                       static_cast<int>(layout_.left),
+                       static_cast<int>(std::lround(layout_.bottom - style_.box.height * layout_.scale)),
+                       static_cast<int>(std::lround(layout_.left + style_.box.width * layout_.scale)),
+                       static_cast<int>(layout_.bottom)};
+  for_each_disk(disks, group, [&area](double x, double y, double radius, const Colour& colour) {
+    fill_disk(area, x, y, radius, colour);
+  });
   cairo_surface_mark_dirty(image_.get());
   const Context context = context_of(image_);
-  for (const Side side : all_sides) draw_side(context.get(), side);
-  const std::string count = disks.size() == 1 ? "1 disk" : fmt::format("{} disks", disks.size());
-  draw_text(context.get(), time_stamp(time, style_.time_decimals), left_margin, 62.0, 18.0, Align::left);
-  draw_text(context.get(), count, width_ - right_margin, 62.0, 18.0, Align::right);
+  draw_sides(context.get(), style_, layout_);
+  draw_stamps(context.get(), style_, layout_, disks.size(), time);
   cairo_surface_flush(image_.get());
 }
 
+namespace {
+
+void check_written(cairo_status_t status, const std::string& path) {
+  if (status == CAIRO_STATUS_SUCCESS) return;
+  throw RunError(fmt::format("cannot write {}: {}", path, cairo_status_to_string(status)));
+}
+
+}  // namespace
+
 void FramePainter::write_png(const std::string& path) const {
-  const cairo_status_t status = cairo_surface_write_to_png(image_.get(), path.c_str());
-  if (status != CAIRO_STATUS_SUCCESS) {
-    throw RunError(fmt::format("cannot write {}: {}", path, cairo_status_to_string(status)));
+  check_written(cairo_surface_write_to_png(image_.get(), path.c_str()), path);
+}
+
+void FramePainter::write_svg(const std::string& path, const Disks& disks, double time,
+                             const std::vector<DiskId>& group) const {
+  const Surface surface(cairo_svg_surface_create(path.c_str(), width(), height()));
+  {
+    const Context context = context_of(surface);
+    cairo_t* const c = context.get();
+    cairo_set_source_rgb(c, 1.0, 1.0, 1.0);
+    cairo_paint(c);
+    draw_legends(c, style_, layout_);
+    cairo_save(c);
+    cairo_rectangle(c, layout_.left, layout_.bottom, style_.box.width * layout_.scale,
+                    -style_.box.height * layout_.scale);
+    cairo_clip(c);
+    for_each_disk(disks, group, [c](double x, double y, double radius, const Colour& colour) {
+      // A rim as in fill_disk, within the disk's radius.
+      const double rim = radius >= smallest_rimmed ? rim_width : 0.0;
+      const double shade = rim > 0.0 ? rim_shade : 1.0;
+      cairo_arc(c, x, y, radius, 0.0, 2.0 * std::numbers::pi);
+      cairo_set_source_rgb(c, shade * colour.red / 255.0, shade * colour.green / 255.0, shade * colour.blue / 255.0);
+      cairo_fill(c);
+      if (rim == 0.0) return;
+      cairo_arc(c, x, y, radius - rim, 0.0, 2.0 * std::numbers::pi);
+      cairo_set_source_rgb(c, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+      cairo_fill(c);
+    });
+    cairo_restore(c);
+    draw_sides(c, style_, layout_);
+    draw_stamps(c, style_, layout_, disks.size(), time);
+    check_written(cairo_status(c), path);
   }
+  cairo_surface_finish(surface.get());
+  check_written(cairo_surface_status(surface.get()), path);
 }
 
 }  // namespace carom

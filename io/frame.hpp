@@ -1,13 +1,16 @@
-// One picture of the disks: the box with its four kinds of side, disks coloured by speed, a colour bar, the time.
+// One picture of the disks: the box with its four kinds of side, disks coloured by what the look says, a colour bar or
+// a list of groups, the time.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/disks.hpp"
 #include "core/domain.hpp"
 #include "core/scene.hpp"
+#include "io/colour_scale.hpp"
 
 struct _cairo;
 struct _cairo_surface;
@@ -18,18 +21,34 @@ namespace carom {
 struct FrameStyle {
   std::string title;
   Domain box;
-  double fastest = 1.0;   // speed at the upper end of the colour bar; faster disks get the same colour
-  int time_decimals = 2;  // digits of the time stamp after the point; negative: scientific
+  double high = 1.0;                 // upper end of the colour scale; disks beyond it get the same colour
+  int time_decimals = 2;             // digits of the time stamp after the point; negative: scientific
+  double low = 0.0;                  // lower end of the colour scale
+  PictureLook look{};                // its range is already in low and high
+  std::vector<DiskId> group_ends{};  // see disk_group.hpp; only where groups are coloured
+  DiskId groups = 0;                 // that the list of colours names
+  bool sources = false;              // the last of them are disks from sources
 };
 
-// A style for all frames of a run that starts from `first`. The colour scale reaches from 0 to a round number above
-// the speeds to expect: those at the start (2.5 times the root mean square, or the fastest disk if it is slower), what
-// falling to the floor adds on average, what equipartition gives the lighter ones, what sources and Brownian motion
-// bring in.
-FrameStyle frame_style(const Scene& scene, const Disks& first);
+// What a run's disks will have, as far as its scene and its first disks tell. Speeds to expect are those at the start
+// (2.5 times the root mean square, or the fastest disk if it is slower), what falling to the floor adds on average,
+// what equipartition gives the lighter ones, what sources and Brownian motion bring in.
+SeenValues foreseen_values(const Scene& scene, const Disks& first);
+
+// A style for all frames of a run.
+FrameStyle frame_style(const Scene& scene, const PictureLook& look, const SeenValues& seen);
 
 // The same without a scene, for a trajectory that has none beside it.
-FrameStyle frame_style(const std::string& title, const Domain& box, const Disks& first);
+FrameStyle frame_style(const std::string& title, const Domain& box, const PictureLook& look, const SeenValues& seen);
+
+// Where things lie in a picture, in pixels.
+struct FrameLayout {
+  double unit = 1.0;                // of letters, lines and margins: 1 in a picture of usual size
+  double scale = 1.0;               // pixels per length
+  double left = 0.0, bottom = 0.0;  // where the box's origin lies
+  int width = 0, height = 0;        // of the image; both even, as video codecs want them
+};
+FrameLayout frame_layout(const FrameStyle& style);
 
 class FramePainter {
  public:
@@ -38,17 +57,21 @@ class FramePainter {
   FramePainter& operator=(const FramePainter&) = delete;
   ~FramePainter();
 
-  // Draws a frame; pixels() and write_png() give it until the next call.
-  void paint(const Disks& disks, double time);
+  // Draws a frame; pixels() and write_png() give it until the next call. group: of each disk, where the trajectory
+  // tells; empty: by the style's group_ends.
+  void paint(const Disks& disks, double time, const std::vector<DiskId>& group = {});
 
-  // Both even, as video codecs want them. Pixels are 32-bit words 0x00rrggbb, row by row from the top.
-  int width() const { return width_; }
-  int height() const { return height_; }
+  // Pixels are 32-bit words 0x00rrggbb, row by row from the top.
+  int width() const { return layout_.width; }
+  int height() const { return layout_.height; }
   const unsigned char* pixels() const;
   std::size_t bytes() const;
 
-  // Throws RunError if the file cannot be written.
+  // Throws RunError if the file cannot be written, here and below.
   void write_png(const std::string& path) const;
+
+  // A frame as SVG: circles and letters as curves, whatever the size it is shown at.
+  void write_svg(const std::string& path, const Disks& disks, double time, const std::vector<DiskId>& group = {}) const;
 
  private:
   struct Free {
@@ -59,17 +82,14 @@ class FramePainter {
   using Context = std::unique_ptr<_cairo, Free>;
 
   Context context_of(const Surface& surface) const;
-  void draw_background();
-  void draw_side(_cairo* context, Side side) const;
-  void draw_colour_bar(_cairo* context) const;
-  void draw_legend(_cairo* context) const;
-  void draw_disks(const Disks& disks);
+  Colour colour_of(const Disks& disks, std::size_t i, const std::vector<DiskId>& group) const;
+  // draw(x, y, radius, colour), in pixels, for each disk, and again where it is seen across a periodic side.
+  template <class Draw>
+  void for_each_disk(const Disks& disks, const std::vector<DiskId>& group, Draw draw) const;
 
   FrameStyle style_;
-  double scale_ = 1.0;                // pixels per length
-  double left_ = 0.0, bottom_ = 0.0;  // where the box's origin lies, in pixels
-  int width_ = 0, height_ = 0;        // of the image, in pixels
-  Surface background_;                // what no frame changes
+  FrameLayout layout_;
+  Surface background_;  // what no frame changes
   Surface image_;
 };
 

@@ -1,50 +1,21 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
+#include <numbers>
 
+#include "core/disk_group.hpp"
 #include "io/frame.hpp"
 
 namespace carom {
 
 namespace {
 
-// The next of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10 times a power of ten: colour-bar numbers that read well.
-double round_up(double value) {
-  if (!(value > 0.0) || !std::isfinite(value)) return 1.0;
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
-    if (value <= step * power * (1.0 + 1e-9)) return step * power;
-  }
-  return 10.0 * power;
-}
-
-// Most of a Maxwell distribution in two dimensions, 99.8 %, lies below this many root mean squares.
-constexpr double reach = 2.5;
-
 // Where only a mean square speed can be foretold, the scale ends at this many of it: the tail shares one colour, but
 // the rest is not all dark.
 constexpr double tail = 2.5;
 
-struct SpeedSquares {
-  double mean = 0.0;
-  double greatest = 0.0;
-};
-
-SpeedSquares speed_squares(const Disks& disks) {
-  SpeedSquares s;
-  for (std::size_t i = 0; i < disks.size(); ++i) {
-    const double v2 = disks.vx[i] * disks.vx[i] + disks.vy[i] * disks.vy[i];
-    s.mean += v2;
-    s.greatest = std::max(s.greatest, v2);
-  }
-  if (!disks.empty()) s.mean /= static_cast<double>(disks.size());
-  return s;
-}
-
-double initial_square(const Disks& disks) {
-  const SpeedSquares s = speed_squares(disks);
-  return std::min(s.greatest, reach * reach * s.mean);
-}
+// Ids are numbers below this.
+constexpr Count most_ids = std::numeric_limits<DiskId>::max();
 
 // Mean square speed once collisions have shared the energy out: 2 kT / m with kT = K / N, averaged over the disks. 0
 // for disks of one mass, where it says nothing new.
@@ -66,6 +37,27 @@ double falling_square(const Disks& disks, double gravity) {
   double height = 0.0;
   for (std::size_t i = 0; i < disks.size(); ++i) height += std::max(disks.y[i] - disks.radius_of(i), 0.0);
   return disks.empty() ? 0.0 : 2.0 * gravity * height / static_cast<double>(disks.size());
+}
+
+// What the radii and masses of a source may be.
+ValueRange given_range(const SizeLaw& law) {
+  if (law.kind == SizeLaw::Kind::uniform) return {law.low, law.high};
+  if (law.kind == SizeLaw::Kind::constant) return {law.value, law.value};
+  if (law.values.empty()) return {};
+  const auto [low, high] = std::minmax_element(law.values.begin(), law.values.end());
+  return {*low, *high};
+}
+ValueRange radius_range(const Source& source) {
+  if (source.radius.kind != SizeLaw::Kind::from_other) return given_range(source.radius);
+  const ValueRange mass = given_range(source.mass);
+  const double scale = std::numbers::pi * source.radius.density;
+  return {std::sqrt(mass.low / scale), std::sqrt(mass.high / scale)};
+}
+ValueRange mass_range(const Source& source) {
+  if (source.mass.kind != SizeLaw::Kind::from_other) return given_range(source.mass);
+  const ValueRange radius = given_range(source.radius);
+  const double scale = std::numbers::pi * source.mass.density;
+  return {scale * radius.low * radius.low, scale * radius.high * radius.high};
 }
 
 double source_square(const Source& source) {
@@ -93,22 +85,42 @@ int decimals_for(double every, double t_end) {
 
 }  // namespace
 
-FrameStyle frame_style(const std::string& title, const Domain& box, const Disks& first) {
-  return {title, box, round_up(std::sqrt(std::max(initial_square(first), tail * shared_square(first)))), 2};
+FrameStyle frame_style(const std::string& title, const Domain& box, const PictureLook& look, const SeenValues& seen) {
+  const ValueRange range = colour_range(look, seen);
+  return {title, box, range.high, 2, range.low, look, {}, seen.groups};
 }
 
-FrameStyle frame_style(const Scene& scene, const Disks& first) {
+FrameStyle frame_style(const Scene& scene, const PictureLook& look, const SeenValues& seen) {
+  FrameStyle style = frame_style(scene.title, scene.box, look, seen);
+  style.time_decimals = decimals_for(scene.output.every, scene.run.t_end);
+  style.group_ends = ends_of_groups(scene);
+  style.groups = static_cast<DiskId>(scene.groups.size() + (scene.sources.empty() ? 0 : 1));
+  style.sources = !scene.sources.empty();
+  return style;
+}
+
+SeenValues foreseen_values(const Scene& scene, const Disks& first) {
   const Physics& physics = scene.physics;
-  const bool elastic = physics.restitution == 1.0;
-  double square = initial_square(first);
-  if (elastic) square = std::max(square, tail * shared_square(first));
+  SeenValues seen;
+  seen.add(first, {});
+  double square = seen.speed_square;
+  if (physics.restitution == 1.0) square = std::max(square, tail * shared_square(first));
   if (physics.gravity > 0.0) square += falling_square(first, physics.gravity);
   for (const Source& source : scene.sources) square = std::max(square, source_square(source));
   if (physics.diffusion > 0.0 && scene.run.dt > 0.0) {
     const double brownian = 4.0 * physics.diffusion / scene.run.dt;  // mean of (u / dt)^2, both components
     square = physics.accumulate ? square + brownian : tail * brownian;
   }
-  return {scene.title, scene.box, round_up(std::sqrt(square)), decimals_for(scene.output.every, scene.run.t_end)};
+  seen.speed_square = square;
+  for (const Source& source : scene.sources) {
+    const ValueRange radius = radius_range(source), mass = mass_range(source);
+    seen.add_radius(radius.low, radius.high);
+    seen.add_mass(mass.low, mass.high);
+    seen.any = true;
+    const double coming = std::min(source.rate * scene.run.t_end, static_cast<double>(source.limit.value_or(most_ids)));
+    seen.last_id += static_cast<DiskId>(std::min(coming, static_cast<double>(most_ids - seen.last_id)));
+  }
+  return seen;
 }
 
 }  // namespace carom

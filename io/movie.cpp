@@ -4,12 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstdint>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <vector>
 
 #include "core/check.hpp"
@@ -21,56 +16,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* file_name = "movie.mp4";
 constexpr const char* log_name = "ffmpeg.log";
 constexpr const char* list_name = "movie_parts.txt";
-constexpr const char* joined_name = "movie_joined.mp4";
+constexpr const char* joined_name = "movie_joined.mp4";  // parts are of mp4 only
 constexpr const char* part_prefix = "movie_part_";
-constexpr const char* frames_per_second = "25";
-
-// Raw frames on standard input; H.264 with the pixel format and the colour space that every player knows. crf 20 is
-// visually lossless for flat disks; without B-frames (bf 0) parts can be joined with no frame out of its time;
-// faststart lets a browser begin before the end has arrived.
-std::vector<std::string> encoding(const std::string& program, const FramePainter& painter, const std::string& file) {
-  const char* const pixels = std::endian::native == std::endian::little ? "bgr0" : "0rgb";
-  return {program,
-          "-nostdin",
-          "-loglevel",
-          "error",
-          "-y",
-          "-f",
-          "rawvideo",
-          "-pix_fmt",
-          pixels,
-          "-video_size",
-          fmt::format("{}x{}", painter.width(), painter.height()),
-          "-framerate",
-          frames_per_second,
-          "-i",
-          "pipe:0",
-          "-an",
-          "-vf",
-          "scale=out_color_matrix=bt709:out_range=tv",
-          "-c:v",
-          "libx264",
-          "-preset",
-          "veryfast",
-          "-crf",
-          "20",
-          "-bf",
-          "0",
-          "-pix_fmt",
-          "yuv420p",
-          "-colorspace",
-          "bt709",
-          "-color_primaries",
-          "bt709",
-          "-color_trc",
-          "bt709",
-          "-movflags",
-          "+faststart",
-          file};
-}
 
 // The parts one after another, each frame as it was encoded.
 std::vector<std::string> joining(const std::string& program) {
@@ -79,41 +28,19 @@ std::vector<std::string> joining(const std::string& program) {
 }
 
 // Of this process only: an ffmpeg that outlived a process which was killed may still be writing its own part.
-std::string part_name(Count first_frame) {
-  return fmt::format("{}{:09}_{}.mp4", part_prefix, first_frame, getpid());
-}
-
-// Whether a file is a sequence of whole MP4 boxes (32-bit size, name, content), the index "moov" among them. ffmpeg
-// says 0 even where a full disk cut its file short.
-bool is_whole_mp4(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::error_code error;
-  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-  bool indexed = false;
-  std::uintmax_t at = 0;
-  while (!error && at < bytes) {
-    std::array<unsigned char, 8> head{};
-    file.seekg(static_cast<std::streamoff>(at));
-    if (!file.read(reinterpret_cast<char*>(head.data()), head.size())) return false;
-    std::uintmax_t size = (std::uintmax_t{head[0]} << 24) | (std::uintmax_t{head[1]} << 16) |
-                          (std::uintmax_t{head[2]} << 8) | std::uintmax_t{head[3]};
-    if (size == 1) {  // a box above 4 GB: its size follows in 64 bits
-      std::array<unsigned char, 8> large{};
-      if (!file.read(reinterpret_cast<char*>(large.data()), large.size())) return false;
-      size = 0;
-      for (const unsigned char byte : large) size = (size << 8) | byte;
-    }
-    if (size < head.size()) return false;
-    if (std::memcmp(&head[4], "moov", 4) == 0) indexed = true;
-    at += size;
-  }
-  return !error && indexed && at == bytes;
+std::string part_name(Count first_frame, const std::string& extension) {
+  return fmt::format("{}{:09}_{}{}", part_prefix, first_frame, getpid(), extension);
 }
 
 }  // namespace
 
-MovieWriter::MovieWriter(const std::string& folder, FrameStyle style)
-    : folder_(folder), style_(std::move(style)), painter_(style_), ffmpeg_(find_program("ffmpeg")) {
+MovieWriter::MovieWriter(const std::string& folder, FrameStyle style, MovieFormat format)
+    : folder_(folder),
+      style_(std::move(style)),
+      format_(format),
+      file_name_(movie_name(format)),
+      painter_(style_),
+      ffmpeg_(find_program("ffmpeg")) {
   if (!single_frames()) return;
   std::error_code error;
   fs::create_directories(path("frames"), error);
@@ -129,7 +56,7 @@ MovieWriter::MovieWriter(const std::string& folder, FrameStyle style, const Movi
       marked_(true),
       frames_(from.frames) {
   if (!from.single_frames && ffmpeg_.empty()) {
-    throw RunError(fmt::format("cannot go on with {}: ffmpeg is not installed here", path(file_name)));
+    throw RunError(fmt::format("cannot go on with {}: ffmpeg is not installed here", path(file_name_)));
   }
   if (from.single_frames) {
     for (Count k = frames_ + 1; fs::remove(frame_path(k)); ++k) {
@@ -143,9 +70,9 @@ MovieWriter::MovieWriter(const std::string& folder, FrameStyle style, const Movi
   }
   // A movie that was complete becomes the first part of the longer one, which will have its name.
   for (std::string& part : parts_) {
-    if (part != file_name) continue;
-    part = part_name(0);
-    fs::copy_file(path(file_name), path(part), fs::copy_options::overwrite_existing);
+    if (part != file_name_) continue;
+    part = part_name(0, ".mp4");
+    fs::copy_file(path(file_name_), path(part), fs::copy_options::overwrite_existing);
   }
 }
 
@@ -153,8 +80,8 @@ std::string MovieWriter::frame_path(Count number) const {
   return path(fmt::format("frames/frame_{:06}.png", number));
 }
 
-void MovieWriter::add(const Disks& disks, double time) {
-  painter_.paint(disks, time);
+void MovieWriter::add(const Disks& disks, double time, const std::vector<DiskId>& group) {
+  painter_.paint(disks, time, group);
   if (single_frames()) {
     painter_.write_png(frame_path(frames_ + 1));
   } else {
@@ -168,13 +95,15 @@ void MovieWriter::add(const Disks& disks, double time) {
 }
 
 void MovieWriter::begin_part() {
-  parts_.push_back(part_name(frames_));
-  encoder_ = std::make_unique<ChildProcess>(encoding(ffmpeg_, painter_, parts_.back()), folder_, path(log_name));
+  parts_.push_back(part_name(frames_, fs::path(file_name_).extension().string()));
+  encoder_ = std::make_unique<ChildProcess>(
+      encoding(ffmpeg_, {painter_.width(), painter_.height(), style_.look.fps}, format_, parts_.back()), folder_,
+      path(log_name));
 }
 
 void MovieWriter::end_part() {
   if (encoder_ == nullptr) return;
-  const bool good = encoder_->wait() == 0 && is_whole_mp4(path(parts_.back()));
+  const bool good = encoder_->wait() == 0 && is_whole_movie(path(parts_.back()), format_);
   encoder_ = nullptr;
   if (!good) fail();
 }
@@ -184,18 +113,18 @@ MovieMark MovieWriter::mark() {
   end_part();
   if (fresh) sync_path(path(parts_.back()));
   marked_ = true;
-  return {frames_, single_frames(), parts_, style_.fastest, style_.time_decimals};
+  return {frames_, single_frames(), parts_, style_.low, style_.high, style_.time_decimals};
 }
 
 MovieMark MovieWriter::finish() {
-  MovieMark whole{frames_, single_frames(), {}, style_.fastest, style_.time_decimals};
+  MovieMark whole{frames_, single_frames(), {}, style_.low, style_.high, style_.time_decimals};
   if (single_frames()) return whole;
   end_part();
   if (parts_.empty()) return whole;
   join_parts();
   std::error_code ignored;
   for (const char* const name : {log_name, list_name}) fs::remove(path(name), ignored);
-  whole.parts.emplace_back(file_name);
+  whole.parts.push_back(file_name_);
   return whole;
 }
 
@@ -206,19 +135,19 @@ void MovieWriter::join_parts() {
     for (const std::string& part : parts_) list += fmt::format("file '{}'\n", part);
     write_file(path(list_name), list);
     ChildProcess join(joining(ffmpeg_), folder_, path(log_name));
-    if (join.wait() != 0 || !is_whole_mp4(path(joined_name))) fail();
+    if (join.wait() != 0 || !is_whole_movie(path(joined_name), format_)) fail();
     made = joined_name;
     sync_path(path(made));
   }
   std::error_code error;
-  fs::rename(path(made), path(file_name), error);
-  if (error) throw RunError(fmt::format("cannot write {}: {}", path(file_name), error.message()));
+  fs::rename(path(made), path(file_name_), error);
+  if (error) throw RunError(fmt::format("cannot write {}: {}", path(file_name_), error.message()));
 }
 
 void MovieWriter::fail() const {
   // On a full disk the log is as empty as the movie.
   const std::string said = last_line(path(log_name));
-  throw RunError(fmt::format("ffmpeg could not write {}: {}", path(file_name),
+  throw RunError(fmt::format("ffmpeg could not write {}: {}", path(file_name_),
                              said.empty() ? "the file is incomplete; is the disk full?" : said));
 }
 

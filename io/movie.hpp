@@ -1,4 +1,4 @@
-// movie.mp4 from frames, through ffmpeg; where there is none, the frames as PNG files.
+// A movie from frames, through ffmpeg; where there is none, the frames as PNG files.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 
 #include "io/child_process.hpp"
 #include "io/frame.hpp"
+#include "io/movie_format.hpp"
 #include "io/output_mark.hpp"
 
 namespace carom {
@@ -15,20 +16,23 @@ namespace carom {
 // run without marks has one part, which becomes the movie; else ffmpeg joins them, without encoding anything again.
 class MovieWriter {
  public:
-  // The movie goes to `folder`/movie.mp4 (H.264, 25 frames a second, plays everywhere), or frames to
+  // The movie goes to `folder`/movie.mp4 (H.264, which plays everywhere; or movie.webm, movie.gif), or frames to
   // `folder`/frames/frame_000001.png and so on. Throws RunError if neither can be started.
-  MovieWriter(const std::string& folder, FrameStyle style);
+  MovieWriter(const std::string& folder, FrameStyle style, MovieFormat format = MovieFormat::mp4);
 
-  // Goes on behind a mark; parts that came after it are removed. Throws RunError where there is no ffmpeg any more.
+  // Goes on with a movie.mp4 behind a mark; parts that came after it are removed. Throws RunError where there is no
+  // ffmpeg any more.
   MovieWriter(const std::string& folder, FrameStyle style, const MovieMark& from);
 
   // True where ffmpeg is not installed and single frames are written instead.
   bool single_frames() const { return ffmpeg_.empty(); }
 
   // Throws RunError if the frame cannot be drawn or handed over, with what ffmpeg said.
-  void add(const Disks& disks, double time);
+  // group: as for FramePainter::paint.
+  void add(const Disks& disks, double time, const std::vector<DiskId>& group = {});
 
-  // Ends the part that is being made; what all parts hold is on the disk. Throws RunError if ffmpeg could not write it.
+  // Of a movie.mp4: ends the part that is being made; what all parts hold is on the disk. Throws RunError if ffmpeg
+  // could not write it.
   MovieMark mark();
 
   // Completes the movie and returns a mark to which it can be taken up again. Throws RunError if ffmpeg could not write
@@ -45,6 +49,8 @@ class MovieWriter {
 
   std::string folder_;
   FrameStyle style_;
+  MovieFormat format_ = MovieFormat::mp4;
+  std::string file_name_ = movie_name(format_);
   FramePainter painter_;
   std::string ffmpeg_;  // path of the program, empty if there is none
   std::unique_ptr<ChildProcess> encoder_;

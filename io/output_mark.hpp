@@ -37,7 +37,7 @@ struct MovieMark {
   Count frames = 0;
   bool single_frames = false;      // PNG files in place of a movie
   std::vector<std::string> parts;  // files, each a movie, that make up all frames so far
-  double fastest = 1.0;            // the colour scale, which the first frame set
+  double low = 0.0, high = 1.0;    // the colour scale, which the first frame set
   int time_decimals = 2;
 };
 

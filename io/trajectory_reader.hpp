@@ -34,7 +34,8 @@ class TrajectoryReader {
 // The trajectory of a run's folder, trajectory.xyz or trajectory.h5; empty if there is none.
 std::filesystem::path trajectory_in(const std::filesystem::path& folder);
 
-// By what the file begins with: HDF5 or text. Throws InputError if it cannot be read.
-std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path);
+// By what the file begins with: HDF5 or text. growing: a run is, or was, writing it, and what it began is no frame yet.
+// Throws InputError if it cannot be read.
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, bool growing = false);
 
 }  // namespace carom

@@ -130,7 +130,7 @@ void XyzWriter::write(const Disks& disks, double time, const BlockRunner& run) {
   ++frames_;
 }
 
-XyzReader::XyzReader(const std::string& path) : path_(path), file_(path) {
+XyzReader::XyzReader(const std::string& path, bool growing) : path_(path), growing_(growing), file_(path) {
   if (!file_ || std::filesystem::is_directory(path)) {
     throw InputError(fmt::format("{}: cannot be read; expected a trajectory in extended XYZ", path));
   }
@@ -142,7 +142,8 @@ void XyzReader::fail(const std::string& what) const {
 
 bool XyzReader::next_line() {
   ++line_number_;
-  return static_cast<bool>(std::getline(file_, line_));
+  // A line without its end may lack digits, too.
+  return static_cast<bool>(std::getline(file_, line_)) && !(growing_ && file_.eof());
 }
 
 double XyzReader::number(std::string_view text) const {
@@ -285,10 +286,14 @@ bool XyzReader::read(XyzFrame& frame) {
   }
   frame.disks = {};
   frame.group.clear();
-  if (!next_line()) fail("the file ends inside a frame");
+  const auto cut_short = [this] {
+    if (!growing_) fail("the file ends inside a frame");
+    return false;
+  };
+  if (!next_line()) return cut_short();
   read_header(frame);
   for (std::size_t k = 0; k < count; ++k) {
-    if (!next_line()) fail("the file ends inside a frame");
+    if (!next_line()) return cut_short();
     read_disk(frame);
   }
   return true;

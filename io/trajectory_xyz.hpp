@@ -64,8 +64,9 @@ using XyzFrame = TrajectoryFrame;
 
 class XyzReader : public TrajectoryReader {
  public:
-  // Throws InputError if the file cannot be opened.
-  explicit XyzReader(const std::string& path);
+  // growing: a run is, or was, writing the file, and a frame that it ends within is none. Throws InputError if the file
+  // cannot be opened.
+  explicit XyzReader(const std::string& path, bool growing = false);
 
   // The next frame, or false at the end of the file. Radius and mass always come as columns. Columns may stand in any
   // order, positions and velocities may have two components or three, and columns that Carom does not know are passed
@@ -89,6 +90,7 @@ class XyzReader : public TrajectoryReader {
   DiskId whole_number(std::string_view text, const char* what) const;
 
   std::string path_;
+  bool growing_ = false;
   std::ifstream file_;
   std::string line_;
   std::size_t line_number_ = 0;

@@ -127,6 +127,10 @@ TEST(Frame, EachKindOfSideLooksDifferent) {
   EXPECT_NE(sides[0], sides[2]);
 }
 
+FrameStyle predicted(const Scene& scene, const Disks& first) {
+  return frame_style(scene, scene.output.look, foreseen_values(scene, first));
+}
+
 TEST(FrameStyle, SpeedScaleCoversWhatIsExpected) {
   Scene scene;
   scene.box = square_box(10.0);
@@ -134,18 +138,93 @@ TEST(FrameStyle, SpeedScaleCoversWhatIsExpected) {
   scene.run.t_end = 10.0;
   scene.output.every = 0.25;
   const Disks rest = one_disk(5.0, 5.0, 0.0, 1.0);
-  EXPECT_EQ(frame_style(scene, rest).fastest, 1.0) << "everything at rest";
-  EXPECT_EQ(frame_style(scene, rest).time_decimals, 2);
-  EXPECT_EQ(frame_style(scene, one_disk(5.0, 5.0, 3.0, 1.0)).fastest, 3.0);
+  EXPECT_EQ(predicted(scene, rest).high, 1.0) << "everything at rest";
+  EXPECT_EQ(predicted(scene, rest).time_decimals, 2);
+  EXPECT_EQ(predicted(scene, one_disk(5.0, 5.0, 3.0, 1.0)).high, 3.0);
   Disks mixed = one_disk(2.0, 5.0, 1.0, 1.0);
   append(mixed, {6.0, 5.0, 1.0, 0.0, 1.0, 100.0, 1});
   // kT = 101 / 4, mean of 2 kT / m = 25.5, times 2.5: 8 by its root.
-  EXPECT_EQ(frame_style(scene, mixed).fastest, 8.0) << "the light one will be the faster";
+  EXPECT_EQ(predicted(scene, mixed).high, 8.0) << "the light one will be the faster";
   scene.physics.gravity = 0.5;
-  EXPECT_EQ(frame_style(scene, rest).fastest, 2.0) << "sqrt(2 g 4)";
+  EXPECT_EQ(predicted(scene, rest).high, 2.0) << "sqrt(2 g 4)";
   scene.physics.gravity = 0.0;
   scene.physics.diffusion = 0.1;
-  EXPECT_EQ(frame_style(scene, rest).fastest, 10.0) << "sqrt(2.5 * 4 D / dt)";
+  EXPECT_EQ(predicted(scene, rest).high, 10.0) << "sqrt(2.5 * 4 D / dt)";
+}
+
+Disks two_kinds() {
+  Disks d = one_disk(2.5, 7.5, 1.0, 1.0);
+  append(d, {7.5, 2.5, 0.0, 0.0, 2.0, 9.0, 10});
+  return d;
+}
+
+// The colours of the two disks in a picture.
+std::pair<std::uint32_t, std::uint32_t> colours_of(const Scene& scene, ColourBy colour) {
+  Scene coloured = scene;
+  coloured.output.look.colour = colour;
+  FramePainter painter(predicted(coloured, two_kinds()));
+  painter.paint(two_kinds(), 0.0);
+  return {pixel(painter, 28 + 200, 78 + 200), pixel(painter, 28 + 600, 78 + 600)};
+}
+
+TEST(FrameStyle, ColoursTellWhatTheLookSays) {
+  Scene scene;
+  scene.box = square_box(10.0);
+  scene.run.t_end = 1.0;
+  scene.groups.resize(2);
+  scene.groups[0].count = 10;
+  scene.groups[1].count = 1;
+  const std::pair ends{packed(viridis(0.0)), packed(viridis(1.0))};
+  EXPECT_EQ(colours_of(scene, ColourBy::radius), ends) << "from 1 to 2";
+  EXPECT_EQ(colours_of(scene, ColourBy::mass), std::pair(packed(viridis(0.1)), packed(viridis(0.9)))) << "0 to 10";
+  EXPECT_EQ(colours_of(scene, ColourBy::id), std::pair(packed(viridis(0.0)), packed(viridis(1.0)))) << "0 to 10";
+  EXPECT_EQ(colours_of(scene, ColourBy::group), std::pair(packed(group_colour(0)), packed(group_colour(1))));
+  scene.output.look.range = {-2.0, 2.0};
+  EXPECT_EQ(colours_of(scene, ColourBy::speed), std::pair(packed(viridis(0.75)), packed(viridis(0.5))));
+  EXPECT_EQ(colours_of(scene, ColourBy::radius), std::pair(packed(viridis(0.75)), packed(viridis(1.0))));
+}
+
+PictureLook by_radius() {
+  PictureLook look;
+  look.colour = ColourBy::radius;
+  return look;
+}
+
+TEST(FrameStyle, OneValueHasOneColour) {
+  SeenValues seen;
+  seen.add(one_disk(1.0, 1.0, 0.0, 0.5), {});
+  const FrameStyle style = frame_style("", square_box(10.0), by_radius(), seen);
+  EXPECT_EQ(style.low, 0.5);
+  EXPECT_EQ(style.high, 0.5);
+  FramePainter painter(style);
+  painter.paint(one_disk(2.5, 7.5, 0.0, 0.5), 0.0);
+  EXPECT_EQ(pixel(painter, 28 + 200, 78 + 200), packed(viridis(0.5)));
+}
+
+TEST(FrameStyle, ScaleCoversAllFrames) {
+  SeenValues seen;
+  seen.add(one_disk(1.0, 1.0, 3.0, 0.5), {});
+  seen.add(one_disk(1.0, 1.0, 1.0, 0.9), {2});
+  EXPECT_EQ(colour_range({}, seen).high, 3.0);
+  EXPECT_EQ(colour_range(by_radius(), seen).low, 0.5);
+  EXPECT_EQ(colour_range(by_radius(), seen).high, 0.9);
+  EXPECT_EQ(seen.groups, 3U);
+}
+
+TEST(Frame, SizeIsWhatTheLookSays) {
+  for (const auto& [width, height] : {std::pair{1280, 720}, std::pair{320, 320}, std::pair{3840, 2160}}) {
+    FrameStyle style{"a title", square_box(10.0), 1.0, 1};
+    style.look.width = width;
+    style.look.height = height;
+    const FramePainter painter(style);
+    EXPECT_EQ(painter.width(), width);
+    EXPECT_EQ(painter.height(), height);
+    const FrameLayout layout = frame_layout(style);
+    EXPECT_GE(layout.left, 0.0);
+    EXPECT_LE(layout.left + 10.0 * layout.scale, width);
+    EXPECT_LE(layout.bottom, height);
+    EXPECT_GE(layout.bottom - 10.0 * layout.scale, 0.0);
+  }
 }
 
 // What ffprobe says of a file: codec, pixel format, size, number of frames.
@@ -181,6 +260,27 @@ TEST_F(Movie, IsH264WithEveryFrame) {
   movie.finish();
   EXPECT_EQ(probe(folder_ + "/movie.mp4"), "h264\n1120\n432\nyuv420p\n12\n");
   EXPECT_FALSE(fs::exists(folder_ + "/ffmpeg.log"));
+}
+
+TEST_F(Movie, OtherFormatsAndFramesPerSecond) {
+  for (const auto& [format, codec] : {std::pair{MovieFormat::webm, "vp9"}, std::pair{MovieFormat::gif, "gif"}}) {
+    FrameStyle style{"test", square_box(10.0), 1.0, 1};
+    style.look.fps = 10.0;
+    style.look.width = 400;
+    style.look.height = 320;
+    MovieWriter movie(folder_, style, format);
+    for (int k = 0; k < 5; ++k) movie.add(one_disk(1.0 + 0.5 * k, 1.5, 1.0, 1.0), 0.1 * k);
+    movie.finish();
+    const std::string file = folder_ + "/" + movie_name(format);
+    EXPECT_THAT(probe(file), ::testing::StartsWith(std::string(codec) + "\n400\n320\n"));
+    EXPECT_THAT(probe(file), ::testing::EndsWith("\n5\n"));
+    EXPECT_TRUE(is_whole_movie(file, format));
+    // Cut short anywhere, it is not whole.
+    for (const std::uintmax_t lost : {1U, 100U, 1000U}) {
+      fs::resize_file(file, fs::file_size(file) - lost);
+      EXPECT_FALSE(is_whole_movie(file, format)) << codec << " " << lost;
+    }
+  }
 }
 
 TEST_F(Movie, WhatFfmpegSaysIsInTheError) {

@@ -178,7 +178,7 @@ TEST_F(TrajectoryXyz, DamageIsNamedByLine) {
   write_text(damaged);
   EXPECT_EQ(error(), path_ + ":3: '1.0000000000000001e+3x0' is no finite number");
   write_text("hello\n");
-  EXPECT_EQ(error(), path_ + ":1: 'hello' is no number of disks");
+  EXPECT_THAT(error(), HasSubstr(path_ + ":1: 'hello' is no number of disks; expected trajectory.xyz"));
   write_text("1\nH 0 0 0\nH 1 1 1\n");
   EXPECT_THAT(error(), HasSubstr(":2: expected Properties=species"));
 }
