@@ -90,7 +90,8 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
   Relative r = relative(d, i, j, rules.box);
   const double reach = d.radius(i) + d.radius(j);
   if (!touches(r.distance2(), reach) || !(r.approach() < 0.0)) return {};
-  const double ago = -contact_time(r, reach);
+  // Disks that just touch and pass along each other may miss by rounding (contact_time is infinite): that is now.
+  const double ago = std::max(0.0, -contact_time(r, reach));
   const bool inside_step = ago <= rules.dt;
   if (inside_step) {
     drift_one(d, i, -ago, rules.gravity);
