@@ -22,6 +22,7 @@ struct StepRules {
   double restitution = 1.0;
   double dt = 0.0;       // length of the step just drifted
   bool settles = false;  // gravity > 0 and a contact dissipates: contacts may bear load (resting.hpp)
+  int round = 0;         // of resolving within the step; later ones find what the one before pressed together
 };
 
 // What became of one contact event.
@@ -182,17 +183,23 @@ double push_wall(const View& d, const Domain& box, std::uint32_t i, Side side, d
 // most_push_sweeps; the rest waits for the next step.
 inline constexpr double shallow_overlap = 1e-3;
 inline constexpr int most_push_sweeps = 4;
+// In a pile, where whole layers have to make room.
+inline constexpr int most_pile_push_sweeps = 32;
+inline int push_sweeps(const StepRules& rules) {
+  return rules.settles ? most_pile_push_sweeps : most_push_sweeps;
+}
 
-// Is the overlap of a contact deeper than shallow_overlap?
+// Is the overlap of a contact deeper than slack (length) by more than `share` of the sum of radii (of the radius, at a
+// wall)?
 template <class View>
-bool is_deep(const View& d, const Domain& box, const ContactEvent& e) {
+bool is_deep(const View& d, const Domain& box, const ContactEvent& e, double share, double slack = 0.0) {
   const double r = d.radius(e.i1);
-  if (is_wall(e.id2)) return reach_beyond(wall_side(e.id2), d.x[e.i1], d.y[e.i1], r, box) > shallow_overlap * r;
+  if (is_wall(e.id2)) return reach_beyond(wall_side(e.id2), d.x[e.i1], d.y[e.i1], r, box) > share * r + slack;
   const double dx = d.x[e.i2] - d.x[e.i1];
   const double dy = d.y[e.i2] - d.y[e.i1];
   const double nx = box.periodic_x() ? nearest_image(dx, box.width) : dx;
   const double ny = box.periodic_y() ? nearest_image(dy, box.height) : dy;
-  const double reach = (r + d.radius(e.i2)) * (1.0 - shallow_overlap);
+  const double reach = (r + d.radius(e.i2)) * (1.0 - share) - slack;
   return nx * nx + ny * ny < reach * reach;
 }
 

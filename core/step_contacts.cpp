@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "core/impact_tally.hpp"
 #include "core/pair_search.hpp"
 #include "core/resting.hpp"
+#include "core/support_solver.hpp"
 
 namespace carom {
 
@@ -25,11 +27,9 @@ bool is_crowded(const std::vector<std::uint32_t>& contacts, const ContactEvent& 
   return contacts[e.i1] > 1 || (!is_wall(e.id2) && contacts[e.i2] > 1);
 }
 
-// Returns how many went amiss.
 template <class View>
-Count resolve_impacts(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
-                      const std::vector<std::uint32_t>& contacts, CollisionLog* log) {
-  ImpactTally tally;
+void resolve_impacts(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
+                     const std::vector<std::uint32_t>& contacts, CollisionLog* log, ImpactTally& tally) {
   bool any = true;
   for (int pass = 0; pass < most_impact_passes && any; ++pass) {
     any = false;
@@ -43,53 +43,68 @@ Count resolve_impacts(const View& d, State& state, const StepRules& rules, const
       any = any || (crowded && impact.happened);
     }
   }
-  tally.count_into(state.counters);
-  return tally.amiss;
 }
+
+// Sweeps over supports in order of ids.
+template <class View>
+struct Sweeps {
+  const View& d;
+  std::vector<Support>& supports;
+
+  CycleFigures cycle() {
+    CycleFigures figures;
+    for (Support& s : supports) relax_forward(d, s, figures);
+    for (std::size_t k = supports.size(); k-- > 0;) relax_back(d, supports[k], figures);
+    return figures;
+  }
+  void extrapolate(double beta) {
+    for (Support& s : supports) carom::extrapolate(d, s, beta);
+  }
+};
 
 // Solves the supports; their loads go to state.loads, in id order as the events are.
 template <class View>
 void bear_loads(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
-                const std::vector<std::uint32_t>& contacts) {
+                const std::vector<std::uint32_t>& contacts, ImpactTally& tally) {
   std::vector<Support> supports;
+  std::vector<ContactLoad> loads;
   for (const ContactEvent& e : events) {
     const double force = load_of(state.loads, e);
-    if (is_support(d, rules, e, force > 0.0, is_crowded(contacts, e))) {
-      supports.push_back(make_support(d, rules, e, force));
-    }
+    if (!is_solved(d, rules, e, force > 0.0, is_crowded(contacts, e))) continue;
+    supports.push_back(make_support(d, rules, e, force));
+    loads.push_back({e.id1, e.id2, 0.0});
   }
-  for (const Support& s : supports) apply_impulse(d, s, s.impulse);
-  const double settled = settled_change * rules.gravity * rules.dt;
-  for (int sweep = 0; sweep < most_load_sweeps; ++sweep) {
-    double largest = 0.0;
-    for (std::size_t k = 0; k < supports.size(); ++k) {
-      const bool backwards = sweep % 2 == 1;
-      largest = std::max(largest, relax(d, supports[backwards ? supports.size() - 1 - k : k]));
-    }
-    if (largest <= settled) break;
+  if (rules.round == 0) {
+    for (const Support& s : supports) apply_impulse(d, s, s.impulse);
   }
-  state.loads.clear();
-  for (const Support& s : supports) {
-    if (s.impulse > 0.0) state.loads.push_back({s.id1, s.id2, s.impulse / rules.dt});
+  solve_supports(rules, Sweeps<View>{d, supports});
+  for (std::size_t k = 0; k < supports.size(); ++k) {
+    if (rules.round == 0) shift_by_load(d, supports[k], rules.dt);
+    tally.add_load(loads[k].id2, borne(supports[k]));
+    loads[k].force = supports[k].impulse;
   }
+  std::erase_if(loads, [](const ContactLoad& load) { return load.force == 0.0; });
+  for (ContactLoad& load : loads) load.force /= rules.dt;
+  state.loads = std::move(loads);
 }
 
 // One sweep over all contacts; then over the crowded ones, which can undo one another's work, until nothing is deep.
 template <class View>
 void push_all(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
               const std::vector<std::uint32_t>& contacts) {
-  const double slop = contact_slop * rules.gravity * rules.dt * rules.dt;
-  const auto push = [&](const ContactEvent& e) {
-    const bool loaded = rules.settles && load_of(state.loads, e) > 0.0;
-    return push_apart(d, rules.box, e, loaded ? slop : 0.0);
+  const auto slack = [&](const ContactEvent& e) {
+    return rules.settles && load_of(state.loads, e) > 0.0 ? slack_of(d, rules, e) : 0.0;
   };
-  for (const ContactEvent& e : events) push(e);
+  for (const ContactEvent& e : events) {
+    if (is_wall(e.id2) && slack(e) > 0.0) hold_at_wall(d, rules.box, e, slack(e));
+    push_apart(d, rules.box, e, slack(e));
+  }
   bool any_deep = true;
-  for (int sweep = 1; sweep < most_push_sweeps && any_deep; ++sweep) {
+  for (int sweep = 1; sweep < push_sweeps(rules) && any_deep; ++sweep) {
     any_deep = false;
     for (const ContactEvent& e : events) {
-      if (!is_crowded(contacts, e) || !is_deep(d, rules.box, e)) continue;
-      push(e);
+      if (!is_crowded(contacts, e) || !is_deep(d, rules.box, e, shallow_overlap, slack(e))) continue;
+      push_apart(d, rules.box, e, slack(e));
       any_deep = true;
     }
   }
@@ -118,11 +133,14 @@ StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<C
     const std::vector<std::uint32_t> contacts = contacts_per_disk(state.disks.size(), events);
     for (const ContactEvent& e : events) {
       const bool bore = load_of(state.loads, e) > 0.0 && is_crowded(contacts, e);  // seen at the end of that step
-      if (!is_wall(e.id2) && !bore) see_overlap_before(d, rules, e.i1, e.i2, figures);
+      if (rules.round == 0 && !is_wall(e.id2) && !bore) see_overlap_before(d, rules, e.i1, e.i2, figures);
     }
-    figures.amiss = resolve_impacts(d, state, rules, events, contacts, log);
+    ImpactTally tally;
+    resolve_impacts(d, state, rules, events, contacts, log, tally);
     std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
-    if (rules.settles) bear_loads(d, state, rules, events, contacts);
+    if (rules.settles) bear_loads(d, state, rules, events, contacts, tally);
+    tally.count_into(state.counters);
+    figures.amiss = tally.amiss;
     push_all(d, state, rules, events, contacts);
     for (const ContactEvent& e : events) see_overlap_left(d, rules.box, e, figures);
   });

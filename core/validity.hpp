@@ -53,6 +53,14 @@ struct StepFigures {
     wall.see(other.wall);
     amiss += other.amiss;
   }
+
+  // Goes on with a later round of the same step: what is left is what that one leaves.
+  void go_on(const StepFigures& later) {
+    left = later.left;
+    wall = later.wall;
+    before.see(later.before);
+    amiss += later.amiss;
+  }
 };
 
 class Validity {

@@ -167,9 +167,10 @@ void search_strays(const SearchInput& in, const CellGrid& grid, const Executor& 
   for (std::size_t b = 0; b < found.used; ++b) {
     found.strays.insert(found.strays.end(), found.buffers[b].strays.begin(), found.buffers[b].strays.end());
   }
+  found.furthest = 0.0;
   if (found.strays.empty()) return;
   found.strayed.resize(in.n, 0);
-  double furthest = 0.0;
+  double& furthest = found.furthest;
   for (const std::uint32_t i : found.strays) {
     found.strayed[i] = 1;
     furthest = std::max(furthest, excursion(in, level_of(in, grid, i), i));

@@ -25,7 +25,8 @@ struct BlockPairs {
 // blocks alone. Pairs name the disks in order of storage; ids are not looked at.
 struct FoundPairs {
   std::vector<BlockPairs> buffers;
-  std::size_t used = 0;  // buffers of this search
+  std::size_t used = 0;   // buffers of this search
+  double furthest = 0.0;  // that a stray has left its cell by; length
   // Of the strays' own search.
   std::vector<std::uint32_t> strays;
   std::vector<unsigned char> strayed;  // of each disk; all 0 between searches

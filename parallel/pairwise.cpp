@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/step_clock.hpp"
+#include "core/step_rounds.hpp"
 #include "parallel/time_stepping.hpp"
 
 namespace carom {
@@ -22,10 +23,7 @@ class ParallelPairwise final : public TimeStepping {
     if (!std::exchange(state_.step_begun, true)) start_interval(clock_.start(k), dt, k);
     const Count n = parts(dt);
     StepFigures figures;
-    for (Count part = 0; part < n; ++part) {
-      advance(rules_for(scene_, dt / static_cast<double>(n)));
-      figures.add(lists_.figures);
-    }
+    for (Count part = 0; part < n; ++part) figures.add(advance(rules_for(scene_, dt / static_cast<double>(n))));
     remove_at_sinks();
     state_.step_begun = false;
     ++state_.counters.steps;
@@ -34,11 +32,18 @@ class ParallelPairwise final : public TimeStepping {
   }
 
  private:
-  void advance(const StepRules& rules) {
+  // In a pile, contacts are searched for and resolved again while resolving presses others together.
+  StepFigures advance(StepRules rules) {
     sort_if_due();
     drift(rules.dt);
-    search(rules);
-    resolve(rules);
+    if (rules.settles) keep_places();
+    StepFigures figures;
+    do {
+      search(rules);
+      resolve(rules);
+      figures.go_on(lists_.figures);
+    } while (rules.settles && ++rules.round < most_rounds && presses_others());
+    return figures;
   }
 
   StepClock clock_;

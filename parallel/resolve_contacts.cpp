@@ -132,7 +132,7 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
   for (int sweep = 1; sweep < most_push_sweeps; ++sweep) {
     assign_amply(lists.largest, lists.patches.count(), 0.0);
     run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
-      if (!is_deep(d, rules.box, e)) return;
+      if (!is_deep(d, rules.box, e, shallow_overlap)) return;
       push_apart(d, rules.box, e, 0.0);
       lists.largest[q] = 1.0;
     });

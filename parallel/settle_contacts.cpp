@@ -6,6 +6,7 @@
 
 #include "parallel/resize_amply.hpp"
 #include "parallel/resolve_contacts.hpp"
+#include "parallel/support_sweeps.hpp"
 
 namespace carom {
 
@@ -13,10 +14,6 @@ namespace {
 
 // Disks a block of the pass that finishes them.
 constexpr std::size_t finish_block = 8192;
-
-bool is_crowded(const ContactLists& lists, const IdPair& p) {
-  return lists.contacts[p.i1] > 1 || lists.contacts[p.i2] > 1;
-}
 
 // All contacts into settle.pairs.found, and how many each disk has.
 void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector<std::vector<ContactEvent>>& walls,
@@ -89,7 +86,7 @@ bool look_up_loads(const View& d, const State& state, const StepRules& rules, co
       lists.settle.borne[k] = force;
       const bool crowded = is_crowded(lists, p);
       if (force > 0.0 && crowded) continue;
-      if (!is_wall(p.id2())) see_overlap_before(d, rules, p.i1, p.i2, lists.seen[b]);
+      if (rules.round == 0 && !is_wall(p.id2())) see_overlap_before(d, rules, p.i1, p.i2, lists.seen[b]);
       lists.crowded_blocks[b].push_back(timed_event(d, rules, p));
       if (!is_support(d, rules, p.event(), force > 0.0, crowded)) lists.largest[b] = 1.0;
     }
@@ -119,106 +116,20 @@ void resolve_impacts(const View& d, const Disks& disks, const StepRules& rules, 
   for (const ImpactTally& t : lists.tallies) tally.add(t);
 }
 
-// The pairs into the order of patches, and the supports among them.
-template <class View>
-void make_supports(const View& d, const Disks& disks, const StepRules& rules, const Executor& executor,
-                   ContactLists& lists) {
-  SettleLists& settle = lists.settle;
-  const std::vector<IdPair>& pairs = settle.pairs.sorted;
-  Patches& patches = lists.patches;
-  build_patches(patches, disks, lists.contacts, pairs.size(), executor, [&](std::size_t k) {
-    return Pair{pairs[k].i1, pairs[k].i2};
-  });
-  resize_amply(settle.placed, pairs.size());
-  resize_amply(settle.holding, pairs.size());
-  resize_amply(settle.supports, pairs.size());
-  resize_amply(settle.place, pairs.size());
-  resize_amply(settle.bearing, patches.count());
-  executor.run(patches.count(), [&](std::size_t q) {
-    std::uint32_t s = patches.start[q];
-    for (std::uint32_t at = s; at < patches.start[q + 1]; ++at) {
-      const IdPair p = pairs[patches.order[at]];
-      double& borne = settle.borne[patches.order[at]];
-      settle.placed[at] = p;
-      settle.holding[at] = 0;
-      if (is_support(d, rules, p.event(), borne > 0.0, is_crowded(lists, p))) {
-        settle.supports[s] = make_support(d, rules, p.event(), borne);
-        settle.place[s++] = at;
-      }
-      borne = 0.0;
-    }
-    settle.bearing[q] = s - patches.start[q];
-  });
-}
-
-// Calls visit(support, patch) for all supports in order, or backwards.
-template <class Visit>
-void sweep_supports(const Executor& executor, ContactLists& lists, bool backwards, Visit&& visit) {
-  run_patches(lists.patches, backwards, executor, [&](std::size_t q) {
-    Support* const first = lists.settle.supports.data() + lists.patches.start[q];
-    const std::size_t count = lists.settle.bearing[q];
-    if (backwards) {
-      for (std::size_t s = count; s-- > 0;) visit(first[s], q);
-    } else {
-      for (std::size_t s = 0; s < count; ++s) visit(first[s], q);
-    }
-  });
-}
-
-template <class View>
-void relax_supports(const View& d, const StepRules& rules, const Executor& executor, ContactLists& lists) {
-  sweep_supports(executor, lists, false, [&](Support& s, std::size_t) { apply_impulse(d, s, s.impulse); });
-  const double settled = settled_change * rules.gravity * rules.dt;
-  for (int sweep = 0; sweep < most_load_sweeps; ++sweep) {
-    assign_amply(lists.largest, lists.patches.count(), 0.0);
-    sweep_supports(executor, lists, sweep % 2 == 1,
-                   [&](Support& s, std::size_t q) { lists.largest[q] = std::max(lists.largest[q], relax(d, s)); });
-    if (*std::max_element(lists.largest.begin(), lists.largest.end()) <= settled) break;
-  }
-}
-
-// Impulses back to their pairs, and the loads of the step in order of ids.
-void keep_loads(State& state, const StepRules& rules, const Executor& executor, ContactLists& lists) {
-  SettleLists& settle = lists.settle;
-  const Patches& patches = lists.patches;
-  executor.run(patches.count(), [&](std::size_t q) {
-    for (std::size_t s = patches.start[q]; s < patches.start[q] + settle.bearing[q]; ++s) {
-      const double impulse = settle.supports[s].impulse;
-      settle.borne[patches.order[settle.place[s]]] = impulse;
-      settle.holding[settle.place[s]] = impulse > 0.0 ? 1 : 0;
-    }
-  });
-  const std::size_t n = settle.borne.size();
-  assign_amply(lists.offsets, executor.blocks(n, contact_block) + 1, std::size_t{0});
-  executor.for_ranges(n, contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    std::size_t count = 0;
-    for (std::size_t k = begin; k < end; ++k) count += settle.borne[k] > 0.0 ? std::size_t{1} : 0;
-    lists.offsets[b + 1] = count;
-  });
-  for (std::size_t b = 1; b < lists.offsets.size(); ++b) lists.offsets[b] += lists.offsets[b - 1];
-  resize_amply(state.loads, lists.offsets.back());
-  executor.for_ranges(n, contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    std::size_t at = lists.offsets[b];
-    for (std::size_t k = begin; k < end; ++k) {
-      const IdPair& p = settle.pairs.sorted[k];
-      if (settle.borne[k] > 0.0) state.loads[at++] = {p.id1(), p.id2(), settle.borne[k] / rules.dt};
-    }
-  });
-}
-
 // Every contact once, then the deep ones among the crowded until there are none.
 template <class View>
 void push_contacts(const View& d, const StepRules& rules, const Executor& executor, ContactLists& lists) {
   const SettleLists& settle = lists.settle;
-  const double slop = contact_slop * rules.gravity * rules.dt * rules.dt;
-  for (int sweep = 0; sweep < most_push_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < push_sweeps(rules); ++sweep) {
     assign_amply(lists.largest, lists.patches.count(), 0.0);
     run_patches(lists.patches, false, executor, [&](std::size_t q) {
       for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) {
         const IdPair& p = settle.placed[at];
         const ContactEvent e = p.event();
-        if (sweep > 0 && (!is_crowded(lists, p) || !is_deep(d, rules.box, e))) continue;
-        push_apart(d, rules.box, e, settle.holding[at] != 0 ? slop : 0.0);
+        const double slack = settle.holding[at] != 0 ? slack_of(d, rules, e) : 0.0;
+        if (sweep > 0 && (!is_crowded(lists, p) || !is_deep(d, rules.box, e, shallow_overlap, slack))) continue;
+        if (sweep == 0 && is_wall(e.id2) && slack > 0.0) hold_at_wall(d, rules.box, e, slack);
+        push_apart(d, rules.box, e, slack);
         lists.largest[q] = 1.0;
       }
     });
@@ -256,9 +167,7 @@ double settle_contacts(State& state, const StepRules& rules, const FoundPairs& f
     if (look_up_loads(d, state, rules, executor, lists)) {
       resolve_impacts(d, state.disks, rules, executor, lists, tally);
     }
-    make_supports(d, state.disks, rules, executor, lists);
-    relax_supports(d, rules, executor, lists);
-    keep_loads(state, rules, executor, lists);
+    bear_loads(d, state, rules, executor, lists, tally);
     push_contacts(d, rules, executor, lists);
   });
   return finish_disks(state.disks, rules.box, executor, lists);

@@ -5,8 +5,8 @@
 
 #include "core/impact_tally.hpp"
 #include "core/resolve.hpp"
-#include "core/resting.hpp"
 #include "core/state.hpp"
+#include "core/support_solver.hpp"
 #include "parallel/executor.hpp"
 #include "parallel/find_contacts.hpp"
 #include "parallel/id_order.hpp"
@@ -24,6 +24,7 @@ struct SettleLists {
   std::vector<Support> supports;       // those of each patch in a row, from the patch's start
   std::vector<std::uint32_t> place;    // of each support's pair in placed
   std::vector<std::uint32_t> bearing;  // supports of each patch
+  std::vector<CycleFigures> figures;   // of each patch in a cycle of sweeps
 };
 
 // Resolves all pairs found and wall contacts, keeps their loads in state.loads, wraps the disks that had contacts, and

@@ -169,6 +169,17 @@ void TimeStepping::resolve(const StepRules& rules) {
   speed2_ = std::max(speed2_, resolve_contacts(state_, rules, pairs_, walls_, executor_, lists_));
 }
 
+void TimeStepping::keep_places() {
+  const PhaseTimer timer(times_, "resolve");
+  carom::keep_places(state_.disks, executor_, displaced_);
+}
+
+bool TimeStepping::presses_others() {
+  const PhaseTimer timer(times_, "resolve");
+  if (state_.disks.empty()) return false;
+  return carom::presses_others(state_.disks, scene_.box, grid_, cells_, pairs_.furthest, executor_, displaced_);
+}
+
 void TimeStepping::gather(const StepRules& rules) {
   const PhaseTimer timer(times_, "gather");
   gather_events(state_.disks, rules, pairs_, walls_, executor_, lists_);

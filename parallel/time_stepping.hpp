@@ -8,6 +8,7 @@
 #include "core/step_start.hpp"
 #include "parallel/cell_grid.hpp"
 #include "parallel/counting_sort.hpp"
+#include "parallel/displaced_disks.hpp"
 #include "parallel/executor.hpp"
 #include "parallel/find_contacts.hpp"
 #include "parallel/resolve_contacts.hpp"
@@ -32,6 +33,8 @@ class TimeStepping : public Engine {
   void drift(double t);                                  // all disks
   void search(const StepRules& rules);                   // touching pairs and wall contacts
   void resolve(const StepRules& rules);                  // impacts, supports, pushing apart, wrapping (pairwise)
+  void keep_places();                                    // before resolving, for
+  bool presses_others();                                 // has resolving pressed disks together? (a pile)
   void gather(const StepRules& rules);                   // all contacts into lists_.events (rollback)
   void finish_contacts();                                // wraps what they moved
   void remove_at_sinks();
@@ -55,6 +58,7 @@ class TimeStepping : public Engine {
   SortedCells cells_;
   FoundPairs pairs_;
   std::vector<std::vector<ContactEvent>> walls_;
+  DisplacedDisks displaced_;
   std::vector<unsigned char> gone_;
   std::vector<double> block_values_;       // scratch, one a block
   std::vector<std::size_t> class_counts_;  // disks of each size class
