@@ -20,7 +20,7 @@ TEST_F(InputFile, SceneMustEnd) {
   expect_error("$C run fifo", 2, "fifo: is a FIFO, which may never end; expected a regular file");
   expect_error("$C check /dev/zero", 2, "/dev/zero: is a device");
   expect_error("$C sweep fifo --seeds 2", 2, "fifo: is a FIFO");
-  expect_error("$C run /tmp", 2, "/tmp: is a directory; expected a file");
+  expect_error("$C run /tmp", 2, "/tmp: is a directory; expected a scene file");
 }
 
 TEST_F(InputFile, FilesOfASceneMustEnd) {

@@ -192,7 +192,7 @@ TEST(ResolvedScene, KeepsOddTitlesAndNumbers) {
   Scene s = scene_from(least_scene);
   s.title = "quote \" backslash \\ tab \t line \n bell \a é";
   s.groups[0].velocities.kind = VelocityLaw::Kind::list;
-  s.groups[0].velocities.list = {{-0.0, 1e22}, {5e-324, 0.1 + 0.2}};
+  s.groups[0].velocities.list = {{-0.0, 1.2345678901234567e15}, {5e-324, 0.1 + 0.2}};
   const Scene again = scene_from(resolved_toml(s));
   EXPECT_EQ(again.title, s.title);
   for (std::size_t k = 0; k < 2; ++k) {
