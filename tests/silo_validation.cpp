@@ -78,7 +78,8 @@ void expect_to_rest(const test::Silo& silo) {
   EXPECT_LT(kinetic, 1e-6);
   EXPECT_LT(speed, 1e-3);
   EXPECT_NEAR(floor, 1.0, 0.01);
-  if (silo.smallest < silo.largest) {  // equal disks make a crystal, which carries more of itself
+  // Equal disks make a crystal, which carries more of itself; a flat filling has too few layers for an average.
+  if (silo.smallest < silo.largest && silo.aspect >= 1.0) {
     EXPECT_GT(left, 0.8);
     EXPECT_LT(left, 1.25);
   }
