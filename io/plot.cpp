@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/gnuplot.hpp"
 
@@ -43,7 +44,7 @@ std::array<double, velocity_levels> levels_of(const Disks& disks, const std::vec
   levels.front() = *least;
   levels.back() = *greatest;
   for (std::size_t k = 0; k < shares.size(); ++k) {
-    levels[k + 1] = sample[static_cast<std::size_t>(shares[k] * static_cast<double>(sample.size() - 1) + 0.5)];
+    levels[k + 1] = sample[static_cast<std::size_t>(std::lround(shares[k] * static_cast<double>(sample.size() - 1)))];
   }
   return levels;
 }
