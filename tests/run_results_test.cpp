@@ -107,7 +107,7 @@ TEST_F(RunResults, TheWorstOverlapOfTheRunBesideThatOfItsEnd) {
   EXPECT_GT(s["worst_overlap_time"], 15.0);
   EXPECT_LT(s["worst_overlap_time"], 20.0);
   EXPECT_GT(s["worst_wall_overlap"], 0.1);
-  EXPECT_EQ(s["worst_wall_overlap_ids"], Json({0}));
+  EXPECT_EQ(s["worst_wall_overlap_ids"], Json::array({0}));
   ASSERT_EQ(carom("run " + scene + " --quiet -o parts --max-walltime 1e-9").status, 4);
   ASSERT_EQ(carom("resume parts --quiet --engine reference").status, 0);
   const Json parts = Json::parse(text_of(at("parts/summary.json")));
