@@ -1,4 +1,6 @@
 // Trajectories as programs for molecules read them: ASE and MDAnalysis, each by its own reader.
+#include <fmt/format.h>
+
 #include "tests/program_support.hpp"
 
 namespace carom {
