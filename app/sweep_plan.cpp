@@ -62,7 +62,7 @@ std::vector<std::string> range_values(const std::string& text, const std::vector
   return values;
 }
 
-// Every seed fits into 64 bits, and nobody has to wait for a list of runs that no machine could do.
+// Every seed fits into 64 bits, and no list is made of more runs than a machine could do.
 void check_number_of_runs(const std::vector<SweepAxis>& axes, std::uint64_t seed, int seeds) {
   constexpr double most_runs = 1e6;
   const std::uint64_t beyond = std::numeric_limits<std::uint64_t>::max() - seed;  // seeds after the first

@@ -72,7 +72,7 @@ struct Effort {
 Effort full_effort();
 Effort quick_effort();
 Effort tiny_effort();  // seconds; numbers of no use, for tests
-// The same for a scene of the user's own, whose size nobody knows: without crowds, and with fewer seeds.
+// The same for a scene of the user's own, whose size is not known beforehand: without crowds, and with fewer seeds.
 Effort for_own(Effort effort);
 
 // The predicted order in dt (docs/methods.md); none where dt does not matter or nothing is said. What is wrong is a

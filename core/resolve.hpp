@@ -158,7 +158,7 @@ Impact resolve_event(const View& d, const StepRules& rules, const ContactEvent& 
 }
 
 // One pass over the contacts in order of time; then passes over the crowded ones, those of disks that have another
-// contact in this step, until a pass finds nobody who still touches and approaches, or after most_impact_passes. A
+// contact in this step, until a pass finds no pair that still touches and approaches, or after most_impact_passes. A
 // front of disks that pours onto a pile passes its momentum on by so many layers in a step; with one pass it would be
 // squeezed.
 inline constexpr int most_impact_passes = 8;
@@ -203,7 +203,7 @@ bool is_deep(const View& d, const Domain& box, const ContactEvent& e, double sha
   return nx * nx + ny * ny < reach * reach;
 }
 
-// Walls give way to no one: a disk that others pushed into a wall deeper than shallow_overlap of its radius comes back,
+// Walls do not give way: a disk that others pushed into a wall deeper than shallow_overlap of its radius comes back,
 // and what overlap that makes is the next sweep's.
 template <class View>
 void keep_inside(const View& d, const Domain& box, std::uint32_t i) {
