@@ -12,6 +12,6 @@ if(CAROM_SANITIZE)
     # Debian's oneTBB is built without the thread sanitizer, which takes every block for a race with whoever gave it
     # work. The one file that knows TBB (with what its headers make there) is left out too, and tells the sanitizer.
     target_compile_definitions(carom_sanitizers INTERFACE CAROM_THREAD_SANITIZER)
-    set_source_files_properties(parallel/executor.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=thread)
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/parallel/threads/executor.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=thread)
   endif()
 endif()

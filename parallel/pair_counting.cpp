@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "parallel/executor.hpp"
+#include "parallel/threads/executor.hpp"
 
 namespace carom {
 

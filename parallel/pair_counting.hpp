@@ -1,7 +1,7 @@
 // Counting pairs by distance on all threads.
 #pragma once
 
-#include "core/pair_distances.hpp"
+#include "core/measure/pair_distances.hpp"
 
 namespace carom {
 

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "parallel/exact_engine.hpp"
-#include "parallel/pairwise.hpp"
-#include "parallel/rollback.hpp"
+#include "parallel/exact/exact_engine.hpp"
+#include "parallel/stepping/pairwise.hpp"
+#include "parallel/stepping/rollback.hpp"
 
 namespace carom {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "core/engine.hpp"
+#include "core/step/engine.hpp"
 
 namespace carom {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/check.hpp"
-#include "io/checkpoint.hpp"
+#include "core/base/check.hpp"
+#include "io/checkpoint/checkpoint.hpp"
 
 namespace {
 

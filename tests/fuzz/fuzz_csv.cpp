@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/check.hpp"
-#include "core/csv.hpp"
+#include "core/base/check.hpp"
+#include "core/scene/csv.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <string>
 
-#include "core/check.hpp"
-#include "io/h5md_reader.hpp"
+#include "core/base/check.hpp"
+#include "io/trajectory/h5md_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::string path = "/dev/shm/carom_fuzz_" + std::to_string(getpid()) + ".h5";

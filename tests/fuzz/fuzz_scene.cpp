@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "core/check.hpp"
-#include "core/scene_file.hpp"
+#include "core/base/check.hpp"
+#include "core/load/scene_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);

@@ -10,7 +10,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "core/random.hpp"
+#include "core/base/random.hpp"
 
 namespace carom::fuzz {
 

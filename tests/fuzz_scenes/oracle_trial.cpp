@@ -7,13 +7,13 @@
 #include <cstdlib>
 #include <memory>
 
-#include "core/check.hpp"
-#include "core/initial_state.hpp"
-#include "core/scene_file.hpp"
+#include "core/base/check.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/start/initial_state.hpp"
 #include "parallel/simulation.hpp"
-#include "tests/event_oracle.hpp"
 #include "tests/fuzz_scenes/dice.hpp"
 #include "tests/fuzz_scenes/trial.hpp"
+#include "tests/support/event_oracle.hpp"
 
 namespace carom::fuzz {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 
 namespace carom::fuzz {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/boundary.hpp"
-#include "core/disks.hpp"
+#include "core/disks/disks.hpp"
+#include "core/physics/boundary.hpp"
 
 namespace carom::fuzz {
 

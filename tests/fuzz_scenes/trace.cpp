@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "core/check.hpp"
-#include "core/state_hash.hpp"
-#include "tests/state_bits.hpp"
+#include "core/base/check.hpp"
+#include "core/disks/state_hash.hpp"
+#include "tests/support/state_bits.hpp"
 
 namespace carom::fuzz {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/engine.hpp"
+#include "core/step/engine.hpp"
 
 namespace carom::fuzz {
 

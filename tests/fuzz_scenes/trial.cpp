@@ -7,16 +7,16 @@
 #include <memory>
 #include <utility>
 
-#include "app/run_loop.hpp"
-#include "core/check.hpp"
-#include "core/initial_state.hpp"
-#include "core/scene_file.hpp"
-#include "core/scene_names.hpp"
-#include "core/state_hash.hpp"
-#include "io/checkpoint.hpp"
-#include "io/frame_schedule.hpp"
-#include "parallel/random_placement.hpp"
+#include "core/base/check.hpp"
+#include "core/disks/state_hash.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/scene/scene_names.hpp"
+#include "core/start/initial_state.hpp"
+#include "io/checkpoint/checkpoint.hpp"
 #include "parallel/simulation.hpp"
+#include "parallel/start/random_placement.hpp"
+#include "run/frame_schedule.hpp"
+#include "run/run_loop.hpp"
 #include "tests/fuzz_scenes/sanity.hpp"
 #include "tests/fuzz_scenes/trace.hpp"
 

@@ -16,8 +16,8 @@ struct Trial {
 // folder: where relative paths of the scene start.
 Trial try_scene(const std::string& text, const std::string& name, const std::string& folder = "");
 
-// The method `exact` against the all-pairs simulation of tests/event_oracle.hpp, for as long as chaos lets two runs be
-// compared.
+// The method `exact` against the all-pairs simulation of tests/support/event_oracle.hpp, for as long as chaos lets two
+// runs be compared.
 Trial try_against_oracle(const std::string& text, const std::string& name);
 
 }  // namespace carom::fuzz

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "core/check.hpp"
-#include "core/input_file.hpp"
-#include "core/scene_reader.hpp"
-#include "core/scene_tree.hpp"
+#include "core/base/check.hpp"
+#include "core/base/input_file.hpp"
+#include "core/scene/scene_reader.hpp"
+#include "core/scene/scene_tree.hpp"
 
 namespace carom::stability {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene_file.hpp"
+#include "core/load/scene_file.hpp"
 
 namespace carom::stability {
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "core/check.hpp"
-#include "core/initial_state.hpp"
-#include "core/scene_file.hpp"
-#include "io/gnuplot_run.hpp"
-#include "io/output_file.hpp"
+#include "core/base/check.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/start/initial_state.hpp"
+#include "io/files/output_file.hpp"
+#include "io/plots/gnuplot_run.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/stability/map.hpp"
 #include "tests/stability/map_frame.hpp"

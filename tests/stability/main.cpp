@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/check.hpp"
-#include "io/output_file.hpp"
+#include "core/base/check.hpp"
+#include "io/files/output_file.hpp"
 #include "tests/stability/case.hpp"
 #include "tests/stability/map.hpp"
 #include "tests/stability/table.hpp"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/check.hpp"
+#include "core/base/check.hpp"
 
 namespace carom::stability {
 

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "core/invariants.hpp"
-#include "core/scene.hpp"
-#include "core/state.hpp"
+#include "core/disks/state.hpp"
+#include "core/measure/invariants.hpp"
+#include "core/scene/scene.hpp"
 
 namespace carom::stability {
 

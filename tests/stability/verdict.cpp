@@ -8,11 +8,11 @@
 #include <limits>
 #include <optional>
 
-#include "core/check.hpp"
-#include "core/initial_state.hpp"
-#include "core/scene_check.hpp"
-#include "core/state_hash.hpp"
-#include "core/validity.hpp"
+#include "core/base/check.hpp"
+#include "core/disks/state_hash.hpp"
+#include "core/load/scene_check.hpp"
+#include "core/measure/validity.hpp"
+#include "core/start/initial_state.hpp"
 #include "parallel/simulation.hpp"
 
 namespace carom::stability {

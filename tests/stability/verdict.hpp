@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/engine.hpp"
-#include "core/state.hpp"
+#include "core/disks/state.hpp"
+#include "core/step/engine.hpp"
 #include "tests/stability/case.hpp"
 #include "tests/stability/measure.hpp"
 

@@ -1,0 +1,96 @@
+// The chart as numbers: what every run came to, summed up over seeds.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/chart/chart_fit.hpp"
+#include "app/chart/chart_sample.hpp"
+
+namespace carom::chart {
+
+inline constexpr std::array<std::string_view, measure_count> measure_names{
+    "cost", "path", "rate", "figure", "energy", "momentum", "overlap", "missed", "spurious"};
+
+// A mean over seeds with its standard error. Rate and figure are relative differences to exact's from the same starts,
+// with their sign; the others as measured. NaN where the scene does not define it.
+struct Mean {
+  double value = 0.0;
+  double error = 0.0;
+};
+
+struct Point {
+  double dt = 0.0;  // 0: exact, which has no step
+  std::uint64_t seeds = 0;
+  double cost = 0.0;  // CPU seconds per disk and unit of `ChartResult::unit`, the least of all seeds
+  std::array<Mean, measure_count> errors{};
+  const Mean& operator[](Measure m) const { return errors[static_cast<std::size_t>(m)]; }
+};
+
+struct Curve {
+  Method method = Method::exact;
+  std::vector<Point> points;  // dt falls
+  std::array<std::optional<OrderFit>, measure_count> fits{};
+  const std::optional<OrderFit>& fit(Measure m) const { return fits[static_cast<std::size_t>(m)]; }
+};
+
+struct SceneResult {
+  ChartScene scene;
+  double unit = 1.0;    // time that costs are given in: exact's mean free time, or diameter^2 / D for Brownian motion
+  double figure = 0.0;  // exact's value of the scene's figure
+  std::vector<Curve> curves;  // rollback, pairwise, exact
+};
+
+// The fluid with a number of disks.
+struct CrowdPoint {
+  std::size_t disks = 0;
+  Method method = Method::exact;
+  double dt = 0.0;      // 0: exact
+  double cost = 0.0;    // per disk and mean free time
+  double frames = 0.0;  // steps that it took to advance by dt; 0: exact
+};
+
+struct ChartResult {
+  std::vector<SceneResult> scenes;
+  std::vector<CrowdPoint> crowd;
+};
+
+// How much is run: steps are longest_step / factor^k for the powers k listed.
+struct Effort {
+  std::string name;
+  std::vector<int> powers;
+  std::uint64_t most_seeds = 0;   // of the long steps
+  std::uint64_t least_seeds = 0;  // of the shortest: each power beyond the second halves them
+  std::vector<std::size_t> crowds;
+  double scale = 1.0;  // of flights and lengths; below 1 for tests
+};
+
+Effort full_effort();
+Effort quick_effort();
+Effort tiny_effort();  // seconds; numbers of no use, for tests
+// The same for a scene of the user's own, whose size is not known beforehand: without crowds, and with fewer seeds.
+Effort for_own(Effort effort);
+
+// The predicted order in dt (docs/methods.md); none where dt does not matter or nothing is said. What is wrong is a
+// share Gamma dt of all collisions, those of disks that collide twice in a step: first order. Brownian disks of speed
+// sqrt(2 D / dt) have Gamma dt of order 1/2.
+std::optional<double> predicted_order(const ChartScene& scene, Method method, Measure measure);
+
+// Is told what share of the work is done.
+using Watch = std::function<void(double share)>;
+
+// These scenes, without crowds.
+ChartResult measure_scenes(const std::vector<ChartScene>& scenes, const Effort& effort, int threads,
+                           const Watch& watch);
+
+// All of it, on `threads` threads, one run a thread. Reads the clock only to know costs.
+ChartResult measure_chart(const Effort& effort, int threads, const Watch& watch);
+
+// Sums up the samples of one scene: samples[seed][setting].
+SceneResult summed_up(const ChartScene& scene, const std::vector<std::vector<Sample>>& samples);
+
+}  // namespace carom::chart

@@ -1,0 +1,201 @@
+#include "app/chart/chart_sample.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <map>
+#include <utility>
+
+#include "core/measure/invariants.hpp"
+#include "core/start/initial_state.hpp"
+#include "core/step/engine.hpp"
+#include "parallel/simulation.hpp"
+
+namespace carom::chart {
+
+namespace {
+
+// How often a run is looked at for overlaps.
+constexpr int looks = 20;
+
+// Of this thread: others measure at the same time.
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// Disks of the scene in the equilibrium that they have as an elastic gas, at time 0.
+State start_state(const ChartScene& scene, std::uint64_t seed) {
+  Scene melting = scene_of(scene, seed, Method::exact, 0.0, scene.melting);
+  melting.physics.restitution = 1.0;
+  melting.physics.diffusion = 0.0;
+  const auto engine = make_parallel_engine(melting, initial_state(melting), {1});
+  engine->forget_paths();
+  while (engine->state().time < scene.melting) engine->step();
+  State state = engine->state();
+  state.time = 0.0;
+  state.window = 0.0;
+  state.counters = {};
+  return state;
+}
+
+// The same start with every position moved to the next double: what rounding does.
+State moved_by_rounding(State state) {
+  for (double& x : state.disks.x) x = std::nextafter(x, 0.0);
+  for (double& y : state.disks.y) y = std::nextafter(y, 0.0);
+  return state;
+}
+
+// Where a short run ended, and who collided on the way.
+struct Flight {
+  std::vector<Vec2> places;  // by id
+  CollisionLog collisions;   // sorted
+};
+
+std::vector<Vec2> places_of(const Disks& d) {
+  std::vector<Vec2> places(d.size());
+  for (std::size_t i = 0; i < d.size(); ++i) places[d.id[i]] = {d.x[i], d.y[i]};
+  return places;
+}
+
+Flight fly(const Scene& scene, const State& start) {
+  Flight flight;
+  const auto engine = make_reference_engine(scene, start, &flight.collisions);
+  while (engine->state().time < scene.run.t_end) engine->step();
+  flight.places = places_of(engine->state().disks);
+  std::sort(flight.collisions.begin(), flight.collisions.end());
+  return flight;
+}
+
+double mean_distance(const Scene& scene, const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    double dx = a[i].x - b[i].x;
+    double dy = a[i].y - b[i].y;
+    if (scene.box.periodic_x()) dx = nearest_image(dx, scene.box.width);
+    if (scene.box.periodic_y()) dy = nearest_image(dy, scene.box.height);
+    sum += std::hypot(dx, dy);
+  }
+  return sum / static_cast<double>(a.size());
+}
+
+// Entries of a that b lacks; a pair that collides twice in one and once in the other counts once.
+std::size_t lacking(const CollisionLog& a, const CollisionLog& b) {
+  CollisionLog rest;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
+  return rest.size();
+}
+
+void compare_flights(const Scene& scene, const State& start, const Flight& exact, const Flight& flight,
+                     Sample& sample) {
+  const double collisions = static_cast<double>(std::max<std::size_t>(1, exact.collisions.size()));
+  sample[Measure::path] =
+      mean_distance(scene, exact.places, flight.places) / mean_distance(scene, exact.places, places_of(start.disks));
+  sample[Measure::missed] = static_cast<double>(lacking(exact.collisions, flight.collisions)) / collisions;
+  sample[Measure::spurious] = static_cast<double>(lacking(flight.collisions, exact.collisions)) / collisions;
+}
+
+// Displacements summed look by look, as places wrap: no disk goes half the box between two looks.
+struct Displacement {
+  std::vector<Vec2> last, sum;
+
+  void add(const Disks& d, const Domain& box) {
+    const bool first = last.empty();
+    last.resize(d.size());
+    sum.resize(d.size());
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      const DiskId id = d.id[i];
+      if (!first) {
+        sum[id].x += nearest_image(d.x[i] - last[id].x, box.width);
+        sum[id].y += nearest_image(d.y[i] - last[id].y, box.height);
+      }
+      last[id] = {d.x[i], d.y[i]};
+    }
+  }
+  double mean_square() const {
+    double total = 0.0;
+    for (const Vec2& v : sum) total += v.x * v.x + v.y * v.y;
+    return total / static_cast<double>(sum.size());
+  }
+};
+
+double momentum_drift(const Momentum& a, const Momentum& b) {
+  return std::hypot(b.x - a.x, b.y - a.y) / std::max(a.magnitude, b.magnitude);
+}
+
+// The long run: what it costs and what its figures are.
+void measure_rates(const ChartScene& scene, const Scene& s, const State& start, Sample& sample) {
+  const auto engine = make_parallel_engine(s, start, {1});
+  engine->forget_paths();
+  const double n = static_cast<double>(start.disks.size());
+  double seconds = 0.0, overlap = 0.0;
+  Displacement displacement;
+  displacement.add(start.disks, s.box);
+  for (int look = 1; look <= looks; ++look) {
+    const double until = look == looks ? s.run.t_end : s.run.t_end * look / looks;
+    const double before = cpu_seconds();
+    while (engine->state().time < until) engine->step();
+    seconds += cpu_seconds() - before;
+    overlap = std::max(overlap, max_overlap(engine->state().disks, s.box));
+    if (scene.figure == Figure::spread) displacement.add(engine->state().disks, s.box);
+  }
+  const State& end = engine->state();
+  const Energy first = energy_of(start.disks, s.physics.gravity);
+  const Energy last = energy_of(end.disks, s.physics.gravity);
+  sample[Measure::cost] = seconds / (n * s.run.t_end);
+  sample[Measure::rate] = 2.0 * static_cast<double>(end.counters.collisions) / (n * s.run.t_end);
+  sample[Measure::energy] = scene.keeps_energy ? std::abs(last.total() / first.total() - 1.0) : undefined;
+  sample[Measure::momentum] =
+      scene.keeps_momentum ? momentum_drift(momentum_of(start.disks), momentum_of(end.disks)) : undefined;
+  sample[Measure::overlap] = overlap;
+  switch (scene.figure) {
+    case Figure::pressure:
+      sample[Measure::figure] =
+          pressure({0.5 * (first.kinetic + last.kinetic), 0.0}, end.counters.virial, s.run.t_end, s.box);
+      break;
+    case Figure::cooling:
+      sample[Measure::figure] = (std::sqrt(first.kinetic / last.kinetic) - 1.0) / s.run.t_end;
+      break;
+    case Figure::spread:
+      sample[Measure::figure] = displacement.mean_square() / (4.0 * s.physics.diffusion * s.run.t_end);
+      break;
+  }
+}
+
+}  // namespace
+
+std::vector<Sample> measure_seed(const ChartScene& scene, std::uint64_t seed, const std::vector<Setting>& settings) {
+  const State start = start_state(scene, seed);
+  const bool brownian = scene.figure == Figure::spread;
+  std::map<double, Flight> exact;  // by dt; 0 where exact needs none
+  std::vector<Sample> samples;
+  for (const Setting& setting : settings) {
+    if (seed > setting.seeds) continue;
+    const double key = brownian ? setting.dt : 0.0;
+    const Scene flight = scene_of(scene, seed, setting.method, setting.dt, scene.flight);
+    if (!exact.contains(key)) exact[key] = fly(scene_of(scene, seed, Method::exact, setting.dt, scene.flight), start);
+    Sample& sample = samples.emplace_back(Sample{setting.method, setting.dt, {}});
+    const bool itself = setting.method == Method::exact;
+    compare_flights(flight, start, exact[key], fly(flight, itself ? moved_by_rounding(start) : start), sample);
+    measure_rates(scene, scene_of(scene, seed, setting.method, setting.dt, scene.length), start, sample);
+  }
+  return samples;
+}
+
+ShortRun run_fluid(std::size_t disks, Method method, double dt, int rounds) {
+  const ChartScene scene = fluid_of(disks);
+  const State start = start_state(scene, 1);
+  ShortRun run{std::numeric_limits<double>::infinity(), 0.0};
+  for (int round = 0; round < rounds; ++round) {
+    const auto engine = make_parallel_engine(scene_of(scene, 1, method, dt, scene.length), start, {1});
+    engine->forget_paths();
+    const double before = cpu_seconds();
+    while (engine->state().time < scene.length) engine->step();
+    run.cost = std::min(run.cost, (cpu_seconds() - before) / (static_cast<double>(disks) * scene.length));
+    run.steps = static_cast<double>(engine->state().counters.steps) / scene.length;
+  }
+  return run;
+}
+
+}  // namespace carom::chart

@@ -1,0 +1,108 @@
+// From argv to what the user asked for, with every value checked that can be checked without the scene.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/load/scene_file.hpp"
+#include "io/trajectory/trajectory_difference.hpp"
+
+namespace carom {
+
+// What the command line changes in the scene: first every --set, then --method, --dt, --t-end and --seed.
+struct SceneChanges {
+  std::vector<Override> overrides;
+  std::size_t sets = 0;  // how many of them come from --set
+};
+
+// How a run is carried out, from its start or from a checkpoint.
+struct CarryOptions {
+  std::optional<std::string> folder;                              // -o
+  SceneChanges changes;                                           // of a run that goes on: --t-end only
+  std::string engine;                                             // empty: the default, or that of the run so far
+  std::optional<int> threads;                                     // >= 1
+  double max_walltime = std::numeric_limits<double>::infinity();  // seconds
+  bool json = false;
+  bool quiet = false;
+  bool force = false;
+  bool strict = false;  // the first warning of the physics ends the run
+};
+
+struct RunOptions : CarryOptions {
+  std::string scene;
+};
+
+struct ResumeOptions : CarryOptions {
+  std::string checkpoint;  // or the folder of a run
+};
+
+struct CheckOptions {
+  std::string scene;
+  SceneChanges changes;
+  std::optional<double> accuracy;
+  bool json = false;
+};
+
+struct CompareOptions {
+  std::string a, b;
+  std::optional<CompareRule> rule;  // absent: all bits, and the summaries as well
+  bool json = false;
+};
+
+struct RenderOptions {
+  std::string source;               // a folder with a trajectory, or such a file
+  std::optional<std::string> file;  // -o
+  std::optional<int> frame;         // counted from 1; absent: all, or of a picture the last
+  std::optional<ColourBy> colour;
+  std::optional<std::array<double, 2>> range;
+  std::optional<std::array<int, 2>> size;
+  std::optional<double> fps;
+  bool quiet = false;
+  bool force = false;
+};
+
+struct SweepOptions {
+  std::string scene;
+  std::optional<std::string> folder;  // -o
+  SceneChanges changes;
+  std::vector<std::string> over;  // KEY=FROM:TO:COUNT or KEY=VALUE,...
+  int seeds = 1;
+  std::optional<int> jobs;  // runs at once
+  std::string emit;         // "slurm", "parallel", or empty: run
+  bool force = false;
+};
+
+struct ChartOptions {
+  std::optional<std::string> folder;  // -o
+  std::string scene;                  // of the user's own; empty: the chart's seven
+  SceneChanges changes;               // of that
+  bool quick = false;                 // fewer points, within a minute
+  bool tiny = false;                  // for tests: numbers of no use, within seconds
+  bool quiet = false;
+  bool force = false;
+};
+
+// What --help or --version print on standard output.
+struct TextRequest {
+  std::string text;
+};
+
+using Command = std::variant<RunOptions, CheckOptions, ResumeOptions, CompareOptions, RenderOptions, SweepOptions,
+                             ChartOptions, TextRequest>;
+
+// Throws InputError with one line that names the option, and the nearest one for a misspelt name.
+Command parse_command_line(int argc, const char* const* argv);
+
+// load(overrides) reads a scene with these changes; what its complaints say of "--set run.dt" is said of --dt where
+// that is what the user wrote.
+Scene scene_as_told(const SceneChanges& changes, const std::function<Scene(const std::vector<Override>&)>& load);
+
+// The same for the scene in a file.
+Scene load_scene_as_told(const std::string& path, const SceneChanges& changes);
+
+}  // namespace carom

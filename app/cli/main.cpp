@@ -1,0 +1,82 @@
+// carom: reads the command line, runs the command, turns every kind of error into one line and an exit status.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <new>
+
+#include "app/cli/commands.hpp"
+#include "core/base/check.hpp"
+#include "io/files/child_process.hpp"
+
+namespace carom {
+
+void print_out(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+  throw RunError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+}
+
+void print_note(std::string_view text) {
+  // A closed standard error is no reason to stop a run.
+  std::fputs(fmt::format("carom: {}\n", text).c_str(), stderr);
+}
+
+void print_warning(std::string_view text) {
+  print_note(fmt::format("warning: {}", text));
+}
+
+namespace {
+
+struct Dispatch {
+  int operator()(const RunOptions& options) const { return command_run(options); }
+  int operator()(const ResumeOptions& options) const { return command_resume(options); }
+  int operator()(const CheckOptions& options) const { return command_check(options); }
+  int operator()(const CompareOptions& options) const { return command_compare(options); }
+  int operator()(const RenderOptions& options) const { return command_render(options); }
+  int operator()(const SweepOptions& options) const { return command_sweep(options); }
+  int operator()(const ChartOptions& options) const { return command_chart(options); }
+  int operator()(const TextRequest& request) const {
+    print_out(request.text);
+    return 0;
+  }
+};
+
+// Where the caller closed a standard stream, the next file to be opened would get its number, and messages would land
+// in a trajectory. /dev/null takes the place: silently for errors, read-only for the output, whose loss is an error.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) == -1) open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+int fail(int status, const char* what) {
+  print_note(fmt::format("error: {}", what));
+  return status;
+}
+
+}  // namespace
+}  // namespace carom
+
+int main(int argc, char** argv) {
+  using namespace carom;
+  occupy_standard_streams();
+  end_with_parent();
+  // A write that cannot be done shall return an error, which we report, rather than end the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return std::visit(Dispatch{}, parse_command_line(argc, argv));
+  } catch (const InputError& error) {
+    return fail(2, error.what());
+  } catch (const PhysicsError& error) {
+    return fail(3, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(1, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(1, error.what());
+  }
+}

@@ -1,0 +1,87 @@
+#include "app/cli/option_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "core/base/duration.hpp"
+#include "core/base/input_message.hpp"
+#include "core/scene/scene_names.hpp"
+
+namespace carom {
+
+namespace {
+
+void check_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, seed);
+  if (result.ec != std::errc{} || result.ptr != end) {
+    fail_input("--seed", fmt::format("is {}", in_quotes(text)), "expected a whole number from 0 to 2^64 - 1");
+  }
+}
+
+void check_method(const std::string& text) {
+  if (std::find(method_words.begin(), method_words.end(), text) == method_words.end()) {
+    fail_input("--method", fmt::format("there is no method {}", in_quotes(text)), expected_one_of(method_words, text));
+  }
+}
+
+}  // namespace
+
+double number_of(const std::string& option, const std::string& text) {
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc{} || result.ptr != end || !std::isfinite(value)) {
+    fail_input(option, fmt::format("{} is not a number", in_quotes(text)), "expected a number such as 0.01");
+  }
+  return value;
+}
+
+int count_of(const std::string& option, const std::string& text) {
+  int value = 0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec == std::errc::result_out_of_range) {
+    fail_input(option, fmt::format("is {}", in_quotes(text)),
+               fmt::format("expected a whole number from 1 to {}", std::numeric_limits<int>::max()));
+  }
+  if (result.ec != std::errc{} || result.ptr != end || value < 1) {
+    fail_input(option, fmt::format("is {}", in_quotes(text)), "expected a whole number of 1 or more");
+  }
+  return value;
+}
+
+std::array<double, 2> pair_of(const std::string& option, const std::string& text, char between,
+                              const std::string& expected) {
+  const std::size_t at = text.find(between);
+  if (at == std::string::npos) fail_input(option, fmt::format("is {}", in_quotes(text)), expected);
+  return {number_of(option, text.substr(0, at)), number_of(option, text.substr(at + 1))};
+}
+
+double walltime_of(const std::string& text) {
+  if (text.empty()) return std::numeric_limits<double>::infinity();
+  const std::optional<double> seconds = parse_duration(text);
+  if (!seconds) fail_input("--max-walltime", fmt::format("is {}", in_quotes(text)), expected_duration);
+  return *seconds;
+}
+
+std::string toml_value(const std::string& option, const std::string& text) {
+  if (option == "--method") {
+    check_method(text);
+    return fmt::format("\"{}\"", text);
+  }
+  if (option == "--seed") {
+    check_seed(text);
+    return text;
+  }
+  return fmt::format("{}", number_of(option, text));
+}
+
+}  // namespace carom

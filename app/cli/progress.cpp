@@ -1,0 +1,62 @@
+#include "app/cli/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+constexpr double rate_seconds = 2.0;  // rates are means over once to twice this time
+
+}  // namespace
+
+std::string short_number(double number) {
+  constexpr std::array<const char*, 5> prefixes{"", " k", " M", " G", " T"};
+  std::size_t k = 0;
+  while (number >= 999.5 && k + 1 < prefixes.size()) {
+    number /= 1000.0;
+    ++k;
+  }
+  return fmt::format("{:.3g}{}", number, prefixes[k]);
+}
+
+std::string duration_text(double seconds) {
+  if (!(seconds < 1e8)) return "years";
+  if (seconds < 10.0) return fmt::format("{:.2g} s", seconds);
+  const auto whole = static_cast<long>(std::lround(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::string progress_text(const ProgressPoint& then, const ProgressPoint& now, std::size_t disks, double t_end) {
+  const double share = t_end > 0.0 ? std::min(now.time / t_end, 1.0) : 1.0;
+  const double seconds = now.elapsed - then.elapsed;
+  const double rate = seconds > 0.0 ? static_cast<double>(now.steps - then.steps) / seconds : 0.0;
+  std::string text = fmt::format("{:5.1f} %  t = {:.6g} of {:g}  {} steps/s  {} disk-steps/s", 100.0 * share, now.time,
+                                 t_end, short_number(rate), short_number(rate * static_cast<double>(disks)));
+  const double gained = now.time - then.time;
+  if (gained > 0.0) text += fmt::format("  {} left", duration_text(seconds * (t_end - now.time) / gained));
+  return text;
+}
+
+Progress::Progress(bool wanted, double t_end, const State& start, StatusPlace place)
+    : line_(wanted, std::move(place)),
+      t_end_(t_end),
+      start_(line_.seconds()),
+      older_{0.0, start.time, start.counters.steps},
+      newer_(older_) {}
+
+void Progress::update(const State& state) {
+  if (!line_.due()) return;
+  const ProgressPoint point{line_.seconds() - start_, state.time, state.counters.steps};
+  line_.show(progress_text(older_, point, state.disks.size(), t_end_));
+  if (point.elapsed - newer_.elapsed > rate_seconds) older_ = std::exchange(newer_, point);
+}
+
+}  // namespace carom

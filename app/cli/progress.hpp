@@ -1,0 +1,48 @@
+// The line that tells how far a run has come.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "app/cli/status_line.hpp"
+#include "core/disks/state.hpp"
+
+namespace carom {
+
+// How far a run was at some moment.
+struct ProgressPoint {
+  double elapsed = 0.0;  // wall time since the run's first step, in seconds
+  double time = 0.0;     // simulated
+  Count steps = 0;
+};
+
+// What the line says: share done, simulated time, steps and disk-steps a second, time left. Rates are those since
+// `then`: a pile that settles becomes slower, and its beginning says nothing of its end.
+std::string progress_text(const ProgressPoint& then, const ProgressPoint& now, std::size_t disks, double t_end);
+
+// A number of seconds as 12 s, 3:05 or 2:03:05.
+std::string duration_text(double seconds);
+
+// A number with a prefix: 950, 12.3 k, 4.56 M.
+std::string short_number(double number);
+
+// The line of a run: kept up to date on a terminal, a line a minute elsewhere.
+class Progress {
+ public:
+  // start: the state that the run begins or goes on from.
+  Progress(bool wanted, double t_end, const State& start, StatusPlace place = on_standard_error());
+
+  // Brings the line up to date, if it is time.
+  void update(const State& state);
+
+  // Takes the line away, so that something else can be written.
+  void clear() { line_.clear(); }
+
+ private:
+  StatusLine line_;
+  double t_end_;
+  double start_;                 // by the line's clock
+  ProgressPoint older_, newer_;  // rates are taken since older_, which follows newer_ at some distance
+};
+
+}  // namespace carom

@@ -1,0 +1,215 @@
+#include "app/run/check_foresight.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/load/method_choice.hpp"
+#include "core/measure/validity.hpp"
+#include "core/scene/size_law.hpp"
+#include "core/step/step_clock.hpp"
+#include "core/step/step_start.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Random addition jams at a packing fraction of 0.547 (equal disks): sources find no room much beyond it.
+constexpr double source_fill = 0.547;
+
+// So many draws of a source are looked at for the smallest disk and the mean area.
+constexpr Count most_draws = 1000;
+
+// The longest dt with fastest dt + fall dt^2 <= safe_travel; speeds and gravity in radii.
+double step_for(double fastest, double fall) {
+  return 2.0 * safe_travel / (fastest + std::sqrt(fastest * fastest + 4.0 * fall * safe_travel));
+}
+
+// The speed of a disk of this speed when it has fallen so far; where there is no floor it falls to the end.
+double fallen_speed(const Scene& scene, double speed, double height) {
+  const double g = scene.physics.gravity;
+  if (scene.box.periodic_y()) return speed + g * scene.run.t_end;
+  return std::sqrt(speed * speed + 2.0 * g * std::max(height, 0.0));
+}
+
+// What a source will have emitted, as far as it finds room.
+double emitted_by(const Source& source, double t_end) {
+  const double due = std::floor(source.rate * t_end);
+  return source.limit ? std::min(due, static_cast<double>(*source.limit)) : due;
+}
+
+struct SourceDisks {
+  double smallest_radius = infinity;
+  double mean_area = 0.0;
+  double speed = 0.0;   // of the fastest of all that it emits
+  double height = 0.0;  // from which they fall at most
+};
+
+SourceDisks disks_of(const Scene& scene, const Source& source) {
+  SourceDisks d;
+  const double count = std::max(1.0, emitted_by(source, scene.run.t_end));
+  const Count draws = std::min(most_draws, static_cast<Count>(count));
+  double mass = infinity;
+  for (Count k = 0; k < draws; ++k) {
+    const DiskSize size = draw_size(source.radius, source.mass, scene.seed, Stream::source_radius, Stream::source_mass,
+                                    static_cast<DiskId>(k), k);
+    d.smallest_radius = std::min(d.smallest_radius, size.radius);
+    d.mean_area += std::numbers::pi * size.radius * size.radius / static_cast<double>(draws);
+    mass = std::min(mass, size.mass);
+  }
+  const VelocityLaw& law = source.velocities;
+  if (law.kind == VelocityLaw::Kind::uniform) d.speed = std::numbers::sqrt2 * law.limit;
+  // Of n draws in two dimensions the fastest has m v^2 / 2 = T ln n.
+  if (law.kind == VelocityLaw::Kind::maxwell) {
+    d.speed = std::sqrt(2.0 * law.temperature / mass * std::log(std::max(2.0, count)));
+  }
+  const bool by_side = source.side.has_value();
+  d.height = by_side ? (*source.side == Side::bottom ? 0.0 : scene.box.height) : source.region_high.y;
+  return d;
+}
+
+bool emits(const Scene& scene, const Source& source) {
+  return emitted_by(source, scene.run.t_end) >= 1.0;
+}
+
+double speed_of(const Disks& d, std::size_t i) {
+  return std::hypot(d.vx[i], d.vy[i]);
+}
+
+// A Brownian step is sqrt(2 D dt) in each direction; three of that, as some disk always moves so far.
+double brownian_step(const Scene& scene, double radius) {
+  if (!(scene.physics.diffusion > 0.0)) return infinity;
+  const double share = safe_travel * radius / 3.0;
+  return share * share / (2.0 * scene.physics.diffusion);
+}
+
+// When a disk that falls from this height, moving up at vy, has bounced its last on the floor, if nothing else meets
+// it: the flights become shorter by the wall's restitution each time.
+double rest_time(const Scene& scene, double height, double vy) {
+  const double g = scene.physics.gravity, e = scene.box.wall_restitution;
+  const double landing = std::sqrt(vy * vy + 2.0 * g * std::max(height, 0.0));
+  return (vy + landing) / g + 2.0 * landing * e / (g * (1.0 - e));
+}
+
+// The first disk to come to rest on the floor.
+double first_rest(const Scene& scene, const Disks& start) {
+  double first = infinity;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    first = std::min(first, rest_time(scene, start.y[i] - start.radius_of(i), start.vy[i]));
+  }
+  for (const Source& source : scene.sources) {
+    if (!emits(scene, source)) continue;
+    first = std::min(first, 1.0 / source.rate + rest_time(scene, disks_of(scene, source).height, 0.0));
+  }
+  return first;
+}
+
+}  // namespace
+
+bool uses_dt(const Scene& scene) {
+  return scene.run.method != Method::exact || scene.physics.diffusion > 0.0;
+}
+
+double StepForesight::safe() const {
+  return std::min({at_start, later, resting});
+}
+
+StepForesight foresee_steps(const Scene& scene, const Disks& start) {
+  const double g = scene.physics.gravity;
+  double radius = start.empty() ? infinity : smallest_radius(start);
+  double fastest = 0.0, later = 0.0;  // radii per unit time
+  StepForesight f;
+  const auto see = [&](double speed, double height, double r) {
+    const double landing = g > 0.0 ? fallen_speed(scene, speed, height) : speed;
+    later = std::max(later, landing / r);
+    if (g > 0.0) f.landing_speed = std::max(f.landing_speed, landing);
+  };
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const double r = start.radius_of(i);
+    fastest = std::max(fastest, speed_of(start, i) / r);
+    see(speed_of(start, i), start.y[i] - r, r);
+  }
+  const double fall_at_start = radius < infinity ? g / radius : 0.0;
+  f.at_start = std::min(step_for(fastest, fall_at_start), brownian_step(scene, radius));
+  for (const Source& source : scene.sources) {
+    if (!emits(scene, source)) continue;
+    const SourceDisks d = disks_of(scene, source);
+    radius = std::min(radius, d.smallest_radius);
+    see(d.speed, d.height - d.smallest_radius, d.smallest_radius);
+  }
+  const double fall = radius < infinity ? g / radius : 0.0;
+  f.later = std::min(step_for(later, fall), brownian_step(scene, radius));
+  // Supports are told by speeds of about g dt: at rest a disk falls by g dt^2 before it is held.
+  f.resting = settles(scene) && radius < infinity ? std::sqrt(largest_overlap * radius / g) : infinity;
+  return f;
+}
+
+Population foresee_population(const Scene& scene, const Disks& start) {
+  Population p;
+  p.start = p.mean = p.end = static_cast<double>(start.size());
+  double area = 0.0;
+  for (std::size_t i = 0; i < start.size(); ++i) area += std::numbers::pi * start.radius_of(i) * start.radius_of(i);
+  for (const Source& source : scene.sources) {
+    const double emitted = emitted_by(source, scene.run.t_end);
+    if (!(emitted >= 1.0)) continue;
+    // A rise of constant rate, and from its end on no more.
+    const double filling = std::min(1.0, emitted / (source.rate * scene.run.t_end));
+    p.mean += emitted * (1.0 - 0.5 * filling);
+    p.end += emitted;
+    area += emitted * disks_of(scene, source).mean_area;
+  }
+  p.fill = area / (scene.box.width * scene.box.height);
+  return p;
+}
+
+CollapseForesight foresee_collapse(const Scene& scene, const Disks& start) {
+  const Physics& p = scene.physics;
+  if (scene.run.method != Method::exact || p.collapse_contact_time || p.diffusion > 0.0) return {};
+  const SceneScales scales = scales_of(scene);
+  if (!scales.may_collapse) return {};
+  const bool floor = p.gravity > 0.0 && scene.box.side(Side::bottom) == SideKind::wall;
+  if (!floor || scene.box.wall_restitution >= 1.0) return {p.gravity == 0.0 || floor, std::nullopt};
+  const double first = first_rest(scene, start);
+  return first < scene.run.t_end ? CollapseForesight{true, first} : CollapseForesight{};
+}
+
+std::vector<std::string> foreseen_troubles(const Scene& scene, const StepForesight& steps, const Population& population,
+                                           const CollapseForesight& collapse) {
+  std::vector<std::string> troubles;
+  if (collapse.expected) {
+    const std::string when = collapse.from ? fmt::format("about t = {:.2g}", *collapse.from) : "some time";
+    troubles.push_back(fmt::format(
+        "inelastic collapse is to be expected from {} on, infinitely many collisions in finite time: the run would "
+        "stop "
+        "with status 3; take --method pairwise, or give physics.collapse = {{ model = \"tc\", contact_time = ... }}",
+        when));
+  }
+  const double dt = scene.run.dt;
+  if (uses_dt(scene) && dt > std::min(steps.at_start, steps.later)) {
+    const bool late = dt <= steps.at_start;
+    troubles.push_back(fmt::format("dt = {:g} is longer than the safe step{}: steps will be split; take dt <= {:.2g}",
+                                   dt, late ? " at the speeds that disks will have" : "",
+                                   std::min(steps.at_start, steps.later)));
+  }
+  if (scene.run.method != Method::exact && dt > steps.resting) {
+    troubles.push_back(
+        fmt::format("in a pile a disk falls by g dt^2 before it is held, more than {:g} % of the smallest radius: take "
+                    "dt <= {:.2g}",
+                    100.0 * largest_overlap, steps.resting));
+  }
+  if (population.end > population.start && !scene.box.has(SideKind::sink) && population.fill > source_fill) {
+    troubles.push_back(
+        fmt::format("the sources would fill the box to a packing fraction of {:.2g}, and find no room beyond about "
+                    "{:g}: give a limit "
+                    "or a sink",
+                    population.fill, source_fill));
+  }
+  return troubles;
+}
+
+}  // namespace carom

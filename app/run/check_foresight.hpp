@@ -1,0 +1,44 @@
+// What carom check can foretell of a run from its scene and its start.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+// How long a step may be; infinite where nothing limits it.
+struct StepForesight {
+  double at_start = 0.0;       // with the speeds of the start no disk moves further than it safely may
+  double later = 0.0;          // nor with those after falling to the floor, and with those of sources
+  double landing_speed = 0.0;  // the largest after a fall; 0 without gravity
+  double resting = 0.0;        // a disk of a pile falls by less than the overlap that a pile may have; infinite if none
+  double safe() const;
+};
+
+// How many disks there will be, sinks left aside.
+struct Population {
+  double start = 0.0, mean = 0.0, end = 0.0;
+  double fill = 0.0;  // area of all disks at the end over that of the box
+};
+
+struct CollapseForesight {
+  bool expected = false;
+  std::optional<double> from;  // simulated time, where it can be told
+};
+
+StepForesight foresee_steps(const Scene& scene, const Disks& start);
+Population foresee_population(const Scene& scene, const Disks& start);
+CollapseForesight foresee_collapse(const Scene& scene, const Disks& start);
+
+// What will go wrong, and the remedy: one sentence each.
+std::vector<std::string> foreseen_troubles(const Scene& scene, const StepForesight& steps, const Population& population,
+                                           const CollapseForesight& collapse);
+
+// Does the run step by dt? The exact method leaves it unused, except as the step of Brownian motion.
+bool uses_dt(const Scene& scene);
+
+}  // namespace carom

@@ -1,0 +1,299 @@
+#include "app/run/check_outputs.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+
+#include "core/base/check.hpp"
+#include "core/scene/size_law.hpp"
+#include "io/checkpoint/checkpoint.hpp"
+#include "io/checkpoint/checkpoint_place.hpp"
+#include "run/frame_schedule.hpp"
+#include "run/run_outputs.hpp"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using Sizes = std::map<std::string, double>;
+
+// A frame of so many disks is written, at most; of more it is scaled up.
+constexpr std::size_t most_rehearsed = 100'000;
+// Enough to tell the cost of a frame from that of starting ffmpeg.
+constexpr Count rehearsed_frames = 24;
+constexpr double slow_frame = 1.0;  // seconds, ffmpeg's start included
+// Of more disks, counting their pairs once would take too long.
+constexpr std::size_t most_sampled = 2'000'000;
+
+// Where nothing can be written: bytes of a disk in a frame of trajectory.xyz, with all digits, and of trajectory.h5,
+// packed; of a frame in series.csv and in a movie.
+constexpr double xyz_bytes = 134.0, h5md_bytes = 32.0, h5md_single_bytes = 15.0, row_bytes = 200.0, movie_bytes = 2e4;
+// gnuplot's SVG: of the axes, and of a point.
+constexpr double plot_bytes = 16e3, point_bytes = 19.0;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Processor time of this process and of those that it has waited for.
+double cpu_seconds() {
+  double seconds = 0.0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    for (const timeval& t : {usage.ru_utime, usage.ru_stime}) {
+      seconds += static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    }
+  }
+  return seconds;
+}
+
+// A folder of its own that goes away again.
+class Workshop {
+ public:
+  Workshop() {
+    std::error_code error;
+    std::string path = (fs::temp_directory_path(error) / "carom-check-XXXXXX").string();
+    if (!error && mkdtemp(path.data()) != nullptr) path_ = path;
+  }
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+  ~Workshop() {
+    std::error_code error;
+    if (!path_.empty()) fs::remove_all(path_, error);
+  }
+  const fs::path& path() const { return path_; }  // empty where there is none
+
+ private:
+  fs::path path_;
+};
+
+// A coordinate that went on in a straight line, brought back by the sides.
+double folded(double c, double low, double high, bool periodic) {
+  const double length = high - low;
+  if (!(length > 0.0)) return c;
+  double part = std::fmod(c - low, 2.0 * length);
+  if (part < 0.0) part += 2.0 * length;
+  if (periodic) return low + (part < length ? part : part - length);
+  return low + (part < length ? part : 2.0 * length - part);
+}
+
+// The disks some time later, if they did not see each other: movies of disks at rest would be too cheap.
+Disks moved(const Disks& disks, const Scene& scene, double time) {
+  Disks later = disks;
+  const double spread = std::sqrt(2.0 * scene.physics.diffusion * time);
+  for (std::size_t i = 0; i < later.size(); ++i) {
+    const double r = later.radius_of(i);
+    const double fall = 0.5 * scene.physics.gravity * time * time;
+    const double dx = spread > 0.0 ? spread * std::sin(7.0 * static_cast<double>(i)) : later.vx[i] * time;
+    const double dy = spread > 0.0 ? spread * std::cos(5.0 * static_cast<double>(i)) : later.vy[i] * time - fall;
+    const bool x = scene.box.periodic_x(), y = scene.box.periodic_y();
+    later.x[i] = folded(later.x[i] + dx, x ? 0.0 : r, scene.box.width - (x ? 0.0 : r), x);
+    later.y[i] = folded(later.y[i] + dy, y ? 0.0 : r, scene.box.height - (y ? 0.0 : r), y);
+  }
+  return later;
+}
+
+// As many disks as there will be in the mean, those of sources somewhere in the box; at most most_rehearsed.
+Disks typical_disks(const Scene& scene, const State& state, double count) {
+  const auto wanted = static_cast<std::size_t>(std::clamp(count, 0.0, static_cast<double>(most_rehearsed)));
+  Disks disks = state.disks;
+  if (disks.size() > wanted) {
+    std::vector<unsigned char> gone(disks.size(), 0);
+    std::fill(gone.begin() + static_cast<std::ptrdiff_t>(wanted), gone.end(), 1);
+    remove_marked(disks, gone);
+  }
+  if (scene.sources.empty()) return disks;
+  const Source& source = scene.sources.front();
+  for (Count k = 0; disks.size() < wanted; ++k) {
+    const DiskSize size = draw_size(source.radius, source.mass, scene.seed, Stream::source_radius, Stream::source_mass,
+                                    static_cast<DiskId>(k), k);
+    const double step = static_cast<double>(k + 1);
+    append(disks,
+           {scene.box.width * std::fmod(0.618034 * step, 1.0), scene.box.height * std::fmod(0.754878 * step, 1.0),
+            std::sin(step), std::cos(step), size.radius, size.mass, static_cast<DiskId>(state.next_id + k)});
+  }
+  return disks;
+}
+
+struct Rehearsed {
+  double wall = 0.0, cpu = 0.0;  // seconds
+  double sample_seconds = 0.0;   // each
+  Sizes sizes;
+};
+
+Rehearsed rehearse(const Scene& scene, const EngineChoice& choice, const Engine& tried, const Disks& disks,
+                   const fs::path& path, Count frames, bool sample) {
+  Rehearsed r;
+  const double every = scene.output.every > 0.0 ? scene.output.every : scene.run.t_end;
+  const OutputFolder folder(path, scene.file, true);
+  auto start = Clock::now();
+  const double cpu_before = cpu_seconds();
+  RunOutputs outputs(scene, folder, make_pair_counter(choice));
+  outputs.share_work(make_block_runner(choice));
+  for (Count k = 0; k < frames; ++k) {
+    const double time = static_cast<double>(k) * every;
+    outputs.frame(moved(disks, scene, time), time, tried.state());
+  }
+  outputs.finish(false);
+  r.wall = seconds_since(start);
+  r.cpu = cpu_seconds() - cpu_before;
+  for (const auto& entry : fs::recursive_directory_iterator(folder.unfinished())) {
+    if (!entry.is_regular_file()) continue;
+    const bool picture = entry.path().parent_path() != fs::path(folder.unfinished());
+    r.sizes[picture ? "frames" : entry.path().filename().string()] += static_cast<double>(entry.file_size());
+  }
+  r.sizes.erase("lock");
+  if (!sample || outputs.analysis() == nullptr) return r;
+  start = Clock::now();
+  outputs.analysis()->follow(tried, tried.state().time);
+  outputs.analysis()->sample(tried.state().disks, tried.state().time, tried.state());
+  r.sample_seconds = seconds_since(start);
+  return r;
+}
+
+// The time of one plot: almost all of it is starting gnuplot.
+double plot_seconds(const fs::path& folder) {
+  const auto start = Clock::now();
+  const EnergyRecord record{{0.0, 1.0}, {1.0, 1.0}, {0.0, 0.0}, {1.0, 1.0}};
+  return plot_energy((folder / "energy.svg").string(), "", record) ? seconds_since(start) : 0.0;
+}
+
+// Points and names of the plots of frames.
+void add_plots(const Scene& scene, double disks, OutputForesight& f) {
+  for (const std::string& plot : scene.output.plots) {
+    const double curves = plot == "velocity" ? 2.0 * std::min(disks, static_cast<double>(most_velocity_curves)) : 3.0;
+    f.files.emplace_back(plot + ".svg", plot_bytes + point_bytes * curves * static_cast<double>(f.frames));
+  }
+}
+
+void guess_files(const Scene& scene, double disks, OutputForesight& f) {
+  const auto frames = static_cast<double>(f.frames);
+  const OutputPlan& plan = scene.output;
+  const double shown = disks / static_cast<double>(plan.select.stride);
+  if (plan.trajectory == TrajectoryFormat::xyz) f.files.emplace_back("trajectory.xyz", xyz_bytes * shown * frames);
+  if (plan.trajectory == TrajectoryFormat::h5md) {
+    const double each = plan.single_precision ? h5md_single_bytes : h5md_bytes;
+    f.files.emplace_back("trajectory.h5", each * shown * frames);
+  }
+  if (plan.series) f.files.emplace_back("series.csv", row_bytes * frames);
+  if (plan.movie) f.files.emplace_back("movie.mp4", movie_bytes * frames);
+}
+
+// From two rehearsals, of one frame and of several, to all frames. scale: disks that a frame has over those rehearsed.
+void extrapolate(const Rehearsed& one, const Rehearsed& several, Count rehearsed, double scale, OutputForesight& f) {
+  const double more = std::max(1.0, static_cast<double>(rehearsed - 1));
+  const double rest = static_cast<double>(f.frames) - 1.0;
+  // Processor time tells a frame's share, which wall time does not on a busy machine; both together how busy it is.
+  const double each = std::max(0.0, several.cpu - one.cpu) / more;
+  const double busy = (one.wall + several.wall) / std::max(1e-9, one.cpu + several.cpu);
+  const double start = several.cpu > one.cpu ? std::max(0.0, one.cpu - each) : 0.0;  // ffmpeg's, whatever the disks
+  f.files_s = busy * (start + scale * (one.cpu - start + each * rest));
+  for (const auto& [name, bytes] : several.sizes) {
+    const auto first = one.sizes.find(name);
+    const double first_bytes = first == one.sizes.end() ? 0.0 : first->second;
+    const bool by_disks = name.starts_with("trajectory");
+    f.files.emplace_back(name,
+                         (by_disks ? scale : 1.0) * (first_bytes + std::max(0.0, bytes - first_bytes) / more * rest));
+  }
+}
+
+void rehearse_files(const Scene& scene, const EngineChoice& choice, const Engine& tried, double disks,
+                    const fs::path& workshop, OutputForesight& f) {
+  Scene rehearsal = scene;
+  rehearsal.output.checkpoint = 0.0;
+  rehearsal.analysis.start = 0.0;
+  const bool sample = scene.analysis.any() && tried.state().disks.size() <= most_sampled;
+  if (f.frames == 0 && !sample) return;
+  const Disks shown = typical_disks(scene, tried.state(), disks);
+  const double scale = std::max(1.0, disks / std::max(1.0, static_cast<double>(shown.size())));
+  const Rehearsed one =
+      rehearse(rehearsal, choice, tried, shown, workshop / "one", std::min<Count>(f.frames, 1), sample);
+  f.analysis_s = one.sample_seconds * static_cast<double>(f.samples);
+  if (f.frames == 0) return;
+  // A frame that takes long tells enough by itself, but for what comes before it.
+  const Count several = std::min(f.frames, one.cpu < slow_frame ? rehearsed_frames : 2);
+  const Rehearsed more =
+      several > 1 ? rehearse(rehearsal, choice, tried, shown, workshop / "more", several, false) : one;
+  extrapolate(one, more, several, scale, f);
+  std::erase_if(f.files, [](const auto& file) { return file.first == "analysis.h5"; });
+}
+
+// So many quantities are measured on the way, a plot each.
+double quantities_of(const Scene& scene) {
+  return static_cast<double>(std::count(scene.analysis.wanted.begin(), scene.analysis.wanted.end(), true));
+}
+
+double checkpoint_bytes(const State& state, double scale) {
+  if (state.disks.size() > most_rehearsed) {
+    constexpr double disk_bytes = 60.0;
+    return disk_bytes * static_cast<double>(state.disks.size()) * scale;
+  }
+  return scale * static_cast<double>(encode_checkpoint({}, state).size());
+}
+
+// What a checkpoint keeps for plots that are drawn at the end, a frame: ten curves and the bands, or energies; and the
+// counts of rounds for trajectories, a disk.
+double remembered_bytes(const Scene& scene, double frames, double disks) {
+  constexpr double velocity_bytes = 360.0, energy_bytes = 32.0, rounds_bytes = 8.0;
+  double bytes = 0.0;
+  for (const std::string& plot : scene.output.plots) {
+    bytes += frames * (plot == "velocity" ? velocity_bytes : energy_bytes);
+  }
+  const bool rounds = scene.output.trajectory != TrajectoryFormat::none && scene.box.has(SideKind::periodic);
+  return rounds ? bytes + rounds_bytes * disks : bytes;
+}
+
+}  // namespace
+
+double OutputForesight::bytes() const {
+  double sum = 0.0;
+  for (const auto& [name, size] : files) sum += size;
+  return sum;
+}
+
+OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, const Engine& tried,
+                                const Population& population, double step_seconds) {
+  OutputForesight f;
+  f.frames = wants_frames(scene.output) ? frame_count(scene.output.every, scene.run.t_end) : 0;
+  if (scene.analysis.any()) f.samples = frame_count(scene.analysis.every, scene.run.t_end - scene.analysis.start);
+  if (!wants_files(scene)) return f;
+  const Workshop workshop;
+  try {
+    if (workshop.path().empty()) throw RunError("there is no folder for temporary files");
+    rehearse_files(scene, choice, tried, population.mean, workshop.path(), f);
+    const double plots = static_cast<double>(scene.output.plots.size()) + quantities_of(scene);
+    if (plots > 0.0) f.plots_s = plots * plot_seconds(workshop.path());
+  } catch (const std::runtime_error& error) {  // a full disk, or a folder that takes no files
+    f.files.clear();
+    f.not_tried = error.what();
+    guess_files(scene, population.mean, f);
+  }
+  add_plots(scene, population.mean, f);
+  if (scene.analysis.any()) {
+    constexpr double sample_bytes = 60.0, table_bytes = 3e4;
+    f.files.emplace_back("analysis.h5", table_bytes + sample_bytes * static_cast<double>(f.samples));
+    f.files.emplace_back("plots of the analysis", quantities_of(scene) * 1.5 * plot_bytes);
+  }
+  if (scene.output.checkpoint > 0.0) {
+    const double bytes =
+        checkpoint_bytes(tried.state(), std::max(1.0, population.end / std::max(1.0, population.start)));
+    const double remembered = remembered_bytes(scene, static_cast<double>(f.frames), population.end);
+    // Where the run ends before its second checkpoint is due, the one before the last is that of its start.
+    const bool one_alone = step_seconds < scene.output.checkpoint;
+    f.files.emplace_back(checkpoint_name, bytes + remembered);
+    f.files.emplace_back(previous_checkpoint_name, one_alone ? bytes : bytes + remembered);
+  }
+  return f;
+}
+
+}  // namespace carom

@@ -1,0 +1,255 @@
+#include "app/run/check_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/cli/progress.hpp"
+#include "core/load/method_choice.hpp"
+#include "core/scene/scene_names.hpp"
+#include "core/step/step_clock.hpp"
+
+namespace carom {
+
+namespace {
+
+std::string range_text(double low, double high) {
+  return low == high ? fmt::format("{:g}", low) : fmt::format("{:g} to {:g}", low, high);
+}
+
+std::string sides_text(const Domain& box) {
+  std::string text;
+  for (const Side side : all_sides) {
+    const auto k = static_cast<std::size_t>(side);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", side_names[k],
+                        side_kind_names[static_cast<std::size_t>(box.side(side))]);
+  }
+  return text;
+}
+
+std::string physics_text(const Scene& scene) {
+  const Physics& p = scene.physics;
+  std::string text = p.gravity > 0.0 ? fmt::format("gravity {:g} downwards; ", p.gravity) : "no gravity; ";
+  text += p.restitution == 1.0 ? "elastic collisions" : fmt::format("restitution {:g} of disks", p.restitution);
+  if (scene.box.has(SideKind::wall)) text += fmt::format(", {:g} at walls", scene.box.wall_restitution);
+  if (p.diffusion > 0.0) {
+    text += fmt::format("; Brownian motion, D = {:g}{}", p.diffusion, p.accumulate ? ", accumulating velocity" : "");
+  }
+  for (const Source& source : scene.sources) text += fmt::format("; a source of {:g} disks per unit time", source.rate);
+  return text;
+}
+
+std::string method_text(const Scene& scene) {
+  const std::string_view name = method_names[static_cast<std::size_t>(scene.run.method)];
+  if (!uses_dt(scene)) return fmt::format("{} to t = {:g}", name, scene.run.t_end);
+  return fmt::format("{}, dt = {:g}, {} steps to t = {:g}", name, scene.run.dt,
+                     make_step_clock(scene.run.dt, scene.run.t_end).steps, scene.run.t_end);
+}
+
+std::string step_text(const Scene& scene, const Findings& f) {
+  const double safe = f.steps.safe();
+  if (std::isinf(safe)) return "any: nothing moves";
+  std::string text = fmt::format("{:.3g} or less", safe);
+  if (f.steps.at_start > f.steps.later) {
+    text += fmt::format(": {:.3g} at the speeds of the start, {:.3g} ", f.steps.at_start, f.steps.later);
+    text += f.steps.landing_speed > 0.0 ? fmt::format("after falling (speed {:.3g})", f.steps.landing_speed)
+                                        : "at those of sources";
+  } else {
+    text += " at the speeds of the start";
+  }
+  if (f.steps.resting < std::min(f.steps.later, f.steps.at_start)) {
+    text += fmt::format(", {:.3g} for a pile", f.steps.resting);
+  }
+  return text + (scene.run.dt <= safe ? "; dt is safe" : "; dt is longer");
+}
+
+std::string disks_text(const Scene& scene, const Findings& f) {
+  std::string text =
+      f.disks > 0 ? fmt::format("{}, radius {}, mass {}", f.disks, range_text(f.smallest_radius, f.largest_radius),
+                                range_text(f.smallest_mass, f.largest_mass))
+                  : "none at the start";
+  if (f.population.end > f.population.start) {
+    text += fmt::format("; with what sources emit up to {:.0f} at t = {:g}", f.population.end, scene.run.t_end);
+  }
+  return text;
+}
+
+std::string outputs_text(const Scene& scene, const Findings& f) {
+  const OutputForesight& o = f.outputs;
+  if (o.files.empty()) return "none asked for";
+  std::vector<std::string> files;
+  for (const auto& [name, bytes] : o.files) files.push_back(fmt::format("{} {}B", name, short_number(bytes)));
+  std::string text;
+  if (o.frames > 0) text += fmt::format("{} frames", o.frames);
+  if (o.samples > 0) text += fmt::format("{}{} samples", text.empty() ? "" : ", ", o.samples);
+  text +=
+      fmt::format("{}{}; about {}B in all", text.empty() ? "" : ": ", fmt::join(files, ", "), short_number(o.bytes()));
+  if (scene.box.has(SideKind::sink)) text += ", less as sinks take disks away";
+  return o.not_tried.empty() ? text : text + fmt::format(" (guessed: {})", o.not_tried);
+}
+
+// The parts that make up the cost, those that matter.
+std::string cost_text(const Findings& f) {
+  if (!f.stopped.empty()) return fmt::format("stops early: {}", f.stopped);
+  std::string text = fmt::format("about {} on this machine, from a trial: steps {}", duration_text(f.seconds()),
+                                 duration_text(f.step_seconds));
+  const auto part = [&](const char* name, double seconds) {
+    if (seconds > 0.01 * f.seconds()) text += fmt::format(", {} {}", name, duration_text(seconds));
+  };
+  part("the start", f.start_seconds);
+  part("frames and movie", f.outputs.files_s);
+  part("analysis", f.outputs.analysis_s);
+  part("plots", f.outputs.plots_s);
+  return text;
+}
+
+std::string offer_text(const MethodOffer& offer, bool best) {
+  const std::string_view name = method_names[static_cast<std::size_t>(offer.method)];
+  if (!offer.possible) return fmt::format("  {:<10}no: {}\n", name, offer.why);
+  const std::string dt = offer.dt > 0.0 ? fmt::format("dt = {:g}, ", offer.dt) : "";
+  const std::string error = offer.error > 0.0 ? fmt::format("{:.1e}", offer.error) : "rounding only";
+  return fmt::format("{}{:<10}{}error {}, about {} of one core: {}\n", best ? "> " : "  ", name, dt, error,
+                     duration_text(offer.seconds), offer.why);
+}
+
+// What the error is one of.
+const char* averages_of(const Scene& scene, const MethodChoice& choice) {
+  if (scene.physics.diffusion > 0.0) return "mean square displacement";
+  // Where disks come to rest, how often they still hit each other depends on the step: soft hits become load.
+  if (choice.scales.settles) return "energy lost; not collisions, of which a pile has as many as steps show";
+  return scene.physics.restitution < 1.0 ? "collision rate, pressure, cooling rate" : "collision rate, pressure";
+}
+
+// Which method and step an accuracy needs. Costs are those of the machine that core/load/method_rates.hpp was measured
+// on.
+std::string choice_text(const Scene& scene, double accuracy) {
+  const MethodChoice choice = choose_method(scene, accuracy);
+  std::string text =
+      fmt::format("for an error of {:g} in averages over disks and time ({}):\n", accuracy, averages_of(scene, choice));
+  for (std::size_t k = 0; k < choice.offers.size(); ++k) {
+    text += offer_text(choice.offers[k], static_cast<int>(k) == choice.best);
+  }
+  if (choice.offers.empty()) return text + fmt::format("  {}\n", choice.why);
+  if (choice.best < 0) return text + "  out of reach: ask for a larger error, or name a method and its dt\n";
+  const MethodOffer& best = choice.offers[static_cast<std::size_t>(choice.best)];
+  const std::string dt = best.dt > 0.0 ? fmt::format(" --dt {:g}", best.dt) : "";
+  return text + fmt::format("  take it with --method {}{}, or method = \"auto\", accuracy = {:g} in [run]\n",
+                            method_names[static_cast<std::size_t>(best.method)], dt, accuracy);
+}
+
+Json choice_json(const Scene& scene, double accuracy) {
+  const MethodChoice choice = choose_method(scene, accuracy);
+  Json j{{"accuracy", accuracy}, {"method", nullptr}, {"why", choice.why}};
+  for (std::size_t k = 0; k < choice.offers.size(); ++k) {
+    const MethodOffer& o = choice.offers[k];
+    const std::string_view name = method_names[static_cast<std::size_t>(o.method)];
+    if (static_cast<int>(k) == choice.best) j["method"] = name;
+    j["offers"].push_back({{"method", name},
+                           {"possible", o.possible},
+                           {"dt", o.dt},
+                           {"error", o.error},
+                           {"cpu_s", o.seconds},
+                           {"why", o.why}});
+  }
+  return j;
+}
+
+struct Told {
+  const Scene& scene;
+  const Findings& found;
+  const std::optional<double>& accuracy;
+};
+
+Json file_sizes(const OutputForesight& outputs) {
+  Json sizes = Json::object();
+  for (const auto& [name, bytes] : outputs.files) sizes[name] = std::round(bytes);
+  return sizes;
+}
+
+// A new key is a row here.
+const JsonKey<Told> check_keys[] = {
+    {"scene", "", "the scene's file", [](const Told& t) -> Json { return t.scene.file; }},
+    {"method", "", "`rollback`, `pairwise` or `exact`",
+     [](const Told& t) -> Json { return method_names[static_cast<std::size_t>(t.scene.run.method)]; }},
+    {"particles", "", "disks at the start", [](const Told& t) -> Json { return t.found.disks; }},
+    {"particles_at_end", "", "disks at the end, as far as sources and sinks tell",
+     [](const Told& t) -> Json { return t.found.population.end; }},
+    {"width", "length", "of the box", [](const Told& t) -> Json { return t.scene.box.width; }},
+    {"height", "length", "of the box", [](const Told& t) -> Json { return t.scene.box.height; }},
+    {"packing_fraction", "", "at the start",
+     [](const Told& t) -> Json { return json_number(t.found.packing_fraction); }},
+    {"dt", "time", "the step; 0 where the scene gives none", [](const Told& t) -> Json { return t.scene.run.dt; }},
+    {"safe_dt", "time", "the longest step that is not split; null if any is",
+     [](const Told& t) -> Json { return json_number(t.found.steps.safe()); }},
+    {"landing_speed", "length / time", "the largest after a fall; 0 without gravity",
+     [](const Told& t) -> Json { return json_number(t.found.steps.landing_speed); }},
+    {"t_end", "time", "the end of the run", [](const Told& t) -> Json { return t.scene.run.t_end; }},
+    {"frames", "", "frames that a run makes", [](const Told& t) -> Json { return t.found.outputs.frames; }},
+    {"memory_bytes", "bytes", "of a run", [](const Told& t) -> Json { return t.found.memory_bytes; }},
+    {"cost_s", "s", "wall time of a run on this machine, null if unknown",
+     [](const Told& t) -> Json { return json_number(t.found.seconds()); }},
+    {"cost_parts_s", "s", "an object: the same in parts, `start`, `steps`, `frames`, `analysis`, `plots`",
+     [](const Told& t) -> Json {
+       return Json{{"start", t.found.start_seconds},
+                   {"steps", json_number(t.found.step_seconds)},
+                   {"frames", t.found.outputs.files_s},
+                   {"analysis", t.found.outputs.analysis_s},
+                   {"plots", t.found.outputs.plots_s}};
+     }},
+    {"files_bytes", "bytes", "an object: the size of each file",
+     [](const Told& t) -> Json { return file_sizes(t.found.outputs); }},
+    {"collapse_expected", "", "whether inelastic collapse is to be expected",
+     [](const Told& t) -> Json { return t.found.collapse.expected; }},
+    {"troubles", "", "what a run would run into, a list of texts",
+     [](const Told& t) -> Json { return t.found.troubles; }},
+    {"growth_s", "s", "only where disks grow: processor time of that",
+     [](const Told& t) -> Json { return t.found.growth_seconds > 0.0 ? Json(t.found.growth_seconds) : absent(); }},
+    {"choice", "", "only with `--accuracy`: an object with the method and step that it needs, and all `offers`",
+     [](const Told& t) -> Json { return t.accuracy ? choice_json(t.scene, *t.accuracy) : absent(); }},
+};
+
+std::string main_text(const Scene& scene, const Findings& f) {
+  std::string text = fmt::format("{}: {}\n", scene.file, scene.title.empty() ? "a scene" : scene.title);
+  const auto line = [&text](const char* name, const std::string& value) {
+    text += fmt::format("  {:<12}{}\n", name, value);
+  };
+  line("disks", disks_text(scene, f));
+  line("box",
+       fmt::format("{:g} x {:g}, packing fraction {:.4g}", scene.box.width, scene.box.height, f.packing_fraction));
+  line("sides", sides_text(scene.box));
+  line("physics", physics_text(scene));
+  line("method", scene.run.automatic ? choice_text(scene) : method_text(scene));
+  if (scene.run.method != Method::exact) line("safe step", step_text(scene, f));
+  const bool tried = f.growth_seconds <= longest_growth;
+  if (tried) line("outputs", outputs_text(scene, f));
+  if (!tried) {
+    line("growth",
+         fmt::format("about {} of one core before the first step, not tried", duration_text(f.growth_seconds)));
+  }
+  line("memory", fmt::format("{} {}B{}", tried ? "about" : "at least", short_number(f.memory_bytes),
+                             !tried                                  ? ""
+                             : f.population.end > f.population.start ? ", as measured, with what sources add"
+                                                                     : ", as measured"));
+  line("cost", tried ? cost_text(f) : "not tried either");
+  for (const std::string& trouble : f.troubles) line("trouble", trouble);
+  return text;
+}
+
+}  // namespace
+
+std::string check_text(const Scene& scene, const Findings& found, const std::optional<double>& accuracy) {
+  const std::string hint = "  --accuracy 1e-3 says which method and dt that needs\n";
+  return main_text(scene, found) + (accuracy ? choice_text(scene, *accuracy) : hint);
+}
+
+std::string check_json(const Scene& scene, const Findings& found, const std::optional<double>& accuracy) {
+  return json_object(check_keys, {scene, found, accuracy});
+}
+
+std::vector<KeyText> check_key_texts() {
+  return key_texts(check_keys);
+}
+
+}  // namespace carom

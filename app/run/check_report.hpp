@@ -1,0 +1,42 @@
+// What carom check says, as text and as JSON.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/run/check_outputs.hpp"
+#include "core/scene/scene.hpp"
+#include "run/json_keys.hpp"
+
+namespace carom {
+
+// A growth that takes longer is not worth waiting for here; seconds.
+inline constexpr double longest_growth = 10.0;
+
+struct Findings {
+  Count disks = 0;
+  double smallest_radius = 0.0, largest_radius = 0.0;
+  double smallest_mass = 0.0, largest_mass = 0.0;
+  double packing_fraction = 0.0;
+  StepForesight steps;
+  Population population;
+  CollapseForesight collapse;
+  std::vector<std::string> troubles;
+  OutputForesight outputs;
+  double start_seconds = 0.0;   // of making the initial state
+  double growth_seconds = 0.0;  // of one core; above longest_growth the disks were not grown, and no step tried
+  double step_seconds = 0.0;    // of all steps, as far as the first ones tell; may be infinite
+  double memory_bytes = 0.0;
+  std::string stopped;  // what the physics said, if it stopped the trial
+
+  double seconds() const { return start_seconds + step_seconds + outputs.seconds(); }
+};
+
+std::string check_text(const Scene& scene, const Findings& found, const std::optional<double>& accuracy);
+std::string check_json(const Scene& scene, const Findings& found, const std::optional<double>& accuracy);
+
+// What docs/scene.md says of each key of that object.
+std::vector<KeyText> check_key_texts();
+
+}  // namespace carom

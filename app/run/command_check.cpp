@@ -1,0 +1,169 @@
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "app/cli/commands.hpp"
+#include "app/run/check_report.hpp"
+#include "core/base/check.hpp"
+#include "core/load/memory_need.hpp"
+#include "core/load/method_choice.hpp"
+#include "core/load/method_rates.hpp"
+#include "core/load/scene_check.hpp"
+#include "core/measure/invariants.hpp"
+#include "core/measure/validity.hpp"
+#include "core/start/initial_state.hpp"
+#include "run/frame_schedule.hpp"
+#include "run/make_engine.hpp"
+#include "run/run_outputs.hpp"
+
+namespace carom {
+
+namespace {
+
+// Time spent on trying the scene's first steps, in seconds: long enough to tell the cost, short enough to wait for.
+constexpr double trial_seconds = 0.2;
+// A step that takes longer is given up; seconds.
+constexpr double longest_trial = 60.0;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void measure_sizes(const Scene& scene, const Disks& disks, Findings& f) {
+  f.disks = disks.size();
+  f.smallest_radius = smallest_radius(disks);
+  f.largest_radius = largest_radius(disks);
+  double area = 0.0;
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    const double mass = disks.mass_of(i);
+    f.smallest_mass = i == 0 ? mass : std::min(f.smallest_mass, mass);
+    f.largest_mass = std::max(f.largest_mass, mass);
+    area += std::numbers::pi * disks.radius_of(i) * disks.radius_of(i);
+  }
+  f.packing_fraction = area / (scene.box.width * scene.box.height);
+}
+
+// What growing the scene's disks takes, by the measurements in docs/methods.md: collisions a disk rise steeply towards
+// the densest mixtures.
+double growth_seconds(const Scene& scene, const Findings& f) {
+  if (!grows(scene)) return 0.0;
+  constexpr double seconds_a_collision = 3e-6;
+  const double to_go = std::max(0.01, 0.86 - f.packing_fraction);
+  const double collisions_a_disk = 0.5 / (to_go * to_go) * scene.growth.slowness;
+  return 0.5 * seconds_a_collision * collisions_a_disk * static_cast<double>(f.disks);
+}
+
+// The scene's disks, where growing them takes too long: with their sizes and velocities, but no places.
+State ungrown_state(const Scene& scene) {
+  GrowthTools nothing;
+  nothing.step = [](Disks&, const Domain&, const std::vector<double>&) { return GrowthTally{}; };
+  const auto nowhere = [](const Scene&, Disks&, PlacementGrid&, const std::vector<std::uint32_t>&) {};
+  return initial_state(scene, nowhere, nothing);
+}
+
+// Takes the memory that a run takes besides its steps: a copy of the disks for its frames, their order for sums, and a
+// search for the largest overlap at the end.
+void look_as_a_run_does(const Engine& engine, const Scene& scene) {
+  const Disks& disks = engine.state().disks;
+  if (wants_frames(scene.output)) {
+    const Disks frame = disks;
+    momentum_of(frame);
+  }
+  max_overlap(disks, scene.box);
+}
+
+// Where sources fill the box the first steps say little: those of the disks that there are, scaled to as many as there
+// will be in the mean; at least what the rates of core/load/method_rates.hpp say of these.
+double seconds_with_sources(const Scene& scene, const Population& population, double first_steps) {
+  const double growth = population.start > 0.0 ? population.mean / population.start : 0.0;
+  const double extrapolated = std::isfinite(first_steps) ? first_steps * growth : 0.0;
+  const double collisions = 0.5 * population.mean * scales_of(scene).collision_rate * scene.run.t_end;
+  const bool stepping = scene.run.method != Method::exact;
+  const double steps = uses_dt(scene) ? scene.run.t_end / scene.run.dt : 0.0;
+  const double by_rates = rates::pairwise_step * population.mean * steps +
+                          collisions * (stepping ? rates::pairwise_collision : rates::exact_collision);
+  return std::max(extrapolated, by_rates + (growth > 0.0 ? 0.0 : first_steps));
+}
+
+// What sinks will have left in the mean over the run, as a share: they take ever less as the disks near them are gone,
+// so it lies between nothing lost and a loss at the rate of the trial; the geometric mean of these.
+double share_left(const Engine& engine, const Scene& scene, const Population& population) {
+  const State& now = engine.state();
+  const auto left = static_cast<double>(now.disks.size());
+  if (!scene.sources.empty() || !(now.time > 0.0) || !(left < population.start)) return 1.0;
+  const double losses = std::log(population.start / std::max(0.5, left)) * scene.run.t_end / now.time;
+  return std::sqrt(-std::expm1(-losses) / losses);
+}
+
+// Runs the first steps, and extrapolates.
+void try_steps(Engine& engine, const Scene& scene, Findings& f) {
+  const auto start = Clock::now();
+  engine.set_watch([&] { return seconds_since(start) < longest_trial; });
+  double seconds = 0.0;
+  try {
+    while (engine.state().time < scene.run.t_end && seconds < trial_seconds) {
+      engine.step();
+      seconds = seconds_since(start);
+    }
+  } catch (const PhysicsError& error) {
+    f.stopped = error.what();
+  }
+  engine.set_watch({});
+  const double time = engine.state().time;
+  f.step_seconds = time > 0.0 ? seconds * scene.run.t_end / time : std::numeric_limits<double>::infinity();
+  const double share = share_left(engine, scene, f.population);
+  if (time < scene.run.t_end) f.step_seconds *= share;
+  f.population.mean *= share;
+  look_as_a_run_does(engine, scene);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  f.memory_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  if (f.population.end > f.population.start) {
+    f.step_seconds = seconds_with_sources(scene, f.population, f.step_seconds);
+    f.memory_bytes += least_memory(scene.run.method, static_cast<Count>(f.population.end - f.population.start));
+  }
+}
+
+void try_run(const Scene& scene, const EngineChoice& choice, State initial, Findings& found) {
+  const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, std::move(initial)); });
+  within_memory(scene, [&] {
+    try_steps(*engine, scene, found);
+    found.outputs = foresee_outputs(scene, choice, *engine, found.population, found.step_seconds);
+  });
+}
+
+}  // namespace
+
+int command_check(const CheckOptions& options) {
+  const Scene scene = load_scene_as_told(options.scene, options.changes);
+  const EngineChoice choice = choose_engine("", std::nullopt);
+  for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
+  Findings found;
+  const auto start = Clock::now();
+  State initial =
+      within_memory(scene, [&] { return grows(scene) ? ungrown_state(scene) : make_initial_state(choice, scene); });
+  measure_sizes(scene, initial.disks, found);
+  found.growth_seconds = growth_seconds(scene, found);
+  const bool tried = found.growth_seconds <= longest_growth;
+  if (tried && grows(scene)) initial = within_memory(scene, [&] { return make_initial_state(choice, scene); });
+  found.start_seconds = seconds_since(start);
+  for (const std::string& warning : validity_of(scene, found.smallest_radius, fastest_speed(initial.disks)))
+    print_warning(warning);
+  found.steps = foresee_steps(scene, initial.disks);
+  found.population = foresee_population(scene, initial.disks);
+  found.collapse = foresee_collapse(scene, initial.disks);
+  found.troubles = foreseen_troubles(scene, found.steps, found.population, found.collapse);
+  found.outputs.frames = frame_count(scene.output.every, scene.run.t_end);
+  if (!tried) found.memory_bytes = least_memory(Method::exact, found.disks);
+  if (tried) try_run(scene, choice, std::move(initial), found);
+  print_out(options.json ? check_json(scene, found, options.accuracy) : check_text(scene, found, options.accuracy));
+  return 0;
+}
+
+}  // namespace carom

@@ -1,0 +1,20 @@
+#include "app/run/growth_line.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/cli/progress.hpp"
+
+namespace carom {
+
+std::function<void(const GrowthProgress&)> growth_line(bool wanted) {
+  if (!wanted) return {};
+  return [line = std::make_shared<StatusLine>(true)](const GrowthProgress& p) {
+    if (!line->due()) return;
+    line->show(fmt::format("growing: packing fraction {:.5f} of {:g}  {} steps  {} collisions", p.packing_fraction,
+                           p.final_packing_fraction, p.steps, short_number(static_cast<double>(p.collisions))));
+  };
+}
+
+}  // namespace carom

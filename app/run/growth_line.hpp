@@ -1,0 +1,14 @@
+// The line that tells how far the growth of an initial state has come.
+#pragma once
+
+#include <functional>
+
+#include "core/start/growth.hpp"
+
+namespace carom {
+
+// To be told of the growth's steps: keeps the line (status_line.hpp) on standard error and takes it away when the last
+// copy goes. Empty where nothing is wanted.
+std::function<void(const GrowthProgress&)> growth_line(bool wanted);
+
+}  // namespace carom

@@ -1,0 +1,352 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/progress.hpp"
+#include "app/sweep/run_programs.hpp"
+#include "app/sweep/sweep_plan.hpp"
+#include "core/base/check.hpp"
+#include "core/base/input_file.hpp"
+#include "core/base/input_message.hpp"
+#include "io/checkpoint/checkpoint_place.hpp"
+#include "io/files/child_process.hpp"
+#include "io/files/output_file.hpp"
+#include "run/stop_signals.hpp"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// What a row of sweep.csv takes from each run's summary, after the keys of the sweep and the seed. Of a list, as the
+// warnings are, it takes the number of entries.
+constexpr std::array<const char*, 18> table_keys{
+    "particles",    "steps",          "time",        "collisions",   "wall_collisions", "energy_initial",
+    "energy_final", "momentum_drift", "max_overlap", "wall_overlap", "pressure",        "collision_rate",
+    "removed",      "emitted",        "waiting",     "warnings",     "step_s",          "state_hash"};
+
+std::string own_path() {
+  std::error_code error;
+  const fs::path path = fs::read_symlink("/proc/self/exe", error);
+  if (error) throw RunError("cannot find this program's own file: " + error.message());
+  return path.string();
+}
+
+std::string cell_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_array()) return fmt::format("{}", value.size());
+  return value.is_null() ? "" : value.dump();
+}
+
+// In a shell's single quotes.
+std::string quoted_for_shell(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+struct SweepCount {
+  std::size_t failed = 0;
+  bool stopped = false;  // by a signal, before all had run
+};
+
+// How many runs have ended.
+class SweepProgress {
+ public:
+  explicit SweepProgress(std::size_t all) : all_(all), start_(line_.seconds()) {}
+
+  void update(std::size_t ended, std::size_t failed) {
+    if (!line_.due()) return;
+    std::string text = fmt::format("{} of {} runs done", ended - failed, all_);
+    if (failed > 0) text += fmt::format(", {} failed", failed);
+    if (ended > 0) {
+      const double each = (line_.seconds() - start_) / static_cast<double>(ended);
+      text += fmt::format("  {} left", duration_text(each * static_cast<double>(all_ - ended)));
+    }
+    line_.show(text);
+  }
+
+  void clear() { line_.clear(); }
+
+ private:
+  StatusLine line_{true};
+  std::size_t all_;
+  double start_;
+};
+
+class Sweep {
+ public:
+  explicit Sweep(const SweepOptions& options) : options_(options), folder_(folder_of(options)) {
+    for (const std::string& text : options.over) add_axis(parse_sweep_axis(text));
+    const Scene scene = load_scene_as_told(options.scene, options.changes);
+    seed_ = scene.seed;
+    runs_ = sweep_runs(options.changes, axes_, seed_, options.seeds);
+    // Every combination is read before anything runs: a bad key or value shows at once.
+    for (const SweepRun& run : runs_) check_run(run);
+  }
+
+  // Makes the folder, or makes sure that it holds this very sweep, or one that this one goes on with more values or
+  // seeds.
+  void open_folder() {
+    const std::string scene_text = read_text_file(options_.scene, options_.scene);
+    const fs::path plan = folder_ / "sweep.txt";
+    std::error_code error;
+    if (fs::exists(plan)) {
+      std::vector<SweepRun> runs = runs_;
+      const std::string before = read_text_file(plan.string(), plan.string());
+      const std::string against = take_names(before, scene_text, runs);
+      if (against.empty()) {
+        runs_ = std::move(runs);
+        const std::string identity = sweep_identity(scene_text, runs_);
+        if (identity != before) write_file(plan.string(), identity);
+        return;
+      }
+      if (!options_.force) {
+        fail_input(folder_.string(), fmt::format("holds another sweep: {}", against),
+                   "give it all of that and more, choose another folder with -o, or replace it with --force");
+      }
+      fs::remove_all(folder_ / "runs", error);
+      fs::remove(folder_ / "sweep.csv", error);
+    } else if (fs::exists(folder_) && !fs::is_empty(folder_, error)) {
+      fail_input(folder_.string(), "holds other files", "expected a new folder for the sweep (-o)");
+    }
+    fs::create_directories(folder_ / "runs", error);
+    if (error) fail_input(folder_.string(), "cannot be made: " + error.message(), "expected a folder (-o)");
+    write_file(plan.string(), sweep_identity(scene_text, runs_));
+  }
+
+  bool finished(const SweepRun& run) const { return fs::exists(folder_of(run) / "summary.json"); }
+  const std::vector<SweepRun>& runs() const { return runs_; }
+  const fs::path& folder() const { return folder_; }
+
+  // What runs it: afresh, or on from where it was stopped. threads: 0 leaves them open.
+  std::vector<std::string> command_of(const SweepRun& run, int threads) const {
+    const std::string folder = fs::absolute(folder_of(run)).string();
+    const bool resumes = resumable(run);
+    std::vector<std::string> words{own_path(), "resume", folder, "--quiet"};
+    if (!resumes)
+      words = {own_path(), "run", fs::absolute(options_.scene).string(), "--quiet", "--force", "-o", folder};
+    if (threads > 0) words.insert(words.end(), {"--threads", fmt::format("{}", threads)});
+    if (resumes) return words;
+    for (const Override& change : run.overrides) {
+      words.emplace_back("--set");
+      words.push_back(fmt::format("{}={}", change.key, change.value));
+    }
+    return words;
+  }
+
+  std::string shell_line(const SweepRun& run) const {
+    std::string line;
+    for (const std::string& word : command_of(run, 0)) line += (line.empty() ? "" : " ") + quoted_for_shell(word);
+    return line;
+  }
+
+  // Runs what is not there yet, several at once. Failures are told as they come.
+  SweepCount run_all() const {
+    std::vector<const SweepRun*> rest;
+    for (const SweepRun& run : runs_) {
+      if (!finished(run)) rest.push_back(&run);
+    }
+    const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    const int jobs = options_.jobs.value_or(cores);
+    const int threads = std::max(1, cores / jobs);
+    print_note(fmt::format("{} of {} runs are left, {} at once", rest.size(), runs_.size(), jobs));
+    catch_signals();
+    SweepCount count;
+    SweepProgress progress(rest.size());
+    const auto fail = [&](const SweepRun& run, const std::string& words) {
+      progress.clear();
+      print_warning(fmt::format("run {}: {}", run.name, words));
+      ++count.failed;
+    };
+    Programs programs{rest.size(), static_cast<std::size_t>(jobs), {}, {}, {}};
+    programs.start = [&](std::size_t k) -> std::unique_ptr<ChildProcess> {
+      try {
+        return std::make_unique<ChildProcess>(command_of(*rest[k], threads), fs::current_path().string(),
+                                              log_of(*rest[k]), ChildSignals::reach_it);
+      } catch (const RunError& error) {
+        fail(*rest[k], error.what());
+        return nullptr;
+      }
+    };
+    programs.ended = [&](std::size_t k, int status) {
+      constexpr int stopped_early = 4;
+      if (status == stopped_early || status == 128 + SIGTERM) return;  // the latter where it had not quite begun
+      if (status != 0) return fail(*rest[k], last_words(*rest[k], status));
+      fs::remove(log_of(*rest[k]));
+    };
+    programs.pulse = [&](std::size_t ended) { progress.update(ended, count.failed); };
+    count.stopped = !run_programs(programs);
+    progress.clear();
+    return count;
+  }
+
+  // Runs that have come to their end.
+  std::size_t finished() const {
+    return static_cast<std::size_t>(
+        std::count_if(runs_.begin(), runs_.end(), [&](const SweepRun& r) { return finished(r); }));
+  }
+
+  // One row a run that has come to its end. Returns how many of them have warnings.
+  std::size_t write_table() const {
+    std::size_t warned = 0;
+    std::string text = "run";
+    for (const SweepAxis& axis : axes_) text += "," + axis.key;
+    text += ",seed";
+    for (const char* const key : table_keys) text += fmt::format(",{}", key);
+    text += '\n';
+    for (const SweepRun& run : runs_) {
+      if (!finished(run)) continue;
+      const Json summary = summary_of(run);
+      text += row_of(run, summary);
+      if (!summary.value("warnings", Json()).empty()) ++warned;
+    }
+    const fs::path table = folder_ / "sweep.csv";
+    write_file(table.string() + ".new", text);
+    fs::rename(table.string() + ".new", table);
+    return warned;
+  }
+
+ private:
+  static fs::path folder_of(const SweepOptions& options) {
+    return options.folder ? fs::path(*options.folder) : fs::path("out") / (fs::path(options.scene).stem() += "_sweep");
+  }
+  fs::path folder_of(const SweepRun& run) const { return folder_ / "runs" / run.name; }
+
+  void add_axis(const SweepAxis& axis) {
+    if (std::any_of(axes_.begin(), axes_.end(), [&](const SweepAxis& other) { return other.key == axis.key; })) {
+      fail_input("--over", fmt::format("{} is given twice", axis.key), "expected all its values in one --over");
+    }
+    axes_.push_back(axis);
+  }
+
+  // Keys of the sweep are --set to the runs, and --over to whoever reads the message.
+  void check_run(const SweepRun& run) const {
+    try {
+      load_scene_as_told(options_.scene, {run.overrides, run.overrides.size()});
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      for (const SweepAxis& axis : axes_) {
+        const std::string told = "--set " + axis.key;
+        if (message.starts_with(told)) throw InputError("--over " + message.substr(std::string("--set ").size()));
+      }
+      throw;
+    }
+  }
+
+  std::string log_of(const SweepRun& run) const {
+    return fs::absolute(folder_ / "runs" / (run.name + ".log")).string();
+  }
+
+  // What a run that failed said last.
+  std::string last_words(const SweepRun& run, int status) const {
+    constexpr std::string_view by_a_run = "carom: error: ";
+    const std::string words = last_line(log_of(run));
+    if (words.starts_with(by_a_run)) return words.substr(by_a_run.size());
+    return words.empty() ? fmt::format("ended with status {}", status) : words;
+  }
+
+  // Was it stopped, and left a checkpoint to go on from?
+  bool resumable(const SweepRun& run) const {
+    try {
+      read_checkpoint_at(find_checkpoint(folder_of(run).string()));
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  Json summary_of(const SweepRun& run) const {
+    std::ifstream file(folder_of(run) / "summary.json");
+    Json summary = Json::parse(file, nullptr, false);
+    if (!summary.is_object()) fail_input((folder_of(run) / "summary.json").string(), "is no JSON");
+    return summary;
+  }
+
+  std::string row_of(const SweepRun& run, const Json& summary) const {
+    std::string row = run.name;
+    for (auto change = run.overrides.end() - static_cast<std::ptrdiff_t>(axes_.size() + 1);
+         change != run.overrides.end(); ++change) {
+      row += "," + (change->value.find(',') == std::string::npos ? change->value : '"' + change->value + '"');
+    }
+    for (const char* const key : table_keys) {
+      const Json value = summary.value(key, Json());
+      row += "," + cell_of(value);
+    }
+    return row + "\n";
+  }
+
+  const SweepOptions& options_;
+  fs::path folder_;
+  std::vector<SweepAxis> axes_;
+  std::uint64_t seed_ = 1;
+  std::vector<SweepRun> runs_;
+};
+
+// One line a run that is left, for GNU parallel; afterwards `carom sweep`, told the same, has only the table to write.
+std::string parallel_script(const Sweep& sweep) {
+  std::string text = "#!/bin/sh\n# Runs what is left of the sweep with GNU parallel, which must be installed.\n";
+  text += "parallel --will-cite \"$@\" <<'RUNS'\n";
+  for (const SweepRun& run : sweep.runs()) {
+    if (!sweep.finished(run)) text += sweep.shell_line(run) + "\n";
+  }
+  return text + "RUNS\n";
+}
+
+std::string slurm_script(const Sweep& sweep) {
+  std::size_t left = 0;
+  std::string cases;
+  for (const SweepRun& run : sweep.runs()) {
+    if (sweep.finished(run)) continue;
+    cases += fmt::format("  {}) exec {} --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" ;;\n", ++left, sweep.shell_line(run));
+  }
+  return fmt::format(
+      "#!/bin/sh\n#SBATCH --job-name=carom\n#SBATCH --array=1-{}\n#SBATCH --cpus-per-task=1\n"
+      "# One task a run that is left of the sweep.\ncase \"$SLURM_ARRAY_TASK_ID\" in\n{}esac\n",
+      std::max<std::size_t>(1, left), cases);
+}
+
+}  // namespace
+
+int command_sweep(const SweepOptions& options) {
+  Sweep sweep(options);
+  sweep.open_folder();
+  const std::size_t left = sweep.runs().size() - sweep.finished();
+  if (!options.emit.empty() && left > 0) {
+    const bool slurm = options.emit == "slurm";
+    const std::string file = (sweep.folder() / (slurm ? "sweep.sbatch" : "sweep.sh")).string();
+    write_file(file, slurm ? slurm_script(sweep) : parallel_script(sweep));
+    print_note(fmt::format("{} of {} runs are left; {} {}, and then this command without --emit for the table", left,
+                           sweep.runs().size(), slurm ? "sbatch" : "sh", quoted_for_shell(file)));
+    print_out(fmt::format("{}\n", file));
+    return 0;
+  }
+  const SweepCount count = sweep.run_all();
+  const std::size_t warned = sweep.write_table();
+  const std::string table = (sweep.folder() / "sweep.csv").string();
+  if (warned > 0) {
+    print_warning(fmt::format("{} of {} runs warn of their method, see the column warnings and each summary.json",
+                              warned, sweep.finished()));
+  }
+  if (count.stopped) {
+    print_note(fmt::format("stopped by {} with {} of {} runs done; the same command goes on", stop_signal_name(),
+                           sweep.finished(), sweep.runs().size()));
+    return 4;
+  }
+  print_out(fmt::format("{}\n", table));
+  return count.failed > 0 ? 1 : 0;
+}
+
+}  // namespace carom

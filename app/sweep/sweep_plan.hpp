@@ -1,0 +1,38 @@
+// What a sweep runs: every combination of values and seeds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/cli/command_line.hpp"
+
+namespace carom {
+
+// One key of the scene and the values that it takes, as TOML writes them.
+struct SweepAxis {
+  std::string key;
+  std::vector<std::string> values;
+};
+
+// "physics.restitution=0.5:1.0:11" (11 values from 0.5 to 1.0, ends included) or "run.method=pairwise,exact". Throws
+// InputError for anything else.
+SweepAxis parse_sweep_axis(const std::string& text);
+
+struct SweepRun {
+  std::string name;                 // of its folder: 0001, 0002, ...
+  std::vector<Override> overrides;  // those of the command line, then one an axis, then the seed
+};
+
+// The last axis turns fastest, seeds faster still. Seeds run on from the scene's own. Throws InputError for more than a
+// million runs, and for seeds beyond 64 bits.
+std::vector<SweepRun> sweep_runs(const SceneChanges& changes, const std::vector<SweepAxis>& axes, std::uint64_t seed,
+                                 int seeds);
+
+// Everything that tells one sweep from another, as text: the runs with what they change, and the scene.
+std::string sweep_identity(const std::string& scene_text, const std::vector<SweepRun>& runs);
+
+// Enlarges a sweep: the runs that the one of this identity has keep its names, so that nothing of it is run again; the
+// others are numbered on from there. Returns what does not go together, empty if all does.
+std::string take_names(const std::string& identity, const std::string& scene_text, std::vector<SweepRun>& runs);
+
+}  // namespace carom

@@ -1,0 +1,185 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/commands.hpp"
+#include "core/base/input_message.hpp"
+#include "io/files/output_folder.hpp"
+#include "io/trajectory/trajectory_difference.hpp"
+#include "io/trajectory/trajectory_reader.hpp"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What a run came to, whoever computed it and however long that took.
+constexpr std::array<const char*, 17> compared_keys{
+    "state_hash",   "method",          "seed",           "particles",    "steps",          "time",
+    "collisions",   "wall_collisions", "energy_initial", "energy_final", "momentum_drift", "max_overlap",
+    "wall_overlap", "pressure",        "collision_rate", "removed",      "emitted"};
+
+// The files to compare of one output: a folder's, or a single trajectory.
+struct Output {
+  std::string name;
+  fs::path trajectory;  // empty if there is none
+  Json summary;         // null if there is none
+};
+
+Output open_output(const std::string& name) {
+  if (!fs::exists(name)) fail_input(name, "does not exist", "expected a folder of a run, or a trajectory");
+  if (!fs::is_directory(name)) return {name, name, nullptr};
+  Output output{name, trajectory_in(name), nullptr};
+  std::ifstream file(fs::path(name) / "summary.json");
+  if (file) output.summary = Json::parse(file, nullptr, false);
+  if (output.summary.is_discarded()) fail_input(name + "/summary.json", "is no JSON", "expected the summary of a run");
+  if (output.trajectory.empty() && output.summary.is_null()) {
+    if (fs::exists(fs::path(name) / unfinished_name)) {
+      fail_input(name, "holds a run that is not finished",
+                 fmt::format("expected a finished one (carom resume {}), or a trajectory in {}", name,
+                             (fs::path(name) / unfinished_name).string()));
+    }
+    fail_input(name, "holds neither trajectory.xyz, trajectory.h5 nor summary.json", "expected a folder of a run");
+  }
+  return output;
+}
+
+// Keys of the summaries with different values; empty unless both have one.
+std::vector<std::string> different_keys(const Json& a, const Json& b) {
+  std::vector<std::string> keys;
+  if (!a.is_object() || !b.is_object()) return keys;
+  for (const char* const key : compared_keys) {
+    if (a.value(key, Json()) != b.value(key, Json())) keys.emplace_back(key);
+  }
+  return keys;
+}
+
+std::string text_of(const Difference& d) {
+  const std::string place = fmt::format("frame {} (t = {})", d.frame, d.time);
+  const std::string_view quantity = d.quantity;
+  if (quantity == "frames") return fmt::format("{}: only one has it; {} frames against {}", place, d.a, d.b);
+  if (quantity == "disks") return fmt::format("{}: only one has disk {}; {} disks against {}", place, d.id, d.a, d.b);
+  if (quantity == "time") return fmt::format("{}: its time is {} against {}", place, d.a, d.b);
+  return fmt::format("{}, disk {}, {}: {} against {}", place, d.id, d.quantity, d.a, d.b);
+}
+
+// The largest difference of each quantity, those within the tolerance too.
+std::string largest_text(const TrajectoryDifference& d) {
+  std::string text;
+  for (const auto& largest : d.largest) {
+    if (!largest) continue;
+    text += fmt::format("  {:<8}differs by at most {:.6g}, in frame {} (t = {}), disk {}\n", largest->quantity,
+                        largest->by, largest->frame, largest->time, largest->id);
+  }
+  return text;
+}
+
+std::string text_of(const TrajectoryDifference& d) {
+  std::string text = fmt::format("different: first in {}\n", text_of(*d.first)) + largest_text(d);
+  if (d.frames_a != d.frames_b) text += fmt::format("  frames  {} against {}\n", d.frames_a, d.frames_b);
+  return text;
+}
+
+std::string same_text(const TrajectoryDifference& d, const CompareRule& rule) {
+  const std::string how = rule.tolerance ? fmt::format("the same to {:g}", *rule.tolerance) : "same bits";
+  std::vector<std::string> fields;
+  for (std::size_t q = 0; q < rule.fields.size(); ++q) {
+    if (rule.fields[q]) fields.emplace_back(compared_quantities[q]);
+  }
+  const bool all = fields.size() == rule.fields.size();
+  return fmt::format("{} in {} frame{}{}\n", how, d.frames_a, d.frames_a == 1 ? "" : "s",
+                     all ? "" : fmt::format(", of {}", fmt::join(fields, ", "))) +
+         largest_text(d);
+}
+
+std::string text_of(const std::vector<std::string>& keys, const Json& a, const Json& b) {
+  std::string text = "different: summary.json\n";
+  for (const std::string& key : keys)
+    text += fmt::format("  {:<16}{} against {}\n", key, a.value(key, Json()).dump(), b.value(key, Json()).dump());
+  return text;
+}
+
+Json json_of(const Difference& d) {
+  return {{"frame", d.frame}, {"time", d.time}, {"disk", d.id}, {"quantity", d.quantity},
+          {"a", d.a},         {"b", d.b},       {"by", d.by}};
+}
+
+struct Comparison {
+  bool same;
+  std::vector<std::string> keys;  // of the summaries, that differ
+  std::optional<CompareRule> rule;
+  std::optional<TrajectoryDifference> frames;
+};
+
+Json largest_json(const TrajectoryDifference& d) {
+  Json j = Json::object();
+  for (const auto& largest : d.largest) {
+    if (largest) j[largest->quantity] = json_of(*largest);
+  }
+  return j;
+}
+
+// A new key is a row here.
+const JsonKey<Comparison> compare_keys[] = {
+    {"same", "", "true or false", [](const Comparison& c) -> Json { return c.same; }},
+    {"different_keys", "", "keys of the two summaries that differ", [](const Comparison& c) -> Json { return c.keys; }},
+    {"tolerance", "", "only with `--tolerance`, `--fields`, `--times` or `--at`: null where bits count",
+     [](const Comparison& c) -> Json {
+       if (!c.rule) return absent();
+       return c.rule->tolerance ? Json(*c.rule->tolerance) : Json(nullptr);
+     }},
+    {"frames", "", "only of trajectories: how many frames each has",
+     [](const Comparison& c) -> Json {
+       return c.frames ? Json{c.frames->frames_a, c.frames->frames_b} : absent();
+     }},
+    {"first", "", "only of trajectories: the first difference (frame, time, disk, quantity, a, b, by), or null",
+     [](const Comparison& c) -> Json {
+       if (!c.frames) return absent();
+       return c.frames->first ? json_of(*c.frames->first) : Json(nullptr);
+     }},
+    {"largest", "", "only of trajectories: the largest difference of each quantity that differs",
+     [](const Comparison& c) -> Json { return c.frames ? largest_json(*c.frames) : absent(); }},
+};
+
+}  // namespace
+
+int command_compare(const CompareOptions& options) {
+  const Output a = open_output(options.a), b = open_output(options.b);
+  const bool both_trajectories = !a.trajectory.empty() && !b.trajectory.empty();
+  if (!both_trajectories && (a.summary.is_null() || b.summary.is_null())) {
+    fail_input(fmt::format("{} and {}", a.name, b.name), "have nothing in common to compare",
+               "expected two trajectories or two summaries");
+  }
+  if (options.rule && !both_trajectories) {
+    fail_input((a.trajectory.empty() ? a : b).name, "holds no trajectory",
+               "expected one: --tolerance, --fields, --times and --at compare trajectories");
+  }
+  std::optional<TrajectoryDifference> frames;
+  if (both_trajectories) {
+    frames = compare_trajectories(a.trajectory, b.trajectory, options.rule.value_or(CompareRule{}));
+  }
+  const std::vector<std::string> keys =
+      options.rule ? std::vector<std::string>{} : different_keys(a.summary, b.summary);
+  const bool same = keys.empty() && !(frames && frames->first);
+  if (options.json) {
+    print_out(json_object(compare_keys, {same, keys, options.rule, frames}));
+    return same ? 0 : 1;
+  }
+  if (frames && frames->first) print_out(text_of(*frames));
+  if (!keys.empty()) print_out(text_of(keys, a.summary, b.summary));
+  if (same && options.rule) print_out(same_text(*frames, *options.rule));
+  if (same && frames && !options.rule) print_out(fmt::format("same bits in all {} frames\n", frames->frames_a));
+  if (same && !frames) print_out("same summary, state hash included\n");
+  return same ? 0 : 1;
+}
+
+std::vector<KeyText> compare_key_texts() {
+  return key_texts(compare_keys);
+}
+
+}  // namespace carom

@@ -1,0 +1,223 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "app/cli/commands.hpp"
+#include "core/base/check.hpp"
+#include "core/base/input_message.hpp"
+#include "core/scene/picture_look.hpp"
+#include "io/files/output_folder.hpp"
+#include "io/movie/movie.hpp"
+#include "io/trajectory/trajectory_reader.hpp"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Recording {
+  fs::path folder;  // where files go
+  fs::path trajectory;
+  bool growing = false;  // a run is, or was, writing it
+};
+
+Recording open_recording(const std::string& name) {
+  const fs::path path = name;
+  if (!fs::exists(path)) fail_input(name, "does not exist", "expected a folder of a run, or a trajectory");
+  if (!fs::is_directory(path)) {
+    const fs::path parent = path.parent_path();
+    return {parent.empty() ? fs::path(".") : parent, path, parent.filename() == unfinished_name};
+  }
+  const fs::path trajectory = trajectory_in(path);
+  if (!trajectory.empty()) return {path, trajectory, path.filename() == unfinished_name};
+  const fs::path unfinished = trajectory_in(path / unfinished_name);
+  if (!unfinished.empty()) return {path, unfinished, true};
+  fail_input(name, "holds no trajectory.xyz or trajectory.h5",
+             "expected the folder of a run with [output] trajectory = \"xyz\" or \"h5md\"");
+}
+
+std::unique_ptr<TrajectoryReader> open_frames(const Recording& recording) {
+  return open_trajectory(recording.trajectory.string(), recording.growing);
+}
+
+// What all frames hold, and how many they are.
+struct Survey {
+  SeenValues seen;
+  Count frames = 0;
+  Domain box;
+};
+
+Survey survey_of(const Recording& recording) {
+  const auto reader = open_frames(recording);
+  Survey survey;
+  for (TrajectoryFrame frame; reader->read(frame); ++survey.frames) {
+    survey.seen.add(frame.disks, frame.group);
+    survey.box = frame.box;
+  }
+  if (survey.frames == 0) fail_input(recording.trajectory.string(), "holds no frame");
+  return survey;
+}
+
+// The run's own scene where it lies beside the trajectory.
+std::optional<Scene> scene_of(const Recording& recording) {
+  const fs::path file = recording.trajectory.parent_path() / "scene.toml";
+  if (!fs::exists(file)) return {};
+  try {
+    return load_scene(file.string());
+  } catch (const InputError& error) {
+    print_warning(fmt::format("title and sides come from the trajectory alone: {}", error.what()));
+    return {};
+  }
+}
+
+// As the run's movie looks, but for what the user says.
+PictureLook look_of(const RenderOptions& options, const std::optional<Scene>& scene) {
+  PictureLook look = scene ? scene->output.look : PictureLook{};
+  if (options.colour && *options.colour != look.colour) {
+    look.colour = *options.colour;
+    look.range.reset();
+  }
+  if (options.range) {
+    const std::string complaint = complaint_of_range(look.colour, (*options.range)[0], (*options.range)[1]);
+    if (!complaint.empty()) fail_input("--range", "is out of place", complaint);
+    look.range = options.range;
+  }
+  if (options.size) {
+    look.width = (*options.size)[0];
+    look.height = (*options.size)[1];
+  }
+  if (options.fps) look.fps = *options.fps;
+  return look;
+}
+
+// The colours reach over what all frames hold, so that every picture and movie of a run has the same.
+FrameStyle style_of(const Recording& recording, const RenderOptions& options, const Survey& survey) {
+  const std::optional<Scene> scene = scene_of(recording);
+  const PictureLook look = look_of(options, scene);
+  if (scene) return frame_style(*scene, look, survey.seen);
+  return frame_style(recording.trajectory.string(), survey.box, look, survey.seen);
+}
+
+// Throws InputError where a file is in the way.
+void check_free(const fs::path& file, bool force) {
+  if (fs::is_directory(file)) fail_input(file.string(), "is a folder", "expected a file (-o)");
+  if (fs::exists(file) && !force) {
+    fail_input(file.string(), "exists already", "choose another file with -o, or replace it with --force");
+  }
+}
+
+// A folder beside the file it is for, removed with whatever is left in it.
+struct WorkFolder {
+  explicit WorkFolder(const fs::path& file) : path(file.string() + ".unfinished") {
+    std::error_code error;
+    fs::remove_all(path, error);
+    fs::create_directories(path, error);
+    if (error) throw RunError(fmt::format("cannot make the folder {}: {}", path.string(), error.message()));
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  ~WorkFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  fs::path path;
+};
+
+void move_to(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) throw RunError(fmt::format("cannot write {}: {}", to.string(), error.message()));
+}
+
+// What a file's extension asks for.
+struct Target {
+  fs::path file;
+  std::optional<MovieFormat> movie;  // absent: a picture
+  bool svg = false;
+};
+
+Target target_of(const RenderOptions& options, const Recording& recording) {
+  Target target{recording.folder / (options.frame ? fmt::format("frame_{}.png", *options.frame) : "movie.mp4"), {}};
+  if (options.file) target.file = *options.file;
+  const std::string extension = target.file.extension().string();
+  target.movie = movie_format_of(extension);
+  std::string small = extension;
+  std::transform(small.begin(), small.end(), small.begin(), [](unsigned char c) { return std::tolower(c); });
+  target.svg = small == ".svg";
+  if (!target.movie && !target.svg && small != ".png") {
+    fail_input("-o", fmt::format("{} ends in \"{}\"", in_quotes(target.file.string()), extension),
+               "expected .mp4, .webm or .gif for a movie, .png or .svg for a picture");
+  }
+  if (target.movie && options.frame) {
+    fail_input("-o", fmt::format("{} is a movie, and --frame asks for a picture", in_quotes(target.file.string())),
+               "expected .png or .svg");
+  }
+  return target;
+}
+
+void render_picture(const Recording& recording, const RenderOptions& options, const Target& target) {
+  const Survey survey = survey_of(recording);
+  const Count wanted = options.frame ? static_cast<Count>(*options.frame) : survey.frames;
+  if (wanted > survey.frames) {
+    fail_input("--frame", fmt::format("there is no frame {}", wanted), fmt::format("expected 1 to {}", survey.frames));
+  }
+  const auto reader = open_frames(recording);
+  TrajectoryFrame frame;
+  for (Count k = 0; k < wanted; ++k) reader->read(frame);
+  FramePainter painter(style_of(recording, options, survey));
+  const WorkFolder work(target.file);
+  const fs::path made = work.path / "frame";
+  if (target.svg) {
+    painter.write_svg(made.string(), frame.disks, frame.time, frame.group);
+  } else {
+    painter.paint(frame.disks, frame.time, frame.group);
+    painter.write_png(made.string());
+  }
+  move_to(made, target.file);
+}
+
+// Returns what was made: the file, or a folder of single frames.
+fs::path render_movie(const Recording& recording, const RenderOptions& options, const Target& target) {
+  constexpr double fastest_gif = 50.0;  // delays are whole hundredths of a second, and viewers make two of one
+  const Survey survey = survey_of(recording);
+  const FrameStyle style = style_of(recording, options, survey);
+  if (target.movie == MovieFormat::gif && style.look.fps > fastest_gif) {
+    fail_input("--fps", fmt::format("is {}", style.look.fps),
+               fmt::format("expected at most {} for a GIF", fastest_gif));
+  }
+  const WorkFolder work(target.file);
+  MovieWriter movie(work.path.string(), style, *target.movie);
+  if (movie.single_frames() && !options.quiet) {
+    print_warning("ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on");
+  }
+  const auto reader = open_frames(recording);
+  TrajectoryFrame frame;
+  for (Count k = 0; k < survey.frames && reader->read(frame); ++k) movie.add(frame.disks, frame.time, frame.group);
+  movie.finish();
+  const fs::path to = movie.single_frames() ? target.file.parent_path() / "frames" : target.file;
+  move_to(work.path / (movie.single_frames() ? "frames" : movie_name(*target.movie)), to);
+  return to;
+}
+
+}  // namespace
+
+int command_render(const RenderOptions& options) {
+  const Recording recording = open_recording(options.source);
+  const Target target = target_of(options, recording);
+  check_free(target.file, options.force);
+  fs::path made = target.file;
+  if (target.movie) {
+    made = render_movie(recording, options, target);
+  } else {
+    render_picture(recording, options, target);
+  }
+  if (!options.quiet) print_out(fmt::format("{}\n", made.string()));
+  return 0;
+}
+
+}  // namespace carom

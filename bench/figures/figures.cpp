@@ -1,0 +1,88 @@
+// Measures the figures that speed is promised in, prints them as a table and writes them, with the machine they were
+// measured on, into a folder.
+//   carom_figures FOLDER [gas|scaling|special|features|exact|exact_growth|memory]...   all, if none is named
+#include "bench/figures/figures.hpp"
+
+#include <fmt/format.h>
+#include <fmt/os.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <exception>
+#include <fstream>
+
+#include "bench/support/shield.hpp"
+
+namespace carom::bench {
+namespace {
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown processor";
+}
+
+std::string promise(const Figure& f) {
+  if (f.at_most) return fmt::format("at most {:g}", *f.at_most);
+  if (f.at_least) return fmt::format("at least {:g}", *f.at_least);
+  return "";
+}
+
+const char* verdict(const Figure& f) {
+  if (!f.at_most && !f.at_least) return "";
+  const bool kept = (!f.at_most || f.value <= *f.at_most) && (!f.at_least || f.value >= *f.at_least);
+  return kept ? "kept" : "MISSED";
+}
+
+void write_figures(const std::string& folder, const std::vector<Figure>& figures) {
+  auto file = fmt::output_file(folder + "/figures.csv");
+  file.print("figure,value,unit,promise,verdict\n");
+  for (const Figure& f : figures) {
+    file.print("\"{}\",{:.4g},{},{},{}\n", f.name, f.value, f.unit, promise(f), verdict(f));
+    fmt::print("{:<62} {:>8.3g} {:<15} {:<13} {}\n", f.name, f.value, f.unit, promise(f), verdict(f));
+  }
+}
+
+void write_machine(const std::string& folder) {
+  auto file = fmt::output_file(folder + "/machine.csv");
+  file.print("what,value\nprocessor,{}\ncores,{}\ncompiler,{}\ncommit,{}\nshielded,{}\n", processor(),
+             sysconf(_SC_NPROCESSORS_ONLN), CAROM_COMPILER,
+             std::getenv("CAROM_COMMIT") ? std::getenv("CAROM_COMMIT") : "", Shield::wanted() ? "yes" : "no");
+}
+
+int run(const std::vector<std::string>& words) {
+  const std::string& folder = words.at(1);
+  const auto wanted = [&](const char* what) {
+    return words.size() == 2 || std::find(words.begin() + 2, words.end(), what) != words.end();
+  };
+  std::vector<Figure> all;
+  const auto add = [&](std::vector<Figure> figures) { all.insert(all.end(), figures.begin(), figures.end()); };
+  if (wanted("gas")) add(measure_gas(folder));
+  if (wanted("scaling")) add(measure_scaling(folder));
+  if (wanted("special")) add(measure_special());
+  if (wanted("features")) add(measure_features(folder));
+  if (wanted("exact")) add(measure_exact(folder));
+  if (wanted("exact_growth")) add(measure_exact_growth(folder));
+  if (wanted("memory")) add(measure_memory(CAROM_PROGRAM, CAROM_SOURCE_DIR "/scenes/gas_million.toml"));
+  write_figures(folder, all);
+  write_machine(folder);
+  return 0;
+}
+
+}  // namespace
+}  // namespace carom::bench
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    fmt::print(stderr, "usage: {} FOLDER [gas|scaling|special|features|exact|exact_growth|memory]...\n", argv[0]);
+    return 2;
+  }
+  try {
+    return carom::bench::run({argv, argv + argc});
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+}

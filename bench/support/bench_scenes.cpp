@@ -1,0 +1,167 @@
+#include "bench/support/bench_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+#include <utility>
+
+#include "core/load/scene_file.hpp"
+#include "core/start/initial_state.hpp"
+#include "core/step/engine.hpp"
+#include "parallel/simulation.hpp"
+
+namespace carom::bench {
+
+namespace {
+
+constexpr double never = 1e6;
+
+std::string sides(const char* kind) {
+  return fmt::format("left = \"{0}\"\nright = \"{0}\"\nbottom = \"{0}\"\ntop = \"{0}\"\n", kind);
+}
+
+std::string run_text(double dt) {
+  return fmt::format("[run]\nmethod = \"pairwise\"\ndt = {}\nt_end = {:.1f}\n", dt, never);
+}
+
+State after(const Scene& scene, State state, int steps) {
+  const auto engine = make_parallel_engine(scene, std::move(state), {2});
+  for (int k = 0; k < steps; ++k) engine->step();
+  State end = engine->state();
+  end.time = 0.0;
+  end.counters = {};
+  return end;
+}
+
+// The state after `steps` of dt, in a scene that goes on with another step.
+Start prepared(const std::string& text, const char* name, double dt, int steps, double next_dt) {
+  Scene scene = parse_scene(text + run_text(dt), name, "");
+  State state = after(scene, initial_state(scene), steps);
+  scene.run.dt = next_dt;
+  return {std::move(scene), std::move(state)};
+}
+
+// Repeats a state that is periodic from left to right side by side. A load between disks on either side of a seam comes
+// to lie between two copies.
+State repeated(const State& tile, double width, std::size_t copies) {
+  const auto n = static_cast<DiskId>(tile.disks.size());
+  State all;
+  all.next_id = n * static_cast<DiskId>(copies);
+  std::vector<double> x(n);
+  for (std::size_t i = 0; i < n; ++i) x[tile.disks.id[i]] = tile.disks.x[i];
+  for (std::size_t copy = 0; copy < copies; ++copy) {
+    const DiskId first = n * static_cast<DiskId>(copy);
+    for (std::size_t i = 0; i < n; ++i) {
+      Disk disk = disk_at(tile.disks, i);
+      disk.id += first;
+      disk.x += width * static_cast<double>(copy);
+      append(all.disks, disk);
+    }
+    const DiskId before = n * static_cast<DiskId>(copy > 0 ? copy - 1 : copies - 1);
+    const DiskId behind = n * static_cast<DiskId>(copy + 1 < copies ? copy + 1 : 0);
+    for (ContactLoad load : tile.loads) {
+      if (load.id2 < n) {
+        const double dx = x[load.id2] - x[load.id1];
+        load.id2 += dx > 0.5 * width ? before : dx < -0.5 * width ? behind : first;
+      }
+      load.id1 += first;
+      if (load.id2 < load.id1) std::swap(load.id1, load.id2);
+      all.loads.push_back(load);
+    }
+  }
+  std::sort(all.loads.begin(), all.loads.end(),
+            [](const ContactLoad& a, const ContactLoad& b) { return a.id1 != b.id1 ? a.id1 < b.id1 : a.id2 < b.id2; });
+  return all;
+}
+
+template <class T>
+void permute(std::vector<T>& column, const std::vector<std::size_t>& order) {
+  if (column.empty()) return;
+  std::vector<T> moved(column.size());
+  for (std::size_t i = 0; i < order.size(); ++i) moved[i] = column[order[i]];
+  column = std::move(moved);
+}
+
+}  // namespace
+
+const std::vector<std::string> gas_features{"plain", "gravity", "radii", "masses", "walls", "inelastic", "brownian"};
+
+Start gas(std::size_t count, const std::string& feature) {
+  // What a feature changes is small, so that the gas stays the same gas and only the cost of modelling it differs.
+  std::string physics;
+  if (feature == "gravity") physics = "[physics]\ngravity = 0.001\n";
+  if (feature == "inelastic") physics = "[physics]\nrestitution = 0.99\n";
+  // The speed of a step, sqrt(2 D / dt), is 1 as in the plain gas.
+  if (feature == "brownian") physics = "[physics]\ndiffusion = 0.0025\n";
+  const std::string text = fmt::format(
+      "[box]\npacking_fraction = 0.5\n{}{}[[disks]]\ncount = {}\npositions = \"hexagonal\"\n{}radius = {}\n"
+      "mass = {}\n",
+      sides(feature == "walls" ? "wall" : "periodic"), physics, count,
+      feature == "brownian" ? "" : "velocities = { maxwell = 1.0 }\n",
+      feature == "radii" ? "{ uniform = [0.45, 0.55] }" : "0.5",
+      feature == "masses" ? "{ uniform = [0.5, 1.5] }" : "1.0");
+  return prepared(text, "gas", 0.02, 50, 0.005);
+}
+
+Start exact_gas(std::size_t count, double packing_fraction) {
+  // Two disks cover more than a million units of time in a turn.
+  const std::string text = fmt::format(
+      "[box]\npacking_fraction = {}\n{}[[disks]]\ncount = {}\npositions = \"hexagonal\"\n"
+      "velocities = {{ maxwell = 1.0 }}\nradius = 0.5\nmass = 1.0\n[run]\nmethod = \"exact\"\nt_end = 1e12\n",
+      packing_fraction, sides("periodic"), count);
+  Scene scene = parse_scene(text, "gas", "");
+  constexpr double collisions_a_disk = 4.0;
+  const auto engine = make_parallel_engine(scene, initial_state(scene), {2});
+  while (static_cast<double>(engine->state().counters.collisions) <
+         0.5 * collisions_a_disk * static_cast<double>(count)) {
+    engine->step();
+  }
+  State state = engine->state();
+  state.time = 0.0;
+  state.counters = {};
+  return {std::move(scene), std::move(state)};
+}
+
+Start wide_radii() {
+  // 10^6 small disks fill half of what the large ones leave: (0.785 + 0.785) / (0.785 / 0.5 + 0.785) = 2 / 3 in all.
+  const std::string text = fmt::format(
+      "[box]\npacking_fraction = 0.6667\n{}"
+      "[[disks]]\ncount = 100\npositions = \"random\"\nvelocities = {{ maxwell = 1.0 }}\nradius = 50.0\n"
+      "mass = {{ from_radius = 1.2732 }}\n"
+      "[[disks]]\ncount = 1_000_000\npositions = \"random\"\nvelocities = {{ maxwell = 1.0 }}\nradius = 0.5\n"
+      "mass = {{ from_radius = 1.2732 }}\n",
+      sides("periodic"));
+  return prepared(text, "wide radii", 0.02, 20, 0.005);
+}
+
+Start settled_pile() {
+  constexpr double width = 120.0;
+  constexpr std::size_t copies = 104;
+  const std::string text = fmt::format(
+      "[box]\nwidth = {:.1f}\nheight = 320.0\nwall_restitution = 0.5\nleft = \"periodic\"\nright = \"periodic\"\n"
+      "[physics]\ngravity = 0.5\nrestitution = 0.5\n"
+      "[[disks]]\ncount = 960\npositions = \"random\"\nvelocities = {{ uniform = 2.0 }}\n"
+      "radius = {{ uniform = [1.0, 2.5] }}\nmass = {{ from_radius = 1.0 }}\n",
+      width);
+  // It falls for 36 units of time and then calms down, with long steps; a thousand of B's own follow.
+  Start pile = prepared(text, "pile", 0.01, 20'000, 0.002);
+  pile.state = repeated(after(pile.scene, std::move(pile.state), 1000), width, copies);
+  pile.scene.box.width *= static_cast<double>(copies);
+  return pile;
+}
+
+State shuffled(State state) {
+  std::mt19937_64 random(1);  // the same numbers everywhere, unlike the standard's distributions
+  std::vector<std::size_t> order(state.disks.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    order[i] = i;
+    std::swap(order[i], order[random() % (i + 1)]);
+  }
+  Disks& d = state.disks;
+  for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass}) permute(*column, order);
+  permute(d.id, order);
+  return state;
+}
+
+}  // namespace carom::bench

@@ -1,0 +1,84 @@
+#include "core/disks/disks.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace carom {
+
+void append(Disks& d, const Disk& disk) {
+  const std::size_t n = d.size();
+  if (n == 0 && d.radius.empty() && d.mass.empty() && d.common_radius == 0.0) {
+    d.common_radius = disk.radius;
+    d.common_mass = disk.mass;
+  }
+  if (d.radius.empty() && disk.radius != d.common_radius) d.radius.assign(n, d.common_radius);
+  if (d.mass.empty() && disk.mass != d.common_mass) d.mass.assign(n, d.common_mass);
+  const bool own_radius = !d.radius.empty() || disk.radius != d.common_radius;
+  const bool own_mass = !d.mass.empty() || disk.mass != d.common_mass;
+  d.x.push_back(disk.x);
+  d.y.push_back(disk.y);
+  d.vx.push_back(disk.vx);
+  d.vy.push_back(disk.vy);
+  d.id.push_back(disk.id);
+  if (own_radius) d.radius.push_back(disk.radius);
+  if (own_mass) d.mass.push_back(disk.mass);
+}
+
+namespace {
+
+template <class T>
+void close_up(std::vector<T>& column, const std::vector<unsigned char>& gone) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (gone[i] == 0) column[kept++] = column[i];
+  }
+  column.resize(kept);
+}
+
+}  // namespace
+
+std::size_t remove_marked(Disks& d, const std::vector<unsigned char>& gone) {
+  const std::size_t before = d.size();
+  close_up(d.x, gone);
+  close_up(d.y, gone);
+  close_up(d.vx, gone);
+  close_up(d.vy, gone);
+  close_up(d.id, gone);
+  close_up(d.radius, gone);
+  close_up(d.mass, gone);
+  return before - d.size();
+}
+
+double largest_radius(const Disks& d) {
+  if (d.empty()) return 0.0;
+  return d.radius.empty() ? d.common_radius : *std::max_element(d.radius.begin(), d.radius.end());
+}
+
+double smallest_radius(const Disks& d) {
+  if (d.empty()) return 0.0;
+  return d.radius.empty() ? d.common_radius : *std::min_element(d.radius.begin(), d.radius.end());
+}
+
+std::vector<std::size_t> by_id(const Disks& d) {
+  std::vector<std::size_t> order(d.size());
+  if (d.empty()) return order;
+  // Mostly nearly all ids up to the largest are there: every disk then knows its place, but for those that are not.
+  const std::size_t ids = std::size_t{*std::max_element(d.id.begin(), d.id.end())} + 1;
+  if (ids < 4 * d.size()) {
+    constexpr std::uint32_t absent = 0xffffffffU;
+    std::vector<std::uint32_t> place(ids, absent);
+    for (std::size_t i = 0; i < d.size(); ++i) place[d.id[i]] = static_cast<std::uint32_t>(i);
+    std::size_t next = 0;
+    for (const std::uint32_t i : place) {
+      if (i != absent) order[next++] = i;
+    }
+    return order;
+  }
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!std::is_sorted(d.id.begin(), d.id.end())) {
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return d.id[a] < d.id[b]; });
+  }
+  return order;
+}
+
+}  // namespace carom

@@ -1,0 +1,53 @@
+// The rectangle [0, width] x [0, height], what its four sides do, nearest images and wrapping.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/types.hpp"
+
+namespace carom {
+
+enum class Side : std::uint8_t { left, right, bottom, top };
+inline constexpr std::array<Side, 4> all_sides{Side::left, Side::right, Side::bottom, Side::top};
+
+enum class SideKind : std::uint8_t { wall, periodic, sink };
+
+struct Domain {
+  double width = 0.0;   // length
+  double height = 0.0;  // length
+  std::array<SideKind, 4> sides{SideKind::wall, SideKind::wall, SideKind::wall, SideKind::wall};
+  double wall_restitution = 1.0;  // in [0, 1]; the original's walls are elastic whatever e is
+
+  SideKind side(Side s) const { return sides[static_cast<std::size_t>(s)]; }
+  bool periodic_x() const { return side(Side::left) == SideKind::periodic; }
+  bool periodic_y() const { return side(Side::bottom) == SideKind::periodic; }
+  bool has(SideKind kind) const {
+    for (SideKind k : sides) {
+      if (k == kind) return true;
+    }
+    return false;
+  }
+};
+
+// One component of the difference between two positions, taken to the nearest image.
+// Precondition: |d| < 1.5 period (both positions wrapped, or out by less than a quarter period).
+// Antisymmetric in d, so the order of the two disks does not change the bits of a distance.
+inline double nearest_image(double d, double period) {
+  const double half = 0.5 * period;
+  if (d > half) return d - period;
+  if (d < -half) return d + period;
+  return d;
+}
+
+// A coordinate brought back into [0, period). Precondition: -period <= c < 2 period.
+// A tiny negative c gives c + period == period in floating point; that is the same place as 0.
+inline double wrap(double c, double period) {
+  if (c < 0.0) {
+    c += period;
+    return c < period ? c : 0.0;
+  }
+  return c < period ? c : c - period;
+}
+
+}  // namespace carom

@@ -1,0 +1,18 @@
+// The fingerprint of a state, in every summary and in the golden tests.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/disks/disks.hpp"
+
+namespace carom {
+
+// 64-bit hash of (id, x, y, vx, vy) bit patterns; -0.0 and 0.0 differ. A sum over disks of a mixed hash of
+// each, so it does not depend on storage order and can be taken in parallel.
+std::uint64_t state_hash(const Disks& disks);
+
+// 16 lower-case hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
+
+}  // namespace carom

@@ -1,0 +1,30 @@
+#include "core/load/memory_need.hpp"
+
+#include <unistd.h>
+
+#include <limits>
+
+namespace carom {
+
+namespace {
+
+// Bytes a disk. Time stepping: 36 of state, 12 to sort by, 8 to move through, 4 of cells, 2 of counts. Exact: 36 of
+// state, a path with what goes with it (64), a list (64), its place (8), due time (8), standing, mark and chain (9),
+// cells (4), long lists (4), and what a tile's events take.
+constexpr double stepping_bytes = 62.0;
+constexpr double exact_bytes = 200.0;
+
+}  // namespace
+
+double least_memory(Method method, Count disks) {
+  return static_cast<double>(disks) * (method == Method::exact ? exact_bytes : stepping_bytes);
+}
+
+double machine_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES);
+  const long page = sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page <= 0) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(pages) * static_cast<double>(page);
+}
+
+}  // namespace carom

@@ -1,0 +1,276 @@
+#include "core/load/scene_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/input_message.hpp"
+#include "core/load/memory_need.hpp"
+#include "core/scene/drawn_velocities.hpp"
+#include "core/scene/scene_names.hpp"
+#include "core/scene/scene_range_check.hpp"
+#include "core/scene/scene_ranges.hpp"
+#include "core/scene/size_law.hpp"
+#include "core/step/window_plan.hpp"
+
+namespace carom {
+
+namespace {
+
+void check_length(std::size_t length, Count count, const std::string& where) {
+  if (length == count) return;
+  fail_input(where, fmt::format("has {} entries for count = {}", length, count), "expected one entry a disk");
+}
+
+// The place is that of the group that makes it too many.
+void check_memory(Method method, Count total, const std::string& where) {
+  constexpr double gigabyte = 1e9;
+  const double need = least_memory(method, total);
+  const double have = machine_memory();
+  if (need <= have) return;
+  fail_input(where,
+             fmt::format("{} disks need {:.3g} GB of memory or more by method {}, and this machine has {:.3g} GB",
+                         total, need / gigabyte, method_names[static_cast<std::size_t>(method)], have / gigabyte),
+             "expected fewer disks");
+}
+
+void check_sizes_differ(const SizeLaw& radius, const SizeLaw& mass, const std::string& where) {
+  if (radius.kind != SizeLaw::Kind::from_other || mass.kind != SizeLaw::Kind::from_other) return;
+  fail_input(where, "radius and mass are both derived from each other", "expected one of them given by itself");
+}
+
+void check_group(const DiskGroup& group, const std::string& path, const PlaceOfKey& place) {
+  const auto at = [&](std::string_view name) { return place(fmt::format("{}.{}", path, name)); };
+  check_sizes_differ(group.radius, group.mass, at("radius"));
+  check_positions(group.positions, path, place);
+  if (group.positions.kind == PositionLaw::Kind::list) {
+    check_length(group.positions.list.size(), group.count, at("positions"));
+  }
+  if (group.velocities.kind == VelocityLaw::Kind::list) {
+    check_length(group.velocities.list.size(), group.count, at("velocities"));
+  }
+  if (group.radius.kind == SizeLaw::Kind::list) check_length(group.radius.values.size(), group.count, at("radius"));
+  if (group.mass.kind == SizeLaw::Kind::list) check_length(group.mass.values.size(), group.count, at("mass"));
+  if (group.velocities.kind == VelocityLaw::Kind::maxwell && group.velocities.temperature > 0.0 && group.count == 1) {
+    fail_input(at("velocities"), "maxwell with a single disk: taking off the mean velocity leaves nothing to scale",
+               "expected two disks or more, or a list with the velocity");
+  }
+}
+
+void check_source(const Source& source, const Domain& box, const std::string& path, const PlaceOfKey& place) {
+  const auto at = [&](std::string_view name) { return place(fmt::format("{}.{}", path, name)); };
+  check_sizes_differ(source.radius, source.mass, at("radius"));
+  constexpr std::string_view no_list = "expected a law that serves any number of disks";
+  if (source.radius.kind == SizeLaw::Kind::list) fail_input(at("radius"), "is a list", no_list);
+  if (source.mass.kind == SizeLaw::Kind::list) fail_input(at("mass"), "is a list", no_list);
+  if (source.velocities.kind == VelocityLaw::Kind::list) fail_input(at("velocities"), "is a list", no_list);
+  if (source.side && box.side(*source.side) == SideKind::periodic) {
+    fail_input(at("side"), fmt::format("{} is periodic", side_names[static_cast<std::size_t>(*source.side)]),
+               "expected a wall or sink side");
+  }
+}
+
+// What starts at a sink as a Brownian disk crosses it within its first interval, all but surely.
+void check_source_at_sink(const Scene& scene, const Source& source, const std::string& where) {
+  const bool sink = source.side && scene.box.side(*source.side) == SideKind::sink;
+  if (!sink || !(scene.physics.diffusion > 0.0) || scene.physics.accumulate) return;
+  fail_input(where,
+             fmt::format("{} is a sink, which takes Brownian disks that start at it at once",
+                         side_names[static_cast<std::size_t>(*source.side)]),
+             "expected a wall side, or a region away from the sink");
+}
+
+void check_sides(const Domain& box, const PlaceOfKey& place) {
+  for (const auto& [a, b] : {std::pair(Side::left, Side::right), std::pair(Side::bottom, Side::top)}) {
+    const bool first = box.side(a) == SideKind::periodic;
+    if (first == (box.side(b) == SideKind::periodic)) continue;
+    const std::string_view with = side_names[static_cast<std::size_t>(first ? a : b)];
+    const std::string_view without = side_names[static_cast<std::size_t>(first ? b : a)];
+    fail_input(place(fmt::format("box.{}", with)), fmt::format("{} is periodic but {} is not", with, without),
+               "expected periodic sides in opposite pairs");
+  }
+}
+
+void check_run(const Scene& scene, const PlaceOfKey& place) {
+  if (scene.run.automatic) return;  // its dt is still to be chosen
+  const bool time_stepping = scene.run.method != Method::exact;
+  if (scene.run.dt > 0.0 || (!time_stepping && scene.physics.diffusion == 0.0)) return;
+  fail_input(place("run.dt"), "missing",
+             time_stepping ? "expected the time step of methods rollback and pairwise"
+                           : "expected the time step of Brownian motion (diffusion > 0)");
+}
+
+// Disks that stand already would need to be walls for those that grow between them.
+void check_growth(const Scene& scene, const PlaceOfKey& place) {
+  const auto group_with = [&](bool growth) {
+    std::size_t g = 0;
+    while (g < scene.groups.size() && (scene.groups[g].positions.kind == PositionLaw::Kind::growth) != growth) ++g;
+    return g;
+  };
+  if (scene.growth.given && group_with(true) == scene.groups.size()) {
+    fail_input(place("growth"), "nothing grows", "expected positions = \"growth\" in [[disks]] as well");
+  }
+  const std::size_t other = group_with(false);
+  if (group_with(true) == scene.groups.size() || other == scene.groups.size()) return;
+  fail_input(
+      place(fmt::format("disks.{}.positions", other)),
+      fmt::format("beside \"growth\" of disks.{}: all disks of a scene grow together, or none", group_with(true)),
+      "expected \"growth\" for every group, or for none");
+}
+
+// Sizes out of range: drawn, from a list or an earlier run, or derived from each other.
+void check_sizes(const DiskSize& smallest, const DiskSize& largest, const std::string& path, const PlaceOfKey& place) {
+  const auto check = [&](std::string_view name, Dimension dimension, double low, double high) {
+    if (low > 0.0 && in_range(dimension, low) && in_range(dimension, high)) return;
+    const std::string what =
+        low == high ? fmt::format("comes out as {}", low) : fmt::format("comes out between {} and {}", low, high);
+    fail_input(place(fmt::format("{}.{}", path, name)), what, expected_range(dimension));
+  };
+  check("radius", Dimension::length, smallest.radius, largest.radius);
+  check("mass", Dimension::mass, smallest.mass, largest.mass);
+}
+
+void check_axis(double length, bool periodic, double radius, std::string_view name, const PlaceOfKey& place) {
+  // Two disks of one diameter could touch through two images at once in a period below two diameters.
+  const double least = periodic ? 4.0 * radius : 2.0 * radius;
+  if (length >= least) return;
+  fail_input(place(fmt::format("box.{}", name)), fmt::format("{} is too small for a disk of radius {}", length, radius),
+             fmt::format("expected at least {}, {} of the largest disk", least,
+                         periodic ? "two diameters (periodic sides)" : "the diameter"));
+}
+
+// The least and the largest that a source's law can give; each law is monotonic.
+std::pair<DiskSize, DiskSize> source_sizes(const Source& source) {
+  const auto end_of = [](SizeLaw law, bool high) {
+    if (law.kind != SizeLaw::Kind::uniform) return law;
+    law.kind = SizeLaw::Kind::constant;
+    law.value = high ? law.high : law.low;
+    return law;
+  };
+  const auto size = [&](bool high) {
+    return draw_size(end_of(source.radius, high), end_of(source.mass, high), 0, Stream::source_radius,
+                     Stream::source_mass, 0, 0);
+  };
+  return {size(false), size(true)};
+}
+
+// Is there a place in [low, high] for the centre of a disk of this radius?
+bool fits_along(double low, double high, double length, bool periodic, double radius) {
+  if (periodic) return true;
+  const double first = std::max(low, radius);
+  const double last = std::min(high, length - radius);
+  return low < high ? first < last : first <= last;
+}
+
+// radius: the largest that the source can give. A larger disk than fits would hold up all behind it.
+void check_region(const Source& source, const Domain& box, double radius, const std::string& where) {
+  const Vec2 low = source.region_low;
+  const Vec2 high = source.region_high;
+  constexpr std::string_view expected = "expected [x0, y0, x1, y1] with x0 <= x1, y0 <= y1, inside the box";
+  if (!(low.x <= high.x && low.y <= high.y)) fail_input(where, "its corners are not in order", expected);
+  if (!(low.x >= 0.0 && low.y >= 0.0 && high.x <= box.width && high.y <= box.height)) {
+    fail_input(where, fmt::format("reaches out of the box of {} x {}", box.width, box.height), expected);
+  }
+  if (fits_along(low.x, high.x, box.width, box.periodic_x(), radius) &&
+      fits_along(low.y, high.y, box.height, box.periodic_y(), radius)) {
+    return;
+  }
+  fail_input(where, fmt::format("is no place for the centre of a disk of radius {}: it lies nearer to a side", radius),
+             "expected a region that reaches a radius or more from each side that is not periodic");
+}
+
+}  // namespace
+
+void check_parts(const Scene& scene, const PlaceOfKey& place) {
+  check_sides(scene.box, place);
+  Count total = 0;
+  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
+    const std::string path = fmt::format("disks.{}", g);
+    const Count count = scene.groups[g].count;
+    if (count > most_disks || total + count > most_disks) {
+      fail_input(place(path + ".count"), fmt::format("{} disks are too many", std::max(count, total + count)),
+                 fmt::format("expected at most {} in all", most_disks));
+    }
+    total += count;
+    const bool flies = scene.groups[g].positions.kind == PositionLaw::Kind::growth;  // which exact does, whatever runs
+    check_memory(flies ? Method::exact : scene.run.method, total, place(path + ".count"));
+    check_group(scene.groups[g], path, place);
+  }
+  for (std::size_t k = 0; k < scene.sources.size(); ++k) {
+    check_source(scene.sources[k], scene.box, fmt::format("sources.{}", k), place);
+    check_source_at_sink(scene, scene.sources[k], place(fmt::format("sources.{}.side", k)));
+  }
+  if (scene.physics.accumulate && scene.physics.diffusion == 0.0) {
+    fail_input(place("physics.accumulate"), "needs Brownian motion", "expected diffusion as well");
+  }
+  check_growth(scene, place);
+  check_run(scene, place);
+}
+
+std::vector<std::string> scene_warnings(const Scene& scene) {
+  std::vector<std::string> warnings;
+  if (scene.physics.collapse_contact_time && scene.run.method != Method::exact) {
+    warnings.push_back(fmt::format("{}: physics.collapse: only the exact method uses it, method {} does not",
+                                   scene.file, method_names[static_cast<std::size_t>(scene.run.method)]));
+  }
+  if (scene.physics.collapse_contact_time && scene.run.method == Method::exact && !has_tc(scene)) {
+    warnings.push_back(
+        fmt::format("{}: physics.collapse: restitution and wall_restitution are 1, so no energy is lost and the TC "
+                    "model does nothing",
+                    scene.file));
+  }
+  if (velocities_are_drawn(scene)) {
+    const auto warn = [&](const std::string& key, const char* what) {
+      warnings.push_back(fmt::format(
+          "{}: {}: Brownian disks have no velocity, u / dt is the displacement of a step: {}", scene.file, key, what));
+    };
+    const auto& plots = scene.output.plots;
+    if (std::find(plots.begin(), plots.end(), "energy") != plots.end()) warn("output.plots", "no energy is drawn");
+    if (scene.analysis.wants(Quantity::pressure)) warn("analysis.what", "there is no pressure");
+    if (scene.analysis.wants(Quantity::speeds)) warn("analysis.what", "speeds are those of u / dt");
+  }
+  if (scene.run.accuracy > 0.0 && !scene.run.automatic) {
+    warnings.push_back(fmt::format("{}: run.accuracy: only method \"auto\" uses it, method {} does not", scene.file,
+                                   method_names[static_cast<std::size_t>(scene.run.method)]));
+  }
+  return warnings;
+}
+
+double check_box(const Scene& scene, const PlaceOfKey& place) {
+  check_box_range(scene, place);
+  check_times(scene, place);
+  double smallest = 0.0;  // radius; 0: no disk yet
+  double largest = 0.0;
+  const auto add = [&](const DiskSize& low, const DiskSize& high) {
+    smallest = smallest > 0.0 ? std::min(smallest, low.radius) : low.radius;
+    largest = std::max(largest, high.radius);
+  };
+  DiskId first_id = 0;
+  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
+    const DiskGroup& group = scene.groups[g];
+    if (group.count == 0) continue;
+    const std::string path = fmt::format("disks.{}", g);
+    const SizeSummary sizes = summarise_sizes(group, scene.seed, first_id);
+    check_sizes(sizes.smallest, sizes.largest, path, place);
+    check_velocities(scene, group.velocities, sizes.smallest.mass, path, place);
+    add(sizes.smallest, sizes.largest);
+    first_id += static_cast<DiskId>(group.count);
+  }
+  for (std::size_t k = 0; k < scene.sources.size(); ++k) {
+    const Source& source = scene.sources[k];
+    const std::string path = fmt::format("sources.{}", k);
+    const auto [low, high] = source_sizes(source);
+    check_sizes(low, high, path, place);
+    check_velocities(scene, source.velocities, low.mass, path, place);
+    check_emissions(scene, source, path, place);
+    add(low, high);
+    if (!source.side) check_region(source, scene.box, high.radius, place(path + ".region"));
+  }
+  check_axis(scene.box.width, scene.box.periodic_x(), largest, "width", place);
+  check_axis(scene.box.height, scene.box.periodic_y(), largest, "height", place);
+  check_resolution(scene, smallest, place);
+  return largest;
+}
+
+}  // namespace carom

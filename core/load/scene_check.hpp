@@ -1,0 +1,27 @@
+// What must hold between the parts of a scene; each value by itself was checked when it was read.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+// The place of a key for messages: "disks.0.count" -> "gas.toml:12: disks.0.count".
+using PlaceOfKey = std::function<std::string(std::string_view key)>;
+
+// Lengths of lists, laws that refer to each other, totals and whether this machine can hold them, sides in pairs, the
+// step that a method needs. The size of the box is not looked at. Throws InputError.
+void check_parts(const Scene& scene, const PlaceOfKey& place);
+
+// The box against the largest disk, and sources against the box. Precondition: check_parts passed, box.width and
+// box.height are known and positive. Throws InputError. Returns the largest radius that a disk of the scene can have.
+double check_box(const Scene& scene, const PlaceOfKey& place);
+
+// What is no error, but not what somebody may think it is: keys that the scene's method does not use. One line each.
+std::vector<std::string> scene_warnings(const Scene& scene);
+
+}  // namespace carom

@@ -1,0 +1,61 @@
+// What a run measures on its way: everything that has been gathered so far, and how one more moment is added.
+#pragma once
+
+#include <vector>
+
+#include "core/disks/state.hpp"
+#include "core/measure/density_profile.hpp"
+#include "core/measure/displacement.hpp"
+#include "core/measure/pair_distances.hpp"
+#include "core/measure/speed_histogram.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+struct PairRecord {
+  std::vector<Count> counts;  // ordered pairs, by bin, summed over the samples
+  Count centres = 0;          // likewise, disks whose surroundings were counted
+  double expected = 0.0;  // likewise, n (n - 1) / A: ordered pairs that n disks anywhere in A make in a unit of area
+};
+
+// One entry a sample. What a scene does not ask for is empty.
+struct SampleSeries {
+  std::vector<double> time;
+  std::vector<double> disks;
+  std::vector<double> displacement;    // mean square; length^2
+  std::vector<double> followed;        // disks that it is a mean over
+  std::vector<double> temperature;     // mean kinetic energy a disk; with pressure or speeds
+  std::vector<double> interval;        // time over which the next two are means; see take_sample
+  std::vector<double> pressure;        // NaN where the interval is 0
+  std::vector<double> collision_rate;  // of one disk; likewise
+};
+
+struct AnalysisRecord {
+  double counted_until = 0.0;  // time of the state at the last sample, and what it had counted
+  Counters before;
+  SampleSeries series;
+  PairRecord pairs;
+  SpeedHistogram speeds;
+  DensityProfile density;
+  DisplacementTally displacement;
+};
+
+DistanceBins distance_bins(const AnalysisPlan& plan);
+
+// An empty record with the bins that the scene asks for.
+AnalysisRecord empty_record(const AnalysisPlan& plan);
+
+// Was the record made for this plan?
+bool goes_with(const AnalysisRecord& record, const AnalysisPlan& plan);
+
+// Adds the disks of time t; now: what has been counted, at the end of the step that t lies in, as in series.csv. Means
+// are over the steps that have ended since the sample before: no collision is lost or counted twice, but of several
+// samples in one window of an exact run only the first has a mean, and the run's first sample has none.
+void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& disks, double t, const State& now,
+                 const PairCounter& count);
+
+// g(r) in bin k: pairs found over those expected of disks strewn at random, which have
+// sum of n (n - 1) / A times the ring's area. NaN before there is anything to expect.
+double pair_correlation(const PairRecord& pairs, const DistanceBins& bins, std::size_t k);
+
+}  // namespace carom

@@ -1,0 +1,28 @@
+// The curves that an analysis comes to, from its counts: what the file holds and the plots show.
+#pragma once
+
+#include <vector>
+
+#include "core/measure/analysis.hpp"
+
+namespace carom {
+
+// A quantity over the middles of its bins.
+struct BinnedCurve {
+  std::vector<double> middle;
+  std::vector<double> value;
+};
+
+// g(r).
+BinnedCurve pair_correlation_curve(const AnalysisRecord& record, const AnalysisPlan& plan);
+
+// Probability densities of the reduced speed: measured, and that of equilibrium; means over each bin. The measured one
+// counts what is faster than the last bin, too, so that it need not have the area 1. NaN where nothing was measured.
+BinnedCurve speed_curve(const AnalysisRecord& record, const AnalysisPlan& plan);
+BinnedCurve maxwell_curve(const AnalysisPlan& plan);
+
+// Share of each slab that disks cover, and disks per area; means over the samples.
+BinnedCurve packing_curve(const AnalysisRecord& record, const Scene& scene);
+BinnedCurve number_density_curve(const AnalysisRecord& record, const Scene& scene);
+
+}  // namespace carom

@@ -1,0 +1,140 @@
+#include "core/measure/displacement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace carom {
+
+namespace {
+
+constexpr std::int32_t parts = 16;  // of a period
+// A quarter period is four parts, five with the rounding of both ends.
+constexpr std::int32_t most_parts = 5;
+constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+// Disks a block of a look: a few milliseconds of work.
+constexpr std::size_t look_block = std::size_t{1} << 16;
+// Ids a block of the sum.
+constexpr std::size_t sum_block = 4096;
+
+std::int32_t part_of(double coordinate, double period) {
+  const double part = std::floor(coordinate / period * static_cast<double>(parts));
+  return part > 0.0 ? static_cast<std::int32_t>(std::min(part, static_cast<double>(parts - 1))) : 0;
+}
+
+bool is_followed(const AxisTally& axis, DiskId id) {
+  return id < axis.from.size() && !std::isnan(axis.from[id]);
+}
+
+void begin_axis(AxisTally& axis, const std::vector<double>& coordinate, const std::vector<DiskId>& id, double period,
+                bool periodic) {
+  const std::size_t ids = id.empty() ? 0 : std::size_t{*std::max_element(id.begin(), id.end())} + 1;
+  axis.from.assign(ids, nowhere);
+  axis.sixteenth.assign(periodic ? ids : 0, not_followed);
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    axis.from[id[i]] = coordinate[i];
+    if (periodic) axis.sixteenth[id[i]] = part_of(coordinate[i], period);
+  }
+}
+
+// Disks begin to end - 1. Returns how many moves were too long.
+Count look_along(AxisTally& axis, const std::vector<double>& coordinate, const std::vector<DiskId>& id, double period,
+                 std::size_t begin, std::size_t end) {
+  Count doubtful = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (id[i] >= axis.sixteenth.size() || axis.sixteenth[id[i]] == not_followed) continue;
+    std::int32_t& unwrapped = axis.sixteenth[id[i]];
+    // Of all coordinates that wrap to the present one, the nearest: -8 to 7 parts away.
+    const std::int32_t ahead = (part_of(coordinate[i], period) - unwrapped) & (parts - 1);
+    const std::int32_t move = ahead < parts / 2 ? ahead : ahead - parts;
+    doubtful += std::abs(move) > most_parts ? 1 : 0;
+    unwrapped += move;
+  }
+  return doubtful;
+}
+
+double displacement(const AxisTally& axis, double coordinate, DiskId id, double period) {
+  const double moved = coordinate - axis.from[id];
+  if (axis.sixteenth.empty()) return moved;
+  return moved + period * static_cast<double>(rounds_of(axis, id));
+}
+
+void follow_along(AxisTally& axis, const std::vector<double>& coordinate, const std::vector<DiskId>& id,
+                  double period) {
+  const std::size_t ids = id.empty() ? 0 : std::size_t{*std::max_element(id.begin(), id.end())} + 1;
+  if (ids > axis.sixteenth.size()) axis.sixteenth.resize(ids, not_followed);
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    std::int32_t& unwrapped = axis.sixteenth[id[i]];
+    if (unwrapped == not_followed) unwrapped = part_of(coordinate[i], period);
+  }
+}
+
+}  // namespace
+
+double largest_speed(const Disks& d) {
+  double largest2 = 0.0;
+  for (std::size_t i = 0; i < d.size(); ++i) largest2 = std::max(largest2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+  return std::sqrt(largest2);
+}
+
+void begin_displacement(DisplacementTally& tally, const Disks& d, const Domain& box, double time) {
+  tally.begun = true;
+  tally.looked_at = tally.checked_at = time;
+  tally.fastest = largest_speed(d);
+  begin_axis(tally.x, d.x, d.id, box.width, box.periodic_x());
+  begin_axis(tally.y, d.y, d.id, box.height, box.periodic_y());
+}
+
+void look_at(DisplacementTally& tally, const Disks& d, const Domain& box, double time) {
+  tally.doubtful += look_along(tally.x, d.x, d.id, box.width, 0, d.size());
+  tally.doubtful += look_along(tally.y, d.y, d.id, box.height, 0, d.size());
+  tally.looked_at = time;
+}
+
+void follow_rounds(DisplacementTally& tally, const Disks& d, const Domain& box, double time, const BlockRunner& run) {
+  if (!tally.begun) {
+    tally.begun = true;
+    tally.checked_at = time;
+    tally.fastest = largest_speed(d);
+  }
+  std::vector<Count> doubtful((d.size() + look_block - 1) / look_block, 0);
+  run(doubtful.size(), [&](std::size_t b) {
+    const std::size_t begin = b * look_block, end = std::min(begin + look_block, d.size());
+    doubtful[b] =
+        look_along(tally.x, d.x, d.id, box.width, begin, end) + look_along(tally.y, d.y, d.id, box.height, begin, end);
+  });
+  tally.doubtful = std::accumulate(doubtful.begin(), doubtful.end(), tally.doubtful);
+  if (box.periodic_x()) follow_along(tally.x, d.x, d.id, box.width);
+  if (box.periodic_y()) follow_along(tally.y, d.y, d.id, box.height);
+  tally.looked_at = time;
+}
+
+std::int32_t rounds_of(const AxisTally& axis, DiskId id) {
+  return id < axis.sixteenth.size() ? axis.sixteenth[id] >> 4 : 0;  // rounds down
+}
+
+MeanSquare mean_square_displacement(const DisplacementTally& tally, const Disks& d, const Domain& box) {
+  std::vector<double> square(tally.x.from.size(), nowhere);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    if (!is_followed(tally.x, d.id[i])) continue;
+    const double dx = displacement(tally.x, d.x[i], d.id[i], box.width);
+    const double dy = displacement(tally.y, d.y[i], d.id[i], box.height);
+    square[d.id[i]] = dx * dx + dy * dy;
+  }
+  MeanSquare mean;
+  double total = 0.0;
+  for (std::size_t begin = 0; begin < square.size(); begin += sum_block) {
+    double block = 0.0;
+    for (std::size_t id = begin; id < std::min(begin + sum_block, square.size()); ++id) {
+      if (std::isnan(square[id])) continue;
+      block += square[id];
+      ++mean.disks;
+    }
+    total += block;
+  }
+  mean.value = mean.disks > 0 ? total / static_cast<double>(mean.disks) : nowhere;
+  return mean;
+}
+
+}  // namespace carom

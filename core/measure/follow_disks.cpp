@@ -1,0 +1,58 @@
+#include "core/measure/follow_disks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+// In periods. A look is due after an eighth, which leaves the other half of the quarter that displacement.hpp allows
+// for what happens before somebody asks; the speed is asked for as often as the fastest disk comes this far.
+constexpr double look_share = 0.125, longest_share = 0.25, check_share = 1.0 / 64.0;
+// So few disks are asked every time.
+constexpr std::size_t few_disks = 4096;
+// Looks within one step beyond which a speed is no speed any more.
+constexpr double most_looks = 10'000.0;
+
+double shortest_period(const Domain& box) {
+  return std::min(box.periodic_x() ? box.width : HUGE_VAL, box.periodic_y() ? box.height : HUGE_VAL);
+}
+
+}  // namespace
+
+bool follow_disks(DisplacementTally& tally, const Engine& engine, const Scene& scene, double t) {
+  const double period = shortest_period(scene.box);
+  if (!tally.begun || period == HUGE_VAL) return false;
+  const State& now = engine.state();
+  const double g = scene.physics.gravity;
+  // No disk can come further in a time, if none is faster at both its ends.
+  const auto reach = [g](double speed, double time) { return (speed + g * time) * time; };
+  double speed = tally.fastest;
+  // Brownian motion draws speeds anew, and sources bring in new ones.
+  const bool ask = scene.physics.diffusion > 0.0 || !scene.sources.empty() || now.disks.size() < few_disks ||
+                   !(reach(speed, t - tally.checked_at) < check_share * period);
+  if (ask) {
+    tally.fastest = largest_speed(now.disks);
+    tally.checked_at = t;
+    speed = std::max(speed, tally.fastest);
+  }
+  const double span = t - tally.looked_at;
+  const double travel = reach(speed, span);
+  if (!(travel > look_share * period)) return false;
+  if (!(travel > longest_share * period)) return true;
+  const double looks = std::ceil(travel / (look_share * period));
+  const double begin = tally.looked_at;
+  Disks between;
+  for (double k = 1.0; k < looks; ++k) {
+    const double wanted = begin + span * (k / looks);
+    if (looks > most_looks || engine.disks_at(wanted, between) != wanted) {
+      ++tally.doubtful;
+      break;
+    }
+    look_at(tally, between, scene.box, wanted);
+  }
+  return true;
+}
+
+}  // namespace carom

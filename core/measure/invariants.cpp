@@ -1,0 +1,99 @@
+#include "core/measure/invariants.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/physics/boundary.hpp"
+#include "core/physics/contact_event.hpp"
+#include "core/reference/pair_search.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks a block: sums run within blocks, then over the blocks' sums, in id order.
+constexpr std::size_t sum_block = 4096;
+
+template <class Term>
+double blocked_sum(const std::vector<std::size_t>& order, const BlockRunner& run, Term&& term) {
+  std::vector<double> sums((order.size() + sum_block - 1) / sum_block);
+  run(sums.size(), [&](std::size_t b) {
+    const std::size_t end = std::min(order.size(), (b + 1) * sum_block);
+    double block = 0.0;
+    for (std::size_t k = b * sum_block; k < end; ++k) block += term(order[k]);
+    sums[b] = block;
+  });
+  double total = 0.0;
+  for (const double sum : sums) total += sum;
+  return total;
+}
+
+}  // namespace
+
+Energy energy_of(const Disks& d, const std::vector<std::size_t>& order, double gravity, const BlockRunner& run) {
+  Energy energy;
+  energy.kinetic = blocked_sum(
+      order, run, [&](std::size_t i) { return 0.5 * d.mass_of(i) * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]); });
+  if (gravity != 0.0) {
+    energy.potential = blocked_sum(order, run, [&](std::size_t i) { return d.mass_of(i) * gravity * d.y[i]; });
+  }
+  return energy;
+}
+
+Energy energy_of(const Disks& d, double gravity) {
+  return energy_of(d, by_id(d), gravity, run_in_order);
+}
+
+Momentum momentum_of(const Disks& d, const std::vector<std::size_t>& order, const BlockRunner& run) {
+  Momentum p;
+  p.x = blocked_sum(order, run, [&](std::size_t i) { return d.mass_of(i) * d.vx[i]; });
+  p.y = blocked_sum(order, run, [&](std::size_t i) { return d.mass_of(i) * d.vy[i]; });
+  p.magnitude = blocked_sum(
+      order, run, [&](std::size_t i) { return d.mass_of(i) * std::sqrt(d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]); });
+  return p;
+}
+
+Momentum momentum_of(const Disks& d) {
+  return momentum_of(d, by_id(d), run_in_order);
+}
+
+Overlap deepest_overlap(const Disks& d, const Domain& box, const BlockRunner& run) {
+  const auto overlap = [&](std::uint32_t i, std::uint32_t j) {
+    double dx = d.x[j] - d.x[i];
+    double dy = d.y[j] - d.y[i];
+    if (box.periodic_x()) dx = nearest_image(dx, box.width);
+    if (box.periodic_y()) dy = nearest_image(dy, box.height);
+    const double reach = d.radius_of(i) + d.radius_of(j);
+    return (reach - std::sqrt(dx * dx + dy * dy)) / reach;
+  };
+  Overlap deepest;
+  for (const Overlap& found : deepest_of_touching_pairs(d, box, run, overlap)) deepest.see(found);
+  return deepest;
+}
+
+double max_overlap(const Disks& d, const Domain& box, const BlockRunner& run) {
+  return deepest_overlap(d, box, run).size;
+}
+
+Overlap deepest_wall_overlap(const Disks& d, const Domain& box) {
+  Overlap deepest;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    for (Side side : all_sides) {
+      if (box.side(side) != SideKind::wall) continue;
+      const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius_of(i), box) / d.radius_of(i);
+      if (beyond > 0.0) deepest.see({beyond, d.id[i], wall_partner(side)});
+    }
+  }
+  return deepest;
+}
+
+double wall_overlap(const Disks& d, const Domain& box) {
+  return deepest_wall_overlap(d, box).size;
+}
+
+double pressure(const Energy& energy, double virial, double elapsed, const Domain& box) {
+  if (!(elapsed > 0.0)) return 0.0;
+  return (energy.kinetic + virial / (2.0 * elapsed)) / (box.width * box.height);
+}
+
+}  // namespace carom

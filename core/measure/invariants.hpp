@@ -1,0 +1,47 @@
+// What is conserved, and how far a state is from being one of hard disks.
+#pragma once
+
+#include <vector>
+
+#include "core/base/block_runner.hpp"
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+#include "core/disks/overlap.hpp"
+#include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+struct Energy {
+  double kinetic = 0.0;    // sum of m v^2 / 2
+  double potential = 0.0;  // sum of m g y
+  double total() const { return kinetic + potential; }
+};
+
+struct Momentum {
+  double x = 0.0, y = 0.0;
+  double magnitude = 0.0;  // sum of m |v|, the scale for a relative drift
+};
+
+// Sums in id order within blocks of fixed size: the same bits for any storage order and thread count.
+Energy energy_of(const Disks& disks, double gravity);
+Momentum momentum_of(const Disks& disks);
+
+// The same, where by_id(disks) is known already and work can be shared.
+Energy energy_of(const Disks& disks, const std::vector<std::size_t>& order, double gravity, const BlockRunner& run);
+Momentum momentum_of(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run);
+
+// Largest overlap of two disks over the sum of their radii (nearest image), 0 if none; uses a grid, O(N).
+double max_overlap(const Disks& disks, const Domain& box, const BlockRunner& run = run_in_order);
+
+// Largest reach of a disk beyond a wall side over its radius, 0 if none.
+double wall_overlap(const Disks& disks, const Domain& box);
+
+// The same, and of which disks.
+Overlap deepest_overlap(const Disks& disks, const Domain& box, const BlockRunner& run = run_in_order);
+Overlap deepest_wall_overlap(const Disks& disks, const Domain& box);
+
+// P A = K + virial / (2 elapsed) (virial theorem in two dimensions; ideal part K = N kT). 0 if elapsed is 0.
+double pressure(const Energy& energy, double virial, double elapsed, const Domain& box);
+
+}  // namespace carom

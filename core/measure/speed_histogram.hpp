@@ -1,0 +1,28 @@
+// How many disks are how fast, to be held against Maxwell and Boltzmann.
+#pragma once
+
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/disks/disks.hpp"
+
+namespace carom {
+
+// Reduced speeds u = v sqrt(m / T), so that disks of any mass, and a gas that cools, share one histogram: in
+// equilibrium f(u) = u exp(-u^2 / 2). Bin k holds k max / bins <= u < (k + 1) max / bins.
+struct SpeedHistogram {
+  std::vector<Count> counts;
+  Count beyond = 0;              // u >= max
+  Count samples = 0;             // moments that were added
+  double temperature_sum = 0.0;  // of those; energy
+  double largest_seen = 0.0;     // u
+};
+
+// Adds the disks of one moment. temperature: mean kinetic energy a disk (two degrees of freedom of T / 2 each); where
+// it is 0 there is nothing to add.
+void add_speeds(SpeedHistogram& histogram, const Disks& disks, double temperature, double max);
+
+// Share of the disks that equilibrium has in bin k: exp(-u_k^2 / 2) - exp(-u_(k+1)^2 / 2), the integral of f.
+double maxwell_share(double max, std::size_t bins, std::size_t k);
+
+}  // namespace carom

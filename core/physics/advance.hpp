@@ -1,0 +1,36 @@
+// Motion of one disk between collisions: straight or in a parabola, forwards and backwards, and Brownian.
+#pragma once
+
+#include <cmath>
+
+#include "core/base/random.hpp"
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+// (14), (15); with gravity (20), (21). Exact for any t, negative too: drift by t and by -t cancel to rounding.
+template <bool gravity>
+inline void drift(double& x, double& y, double& vx, double& vy, double t, double g) {
+  x += vx * t;
+  if constexpr (gravity) {
+    y += vy * t - 0.5 * g * (t * t);
+    vy -= g * t;
+  } else {
+    y += vy * t;
+  }
+}
+
+template <bool periodic_x, bool periodic_y>
+inline void wrap(double& x, double& y, const Domain& box) {
+  if constexpr (periodic_x) x = wrap(x, box.width);
+  if constexpr (periodic_y) y = wrap(y, box.height);
+}
+
+// Brownian velocity of one step, (24): u / dt with u = sqrt(2 D dt) (r_x, r_y), r standard normal by (seed, id, step).
+inline Vec2 brownian_velocity(std::uint64_t seed, DiskId id, std::uint64_t step, double diffusion, double dt) {
+  const Vec2 r = normals(seed, Stream::brownian, id, step);
+  const double scale = std::sqrt(2.0 * diffusion * dt) / dt;
+  return {scale * r.x, scale * r.y};
+}
+
+}  // namespace carom

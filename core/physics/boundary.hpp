@@ -1,0 +1,98 @@
+// A disk and one side of the box: how far beyond, since when, and what a wall does.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+// How far the disk's edge reaches beyond the side; length, >= 0: it touches (x - r <= 0 and so on for the four sides).
+inline double reach_beyond(Side side, double x, double y, double r, const Domain& box) {
+  switch (side) {
+    case Side::left:
+      return r - x;
+    case Side::right:
+      return (x + r) - box.width;
+    case Side::bottom:
+      return r - y;
+    default:
+      return (y + r) - box.height;
+  }
+}
+
+// Speed towards the side; > 0: the disk moves into it.
+inline double outward_speed(Side side, double vx, double vy) {
+  switch (side) {
+    case Side::left:
+      return -vx;
+    case Side::right:
+      return vx;
+    case Side::bottom:
+      return -vy;
+    default:
+      return vy;
+  }
+}
+
+// Time since the disk touched the wall it now reaches beyond, on its present path; under gravity floor and ceiling are
+// the smaller root of a quadratic of their own, beyond = speed t -+ g t^2 / 2, in the form that does not cancel.
+// Infinity when this path never was inside (a disk pressed into the floor by others).
+// Preconditions: beyond >= 0, speed > 0, g >= 0.
+inline double time_since_wall(Side side, double beyond, double speed, double g) {
+  if (side == Side::left || side == Side::right || g == 0.0) return beyond / speed;
+  const double sign = side == Side::bottom ? -2.0 : 2.0;
+  const double discriminant = speed * speed + sign * g * beyond;
+  if (discriminant < 0.0) return HUGE_VAL;
+  return 2.0 * beyond / (speed + std::sqrt(discriminant));
+}
+
+// Speed towards the side that the disk had, or by its energy would have, at the wall itself: what lifting it back from
+// `beyond` costs under gravity is taken from its motion. 0 where its energy does not reach that far.
+inline double speed_at_wall(Side side, double beyond, double speed, double g) {
+  if (side == Side::left || side == Side::right || g == 0.0) return speed;
+  const double sign = side == Side::bottom ? -2.0 : 2.0;
+  return std::sqrt(std::max(0.0, speed * speed + sign * g * beyond));
+}
+
+// The wall's collision rule: the velocity into it is multiplied by -restitution, the other component stays.
+inline void bounce(Side side, double restitution, double& vx, double& vy) {
+  if (side == Side::left || side == Side::right) {
+    vx = -restitution * vx;
+  } else {
+    vy = -restitution * vy;
+  }
+}
+
+// Moves the disk along the side's inward normal by depth.
+inline void move_inward(Side side, double depth, double& x, double& y) {
+  switch (side) {
+    case Side::left:
+      x += depth;
+      break;
+    case Side::right:
+      x -= depth;
+      break;
+    case Side::bottom:
+      y += depth;
+      break;
+    default:
+      y -= depth;
+  }
+}
+
+// Coordinate of a centre that just touches the side: the exact place after a correction, free of rounding drift.
+inline double touching_coordinate(Side side, double r, const Domain& box) {
+  switch (side) {
+    case Side::left:
+    case Side::bottom:
+      return r;
+    case Side::right:
+      return box.width - r;
+    default:
+      return box.height - r;
+  }
+}
+
+}  // namespace carom

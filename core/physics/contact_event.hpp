@@ -1,0 +1,39 @@
+// A contact found at the end of a drift: which disks (or disk and side), and how long ago it began.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+// Ids from here on are not disks: the partner of a wall contact is wall_partner(side).
+inline constexpr DiskId first_wall_partner = 0xfffffff0U;
+inline constexpr DiskId wall_partner(Side side) {
+  return first_wall_partner + static_cast<DiskId>(side);
+}
+inline constexpr bool is_wall(DiskId partner) {
+  return partner >= first_wall_partner;
+}
+inline constexpr Side wall_side(DiskId partner) {
+  return static_cast<Side>(partner - first_wall_partner);
+}
+
+struct ContactEvent {
+  double ago;            // time since the contact, 0 <= ago <= the step; the step if it is older or the pair separates
+  DiskId id1, id2;       // id1 < id2; id2 may be a wall
+  std::uint32_t i1, i2;  // where the disks are stored (i2 unused for a wall)
+};
+
+// The canonical order: earliest contact first, ties by smaller id, then by larger id. A total order, so that sorting
+// gives the same sequence whatever order the search found the contacts in.
+inline bool earlier(const ContactEvent& a, const ContactEvent& b) {
+  if (a.ago != b.ago) return a.ago > b.ago;
+  if (a.id1 != b.id1) return a.id1 < b.id1;
+  return a.id2 < b.id2;
+}
+
+}  // namespace carom

@@ -1,0 +1,126 @@
+// What happens at an event of the exact method: two disks collide, a disk meets a side. Both engines call this.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "core/base/types.hpp"
+#include "core/physics/contact_event.hpp"
+#include "core/physics/exact_path.hpp"
+#include "core/physics/resolve.hpp"
+
+namespace carom {
+
+// The constants of a run.
+struct ExactRules {
+  Domain box;
+  double gravity = 0.0;        // length / time^2
+  double restitution = 1.0;    // of disk pairs
+  double contact_time = -1.0;  // TC model; time, < 0: off
+  bool common_mass = true;     // pairs share impulses half and half
+
+  bool tc() const { return contact_time >= 0.0; }
+};
+
+// What an event reads and writes of one disk.
+struct ExactDisk {
+  PathSegment path;
+  double last_contact = -never;  // TC model: when it last collided, disk or wall; time in the window, may be < 0
+};
+
+// TC model (Luding and McNamara 1998): e = 1 where one of the disks collided less than contact_time ago.
+inline bool made_elastic(const ExactRules& rules, double s, double last_contact) {
+  return rules.tc() && s - last_contact < rules.contact_time;
+}
+
+// Disks a and b (smaller id first) collide at time s; their new segments start there.
+inline Impact collide_at(const ExactRules& rules, double s, double mass_a, double mass_b, ExactDisk& a, ExactDisk& b) {
+  PathSegment& p = a.path;
+  PathSegment& q = b.path;
+  p = carried_to(p, s, rules.gravity);
+  q = carried_to(q, s, rules.gravity);
+  const Relative r = relative(p, q, rules.box);
+  Impact outcome;
+  if (r.approach() < 0.0 && r.distance2() > 0.0) {
+    const Shares share = rules.common_mass ? equal_shares : shares(mass_a, mass_b);
+    const bool elastic = made_elastic(rules, s, std::max(a.last_contact, b.last_contact));
+    const double e = elastic ? 1.0 : rules.restitution;
+    const double change = collide(r, share, e, p.vx, p.vy, q.vx, q.vy);
+    outcome = {reduced_mass(mass_a, mass_b) * change, true, elastic && rules.restitution < 1.0};
+    a.last_contact = s;
+    b.last_contact = s;
+  }
+  wrap_into(p, rules.box);
+  wrap_into(q, rules.box);
+  return outcome;
+}
+
+// A disk that lies on the floor would collide infinitely often. Under the TC model it leaves the floor with at least
+// this share of g contact_time, so that its hops last half a contact time or more; their energy, m (g t_c)^2 / 32, is
+// of the order of what the model leaves to any disk at rest. It comes from nowhere, but bounds what a pile costs: with
+// hops of disks at rest only, a pile cools on and has four times as many collisions.
+inline constexpr double least_hop = 0.25;
+
+// Disk a meets a side at time s: bounces off a wall, crosses a periodic side; a sink takes it, which the caller sees
+// to.
+inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double mass, ExactDisk& a) {
+  PathSegment& p = a.path;
+  p = carried_to(p, s, rules.gravity);
+  Impact outcome;
+  if (rules.box.side(side) == SideKind::wall) {
+    const bool elastic = made_elastic(rules, s, a.last_contact);
+    const double e = elastic ? 1.0 : rules.box.wall_restitution;
+    const double before = outward_speed(side, p.vx, p.vy);
+    if (before > 0.0) bounce(side, e, p.vx, p.vy);
+    if (side == Side::bottom && rules.tc()) p.vy = std::max(p.vy, least_hop * rules.gravity * rules.contact_time);
+    outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), true,
+               elastic && rules.box.wall_restitution < 1.0};
+    a.last_contact = s;
+  }
+  if (rules.box.side(side) != SideKind::sink) wrap_into(p, rules.box);
+  return outcome;
+}
+
+// When an event happens and to which disks.
+struct EventMark {
+  double time = never;      // in the window
+  DiskId id1 = 0, id2 = 0;  // id2 may be a wall_partner
+
+  // The canonical order.
+  bool before(const EventMark& e) const {
+    if (time != e.time) return time < e.time;
+    return id1 != e.id1 ? id1 < e.id1 : id2 < e.id2;
+  }
+};
+
+// May any of the scene's contacts lose energy?
+inline bool dissipates(const Domain& box, double restitution) {
+  return restitution < 1.0 || (box.wall_restitution < 1.0 && box.has(SideKind::wall));
+}
+
+// Is this an impact that loses energy? partner: the second disk's id, or a wall_partner.
+inline bool loses_energy(const ExactRules& rules, DiskId partner, const Impact& impact) {
+  const double e = is_wall(partner) ? rules.box.wall_restitution : rules.restitution;
+  return e < 1.0 && impact.happened && !impact.amiss;
+}
+
+// Inelastic collapse: more than this many impacts of one disk that lose energy, within this share of the window's
+// length. Elastic ones do not count: 15,707,963 collisions of a light disk between a wall and a heavy one 10^14 times
+// its mass are as many as there are, and end.
+inline constexpr std::uint32_t collapse_events = 256;
+inline constexpr double collapse_share = 1e-12;
+
+// Counts a disk's inelastic impacts within a vanishing time.
+struct Burst {
+  double begin = -never;  // time in the window
+  std::uint32_t events = 0;
+
+  // Returns true when the impacts pile up.
+  bool add(double s, double window) {
+    if (s - begin > collapse_share * window) *this = {s, 0};
+    return ++events > collapse_events;
+  }
+};
+
+}  // namespace carom

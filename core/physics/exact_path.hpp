@@ -1,0 +1,128 @@
+// The exact method's geometry: the path of a disk between two events, and when paths meet each other or a side.
+// Every prediction is a pure function of the segments it is about: neither the present moment, nor the search that
+// found the pair, nor the window's division among threads can change its bits.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/disks/domain.hpp"
+#include "core/physics/advance.hpp"
+#include "core/physics/boundary.hpp"
+#include "core/physics/disk_pair.hpp"
+
+namespace carom {
+
+inline constexpr double never = HUGE_VAL;
+
+// Free flight from `start` on: straight, or a parabola under gravity. Times count from the start of the window.
+struct PathSegment {
+  double start = 0.0;         // time
+  double x = 0.0, y = 0.0;    // centre at start; length; x and y wrapped along periodic sides
+  double vx = 0.0, vy = 0.0;  // at start; length / time
+};
+
+// The same path with its start moved to time s; no operation when it starts there.
+inline PathSegment carried_to(PathSegment p, double s, double g) {
+  if (s == p.start) return p;
+  drift<true>(p.x, p.y, p.vx, p.vy, s - p.start, g);
+  p.start = s;
+  return p;
+}
+
+inline Relative relative(const PathSegment& a, const PathSegment& b, const Domain& box) {
+  Relative r{b.x - a.x, b.y - a.y, b.vx - a.vx, b.vy - a.vy};
+  if (box.periodic_x()) r.dx = nearest_image(r.dx, box.width);
+  if (box.periodic_y()) r.dy = nearest_image(r.dy, box.height);
+  return r;
+}
+
+// Time from now until the disks touch, >= 0. Disks that approach and overlap (by rounding) collide now; disks that
+// recede have no event, overlapping or not (Bannerman et al. 2014): the root that cancels is never used.
+inline double time_to_contact(const Relative& r, double reach) {
+  if (!(r.approach() < 0.0)) return never;
+  const double t = contact_time(r, reach);
+  return t > 0.0 ? t : 0.0;
+}
+
+// Share of a period that a segment may cover before it is cut (a crossing event). Two segments then move by at most
+// half a period relative to each other, so that of all images only the nearest at their common start and the one
+// behind it can be met. Larger values would need more images.
+inline constexpr double longest_flight = 0.25;
+
+// Time to contact with the images beyond the nearest one, if any can be reached within `span`.
+inline double time_to_far_contact(const Relative& r, double reach, const Domain& box, double span) {
+  // A little more than the true travel, against rounding; one image too many does no harm.
+  constexpr double margin = 1.0 + 1e-9;
+  const bool far_x = box.periodic_x() && std::abs(r.dvx) * span * margin + reach * margin >= box.width - std::abs(r.dx);
+  const bool far_y =
+      box.periodic_y() && std::abs(r.dvy) * span * margin + reach * margin >= box.height - std::abs(r.dy);
+  double t = never;
+  Relative image = r;
+  image.dx = r.dx > 0.0 ? r.dx - box.width : r.dx + box.width;
+  if (far_x) t = std::min(t, time_to_contact(image, reach));
+  image.dy = r.dy > 0.0 ? r.dy - box.height : r.dy + box.height;
+  if (far_x && far_y) t = std::min(t, time_to_contact(image, reach));
+  image.dx = r.dx;
+  if (far_y) t = std::min(t, time_to_contact(image, reach));
+  return t;
+}
+
+// When two paths meet: the time of contact, `never` if that is after `end`. The first disk is the one with the smaller
+// id. reach = r1 + r2. Relative motion does not feel gravity, so the same quadratic serves.
+inline double meeting_time(const PathSegment& first, const PathSegment& second, double reach, const Domain& box,
+                           double g, double end) {
+  const double both = std::max(first.start, second.start);
+  const Relative r = relative(carried_to(first, both, g), carried_to(second, both, g), box);
+  double t = time_to_contact(r, reach);
+  if (box.periodic_x() || box.periodic_y()) t = std::min(t, time_to_far_contact(r, reach, box, end - both));
+  const double s = both + t;
+  return s <= end ? s : never;
+}
+
+// Time until a disk `gap` away from a wall or sink touches it, moving towards it at `speed`; under gravity floor and
+// ceiling are quadratics of their own, speed t +- g t^2 / 2 = gap, in forms that do not cancel. A disk that overlaps
+// by rounding counts as touching; a disk at rest on the floor touches now.
+inline double time_to_side(Side side, double gap, double speed, double g) {
+  const double distance = gap > 0.0 ? gap : 0.0;
+  if (g == 0.0 || side == Side::left || side == Side::right) return speed > 0.0 ? distance / speed : never;
+  if (side == Side::bottom) {
+    const double root = std::sqrt(speed * speed + 2.0 * g * distance);
+    return speed > 0.0 ? 2.0 * distance / (speed + root) : (root - speed) / g;
+  }
+  if (!(speed > 0.0)) return never;
+  const double discriminant = speed * speed - 2.0 * g * distance;
+  return discriminant < 0.0 ? never : 2.0 * distance / (speed + std::sqrt(discriminant));
+}
+
+// Time until a segment has covered longest_flight of the period across this periodic side, moving towards it; along y
+// a bound that gravity cannot beat.
+inline double time_to_crossing(Side side, const PathSegment& p, const Domain& box, double g) {
+  const double speed = outward_speed(side, p.vx, p.vy);
+  if (side == Side::left || side == Side::right) return speed > 0.0 ? longest_flight * box.width / speed : never;
+  const double flight = longest_flight * box.height;
+  const double fast = std::abs(speed);
+  const double root = std::sqrt(fast * fast + 2.0 * g * flight);
+  // One event for the axis: at the side that the disk moves towards, the bottom one if it only falls.
+  const bool this_side = speed > 0.0 || (speed == 0.0 && g > 0.0 && side == Side::bottom);
+  return this_side ? 2.0 * flight / (fast + root) : never;
+}
+
+// When a path meets a side: a wall's or sink's contact, a periodic side's crossing event. A sink takes what touches it,
+// wherever that moves. `never` if after `end`.
+inline double side_time(const PathSegment& p, Side side, double radius, const Domain& box, double g, double end) {
+  const SideKind kind = box.side(side);
+  const double gap = -reach_beyond(side, p.x, p.y, radius, box);
+  const double t = kind == SideKind::periodic           ? time_to_crossing(side, p, box, g)
+                   : kind == SideKind::sink && gap <= 0 ? 0.0
+                                                        : time_to_side(side, gap, outward_speed(side, p.vx, p.vy), g);
+  const double s = p.start + t;
+  return s <= end ? s : never;
+}
+
+inline void wrap_into(PathSegment& p, const Domain& box) {
+  if (box.periodic_x()) p.x = wrap(p.x, box.width);
+  if (box.periodic_y()) p.y = wrap(p.y, box.height);
+}
+
+}  // namespace carom

@@ -1,0 +1,69 @@
+// What the impacts and supports of one step add to the counters. Its sums are exact, so parts of a step may be tallied
+// apart, in any order, and added.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/base/exact_sum.hpp"
+#include "core/disks/state.hpp"
+#include "core/physics/contact_event.hpp"
+#include "core/physics/resolve.hpp"
+
+namespace carom {
+
+struct ImpactTally {
+  Count collisions = 0;
+  Count wall_collisions = 0;
+  Count loads = 0, wall_loads = 0;  // supports that bore (resting.hpp): their impulses count, as collisions they do not
+  Count amiss = 0;                  // of both collisions, see Impact
+  ExactSum virial;
+  std::array<ExactSum, 4> wall_impulse;
+
+  // partner: the second disk's id, or a wall_partner.
+  void add(DiskId partner, const Impact& impact) {
+    if (!impact.happened) return;
+    amiss += impact.amiss ? 1 : 0;
+    if (is_wall(partner)) {
+      ++wall_collisions;
+      wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.virial);
+    } else {
+      ++collisions;
+      virial.add(impact.virial);
+    }
+  }
+
+  // What a support bore in this round of the step, |impulse| (r1 + r2) or, for a wall, |impulse|.
+  void add_load(DiskId partner, double borne) {
+    if (is_wall(partner)) {
+      ++wall_loads;
+      wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(borne);
+    } else {
+      ++loads;
+      virial.add(borne);
+    }
+  }
+
+  void add(const ImpactTally& other) {
+    collisions += other.collisions;
+    amiss += other.amiss;
+    wall_collisions += other.wall_collisions;
+    loads += other.loads;
+    wall_loads += other.wall_loads;
+    if (other.collisions + other.loads > 0) virial.add(other.virial);
+    if (other.wall_collisions + other.wall_loads > 0) {
+      for (std::size_t k = 0; k < wall_impulse.size(); ++k) wall_impulse[k].add(other.wall_impulse[k]);
+    }
+  }
+
+  // Rounds once a step.
+  void count_into(Counters& counters) const {
+    counters.collisions += collisions;
+    counters.wall_collisions += wall_collisions;
+    if (collisions + loads > 0) counters.virial += virial.value();
+    if (wall_collisions + wall_loads == 0) return;
+    for (std::size_t k = 0; k < wall_impulse.size(); ++k) counters.wall_impulse[k] += wall_impulse[k].value();
+  }
+};
+
+}  // namespace carom

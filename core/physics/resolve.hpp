@@ -1,0 +1,244 @@
+// What a step does with the contacts it found: collide them in order of contact, then push apart what overlap remains.
+// Called by the reference on the whole sorted list, by the engine on independent parts of it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/disks/disk_view.hpp"
+#include "core/disks/domain.hpp"
+#include "core/physics/advance.hpp"
+#include "core/physics/boundary.hpp"
+#include "core/physics/contact_event.hpp"
+#include "core/physics/disk_pair.hpp"
+
+namespace carom {
+
+// The constants of one step (or part of a step) that resolving needs.
+struct StepRules {
+  Domain box;
+  double gravity = 0.0;
+  double restitution = 1.0;
+  double dt = 0.0;       // length of the step just drifted
+  bool settles = false;  // gravity > 0 and a contact dissipates: contacts may bear load (resting.hpp)
+  int round = 0;         // of resolving within the step; later ones find what the one before pressed together
+};
+
+// What became of one contact event.
+struct Impact {
+  double virial = 0.0;  // |impulse| x distance of a disk pair, |impulse| of a wall; mass length^2 / time or m l / t
+  bool happened = false;
+  bool amiss = false;  // late: the disks have overlapped since before the step; or made elastic by the TC model (exact)
+};
+
+template <class View>
+Relative relative(const View& d, std::uint32_t i, std::uint32_t j, const Domain& box) {
+  Relative r{d.x[j] - d.x[i], d.y[j] - d.y[i], d.vx[j] - d.vx[i], d.vy[j] - d.vy[i]};
+  if (box.periodic_x()) r.dx = nearest_image(r.dx, box.width);
+  if (box.periodic_y()) r.dy = nearest_image(r.dy, box.height);
+  return r;
+}
+
+template <class View>
+Shares shares_of(const View& d, std::uint32_t i, std::uint32_t j) {
+  if constexpr (View::has_mass) {
+    return shares(d.mass(i), d.mass(j));
+  } else {
+    return equal_shares;
+  }
+}
+
+// The contact event of a pair found touching at the end of a step: how long ago it began, at most the step.
+template <class View>
+ContactEvent pair_event(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
+  const Relative r = relative(d, i, j, rules.box);
+  double ago = rules.dt;
+  if (r.approach() < 0.0) ago = std::clamp(-contact_time(r, d.radius(i) + d.radius(j)), 0.0, rules.dt);
+  return {ago, d.id[i], d.id[j], i, j};
+}
+
+// Likewise for a disk that reaches `beyond` >= 0 past a wall.
+template <class View>
+ContactEvent wall_event(const View& d, const StepRules& rules, std::uint32_t i, Side side, double beyond) {
+  const double speed = outward_speed(side, d.vx[i], d.vy[i]);
+  double ago = rules.dt;
+  if (speed > 0.0) ago = std::min(rules.dt, time_since_wall(side, beyond, speed, rules.gravity));
+  return {ago, d.id[i], wall_partner(side), i, 0};
+}
+
+// Calls found(event) for each wall side that disk i reaches beyond or touches.
+template <class View, class Found>
+void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t i, Found&& found) {
+  for (Side side : all_sides) {
+    if (rules.box.side(side) != SideKind::wall) continue;
+    const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius(i), rules.box);
+    if (beyond >= 0.0) found(wall_event(d, rules, i, side, beyond));
+  }
+}
+
+// Along the disk's own path, back where t < 0.
+template <class View>
+void drift_one(const View& d, std::uint32_t i, double t, double g) {
+  drift<true>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
+}
+
+// The pair goes back to its own contact, collides by (23), goes forward again. The state may have changed since the
+// contact was found: a pair that no longer overlaps or approaches is left alone (F3, F8). A contact older than the step
+// (an overlap left from before) collides where it is.
+template <class View>
+Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
+  Relative r = relative(d, i, j, rules.box);
+  const double reach = d.radius(i) + d.radius(j);
+  if (!touches(r.distance2(), reach) || !(r.approach() < 0.0)) return {};
+  // Disks that just touch and pass along each other may miss by rounding (contact_time is infinite): that is now.
+  const double ago = std::max(0.0, -contact_time(r, reach));
+  const bool inside_step = ago <= rules.dt;
+  if (inside_step) {
+    drift_one(d, i, -ago, rules.gravity);
+    drift_one(d, j, -ago, rules.gravity);
+    r = relative(d, i, j, rules.box);
+  }
+  Impact impact;
+  if (r.distance2() > 0.0 && r.approach() < 0.0) {
+    const Shares share = shares_of(d, i, j);
+    const double change = collide(r, share, rules.restitution, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
+    impact = {reduced_mass(d.mass(i), d.mass(j)) * change, true, !inside_step};
+  }
+  if (inside_step) {
+    drift_one(d, i, ago, rules.gravity);
+    drift_one(d, j, ago, rules.gravity);
+  }
+  return impact;
+}
+
+// Bounces off the wall where it is, from the wall itself. Returns the change of speed.
+template <class View>
+double bounce_at_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
+  const double r = d.radius(i);
+  const double speed = outward_speed(side, d.vx[i], d.vy[i]);
+  const double beyond = reach_beyond(side, d.x[i], d.y[i], r, rules.box);
+  const double away = rules.box.wall_restitution * speed_at_wall(side, beyond, speed, rules.gravity);
+  if (side == Side::left || side == Side::right) {
+    d.x[i] = touching_coordinate(side, r, rules.box);
+    d.vx[i] = side == Side::left ? away : -away;
+  } else {
+    d.y[i] = touching_coordinate(side, r, rules.box);
+    d.vy[i] = side == Side::bottom ? away : -away;
+  }
+  return speed + away;
+}
+
+// Likewise for a disk and a wall (F11: position and velocity are both put right). A disk that gravity brings back to
+// the wall within the step, and one whose contact is older than the step, bounces at the step's end with the speed that
+// its energy allows: so a disk at rest on the floor stays at rest, and the lift gives it no energy.
+template <class View>
+Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
+  const auto beyond = [&] { return reach_beyond(side, d.x[i], d.y[i], d.radius(i), rules.box); };
+  const auto speed = [&] { return outward_speed(side, d.vx[i], d.vy[i]); };
+  if (!(beyond() >= 0.0) || !(speed() > 0.0)) return {};
+  const double ago = time_since_wall(side, beyond(), speed(), rules.gravity);
+  double change = 0.0;
+  if (ago <= rules.dt) {
+    drift_one(d, i, -ago, rules.gravity);
+    const double impact_speed = speed();
+    if (impact_speed > 0.0) {
+      change = impact_speed * (1.0 + rules.box.wall_restitution);
+      bounce(side, rules.box.wall_restitution, d.vx[i], d.vy[i]);
+    }
+    drift_one(d, i, ago, rules.gravity);
+  }
+  if (beyond() >= 0.0 && speed() > 0.0) change += bounce_at_wall(d, rules, i, side);
+  return {d.mass(i) * change, change > 0.0};
+}
+
+template <class View>
+Impact resolve_event(const View& d, const StepRules& rules, const ContactEvent& e) {
+  return is_wall(e.id2) ? resolve_wall(d, rules, e.i1, wall_side(e.id2)) : resolve_pair(d, rules, e.i1, e.i2);
+}
+
+// One pass over the contacts in order of time; then passes over the crowded ones, those of disks that have another
+// contact in this step, until a pass finds no pair that still touches and approaches, or after most_impact_passes. A
+// front of disks that pours onto a pile passes its momentum on by so many layers in a step; with one pass it would be
+// squeezed.
+inline constexpr int most_impact_passes = 8;
+
+// A disk that reaches further than slack (length) beyond a wall is put back to slack beyond it; velocities are not
+// touched. Returns the depth that it found, over the radius.
+template <class View>
+double push_wall(const View& d, const Domain& box, std::uint32_t i, Side side, double slack) {
+  const double r = d.radius(i);
+  const double push = reach_beyond(side, d.x[i], d.y[i], r, box) - slack;
+  if (!(push > 0.0)) return 0.0;
+  if (side == Side::left || side == Side::right) {
+    d.x[i] = touching_coordinate(side, r, box) + (side == Side::left ? -slack : slack);
+  } else {
+    d.y[i] = touching_coordinate(side, r, box) + (side == Side::bottom ? -slack : slack);
+  }
+  return push / r;
+}
+
+// After one sweep that pushes every contact, further ones push only those that others have pressed deeper than this
+// again (over the sum of radii; well below the 2 % that a pile may overlap), until there are none or after
+// most_push_sweeps; the rest waits for the next step.
+inline constexpr double shallow_overlap = 1e-3;
+inline constexpr int most_push_sweeps = 4;
+// In a pile, where whole layers have to make room.
+inline constexpr int most_pile_push_sweeps = 32;
+inline int push_sweeps(const StepRules& rules) {
+  return rules.settles ? most_pile_push_sweeps : most_push_sweeps;
+}
+
+// Is the overlap of a contact deeper than slack (length) by more than `share` of the sum of radii (of the radius, at a
+// wall)?
+template <class View>
+bool is_deep(const View& d, const Domain& box, const ContactEvent& e, double share, double slack = 0.0) {
+  const double r = d.radius(e.i1);
+  if (is_wall(e.id2)) return reach_beyond(wall_side(e.id2), d.x[e.i1], d.y[e.i1], r, box) > share * r + slack;
+  const double dx = d.x[e.i2] - d.x[e.i1];
+  const double dy = d.y[e.i2] - d.y[e.i1];
+  const double nx = box.periodic_x() ? nearest_image(dx, box.width) : dx;
+  const double ny = box.periodic_y() ? nearest_image(dy, box.height) : dy;
+  const double reach = (r + d.radius(e.i2)) * (1.0 - share) - slack;
+  return nx * nx + ny * ny < reach * reach;
+}
+
+// Walls do not give way: a disk that others pushed into a wall deeper than shallow_overlap of its radius comes back,
+// and what overlap that makes is the next sweep's.
+template <class View>
+void keep_inside(const View& d, const Domain& box, std::uint32_t i) {
+  for (Side side : all_sides) {
+    if (box.side(side) == SideKind::wall) push_wall(d, box, i, side, shallow_overlap * d.radius(i));
+  }
+}
+
+// What overlap remains beyond slack (length) is pushed apart along the line of centres, by mass, so that the centre of
+// mass, and with it momentum and potential energy, stays; velocities are not touched. Coincident centres part along x.
+// Neither is left in a wall. Returns the overlap that it found, over the sum of the radii.
+template <class View>
+double push_pair(const View& d, const Domain& box, std::uint32_t i, std::uint32_t j, double slack) {
+  const Relative r = relative(d, i, j, box);
+  const double reach = d.radius(i) + d.radius(j);
+  const double distance2 = r.distance2();
+  if (distance2 >= reach * reach) return 0.0;
+  const double distance = std::sqrt(distance2);
+  const double push = reach - distance - slack;
+  if (!(push > 0.0)) return 0.0;
+  const Shares share = shares_of(d, i, j);
+  const double px = distance > 0.0 ? push * (r.dx / distance) : push;
+  const double py = distance > 0.0 ? push * (r.dy / distance) : 0.0;
+  d.x[i] -= share.first * px;
+  d.y[i] -= share.first * py;
+  d.x[j] += share.second * px;
+  d.y[j] += share.second * py;
+  keep_inside(d, box, i);
+  keep_inside(d, box, j);
+  return push / reach;
+}
+
+template <class View>
+double push_apart(const View& d, const Domain& box, const ContactEvent& e, double slack) {
+  return is_wall(e.id2) ? push_wall(d, box, e.i1, wall_side(e.id2), slack) : push_pair(d, box, e.i1, e.i2, slack);
+}
+
+}  // namespace carom

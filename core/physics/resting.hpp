@@ -1,0 +1,94 @@
+// Contacts that bear load: a pile under gravity. A contact that would bounce for less than a step is not an impact but
+// a support (Moreau; Jean: non-smooth contact dynamics). This page decides which contacts are supports and what overlap
+// they keep; support_solver.hpp finds the loads.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/disks/state.hpp"
+#include "core/physics/contact_event.hpp"
+#include "core/physics/resolve.hpp"
+
+namespace carom {
+
+// Approach speed, in units of g dt, up to which a contact is a support and not an impact. A step adds g dt to a disk's
+// speed and a stack of n disks passes on n g dt at its foot, so the bound must exceed the height of piles in disks for
+// their foot to stay at rest; larger values take restitution from slow impacts inside crowds (a first-order error: the
+// bound goes to 0 with dt). Only disks with two or more contacts can be squeezed; one that just lies on a wall needs 2.
+inline constexpr double squeezed_rest = 64.0;
+inline constexpr double lying_rest = 2.0;
+
+// Overlap that a loaded contact keeps, in units of g dt^2 and at most this share of the sum of radii (of the radius, at
+// a wall). The loads of a step are known to a tolerance; what is left of them moves a contact by a little in each step,
+// and a contact that opened would lose its load and start a tremor. With 2 g dt^2 a silo of fifty layers never came to
+// rest; from 10 on it did.
+inline constexpr double contact_slop = 16.0;
+inline constexpr double largest_slop = 5e-3;
+
+inline bool by_ids(const ContactEvent& a, const ContactEvent& b) {
+  return a.id1 != b.id1 ? a.id1 < b.id1 : a.id2 < b.id2;
+}
+inline bool by_ids(const ContactLoad& a, const ContactEvent& b) {
+  return a.id1 != b.id1 ? a.id1 < b.id1 : a.id2 < b.id2;
+}
+
+// Force on the contact in the step before; 0 if it bore none. loads are in order of (id1, id2).
+inline double load_of(const std::vector<ContactLoad>& loads, const ContactEvent& e) {
+  const auto it = std::lower_bound(loads.begin(), loads.end(), e,
+                                   [](const ContactLoad& a, const ContactEvent& b) { return by_ids(a, b); });
+  return it != loads.end() && it->id1 == e.id1 && it->id2 == e.id2 ? it->force : 0.0;
+}
+
+// Relative velocity along the line of centres (or of the disk away from the wall); < 0: approaching. length / time.
+template <class View>
+double normal_velocity(const View& d, const Domain& box, const ContactEvent& e) {
+  if (is_wall(e.id2)) return -outward_speed(wall_side(e.id2), d.vx[e.i1], d.vy[e.i1]);
+  const Relative r = relative(d, e.i1, e.i2, box);
+  const double distance2 = r.distance2();
+  return distance2 > 0.0 ? r.approach() / std::sqrt(distance2) : 0.0;
+}
+
+// Is this contact a support? loaded: it bore load in the step before; squeezed: one of its disks has another contact.
+template <class View>
+bool is_support(const View& d, const StepRules& rules, const ContactEvent& e, bool loaded, bool squeezed) {
+  if (loaded && squeezed) return true;
+  const double speed = std::abs(normal_velocity(d, rules.box, e));
+  if (squeezed) return speed <= squeezed_rest * rules.gravity * rules.dt;
+  const bool lies = is_wall(e.id2) && rules.box.wall_restitution < 1.0;
+  return lies && speed <= lying_rest * rules.gravity * rules.dt;
+}
+
+// Does what is left of the approach, after the impacts, dissipate at this contact?
+inline bool dissipates(const StepRules& rules, const ContactEvent& e) {
+  return (is_wall(e.id2) ? rules.box.wall_restitution : rules.restitution) < 1.0;
+}
+
+// Is this contact solved together with the others? Supports are; so are all crowded contacts that dissipate, since what
+// the others bear may press them together, and since impacts one after another cannot end in a crowd.
+template <class View>
+bool is_solved(const View& d, const StepRules& rules, const ContactEvent& e, bool loaded, bool squeezed) {
+  return (squeezed && dissipates(rules, e)) || is_support(d, rules, e, loaded, squeezed);
+}
+
+// Length that a loaded contact may overlap by.
+template <class View>
+double slack_of(const View& d, const StepRules& rules, const ContactEvent& e) {
+  const double reach = is_wall(e.id2) ? d.radius(e.i1) : d.radius(e.i1) + d.radius(e.i2);
+  return std::min(contact_slop * rules.gravity * rules.dt * rules.dt, largest_slop * reach);
+}
+
+// A disk that bears on a wall stays on it: where its loads have lifted it off by less than slack (length), it is laid
+// back. Else a step shorter than the one before would not find the contact.
+template <class View>
+void hold_at_wall(const View& d, const Domain& box, const ContactEvent& e, double slack) {
+  const Side side = wall_side(e.id2);
+  const double r = d.radius(e.i1);
+  const double beyond = reach_beyond(side, d.x[e.i1], d.y[e.i1], r, box);
+  if (beyond >= 0.0 || beyond < -slack) return;
+  (side == Side::left || side == Side::right ? d.x : d.y)[e.i1] = touching_coordinate(side, r, box);
+}
+
+}  // namespace carom

@@ -1,0 +1,77 @@
+// Who may meet whom in a window: a grid over the disks' places at its start.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+// Cells no smaller than the largest diameter plus twice `travel`: disks that go no further than that from their places
+// meet only disks of their own and the eight cells around. Where fewer than three such cells fit across, one serves.
+class Neighbourhood {
+ public:
+  Neighbourhood(const Disks& disks, const Domain& box, double travel) : box_(box) {
+    const double cell = 2.0 * largest_radius(disks) + 2.0 * travel;
+    columns_ = cells_along(box.width, cell, disks.size());
+    rows_ = cells_along(box.height, cell, disks.size());
+    cells_.resize(columns_ * rows_);
+    home_.resize(disks.size());
+    for (std::size_t i = 0; i < disks.size(); ++i) {
+      home_[i] = {cell_of(disks.x[i], box.width, columns_), cell_of(disks.y[i], box.height, rows_)};
+      cells_[home_[i].row * columns_ + home_[i].column].push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+
+  // Calls see(j) for every disk j other than i in the cells around i's home.
+  template <class See>
+  void visit(std::uint32_t i, See&& see) const {
+    for (std::size_t row : around(home_[i].row, rows_, box_.periodic_y())) {
+      if (row == outside) continue;
+      for (std::size_t column : around(home_[i].column, columns_, box_.periodic_x())) {
+        if (column == outside) continue;
+        for (const std::uint32_t j : cells_[row * columns_ + column]) {
+          if (j != i) see(j);
+        }
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t outside = static_cast<std::size_t>(-1);
+  struct Home {
+    std::size_t column, row;
+  };
+
+  // The rounding of cell_of must not put neighbours two cells apart.
+  static std::size_t cells_along(double length, double cell, std::size_t disks) {
+    const double most = std::sqrt(static_cast<double>(disks)) + 1.0;
+    const double fit = std::floor(std::min(length / cell * (1.0 - 0x1p-40), most));
+    return fit < 3.0 ? 1 : static_cast<std::size_t>(fit);
+  }
+
+  static std::size_t cell_of(double c, double length, std::size_t cells) {
+    const double k = std::floor(c / length * static_cast<double>(cells));
+    return k > 0.0 ? std::min(static_cast<std::size_t>(k), cells - 1) : 0;
+  }
+
+  // c - 1, c, c + 1, round the corner of a periodic axis.
+  static std::vector<std::size_t> around(std::size_t c, std::size_t cells, bool periodic) {
+    if (cells == 1) return {0};
+    const std::size_t before = c > 0 ? c - 1 : (periodic ? cells - 1 : outside);
+    const std::size_t after = c + 1 < cells ? c + 1 : (periodic ? 0 : outside);
+    return {before, c, after};
+  }
+
+  Domain box_;
+  std::size_t columns_ = 1, rows_ = 1;
+  std::vector<std::vector<std::uint32_t>> cells_;
+  std::vector<Home> home_;
+};
+
+}  // namespace carom

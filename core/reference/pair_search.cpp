@@ -1,0 +1,151 @@
+#include "core/reference/pair_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "core/physics/disk_pair.hpp"
+
+namespace carom {
+
+namespace {
+
+struct UniformGrid {
+  std::size_t columns = 1, rows = 1;
+  std::vector<std::uint32_t> start;    // of each cell in members, columns * rows + 1 entries
+  std::vector<std::uint32_t> members;  // storage indices, cell by cell
+};
+
+// Number of cells along one side: none smaller than the largest diameter (and by more than the rounding of cell_of, so
+// that two touching disks never lie two cells apart), no more than about one a disk.
+std::size_t cells_along(double length, double diameter, std::size_t disks) {
+  const double most = std::sqrt(static_cast<double>(disks)) + 1.0;
+  const double fit = std::floor(length / diameter * (1.0 - 0x1p-40));
+  return fit < 1.0 ? 1 : static_cast<std::size_t>(std::min(fit, most));
+}
+
+std::size_t cell_of(double coordinate, double length, std::size_t cells) {
+  const double c = std::floor(coordinate / length * static_cast<double>(cells));
+  if (!(c > 0.0)) return 0;
+  return std::min(static_cast<std::size_t>(std::min(c, 4e9)), cells - 1);
+}
+
+UniformGrid make_grid(const Disks& d, const Domain& box) {
+  UniformGrid grid;
+  const double diameter = 2.0 * largest_radius(d);
+  grid.columns = cells_along(box.width, diameter, d.size());
+  grid.rows = cells_along(box.height, diameter, d.size());
+  grid.start.assign(grid.columns * grid.rows + 1, 0);
+  std::vector<std::uint32_t> cell(d.size());
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    cell[i] = static_cast<std::uint32_t>(cell_of(d.y[i], box.height, grid.rows) * grid.columns +
+                                         cell_of(d.x[i], box.width, grid.columns));
+    ++grid.start[cell[i] + 1];
+  }
+  for (std::size_t c = 1; c < grid.start.size(); ++c) grid.start[c] += grid.start[c - 1];
+  grid.members.resize(d.size());
+  std::vector<std::uint32_t> next(grid.start.begin(), grid.start.end() - 1);
+  for (std::size_t i = 0; i < d.size(); ++i) grid.members[next[cell[i]]++] = static_cast<std::uint32_t>(i);
+  return grid;
+}
+
+// The cells c - 1, c, c + 1 along one side, each once: across a periodic side round the corner, else cut off.
+struct Neighbours {
+  std::array<std::size_t, 3> cell{};
+  std::size_t count = 0;
+};
+
+Neighbours neighbours(std::size_t c, std::size_t cells, bool periodic) {
+  Neighbours n;
+  const auto add = [&](std::size_t k) {
+    const auto end = n.cell.begin() + static_cast<std::ptrdiff_t>(n.count);
+    if (std::find(n.cell.begin(), end, k) == end) n.cell[n.count++] = k;
+  };
+  add(c);
+  if (c > 0 || periodic) add((c + cells - 1) % cells);
+  if (c + 1 < cells || periodic) add((c + 1) % cells);
+  return n;
+}
+
+bool touch(const Disks& d, const Domain& box, std::size_t i, std::size_t j) {
+  double dx = d.x[j] - d.x[i];
+  double dy = d.y[j] - d.y[i];
+  if (box.periodic_x()) dx = nearest_image(dx, box.width);
+  if (box.periodic_y()) dy = nearest_image(dy, box.height);
+  return touches(dx * dx + dy * dy, d.radius_of(i) + d.radius_of(j));
+}
+
+void add_in_id_order(std::vector<Pair>& pairs, const Disks& d, std::size_t i, std::size_t j) {
+  if (d.id[i] > d.id[j]) std::swap(i, j);
+  pairs.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
+}
+
+void sort_by_id(std::vector<Pair>& pairs, const Disks& d) {
+  std::sort(pairs.begin(), pairs.end(), [&](const Pair& a, const Pair& b) {
+    return d.id[a.i1] != d.id[b.i1] ? d.id[a.i1] < d.id[b.i1] : d.id[a.i2] < d.id[b.i2];
+  });
+}
+
+}  // namespace
+
+namespace {
+
+// Calls use(i, j) for the touching pairs whose disk of smaller id lies in this row of the grid.
+template <class Use>
+void for_pairs_of_row(const UniformGrid& grid, std::size_t row, const Disks& d, const Domain& box, Use use) {
+  const Neighbours rows = neighbours(row, grid.rows, box.periodic_y());
+  for (std::size_t column = 0; column < grid.columns; ++column) {
+    const Neighbours columns = neighbours(column, grid.columns, box.periodic_x());
+    const std::size_t home = row * grid.columns + column;
+    for (std::size_t k = 0; k < rows.count * columns.count; ++k) {
+      const std::size_t other = rows.cell[k / columns.count] * grid.columns + columns.cell[k % columns.count];
+      for (std::uint32_t a = grid.start[home]; a < grid.start[home + 1]; ++a) {
+        for (std::uint32_t b = grid.start[other]; b < grid.start[other + 1]; ++b) {
+          const std::uint32_t i = grid.members[a];
+          const std::uint32_t j = grid.members[b];
+          if (d.id[i] < d.id[j] && touch(d, box, i, j)) use(i, j);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Pair> find_touching_pairs(const Disks& d, const Domain& box) {
+  std::vector<Pair> pairs;
+  if (d.size() < 2) return pairs;
+  const UniformGrid grid = make_grid(d, box);
+  for (std::size_t row = 0; row < grid.rows; ++row) {
+    for_pairs_of_row(grid, row, d, box, [&](std::uint32_t i, std::uint32_t j) { pairs.push_back({i, j}); });
+  }
+  sort_by_id(pairs, d);
+  return pairs;
+}
+
+std::vector<Overlap> deepest_of_touching_pairs(const Disks& d, const Domain& box, const BlockRunner& run,
+                                               const std::function<double(std::uint32_t, std::uint32_t)>& overlap) {
+  if (d.size() < 2) return {};
+  const UniformGrid grid = make_grid(d, box);
+  std::vector<Overlap> deepest(grid.rows);
+  run(grid.rows, [&](std::size_t row) {
+    for_pairs_of_row(grid, row, d, box, [&](std::uint32_t i, std::uint32_t j) {
+      deepest[row].see({overlap(i, j), d.id[i], d.id[j]});
+    });
+  });
+  return deepest;
+}
+
+std::vector<Pair> find_touching_pairs_by_force(const Disks& d, const Domain& box) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    for (std::size_t j = i + 1; j < d.size(); ++j) {
+      if (touch(d, box, i, j)) add_in_id_order(pairs, d, i, j);
+    }
+  }
+  sort_by_id(pairs, d);
+  return pairs;
+}
+
+}  // namespace carom

@@ -1,0 +1,33 @@
+// The reference pair search: the original's uniform grid, mended, and the all-pairs search that tests hold against it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/base/block_runner.hpp"
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+#include "core/disks/overlap.hpp"
+
+namespace carom {
+
+struct Pair {
+  std::uint32_t i1, i2;  // storage indices; the disk at i1 has the smaller id
+  bool operator==(const Pair&) const = default;
+};
+
+// All pairs that overlap or touch (nearest image), each once, in order of (smaller id, larger id). A disk lies in the
+// one cell of its centre and cells are no smaller than the largest diameter, so all partners are in the 3 x 3 cells
+// around: no disk is too large for its cell (F6) and no pair is found in two cells (F14). Centres outside the box or on
+// an edge belong to the nearest cell (F7, F13); across a periodic side the neighbour is the opposite cell (F10).
+std::vector<Pair> find_touching_pairs(const Disks& disks, const Domain& box);
+
+// The deepest overlap of the touching pairs in each of some parts of the box.
+std::vector<Overlap> deepest_of_touching_pairs(const Disks& disks, const Domain& box, const BlockRunner& run,
+                                               const std::function<double(std::uint32_t, std::uint32_t)>& overlap);
+
+// The same as find_touching_pairs by looking at every pair: O(N^2), the oracle.
+std::vector<Pair> find_touching_pairs_by_force(const Disks& disks, const Domain& box);
+
+}  // namespace carom

@@ -1,0 +1,98 @@
+#include "core/reference/reference_engine.hpp"
+
+#include <utility>
+
+#include "core/reference/reference_exact.hpp"
+#include "core/reference/reference_pairwise.hpp"
+#include "core/reference/reference_rollback.hpp"
+#include "core/step/source.hpp"
+#include "core/step/step_clock.hpp"
+
+namespace carom {
+
+ReferenceEngine::ReferenceEngine(const Scene& scene, State initial) : scene_(scene), state_(std::move(initial)) {}
+
+double ReferenceEngine::disks_at(double /*t*/, Disks& out) const {
+  out = state_.disks;
+  return state_.time;
+}
+
+std::vector<std::string> ReferenceEngine::take_warnings() {
+  return validity_.take_warnings();
+}
+
+void ReferenceEngine::start_interval(double t, double dt, Count step) {
+  if (t == 0.0) remove_at_sinks();
+  const PhaseTimer timer(times_, "start");
+  emit_due(scene_, state_, t, step, [&](const Disk& disk) { return has_room(state_.disks, scene_.box, disk); });
+  if (!(scene_.physics.diffusion > 0.0)) return;
+  std::vector<unsigned char> gone(state_.disks.size(), 0);
+  with_view(state_.disks, [&](const auto& d) {
+    draw_brownian(d, scene_, step, dt, 0, state_.disks.size());
+    if (!has_brownian_sink(scene_)) return;
+    for (std::size_t i = 0; i < gone.size(); ++i) gone[i] = crosses_sink(d, scene_, step, dt, i) ? 1 : 0;
+  });
+  remove(gone);
+}
+
+Count ReferenceEngine::parts(double dt) {
+  const double travel2 =
+      with_view(state_.disks, [&](const auto& d) { return largest_travel2(d, 0, state_.disks.size()); });
+  const double smallest = smallest_radius(state_.disks);
+  const double fall = smallest > 0.0 ? scene_.physics.gravity * dt / smallest : 0.0;
+  const Count parts = parts_of_step(travel2, fall, dt);
+  if (parts > 1) validity_.see_split(state_, dt, parts);
+  return parts;
+}
+
+void ReferenceEngine::drift_all(double t) {
+  const PhaseTimer timer(times_, "drift");
+  const double g = scene_.physics.gravity;
+  with_view(state_.disks, [&](const auto& d) {
+    for (std::size_t i = 0; i < state_.disks.size(); ++i) {
+      if (g > 0.0) {
+        drift<true>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
+      } else {
+        drift<false>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
+      }
+    }
+  });
+  wrap_all();
+}
+
+void ReferenceEngine::wrap_all() {
+  Disks& d = state_.disks;
+  if (scene_.box.periodic_x()) {
+    for (double& x : d.x) x = wrap(x, scene_.box.width);
+  }
+  if (scene_.box.periodic_y()) {
+    for (double& y : d.y) y = wrap(y, scene_.box.height);
+  }
+}
+
+void ReferenceEngine::remove_at_sinks() {
+  if (!scene_.box.has(SideKind::sink)) return;
+  const PhaseTimer timer(times_, "sinks");
+  std::vector<unsigned char> gone(state_.disks.size(), 0);
+  with_view(state_.disks, [&](const auto& d) {
+    for (std::size_t i = 0; i < gone.size(); ++i) gone[i] = touches_sink(d, scene_.box, i) ? 1 : 0;
+  });
+  remove(gone);
+}
+
+void ReferenceEngine::remove(const std::vector<unsigned char>& gone) {
+  state_.counters.removed += remove_marked(state_.disks, gone);
+}
+
+std::unique_ptr<Engine> make_reference_engine(const Scene& scene, State initial, CollisionLog* log) {
+  switch (scene.run.method) {
+    case Method::rollback:
+      return make_reference_rollback(scene, std::move(initial), log);
+    case Method::pairwise:
+      return make_reference_pairwise(scene, std::move(initial), log);
+    default:
+      return make_reference_exact(scene, std::move(initial), 1.0, log);
+  }
+}
+
+}  // namespace carom

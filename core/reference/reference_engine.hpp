@@ -1,0 +1,41 @@
+// What the two time-stepping references share: the state, the start of a step, sinks, warnings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/measure/validity.hpp"
+#include "core/step/engine.hpp"
+#include "core/step/step_start.hpp"
+
+namespace carom {
+
+class ReferenceEngine : public Engine {
+ public:
+  ReferenceEngine(const Scene& scene, State initial);
+
+  const State& state() const override { return state_; }
+  double disks_at(double t, Disks& out) const override;
+  const PhaseTimes& phase_times() const override { return times_; }
+  std::vector<std::string> take_warnings() override;
+
+ protected:
+  // What touches a sink at the very start leaves. Sources due at time t, then Brownian velocities for an interval of
+  // length dt, whose number is `step`, and the disks that will cross a sink in it.
+  void start_interval(double t, double dt, Count step);
+  // Number of parts that an interval of length dt needs at the present speeds; warns the first time it is above 1.
+  Count parts(double dt);
+  void drift_all(double t);
+  void wrap_all();
+  void remove_at_sinks();
+
+  Scene scene_;
+  State state_;
+  PhaseTimes times_;
+  Validity validity_;
+
+ private:
+  void remove(const std::vector<unsigned char>& gone);
+};
+
+}  // namespace carom

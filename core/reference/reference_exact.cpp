@@ -1,0 +1,131 @@
+#include "core/reference/reference_exact.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/measure/validity.hpp"
+#include "core/reference/reference_window.hpp"
+#include "core/step/source.hpp"
+#include "core/step/step_start.hpp"
+#include "core/step/window_plan.hpp"
+#include "core/step/window_start.hpp"
+
+namespace carom {
+
+namespace {
+
+class ReferenceExact final : public Engine {
+ public:
+  ReferenceExact(const Scene& scene, State initial, double window_scale, CollisionLog* log)
+      : scene_(scene), state_(std::move(initial)), scale_(window_scale), log_(log) {}
+
+  void step() override {
+    if (!(state_.time < scene_.run.t_end)) return;
+    start_window();
+    SpeedTally speeds;
+    speeds.add(state_.disks, 0, state_.disks.size());
+    WindowPlan plan = plan_window(scene_, state_, summarise_speeds(speeds, state_.disks.size()), scale_);
+    const PhaseTimer timer(times_, "window");
+    const ExactRules rules = exact_rules(scene_, state_.disks);
+    has_paths_ = false;
+    WindowResult result = run_window(rules, state_, plan, go_on_);
+    while (result.crowded && !result.given_up) {
+      plan = shortened(plan, rules, *result.crowded);
+      result = run_window(rules, state_, plan, go_on_);
+    }
+    if (result.given_up) return;
+    last_plan_ = plan;
+    if (log_ != nullptr) log_->insert(log_->end(), result.collisions.begin(), result.collisions.end());
+    paths_ = std::move(result.paths);
+    at_start_ = state_.disks;
+    has_paths_ = true;
+    finish(plan, result);
+  }
+
+  const State& state() const override { return state_; }
+
+  double disks_at(double t, Disks& out) const override {
+    if (!(t < state_.time) || !has_paths_) {
+      out = state_.disks;
+      return state_.time;
+    }
+    const double s = t > last_plan_.start ? t - last_plan_.start : 0.0;
+    std::vector<PathSegment> path = paths_.first;
+    std::vector<unsigned char> gone(path.size(), 0);
+    for (const WindowPaths::Piece& p : paths_.later) {
+      if (p.path.start > s) break;
+      path[p.disk] = p.path;
+      gone[p.disk] = p.gone ? 1 : 0;
+    }
+    out = at_start_;
+    for (std::size_t i = 0; i < path.size(); ++i) place(path[i], s, out, i);
+    remove_marked(out, gone);
+    return t;
+  }
+
+  void set_watch(const std::function<bool()>& go_on) override { go_on_ = go_on; }
+  const PhaseTimes& phase_times() const override { return times_; }
+  std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }
+
+ private:
+  // Sources emit, Brownian disks draw their velocities; those that cross a sink unseen in the interval leave.
+  void start_window() {
+    const PhaseTimer timer(times_, "start");
+    emit_at_window_start(scene_, state_, [&](const Disk& d) { return has_room(state_.disks, scene_.box, d); });
+    if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
+    if (!brownian_interval_begins(scene_, state_)) return;
+    const BrownianInterval interval = begin_brownian_interval(scene_, state_);
+    std::vector<unsigned char> gone(state_.disks.size(), 0);
+    with_view(state_.disks, [&](const auto& d) {
+      draw_brownian(d, scene_, interval.number, interval.length, 0, gone.size());
+      if (!has_brownian_sink(scene_)) return;
+      for (std::size_t i = 0; i < gone.size(); ++i) {
+        gone[i] = crosses_sink(d, scene_, interval.number, interval.length, i) ? 1 : 0;
+      }
+    });
+    state_.counters.removed += remove_marked(state_.disks, gone);
+  }
+
+  void place(const PathSegment& path, double s, Disks& d, std::size_t i) const {
+    PathSegment p = carried_to(path, s, scene_.physics.gravity);
+    wrap_into(p, scene_.box);
+    d.x[i] = p.x;
+    d.y[i] = p.y;
+    d.vx[i] = p.vx;
+    d.vy[i] = p.vy;
+  }
+
+  void finish(const WindowPlan& plan, const WindowResult& result) {
+    Disks& d = state_.disks;
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      place(result.disks[i].path, plan.length, d, i);
+      if (!state_.last_contact.empty()) state_.last_contact[d.id[i]] = plan.start + result.disks[i].last_contact;
+    }
+    state_.counters.removed += remove_marked(d, result.gone);
+    finish_window(state_, plan, result.tally, scale_);
+    validity_.see_step(scene_, {{}, {}, {}, result.tally.amiss}, state_);
+    check_pace(state_, plan);
+  }
+
+  Scene scene_;
+  State state_;
+  double scale_;
+  Validity validity_;
+  CollisionLog* log_;
+  std::function<bool()> go_on_;
+  PhaseTimes times_;
+  WindowPlan last_plan_;
+  WindowPaths paths_;
+  bool has_paths_ = false;
+  Disks at_start_;  // of the last window; columns other than the places are read
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_reference_exact(const Scene& scene, State initial, double window_scale,
+                                             CollisionLog* log) {
+  return std::make_unique<ReferenceExact>(scene, std::move(initial), window_scale, log);
+}
+
+}  // namespace carom

@@ -1,0 +1,13 @@
+// The method `pairwise`, plain and serial.
+#pragma once
+
+#include <memory>
+
+#include "core/step/engine.hpp"
+
+namespace carom {
+
+// Precondition: scene.run.dt > 0, initial is a state of scene.
+std::unique_ptr<Engine> make_reference_pairwise(const Scene& scene, State initial, CollisionLog* log = nullptr);
+
+}  // namespace carom

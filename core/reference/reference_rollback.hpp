@@ -1,0 +1,14 @@
+// The method `rollback`: the original's predictor-corrector, plain and serial, with faults F3 to F15 mended. F1 and F2
+// are its nature: one back-up time for the whole system, and every pair found bounces at that moment.
+#pragma once
+
+#include <memory>
+
+#include "core/step/engine.hpp"
+
+namespace carom {
+
+// Precondition: scene.run.dt > 0, initial is a state of scene.
+std::unique_ptr<Engine> make_reference_rollback(const Scene& scene, State initial, CollisionLog* log = nullptr);
+
+}  // namespace carom

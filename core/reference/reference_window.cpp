@@ -1,0 +1,172 @@
+#include "core/reference/reference_window.hpp"
+
+#include <cmath>
+#include <queue>
+
+#include "core/reference/neighbourhood.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr Count events_between_looks = 1024;
+
+struct Event {
+  double time;
+  DiskId id1, id2;       // id2 may be a wall (a side of any kind)
+  std::uint32_t i1, i2;  // storage; i2 == i1 for a side
+  std::uint32_t version1, version2;
+};
+
+// The canonical order of events. The queue wants the earliest on top.
+struct Later {
+  bool operator()(const Event& a, const Event& b) const {
+    if (a.time != b.time) return a.time > b.time;
+    if (a.id1 != b.id1) return a.id1 > b.id1;
+    return a.id2 > b.id2;
+  }
+};
+
+class EventLoop {
+ public:
+  EventLoop(const ExactRules& rules, const State& state, const WindowPlan& plan, const std::function<bool()>& go_on,
+            double travel, WindowResult& result)
+      : rules_(rules),
+        disks_(state.disks),
+        plan_(plan),
+        go_on_(go_on),
+        travel_(travel),
+        near_(state.disks, rules.box, travel),
+        result_(result),
+        version_(disks_.size(), 0),
+        travelled_(disks_.size(), 0.0),
+        burst_(disks_.size()) {}
+
+  // Returns the longest way that any disk went; beyond `travel` the neighbourhood was too small and the result is void.
+  double run() {
+    for (std::uint32_t i = 0; i < disks_.size(); ++i) predict(i, true);
+    double end = plan_.length;
+    for (Count taken = 1; !queue_.empty() && !result_.crowded && !collapse_; ++taken) {
+      const Event e = queue_.top();
+      queue_.pop();
+      if (taken % events_between_looks == 0 && go_on_ && !go_on_()) {
+        result_.given_up = true;
+        return farthest_;
+      }
+      if (version_[e.i1] != e.version1 || version_[e.i2] != e.version2) continue;
+      happen(e);
+      if (farthest_ > travel_) return farthest_;
+      if (result_.crowded || collapse_) end = e.time;
+    }
+    for (std::uint32_t i = 0; i < disks_.size(); ++i) {
+      if (result_.gone[i] == 0) add_travel(i, end);
+    }
+    if (collapse_ && !result_.crowded && farthest_ <= travel_) fail_collapse(*collapse_, plan_.start);
+    return farthest_;
+  }
+
+ private:
+  const PathSegment& path(std::uint32_t i) const { return result_.disks[i].path; }
+
+  void predict(std::uint32_t i, bool each_pair_once) {
+    for (const Side side : all_sides) {
+      const double t = side_time(path(i), side, disks_.radius_of(i), rules_.box, rules_.gravity, plan_.length);
+      if (t < never) queue_.push({t, disks_.id[i], wall_partner(side), i, i, version_[i], version_[i]});
+    }
+    near_.visit(i, [&](std::uint32_t j) {
+      if (result_.gone[j] != 0 || (each_pair_once && j < i)) return;
+      const bool in_order = disks_.id[i] < disks_.id[j];
+      const std::uint32_t a = in_order ? i : j;
+      const std::uint32_t b = in_order ? j : i;
+      const double reach = disks_.radius_of(a) + disks_.radius_of(b);
+      const double t = meeting_time(path(a), path(b), reach, rules_.box, rules_.gravity, plan_.length);
+      if (t < never) queue_.push({t, disks_.id[a], disks_.id[b], a, b, version_[a], version_[b]});
+    });
+  }
+
+  void happen(const Event& e) {
+    const bool pair = !is_wall(e.id2);
+    add_travel(e.i1, e.time);
+    if (pair) add_travel(e.i2, e.time);
+    ExactDisk& first = result_.disks[e.i1];
+    const Impact outcome =
+        pair ? collide_at(rules_, e.time, disks_.mass_of(e.i1), disks_.mass_of(e.i2), first, result_.disks[e.i2])
+             : meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), first);
+    result_.tally.add(e.id2, outcome);
+    if (pair && outcome.happened) result_.collisions.emplace_back(e.id1, e.id2);
+    if (!pair && rules_.box.side(wall_side(e.id2)) == SideKind::sink) result_.gone[e.i1] = 1;
+    const bool inelastic = loses_energy(rules_, e.id2, outcome);
+    begin_segment(e, e.i1, inelastic);
+    if (pair) begin_segment(e, e.i2, inelastic);
+    if (pair) predict(e.i2, false);
+    if (result_.gone[e.i1] == 0) predict(e.i1, false);
+  }
+
+  void begin_segment(const Event& e, std::uint32_t i, bool inelastic) {
+    ++version_[i];
+    result_.paths.later.push_back({i, path(i), result_.gone[i] != 0});
+    const EventMark mark{e.time, e.id1, e.id2};
+    const bool many = version_[i] > most_paths_of_disk || result_.paths.later.size() > most_paths(disks_.size());
+    if (many) result_.crowded = mark;
+    if (inelastic && burst_[i].add(e.time, plan_.length)) collapse_ = mark;
+  }
+
+  // Adds the way along the present segment up to time s; under gravity a bound.
+  void add_travel(std::uint32_t i, double s) {
+    const PathSegment& p = path(i);
+    const double t = s - p.start;
+    travelled_[i] += (std::sqrt(p.vx * p.vx + p.vy * p.vy) + rules_.gravity * t) * t;
+    farthest_ = std::max(farthest_, travelled_[i]);
+  }
+
+  const ExactRules& rules_;
+  const Disks& disks_;
+  const WindowPlan& plan_;
+  const std::function<bool()>& go_on_;
+  const double travel_;
+  const Neighbourhood near_;
+  WindowResult& result_;
+  std::priority_queue<Event, std::vector<Event>, Later> queue_;
+  std::vector<std::uint32_t> version_;
+  std::vector<double> travelled_;
+  std::vector<Burst> burst_;
+  std::optional<EventMark> collapse_;
+  double farthest_ = 0.0;
+};
+
+WindowResult fresh_result(const State& state) {
+  const Disks& d = state.disks;
+  WindowResult result;
+  result.gone.assign(d.size(), 0);
+  result.disks.resize(d.size());
+  result.paths.first.resize(d.size());
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    ExactDisk& disk = result.disks[i];
+    disk.path = {0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]};
+    if (!state.last_contact.empty()) disk.last_contact = state.last_contact[d.id[i]] - state.time;
+    result.paths.first[i] = disk.path;
+  }
+  return result;
+}
+
+// A first guess at how far disks go: somewhat more than the way of the fastest one.
+double guess_travel(const ExactRules& rules, const Disks& d, double length) {
+  double fastest2 = 0.0;
+  for (std::size_t i = 0; i < d.size(); ++i) fastest2 = std::max(fastest2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+  return 1.25 * (std::sqrt(fastest2) + rules.gravity * length) * length;
+}
+
+}  // namespace
+
+WindowResult run_window(const ExactRules& rules, const State& state, const WindowPlan& plan,
+                        const std::function<bool()>& go_on) {
+  double travel = guess_travel(rules, state.disks, plan.length);
+  for (;;) {
+    WindowResult result = fresh_result(state);
+    const double farthest = EventLoop(rules, state, plan, go_on, travel, result).run();
+    if (farthest <= travel || result.given_up) return result;
+    travel = 2.0 * farthest;
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,150 @@
+#include "core/reference/step_contacts.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "core/physics/impact_tally.hpp"
+#include "core/physics/resting.hpp"
+#include "core/physics/support_solver.hpp"
+#include "core/reference/pair_search.hpp"
+
+namespace carom {
+
+namespace {
+
+// How many contacts each disk has in this step, by storage index: two or more, and it is crowded.
+std::vector<std::uint32_t> contacts_per_disk(std::size_t disks, const std::vector<ContactEvent>& events) {
+  std::vector<std::uint32_t> contacts(disks, 0);
+  for (const ContactEvent& e : events) {
+    ++contacts[e.i1];
+    if (!is_wall(e.id2)) ++contacts[e.i2];
+  }
+  return contacts;
+}
+
+bool is_crowded(const std::vector<std::uint32_t>& contacts, const ContactEvent& e) {
+  return contacts[e.i1] > 1 || (!is_wall(e.id2) && contacts[e.i2] > 1);
+}
+
+template <class View>
+void resolve_impacts(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
+                     const std::vector<std::uint32_t>& contacts, CollisionLog* log, ImpactTally& tally) {
+  bool any = true;
+  for (int pass = 0; pass < most_impact_passes && any; ++pass) {
+    any = false;
+    for (const ContactEvent& e : events) {
+      const bool crowded = is_crowded(contacts, e);
+      if (pass > 0 && !crowded) continue;
+      if (rules.settles && is_support(d, rules, e, load_of(state.loads, e) > 0.0, crowded)) continue;
+      const Impact impact = resolve_event(d, rules, e);
+      tally.add(e.id2, impact);
+      if (log != nullptr && impact.happened && !is_wall(e.id2)) log->emplace_back(e.id1, e.id2);
+      any = any || (crowded && impact.happened);
+    }
+  }
+}
+
+// Sweeps over supports in order of ids.
+template <class View>
+struct Sweeps {
+  const View& d;
+  std::vector<Support>& supports;
+
+  CycleFigures cycle() {
+    CycleFigures figures;
+    for (Support& s : supports) relax_forward(d, s, figures);
+    for (std::size_t k = supports.size(); k-- > 0;) relax_back(d, supports[k], figures);
+    return figures;
+  }
+  void extrapolate(double beta) {
+    for (Support& s : supports) carom::extrapolate(d, s, beta);
+  }
+};
+
+// Solves the supports; their loads go to state.loads, in id order as the events are.
+template <class View>
+void bear_loads(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
+                const std::vector<std::uint32_t>& contacts, ImpactTally& tally) {
+  std::vector<Support> supports;
+  std::vector<ContactLoad> loads;
+  for (const ContactEvent& e : events) {
+    const double force = load_of(state.loads, e);
+    if (!is_solved(d, rules, e, force > 0.0, is_crowded(contacts, e))) continue;
+    supports.push_back(make_support(d, rules, e, force));
+    loads.push_back({e.id1, e.id2, 0.0});
+  }
+  if (rules.round == 0) {
+    for (const Support& s : supports) apply_impulse(d, s, s.impulse);
+  }
+  solve_supports(rules, Sweeps<View>{d, supports});
+  for (std::size_t k = 0; k < supports.size(); ++k) {
+    if (rules.round == 0) shift_by_load(d, supports[k], rules.dt);
+    tally.add_load(loads[k].id2, borne(supports[k]));
+    loads[k].force = supports[k].impulse;
+  }
+  std::erase_if(loads, [](const ContactLoad& load) { return load.force == 0.0; });
+  for (ContactLoad& load : loads) load.force /= rules.dt;
+  state.loads = std::move(loads);
+}
+
+// One sweep over all contacts; then over the crowded ones, which can undo one another's work, until nothing is deep.
+template <class View>
+void push_all(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
+              const std::vector<std::uint32_t>& contacts) {
+  const auto slack = [&](const ContactEvent& e) {
+    return rules.settles && load_of(state.loads, e) > 0.0 ? slack_of(d, rules, e) : 0.0;
+  };
+  for (const ContactEvent& e : events) {
+    if (is_wall(e.id2) && slack(e) > 0.0) hold_at_wall(d, rules.box, e, slack(e));
+    push_apart(d, rules.box, e, slack(e));
+  }
+  bool any_deep = true;
+  for (int sweep = 1; sweep < push_sweeps(rules) && any_deep; ++sweep) {
+    any_deep = false;
+    for (const ContactEvent& e : events) {
+      if (!is_crowded(contacts, e) || !is_deep(d, rules.box, e, shallow_overlap, slack(e))) continue;
+      push_apart(d, rules.box, e, slack(e));
+      any_deep = true;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules) {
+  std::vector<ContactEvent> events;
+  const std::vector<Pair> pairs = find_touching_pairs(disks, rules.box);
+  with_view(disks, [&](const auto& d) {
+    for (const Pair& p : pairs) events.push_back(pair_event(d, rules, p.i1, p.i2));
+    for (std::size_t i = 0; i < disks.size(); ++i) {
+      for_each_wall_contact(d, rules, static_cast<std::uint32_t>(i),
+                            [&](const ContactEvent& e) { events.push_back(e); });
+    }
+  });
+  return events;
+}
+
+StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events,
+                             CollisionLog* log) {
+  std::sort(events.begin(), events.end(), earlier);
+  StepFigures figures;
+  with_view(state.disks, [&](const auto& d) {
+    const std::vector<std::uint32_t> contacts = contacts_per_disk(state.disks.size(), events);
+    for (const ContactEvent& e : events) {
+      const bool bore = load_of(state.loads, e) > 0.0 && is_crowded(contacts, e);  // seen at the end of that step
+      if (rules.round == 0 && !is_wall(e.id2) && !bore) see_overlap_before(d, rules, e.i1, e.i2, figures);
+    }
+    ImpactTally tally;
+    resolve_impacts(d, state, rules, events, contacts, log, tally);
+    std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
+    if (rules.settles) bear_loads(d, state, rules, events, contacts, tally);
+    tally.count_into(state.counters);
+    figures.amiss = tally.amiss;
+    push_all(d, state, rules, events, contacts);
+    for (const ContactEvent& e : events) see_overlap_left(d, rules.box, e, figures);
+  });
+  return figures;
+}
+
+}  // namespace carom

@@ -1,0 +1,65 @@
+// The contacts of one step of `pairwise`, from the list of events to disks that no longer overlap. Serial: the
+// reference.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "core/base/collision_log.hpp"
+#include "core/disks/state.hpp"
+#include "core/measure/validity.hpp"
+#include "core/physics/contact_event.hpp"
+#include "core/physics/resolve.hpp"
+
+namespace carom {
+
+// How deep two disks overlapped when the step began: impacts of the step before may have brought them together that
+// were in no contact then. To be asked before anything is resolved, while the disks are on the paths of their drift.
+template <class View>
+void see_overlap_before(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j, StepFigures& figures) {
+  const Relative r = relative(d, i, j, rules.box);
+  const double dx = r.dx - r.dvx * rules.dt;
+  const double dy = r.dy - r.dvy * rules.dt;
+  const double reach = d.radius(i) + d.radius(j);
+  const double distance2 = dx * dx + dy * dy;
+  if (distance2 < reach * reach) figures.before.see({(reach - std::sqrt(distance2)) / reach, d.id[i], d.id[j]});
+}
+
+template <class View>
+void see_wall_overlap(const View& d, const Domain& box, std::uint32_t i, StepFigures& figures) {
+  for (Side side : all_sides) {
+    if (box.side(side) != SideKind::wall) continue;
+    const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius(i), box);
+    if (beyond > 0.0) figures.wall.see({beyond / d.radius(i), d.id[i], wall_partner(side)});
+  }
+}
+
+// How deep the disks of a contact lie in one another and in walls at the end of the step.
+template <class View>
+void see_overlap_left(const View& d, const Domain& box, const ContactEvent& e, StepFigures& figures) {
+  see_wall_overlap(d, box, e.i1, figures);
+  if (is_wall(e.id2)) return;
+  see_wall_overlap(d, box, e.i2, figures);
+  const double reach = d.radius(e.i1) + d.radius(e.i2);
+  const double dx = d.x[e.i2] - d.x[e.i1];
+  const double dy = d.y[e.i2] - d.y[e.i1];
+  const double nx = box.periodic_x() ? nearest_image(dx, box.width) : dx;
+  const double ny = box.periodic_y() ? nearest_image(dy, box.height) : dy;
+  const double distance2 = nx * nx + ny * ny;
+  // No square root for what is surely shallower than what was seen: in a pile every contact overlaps a little.
+  constexpr double deep = 0.5, above_rounding = 1.0 + 1e-14;
+  const double seen = figures.left.size < deep ? reach * (1.0 - figures.left.size) : reach;
+  if (distance2 >= reach * reach || distance2 > seen * seen * above_rounding) return;
+  figures.left.see({(reach - std::sqrt(distance2)) / reach, e.id1, e.id2});
+}
+
+// Pair and wall contacts at the end of a drift of length rules.dt, in no particular order.
+std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules);
+
+// Impacts in order of contact, then supports (settling scenes), then pushing apart; counts into state.counters and
+// keeps the loads in state.loads. Sorts events. Returns what went wrong. Pairs that collide are added to log, where one
+// is given.
+StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events,
+                             CollisionLog* log = nullptr);
+
+}  // namespace carom

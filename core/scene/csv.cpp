@@ -1,0 +1,79 @@
+#include "core/scene/csv.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <system_error>
+
+#include "core/base/input_message.hpp"
+
+namespace carom {
+
+namespace {
+
+std::string_view trim(std::string_view s) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = s.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return s.substr(first, s.find_last_not_of(blanks) - first + 1);
+}
+
+// The whole field as a number, independent of the locale.
+std::optional<double> parse_number(std::string_view field) {
+  field = trim(field);
+  if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
+  return value;
+}
+
+bool starts_like_name(std::string_view field) {
+  field = trim(field);
+  if (field.empty()) return false;
+  const char c = field[0];
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '"' || c == '_';
+}
+
+// A line of two names, such as "x,y" or "vx [m/s], vy [m/s]".
+bool is_header(std::string_view line) {
+  const std::size_t comma = line.find(',');
+  if (comma == std::string_view::npos) return false;
+  const std::string_view first = line.substr(0, comma);
+  const std::string_view second = line.substr(comma + 1);
+  return starts_like_name(first) && starts_like_name(second) && !parse_number(first) && !parse_number(second);
+}
+
+}  // namespace
+
+std::vector<Vec2> parse_csv_pairs(std::string_view text, const std::string& name, std::string_view key) {
+  constexpr std::string_view expected = "expected two finite numbers \"x,y\"";
+  std::vector<Vec2> rows;
+  bool first_line = true;
+  std::size_t line_number = 0;
+  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);  // byte order mark of UTF-8
+  while (!text.empty()) {
+    ++line_number;
+    const std::size_t end = text.find('\n');
+    const std::string_view line = trim(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.empty() || line[0] == '#') continue;
+    const bool header = first_line && is_header(line);
+    first_line = false;
+    if (header) continue;
+    const std::size_t comma = line.find(',');
+    const bool pair = comma != std::string_view::npos;
+    const std::optional<double> x = pair ? parse_number(line.substr(0, comma)) : std::nullopt;
+    const std::optional<double> y = pair ? parse_number(line.substr(comma + 1)) : std::nullopt;
+    if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) {
+      fail_input(fmt::format("{}:{}: {}", name, line_number, key), fmt::format("cannot read {}", in_quotes(line)),
+                 expected);
+    }
+    rows.push_back({*x, *y});
+  }
+  return rows;
+}
+
+}  // namespace carom

@@ -1,0 +1,22 @@
+// Brownian disks have no velocity: the u / dt of a step is a displacement that was drawn for it, and grows as dt
+// shrinks.
+#pragma once
+
+#include "core/disks/domain.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+// Are velocities those of drawn displacements, so that energy, momentum, pressure and forces mean nothing? Not with
+// accumulate, which adds up velocities as the original's code does.
+inline bool velocities_are_drawn(const Scene& scene) {
+  return scene.physics.diffusion > 0.0 && !scene.physics.accumulate;
+}
+
+// Does nothing in the scene give momentum to the disks or take it away?
+inline bool keeps_momentum(const Scene& scene) {
+  return scene.box.periodic_x() && scene.box.periodic_y() && !(scene.physics.gravity > 0.0) &&
+         !(scene.physics.diffusion > 0.0) && scene.sources.empty();
+}
+
+}  // namespace carom

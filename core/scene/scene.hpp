@@ -1,0 +1,168 @@
+// A scene: everything a run is made from, with every default filled in. Plain data; scene_file.hpp reads it from
+// TOML, initial_state.hpp makes disks of it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+enum class Method : std::uint8_t { rollback, pairwise, exact };
+
+// How one group of disks (or one source) gets its radii or masses. Radius in length, mass in mass units.
+struct SizeLaw {
+  enum class Kind : std::uint8_t {
+    constant,   // value
+    list,       // values, one a disk
+    uniform,    // drawn from [low, high]
+    from_other  // radius from mass, r = sqrt(m / (pi density)), or mass from radius, m = pi density r^2
+  };
+  Kind kind = Kind::constant;
+  double value = 0.0;
+  std::vector<double> values;
+  double low = 0.0, high = 0.0;
+  double density = 0.0;  // mass / length^2
+};
+
+struct PositionLaw {
+  enum class Kind : std::uint8_t { random, square, hexagonal, growth, list };
+  Kind kind = Kind::random;
+  std::vector<Vec2> list;  // from the scene or from a CSV file
+  std::string file;        // where the list came from, empty if the scene; for error messages
+  std::string where;       // "file:line: key" of positions, for error messages; empty if no file was read
+};
+
+struct VelocityLaw {
+  enum class Kind : std::uint8_t {
+    rest,
+    maxwell,  // normal deviates at temperature (energy units, k_B = 1)
+    uniform,  // each component uniform in [-limit, limit]
+    list
+  };
+  Kind kind = Kind::rest;
+  double temperature = 0.0;
+  double limit = 0.0;
+  std::vector<Vec2> list;
+  std::string file;
+};
+
+struct DiskGroup {
+  Count count = 0;
+  PositionLaw positions;
+  VelocityLaw velocities;
+  SizeLaw radius;
+  SizeLaw mass;
+  int line = 0;  // of the [[disks]] header in the scene file, for error messages
+};
+
+// Emits the k-th disk (k = 1, 2, ...) at time k / rate, as soon as a place drawn for it is free.
+struct Source {
+  std::optional<Side> side;      // disks enter touching this side, moving inward
+  Vec2 region_low, region_high;  // otherwise: centres uniform in this rectangle
+  double rate = 0.0;             // disks / time
+  SizeLaw radius, mass;
+  VelocityLaw velocities;  // rest, maxwell or uniform
+  std::optional<Count> limit;
+  int line = 0;
+};
+
+struct Physics {
+  double gravity = 0.0;      // length / time^2, along -y
+  double restitution = 1.0;  // in [0, 1]
+  double diffusion = 0.0;    // length^2 / time; > 0: Brownian motion (24)
+  bool accumulate = false;   // the original's code: u / dt is added to the velocity instead of replacing it
+  std::optional<double> collapse_contact_time;  // TC model, exact only
+};
+
+// How positions = "growth" goes about it (growth.hpp).
+struct GrowthPlan {
+  bool given = false;     // does the scene have [growth]?
+  double slowness = 1.0;  // > 0: how much more than usual disks move between two steps of growth
+  Count steps = 10'000;   // at most so many
+};
+
+struct RunPlan {
+  Method method = Method::exact;
+  double dt = 0.0;         // time; 0 where the method needs none
+  double t_end = 0.0;      // time
+  bool automatic = false;  // method = "auto": method and dt were chosen for accuracy (method_choice.hpp)
+  double accuracy = 0.0;   // relative error that the choice may make; 0: not given
+  std::string choice{};    // why it was chosen so; empty unless automatic
+};
+
+enum class TrajectoryFormat : std::uint8_t { none, xyz, h5md };
+
+// The disks that a trajectory shows: those whose id is a multiple of stride, or those with the centre in a rectangle.
+struct Selection {
+  Count stride = 1;
+  bool by_region = false;
+  Vec2 low, high;  // of the rectangle, corners included
+};
+
+// What the colour of a disk tells in movies and pictures.
+enum class ColourBy : std::uint8_t { speed, group, radius, mass, id };
+
+// How movies and pictures look.
+struct PictureLook {
+  ColourBy colour = ColourBy::speed;
+  double fps = 25.0;                           // frames a second of a movie
+  int width = 0, height = 0;                   // pixels, both even; 0: as the shape of the box asks
+  std::optional<std::array<double, 2>> range;  // ends of the colour scale; absent: as the run asks
+  bool operator==(const PictureLook&) const = default;
+};
+
+struct OutputPlan {
+  double every = 0.0;  // simulated time between frames; 0: only the first and the last
+  TrajectoryFormat trajectory = TrajectoryFormat::none;
+  Selection select;
+  bool single_precision = false;  // of positions and velocities in trajectory.h5
+  bool series = false;
+  std::vector<std::string> plots;  // "velocity", "energy"
+  int dimensions = 2;              // components of positions and velocities in trajectory.h5: z is 0 in a third
+  bool movie = false;
+  PictureLook look;
+  double checkpoint = 0.0;  // seconds of wall time between checkpoints; 0: none but on a signal
+};
+
+// What can be measured while a run goes on.
+enum class Quantity : std::uint8_t { pair_correlation, displacement, speeds, density, pressure, collision_rate };
+
+// Measured at the times start + k every, and at t_end.
+struct AnalysisPlan {
+  std::array<bool, 6> wanted{};  // by Quantity
+  double every = 0.0;            // simulated time between samples; 0: only the first and the last
+  double start = 0.0;            // simulated time of the first
+  double r_max = 0.0;            // of the pair correlation; length
+  Count r_bins = 0;
+  double wall_margin =
+      0.0;                 // least distance from a side that is not periodic, of disks whose surroundings count; length
+  double speed_max = 0.0;  // of the speed histogram, in units of sqrt(T / m)
+  Count speed_bins = 0;
+  bool density_along_x = false;  // else along y
+  Count density_bins = 0;
+
+  bool wants(Quantity q) const { return wanted[static_cast<std::size_t>(q)]; }
+  bool any() const { return wanted != std::array<bool, 6>{}; }
+};
+
+struct Scene {
+  std::string title;
+  std::string file;  // as given on the command line
+  std::uint64_t seed = 1;
+  Domain box;
+  Physics physics;
+  std::vector<DiskGroup> groups;
+  std::vector<Source> sources;
+  GrowthPlan growth;
+  RunPlan run;
+  OutputPlan output;
+  AnalysisPlan analysis;
+};
+
+}  // namespace carom

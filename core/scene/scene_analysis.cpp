@@ -1,0 +1,141 @@
+#include "core/scene/scene_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/input_message.hpp"
+#include "core/scene/scene_names.hpp"
+
+namespace carom {
+
+namespace {
+
+// More would be noise, and a file that nobody reads.
+constexpr Count most_bins = 100'000;
+// Where nothing is said: pairs up to five diameters in bins of a fiftieth, so that the first bin beyond contact of
+// equal disks begins at contact; speeds up to six thermal ones, beyond which no disk in 10^7 is.
+constexpr double default_reach = 5.0, bins_per_diameter = 50.0;
+constexpr double default_speed_max = 6.0;
+constexpr Count default_speed_bins = 60, default_density_bins = 50;
+// Samples of a run that says nothing of how often.
+constexpr double default_samples = 100.0;
+
+void read_wanted(const TableReader& reader, AnalysisPlan& plan) {
+  const std::string key = reader.key("what");
+  const toml::node& node = reader.require("what", "expected a list of what to measure, as in [\"pair_correlation\"]");
+  const toml::array& list = as_list(reader.origin(), key, node, "expected a list of what to measure");
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const std::string entry = fmt::format("{}.{}", key, k);
+    const std::string name = as_text(reader.origin(), entry, list[k]);
+    const auto* const known = std::find(quantity_names.begin(), quantity_names.end(), name);
+    if (known == quantity_names.end()) {
+      reader.origin().fail(entry, fmt::format("unknown quantity {}", in_quotes(name)),
+                           expected_one_of(quantity_names, name));
+    }
+    plan.wanted[static_cast<std::size_t>(known - quantity_names.begin())] = true;
+  }
+}
+
+Count read_bins(const TableReader& reader) {
+  const Count bins = reader.count("bins").value_or(0);
+  if (reader.find("bins") != nullptr && (bins == 0 || bins > most_bins)) {
+    reader.fail("bins", fmt::format("is {}", bins), fmt::format("expected a whole number from 1 to {}", most_bins));
+  }
+  return bins;
+}
+
+// read(table) of the table with the options of one quantity, if there is one.
+template <class Read>
+void read_options(const TableReader& analysis, const AnalysisPlan& plan, Quantity quantity, Read read) {
+  const std::string_view name = quantity_names[static_cast<std::size_t>(quantity)];
+  const toml::node* node = analysis.find(name);
+  if (node == nullptr) return;
+  if (!node->is_table()) {
+    analysis.fail(name, fmt::format("is {}", type_name(*node)),
+                  fmt::format("expected a table with {}, and the name among what",
+                              fmt::join(key_names(analysis.key(name)), ", ")));
+  }
+  if (!plan.wants(quantity)) {
+    analysis.fail(name, "has options, but what does not name it", fmt::format("expected \"{}\" in what", name));
+  }
+  read(TableReader(analysis.origin(), analysis.key(name), *node->as_table()));
+}
+
+// The largest r_max that a side of this length takes, and what is taken where nothing is said; both lengths.
+struct Reach {
+  double most = 0.0, usual = 0.0;
+};
+
+Reach reach_along(double length, bool periodic, double radius) {
+  if (periodic) return {0.5 * length, 0.5 * length};
+  // Disks as far from both walls as pairs are looked at, and a radius more, are those whose surroundings count: a half
+  // of the places that centres can have.
+  const double room = 0.5 * length - radius;
+  return {room * (1.0 - 1e-9), 0.5 * room};
+}
+
+void settle_pairs(Scene& scene, double largest_radius, const PlaceOfKey& place) {
+  AnalysisPlan& plan = scene.analysis;
+  const Reach x = reach_along(scene.box.width, scene.box.periodic_x(), largest_radius);
+  const Reach y = reach_along(scene.box.height, scene.box.periodic_y(), largest_radius);
+  const double most = std::min(x.most, y.most);
+  const double diameter = 2.0 * largest_radius;
+  if (!(most > 0.0)) {
+    fail_input(place("analysis.what"), "pair_correlation finds no room: a disk fills the box from wall to wall",
+               "expected a larger box");
+  }
+  // A scene may have no disk at all.
+  if (plan.r_max == 0.0) plan.r_max = std::min({x.usual, y.usual, diameter > 0.0 ? default_reach * diameter : x.usual});
+  const bool periodic = scene.box.periodic_x() && scene.box.periodic_y();
+  if (plan.r_max > most) {
+    fail_input(place("analysis.pair_correlation.r_max"), fmt::format("{} is too large for the box", plan.r_max),
+               fmt::format("expected at most {}, {}", most,
+                           periodic ? "half the shorter side"
+                                    : "half a periodic side, and what leaves disks that far from all walls"));
+  }
+  if (plan.r_bins == 0) {
+    plan.r_bins = static_cast<Count>(diameter > 0.0 ? std::clamp(std::round(bins_per_diameter * plan.r_max / diameter),
+                                                                 10.0, static_cast<double>(most_bins))
+                                                    : bins_per_diameter);
+  }
+  plan.wall_margin = plan.r_max + largest_radius;
+}
+
+}  // namespace
+
+AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, const Scene& scene) {
+  const TableReader reader(origin, "analysis", table);
+  AnalysisPlan plan;
+  read_wanted(reader, plan);
+  const double usual = scene.output.every > 0.0 ? scene.output.every : scene.run.t_end / default_samples;
+  plan.every = reader.number("every").value_or(usual);
+  plan.start = reader.number_or_initial("start");
+  if (plan.start > scene.run.t_end) {
+    reader.fail("start", fmt::format("is {}, after the end of the run", plan.start),
+                fmt::format("expected at most run.t_end = {}", scene.run.t_end));
+  }
+  read_options(reader, plan, Quantity::pair_correlation, [&](const TableReader& options) {
+    plan.r_max = options.number("r_max").value_or(0.0);
+    plan.r_bins = read_bins(options);
+  });
+  read_options(reader, plan, Quantity::speeds, [&](const TableReader& options) {
+    plan.speed_max = options.number("max").value_or(0.0);
+    plan.speed_bins = read_bins(options);
+  });
+  read_options(reader, plan, Quantity::density, [&](const TableReader& options) {
+    plan.density_along_x = options.choice_or_initial("axis") == 0;
+    plan.density_bins = read_bins(options);
+  });
+  if (plan.speed_max == 0.0) plan.speed_max = default_speed_max;
+  if (plan.speed_bins == 0) plan.speed_bins = default_speed_bins;
+  if (plan.density_bins == 0) plan.density_bins = default_density_bins;
+  return plan;
+}
+
+void settle_analysis(Scene& scene, double largest_radius, const PlaceOfKey& place) {
+  if (scene.analysis.wants(Quantity::pair_correlation)) settle_pairs(scene, largest_radius, place);
+}
+
+}  // namespace carom

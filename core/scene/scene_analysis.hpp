@@ -1,0 +1,17 @@
+// Reading what a run shall measure on its way, the table [analysis].
+#pragma once
+
+#include "core/load/scene_check.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/scene_reader.hpp"
+
+namespace carom {
+
+// The table with the defaults that do not depend on the box. scene: run and output are known. Throws InputError.
+AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, const Scene& scene);
+
+// The rest, once the box is known: how far pairs are looked at, whether that fits into the box, and the bins.
+// largest_radius: of any disk that the scene can have. Throws InputError.
+void settle_analysis(Scene& scene, double largest_radius, const PlaceOfKey& place);
+
+}  // namespace carom

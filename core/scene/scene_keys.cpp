@@ -1,0 +1,322 @@
+#include "core/scene/scene_keys.hpp"
+
+#include <algorithm>
+
+#include "core/scene/scene_names.hpp"
+
+namespace carom {
+
+namespace {
+
+using enum KeyKind;
+constexpr auto none = Dimension::none;
+
+constexpr SceneTable tables[] = {
+    {"", "The file itself", "Two keys of its own, then tables."},
+    {"box", "`[box]`",
+     "The rectangle from (0, 0) to (width, height): either `width` and `height`, or `packing_fraction`. Periodic sides "
+     "come in opposite pairs. A sink takes away what touches it."},
+    {"physics", "`[physics]`", "What acts on the disks. A scene states only what it has."},
+    {"physics.collapse", "`collapse = { ... }` in `[physics]`",
+     "The remedy for inelastic collapse under method `exact`: the TC model (Luding and McNamara 1998), in which a "
+     "collision is elastic where one of its disks collided less than `contact_time` ago."},
+    {"disks", "`[[disks]]`",
+     "A group of disks; a scene may have many, or none where it has sources. Ids run on from 0 in the order of the "
+     "file."},
+    {"disks.positions", "`positions = { ... }` in `[[disks]]`", "Places from elsewhere; exactly one of these keys."},
+    {"disks.velocities", "`velocities = { ... }` in `[[disks]]` and `[[sources]]`", "Exactly one of these keys."},
+    {"disks.radius", "`radius = { ... }` in `[[disks]]` and `[[sources]]`", "Exactly one of these keys."},
+    {"disks.mass", "`mass = { ... }` in `[[disks]]` and `[[sources]]`", "Exactly one of these keys."},
+    {"frame", "`{ frame = ... }` in `[[disks]]`",
+     "Starts from a frame of an earlier run: `positions`, `velocities`, `radius` and `mass` may each be taken from "
+     "one. The last frame, unless `index` or `time` says which."},
+    {"growth", "`[growth]`", "How `positions = \"growth\"` goes about it; only where some group grows."},
+    {"sources", "`[[sources]]`",
+     "Disks that come while the run goes on, the k-th at time k / `rate`, through a side or anywhere in a region. A "
+     "disk that would overlap another waits until there is room; how many wait is counted (`waiting`), and a run warns "
+     "at its end where more than a twentieth of them do."},
+    {"run", "`[run]`", "How the scene is run."},
+    {"output", "`[output]`", "What a run writes."},
+    {"output.movie", "`movie = { ... }` in `[output]`",
+     "How the movie looks, and what `carom render` makes of the trajectory; see "
+     "[output.md](output.md#movies-and-pictures)."},
+    {"analysis", "`[analysis]`", "What a run measures on its way, see [output.md](output.md#measuring-on-the-way)."},
+    {"analysis.pair_correlation", "`pair_correlation = { ... }` in `[analysis]`", ""},
+    {"analysis.speeds", "`speeds = { ... }` in `[analysis]`", ""},
+    {"analysis.density", "`density = { ... }` in `[analysis]`", ""},
+};
+
+constexpr std::string_view side_says = "What this side does.";
+constexpr std::string_view bins_allowed = "a whole number from 1 to 100000";
+constexpr std::string_view fps_allowed = "a number from 0.1 to 1000";
+constexpr std::string_view size_allowed = "two even whole numbers from 320 to 8192";
+constexpr std::string_view radius_allowed =
+    "a number above 0, a list of them, `{ uniform = ... }`, `{ from_mass = ... }`, or `{ frame = ... }`";
+constexpr std::string_view mass_allowed =
+    "a number above 0, a list of them, `{ uniform = ... }`, `{ from_radius = ... }`, or `{ frame = ... }`";
+constexpr std::string_view velocities_allowed =
+    "`{ maxwell = ... }`, `{ uniform = ... }`, a list of [vx, vy], `{ file = ... }`, or `{ frame = ... }`";
+constexpr std::string_view range_allowed = "[low, high] with 0 < low <= high";
+
+constexpr SceneKey keys[] = {
+    {"", "title", text, none, "\"\"", "Shown in messages, movies and files.", R"(title = "gas")",
+     "text of at most 1000 characters"},
+    {"", "seed", special, none, "1", "Of all random numbers: the same seed, the same run.", "seed = 7",
+     "a whole number from 0 to 18446744073709551615"},
+    {"", "box", special, none, "required", "The rectangle.", "[box]", "a table"},
+    {"", "physics", special, none, "no forces, elastic", "What acts on the disks.", "[physics]", "a table"},
+    {"", "disks", special, none, "required, or sources", "A group of disks.", "[[disks]]", "one or more tables"},
+    {"", "growth", special, none, "its defaults", "How disks grow into their places.", "[growth]", "a table"},
+    {"", "sources", special, none, "none", "Disks that come later.", "[[sources]]", "one or more tables"},
+    {"", "run", special, none, "required", "Method, step, end.", "[run]", "a table"},
+    {"", "output", special, none, "nothing is written", "What a run writes.", "[output]", "a table"},
+    {"", "analysis", special, none, "nothing is measured", "What a run measures.", "[analysis]", "a table"},
+
+    {"box", "width", positive, Dimension::length, "required without packing_fraction", "From left to right.",
+     "width = 100.0"},
+    {"box", "height", positive, Dimension::length, "required without packing_fraction", "From bottom to top.",
+     "height = 100.0"},
+    {"box", "packing_fraction", positive, none, "from width and height",
+     "Area of the disks at the start over that of the box, which is made to fit.", "packing_fraction = 0.5",
+     "a number above 0 and below pi / sqrt(12) = 0.9069"},
+    {"box", "aspect", positive, none, "1", "Width over height; only beside `packing_fraction`.", "aspect = 2.0"},
+    {"box", "left", choice, none, "\"wall\"", side_says, R"(left = "periodic")", {}, side_kind_names},
+    {"box", "right", choice, none, "\"wall\"", side_says, R"(right = "periodic")", {}, side_kind_names},
+    {"box", "bottom", choice, none, "\"wall\"", side_says, R"(bottom = "sink")", {}, side_kind_names},
+    {"box", "top", choice, none, "\"wall\"", side_says, R"(top = "wall")", {}, side_kind_names},
+    {"box", "wall_restitution", unit_interval, none, "1",
+     "Speed away from a wall over speed towards it, in a collision of disk and wall.", "wall_restitution = 0.9"},
+
+    {"physics", "gravity", non_negative, Dimension::acceleration, "0", "Acceleration downwards, along -y.",
+     "gravity = 0.5"},
+    {"physics", "restitution", unit_interval, none, "1",
+     "Speed of separation over speed of approach, along the line of centres, in a collision of two disks.",
+     "restitution = 0.8"},
+    {"physics", "diffusion", positive, Dimension::diffusion, "no Brownian motion",
+     "D of a single disk in Brownian motion: each step draws a displacement of variance 2 D dt in x and in y.",
+     "diffusion = 0.1"},
+    {"physics", "accumulate", flag, none, "false",
+     "With `diffusion`: the displacement over dt is added to the velocity instead of taking its place.",
+     "accumulate = true"},
+    {"physics", "collapse", special, none, "collapse ends the run, with status 3",
+     "Method `exact` only: what to do about inelastic collapse.", R"(collapse = { model = "tc", contact_time = 1e-6 })",
+     "`{ model = \"tc\", contact_time = ... }`"},
+    {"physics.collapse",
+     "model",
+     choice,
+     none,
+     "required",
+     "The TC model, the only one.",
+     R"(model = "tc")",
+     {},
+     collapse_models},
+    {"physics.collapse", "contact_time", positive, Dimension::time, "required",
+     "How long a disk's collisions stay elastic after one. Small against the time between collisions of a gas.",
+     "contact_time = 1e-6"},
+
+    {"disks", "count", count, none, "required", "How many disks the group has; 4 10^9 in all at most.", "count = 1000"},
+    {"disks", "positions", special, none, "required",
+     "Centres. Random without overlap; spread over the box on a lattice; grown into each other's gaps, which is "
+     "denser; "
+     "or given.",
+     R"(positions = "random")", "NAMES, a list of [x, y], `{ file = ... }`, or `{ frame = ... }`", position_names},
+    {"disks", "velocities", special, none, "at rest", "Velocities at the start.", "velocities = { maxwell = 1.0 }",
+     velocities_allowed},
+    {"disks", "radius", positive, Dimension::length, "required", "Radii.", "radius = 0.5", radius_allowed},
+    {"disks", "mass", positive, Dimension::mass, "required", "Masses.", "mass = 1.0", mass_allowed},
+    {"disks.positions", "file", text, Dimension::length, "",
+     "A CSV file, a line `x,y` a disk; from the scene's folder.", R"(positions = { file = "p.csv" })"},
+    {"disks.positions", "frame", text, none, "", "See `{ frame = ... }`.", R"(positions = { frame = "out/melt" })"},
+    {"disks.velocities", "maxwell", non_negative, Dimension::energy, "",
+     "Temperature T (k_B = 1): normal deviates, their mean taken off, then scaled so that the mean kinetic energy of a "
+     "disk is T exactly. From a side of a source: as gas flows through a hole.",
+     "velocities = { maxwell = 1.0 }"},
+    {"disks.velocities", "uniform", non_negative, Dimension::speed, "", "v: each component uniform between -v and v.",
+     "velocities = { uniform = 2.0 }"},
+    {"disks.velocities", "file", text, Dimension::speed, "", "A CSV file, a line `vx,vy` a disk. Not for sources.",
+     R"(velocities = { file = "v.csv" })"},
+    {"disks.velocities", "frame", text, none, "", "See `{ frame = ... }`. Not for sources.",
+     R"(velocities = { frame = "out/melt" })"},
+    {"disks.radius", "uniform", special, Dimension::length, "", "Each drawn uniformly between the two.",
+     "radius = { uniform = [1, 5] }", range_allowed},
+    {"disks.radius", "from_mass", positive, Dimension::density, "", "Density rho: r = sqrt(m / (pi rho)).",
+     "radius = { from_mass = 1.0 }"},
+    {"disks.radius", "frame", text, none, "", "See `{ frame = ... }`. Not for sources.",
+     R"(radius = { frame = "out/melt" })"},
+    {"disks.mass", "uniform", special, Dimension::mass, "", "Each drawn uniformly between the two.",
+     "mass = { uniform = [1, 100] }", range_allowed},
+    {"disks.mass", "from_radius", positive, Dimension::density, "", "Density rho: m = pi rho r^2.",
+     "mass = { from_radius = 1.0 }"},
+    {"disks.mass", "frame", text, none, "", "See `{ frame = ... }`. Not for sources.",
+     R"(mass = { frame = "out/melt" })"},
+    {"frame", "frame", text, none, "required", "A run's folder, or a trajectory; from the scene's folder.",
+     R"(positions = { frame = "out/melt" })"},
+    {"frame", "index", count, none, "the last", "Which frame, counted from 1.",
+     R"(positions = { frame = "out/melt", index = 5 })"},
+    {"frame", "time", number, Dimension::time, "the last", "The frame nearest to this time.",
+     R"(positions = { frame = "out/melt", time = 2.5 })"},
+
+    {"growth", "slowness", positive, none, "1",
+     "How much further than usual disks move between two steps of growth: larger is slower, and a little denser.",
+     "slowness = 10.0", "a number from 0.001 to 10000"},
+    {"growth", "steps", count, none, "10000", "Gives up after so many steps of growth.", "steps = 10_000"},
+
+    {"sources",
+     "side",
+     choice,
+     none,
+     "required, or region",
+     "Disks enter touching this side, moving inward; it may not be periodic.",
+     R"(side = "left")",
+     {},
+     side_names},
+    {"sources", "region", special, Dimension::length, "required, or side",
+     "Centres are drawn uniformly in this rectangle inside the box.", "region = [0.0, 0.0, 10.0, 5.0]",
+     "[x0, y0, x1, y1]"},
+    {"sources", "rate", non_negative, Dimension::frequency, "required", "Disks per unit time.", "rate = 10.0"},
+    {"sources", "radius", positive, Dimension::length, "required", "Radii; no list.", "radius = 0.5", radius_allowed},
+    {"sources", "mass", positive, Dimension::mass, "required", "Masses; no list.", "mass = 1.0", mass_allowed},
+    {"sources", "velocities", special, none, "at rest",
+     "Velocities; no list. Through a side the component across it always points inward.",
+     "velocities = { maxwell = 1.0 }", velocities_allowed},
+    {"sources", "limit", count, none, "none", "So many disks come at most.", "limit = 500"},
+
+    {"run",
+     "method",
+     choice,
+     none,
+     "\"exact\"",
+     "See [methods.md](methods.md); `auto` chooses method and dt by `accuracy`.",
+     R"(method = "pairwise")",
+     {},
+     method_words},
+    {"run", "dt", positive, Dimension::time, "required by rollback, pairwise and Brownian motion", "The time step.",
+     "dt = 0.01"},
+    {"run", "t_end", non_negative, Dimension::time, "required", "The time at which the run ends; it starts at 0.",
+     "t_end = 10.0"},
+    {"run", "accuracy", positive, none, "required by auto", "Relative error that averages may have, for `auto`.",
+     "accuracy = 1e-3", "a number above 0, at most 0.1"},
+
+    {"output", "every", non_negative, Dimension::time, "t_end / 100",
+     "Simulated time between two frames; 0: only the first and the last.", "every = 0.1"},
+    {"output",
+     "trajectory",
+     choice,
+     none,
+     "\"none\"",
+     "All frames, as trajectory.xyz (text) or trajectory.h5 (H5MD).",
+     R"(trajectory = "xyz")",
+     {},
+     trajectory_names},
+    {"output", "select", special, Dimension::length, "all disks",
+     "Which disks the trajectory shows: every so many by id, or those with their centre in a rectangle.",
+     R"(select = "every 100th")", "`\"every 100th\"`, or [x0, y0, x1, y1]"},
+    {"output",
+     "precision",
+     choice,
+     none,
+     "\"double\"",
+     "Of positions and velocities in trajectory.h5.",
+     R"(precision = "single")",
+     {},
+     precision_names},
+    {"output", "dimensions", count, none, "2",
+     "Components of positions and velocities in trajectory.h5; with 3, z is 0 and MDAnalysis reads the file.",
+     "dimensions = 3", "2 or 3"},
+    {"output", "series", flag, none, "false", "Writes series.csv, a row a frame.", "series = true"},
+    {"output", "plots", special, none, "[]",
+     "velocity.svg: velocities of up to ten disks, or the distribution of more, against time; energy.svg: energies.",
+     R"(plots = ["velocity", "energy"])", "a list of NAMES", plot_names},
+    {"output", "movie", special, none, "false", "Writes movie.mp4; a table says how it looks.", "movie = true",
+     "`true`, `false` or a table"},
+    {"output.movie",
+     "colour",
+     choice,
+     none,
+     "\"speed\"",
+     "What the colour of a disk tells; groups are those of `[[disks]]`.",
+     R"(movie = { colour = "radius" })",
+     {},
+     colour_names},
+    {"output.movie", "fps", positive, none, "25", "Frames a second.", "movie = { fps = 30 }", fps_allowed},
+    {"output.movie", "size", special, none, "as the box's shape asks", "Width and height of the picture in pixels.",
+     "movie = { size = [1280, 720] }", size_allowed},
+    {"output.movie", "range", special, none, "as the run asks",
+     "The ends of the colour scale, in the unit of what colour tells; disks beyond them have the colour of the end.",
+     "movie = { range = [0, 2] }", "[low, high] with low < high; not with `\"group\"`"},
+    {"output", "checkpoint", positive, none, "only when a run is stopped",
+     "Wall time between checkpoints, in seconds or with a unit.", R"(checkpoint = "10 min")",
+     "a number above 0, or text such as `\"90 s\"`, `\"10 min\"`, `\"2 h\"`"},
+
+    {"analysis", "what", special, none, "required", "What to measure.", R"(what = ["pair_correlation", "speeds"])",
+     "a list of NAMES", quantity_names},
+    {"analysis", "every", non_negative, Dimension::time, "as frames, or t_end / 100",
+     "Simulated time between two samples; 0: only the first and the last.", "every = 0.05"},
+    {"analysis", "start", non_negative, Dimension::time, "0", "Time of the first sample.", "start = 5.0"},
+    {"analysis", "pair_correlation", special, none, "its defaults", "Options, where `what` names it.",
+     "pair_correlation = { r_max = 5.0, bins = 250 }", "a table"},
+    {"analysis", "speeds", special, none, "its defaults", "Options, where `what` names them.",
+     "speeds = { max = 6.0, bins = 60 }", "a table"},
+    {"analysis", "density", special, none, "its defaults", "Options, where `what` names it.",
+     R"(density = { axis = "y", bins = 50 })", "a table"},
+    {"analysis.pair_correlation", "r_max", positive, Dimension::length, "five diameters, if the box has room",
+     "Distance up to which pairs are counted.", "pair_correlation = { r_max = 5.0 }"},
+    {"analysis.pair_correlation", "bins", count, none, "fifty a diameter", "Bins from 0 to `r_max`.",
+     "pair_correlation = { bins = 250 }", bins_allowed},
+    {"analysis.speeds", "max", positive, none, "6", "Largest speed, in units of sqrt(T / m).",
+     "speeds = { max = 6.0 }"},
+    {"analysis.speeds", "bins", count, none, "60", "Bins from 0 to `max`.", "speeds = { bins = 60 }", bins_allowed},
+    {"analysis.density",
+     "axis",
+     choice,
+     none,
+     "\"y\"",
+     "The axis along which slabs follow each other.",
+     R"(density = { axis = "x" })",
+     {},
+     axis_names},
+    {"analysis.density", "bins", count, none, "50", "Slabs.", "density = { bins = 50 }", bins_allowed},
+};
+
+bool is_index(std::string_view segment) {
+  return !segment.empty() && std::all_of(segment.begin(), segment.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
+std::span<const SceneTable> scene_tables() {
+  return tables;
+}
+
+std::span<const SceneKey> scene_keys() {
+  return keys;
+}
+
+const SceneKey* find_scene_key(std::string_view table, std::string_view name) {
+  const auto* const it = std::find_if(std::begin(keys), std::end(keys),
+                                      [&](const SceneKey& k) { return k.table == table && k.name == name; });
+  return it == std::end(keys) ? nullptr : it;
+}
+
+std::vector<std::string_view> key_names(std::string_view table) {
+  std::vector<std::string_view> names;
+  for (const SceneKey& key : keys) {
+    if (key.table == table) names.push_back(key.name);
+  }
+  return names;
+}
+
+std::string table_of_path(std::string_view path) {
+  std::string table;
+  while (!path.empty()) {
+    const std::size_t dot = path.find('.');
+    const std::string_view segment = path.substr(0, dot);
+    path.remove_prefix(dot == std::string_view::npos ? path.size() : dot + 1);
+    if (is_index(segment)) continue;
+    if (!table.empty()) table += '.';
+    table += segment;
+  }
+  return table;
+}
+
+}  // namespace carom

@@ -1,0 +1,180 @@
+#include "core/scene/scene_laws.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+#include "core/base/check.hpp"
+#include "core/base/input_file.hpp"
+#include "core/base/input_message.hpp"
+#include "core/scene/csv.hpp"
+#include "core/scene/scene_names.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::string_view positions_expected =
+    "expected \"random\", \"growth\", \"square\", \"hexagonal\", a list of [x, y], { file = \"p.csv\" }, or "
+    "{ frame = \"DIR\" }";
+constexpr std::string_view velocities_expected =
+    "expected { maxwell = T }, { uniform = v }, a list of [vx, vy], { file = \"v.csv\" }, or { frame = \"DIR\" }";
+
+// The one key of an inline table such as { maxwell = 1.0 }; throws unless there is exactly one.
+std::string_view only_key(const TableReader& owner, std::string_view name, const toml::table& table,
+                          std::string_view expected) {
+  if (table.size() != 1) owner.fail(name, fmt::format("has {} keys", table.size()), expected);
+  return table.begin()->first.str();
+}
+
+// The rows of the CSV file that the key "file" of law names; file gets the name as written.
+std::vector<Vec2> read_csv_law(const TableReader& law, std::string& file) {
+  const SceneOrigin& origin = law.origin();
+  const std::string key = law.key("file");
+  file = law.text("file").value();
+  if (file.empty() || file.find('\0') != std::string::npos) law.fail("file", "is no file name", "expected a CSV file");
+  const std::filesystem::path path = std::filesystem::path(origin.folder) / file;
+  const std::string text = read_text_file(path.string(), fmt::format("{} {}", origin.where(key), in_quotes(file)));
+  return parse_csv_pairs(text, file, key);
+}
+
+// { frame = "DIR or trajectory" }, with index = n (from 1) or time = t; the last frame without. file gets what messages
+// call it. Relative paths start where the scene lies, as those of CSV files do.
+SceneFrame read_frame(const TableReader& owner, std::string_view name, const toml::table& table, std::string& file) {
+  const TableReader law(owner.origin(), owner.key(name), table, "frame");
+  constexpr std::string_view expected = "expected { frame = \"DIR\" }, with index = n (from 1) or time = t";
+  FrameAsked asked;
+  law.require("frame", expected);
+  file = law.text("frame").value();
+  if (file.empty() || file.find('\0') != std::string::npos) law.fail("frame", "is no file name", expected);
+  asked.path = (std::filesystem::path(law.origin().folder) / file).string();
+  asked.index = law.count("index");
+  asked.time = law.number("time");
+  if (asked.index && asked.time) law.fail("time", "given beside index", expected);
+  if (asked.index == 0U) law.fail("index", "is 0", "expected 1 or more");
+  if (!law.origin().frames) law.fail("frame", "cannot be read here", "expected positions of another kind");
+  try {
+    return law.origin().frames(asked);
+  } catch (const InputError& error) {
+    fail_input(law.origin().where(law.key("frame")), error.what());
+  }
+}
+
+bool is_frame(const toml::table& table) {
+  return table.get("frame") != nullptr;
+}
+
+SizeLaw read_uniform_size(const TableReader& law, const toml::node& node) {
+  SizeLaw size;
+  size.kind = SizeLaw::Kind::uniform;
+  const std::vector<double> range = as_numbers(law.origin(), law.key("uniform"), node);
+  constexpr std::string_view expected = "expected [low, high] with 0 < low <= high";
+  if (range.size() != 2) law.fail("uniform", fmt::format("has {} numbers", range.size()), expected);
+  if (!(range[0] > 0.0 && range[0] <= range[1])) {
+    law.fail("uniform", fmt::format("is [{}, {}]", range[0], range[1]), expected);
+  }
+  size.low = range[0];
+  size.high = range[1];
+  return size;
+}
+
+SizeLaw read_size_list(const TableReader& owner, const std::string& key, Dimension dimension, const toml::node& node) {
+  SizeLaw size;
+  size.kind = SizeLaw::Kind::list;
+  size.values = as_numbers(owner.origin(), key, node);
+  for (std::size_t i = 0; i < size.values.size(); ++i) {
+    const double value = size.values[i];
+    if (value > 0.0 && in_range(dimension, value)) continue;
+    owner.origin().fail(fmt::format("{}.{}", key, i), fmt::format("is {}", value),
+                        value > 0.0 ? expected_range(dimension) : "expected a number above 0");
+  }
+  return size;
+}
+
+}  // namespace
+
+PositionLaw read_positions(const TableReader& group) {
+  const toml::node& node = group.require("positions", positions_expected);
+  const std::string key = group.key("positions");
+  PositionLaw law;
+  law.where = group.origin().where(key);
+  if (node.is_string()) {
+    law.kind = static_cast<PositionLaw::Kind>(group.choice("positions").value());
+  } else if (const toml::table* table = node.as_table(); table != nullptr && is_frame(*table)) {
+    law.kind = PositionLaw::Kind::list;
+    law.list = read_frame(group, "positions", *table, law.file).positions;
+  } else if (table != nullptr) {
+    const TableReader reader(group.origin(), key, *table, "disks.positions");
+    only_key(group, "positions", *table, positions_expected);
+    law.kind = PositionLaw::Kind::list;
+    law.list = read_csv_law(reader, law.file);
+  } else {
+    as_list(group.origin(), key, node, positions_expected);
+    law.kind = PositionLaw::Kind::list;
+    law.list = as_pairs(group.origin(), key, node);
+  }
+  return law;
+}
+
+VelocityLaw read_velocities(const TableReader& owner) {
+  VelocityLaw law;
+  const toml::node* node = owner.find("velocities");
+  if (node == nullptr) return law;
+  const std::string key = owner.key("velocities");
+  const toml::table* table = node->as_table();
+  if (table == nullptr) {
+    as_list(owner.origin(), key, *node, velocities_expected);
+    law.kind = VelocityLaw::Kind::list;
+    law.list = as_pairs(owner.origin(), key, *node);
+    return law;
+  }
+  if (is_frame(*table)) {
+    law.kind = VelocityLaw::Kind::list;
+    law.list = read_frame(owner, "velocities", *table, law.file).velocities;
+    return law;
+  }
+  const TableReader reader(owner.origin(), key, *table, "disks.velocities");
+  const std::string_view kind = only_key(owner, "velocities", *table, velocities_expected);
+  if (kind == "maxwell") {
+    law.kind = VelocityLaw::Kind::maxwell;
+    law.temperature = reader.number("maxwell").value();
+  } else if (kind == "uniform") {
+    law.kind = VelocityLaw::Kind::uniform;
+    law.limit = reader.number("uniform").value();
+  } else {
+    law.kind = VelocityLaw::Kind::list;
+    law.list = read_csv_law(reader, law.file);
+  }
+  return law;
+}
+
+SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_view other_key) {
+  const std::string expected = fmt::format(
+      "expected a number, a list of numbers, {{ uniform = [low, high] }}, {{ {} = density }}, or {{ frame = \"DIR\" }}",
+      other_key);
+  const toml::node& node = owner.require(name, expected);
+  const std::string key = owner.key(name);
+  if (node.is_array()) return read_size_list(owner, key, name == "radius" ? Dimension::length : Dimension::mass, node);
+  SizeLaw law;
+  if (const toml::table* table = node.as_table()) {
+    if (is_frame(*table)) {
+      std::string file;
+      const SceneFrame frame = read_frame(owner, name, *table, file);
+      law.kind = SizeLaw::Kind::list;
+      law.values = name == "radius" ? frame.radius : frame.mass;
+      return law;
+    }
+    const TableReader reader(owner.origin(), key, *table, fmt::format("disks.{}", name));
+    if (only_key(owner, name, *table, expected) == "uniform") return read_uniform_size(reader, *table->get("uniform"));
+    law.kind = SizeLaw::Kind::from_other;
+    law.density = reader.number(other_key).value();
+    return law;
+  }
+  if (!node.is_number()) owner.fail(name, fmt::format("is {}", type_name(node)), expected);
+  law.value = owner.number(name).value();
+  return law;
+}
+
+}  // namespace carom

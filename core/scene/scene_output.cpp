@@ -1,0 +1,120 @@
+#include "core/scene/scene_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+
+#include "core/base/input_message.hpp"
+#include "core/scene/picture_look.hpp"
+#include "core/scene/scene_names.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::string_view select_expected =
+    "expected \"every 100th\" (disks by id), or a region [x0, y0, x1, y1] with x0 < x1, y0 < y1";
+
+// The number in "every 100th"; 0 for any other text.
+Count stride_of(std::string_view text) {
+  constexpr std::string_view head = "every ";
+  if (!text.starts_with(head)) return 0;
+  text.remove_prefix(head.size());
+  Count stride = 0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, stride);
+  if (error != std::errc()) return 0;
+  constexpr std::array<std::string_view, 5> endings{"th", "st", "nd", "rd", ""};
+  const std::string_view ending(end, static_cast<std::size_t>(last - end));
+  return std::find(endings.begin(), endings.end(), ending) == endings.end() ? 0 : stride;
+}
+
+}  // namespace
+
+Selection read_selection(const TableReader& output) {
+  Selection select;
+  const toml::node* node = output.find("select");
+  if (node == nullptr) return select;
+  if (output.text("trajectory").value_or("none") == "none") {
+    output.fail("select", "selects disks of no trajectory", "expected trajectory = \"xyz\" or \"h5md\" as well");
+  }
+  if (node->is_string()) {
+    const std::string text = output.text("select").value();
+    select.stride = stride_of(text);
+    if (select.stride == 0) output.fail("select", fmt::format("is {}", in_quotes(text)), select_expected);
+    return select;
+  }
+  if (!node->is_array()) output.fail("select", fmt::format("is {}", type_name(*node)), select_expected);
+  const std::vector<double> corners = as_numbers(output.origin(), output.key("select"), *node);
+  if (corners.size() != 4) output.fail("select", fmt::format("has {} numbers", corners.size()), select_expected);
+  select.by_region = true;
+  select.low = {corners[0], corners[1]};
+  select.high = {corners[2], corners[3]};
+  if (!(select.low.x < select.high.x && select.low.y < select.high.y)) {
+    output.fail("select", "its corners are not in order", select_expected);
+  }
+  return select;
+}
+
+bool read_single_precision(const TableReader& output) {
+  const std::size_t precision = output.choice_or_initial("precision");
+  if (output.find("precision") != nullptr && output.text("trajectory").value_or("none") != "h5md") {
+    output.fail("precision", "is a matter of trajectory.h5", "expected trajectory = \"h5md\" as well");
+  }
+  return precision == 1;
+}
+
+bool read_third_dimension(const TableReader& output) {
+  const Count dimensions = output.count_or_initial("dimensions");
+  if (dimensions != 2 && dimensions != 3)
+    output.fail("dimensions", fmt::format("is {}", dimensions), "expected 2 or 3");
+  if (output.find("dimensions") != nullptr && output.text("trajectory").value_or("none") != "h5md") {
+    output.fail("dimensions", "is a matter of trajectory.h5", "expected trajectory = \"h5md\" as well");
+  }
+  return dimensions == 3;
+}
+
+namespace {
+
+// The two numbers of a key, if it is there.
+std::optional<std::array<double, 2>> two_numbers(const TableReader& movie, std::string_view name) {
+  const toml::node* const node = movie.find(name);
+  if (node == nullptr) return {};
+  const std::vector<double> values = as_numbers(movie.origin(), movie.key(name), *node);
+  if (values.size() != 2) movie.fail(name, fmt::format("has {} numbers", values.size()), "expected two numbers");
+  return std::array{values[0], values[1]};
+}
+
+}  // namespace
+
+void read_movie(const TableReader& output, OutputPlan& plan) {
+  const toml::node* const node = output.find("movie");
+  if (node == nullptr) return;
+  const toml::table* const table = node->as_table();
+  if (table == nullptr && !node->is_boolean()) {
+    output.fail("movie", fmt::format("is {}", type_name(*node)),
+                "expected true or false, or a table such as { fps = 30 }");
+  }
+  plan.movie = table != nullptr || as_flag(output.origin(), output.key("movie"), *node);
+  if (table == nullptr) return;
+  const TableReader movie(output.origin(), "output.movie", *table);
+  PictureLook& look = plan.look;
+  look.colour = static_cast<ColourBy>(movie.choice_or_initial("colour"));
+  look.fps = movie.number_or_initial("fps");
+  const auto check = [&movie](const char* name, const std::string& complaint) {
+    if (!complaint.empty()) movie.fail(name, "is out of its bounds", complaint);
+  };
+  check("fps", complaint_of_fps(look.fps));
+  if (const auto size = two_numbers(movie, "size")) {
+    check("size", complaint_of_size((*size)[0], (*size)[1]));
+    look.width = static_cast<int>((*size)[0]);
+    look.height = static_cast<int>((*size)[1]);
+  }
+  look.range = two_numbers(movie, "range");
+  if (look.range) check("range", complaint_of_range(look.colour, (*look.range)[0], (*look.range)[1]));
+}
+
+}  // namespace carom

@@ -1,0 +1,22 @@
+// Reading which disks a trajectory shows, how precisely, and how movies look.
+#pragma once
+
+#include "core/scene/scene.hpp"
+#include "core/scene/scene_reader.hpp"
+
+namespace carom {
+
+// The value of "select": "every 100th" (a whole number, 1 or more, with any ending) or [x0, y0, x1, y1]; all disks
+// where it is absent. Throws InputError for anything else, and where no trajectory is written.
+Selection read_selection(const TableReader& output);
+
+// Whether "precision" is "single". Throws InputError unless it is absent or trajectory is "h5md".
+bool read_single_precision(const TableReader& output);
+
+// Whether "dimensions" is 3. Throws InputError for anything but 2 and 3, and unless trajectory is "h5md".
+bool read_third_dimension(const TableReader& output);
+
+// "movie": whether there is one, and how it looks.
+void read_movie(const TableReader& output, OutputPlan& plan);
+
+}  // namespace carom

@@ -1,0 +1,130 @@
+#include "core/scene/scene_range_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/input_message.hpp"
+#include "core/scene/scene_ranges.hpp"
+
+namespace carom {
+
+namespace {
+
+double longer_side(const Domain& box) {
+  return std::max(box.width, box.height);
+}
+
+// t_end / interval, as so many of `noun`.
+void check_count(double t_end, double interval, std::string_view key, std::string_view noun, const PlaceOfKey& place) {
+  const double count = t_end / interval;
+  if (count <= most_steps) return;
+  fail_input(place(key), fmt::format("is {}: {:g} {} until run.t_end = {}", interval, count, noun, t_end),
+             fmt::format("expected at most 2^53 = {:g} of them", most_steps));
+}
+
+// distance: what the fastest disk flies until t_end; length.
+void check_flight(const Scene& scene, double distance, const std::string& where, const std::string& what) {
+  const double crossings = distance / longer_side(scene.box);
+  if (crossings <= most_crossings) return;
+  fail_input(where, fmt::format("{} crosses the box {:g} times until run.t_end = {}", what, crossings, scene.run.t_end),
+             fmt::format("expected at most 2^53 = {:g} times", most_crossings));
+}
+
+bool steps_in_time(const Scene& scene) {
+  return scene.run.method != Method::exact || scene.physics.diffusion > 0.0;
+}
+
+void check_gravity(const Scene& scene, const PlaceOfKey& place) {
+  const double g = scene.physics.gravity;
+  if (g == 0.0) return;
+  const double t = scene.run.t_end;
+  // Between floor and ceiling no fall is longer than the box; through periodic sides it goes on.
+  const double speed = scene.box.periodic_y() ? 0.5 * g * t : std::sqrt(2.0 * g * scene.box.height);
+  check_flight(scene, speed * t, place("physics.gravity"), fmt::format("is {}: a disk that falls", g));
+}
+
+void check_diffusion(const Scene& scene, const PlaceOfKey& place) {
+  const double d = scene.physics.diffusion;
+  if (d == 0.0 || scene.run.dt == 0.0) return;
+  const double step = std::sqrt(2.0 * d * scene.run.dt);
+  check_flight(scene, step * std::max(1.0, scene.run.t_end / scene.run.dt), place("physics.diffusion"),
+               fmt::format("is {}: a disk in Brownian motion", d));
+}
+
+}  // namespace
+
+void check_box_range(const Scene& scene, const PlaceOfKey& place) {
+  for (const double side : {scene.box.width, scene.box.height}) {
+    if (side > 0.0 && in_range(Dimension::length, side)) continue;
+    fail_input(place("box.packing_fraction"), fmt::format("gives a box of {} x {}", scene.box.width, scene.box.height),
+               fmt::format("{} each", expected_range(Dimension::length)));
+  }
+}
+
+void check_positions(const PositionLaw& law, const std::string& path, const PlaceOfKey& place) {
+  const double most = magnitudes_of(Dimension::length).most;
+  for (std::size_t k = 0; k < law.list.size(); ++k) {
+    const Vec2 p = law.list[k];
+    if (std::abs(p.x) <= most && std::abs(p.y) <= most) continue;
+    fail_input(place(fmt::format("{}.positions.{}", path, k)), fmt::format("is [{}, {}]", p.x, p.y),
+               fmt::format("expected lengths of at most {}", most));
+  }
+}
+
+void check_velocities(const Scene& scene, const VelocityLaw& law, double mass, const std::string& path,
+                      const PlaceOfKey& place) {
+  const auto check = [&](double speed, const std::string& key, const std::string& what) {
+    if (!(speed <= magnitudes_of(Dimension::speed).most)) {
+      fail_input(place(key), fmt::format("{} has a speed of {}", what, speed), expected_range(Dimension::speed));
+    }
+    check_flight(scene, speed * scene.run.t_end, place(key), what);
+  };
+  const std::string key = path + ".velocities";
+  // No normal deviate of this program is larger than 9.
+  constexpr double largest_deviate = 9.0;
+  if (law.kind == VelocityLaw::Kind::maxwell) {
+    check(largest_deviate * std::sqrt(law.temperature / mass), key,
+          fmt::format("maxwell = {} with mass {}", law.temperature, mass));
+  }
+  if (law.kind == VelocityLaw::Kind::uniform) {
+    check(std::numbers::sqrt2 * law.limit, key, fmt::format("uniform = {}", law.limit));
+  }
+  if (law.kind != VelocityLaw::Kind::list) return;
+  const double most = std::min(magnitudes_of(Dimension::speed).most,
+                               most_crossings * longer_side(scene.box) / std::max(scene.run.t_end, 1e-300));
+  for (std::size_t k = 0; k < law.list.size(); ++k) {
+    const Vec2 v = law.list[k];
+    if (std::abs(v.x) <= 0.5 * most && std::abs(v.y) <= 0.5 * most) continue;  // the rule, at no cost
+    check(std::hypot(v.x, v.y), fmt::format("{}.{}", key, k), fmt::format("is [{}, {}]: it", v.x, v.y));
+  }
+}
+
+void check_emissions(const Scene& scene, const Source& source, const std::string& path, const PlaceOfKey& place) {
+  const double due = source.rate * scene.run.t_end;
+  if (due <= most_emissions) return;
+  fail_input(place(path + ".rate"),
+             fmt::format("is {}: {:g} disks are due until run.t_end = {}", source.rate, due, scene.run.t_end),
+             fmt::format("expected at most 2^50 = {:g}", most_emissions));
+}
+
+void check_times(const Scene& scene, const PlaceOfKey& place) {
+  const double t_end = scene.run.t_end;
+  if (steps_in_time(scene) && scene.run.dt > 0.0) check_count(t_end, scene.run.dt, "run.dt", "steps", place);
+  if (scene.output.every > 0.0) check_count(t_end, scene.output.every, "output.every", "frames", place);
+  if (scene.analysis.every > 0.0) check_count(t_end, scene.analysis.every, "analysis.every", "samples", place);
+  check_gravity(scene, place);
+  check_diffusion(scene, place);
+}
+
+void check_resolution(const Scene& scene, double smallest_radius, const PlaceOfKey& place) {
+  const double side = longer_side(scene.box);
+  if (smallest_radius == 0.0 || side / smallest_radius <= most_radii) return;
+  fail_input(place(scene.box.width >= scene.box.height ? "box.width" : "box.height"),
+             fmt::format("{} is {:g} times the smallest radius, {}", side, side / smallest_radius, smallest_radius),
+             fmt::format("expected at most 2^40 = {:g} times: places have 16 digits", most_radii));
+}
+
+}  // namespace carom

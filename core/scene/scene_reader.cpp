@@ -1,0 +1,269 @@
+#define TOML_IMPLEMENTATION  // toml++ is compiled here, and nowhere else
+#include "core/scene/scene_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/base/input_message.hpp"
+
+namespace carom {
+
+namespace {
+
+// The child of a table or of a list that a segment of a key path names, or nullptr.
+const toml::node* child(const toml::node& node, std::string_view segment) {
+  if (const toml::table* table = node.as_table()) return table->get(segment);
+  const toml::array* list = node.as_array();
+  if (list == nullptr) return nullptr;
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(segment.data(), segment.data() + segment.size(), index);
+  if (error != std::errc() || end != segment.data() + segment.size()) return nullptr;
+  return list->get(index);
+}
+
+// Line of the last key along the path that exists.
+unsigned line_of(const toml::table& root, std::string_view key) {
+  const toml::node* node = &root;
+  unsigned line = 1;
+  while (node != nullptr && !key.empty()) {
+    const std::size_t dot = key.find('.');
+    node = child(*node, key.substr(0, dot));
+    key.remove_prefix(dot == std::string_view::npos ? key.size() : dot + 1);
+    if (node != nullptr && node->source().begin.line > 0) line = node->source().begin.line;
+  }
+  return line;
+}
+
+// True when path is prefix, or lies below it.
+bool lies_at_or_below(std::string_view path, std::string_view prefix) {
+  return path == prefix ||
+         (path.size() > prefix.size() && path.substr(0, prefix.size()) == prefix && path[prefix.size()] == '.');
+}
+
+// What was expected of a value that breaks the bound of its kind; empty if it keeps it.
+std::string_view broken_bound(KeyKind kind, double value) {
+  switch (kind) {
+    case KeyKind::positive:
+      return value > 0.0 ? "" : "expected a number above 0";
+    case KeyKind::non_negative:
+      return value >= 0.0 ? "" : "expected a number, 0 or more";
+    case KeyKind::unit_interval:
+      return value >= 0.0 && value <= 1.0 ? "" : "expected a number from 0 to 1";
+    default:
+      return "";
+  }
+}
+
+// The number that a row says of an absent key.
+template <class Number>
+Number initial_number(const SceneKey& row) {
+  Number value{};
+  const char* const last = row.initial.data() + row.initial.size();
+  const auto [end, error] = std::from_chars(row.initial.data(), last, value);
+  if (error == std::errc() && end == last) return value;
+  throw std::logic_error(fmt::format("scene_keys.cpp: {} of {} is no number", row.initial, row.name));
+}
+
+constexpr double largest_exact_count = 9007199254740992.0;  // 2^53: above it a float cannot tell neighbours apart
+
+}  // namespace
+
+std::string SceneOrigin::where(std::string_view key) const {
+  for (auto it = overrides.rbegin(); it != overrides.rend(); ++it) {
+    if (it->key == key) return fmt::format("--set {}", key);
+    if (lies_at_or_below(key, it->key)) return fmt::format("--set {}: {}", it->key, key);
+  }
+  if (root == nullptr) return fmt::format("{}:1: {}", name, key);
+  return fmt::format("{}:{}: {}", name, line_of(*root, key), key);
+}
+
+void SceneOrigin::fail(std::string_view key, std::string_view what, std::string_view expected) const {
+  fail_input(where(key), what, expected);
+}
+
+std::string_view type_name(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    default:
+      return "a date or time";
+  }
+}
+
+double as_number(const SceneOrigin& origin, const std::string& key, const toml::node& node) {
+  if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
+  const auto* number = node.as_floating_point();
+  if (number == nullptr) origin.fail(key, fmt::format("is {}", type_name(node)), "expected a number");
+  if (!std::isfinite(number->get())) origin.fail(key, fmt::format("is {}", number->get()), "expected a finite number");
+  return number->get();
+}
+
+Count as_count(const SceneOrigin& origin, const std::string& key, const toml::node& node) {
+  constexpr std::string_view expected = "expected a whole number, 0 or more";
+  if (const auto* integer = node.as_integer()) {
+    if (integer->get() < 0) origin.fail(key, fmt::format("is {}", integer->get()), expected);
+    return static_cast<Count>(integer->get());
+  }
+  const auto* number = node.as_floating_point();  // 1e6 is a float in TOML, and a fair way to write a count
+  if (number == nullptr) origin.fail(key, fmt::format("is {}", type_name(node)), expected);
+  const double value = number->get();
+  if (!(value >= 0.0 && value <= largest_exact_count) || value != std::floor(value)) {
+    origin.fail(key, fmt::format("is {}", value), expected);
+  }
+  return static_cast<Count>(value);
+}
+
+bool as_flag(const SceneOrigin& origin, const std::string& key, const toml::node& node) {
+  const auto* flag = node.as_boolean();
+  if (flag == nullptr) origin.fail(key, fmt::format("is {}", type_name(node)), "expected true or false");
+  return flag->get();
+}
+
+std::string as_text(const SceneOrigin& origin, const std::string& key, const toml::node& node) {
+  const auto* text = node.as_string();
+  if (text == nullptr) origin.fail(key, fmt::format("is {}", type_name(node)), "expected a string");
+  return text->get();
+}
+
+const toml::array& as_list(const SceneOrigin& origin, const std::string& key, const toml::node& node,
+                           std::string_view expected) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr) origin.fail(key, fmt::format("is {}", type_name(node)), expected);
+  return *list;
+}
+
+std::vector<double> as_numbers(const SceneOrigin& origin, const std::string& key, const toml::node& node) {
+  const toml::array& list = as_list(origin, key, node, "expected a list of numbers");
+  std::vector<double> numbers;
+  numbers.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto* number = list[i].as_floating_point();
+    const bool plain = number != nullptr && std::isfinite(number->get());  // spares a million key paths
+    numbers.push_back(plain ? number->get() : as_number(origin, fmt::format("{}.{}", key, i), list[i]));
+  }
+  return numbers;
+}
+
+std::vector<Vec2> as_pairs(const SceneOrigin& origin, const std::string& key, const toml::node& node) {
+  constexpr std::string_view expected = "expected a list of [x, y]";
+  const toml::array& list = as_list(origin, key, node, expected);
+  std::vector<Vec2> pairs;
+  pairs.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const toml::array* pair = list[i].as_array();
+    const std::string entry = fmt::format("{}.{}", key, i);
+    if (pair == nullptr) origin.fail(entry, fmt::format("is {}", type_name(list[i])), expected);
+    if (pair->size() != 2) origin.fail(entry, fmt::format("has {} numbers", pair->size()), expected);
+    pairs.push_back({as_number(origin, entry, (*pair)[0]), as_number(origin, entry, (*pair)[1])});
+  }
+  return pairs;
+}
+
+TableReader::TableReader(const SceneOrigin& origin, std::string path, const toml::table& table, std::string_view kind)
+    : origin_(&origin), path_(std::move(path)), kind_(kind.empty() ? table_of_path(path_) : kind), table_(&table) {
+  for (const auto& [name, node] : table) {
+    if (find_scene_key(kind_, name.str()) == nullptr) {
+      fail(name.str(), "unknown key", expected_one_of(key_names(kind_), name.str()));
+    }
+  }
+}
+
+std::string TableReader::key(std::string_view name) const {
+  return path_.empty() ? std::string(name) : fmt::format("{}.{}", path_, name);
+}
+
+void TableReader::fail(std::string_view name, std::string_view what, std::string_view expected) const {
+  origin_->fail(key(name), what, expected);
+}
+
+const SceneKey& TableReader::row(std::string_view name) const {
+  const SceneKey* const found = find_scene_key(kind_, name);
+  if (found == nullptr) throw std::logic_error(fmt::format("scene_keys.cpp has no key {} in {}", name, kind_));
+  return *found;
+}
+
+const toml::node& TableReader::require(std::string_view name, std::string_view expected) const {
+  const toml::node* node = find(name);
+  if (node == nullptr) fail(name, "missing", expected);
+  return *node;
+}
+
+std::optional<double> TableReader::number(std::string_view name) const {
+  const SceneKey& key_row = row(name);
+  const toml::node* node = find(name);
+  if (node == nullptr) return std::nullopt;
+  const double value = as_number(*origin_, key(name), *node);
+  const std::string_view broken = broken_bound(key_row.kind, value);
+  if (!broken.empty()) fail(name, fmt::format("is {}", value), broken);
+  if (!in_range(key_row.dimension, value)) {
+    fail(name, fmt::format("is {}", value), expected_range(key_row.dimension));
+  }
+  return value;
+}
+
+std::optional<Count> TableReader::count(std::string_view name) const {
+  row(name);
+  const toml::node* node = find(name);
+  return node == nullptr ? std::nullopt : std::optional(as_count(*origin_, key(name), *node));
+}
+
+std::optional<bool> TableReader::flag(std::string_view name) const {
+  row(name);
+  const toml::node* node = find(name);
+  return node == nullptr ? std::nullopt : std::optional(as_flag(*origin_, key(name), *node));
+}
+
+std::optional<std::string> TableReader::text(std::string_view name) const {
+  row(name);
+  const toml::node* node = find(name);
+  return node == nullptr ? std::nullopt : std::optional(as_text(*origin_, key(name), *node));
+}
+
+std::optional<std::size_t> TableReader::choice(std::string_view name) const {
+  const std::optional<std::string> value = text(name);
+  if (!value) return std::nullopt;
+  const std::span<const std::string_view> known = row(name).names;
+  const auto it = std::find(known.begin(), known.end(), *value);
+  if (it == known.end()) fail(name, fmt::format("unknown name {}", in_quotes(*value)), expected_one_of(known, *value));
+  return static_cast<std::size_t>(it - known.begin());
+}
+
+double TableReader::number_or_initial(std::string_view name) const {
+  const std::optional<double> given = number(name);
+  return given ? *given : initial_number<double>(row(name));
+}
+
+Count TableReader::count_or_initial(std::string_view name) const {
+  const std::optional<Count> given = count(name);
+  return given ? *given : initial_number<Count>(row(name));
+}
+
+bool TableReader::flag_or_initial(std::string_view name) const {
+  return flag(name).value_or(row(name).initial == "true");
+}
+
+std::size_t TableReader::choice_or_initial(std::string_view name) const {
+  const std::optional<std::size_t> given = choice(name);
+  if (given) return *given;
+  const SceneKey& key_row = row(name);
+  for (std::size_t k = 0; k < key_row.names.size(); ++k) {
+    if (key_row.initial == fmt::format("\"{}\"", key_row.names[k])) return k;
+  }
+  throw std::logic_error(fmt::format("scene_keys.cpp: {} is no name of {}", key_row.initial, name));
+}
+
+}  // namespace carom

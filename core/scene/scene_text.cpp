@@ -1,0 +1,224 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <iterator>
+#include <limits>
+
+#include "core/load/scene_file.hpp"
+#include "core/scene/scene_names.hpp"
+
+namespace carom {
+
+namespace {
+
+template <class Enum>
+std::size_t index(Enum value) {
+  return static_cast<std::size_t>(value);
+}
+
+// At most 17 significant digits, the fewest that give the same double back; always a TOML float, so that -0.0 stays.
+std::string number(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string quoted_toml(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      quoted += '\\';
+      quoted += c;
+    } else if (code < 0x20 || code == 0x7f) {
+      quoted += fmt::format("\\u{:04X}", code);
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '"';
+}
+
+template <class T, class Write>
+std::string list_of(const std::vector<T>& values, Write write) {
+  std::string text = "[";
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (k > 0) text += k % 8 == 0 ? ",\n  " : ", ";
+    text += write(values[k]);
+  }
+  return text + "]";
+}
+
+std::string pair(const Vec2& v) {
+  return fmt::format("[{}, {}]", number(v.x), number(v.y));
+}
+
+std::string size_text(const SizeLaw& law, std::string_view other_key) {
+  switch (law.kind) {
+    case SizeLaw::Kind::constant:
+      return number(law.value);
+    case SizeLaw::Kind::list:
+      return list_of(law.values, number);
+    case SizeLaw::Kind::uniform:
+      return fmt::format("{{ uniform = [{}, {}] }}", number(law.low), number(law.high));
+    case SizeLaw::Kind::from_other:
+      break;
+  }
+  return fmt::format("{{ {} = {} }}", other_key, number(law.density));
+}
+
+std::string positions_text(const PositionLaw& law) {
+  if (law.kind == PositionLaw::Kind::list) return list_of(law.list, pair);
+  return quoted_toml(position_names[index(law.kind)]);
+}
+
+// Empty for disks at rest, which is what an absent key means.
+std::string velocities_line(const VelocityLaw& law) {
+  switch (law.kind) {
+    case VelocityLaw::Kind::rest:
+      return "";
+    case VelocityLaw::Kind::maxwell:
+      return fmt::format("velocities = {{ maxwell = {} }}\n", number(law.temperature));
+    case VelocityLaw::Kind::uniform:
+      return fmt::format("velocities = {{ uniform = {} }}\n", number(law.limit));
+    case VelocityLaw::Kind::list:
+      break;
+  }
+  return fmt::format("velocities = {}\n", list_of(law.list, pair));
+}
+
+std::string box_text(const Domain& box) {
+  std::string text = fmt::format("\n[box]\nwidth = {}\nheight = {}\n", number(box.width), number(box.height));
+  for (std::size_t s = 0; s < side_names.size(); ++s) {
+    text += fmt::format("{} = \"{}\"\n", side_names[s], side_kind_names[index(box.sides[s])]);
+  }
+  return text + fmt::format("wall_restitution = {}\n", number(box.wall_restitution));
+}
+
+std::string physics_text(const Physics& physics) {
+  std::string text = fmt::format("\n[physics]\ngravity = {}\nrestitution = {}\n", number(physics.gravity),
+                                 number(physics.restitution));
+  if (physics.diffusion > 0.0) {
+    text += fmt::format("diffusion = {}\naccumulate = {}\n", number(physics.diffusion), physics.accumulate);
+  }
+  if (physics.collapse_contact_time) {
+    text += fmt::format("collapse = {{ model = \"tc\", contact_time = {} }}\n", number(*physics.collapse_contact_time));
+  }
+  return text;
+}
+
+std::string group_text(const DiskGroup& group) {
+  return fmt::format("\n[[disks]]\ncount = {}\npositions = {}\n{}radius = {}\nmass = {}\n", group.count,
+                     positions_text(group.positions), velocities_line(group.velocities),
+                     size_text(group.radius, "from_mass"), size_text(group.mass, "from_radius"));
+}
+
+// Empty where nothing grows.
+std::string growth_text(const Scene& scene) {
+  for (const DiskGroup& group : scene.groups) {
+    if (group.positions.kind != PositionLaw::Kind::growth) continue;
+    return fmt::format("\n[growth]\nslowness = {}\nsteps = {}\n", number(scene.growth.slowness), scene.growth.steps);
+  }
+  return "";
+}
+
+std::string source_text(const Source& source) {
+  std::string text = "\n[[sources]]\n";
+  if (source.side) {
+    text += fmt::format("side = \"{}\"\n", side_names[index(*source.side)]);
+  } else {
+    text += fmt::format("region = [{}, {}, {}, {}]\n", number(source.region_low.x), number(source.region_low.y),
+                        number(source.region_high.x), number(source.region_high.y));
+  }
+  text +=
+      fmt::format("rate = {}\nradius = {}\nmass = {}\n{}", number(source.rate), size_text(source.radius, "from_mass"),
+                  size_text(source.mass, "from_radius"), velocities_line(source.velocities));
+  if (source.limit) text += fmt::format("limit = {}\n", *source.limit);
+  return text;
+}
+
+std::string run_text(const RunPlan& run) {
+  std::string text = "\n[run]\n";
+  // The choice itself, so that the file gives this run even where another version would choose differently.
+  if (run.automatic)
+    text += fmt::format("# chosen by method = \"auto\", accuracy = {}: {}\n", run.accuracy, run.choice);
+  text += fmt::format("method = \"{}\"\n", method_names[index(run.method)]);
+  if (run.dt > 0.0) text += fmt::format("dt = {}\n", number(run.dt));
+  return text + fmt::format("t_end = {}\n", number(run.t_end));
+}
+
+// Empty where the trajectory shows all disks in full precision, which is what absent keys mean.
+std::string selection_lines(const OutputPlan& output) {
+  const Selection& select = output.select;
+  std::string text;
+  if (select.by_region) {
+    text += fmt::format("select = [{}, {}, {}, {}]\n", number(select.low.x), number(select.low.y),
+                        number(select.high.x), number(select.high.y));
+  } else if (select.stride > 1) {
+    text += fmt::format("select = \"every {}th\"\n", select.stride);
+  }
+  if (output.single_precision) text += "precision = \"single\"\n";
+  if (output.dimensions != 2) text += fmt::format("dimensions = {}\n", output.dimensions);
+  return text;
+}
+
+std::string movie_text(const OutputPlan& output) {
+  const PictureLook& look = output.look;
+  if (!output.movie || look == PictureLook{}) return output.movie ? "true" : "false";
+  std::string text = fmt::format("{{ colour = \"{}\", fps = {}", colour_names[index(look.colour)], number(look.fps));
+  if (look.width > 0) text += fmt::format(", size = [{}, {}]", look.width, look.height);
+  if (look.range) text += fmt::format(", range = [{}, {}]", number((*look.range)[0]), number((*look.range)[1]));
+  return text + " }";
+}
+
+std::string output_text(const OutputPlan& output) {
+  const std::string checkpoint =
+      output.checkpoint > 0.0 ? fmt::format("checkpoint = {}\n", number(output.checkpoint)) : "";
+  return fmt::format("\n[output]\nevery = {}\ntrajectory = \"{}\"\n{}series = {}\nplots = {}\nmovie = {}\n",
+                     number(output.every), trajectory_names[index(output.trajectory)], selection_lines(output),
+                     output.series, list_of(output.plots, [](const std::string& name) { return quoted_toml(name); }),
+                     movie_text(output)) +
+         checkpoint;
+}
+
+// Empty where nothing is measured.
+std::string analysis_text(const AnalysisPlan& plan) {
+  if (!plan.any()) return "";
+  std::vector<std::string> names;
+  std::string tables;
+  for (std::size_t k = 0; k < quantity_names.size(); ++k) {
+    if (plan.wanted[k]) names.emplace_back(quantity_names[k]);
+  }
+  if (plan.wants(Quantity::pair_correlation)) {
+    tables += fmt::format("pair_correlation = {{ r_max = {}, bins = {} }}\n", number(plan.r_max), plan.r_bins);
+  }
+  if (plan.wants(Quantity::speeds)) {
+    tables += fmt::format("speeds = {{ max = {}, bins = {} }}\n", number(plan.speed_max), plan.speed_bins);
+  }
+  if (plan.wants(Quantity::density)) {
+    tables += fmt::format("density = {{ axis = \"{}\", bins = {} }}\n", axis_names[plan.density_along_x ? 0 : 1],
+                          plan.density_bins);
+  }
+  return fmt::format("\n[analysis]\nwhat = {}\nevery = {}\nstart = {}\n{}", list_of(names, quoted_toml),
+                     number(plan.every), number(plan.start), tables);
+}
+
+// TOML integers end at 2^63 - 1; a larger seed is written as a string.
+std::string seed_text(std::uint64_t seed) {
+  constexpr auto largest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  return seed > largest ? fmt::format("\"{}\"", seed) : fmt::format("{}", seed);
+}
+
+}  // namespace
+
+std::string resolved_toml(const Scene& scene) {
+  std::string text = fmt::format("title = {}\nseed = {}\n", quoted_toml(scene.title), seed_text(scene.seed));
+  text += box_text(scene.box);
+  text += physics_text(scene.physics);
+  for (const DiskGroup& group : scene.groups) text += group_text(group);
+  text += growth_text(scene);
+  for (const Source& source : scene.sources) text += source_text(source);
+  return text + run_text(scene.run) + output_text(scene.output) + analysis_text(scene.analysis);
+}
+
+}  // namespace carom

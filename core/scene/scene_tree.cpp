@@ -1,0 +1,99 @@
+#include "core/scene/scene_tree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/input_message.hpp"
+
+namespace carom {
+
+namespace {
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// Puts quotes around the digits of "seed = digits" in the line numbered line (from 1). False if it is another line.
+bool quote_seed(std::string& text, std::size_t line) {
+  std::size_t begin = 0;
+  for (std::size_t k = 1; k < line && begin != std::string::npos; ++k) {
+    begin = text.find('\n', begin);
+    if (begin != std::string::npos) ++begin;
+  }
+  if (begin == std::string::npos) return false;
+  const std::size_t name = text.find_first_not_of(" \t", begin);
+  if (name == std::string::npos || text.compare(name, 4, "seed") != 0) return false;
+  const std::size_t equals = text.find_first_not_of(" \t", name + 4);
+  if (equals == std::string::npos || text[equals] != '=') return false;
+  const std::size_t first = text.find_first_not_of(" \t", equals + 1);
+  if (first == std::string::npos || !is_digit(text[first])) return false;
+  std::size_t last = first;
+  while (last < text.size() && is_digit(text[last])) ++last;
+  text.insert(last, "\"");
+  text.insert(first, "\"");
+  return true;
+}
+
+// One past the string that starts at text[at], a quote of either kind, single or threefold. A string that does not end
+// ends with its line, or with the text; the parser complains about it.
+std::size_t skip_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string closing(text.substr(at, 3) == std::string(3, quote) ? 3 : 1, quote);
+  for (std::size_t k = at + closing.size(); k < text.size(); ++k) {
+    if (text[k] == '\\' && quote == '"') {
+      ++k;
+    } else if (text.substr(k, closing.size()) == closing) {
+      return k + closing.size();
+    } else if (text[k] == '\n' && closing.size() == 1) {
+      return k;
+    }
+  }
+  return text.size();
+}
+
+// Throws InputError when the text has a stray character.
+void check_ascii(std::string_view text, const std::string& name) {
+  const std::string_view stray = stray_character(text);
+  if (stray.empty()) return;
+  const auto line = 1 + std::count(text.data(), stray.data(), '\n');
+  fail_input(fmt::format("{}:{}: TOML syntax", name, line),
+             fmt::format("{} outside strings and comments", in_quotes(stray)), "expected ASCII characters there");
+}
+
+}  // namespace
+
+std::string_view stray_character(std::string_view text) {
+  std::size_t at = text.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0;  // byte order mark
+  while (at < text.size()) {
+    const char c = text[at];
+    if (c == '#') {
+      at = std::min(text.find('\n', at), text.size());
+    } else if (c == '"' || c == '\'') {
+      at = skip_string(text, at);
+    } else if (static_cast<unsigned char>(c) >= 0x80) {
+      std::size_t end = at + 1;
+      while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80) ++end;
+      return text.substr(at, end - at);
+    } else {
+      ++at;
+    }
+  }
+  return {};
+}
+
+toml::table parse_scene_tree(std::string_view text, const std::string& name) {
+  check_ascii(text, name);
+  std::string copy(text);
+  for (bool retried = false;; retried = true) {
+    try {
+      return toml::parse(std::string_view(copy), std::string_view(name));
+    } catch (const toml::parse_error& e) {
+      const std::size_t line = std::max<std::size_t>(1, e.source().begin.line);
+      if (!retried && quote_seed(copy, line)) continue;
+      fail_input(fmt::format("{}:{}: TOML syntax", name, line), e.description(), "expected valid TOML 1.0");
+    }
+  }
+}
+
+}  // namespace carom

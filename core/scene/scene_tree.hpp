@@ -1,0 +1,17 @@
+// From the text of a scene to its TOML tree.
+#pragma once
+
+#include "core/scene/scene_reader.hpp"
+
+namespace carom {
+
+// Reads a scene's text. seed may be any unsigned 64-bit number although TOML integers end at 2^63 - 1: a larger one
+// is kept as a string. Throws InputError, "name:line: ...", for a syntax error or a duplicate key.
+toml::table parse_scene_tree(std::string_view text, const std::string& name);
+
+// The first character outside ASCII that is neither in a string nor in a comment; empty if there is none. TOML allows
+// none, and they are looked for before parsing: toml++ 3.3 runs into code that it declares unreachable when some of
+// them follow a space, and a minus sign from a word processor deserves a plain message.
+std::string_view stray_character(std::string_view text);
+
+}  // namespace carom

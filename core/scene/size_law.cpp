@@ -1,0 +1,72 @@
+#include "core/scene/size_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace carom {
+
+namespace {
+
+double draw(const SizeLaw& law, std::uint64_t seed, Stream stream, DiskId id, Count k) {
+  switch (law.kind) {
+    case SizeLaw::Kind::list:
+      return law.values[k];
+    case SizeLaw::Kind::uniform:
+      // Rounding of high - low may carry the sum past high.
+      return std::min(law.high, law.low + (law.high - law.low) * uniforms(seed, stream, id, 0).a);
+    case SizeLaw::Kind::constant:
+    case SizeLaw::Kind::from_other:
+      break;
+  }
+  return law.value;
+}
+
+}  // namespace
+
+DiskSize draw_size(const SizeLaw& radius, const SizeLaw& mass, std::uint64_t seed, Stream radius_stream,
+                   Stream mass_stream, DiskId id, Count k) {
+  DiskSize size;
+  if (radius.kind == SizeLaw::Kind::from_other) {
+    size.mass = draw(mass, seed, mass_stream, id, k);
+    size.radius = std::sqrt(size.mass / (std::numbers::pi * radius.density));
+    return size;
+  }
+  size.radius = draw(radius, seed, radius_stream, id, k);
+  size.mass = mass.kind == SizeLaw::Kind::from_other ? std::numbers::pi * mass.density * (size.radius * size.radius)
+                                                     : draw(mass, seed, mass_stream, id, k);
+  return size;
+}
+
+bool same_for_all(const SizeLaw& radius, const SizeLaw& mass) {
+  const auto fixed = [](const SizeLaw& law) {
+    return law.kind == SizeLaw::Kind::constant || law.kind == SizeLaw::Kind::from_other;
+  };
+  return fixed(radius) && fixed(mass);
+}
+
+SizeSummary summarise_sizes(const DiskGroup& group, std::uint64_t seed, DiskId first_id) {
+  SizeSummary sum;
+  if (group.count == 0) return sum;
+  const auto size_at = [&](Count k) {
+    return draw_size(group.radius, group.mass, seed, Stream::radius, Stream::mass, first_id + static_cast<DiskId>(k),
+                     k);
+  };
+  sum.smallest = sum.largest = size_at(0);
+  if (same_for_all(group.radius, group.mass)) {
+    const double r = sum.smallest.radius;
+    sum.radius_squared = static_cast<double>(group.count) * (r * r);
+    return sum;
+  }
+  for (Count k = 0; k < group.count; ++k) {
+    const DiskSize size = size_at(k);
+    sum.smallest.radius = std::min(sum.smallest.radius, size.radius);
+    sum.largest.radius = std::max(sum.largest.radius, size.radius);
+    sum.smallest.mass = std::min(sum.smallest.mass, size.mass);
+    sum.largest.mass = std::max(sum.largest.mass, size.mass);
+    sum.radius_squared += size.radius * size.radius;
+  }
+  return sum;
+}
+
+}  // namespace carom

@@ -1,0 +1,30 @@
+// Radii and masses drawn from their laws.
+#pragma once
+
+#include "core/base/random.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+struct DiskSize {
+  double radius = 0.0;  // length
+  double mass = 0.0;
+};
+
+// Radius and mass of the k-th disk (from 0) of a group or source: a function of (seed, stream, id) and k alone.
+// radius from mass: r = sqrt(m / (pi density)); mass from radius: m = pi density r^2.
+// Preconditions: k lies within the lists; not both laws are from_other.
+DiskSize draw_size(const SizeLaw& radius, const SizeLaw& mass, std::uint64_t seed, Stream radius_stream,
+                   Stream mass_stream, DiskId id, Count k);
+
+// True when every disk gets the same radius and mass, so that one draw tells them all.
+bool same_for_all(const SizeLaw& radius, const SizeLaw& mass);
+
+// What a group's sizes amount to, without storing them.
+struct SizeSummary {
+  DiskSize smallest, largest;   // smallest and largest radius and mass, each by itself; 0 for an empty group
+  double radius_squared = 0.0;  // sum of r^2, in id order
+};
+SizeSummary summarise_sizes(const DiskGroup& group, std::uint64_t seed, DiskId first_id);
+
+}  // namespace carom

@@ -1,0 +1,166 @@
+#include "core/start/growth.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "core/base/input_message.hpp"
+#include "core/base/random.hpp"
+#include "core/reference/reference_exact.hpp"
+#include "core/start/placement_grid.hpp"
+
+namespace carom {
+
+namespace {
+
+// Random addition reaches this anywhere, narrow boxes included, and at once.
+constexpr double start_packing = 0.25;
+
+// A flight lasts until a typical disk has gone this far, in mean distances of the disks: some collisions of a fluid at
+// packing fraction 0.7. So growth has a steady pace, as theirs had. Measured best for mixtures: half of it jams
+// bidisperse disks below 0.84, twice of it reaches no higher for three times the collisions.
+constexpr double flight_travel = 0.02;
+// Close to jamming collisions in that time grow without bound; a flight is over after so many a disk.
+constexpr double most_collisions = 16.0;
+
+// Growth has stalled when so many steps did not make the lacking area less by a fiftieth.
+constexpr Count stall_steps = 100;
+constexpr double stall_share = 0.98;
+
+State fly_plainly(const Scene& scene, State state) {
+  const auto engine = make_reference_exact(scene, std::move(state));
+  while (engine->state().time < scene.run.t_end) engine->step();
+  return engine->state();
+}
+
+// The scene of the flights: the box, and nothing in it that is not needed.
+Scene flight_scene(const Scene& scene) {
+  Scene flight;
+  flight.file = scene.file;
+  flight.box = scene.box;
+  flight.box.wall_restitution = 1.0;
+  for (SideKind& side : flight.box.sides) side = side == SideKind::periodic ? side : SideKind::wall;
+  flight.run.method = Method::exact;
+  return flight;
+}
+
+class Growth {
+ public:
+  Growth(const Scene& scene, const Disks& disks, const GrowthTools& tools)
+      : scene_(scene), tools_(tools), flight_(flight_scene(scene)), target_(disks.size()) {
+    for (std::size_t i = 0; i < target_.size(); ++i) target_[i] = disks.radius_of(i);
+    ExactSum squares;
+    for (const double r : target_) squares.add(r * r);
+    progress_.final_packing_fraction = packing(squares);
+    longest_flight_ = flight_travel * scene.growth.slowness;
+    most_events_ = std::max(1.0, 0.5 * most_collisions * scene.growth.slowness * static_cast<double>(target_.size()));
+  }
+
+  void place_small(const PlaceAtRandom& place) {
+    const double scale = std::min(1.0, std::sqrt(start_packing / progress_.final_packing_fraction));
+    Disks& d = state_.disks;
+    const std::size_t n = target_.size();
+    d.common_mass = 1.0;
+    for (const double r : target_) d.radius.push_back(scale * r);
+    for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy}) column->resize(n);
+    d.id.resize(n);
+    std::iota(d.id.begin(), d.id.end(), DiskId{0});
+    PlacementGrid grid(scene_.box, d);
+    place(scene_, d, grid, d.id);
+    // In units of the mean distance, so that one serves as the unit of time.
+    const double speed = std::sqrt(scene_.box.width * scene_.box.height / static_cast<double>(n));
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2 v = normals(scene_.seed, Stream::growth_velocity, d.id[i], 0);
+      d.vx[i] = speed * v.x;
+      d.vy[i] = speed * v.y;
+    }
+    state_.next_id = static_cast<DiskId>(n);
+  }
+
+  // Until everybody has the final radius and nobody overlaps.
+  void grow() {
+    double length = longest_flight_;
+    double lack_then = HUGE_VAL;
+    for (Count& step = progress_.steps;; ++step) {
+      const GrowthTally tally = tools_.step(state_.disks, scene_.box, target_);
+      progress_.packing_fraction = packing(tally.area);
+      if (tools_.watch) tools_.watch(progress_);
+      if (tally.lacking == 0 && !tally.overlap) return;
+      if (step == scene_.growth.steps) fail("ends", tally);
+      if (step % stall_steps == 0) {
+        const double lack = tally.lack.value();
+        if (tally.lacking > 0 && lack > 0.0 && lack > stall_share * lack_then) fail("stalls", tally);
+        lack_then = lack;
+      }
+      const auto events = static_cast<double>(fly(length));
+      const double wanted = length * (most_events_ / std::max(1.0, events));
+      length = std::min(longest_flight_, std::clamp(wanted, 0.5 * length, 2.0 * length));
+    }
+  }
+
+  const Disks& disks() const { return state_.disks; }
+
+ private:
+  double packing(const ExactSum& squares) const {
+    return std::numbers::pi * squares.value() / (scene_.box.width * scene_.box.height);
+  }
+
+  // Returns how many events the flight had.
+  Count fly(double length) {
+    state_.time = 0.0;
+    state_.counters = {};
+    flight_.run.t_end = length;
+    state_ = tools_.fly(flight_, std::move(state_));
+    const Count events = state_.counters.collisions + state_.counters.wall_collisions;
+    progress_.collisions += events;
+    return events;
+  }
+
+  [[noreturn]] void fail(std::string_view how, const GrowthTally& tally) const {
+    const double each = 2.0 * static_cast<double>(progress_.collisions) / static_cast<double>(target_.size());
+    fail_input(
+        place_in_group(scene_, 0, "positions"),
+        fmt::format("\"growth\" {} at packing fraction {:.4f} of {:.4f}: after {} steps and {:.0f} collisions a "
+                    "disk, {} of {} disks lack some of their radius",
+                    how, progress_.packing_fraction, progress_.final_packing_fraction, progress_.steps, each,
+                    tally.lacking, target_.size()),
+        fmt::format("expected fewer disks or a larger box, a wider range of radii, or slower growth, as in "
+                    "[growth] slowness = {:g}{}",
+                    10.0 * scene_.growth.slowness, progress_.steps == scene_.growth.steps ? ", or more steps" : ""));
+  }
+
+  const Scene& scene_;
+  const GrowthTools& tools_;
+  Scene flight_;
+  std::vector<double> target_;  // by id
+  State state_;
+  GrowthProgress progress_;
+  double longest_flight_ = 0.0;  // mean distances of the disks, at thermal speed
+  double most_events_ = 0.0;
+};
+
+}  // namespace
+
+GrowthTools plain_growth() {
+  return {fly_plainly, grow_step, {}};
+}
+
+bool grows(const Scene& scene) {
+  return std::any_of(scene.groups.begin(), scene.groups.end(),
+                     [](const DiskGroup& g) { return g.positions.kind == PositionLaw::Kind::growth; });
+}
+
+void place_by_growth(const Scene& scene, Disks& disks, const PlaceAtRandom& place, const GrowthTools& tools) {
+  Growth growth(scene, disks, tools);
+  growth.place_small(place);
+  growth.grow();
+  const Disks& grown = growth.disks();
+  for (std::size_t i = 0; i < grown.size(); ++i) {
+    disks.x[grown.id[i]] = grown.x[i];
+    disks.y[grown.id[i]] = grown.y[i];
+  }
+}
+
+}  // namespace carom

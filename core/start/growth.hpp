@@ -1,0 +1,45 @@
+// Positions at densities that random addition does not reach: disks are placed small, fly, and grow into the room that
+// they find, after Lubachevsky and Stillinger (J. Stat. Phys. 60, 561, 1990).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
+#include "core/start/growth_step.hpp"
+#include "core/start/placement.hpp"
+
+namespace carom {
+
+// How far a growth is.
+struct GrowthProgress {
+  Count steps = 0;
+  Count collisions = 0;  // of two disks or of a disk and a side, so far
+  double packing_fraction = 0.0;
+  double final_packing_fraction = 0.0;
+};
+
+// Who does the work of a growth. Plain and parallel, they give the same bits.
+struct GrowthTools {
+  // The state at scene.run.t_end, by the exact method.
+  std::function<State(const Scene&, State)> fly;
+  // grow_step, or what gives the same radii; may bring the disks into another order.
+  std::function<GrowthTally(Disks&, const Domain&, const std::vector<double>&)> step;
+  // Told after every step; may be empty.
+  std::function<void(const GrowthProgress&)> watch;
+};
+GrowthTools plain_growth();
+
+// Is any group of the scene to be grown? Then all are (scene_check.hpp).
+bool grows(const Scene& scene);
+
+// Gives all disks of the scene places where they do not overlap, to the last bit, by growth: place puts them there with
+// radii scaled down to packing fraction 0.25; then, in turn, they fly a little with their radii fixed, elastic, of
+// equal mass, between walls in place of sinks, and grow by grow_step. Velocities come from (seed,
+// Stream::growth_velocity, id) and are thrown away. Everything follows from counts and lengths, nothing from clocks.
+// Preconditions: entry i of disks has id i, radii are final. Throws InputError with the packing fraction reached when
+// growth stalls (jams), or after scene.growth.steps steps.
+void place_by_growth(const Scene& scene, Disks& disks, const PlaceAtRandom& place, const GrowthTools& tools);
+
+}  // namespace carom

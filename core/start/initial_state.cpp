@@ -1,0 +1,222 @@
+#include "core/start/initial_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/base/input_message.hpp"
+#include "core/scene/size_law.hpp"
+#include "core/start/initial_velocities.hpp"
+#include "core/start/lattice.hpp"
+#include "core/start/placement.hpp"
+#include "core/start/placement_grid.hpp"
+
+namespace carom {
+
+namespace {
+
+// Rounding of decimals may put a touching disk this far beyond a wall: 1e-12 of its radius, and four units in the last
+// place of the box.
+double side_slack(double radius, double length) {
+  return 1e-12 * radius + 0x1p-50 * length;
+}
+
+// One radius and mass for all disks, if the laws say so; columns otherwise.
+void set_sizes(const Scene& scene, Disks& disks, std::size_t n) {
+  const auto size_of_first = [&](const DiskGroup& g) {
+    return draw_size(g.radius, g.mass, scene.seed, Stream::radius, Stream::mass, 0, 0);
+  };
+  bool equal = true;
+  for (const DiskGroup& g : scene.groups) {
+    if (g.count == 0) continue;
+    equal = equal && same_for_all(g.radius, g.mass);
+    if (!equal) break;
+    const DiskSize size = size_of_first(g);
+    const bool first = disks.common_radius == 0.0;
+    equal = first || (size.radius == disks.common_radius && size.mass == disks.common_mass);
+    disks.common_radius = size.radius;
+    disks.common_mass = size.mass;
+  }
+  if (equal) return;
+  disks.radius.reserve(n);
+  disks.mass.reserve(n);
+  DiskId first_id = 0;
+  for (const DiskGroup& g : scene.groups) {
+    std::vector<double> radii;
+    std::vector<double> masses;
+    draw_sizes(scene, g, first_id, radii, masses);
+    disks.radius.insert(disks.radius.end(), radii.begin(), radii.end());
+    disks.mass.insert(disks.mass.end(), masses.begin(), masses.end());
+    first_id += static_cast<DiskId>(g.count);
+  }
+  const auto share = [](std::vector<double>& column, double& common) {
+    common = 0.0;
+    if (std::adjacent_find(column.begin(), column.end(), std::not_equal_to<>()) != column.end()) return;
+    common = column.front();
+    column = {};
+  };
+  share(disks.radius, disks.common_radius);
+  share(disks.mass, disks.common_mass);
+}
+
+// Without disks the first source's sizes, if it has one for all, spare the columns that emission would need.
+void set_sizes_of_source(const Scene& scene, Disks& disks) {
+  if (scene.sources.empty()) return;
+  const Source& source = scene.sources[0];
+  if (!same_for_all(source.radius, source.mass)) return;
+  const DiskSize size =
+      draw_size(source.radius, source.mass, scene.seed, Stream::source_radius, Stream::source_mass, 0, 0);
+  disks.common_radius = size.radius;
+  disks.common_mass = size.mass;
+}
+
+// A centre given along one axis, checked against its two sides. The upper end of a periodic axis is the lower one.
+double checked_coordinate(double c, double length, bool periodic, double radius, bool& inside) {
+  if (periodic) {
+    inside = inside && c >= 0.0 && c <= length;
+    return c == length ? 0.0 : c;
+  }
+  const double slack = side_slack(radius, length);
+  inside = inside && c >= radius - slack && c <= length - radius + slack;
+  return c;
+}
+
+void place_listed(const Scene& scene, std::size_t group, DiskId first_id, Disks& disks) {
+  const PositionLaw& law = scene.groups[group].positions;
+  const Domain& box = scene.box;
+  for (std::size_t k = 0; k < law.list.size(); ++k) {
+    const std::size_t i = first_id + k;
+    const double radius = disks.radius_of(i);
+    bool inside = true;
+    disks.x[i] = checked_coordinate(law.list[k].x, box.width, box.periodic_x(), radius, inside);
+    disks.y[i] = checked_coordinate(law.list[k].y, box.height, box.periodic_y(), radius, inside);
+    if (inside) continue;
+    const std::string from = law.file.empty() ? "" : fmt::format(" (row {} of {})", k + 1, law.file);
+    fail_input(place_in_group(scene, group, "positions"),
+               fmt::format("disk {}{} of radius {} at ({}, {}) is not inside the box of {} x {}", i, from, radius,
+                           law.list[k].x, law.list[k].y, box.width, box.height),
+               "expected its centre a radius or more from each wall or sink, and within periodic sides");
+  }
+}
+
+void place_on_lattice(const Scene& scene, std::size_t group, DiskId first_id, Disks& disks) {
+  const DiskGroup& g = scene.groups[group];
+  if (g.count == 0) return;
+  const bool square = g.positions.kind == PositionLaw::Kind::square;
+  double radius = 0.0;
+  for (std::size_t k = 0; k < g.count; ++k) radius = std::max(radius, disks.radius_of(first_id + k));
+  const Domain& box = scene.box;
+  const auto lattice =
+      square ? square_lattice(box, g.count, 2.0 * radius) : hexagonal_lattice(box, g.count, 2.0 * radius);
+  if (!lattice) {
+    fail_input(place_in_group(scene, group, "positions"),
+               fmt::format("{} disks of radius up to {} do not fit on a {} lattice in the box of {} x {}", g.count,
+                           radius, square ? "square" : "hexagonal", box.width, box.height),
+               fmt::format("expected at most {}",
+                           square ? square_capacity(box, 2.0 * radius) : hexagonal_capacity(box, 2.0 * radius)));
+  }
+  for (Count k = 0; k < g.count; ++k) {
+    Vec2 site = lattice_site(*lattice, k, g.count);
+    // Rounding must not carry the outermost disks of a full lattice into a side.
+    if (!box.periodic_x()) site.x = std::clamp(site.x, radius, box.width - radius);
+    if (!box.periodic_y()) site.y = std::clamp(site.y, radius, box.height - radius);
+    disks.x[first_id + k] = site.x;
+    disks.y[first_id + k] = site.y;
+  }
+}
+
+[[noreturn]] void fail_overlap(const Scene& scene, const Disks& disks, std::size_t i, std::size_t j) {
+  double dx = disks.x[j] - disks.x[i];
+  double dy = disks.y[j] - disks.y[i];
+  if (scene.box.periodic_x()) dx = nearest_image(dx, scene.box.width);
+  if (scene.box.periodic_y()) dy = nearest_image(dy, scene.box.height);
+  const double contact = disks.radius_of(i) + disks.radius_of(j);
+  const double overlap = contact - std::sqrt(dx * dx + dy * dy);
+  const std::size_t later = std::max(i, j);
+  fail_input(place_in_group(scene, group_of(scene, static_cast<DiskId>(later)), "positions"),
+             fmt::format("disks {} and {} overlap by {:.6g} ({:.3g} % of r1 + r2)", std::min(i, j), later, overlap,
+                         100.0 * overlap / contact),
+             "expected centres r1 + r2 or more apart");
+}
+
+// Puts the disks that have their places into the grid, large ones first, and checks them against each other.
+void insert_fixed(const Scene& scene, const Disks& disks, std::vector<std::uint32_t> members, PlacementGrid& grid) {
+  if (!disks.radius.empty()) {
+    std::stable_sort(members.begin(), members.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return disks.radius[a] > disks.radius[b]; });
+  }
+  for (const std::uint32_t i : members) {
+    const std::size_t j = grid.overlapping(disks.x[i], disks.y[i], disks.radius_of(i), true);
+    if (j != PlacementGrid::nobody) fail_overlap(scene, disks, i, j);
+    grid.insert(i);
+  }
+}
+
+void set_positions(const Scene& scene, Disks& disks, const PlaceAtRandom& place) {
+  std::vector<std::uint32_t> fixed;
+  std::vector<std::uint32_t> random;
+  DiskId first_id = 0;
+  for (std::size_t group = 0; group < scene.groups.size(); ++group) {
+    const DiskGroup& g = scene.groups[group];
+    const bool at_random = g.positions.kind == PositionLaw::Kind::random;
+    if (g.positions.kind == PositionLaw::Kind::list) place_listed(scene, group, first_id, disks);
+    if (!at_random && g.positions.kind != PositionLaw::Kind::list) place_on_lattice(scene, group, first_id, disks);
+    std::vector<std::uint32_t>& members = at_random ? random : fixed;
+    const std::size_t before = members.size();
+    members.resize(before + g.count);
+    std::iota(members.begin() + static_cast<std::ptrdiff_t>(before), members.end(), first_id);
+    first_id += static_cast<DiskId>(g.count);
+  }
+  PlacementGrid grid(scene.box, disks);
+  insert_fixed(scene, disks, std::move(fixed), grid);
+  place(scene, disks, grid, std::move(random));
+}
+
+}  // namespace
+
+void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std::vector<double>& radii,
+                std::vector<double>& masses) {
+  const auto check = [&](const SizeLaw& law, std::string_view key) {
+    if (law.kind != SizeLaw::Kind::list || law.values.size() >= group.count) return;
+    fail_input(fmt::format("{}:{}: disks {}", scene.file, group.line, key),
+               fmt::format("has {} entries for count = {}", law.values.size(), group.count),
+               "expected one entry a disk");
+  };
+  check(group.radius, "radius");
+  check(group.mass, "mass");
+  radii.resize(group.count);
+  masses.resize(group.count);
+  for (std::size_t k = 0; k < group.count; ++k) {
+    const DiskSize size = draw_size(group.radius, group.mass, scene.seed, Stream::radius, Stream::mass,
+                                    first_id + static_cast<DiskId>(k), k);
+    radii[k] = size.radius;
+    masses[k] = size.mass;
+  }
+}
+
+State initial_state(const Scene& scene, const PlaceAtRandom& place, const GrowthTools& growth) {
+  State state;
+  Count total = 0;
+  for (const DiskGroup& g : scene.groups) total += g.count;
+  const auto n = static_cast<std::size_t>(total);
+  Disks& disks = state.disks;
+  set_sizes(scene, disks, n);
+  if (n == 0) set_sizes_of_source(scene, disks);
+  disks.x.resize(n);
+  disks.y.resize(n);
+  disks.id.resize(n);
+  std::iota(disks.id.begin(), disks.id.end(), DiskId{0});
+  if (n > 0 && grows(scene)) {
+    place_by_growth(scene, disks, place, growth);
+  } else if (n > 0) {
+    set_positions(scene, disks, place);
+  }
+  set_velocities(scene, disks);
+  state.next_id = static_cast<DiskId>(n);
+  state.sources.resize(scene.sources.size());
+  return state;
+}
+
+}  // namespace carom

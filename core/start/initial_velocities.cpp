@@ -1,0 +1,98 @@
+#include "core/start/initial_velocities.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/input_message.hpp"
+#include "core/base/random.hpp"
+#include "core/start/placement.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks first to last - 1, one group.
+struct Range {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+void remove_mean_velocity(Disks& d, Range range) {
+  double mass = 0.0;
+  double px = 0.0;
+  double py = 0.0;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    mass += d.mass_of(i);
+    px += d.mass_of(i) * d.vx[i];
+    py += d.mass_of(i) * d.vy[i];
+  }
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    d.vx[i] -= px / mass;
+    d.vy[i] -= py / mass;
+  }
+}
+
+void scale_to_energy(Disks& d, Range range, double energy) {
+  double kinetic = 0.0;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    kinetic += 0.5 * d.mass_of(i) * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+  }
+  const double factor = std::sqrt(energy / kinetic);
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    d.vx[i] *= factor;
+    d.vy[i] *= factor;
+  }
+}
+
+void set_maxwell(const Scene& scene, double temperature, Disks& d, Range range) {
+  if (temperature == 0.0) return;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    const Vec2 normal = normals(scene.seed, Stream::velocity, d.id[i], 0);
+    const double speed = std::sqrt(temperature / d.mass_of(i));
+    d.vx[i] = normal.x * speed;
+    d.vy[i] = normal.y * speed;
+  }
+  remove_mean_velocity(d, range);
+  scale_to_energy(d, range, static_cast<double>(range.last - range.first) * temperature);
+}
+
+void set_uniform(const Scene& scene, double limit, Disks& d, Range range) {
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    const TwoUniforms u = uniforms(scene.seed, Stream::velocity, d.id[i], 0);
+    d.vx[i] = limit * (2.0 * u.a - 1.0);
+    d.vy[i] = limit * (2.0 * u.b - 1.0);
+  }
+}
+
+void check_finite(const Scene& scene, std::size_t group, const Disks& d, Range range) {
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    if (std::isfinite(d.vx[i]) && std::isfinite(d.vy[i])) continue;
+    fail_input(place_in_group(scene, group, "velocities"),
+               fmt::format("disk {} gets velocity ({}, {})", i, d.vx[i], d.vy[i]), "expected finite numbers");
+  }
+}
+
+}  // namespace
+
+void set_velocities(const Scene& scene, Disks& d) {
+  d.vx.assign(d.size(), 0.0);
+  d.vy.assign(d.size(), 0.0);
+  Range range;
+  for (std::size_t g = 0; g < scene.groups.size(); ++g, range.first = range.last) {
+    const VelocityLaw& law = scene.groups[g].velocities;
+    range.last = range.first + static_cast<std::size_t>(scene.groups[g].count);
+    if (range.first == range.last) continue;
+    if (law.kind == VelocityLaw::Kind::maxwell) set_maxwell(scene, law.temperature, d, range);
+    if (law.kind == VelocityLaw::Kind::uniform) set_uniform(scene, law.limit, d, range);
+    if (law.kind == VelocityLaw::Kind::list) {
+      for (std::size_t k = 0; k < law.list.size(); ++k) {
+        d.vx[range.first + k] = law.list[k].x;
+        d.vy[range.first + k] = law.list[k].y;
+      }
+    }
+    check_finite(scene, g, d, range);
+  }
+}
+
+}  // namespace carom

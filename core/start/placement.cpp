@@ -1,0 +1,32 @@
+#include "core/start/placement.hpp"
+
+#include <fmt/format.h>
+
+#include "core/start/placement_search.hpp"
+
+namespace carom {
+
+void place_at_random(const Scene& scene, Disks& disks, PlacementGrid& grid, std::vector<std::uint32_t> members) {
+  PlacementSearch search = make_placement_search(scene, disks, grid, members);
+  while (search.next_class()) {
+    for (std::size_t k = search.begin; k < search.end; ++k) {
+      while (search.lesson_due(k)) search.learn();
+      search.place_one(k);
+    }
+  }
+}
+
+std::string place_in_group(const Scene& scene, std::size_t group, std::string_view key) {
+  const DiskGroup& g = scene.groups[group];
+  if (key == "positions" && !g.positions.where.empty()) return g.positions.where;
+  return fmt::format("{}:{}: disks.{}.{}", scene.file, g.line, group, key);
+}
+
+std::size_t group_of(const Scene& scene, DiskId id) {
+  std::size_t group = 0;
+  Count end = scene.groups[0].count;
+  while (id >= end) end += scene.groups[++group].count;
+  return group;
+}
+
+}  // namespace carom

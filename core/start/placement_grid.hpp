@@ -1,0 +1,84 @@
+// Finding overlaps while an initial state is built: disks already placed, in cells, one grid for each class of size.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+// Disks whose radii differ by less than a factor of two share a grid, so that one huge disk among a million small
+// ones does not make every cell huge. About 32 bytes a disk.
+class PlacementGrid {
+ public:
+  static constexpr std::size_t nobody = static_cast<std::size_t>(-1);
+
+  // For the disks of box; radii are known, positions are read from disks when a disk is inserted. disks outlives the
+  // grid, and holds at most 2^32 - 2 entries.
+  PlacementGrid(const Domain& box, const Disks& disks);
+
+  // Adds disk i at its position in disks.
+  void insert(std::size_t i);
+
+  // A disk in the grid whose centre is nearer than the sum of the radii to a disk of this radius at (x, y), or nobody.
+  // With slack, overlaps that rounding of the input explains do not count.
+  std::size_t overlapping(double x, double y, double radius, bool slack) const;
+
+  // A disk of the grid seen from a point: the nearest image of its centre, and the sum of the radii.
+  struct Near {
+    double dx, dy, contact;
+  };
+
+  // All disks that a disk of this radius overlaps somewhere within `spread` of (x, y).
+  void find_near(double x, double y, double radius, double spread, std::vector<Near>& found) const;
+
+  // Ask for the memory that overlapping(x, y, radius) is about to read: first the cells, then, once those are there,
+  // the disks in them.
+  void prefetch_cells(double x, double y) const;
+  void prefetch_disks(double x, double y) const;
+
+  // Calls use(i) for every disk in the grid.
+  template <class Use>
+  void for_each(Use use) const {
+    for (const Level& level : levels_) {
+      for (std::uint32_t first : level.head) {
+        for (std::uint32_t i = first; i != empty_cell; i = placed_[i].next) use(i);
+      }
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t empty_cell = 0xffffffffU;
+
+  // A disk's position again, beside the next disk in the same cell: one access to far memory instead of three.
+  struct Placed {
+    double x = 0.0, y = 0.0;
+    std::uint32_t next = empty_cell;
+  };
+
+  struct Level {
+    double largest_radius = 0.0;
+    std::size_t disks = 0;
+    std::size_t columns = 1, rows = 1;
+    double per_x = 0.0, per_y = 0.0;  // cells per length
+    std::vector<std::uint32_t> head;  // first disk of a cell, row by row; empty_cell if none
+  };
+
+  void size_cells(Level& level) const;
+  Near seen_from(std::size_t i, double x, double y, double radius) const;
+  bool overlaps(std::size_t i, double x, double y, double radius, bool slack) const;
+  // Calls use(i) for disks in the cells within reach of (x, y) until one answers true; says whether one did.
+  template <class Use>
+  bool any_around(const Level& level, double x, double y, double reach, Use use) const;
+
+  const Domain& box_;
+  const Disks& disks_;
+  double largest_radius_ = 0.0;
+  std::vector<Level> levels_;   // by class: radii in (largest / 2^(k+1), largest / 2^k]
+  std::vector<Placed> placed_;  // by index in disks
+};
+
+}  // namespace carom

@@ -1,0 +1,106 @@
+#include "core/start/voxel_list.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+// Voxels a disk, up to which a list may be halved: it has at most four times as many afterwards.
+constexpr std::size_t halved_per_disk = 1;
+constexpr std::size_t halved_at_least = 4096;
+
+// Part of a contact distance by which rounding must not close what is free.
+constexpr double margin = 1e-9;
+
+// Is a voxel with this middle, seen from the point that `near` is about, within one of those disks' contact circles?
+bool ruled_out(const std::vector<PlacementGrid::Near>& near, Vec2 middle, double half_x, double half_y) {
+  return std::any_of(near.begin(), near.end(), [&](const PlacementGrid::Near& disk) {
+    const double x = std::abs(disk.dx - middle.x) + half_x;
+    const double y = std::abs(disk.dy - middle.y) + half_y;
+    return x * x + y * y < disk.contact * disk.contact * (1.0 - margin);
+  });
+}
+
+}  // namespace
+
+VoxelList::VoxelList(const Domain& box, double smallest, std::size_t disks, std::size_t columns, std::size_t rows,
+                     std::vector<Voxel> open)
+    : box_(box),
+      smallest_(smallest),
+      disks_(disks),
+      columns_(columns),
+      rows_(rows),
+      size_x_(box.width / static_cast<double>(columns)),
+      size_y_(box.height / static_cast<double>(rows)),
+      list_(std::move(open)) {}
+
+Vec2 VoxelList::point(TwoUniforms in_voxel, double which) const {
+  const Voxel voxel = list_[entry_of(which)];
+  return {(voxel.column + in_voxel.a) * size_x_, (voxel.row + in_voxel.b) * size_y_};
+}
+
+bool VoxelList::holds(Vec2 point) const {
+  const auto along = [](double c, double size, std::uint64_t cells) {
+    return static_cast<std::uint32_t>(std::clamp(c / size, 0.0, static_cast<double>(cells - 1)));
+  };
+  const std::uint32_t column = along(point.x, size_x_, columns_);
+  const std::uint32_t row = along(point.y, size_y_, rows_);
+  return std::any_of(list_.begin(), list_.end(), [&](Voxel v) { return v.column == column && v.row == row; });
+}
+
+// Not beyond what 32 bits count, and not so many that memory runs short.
+bool VoxelList::halved() const {
+  constexpr std::uint64_t most = std::uint64_t{1} << 31;
+  return columns_ <= most && rows_ <= most && list_.size() <= std::max(halved_per_disk * disks_, halved_at_least);
+}
+
+// Nothing of it is in the room that walls and sinks leave to a centre.
+bool VoxelList::outside(double x, double y, double half_x, double half_y) const {
+  const auto beyond = [&](double c, double half, double length) {
+    const double room = smallest_ * (1.0 - margin);
+    return c + half < room || c - half > length - room;
+  };
+  return (!box_.periodic_x() && beyond(x, half_x, box_.width)) ||
+         (!box_.periodic_y() && beyond(y, half_y, box_.height));
+}
+
+std::vector<Voxel> VoxelList::survivors(const PlacementGrid& grid, std::size_t begin, std::size_t end) const {
+  const std::uint32_t parts = halved() ? 2 : 1;
+  const double half_x = 0.5 * size_x_ / parts;
+  const double half_y = 0.5 * size_y_ / parts;
+  const double spread = 0.5 * tile_ * std::hypot(size_x_, size_y_);
+  std::vector<Voxel> left;
+  std::vector<PlacementGrid::Near> near;
+  Vec2 anchor;  // the middle of the tile at hand
+  for (std::size_t k = begin; k < end; ++k) {
+    const Voxel voxel = list_[k];
+    if (k == begin || voxel.column / tile_ != list_[k - 1].column / tile_ ||
+        voxel.row / tile_ != list_[k - 1].row / tile_) {
+      anchor = {(voxel.column / tile_ + 0.5) * tile_ * size_x_, (voxel.row / tile_ + 0.5) * tile_ * size_y_};
+      grid.find_near(anchor.x, anchor.y, smallest_, spread, near);
+    }
+    for (std::uint32_t up = 0; up < parts; ++up) {
+      for (std::uint32_t across = 0; across < parts; ++across) {
+        const Voxel part{voxel.column * parts + across, voxel.row * parts + up};
+        const Vec2 middle{(2.0 * part.column + 1.0) * half_x, (2.0 * part.row + 1.0) * half_y};
+        if (outside(middle.x, middle.y, half_x, half_y)) continue;
+        if (!ruled_out(near, {middle.x - anchor.x, middle.y - anchor.y}, half_x, half_y)) left.push_back(part);
+      }
+    }
+  }
+  return left;
+}
+
+void VoxelList::replace(std::vector<Voxel> survivors) {
+  const std::uint32_t parts = halved() ? 2 : 1;
+  tile_ *= parts;
+  columns_ *= parts;
+  rows_ *= parts;
+  size_x_ = box_.width / static_cast<double>(columns_);
+  size_y_ = box_.height / static_cast<double>(rows_);
+  list_ = std::move(survivors);
+}
+
+}  // namespace carom

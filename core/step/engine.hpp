@@ -1,0 +1,57 @@
+// What the command line drives: any method, reference or parallel, behind four calls.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/collision_log.hpp"
+#include "core/base/phase_times.hpp"
+#include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+class Engine {
+ public:
+  Engine() = default;
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+  virtual ~Engine() = default;
+
+  // One step of dt (pairwise), one frame (rollback) or one window (exact); the last one ends at scene.run.t_end.
+  // Does nothing once time() has reached t_end. Throws PhysicsError when the method cannot go on.
+  virtual void step() = 0;
+
+  // The state at the end of the last step. Disks may be stored in any order.
+  virtual const State& state() const = 0;
+
+  // The disks at time t, start of the last step <= t <= state().time, written to out; no bit of the state changes.
+  // Time stepping knows step ends only and gives state() whatever t is; the return value is the time of what it gave.
+  virtual double disks_at(double t, Disks& out) const = 0;
+
+  // Nobody will ask for times within a step: an exact engine then need not remember its paths, and disks_at gives
+  // state(). Changes no bit of the state.
+  virtual void forget_paths() {}
+
+  // Gives back memory that only steps need: disks_at then gives state(), and a further step makes all of it anew.
+  // Changes no bit of the state.
+  virtual void release_memory() {}
+
+  // Asked now and then within long steps, from any thread: shall the step go on? Where not, step() may return with the
+  // step not made, and state() that of its start. Empty: always. Changes no bit of the state.
+  virtual void set_watch(const std::function<bool()>& /*go_on*/) {}
+
+  virtual const PhaseTimes& phase_times() const = 0;
+
+  // Warnings raised since the last call, one line each (a step longer than the safe one, overlaps beyond a bound).
+  virtual std::vector<std::string> take_warnings() = 0;
+};
+
+// The plain serial engine for scene.run.method. Precondition: initial is a state of scene (initial_state.hpp).
+// Throws InputError for a method that does not exist yet. Every collision of two disks is added to log, where one is
+// given; it must outlive the engine.
+std::unique_ptr<Engine> make_reference_engine(const Scene& scene, State initial, CollisionLog* log = nullptr);
+
+}  // namespace carom

@@ -1,0 +1,59 @@
+#include "core/step/rollback_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/base/check.hpp"
+#include "core/physics/impact_tally.hpp"
+
+namespace carom {
+
+bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& e) {
+  if (is_wall(e.id2)) return false;
+  return with_view(disks, [&](const auto& d) { return relative(d, e.i1, e.i2, rules.box).approach() < 0.0; });
+}
+
+Overlap parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& e) {
+  if (is_wall(e.id2)) return {};
+  return with_view(disks, [&](const auto& d) {
+    const double reach = d.radius(e.i1) + d.radius(e.i2);
+    return Overlap{(reach - std::sqrt(relative(d, e.i1, e.i2, rules.box).distance2())) / reach, e.id1, e.id2};
+  });
+}
+
+bool is_at_a_distance(const StepRules& rules, const ContactEvent& e, double back) {
+  // Less than this share of the frame is the same moment but for rounding.
+  constexpr double same = 1e-9;
+  return back - e.ago > same * rules.dt;
+}
+
+void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally,
+                CollisionLog* log) {
+  with_view(disks, [&](const auto& d) {
+    for (const ContactEvent& e : events) {
+      const Impact impact = bounce_pair(d, rules, e.i1, e.i2);
+      tally.add(e.id2, impact);
+      if (log != nullptr && impact.happened) log->emplace_back(e.id1, e.id2);
+    }
+  });
+}
+
+double frame_limit(const Scene& scene, const State& state, const StepClock& clock) {
+  return scene.physics.diffusion > 0.0 ? std::min(clock.end(state.intervals - 1), scene.run.t_end) : scene.run.t_end;
+}
+
+void check_stall(State& state, const Scene& scene) {
+  constexpr Count watched_frames = 10000;
+  if (++state.stall.frames < watched_frames) return;
+  const double advanced = state.time - state.stall.since;
+  if (advanced < scene.run.dt && state.time < scene.run.t_end) {
+    throw PhysicsError("rollback: time stands still at t = " + std::to_string(state.time) + ": the last " +
+                       std::to_string(watched_frames) + " frames advanced it by " +
+                       std::to_string(advanced / scene.run.dt) + " dt with " + std::to_string(state.disks.size()) +
+                       " disks; use --method pairwise");
+  }
+  state.stall = {0, state.time};
+}
+
+}  // namespace carom

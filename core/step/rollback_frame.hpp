@@ -1,0 +1,60 @@
+// The parts of one rollback frame that are its own: which pairs it goes back for, how they bounce, and when it stalls.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/collision_log.hpp"
+#include "core/disks/state.hpp"
+#include "core/measure/validity.hpp"
+#include "core/physics/contact_event.hpp"
+#include "core/physics/impact_tally.hpp"
+#include "core/physics/resolve.hpp"
+#include "core/scene/scene.hpp"
+#include "core/step/step_clock.hpp"
+
+namespace carom {
+
+// Is the event a pair of disks that approaches (F8)? Walls do not make the system go back.
+bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& event);
+
+// A pair found bounces by (23) where it is now, if it still approaches: with the velocities of the moment, not copies
+// (F3). A pair that has not yet touched bounces at a distance: F2, kept.
+template <class View>
+Impact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
+  const Relative r = relative(d, i, j, rules.box);
+  if (!(r.approach() < 0.0)) return {};
+  const double change = collide(r, shares_of(d, i, j), rules.restitution, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
+  return {reduced_mass(d.mass(i), d.mass(j)) * change, true};
+}
+
+// How far a pair that is not met overlaps; 0 for a wall. Nothing in the frame will see to it.
+Overlap parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& event);
+
+// Had the pair met not yet touched, now that everybody has gone back by `back` (F2)? Where one of its disks bounces in
+// another pair as well, it might never have.
+bool is_at_a_distance(const StepRules& rules, const ContactEvent& event, double back);
+
+// Every pair, in the order given; those that collide are added to log, where one is given.
+void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally,
+                CollisionLog* log = nullptr);
+
+// One disk and the walls it reaches beyond: back to its contact, bounce, forward; what remains is pushed inside (F11).
+template <class View>
+void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTally& tally) {
+  for (Side side : all_sides) {
+    if (rules.box.side(side) != SideKind::wall) continue;
+    tally.add(wall_partner(side), resolve_wall(d, rules, i, side));
+    push_wall(d, rules.box, i, side, 0.0);
+  }
+}
+
+// Where the frame that starts at state.time must end: at t_end, or at the next draw of Brownian displacements.
+double frame_limit(const Scene& scene, const State& state, const StepClock& clock);
+
+// F1: with many disks every frame goes back by nearly its whole length and time all but stops. A run whose last 10000
+// frames advanced time by less than one dt is stopped, with the figure and the remedy (PhysicsError). To be called
+// after every frame; what it remembers is in the state, so that a run that was interrupted stops at the same frame.
+void check_stall(State& state, const Scene& scene);
+
+}  // namespace carom

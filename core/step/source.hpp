@@ -1,0 +1,34 @@
+// Sources: disks that enter through a side or appear in a region, one every 1 / rate, never into an overlap.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+// The disk that source number `index` tries to emit in step `step` under identity id, after `emitted` others: place,
+// size and velocity drawn by (seed, stream of the source, id, step). Through a side it touches the side (a sink: all
+// but touches it) and moves inward; maxwell speeds along the normal are those of a gas behind a hole (flux-weighted,
+// v^2 = a^2 + b^2 of two normals), across it plain normal.
+Disk draw_emission(const Scene& scene, std::size_t index, DiskId id, Count emitted, Count step);
+
+// Does newcomer overlap or touch one of disks first to last - 1 (nearest image)?
+bool meets(const Disks& disks, const Domain& box, const Disk& newcomer, std::size_t first, std::size_t last);
+
+// Does the disk fit without overlapping any of disks? Looks at all of them.
+bool has_room(const Disks& disks, const Domain& box, const Disk& newcomer);
+
+// Source number `index` emits until it has emitted `due` disks (its limit at most) or one finds no room; adds what
+// waits to the waiting count.
+void emit_from_source(const Scene& scene, State& state, std::size_t index, Count due, Count step,
+                      const std::function<bool(const Disk&)>& room);
+
+// Emits what is due at time t (the k-th disk of a source at k / rate), source by source; a source stops at the first
+// disk that finds no room, which waits and is drawn a new place in the next step. room(disk) tells whether a disk fits
+// among those present, the ones just appended included. Updates counters, next_id and the waiting count.
+void emit_due(const Scene& scene, State& state, double t, Count step, const std::function<bool(const Disk&)>& room);
+
+}  // namespace carom

@@ -1,0 +1,66 @@
+// Where the steps of a run lie in time, and how a step is split when it is too long to be safe.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "core/base/check.hpp"
+#include "core/base/types.hpp"
+
+namespace carom {
+
+// Steps k = 0, 1, ... end at (k + 1) dt, the last one at t_end. Times are products, not sums: no drift, and scaling dt
+// and t_end by a power of two scales every time exactly.
+struct StepClock {
+  double dt = 0.0;
+  double t_end = 0.0;
+  Count steps = 0;    // in the whole run
+  double last = 0.0;  // length of the last step
+
+  double start(Count k) const { return static_cast<double>(k) * dt; }
+  double length(Count k) const { return k + 1 >= steps ? last : dt; }
+  double end(Count k) const { return k + 1 >= steps ? t_end : static_cast<double>(k + 1) * dt; }
+};
+
+// A quotient t_end / dt within 1e-9 of a whole number counts as that number (10 / 0.01 is 1000 steps, not 1001).
+// Preconditions: dt > 0, t_end >= 0.
+inline StepClock make_step_clock(double dt, double t_end) {
+  const double quotient = t_end / dt;
+  const double nearest = std::round(quotient);
+  const bool whole = std::abs(quotient - nearest) <= 1e-9 * quotient;
+  const double steps = whole ? nearest : std::ceil(quotient);
+  StepClock clock{dt, t_end, static_cast<Count>(steps)};
+  // Where t_end is a whole number of steps but for rounding, the last step is a full one like the others.
+  clock.last = whole ? dt : t_end - clock.start(clock.steps - 1);
+  return clock;
+}
+
+// In one part of a step no disk may move further than this share of its own radius, so that two disks approach by at
+// most half the sum of their radii: none can jump over another, only graze (F5). Smaller costs parts, larger misses
+// glancing hits (their share grows with the square of the travel).
+inline constexpr double safe_travel = 0.5;
+inline constexpr double most_parts = 1000.0;
+
+// Into how many equal parts a step of length dt must be split. travel2: largest (speed / radius)^2 of all disks, units
+// 1 / time^2; fall: g dt / smallest radius, 1 / time, the speed that gravity adds. Throws PhysicsError beyond
+// most_parts: such a dt is a mistake, and carrying on would seem to hang.
+inline Count parts_of_step(double travel2, double fall, double dt) {
+  const double travel = (std::sqrt(travel2) + fall) * dt;
+  if (!(travel > safe_travel)) return 1;
+  const double parts = std::ceil(travel / safe_travel);
+  if (!(parts <= most_parts)) {
+    throw PhysicsError("run.dt: the fastest disk moves " + std::to_string(travel) + " radii in one step, more than " +
+                       std::to_string(static_cast<int>(safe_travel * most_parts)) +
+                       "; choose a smaller dt or the exact method");
+  }
+  return static_cast<Count>(parts);
+}
+
+// The warning of a run whose step is longer than the safe one.
+inline std::string split_warning(double time, double dt, Count parts) {
+  return "at time " + std::to_string(time) +
+         " the fastest disk moves more than half its radius in dt = " + std::to_string(dt) +
+         ": the step is split into " + std::to_string(parts) + " parts; a smaller dt would be more accurate";
+}
+
+}  // namespace carom

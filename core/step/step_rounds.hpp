@@ -1,0 +1,63 @@
+// When the contacts of a settling step are searched for and resolved again. A disk that an impact sends on, or that
+// makes room for another, may run into a third that had no contact when the step's contacts were found; in a pile the
+// third has nowhere to go, and left for the next step it would be squeezed.
+#pragma once
+
+#include "core/disks/disk_view.hpp"
+#include "core/disks/domain.hpp"
+#include "core/physics/boundary.hpp"
+#include "core/physics/resolve.hpp"
+
+namespace carom {
+
+// Rounds of searching and resolving in a step, the first included. A front that lands on a loose layer passes on by one
+// disk a round.
+inline constexpr int most_rounds = 8;
+
+// A disk that resolving moved by less than this share of its radius makes no overlap worth another round.
+inline constexpr double displaced_share = 0.005;
+
+// Overlap, over the sum of radii (over the radius, at a wall), that is too much to be left to the next step: half of
+// what a pile may have.
+inline constexpr double pressed_overlap = 0.01;
+
+// Square of the way that resolving has moved disk i by from (x0, y0), where its drift ended; length^2.
+template <class View>
+double displacement2(const View& d, const Domain& box, std::size_t i, double x0, double y0) {
+  double dx = d.x[i] - x0;
+  double dy = d.y[i] - y0;
+  if (box.periodic_x()) dx = nearest_image(dx, box.width);
+  if (box.periodic_y()) dy = nearest_image(dy, box.height);
+  return dx * dx + dy * dy;
+}
+
+// Was that far enough to meet others?
+template <class View>
+bool is_displaced(const View& d, const Domain& box, std::size_t i, double x0, double y0) {
+  const double far = displaced_share * d.radius(i);
+  return displacement2(d, box, i, x0, y0) > far * far;
+}
+
+// Is disk i pressed into a wall?
+template <class View>
+bool is_pressed_into_wall(const View& d, const Domain& box, std::size_t i) {
+  const double r = d.radius(i);
+  for (Side side : all_sides) {
+    if (box.side(side) == SideKind::wall && reach_beyond(side, d.x[i], d.y[i], r, box) > pressed_overlap * r)
+      return true;
+  }
+  return false;
+}
+
+// Are disks i and j pressed into each other?
+template <class View>
+bool are_pressed(const View& d, const Domain& box, std::size_t i, std::size_t j) {
+  double dx = d.x[j] - d.x[i];
+  double dy = d.y[j] - d.y[i];
+  if (box.periodic_x()) dx = nearest_image(dx, box.width);
+  if (box.periodic_y()) dy = nearest_image(dy, box.height);
+  const double reach = (d.radius(i) + d.radius(j)) * (1.0 - pressed_overlap);
+  return dx * dx + dy * dy < reach * reach;
+}
+
+}  // namespace carom

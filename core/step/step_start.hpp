@@ -1,0 +1,80 @@
+// What happens at the start of a step, and the rules that hold during it. Range kernels: the reference calls them on
+// all disks, the engine on blocks.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/base/random.hpp"
+#include "core/disks/disk_view.hpp"
+#include "core/physics/advance.hpp"
+#include "core/physics/boundary.hpp"
+#include "core/physics/resolve.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+// Contacts may bear load where gravity presses and something dissipates. Without dissipation no pile ever rests.
+inline bool settles(const Scene& scene) {
+  return scene.physics.gravity > 0.0 && (scene.physics.restitution < 1.0 || scene.box.wall_restitution < 1.0);
+}
+
+inline StepRules rules_for(const Scene& scene, double dt) {
+  return {scene.box, scene.physics.gravity, scene.physics.restitution, dt, settles(scene)};
+}
+
+// (24): the velocity of the step becomes u / dt; with accumulate, as in the original's code, u / dt is added to it
+// (F15).
+template <class View>
+void draw_brownian(const View& d, const Scene& scene, Count step, double dt, std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const Vec2 v = brownian_velocity(scene.seed, d.id[i], step, scene.physics.diffusion, dt);
+    d.vx[i] = scene.physics.accumulate ? d.vx[i] + v.x : v.x;
+    d.vy[i] = scene.physics.accumulate ? d.vy[i] + v.y : v.y;
+  }
+}
+
+// Largest (speed / radius)^2 of disks [begin, end); 1 / time^2, 0 for an empty range. A maximum: any blocking gives the
+// same bits.
+template <class View>
+double largest_travel2(const View& d, std::size_t begin, std::size_t end) {
+  double largest = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const double v2 = d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
+    largest = std::max(largest, v2 / (d.radius(i) * d.radius(i)));
+  }
+  return largest;
+}
+
+// Does Brownian disk i cross a sink side during the coming step although both ends of its straight path are inside?
+// Probability exp(-d1 d2 / (D dt)) with its distances from the side before and after (a Brownian bridge); without it
+// the side would seem 0.5826 sqrt(2 D dt) further out. Compared through the logarithm, which is deterministic.
+template <class View>
+bool crosses_sink(const View& d, const Scene& scene, Count step, double dt, std::size_t i) {
+  for (Side side : all_sides) {
+    if (scene.box.side(side) != SideKind::sink) continue;
+    const double before = -reach_beyond(side, d.x[i], d.y[i], d.radius(i), scene.box);
+    const double after = before - outward_speed(side, d.vx[i], d.vy[i]) * dt;
+    if (before <= 0.0 || after <= 0.0) continue;  // contact itself decides
+    const auto stream = static_cast<Stream>(static_cast<std::uint32_t>(Stream::sink_crossing) +
+                                            (static_cast<std::uint32_t>(side) << 8U));
+    const double u = uniforms(scene.seed, stream, d.id[i], step).a;
+    if (deterministic_log(u) * (scene.physics.diffusion * dt) < -(before * after)) return true;
+  }
+  return false;
+}
+
+// Does disk i touch a sink side?
+template <class View>
+bool touches_sink(const View& d, const Domain& box, std::size_t i) {
+  for (Side side : all_sides) {
+    if (box.side(side) == SideKind::sink && reach_beyond(side, d.x[i], d.y[i], d.radius(i), box) >= 0.0) return true;
+  }
+  return false;
+}
+
+inline bool has_brownian_sink(const Scene& scene) {
+  return scene.physics.diffusion > 0.0 && !scene.physics.accumulate && scene.box.has(SideKind::sink);
+}
+
+}  // namespace carom

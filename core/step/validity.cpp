@@ -1,0 +1,231 @@
+#include "core/measure/validity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/physics/contact_event.hpp"
+#include "core/scene/drawn_velocities.hpp"
+#include "core/scene/scene_names.hpp"
+#include "core/step/step_clock.hpp"
+#include "core/step/step_start.hpp"
+#include "core/step/window_plan.hpp"
+#include "core/step/window_start.hpp"
+
+namespace carom {
+
+namespace {
+
+// The collisions of which some may go amiss.
+Count collisions_watched(const Scene& scene, const State& state) {
+  return state.counters.collisions + (scene.run.method == Method::exact ? state.counters.wall_collisions : Count{0});
+}
+
+// The exact method is no remedy for Brownian motion: what a step draws is as coarse with it.
+const char* or_exact(const Scene& scene) {
+  return velocities_are_drawn(scene) ? "" : " or --method exact";
+}
+
+// What went amiss with collisions, and the remedy.
+std::string amiss_text(const Scene& scene) {
+  if (scene.run.method == Method::exact && settles(scene)) {
+    return fmt::format(
+        "were made elastic by the TC model (contact_time = {:g}), as all are of disks that rest on each other; use "
+        "--method pairwise for a pile, or a smaller contact_time where disks still fly",
+        scene.physics.collapse_contact_time.value_or(0.0));
+  }
+  if (scene.run.method == Method::exact) {
+    return fmt::format(
+        "were made elastic by the TC model, so that less energy is lost: contact_time = {:g} is long against the time "
+        "between them; use a smaller one",
+        scene.physics.collapse_contact_time.value_or(0.0));
+  }
+  return fmt::format(
+      "were {}: dt = {:g} is long against the time between them; use a smaller dt{}",
+      scene.run.method == Method::rollback ? "bounced at one moment with another of the same disk" : "seen a step late",
+      scene.run.dt, or_exact(scene));
+}
+
+std::string_view side_name(DiskId wall) {
+  return side_names[static_cast<std::size_t>(wall_side(wall))];
+}
+
+// The deeper of the two, and what it says.
+std::string overlap_text(const Scene& scene, const WorstOverlap& disks, const WorstOverlap& wall) {
+  const bool of_disks = disks.overlap.size >= wall.overlap.size;
+  const WorstOverlap& worst = of_disks ? disks : wall;
+  const Overlap& o = worst.overlap;
+  const std::string what = of_disks
+                               ? fmt::format("two disks overlap by {:.2g} % of the sum of their radii (ids {} and {})",
+                                             100.0 * o.size, o.id1, o.id2)
+                               : fmt::format("disk {} reaches {:.2g} % of its radius beyond the {} wall", o.id1,
+                                             100.0 * o.size, side_name(o.id2));
+  return fmt::format(
+      "at time {:g} {}, more than {:g} %: dt = {:g} is too long where disks are pressed together; use a smaller dt{}",
+      worst.time, what, 100.0 * largest_overlap, scene.run.dt, or_exact(scene));
+}
+
+std::string amiss_text(const Scene& scene, const State& state) {
+  return fmt::format("by time {:g} {} of {} collisions {}", state.time, state.validity.amiss,
+                     collisions_watched(scene, state), amiss_text(scene));
+}
+
+std::string slow_text(const Scene& scene, const WorstFigure& advance, std::size_t disks) {
+  return fmt::format(
+      "at time {:g} a frame advances time by {:.2g} dt, with {} disks: time stalls; use --method pairwise{}",
+      advance.time, advance.figure, disks, velocities_are_drawn(scene) ? "" : " or exact");
+}
+
+}  // namespace
+
+void Validity::see_split(State& state, double dt, Count parts) {
+  ValidityCounts& seen = state.validity;
+  if (static_cast<double>(parts) > seen.parts.figure) seen.parts = {static_cast<double>(parts), state.time};
+  if (std::exchange(seen.split_told, true)) return;
+  warnings_.push_back(split_warning(state.time, dt, parts));
+}
+
+void Validity::see_step(const Scene& scene, const StepFigures& figures, State& state) {
+  const bool rollback = scene.run.method == Method::rollback;
+  see_overlap(scene, figures, state);
+  // Supports keep a little overlap, so that a pile's impacts are often late without harm: its overlaps tell.
+  const bool pile = scene.run.method == Method::pairwise && settles(scene);
+  if (figures.amiss > 0 && !pile) see_amiss(scene, figures.amiss, state);
+  if (rollback) see_advance(scene, state);
+}
+
+void Validity::see_overlap(const Scene& scene, const StepFigures& figures, State& state) {
+  ValidityCounts& seen = state.validity;
+  Overlap deepest = figures.left;
+  deepest.see(figures.before);
+  if (deepest.size > seen.disks.overlap.size) seen.disks = {deepest, state.time};
+  if (figures.wall.size > seen.wall.overlap.size) seen.wall = {figures.wall, state.time};
+  const double next_step = std::max(figures.before.size, figures.wall.size);
+  if (!(figures.left.size > largest_overlap) && !(next_step > largest_overlap_before)) return;
+  if (std::exchange(seen.overlap_told, true)) return;
+  warnings_.push_back(overlap_text(scene, {deepest, state.time}, {figures.wall, state.time}));
+}
+
+void Validity::see_amiss(const Scene& scene, Count count, State& state) {
+  const Count amiss = state.validity.amiss += count;
+  const Count all = collisions_watched(scene, state);
+  if (amiss <= least_amiss || static_cast<double>(amiss) <= largest_amiss_share * static_cast<double>(all)) return;
+  if (std::exchange(state.validity.amiss_told, true)) return;
+  warnings_.push_back(amiss_text(scene, state));
+}
+
+void Validity::see_advance(const Scene& scene, State& state) {
+  ValidityCounts& seen = state.validity;
+  if (++seen.frames < frames_watched) return;
+  const double advance = (state.time - seen.since) / (static_cast<double>(seen.frames) * scene.run.dt);
+  if (advance < least_advance && state.time < scene.run.t_end) {
+    if (!seen.slow_told || advance < seen.advance.figure) seen.advance = {advance, state.time};
+    if (!std::exchange(seen.slow_told, true)) warnings_.push_back(slow_text(scene, seen.advance, state.disks.size()));
+  }
+  seen.frames = 0;
+  seen.since = state.time;
+}
+
+std::vector<std::string> Validity::take_warnings() {
+  return std::exchange(warnings_, {});
+}
+
+std::vector<std::string> validity_so_far(const Scene& scene, const State& state) {
+  std::vector<std::string> warnings = worst_moments(scene, state);
+  if (state.validity.amiss_told) warnings.push_back(amiss_text(scene, state));
+  return warnings;
+}
+
+std::vector<std::string> worst_moments(const Scene& scene, const State& state) {
+  const ValidityCounts& seen = state.validity;
+  std::vector<std::string> warnings;
+  if (seen.split_told) {
+    warnings.push_back(split_warning(seen.parts.time, scene.run.dt, static_cast<Count>(seen.parts.figure)));
+  }
+  if (seen.overlap_told) warnings.push_back(overlap_text(scene, seen.disks, seen.wall));
+  if (seen.slow_told) warnings.push_back(slow_text(scene, seen.advance, state.disks.size()));
+  return warnings;
+}
+
+double fastest_speed(const Disks& disks) {
+  double fastest2 = 0.0;
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    fastest2 = std::max(fastest2, disks.vx[i] * disks.vx[i] + disks.vy[i] * disks.vy[i]);
+  }
+  return std::sqrt(fastest2);
+}
+
+std::vector<std::string> validity_of(const Scene& scene, double smallest_radius, double fastest) {
+  std::vector<std::string> warnings;
+  if (!(smallest_radius > 0.0)) return warnings;
+  const double side = std::max(scene.box.width, scene.box.height);
+  if (smallest_radius < least_radius_share * side) {
+    warnings.push_back(
+        fmt::format("in a box of {:g} places are known to {:.2g} of the smallest radius only; use a "
+                    "smaller box or larger disks",
+                    side, side * 0x1p-53 / smallest_radius));
+  }
+  // Gravity and Brownian motion bring their own speeds.
+  const bool steps =
+      scene.run.method != Method::exact && scene.physics.diffusion == 0.0 && scene.physics.gravity == 0.0;
+  const double way = steps ? fastest * scene.run.dt : 0.0;
+  const double rounding = side * 0x1p-53;
+  if (way > 0.0 && way < least_step_roundings * rounding) {
+    warnings.push_back(
+        fmt::format("the fastest disk moves by {:.2g} in dt = {:g}, and in a box of {:g} places are known to {:.2g}: "
+                    "motion is lost in rounding; use a longer dt or --method exact",
+                    way, scene.run.dt, side, rounding));
+  }
+  const double step = std::sqrt(2.0 * scene.physics.diffusion * scene.run.dt) / smallest_radius;
+  if (step > largest_brownian_step) {
+    const double share = largest_brownian_step * smallest_radius;
+    warnings.push_back(
+        fmt::format("a Brownian disk moves by {:.2g} of the smallest radius in dt = {:g}: collisions are "
+                    "wrong; use dt <= {:.2g}",
+                    step, scene.run.dt, share * share / (2.0 * scene.physics.diffusion)));
+  }
+  return warnings;
+}
+
+std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state) {
+  if (scene.physics.diffusion > 0.0) return {};
+  const bool exact = scene.run.method == Method::exact;
+  const double before = start.energy.total() + state.counters.emitted_energy;
+  const double after = energy_of(state.disks, scene.physics.gravity).total();
+  if (!(after - before > (exact ? most_gain_exact : most_gain_stepping) * before)) return {};
+  std::string why = "speeds or sizes differ too much for double precision";
+  if (exact && has_tc(scene)) {
+    why = fmt::format(
+        "the TC model makes disks that lie on the floor hop, and contact_time = {:g} is long against their motion; use "
+        "a "
+        "smaller one",
+        *scene.physics.collapse_contact_time);
+  }
+  if (!exact) why = fmt::format("dt = {:g} is too long; use a smaller dt or --method exact", scene.run.dt);
+  return {fmt::format("at the end, time {:g}, the energy is {:.6g} where {:.6g} was put in: {}", state.time, after,
+                      before, why)};
+}
+
+std::vector<std::string> waiting_warnings(const Scene& scene, const State& state) {
+  std::vector<std::string> warnings;
+  if (state.counters.waiting == 0) return warnings;
+  for (std::size_t s = 0; s < scene.sources.size(); ++s) {
+    const Source& source = scene.sources[s];
+    const Count emitted = state.sources[s].emitted;
+    Count due = emissions_due(source.rate, state.time);
+    if (source.limit) due = std::min(due, *source.limit);
+    if (due <= emitted) continue;
+    const Count waiting = due - emitted;
+    const double allowed = std::max(1.0, most_waiting * static_cast<double>(due));
+    if (emitted > 0 && static_cast<double>(waiting) <= allowed) continue;
+    warnings.push_back(
+        fmt::format("at the end, time {:g}, {} of the {} disks due from sources.{} still wait for room: use a lower "
+                    "rate, a limit, or more room where they come in",
+                    state.time, waiting, due, s));
+  }
+  return warnings;
+}
+
+}  // namespace carom

@@ -1,0 +1,110 @@
+// When a run leaves what its method can do right: the figures that tell, their bounds, and one warning for each, with
+// the figure and the remedy. Both engines feed it the same figures, so they warn alike. It only counts: no disk
+// depends on it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/disks/overlap.hpp"
+#include "core/disks/state.hpp"
+#include "core/measure/run_start.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+// Overlap left to two disks (or a disk and a wall) after a step, over the sum of radii: what a pile may have.
+inline constexpr double largest_overlap = 0.02;
+// The same of two disks that impacts of the step before have brought together, and of a disk and a wall: a few per cent
+// are what disks move in a step, and the next one sees to them.
+inline constexpr double largest_overlap_before = 0.1;
+// Share of the collisions that went amiss: seen a step late (pairwise), bounced together with another of the same disk
+// (rollback, F2), made elastic by the TC model (exact). Measured on gases of packing fraction 0.3 to 0.88, with such a
+// share the collision rate (for the TC model, the dissipation) is off by about 1 % (pairwise, rollback) or 5 % (TC).
+inline constexpr double largest_amiss_share = 0.05;
+// So many of them may happen before a share means anything.
+inline constexpr Count least_amiss = 10;
+// Time that a frame of rollback advances, in dt, averaged over the frames watched: below this time all but stands (F1).
+inline constexpr double least_advance = 0.1;
+inline constexpr Count frames_watched = 1000;
+// Places are known to the size of the box times 1e-16. Radii below this share of it see that.
+inline constexpr double least_radius_share = 1e-9;
+// Steps that move even the fastest disk by less than so many times the rounding of its place are lost in it, by a
+// thousandth and more.
+inline constexpr double least_step_roundings = 1e3;
+// Root mean square displacement of a Brownian interval, over the smallest radius.
+inline constexpr double largest_brownian_step = 0.5;
+
+// Share of the disks due from a source that may wait for room at the end of a run: some always do where disks are
+// dense.
+inline constexpr double most_waiting = 0.05;
+
+// What a step (or a part of it) did that no exact motion does.
+struct StepFigures {
+  Overlap left;     // the deepest of two disks after pushing apart, or of disks that part
+  Overlap before;   // that two disks in contact had when the step began
+  Overlap wall;     // of a disk and a wall, after pushing
+  Count amiss = 0;  // collisions, see largest_amiss_share
+
+  void add(const StepFigures& other) {
+    left.see(other.left);
+    before.see(other.before);
+    wall.see(other.wall);
+    amiss += other.amiss;
+  }
+
+  // Goes on with a later round of the same step: what is left is what that one leaves.
+  void go_on(const StepFigures& later) {
+    left = later.left;
+    wall = later.wall;
+    before.see(later.before);
+    amiss += later.amiss;
+  }
+};
+
+class Validity {
+ public:
+  // The step that starts in this state is longer than the safe one. Of state, only state.validity changes.
+  void see_split(State& state, double dt, Count parts);
+
+  // A step, frame or window has ended in this state. Of it, only state.validity changes.
+  void see_step(const Scene& scene, const StepFigures& figures, State& state);
+
+  // Those since the last call, one of each kind in a run: with what was seen first. What was counted, and that it was
+  // told, is in the state: who keeps a state keeps these.
+  std::vector<std::string> take_warnings();
+
+ private:
+  void see_overlap(const Scene& scene, const StepFigures& figures, State& state);
+  void see_amiss(const Scene& scene, Count count, State& state);
+  void see_advance(const Scene& scene, State& state);
+
+  std::vector<std::string> warnings_;
+};
+
+// The same warnings for a run that has come to this state, in order of kind: with the worst that was seen.
+std::vector<std::string> validity_so_far(const Scene& scene, const State& state);
+
+// Those of them that tell of one moment, the worst; not of a share that goes on with every step.
+std::vector<std::string> worst_moments(const Scene& scene, const State& state);
+
+// What can be said before the first step: places too coarse for the radii or for the way of a step, Brownian intervals
+// too long. One line each. smallest_radius, fastest speed: of the disks at the start, 0 if there are none or none
+// moves.
+std::vector<std::string> validity_of(const Scene& scene, double smallest_radius, double fastest = 0.0);
+double fastest_speed(const Disks& disks);
+
+// What a run at its end has to say of disks that still wait for room: a line for each source whose share of them is
+// above most_waiting, or that never gave one.
+std::vector<std::string> waiting_warnings(const Scene& scene, const State& state);
+
+// Energy at the end, over what was put in at the start and by sources, above which it comes from nowhere: for exact
+// beyond all rounding, for time stepping beyond its error of first order.
+inline constexpr double most_gain_exact = 1e-9;
+inline constexpr double most_gain_stepping = 0.01;
+
+// What a run at its end has to say of energy that nothing put in. Brownian motion keeps none.
+std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state);
+
+}  // namespace carom

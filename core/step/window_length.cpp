@@ -1,0 +1,74 @@
+#include "core/step/window_length.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+// Events a disk a window: more save advancing everybody at its end, fewer keep the paths that frames are read from
+// short.
+constexpr double events_per_disk = 2.0;
+constexpr double least_events = 32.0;
+// The distance to the neighbours, for the disk of root mean square speed.
+constexpr double longest_travel = 1.0;
+constexpr double few_disks = 64.0;
+constexpr double shortest_share = 1.0 / 512.0;
+constexpr double first_share = 1.0 / 32.0;
+
+}  // namespace
+
+void SpeedTally::add(const Disks& d, std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const double v2 = d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
+    largest2 = std::max(largest2, v2);
+    squares.add(v2);
+  }
+}
+
+void SpeedTally::add(const SpeedTally& other) {
+  largest2 = std::max(largest2, other.largest2);
+  squares.add(other.squares);
+}
+
+SpeedSummary summarise_speeds(const SpeedTally& tally, std::size_t disks) {
+  if (disks == 0 || !std::isfinite(tally.largest2)) return {tally.largest2, tally.largest2};
+  return {tally.largest2, tally.squares.value() / static_cast<double>(disks)};
+}
+
+double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_t disks) {
+  if (disks == 0) return HUGE_VAL;
+  const double n = static_cast<double>(disks);
+  const double spacing = std::sqrt(scene.box.width * scene.box.height / n);
+  // Falling through the spacing adds 2 g spacing to v^2.
+  const double speed = std::sqrt(speeds.mean2 + 2.0 * scene.physics.gravity * spacing);
+  if (!(speed > 0.0)) return HUGE_VAL;
+  return longest_travel * spacing / speed * std::max(1.0, few_disks / n);
+}
+
+double next_window(double window, double elapsed, Count events, std::size_t disks) {
+  if (events == 0) return elapsed < window ? window : 2.0 * window;
+  const double aimed = std::max(least_events, events_per_disk * static_cast<double>(disks));
+  const double wanted = elapsed * (aimed / static_cast<double>(events));
+  return std::clamp(wanted, 0.5 * window, 2.0 * window);
+}
+
+double clamped_window(double window, double longest) {
+  if (window < 0.0) return std::min(-window, longest);
+  if (longest == HUGE_VAL) return longest;
+  if (!(window > 0.0) || window == HUGE_VAL) window = first_share * longest;
+  return std::clamp(window, least_window(longest), longest);
+}
+
+double least_window(double longest) {
+  return shortest_share * longest;
+}
+
+Count most_paths(std::size_t disks) {
+  constexpr Count few = 1U << 16;
+  constexpr Count of_a_disk = 32;
+  return std::max(few, of_a_disk * static_cast<Count>(disks));
+}
+
+}  // namespace carom

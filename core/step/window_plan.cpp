@@ -1,0 +1,137 @@
+#include "core/step/window_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/base/check.hpp"
+#include "core/physics/contact_event.hpp"
+#include "core/scene/scene_names.hpp"
+#include "core/step/window_start.hpp"
+
+namespace carom {
+
+namespace {
+
+// Mean length of so many crowded windows in a row, over the longest window that pays, below which the run would not end
+// for years. An elastic burst gets there only where a double no longer resolves it. The TC model's bursts do not end by
+// themselves: disks that stay in contact have a dozen collisions in each contact_time, for ever.
+constexpr Count watched_windows = 128;
+constexpr double least_pace = 0x1p-30;
+constexpr double least_pace_tc = 0x1p-20;
+
+std::string partner_text(DiskId id) {
+  return is_wall(id) ? fmt::format("the {} wall", side_names[static_cast<std::size_t>(wall_side(id))])
+                     : fmt::format("disk {}", id);
+}
+
+// Time does not get on past this event. Why that is follows from what kind of contact it is.
+[[noreturn]] void fail_standstill(const ExactRules& rules, const EventMark& event, double start) {
+  const double e = is_wall(event.id2) ? rules.box.wall_restitution : rules.restitution;
+  const bool rests = rules.gravity > 0.0 && dissipates(rules.box, rules.restitution);
+  if (!rules.tc() && (e < 1.0 || rests)) fail_collapse(event, start);
+  throw PhysicsError(fmt::format(
+      "exact: time stands still at t = {}: disk {} and {} meet again and again at one moment; {}", start + event.time,
+      event.id1, partner_text(event.id2),
+      rules.tc()
+          ? "physics.collapse.contact_time is too short for a double to tell such times apart: use a larger one, "
+            "or --method pairwise"
+      : rules.gravity > 0.0
+          ? "they rest on each other, or have no room to move: use --method pairwise, a larger box or smaller disks"
+          : "they have no room to move, or masses differ too much: use a larger box, smaller disks or --method "
+            "pairwise"));
+}
+
+}  // namespace
+
+bool has_tc(const Scene& scene) {
+  return scene.physics.collapse_contact_time && dissipates(scene.box, scene.physics.restitution);
+}
+
+ExactRules exact_rules(const Scene& scene, const Disks& disks) {
+  ExactRules rules;
+  rules.box = scene.box;
+  rules.gravity = scene.physics.gravity;
+  rules.restitution = scene.physics.restitution;
+  if (has_tc(scene)) rules.contact_time = *scene.physics.collapse_contact_time;
+  rules.common_mass = disks.mass.empty();
+  return rules;
+}
+
+WindowPlan plan_window(const Scene& scene, const State& state, const SpeedSummary& speeds, double scale) {
+  WindowPlan plan;
+  plan.start = state.time;
+  const double longest = longest_window(scene, speeds, state.disks.size());
+  plan.meant = clamped_window(state.window, longest) * scale;
+  plan.least = least_window(longest) * scale;
+  plan.tc = has_tc(scene);
+  plan.pace = (plan.tc ? least_pace_tc : least_pace) * longest * scale;
+  const double cut = next_cut(scene, state);
+  plan.end = state.time + plan.meant;
+  plan.length = plan.meant;
+  if (!(plan.end < cut)) {
+    plan.end = cut;
+    plan.length = cut - state.time;
+  }
+  if (!(plan.end > plan.start) || !std::isfinite(speeds.mean2)) {
+    throw PhysicsError(fmt::format(
+        "exact: time stands still at t = {}: the fastest disk (speed {}) needs windows of {} time units; use smaller "
+        "velocities or a shorter t_end",
+        state.time, std::sqrt(speeds.largest2), plan.meant));
+  }
+  return plan;
+}
+
+WindowPlan shortened(const WindowPlan& plan, const ExactRules& rules, const EventMark& last) {
+  WindowPlan shorter = plan;
+  shorter.end = plan.start + 0.5 * last.time;
+  shorter.length = shorter.meant = shorter.end - plan.start;
+  const bool divided = shorter.end > plan.start && shorter.end < plan.end;
+  if (!divided || shorter.length < 0x1p-60 * plan.least) fail_standstill(rules, last, plan.start);
+  return shorter;
+}
+
+void finish_window(State& state, const WindowPlan& plan, const ImpactTally& tally, double scale) {
+  Counters& c = state.counters;
+  tally.count_into(c);
+  ++c.steps;
+  state.time = plan.end;
+  const double meant = plan.meant / scale;
+  const double next =
+      next_window(meant, plan.length / scale, tally.collisions + tally.wall_collisions, state.disks.size());
+  const double least = plan.least / scale;
+  // Below the least length windows grow again as soon as they are less crowded; they shrink where they are crowded.
+  const bool stays_below = meant < least && std::max(next, meant) < least;
+  state.window = stays_below ? -std::max(next, meant) : next;
+}
+
+void check_pace(State& state, const WindowPlan& plan) {
+  if (state.window >= 0.0) {
+    state.stall = {};
+    return;
+  }
+  if (state.stall.frames == 0) state.stall.since = plan.start;
+  if (++state.stall.frames < watched_windows) return;
+  const double advanced = state.time - state.stall.since;
+  state.stall = {};
+  if (!(advanced < static_cast<double>(watched_windows) * plan.pace)) return;
+  throw PhysicsError(fmt::format(
+      "exact: time all but stands still at t = {}: the last {} windows, as long as their events allow, advanced it by "
+      "{:.2g}; {}",
+      state.time, watched_windows, advanced,
+      plan.tc ? "physics.collapse.contact_time is too short for disks that stay in contact: use a larger one, or "
+                "--method pairwise"
+              : "disks have hardly any room to move: use a larger box or smaller disks, or --method pairwise"));
+}
+
+void fail_collapse(const EventMark& event, double start) {
+  throw PhysicsError(
+      fmt::format("exact: inelastic collapse at t = {}: the collisions of disk {} pile up in vanishing time, the last "
+                  "one with {}; set physics.collapse = {{ model = \"tc\", contact_time = ... }} (elastic where a disk "
+                  "collided less than contact_time ago) or use --method pairwise",
+                  start + event.time, event.id1, partner_text(event.id2)));
+}
+
+}  // namespace carom

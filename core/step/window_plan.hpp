@@ -1,0 +1,44 @@
+// One window of the exact method: where it lies in time.
+#pragma once
+
+#include "core/disks/state.hpp"
+#include "core/physics/exact_event.hpp"
+#include "core/physics/impact_tally.hpp"
+#include "core/scene/scene.hpp"
+#include "core/step/window_length.hpp"
+
+namespace carom {
+
+struct WindowPlan {
+  double start = 0.0;   // absolute time
+  double length = 0.0;  // > 0
+  double end = 0.0;     // absolute time; a cut's own value where the window ends at one
+  double meant = 0.0;   // length before a cut shortened it
+  double least = 0.0;   // length below which only crowded windows go
+  double pace = 0.0;    // mean length of windows below which time all but stands still
+  bool tc = false;      // the TC model makes collisions elastic
+};
+
+// Does the TC model make collisions elastic? Not where all are, whatever the scene says.
+bool has_tc(const Scene& scene);
+
+ExactRules exact_rules(const Scene& scene, const Disks& disks);
+
+// The window that starts at state.time, from state.window and the disks' speeds. scale: 1, or what a test multiplies
+// windows by. Throws PhysicsError when time no longer advances.
+WindowPlan plan_window(const Scene& scene, const State& state, const SpeedSummary& speeds, double scale);
+
+// What takes the place of a window that proved to be crowded (window_length.hpp) with event `last`: half the way to
+// that event. Throws PhysicsError where time cannot be divided any further.
+WindowPlan shortened(const WindowPlan& plan, const ExactRules& rules, const EventMark& last);
+
+// The window is over: time, counters and the length meant for the next one.
+void finish_window(State& state, const WindowPlan& plan, const ImpactTally& tally, double scale);
+
+// After finish_window: throws PhysicsError when a row of crowded windows has hardly advanced time.
+void check_pace(State& state, const WindowPlan& plan);
+
+// The one line about two disks (or a disk and a wall) whose collisions pile up. start: of the window. Status 3.
+[[noreturn]] void fail_collapse(const EventMark& event, double start);
+
+}  // namespace carom

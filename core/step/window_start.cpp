@@ -1,0 +1,71 @@
+#include "core/step/window_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/step/source.hpp"
+#include "core/step/step_clock.hpp"
+
+namespace carom {
+
+namespace {
+
+double emission_time(double rate, Count k) {
+  return static_cast<double>(k) / rate;
+}
+
+bool has_more(const Source& source, const SourceState& s) {
+  return !source.limit || s.emitted < *source.limit;
+}
+
+}  // namespace
+
+Count emissions_due(double rate, double t) {
+  auto k = static_cast<Count>(std::max(0.0, std::floor(rate * t)));
+  while (k > 0 && emission_time(rate, k) > t) --k;
+  while (emission_time(rate, k + 1) <= t) ++k;
+  return k;
+}
+
+double next_cut(const Scene& scene, const State& state) {
+  double cut = scene.run.t_end;
+  for (std::size_t s = 0; s < scene.sources.size(); ++s) {
+    const Source& source = scene.sources[s];
+    if (!has_more(source, state.sources[s])) continue;
+    cut = std::min(cut, emission_time(source.rate, emissions_due(source.rate, state.time) + 1));
+  }
+  if (scene.physics.diffusion > 0.0 && state.intervals > 0) {
+    cut = std::min(cut, make_step_clock(scene.run.dt, scene.run.t_end).end(state.intervals - 1));
+  }
+  return cut;
+}
+
+void emit_at_window_start(const Scene& scene, State& state, const std::function<bool(const Disk&)>& room) {
+  for (std::size_t s = 0; s < scene.sources.size(); ++s) {
+    const Source& source = scene.sources[s];
+    const Count k = emissions_due(source.rate, state.time);
+    if (k == 0 || emission_time(source.rate, k) != state.time || !has_more(source, state.sources[s])) continue;
+    emit_from_source(scene, state, s, k, k, room);
+  }
+  if (scene.sources.empty()) return;
+  state.counters.waiting = 0;
+  for (std::size_t s = 0; s < scene.sources.size(); ++s) {
+    Count due = emissions_due(scene.sources[s].rate, state.time);
+    if (scene.sources[s].limit) due = std::min(due, *scene.sources[s].limit);
+    state.counters.waiting += due - state.sources[s].emitted;
+  }
+}
+
+bool brownian_interval_begins(const Scene& scene, const State& state) {
+  if (!(scene.physics.diffusion > 0.0)) return false;
+  const StepClock clock = make_step_clock(scene.run.dt, scene.run.t_end);
+  return state.intervals < clock.steps && (state.intervals == 0 || clock.end(state.intervals - 1) <= state.time);
+}
+
+BrownianInterval begin_brownian_interval(const Scene& scene, State& state) {
+  const StepClock clock = make_step_clock(scene.run.dt, scene.run.t_end);
+  const Count k = state.intervals++;
+  return {k, clock.length(k)};
+}
+
+}  // namespace carom

@@ -1,0 +1,33 @@
+// What happens between two windows of the exact method: sources emit, Brownian velocities are drawn; and the times at
+// which a window must end for that.
+#pragma once
+
+#include <functional>
+
+#include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+// Number of emission times k / rate, k = 1, 2, ..., up to and including t. Exact for a t that is such a quotient.
+Count emissions_due(double rate, double t);
+
+// Earliest time after state.time at which a window must end: the end of the run, the next emission time of a source
+// that has disks left, the end of the Brownian interval.
+double next_cut(const Scene& scene, const State& state);
+
+// Every source whose emission time is state.time emits what is due; what finds no room waits for the source's next
+// emission time and is drawn a new place then. Nothing here depends on where other windows end.
+void emit_at_window_start(const Scene& scene, State& state, const std::function<bool(const Disk&)>& room);
+
+// Is a Brownian interval due to begin at state.time?
+bool brownian_interval_begins(const Scene& scene, const State& state);
+
+// Begins it: counts it and gives its number and length.
+struct BrownianInterval {
+  Count number = 0;
+  double length = 0.0;  // time
+};
+BrownianInterval begin_brownian_interval(const Scene& scene, State& state);
+
+}  // namespace carom

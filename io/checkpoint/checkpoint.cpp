@@ -1,0 +1,199 @@
+#include "io/checkpoint/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "core/base/check.hpp"
+#include "core/base/input_file.hpp"
+#include "io/checkpoint/checkpoint_fields.hpp"
+#include "io/files/block_hash.hpp"
+#include "io/files/output_file.hpp"
+
+namespace carom {
+
+namespace {
+
+// The file: header, content filled up with zeros to a multiple of 8 bytes, tail. All numbers in the machine's order.
+struct Header {
+  std::array<char, 8> magic{'c', 'a', 'r', 'o', 'm', 'c', 'k', 'p'};
+  std::uint64_t byte_order = 0x0102030405060708ULL;
+  std::uint64_t format = 7;  // goes up with every change of what is written
+};
+struct Tail {
+  std::uint64_t bytes = 0;     // of the content, without the zeros
+  std::uint64_t checksum = 0;  // of everything before
+};
+static_assert(sizeof(Header) == 24 && sizeof(Tail) == 16);
+
+constexpr std::size_t chunk_bytes = std::size_t{1} << 18;  // multiple of 8; large enough that calls cost nothing
+
+[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+  throw InputError(fmt::format("{}: {}", name, what));
+}
+
+// Collects bytes to chunks of whole words, which are summed and written.
+class SummedFile {
+ public:
+  explicit SummedFile(const std::string& path) : file_(path) { chunk_.reserve(chunk_bytes); }
+
+  void write(const char* data, std::size_t bytes) {
+    while (bytes > 0) {
+      const std::size_t taken = std::min(bytes, chunk_bytes - chunk_.size());
+      chunk_.append(data, taken);
+      data += taken;
+      bytes -= taken;
+      if (chunk_.size() == chunk_bytes) empty();
+    }
+  }
+
+  void finish(std::uint64_t content) {
+    chunk_.resize((chunk_.size() + 7) / 8 * 8, '\0');
+    write(reinterpret_cast<const char*>(&content), sizeof content);
+    empty();
+    const std::uint64_t checksum = hash_.value();
+    file_.write({reinterpret_cast<const char*>(&checksum), sizeof checksum});
+    file_.sync();
+    file_.close();
+  }
+
+ private:
+  void empty() {
+    hash_.add(chunk_.data(), chunk_.size());
+    file_.write(chunk_);
+    chunk_.clear();
+  }
+
+  OutputFile file_;
+  BlockHash hash_;
+  std::string chunk_;
+};
+
+std::ifstream open_file(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) refuse(path, "is a folder; expected a checkpoint");
+  check_regular_file(path);
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(path, fmt::format("{}; expected a checkpoint", std::strerror(errno)));
+  return file;
+}
+
+// Reads the file once from end to end. Returns the size of its content when all of it is as it was written.
+std::uint64_t verified_content(std::ifstream& file, const std::string& path) {
+  constexpr const char* damaged = "is damaged: it was cut short or changed after it was written";
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  Header header;
+  header.magic = {};
+  file.read(reinterpret_cast<char*>(&header), sizeof header);
+  if (header.magic != Header{}.magic)
+    refuse(path, "is no checkpoint of Carom, or a damaged one; expected a checkpoint.carom, or the folder of a run");
+  if (header.byte_order == 0x0807060504030201ULL)
+    refuse(path, "comes from a machine of the other byte order; expected to go on with it there");
+  if (error || !file || size < sizeof(Header) + sizeof(Tail) || size % 8 != 0) refuse(path, damaged);
+  BlockHash hash;
+  hash.add(reinterpret_cast<const char*>(&header), sizeof header);
+  std::string chunk(chunk_bytes, '\0');
+  std::uint64_t left = size - sizeof(Header) - sizeof(std::uint64_t);
+  while (left > 0) {
+    const auto taken = static_cast<std::size_t>(std::min<std::uint64_t>(left, chunk_bytes));
+    if (!file.read(chunk.data(), static_cast<std::streamsize>(taken))) refuse(path, damaged);
+    hash.add(chunk.data(), taken);
+    left -= taken;
+  }
+  Tail tail;
+  file.seekg(static_cast<std::streamoff>(size - sizeof tail));
+  if (!file.read(reinterpret_cast<char*>(&tail), sizeof tail) || tail.checksum != hash.value()) refuse(path, damaged);
+  if (header.byte_order != Header{}.byte_order || (tail.bytes + 7) / 8 * 8 != size - sizeof header - sizeof tail) {
+    refuse(path, damaged);
+  }
+  if (header.format != Header{}.format) {
+    refuse(path, fmt::format("has format {}, and this version of Carom reads format {}; expected the version that "
+                             "wrote it",
+                             header.format, Header{}.format));
+  }
+  return tail.bytes;
+}
+
+// What must hold of any state. Only a bug of whoever wrote the file can break it.
+void check_state(const State& state) {
+  const Disks& d = state.disks;
+  const std::size_t n = d.size();
+  const auto fits = [n](const std::vector<double>& column) { return column.empty() || column.size() == n; };
+  const bool whole =
+      d.y.size() == n && d.vx.size() == n && d.vy.size() == n && d.id.size() == n && fits(d.radius) && fits(d.mass);
+  if (!whole) throw BadBytes("has columns of different lengths");
+  const auto born = [&](DiskId id) { return id < state.next_id; };
+  if (!std::all_of(d.id.begin(), d.id.end(), born)) throw BadBytes("has a disk that was never made");
+  const std::size_t times = state.last_contact.size();
+  if (times > state.next_id) throw BadBytes("has contact times of disks that were never made");
+}
+
+// Files lie in the run's folder, nowhere else.
+void check_names(const OutputMark& mark) {
+  for (const MarkedFile& file : files_of(mark)) {
+    const bool plain = !file.name.empty() && file.name.find('/') == std::string::npos && file.name != "..";
+    if (!plain) throw BadBytes("names a file outside its folder");
+  }
+}
+
+Checkpoint decode(ByteReader reader, const std::string& name) {
+  Checkpoint checkpoint;
+  try {
+    reader(checkpoint.record, checkpoint.state);
+    if (reader.left() != 0) throw BadBytes("goes on where it should end");
+    check_state(checkpoint.state);
+    check_names(checkpoint.record.outputs);
+  } catch (const BadBytes& bad) {
+    refuse(name, fmt::format("holds no state of a run: it {}", bad.what()));
+  }
+  return checkpoint;
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& path, const RunRecord& record, const State& state) {
+  SummedFile file(path);
+  const Header header;
+  file.write(reinterpret_cast<const char*>(&header), sizeof header);
+  std::uint64_t content = 0;
+  ByteWriter writer([&](const char* data, std::size_t bytes) {
+    content += bytes;
+    file.write(data, bytes);
+  });
+  writer(record, state);
+  file.finish(content);
+}
+
+Checkpoint read_checkpoint(const std::string& path) {
+  std::ifstream file = open_file(path);
+  const std::uint64_t content = verified_content(file, path);
+  file.seekg(sizeof(Header));
+  const auto take = [&](char* data, std::size_t bytes) {
+    if (!file.read(data, static_cast<std::streamsize>(bytes))) throw BadBytes("could not be read twice");
+  };
+  return decode(ByteReader(take, content), path);
+}
+
+std::string encode_checkpoint(const RunRecord& record, const State& state) {
+  std::string bytes;
+  ByteWriter writer([&](const char* data, std::size_t count) { bytes.append(data, count); });
+  writer(record, state);
+  return bytes;
+}
+
+Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name) {
+  const auto take = [&](char* data, std::size_t count) {
+    if (count > 0) std::memcpy(data, bytes.data(), count);
+    bytes.remove_prefix(count);
+  };
+  return decode(ByteReader(take, bytes.size()), name);
+}
+
+}  // namespace carom

@@ -1,0 +1,43 @@
+// Checkpoints: everything from which a run goes on, bit for bit, in one file that is whole or refused.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/disks/state.hpp"
+#include "core/measure/run_start.hpp"
+#include "io/checkpoint/output_mark.hpp"
+
+namespace carom {
+
+// What belongs to a run beside its state.
+struct RunRecord {
+  std::string version;     // of the program that wrote it
+  std::string scene_file;  // as the user named it
+  std::string scene_text;  // resolved: every default and every list spelled out
+  std::string engine;      // "parallel" or "reference"
+  RunStart start;
+  OutputMark outputs;
+  double wall_s = 0.0, cpu_s = 0.0, step_s = 0.0;  // spent so far, as in the summary
+  Count resumed = 0;                               // how often the run went on from a checkpoint
+  std::vector<std::string> warnings;               // of its start; the state knows the others
+};
+
+struct Checkpoint {
+  RunRecord record;
+  State state;
+};
+
+// Writes the file and returns when it is on the disk itself. Throws RunError.
+void write_checkpoint(const std::string& path, const RunRecord& record, const State& state);
+
+// Reads it back. The checksum over the whole file is taken before anything in it is believed. Throws InputError, "path:
+// what is wrong", for a file that is cut short, changed in any bit, of another byte order or format, or no checkpoint.
+Checkpoint read_checkpoint(const std::string& path);
+
+// The part of a checkpoint behind its checksum, from memory: what a fuzzer is let loose on. Throws InputError.
+Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name);
+std::string encode_checkpoint(const RunRecord& record, const State& state);
+
+}  // namespace carom

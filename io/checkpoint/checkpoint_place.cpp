@@ -1,0 +1,84 @@
+#include "io/checkpoint/checkpoint_place.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/check.hpp"
+#include "core/base/input_message.hpp"
+#include "io/files/output_file.hpp"
+#include "io/files/output_folder.hpp"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+void save_checkpoint(const std::string& folder, const RunRecord& record, const State& state) {
+  const fs::path newest = fs::path(folder) / checkpoint_name;
+  const fs::path previous = fs::path(folder) / previous_checkpoint_name;
+  const fs::path beside = fs::path(folder) / "checkpoint.new.carom";
+  std::error_code error;
+  try {
+    write_checkpoint(beside.string(), record, state);
+  } catch (const RunError&) {
+    fs::remove(beside, error);  // a full disk needs the room
+    throw;
+  }
+  // A second name for the newest, so that it never goes without one. Where the file system knows no second names, there
+  // is a moment in which only the previous is there.
+  fs::remove(previous, error);
+  fs::create_hard_link(newest, previous, error);
+  if (error && fs::exists(newest)) fs::rename(newest, previous, error);
+  fs::rename(beside, newest, error);
+  if (error) throw RunError(fmt::format("cannot write {}: {}", newest.string(), error.message()));
+  sync_path(folder);
+}
+
+namespace {
+
+[[noreturn]] void fail_without_checkpoint(const std::string& name, const fs::path& folder) {
+  if (!fs::exists(folder / "summary.json")) {
+    fail_input(name, "holds no checkpoint", "expected a checkpoint, or the folder of a run that wrote one");
+  }
+  fail_input(name, "holds a finished run that kept no checkpoint",
+             fmt::format("to go further, run it once more with one: carom run {} --set output.checkpoint=600 --t-end T "
+                         "-o DIR",
+                         (folder / "scene.toml").string()));
+}
+
+}  // namespace
+
+CheckpointPlace find_checkpoint(const std::string& name) {
+  std::error_code error;
+  fs::path file = fs::path(name).lexically_normal();
+  if (fs::is_directory(file, error)) {
+    const fs::path folder = file.has_filename() ? file : file.parent_path();
+    file = folder / unfinished_name / checkpoint_name;
+    if (!fs::exists(file, error)) file = folder / checkpoint_name;
+    if (!fs::exists(file, error)) file = folder / unfinished_name / previous_checkpoint_name;
+    if (!fs::exists(file, error)) fail_without_checkpoint(name, folder);
+  }
+  if (!fs::exists(file, error)) fail_input(name, "does not exist", "expected a checkpoint, or the folder of a run");
+  const fs::path beside = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const fs::path whole = fs::canonical(beside, error);
+  if (whole.filename() != unfinished_name) return {file, beside, true};
+  const fs::path folder = beside.filename() == unfinished_name ? beside.parent_path() : whole.parent_path();
+  return {file, folder.empty() ? fs::path(".") : folder, false};
+}
+
+Checkpoint read_checkpoint_at(const CheckpointPlace& place) {
+  try {
+    return read_checkpoint(place.file.string());
+  } catch (const InputError& error) {
+    const fs::path previous = place.file.parent_path() / previous_checkpoint_name;
+    if (place.file.filename() == previous_checkpoint_name) throw;
+    try {
+      read_checkpoint(previous.string());
+    } catch (const InputError&) {
+      // Of one that this program cannot read the message says what can.
+      if (std::string_view(error.what()).find("is damaged") == std::string_view::npos) throw error;
+      throw InputError(fmt::format("{}; there is no whole one before it, so run the scene again", error.what()));
+    }
+    throw InputError(fmt::format("{}; the one before it is whole: carom resume {}", error.what(), previous.string()));
+  }
+}
+
+}  // namespace carom

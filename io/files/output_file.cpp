@@ -1,0 +1,94 @@
+#include "io/files/output_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "core/base/check.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t buffer_bytes = std::size_t{1} << 18;  // large enough that the system call costs nothing
+
+// Pipes and some network file systems know no fsync; there is nothing more that we could do.
+bool cannot_sync(int error) {
+  return error == EINVAL || error == EROFS || error == ENOTSUP;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::string path) : path_(std::move(path)), file_(std::fopen(path_.c_str(), "we")) {
+  if (file_ == nullptr) fail();
+  std::setvbuf(file_, nullptr, _IOFBF, buffer_bytes);
+}
+
+OutputFile::OutputFile(std::string path, std::uint64_t bytes) : path_(std::move(path)), bytes_(bytes) {
+  check_at_least(path_, bytes);
+  file_ = std::fopen(path_.c_str(), "r+e");
+  if (file_ == nullptr || ftruncate(fileno(file_), static_cast<off_t>(bytes)) != 0 || fseeko(file_, 0, SEEK_END) != 0) {
+    fail();
+  }
+  std::setvbuf(file_, nullptr, _IOFBF, buffer_bytes);
+}
+
+OutputFile::~OutputFile() {
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+void OutputFile::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail();
+  bytes_ += text.size();
+}
+
+void OutputFile::flush() {
+  if (std::fflush(file_) != 0) fail();
+}
+
+void OutputFile::sync() {
+  flush();
+  if (fsync(fileno(file_)) != 0 && !cannot_sync(errno)) fail();
+}
+
+void OutputFile::close() {
+  std::FILE* const closing = file_;
+  file_ = nullptr;
+  if (closing != nullptr && std::fclose(closing) != 0) fail();
+}
+
+void OutputFile::fail() {
+  throw RunError(fmt::format("cannot write {}: {}", path_, std::strerror(errno)));
+}
+
+void write_file(const std::string& path, std::string_view text) {
+  OutputFile file(path);
+  file.write(text);
+  file.close();
+}
+
+void check_at_least(const std::string& path, std::uint64_t bytes) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (bytes == 0 && std::filesystem::exists(path, error)) return;  // a folder, too
+  if (error) {
+    throw InputError(fmt::format("{}: {}; expected the file that the checkpoint goes on with", path, error.message()));
+  }
+  if (size >= bytes) return;
+  throw InputError(
+      fmt::format("{}: has {} bytes; expected {} or more, as when the checkpoint was made", path, size, bytes));
+}
+
+void sync_path(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool done = descriptor >= 0 && (fsync(descriptor) == 0 || cannot_sync(errno));
+  const int error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!done) throw RunError(fmt::format("cannot write {}: {}", path, std::strerror(error)));
+}
+
+}  // namespace carom

@@ -1,0 +1,303 @@
+#include "io/files/output_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <utility>
+
+#include "core/base/check.hpp"
+#include "io/checkpoint/checkpoint_place.hpp"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Everything that a run may write. summary.json goes last: it is the sign that the rest is there.
+constexpr std::array result_names{"scene.toml",
+                                  "trajectory.xyz",
+                                  "trajectory.h5",
+                                  "trajectory.xdmf",
+                                  "series.csv",
+                                  "analysis.h5",
+                                  "velocity.svg",
+                                  "energy.svg",
+                                  "pair_correlation.svg",
+                                  "displacement.svg",
+                                  "speeds.svg",
+                                  "density.svg",
+                                  "pressure.svg",
+                                  "collision_rate.svg",
+                                  "movie.mp4",
+                                  "frames",
+                                  previous_checkpoint_name,
+                                  checkpoint_name,
+                                  "summary.json"};
+
+bool is_checkpoint(std::string_view name) {
+  return name == checkpoint_name || name == previous_checkpoint_name;
+}
+
+// A name that nobody else gives a folder, because --force removes it.
+fs::path unfinished_of(const fs::path& folder) {
+  return folder / unfinished_name;
+}
+
+// folder/ and folder are the same, and "" is the current one.
+fs::path normal(const fs::path& folder) {
+  const fs::path tidy = (folder.empty() ? fs::path(".") : folder).lexically_normal();
+  return tidy.has_filename() ? tidy : tidy.parent_path();
+}
+
+// Whether a folder holds PNG frames of ours and nothing else, so that it may be replaced as a whole.
+bool holds_frames_only(const fs::path& frames) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(frames, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("frame_") || !name.ends_with(".png")) return false;
+  }
+  return !error;
+}
+
+// The lock of a folder is a record lock on a file in it: it belongs to the process alone, so no child inherits it, not
+// even between its fork and its exec, and it ends with the process however that ends. The process loses it when it
+// closes any descriptor of the file, so it opens no second one: it knows which files it holds.
+constexpr const char* lock_name = "lock";
+
+std::vector<fs::path>& locks_held() {
+  static std::vector<fs::path> held;
+  return held;
+}
+
+bool is_held(const fs::path& file) {
+  std::error_code error;
+  return std::any_of(locks_held().begin(), locks_held().end(),
+                     [&](const fs::path& held) { return fs::equivalent(held, file, error); });
+}
+
+struct flock whole_file() {
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  return lock;
+}
+
+// A descriptor that holds the lock on a folder; -1 where another run has it. File systems that know no locks have
+// none.
+int take_lock(const fs::path& folder, bool& another) {
+  const fs::path file = folder / lock_name;
+  another = is_held(file);
+  if (another) return -1;
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  struct flock lock = whole_file();
+  another = descriptor >= 0 && fcntl(descriptor, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN);
+  if (!another) {
+    if (descriptor >= 0) locks_held().push_back(fs::absolute(file));
+    return descriptor;
+  }
+  ::close(descriptor);
+  return -1;
+}
+
+void give_up_lock(const fs::path& folder, int descriptor) {
+  if (descriptor < 0) return;
+  std::erase(locks_held(), fs::absolute(folder / lock_name));
+  ::close(descriptor);
+}
+
+bool locked_by_another(const fs::path& folder) {
+  const fs::path file = folder / lock_name;
+  if (is_held(file)) return true;
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  struct flock lock = whole_file();
+  const bool another = fcntl(descriptor, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+  ::close(descriptor);
+  return another;
+}
+
+// Makes sure that a folder could be made here, by making one that goes away again, and what is missing above it.
+void check_writable(const fs::path& name, const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> made;
+  for (fs::path p = folder; !p.empty() && !fs::exists(p, error); p = p.parent_path()) made.push_back(p);
+  const fs::path probe = folder / fmt::format("carom-probe-{}", getpid());
+  fs::create_directories(probe, error);
+  const std::error_code why = error;
+  fs::remove(probe, error);
+  for (const fs::path& p : made) fs::remove(p, error);  // takes empty ones only
+  if (!why || why == std::errc::no_space_on_device) return;
+  throw InputError(fmt::format("{}: cannot be {}: {}; expected a folder for the results (-o)", name.string(),
+                               made.empty() ? "written to" : "made", why.message()));
+}
+
+[[noreturn]] void fail_locked(const fs::path& name) {
+  throw InputError(fmt::format("{}: another run is writing there; expected a folder of its own (-o)", name.string()));
+}
+
+[[noreturn]] void fail(const char* what, const fs::path& path, const std::error_code& error) {
+  throw RunError(fmt::format("cannot {} {}: {}", what, path.string(), error.message()));
+}
+
+}  // namespace
+
+fs::path present_path(const fs::path& folder, const std::string& file) {
+  std::error_code error;
+  const fs::path unfinished = unfinished_of(folder) / file;
+  return fs::exists(unfinished, error) ? unfinished : folder / file;
+}
+
+void check_output_folder(const fs::path& name, const fs::path& input, bool force) {
+  const fs::path folder = normal(name);
+  std::error_code error;
+  if (fs::absolute(folder, error) == fs::absolute(folder, error).root_path()) {
+    throw InputError(fmt::format("{}: is the root of all folders; expected one of the run's own, such as -o out/{}",
+                                 name.string(), input.stem().string()));
+  }
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
+    throw InputError(fmt::format("{}: is a file; expected a folder for the results (-o)", name.string()));
+  }
+  check_writable(name, folder);
+  if (!fs::exists(folder, error)) return;
+  for (const char* const result : result_names) {
+    if (fs::equivalent(folder / result, input, error)) {
+      throw InputError(
+          fmt::format("{}: the run's {} would replace the scene file itself; choose another folder with -o",
+                      name.string(), result));
+    }
+    if (!force && fs::exists(folder / result, error)) {
+      throw InputError(
+          fmt::format("{}: holds {} of an earlier run; choose another folder with -o, or replace it with "
+                      "--force",
+                      name.string(), result));
+    }
+  }
+  if (fs::exists(folder / "frames", error) && !holds_frames_only(folder / "frames")) {
+    throw InputError(fmt::format("{}: holds a folder 'frames' with other files in it; choose another folder with -o",
+                                 name.string()));
+  }
+  const fs::path unfinished = unfinished_of(folder);
+  if (!fs::exists(unfinished, error)) return;
+  if (locked_by_another(unfinished)) fail_locked(name);
+  if (force) return;
+  const std::string remedy =
+      fs::exists(unfinished / checkpoint_name, error) ? fmt::format("go on with carom resume {}, ", name.string()) : "";
+  throw InputError(
+      fmt::format("{}: another run is writing there, or stopped before its end ({}); {}choose another "
+                  "folder with -o, or replace it with --force",
+                  name.string(), unfinished.string(), remedy));
+}
+
+fs::path free_output_folder(const fs::path& wanted, const fs::path& input) {
+  constexpr int patience = 10'000;
+  try {
+    check_output_folder(wanted, input, false);
+    return wanted;
+  } catch (const InputError&) {
+    std::error_code error;
+    if (!fs::is_directory(wanted, error)) throw;
+    for (int k = 2; k <= patience; ++k) {
+      const fs::path next = fmt::format("{}-{}", wanted.string(), k);
+      try {
+        check_output_folder(next, input, false);
+        return next;
+      } catch (const InputError&) {
+        if (!fs::exists(next, error)) throw;
+      }
+    }
+    throw;
+  }
+}
+
+OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool force)
+    : folder_(normal(folder)), unfinished_(unfinished_of(folder_)) {
+  check_output_folder(folder, input, force);
+  std::error_code error;
+  for (fs::path p = folder_; !p.empty() && !fs::exists(p, error); p = p.parent_path()) made_.insert(made_.begin(), p);
+  fs::remove_all(unfinished_, error);
+  fs::create_directories(unfinished_, error);
+  if (!error) {
+    lock();
+    return;
+  }
+  const std::error_code why = error;
+  remove_unfinished();
+  if (why == std::errc::no_space_on_device) fail("make the folder", unfinished_, why);
+  throw InputError(
+      fmt::format("{}: cannot be made: {}; expected a folder for the results (-o)", name(), why.message()));
+}
+
+OutputFolder::OutputFolder(const fs::path& folder)
+    : folder_(normal(folder)), unfinished_(unfinished_of(folder_)), done_(true) {
+  std::error_code error;
+  fs::create_directories(unfinished_, error);
+  if (error)
+    throw InputError(
+        fmt::format("{}: cannot be written to: {}; go on in another folder with -o", name(), error.message()));
+  lock();
+}
+
+OutputFolder::~OutputFolder() {
+  if (!done_) remove_unfinished();
+  give_up_lock(unfinished_, lock_);
+}
+
+void OutputFolder::lock() {
+  bool another = false;
+  lock_ = take_lock(unfinished_, another);
+  if (!another) return;
+  done_ = true;  // it is not ours to remove
+  fail_locked(folder_);
+}
+
+void OutputFolder::take_back(bool finished, const std::vector<std::string>& files) {
+  const auto take = [&](const fs::path& file) {
+    std::error_code error;
+    if (fs::exists(unfinished_ / file, error) || !fs::exists(folder_ / file, error)) return;
+    fs::rename(folder_ / file, unfinished_ / file, error);
+    if (error) fail("move", folder_ / file, error);
+  };
+  // The summary first: from here on the folder does not look complete until it is.
+  for (auto name = result_names.rbegin(); finished && name != result_names.rend(); ++name) take(*name);
+  for (const std::string& file : files) take(file);
+}
+
+void OutputFolder::remove_unfinished() noexcept {
+  std::error_code ignored;
+  fs::remove_all(unfinished_, ignored);
+  // Folders that we made go too, if nobody else put anything there: remove() takes empty ones only.
+  for (auto p = made_.rbegin(); p != made_.rend(); ++p) fs::remove(*p, ignored);
+}
+
+void OutputFolder::finish(bool keep_checkpoints) {
+  std::error_code error;
+  // The old summary goes first: from here on the folder does not look complete until it is.
+  for (auto name = result_names.rbegin(); name != result_names.rend(); ++name) {
+    if (std::string_view(*name) == "frames") {
+      fs::remove_all(folder_ / *name, error);
+    } else {
+      fs::remove(folder_ / *name, error);
+    }
+    if (error) fail("replace", folder_ / *name, error);
+  }
+  for (const char* const name : result_names) {
+    if (!fs::exists(unfinished_ / name, error) || (is_checkpoint(name) && !keep_checkpoints)) continue;
+    fs::rename(unfinished_ / name, folder_ / name, error);
+    if (error) fail("write", folder_ / name, error);
+  }
+  fs::remove_all(unfinished_, error);
+  done_ = true;
+  give_up_lock(unfinished_, std::exchange(lock_, -1));
+}
+
+std::string OutputFolder::keep_unfinished() {
+  done_ = true;
+  return unfinished_.string();
+}
+
+}  // namespace carom

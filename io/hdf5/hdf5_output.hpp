@@ -1,0 +1,81 @@
+// Making and extending the parts of an HDF5 file, every failure a RunError.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "io/hdf5/hdf5_handle.hpp"
+
+namespace carom {
+
+// Lengths of a dataset, slowest first.
+using Extent = std::vector<hsize_t>;
+
+// The values of one dataset: their type, their width and what stands where nobody wrote.
+struct Hdf5Kind {
+  hid_t in_file = -1, in_memory = -1;
+  std::size_t width = 0;       // bytes in memory, and in the file
+  const void* fill = nullptr;  // of type in_memory
+};
+
+enum class Packing : std::uint8_t { plain, deflate };
+
+class Hdf5Output {
+ public:
+  // Makes the file, or opens one that is there. Throws RunError, "cannot write PATH: why", here and below.
+  Hdf5Output(std::string path, bool existing);
+
+  // A file in memory, of which image() makes bytes; path is what messages call it. Nothing in it tells when or by whom
+  // it was made: the same content has the same bytes.
+  explicit Hdf5Output(std::string path);
+  std::string image() const;
+
+  // The id, if the call that returned it went well.
+  Hdf5Handle checked(hid_t id, Hdf5Handle::Close closer) const;
+  void checked(herr_t status) const;
+  [[noreturn]] void fail(const std::string& why) const;
+  [[noreturn]] void fail_of_hdf5() const;
+
+  // After a failure of HDF5 nothing of the file may be touched any more, closing included.
+  bool broken() const { return broken_; }
+  void abandon() { file_.abandon(); }
+
+  hid_t file() const { return file_.get(); }
+  void make_group(const std::string& name) const;
+  void link(const std::string& target, const std::string& name) const;  // a second name for a dataset
+  void attribute(const std::string& object, const char* name, const std::vector<std::string>& texts, bool list) const;
+  void attribute(const std::string& object, const char* name, const std::vector<int>& numbers, bool list) const;
+  void attribute(const std::string& object, const char* name, double number) const;
+  void text(const std::string& name, const std::string& text) const;  // as a dataset
+
+  // limit: H5S_UNLIMITED where the dataset may grow.
+  Hdf5Handle make_dataset(const std::string& name, const Hdf5Kind& kind, const Extent& size, const Extent& limit,
+                          const Extent& chunk, Packing packing) const;
+  Hdf5Handle open_dataset(const std::string& name) const;
+  Extent size_of(const Hdf5Handle& dataset) const;
+  void resize(const Hdf5Handle& dataset, const Extent& size) const;
+
+  // The block of a dataset that begins at `begin`.
+  void write_block(const Hdf5Handle& dataset, const Hdf5Kind& kind, const Extent& begin, const Extent& size,
+                   const void* data) const;
+  // A whole chunk of a dataset with Packing::deflate, as ShuffledDeflate packs it.
+  void write_packed_chunk(const Hdf5Handle& dataset, const Extent& begin,
+                          const std::vector<unsigned char>& packed) const;
+
+  // From here on nothing can be made, only extended and written, and the file is whole at any moment.
+  void start_safe_writing() const;
+  // Then a flush: what may already be in the file can be read, each dataset as asked for, and all the rest.
+  void begin_flush() const;
+  void flush(const Hdf5Handle& dataset) const { checked(H5Dflush(dataset.get())); }
+  void end_flush() const;
+  // After all datasets have been closed.
+  void close();
+
+ private:
+  std::string path_;
+  Hdf5Handle file_;
+  mutable bool broken_ = false;
+};
+
+}  // namespace carom

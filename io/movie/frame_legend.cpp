@@ -1,0 +1,214 @@
+#include "io/movie/frame_legend.hpp"
+
+#include <cairo.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "core/scene/scene_names.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double bar_width = 22.0;  // units
+constexpr DiskId most_groups = 20;  // that are listed; there is no room for more
+
+enum class Align { left, right, centre };
+
+void draw_text(cairo_t* c, const std::string& text, double x, double y, double size, Align align, bool bold = false) {
+  cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(c, size);
+  cairo_text_extents_t extents;
+  cairo_text_extents(c, text.c_str(), &extents);
+  const double shift = align == Align::left ? 0.0 : align == Align::right ? 1.0 : 0.5;
+  cairo_set_source_rgb(c, 0.13, 0.13, 0.13);
+  cairo_move_to(c, x - shift * extents.x_advance, y);
+  cairo_show_text(c, text.c_str());
+}
+
+// Cuts text at a character boundary until it is at most `room` wide at this size.
+std::string fitting(cairo_t* c, std::string text, double size, double room) {
+  // No picture has room for more; measuring takes time for each letter.
+  constexpr std::size_t most_bytes = 2000;
+  text.resize(std::min(text.size(), most_bytes));
+  cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
+  cairo_set_font_size(c, size);
+  cairo_text_extents_t extents;
+  cairo_text_extents(c, text.c_str(), &extents);
+  if (extents.x_advance <= room) return text;
+  while (!text.empty() && extents.x_advance > room) {
+    while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xc0U) == 0x80U) text.pop_back();
+    text.pop_back();
+    cairo_text_extents(c, (text + "…").c_str(), &extents);
+  }
+  return text + "…";
+}
+
+// Each kind of side has its own colour and dash, so that they differ without colour too.
+void set_stroke(cairo_t* c, SideKind kind, double unit) {
+  const std::array<double, 2> periodic_dash{10.0 * unit, 7.0 * unit};
+  const std::array<double, 2> sink_dash{3.0 * unit, 5.0 * unit};
+  switch (kind) {
+    case SideKind::wall:
+      cairo_set_source_rgb(c, 0.2, 0.2, 0.2);
+      cairo_set_line_width(c, side_width * unit);
+      cairo_set_dash(c, nullptr, 0, 0.0);
+      break;
+    case SideKind::periodic:
+      cairo_set_source_rgb(c, 0.0, 0.447, 0.698);
+      cairo_set_line_width(c, 0.5 * side_width * unit);
+      cairo_set_dash(c, periodic_dash.data(), 2, 0.0);
+      break;
+    case SideKind::sink:
+      cairo_set_source_rgb(c, 0.835, 0.369, 0.0);
+      cairo_set_line_width(c, 1.5 * side_width * unit);
+      cairo_set_dash(c, sink_dash.data(), 2, 0.0);
+      break;
+  }
+}
+
+void set_ink(cairo_t* c) {
+  cairo_set_source_rgb(c, 0.13, 0.13, 0.13);
+}
+
+void set_colour(cairo_t* c, const Colour& colour) {
+  cairo_set_source_rgb(c, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+}
+
+// How many intervals of the colour bar, 3 to 5, give the shortest numbers: 2.5 is cut into 0.5, 3 into 1.
+int intervals_of(double low, double high) {
+  const auto length = [&](int n) {
+    std::size_t longest = 0;
+    for (int k = 0; k <= n; ++k) {
+      longest = std::max(longest, fmt::format("{:.4g}", low + (high - low) * k / n).size());
+    }
+    return longest;
+  };
+  int best = 5;
+  for (const int n : {4, 3}) {
+    if (length(n) < length(best)) best = n;
+  }
+  return best;
+}
+
+std::string time_stamp(double time, int decimals) {
+  return decimals < 0 ? fmt::format("t = {:.4g}", time) : fmt::format("t = {:.{}f}", time, decimals);
+}
+
+void draw_colour_bar(cairo_t* c, const FrameStyle& style, const FrameLayout& layout) {
+  const double u = layout.unit;
+  const double x = layout.width - (right_margin - 34.0) * u;
+  const double low = layout.height - bottom_margin * u;
+  const bool one_value = !(style.high > style.low);
+  const int rows = static_cast<int>(one_value ? bar_width * u : low - (top_margin + 30.0) * u);
+  // Between its stops viridis() is a straight line, as the gradient is.
+  const std::unique_ptr<cairo_pattern_t, void (*)(cairo_pattern_t*)> bar(
+      cairo_pattern_create_linear(0.0, low, 0.0, low - rows), cairo_pattern_destroy);
+  for (int stop = 0; stop <= viridis_stops; ++stop) {
+    const double share = static_cast<double>(stop) / viridis_stops;
+    const Colour colour = viridis(one_value ? 0.5 : share);
+    cairo_pattern_add_color_stop_rgb(bar.get(), share, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+  }
+  cairo_set_source(c, bar.get());
+  cairo_rectangle(c, x, low - rows, bar_width * u, rows);
+  cairo_fill(c);
+  const std::string_view name = colour_names[static_cast<std::size_t>(style.look.colour)];
+  draw_text(c, std::string(name), x, low - rows - 12.0 * u, 16.0 * u, Align::left);
+  // Disks beyond an end have its colour, where the scale was given or foreseen.
+  const bool given = style.look.range.has_value();
+  const bool open_low = given, open_high = given || style.look.colour == ColourBy::speed;
+  const int intervals = one_value ? 0 : intervals_of(style.low, style.high);
+  for (int tick = 0; tick <= intervals; ++tick) {
+    const double share = one_value ? 0.5 : static_cast<double>(tick) / intervals;
+    const double y = low - share * rows;
+    set_ink(c);
+    cairo_set_line_width(c, 1.0 * u);
+    cairo_move_to(c, x + bar_width * u, y);
+    cairo_line_to(c, x + (bar_width + 5.0) * u, y);
+    cairo_stroke(c);
+    const char* const beyond = tick == 0 && open_low ? "≤ " : tick == intervals && open_high ? "≥ " : "";
+    const double value = tick == intervals ? style.high : style.low + share * (style.high - style.low);
+    draw_text(c, fmt::format("{}{:.4g}", one_value ? "" : beyond, value), x + (bar_width + 9.0) * u, y + 5.0 * u,
+              14.0 * u, Align::left);
+  }
+}
+
+void draw_groups(cairo_t* c, const FrameStyle& style, const FrameLayout& layout) {
+  const double u = layout.unit;
+  const double x = layout.width - (right_margin - 24.0) * u;
+  const double room = layout.height - (top_margin + bottom_margin) * u;
+  const auto fits = static_cast<DiskId>(std::max(1.0, room / (26.0 * u) - 1.0));
+  const DiskId listed = std::min({style.groups, most_groups, fits});
+  double y = top_margin * u;
+  for (DiskId group = 0; group < listed; ++group, y += 26.0 * u) {
+    set_colour(c, group_colour(group));
+    cairo_rectangle(c, x, y, 16.0 * u, 16.0 * u);
+    cairo_fill(c);
+    const bool source = style.sources && group + 1 == style.groups;
+    draw_text(c, source ? "sources" : fmt::format("group {}", group), x + 24.0 * u, y + 13.0 * u, 14.0 * u,
+              Align::left);
+  }
+  if (listed < style.groups)
+    draw_text(c, fmt::format("and {} more", style.groups - listed), x, y + 13.0 * u, 14.0 * u, Align::left);
+}
+
+// Names the kinds of side, where there is anything but walls.
+void draw_kinds_of_side(cairo_t* c, const FrameStyle& style, const FrameLayout& layout) {
+  if (!style.box.has(SideKind::periodic) && !style.box.has(SideKind::sink)) return;
+  const double u = layout.unit;
+  double x = left_margin * u;
+  const double y = layout.height - 18.0 * u;
+  for (const auto& [kind, name] : {std::pair{SideKind::wall, "wall"}, std::pair{SideKind::periodic, "periodic"},
+                                   std::pair{SideKind::sink, "sink"}}) {
+    if (!style.box.has(kind)) continue;
+    set_stroke(c, kind, u);
+    cairo_move_to(c, x, y - 5.0 * u);
+    cairo_line_to(c, x + 34.0 * u, y - 5.0 * u);
+    cairo_stroke(c);
+    cairo_set_dash(c, nullptr, 0, 0.0);
+    draw_text(c, name, x + 42.0 * u, y, 14.0 * u, Align::left);
+    x += 134.0 * u;
+  }
+}
+
+}  // namespace
+
+void draw_legends(cairo_t* c, const FrameStyle& style, const FrameLayout& layout) {
+  const double u = layout.unit;
+  const double room = layout.width - 2.0 * left_margin * u;
+  draw_text(c, fitting(c, style.title, 22.0 * u, room), left_margin * u, 34.0 * u, 22.0 * u, Align::left, true);
+  if (style.look.colour == ColourBy::group) {
+    draw_groups(c, style, layout);
+  } else {
+    draw_colour_bar(c, style, layout);
+  }
+  draw_kinds_of_side(c, style, layout);
+}
+
+void draw_sides(cairo_t* c, const FrameStyle& style, const FrameLayout& layout) {
+  const double out = 0.5 * side_width * layout.unit;
+  const double left = layout.left - out, right = layout.left + style.box.width * layout.scale + out;
+  const double low = layout.bottom + out, high = layout.bottom - style.box.height * layout.scale - out;
+  for (const Side side : all_sides) {
+    set_stroke(c, style.box.side(side), layout.unit);
+    cairo_move_to(c, side == Side::right ? right : left, side == Side::top ? high : low);
+    cairo_line_to(c, side == Side::left ? left : right, side == Side::bottom ? low : high);
+    cairo_stroke(c);
+  }
+  cairo_set_dash(c, nullptr, 0, 0.0);
+}
+
+void draw_stamps(cairo_t* c, const FrameStyle& style, const FrameLayout& layout, std::size_t disks, double time) {
+  const double u = layout.unit;
+  const std::string count = disks == 1 ? "1 disk" : fmt::format("{} disks", disks);
+  draw_text(c, time_stamp(time, style.time_decimals), left_margin * u, 62.0 * u, 18.0 * u, Align::left);
+  draw_text(c, count, layout.width - right_margin * u, 62.0 * u, 18.0 * u, Align::right);
+}
+
+}  // namespace carom

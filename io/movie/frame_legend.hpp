@@ -1,0 +1,19 @@
+// What stands around the box in a picture: title, colour bar or list of groups, kinds of side, time and count.
+#pragma once
+
+#include "io/movie/frame.hpp"
+
+namespace carom {
+
+inline constexpr double left_margin = 28.0, right_margin = 132.0, top_margin = 78.0, bottom_margin = 48.0;  // units
+inline constexpr double side_width = 4.0;  // of a wall's line; units
+
+// What no frame changes.
+void draw_legends(_cairo* context, const FrameStyle& style, const FrameLayout& layout);
+
+// The sides of the box, outside of it, so that a disk at the wall is seen whole.
+void draw_sides(_cairo* context, const FrameStyle& style, const FrameLayout& layout);
+
+void draw_stamps(_cairo* context, const FrameStyle& style, const FrameLayout& layout, std::size_t disks, double time);
+
+}  // namespace carom

@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/scene/disk_group.hpp"
+#include "io/movie/frame.hpp"
+
+namespace carom {
+
+namespace {
+
+// Where only a mean square speed can be foretold, the scale ends at this many of it: the tail shares one colour, but
+// the rest is not all dark.
+constexpr double tail = 2.5;
+
+// Ids are numbers below this.
+constexpr Count most_ids = std::numeric_limits<DiskId>::max();
+
+// Mean square speed once collisions have shared the energy out: 2 kT / m with kT = K / N, averaged over the disks. 0
+// for disks of one mass, where it says nothing new.
+double shared_square(const Disks& disks) {
+  double kinetic = 0.0, inverse_mass = 0.0, least = 0.0, greatest = 0.0;
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    const double mass = disks.mass_of(i);
+    kinetic += 0.5 * mass * (disks.vx[i] * disks.vx[i] + disks.vy[i] * disks.vy[i]);
+    inverse_mass += 1.0 / mass;
+    least = i == 0 ? mass : std::min(least, mass);
+    greatest = std::max(greatest, mass);
+  }
+  const auto n = static_cast<double>(disks.size());
+  return least == greatest ? 0.0 : 2.0 * (kinetic / n) * (inverse_mass / n);
+}
+
+// What falling to the floor adds, on average.
+double falling_square(const Disks& disks, double gravity) {
+  double height = 0.0;
+  for (std::size_t i = 0; i < disks.size(); ++i) height += std::max(disks.y[i] - disks.radius_of(i), 0.0);
+  return disks.empty() ? 0.0 : 2.0 * gravity * height / static_cast<double>(disks.size());
+}
+
+// What the radii and masses of a source may be.
+ValueRange given_range(const SizeLaw& law) {
+  if (law.kind == SizeLaw::Kind::uniform) return {law.low, law.high};
+  if (law.kind == SizeLaw::Kind::constant) return {law.value, law.value};
+  if (law.values.empty()) return {};
+  const auto [low, high] = std::minmax_element(law.values.begin(), law.values.end());
+  return {*low, *high};
+}
+ValueRange radius_range(const Source& source) {
+  if (source.radius.kind != SizeLaw::Kind::from_other) return given_range(source.radius);
+  const ValueRange mass = given_range(source.mass);
+  const double scale = std::numbers::pi * source.radius.density;
+  return {std::sqrt(mass.low / scale), std::sqrt(mass.high / scale)};
+}
+ValueRange mass_range(const Source& source) {
+  if (source.mass.kind != SizeLaw::Kind::from_other) return given_range(source.mass);
+  const ValueRange radius = given_range(source.radius);
+  const double scale = std::numbers::pi * source.mass.density;
+  return {scale * radius.low * radius.low, scale * radius.high * radius.high};
+}
+
+double source_square(const Source& source) {
+  if (source.velocities.kind == VelocityLaw::Kind::uniform)
+    return 2.0 * source.velocities.limit * source.velocities.limit;
+  if (source.velocities.kind != VelocityLaw::Kind::maxwell) return 0.0;
+  // A mass that is not a constant is of the order of the numbers that describe it.
+  const double mass = source.mass.kind == SizeLaw::Kind::uniform    ? source.mass.low
+                      : source.mass.kind == SizeLaw::Kind::constant ? source.mass.value
+                                                                    : 1.0;
+  return mass > 0.0 ? tail * 2.0 * source.velocities.temperature / mass : 0.0;
+}
+
+// So many decimals that multiples of the frame interval differ and are shown exactly, up to four.
+int decimals_for(double every, double t_end) {
+  const double interval = every > 0.0 ? every : t_end;
+  if (!(interval >= 1e-4 && t_end < 1e7)) return -1;
+  int decimals = 0;
+  for (double scaled = interval; decimals < 4 && std::abs(scaled - std::round(scaled)) > 1e-6 * scaled;
+       scaled *= 10.0) {
+    ++decimals;
+  }
+  return decimals;
+}
+
+}  // namespace
+
+FrameStyle frame_style(const std::string& title, const Domain& box, const PictureLook& look, const SeenValues& seen) {
+  const ValueRange range = colour_range(look, seen);
+  return {title, box, range.high, 2, range.low, look, {}, seen.groups};
+}
+
+FrameStyle frame_style(const Scene& scene, const PictureLook& look, const SeenValues& seen) {
+  FrameStyle style = frame_style(scene.title, scene.box, look, seen);
+  style.time_decimals = decimals_for(scene.output.every, scene.run.t_end);
+  style.group_ends = ends_of_groups(scene);
+  style.groups = static_cast<DiskId>(scene.groups.size() + (scene.sources.empty() ? 0 : 1));
+  style.sources = !scene.sources.empty();
+  return style;
+}
+
+SeenValues foreseen_values(const Scene& scene, const Disks& first) {
+  const Physics& physics = scene.physics;
+  SeenValues seen;
+  seen.add(first, {});
+  double square = seen.speed_square;
+  if (physics.restitution == 1.0) square = std::max(square, tail * shared_square(first));
+  if (physics.gravity > 0.0) square += falling_square(first, physics.gravity);
+  for (const Source& source : scene.sources) square = std::max(square, source_square(source));
+  if (physics.diffusion > 0.0 && scene.run.dt > 0.0) {
+    const double brownian = 4.0 * physics.diffusion / scene.run.dt;  // mean of (u / dt)^2, both components
+    square = physics.accumulate ? square + brownian : tail * brownian;
+  }
+  seen.speed_square = square;
+  for (const Source& source : scene.sources) {
+    const ValueRange radius = radius_range(source), mass = mass_range(source);
+    seen.add_radius(radius.low, radius.high);
+    seen.add_mass(mass.low, mass.high);
+    seen.any = true;
+    const double coming = std::min(source.rate * scene.run.t_end, static_cast<double>(source.limit.value_or(most_ids)));
+    seen.last_id += static_cast<DiskId>(std::min(coming, static_cast<double>(most_ids - seen.last_id)));
+  }
+  return seen;
+}
+
+}  // namespace carom

@@ -1,0 +1,145 @@
+#include "io/plots/analysis_plots.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/sample_mean.hpp"
+#include "core/measure/analysis_curves.hpp"
+#include "core/scene/scene_names.hpp"
+#include "io/plots/gnuplot.hpp"
+
+namespace carom {
+
+namespace {
+
+std::string heading(const Scene& scene, const char* subject) {
+  return scene.title.empty() ? subject : fmt::format("{}: {}", scene.title, subject);
+}
+
+// Leaves out what is not a number.
+Line line_of(std::string name, const std::vector<double>& x, const std::vector<double>& y,
+             LineStyle style = LineStyle::solid) {
+  Line line{std::move(name), {}, {}, style};
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (!std::isfinite(y[k])) continue;
+    line.x.push_back(x[k]);
+    line.y.push_back(y[k]);
+  }
+  return line;
+}
+
+Line level(std::string name, double end, double value) {
+  return {std::move(name), {0.0, end}, {value, value}, LineStyle::dashed};
+}
+
+Figure pair_figure(const Scene& scene, const AnalysisRecord& record) {
+  const BinnedCurve g = pair_correlation_curve(record, scene.analysis);
+  Panel panel{"g(r)", {}, true, false};
+  panel.lines.push_back(line_of("g(r)", g.middle, g.value));
+  panel.lines.push_back(level("random", scene.analysis.r_max, 1.0));
+  const double end = panel.lines[0].x.empty() ? scene.analysis.r_max : panel.lines[0].x.back();
+  panel.lines[1].x.back() = end;
+  return {heading(scene, "pair correlation"), "distance r", end, {panel}};
+}
+
+Figure speed_figure(const Scene& scene, const AnalysisRecord& record) {
+  BinnedCurve measured = speed_curve(record, scene.analysis);
+  BinnedCurve maxwell = maxwell_curve(scene.analysis);
+  // As far as there is anything to see.
+  const double end = std::max(3.0, record.speeds.largest_seen);
+  const auto shown = std::upper_bound(measured.middle.begin(), measured.middle.end(), end) - measured.middle.begin();
+  const auto bins = std::max<std::size_t>(1, static_cast<std::size_t>(shown));
+  for (BinnedCurve* const curve : {&measured, &maxwell}) {
+    curve->middle.resize(bins);
+    curve->value.resize(bins);
+  }
+  Panel panel{"probability density", {}, true, false};
+  panel.lines.push_back(line_of("measured", measured.middle, measured.value, LineStyle::points));
+  panel.lines.push_back(line_of("Maxwell", maxwell.middle, maxwell.value));
+  return {heading(scene, "speeds"), "speed v, in units of sqrt(T / m)", measured.middle.back(), {panel}};
+}
+
+Figure density_figure(const Scene& scene, const AnalysisRecord& record) {
+  const bool along_x = scene.analysis.density_along_x;
+  const BinnedCurve packing = packing_curve(record, scene);
+  Panel panel{"packing fraction", {}, true, false};
+  panel.lines.push_back(line_of("local", packing.middle, packing.value));
+  const SampleMean mean = sample_mean(packing.value);
+  const double end = packing.middle.back();
+  if (mean.samples > 0) panel.lines.push_back(level("mean", end, mean.mean));
+  return {heading(scene, "density profile"), fmt::format("position {}", axis_names[along_x ? 0 : 1]), end, {panel}};
+}
+
+Figure series_figure(const Scene& scene, const AnalysisRecord& record, const std::vector<double>& values,
+                     const char* subject, const char* label) {
+  Panel panel{label, {}, true, false};
+  panel.lines.push_back(line_of("samples", record.series.time, values));
+  const Line samples = panel.lines[0];
+  const double end = samples.x.empty() ? 0.0 : samples.x.back();
+  const double mean = sample_mean(values, record.series.interval).mean;
+  if (!samples.x.empty()) panel.lines.push_back({"mean", {samples.x.front(), end}, {mean, mean}, LineStyle::dashed});
+  return {heading(scene, subject), "time t", end, {panel}};
+}
+
+// A power law through a point of the curve, over as much of the picture as lies within its heights.
+Line slope(const char* name, const Line& curve, std::size_t through, double exponent) {
+  const double x = curve.x[through], y = curve.y[through];
+  const auto [least, greatest] = std::minmax_element(curve.y.begin(), curve.y.end());
+  const auto at = [&](double height) {
+    return std::clamp(x * std::pow(height / y, 1.0 / exponent), curve.x.front(), curve.x.back());
+  };
+  const double begin = at(*least), end = at(*greatest);
+  const auto height = [&](double t) { return y * std::pow(t / x, exponent); };
+  return {name, {begin, end}, {height(begin), height(end)}, LineStyle::guide};
+}
+
+Figure displacement_figure(const Scene& scene, const AnalysisRecord& record) {
+  const SampleSeries& series = record.series;
+  Panel panel{"mean square displacement", {}, false, false};
+  Line curve{"measured", {}, {}, LineStyle::solid};
+  for (std::size_t k = 0; k < series.time.size(); ++k) {
+    const double since = series.time[k] - series.time.front();
+    if (!(since > 0.0 && series.displacement[k] > 0.0)) continue;
+    curve.x.push_back(since);
+    curve.y.push_back(series.displacement[k]);
+  }
+  const double end = curve.x.empty() ? 1.0 : curve.x.back();
+  panel.lines.push_back(curve);
+  if (curve.x.size() > 1) {
+    panel.lines.push_back(slope("~ t^2", curve, 0, 2.0));
+    panel.lines.push_back(slope("~ t", curve, curve.x.size() - 1, 1.0));
+  }
+  return {heading(scene, "displacement"), "time since the first sample", end, {panel}, true};
+}
+
+}  // namespace
+
+bool draw_analysis(const std::string& folder, const Scene& scene, const AnalysisRecord& record) {
+  const SampleSeries& series = record.series;
+  const auto figure = [&](Quantity quantity) {
+    switch (quantity) {
+      case Quantity::pair_correlation:
+        return pair_figure(scene, record);
+      case Quantity::displacement:
+        return displacement_figure(scene, record);
+      case Quantity::speeds:
+        return speed_figure(scene, record);
+      case Quantity::density:
+        return density_figure(scene, record);
+      case Quantity::pressure:
+        return series_figure(scene, record, series.pressure, "pressure", "pressure");
+      default:
+        return series_figure(scene, record, series.collision_rate, "collision rate",
+                             "collisions per disk and unit time");
+    }
+  };
+  for (std::size_t k = 0; k < quantity_names.size(); ++k) {
+    if (!scene.analysis.wanted[k]) continue;
+    if (!draw_svg(figure(static_cast<Quantity>(k)), fmt::format("{}/{}.svg", folder, quantity_names[k]))) return false;
+  }
+  return true;
+}
+
+}  // namespace carom

@@ -1,0 +1,163 @@
+#include "io/tables/analysis_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+
+#include "core/base/check.hpp"
+#include "core/base/sample_mean.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/measure/analysis_curves.hpp"
+#include "core/scene/scene_names.hpp"
+#include "io/files/output_file.hpp"
+#include "io/hdf5/hdf5_output.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t no_count = 0;
+// Entries a chunk; a file of a short run stays small.
+constexpr hsize_t chunk = 256;
+
+Hdf5Kind double_kind() {
+  return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, sizeof(double), &nothing};
+}
+Hdf5Kind count_kind() {
+  return {H5T_STD_I64LE, H5T_NATIVE_INT64, sizeof(std::int64_t), &no_count};
+}
+
+// Datasets of one group, each with its unit.
+class Group {
+ public:
+  Group(Hdf5Output& output, std::string name) : output_(output), name_(std::move(name)) { output_.make_group(name_); }
+
+  void numbers(const char* name, const std::vector<double>& values, const char* unit) const {
+    put(name, double_kind(), values.size(), values.data());
+    output_.attribute(name_ + "/" + name, "unit", {unit}, false);
+  }
+  void counts(const char* name, const std::vector<Count>& values) const {
+    const std::vector<std::int64_t> signed_values(values.begin(), values.end());
+    put(name, count_kind(), values.size(), signed_values.data());
+  }
+  // How many disks: whole, though kept as double.
+  void whole(const char* name, const std::vector<double>& values) const {
+    const std::vector<std::int64_t> signed_values(values.begin(), values.end());
+    put(name, count_kind(), values.size(), signed_values.data());
+  }
+  void say(const char* name, double number) const { output_.attribute(name_, name, number); }
+  void say(const char* name, const std::string& text) const { output_.attribute(name_, name, {text}, false); }
+
+ private:
+  void put(const char* name, const Hdf5Kind& kind, std::size_t size, const void* data) const {
+    const Extent extent{size};
+    const Hdf5Handle set = output_.make_dataset(name_ + "/" + name, kind, extent, extent,
+                                                {std::max<hsize_t>(1, std::min<hsize_t>(size, chunk))}, Packing::plain);
+    if (size > 0) output_.write_block(set, kind, {0}, extent, data);
+  }
+
+  Hdf5Output& output_;
+  std::string name_;
+};
+
+void put_means(const Group& group, const std::vector<double>& series, const std::vector<double>& interval,
+               const char* unit) {
+  group.numbers("value", series, unit);
+  group.numbers("interval", interval, "time");
+  const SampleMean mean = sample_mean(series, interval);
+  group.say("mean", mean.mean);
+  group.say("standard_deviation", mean.deviation);
+  group.say("samples", static_cast<double>(mean.samples));
+}
+
+void put_series(Hdf5Output& output, const AnalysisRecord& record, const AnalysisPlan& plan) {
+  const SampleSeries& series = record.series;
+  const Group samples(output, "/samples");
+  samples.numbers("time", series.time, "time");
+  samples.whole("disks", series.disks);
+  if (!series.temperature.empty()) samples.numbers("temperature", series.temperature, "energy");
+  if (plan.wants(Quantity::displacement)) {
+    const Group group(output, "/displacement");
+    group.numbers("mean_square", series.displacement, "length^2");
+    group.whole("disks", series.followed);
+    group.say("meaning", "since the first sample; of the disks of that time that are still there");
+    group.say("doubtful", static_cast<double>(record.displacement.doubtful));
+  }
+  if (plan.wants(Quantity::pressure)) {
+    const Group group(output, "/pressure");
+    put_means(group, series.pressure, series.interval, "energy / length^2");
+    group.say("meaning", "(kinetic energy + virial of the collisions in the interval) / area of the box");
+  }
+  if (plan.wants(Quantity::collision_rate)) {
+    const Group group(output, "/collision_rate");
+    put_means(group, series.collision_rate, series.interval, "1 / time");
+    group.say("meaning", "collisions with other disks, of one disk, in a unit of time");
+  }
+}
+
+void put_pairs(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
+  const BinnedCurve curve = pair_correlation_curve(record, scene.analysis);
+  const auto samples = static_cast<double>(record.series.time.size());
+  const Group group(output, "/pair_correlation");
+  group.numbers("r", curve.middle, "length");
+  group.numbers("g", curve.value, "1");
+  group.counts("pairs", record.pairs.counts);
+  group.say("samples", samples);
+  group.say("bin_width", scene.analysis.r_max / static_cast<double>(scene.analysis.r_bins));
+  group.say("centres", static_cast<double>(record.pairs.centres) / samples);
+  group.say("meaning",
+            "pairs over those of as many disks strewn at random; centres: disks, on average, whose "
+            "surroundings were counted, all but those near sides that are not periodic");
+}
+
+void put_speeds(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
+  const BinnedCurve measured = speed_curve(record, scene.analysis);
+  const auto samples = static_cast<double>(record.speeds.samples);
+  const Group group(output, "/speeds");
+  group.numbers("u", measured.middle, "sqrt(T / m)");
+  group.numbers("measured", measured.value, "1");
+  group.numbers("maxwell", maxwell_curve(scene.analysis).value, "1");
+  group.counts("counts", record.speeds.counts);
+  group.say("samples", samples);
+  group.say("beyond", static_cast<double>(record.speeds.beyond));
+  group.say("temperature", record.speeds.temperature_sum / samples);
+  group.say("meaning",
+            "u = v sqrt(m / T), T the mean kinetic energy of the sample's disks; in equilibrium "
+            "u exp(-u^2 / 2); beyond: counted above the last bin");
+}
+
+void put_density(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
+  const BinnedCurve packing = packing_curve(record, scene);
+  const Group group(output, "/density");
+  group.numbers("position", packing.middle, "length");
+  group.numbers("packing_fraction", packing.value, "1");
+  group.numbers("number_density", number_density_curve(record, scene).value, "1 / length^2");
+  group.counts("centres", record.density.centres);
+  group.say("samples", static_cast<double>(record.density.samples));
+  group.say("axis", std::string(axis_names[scene.analysis.density_along_x ? 0 : 1]));
+}
+
+}  // namespace
+
+void write_analysis(const std::string& path, const Scene& scene, const AnalysisRecord& record) {
+  const AnalysisPlan& plan = scene.analysis;
+  Hdf5Output output(path);
+  output.attribute("/", "creator", {"Carom " CAROM_VERSION}, false);
+  output.make_group("/parameters");
+  output.text("/parameters/scene", resolved_toml(scene));
+  put_series(output, record, plan);
+  if (plan.wants(Quantity::pair_correlation)) put_pairs(output, record, scene);
+  if (plan.wants(Quantity::speeds)) put_speeds(output, record, scene);
+  if (plan.wants(Quantity::density)) put_density(output, record, scene);
+  const std::string beside = path + ".new";
+  write_file(beside, output.image());
+  if (std::rename(beside.c_str(), path.c_str()) != 0) {
+    throw RunError("cannot write " + path + ": " + std::strerror(errno));
+  }
+}
+
+}  // namespace carom

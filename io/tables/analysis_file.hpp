@@ -1,0 +1,25 @@
+// analysis.h5: what a run measured on its way, as HDF5.
+#pragma once
+
+#include <string>
+
+#include "core/measure/analysis.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+// /samples            time, disks; temperature with pressure or speeds
+// /displacement       mean_square, disks: those that it is a mean over
+// /pressure, /collision_rate   value: mean over the interval, which ends with the step that the sample lies in; NaN
+//                              where no step has ended since the sample before; the mean weighs by intervals
+// /pair_correlation   r, g; pairs: ordered ones counted
+// /speeds             u = v sqrt(m / T), measured, maxwell (both densities, means over the bin); counts
+// /density            position, packing_fraction, number_density; centres counted
+// /parameters/scene   the scene with all defaults, as TOML
+// Whatever was not asked for is not there. r, u and position are the middles of the bins. Attributes say the units, how
+// many samples went in, and, of a series, its mean and how its samples scatter.
+//
+// Writes the file beside and renames it, so that a whole one is there at any moment. Throws RunError.
+void write_analysis(const std::string& path, const Scene& scene, const AnalysisRecord& record);
+
+}  // namespace carom

@@ -1,0 +1,104 @@
+// series.csv: the run in numbers, one row a frame.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "core/base/block_runner.hpp"
+#include "core/disks/disks.hpp"
+#include "core/disks/state.hpp"
+#include "core/scene/drawn_velocities.hpp"
+#include "core/scene/scene.hpp"
+#include "io/checkpoint/output_mark.hpp"
+#include "io/files/output_file.hpp"
+
+namespace carom {
+
+// The columns of series.csv after the time, and the observables of trajectory.h5. docs/scene.md has them from here.
+struct SeriesColumn {
+  const char* name;
+  bool whole;  // a count
+  const char* unit;
+  const char* meaning;
+};
+inline constexpr std::array<SeriesColumn, 18> series_columns{{
+    {"disks", true, "", "disks in the box"},
+    {"kinetic", false, "energy", "sum of m v^2 / 2; nan for Brownian motion, whose u / dt is no velocity"},
+    {"potential", false, "energy", "sum of m g y, from the bottom"},
+    {"total", false, "energy", "kinetic + potential; likewise"},
+    {"px", false, "momentum", "sum of m vx; likewise"},
+    {"py", false, "momentum", "sum of m vy; likewise"},
+    {"collisions", true, "", "of two disks, since the start"},
+    {"wall_collisions", true, "", "of a disk and a wall, since the start"},
+    {"pressure", false, "energy / area",
+     "mean since the row before, from kinetic energy and collisions; 0 in the first; nan likewise"},
+    {"collision_rate", false, "1 / time", "collisions a disk takes part in per unit time, mean since the row before"},
+    {"max_overlap", false, "", "largest overlap of two disks in this frame, over the sum of their radii; 0 if none"},
+    {"removed", true, "", "disks that sinks have taken, since the start"},
+    {"emitted", true, "", "disks that came from sources, since the start"},
+    {"waiting", true, "", "disks that are due from sources and find no room"},
+    {"force_left", false, "force",
+     "outwards on the left wall, mean since the row before; 0 in the first; nan likewise"},
+    {"force_right", false, "force", "likewise on the right wall"},
+    {"force_bottom", false, "force", "likewise on the floor"},
+    {"force_top", false, "force", "likewise on the ceiling"},
+}};
+inline constexpr const char* displacement_column = "displacement";  // the last, where [analysis] asks for it
+using SeriesRow = std::array<double, series_columns.size()>;        // counts are exact up to 2^53
+
+inline constexpr std::size_t collisions_column = 6, wall_collisions_column = 7;
+inline constexpr std::size_t overlap_column = 10;  // max_overlap
+
+class SeriesMeter {
+ public:
+  // The largest overlap needs a search among all disks, many times the cost of all the rest; without it the row has 0.
+  SeriesMeter(const Scene& scene, bool with_overlap, const MeterMark& from = {})
+      : box_(scene.box),
+        gravity_(scene.physics.gravity),
+        with_overlap_(with_overlap),
+        drawn_(velocities_are_drawn(scene)),
+        done_(from) {}
+
+  // Disks at the time of a frame, and what `now` has counted. An exact run counts to the end of its window, which may
+  // lie a little after the frame; intervals are taken between the states, so that no collision is lost or counted
+  // twice. pressure, collision_rate (per disk) and the four wall forces are means over the time since the row before,
+  // and 0 in the first row. What is made of velocities is NaN for Brownian motion (core/scene/drawn_velocities.hpp).
+  SeriesRow row(const Disks& disks, const State& now, const BlockRunner& run = run_in_order);
+
+  const MeterMark& mark() const { return done_; }
+
+ private:
+  Domain box_;
+  double gravity_;
+  bool with_overlap_;
+  bool drawn_;  // what is made of velocities means nothing, and is NaN
+  MeterMark done_;
+};
+
+class SeriesWriter {
+ public:
+  // Writes the heading. Throws RunError where the file cannot be written, here and below.
+  SeriesWriter(const std::string& path, const Scene& scene);
+
+  // Goes on behind a mark in a file that is there; what follows it is cut off. Throws InputError where the file is
+  // shorter.
+  SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from);
+
+  // One row, which it returns: see SeriesMeter::row. displacement: the mean square, the last column where
+  // scene.analysis asks for it.
+  SeriesRow write(const Disks& disks, double time, const State& now, double displacement = 0.0,
+                  const BlockRunner& run = run_in_order);
+
+  // Where the file has come to; all up to there is on the disk.
+  SeriesMark mark();
+
+  void close() { file_.close(); }
+
+ private:
+  OutputFile file_;
+  SeriesMeter meter_;
+  bool with_displacement_;
+  Count rows_ = 0;
+};
+
+}  // namespace carom

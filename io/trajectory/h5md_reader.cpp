@@ -1,0 +1,194 @@
+#include "io/trajectory/h5md_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "core/base/input_message.hpp"
+#include "io/hdf5/hdf5_handle.hpp"
+#include "io/trajectory/h5md_layout.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr const char* expected = "expected a trajectory.h5 that Carom wrote";
+
+}  // namespace
+
+struct H5mdReader::File {
+  explicit File(const std::string& file_path);
+
+  [[noreturn]] void fail(const std::string& what) const { fail_input(path, what, expected); }
+  Hdf5Handle checked(hid_t opened, Hdf5Handle::Close closer) const {
+    if (opened < 0) fail(hdf5_reason());
+    return {opened, closer};
+  }
+  Hdf5Handle open_set(const std::string& name) const {
+    return checked(H5Dopen2(file.get(), (std::string(h5md_disks) + "/" + name).c_str(), H5P_DEFAULT), H5Dclose);
+  }
+  std::vector<hsize_t> size_of(const Hdf5Handle& set) const;
+  void read_box();
+  template <class T>
+  void read_row(const Hdf5Handle& set, hid_t type, Count frame, std::vector<T>& to) const;
+  void read_frame(TrajectoryFrame& frame);
+
+  std::string path;
+  Hdf5Handle file, position, velocity, id, radius, mass, species;
+  Domain box;
+  std::vector<double> times;
+  Count next = 0;
+  std::size_t dimensions = 2;
+  std::vector<double> xy, vxy, radii, masses;  // of all places in one frame
+  std::vector<DiskId> ids, groups;
+};
+
+H5mdReader::File::File(const std::string& file_path) : path(file_path) {
+  silence_hdf5();
+  hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (opened < 0) {
+    // Killed between two writes: the file is whole, and says that it is being written. HDF5 would read what fails its
+    // checksum a hundred times, and wait twice as long, from 1 ns on, before each: for ever where the file is damaged.
+    constexpr unsigned attempts = 20;
+    const Hdf5Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    if (H5Pset_metadata_read_attempts(access.get(), attempts) < 0) fail(hdf5_reason());
+    opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
+  }
+  file = checked(opened, H5Fclose);
+  read_box();
+  position = open_set("position/value");
+  velocity = open_set("velocity/value");
+  id = open_set("id/value");
+  const std::string group = std::string(h5md_disks) + "/mass/value";
+  const bool each_frame = H5Lexists(file.get(), (std::string(h5md_disks) + "/mass").c_str(), H5P_DEFAULT) > 0 &&
+                          H5Lexists(file.get(), group.c_str(), H5P_DEFAULT) > 0;
+  mass = open_set(each_frame ? "mass/value" : "mass");
+  radius = open_set(each_frame ? "radius/value" : "radius");
+  species = open_set(each_frame ? "species/value" : "species");
+  const Hdf5Handle time = open_set("position/time");
+  const std::vector<hsize_t> length = size_of(time);
+  const std::vector<hsize_t> places = size_of(position);
+  const bool known_shape = length.size() == 1 && places.size() == 3 && (places[2] == 2 || places[2] == 3);
+  if (!known_shape || size_of(velocity).size() != 3 || size_of(velocity)[2] != places[2]) {
+    fail("its datasets have other shapes");
+  }
+  dimensions = places[2];
+  times.resize(length[0]);
+  if (!times.empty() && H5Dread(time.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data()) < 0) {
+    fail(hdf5_reason());
+  }
+}
+
+std::vector<hsize_t> H5mdReader::File::size_of(const Hdf5Handle& set) const {
+  const Hdf5Handle space = checked(H5Dget_space(set.get()), H5Sclose);
+  std::vector<hsize_t> size(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
+  H5Sget_simple_extent_dims(space.get(), size.data(), nullptr);
+  return size;
+}
+
+void H5mdReader::File::read_box() {
+  const std::string name = std::string(h5md_disks) + "/box/edges";
+  const bool each_frame = H5Lexists(file.get(), name.c_str(), H5P_DEFAULT) > 0 &&
+                          H5Oexists_by_name(file.get(), name.c_str(), H5P_DEFAULT) > 0 &&
+                          H5Lexists(file.get(), (name + "/value").c_str(), H5P_DEFAULT) > 0;
+  const Hdf5Handle edges = open_set(each_frame ? "box/edges/value" : "box/edges");
+  const std::vector<hsize_t> size = size_of(edges);
+  // Three vectors a frame, the same in all: those of the first will do.
+  std::vector<double> lengths(each_frame ? 9 : 2);
+  if (each_frame) {
+    if (size.size() != 3 || size[1] != 3 || size[2] != 3) fail("has no box of three edges");
+    if (size[0] > 0) read_row(edges, H5T_NATIVE_DOUBLE, 0, lengths);
+  } else if (size != std::vector<hsize_t>{2} ||
+             H5Dread(edges.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, lengths.data()) < 0) {
+    fail("has no box of two edges");
+  }
+  box.width = lengths.front();
+  box.height = lengths[each_frame ? 4 : 1];
+  const Hdf5Handle group =
+      checked(H5Oopen(file.get(), (std::string(h5md_disks) + "/box").c_str(), H5P_DEFAULT), H5Oclose);
+  const Hdf5Handle boundary = checked(H5Aopen(group.get(), "boundary", H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle type = checked(H5Aget_type(boundary.get()), H5Tclose);
+  const std::size_t width = H5Tget_size(type.get());
+  const hsize_t stored = H5Aget_storage_size(boundary.get());
+  if (width == 0 || (stored != 2 * width && stored != 3 * width)) fail("has no boundary of two words");
+  std::string words(stored, '\0');
+  if (H5Aread(boundary.get(), type.get(), words.data()) < 0) fail(hdf5_reason());
+  if (words.starts_with("periodic")) box.sides[0] = box.sides[1] = SideKind::periodic;
+  if (words.compare(width, 8, "periodic") == 0) box.sides[2] = box.sides[3] = SideKind::periodic;
+}
+
+// One frame of a dataset, or all of one that has no frames.
+template <class T>
+void H5mdReader::File::read_row(const Hdf5Handle& set, hid_t type, Count frame, std::vector<T>& to) const {
+  const Hdf5Handle space = checked(H5Dget_space(set.get()), H5Sclose);
+  std::vector<hsize_t> size = size_of(set);
+  std::vector<hsize_t> begin(size.size(), 0);
+  if (size.size() > 1) {
+    if (frame >= size[0]) fail(fmt::format("frame {} is missing", frame + 1));
+    begin[0] = frame;
+    size[0] = 1;
+  }
+  to.resize(std::accumulate(size.begin(), size.end(), hsize_t{1}, std::multiplies<>()));
+  if (to.empty()) return;
+  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin.data(), nullptr, size.data(), nullptr);
+  const Hdf5Handle memory = checked(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
+  if (H5Dread(set.get(), type, memory.get(), space.get(), H5P_DEFAULT, to.data()) < 0) {
+    fail(fmt::format("frame {} cannot be read: {}", frame + 1, hdf5_reason()));
+  }
+}
+
+void H5mdReader::File::read_frame(TrajectoryFrame& frame) {
+  read_row(position, H5T_NATIVE_DOUBLE, next, xy);
+  read_row(velocity, H5T_NATIVE_DOUBLE, next, vxy);
+  read_row(radius, H5T_NATIVE_DOUBLE, next, radii);
+  read_row(mass, H5T_NATIVE_DOUBLE, next, masses);
+  read_row(id, H5T_NATIVE_UINT32, next, ids);
+  read_row(species, H5T_NATIVE_UINT32, next, groups);
+  // A writer killed while places were added has lengthened some datasets and not the others, for frames to come.
+  const std::size_t places = std::min({ids.size(), xy.size() / dimensions, vxy.size() / dimensions});
+  frame = {};
+  frame.box = box;
+  frame.time = times[next];
+  for (std::size_t p = 0; p < places; ++p) {
+    if (ids[p] == h5md_no_id) continue;
+    if (p >= radii.size() || p >= masses.size() || p >= groups.size()) {
+      fail(fmt::format("disk {} has no radius, mass or species", ids[p]));
+    }
+    const std::size_t at = p * dimensions;
+    if (dimensions == 3 && (xy[at + 2] != 0.0 || vxy[at + 2] != 0.0)) {
+      fail(fmt::format("frame {}: disk {} has left the plane z = 0", next + 1, ids[p]));
+    }
+    frame.group.push_back(groups[p]);
+    Disks& d = frame.disks;
+    d.x.push_back(xy[at]);
+    d.y.push_back(xy[at + 1]);
+    d.vx.push_back(vxy[at]);
+    d.vy.push_back(vxy[at + 1]);
+    d.radius.push_back(radii[p]);
+    d.mass.push_back(masses[p]);
+    d.id.push_back(ids[p]);
+    for (const double value : {d.x.back(), d.y.back(), d.vx.back(), d.vy.back(), radii[p], masses[p]}) {
+      if (!std::isfinite(value)) fail(fmt::format("frame {}: disk {} has a value that is no number", next + 1, ids[p]));
+    }
+  }
+  ++next;
+}
+
+H5mdReader::H5mdReader(const std::string& path) : file_(std::make_unique<File>(path)) {}
+
+H5mdReader::~H5mdReader() = default;
+
+bool H5mdReader::read(TrajectoryFrame& frame) {
+  if (file_->next >= file_->times.size()) return false;
+  file_->read_frame(frame);
+  return true;
+}
+
+Count H5mdReader::frames() const {
+  return file_->times.size();
+}
+
+}  // namespace carom

@@ -1,0 +1,78 @@
+#include "io/trajectory/h5md_values.hpp"
+
+#include <array>
+#include <cstring>
+
+#include "core/scene/disk_group.hpp"
+#include "io/trajectory/disk_selection.hpp"
+#include "io/trajectory/h5md_layout.hpp"
+
+namespace carom {
+
+namespace {
+
+// value(i) of the disk at each place; nothing where there is none.
+template <class T, class Value>
+void fill_with(std::vector<unsigned char>& buffer, const H5mdPlaces& places, T nothing, Value value) {
+  buffer.resize((places.end - places.begin) * sizeof(T));
+  unsigned char* to = buffer.data();
+  for (std::size_t place = places.begin; place < places.end; ++place, to += sizeof(T)) {
+    const std::uint32_t i = place < places.disk_at.size() ? places.disk_at[place] : no_disk;
+    const T stored = i == no_disk ? nothing : value(i);
+    std::memcpy(to, &stored, sizeof stored);
+  }
+}
+
+template <class T, std::size_t n>
+struct Vector {
+  std::array<T, n> components;
+};
+
+// x(i) and y(i) of the disk i, and 0 where there is a third component.
+template <class T, class X, class Y>
+void fill_with_vectors(std::vector<unsigned char>& buffer, const H5mdPlaces& places, int dimensions, T nothing, X x,
+                       Y y) {
+  if (dimensions == 3) {
+    fill_with(buffer, places, Vector<T, 3>{{nothing, nothing, nothing}}, [&](std::uint32_t i) {
+      return Vector<T, 3>{{static_cast<T>(x(i)), static_cast<T>(y(i)), T{}}};
+    });
+  } else {
+    fill_with(buffer, places, Vector<T, 2>{{nothing, nothing}}, [&](std::uint32_t i) {
+      return Vector<T, 2>{{static_cast<T>(x(i)), static_cast<T>(y(i))}};
+    });
+  }
+}
+
+}  // namespace
+
+void fill_with_values(H5mdQuantity quantity, const H5mdForm& form, const Disks& disks, const H5mdPlaces& places,
+                      std::vector<unsigned char>& buffer) {
+  const auto vectors = [&](const std::vector<double>& x, const std::vector<double>& y) {
+    const auto of_x = [&x](std::uint32_t i) { return x[i]; };
+    const auto of_y = [&y](std::uint32_t i) { return y[i]; };
+    if (form.single) return fill_with_vectors(buffer, places, form.dimensions, h5md_single_nothing, of_x, of_y);
+    fill_with_vectors(buffer, places, form.dimensions, h5md_nothing, of_x, of_y);
+  };
+  switch (quantity) {
+    case H5mdQuantity::position:
+      return vectors(disks.x, disks.y);
+    case H5mdQuantity::velocity:
+      return vectors(disks.vx, disks.vy);
+    case H5mdQuantity::id:
+      return fill_with(buffer, places, h5md_no_id, [&](std::uint32_t i) { return disks.id[i]; });
+    case H5mdQuantity::mass:
+      return fill_with(buffer, places, h5md_nothing, [&](std::uint32_t i) { return disks.mass_of(i); });
+    case H5mdQuantity::radius:
+      return fill_with(buffer, places, h5md_nothing, [&](std::uint32_t i) { return disks.radius_of(i); });
+    case H5mdQuantity::image:
+      return fill_with_vectors(
+          buffer, places, form.dimensions, h5md_no_image,
+          [&](std::uint32_t i) { return rounds_of(form.rounds->x, disks.id[i]); },
+          [&](std::uint32_t i) { return rounds_of(form.rounds->y, disks.id[i]); });
+    case H5mdQuantity::species:
+      fill_with(buffer, places, h5md_no_species,
+                [&](std::uint32_t i) { return group_of(form.group_ends, disks.id[i]); });
+  }
+}
+
+}  // namespace carom

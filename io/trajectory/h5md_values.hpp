@@ -1,0 +1,35 @@
+// What trajectory.h5 says of the disk at each place, as the bytes that go into the file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "core/measure/displacement.hpp"
+
+namespace carom {
+
+enum class H5mdQuantity : std::uint8_t { position, velocity, id, mass, radius, species, image };
+
+// Places [begin, end) of a file; disk_at has the storage index of the disk at each, or no_disk (disk_selection.hpp),
+// and may be shorter than the file.
+struct H5mdPlaces {
+  const std::vector<std::uint32_t>& disk_at;
+  std::size_t begin = 0, end = 0;
+};
+
+// How a file writes them.
+struct H5mdForm {
+  bool single = false;                        // position and velocity in single precision
+  int dimensions = 2;                         // their components, and those of the image
+  std::vector<DiskId> group_ends;             // for the species, see disk_group.hpp
+  const DisplacementTally* rounds = nullptr;  // for the image
+};
+
+// Writes the quantity of these places to buffer, one after the other (x, y and perhaps z in turn), the fill values of
+// h5md_layout.hpp where there is no disk.
+void fill_with_values(H5mdQuantity quantity, const H5mdForm& form, const Disks& disks, const H5mdPlaces& places,
+                      std::vector<unsigned char>& buffer);
+
+}  // namespace carom

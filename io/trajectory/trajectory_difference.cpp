@@ -1,0 +1,185 @@
+#include "io/trajectory/trajectory_difference.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "core/base/input_message.hpp"
+#include "io/trajectory/trajectory_reader.hpp"
+
+namespace carom {
+
+namespace {
+
+// Times of frames are sums and products of steps: 0.3 may be 0.30000000000000004.
+constexpr double time_slack = 1e-9;
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+// Is what differs by so much a difference? Called for values of different bits only; a difference that is no number is.
+bool counts(const CompareRule& rule, double by) {
+  return !rule.tolerance || !(by <= *rule.tolerance);
+}
+
+std::array<double, compared_quantities.size()> quantities_of(const Disks& d, std::size_t i) {
+  return {d.x[i], d.y[i], d.vx[i], d.vy[i], d.radius_of(i), d.mass_of(i)};
+}
+
+double distance(const Domain& box, std::size_t quantity, double a, double b) {
+  double d = a - b;
+  if (quantity == 0 && box.periodic_x()) d = nearest_image(d, box.width);
+  if (quantity == 1 && box.periodic_y()) d = nearest_image(d, box.height);
+  return std::abs(d);
+}
+
+// The frames of a file that a rule wants, one after another.
+class ChosenFrames {
+ public:
+  ChosenFrames(std::string path, const CompareRule& rule)
+      : path_(std::move(path)), rule_(rule), reader_(open_trajectory(path_)) {}
+
+  bool next() {
+    const bool more = rule_.at ? next_nearest() : next_within();
+    if (!more && count == 0) fail_without_frames();
+    if (!more) return false;
+    ++count;
+    time = frame.time;
+    return true;
+  }
+
+  TrajectoryFrame frame;
+  double time = 0.0;  // of the last frame that was wanted
+  Count number = 0;   // of the frame in its file, from 1
+  Count count = 0;    // of frames so far that were wanted
+
+ private:
+  bool read(TrajectoryFrame& into) {
+    if (!reader_->read(into)) return false;
+    if (read_++ == 0) first_ = into.time;
+    last_ = into.time;
+    return true;
+  }
+
+  bool next_within() {
+    while (read(frame)) {
+      number = read_;
+      const double slack = time_slack * std::max(1.0, std::abs(frame.time));
+      if (frame.time > rule_.to + slack) return false;
+      if (frame.time >= rule_.from - slack) return true;
+    }
+    return false;
+  }
+
+  bool next_nearest() {
+    if (count > 0) return false;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (TrajectoryFrame read_now; read(read_now);) {
+      const double off = std::abs(read_now.time - *rule_.at);
+      if (off >= nearest) break;
+      nearest = off;
+      number = read_;
+      std::swap(frame, read_now);
+    }
+    const double slack = time_slack * std::max(1.0, std::abs(*rule_.at));
+    return read_ > 0 && *rule_.at >= first_ - slack && *rule_.at <= last_ + slack;
+  }
+
+  [[noreturn]] void fail_without_frames() const {
+    if (read_ == 0) fail_input(path_, "holds no frames", "expected a trajectory");
+    const std::string wanted =
+        rule_.at ? fmt::format("at t = {:g}", *rule_.at) : fmt::format("from t = {:g} to {:g}", rule_.from, rule_.to);
+    fail_input(path_, fmt::format("has no frame {}", wanted),
+               fmt::format("expected {} within t = {:g} to {:g}", rule_.at ? "--at" : "--times", first_, last_));
+  }
+
+  std::string path_;
+  const CompareRule& rule_;
+  std::unique_ptr<TrajectoryReader> reader_;
+  Count read_ = 0;
+  double first_ = 0.0, last_ = 0.0;
+};
+
+class Comparison {
+ public:
+  Comparison(const CompareRule& rule, TrajectoryDifference& result) : rule_(rule), result_(result) {}
+
+  // Both frames list their disks in order of id.
+  void compare(const TrajectoryFrame& a, const TrajectoryFrame& b, Count number) {
+    place_ = {};
+    place_.frame = number;
+    place_.time = a.time;
+    box_ = &a.box;
+    const double apart = std::abs(a.time - b.time);
+    if (!same_bits(a.time, b.time) && counts(rule_, apart)) note({number, a.time, 0, "time", a.time, b.time, apart});
+    std::size_t i = 0, j = 0;
+    while (i < a.disks.size() || j < b.disks.size()) {
+      const bool a_left = i < a.disks.size(), b_left = j < b.disks.size();
+      if (a_left && b_left && a.disks.id[i] == b.disks.id[j]) {
+        compare_disk(a.disks, i++, b.disks, j++);
+        continue;
+      }
+      const bool only_in_a = a_left && (!b_left || a.disks.id[i] < b.disks.id[j]);
+      const double all_a = static_cast<double>(a.disks.size()), all_b = static_cast<double>(b.disks.size());
+      note({number, a.time, only_in_a ? a.disks.id[i++] : b.disks.id[j++], "disks", all_a, all_b,
+            std::abs(all_a - all_b)});
+    }
+  }
+
+ private:
+  void note(const Difference& found) {
+    if (!result_.first) result_.first = found;
+  }
+
+  void compare_disk(const Disks& a, std::size_t i, const Disks& b, std::size_t j) {
+    const auto values_a = quantities_of(a, i);
+    const auto values_b = quantities_of(b, j);
+    Difference place = place_;
+    place.id = a.id[i];
+    for (std::size_t q = 0; q < values_a.size(); ++q) {
+      if (!rule_.fields[q] || same_bits(values_a[q], values_b[q])) continue;
+      place.quantity = compared_quantities[q];
+      place.a = values_a[q];
+      place.b = values_b[q];
+      place.by = distance(*box_, q, place.a, place.b);
+      if (counts(rule_, place.by)) note(place);
+      auto& largest = result_.largest[q];
+      if (!largest || place.by > largest->by || std::isnan(place.by)) largest = place;
+    }
+  }
+
+  const CompareRule& rule_;
+  TrajectoryDifference& result_;
+  Difference place_;
+  const Domain* box_ = nullptr;
+};
+
+}  // namespace
+
+TrajectoryDifference compare_trajectories(const std::string& path_a, const std::string& path_b,
+                                          const CompareRule& rule) {
+  ChosenFrames a(path_a, rule), b(path_b, rule);
+  TrajectoryDifference result;
+  Comparison comparison(rule, result);
+  while (true) {
+    const bool more_a = a.next(), more_b = b.next();
+    if (more_a && more_b) comparison.compare(a.frame, b.frame, a.number);
+    if (!more_a && !more_b) break;
+  }
+  result.frames_a = a.count;
+  result.frames_b = b.count;
+  if (a.count != b.count && !result.first) {
+    const double all_a = static_cast<double>(a.count), all_b = static_cast<double>(b.count);
+    const ChosenFrames& longer = a.count > b.count ? a : b;
+    result.first =
+        Difference{std::min(a.count, b.count) + 1, longer.time, 0, "frames", all_a, all_b, std::abs(all_a - all_b)};
+  }
+  return result;
+}
+
+}  // namespace carom

@@ -1,0 +1,53 @@
+// Trajectories as H5MD 1.1 (h5md_layout.hpp): HDF5, compressed, for h5py, ParaView and everything else that reads HDF5.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/disks/disks.hpp"
+#include "core/measure/displacement.hpp"
+#include "core/scene/scene.hpp"
+#include "io/checkpoint/output_mark.hpp"
+#include "io/tables/series.hpp"
+
+namespace carom {
+
+// The file is kept whole at any moment (HDF5's single-writer-multiple-reader mode): what kill -9 leaves opens in any
+// reader, with every frame up to the last flush.
+class H5mdWriter {
+ public:
+  // Creates or replaces the file. rounds: how often each disk has gone round the periodic sides, kept by the caller;
+  // null: the file does not tell. Throws RunError where it cannot be written, here and below.
+  H5mdWriter(const std::string& path, const Scene& scene, const DisplacementTally* rounds = nullptr);
+
+  // Goes on with the file that a writer of this scene left, closed or killed, after its first `frames` frames; what
+  // follows them is cut off. Throws RunError if it has fewer, or was written for other disks.
+  H5mdWriter(const std::string& path, const Scene& scene, Count frames, const DisplacementTally* rounds = nullptr);
+
+  ~H5mdWriter();
+  H5mdWriter(const H5mdWriter&) = delete;
+  H5mdWriter& operator=(const H5mdWriter&) = delete;
+
+  // One frame: the disks that scene.output.select names. step: what the run has counted; time stepping shows it, an
+  // exact run, whose frames may share a window, shows the number of the frame instead.
+  void write(const Disks& disks, double time, Count step, const SeriesRow& row, const BlockRunner& run = run_in_order);
+
+  // Hands all frames so far to the system. write() does it about twice a second, by the work of the run and not by a
+  // clock, so that equal runs leave equal files.
+  void flush();
+
+  // Where the file has come to; all up to there has been handed to the system.
+  FileMark mark();
+
+  // Frames in the file.
+  Count frames() const;
+
+  // Flushes, closes, and writes PATH with .xdmf in place of .h5, the description by which ParaView reads it.
+  void close();
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+}  // namespace carom

@@ -1,0 +1,41 @@
+// Reading trajectories back, whatever their format.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+// One frame as read back, disks in order of id; radius and mass always come as columns. Of the box, files tell size and
+// periodic sides; all others appear as walls.
+struct TrajectoryFrame {
+  Disks disks;
+  double time = 0.0;
+  Domain box;
+  std::vector<DiskId> group;  // of each disk (disk_group.hpp); empty where the file does not tell
+};
+
+class TrajectoryReader {
+ public:
+  TrajectoryReader() = default;
+  TrajectoryReader(const TrajectoryReader&) = delete;
+  TrajectoryReader& operator=(const TrajectoryReader&) = delete;
+  virtual ~TrajectoryReader() = default;
+
+  // The next frame, or false after the last. Throws InputError, naming the file and what is wrong with it.
+  virtual bool read(TrajectoryFrame& frame) = 0;
+};
+
+// The trajectory of a run's folder, trajectory.xyz or trajectory.h5; empty if there is none.
+std::filesystem::path trajectory_in(const std::filesystem::path& folder);
+
+// By what the file begins with: HDF5 or text. growing: a run is, or was, writing it, and what it began is no frame yet.
+// Throws InputError if it cannot be read.
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, bool growing = false);
+
+}  // namespace carom

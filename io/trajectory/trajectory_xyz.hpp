@@ -1,0 +1,101 @@
+// Trajectories as extended XYZ: text that OVITO, ASE and VMD read, and that loses no bit.
+#pragma once
+
+#include <cstddef>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/base/block_runner.hpp"
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+#include "core/measure/displacement.hpp"
+#include "core/scene/scene.hpp"
+#include "io/checkpoint/output_mark.hpp"
+#include "io/files/output_file.hpp"
+#include "io/trajectory/trajectory_reader.hpp"
+
+namespace carom {
+
+// What every line of a frame holds, as the second line of the frame declares it. The species is X, which chemistry has
+// for "no element"; z is 0, as programs for molecules want three coordinates.
+inline constexpr const char* xyz_properties = "species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1";
+
+// What a file shows, and of which disks.
+struct XyzPlan {
+  Domain box;
+  Selection select{};
+  // Of disks in several groups (disk_group.hpp): a column group:I:1 is added. Empty: all are of one.
+  std::vector<DiskId> group_ends{};
+  // How often each disk has gone round the periodic sides: a column map_shift:I:3 is added, which OVITO takes for the
+  // periodic image. Kept by the caller; null: not known.
+  const DisplacementTally* rounds = nullptr;
+};
+
+class XyzWriter {
+ public:
+  // Throws RunError where the file cannot be written, here and below.
+  XyzWriter(const std::string& path, XyzPlan plan);
+
+  // Goes on behind a mark in a file that is there; what follows it is cut off. Throws InputError where the file is
+  // shorter.
+  XyzWriter(const std::string& path, XyzPlan plan, const FileMark& from);
+
+  // One frame: the selected disks in order of id, numbers with 17 significant digits.
+  void write(const Disks& disks, double time, const BlockRunner& run = run_in_order);
+
+  // Where the file has come to; all up to there is on the disk.
+  FileMark mark();
+
+  void close() { file_.close(); }
+
+ private:
+  void write_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
+                   std::string& text) const;
+
+  OutputFile file_;
+  Count frames_ = 0;
+  XyzPlan plan_;
+  std::string lattice_;             // the constant part of each frame's second line
+  std::vector<std::string> texts_;  // of the blocks being written; kept for their capacity
+};
+
+using XyzFrame = TrajectoryFrame;
+
+class XyzReader : public TrajectoryReader {
+ public:
+  // growing: a run is, or was, writing the file, and a frame that it ends within is none. Throws InputError if the file
+  // cannot be opened.
+  explicit XyzReader(const std::string& path, bool growing = false);
+
+  // The next frame, or false at the end of the file. Radius and mass always come as columns. Columns may stand in any
+  // order, positions and velocities may have two components or three, and columns that Carom does not know are passed
+  // over. Throws InputError, "file:line: what is wrong, what was expected", for a file that lacks something.
+  bool read(XyzFrame& frame) override;
+
+ private:
+  // Where in a line the columns begin; of `all` columns.
+  struct Layout {
+    std::size_t position = 0, velocity = 0, radius = 0, mass = 0, id = 0, group = 0, all = 0;
+    std::size_t position_width = 0, velocity_width = 0;
+    bool has_group = false;
+  };
+
+  [[noreturn]] void fail(const std::string& what) const;
+  bool next_line();
+  void read_layout(std::string_view properties);
+  void read_header(XyzFrame& frame);
+  void read_disk(XyzFrame& frame) const;
+  double number(std::string_view text) const;
+  DiskId whole_number(std::string_view text, const char* what) const;
+
+  std::string path_;
+  bool growing_ = false;
+  std::ifstream file_;
+  std::string line_;
+  std::size_t line_number_ = 0;
+  Layout layout_;
+  std::string properties_;  // that the layout was read from
+};
+
+}  // namespace carom

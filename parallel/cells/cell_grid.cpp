@@ -1,0 +1,52 @@
+#include "parallel/cells/cell_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+// Cells along one side. `least` is the smallest cell that still finds every neighbour; `most` bounds the memory.
+std::uint32_t cells_along(double length, double least, double most, bool periodic) {
+  const double fit = std::floor(length / least * (1.0 - 0x1p-40));
+  const double cells = std::max(1.0, std::min(fit, most));
+  return periodic && cells < 3.0 ? 1 : static_cast<std::uint32_t>(cells);
+}
+
+}  // namespace
+
+void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid) {
+  grid.levels.clear();
+  grid.keys = 0;
+  grid.tiles = 1;
+  grid.tile_keys = 0;
+  double radius = largest_radius;
+  for (std::size_t k = 0; k < count.size(); ++k, radius /= class_ratio) {
+    GridLevel level;
+    level.largest_radius = radius;
+    level.margin = grid_margin * 2.0 * radius;
+    const double least = 2.0 * radius + 2.0 * level.margin;
+    // About two cells a disk at most, shared between the sides as the box is.
+    const double cells = 2.0 * static_cast<double>(count[k]) + 1.0;
+    const double across = std::sqrt(cells * box.width / box.height);
+    level.columns = cells_along(box.width, least, std::clamp(across, 1.0, cells), box.periodic_x());
+    level.rows = cells_along(box.height, least, cells / std::min<double>(level.columns, cells), box.periodic_y());
+    level.cell_width = box.width / level.columns;
+    level.cell_height = box.height / level.rows;
+    level.columns_per_length = level.columns / box.width;
+    level.rows_per_length = level.rows / box.height;
+    level.stride = level.columns + 1;
+    level.first_key = grid.keys;
+    grid.keys += level.keys();
+    grid.levels.push_back(level);
+  }
+}
+
+CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count) {
+  CellGrid grid;
+  make_grid(box, largest_radius, count, grid);
+  return grid;
+}
+
+}  // namespace carom

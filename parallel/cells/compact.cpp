@@ -1,0 +1,44 @@
+#include "parallel/cells/compact.hpp"
+
+#include <cstddef>
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t compact_block = 16384;
+
+// first: where each block's survivors go, a count of survivors scanned in block order.
+template <class T>
+void close_up(std::vector<T>& column, std::vector<T>& scratch, const std::vector<unsigned char>& gone,
+              const std::vector<std::size_t>& first, const Executor& executor) {
+  if (column.empty()) return;
+  scratch.resize(first.back());
+  executor.for_ranges(column.size(), compact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    std::size_t at = first[b];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (gone[i] == 0) scratch[at++] = column[i];
+    }
+  });
+  column.swap(scratch);
+}
+
+}  // namespace
+
+void remove_in_parallel(Disks& d, const std::vector<unsigned char>& gone, const Executor& executor,
+                        std::vector<double>& column, std::vector<DiskId>& ids) {
+  const std::size_t blocks = executor.blocks(d.size(), compact_block);
+  std::vector<std::size_t> first(blocks + 1, 0);
+  executor.for_ranges(d.size(), compact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    std::size_t kept = 0;
+    for (std::size_t i = begin; i < end; ++i) kept += gone[i] == 0 ? 1U : 0U;
+    first[b + 1] = kept;
+  });
+  for (std::size_t b = 0; b < blocks; ++b) first[b + 1] += first[b];
+  for (std::vector<double>* c : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass}) {
+    close_up(*c, column, gone, first, executor);
+  }
+  close_up(d.id, ids, gone, first, executor);
+}
+
+}  // namespace carom

@@ -1,0 +1,46 @@
+// The runs of disks in storage that lie within reach of a place: rows of cells, each one run, or two round the corner.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "core/disks/domain.hpp"
+#include "parallel/cells/cell_grid.hpp"
+
+namespace carom {
+
+// Consecutive cells along one side, counted round the corner of a periodic one.
+struct Span {
+  std::uint32_t first = 0, count = 0;
+};
+
+// The cells that hold anything whose coordinate was within reach of c when it was sorted in.
+inline Span span_around(double c, double reach, double length, double per_length, std::uint32_t cells, bool periodic) {
+  // When the two ends come within a cell of each other round the corner, take the whole side once.
+  if (cells == 1 || (2.0 * reach) * per_length + 2.0 >= cells) return {0, cells};
+  double low = c - reach;
+  double high = c + reach;
+  if (periodic && low < 0.0) low += length;
+  if (periodic && high >= length) high -= length;
+  const std::uint32_t first = cell_index(low, per_length, cells);
+  const std::uint32_t last = cell_index(high, per_length, cells);
+  return {first, last >= first ? last - first + 1 : cells - first + last + 1};
+}
+
+// visit(first, last) for each run [first, last) of disks of one level within reach (length) of (x, y).
+template <class Visit>
+void for_each_run_near(const GridLevel& level, const std::uint32_t* start, const Domain& box, double x, double y,
+                       double reach, Visit&& visit) {
+  const Span rows = span_around(y, reach, box.height, level.rows_per_length, level.rows, box.periodic_y());
+  const Span columns = span_around(x, reach, box.width, level.columns_per_length, level.columns, box.periodic_x());
+  const std::uint32_t straight = std::min(columns.count, level.columns - columns.first);
+  for (std::uint32_t k = 0; k < rows.count; ++k) {
+    const std::uint32_t row = rows.first + k < level.rows ? rows.first + k : rows.first + k - level.rows;
+    const std::uint32_t row_key = level.first_key + row * level.stride;
+    visit(start[row_key + columns.first], start[row_key + columns.first + straight]);
+    if (straight < columns.count) visit(start[row_key], start[row_key + columns.count - straight]);
+  }
+}
+
+}  // namespace carom

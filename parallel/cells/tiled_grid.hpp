@@ -1,0 +1,18 @@
+// The cells of the exact method, in tiles: rectangles of the box whose disks are neighbours in memory.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/disks/domain.hpp"
+#include "parallel/cells/cell_grid.hpp"
+
+namespace carom {
+
+// A grid of tiles of about disks_per_tile disks, if those are spread evenly, each with the cells of all size classes:
+// about two disks a cell. count[k] is the number of disks of class k (class_of_radius), whose largest radius is
+// largest_radius / class_ratio^k. The memory that grid has is used again.
+void make_tiled_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
+                     std::size_t disks_per_tile, CellGrid& grid);
+
+}  // namespace carom

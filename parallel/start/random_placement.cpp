@@ -1,0 +1,252 @@
+#include "parallel/start/random_placement.hpp"
+
+#include <array>
+#include <queue>
+#include <span>
+
+#include "core/start/initial_state.hpp"
+#include "core/start/placement_search.hpp"
+#include "parallel/cells/batch_cells.hpp"
+#include "parallel/start/growth_step.hpp"
+
+namespace carom {
+
+namespace {
+
+// A batch is this share of the disks, so that few of it get into each other's way, and fits into a core's own cache.
+constexpr std::size_t batches = 64;
+constexpr std::size_t smallest_batch = 64, largest_batch = 32768;
+
+constexpr std::size_t range_of_members = 512;  // a task of the parallel search
+
+// Disks searched for at the same time by one thread: while memory answers for one, the others' points are drawn.
+constexpr std::size_t lanes = 32;
+
+constexpr std::size_t range_of_voxels = 16384;
+constexpr std::size_t voxels_per_member = 256;
+
+// Trials after which a disk is left to the plain search, which may learn more for it, and knows when to give up.
+constexpr std::uint64_t patience = trials_between_lessons;
+
+// The first point of a member that nobody takes who was there before the batch.
+struct Candidate {
+  Vec2 point;
+  std::uint64_t trial = 0;
+  bool found = false;
+};
+
+// A search in batches. The point that the plain search takes for a disk is the first of its sequence that none of the
+// disks before it covers. For a batch, all threads find the first points that are free of the disks placed so far:
+// points before those are refused whatever the batch does. Then the few whose point another of the batch covers are
+// looked at again in their order, until everyone has the first point that is free of all before him; that is the
+// definition, so neither batches nor threads can change a bit. What the plain search does between two disks (learn more
+// of the free places, give up) ends a batch.
+class BatchSearch {
+ public:
+  BatchSearch(const Executor& executor, PlacementSearch& search) : executor_(executor), search_(search) {}
+
+  void place_class() {
+    const double widest = search_.disks.radius_of(search_.members[search_.begin]);
+    cells_.fit(search_.scene.box, 2.000001 * widest, largest_batch);  // rounding may shift a cell's edge
+    const std::size_t most = std::clamp((search_.end - search_.begin) / batches, smallest_batch, largest_batch);
+    for (first_ = search_.begin; first_ < search_.end;) {
+      while (search_.lesson_due(first_)) learn();
+      if (search_.list && search_.list->empty()) search_.place_one(first_);  // says so
+      listed_ = search_.list ? &*search_.list : nullptr;
+      const std::size_t count = std::min({most, search_.end - first_, batch_of_list()});
+      find_candidates(count);
+      first_ += commit(settle_conflicts(count));
+    }
+  }
+
+ private:
+  struct Lane {
+    std::size_t member = 0;  // in the batch
+    std::uint64_t trial = 0;
+    TrialDraw draw;
+    Vec2 point;
+    bool alive = false;
+  };
+
+  void learn() {
+    if (!search_.refine_due()) return search_.learn();
+    const VoxelList& list = *search_.list;
+    std::vector<std::vector<Voxel>> parts(executor_.blocks(list.size(), range_of_voxels));
+    executor_.for_ranges(list.size(), range_of_voxels, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      parts[part] = list.survivors(search_.grid, begin, end);
+    });
+    std::vector<Voxel> survivors;
+    for (const auto& part : parts) survivors.insert(survivors.end(), part.begin(), part.end());
+    search_.refine(std::move(survivors));
+  }
+
+  // Where few places are left, a large batch would only get into its own way.
+  std::size_t batch_of_list() const {
+    return search_.list ? std::max(smallest_batch, search_.list->size() / voxels_per_member) : largest_batch;
+  }
+
+  std::uint32_t disk_of(std::size_t k) const { return search_.members[first_ + k]; }
+  double radius_of(std::size_t k) const { return search_.disks.radius_of(disk_of(k)); }
+
+  void find_candidates(std::size_t count) {
+    candidates_.assign(count, {});
+    executor_.for_ranges(count, range_of_members,
+                         [&](std::size_t, std::size_t begin, std::size_t end) { find_candidates(begin, end); });
+  }
+
+  void find_candidates(std::size_t begin, std::size_t end) {
+    std::array<Lane, lanes> lane;
+    std::size_t running = 0;
+    while (running < lanes && begin < end) lane[running++].member = begin++;
+    while (running > 0) {
+      try_once({lane.data(), running});
+      for (std::size_t l = 0; l < running;) {
+        Lane& here = lane[l];
+        if (here.alive) candidates_[here.member] = {here.point, here.trial, true};
+        if (!here.alive && ++here.trial < patience) {
+          ++l;
+        } else if (begin < end) {
+          here = {begin++, 0, {}, {}, false};
+          ++l;
+        } else {
+          here = lane[--running];
+        }
+      }
+    }
+  }
+
+  // One trial of each lane, in stages, each of which asks for the memory of the next.
+  void try_once(std::span<Lane> all) const {
+    const Domain& box = search_.scene.box;
+    const bool listed = listed_ != nullptr;
+    for (Lane& l : all) {
+      l.draw = draw_trial(search_.scene.seed, disk_of(l.member), l.trial, listed);
+      if (listed) listed_->prefetch(l.draw.voxel);
+    }
+    for (Lane& l : all) {
+      const PlacementRoom room = placement_room(box, radius_of(l.member));
+      l.point = trial_point(box, room, listed_, l.draw);
+      l.alive = room.holds(l.point);
+      if (search_.cells) search_.cells->prefetch_cell(l.point.x, l.point.y);
+    }
+    for (Lane& l : all) {
+      l.alive = l.alive && (!search_.cells || search_.cells->is_open(l.point.x, l.point.y));
+      if (l.alive) search_.grid.prefetch_cells(l.point.x, l.point.y);
+    }
+    for (Lane& l : all) {
+      if (l.alive) search_.grid.prefetch_disks(l.point.x, l.point.y);
+    }
+    for (Lane& l : all) l.alive = l.alive && is_free(l.point, radius_of(l.member));
+  }
+
+  bool is_free(Vec2 point, double radius) const {
+    return search_.grid.overlapping(point.x, point.y, radius, false) == PlacementGrid::nobody;
+  }
+
+  bool apart(std::size_t k, Vec2 point, double radius) const {
+    const Domain& box = search_.scene.box;
+    double dx = candidates_[k].point.x - point.x;
+    double dy = candidates_[k].point.y - point.y;
+    if (box.periodic_x()) dx = nearest_image(dx, box.width);
+    if (box.periodic_y()) dy = nearest_image(dy, box.height);
+    const double contact = radius + radius_of(k);
+    return !(dx * dx + dy * dy < contact * contact);
+  }
+
+  // Is k's point covered by one before it in the batch?
+  bool covered(std::size_t k, Vec2 point) const {
+    const double radius = radius_of(k);
+    return cells_.any_near(point, [&](std::uint32_t other) { return other < k && !apart(other, point, radius); });
+  }
+
+  // Gives everyone of the batch his final point; returns how many have one, up to the first that found none.
+  std::size_t settle_conflicts(std::size_t count) {
+    std::size_t whole = 0;
+    cells_.clear();
+    while (whole < count && candidates_[whole].found) {
+      cells_.insert(static_cast<std::uint32_t>(whole), candidates_[whole].point);
+      ++whole;
+    }
+    conflict_.assign(whole, 0);
+    executor_.for_ranges(whole, range_of_members, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) conflict_[k] = covered(k, candidates_[k].point) ? 1 : 0;
+    });
+    std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> again;
+    for (std::size_t k = 0; k < whole; ++k) {
+      if (conflict_[k] != 0) again.push(k);
+    }
+    while (!again.empty()) {
+      const std::size_t k = again.top();
+      while (!again.empty() && again.top() == k) again.pop();
+      if (!covered(k, candidates_[k].point)) continue;
+      const Vec2 old = candidates_[k].point;
+      if (!move_on(k)) return k;
+      cells_.move(static_cast<std::uint32_t>(k), old, candidates_[k].point);
+      const Vec2 now = candidates_[k].point;
+      cells_.for_near(now, [&](std::uint32_t other) {
+        if (other > k && !apart(other, now, radius_of(k))) again.push(other);
+      });
+    }
+    return whole;
+  }
+
+  // The next point of k that is free of all before it; false when patience ends.
+  bool move_on(std::size_t k) {
+    Candidate& c = candidates_[k];
+    std::array<Lane, 1> lane;
+    lane[0].member = k;
+    for (lane[0].trial = c.trial + 1; lane[0].trial < patience; ++lane[0].trial) {
+      try_once(lane);
+      if (!lane[0].alive || covered(k, lane[0].point)) continue;
+      c = {lane[0].point, lane[0].trial, true};
+      return true;
+    }
+    return false;
+  }
+
+  // Places the first `settled` of the batch, and at least one; returns how many.
+  std::size_t commit(std::size_t settled) {
+    for (std::size_t k = 0; k < settled; ++k) {
+      const Candidate& c = candidates_[k];
+      if (k > 0 && search_.lesson_due(first_ + k)) return k;
+      if (search_.trials + c.trial >= search_.most) {
+        search_.place_one(first_ + k);  // says so
+        return k + 1;
+      }
+      search_.count(c.trial);
+      search_.settle(disk_of(k), c.point.x, c.point.y);
+    }
+    if (settled > 0) return settled;
+    search_.place_one(first_);
+    return 1;
+  }
+
+  const Executor& executor_;
+  PlacementSearch& search_;
+  BatchCells cells_;
+  std::size_t first_ = 0;  // of the batch, in members
+  const VoxelList* listed_ = nullptr;
+  std::vector<Candidate> candidates_;
+  std::vector<unsigned char> conflict_;
+};
+
+}  // namespace
+
+void parallel_place_at_random(const Executor& executor, const Scene& scene, Disks& disks, PlacementGrid& grid,
+                              std::vector<std::uint32_t> members) {
+  PlacementSearch search = make_placement_search(scene, disks, grid, members);
+  BatchSearch batches_of(executor, search);
+  while (search.next_class()) batches_of.place_class();
+}
+
+State parallel_initial_state(const Scene& scene, int threads, const std::function<void(const GrowthProgress&)>& watch) {
+  const Executor executor(threads);
+  GrowthTools growth = parallel_growth(executor, {threads});
+  growth.watch = watch;
+  const auto place = [&](const Scene& s, Disks& disks, PlacementGrid& grid, std::vector<std::uint32_t> m) {
+    parallel_place_at_random(executor, s, disks, grid, std::move(m));
+  };
+  return initial_state(scene, place, growth);
+}
+
+}  // namespace carom

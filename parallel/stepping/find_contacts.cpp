@@ -1,0 +1,227 @@
+#include "parallel/stepping/find_contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/physics/disk_pair.hpp"
+#include "parallel/cells/nearby_runs.hpp"
+#include "parallel/stepping/search_kernel.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks a block of the search: small enough to spread over threads, large enough that a block's buffer is worth having.
+constexpr std::size_t search_block = 8192;
+// Large disks a block of the search between size classes: one may have thousands of small ones around it.
+constexpr std::size_t cross_block = 64;
+// Strays a block.
+constexpr std::size_t stray_block = 256;
+
+bool touch(const SearchInput& in, std::size_t i, std::size_t j) {
+  double dx = in.x[j] - in.x[i];
+  double dy = in.y[j] - in.y[i];
+  if (in.box.periodic_x()) dx = nearest_image(dx, in.box.width);
+  if (in.box.periodic_y()) dy = nearest_image(dy, in.box.height);
+  const double reach = in.radius == nullptr ? in.common_radius + in.common_radius : in.radius[j] + in.radius[i];
+  return touches(dx * dx + dy * dy, reach);
+}
+
+void test_run(const SearchInput& in, std::size_t i, std::uint32_t first, std::uint32_t last, std::vector<Pair>& pairs) {
+  for (std::uint32_t j = first; j < last; ++j) {
+    if (!touch(in, i, j)) continue;
+    pairs.push_back({static_cast<std::uint32_t>(i), j});
+  }
+}
+
+// Cells beside a column across the sides: the column itself and its neighbours, round the corner where periodic.
+struct Columns {
+  std::array<std::uint32_t, 3> at{};
+  std::size_t count = 0;
+};
+
+Columns columns_around(std::uint32_t c, const GridLevel& level, bool periodic) {
+  Columns around;
+  around.at[around.count++] = c;
+  if (level.columns == 1) return around;
+  if (c > 0 || periodic) around.at[around.count++] = c > 0 ? c - 1 : level.columns - 1;
+  if (c + 1 < level.columns || periodic) around.at[around.count++] = c + 1 < level.columns ? c + 1 : 0;
+  return around;
+}
+
+// How far disk i has left its cell along either side; length, negative inside.
+double excursion(const SearchInput& in, const GridLevel& level, std::size_t i) {
+  const std::uint32_t row = (in.key[i] - level.first_key) / level.stride;
+  const std::uint32_t column = (in.key[i] - level.first_key) % level.stride;
+  double off_x = std::clamp(in.x[i], 0.0, in.box.width) - (column + 0.5) * level.cell_width;
+  double off_y = std::clamp(in.y[i], 0.0, in.box.height) - (row + 0.5) * level.cell_height;
+  if (in.box.periodic_x()) off_x = nearest_image(off_x, in.box.width);
+  if (in.box.periodic_y()) off_y = nearest_image(off_y, in.box.height);
+  return std::max(std::abs(off_x) - 0.5 * level.cell_width, std::abs(off_y) - 0.5 * level.cell_height);
+}
+
+// Near periodic sides: cell by cell with nearest images. The cells to the right and in the row above, round the corner.
+void search_border(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin, std::size_t end,
+                   BlockPairs& found) {
+  const bool px = in.box.periodic_x();
+  const std::uint32_t row_key = level.first_key + row * level.stride;
+  const bool has_above = level.rows > 1 && (row + 1 < level.rows || in.box.periodic_y());
+  const std::uint32_t above_key = level.first_key + (row + 1 < level.rows ? row + 1 : 0) * level.stride;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (excursion(in, level, i) > level.margin) found.strays.push_back(static_cast<std::uint32_t>(i));
+    const std::uint32_t column = in.key[i] - row_key;
+    test_run(in, i, static_cast<std::uint32_t>(i + 1), in.start[in.key[i] + 1], found.pairs);
+    if (level.columns > 1 && (column + 1 < level.columns || px)) {
+      const std::uint32_t right = row_key + (column + 1 < level.columns ? column + 1 : 0);
+      test_run(in, i, in.start[right], in.start[right + 1], found.pairs);
+    }
+    if (!has_above) continue;
+    const Columns around = columns_around(column, level, px);
+    for (std::size_t k = 0; k < around.count; ++k) {
+      const std::uint32_t cell = above_key + around.at[k];
+      test_run(in, i, in.start[cell], in.start[cell + 1], found.pairs);
+    }
+  }
+}
+
+// One row's part of a block: the disks whose neighbours all lie on the same side of every periodic border go through
+// the interior kernel. A disk that was sorted into the first column may have wrapped to the far side since, so columns
+// that look at the outermost ones count as border, rows likewise.
+void search_row(const SearchInput& in, const GridLevel& level, InteriorKernel interior, std::uint32_t row,
+                std::size_t begin, std::size_t end, BlockPairs& found) {
+  const bool border_row = in.box.periodic_y() && (row == 0 || row + 3 > level.rows);
+  std::size_t low = begin;
+  std::size_t high = end;
+  if (border_row || (in.box.periodic_x() && level.columns < 5)) {
+    low = high = end;
+  } else if (in.box.periodic_x()) {
+    const std::uint32_t row_key = level.first_key + row * level.stride;
+    low = std::clamp<std::size_t>(in.start[row_key + 2], begin, end);
+    high = std::clamp<std::size_t>(in.start[row_key + level.columns - 2], low, end);
+  }
+  search_border(in, level, row, begin, low, found);
+  interior(in, level, row, low, high, found);
+  search_border(in, level, row, high, end, found);
+}
+
+void search_level(const SearchInput& in, const GridLevel& level, InteriorKernel interior, std::size_t begin,
+                  std::size_t end, BlockPairs& found) {
+  while (begin < end) {
+    const std::uint32_t row = (in.key[begin] - level.first_key) / level.stride;
+    const std::size_t row_end = std::min<std::size_t>(end, in.start[level.first_key + (row + 1) * level.stride]);
+    search_row(in, level, interior, row, begin, row_end, found);
+    begin = row_end;
+  }
+}
+
+// A large disk against the cells of a class of smaller ones.
+void search_across(const SearchInput& in, const GridLevel& small, std::size_t i, std::vector<Pair>& pairs) {
+  const double reach = in.radius[i] + small.largest_radius + small.margin;
+  for_each_run_near(small, in.start, in.box, in.x[i], in.y[i], reach,
+                    [&](std::uint32_t first, std::uint32_t last) { test_run(in, i, first, last, pairs); });
+}
+
+// The buffers of the next `blocks` blocks, emptied.
+std::size_t more_buffers(FoundPairs& found, std::size_t blocks) {
+  const std::size_t first = found.used;
+  found.used += blocks;
+  while (found.buffers.size() < found.used) {
+    // Room for the contacts of a dense fluid, so that a later, busier step need not ask for more.
+    found.buffers.emplace_back();
+    found.buffers.back().pairs.reserve(search_block / 16);
+    found.buffers.back().strays.reserve(search_block / 64);
+  }
+  for (std::size_t b = first; b < found.used; ++b) {
+    found.buffers[b].pairs.clear();
+    found.buffers[b].strays.clear();
+  }
+  return first;
+}
+
+const GridLevel& level_of(const SearchInput& in, const CellGrid& grid, std::size_t i) {
+  std::size_t k = 0;
+  while (k + 1 < grid.levels.size() && in.key[i] >= grid.levels[k + 1].first_key) ++k;
+  return grid.levels[k];
+}
+
+// Pairs of one stray with all disks; of two strays, the one stored first reports the pair.
+void search_stray(const SearchInput& in, const CellGrid& grid, double furthest, std::size_t i,
+                  const std::vector<unsigned char>& strayed, std::vector<Pair>& pairs) {
+  const double r = in.radius == nullptr ? in.common_radius : in.radius[i];
+  for (const GridLevel& level : grid.levels) {
+    const double reach = r + level.largest_radius + std::max(level.margin, furthest);
+    for_each_run_near(level, in.start, in.box, in.x[i], in.y[i], reach, [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t j = first; j < last; ++j) {
+        if (j == i || (strayed[j] != 0 && j < i) || !touch(in, i, j)) continue;
+        const auto a = static_cast<std::uint32_t>(i);
+        pairs.push_back(a < j ? Pair{a, j} : Pair{j, a});
+      }
+    });
+  }
+}
+
+// What the rows found with strays is neither complete nor needed: it goes, and each stray is searched for by itself.
+void search_strays(const SearchInput& in, const CellGrid& grid, const Executor& executor, FoundPairs& found) {
+  found.strays.clear();
+  for (std::size_t b = 0; b < found.used; ++b) {
+    found.strays.insert(found.strays.end(), found.buffers[b].strays.begin(), found.buffers[b].strays.end());
+  }
+  found.furthest = 0.0;
+  if (found.strays.empty()) return;
+  found.strayed.resize(in.n, 0);
+  double& furthest = found.furthest;
+  for (const std::uint32_t i : found.strays) {
+    found.strayed[i] = 1;
+    furthest = std::max(furthest, excursion(in, level_of(in, grid, i), i));
+  }
+  executor.run(found.used, [&](std::size_t b) {
+    std::erase_if(found.buffers[b].pairs,
+                  [&](const Pair& p) { return (found.strayed[p.i1] | found.strayed[p.i2]) != 0; });
+  });
+  const std::size_t first = more_buffers(found, executor.blocks(found.strays.size(), stray_block));
+  executor.for_ranges(found.strays.size(), stray_block, [&](std::size_t b, std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k) {
+      search_stray(in, grid, furthest, found.strays[k], found.strayed, found.buffers[first + b].pairs);
+    }
+  });
+  for (const std::uint32_t i : found.strays) found.strayed[i] = 0;
+}
+
+}  // namespace
+
+std::size_t find_contacts(const Disks& d, const Domain& box, const CellGrid& grid, const SortedCells& cells,
+                          const Executor& executor, FoundPairs& found) {
+  const SearchInput in{d.x.data(),
+                       d.y.data(),
+                       d.radius.empty() ? nullptr : d.radius.data(),
+                       d.common_radius,
+                       cells.key.data(),
+                       cells.start.data(),
+                       d.size(),
+                       box};
+  const InteriorKernel interior = choose_interior_kernel();
+  const std::size_t levels = grid.levels.size();
+  found.used = 0;
+  for (std::size_t k = 0; k < levels; ++k) {
+    const GridLevel& level = grid.levels[k];
+    const std::size_t begin = cells.start[level.first_key];
+    const std::size_t n = cells.start[level.first_key + level.keys()] - begin;
+    const std::size_t first = more_buffers(found, executor.blocks(n, search_block));
+    executor.for_ranges(n, search_block, [&](std::size_t b, std::size_t from, std::size_t to) {
+      search_level(in, level, interior, begin + from, begin + to, found.buffers[first + b]);
+    });
+    if (k + 1 == levels) break;
+    const std::size_t across = more_buffers(found, executor.blocks(n, cross_block));
+    executor.for_ranges(n, cross_block, [&](std::size_t b, std::size_t from, std::size_t to) {
+      for (std::size_t i = begin + from; i < begin + to; ++i) {
+        for (std::size_t s = k + 1; s < levels; ++s)
+          search_across(in, grid.levels[s], i, found.buffers[across + b].pairs);
+      }
+    });
+  }
+  search_strays(in, grid, executor, found);
+  return found.strays.size();
+}
+
+}  // namespace carom

@@ -1,0 +1,14 @@
+// The method `pairwise`, in parallel.
+#pragma once
+
+#include <memory>
+
+#include "core/step/engine.hpp"
+#include "parallel/simulation.hpp"
+
+namespace carom {
+
+// Bits of make_reference_pairwise. Preconditions: scene.run.dt > 0, threads.count >= 1.
+std::unique_ptr<Engine> make_parallel_pairwise(const Scene& scene, State initial, const Threads& threads);
+
+}  // namespace carom

@@ -1,0 +1,82 @@
+// Running a list of contacts in order, on many threads, with the bits of the serial order. Contacts that share no disk
+// commute exactly, so each contact only has to wait for the earlier ones of its own disks. The box is laid out in
+// patches; a contact inside a patch whose disks have had no contact across an edge before runs with its patch, patches
+// run side by side, and each visits a few thousand disks that are near in memory. What is left lies along the edges and
+// goes the same way in patches laid out anew across them, and again; the few that are left then run serially.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "core/reference/pair_search.hpp"
+#include "parallel/threads/executor.hpp"
+#include "parallel/threads/resize_amply.hpp"
+
+namespace carom {
+
+// Layouts of patches tried one after another; whoever fits none of them is left to the last phase.
+inline constexpr std::uint32_t patch_layouts = 3;
+inline constexpr std::uint32_t patch_phases = patch_layouts + 1;
+
+struct Patches {
+  std::vector<std::uint32_t> order;  // indices into the list, patch by patch, in the list's order within each
+  std::vector<std::uint32_t> start;  // of each patch in order; patches + 1
+  std::array<std::uint32_t, patch_phases + 1> first{};  // patch of each phase
+  // Scratch.
+  std::vector<std::array<std::uint16_t, patch_layouts>> home;  // patch of each disk in each layout
+  std::vector<unsigned char> reached;                          // by each disk: the phase of its latest contact
+  std::vector<std::uint32_t> patch;                            // of each contact
+  std::vector<std::array<double, 4>> bounds;                   // of blocks of disks
+
+  std::size_t count() const { return start.size() - 1; }
+};
+
+// contacts: how many of them there are. in_contact[i]: 0 for a disk that is in none. Returns whether there is more than
+// one patch to a layout; if not, all are in the one of the last phase. Patches do not depend on the number of threads.
+bool lay_out(Patches& patches, const Disks& disks, const std::vector<std::uint16_t>& in_contact, std::size_t contacts,
+             const Executor& executor);
+
+// Sorts patch indices in patches.patch into order and start.
+void order_by_patch(Patches& patches);
+
+// All contacts in one patch, in the order of the list; patches.order is not made.
+void take_as_one_patch(Patches& patches, std::size_t contacts);
+
+// disks_of(k): where the disks of contact k are stored, twice the same for a wall.
+template <class DisksOf>
+void build_patches(Patches& patches, const Disks& disks, const std::vector<std::uint16_t>& in_contact,
+                   std::size_t contacts, const Executor& executor, DisksOf&& disks_of) {
+  resize_amply(patches.patch, contacts);
+  if (!lay_out(patches, disks, in_contact, contacts, executor)) {
+    patches.patch.assign(contacts, 0);
+    return order_by_patch(patches);
+  }
+  patches.reached.assign(disks.size(), 0);
+  for (std::size_t k = 0; k < contacts; ++k) {
+    const Pair p = disks_of(k);
+    const auto& home1 = patches.home[p.i1];
+    const auto& home2 = patches.home[p.i2];
+    unsigned char phase = std::max(patches.reached[p.i1], patches.reached[p.i2]);
+    while (phase < patch_layouts && home1[phase] != home2[phase]) ++phase;
+    patches.reached[p.i1] = patches.reached[p.i2] = phase;
+    patches.patch[k] = patches.first[phase] + (phase < patch_layouts ? home1[phase] : 0U);
+  }
+  order_by_patch(patches);
+}
+
+// task(patch) for every patch, so that, if a task runs its patch's contacts in order, the bits are those of running the
+// whole list in order; backwards, with tasks that run theirs backwards, those of the whole list backwards.
+template <class Task>
+void run_patches(const Patches& patches, bool backwards, const Executor& executor, Task&& task) {
+  for (std::uint32_t n = 0; n < patch_phases; ++n) {
+    const std::uint32_t phase = backwards ? patch_phases - 1 - n : n;
+    const std::uint32_t first = patches.first[phase];
+    executor.run(patches.first[phase + 1] - first, [&](std::size_t b) { task(first + b); });
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,270 @@
+#include "parallel/stepping/resolve_contacts.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <utility>
+
+#include "core/physics/resting.hpp"
+#include "core/reference/step_contacts.hpp"
+#include "parallel/threads/resize_amply.hpp"
+
+namespace carom {
+
+namespace {
+
+// Counts are sums of ones: whichever thread adds first, they end the same.
+void count_contact(std::vector<std::uint16_t>& contacts, const ContactEvent& e) {
+  std::atomic_ref<std::uint16_t>(contacts[e.i1]).fetch_add(1, std::memory_order_relaxed);
+  if (!is_wall(e.id2)) std::atomic_ref<std::uint16_t>(contacts[e.i2]).fetch_add(1, std::memory_order_relaxed);
+}
+
+// A disk after its only contact of the step. Returns its squared speed.
+template <class View>
+double finish_disk(const View& d, const Domain& box, std::uint32_t i) {
+  if (box.periodic_x()) d.x[i] = wrap(d.x[i], box.width);
+  if (box.periodic_y()) d.y[i] = wrap(d.y[i], box.height);
+  return d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
+}
+
+// Contacts are far apart in memory: their disks are asked for this many contacts ahead, about the time that memory
+// takes.
+constexpr std::size_t ahead = 8;
+
+template <class View>
+void prefetch_disk(const View& d, std::uint32_t i) {
+  __builtin_prefetch(d.x + i, 1);
+  __builtin_prefetch(d.y + i, 1);
+  __builtin_prefetch(d.vx + i, 1);
+  __builtin_prefetch(d.vy + i, 1);
+  __builtin_prefetch(d.id + i);
+}
+
+// How many contacts each disk has; the counts of the step.
+void count_found(const FoundPairs& found, const std::vector<std::vector<ContactEvent>>& walls, std::size_t disks,
+                 const Executor& executor, ContactLists& lists) {
+  lists.contacts.resize(disks, 0);
+  executor.run(found.used, [&](std::size_t b) {
+    for (const Pair& p : found.buffers[b].pairs) {
+      std::atomic_ref<std::uint16_t>(lists.contacts[p.i1]).fetch_add(1, std::memory_order_relaxed);
+      std::atomic_ref<std::uint16_t>(lists.contacts[p.i2]).fetch_add(1, std::memory_order_relaxed);
+    }
+  });
+  executor.run(walls.size(), [&](std::size_t b) {
+    for (const ContactEvent& e : walls[b]) count_contact(lists.contacts, e);
+  });
+}
+
+// Contacts that are alone, each from impact to pushing and wrapping in one visit; they commute with all others, so the
+// blocks may run in any order. The others become events in lists.crowded, in canonical order of time.
+template <class View>
+double resolve_alone(const View& d, const StepRules& rules, const FoundPairs& found,
+                     const std::vector<std::vector<ContactEvent>>& walls, std::size_t disks, const Executor& executor,
+                     ContactLists& lists, ImpactTally& tally) {
+  count_found(found, walls, disks, executor, lists);
+  const std::size_t blocks = found.used + walls.size();
+  while (lists.crowded_blocks.size() < blocks) {
+    lists.crowded_blocks.emplace_back();
+    lists.crowded_blocks.back().reserve(contact_block / 8);
+  }
+  lists.crowded.reserve(contact_block);
+  lists.tallies.assign(blocks, {});
+  lists.largest.assign(blocks, 0.0);
+  assign_amply(lists.seen, blocks, {});
+  executor.run(found.used, [&](std::size_t b) {
+    const std::vector<Pair>& pairs = found.buffers[b].pairs;
+    lists.crowded_blocks[b].clear();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const auto [i, j] = in_id_order(d.id, pairs[k]);
+      if (k + ahead < pairs.size()) {
+        prefetch_disk(d, pairs[k + ahead].i1);
+        prefetch_disk(d, pairs[k + ahead].i2);
+      }
+      see_overlap_before(d, rules, i, j, lists.seen[b]);
+      if (lists.contacts[i] != 1 || lists.contacts[j] != 1) {
+        lists.crowded_blocks[b].push_back(pair_event(d, rules, i, j));
+        continue;
+      }
+      lists.tallies[b].add(d.id[j], resolve_pair(d, rules, i, j));
+      push_pair(d, rules.box, i, j, 0.0);
+      see_overlap_left(d, rules.box, {0.0, d.id[i], d.id[j], i, j}, lists.seen[b]);
+      lists.largest[b] = std::max({lists.largest[b], finish_disk(d, rules.box, i), finish_disk(d, rules.box, j)});
+      lists.contacts[i] = lists.contacts[j] = 0;
+    }
+  });
+  executor.run(walls.size(), [&](std::size_t w) {
+    const std::size_t b = found.used + w;
+    lists.crowded_blocks[b].clear();
+    for (const ContactEvent& e : walls[w]) {
+      if (lists.contacts[e.i1] != 1) {
+        lists.crowded_blocks[b].push_back(e);
+        continue;
+      }
+      lists.tallies[b].add(e.id2, resolve_event(d, rules, e));
+      push_apart(d, rules.box, e, 0.0);
+      see_wall_overlap(d, rules.box, e.i1, lists.seen[b]);
+      lists.largest[b] = std::max(lists.largest[b], finish_disk(d, rules.box, e.i1));
+      lists.contacts[e.i1] = 0;
+    }
+  });
+  add_seen(lists);
+  collect_crowded(blocks, executor, lists, tally);
+  return blocks == 0 ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
+}
+
+// Impacts of the crowded contacts in order of time, then the sweeps of pushing in order of ids.
+template <class View>
+void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, const Executor& executor,
+                     ContactLists& lists, ImpactTally& tally) {
+  if (lists.crowded.empty()) return;
+  place_crowded(disks, executor, lists);
+  assign_amply(lists.tallies, lists.patches.count(), {});
+  Count before = 0;
+  for (int pass = 0; pass < most_impact_passes; ++pass) {
+    run_crowded(executor, lists,
+                [&](const ContactEvent& e, std::size_t q) { lists.tallies[q].add(e.id2, resolve_event(d, rules, e)); });
+    if (!any_impact_since(before, lists.tallies)) break;
+  }
+  for (const ImpactTally& t : lists.tallies) tally.add(t);
+  executor.sort(lists.crowded.begin(), lists.crowded.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
+  place_crowded(disks, executor, lists);
+  run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t) { push_apart(d, rules.box, e, 0.0); });
+  for (int sweep = 1; sweep < most_push_sweeps; ++sweep) {
+    assign_amply(lists.largest, lists.patches.count(), 0.0);
+    run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
+      if (!is_deep(d, rules.box, e, shallow_overlap)) return;
+      push_apart(d, rules.box, e, 0.0);
+      lists.largest[q] = 1.0;
+    });
+    if (!any_deep(lists)) break;
+  }
+  see_overlaps_left(d, rules.box, lists.crowded.size(), executor, lists,
+                    [&](std::size_t k) { return lists.crowded[k]; });
+}
+
+}  // namespace
+
+bool any_impact_since(Count& before, const std::vector<ImpactTally>& tallies) {
+  Count now = 0;
+  for (const ImpactTally& t : tallies) now += t.collisions + t.wall_collisions;
+  return std::exchange(before, now) != now;
+}
+
+void add_seen(ContactLists& lists) {
+  for (const StepFigures& block : lists.seen) lists.figures.add(block);
+}
+
+bool any_deep(const ContactLists& lists) {
+  return std::find(lists.largest.begin(), lists.largest.end(), 1.0) != lists.largest.end();
+}
+
+void join_crowded(std::size_t blocks, ContactLists& lists) {
+  lists.crowded.clear();
+  for (std::size_t b = 0; b < blocks; ++b) {
+    lists.crowded.insert(lists.crowded.end(), lists.crowded_blocks[b].begin(), lists.crowded_blocks[b].end());
+  }
+}
+
+void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists& lists, ImpactTally& tally) {
+  join_crowded(blocks, lists);
+  for (std::size_t b = 0; b < blocks; ++b) tally.add(lists.tallies[b]);
+  executor.sort(lists.crowded.begin(), lists.crowded.end(), earlier);
+}
+
+void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists) {
+  const std::vector<ContactEvent>& crowded = lists.crowded;
+  if (executor.threads() == 1) return take_as_one_patch(lists.patches, crowded.size());
+  build_patches(lists.patches, disks, lists.contacts, crowded.size(), executor, [&](std::size_t k) {
+    return Pair{crowded[k].i1, is_wall(crowded[k].id2) ? crowded[k].i1 : crowded[k].i2};
+  });
+  resize_amply(lists.placed, crowded.size());
+  executor.for_ranges(crowded.size(), contact_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t at = begin; at < end; ++at) lists.placed[at] = crowded[lists.patches.order[at]];
+  });
+}
+
+void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found,
+                   const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor, ContactLists& lists) {
+  lists.contacts.resize(disks.size(), 0);
+  std::size_t total = found.count();
+  for (const auto& buffer : walls) total += buffer.size();
+  lists.events.resize(total);
+  lists.offsets.clear();
+  std::size_t place = 0;
+  for (std::size_t b = 0; b < found.used; ++b) {
+    lists.offsets.push_back(place);
+    place += found.buffers[b].pairs.size();
+  }
+  with_view(disks, [&](const auto& d) {
+    executor.run(found.used, [&](std::size_t b) {
+      std::size_t at = lists.offsets[b];
+      for (const Pair& found_pair : found.buffers[b].pairs) {
+        const Pair p = in_id_order(d.id, found_pair);
+        lists.events[at++] = pair_event(d, rules, p.i1, p.i2);
+      }
+    });
+  });
+  for (const auto& buffer : walls) {
+    for (const ContactEvent& e : buffer) lists.events[place++] = e;
+  }
+  count_contacts(lists, executor);
+}
+
+void count_contacts(ContactLists& lists, const Executor& executor) {
+  executor.for_ranges(lists.events.size(), contact_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) count_contact(lists.contacts, lists.events[k]);
+  });
+}
+
+void clear_contact_counts(ContactLists& lists) {
+  for (const ContactEvent& e : lists.events) {
+    lists.contacts[e.i1] = 0;
+    if (!is_wall(e.id2)) lists.contacts[e.i2] = 0;
+  }
+}
+
+double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& found,
+                        const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
+                        ContactLists& lists) {
+  ImpactTally tally;
+  lists.figures = {};
+  double speed2 = 0.0;
+  if (rules.settles) {
+    speed2 = settle_contacts(state, rules, found, walls, executor, lists, tally);
+  } else {
+    with_view(state.disks, [&](const auto& d) {
+      speed2 = resolve_alone(d, rules, found, walls, state.disks.size(), executor, lists, tally);
+      resolve_crowded(d, rules, state.disks, executor, lists, tally);
+    });
+    // Contacts that were alone are finished.
+    speed2 = std::max(speed2, finish_contacts(state.disks, rules.box, executor, lists.crowded, lists));
+  }
+  lists.figures.amiss += tally.amiss;
+  tally.count_into(state.counters);
+  return speed2;
+}
+
+double finish_contacts(Disks& disks, const Domain& box, const Executor& executor,
+                       const std::vector<ContactEvent>& events, ContactLists& lists) {
+  const std::size_t blocks = executor.blocks(events.size(), contact_block);
+  lists.largest.assign(blocks, 0.0);
+  executor.for_ranges(events.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    // Whoever takes the count away wraps the disk: once each, and the result does not depend on who.
+    const auto finish = [&](std::uint32_t i) {
+      if (std::atomic_ref<std::uint16_t>(lists.contacts[i]).exchange(0, std::memory_order_relaxed) == 0) return;
+      if (box.periodic_x()) disks.x[i] = wrap(disks.x[i], box.width);
+      if (box.periodic_y()) disks.y[i] = wrap(disks.y[i], box.height);
+      const double v2 = disks.vx[i] * disks.vx[i] + disks.vy[i] * disks.vy[i];
+      lists.largest[b] = std::max(lists.largest[b], v2);
+    };
+    for (std::size_t k = begin; k < end; ++k) {
+      finish(events[k].i1);
+      if (!is_wall(events[k].id2)) finish(events[k].i2);
+    }
+  });
+  double largest = 0.0;
+  for (const double v2 : lists.largest) largest = std::max(largest, v2);
+  return largest;
+}
+
+}  // namespace carom

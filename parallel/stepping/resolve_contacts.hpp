@@ -1,0 +1,143 @@
+// What core/reference/step_contacts.cpp does with the contacts of a step, with the same bits, on many threads. Most
+// contacts of a gas are alone: neither disk has another one. They commute with everything and are resolved where they
+// stand. The rest, the crowded ones, go in the canonical order, patch by patch where there are many.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/disks/state.hpp"
+#include "core/measure/validity.hpp"
+#include "core/physics/contact_event.hpp"
+#include "core/physics/impact_tally.hpp"
+#include "core/physics/resolve.hpp"
+#include "core/reference/step_contacts.hpp"
+#include "parallel/stepping/find_contacts.hpp"
+#include "parallel/stepping/patches.hpp"
+#include "parallel/stepping/settle_contacts.hpp"
+#include "parallel/threads/executor.hpp"
+#include "parallel/threads/resize_amply.hpp"
+
+namespace carom {
+
+// Lists that the resolve fills again and again; kept so that a warm step allocates nothing.
+struct ContactLists {
+  std::vector<ContactEvent> events;     // all of the step, in storage order
+  std::vector<std::uint16_t> contacts;  // of each disk in this step; all 0 between steps
+  std::vector<ContactEvent> crowded;
+  std::vector<std::vector<ContactEvent>> crowded_blocks;
+  std::vector<ContactEvent> placed;  // the crowded in the order of the patches
+  std::vector<ImpactTally> tallies;  // of each block
+  std::vector<double> largest;       // of each block
+  std::vector<std::size_t> offsets;  // of each block's part of a list
+  Patches patches;
+  SettleLists settle;
+  std::vector<StepFigures> seen;  // of each block
+  StepFigures figures;            // of the last resolve
+};
+
+// The events of the pairs found and the wall contacts, in one list, and how many contacts each disk has.
+void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found,
+                   const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor, ContactLists& lists);
+
+// Resolves and pushes apart all pairs found and wall contacts, wraps the disks that had contacts, and returns the
+// largest squared speed among those. Bits of resolve_contacts (core/reference/step_contacts.hpp).
+double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& found,
+                        const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
+                        ContactLists& lists);
+
+// Wraps the disks in events, clears their counts, returns the largest squared speed among them.
+double finish_contacts(Disks& disks, const Domain& box, const Executor& executor,
+                       const std::vector<ContactEvent>& events, ContactLists& lists);
+
+// Keeps the events for which keep(event) holds, and counts the contacts of each disk anew.
+template <class Keep>
+void keep_events(ContactLists& lists, const Executor& executor, Keep&& keep);
+
+// Sets the contact counts of the disks in lists.events: how many of the events each is in.
+void count_contacts(ContactLists& lists, const Executor& executor);
+void clear_contact_counts(ContactLists& lists);
+
+template <class Keep>
+void keep_events(ContactLists& lists, const Executor& executor, Keep&& keep) {
+  clear_contact_counts(lists);
+  std::erase_if(lists.events, [&](const ContactEvent& e) { return !keep(e); });
+  count_contacts(lists, executor);
+}
+
+// Is the contact alone, so that it commutes with all others?
+inline bool is_alone(const ContactLists& lists, const ContactEvent& e) {
+  return lists.contacts[e.i1] == 1 && (is_wall(e.id2) || lists.contacts[e.i2] == 1);
+}
+
+// Takes the events that are not alone out into lists.crowded, in canonical order of time, and runs alone(event, tally)
+// on the others, in parallel. Adds the tallies to `tally`.
+template <class Alone>
+void split_crowded(const Executor& executor, ContactLists& lists, ImpactTally& tally, Alone&& alone);
+
+// Joins the blocks' crowded events in lists.crowded, in canonical order of time, and adds their tallies.
+void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists& lists, ImpactTally& tally);
+
+// The same without sorting and tallies.
+void join_crowded(std::size_t blocks, ContactLists& lists);
+
+// Shares lists.crowded out to patches in the order that it has: lists.placed. One thread takes it as it is: these
+// contacts are visited two to five times, too few to pay for moving them.
+void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists);
+
+// task(contact, patch) for all of lists.crowded, in the order that place_crowded was given.
+template <class Task>
+void run_crowded(const Executor& executor, const ContactLists& lists, Task&& task) {
+  const std::vector<ContactEvent>& list = executor.threads() == 1 ? lists.crowded : lists.placed;
+  run_patches(lists.patches, false, executor, [&](std::size_t q) {
+    for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) task(list[at], q);
+  });
+}
+
+// Are there more impacts than before? Takes the new number down.
+bool any_impact_since(Count& before, const std::vector<ImpactTally>& tallies);
+
+// Did a sweep that pushes apart find a contact deep, so that it set lists.largest of its patch to 1?
+bool any_deep(const ContactLists& lists);
+
+// The deepest overlap left to the contacts event(0) to event(n - 1) goes to lists.figures.
+template <class View, class Event>
+void see_overlaps_left(const View& d, const Domain& box, std::size_t n, const Executor& executor, ContactLists& lists,
+                       Event&& event);
+
+// What the blocks have seen goes to lists.figures.
+void add_seen(ContactLists& lists);
+
+// Contacts a block of the parallel passes over them.
+inline constexpr std::size_t contact_block = 1024;
+
+template <class View, class Event>
+void see_overlaps_left(const View& d, const Domain& box, std::size_t n, const Executor& executor, ContactLists& lists,
+                       Event&& event) {
+  assign_amply(lists.seen, executor.blocks(n, contact_block), {});
+  executor.for_ranges(n, contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) see_overlap_left(d, box, event(k), lists.seen[b]);
+  });
+  add_seen(lists);
+}
+
+template <class Alone>
+void split_crowded(const Executor& executor, ContactLists& lists, ImpactTally& tally, Alone&& alone) {
+  const std::size_t blocks = executor.blocks(lists.events.size(), contact_block);
+  if (lists.crowded_blocks.size() < blocks) lists.crowded_blocks.resize(blocks);
+  lists.tallies.assign(blocks, {});
+  executor.for_ranges(lists.events.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    lists.crowded_blocks[b].clear();
+    for (std::size_t k = begin; k < end; ++k) {
+      const ContactEvent& e = lists.events[k];
+      if (is_alone(lists, e)) {
+        alone(e, lists.tallies[b]);
+      } else {
+        lists.crowded_blocks[b].push_back(e);
+      }
+    }
+  });
+  collect_crowded(blocks, executor, lists, tally);
+}
+
+}  // namespace carom

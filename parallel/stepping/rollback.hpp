@@ -1,0 +1,14 @@
+// The method `rollback`, in parallel.
+#pragma once
+
+#include <memory>
+
+#include "core/step/engine.hpp"
+#include "parallel/simulation.hpp"
+
+namespace carom {
+
+// Bits of make_reference_rollback. Preconditions: scene.run.dt > 0, threads.count >= 1.
+std::unique_ptr<Engine> make_parallel_rollback(const Scene& scene, State initial, const Threads& threads);
+
+}  // namespace carom

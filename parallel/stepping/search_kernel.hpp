@@ -1,0 +1,40 @@
+// What the search of one block needs, and the interior kernel in the versions that this machine may have.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/disks/domain.hpp"
+#include "core/reference/pair_search.hpp"
+#include "parallel/cells/cell_grid.hpp"
+#include "parallel/stepping/find_contacts.hpp"
+
+namespace carom {
+
+struct SearchInput {
+  const double* x;
+  const double* y;
+  const double* radius;  // null: common_radius
+  double common_radius;
+  const std::uint32_t* key;
+  const std::uint32_t* start;
+  std::size_t n;  // all disks
+  Domain box;
+};
+
+// Disks [begin, end) of one row of one level, all away from periodic sides, against the rest of their own row and the
+// row above: two contiguous runs of disks, tested by vectors that ask for what the scalar formula asks, with the same
+// operations. Appends the pairs, and the disks that have left their cell by more than the level's margin.
+using InteriorKernel = void (*)(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
+                                std::size_t end, BlockPairs& found);
+
+void search_interior_baseline(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
+                              std::size_t end, BlockPairs& found);
+void search_interior_avx2(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
+                          std::size_t end, BlockPairs& found);
+
+// The best version for the processor at hand; all give the same pairs in the same order.
+InteriorKernel choose_interior_kernel();
+
+}  // namespace carom

@@ -1,0 +1,25 @@
+#include "parallel/stepping/support_sweeps.hpp"
+
+namespace carom {
+
+void keep_loads(State& state, const StepRules& rules, const Executor& executor, ContactLists& lists) {
+  SettleLists& settle = lists.settle;
+  const std::size_t n = settle.borne.size();
+  assign_amply(lists.offsets, executor.blocks(n, contact_block) + 1, std::size_t{0});
+  executor.for_ranges(n, contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    std::size_t count = 0;
+    for (std::size_t k = begin; k < end; ++k) count += settle.borne[k] > 0.0 ? std::size_t{1} : 0;
+    lists.offsets[b + 1] = count;
+  });
+  for (std::size_t b = 1; b < lists.offsets.size(); ++b) lists.offsets[b] += lists.offsets[b - 1];
+  resize_amply(state.loads, lists.offsets.back());
+  executor.for_ranges(n, contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    std::size_t at = lists.offsets[b];
+    for (std::size_t k = begin; k < end; ++k) {
+      const IdPair& p = settle.pairs.sorted[k];
+      if (settle.borne[k] > 0.0) state.loads[at++] = {p.id1(), p.id2(), settle.borne[k] / rules.dt};
+    }
+  });
+}
+
+}  // namespace carom

@@ -1,0 +1,209 @@
+#include "parallel/stepping/time_stepping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/step/source.hpp"
+#include "core/step/step_clock.hpp"
+#include "parallel/cells/compact.hpp"
+#include "parallel/cells/nearby_runs.hpp"
+#include "parallel/stepping/drift_blocks.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks a block in passes that look at each disk once.
+constexpr std::size_t look_block = 8192;
+
+// The disks are sorted anew when one in so many has left its cell too far: searching for a stray by itself costs as
+// much as sorting about a dozen disks, and their number grows quickly from step to step. Measured best for a fluid.
+constexpr std::size_t stray_share = 200;
+
+}  // namespace
+
+TimeStepping::TimeStepping(const Scene& scene, State initial, const Threads& threads)
+    : scene_(scene), state_(std::move(initial)), executor_(threads.count, threads.block_divisor) {}
+
+double TimeStepping::disks_at(double /*t*/, Disks& out) const {
+  out = state_.disks;
+  return state_.time;
+}
+
+std::vector<std::string> TimeStepping::take_warnings() {
+  return validity_.take_warnings();
+}
+
+void TimeStepping::start_interval(double t, double dt, Count step) {
+  if (t == 0.0) remove_at_sinks();
+  if (scene_.sources.empty() && !(scene_.physics.diffusion > 0.0)) return;
+  const PhaseTimer timer(times_, "start");
+  if (!scene_.sources.empty()) emit_from_sources(t, step);
+  if (scene_.physics.diffusion > 0.0) draw_velocities(dt, step);
+}
+
+// A newcomer is held against the disks in the cells around it and against those who came in just before it. The cells
+// are made afresh at the first question of a step, when nobody has come in yet.
+void TimeStepping::emit_from_sources(double t, Count step) {
+  const Disks& d = state_.disks;
+  std::size_t in_cells = 0;
+  bool fresh = false;
+  const Count before = state_.counters.emitted;
+  emit_due(scene_, state_, t, step, [&](const Disk& newcomer) {
+    if (!std::exchange(fresh, true)) {
+      if (!d.empty()) sort_now();
+      in_cells = d.size();
+    }
+    bool met = meets(d, scene_.box, newcomer, in_cells, d.size());
+    for (std::size_t k = 0; k < grid_.levels.size() && in_cells > 0 && !met; ++k) {
+      const GridLevel& level = grid_.levels[k];
+      for_each_run_near(
+          level, cells_.start.data(), scene_.box, newcomer.x, newcomer.y, newcomer.radius + level.largest_radius,
+          [&](std::uint32_t first, std::uint32_t last) { met = met || meets(d, scene_.box, newcomer, first, last); });
+    }
+    return !met;
+  });
+  if (state_.counters.emitted == before) return;
+  cells_valid_ = false;
+  speed2_known_ = false;
+}
+
+void TimeStepping::draw_velocities(double dt, Count step) {
+  const std::size_t n = state_.disks.size();
+  const bool sinks = has_brownian_sink(scene_);
+  gone_.resize(sinks ? n : 0);
+  block_values_.assign(executor_.blocks(n, look_block), 0.0);
+  with_view(state_.disks, [&](const auto& d) {
+    executor_.for_ranges(n, look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+      draw_brownian(d, scene_, step, dt, begin, end);
+      for (std::size_t i = begin; sinks && i < end; ++i) {
+        gone_[i] = crosses_sink(d, scene_, step, dt, i) ? 1 : 0;
+        block_values_[b] += gone_[i];
+      }
+    });
+  });
+  speed2_known_ = false;
+  if (sinks) remove_gone();
+}
+
+// Blocks' counts are whole numbers below 2^53: their sum is exact.
+void TimeStepping::remove_gone() {
+  double marked = 0.0;
+  for (const double count : block_values_) marked += count;
+  if (marked == 0.0) return;
+  remove_in_parallel(state_.disks, gone_, executor_, cells_.column, cells_.pass);
+  state_.counters.removed += static_cast<Count>(marked);
+  cells_valid_ = false;
+}
+
+double TimeStepping::exact_travel2() {
+  block_values_.assign(executor_.blocks(state_.disks.size(), look_block), 0.0);
+  with_view(state_.disks, [&](const auto& d) {
+    executor_.for_ranges(state_.disks.size(), look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+      block_values_[b] = largest_travel2(d, begin, end);
+    });
+  });
+  double largest = 0.0;
+  for (const double t : block_values_) largest = std::max(largest, t);
+  return largest;
+}
+
+Count TimeStepping::parts(double dt) {
+  if (state_.disks.empty()) return 1;
+  if (smallest_radius_ == 0.0 || !scene_.sources.empty()) smallest_radius_ = smallest_radius(state_.disks);
+  // The bound from the phases before is mostly enough to see that the step is safe; if not, the true figure decides,
+  // and it is the reference's. Sinks may have taken the smallest disk: then too the true figure is taken.
+  const double fall = scene_.physics.gravity * dt / smallest_radius_;
+  if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
+  if (scene_.box.has(SideKind::sink)) smallest_radius_ = smallest_radius(state_.disks);
+  const Count parts = parts_of_step(exact_travel2(), scene_.physics.gravity * dt / smallest_radius_, dt);
+  if (parts > 1) validity_.see_split(state_, dt, parts);
+  return parts;
+}
+
+void TimeStepping::sort_if_due() {
+  if (state_.disks.empty()) return;
+  if (cells_valid_ && strays_ * stray_share <= state_.disks.size()) return;
+  sort_now();
+}
+
+void TimeStepping::sort_now() {
+  const PhaseTimer timer(times_, "sort");
+  const Disks& d = state_.disks;
+  const double largest = largest_radius(d);
+  const double smallest = smallest_radius(d);
+  std::vector<std::size_t>& count = class_counts_;
+  count.assign(class_of_radius(smallest, largest) + 1, 0);
+  if (count.size() == 1) {
+    count[0] = d.size();
+  } else {
+    for (const double r : d.radius) ++count[class_of_radius(r, largest)];
+  }
+  make_grid(scene_.box, largest, count, grid_);
+  sort_into_cells(state_.disks, grid_, executor_, cells_);
+  cells_valid_ = true;
+  strays_ = 0;
+}
+
+void TimeStepping::drift(double t) {
+  const PhaseTimer timer(times_, "drift");
+  speed2_ = drift_blocks(state_.disks, scene_.box, scene_.physics.gravity, t, executor_, block_values_);
+  speed2_known_ = true;
+}
+
+void TimeStepping::search(const StepRules& rules) {
+  {
+    const PhaseTimer timer(times_, "search");
+    pairs_.used = 0;
+    strays_ = 0;
+    if (!state_.disks.empty()) strays_ = find_contacts(state_.disks, scene_.box, grid_, cells_, executor_, pairs_);
+  }
+  if (!rules.box.has(SideKind::wall)) return;
+  const PhaseTimer timer(times_, "walls");
+  find_wall_contacts(state_.disks, rules, executor_, walls_);
+}
+
+void TimeStepping::resolve(const StepRules& rules) {
+  const PhaseTimer timer(times_, "resolve");
+  speed2_ = std::max(speed2_, resolve_contacts(state_, rules, pairs_, walls_, executor_, lists_));
+}
+
+void TimeStepping::keep_places() {
+  const PhaseTimer timer(times_, "resolve");
+  carom::keep_places(state_.disks, executor_, displaced_);
+}
+
+bool TimeStepping::presses_others() {
+  const PhaseTimer timer(times_, "resolve");
+  if (state_.disks.empty()) return false;
+  return carom::presses_others(state_.disks, scene_.box, grid_, cells_, pairs_.furthest, executor_, displaced_);
+}
+
+void TimeStepping::gather(const StepRules& rules) {
+  const PhaseTimer timer(times_, "gather");
+  gather_events(state_.disks, rules, pairs_, walls_, executor_, lists_);
+}
+
+void TimeStepping::finish_contacts() {
+  speed2_ = std::max(speed2_, carom::finish_contacts(state_.disks, scene_.box, executor_, lists_.events, lists_));
+}
+
+void TimeStepping::remove_at_sinks() {
+  if (!scene_.box.has(SideKind::sink)) return;
+  const PhaseTimer timer(times_, "sinks");
+  const std::size_t n = state_.disks.size();
+  gone_.resize(n);
+  block_values_.assign(executor_.blocks(n, look_block), 0.0);
+  with_view(state_.disks, [&](const auto& d) {
+    executor_.for_ranges(n, look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        gone_[i] = touches_sink(d, scene_.box, i) ? 1 : 0;
+        block_values_[b] += gone_[i];
+      }
+    });
+  });
+  remove_gone();
+}
+
+}  // namespace carom

@@ -1,0 +1,72 @@
+// What the two time-stepping methods share in parallel: disks in cells, and the phases of a step.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/step/engine.hpp"
+#include "core/step/step_start.hpp"
+#include "parallel/cells/cell_grid.hpp"
+#include "parallel/cells/counting_sort.hpp"
+#include "parallel/simulation.hpp"
+#include "parallel/stepping/displaced_disks.hpp"
+#include "parallel/stepping/find_contacts.hpp"
+#include "parallel/stepping/resolve_contacts.hpp"
+#include "parallel/threads/executor.hpp"
+
+namespace carom {
+
+class TimeStepping : public Engine {
+ public:
+  TimeStepping(const Scene& scene, State initial, const Threads& threads);
+
+  const State& state() const override { return state_; }
+  double disks_at(double t, Disks& out) const override;
+  const PhaseTimes& phase_times() const override { return times_; }
+  std::vector<std::string> take_warnings() override;
+
+ protected:
+  // The phases of a step, in its order. Reads -> writes are listed in docs/architecture.md.
+  void start_interval(double t, double dt, Count step);  // touching sinks at 0; sources, Brownian velocities
+  Count parts(double dt);                                // of a step that is too long to be safe
+  void sort_if_due();                                    // disks into cells, when they have left them too far
+  void drift(double t);                                  // all disks
+  void search(const StepRules& rules);                   // touching pairs and wall contacts
+  void resolve(const StepRules& rules);                  // impacts, supports, pushing apart, wrapping (pairwise)
+  void keep_places();                                    // before resolving, for
+  bool presses_others();                                 // has resolving pressed disks together? (a pile)
+  void gather(const StepRules& rules);                   // all contacts into lists_.events (rollback)
+  void finish_contacts();                                // wraps what they moved
+  void remove_at_sinks();
+  void forget_speeds() { speed2_known_ = false; }  // after a phase that may have raised one unseen
+
+  Scene scene_;
+  State state_;
+  Executor executor_;
+  PhaseTimes times_;
+  Validity validity_;
+  ContactLists lists_;
+
+ private:
+  void sort_now();
+  void emit_from_sources(double t, Count step);
+  void draw_velocities(double dt, Count step);
+  double exact_travel2();
+  void remove_gone();
+
+  CellGrid grid_;
+  SortedCells cells_;
+  FoundPairs pairs_;
+  std::vector<std::vector<ContactEvent>> walls_;
+  DisplacedDisks displaced_;
+  std::vector<unsigned char> gone_;
+  std::vector<double> block_values_;       // scratch, one a block
+  std::vector<std::size_t> class_counts_;  // disks of each size class
+  double smallest_radius_ = 0.0;
+  double speed2_ = 0.0;        // no disk's squared speed is larger
+  bool speed2_known_ = false;  // false: speed2_ must be taken anew
+  bool cells_valid_ = false;   // storage order and cells_ still belong together
+  std::size_t strays_ = 0;     // in the last search
+};
+
+}  // namespace carom

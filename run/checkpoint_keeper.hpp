@@ -1,0 +1,75 @@
+// When a run writes checkpoints: in intervals of wall time, on signals, when its time is up, at its end.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "io/checkpoint/checkpoint.hpp"
+#include "io/files/output_folder.hpp"
+#include "run/run_outputs.hpp"
+
+namespace carom {
+
+class CheckpointKeeper {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  // record: of the run so far, with the times that its earlier parts spent. started: when this process began with it.
+  // interval and max_walltime in seconds; an interval of 0 means none but on a wish.
+  CheckpointKeeper(RunRecord record, Clock::time_point started, double interval, double max_walltime);
+
+  // Where they go. Without a folder one is made when the first checkpoint is wished for: out/NAME of the scene, or
+  // out/NAME-2 and so on where that is taken. outputs may be null.
+  // there: the folder holds the checkpoint that the run goes on from.
+  void write_to(OutputFolder* folder, RunOutputs* outputs, bool there);
+
+  // To be called between steps: writes a checkpoint if one is due or wished for. Returns false when the run is to stop.
+  // Throws RunError where it cannot be written; the ones before stay.
+  bool look(const State& state, double t_end, double step_s);
+
+  // Is the run to stop, by a signal or since its time is up? To be asked at any time, by any thread.
+  bool wants_stop() const;
+
+  // Writes one now.
+  void write(const State& state, double step_s);
+  void write(const State& state, double step_s, OutputMark mark);
+
+  // The record as it is now, for the summary; step_s is that of this process.
+  RunRecord record(double step_s) const;
+
+  // Why look() returned false, such as "SIGTERM"; empty if it did not.
+  const std::string& stopped_by() const { return stopped_by_; }
+
+  // How to go on, such as "carom resume out/gas"; empty while there is no checkpoint.
+  std::string resume_command() const;
+
+  // The run is done: a folder that was made for its checkpoints alone goes.
+  void discard_own_folder();
+
+  // What to tell the user about a checkpoint that was wished for; asked for once, it is gone.
+  std::string take_note();
+
+ private:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - started_).count(); }
+  OutputFolder& folder();
+
+  RunRecord before_;
+  Clock::time_point started_;
+  double interval_;
+  double max_walltime_;
+  double due_;  // seconds
+  OutputFolder* folder_ = nullptr;
+  std::optional<OutputFolder> own_folder_;
+  RunOutputs* outputs_ = nullptr;
+  std::string written_to_;  // the folder's name, which outlives it; empty: no checkpoint yet
+  std::string stopped_by_;
+  std::string note_;
+};
+
+// CPU time of all threads of this process so far, in seconds.
+double cpu_seconds();
+
+}  // namespace carom

@@ -1,0 +1,41 @@
+#include "run/frame_schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+// k * every this close to t_end, in units of every, is t_end itself: 0.1 * 7 is not 0.7. A frame so short before the
+// last would show nothing new.
+constexpr double end_slack = 1e-6;
+
+}  // namespace
+
+FrameSchedule::FrameSchedule(double every, double t_end, double slack) : every_(every), t_end_(t_end), slack_(slack) {}
+
+double FrameSchedule::due(double now) const {
+  if (finished_) return -1.0;
+  if (next_ == t_end_) return now >= t_end_ ? t_end_ : -1.0;
+  return now >= next_ - slack_ * every_ ? std::min(next_, now) : -1.0;
+}
+
+void FrameSchedule::made(double time) {
+  if (time >= t_end_) finished_ = true;
+  if (every_ <= 0.0) {
+    next_ = t_end_;
+    return;
+  }
+  const double k = std::floor(time / every_ + std::max(slack_, end_slack)) + 1.0;
+  // An interval below the rounding of the time itself still moves on.
+  const double next = std::max(k * every_, std::nextafter(time, t_end_));
+  next_ = next < t_end_ - end_slack * every_ ? next : t_end_;
+}
+
+Count frame_count(double every, double t_end) {
+  if (every <= 0.0) return 2;
+  return static_cast<Count>(std::min(std::ceil(t_end / every - end_slack), 1e18)) + 1;
+}
+
+}  // namespace carom

@@ -1,0 +1,55 @@
+// Which engine runs a scene.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "core/base/block_runner.hpp"
+#include "core/measure/pair_distances.hpp"
+#include "core/start/growth.hpp"
+#include "core/step/engine.hpp"
+
+namespace carom {
+
+struct EngineChoice {
+  std::string name;  // "reference" or "parallel"
+  int threads = 1;   // that it will use
+};
+
+// What --engine and --threads ask for; empty and absent mean the default: parallel, on all cores. The reference has one
+// thread whatever is asked for. Throws InputError for an engine that does not exist.
+EngineChoice choose_engine(const std::string& engine, std::optional<int> threads);
+
+// The disks of a scene; either engine's way gives the same bits. watch is told how a growth goes on, and may be empty.
+State make_initial_state(const EngineChoice& choice, const Scene& scene,
+                         const std::function<void(const GrowthProgress&)>& watch = {});
+
+std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial);
+
+// The threads that it chooses, for other work between its steps.
+BlockRunner make_block_runner(const EngineChoice& choice);
+
+// Who counts pairs by distance (core/measure/pair_distances.hpp); either engine's way gives the same numbers.
+PairCounter make_pair_counter(const EngineChoice& choice);
+
+// Throws the InputError of a scene whose disks found no memory.
+[[noreturn]] void fail_memory(const Scene& scene);
+
+// make(), which makes the scene's disks or their engine. A limit on this process may be far below what the machine has,
+// so that the scene's check cannot know it.
+template <class Make>
+auto within_memory(const Scene& scene, Make&& make) {
+  try {
+    return make();
+  } catch (const std::bad_alloc&) {
+    fail_memory(scene);
+  } catch (const std::length_error&) {
+    fail_memory(scene);
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,140 @@
+#include "run/run_loop.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+
+#include "run/frame_schedule.hpp"
+
+namespace carom {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double pulse_seconds = 0.01;
+constexpr Count most_steps_between_looks = 100'000;
+
+// Time stepping adds up dt; an exact run can be looked at any time, and needs no slack.
+double slack_of(const Scene& scene) {
+  constexpr double slack = 1e-6;
+  return scene.run.method == Method::exact ? 0.0 : slack;
+}
+
+// One of those who look at the disks at times of their own, from `start` on.
+struct Watcher {
+  const std::function<void(const Disks&, double)>* look = nullptr;
+  double start = 0.0, early = 0.0;  // early: how much sooner than start will do
+  FrameSchedule schedule;
+
+  // The time at which it is due in a run that has come to `now`, or a negative number.
+  double due(double now) const {
+    if (*look == nullptr || now < start - early) return -1.0;
+    const double since = schedule.due(std::max(now - start, 0.0));
+    return since < 0.0 ? since : start + since;
+  }
+};
+
+Watcher watcher(const std::function<void(const Disks&, double)>& look, const Scene& scene, double every, double start,
+                const std::optional<double>& last) {
+  const double slack = slack_of(scene);
+  Watcher w{&look, start, slack * every, {every, scene.run.t_end - start, slack}};
+  if (last) w.schedule.made(*last - start);
+  return w;
+}
+
+// Looks at the clock, and asks whether to go on, while a step is made; what it finds out ends the batch of steps.
+class StepWatch {
+ public:
+  StepWatch(Engine& engine, const RunObserver& observer) : engine_(engine) {
+    engine_.set_watch([this, &observer] {
+      if (observer.go_on && !observer.go_on()) stopped_ = true;
+      if (seconds() > pulse_seconds) late_ = true;
+      return !stopped_;
+    });
+  }
+  StepWatch(const StepWatch&) = delete;
+  StepWatch& operator=(const StepWatch&) = delete;
+  ~StepWatch() { engine_.set_watch({}); }
+
+  void begin_batch() {
+    start_ = Clock::now();
+    late_ = false;
+  }
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  bool ends_batch() const { return stopped_ || late_; }
+  bool stopped() const { return stopped_; }
+
+ private:
+  Engine& engine_;
+  Clock::time_point start_;
+  std::atomic<bool> stopped_{false}, late_{false};
+};
+
+// Shows the disks to whom they are due.
+class FrameMaker {
+ public:
+  FrameMaker(const Engine& engine, const Scene& scene, const RunObserver& observer)
+      : engine_(engine),
+        watchers_{watcher(observer.sample, scene, scene.analysis.every, scene.analysis.start, observer.last_sample),
+                  watcher(observer.frame, scene, scene.output.every, 0.0, observer.last_frame)} {}
+
+  bool due() const {
+    const double now = engine_.state().time;
+    return watchers_[0].due(now) >= 0.0 || watchers_[1].due(now) >= 0.0;
+  }
+
+  void make_due() {
+    const double now = engine_.state().time;
+    double shown = -1.0;  // the time asked for that disks_ are of
+    while (due()) {
+      const double times[] = {watchers_[0].due(now), watchers_[1].due(now)};
+      const std::size_t first = times[1] < 0.0 || (times[0] >= 0.0 && times[0] <= times[1]) ? 0 : 1;
+      if (times[first] != shown) time_ = engine_.disks_at(times[first], disks_);
+      shown = times[first];
+      (*watchers_[first].look)(disks_, time_);
+      watchers_[first].schedule.made(time_ - watchers_[first].start);
+    }
+  }
+
+ private:
+  const Engine& engine_;
+  std::array<Watcher, 2> watchers_;
+  Disks disks_;
+  double time_ = 0.0;
+};
+
+}  // namespace
+
+double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observer) {
+  FrameMaker frames(engine, scene, observer);
+  if (!observer.frame && !observer.sample) engine.forget_paths();
+  frames.make_due();
+  double step_seconds = 0.0;
+  // Steps between two looks at the clock: reading it costs as much as a step of two disks. How many they are depends on
+  // the machine's speed, but nothing that they compute does.
+  Count batch = 1;
+  StepWatch watch(engine, observer);
+  while (engine.state().time < scene.run.t_end) {
+    watch.begin_batch();
+    for (Count k = 0; k < batch && engine.state().time < scene.run.t_end && !frames.due(); ++k) {
+      if (watch.ends_batch()) break;
+      if (observer.stepped && k > 0) observer.stepped();
+      engine.step();
+    }
+    const double seconds = watch.seconds();
+    step_seconds += seconds;
+    if (seconds < 0.5 * pulse_seconds) batch = std::min(2 * batch, most_steps_between_looks);
+    if (seconds > pulse_seconds && batch > 1) batch /= 2;
+    frames.make_due();
+    if (observer.stepped && !watch.stopped()) observer.stepped();
+    if (observer.pulse && !observer.pulse(step_seconds)) break;
+  }
+  // What is left to do has needs of its own: sums, checkpoints, plots.
+  engine.release_memory();
+  return step_seconds;
+}
+
+}  // namespace carom

@@ -1,0 +1,232 @@
+#include "run/run_outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/check.hpp"
+#include "core/measure/follow_disks.hpp"
+#include "core/measure/invariants.hpp"
+#include "core/scene/disk_group.hpp"
+#include "core/scene/drawn_velocities.hpp"
+
+namespace carom {
+
+namespace {
+
+bool has_plot(const OutputPlan& plan, const char* name) {
+  return std::find(plan.plots.begin(), plan.plots.end(), name) != plan.plots.end();
+}
+
+}  // namespace
+
+bool wants_frames(const OutputPlan& plan) {
+  return plan.trajectory != TrajectoryFormat::none || plan.series || plan.movie || !plan.plots.empty();
+}
+
+bool wants_files(const Scene& scene) {
+  return wants_frames(scene.output) || scene.analysis.any() || scene.output.checkpoint > 0.0;
+}
+
+RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count)
+    : scene_(scene),
+      folder_(folder),
+      meter_(scene, false),
+      plot_velocity_(has_plot(scene.output, "velocity")),
+      plot_energy_(has_plot(scene.output, "energy") && !velocities_are_drawn(scene)) {
+  if (scene.output.trajectory == TrajectoryFormat::xyz) {
+    trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), xyz_plan());
+  }
+  if (scene.output.trajectory == TrajectoryFormat::h5md) {
+    h5md_ = std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene, shows_rounds() ? &rounds_ : nullptr);
+  }
+  if (scene.output.series) series_ = std::make_unique<SeriesWriter>(folder.path("series.csv"), scene);
+  if (scene.analysis.any()) analysis_ = std::make_unique<RunningAnalysis>(scene, folder, count);
+}
+
+RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count, const OutputMark& from)
+    : scene_(scene),
+      folder_(folder),
+      frames_(from.frames),
+      last_time_(from.last_time),
+      rounds_(from.rounds),
+      doubt_told_(from.rounds.doubtful > 0),
+      meter_(scene, false, from.meter),
+      plot_velocity_(has_plot(scene.output, "velocity")),
+      plot_energy_(has_plot(scene.output, "energy") && !velocities_are_drawn(scene)),
+      velocities_(from.velocities),
+      energies_(from.energies) {
+  if (from.trajectory) {
+    const std::string path = folder.path(from.trajectory->name);
+    if (scene.output.trajectory == TrajectoryFormat::h5md) {
+      const DisplacementTally* const rounds = shows_rounds() ? &rounds_ : nullptr;
+      h5md_ = std::make_unique<H5mdWriter>(path, scene, from.trajectory->frames, rounds);
+    } else {
+      trajectory_ = std::make_unique<XyzWriter>(path, xyz_plan(), *from.trajectory);
+    }
+  }
+  if (from.series) series_ = std::make_unique<SeriesWriter>(folder.path(from.series->file.name), scene, *from.series);
+  if (scene.analysis.any()) {
+    analysis_ = std::make_unique<RunningAnalysis>(scene, folder, count,
+                                                  from.analysis ? *from.analysis : empty_record(scene.analysis));
+  }
+  if (!from.movie) {
+    if (scene.output.movie && from.frames > 0) lost_movie_ = "the movie broke off before the checkpoint";
+    return;
+  }
+  FrameStyle style = frame_style(scene, scene.output.look, {});
+  style.low = from.movie->low;
+  style.high = from.movie->high;
+  style.time_decimals = from.movie->time_decimals;
+  movie_ = std::make_unique<MovieWriter>(folder_.unfinished(), style, *from.movie);
+}
+
+bool RunOutputs::shows_rounds() const {
+  return scene_.output.trajectory != TrajectoryFormat::none && (scene_.box.periodic_x() || scene_.box.periodic_y());
+}
+
+// Groups are told apart where there are several, sources among them.
+XyzPlan RunOutputs::xyz_plan() const {
+  XyzPlan plan{scene_.box, scene_.output.select};
+  if (scene_.groups.size() + (scene_.sources.empty() ? 0 : 1) > 1) plan.group_ends = ends_of_groups(scene_);
+  if (shows_rounds()) plan.rounds = &rounds_;
+  return plan;
+}
+
+OutputMark RunOutputs::mark_without_movie() {
+  OutputMark mark{frames_, last_time_, {}, {}, meter_.mark(), {}, velocities_, energies_, {}, rounds_};
+  if (trajectory_) mark.trajectory = trajectory_->mark();
+  if (h5md_) mark.trajectory = h5md_->mark();
+  if (series_) mark.series = series_->mark();
+  if (analysis_) mark.analysis = analysis_->record();
+  return mark;
+}
+
+OutputMark RunOutputs::mark() {
+  OutputMark mark = mark_without_movie();
+  if (!movie_) return mark;
+  try {
+    mark.movie = movie_->mark();
+  } catch (const RunError& error) {
+    lose_movie(error.what());
+    warnings_.push_back(fmt::format("{}; the run goes on without a movie", lost_movie_));
+  }
+  return mark;
+}
+
+bool RunOutputs::follows() const {
+  const bool displacement = scene_.analysis.wants(Quantity::displacement);
+  return shows_rounds() || (displacement && (scene_.box.periodic_x() || scene_.box.periodic_y()));
+}
+
+void RunOutputs::follow(const Engine& engine, double t) {
+  if (analysis_) analysis_->follow(engine, t);
+  if (!shows_rounds()) return;
+  const State& now = engine.state();
+  if (follow_disks(rounds_, engine, scene_, t) && t == now.time) look_at(rounds_, now.disks, scene_.box, t);
+}
+
+void RunOutputs::frame(const Disks& disks, double time, const State& now) {
+  ++frames_;
+  last_time_ = time;
+  if (shows_rounds()) follow_rounds(rounds_, disks, scene_.box, time, run_);
+  if (trajectory_) trajectory_->write(disks, time, run_);
+  SeriesRow row{};
+  if (series_) {
+    const bool displacement = scene_.analysis.wants(Quantity::displacement);
+    row = series_->write(disks, time, now, displacement ? analysis_->displacement(disks, time) : 0.0, run_);
+  }
+  if (!series_ && h5md_) row = meter_.row(disks, now, run_);
+  if (h5md_) h5md_->write(disks, time, now.counters.steps, row, run_);
+  if (plot_velocity_) record(velocities_, disks, time);
+  if (plot_energy_) {
+    const Energy energy = energy_of(disks, scene_.physics.gravity);
+    energies_.t.push_back(time);
+    energies_.kinetic.push_back(energy.kinetic);
+    energies_.potential.push_back(energy.potential);
+    energies_.total.push_back(energy.total());
+  }
+  if (scene_.output.movie && lost_movie_.empty()) add_to_movie(disks, time);
+}
+
+void RunOutputs::add_to_movie(const Disks& disks, double time) {
+  try {
+    if (!movie_) {
+      movie_ = std::make_unique<MovieWriter>(folder_.unfinished(),
+                                             frame_style(scene_, scene_.output.look, foreseen_values(scene_, disks)));
+      if (movie_->single_frames()) {
+        warnings_.emplace_back("ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on");
+      }
+    }
+    movie_->add(disks, time);
+  } catch (const RunError& error) {
+    lose_movie(error.what());
+    warnings_.push_back(fmt::format("{}; the run goes on without a movie", lost_movie_));
+  }
+}
+
+void RunOutputs::lose_movie(const std::string& why) {
+  lost_movie_ = why;
+  movie_ = nullptr;
+}
+
+bool RunOutputs::draw(const std::function<bool()>& plot) {
+  try {
+    return plot();
+  } catch (const RunError& error) {
+    lost_plots_.emplace_back(error.what());
+    return true;
+  }
+}
+
+void RunOutputs::draw_plots() {
+  bool drawn = true;
+  if (plot_velocity_) {
+    drawn = draw([&] { return plot_velocity(folder_.path("velocity.svg"), scene_.title, velocities_); });
+  }
+  if (plot_energy_ && drawn) {
+    drawn = draw([&] { return plot_energy(folder_.path("energy.svg"), scene_.title, energies_); });
+  }
+  if (analysis_ && drawn) drawn = draw([&] { return analysis_->draw(); });
+  if (!drawn) warnings_.emplace_back("gnuplot is not installed: no plots are drawn");
+}
+
+OutputMark RunOutputs::finish(bool whole) {
+  std::optional<MovieMark> movie;
+  if (movie_) {
+    try {
+      movie = movie_->finish();
+    } catch (const RunError& error) {
+      lose_movie(error.what());
+    }
+  }
+  if (whole) draw_plots();
+  OutputMark mark;
+  if (scene_.output.checkpoint > 0.0 || !lost_plots_.empty()) mark = mark_without_movie();
+  mark.movie = movie;
+  pause();
+  return mark;
+}
+
+void RunOutputs::pause() {
+  if (trajectory_) trajectory_->close();
+  if (h5md_) h5md_->close();
+  if (series_) series_->close();
+  if (analysis_) analysis_->write();
+}
+
+std::vector<std::string> RunOutputs::take_warnings() {
+  std::vector<std::string> warnings = std::exchange(warnings_, {});
+  const std::string doubt = analysis_ ? analysis_->take_warning() : "";
+  if (!doubt.empty()) warnings.push_back(doubt);
+  if (rounds_.doubtful > 0 && !std::exchange(doubt_told_, true)) {
+    warnings.push_back(
+        fmt::format("trajectory: at t = {:g} disks came too far within a step to tell how often they went round the "
+                    "periodic box; its counts of rounds may be wrong from there on; use a smaller dt",
+                    rounds_.looked_at));
+  }
+  return warnings;
+}
+
+}  // namespace carom

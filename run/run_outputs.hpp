@@ -1,0 +1,100 @@
+// All files that a scene asks for, fed frame by frame.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/block_runner.hpp"
+#include "core/step/engine.hpp"
+#include "io/files/output_folder.hpp"
+#include "io/movie/movie.hpp"
+#include "io/plots/plot.hpp"
+#include "io/tables/series.hpp"
+#include "io/trajectory/trajectory_h5md.hpp"
+#include "io/trajectory/trajectory_xyz.hpp"
+#include "run/running_analysis.hpp"
+
+namespace carom {
+
+// Whether a scene asks for any file that is made of frames; for any file at all.
+bool wants_frames(const OutputPlan& plan);
+bool wants_files(const Scene& scene);
+
+class RunOutputs {
+ public:
+  // Opens the files in the folder. count: who counts pairs for scene.analysis. Throws RunError where a file cannot be
+  // written, here and below.
+  RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count);
+
+  // Goes on behind a mark: cuts back what came after it. Precondition: files_of(from) are in folder.unfinished().
+  RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count, const OutputMark& from);
+
+  // Who shares the work of a frame; without, it is done in one thread. The files are the same.
+  void share_work(BlockRunner run) { run_ = std::move(run); }
+
+  // To be called after each step, and before a frame or a sample at time t: how often disks go round periodic sides.
+  void follow(const Engine& engine, double t);
+  bool follows() const;  // whether that changes anything
+
+  void frame(const Disks& disks, double time, const State& now);
+
+  RunOutputs(const RunOutputs&) = delete;  // the trajectory refers to the counts of rounds
+  RunOutputs& operator=(const RunOutputs&) = delete;
+
+  // What scene.analysis measures; null where it asks for nothing.
+  RunningAnalysis* analysis() const { return analysis_.get(); }
+
+  // Brings all that was written onto the disk and says where it stands. Between two frames, whenever wanted.
+  OutputMark mark();
+
+  // Completes all files. After a run that stopped early (whole = false) no plots are drawn. Returns the mark from which
+  // a longer run could go on, if the scene asks for checkpoints or a plot was lost.
+  OutputMark finish(bool whole);
+
+  // Pictures that gnuplot or ffmpeg failed to make cost the run nothing else: what failed, one entry each.
+  const std::vector<std::string>& lost_plots() const { return lost_plots_; }
+  const std::string& lost_movie() const { return lost_movie_; }  // empty if it was not
+
+  // Ends writing where a later run will go on from the last mark.
+  void pause();
+
+  Count frames() const { return frames_; }
+  double last_time() const { return last_time_; }  // simulated, of the last frame
+
+  // What could not be made as asked, one line each; asked for once, it is gone.
+  std::vector<std::string> take_warnings();
+
+ private:
+  OutputMark mark_without_movie();
+  bool shows_rounds() const;
+  XyzPlan xyz_plan() const;
+  void draw_plots();
+  bool draw(const std::function<bool()>& plot);  // false: there is no gnuplot
+  void add_to_movie(const Disks& disks, double time);
+  void lose_movie(const std::string& why);
+
+  const Scene& scene_;
+  const OutputFolder& folder_;
+  Count frames_ = 0;
+  double last_time_ = 0.0;
+  DisplacementTally rounds_;  // of the disks in a trajectory; begins with its first frame
+  bool doubt_told_ = false;
+  std::unique_ptr<XyzWriter> trajectory_;
+  std::unique_ptr<H5mdWriter> h5md_;
+  SeriesMeter meter_;  // for trajectory.h5 where there is no series.csv
+  std::unique_ptr<SeriesWriter> series_;
+  std::unique_ptr<RunningAnalysis> analysis_;
+  std::unique_ptr<MovieWriter> movie_;  // from the first frame on, which sets its colour scale
+  bool plot_velocity_ = false, plot_energy_ = false;
+  VelocityRecord velocities_;
+  EnergyRecord energies_;
+  std::vector<std::string> warnings_;
+  std::vector<std::string> lost_plots_;
+  std::string lost_movie_;
+  BlockRunner run_ = run_in_order;
+};
+
+}  // namespace carom

@@ -1,0 +1,74 @@
+#include "run/running_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <utility>
+
+#include "core/base/check.hpp"
+#include "core/measure/follow_disks.hpp"
+#include "io/plots/analysis_plots.hpp"
+#include "io/tables/analysis_file.hpp"
+
+namespace carom {
+
+namespace {
+
+// So often that who watches a long run sees it grow, so rarely that it costs nothing.
+constexpr std::chrono::seconds write_interval{5};
+
+}  // namespace
+
+RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder, PairCounter count)
+    : scene_(scene), folder_(folder), count_(std::move(count)), record_(empty_record(scene.analysis)) {}
+
+RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder, PairCounter count, AnalysisRecord from)
+    : scene_(scene),
+      folder_(folder),
+      count_(std::move(count)),
+      record_(std::move(from)),
+      warned_(record_.displacement.doubtful > 0) {
+  if (!goes_with(record_, scene.analysis)) {
+    throw InputError(
+        "the checkpoint's analysis does not go with its scene; expected the checkpoint that the run wrote");
+  }
+}
+
+void RunningAnalysis::follow(const Engine& engine, double t) {
+  if (!scene_.analysis.wants(Quantity::displacement)) return;
+  const State& now = engine.state();
+  if (follow_disks(record_.displacement, engine, scene_, t) && t == now.time) {
+    look_at(record_.displacement, now.disks, scene_.box, t);
+  }
+}
+
+void RunningAnalysis::sample(const Disks& disks, double time, const State& now) {
+  take_sample(record_, scene_, disks, time, now, count_);
+  if (Clock::now() - written_ > write_interval) write();
+}
+
+double RunningAnalysis::displacement(const Disks& disks, double time) {
+  if (!record_.displacement.begun) return std::numeric_limits<double>::quiet_NaN();
+  look_at(record_.displacement, disks, scene_.box, time);
+  return mean_square_displacement(record_.displacement, disks, scene_.box).value;
+}
+
+void RunningAnalysis::write() {
+  write_analysis(folder_.path("analysis.h5"), scene_, record_);
+  written_ = Clock::now();
+}
+
+bool RunningAnalysis::draw() const {
+  return draw_analysis(folder_.unfinished(), scene_, record_);
+}
+
+std::string RunningAnalysis::take_warning() {
+  if (warned_ || record_.displacement.doubtful == 0) return "";
+  warned_ = true;
+  return fmt::format(
+      "displacement: at t = {:g} disks came too far within a step to tell how often they went round the periodic box; "
+      "the mean square displacement may be wrong from there on; use a smaller dt",
+      record_.displacement.looked_at);
+}
+
+}  // namespace carom

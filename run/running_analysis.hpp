@@ -1,0 +1,52 @@
+// What a run measures on its way, from the first sample to the file and the plots.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "core/measure/analysis.hpp"
+#include "core/step/engine.hpp"
+#include "io/files/output_folder.hpp"
+
+namespace carom {
+
+class RunningAnalysis {
+ public:
+  // count: who counts pairs. Precondition: scene.analysis.any(). scene and folder must outlive it.
+  RunningAnalysis(const Scene& scene, const OutputFolder& folder, PairCounter count);
+
+  // Goes on from what was gathered up to a checkpoint. Throws InputError where it does not go with the scene.
+  RunningAnalysis(const Scene& scene, const OutputFolder& folder, PairCounter count, AnalysisRecord from);
+
+  // To be called after each step, and before a frame or sample at time t.
+  void follow(const Engine& engine, double t);
+
+  // Writes analysis.h5 now and then. Throws RunError where it cannot.
+  void sample(const Disks& disks, double time, const State& now);
+
+  // Mean square displacement of the disks of a frame; NaN before the first sample.
+  double displacement(const Disks& disks, double time);
+
+  const AnalysisRecord& record() const { return record_; }
+  double last_time() const { return record_.series.time.back(); }  // of the last sample, if there is one
+
+  void write();
+
+  // One plot for each quantity. Returns false, and draws nothing, where gnuplot is not installed.
+  bool draw() const;
+
+  // One line, once, or empty.
+  std::string take_warning();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const Scene& scene_;
+  const OutputFolder& folder_;
+  PairCounter count_;
+  AnalysisRecord record_;
+  Clock::time_point written_{};
+  bool warned_ = false;
+};
+
+}  // namespace carom

@@ -1,0 +1,48 @@
+#include "run/strict_engine.hpp"
+
+#include <utility>
+
+#include "core/base/check.hpp"
+
+namespace carom {
+
+namespace {
+
+class StrictEngine final : public Engine {
+ public:
+  explicit StrictEngine(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
+
+  void step() override {
+    engine_->step();
+    warnings_ = engine_->take_warnings();
+    fail_if_any(warnings_);
+  }
+  const State& state() const override { return engine_->state(); }
+  double disks_at(double t, Disks& out) const override { return engine_->disks_at(t, out); }
+  void forget_paths() override { engine_->forget_paths(); }
+  void release_memory() override { engine_->release_memory(); }
+  void set_watch(const std::function<bool()>& go_on) override { engine_->set_watch(go_on); }
+  const PhaseTimes& phase_times() const override { return engine_->phase_times(); }
+  std::vector<std::string> take_warnings() override {
+    std::vector<std::string> warnings = std::exchange(warnings_, {});
+    const std::vector<std::string> more = engine_->take_warnings();
+    warnings.insert(warnings.end(), more.begin(), more.end());
+    return warnings;
+  }
+
+ private:
+  std::unique_ptr<Engine> engine_;
+  std::vector<std::string> warnings_;  // of the step that ended the run
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_strict(std::unique_ptr<Engine> engine) {
+  return std::make_unique<StrictEngine>(std::move(engine));
+}
+
+void fail_if_any(const std::vector<std::string>& warnings) {
+  if (!warnings.empty()) throw PhysicsError(warnings.front() + " (--strict)");
+}
+
+}  // namespace carom

@@ -1,0 +1,203 @@
+#include "run/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "app/cli/progress.hpp"
+#include "core/disks/state_hash.hpp"
+#include "core/scene/drawn_velocities.hpp"
+#include "core/scene/scene_names.hpp"
+
+namespace carom {
+
+namespace {
+
+Json phase_seconds(const Summary& s) {
+  Json phases = Json::object();
+  for (const Phase& phase : s.phases.phases()) phases[std::string(phase.name)] = json_number(phase.seconds);
+  return phases;
+}
+
+// These ids, if there was an overlap.
+Json ids_of(const WorstOverlap& worst, const std::vector<DiskId>& ids) {
+  return worst.overlap.size > 0.0 ? Json(ids) : Json::array();
+}
+
+// A new key is a row here.
+const JsonKey<Summary> summary_keys[] = {
+    {"scene", "", "the scene's file", [](const Summary& s) -> Json { return s.scene; }},
+    {"method", "", "`rollback`, `pairwise` or `exact`", [](const Summary& s) -> Json { return s.method; }},
+    {"engine", "", "`parallel` or `reference`", [](const Summary& s) -> Json { return s.engine.name; }},
+    {"threads", "", "threads of the engine", [](const Summary& s) -> Json { return s.engine.threads; }},
+    {"particles", "", "disks in the box at the end", [](const Summary& s) -> Json { return s.particles; }},
+    {"steps", "", "steps done; with `exact`, windows", [](const Summary& s) -> Json { return s.counters.steps; }},
+    {"time", "time", "simulated time at the end", [](const Summary& s) -> Json { return json_number(s.time); }},
+    {"collisions", "", "of two disks", [](const Summary& s) -> Json { return s.counters.collisions; }},
+    {"wall_collisions", "", "of a disk and a wall",
+     [](const Summary& s) -> Json { return s.counters.wall_collisions; }},
+    {"wall_s", "s", "wall time of the whole run", [](const Summary& s) -> Json { return json_number(s.wall_s); }},
+    {"cpu_s", "s", "processor time of the whole run", [](const Summary& s) -> Json { return json_number(s.cpu_s); }},
+    {"step_s", "s", "wall time of the steps alone, without set-up and output",
+     [](const Summary& s) -> Json { return json_number(s.step_s); }},
+    {"energy_initial", "energy",
+     "kinetic and potential energy at the start; null for Brownian motion, whose u / dt is no velocity",
+     [](const Summary& s) -> Json { return json_number(s.energy_initial); }},
+    {"energy_final", "energy", "the same at the end; null likewise",
+     [](const Summary& s) -> Json { return json_number(s.energy_final); }},
+    {"momentum_drift", "",
+     "change of sum m v over sum m abs(v), the larger of start and end; kept to rounding where sides are periodic and "
+     "neither gravity nor sources give momentum; null likewise",
+     [](const Summary& s) -> Json { return json_number(s.momentum_drift); }},
+    {"max_overlap", "", "largest overlap of two disks in the last state, over the sum of their radii; 0 if none",
+     [](const Summary& s) -> Json { return json_number(s.max_overlap); }},
+    {"wall_overlap", "", "likewise of a disk and a wall, over its radius",
+     [](const Summary& s) -> Json { return json_number(s.wall_overlap); }},
+    {"pressure", "energy / area",
+     "mean over the run, from collisions and the kinetic energy halfway between start and end; null likewise",
+     [](const Summary& s) -> Json { return json_number(s.pressure); }},
+    {"collision_rate", "1 / time", "collisions that a disk takes part in per unit time",
+     [](const Summary& s) -> Json { return json_number(s.collision_rate); }},
+    {"removed", "", "disks that sinks have taken", [](const Summary& s) -> Json { return s.counters.removed; }},
+    {"emitted", "", "disks that came from sources", [](const Summary& s) -> Json { return s.counters.emitted; }},
+    {"state_hash", "", "64-bit hash of (id, x, y, vx, vy) of all disks at the end",
+     [](const Summary& s) -> Json { return s.state_hash; }},
+    {"version", "", "of Carom", [](const Summary&) -> Json { return CAROM_VERSION; }},
+    {"seed", "", "of the random numbers", [](const Summary& s) -> Json { return s.seed; }},
+    {"waiting", "", "disks that are due from sources and find no room",
+     [](const Summary& s) -> Json { return s.counters.waiting; }},
+    {"frames", "", "frames written", [](const Summary& s) -> Json { return s.frames; }},
+    {"resumed", "", "how often the run went on from a checkpoint", [](const Summary& s) -> Json { return s.resumed; }},
+    {"resume_with", "", "only of a run that stopped early: the command that goes on",
+     [](const Summary& s) -> Json { return s.resume_with.empty() ? absent() : Json(s.resume_with); }},
+    {"worst_overlap", "",
+     "largest overlap of two disks at the end of any step of the run, over the sum of their radii; 0 if none",
+     [](const Summary& s) -> Json { return json_number(s.worst_disks.overlap.size); }},
+    {"worst_overlap_time", "time", "when it was; 0 if none",
+     [](const Summary& s) -> Json { return json_number(s.worst_disks.time); }},
+    {"worst_overlap_ids", "", "of which two disks; empty if none",
+     [](const Summary& s) -> Json {
+       return ids_of(s.worst_disks, {s.worst_disks.overlap.id1, s.worst_disks.overlap.id2});
+     }},
+    {"worst_wall_overlap", "", "likewise of a disk and a wall, over its radius",
+     [](const Summary& s) -> Json { return json_number(s.worst_wall.overlap.size); }},
+    {"worst_wall_overlap_time", "time", "when it was; 0 if none",
+     [](const Summary& s) -> Json { return json_number(s.worst_wall.time); }},
+    {"worst_wall_overlap_ids", "", "of which disk; empty if none",
+     [](const Summary& s) -> Json { return ids_of(s.worst_wall, {s.worst_wall.overlap.id1}); }},
+    {"warnings", "", "what the physics warned of, with the worst that was seen",
+     [](const Summary& s) -> Json { return s.warnings; }},
+    {"phase_s", "s", "an object: wall time of each phase of a step, in this part of the run",
+     [](const Summary& s) -> Json { return phase_seconds(s); }},
+};
+
+double momentum_drift(const Momentum& start, const Momentum& end) {
+  const double dx = end.x - start.x;
+  const double dy = end.y - start.y;
+  const double scale = std::max(start.magnitude, end.magnitude);
+  return scale > 0.0 ? std::sqrt(dx * dx + dy * dy) / scale : 0.0;
+}
+
+// "1 disk", "2 disks".
+std::string counted(Count n, const char* what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+// What was seen on the way, or what there is now if that is deeper.
+WorstOverlap worst_of(const WorstOverlap& before, const Overlap& now, double time) {
+  return now.size > before.overlap.size ? WorstOverlap{now, time} : before;
+}
+
+// "0.003 of two disks, 0.001 with a wall" and when that was.
+std::string worst_line(const WorstOverlap& disks, const WorstOverlap& wall) {
+  const auto when = [](const WorstOverlap& worst) {
+    return worst.overlap.size > 0.0 ? fmt::format(" at time {:g}", worst.time) : "";
+  };
+  return fmt::format("at most {:.2g} of two disks{}, {:.2g} with a wall{}", disks.overlap.size, when(disks),
+                     wall.overlap.size, when(wall));
+}
+
+std::string disks_line(const Summary& s) {
+  std::string text = fmt::format("{}", s.particles);
+  if (s.counters.removed > 0) text += fmt::format(", {} left through sinks", s.counters.removed);
+  if (s.counters.emitted > 0) text += fmt::format(", {} came from sources", s.counters.emitted);
+  if (s.counters.waiting > 0) text += fmt::format(", {} wait for room", s.counters.waiting);
+  return text;
+}
+
+}  // namespace
+
+Summary summarize(const RunStart& start, const Engine& engine, const Scene& scene, const EngineChoice& choice) {
+  const State& state = engine.state();
+  const Energy energy = energy_of(state.disks, scene.physics.gravity);
+  const double elapsed = state.time - start.time;
+  Summary s;
+  s.scene = scene.file;
+  s.title = scene.title;
+  s.method = method_names[static_cast<std::size_t>(scene.run.method)];
+  s.engine = choice;
+  s.particles = state.disks.size();
+  s.time = state.time;
+  s.counters = state.counters;
+  s.drawn_velocities = velocities_are_drawn(scene);
+  s.keeps_momentum = keeps_momentum(scene);
+  const auto of_velocities = [&](double value) {
+    return s.drawn_velocities ? std::numeric_limits<double>::quiet_NaN() : value;
+  };
+  s.energy_initial = of_velocities(start.energy.total());
+  s.energy_final = of_velocities(energy.total());
+  s.momentum_drift = of_velocities(momentum_drift(start.momentum, momentum_of(state.disks)));
+  const Overlap of_disks = deepest_overlap(state.disks, scene.box);
+  const Overlap of_wall = deepest_wall_overlap(state.disks, scene.box);
+  s.max_overlap = of_disks.size;
+  s.wall_overlap = of_wall.size;
+  s.worst_disks = worst_of(state.validity.disks, of_disks, state.time);
+  s.worst_wall = worst_of(state.validity.wall, of_wall, state.time);
+  const Energy halfway{0.5 * (start.energy.kinetic + energy.kinetic), 0.0};
+  s.pressure = of_velocities(pressure(halfway, state.counters.virial, elapsed, scene.box));
+  const double mean_disks = 0.5 * (static_cast<double>(start.particles) + static_cast<double>(s.particles));
+  const double disk_time = mean_disks * elapsed;
+  if (disk_time > 0.0) s.collision_rate = 2.0 * static_cast<double>(state.counters.collisions) / disk_time;
+  s.state_hash = hash_text(state_hash(state.disks));
+  s.seed = scene.seed;
+  s.phases = engine.phase_times();
+  return s;
+}
+
+std::string json_text(const Summary& s) {
+  return json_object(summary_keys, s);
+}
+
+std::vector<KeyText> summary_key_texts() {
+  return key_texts(summary_keys);
+}
+
+std::string table_text(const Summary& s, const std::string& folder) {
+  std::string text = fmt::format("{}: {}, {} engine, {}, seed {}\n", s.title.empty() ? s.scene : s.title, s.method,
+                                 s.engine.name, counted(static_cast<Count>(s.engine.threads), "thread"), s.seed);
+  const auto line = [&text](const char* name, const std::string& value) {
+    text += fmt::format("  {:<12}{}\n", name, value);
+  };
+  const double steps = static_cast<double>(s.counters.steps);
+  const double rate = s.step_s > 0.0 ? steps / s.step_s : 0.0;
+  line("disks", disks_line(s));
+  line("time", fmt::format("{:g} in {}", s.time, counted(s.counters.steps, "step")));
+  line("collisions", fmt::format("{} of disks, {} with walls; {:.4g} per disk and unit time", s.counters.collisions,
+                                 s.counters.wall_collisions, s.collision_rate));
+  if (!s.drawn_velocities)
+    line("energy", fmt::format("{:.6g} at the start, {:.6g} at the end", s.energy_initial, s.energy_final));
+  if (s.keeps_momentum) line("momentum", fmt::format("changed by {:.2g} of sum m |v|", s.momentum_drift));
+  line("overlap", worst_line(s.worst_disks, s.worst_wall));
+  if (!s.drawn_velocities) line("pressure", fmt::format("{:.6g}", s.pressure));
+  line("state hash", s.state_hash);
+  line("speed", fmt::format("{} steps/s, {} disk-steps/s; {} in all", short_number(rate),
+                            short_number(rate * static_cast<double>(s.particles)), duration_text(s.wall_s)));
+  if (s.resumed > 0) line("resumed", s.resumed == 1 ? "once" : fmt::format("{} times", s.resumed));
+  if (!folder.empty()) line("results", folder);
+  return text;
+}
+
+}  // namespace carom

@@ -1,0 +1,52 @@
+// What a run came to: the JSON object that other programs read, and a short table for people.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/measure/run_start.hpp"
+#include "run/json_keys.hpp"
+#include "run/make_engine.hpp"
+
+namespace carom {
+
+struct Summary {
+  std::string scene;  // file
+  std::string title;
+  std::string method;
+  EngineChoice engine;
+  Count particles = 0;  // now
+  double time = 0.0;
+  Counters counters;
+  double wall_s = 0.0, cpu_s = 0.0, step_s = 0.0;
+  bool drawn_velocities = false;  // energies, momentum and pressure mean nothing, and are NaN
+  bool keeps_momentum = false;    // so that its drift is an error
+  double energy_initial = 0.0, energy_final = 0.0;
+  double momentum_drift = 0.0;                   // |change of sum m v| over sum |m v|, the larger of start and end
+  double max_overlap = 0.0, wall_overlap = 0.0;  // now
+  WorstOverlap worst_disks, worst_wall;          // of the whole run
+  double pressure = 0.0;        // over the whole run, from the kinetic energy halfway between start and end
+  double collision_rate = 0.0;  // per disk per unit time: a collision counts for both disks
+  std::string state_hash;
+  std::uint64_t seed = 1;
+  Count frames = 0;
+  std::vector<std::string> warnings;  // of the physics, in order
+  Count resumed = 0;                  // how often it went on from a checkpoint; the times are those of all parts
+  std::string resume_with;            // of a run that stopped early: the command that goes on
+  PhaseTimes phases;
+};
+
+// Everything but the times, the number of frames and the warnings, which the caller knows.
+Summary summarize(const RunStart& start, const Engine& engine, const Scene& scene, const EngineChoice& choice);
+
+// One JSON object with the keys of the table in summary.cpp, in its order (resume_with only of a run that stopped
+// early). Numbers in full precision; null for one that is not finite.
+std::string json_text(const Summary& summary);
+
+// What docs/scene.md says of each of these keys.
+std::vector<KeyText> summary_key_texts();
+
+// A few aligned lines. folder: where the results are, empty if nowhere.
+std::string table_text(const Summary& summary, const std::string& folder);
+
+}  // namespace carom

@@ -1,0 +1,50 @@
+// Only files that end are read: no device, no FIFO, and none that waits for somebody to write.
+#include "core/base/input_file.hpp"
+
+#include <sys/stat.h>
+
+#include "tests/support/command_support.hpp"
+
+namespace carom {
+namespace {
+
+using testing::HasSubstr;
+
+class InputFile : public test::CommandTest {
+ protected:
+  InputFile() { EXPECT_EQ(mkfifo(at("fifo").c_str(), 0600), 0); }
+};
+
+TEST_F(InputFile, SceneMustEnd) {
+  expect_error("$C run /dev/zero", 2, "/dev/zero: is a device, which may never end; expected a regular file");
+  expect_error("$C run fifo", 2, "fifo: is a FIFO, which may never end; expected a regular file");
+  expect_error("$C check /dev/zero", 2, "/dev/zero: is a device");
+  expect_error("$C sweep fifo --seeds 2", 2, "fifo: is a FIFO");
+  expect_error("$C run /tmp", 2, "/tmp: is a directory; expected a scene file");
+}
+
+TEST_F(InputFile, FilesOfASceneMustEnd) {
+  for (const std::string file : {"/dev/zero", "fifo"}) {
+    expect_error("$C check small.toml --set 'disks.0.positions={ file = \"" + file + "\" }'", 2,
+                 "disks.0.positions.file \"" + file + "\": is a ");
+    expect_error("$C check small.toml --set 'disks.0.positions={ frame = \"" + file + "\" }'", 2,
+                 "disks.0.positions.frame: ");
+  }
+}
+
+TEST_F(InputFile, TrajectoriesAndCheckpointsMustEnd) {
+  for (const std::string file : {"/dev/zero", "fifo"}) {
+    expect_error("$C render " + file + " -o movie.mp4", 2, file + ": is a ");
+    expect_error("$C compare " + file + " " + file, 2, file + ": is a ");
+    expect_error("$C resume " + file, 2, file + ": is a ");
+  }
+}
+
+TEST_F(InputFile, StandardInputIsRead) {
+  EXPECT_EQ(shell("cat small.toml | $C check /dev/stdin").status, 0);
+  EXPECT_EQ(shell("{ sleep 0.1; cat small.toml; } | $C check /dev/fd/0").status, 0) << "waits for a slow writer";
+  EXPECT_EQ(shell("$C check /dev/stdin <small.toml").status, 0);
+}
+
+}  // namespace
+}  // namespace carom

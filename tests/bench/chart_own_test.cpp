@@ -1,0 +1,119 @@
+// carom chart --scene: the speed-accuracy chart of a scene of the user's own, and what it refuses.
+#include "tests/support/command_support.hpp"
+
+namespace carom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using test::Outcome;
+using test::text_of;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* gas = R"(title = "it's mine"
+seed = 11
+[box]
+packing_fraction = 0.4
+left = "periodic"
+right = "periodic"
+[[disks]]
+count = 64
+positions = "random"
+velocities = { maxwell = 1.0 }
+radius = 0.5
+mass = 1.0
+[run]
+method = "pairwise"
+dt = 0.003
+t_end = 3.0
+)";
+
+class ChartOwn : public test::CommandTest {
+ protected:
+  ChartOwn() { write("my.gas.toml", gas); }
+  void expect_refusal(const std::string& changes, const std::string& what) const {
+    expect_error("$C chart --tiny --scene my.gas.toml " + changes, 2, what);
+  }
+};
+
+TEST_F(ChartOwn, HasAllMethodsTheOwnStepAndATable) {
+  const Outcome o = carom("chart --tiny --scene my.gas.toml");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.err, IsEmpty());
+  EXPECT_THAT(files_in("out/chart_my.gas"), ElementsAre("chart.csv", "chart.json", "chart.png", "chart.svg"));
+  const Json j = Json::parse(text_of(at("out/chart_my.gas/chart.json")));
+  ASSERT_EQ(j["scenes"].size(), 1U);
+  EXPECT_EQ(j["scenes"][0]["scene"], "my.gas");
+  EXPECT_EQ(j["scenes"][0]["title"], "it's mine");
+  EXPECT_THAT(j["scenes"][0]["text"].get<std::string>(), HasSubstr("seed = 11"));
+  const std::string csv = text_of(at("out/chart_my.gas/chart.csv"));
+  for (const char* const row : {"\nmy.gas,rollback,0.003,", "\nmy.gas,pairwise,0.003,", "\nmy.gas,exact,0,"}) {
+    EXPECT_THAT(csv, HasSubstr(row));
+  }
+  EXPECT_THAT(o.out, HasSubstr("the scene's dt"));
+  EXPECT_THAT(o.out, HasSubstr("for a path error of 0.01: "));
+  EXPECT_THAT(o.out, HasSubstr("out/chart_my.gas/chart.svg after "));
+  expect_error("$C chart --tiny --scene my.gas.toml", 2, "chart.svg: exists already");
+}
+
+// Two disks on a line, no random numbers: one run tells all, without a standard error.
+TEST_F(ChartOwn, AStartWithoutChanceIsRunOnce) {
+  write("two.toml", R"([box]
+width = 10.0
+height = 10.0
+[[disks]]
+count = 2
+positions = [[2.0, 5.0], [6.0, 5.3]]
+velocities = [[1.0, 0.0], [0.0, 0.0]]
+radius = 0.5
+mass = 1.0
+[run]
+method = "exact"
+t_end = 20.0
+)");
+  const Outcome o = carom("chart --tiny --scene two.toml -o two");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const std::string csv = text_of(at("two/chart.csv"));
+  EXPECT_THAT(csv, HasSubstr("\ntwo,exact,0,1,"));
+  EXPECT_THAT(csv, ::testing::Not(HasSubstr("two,pairwise,0.2,2,")));
+}
+
+TEST_F(ChartOwn, BrownianMotionHasItsOwnFigure) {
+  const Outcome o = carom("chart --tiny --scene my.gas.toml --set physics.diffusion=0.5 -o brownian");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.out, HasSubstr("collision rate and spread to t = "));
+}
+
+TEST_F(ChartOwn, WhatCannotBeChartedIsRefusedWithTheRemedy) {
+  expect_refusal("--set box.bottom='\"sink\"'",
+                 "my.gas.toml: cannot be charted: sinks take disks away; expected the same");
+  expect_refusal("--set disks.0.count=1 --set box.packing_fraction=0.1 --set 'disks.0.velocities={ uniform = 1.0 }'",
+                 "cannot be charted: nothing collides; expected two disks or more");
+  expect_refusal("--t-end 0.0001", "no two disks collide by t = 0.0001; expected a longer run (--t-end)");
+  expect_refusal("--t-end 0", "t_end is 0");
+  expect_refusal("--set physics.diffusion=1.0 --set physics.accumulate=true", "the step is part of the physics");
+  expect_refusal("--set disks.0.count=30000 --set box.packing_fraction=0.3", "30000 disks are too many to compare");
+  write("fall.toml", R"([box]
+width = 10.0
+height = 10.0
+wall_restitution = 0.5
+[physics]
+gravity = 1.0
+[[disks]]
+count = 2
+positions = [[3.0, 4.0], [7.0, 4.0]]
+radius = 0.5
+mass = 1.0
+[run]
+method = "exact"
+t_end = 100.0
+)");
+  expect_error("$C chart --tiny --scene fall.toml", 2, "fall.toml: cannot be charted: exact, which all others are");
+  expect_error("$C chart --scene missing.toml", 2, "missing.toml: ");
+  expect_error("$C chart --t-end 5", 2, "chart: changes to a scene, and no scene; expected --scene SCENE.toml");
+  EXPECT_THAT(files_in(""), ElementsAre("fall.toml", "my.gas.toml", "small.toml")) << "nothing is left behind";
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,68 @@
+// What the chart measures, on runs small enough to know what must come out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/chart/chart_sample.hpp"
+#include "core/disks/state_hash.hpp"
+#include "core/start/initial_state.hpp"
+#include "core/step/engine.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom::chart {
+namespace {
+
+// A chart scene of few disks and short times.
+ChartScene small_fluid() {
+  ChartScene scene = fluid_of(64);
+  scene.flight = 0.28;
+  return scene;
+}
+
+TEST(ChartSamples, ExactAgreesWithItselfAndShortStepsComeCloser) {
+  const std::vector<Setting> settings{{Method::exact, 0.0, 1},
+                                      {Method::pairwise, 0.032, 1},
+                                      {Method::pairwise, 0.0005, 1},
+                                      {Method::rollback, 0.032, 1}};
+  const std::vector<Sample> samples = measure_seed(small_fluid(), 1, settings);
+  ASSERT_EQ(samples.size(), 4U);
+  EXPECT_LT(samples[0][Measure::path], 1e-10);
+  EXPECT_GT(samples[0][Measure::path], 0.0) << "one rounding away";
+  EXPECT_EQ(samples[0][Measure::missed], 0.0);
+  EXPECT_EQ(samples[0][Measure::spurious], 0.0);
+  EXPECT_EQ(samples[0][Measure::overlap], 0.0);
+  EXPECT_LT(samples[2][Measure::path], 0.1 * samples[1][Measure::path]);
+  EXPECT_GT(samples[3][Measure::path], samples[1][Measure::path]);
+  EXPECT_GT(samples[3][Measure::spurious], 0.0) << "rollback collides at a distance";
+  for (const Sample& s : samples) {
+    EXPECT_GT(s[Measure::cost], 0.0);
+    EXPECT_LT(s[Measure::energy], 1e-12);
+    EXPECT_LT(s[Measure::momentum], 1e-12);
+  }
+}
+
+TEST(ChartSamples, ASeedUsesTheSettingsThatWantIt) {
+  ChartScene scene = small_fluid();
+  scene.flight = scene.length = 0.02;
+  EXPECT_EQ(measure_seed(scene, 3, {{Method::exact, 0.0, 3}, {Method::pairwise, 0.01, 2}}).size(), 1U);
+}
+
+// The log of each reference has as many entries as its counter counts, and watching changes no bit.
+TEST(CollisionLog, HoldsWhatIsCounted) {
+  for (const Method method : {Method::rollback, Method::pairwise, Method::exact}) {
+    const Scene scene = scene_of(small_fluid(), 1, method, 0.01, 0.3);
+    CollisionLog log;
+    const auto logged = make_reference_engine(scene, initial_state(scene), &log);
+    const auto plain = make_reference_engine(scene, initial_state(scene));
+    while (logged->state().time < 0.3) logged->step();
+    while (plain->state().time < 0.3) plain->step();
+    EXPECT_GT(log.size(), 20U);
+    EXPECT_EQ(log.size(), logged->state().counters.collisions);
+    EXPECT_TRUE(std::all_of(log.begin(), log.end(), [](const auto& pair) { return pair.first < pair.second; }));
+    EXPECT_EQ(state_hash(logged->state().disks), state_hash(plain->state().disks));
+  }
+}
+
+}  // namespace
+}  // namespace carom::chart

@@ -1,0 +1,179 @@
+// The engine's search through sorted cells against all pairs, on scenes that are hard for a grid.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/random.hpp"
+#include "parallel/stepping/find_contacts.hpp"
+
+namespace carom {
+namespace {
+
+struct Searched {
+  std::vector<Pair> pairs;  // as ids
+  std::size_t strays = 0;
+};
+
+std::vector<Pair> as_ids(const std::vector<Pair>& pairs, const Disks& d) {
+  std::vector<Pair> ids;
+  for (const Pair& p : pairs) {
+    const Pair q = in_id_order(d.id.data(), p);
+    ids.push_back({d.id[q.i1], d.id[q.i2]});
+  }
+  std::sort(ids.begin(), ids.end(),
+            [](const Pair& a, const Pair& b) { return a.i1 != b.i1 ? a.i1 < b.i1 : a.i2 < b.i2; });
+  return ids;
+}
+
+CellGrid grid_for(const Disks& d, const Domain& box) {
+  const double largest = largest_radius(d);
+  std::vector<std::size_t> count(class_of_radius(smallest_radius(d), largest) + 1, 0);
+  for (std::size_t i = 0; i < d.size(); ++i) ++count[class_of_radius(d.radius_of(i), largest)];
+  return make_grid(box, largest, count);
+}
+
+// Sorts, lets every disk move by `moved` of its own radius in some direction, searches.
+Searched search(Disks d, const Domain& box, double moved, int threads, std::size_t divisor,
+                Disks* at_search = nullptr) {
+  const Executor executor(threads, divisor);
+  const CellGrid grid = grid_for(d, box);
+  SortedCells cells;
+  sort_into_cells(d, grid, executor, cells);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const TwoUniforms u = uniforms(99, Stream::velocity, d.id[i], 0);
+    const double step = moved * d.radius_of(i);
+    d.x[i] += step * (2.0 * u.a - 1.0);
+    d.y[i] += step * (2.0 * u.b - 1.0);
+    if (box.periodic_x()) d.x[i] = wrap(d.x[i], box.width);
+    if (box.periodic_y()) d.y[i] = wrap(d.y[i], box.height);
+  }
+  FoundPairs found;
+  Searched result;
+  result.strays = find_contacts(d, box, grid, cells, executor, found);
+  std::vector<Pair> pairs;
+  for (std::size_t b = 0; b < found.used; ++b) {
+    pairs.insert(pairs.end(), found.buffers[b].pairs.begin(), found.buffers[b].pairs.end());
+  }
+  result.pairs = as_ids(pairs, d);
+  if (at_search != nullptr) *at_search = d;
+  return result;
+}
+
+Domain box_of(double width, double height, bool periodic_x, bool periodic_y) {
+  Domain box;
+  box.width = width;
+  box.height = height;
+  if (periodic_x) box.sides[0] = box.sides[1] = SideKind::periodic;
+  if (periodic_y) box.sides[2] = box.sides[3] = SideKind::periodic;
+  return box;
+}
+
+// n disks anywhere in the box and a little beyond, overlapping freely; radii from small to large, log-uniform.
+Disks scattered(const Domain& box, std::size_t n, double small, double large, std::uint64_t seed) {
+  Disks d;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto id = static_cast<DiskId>(i);
+    const TwoUniforms place = uniforms(seed, Stream::position, id, 0);
+    const TwoUniforms size = uniforms(seed, Stream::radius, id, 0);
+    const double r = small * std::pow(large / small, size.a);
+    const double beyond_x = box.periodic_x() ? 0.0 : 0.02 * box.width;
+    const double beyond_y = box.periodic_y() ? 0.0 : 0.02 * box.height;
+    append(d, {(box.width + 2 * beyond_x) * place.a - beyond_x, (box.height + 2 * beyond_y) * place.b - beyond_y, 0, 0,
+               r, 1.0, id});
+  }
+  return d;
+}
+
+void expect_all_pairs(const Disks& d, const Domain& box, double moved) {
+  Disks now;
+  const Searched one = search(d, box, moved, 1, 1, &now);
+  EXPECT_EQ(one.pairs, as_ids(find_touching_pairs_by_force(now, box), now));
+  EXPECT_EQ(one.pairs, search(d, box, moved, 3, 4096).pairs);
+}
+
+class ContactSearch : public ::testing::TestWithParam<int> {};
+
+TEST_P(ContactSearch, FindsAllPairsOfScatteredDisks) {
+  const bool px = (GetParam() & 1) != 0;
+  const bool py = (GetParam() & 2) != 0;
+  for (const double ratio : {1.0, 1.9, 5.0, 100.0, 1000.0}) {
+    for (const auto& [width, height] : {std::pair{50.0, 40.0}, {300.0, 9.0}, {9.0, 300.0}}) {
+      SCOPED_TRACE(ratio);
+      SCOPED_TRACE(width);
+      const Domain box = box_of(width, height, px, py);
+      const double large = ratio > 10.0 ? 2.0 : 0.6;
+      expect_all_pairs(scattered(box, 700, large / ratio, large, 5), box, 0.0);
+      expect_all_pairs(scattered(box, 700, large / ratio, large, 6), box, 0.19);
+      expect_all_pairs(scattered(box, 700, large / ratio, large, 7), box, 1.5);
+    }
+  }
+}
+
+TEST_P(ContactSearch, FindsPairsOnEdgesAndCorners) {
+  const bool px = (GetParam() & 1) != 0;
+  const bool py = (GetParam() & 2) != 0;
+  const Domain box = box_of(24.0, 12.0, px, py);
+  Disks d;
+  DiskId id = 0;
+  // Touching disks whose centres lie exactly on cell edges, corners and the box's edge.
+  for (int i = 0; i < 24; ++i) {
+    for (int j = 0; j < 12; ++j) append(d, {i * 1.0, j * 1.0, 0, 0, 0.5, 1.0, id++});
+  }
+  expect_all_pairs(d, box, 0.0);
+}
+
+TEST_P(ContactSearch, FindsPairsInOneCellAndAmongEmptyOnes) {
+  const bool px = (GetParam() & 1) != 0;
+  const bool py = (GetParam() & 2) != 0;
+  const Domain one_cell = box_of(4.5, 4.5, px, py);
+  expect_all_pairs(scattered(one_cell, 12, 1.0, 1.0, 7), one_cell, 0.1);
+  const Domain empty = box_of(1e4, 1e4, px, py);
+  Disks d;
+  append(d, {0.1, 0.1, 0, 0, 1.0, 1.0, 0});
+  append(d, {9999.5, 9999.5, 0, 0, 1.0, 1.0, 1});
+  append(d, {5000.0, 0.2, 0, 0, 1.0, 1.0, 2});
+  append(d, {5001.0, 9999.8, 0, 0, 1.0, 1.0, 3});
+  expect_all_pairs(d, empty, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sides, ContactSearch, ::testing::Values(0, 1, 2, 3));
+
+// Disks that have left their cells further than the margin are strays: they must be noticed, and nothing may be missed.
+TEST(ContactSearchStrays, AreNoticedAndSearchedFor) {
+  const Domain box = box_of(50.0, 40.0, true, true);
+  const Disks d = scattered(box, 500, 0.5, 0.5, 8);
+  EXPECT_EQ(search(d, box, 0.0, 1, 1).strays, 0U);
+  EXPECT_GT(search(d, box, 1.5, 1, 1).strays, 20U);
+  for (const double moved : {0.3, 0.6, 1.5, 5.0}) expect_all_pairs(d, box, moved);
+}
+
+// The counting sort: keys ascend, every disk is still there, disks of a cell keep their order, threads do not matter.
+TEST(CountingSort, IsStableAndIndependentOfThreads) {
+  const Domain box = box_of(60.0, 45.0, false, false);
+  const Disks start = scattered(box, 5000, 0.1, 0.9, 9);
+  const CellGrid grid = grid_for(start, box);
+  Disks expected;
+  for (const auto& [threads, divisor] : {std::pair{1, 1U}, {3, 100U}, {8, 30000U}}) {
+    Disks d = start;
+    SortedCells cells;
+    sort_into_cells(d, grid, Executor(threads, divisor), cells);
+    ASSERT_TRUE(std::is_sorted(cells.key.begin(), cells.key.end()));
+    for (std::size_t i = 0; i + 1 < d.size(); ++i) {
+      if (cells.key[i] == cells.key[i + 1]) {
+        ASSERT_LT(d.id[i], d.id[i + 1]);
+      }
+    }
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      ASSERT_GE(i, cells.start[cells.key[i]]);
+      ASSERT_LT(i, cells.start[cells.key[i] + 1]);
+      ASSERT_EQ(d.x[i], start.x[d.id[i]]);
+      ASSERT_EQ(d.radius[i], start.radius[d.id[i]]);
+    }
+    if (expected.empty()) expected = d;
+    EXPECT_EQ(d.id, expected.id);
+  }
+}
+
+}  // namespace
+}  // namespace carom

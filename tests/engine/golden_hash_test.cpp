@@ -1,0 +1,54 @@
+// Hashes of known runs, pinned: the same for release and debug builds, for g++ and clang, for reference and engine. A
+// change of one of them is a change of physics: find out why before writing down the new one.
+#include <gtest/gtest.h>
+
+#include "core/step/engine.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/support/feature_scenes.hpp"
+
+namespace carom {
+namespace {
+
+struct Golden {
+  test::Features features;
+  const char* hash;
+};
+
+constexpr int steps = 40;
+
+std::string hash_of(Engine& engine) {
+  for (int k = 0; k < steps; ++k) engine.step();
+  return hash_text(state_hash(engine.state().disks));
+}
+
+TEST(GoldenHash, OfSmallRunsWithManyFeatures) {
+  const std::vector<Golden> runs{
+      {{"pairwise", "periodic", false, 1.0, "", "equal", false, false, 1}, "9167fb14571f3c7d"},
+      {{"pairwise", "wall", true, 0.7, "", "mixed", true, false, 2}, "369ec1197c262cc3"},
+      {{"pairwise", "sink", false, 1.0, "replace", "wide", true, true, 3}, "fdd4379ae7dfa136"},
+      {{"pairwise", "periodic_x", true, 1.0, "accumulate", "mixed", false, true, 4}, "405d0746e1116bd0"},
+      {{"rollback", "wall", false, 1.0, "", "mixed", true, false, 5}, "6ec16e8ebd369f7e"},
+      {{"rollback", "periodic_x", true, 0.7, "replace", "equal", true, false, 6}, "ce1a78ecd8400f71"},
+      {{"exact", "periodic", false, 1.0, "", "equal", false, false, 7}, "b6af6f20751a8afc"},
+      {{"exact", "wall", true, 1.0, "", "mixed", true, false, 8}, "d043238810878284"},
+      {{"exact", "sink", false, 1.0, "replace", "wide", true, true, 9}, "22409e6a892e1cbe"},
+      {{"exact", "periodic_x", true, 1.0, "accumulate", "equal", false, true, 10}, "81c175d33f529638"},
+  };
+  for (const Golden& run : runs) {
+    SCOPED_TRACE(run.features.name());
+    const Scene scene = test::feature_scene(run.features, steps);
+    const State start = initial_state(scene);
+    EXPECT_EQ(hash_of(*make_reference_engine(scene, start)), run.hash);
+    EXPECT_EQ(hash_of(*make_parallel_engine(scene, start, {2, 512})), run.hash);
+  }
+}
+
+TEST(GoldenHash, OfTheOriginalsFirstScene) {
+  const Scene scene = load_scene(CAROM_SOURCE_DIR "/scenes/two_disks.toml");
+  const auto engine = make_reference_engine(scene, initial_state(scene));
+  while (engine->state().time < scene.run.t_end) engine->step();
+  EXPECT_EQ(hash_text(state_hash(engine->state().disks)), "45cd2a0d74f18e22");
+}
+
+}  // namespace
+}  // namespace carom

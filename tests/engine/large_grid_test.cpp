@@ -1,0 +1,65 @@
+// Grids for 10^9 disks: their keys, which have 32 bits, count every cell. No disk is made, so no memory is needed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "parallel/cells/cell_grid.hpp"
+#include "parallel/cells/tiled_grid.hpp"
+
+namespace carom {
+namespace {
+
+constexpr std::size_t disks = 1'000'000'000;
+
+void expect_in_corner(const CellGrid& grid, const Domain& box) {
+  const GridLevel& last = grid.levels.back();
+  EXPECT_LT(key_of(last, box.width, box.height), grid.keys);
+  EXPECT_GT(key_of(last, box.width, box.height), grid.keys / 4) << "the far corner is no small number";
+}
+
+// The keys counted in 64 bits.
+void expect_counted(const Domain& box, double radius, const std::vector<std::size_t>& count) {
+  CellGrid grid;
+  make_grid(box, radius, count, grid);
+  std::uint64_t keys = 0;
+  for (const GridLevel& level : grid.levels) {
+    EXPECT_EQ(level.first_key, keys);
+    keys += (std::uint64_t{level.rows} + 1) * level.stride + 2;
+  }
+  EXPECT_EQ(grid.keys, keys) << box.width << " x " << box.height;
+  expect_in_corner(grid, box);
+}
+
+void expect_counted_in_tiles(const Domain& box, double radius, const std::vector<std::size_t>& count) {
+  CellGrid grid;
+  make_tiled_grid(box, radius, count, 8192, grid);
+  std::uint64_t cells = 0;
+  for (const GridLevel& level : grid.levels) {
+    cells += std::uint64_t{level.rows} * level.columns;
+    EXPECT_EQ(level.columns % level.stride, 0U);
+  }
+  EXPECT_EQ(grid.keys, cells) << box.width << " x " << box.height;
+  EXPECT_EQ(std::uint64_t{grid.tiles} * grid.tile_keys, cells);
+  EXPECT_LE(grid.tiles, 0xffffU) << "a tile's number has 16 bits";
+  expect_in_corner(grid, box);
+}
+
+TEST(LargeGrid, KeysCountTheCellsOfABillionDisks) {
+  // Dense and loose, square, long and high; one radius, and two classes of half the disks each.
+  for (const double side : {4e4, 1e6}) {
+    for (const double aspect : {1.0, 1e-4, 1e4}) {
+      Domain box;
+      box.width = side * std::sqrt(aspect);
+      box.height = side / std::sqrt(aspect);
+      for (const std::vector<std::size_t>& count : {std::vector{disks}, std::vector{disks / 2, disks / 2}}) {
+        expect_counted(box, 0.5, count);
+        expect_counted_in_tiles(box, 0.5, count);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom

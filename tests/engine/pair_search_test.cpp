@@ -1,0 +1,149 @@
+// The grid search against all pairs, over boxes and radii that the original's grid could not do.
+#include "core/reference/pair_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+Domain box_of(double width, double height, bool periodic_x = false, bool periodic_y = false) {
+  Domain box;
+  box.width = width;
+  box.height = height;
+  test::set_sides(box, periodic_x ? SideKind::periodic : SideKind::wall,
+                  periodic_y ? SideKind::periodic : SideKind::wall);
+  return box;
+}
+
+// The same pairs in the same order, each once, smaller id first. Returns how many.
+std::size_t expect_same(const Disks& disks, const Domain& box) {
+  const std::vector<Pair> grid = find_touching_pairs(disks, box);
+  EXPECT_EQ(grid, find_touching_pairs_by_force(disks, box));
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    EXPECT_LT(disks.id[grid[k].i1], disks.id[grid[k].i2]);
+    EXPECT_TRUE(k == 0 || !(grid[k] == grid[k - 1]));  // F14
+  }
+  return grid.size();
+}
+
+// Disks anywhere, overlapping as they like; centres up to `outside` beyond walls.
+Disks anywhere(test::Draws& draws, const Domain& box, std::size_t n, double radius_low, double radius_high,
+               double outside = 0.0) {
+  const double ox = box.periodic_x() ? 0.0 : outside;
+  const double oy = box.periodic_y() ? 0.0 : outside;
+  std::vector<Disk> list(n);
+  for (Disk& d : list) {
+    d.radius = draws.decades(radius_low, radius_high);
+    d.mass = 1.0;
+    d.x = draws.in(-ox, box.width + ox);
+    d.y = draws.in(-oy, box.height + oy);
+  }
+  return test::disks_of(list);
+}
+
+TEST(PairSearch, AgreesWithAllPairsInBoxesOfAnyKind) {
+  test::Draws draws(1);
+  for (int sides = 0; sides < 4; ++sides) {
+    for (int k = 0; k < 12; ++k) {
+      const Domain box = box_of(draws.decades(2.0, 200.0), draws.decades(2.0, 200.0), sides % 2 == 1, sides / 2 == 1);
+      expect_same(anywhere(draws, box, 150, 0.5, 0.5000001), box);
+      expect_same(anywhere(draws, box, 150, 0.1, 2.0, 0.7), box);
+    }
+  }
+}
+
+// F6, F17: one disk wider than many cells of the others, radii 1 : 1000.
+TEST(PairSearch, RadiiOfAllSizes) {
+  test::Draws draws(2);
+  for (int k = 0; k < 8; ++k) {
+    const Domain box = box_of(100.0, 80.0, k % 2 == 1, k / 2 % 2 == 1);
+    EXPECT_GT(expect_same(anywhere(draws, box, 300, 0.02, 20.0), box), 0U);
+  }
+}
+
+// F13: centres and edges exactly on cell lines, corners of the box included.
+TEST(PairSearch, DisksOnCellEdgesAndCorners) {
+  for (int sides = 0; sides < 4; ++sides) {
+    const Domain box = box_of(16.0, 16.0, sides % 2 == 1, sides / 2 == 1);
+    std::vector<Disk> list;
+    for (int ix = 0; ix <= 16; ++ix) {
+      for (int iy = 0; iy <= 16; ++iy) {
+        if (box.periodic_x() && ix == 16) continue;
+        if (box.periodic_y() && iy == 16) continue;
+        list.push_back({1.0 * ix, 1.0 * iy, 0.0, 0.0, 0.5, 1.0});
+      }
+    }
+    const std::size_t n_x = box.periodic_x() ? 16 : 17;
+    const std::size_t n_y = box.periodic_y() ? 16 : 17;
+    const std::size_t links_x = 16 * n_y;  // a row of n + 1 has n contacts, a closed one of n too
+    const std::size_t links_y = 16 * n_x;
+    EXPECT_EQ(expect_same(test::disks_of(list), box), links_x + links_y);
+  }
+}
+
+// F7: disks that hang over a wall, or were pushed wholly outside.
+TEST(PairSearch, CentresOutsideTheWalls) {
+  test::Draws draws(3);
+  const Domain box = box_of(20.0, 20.0);
+  for (int k = 0; k < 10; ++k) expect_same(anywhere(draws, box, 200, 0.5, 1.5, 5.0), box);
+  const Disks corner = test::disks_of({{-1.0, -1.0, 0, 0, 1.0, 1.0}, {-2.5, -1.0, 0, 0, 1.0, 1.0}});
+  EXPECT_EQ(expect_same(corner, box), 1U);
+}
+
+// F10: across each periodic side and across the corner.
+TEST(PairSearch, AcrossPeriodicSides) {
+  const std::vector<Disk> row{{0.5, 5.0, 0, 0, 1.0, 1.0}, {9.0, 5.0, 0, 0, 1.0, 1.0}};
+  EXPECT_EQ(expect_same(test::disks_of(row), box_of(10.0, 10.0, true, false)), 1U);
+  EXPECT_EQ(expect_same(test::disks_of(row), box_of(10.0, 10.0, false, true)), 0U);
+  const std::vector<Disk> column{{5.0, 0.5, 0, 0, 1.0, 1.0}, {5.0, 9.0, 0, 0, 1.0, 1.0}};
+  EXPECT_EQ(expect_same(test::disks_of(column), box_of(10.0, 10.0, false, true)), 1U);
+  const std::vector<Disk> corner{{0.5, 0.5, 0, 0, 1.0, 1.0}, {9.4, 9.4, 0, 0, 1.0, 1.0}};
+  EXPECT_EQ(expect_same(test::disks_of(corner), box_of(10.0, 10.0, true, true)), 1U);
+  EXPECT_EQ(expect_same(test::disks_of(corner), box_of(10.0, 10.0, true, false)), 0U);
+}
+
+// Boxes of one, two or three cells a side: a neighbour round the corner is then the same cell.
+TEST(PairSearch, FewCells) {
+  test::Draws draws(4);
+  for (double side : {2.01, 3.9, 4.1, 5.9, 6.1, 8.1}) {
+    for (int sides = 0; sides < 4; ++sides) {
+      const Domain box = box_of(side, 9.0 - 0.5 * side, sides % 2 == 1, sides / 2 == 1);
+      expect_same(anywhere(draws, box, 40, 0.3, 1.0, 0.2), box);
+      const Domain narrow = box_of(500.0, 2.0 + 0.01 * side, sides % 2 == 1, sides / 2 == 1);
+      expect_same(anywhere(draws, narrow, 300, 0.9, 1.0), narrow);
+    }
+  }
+}
+
+TEST(PairSearch, NobodyAndOneAlone) {
+  const Domain box = box_of(10.0, 10.0, true, true);
+  EXPECT_EQ(expect_same({}, box), 0U);
+  EXPECT_EQ(expect_same(test::disks_of({{1.0, 1.0, 0, 0, 5.0, 1.0}}), box), 0U);
+}
+
+// The order of the answer is by id, whatever the order of storage.
+TEST(PairSearch, StorageOrderDoesNotMatter) {
+  test::Draws draws(5);
+  const Domain box = box_of(30.0, 30.0, true, false);
+  const Disks disks = anywhere(draws, box, 200, 0.5, 2.0);
+  Disks mixed;
+  std::vector<std::size_t> order(disks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[draws.bits() % (i + 1)]);
+  for (std::size_t i : order) append(mixed, disk_at(disks, i));
+  const auto ids = [](const Disks& d, const std::vector<Pair>& pairs) {
+    std::vector<std::pair<DiskId, DiskId>> list;
+    for (const Pair& p : pairs) list.emplace_back(d.id[p.i1], d.id[p.i2]);
+    return list;
+  };
+  EXPECT_EQ(ids(disks, find_touching_pairs(disks, box)), ids(mixed, find_touching_pairs(mixed, box)));
+  expect_same(mixed, box);
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,101 @@
+// The engine against the reference: the same bits after every step, for random scenes over all combinations of
+// features, on 1, 2, 3, 5 and 8 threads, with the work cut into many small blocks so that even small scenes are shared
+// out.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/step/engine.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/support/feature_scenes.hpp"
+
+namespace carom {
+namespace {
+
+using test::Features;
+
+constexpr int steps = 12;
+
+struct Trace {
+  std::vector<std::uint64_t> hashes;
+  Counters counters;
+  std::vector<std::string> warnings;
+};
+
+Trace trace_of(Engine& engine, double t_end) {
+  Trace trace;
+  for (int k = 0; k < steps && engine.state().time < t_end; ++k) {
+    engine.step();
+    trace.hashes.push_back(state_hash(engine.state().disks));
+  }
+  trace.counters = engine.state().counters;
+  trace.warnings = engine.take_warnings();
+  return trace;
+}
+
+void expect_same(const Trace& a, const Trace& b) {
+  ASSERT_EQ(a.hashes, b.hashes);
+  EXPECT_EQ(a.warnings, b.warnings);
+  EXPECT_EQ(a.counters.collisions, b.counters.collisions);
+  EXPECT_EQ(a.counters.wall_collisions, b.counters.wall_collisions);
+  EXPECT_EQ(a.counters.removed, b.counters.removed);
+  EXPECT_EQ(a.counters.emitted, b.counters.emitted);
+  EXPECT_EQ(a.counters.waiting, b.counters.waiting);
+  EXPECT_EQ(a.counters.virial, b.counters.virial);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(a.counters.wall_impulse[k], b.counters.wall_impulse[k]);
+}
+
+class ParallelBits : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {};
+
+TEST_P(ParallelBits, EqualTheReferenceAfterEveryStep) {
+  Count collisions = 0;
+  Count emitted = 0;
+  Count removed = 0;
+  for (const Features& f : test::all_features(std::get<0>(GetParam()), std::get<1>(GetParam()))) {
+    SCOPED_TRACE(f.name());
+    const Scene scene = test::feature_scene(f, steps);
+    const State start = initial_state(scene);
+    const Trace expected = trace_of(*make_reference_engine(scene, start), scene.run.t_end);
+    for (const int threads : {1, 2, 3, 5, 8}) {
+      SCOPED_TRACE(threads);
+      expect_same(expected, trace_of(*make_parallel_engine(scene, start, {threads, 512}), scene.run.t_end));
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+    collisions += expected.counters.collisions;
+    emitted += expected.counters.emitted;
+    removed += expected.counters.removed;
+  }
+  // The scenes must have had something to disagree about.
+  EXPECT_GT(collisions, 5000U);
+  EXPECT_GT(emitted, 50U);
+  if (std::string(std::get<1>(GetParam())) == "sink") {
+    EXPECT_GT(removed, 100U);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllScenes, ParallelBits,
+                         ::testing::Combine(::testing::Values("pairwise", "rollback"),
+                                            ::testing::Values("wall", "periodic", "periodic_x", "sink")),
+                         [](const auto& p) { return std::string(std::get<0>(p.param)) + "_" + std::get<1>(p.param); });
+
+// Blocks of any size give the same state: nothing depends on where one block ends and the next begins.
+TEST(ParallelBlocks, OfAnySizeGiveTheSameBits) {
+  Features f;
+  f.gravity = true;
+  f.restitution = 0.7;
+  f.radii = "mixed";
+  f.own_masses = true;
+  const Scene scene = test::feature_scene(f, steps);
+  const State start = initial_state(scene);
+  const Trace expected = trace_of(*make_reference_engine(scene, start), scene.run.t_end);
+  for (const std::size_t divisor : {1U, 7U, 64U, 1000U, 100000U}) {
+    SCOPED_TRACE(divisor);
+    expect_same(expected, trace_of(*make_parallel_engine(scene, start, {3, divisor}), scene.run.t_end));
+  }
+}
+
+}  // namespace
+}  // namespace carom

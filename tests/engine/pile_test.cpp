@@ -1,0 +1,118 @@
+// Small piles: a ball at rest, a column, a pyramid; what is at rest stays so, whatever the method of its support.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/measure/invariants.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+Scene pile_scene(double e, double dt, double t_end) {
+  Scene scene = test::scene_of(Method::pairwise, 20.0, 40.0, dt, t_end);
+  scene.physics.gravity = 0.5;
+  scene.physics.restitution = e;
+  scene.box.wall_restitution = e;
+  return scene;
+}
+
+struct Seen {
+  double overlap = 0.0, below = 0.0, gained = -1.0, kinetic = 0.0;
+  State end;
+};
+
+Seen watch(const Scene& scene, const State& start) {
+  Seen seen;
+  const double g = scene.physics.gravity;
+  const double energy = energy_of(start.disks, g).total();
+  seen.end = test::run(scene, start, [&](const Engine& engine) {
+    const Disks& d = engine.state().disks;
+    seen.overlap = std::max(seen.overlap, max_overlap(d, scene.box));
+    seen.below = std::max(seen.below, wall_overlap(d, scene.box));
+    seen.gained = std::max(seen.gained, energy_of(d, g).total() / energy - 1.0);
+  });
+  seen.kinetic = energy_of(seen.end.disks, g).kinetic / energy;
+  return seen;
+}
+
+// What a settled pile must keep to: the bounds of pile_validation.cpp.
+void expect_bounds(const Seen& seen) {
+  EXPECT_LE(seen.overlap, 0.02);
+  EXPECT_LE(seen.below, 0.01);
+  EXPECT_LE(seen.gained, 1e-9);
+  EXPECT_LT(seen.kinetic, 1e-6);
+}
+
+// A ball laid on the floor: it stays, and the floor bears m g.
+TEST(Pile, BallAtRest) {
+  const Scene scene = pile_scene(0.5, 0.005, 10.0);
+  const Seen seen = watch(scene, test::state_of(scene, {{10.0, 1.0, 0.0, 0.0, 1.0, 3.0}}));
+  expect_bounds(seen);
+  EXPECT_NEAR(seen.end.disks.y[0], 1.0, 2.001 * 0.5 * 0.005 * 0.005);
+  EXPECT_EQ(seen.end.disks.x[0], 10.0);
+  ASSERT_EQ(seen.end.loads.size(), 1U);
+  EXPECT_NEAR(seen.end.loads[0].force, 3.0 * 0.5, 1e-9);
+}
+
+std::vector<Disk> column(std::size_t n, double gap) {
+  std::vector<Disk> list;
+  for (std::size_t k = 0; k < n; ++k) {
+    list.push_back(
+        {10.0, 1.0 + gap + static_cast<double>(k) * (2.0 + gap), 0.0, 0.0, 1.0, 1.0 + static_cast<double>(k % 3)});
+  }
+  return list;
+}
+
+// Ten disks one on another, heavier and lighter: each contact bears the weight above it.
+TEST(Pile, ColumnOfTenBearsItsWeight) {
+  const Scene scene = pile_scene(0.5, 0.005, 20.0);
+  const std::vector<Disk> list = column(10, 0.0);
+  const Seen seen = watch(scene, test::state_of(scene, list));
+  expect_bounds(seen);
+  EXPECT_EQ(seen.end.loads.size(), 10U);
+  double weight = 0.0;
+  for (std::size_t k = 10; k-- > 0;) {
+    weight += 0.5 * list[k].mass;
+    // The contact of disk k with what is under it: the floor for 0, else disk k - 1.
+    const auto load = std::find_if(seen.end.loads.begin(), seen.end.loads.end(), [&](const ContactLoad& l) {
+      return k == 0 ? l.id1 == 0 && l.id2 != 1 : l.id1 == k - 1 && l.id2 == k;
+    });
+    ASSERT_NE(load, seen.end.loads.end());
+    EXPECT_NEAR(load->force / weight, 1.0, 1e-2);
+    EXPECT_NEAR(seen.end.disks.y[k], list[k].y, 0.02 * 2.0 * static_cast<double>(k + 1));
+    EXPECT_EQ(seen.end.disks.x[k], 10.0);
+  }
+}
+
+// The same ones dropped with gaps come to rest as that column.
+TEST(Pile, ColumnFallsAndStands) {
+  for (const double e : {0.0, 0.5, 0.8}) {
+    const Scene scene = pile_scene(e, 0.005, 60.0);
+    const Seen seen = watch(scene, test::state_of(scene, column(10, 0.5)));
+    expect_bounds(seen);
+    for (std::size_t k = 0; k < 10; ++k) {
+      EXPECT_NEAR(seen.end.disks.y[k], 1.0 + 2.0 * static_cast<double>(k), 0.01 * static_cast<double>(k + 1)) << e;
+    }
+  }
+}
+
+// Four disks wall to wall, three in their hollows: at rest for good, the middle of the load on the floor.
+TEST(Pile, TwoRowsBetweenWalls) {
+  Scene scene = pile_scene(0.5, 0.005, 20.0);
+  scene.box.width = 8.0;
+  std::vector<Disk> list;
+  for (int k = 0; k < 4; ++k) list.push_back({1.0 + 2.0 * k, 1.0, 0.0, 0.0, 1.0, 1.0});
+  for (int k = 0; k < 3; ++k) list.push_back({2.0 + 2.0 * k, 1.0 + std::sqrt(3.0), 0.0, 0.0, 1.0, 1.0});
+  const Seen seen = watch(scene, test::state_of(scene, list));
+  expect_bounds(seen);
+  double floor = 0.0;
+  for (const ContactLoad& load : seen.end.loads) {
+    if (load.id2 == 0xfffffff0U + static_cast<DiskId>(Side::bottom)) floor += load.force;
+  }
+  EXPECT_NEAR(floor / (7.0 * 0.5), 1.0, 1e-2);
+}
+
+}  // namespace
+}  // namespace carom

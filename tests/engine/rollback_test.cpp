@@ -1,0 +1,96 @@
+// What is the nature of `rollback`, F1 and F2, shown rather than mended, and the guard that stops a run that stalls.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "core/base/check.hpp"
+#include "core/step/rollback_frame.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+// n equal elastic disks at packing fraction 0.2 in a periodic box.
+Scene gas_scene(Method method, int per_side, double dt, double t_end) {
+  const double spacing = std::sqrt(test::pi / 4.0 / 0.2);  // diameter 1
+  Scene scene = test::scene_of(method, per_side * spacing, per_side * spacing, dt, t_end);
+  test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
+  return scene;
+}
+
+State gas(const Scene& scene, int per_side) {
+  test::Draws draws(5);
+  std::vector<Disk> list;
+  const double spacing = scene.box.width / per_side;
+  for (int k = 0; k < per_side * per_side; ++k) {
+    const Vec2 p = test::cell_centre(k, per_side, spacing);
+    list.push_back({p.x, p.y, draws.in(-1.7, 1.7), draws.in(-1.7, 1.7), 0.5, 1.0});
+  }
+  return test::state_of(scene, list);
+}
+
+// F1: a frame advances by dt less the largest back-up time of all. The mean advance, in units of dt, falls with N.
+TEST(Rollback, F01_FramesAdvanceLessTheMoreDisksThereAre) {
+  double advance[3] = {};
+  const int per_side[3] = {4, 12, 36};
+  for (int k = 0; k < 3; ++k) {
+    const Scene scene = gas_scene(Method::rollback, per_side[k], 0.05, 2.0);
+    const State end = test::run(scene, gas(scene, per_side[k]));
+    advance[k] = scene.run.t_end / scene.run.dt / static_cast<double>(end.counters.steps);
+    std::printf("N = %d: a frame advances time by %.3f dt\n", per_side[k] * per_side[k], advance[k]);
+  }
+  EXPECT_LT(advance[1], 0.9 * advance[0]);
+  EXPECT_LT(advance[2], 0.9 * advance[1]);
+}
+
+// F2: pairs that have not yet met bounce at the first contact of all: the collision rate is too high, the more so the
+// longer the step. pairwise, with the same step, is not off like that.
+TEST(Rollback, F02_CollisionRateIsTooHigh) {
+  const int per_side = 16;
+  const auto collisions = [&](Method method, double dt) {
+    const Scene scene = gas_scene(method, per_side, dt, 2.0);
+    return static_cast<double>(test::run(scene, gas(scene, per_side)).counters.collisions);
+  };
+  const double right = collisions(Method::pairwise, 0.001);
+  const double pairwise = collisions(Method::pairwise, 0.1);
+  const double rollback = collisions(Method::rollback, 0.1);
+  std::printf("collisions at dt = 0.1 over those at dt = 0.001: pairwise %.3f, rollback %.3f\n", pairwise / right,
+              rollback / right);
+  EXPECT_GT(rollback, right);
+  EXPECT_GT(rollback / right - 1.0, 2.0 * std::abs(pairwise / right - 1.0));
+}
+
+TEST(StallGuard, StopsARunWhoseTimeStandsStill) {
+  Scene scene = test::scene_of(Method::rollback, 10.0, 10.0, 0.5, 10.0);
+  State state = test::state_of(scene, {{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}});
+  state.time = 2.0;
+  state.stall.since = state.time;
+  for (int k = 0; k < 9999; ++k) {
+    state.time += 0.49 / 10000;
+    check_stall(state, scene);
+  }
+  try {
+    check_stall(state, scene);
+    FAIL() << "did not stop";
+  } catch (const PhysicsError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("rollback: time stands still at t = 2.4"), std::string::npos) << text;
+    EXPECT_NE(text.find("0.97"), std::string::npos) << text;
+    EXPECT_NE(text.find("1 disks"), std::string::npos) << text;
+    EXPECT_NE(text.find("--method pairwise"), std::string::npos) << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+  }
+}
+
+TEST(StallGuard, LetsASlowRunGoOn) {
+  Scene scene = test::scene_of(Method::rollback, 10.0, 10.0, 0.5, 10.0);
+  State state = test::state_of(scene, {});
+  for (int k = 0; k < 50000; ++k) {
+    state.time += 0.51 / 10000;
+    EXPECT_NO_THROW(check_stall(state, scene));
+  }
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,110 @@
+// One rule for the sinks of all methods: what touches one is taken, whether it moves into it, along it or not at all.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/base/check.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/physics/boundary.hpp"
+#include "core/step/source.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+class SinkContact : public testing::TestWithParam<Method> {
+ protected:
+  static void expect_removed(const Scene& scene, const State& start, Count removed) {
+    for (const bool parallel : {false, true}) {
+      const auto engine = parallel ? make_parallel_engine(scene, start, {1}) : make_reference_engine(scene, start);
+      engine->step();
+      EXPECT_EQ(engine->state().counters.removed, removed) << (parallel ? "parallel" : "reference");
+      EXPECT_EQ(engine->state().disks.size(), start.disks.size() - removed);
+    }
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Methods, SinkContact, testing::Values(Method::rollback, Method::pairwise, Method::exact),
+                         [](const auto& method) { return test::name_of(method.param); });
+
+TEST_P(SinkContact, WhatTouchesAtTheStartIsTaken) {
+  for (const Side side : all_sides) {
+    Scene scene = test::scene_of(GetParam(), 20.0, 20.0, 0.01, 2.0);
+    scene.box.sides[static_cast<std::size_t>(side)] = SideKind::sink;
+    const bool across_x = side == Side::left || side == Side::right;
+    const double inward = side == Side::left || side == Side::bottom ? 1.0 : -1.0;
+    // At rest, along the side, away from it, into it.
+    for (const Vec2 v : {Vec2{0.0, 0.0}, Vec2{0.0, 1.0}, Vec2{inward, 0.5}, Vec2{-inward, 0.0}}) {
+      Disk disk{10.0, 10.0, across_x ? v.x : v.y, across_x ? v.y : v.x, 0.5, 1.0};
+      (across_x ? disk.x : disk.y) = touching_coordinate(side, disk.radius, scene.box);
+      expect_removed(scene, test::state_of(scene, {disk, {10.0, 10.0, 0.0, 0.0, 0.5, 1.0}}), 1);
+    }
+  }
+}
+
+TEST_P(SinkContact, WhatOnlyComesNearIsNot) {
+  Scene scene = test::scene_of(GetParam(), 20.0, 20.0, 0.01, 2.0);
+  scene.box.sides[static_cast<std::size_t>(Side::left)] = SideKind::sink;
+  expect_removed(scene, test::state_of(scene, {{0.5 + 1e-12, 10.0, 0.0, 1.0, 0.5, 1.0}}), 0);
+}
+
+// A disk that rises just far enough to touch, or just not.
+TEST_P(SinkContact, AlongTheTopOfAParabola) {
+  Scene scene = test::scene_of(GetParam(), 20.0, 20.0, 0.001, 2.0);
+  scene.physics.gravity = 1.0;
+  scene.box.sides[static_cast<std::size_t>(Side::top)] = SideKind::sink;
+  // Rises by v^2 / 2 g = 0.5: to 19.51, where it would overlap the side by 0.01, or to 19.49.
+  for (const bool reaches : {true, false}) {
+    const State start = test::state_of(scene, {{10.0, reaches ? 19.01 : 18.99, 0.0, 1.0, 0.5, 1.0}});
+    EXPECT_EQ(test::run(scene, start).counters.removed, reaches ? 1U : 0U);
+  }
+}
+
+// A side that is source and sink: an open boundary. Disks enter all but touching, so that they stay to move inward.
+TEST_P(SinkContact, ASourceOnASinkSideLetsDisksIn) {
+  for (const char* side : {"left", "right", "bottom", "top"}) {
+    const Scene scene = parse_scene(
+        "[box]\nwidth = 20\nheight = 20\n" + std::string(side) + " = \"sink\"\n[[sources]]\nside = \"" + side +
+            "\"\nrate = 5\nradius = 0.5\nmass = 1\nvelocities = { maxwell = 1.0 }\n[run]\nmethod = \"" +
+            test::name_of(GetParam()) + "\"\nt_end = 4\ndt = 0.01\n",
+        "test", ".");
+    State start;
+    start.sources.resize(1);
+    const State end = test::run(scene, start);
+    EXPECT_GE(end.counters.emitted, 15U);
+    EXPECT_GE(end.disks.size(), 10U) << side;
+    const Disk d = draw_emission(scene, 0, 3, 3, 3);
+    EXPECT_LT(reach_beyond(*scene.sources[0].side, d.x, d.y, d.radius, scene.box), 0.0);
+  }
+}
+
+TEST_P(SinkContact, RegionsEmitNothingThatTouches) {
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 20\nheight = 20\nleft = \"sink\"\n[[sources]]\nregion = [0.5, 2, 0.5, 18]\nrate = 5\n"
+      "radius = 0.5\nmass = 1\n[run]\nmethod = \"" +
+          test::name_of(GetParam()) + "\"\nt_end = 4\ndt = 0.01\n",
+      "test", ".");
+  State start;
+  start.sources.resize(1);
+  const State end = test::run(scene, start);
+  EXPECT_EQ(end.counters.emitted, 0U);
+  EXPECT_GE(end.counters.waiting, 19U);
+}
+
+TEST(SinkSource, BrownianDisksThatWouldVanishAtOnceAreRefused) {
+  const std::string text =
+      "[box]\nwidth = 20\nheight = 20\nleft = \"sink\"\n[physics]\ndiffusion = 1.0\n[[sources]]\nside = \"left\"\n"
+      "rate = 5\nradius = 0.5\nmass = 1\n[run]\nt_end = 4\ndt = 0.01\n";
+  try {
+    parse_scene(text, "gas.toml", ".");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "gas.toml:8: sources.0.side: left is a sink, which takes Brownian disks that start at it at once; "
+                 "expected a wall side, or a region away from the sink");
+  }
+}
+
+}  // namespace
+}  // namespace carom

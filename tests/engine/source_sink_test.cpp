@@ -1,0 +1,191 @@
+// Disks that come and go: rates, room, limits, sinks, identities.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/measure/invariants.hpp"
+#include "core/physics/boundary.hpp"
+#include "core/step/source.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+SizeLaw constant(double value) {
+  SizeLaw law;
+  law.value = value;
+  return law;
+}
+
+Source source_of(double rate, double radius) {
+  Source source;
+  source.rate = rate;
+  source.radius = constant(radius);
+  source.mass = constant(1.0);
+  return source;
+}
+
+class SourceSink : public testing::TestWithParam<Method> {
+ protected:
+  Scene scene(double dt, double t_end) const { return test::scene_of(GetParam(), 100.0, 100.0, dt, t_end); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Methods, SourceSink, testing::ValuesIn(test::stepping_methods),
+                         [](const auto& method) { return test::name_of(method.param); });
+
+// The k-th disk is due at k / rate: with room for all, after every step floor(rate t) are there, t the step's start.
+TEST_P(SourceSink, EmitsAtItsRate) {
+  Scene s = scene(0.1, 20.0);
+  Source source = source_of(7.0, 0.1);
+  source.region_low = {1.0, 1.0};
+  source.region_high = {99.0, 99.0};
+  s.sources.push_back(source);
+  double began = 0.0;
+  const State end = test::run(s, test::state_of(s, {}), [&](const Engine& engine) {
+    EXPECT_EQ(engine.state().counters.emitted + engine.state().counters.waiting,
+              static_cast<Count>(std::floor(7.0 * began)));
+    began = engine.state().time;
+  });
+  EXPECT_EQ(end.counters.emitted, end.disks.size());
+  EXPECT_GE(end.counters.emitted, 135U);
+  EXPECT_EQ(end.next_id, end.counters.emitted);
+}
+
+// More than find room: none ever overlaps, the rest waits and is counted, and the limit holds.
+TEST_P(SourceSink, NeverIntoAnOverlap) {
+  Scene s = scene(0.05, 10.0);
+  Source source = source_of(50.0, 1.0);
+  source.region_low = {10.0, 10.0};
+  source.region_high = {20.0, 20.0};
+  source.limit = 300;
+  s.sources.push_back(source);
+  const State start = test::state_of(s, {{15.0, 15.0, 0.0, 0.0, 3.0, 1.0}});
+  const State end =
+      test::run(s, start, [&](const Engine& engine) { EXPECT_EQ(max_overlap(engine.state().disks, s.box), 0.0); });
+  EXPECT_GT(end.counters.emitted, 5U);
+  EXPECT_GT(end.counters.waiting, 200U);
+  EXPECT_EQ(end.counters.emitted + end.counters.waiting, 300U);
+  EXPECT_EQ(end.sources[0].emitted, end.counters.emitted);
+  EXPECT_EQ(disk_at(end.disks, 0).radius, 3.0);
+  EXPECT_EQ(disk_at(end.disks, 1).radius, 1.0);
+}
+
+TEST_P(SourceSink, StopsAtItsLimit) {
+  Scene s = scene(0.1, 10.0);
+  for (double rate : {20.0, 30.0}) {
+    Source source = source_of(rate, 0.05);
+    source.region_low = {1.0, 1.0};
+    source.region_high = {99.0, 99.0};
+    source.limit = static_cast<Count>(rate);
+    s.sources.push_back(source);
+  }
+  const State end = test::run(s, test::state_of(s, {}));
+  EXPECT_EQ(end.sources[0].emitted, 20U);
+  EXPECT_EQ(end.sources[1].emitted, 30U);
+  EXPECT_EQ(end.counters.waiting, 0U);
+  EXPECT_EQ(end.disks.size(), 50U);
+}
+
+// A sink takes a disk in the step in which its edge touches, not its centre, and nobody else.
+TEST_P(SourceSink, SinkRemovesOnContact) {
+  for (Side side : all_sides) {
+    Scene s = scene(0.1, 3.0);
+    s.box.sides[static_cast<std::size_t>(side)] = SideKind::sink;
+    const bool across_x = side == Side::left || side == Side::right;
+    const double out = side == Side::left || side == Side::bottom ? -1.0 : 1.0;
+    // 2.05 from the side, at speed 1: touches at 2.05, within the step that ends at 2.1.
+    Disk leaving{50.0, 50.0, 0.0, 0.0, 1.0, 1.0};
+    (across_x ? leaving.x : leaving.y) = 50.0 + out * 46.95;
+    (across_x ? leaving.vx : leaving.vy) = out;
+    const State start =
+        test::state_of(s, {{30.0, 30.0, 0.0, 0.0, 1.0, 1.0}, leaving, {70.0, 70.0, 0.0, 0.0, 1.0, 1.0}});
+    const State end = test::run(s, start, [&](const Engine& engine) {
+      EXPECT_EQ(engine.state().disks.size(), engine.state().time < 2.06 ? 3U : 2U) << engine.state().time;
+    });
+    EXPECT_EQ(end.counters.removed, 1U);
+    EXPECT_EQ(end.disks.id, (std::vector<DiskId>{0, 2}));
+  }
+}
+
+// Left to right through the box: whoever is there has an id of its own, larger for the later born, none used twice.
+TEST_P(SourceSink, IdsAreNeverReused) {
+  Scene s = test::scene_of(GetParam(), 20.0, 20.0, 0.05, 20.0);
+  s.box.sides[static_cast<std::size_t>(Side::right)] = SideKind::sink;
+  Source source = source_of(5.0, 0.3);
+  source.side = Side::left;
+  source.velocities.kind = VelocityLaw::Kind::maxwell;
+  source.velocities.temperature = 16.0;
+  s.sources.push_back(source);
+  std::set<DiskId> gone;
+  std::vector<DiskId> present;
+  const State end = test::run(s, test::state_of(s, {}), [&](const Engine& engine) {
+    const std::vector<DiskId>& ids = engine.state().disks.id;
+    EXPECT_EQ(std::set<DiskId>(ids.begin(), ids.end()).size(), ids.size());
+    for (DiskId id : ids) EXPECT_EQ(gone.count(id), 0U);
+    for (DiskId id : present) {
+      if (std::find(ids.begin(), ids.end(), id) == ids.end()) gone.insert(id);
+    }
+    present = ids;
+  });
+  EXPECT_GT(end.counters.removed, 20U);
+  EXPECT_EQ(end.disks.size(), end.counters.emitted - end.counters.removed);
+}
+
+// Through each side: touching it, inside the box, moving inward.
+TEST(Emission, ThroughASideTouchesItAndMovesInward) {
+  Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 1.0);
+  for (Side side : all_sides) {
+    Source source = source_of(1.0, 0.5);
+    source.side = side;
+    source.velocities.kind = side == Side::left ? VelocityLaw::Kind::uniform : VelocityLaw::Kind::maxwell;
+    source.velocities.temperature = 2.0;
+    source.velocities.limit = 3.0;
+    s.sources = {source};
+    for (DiskId id = 0; id < 200; ++id) {
+      const Disk d = draw_emission(s, 0, id, id, id);
+      EXPECT_EQ(reach_beyond(side, d.x, d.y, d.radius, s.box), 0.0);
+      EXPECT_LT(outward_speed(side, d.vx, d.vy), 0.0);
+      for (Side other : all_sides) EXPECT_LE(reach_beyond(other, d.x, d.y, d.radius, s.box), 1e-14);
+    }
+  }
+}
+
+// A gas behind a hole: the speed along the normal is weighted by itself, density m v / T exp(-m v^2 / 2 T), mean
+// sqrt(pi T / 2 m), variance (2 - pi / 2) T / m; across it a normal deviate of variance T / m. 4 standard errors.
+TEST(Emission, MaxwellIsThatOfAGasBehindAHole) {
+  Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 1.0);
+  Source source = source_of(1.0, 0.5);
+  source.side = Side::left;
+  source.mass = constant(4.0);
+  source.velocities.kind = VelocityLaw::Kind::maxwell;
+  source.velocities.temperature = 2.0;
+  s.sources = {source};
+  constexpr int n = 20000;
+  double inward = 0.0;
+  double across = 0.0;
+  for (DiskId id = 0; id < n; ++id) {
+    const Disk d = draw_emission(s, 0, id, id, 3);
+    inward += d.vx / n;
+    across += d.vy * d.vy / n;
+  }
+  const double unit = std::sqrt(2.0 / 4.0);
+  EXPECT_NEAR(inward / unit, std::sqrt(0.5 * test::pi), 4.0 * std::sqrt((2.0 - 0.5 * test::pi) / n));
+  EXPECT_NEAR(across / (unit * unit), 1.0, 4.0 * std::sqrt(2.0 / n));
+}
+
+// Two sources draw from streams of their own.
+TEST(Emission, SourcesDiffer) {
+  Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 1.0);
+  Source source = source_of(1.0, 0.5);
+  source.region_low = {1.0, 1.0};
+  source.region_high = {29.0, 19.0};
+  s.sources = {source, source};
+  EXPECT_NE(draw_emission(s, 0, 5, 0, 0).x, draw_emission(s, 1, 5, 0, 0).x);
+  EXPECT_NE(draw_emission(s, 0, 5, 0, 0).x, draw_emission(s, 0, 5, 0, 1).x);
+  EXPECT_EQ(draw_emission(s, 0, 5, 0, 0).x, draw_emission(s, 0, 5, 0, 0).x);
+}
+
+}  // namespace
+}  // namespace carom

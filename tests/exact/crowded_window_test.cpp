@@ -1,0 +1,220 @@
+// Windows of the exact method that hold too many events: every one of them ends, both engines agree on what becomes of
+// it, and a run that can be stopped stops within one.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "core/base/check.hpp"
+#include "core/step/window_length.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/support/exact_support.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom::exact_tests {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// Hash, time and counts at the end, or what stopped the run and the hash of the state that it kept.
+std::string outcome_of(Engine& engine, const Scene& scene) {
+  std::string end = "done";
+  try {
+    run_to_end(engine, scene);
+  } catch (const PhysicsError& error) {
+    end = error.what();
+  }
+  const State& s = engine.state();
+  return end + " | " + hash_text(state_hash(s.disks)) + " t " + std::to_string(s.time) + " windows " +
+         std::to_string(s.counters.steps) + " collisions " + std::to_string(s.counters.collisions) + " walls " +
+         std::to_string(s.counters.wall_collisions);
+}
+
+// Of both engines, with and without tiles; returns the reference's.
+std::string outcome(const Scene& scene, const State& initial) {
+  const std::string plain = outcome_of(*make_reference_exact(scene, initial), scene);
+  EXPECT_EQ(outcome_of(*make_parallel_engine(scene, initial, {1}), scene), plain);
+  EXPECT_EQ(outcome_of(*make_parallel_engine(scene, initial, {3, 1024}), scene), plain) << "tiles of eight disks";
+  return plain;
+}
+
+// A light disk at rest between the left wall and a heavy one that comes in.
+State light_and_heavy(double ratio) {
+  return state_of({{5, 10, 0, 0, 1, ratio, 0}, {20, 10, -1, 0, 1, 1.0, 0}});
+}
+
+Scene burst_scene() {
+  Domain box;
+  box.width = 40.0;
+  box.height = 20.0;
+  return plain_scene(box, 30.0);
+}
+
+// pi sqrt(M / m), as the collisions of 1 : 100^n count the digits of pi; half of them between the disks.
+TEST(CrowdedWindow, FiniteBurstsAreCountedToTheEndByBothEngines) {
+  for (const double ratio : {1e-8, 1e-10, 1e-12}) {
+    const Scene scene = burst_scene();
+    const auto reference = make_reference_exact(scene, light_and_heavy(ratio));
+    const auto parallel = make_parallel_engine(scene, light_and_heavy(ratio), {1});
+    const std::string plain = outcome_of(*reference, scene);
+    EXPECT_EQ(outcome_of(*parallel, scene), plain);
+    EXPECT_THAT(plain, HasSubstr("done"));
+    const Counters& c = reference->state().counters;
+    EXPECT_NEAR(static_cast<double>(c.collisions), 0.5 * test::pi / std::sqrt(ratio), 2.0) << ratio;
+    EXPECT_NEAR(energy_of(reference->state().disks, 0.0).kinetic, 0.5, 1e-9) << ratio;
+  }
+}
+
+// The same burst where the walls lose energy but are not part of it: a heavy disk at rest is what the light one is
+// thrown against.
+TEST(CrowdedWindow, AnElasticBurstIsNoCollapseWhereOtherContactsDissipate) {
+  Scene scene = burst_scene();
+  scene.box.wall_restitution = 0.5;
+  scene.run.t_end = 20.0;
+  const State initial = state_of({{3, 10, 1, 0, 1, 1.0, 0}, {20, 10, 0, 0, 1, 1e-10, 0}, {36, 10, -1, 0, 1, 1.0, 0}});
+  EXPECT_THAT(outcome(scene, initial), HasSubstr("done"));
+}
+
+// A burst in a corner of a gas, in tiles: which event was too much is found without them.
+TEST(CrowdedWindow, ABurstAmongOthersInTiles) {
+  const Scene scene =
+      make_scene({30, 30, "wall", "",
+                  "[[disks]]\ncount = 2\npositions = [[0.3, 15], [3.6, 15]]\nvelocities = [[0, 0], [-1, 0]]\n"
+                  "radius = [0.25, 3]\nmass = [1e-2, 1e8]\n"
+                  "[[disks]]\ncount = 90\npositions = \"random\"\nradius = 0.6\nmass = 1\n"
+                  "velocities = { maxwell = 1.0 }\n",
+                  4.0, ""});
+  const State initial = initial_state(scene);
+  const auto reference = make_reference_exact(scene, initial);
+  const std::string plain = outcome_of(*reference, scene);
+  EXPECT_GT(reference->state().counters.wall_collisions, 2U * most_paths_of_disk);
+  for (const int threads : {1, 2, 3, 5}) {
+    EXPECT_EQ(outcome_of(*make_parallel_engine(scene, initial, {threads, 1024}), scene), plain) << threads;
+  }
+}
+
+TEST(CrowdedWindow, NoWindowHoldsMoreThanItsBound) {
+  const Scene scene = burst_scene();
+  const auto engine = make_parallel_engine(scene, light_and_heavy(1e-10), {1});
+  Count before = 0;
+  Count most = 0;
+  while (engine->state().time < scene.run.t_end) {
+    engine->step();
+    const Counters& c = engine->state().counters;
+    most = std::max(most, c.collisions + c.wall_collisions - before);
+    before = c.collisions + c.wall_collisions;
+  }
+  EXPECT_LE(most, Count{most_paths_of_disk});
+  EXPECT_GT(most, Count{most_paths_of_disk} / 4);
+}
+
+TEST(CrowdedWindow, OneDiskThatFillsTheBox) {
+  Domain box;
+  box.width = box.height = 2.0;
+  EXPECT_THAT(outcome(plain_scene(box, 1.0), state_of({{1, 1, 1, 0, 1, 1, 0}})),
+              AllOf(HasSubstr("time stands still at t = 0"), HasSubstr("no room to move"), Not(HasSubstr("collapse"))));
+}
+
+TEST(CrowdedWindow, TouchingDisksThatFillTheBox) {
+  for (const double e : {1.0, 0.9}) {
+    Scene scene = make_scene({8, 8, "wall", "restitution = " + std::to_string(e),
+                              "[[disks]]\ncount = 16\npositions = \"square\"\nradius = 1\nmass = 1\n"
+                              "velocities = { maxwell = 1.0 }\n",
+                              1.0, ""});
+    const std::string end = outcome(scene, initial_state(scene));
+    if (e == 1.0) {
+      EXPECT_THAT(end, AllOf(HasSubstr("time stands still"), Not(HasSubstr("collapse"))));
+    } else {
+      EXPECT_THAT(end, HasSubstr("inelastic collapse"));
+    }
+  }
+}
+
+// Gaps of the last bit: time goes on by 1e-16 an event.
+TEST(CrowdedWindow, HardlyAnyRoom) {
+  Domain box;
+  box.width = box.height = std::nextafter(2.0, 3.0);
+  EXPECT_THAT(outcome(plain_scene(box, 1.0), state_of({{1, 1, 1, 0.3, 1, 1, 0}})),
+              AllOf(HasSubstr("stands still"), HasSubstr("room to move"), Not(HasSubstr("collapse"))));
+}
+
+TEST(CrowdedWindow, AtRestOnAnElasticFloorIsNotCalledCollapse) {
+  Domain box;
+  box.width = box.height = 10.0;
+  EXPECT_THAT(outcome(plain_scene(box, 1.0, 1.0), state_of({{5, 1, 0, 0, 1, 1, 0}})),
+              AllOf(HasSubstr("time stands still at t = 0"), HasSubstr("the bottom wall"), Not(HasSubstr("collapse"))));
+}
+
+TEST(CrowdedWindow, MassesWhoseSumIsNotANumber) {
+  Domain box;
+  box.width = box.height = 20.0;
+  const State initial = state_of({{5, 10, 1, 0, 1, 1.2e308, 0}, {15, 10, -1, 0, 1, 1.1e308, 0}});
+  EXPECT_THAT(outcome(plain_scene(box, 20.0), initial), HasSubstr("time stands still"));
+}
+
+Scene resting_pile(double contact_time) {
+  Scene scene = make_scene({6, 10, "wall", "gravity = 10.0\nrestitution = 0.5\n",
+                            "[[disks]]\ncount = 6\npositions = [[1, 0.5], [2, 0.5], [3, 0.5], [4, 0.5], [1.5, 1.5], "
+                            "[2.5, 1.5]]\nradius = 0.5\nmass = 1\n",
+                            20.0, ""});
+  scene.box.wall_restitution = 0.5;
+  scene.physics.collapse_contact_time = contact_time;
+  return scene;
+}
+
+// What costs a dozen collisions a disk and contact time would take years: both engines say so after the same windows.
+TEST(CrowdedWindow, APileWithATinyContactTimeSaysThatTimeHardlyAdvances) {
+  const Scene scene = resting_pile(1e-10);
+  EXPECT_THAT(outcome(scene, initial_state(scene)),
+              AllOf(HasSubstr("time all but stands still at t = "), HasSubstr("contact_time is too short"),
+                    HasSubstr("pairwise"), Not(HasSubstr("collapse at"))));
+}
+
+TEST(CrowdedWindow, AContactTimeBelowTheResolutionOfTime) {
+  Scene scene = resting_pile(1e-24);
+  State initial = initial_state(scene);
+  initial.time = 1.0;
+  EXPECT_THAT(outcome(scene, initial), AllOf(HasSubstr("stands still"), HasSubstr("contact_time is too short")));
+}
+
+// A step that is told not to go on comes back with the state of its start, and a later one has the bits that it would
+// have had.
+TEST(CrowdedWindow, AStepGivenUpChangesNoBit) {
+  Scene scene = burst_scene();
+  for (const bool parallel : {false, true}) {
+    const auto make = [&] {
+      return parallel ? make_parallel_engine(scene, light_and_heavy(1e-9), {1})
+                      : make_reference_exact(scene, light_and_heavy(1e-9));
+    };
+    const auto whole = make();
+    const std::string expected = outcome_of(*whole, scene);
+    const auto engine = make();
+    int questions = 0;
+    int next = 3;
+    bool stop = false;
+    Count given_up = 0;
+    engine->set_watch([&] {
+      stop = ++questions == next;
+      if (stop) next += next / 2;
+      return !stop;
+    });
+    while (engine->state().time < scene.run.t_end) {
+      const State before = engine->state();
+      stop = false;
+      engine->step();
+      if (!stop) continue;
+      ++given_up;
+      EXPECT_EQ(engine->state().time, before.time);
+      EXPECT_EQ(state_hash(engine->state().disks), state_hash(before.disks));
+      EXPECT_EQ(engine->state().counters.steps, before.counters.steps);
+    }
+    EXPECT_EQ(outcome_of(*engine, scene), expected);
+    EXPECT_GT(given_up, 0U) << (parallel ? "parallel" : "reference");
+  }
+}
+
+}  // namespace
+}  // namespace carom::exact_tests

@@ -1,0 +1,289 @@
+// The parallel exact engine against the reference: every bit, at any number of threads, over scenes of every feature.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/random.hpp"
+#include "exact_support.hpp"
+#include "parallel/simulation.hpp"
+
+namespace carom::exact_tests {
+namespace {
+
+struct ParallelCase {
+  const char* name;
+  SceneText scene;
+};
+
+void PrintTo(const ParallelCase& c, std::ostream* out) {
+  *out << c.name;
+}
+
+// Everything that a run leaves behind, in bits.
+std::string fingerprint(const State& s) {
+  const Counters& c = s.counters;
+  return fmt::format(
+      "{} t {} n {} steps {} collisions {} walls {} removed {} emitted {} waiting {} virial {} sides {} {} {} {}",
+      hash_text(state_hash(s.disks)), s.time, s.disks.size(), c.steps, c.collisions, c.wall_collisions, c.removed,
+      c.emitted, c.waiting, c.virial, c.wall_impulse[0], c.wall_impulse[1], c.wall_impulse[2], c.wall_impulse[3]);
+}
+
+// Tiles so small that even these scenes have many; with 1 in place of 128 there are none, and all events run alone.
+State run_parallel(const Scene& scene, const State& initial, int threads, std::size_t block_divisor = 128) {
+  const auto engine = make_parallel_engine(scene, initial, {threads, block_divisor});
+  run_to_end(*engine, scene);
+  return engine->state();
+}
+
+void expect_same_bits(const Scene& scene) {
+  const State initial = initial_state(scene);
+  const State reference = run_reference(scene, initial);
+  EXPECT_GT(reference.counters.steps, 0U);
+  for (const int threads : {1, 2, 3, 5, 8}) {
+    ASSERT_EQ(fingerprint(run_parallel(scene, initial, threads)), fingerprint(reference)) << threads << " threads";
+  }
+  ASSERT_EQ(fingerprint(run_parallel(scene, initial, 2, 1)), fingerprint(reference)) << "alone";
+  ASSERT_EQ(fingerprint(run_parallel(scene, initial, 3, 1024)), fingerprint(reference)) << "tiles of eight disks";
+}
+
+class ExactParallel : public testing::TestWithParam<ParallelCase> {};
+
+TEST_P(ExactParallel, SameBitsAsReference) {
+  expect_same_bits(make_scene(GetParam().scene));
+}
+
+std::string disks(int count, const std::string& rest) {
+  return fmt::format("[[disks]]\ncount = {}\npositions = \"random\"\n{}\n", count, rest);
+}
+
+const std::string equal = "velocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0";
+const std::string mixed =
+    "velocities = { uniform = 2.0 }\nradius = { uniform = [0.1, 0.9] }\nmass = { uniform = [1, 40] }";
+const std::string dust = "velocities = { uniform = 1.0 }\nradius = 0.05\nmass = 0.01";
+const std::string giants = "[[disks]]\ncount = 2\npositions = [[6, 6], [18, 14]]\nradius = [5, 4]\nmass = [90, 70]\n";
+const std::string lattice =
+    "[[disks]]\ncount = 400\npositions = \"square\"\nvelocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0\n";
+const std::string sources =
+    "[[sources]]\nside = \"left\"\nrate = 20.0\nradius = 0.3\nmass = 1.0\nvelocities = { maxwell = 1.0 }\n"
+    "[[sources]]\nregion = [2, 2, 10, 10]\nrate = 7.0\nradius = { uniform = [0.2, 0.4] }\nmass = 2.0\nlimit = 9\n";
+const std::string open_sides = "left = \"wall\"\nright = \"sink\"\nbottom = \"periodic\"\ntop = \"periodic\"";
+const std::string soft = "wall_restitution = 0.7";
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, ExactParallel,
+    testing::Values(
+        ParallelCase{"two", {10, 10, "periodic", "", disks(2, equal), 200, ""}},
+        ParallelCase{
+            "one",
+            {10, 10, "wall", "gravity = 0.3", disks(1, "velocities = [[1.0, 0.3]]\nradius = 1\nmass = 1"), 50, ""}},
+        ParallelCase{"few", {9, 9, "periodic", "", disks(30, equal), 20, ""}},
+        ParallelCase{"fluid", {25, 25, "periodic", "", disks(350, equal), 6, ""}},
+        ParallelCase{"walls", {25, 25, "wall", "", disks(300, equal), 6, ""}},
+        ParallelCase{"dilute", {80, 80, "periodic", "", disks(150, equal), 60, ""}},
+        ParallelCase{"crystal", {21, 21, "periodic", "", lattice, 3, ""}},
+        ParallelCase{"narrow", {2.3, 300, "left = \"periodic\"\nright = \"periodic\"", "", disks(150, equal), 10, ""}},
+        ParallelCase{"gravity", {20, 30, "wall", "gravity = 1.5", disks(250, equal), 6, ""}},
+        ParallelCase{"falling_for_ever", {20, 20, "periodic", "gravity = 2.0", disks(200, equal), 4, ""}},
+        ParallelCase{"mixed", {30, 30, "wall", "", disks(250, mixed), 12, ""}},
+        ParallelCase{"mixed_inelastic", {30, 30, "periodic", "restitution = 0.8", disks(250, mixed), 12, ""}},
+        ParallelCase{"giants_in_dust", {24, 24, "periodic", "", giants + disks(400, dust), 10, ""}},
+        ParallelCase{
+            "tc",
+            {20, 40, soft, "gravity = 1.0\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.01 }",
+             disks(120, mixed), 12, ""}},
+        ParallelCase{"brownian", {20, 20, "periodic", "diffusion = 0.5", disks(200, equal), 1, "dt = 0.01"}},
+        ParallelCase{"brownian_sinks", {20, 20, "sink", "diffusion = 0.5", disks(200, equal), 3, "dt = 0.01"}},
+        ParallelCase{"brownian_accumulating",
+                     {20, 20, "wall", "diffusion = 0.5\naccumulate = true", disks(200, equal), 1, "dt = 0.02"}},
+        ParallelCase{"sinks", {20, 20, "sink", "", disks(200, equal), 10, ""}},
+        ParallelCase{"sources", {20, 20, open_sides, "", disks(100, equal) + sources, 10, ""}},
+        ParallelCase{"sources_alone", {20, 20, open_sides, "gravity = 0.2", sources, 10, ""}}),
+    [](const auto& p) { return std::string(p.param.name); });
+
+// Scenes put together at random from all that there is.
+TEST(ExactParallelRandom, ScenesOfAllFeatures) {
+  for (std::uint32_t k = 0; k < 12; ++k) {
+    const auto u = uniforms(41, Stream::position, k, 0);
+    const auto w = uniforms(41, Stream::position, k, 1);
+    const auto z = uniforms(41, Stream::position, k, 2);
+    SceneText s;
+    s.width = 8.0 + 20.0 * u.a;
+    s.height = 8.0 + 20.0 * u.b;
+    const int n = 1 + static_cast<int>(0.4 * s.width * s.height * w.a);
+    s.sides = std::string(k % 2 == 0 ? "left = \"periodic\"\nright = \"periodic\"" : "left = \"sink\"") +
+              "\nwall_restitution = 0.9";
+    s.physics = fmt::format("gravity = {}\nrestitution = {}\ncollapse = {{ model = \"tc\", contact_time = 1e-3 }}",
+                            k % 3 == 0 ? 0.0 : w.b, 0.6 + 0.4 * z.a);
+    s.disks = disks(n, mixed);
+    if (k % 4 == 1)
+      s.disks +=
+          "[[sources]]\nside = \"right\"\nrate = 9.0\nradius = 0.2\nmass = 1.0\nvelocities = { uniform = 1.0 }\n";
+    s.t_end = 3.0;
+    SCOPED_TRACE(k);
+    expect_same_bits(make_scene(s));
+  }
+}
+
+// Disks that lie on each other without rebound: whether two of them touch and approach is decided by rounding, anew
+// where each window's paths begin.
+TEST(ExactParallelContacts, ThatLast) {
+  std::string column = "[[disks]]\ncount = 11\nradius = 1\nmass = 1\npositions = [";
+  std::string velocities = "velocities = [";
+  for (int k = 0; k < 11; ++k) {
+    column += fmt::format("{}[2, {}]", k == 0 ? "" : ", ", 2 + 2 * k);
+    velocities += fmt::format("{}{}", k == 0 ? "" : ", ", k == 3 ? "[-0.7434, 0.6309]" : "[0, 0]");
+  }
+  const std::string physics =
+      "gravity = 0.2548\nrestitution = 0\ncollapse = { model = \"tc\", contact_time = 0.02313 }";
+  expect_same_bits(make_scene(
+      {4, 24, "left = \"sink\"\nwall_restitution = 0.99", physics, column + "]\n" + velocities + "]\n", 30, ""}));
+}
+
+// Seven disks fill a periodic row: windows so short that the rounding of places is all that moves.
+TEST(ExactParallelContacts, OfDisksWithoutRoom) {
+  const std::string chain =
+      "[[disks]]\ncount = 7\nradius = [0.09, 0.075, 0.3, 0.15, 0.3, 0.0375, 0.0375]\nmass = 1\n"
+      "positions = [[0.09, 0.6], [0.255, 0.6], [0.63, 0.6], [1.08, 0.6], [1.53, 0.6], [1.8675, 0.6], [1.9425, 0.6]]\n"
+      "velocities = [[-0.5677, 0.5323], [-0.8774, -0.9481], [0.2839, -0.6561], [0.02699, -0.5021], [-0.4054, "
+      "-0.02009], "
+      "[-0.1341, 0.02006], [-0.3667, 0.5227]]\n";
+  const Scene scene = make_scene({1.98, 1.2, "periodic", "", chain, 10, ""});
+  const State initial = initial_state(scene);
+  const auto reference = make_reference_exact(scene, initial);
+  const auto parallel = make_parallel_engine(scene, initial, {2, 128});
+  for (int k = 0; k < 80; ++k) {
+    reference->step();
+    parallel->step();
+    ASSERT_EQ(fingerprint(parallel->state()), fingerprint(reference->state())) << "window " << k;
+  }
+}
+
+// Where events pile up at one moment, the report names the reference's, whatever the tiles.
+TEST(ExactParallelCollapse, IsReportedAlike) {
+  const auto report_of = [](Engine& engine, const Scene& scene) -> std::string {
+    try {
+      run_to_end(engine, scene);
+    } catch (const PhysicsError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const Scene scene = parse_scene(R"(seed = 712775
+[box]
+packing_fraction = 0.3403
+aspect = 0.1441
+bottom = "periodic"
+top = "periodic"
+[physics]
+restitution = 0.2
+[[disks]]
+count = 26
+positions = "growth"
+velocities = { uniform = 1.005 }
+radius = { from_mass = 0.6127 }
+mass = { uniform = [0.04807, 1.923] }
+[run]
+method = "exact"
+t_end = 60
+)",
+                                  "test", ".");
+  const State initial = initial_state(scene);
+  const std::string expected = report_of(*make_reference_exact(scene, initial), scene);
+  EXPECT_NE(expected.find("inelastic collapse"), std::string::npos) << expected;
+  for (const std::size_t block_divisor : {1U, 128U, 512U, 1024U}) {
+    const auto engine = make_parallel_engine(scene, initial, {3, block_divisor});
+    EXPECT_EQ(report_of(*engine, scene), expected) << "divisor " << block_divisor;
+  }
+}
+
+// Nothing is known beforehand of how fast disks get: a projectile that scatters a cold gas, light disks hit by heavy
+// ones. Whatever the engine takes for granted of the speeds then proves wrong, and the window is done again.
+TEST(ExactParallelSpeeds, ThatRiseWithinAWindow) {
+  const std::string cold = "velocities = { maxwell = 1e-6 }\nradius = 0.4\nmass = 0.001";
+  const std::string heavy =
+      "[[disks]]\ncount = 2\npositions = [[5, 12], [19, 12.3]]\nradius = [2, 2]\nmass = [900, 700]\n"
+      "velocities = [[1.0, 0.1], [-1.0, 0.0]]\n";
+  expect_same_bits(make_scene({24, 24, "periodic", "", heavy + disks(300, cold), 6, ""}));
+  expect_same_bits(make_scene({24, 24, "wall", "gravity = 3.0", heavy + disks(300, cold), 3, ""}));
+}
+
+// Each disk of a row is a quarter of the one before: every hit hands on 1.6 times the speed, 1.6^15 = 1150 in all, at
+// once.
+TEST(ExactParallelSpeeds, ThatRiseAThousandfoldWithinAWindow) {
+  std::string row = "[[disks]]\ncount = 16\nradius = 0.4\npositions = [";
+  std::string masses = "mass = [";
+  std::string velocities = "velocities = [";
+  for (int k = 0; k < 16; ++k) {
+    row += fmt::format("{}[{}, 12]", k == 0 ? "" : ", ", 2.0 + k * (0.8 + 1e-5));
+    masses += fmt::format("{}{}", k == 0 ? "" : ", ", std::pow(0.25, k));
+    velocities += fmt::format("{}[{}, 0.0]", k == 0 ? "" : ", ", k == 0 ? "1.0" : "0.0");
+  }
+  row += "]\n" + masses + "]\n" + velocities + "]\n";
+  const std::string cold = "velocities = { maxwell = 1e-6 }\nradius = 0.4\nmass = 1.0";
+  const Scene scene = make_scene({24, 24, "periodic", "", row + disks(300, cold), 0.05, ""});
+  expect_same_bits(scene);
+  double fastest2 = 0.0;
+  const State end = run_parallel(scene, initial_state(scene), 2);
+  for (std::size_t i = 0; i < end.disks.size(); ++i) {
+    fastest2 = std::max(fastest2, end.disks.vx[i] * end.disks.vx[i] + end.disks.vy[i] * end.disks.vy[i]);
+  }
+  EXPECT_GT(fastest2, 100.0 * 100.0);
+}
+
+// Tiles and regions of the size that runs have.
+TEST(ExactParallelSize, TilesAsTheyAre) {
+  const Scene scene = make_scene({285, 285, "periodic", "", disks(50000, equal), 0.12, ""});
+  const State initial = initial_state(scene);
+  const std::string reference = fingerprint(run_reference(scene, initial));
+  for (const int threads : {1, 2, 3, 8}) {
+    EXPECT_EQ(fingerprint(run_parallel(scene, initial, threads, 1)), reference) << threads << " threads";
+  }
+}
+
+// Frames: the same bits too, and looking changes nothing.
+// Without its memory the engine knows no paths, only the state; what it makes anew leads to the same bits.
+TEST(ExactParallelMemory, GivenBackChangesNoBit) {
+  const Scene scene = make_scene({30, 30, "periodic", "", disks(500, mixed), 50.0, ""});
+  const State initial = initial_state(scene);
+  for (const std::size_t block_divisor : {1U, 128U}) {
+    const auto kept = make_parallel_engine(scene, initial, {2, block_divisor});
+    const auto released = make_parallel_engine(scene, initial, {2, block_divisor});
+    for (int k = 0; k < 12; ++k) {
+      kept->step();
+      released->step();
+      if (k % 3 != 0) continue;
+      released->release_memory();
+      Disks disks;
+      EXPECT_EQ(released->disks_at(0.0, disks), released->state().time);
+      EXPECT_EQ(state_hash(disks), state_hash(released->state().disks));
+    }
+    EXPECT_EQ(fingerprint(released->state()), fingerprint(kept->state()));
+  }
+}
+
+TEST(ExactParallelFrames, SameBitsAtAnyTime) {
+  const Scene scene = make_scene({20, 20, open_sides, "gravity = 0.4", disks(150, mixed), 2.0, ""});
+  const State initial = initial_state(scene);
+  const auto reference = make_reference_exact(scene, initial);
+  const auto parallel = make_parallel_engine(scene, initial, {3, 128});
+  Disks a;
+  Disks b;
+  while (reference->state().time < scene.run.t_end) {
+    const double start = reference->state().time;
+    reference->step();
+    parallel->step();
+    for (int k = 0; k <= 4; ++k) {
+      const double t = start + 0.25 * k * (reference->state().time - start);
+      EXPECT_EQ(reference->disks_at(t, a), parallel->disks_at(t, b));
+      ASSERT_EQ(a.size(), b.size());
+      ASSERT_EQ(state_hash(a), state_hash(b)) << "at " << t;
+    }
+  }
+  EXPECT_EQ(fingerprint(reference->state()), fingerprint(parallel->state()));
+  EXPECT_GT(parallel->state().counters.removed, 0U);
+}
+
+}  // namespace
+}  // namespace carom::exact_tests

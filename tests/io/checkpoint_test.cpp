@@ -1,0 +1,294 @@
+// A checkpoint is what was written, to the bit, or it is refused.
+#include "io/checkpoint/checkpoint.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <array>
+#include <csignal>
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+#include "core/base/check.hpp"
+#include "core/base/random.hpp"
+#include "io/checkpoint/checkpoint_place.hpp"
+#include "io/files/block_hash.hpp"
+#include "io/files/output_folder.hpp"
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+// Something in every field, the awkward values among them.
+State full_state() {
+  State s;
+  append(s.disks, {1.5, -0.0, 5e-324, 3.0, 0.5, 2.0, 4});
+  append(s.disks, {2.5, 1e308, -7.0, 0.1, 0.25, 3.0, 1});
+  s.time = 0.1 + 0.2;
+  s.counters = {10, 1'000'000'000'000'000, 12, 13, 14, 15, 1.0 / 3.0, 16.5, {1.0, 2.0, 3.0, 4.0}};
+  s.next_id = 5;
+  s.intervals = 6;
+  s.step_begun = true;
+  s.sources = {{7}, {8}};
+  s.loads = {{1, 4, 0.7}, {4, 4294967295U, 0.9}};
+  s.stall = {99, 0.25};
+  s.validity = {17,
+                18,
+                0.375,
+                true,
+                false,
+                true,
+                false,
+                {{0.25, 1, 4}, 0.5},
+                {{0.125, 4, 4294967295U}, 0.625},
+                {60.0, 0.75},
+                {0.0625, 0.875}};
+  s.window = 0.0625;
+  s.last_contact = {0.5, -std::numeric_limits<double>::infinity(), 1.5, 2.5};
+  return s;
+}
+
+RunRecord full_record() {
+  RunRecord r;
+  r.version = "1.2.3";
+  r.scene_file = "some where/gas.toml";
+  r.scene_text = "title = \"\xc3\xa9\"\n";
+  r.engine = "reference";
+  r.start = {2, 0.0, {1.0, 2.0}, {3.0, 4.0, 5.0}};
+  r.outputs.frames = 3;
+  r.outputs.last_time = 0.3;
+  r.outputs.trajectory = FileMark{"trajectory.xyz", 3, 12345678901};
+  SeriesMark& series = r.outputs.series.emplace();
+  series.file = {"series.csv", 3, 99};
+  series.meter.counted_until = 0.3;
+  series.meter.before = full_state().counters;
+  r.outputs.movie = MovieMark{3, false, {"a.mp4", "b.mp4"}, 0.5, 2.5, -1};
+  r.outputs.velocities.curves = {{1, {0.0, 0.1}, {1.0, 2.0}, {3.0, 4.0}}};
+  r.outputs.velocities.end = 0.1;
+  r.outputs.velocities.bands = {{0.1, {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}, {}}};
+  r.outputs.velocities.most = 12;
+  r.outputs.energies = {{0.0}, {1.0}, {2.0}, {3.0}};
+  r.outputs.rounds.begun = true;
+  r.outputs.rounds.x.sixteenth = {-5, not_followed, 33};
+  r.wall_s = 1.5;
+  r.cpu_s = 2.5;
+  r.step_s = 0.5;
+  r.resumed = 4;
+  r.warnings = {"at time 1 two disks overlap", ""};
+  return r;
+}
+
+std::string bytes_of(const fs::path& path) {
+  std::ostringstream all;
+  all << std::ifstream(path, std::ios::binary).rdbuf();
+  return all.str();
+}
+
+class CheckpointFile : public ::testing::Test {
+ protected:
+  CheckpointFile() : folder_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    write_checkpoint(path(), full_record(), full_state());
+    whole_ = bytes_of(path());
+  }
+  std::string path() const { return (folder_.path() / checkpoint_name).string(); }
+
+  // What reading the file complains of; empty if it is taken.
+  static std::string complaint_of(const std::string& file) {
+    try {
+      read_checkpoint(file);
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(file + ": "));
+      return error.what();
+    }
+    return "";
+  }
+  std::string complaint(const std::string& bytes) const { return complaint_of(folder_.write("other.carom", bytes)); }
+
+  test::TestFolder folder_;
+  std::string whole_;
+};
+
+TEST_F(CheckpointFile, GivesBackEveryBit) {
+  const Checkpoint back = read_checkpoint(path());
+  EXPECT_EQ(encode_checkpoint(back.record, back.state), encode_checkpoint(full_record(), full_state()));
+  EXPECT_EQ(back.state.disks.x, full_state().disks.x);
+  EXPECT_TRUE(std::signbit(back.state.disks.y[0]));
+  EXPECT_EQ(back.state.counters.wall_impulse[3], 4.0);
+  EXPECT_EQ(back.state.loads[1].id2, 4294967295U);
+  EXPECT_EQ(back.record.outputs.series->meter.before.collisions, 1'000'000'000'000'000U);
+  EXPECT_EQ(back.record.outputs.rounds.x.sixteenth, full_record().outputs.rounds.x.sixteenth);
+  EXPECT_EQ(back.record.outputs.movie->parts, (std::vector<std::string>{"a.mp4", "b.mp4"}));
+}
+
+TEST_F(CheckpointFile, AnEmptyStateToo) {
+  write_checkpoint(path(), {}, {});
+  const Checkpoint back = read_checkpoint(path());
+  EXPECT_TRUE(back.state.disks.empty());
+  EXPECT_FALSE(back.record.outputs.trajectory.has_value());
+}
+
+TEST_F(CheckpointFile, EveryFlippedBitIsRefused) {
+  ASSERT_EQ(complaint_of(path()), "");
+  std::fstream file(path(), std::ios::in | std::ios::out | std::ios::binary);
+  const auto put = [&](std::size_t at, char byte) {
+    file.seekp(static_cast<std::streamoff>(at));
+    file.put(byte).flush();
+  };
+  for (std::size_t at = 0; at < whole_.size(); ++at) {
+    for (int bit = 0; bit < 8; ++bit) {
+      put(at, static_cast<char>(whole_[at] ^ (1 << bit)));
+      ASSERT_NE(complaint_of(path()), "") << "byte " << at << ", bit " << bit;
+    }
+    put(at, whole_[at]);
+  }
+  EXPECT_EQ(complaint_of(path()), "");
+}
+
+TEST_F(CheckpointFile, EveryOtherLengthIsRefused) {
+  for (std::size_t more = 1; more < 20; ++more) ASSERT_NE(complaint(whole_ + std::string(more, '\0')), "") << more;
+  EXPECT_NE(complaint(whole_ + whole_), "");
+  for (std::size_t length = whole_.size(); length-- > 0;) {
+    fs::resize_file(path(), length);
+    ASSERT_NE(complaint_of(path()), "") << length;
+  }
+}
+
+TEST_F(CheckpointFile, ZerosInPlaceOfABlockAreRefused) {
+  // What a power cut leaves where the file system knew the length before the content.
+  for (std::size_t at = 0; at + 16 < whole_.size(); at += 8) {
+    std::string holed = whole_;
+    holed.replace(at, 16, std::string(16, '\0'));
+    if (holed == whole_) continue;
+    ASSERT_NE(complaint(holed), "") << at;
+  }
+}
+
+// The same file with another header, and a checksum that goes with it.
+std::string with_header(std::string file, std::size_t at, std::uint64_t word) {
+  std::memcpy(&file[at], &word, 8);
+  BlockHash hash;
+  hash.add(file.data(), file.size() - 8);
+  const std::uint64_t sum = hash.value();
+  std::memcpy(&file[file.size() - 8], &sum, 8);
+  return file;
+}
+
+TEST_F(CheckpointFile, SaysWhatIsWrong) {
+  EXPECT_THAT(complaint("title = \"a scene\"\n"), HasSubstr("is no checkpoint of Carom"));
+  EXPECT_THAT(complaint(""), HasSubstr("is no checkpoint of Carom"));
+  EXPECT_THAT(complaint(whole_.substr(0, 100)), HasSubstr("is damaged"));
+  EXPECT_THAT(complaint(with_header(whole_, 8, 0x0807060504030201ULL)), HasSubstr("of the other byte order"));
+  EXPECT_THAT(complaint(with_header(whole_, 16, 77)), HasSubstr("has format 77, and this version of Carom reads"));
+  EXPECT_THROW(read_checkpoint(folder_.path().string()), InputError);
+  EXPECT_THROW(read_checkpoint("/nonexistent/checkpoint.carom"), InputError);
+}
+
+TEST_F(CheckpointFile, ContentThatContradictsItselfIsRefused) {
+  const auto refused = [](const auto& spoil) {
+    RunRecord record = full_record();
+    State state = full_state();
+    spoil(record, state);
+    try {
+      decode_checkpoint(encode_checkpoint(record, state), "c");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused([](RunRecord&, State&) {}), "");
+  EXPECT_THAT(refused([](RunRecord&, State& s) { s.disks.vx.pop_back(); }), HasSubstr("columns of different lengths"));
+  EXPECT_THAT(refused([](RunRecord&, State& s) { s.disks.id[0] = 5; }), HasSubstr("a disk that was never made"));
+  EXPECT_THAT(refused([](RunRecord& r, State&) { r.outputs.movie->parts[0] = "../a"; }),
+              HasSubstr("outside its folder"));
+}
+
+// Behind a checksum that is right, anything may stand: it is taken or refused, and no length in it is believed.
+TEST(CheckpointContent, ChangedAtRandomItIsTakenOrRefused) {
+  const std::string whole = encode_checkpoint(full_record(), full_state());
+  int refused = 0;
+  for (std::uint32_t k = 0; k < 20000; ++k) {
+    std::string bytes = whole;
+    for (std::uint32_t change = 0; change <= k % 3; ++change) {
+      const TwoUniforms u = uniforms(5, Stream::position, k, change);
+      const auto at = static_cast<std::size_t>(u.a * static_cast<double>(bytes.size()));
+      bytes[at] = static_cast<char>(u.b * 256.0);
+    }
+    try {
+      decode_checkpoint(bytes, "c");
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 1000);
+}
+
+TEST_F(CheckpointFile, TheLastTwoAreKept) {
+  State state = full_state();
+  for (int k = 1; k <= 3; ++k) {
+    state.time = k;
+    save_checkpoint(folder_.path().string(), full_record(), state);
+  }
+  EXPECT_EQ(read_checkpoint(path()).state.time, 3.0);
+  EXPECT_EQ(read_checkpoint((folder_.path() / previous_checkpoint_name).string()).state.time, 2.0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 2);
+}
+
+TEST_F(CheckpointFile, OneThatFindsNoRoomHarmsNoOther) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  State state = full_state();
+  save_checkpoint(folder_.path().string(), full_record(), state);
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit small{200, limit.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string what;
+  try {
+    save_checkpoint(folder_.path().string(), full_record(), state);
+  } catch (const RunError& error) {
+    what = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &limit);
+  EXPECT_THAT(what, HasSubstr("File too large"));
+  EXPECT_EQ(bytes_of(path()), whole_);
+  EXPECT_EQ(bytes_of(folder_.path() / previous_checkpoint_name), whole_);
+  EXPECT_FALSE(fs::exists(folder_.path() / "checkpoint.new.carom")) << "a full disk needs the room";
+}
+
+TEST_F(CheckpointFile, IsFoundInTheFolderOfItsRun) {
+  CheckpointPlace place = find_checkpoint(folder_.path().string() + "/");
+  EXPECT_EQ(place.file, path());
+  EXPECT_TRUE(place.finished);
+  fs::create_directories(folder_.path() / unfinished_name);
+  fs::rename(path(), folder_.path() / unfinished_name / checkpoint_name);
+  place = find_checkpoint(folder_.path().string());
+  EXPECT_FALSE(place.finished);
+  EXPECT_EQ(place.folder, folder_.path());
+  EXPECT_EQ(find_checkpoint(place.file.string()).folder, folder_.path());
+  fs::remove(place.file);
+  EXPECT_THROW(find_checkpoint(folder_.path().string()), InputError);
+  EXPECT_THROW(find_checkpoint(place.file.string()), InputError);
+}
+
+TEST_F(CheckpointFile, OneThatIsDamagedNamesTheOneBefore) {
+  save_checkpoint(folder_.path().string(), full_record(), full_state());
+  folder_.write(checkpoint_name, whole_.substr(0, 300));
+  const auto complaint_of = [&] {
+    try {
+      read_checkpoint_at(find_checkpoint(path()));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(complaint_of(), HasSubstr("the one before it is whole: carom resume "));
+  EXPECT_THAT(complaint_of(), HasSubstr(previous_checkpoint_name));
+  folder_.write(previous_checkpoint_name, "");
+  EXPECT_THAT(complaint_of(), ::testing::Not(HasSubstr("the one before")));
+}
+
+}  // namespace
+}  // namespace carom

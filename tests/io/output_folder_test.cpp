@@ -1,0 +1,177 @@
+// No output replaces another by accident, and nothing unfinished looks like a result.
+#include "io/files/output_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/base/check.hpp"
+#include "io/files/output_file.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class OutputFolderTest : public ::testing::Test {
+ protected:
+  OutputFolderTest() {
+    const auto* const info = ::testing::UnitTest::GetInstance()->current_test_info();
+    base_ = fs::temp_directory_path() / (std::string("carom_folder_") + info->name());
+    fs::remove_all(base_);
+    fs::create_directories(base_);
+    write_file(base_ / "input.toml", "scene");
+  }
+  ~OutputFolderTest() override { fs::remove_all(base_); }
+
+  static std::string text(const fs::path& path) {
+    std::ostringstream all;
+    all << std::ifstream(path).rdbuf();
+    return all.str();
+  }
+  std::string refusal(const fs::path& folder, bool force) const {
+    try {
+      check_output_folder(folder, base_ / "input.toml", force);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  }
+  void run(const fs::path& folder, const std::string& result, bool force) const {
+    OutputFolder out(folder, base_ / "input.toml", force);
+    write_file(out.path("summary.json"), result);
+    out.finish();
+  }
+  fs::path base_;
+};
+
+TEST_F(OutputFolderTest, ResultsAppearOnlyWhenFinished) {
+  const fs::path folder = base_ / "a" / "b";
+  OutputFolder out(folder, base_ / "input.toml", false);
+  write_file(out.path("series.csv"), "t\n");
+  write_file(out.path("summary.json"), "{}");
+  EXPECT_FALSE(fs::exists(folder / "series.csv"));
+  EXPECT_TRUE(fs::exists(folder / "carom-unfinished" / "series.csv"));
+  out.finish();
+  EXPECT_EQ(text(folder / "series.csv"), "t\n");
+  EXPECT_EQ(text(folder / "summary.json"), "{}");
+  EXPECT_FALSE(fs::exists(folder / "carom-unfinished"));
+}
+
+TEST_F(OutputFolderTest, AFailedRunLeavesNothing) {
+  {
+    OutputFolder out(base_ / "a" / "b", base_ / "input.toml", false);
+    write_file(out.path("series.csv"), "t\n");
+  }
+  EXPECT_FALSE(fs::exists(base_ / "a"));
+  {
+    fs::create_directories(base_ / "mine");
+    OutputFolder out(base_ / "mine/", base_ / "input.toml", false);
+  }
+  EXPECT_TRUE(fs::exists(base_ / "mine")) << "a folder that was there stays";
+  EXPECT_TRUE(fs::is_empty(base_ / "mine"));
+}
+
+TEST_F(OutputFolderTest, ResultsAreReplacedByForceOnly) {
+  const fs::path folder = base_ / "out";
+  run(folder, "first", false);
+  write_file(folder / "series.csv", "of the first");
+  write_file(folder / "notes.txt", "mine");
+  EXPECT_THAT(refusal(folder, false), HasSubstr("out: holds series.csv of an earlier run; choose another folder"));
+  EXPECT_THROW(run(folder, "second", false), InputError);
+  EXPECT_EQ(text(folder / "summary.json"), "first");
+  {
+    OutputFolder failing(folder, base_ / "input.toml", true);
+    write_file(failing.path("summary.json"), "half");
+  }
+  EXPECT_EQ(text(folder / "summary.json"), "first") << "a failed run keeps the results before it";
+  run(folder, "second", true);
+  EXPECT_EQ(text(folder / "summary.json"), "second");
+  EXPECT_FALSE(fs::exists(folder / "series.csv")) << "no file of the earlier run is mixed in";
+  EXPECT_EQ(text(folder / "notes.txt"), "mine");
+}
+
+TEST_F(OutputFolderTest, AnUnfinishedRunIsSeen) {
+  fs::create_directories(base_ / "out" / "carom-unfinished");
+  EXPECT_THAT(refusal(base_ / "out", false), HasSubstr("another run is writing there, or stopped"));
+  EXPECT_EQ(refusal(base_ / "out", true), "");
+}
+
+// A run is killed just after it has forked a child, which has not come to its exec: the child has every descriptor of
+// the run, but not its lock.
+TEST_F(OutputFolderTest, TheLockGoesWithTheProcess) {
+  std::array<int, 2> held{};
+  std::array<int, 2> child_may_end{};
+  ASSERT_EQ(pipe(held.data()), 0);
+  ASSERT_EQ(pipe(child_may_end.data()), 0);
+  const fs::path folder = base_ / "out";
+  const pid_t run = fork();
+  if (run == 0) {
+    OutputFolder out(folder, base_ / "input.toml", false);
+    out.keep_unfinished();
+    char byte = 0;
+    if (fork() == 0) {
+      close(child_may_end[1]);
+      _exit(read(child_may_end[0], &byte, 1) == 0 ? 0 : 1);
+    }
+    if (write(held[1], &byte, 1) != 1) _exit(1);
+    pause();
+  }
+  close(child_may_end[0]);
+  char byte = 0;
+  ASSERT_EQ(read(held[0], &byte, 1), 1);
+  EXPECT_THAT(refusal(folder, true), HasSubstr("another run is writing there"));
+  EXPECT_THROW(OutputFolder{folder}, InputError);
+  ASSERT_EQ(kill(run, SIGKILL), 0);
+  ASSERT_EQ(waitpid(run, nullptr, 0), run);
+  EXPECT_EQ(refusal(folder, true), "");
+  EXPECT_NO_THROW(OutputFolder{folder});
+  for (const int end : {held[0], held[1], child_may_end[1]}) close(end);
+}
+
+TEST_F(OutputFolderTest, OneProcessLocksAFolderOnce) {
+  const fs::path folder = base_ / "out";
+  {
+    const OutputFolder first(folder, base_ / "input.toml", false);
+    EXPECT_THAT(refusal(folder, true), HasSubstr("another run is writing there"));
+    EXPECT_THROW(OutputFolder{folder}, InputError);
+  }
+  OutputFolder(folder, base_ / "input.toml", false).finish();
+  EXPECT_FALSE(fs::exists(folder / "carom-unfinished"));
+}
+
+TEST_F(OutputFolderTest, WhatIsNotOursIsNeverTouched) {
+  EXPECT_THAT(refusal(base_ / "input.toml", true), HasSubstr("is a file; expected a folder"));
+  EXPECT_THAT(refusal("/dev/full", true), HasSubstr("is a file; expected a folder"));
+  fs::create_directories(base_ / "pictures" / "frames");
+  write_file(base_ / "pictures" / "frames" / "holiday.png", "");
+  EXPECT_THAT(refusal(base_ / "pictures", true), HasSubstr("'frames' with other files"));
+  fs::rename(base_ / "input.toml", base_ / "scene.toml");
+  try {
+    check_output_folder(base_, base_ / "scene.toml", true);
+    FAIL() << "no error";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("would replace the scene file itself"));
+  }
+}
+
+TEST_F(OutputFolderTest, KeptOnRequest) {
+  OutputFolder(base_ / "out", base_ / "input.toml", false).keep_unfinished();
+  EXPECT_TRUE(fs::exists(base_ / "out" / "carom-unfinished"));
+}
+
+TEST_F(OutputFolderTest, WhereNoFolderCanBe) {
+  for (const fs::path& folder : {base_ / "input.toml" / "out", fs::path("/proc/nothing/out")}) {
+    EXPECT_THROW(OutputFolder(folder, base_ / "input.toml", false), InputError) << folder;
+  }
+}
+
+}  // namespace
+}  // namespace carom

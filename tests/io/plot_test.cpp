@@ -1,0 +1,165 @@
+// Plots: what is recorded, that gnuplot draws it whatever the title holds, and runs without gnuplot.
+#include "io/plots/plot.hpp"
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/base/check.hpp"
+#include "io/files/child_process.hpp"
+#include "io/plots/gnuplot.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+
+std::string temporary(const char* name) {
+  return (fs::temp_directory_path() / name).string();
+}
+
+std::string text_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+Disks disks_with_ids(const std::vector<DiskId>& ids) {
+  Disks d;
+  for (const DiskId id : ids) append(d, {0.0, 0.0, 1.0 * id, -1.0 * id, 1.0, 1.0, id});
+  return d;
+}
+
+std::vector<DiskId> recorded(const VelocityRecord& record) {
+  std::vector<DiskId> ids;
+  for (const auto& curve : record.curves) ids.push_back(curve.id);
+  return ids;
+}
+
+TEST(VelocityRecord, TenLowestIdsInAnyStorageOrder) {
+  VelocityRecord r;
+  record(r, disks_with_ids({11, 3, 0, 7, 9, 1, 2, 4, 5, 6, 8, 10}), 0.0);
+  EXPECT_THAT(recorded(r), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9));
+  EXPECT_THAT(r.curves[7].vx, ElementsAre(7.0));
+  EXPECT_THAT(r.curves[7].vy, ElementsAre(-7.0));
+}
+
+TEST(VelocityRecord, NewcomersFillUpAndLostDisksEnd) {
+  VelocityRecord r;
+  record(r, disks_with_ids({0, 1}), 0.0);
+  record(r, disks_with_ids({1, 5}), 1.0);
+  record(r, {}, 2.0);
+  EXPECT_THAT(recorded(r), ElementsAre(0, 1, 5));
+  EXPECT_THAT(r.curves[0].t, ElementsAre(0.0));
+  EXPECT_THAT(r.curves[1].t, ElementsAre(0.0, 1.0));
+  EXPECT_THAT(r.curves[2].t, ElementsAre(1.0));
+}
+
+TEST(Plot, VelocitiesOfTwoDisks) {
+  VelocityRecord r;
+  for (int k = 0; k < 10000; ++k) record(r, disks_with_ids({0, 1}), 0.01 * k);
+  const std::string path = temporary("carom_plot_velocity.svg");
+  const std::string marker = temporary("carom_plot_injected");
+  // A title is only text, whatever it says to gnuplot or to a shell.
+  ASSERT_TRUE(plot_velocity(path, "it's `touch " + marker + "`\n'; system('touch " + marker + "') <&> {/Bold é}", r));
+  const std::string svg = text_of(path);
+  EXPECT_FALSE(fs::exists(marker));
+  for (const char* const shown : {"disk 0", "disk 1", "time t", ">vx<", ">vy<", "&lt;&amp;", "é"}) {
+    EXPECT_TRUE(svg.find(shown) != std::string::npos) << shown;
+  }
+  EXPECT_LT(svg.size(), 600000U) << "long lines are thinned out";
+  fs::remove(path);
+}
+
+// Of more disks than there are colours, one sees how they are distributed.
+TEST(Plot, VelocitiesOfManyDisksAreBands) {
+  VelocityRecord r;
+  for (int k = 0; k < 9000; ++k) {
+    Disks d;
+    for (DiskId id = 0; id <= 100; ++id) {
+      const auto v = static_cast<double>((id * 37 + static_cast<DiskId>(k)) % 101) - 50.0;  // from -50 to 50
+      append(d, {0.0, 0.0, v, 2.0 * v, 1.0, 1.0, id});
+    }
+    record(r, d, 0.01 * k);
+  }
+  EXPECT_EQ(r.most, 101U);
+  ASSERT_EQ(r.bands.size(), 9000U);
+  EXPECT_THAT(r.bands[77].vx, ElementsAre(-50.0, -45.0, -25.0, 0.0, 25.0, 45.0, 50.0));
+  EXPECT_THAT(r.bands[77].vy, ElementsAre(-100.0, -90.0, -50.0, 0.0, 50.0, 90.0, 100.0));
+  const std::string path = temporary("carom_plot_bands.svg");
+  ASSERT_TRUE(plot_velocity(path, "many", r));
+  const std::string svg = text_of(path);
+  for (const char* const shown : {"velocities of all disks", "median", "95 %", "greatest", ">vx<", ">vy<"}) {
+    EXPECT_TRUE(svg.find(shown) != std::string::npos) << shown;
+  }
+  EXPECT_TRUE(svg.find("disk 0") == std::string::npos);
+  EXPECT_LT(svg.size(), 3'000'000U);
+  fs::remove(path);
+}
+
+TEST(Plot, BandsDoNotDependOnStorageOrder) {
+  VelocityRecord a, b;
+  Disks there, back;
+  for (DiskId id = 0; id < 50'000; ++id) append(there, {0.0, 0.0, std::sin(id), std::cos(id), 1.0, 1.0, id});
+  for (DiskId id = 50'000; id-- > 0;) append(back, {0.0, 0.0, std::sin(id), std::cos(id), 1.0, 1.0, id});
+  record(a, there, 0.0);
+  record(b, back, 0.0);
+  EXPECT_EQ(a.bands[0].vx, b.bands[0].vx);
+  EXPECT_EQ(a.bands[0].vy, b.bands[0].vy);
+  EXPECT_NEAR(a.bands[0].vx[5], std::sin(0.45 * M_PI), 0.01);
+}
+
+TEST(Plot, ALineThatEndsEarlyIsMarked) {
+  VelocityRecord r;
+  record(r, disks_with_ids({0, 1}), 0.0);
+  record(r, disks_with_ids({0, 1}), 1.0);
+  record(r, disks_with_ids({1}), 2.0);
+  const std::string path = temporary("carom_plot_gone.svg");
+  ASSERT_TRUE(plot_velocity(path, "a sink", r));
+  EXPECT_TRUE(text_of(path).find("disk 0, gone") != std::string::npos);
+  EXPECT_TRUE(text_of(path).find("disk 1, gone") == std::string::npos);
+  fs::remove(path);
+}
+
+TEST(Plot, NothingToShowIsStillAPlot) {
+  const std::string path = temporary("carom_plot_empty.svg");
+  EXPECT_TRUE(plot_velocity(path, "no disks", {}));
+  EXPECT_TRUE(plot_energy(path, "one frame at rest", {{0.0}, {0.0}, {0.0}, {0.0}}));
+  EXPECT_TRUE(plot_energy(path, "", {{0.0, 1.0}, {2.0, 1.0}, {0.0, 1.0}, {2.0, 2.0}}));
+  EXPECT_TRUE(text_of(path).find("potential") != std::string::npos);
+  fs::remove(path);
+}
+
+TEST(Plot, LogarithmicAxesAndAGuide) {
+  const std::string path = temporary("carom_plot_log.svg");
+  const Line curve{"measured", {0.1, 1.0, 100.0}, {1e-3, 1.0, 1e3}};
+  const Line guide{"~ t", {0.1, 50.0}, {1e-3, 0.5}, LineStyle::guide};
+  ASSERT_TRUE(draw_svg({"log", "t", 100.0, {{"y", {curve, guide}}}, true}, path));
+  const std::string svg = text_of(path);
+  for (const char* const shown : {"measured", ">~ t<", ">0.1<", ">10<", ">0.001<"}) {
+    EXPECT_TRUE(svg.find(shown) != std::string::npos) << shown;
+  }
+  ASSERT_TRUE(draw_svg({"nothing", "t", 0.0, {{"y", {}}}, true}, path)) << "nor is nothing a reason to fail";
+  fs::remove(path);
+}
+
+TEST(Plot, AFullDiskIsAnError) {
+  EXPECT_THROW(plot_energy("/dev/full", "full", {{0.0, 1.0}, {2.0, 1.0}, {0.0, 1.0}, {2.0, 2.0}}), RunError);
+}
+
+TEST(Plot, WithoutGnuplotNothingIsWritten) {
+  const std::string path = temporary("carom_plot_none.svg");
+  const std::string saved = getenv("PATH");
+  setenv("PATH", "/nonexistent", 1);
+  EXPECT_FALSE(plot_velocity(path, "none", {}));
+  setenv("PATH", saved.c_str(), 1);
+  EXPECT_FALSE(fs::exists(path));
+}
+
+}  // namespace
+}  // namespace carom

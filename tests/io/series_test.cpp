@@ -1,0 +1,109 @@
+// series.csv: the columns, interval means, and full disks.
+#include "io/tables/series.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "core/base/check.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+
+Scene small_scene() {
+  Scene scene;
+  scene.box.width = 4.0;
+  scene.box.height = 5.0;
+  scene.physics.gravity = 2.0;
+  return scene;
+}
+
+using Row = std::map<std::string, double>;
+
+std::vector<Row> read_csv(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<std::string> names;
+  std::vector<Row> rows;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream cells(line);
+    std::size_t column = 0;
+    if (!names.empty()) rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      if (rows.empty()) {
+        names.push_back(cell);
+      } else {
+        rows.back()[names.at(column++)] = std::stod(cell);
+      }
+    }
+  }
+  return rows;
+}
+
+TEST(Series, RowsHoldStateAndIntervalMeans) {
+  const std::string path = (fs::temp_directory_path() / "carom_series_test.csv").string();
+  Disks d;
+  append(d, {1.0, 1.5, 3.0, 0.0, 0.5, 2.0, 0});
+  append(d, {3.0, 0.5, 0.0, -1.0, 0.5, 4.0, 1});
+  State state;
+  SeriesWriter series(path, small_scene());
+  series.write(d, 0.0, state);
+  state.time = 0.5;
+  state.counters.collisions = 3;
+  state.counters.wall_collisions = 5;
+  state.counters.virial = 8.0;
+  state.counters.wall_impulse[2] = 6.0;
+  series.write(d, 0.5, state);
+  state.time = 1.0;
+  state.counters.collisions = 4;
+  state.counters.removed = 7;
+  series.write(d, 1.0, state);
+  series.close();
+
+  auto rows = read_csv(path);
+  fs::remove(path);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0]["disks"], 2.0);
+  EXPECT_EQ(rows[0]["kinetic"], 11.0);
+  EXPECT_EQ(rows[0]["potential"], 10.0);
+  EXPECT_EQ(rows[0]["total"], 21.0);
+  EXPECT_EQ(rows[0]["px"], 6.0);
+  EXPECT_EQ(rows[0]["py"], -4.0);
+  EXPECT_EQ(rows[0]["pressure"], 0.0);
+  EXPECT_EQ(rows[1]["t"], 0.5);
+  EXPECT_EQ(rows[1]["pressure"], (11.0 + 8.0 / (2.0 * 0.5)) / 20.0);
+  EXPECT_EQ(rows[1]["collision_rate"], 2.0 * 3.0 / (2.0 * 0.5));
+  EXPECT_EQ(rows[1]["force_bottom"], 12.0);
+  EXPECT_EQ(rows[1]["wall_collisions"], 5.0);
+  EXPECT_EQ(rows[2]["pressure"], 11.0 / 20.0);
+  EXPECT_EQ(rows[2]["collision_rate"], 2.0);
+  EXPECT_EQ(rows[2]["removed"], 7.0);
+  EXPECT_EQ(rows[2]["max_overlap"], 0.0);
+}
+
+TEST(Series, WithoutDisksEveryNumberIsFinite) {
+  const std::string path = (fs::temp_directory_path() / "carom_series_empty.csv").string();
+  State state;
+  SeriesWriter series(path, small_scene());
+  series.write({}, 0.0, state);
+  state.time = 1.0;
+  series.write({}, 1.0, state);
+  series.close();
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  fs::remove(path);
+  EXPECT_THAT(text.str(), ::testing::Not(::testing::HasSubstr("nan")));
+}
+
+TEST(Series, AFullDiskIsAnError) {
+  SeriesWriter series("/dev/full", small_scene());
+  EXPECT_THROW(series.write({}, 0.0, {}), RunError);
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,136 @@
+// Mean square displacement: across periodic sides, whoever looks how often; free flight, Brownian motion, sinks.
+#include "core/measure/displacement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/measure/follow_disks.hpp"
+#include "core/start/initial_state.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+Scene periodic_scene(Method method, double dt, double t_end) {
+  Scene scene = test::scene_of(method, 6.0, 4.0, dt, t_end);
+  test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
+  return scene;
+}
+
+// Disks on rows of their own, which all rise at one speed, so that they never meet.
+std::vector<Disk> rows(std::size_t n, double speed) {
+  test::Draws draws(5);
+  std::vector<Disk> list;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double y = 4.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+    const double radius = std::min(0.02, 0.8 / static_cast<double>(n));
+    list.push_back({draws.in(0.0, 6.0), y, draws.in(-speed, speed), 0.3 * speed, radius, 1.0, 0});
+  }
+  return list;
+}
+
+double mean_square_speed(const std::vector<Disk>& list) {
+  double sum = 0.0;
+  for (const Disk& d : list) sum += d.vx * d.vx + d.vy * d.vy;
+  return sum / static_cast<double>(list.size());
+}
+
+// The displacement at the end of a run that is followed step by step.
+struct Followed {
+  MeanSquare mean;
+  Count doubtful = 0;
+};
+Followed follow(Engine& engine, const Scene& scene) {
+  DisplacementTally tally;
+  begin_displacement(tally, engine.state().disks, scene.box, engine.state().time);
+  while (engine.state().time < scene.run.t_end) {
+    engine.step();
+    const State& now = engine.state();
+    if (follow_disks(tally, engine, scene, now.time)) look_at(tally, now.disks, scene.box, now.time);
+  }
+  look_at(tally, engine.state().disks, scene.box, engine.state().time);
+  return {mean_square_displacement(tally, engine.state().disks, scene.box), tally.doubtful};
+}
+
+// (v t)^2 to rounding, after up to thirty rounds of the box; windows of exact take such disks far at a time.
+TEST(Displacement, FreeFlightGoesRoundTheBox) {
+  for (const Method method : {Method::pairwise, Method::exact}) {
+    for (const std::size_t n : {1U, 3U, 50U}) {
+      const Scene scene = periodic_scene(method, 4e-3, 20.0);
+      const std::vector<Disk> list = rows(n, 10.0);
+      const auto engine = make_reference_engine(scene, test::state_of(scene, list));
+      const Followed f = follow(*engine, scene);
+      const double expected = mean_square_speed(list) * 20.0 * 20.0;
+      EXPECT_NEAR(f.mean.value / expected, 1.0, 1e-9) << test::name_of(method) << ", " << n;
+      EXPECT_EQ(f.mean.disks, n);
+      EXPECT_EQ(f.doubtful, 0U);
+    }
+  }
+}
+
+// So many that speeds are asked for seldom.
+TEST(Displacement, ManyDisksAreFollowedToo) {
+  const Scene scene = periodic_scene(Method::exact, 0.0, 1.0);
+  const std::vector<Disk> list = rows(5000, 10.0);
+  const auto engine = make_parallel_engine(scene, test::state_of(scene, list), {2});
+  const Followed f = follow(*engine, scene);
+  EXPECT_NEAR(f.mean.value / mean_square_speed(list), 1.0, 1e-9);
+  EXPECT_EQ(f.doubtful, 0U);
+}
+
+// Falling for ever: g t^2 / 2 down, from rest.
+TEST(Displacement, FreeFallIsFollowedThoughItBeginsAtRest) {
+  Scene scene = periodic_scene(Method::exact, 0.0, 20.0);
+  scene.physics.gravity = 1.0;
+  const auto engine = make_reference_engine(scene, test::state_of(scene, rows(1, 0.0)));
+  const Followed f = follow(*engine, scene);
+  EXPECT_NEAR(f.mean.value, 200.0 * 200.0, 1e-6);
+  EXPECT_EQ(f.doubtful, 0U);
+}
+
+// A step that nobody can see into and that is longer than the box is no reason for a wrong number in silence.
+TEST(Displacement, AStepTooLongIsADoubt) {
+  Scene scene = periodic_scene(Method::pairwise, 1.0, 10.0);
+  std::vector<Disk> list = rows(3, 10.0);
+  for (Disk& d : list) d.radius = 0.5;
+  const auto engine = make_reference_engine(scene, test::state_of(scene, list));
+  EXPECT_GT(follow(*engine, scene).doubtful, 0U);
+}
+
+// 4 D t where collisions are rare; the standard error of a mean of n squares of two components is 1 / sqrt(n).
+TEST(Displacement, BrownianMotionGivesFourDt) {
+  for (const Method method : {Method::pairwise, Method::exact}) {
+    Scene scene = periodic_scene(method, 0.01, 4.0);
+    scene.physics.diffusion = 1.5;
+    scene.box.width = 60.0;
+    scene.box.height = 40.0;
+    test::Draws draws(6);
+    const auto list = test::random_disks(draws, scene.box, 600, {0.02, 0.02});
+    const auto engine = make_parallel_engine(scene, test::state_of(scene, list), {1});
+    const Followed f = follow(*engine, scene);
+    EXPECT_NEAR(f.mean.value / (4.0 * 1.5 * 4.0), 1.0, 4.0 / std::sqrt(600.0)) << test::name_of(method);
+    EXPECT_EQ(f.doubtful, 0U);
+  }
+}
+
+TEST(Displacement, OverThoseThatWereThereAndStillAre) {
+  Domain box{10.0, 10.0};
+  DisplacementTally tally;
+  Disks disks = test::disks_of({{1.0, 1.0}, {2.0, 2.0}, {3.0, 3.0}});
+  begin_displacement(tally, disks, box, 0.0);
+  Disks later;  // 1 is gone, 7 has come, 2 and 0 have moved and changed places
+  append(later, {3.0, 5.0, 0.0, 0.0, 0.5, 1.0, 2});
+  append(later, {8.0, 8.0, 0.0, 0.0, 0.5, 1.0, 7});
+  append(later, {4.0, 1.0, 0.0, 0.0, 0.5, 1.0, 0});
+  look_at(tally, later, box, 1.0);
+  const MeanSquare mean = mean_square_displacement(tally, later, box);
+  EXPECT_EQ(mean.disks, 2U);
+  EXPECT_EQ(mean.value, (4.0 + 9.0) / 2.0);
+  EXPECT_TRUE(std::isnan(mean_square_displacement(tally, {}, box).value));
+}
+
+}  // namespace
+}  // namespace carom

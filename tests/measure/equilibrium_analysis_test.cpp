@@ -1,0 +1,124 @@
+// What an equilibrium run measures of itself, against published numbers: contact value of g(r), pressure, Maxwell.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/sample_mean.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/measure/analysis_curves.hpp"
+#include "core/start/initial_state.hpp"
+#include "parallel/pair_counting.hpp"
+#include "parallel/simulation.hpp"
+
+namespace carom {
+namespace {
+
+// Disks of two masses at packing fraction 0.3, which begin far from Maxwell's speeds.
+constexpr const char* gas = R"(
+[box]
+packing_fraction = 0.3
+left = "periodic"
+right = "periodic"
+bottom = "periodic"
+top = "periodic"
+[[disks]]
+count = 1024
+positions = "random"
+velocities = { uniform = 1.0 }
+radius = 0.5
+mass = 1.0
+[[disks]]
+count = 1024
+positions = "random"
+velocities = { uniform = 1.0 }
+radius = 0.5
+mass = 4.0
+[run]
+t_end = 130.0
+[analysis]
+what = ["pair_correlation", "speeds", "pressure"]
+pair_correlation = { r_max = 4.0, bins = 200 }
+)";
+
+// Pearson's chi^2 of the histogram against Maxwell, over the bins in which it expects 20 or more, and their number.
+struct ChiSquare {
+  double value = 0.0, bins = 0.0;
+};
+ChiSquare chi_square(const SpeedHistogram& h, const AnalysisPlan& plan) {
+  double all = static_cast<double>(h.beyond);
+  for (const Count c : h.counts) all += static_cast<double>(c);
+  ChiSquare chi;
+  for (std::size_t k = 0; k < h.counts.size(); ++k) {
+    const double expected = all * maxwell_share(plan.speed_max, h.counts.size(), k);
+    if (expected < 20.0) continue;
+    const double off = static_cast<double>(h.counts[k]) - expected;
+    chi.value += off * off / expected;
+    chi.bins += 1.0;
+  }
+  return chi;
+}
+
+// Its distribution has the mean `bins` and the variance 2 bins; five standard deviations more are chance once in 10^6.
+double bound(const ChiSquare& chi) {
+  return chi.bins + 5.0 * std::sqrt(2.0 * chi.bins);
+}
+
+// The parabola a + b s + c s^2 that comes nearest to the first `points` values of the curve from `from` on, at s = 0,
+// the place of contact.
+double at_contact(const BinnedCurve& g, std::size_t from, std::size_t points, double contact) {
+  double m[3][4] = {};
+  for (std::size_t k = from; k < from + points; ++k) {
+    const double s = g.middle[k] - contact;
+    const double power[3] = {1.0, s, s * s};
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) m[i][j] += power[i] * power[j];
+      m[i][3] += power[i] * g.value[k];
+    }
+  }
+  for (int i = 2; i > 0; --i) {  // upwards, so that the first unknown comes out last
+    for (int j = 0; j < i; ++j) {
+      const double f = m[j][i] / m[i][i];
+      for (int c = 0; c < 4; ++c) m[j][c] -= f * m[i][c];
+    }
+  }
+  return m[0][3] / m[0][0];
+}
+
+TEST(EquilibriumAnalysis, ContactValuePressureAndSpeedsAreThoseOfTheory) {
+  const Scene scene = parse_scene(gas, "gas.toml", "");
+  const auto engine = make_parallel_engine(scene, initial_state(scene), {2});
+  AnalysisRecord record = empty_record(scene.analysis), start = record, seldom = record;
+  const PairCounter count = parallel_pair_counter(2);
+  take_sample(start, scene, engine->state().disks, 0.0, engine->state(), count);
+  const ChiSquare before = chi_square(start.speeds, scene.analysis);
+  EXPECT_GT(before.value, 2.0 * bound(before)) << "else the test shows nothing";
+  Disks disks;
+  int taken = 0;
+  for (double t = 10.0; t < 130.0; t += 0.25, ++taken) {
+    while (engine->state().time < t) engine->step();
+    engine->disks_at(t, disks);
+    take_sample(record, scene, disks, t, engine->state(), count);
+    // Speeds a few collisions apart, so that samples are independent.
+    if (taken % 8 == 0) add_speeds(seldom.speeds, disks, record.series.temperature.back(), scene.analysis.speed_max);
+  }
+  constexpr double z = 2.06326;  // virial series at 0.3
+  const double area = scene.box.width * scene.box.height;
+  const double temperature = sample_mean(record.series.temperature).mean;
+  EXPECT_NEAR(sample_mean(record.series.pressure).mean * area / (2048.0 * temperature), z, 0.01 * z);
+  // Z = 1 + 2 phi g(2 r) for equal disks. Contact is at 1, the end of bin 49.
+  const BinnedCurve g = pair_correlation_curve(record, scene.analysis);
+  EXPECT_EQ(record.pairs.counts[48], 0U) << "nobody overlaps";
+  const double contact = (z - 1.0) / (2.0 * 0.3);
+  EXPECT_NEAR(at_contact(g, 50, 15, 1.0), contact, 0.02 * contact);
+  // Far away there is no order left.
+  double far = 0.0;
+  for (std::size_t k = 175; k < 200; ++k) far += g.value[k] / 25.0;
+  EXPECT_NEAR(far, 1.0, 0.005);
+  const ChiSquare after = chi_square(seldom.speeds, scene.analysis);
+  EXPECT_GT(after.bins, 35.0);
+  EXPECT_LT(after.value, bound(after));
+}
+
+}  // namespace
+}  // namespace carom

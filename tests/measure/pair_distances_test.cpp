@@ -1,0 +1,119 @@
+// Pairs by distance: the grid against all pairs, threads against none, and g = 1 where nothing is correlated.
+#include "core/measure/pair_distances.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/measure/analysis.hpp"
+#include "parallel/pair_counting.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+Disks strewn(test::Draws& draws, const Domain& box, std::size_t n) {
+  Disks disks;
+  for (std::size_t i = 0; i < n; ++i) {
+    append(disks, {draws.in(0.0, box.width), draws.in(0.0, box.height), 0.0, 0.0, 0.1, 1.0, static_cast<DiskId>(i)});
+  }
+  return disks;
+}
+
+bool far_from_walls(const Disks& d, std::size_t i, const Domain& box, double margin) {
+  const bool x = box.periodic_x() || (d.x[i] >= margin && d.x[i] <= box.width - margin);
+  const bool y = box.periodic_y() || (d.y[i] >= margin && d.y[i] <= box.height - margin);
+  return x && y;
+}
+
+// Every centre asks every other disk.
+PairCounts all_pairs(const Disks& d, const Domain& box, const DistanceBins& bins) {
+  PairCounts found{0, std::vector<Count>(bins.bins, 0)};
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    if (!far_from_walls(d, i, box, bins.wall_margin)) continue;
+    ++found.centres;
+    for (std::size_t j = 0; j < d.size(); ++j) {
+      if (j == i) continue;
+      double dx = d.x[j] - d.x[i];
+      double dy = d.y[j] - d.y[i];
+      if (box.periodic_x()) dx = nearest_image(dx, box.width);
+      if (box.periodic_y()) dy = nearest_image(dy, box.height);
+      const double bin = std::sqrt(dx * dx + dy * dy) * (static_cast<double>(bins.bins) / bins.r_max);
+      if (bin < static_cast<double>(bins.bins)) ++found.counts[static_cast<std::size_t>(bin)];
+    }
+  }
+  return found;
+}
+
+struct Case {
+  double width, height;
+  SideKind left_right, bottom_top;
+  double r_max;
+};
+// Square, thin, so narrow that a side has one cell; walls and periodic sides.
+constexpr SideKind wall = SideKind::wall, around = SideKind::periodic;
+const std::vector<Case> cases{{20.0, 20.0, around, around, 3.0}, {20.0, 20.0, wall, wall, 3.0},
+                              {50.0, 7.0, around, around, 3.5},  {50.0, 7.0, around, wall, 2.0},
+                              {7.0, 50.0, wall, around, 2.5},    {9.0, 10.0, around, around, 3.0},
+                              {8.0, 8.0, around, around, 4.0},   {30.0, 20.0, SideKind::sink, around, 2.0}};
+
+TEST(PairDistances, CountsAreThoseOfAllPairsOnAnyNumberOfThreads) {
+  test::Draws draws(11);
+  for (const Case& c : cases) {
+    Domain box{c.width, c.height};
+    test::set_sides(box, c.left_right, c.bottom_top);
+    for (const std::size_t n : {0U, 1U, 2U, 30U, 700U}) {
+      const Disks disks = strewn(draws, box, n);
+      const DistanceBins bins{c.r_max, 23, c.r_max + 0.1};
+      const PairCounts expected = all_pairs(disks, box, bins);
+      for (const int threads : {0, 1, 2, 5}) {
+        const PairCounts found =
+            threads == 0 ? count_pairs(disks, box, bins) : parallel_pair_counter(threads)(disks, box, bins);
+        EXPECT_EQ(found.centres, expected.centres);
+        EXPECT_EQ(found.counts, expected.counts) << c.width << " x " << c.height << ", " << n << " disks, " << threads;
+      }
+    }
+  }
+}
+
+// Points strewn at random: g = 1 in every bin, within four standard errors of the number of pairs.
+TEST(PairDistances, NothingCorrelatedGivesOne) {
+  test::Draws draws(12);
+  for (const Case& c : cases) {
+    Scene scene;
+    scene.box = {c.width, c.height};
+    test::set_sides(scene.box, c.left_right, c.bottom_top);
+    scene.analysis.wanted[0] = true;
+    scene.analysis.r_max = c.r_max;
+    scene.analysis.r_bins = 12;
+    scene.analysis.wall_margin = c.r_max + 0.1;
+    AnalysisRecord record = empty_record(scene.analysis);
+    for (int k = 0; k < 200; ++k) take_sample(record, scene, strewn(draws, scene.box, 200), k, {}, count_pairs);
+    for (std::size_t k = 0; k < 12; ++k) {
+      const auto pairs = static_cast<double>(record.pairs.counts[k]);
+      ASSERT_GT(pairs, 100.0);
+      // Each pair is counted twice where both are centres.
+      const double error = std::sqrt(2.0 / pairs);
+      EXPECT_NEAR(pair_correlation(record.pairs, distance_bins(scene.analysis), k), 1.0, 4.0 * error)
+          << c.width << " x " << c.height << ", bin " << k;
+    }
+  }
+}
+
+// A square lattice: 4 neighbours at 1, 4 at sqrt 2, 4 at 2, and none elsewhere.
+TEST(PairDistances, LatticeHasItsShells) {
+  Domain box{12.0, 12.0};
+  test::set_sides(box, SideKind::periodic, SideKind::periodic);
+  Disks disks;
+  for (int k = 0; k < 144; ++k) {
+    const Vec2 c = test::cell_centre(k, 12, 1.0);
+    append(disks, {c.x, c.y, 0.0, 0.0, 0.4, 1.0, static_cast<DiskId>(k)});
+  }
+  const PairCounts found = count_pairs(disks, box, {2.1, 21, 3.0});
+  for (std::size_t k = 0; k < 21; ++k) {
+    EXPECT_EQ(found.counts[k], k == 10 || k == 14 || k == 20 ? 4U * 144U : 0U) << k;
+  }
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,88 @@
+// Density along an axis and the histogram of speeds, against what can be said beforehand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "core/measure/analysis_curves.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+TEST(DensityProfile, ShareBelowALine) {
+  EXPECT_EQ(share_below(-2.0), 0.0);
+  EXPECT_EQ(share_below(1.0), 1.0);
+  EXPECT_NEAR(share_below(0.0), 0.5, 1e-15);
+  for (const double h : {-0.9, -0.3, 0.2, 0.7}) {
+    EXPECT_NEAR(share_below(h) + share_below(-h), 1.0, 1e-15);
+    double sum = 0.0;  // of thin strips
+    constexpr int strips = 100000;
+    for (int k = 0; k < strips; ++k) {
+      const double y = -1.0 + (h + 1.0) * (k + 0.5) / strips;
+      sum += 2.0 * std::sqrt(1.0 - y * y) * (h + 1.0) / strips;
+    }
+    EXPECT_NEAR(share_below(h), sum / test::pi, 1e-7) << h;
+  }
+}
+
+// One disk across the corner of a periodic side, one across two slabs, one at a wall: all of its area is somewhere.
+TEST(DensityProfile, AreaIsSharedOutAndNoneIsLost) {
+  for (const bool along_x : {true, false}) {
+    Domain box{8.0, 8.0};
+    if (along_x) test::set_sides(box, SideKind::periodic, SideKind::wall);
+    DensityProfile profile{std::vector<Count>(4, 0), std::vector<double>(4, 0.0), 0};
+    const double at = along_x ? 0.25 : 1.0;
+    const Disks disks = test::disks_of({{at, at, 0.0, 0.0, 1.0, 1.0}, {4.0, 4.0, 0.0, 0.0, 0.5, 1.0}});
+    add_density(profile, disks, box, along_x);
+    add_density(profile, disks, box, along_x);
+    const double corner = along_x ? test::pi * share_below(-0.25) : 0.0;
+    EXPECT_EQ(profile.centres, (std::vector<Count>{2, 0, 2, 0}));
+    EXPECT_NEAR(profile.covered[0], 2.0 * (test::pi - corner), 1e-12);
+    EXPECT_NEAR(profile.covered[3], 2.0 * corner, 1e-12);
+    EXPECT_NEAR(profile.covered[1], test::pi * 0.25, 1e-12);
+    EXPECT_NEAR(profile.covered[2], test::pi * 0.25, 1e-12);
+  }
+}
+
+// The same sums in whatever order disks are stored.
+TEST(DensityProfile, StorageOrderChangesNoBit) {
+  test::Draws draws(3);
+  const Domain box{10.0, 10.0};
+  std::vector<Disk> list = test::random_disks(draws, box, 40, {0.1, 0.5});
+  const auto covered = [&](const std::vector<Disk>& disks) {
+    DensityProfile profile{std::vector<Count>(30, 0), std::vector<double>(30, 0.0), 0};
+    add_density(profile, test::disks_of(disks), box, false);
+    return profile.covered;
+  };
+  std::vector<Disk> turned(list.rbegin(), list.rend());
+  EXPECT_EQ(covered(list), covered(turned));
+}
+
+TEST(SpeedHistogram, CountsReducedSpeeds) {
+  SpeedHistogram h;
+  h.counts.assign(4, 0);
+  // v^2 m / T is 1, 4 and 100 at T = 2: u = 1, 2, 10.
+  const Disks disks =
+      test::disks_of({{0, 0, 1.0, 0.0, 1.0, 2.0}, {0, 0, 0.0, -1.0, 1.0, 8.0}, {0, 0, 6.0, 8.0, 1.0, 2.0}});
+  add_speeds(h, disks, 2.0, 4.0);
+  EXPECT_EQ(h.counts, (std::vector<Count>{0, 1, 1, 0}));
+  EXPECT_EQ(h.beyond, 1U);
+  EXPECT_EQ(h.largest_seen, 10.0);
+  add_speeds(h, disks, 0.0, 4.0);
+  EXPECT_EQ(h.samples, 1U) << "all at rest: there is no scale";
+}
+
+TEST(SpeedHistogram, MaxwellSharesMakeUpAll) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 90; ++k) {
+    const double share = maxwell_share(9.0, 90, k);
+    const double u = 0.1 * (static_cast<double>(k) + 0.5);
+    EXPECT_NEAR(share / (0.1 * u * std::exp(-0.5 * u * u)), 1.0, 0.05) << k;
+    sum += share;
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-15);
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,191 @@
+// A run that leaves what its method can do says so: once, with the figure and the remedy, in both engines alike.
+#include "core/measure/validity.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "core/base/check.hpp"
+#include "core/measure/invariants.hpp"
+#include "core/step/engine.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string folder = CAROM_SOURCE_DIR "/scenes/stability/";
+
+// All warnings of a run; a run that the physics stops ends its list with that.
+std::vector<std::string> warnings_of(Engine& engine, const Scene& scene) {
+  try {
+    while (engine.state().time < scene.run.t_end) engine.step();
+  } catch (const PhysicsError& error) {
+    std::vector<std::string> warnings = engine.take_warnings();
+    warnings.emplace_back(error.what());
+    return warnings;
+  }
+  return engine.take_warnings();
+}
+
+std::vector<std::string> warnings_of(const Scene& scene) {
+  const State start = initial_state(scene);
+  std::vector<std::string> plain = warnings_of(*make_reference_engine(scene, start), scene);
+  EXPECT_EQ(plain, warnings_of(*make_parallel_engine(scene, start, {3, 512}), scene));
+  return plain;
+}
+
+Scene stability_scene(const std::string& name, const std::vector<Override>& changes) {
+  return load_scene(folder + name + ".toml", changes);
+}
+
+TEST(Validity, PairwiseSaysThatCollisionsAreSeenLate) {
+  const auto gas = [](const char* dt) {
+    return stability_scene("f02_bounce_at_a_distance", {{"disks.0.count", "300"},
+                                                        {"box.packing_fraction", "0.5"},
+                                                        {"run.t_end", "2"},
+                                                        {"run.method", "pairwise"},
+                                                        {"run.dt", dt}});
+  };
+  EXPECT_THAT(warnings_of(gas("0.005")), IsEmpty());
+  EXPECT_THAT(warnings_of(gas("0.05")),
+              ::testing::Contains(AllOf(HasSubstr("collisions were seen a step late: dt = 0.05 is long"),
+                                        HasSubstr("use a smaller dt or --method exact"))));
+}
+
+TEST(Validity, RollbackSaysThatDisksBounceBeforeTheyTouch) {
+  const auto gas = [](const char* dt) {
+    return stability_scene("f02_bounce_at_a_distance",
+                           {{"disks.0.count", "300"}, {"run.t_end", "5"}, {"run.method", "rollback"}, {"run.dt", dt}});
+  };
+  EXPECT_THAT(warnings_of(gas("0.005")), IsEmpty());
+  EXPECT_THAT(warnings_of(gas("0.05")), ElementsAre(HasSubstr("bounced at one moment with another of the same disk")));
+}
+
+TEST(Validity, RollbackSaysThatTimeStallsBeforeItStops) {
+  const Scene scene = stability_scene(
+      "f16_collapse_three", {{"disks.0.velocities", "[[1, 0], [0, 0], [-1, 0]]"}, {"run.method", "rollback"}});
+  const std::vector<std::string> warnings = warnings_of(scene);
+  EXPECT_THAT(warnings, ::testing::Contains(AllOf(HasSubstr("a frame advances time by 0.0"),
+                                                  HasSubstr("with 3 disks: time stalls; use --method pairwise"))));
+  EXPECT_THAT(warnings.back(), HasSubstr("rollback: time stands still at t = "));
+}
+
+TEST(Validity, BrownianMotionIsNotSentToExact) {
+  Scene gas = stability_scene("f02_bounce_at_a_distance", {{"disks.0.count", "300"},
+                                                           {"box.packing_fraction", "0.5"},
+                                                           {"run.t_end", "20"},
+                                                           {"run.method", "pairwise"},
+                                                           {"run.dt", "0.5"}});
+  gas.physics.diffusion = 0.05;
+  const std::vector<std::string> warnings = warnings_of(gas);
+  EXPECT_THAT(warnings, ::testing::Contains(HasSubstr("use a smaller dt")));
+  for (const std::string& warning : warnings) EXPECT_THAT(warning, ::testing::Not(HasSubstr("exact")));
+}
+
+// A heavy disk presses a light one against the wall.
+TEST(Validity, PairwiseSaysHowFarDisksOverlap) {
+  const Scene pressed = stability_scene("mass_ratio_1e6", {{"run.method", "pairwise"}, {"run.dt", "0.05"}});
+  EXPECT_THAT(warnings_of(pressed), ::testing::Contains(AllOf(HasSubstr("two disks overlap by"),
+                                                              HasSubstr("more than 2 %: dt = 0.05 is too long"))));
+}
+
+// What a run has come to, step by step: the deepest overlaps of the states that it went through.
+struct Deepest {
+  WorstOverlap disks, wall;
+  explicit Deepest(Engine& engine, const Scene& scene) {
+    while (engine.state().time < scene.run.t_end) {
+      engine.step();
+      const State& state = engine.state();
+      const Overlap of_disks = deepest_overlap(state.disks, scene.box);
+      const Overlap of_wall = deepest_wall_overlap(state.disks, scene.box);
+      if (of_disks.size > disks.overlap.size) disks = {of_disks, state.time};
+      if (of_wall.size > wall.overlap.size) wall = {of_wall, state.time};
+    }
+  }
+};
+
+void expect_same(const WorstOverlap& a, const WorstOverlap& b) {
+  EXPECT_EQ(a.overlap.size, b.overlap.size);
+  EXPECT_EQ(a.overlap.id1, b.overlap.id1);
+  EXPECT_EQ(a.overlap.id2, b.overlap.id2);
+  EXPECT_EQ(a.time, b.time);
+}
+
+// The state of both engines at the end of the run, which must have kept the same.
+ValidityCounts kept_by_both(const Scene& scene, const State& start, Engine& reference) {
+  const auto parallel = make_parallel_engine(scene, start, {3, 512});
+  while (parallel->state().time < scene.run.t_end) parallel->step();
+  const ValidityCounts& kept = reference.state().validity;
+  expect_same(parallel->state().validity.disks, kept.disks);
+  expect_same(parallel->state().validity.wall, kept.wall);
+  EXPECT_EQ(validity_so_far(scene, parallel->state()), validity_so_far(scene, reference.state()));
+  return kept;
+}
+
+TEST(Validity, TheDeepestOverlapsOfARunAreKeptWithTimeAndIds) {
+  const Scene pile = stability_scene("wedge", {{"run.method", "pairwise"}, {"run.dt", "0.02"}, {"run.t_end", "10"}});
+  const State start = initial_state(pile);
+  const auto engine = make_reference_engine(pile, start);
+  const Deepest seen(*engine, pile);
+  const ValidityCounts kept = kept_by_both(pile, start, *engine);
+  EXPECT_GT(seen.disks.overlap.size, 0.0);
+  EXPECT_GT(seen.wall.overlap.size, 0.0);
+  expect_same(kept.disks, seen.disks);
+  expect_same(kept.wall, seen.wall);
+}
+
+// A heavy disk presses a light one against the wall, ever deeper, and lets go of it long before the end: the warning
+// tells first of what it sees, and of the worst at the end. Steps are split, so parts of a step count, too.
+TEST(Validity, TheWorstIsToldAtTheEnd) {
+  const Scene scene = stability_scene("mass_ratio_1e6", {{"run.method", "pairwise"}, {"run.dt", "0.02"}});
+  const State start = initial_state(scene);
+  const auto engine = make_reference_engine(scene, start);
+  const Deepest seen(*engine, scene);
+  const ValidityCounts kept = kept_by_both(scene, start, *engine);
+  EXPECT_EQ(max_overlap(engine->state().disks, scene.box), 0.0);
+  EXPECT_GE(kept.disks.overlap.size, seen.disks.overlap.size);
+  EXPECT_GE(kept.wall.overlap.size, seen.wall.overlap.size);
+  const std::string worst = fmt::format("at time {:g} disk {} reaches {:.2g} % of its radius beyond the left wall",
+                                        kept.wall.time, kept.wall.overlap.id1, 100.0 * kept.wall.overlap.size);
+  EXPECT_THAT(engine->take_warnings(), ::testing::Not(::testing::Contains(HasSubstr(worst))));
+  EXPECT_THAT(validity_so_far(scene, engine->state()), ::testing::Contains(HasSubstr(worst)));
+}
+
+TEST(Validity, ExactSaysThatTheCollapseModelTakesOver) {
+  const auto cooling = [](const char* contact_time) {
+    return stability_scene("f16_cooling_gas", {{"physics.restitution", "0.9"},
+                                               {"physics.collapse",
+                                                std::string("{ model = \"tc\", contact_time = ") + contact_time + " }"},
+                                               {"disks.0.count", "100"},
+                                               {"run.t_end", "2"}});
+  };
+  EXPECT_THAT(warnings_of(cooling("1e-6")), IsEmpty());
+  EXPECT_THAT(warnings_of(cooling("0.1")), ElementsAre(AllOf(HasSubstr("were made elastic by the TC model"),
+                                                             HasSubstr("contact_time = 0.1 is long"))));
+}
+
+TEST(Validity, ScenesThatNoMethodServesAreToldBeforeTheFirstStep) {
+  Scene scene = test::scene_from(test::sound_scene);
+  EXPECT_THAT(validity_of(scene, 1.0), IsEmpty());
+  EXPECT_THAT(validity_of(scene, 0.0), IsEmpty());
+  EXPECT_THAT(validity_of(scene, 1e-9), ElementsAre(HasSubstr("in a box of 20 places are known to 2.2e-06 of the")));
+  EXPECT_THAT(validity_of(scene, 1.0, 3.0), IsEmpty());
+  scene.run.dt = 1e-16;
+  EXPECT_THAT(
+      validity_of(scene, 1.0, 3.0),
+      ElementsAre(AllOf(HasSubstr("the fastest disk moves by 3e-16 in dt = 1e-16, and in a box of 20 places are"),
+                        HasSubstr("motion is lost in rounding; use a longer dt"))));
+  EXPECT_THAT(validity_of(scene, 1.0, 0.0), IsEmpty()) << "nothing moves";
+  scene.physics.diffusion = 2.0;
+  scene.run.dt = 1.0;
+  EXPECT_THAT(validity_of(scene, 1.0), ElementsAre(AllOf(HasSubstr("a Brownian disk moves by 2 of the smallest radius"),
+                                                         HasSubstr("use dt <= 0.062"))));
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,136 @@
+// Walls with and without gravity, restitution of walls, nearest image and wrapping.
+#include "core/physics/boundary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/physics/advance.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+Domain box_of(double width, double height) {
+  Domain box;
+  box.width = width;
+  box.height = height;
+  return box;
+}
+
+// x - r <= 0 and so on: touching counts, and the sign says inside or beyond.
+TEST(Walls, ReachBeyondEachSide) {
+  const Domain box = box_of(10.0, 20.0);
+  EXPECT_EQ(reach_beyond(Side::left, 1.0, 5.0, 1.0, box), 0.0);
+  EXPECT_EQ(reach_beyond(Side::right, 9.5, 5.0, 1.0, box), 0.5);
+  EXPECT_EQ(reach_beyond(Side::bottom, 5.0, 0.25, 1.0, box), 0.75);
+  EXPECT_EQ(reach_beyond(Side::top, 5.0, 18.0, 1.0, box), -1.0);
+}
+
+TEST(Walls, SpeedTowardsAndBounceOffEachSide) {
+  for (Side side : all_sides) {
+    double vx = side == Side::left ? -2.0 : 2.0;
+    double vy = side == Side::bottom ? -3.0 : 3.0;
+    const bool across_x = side == Side::left || side == Side::right;
+    const double speed = across_x ? 2.0 : 3.0;
+    EXPECT_EQ(outward_speed(side, vx, vy), speed);
+    const double kept = across_x ? vy : vx;
+    bounce(side, 0.25, vx, vy);
+    EXPECT_EQ(outward_speed(side, vx, vy), -0.25 * speed);
+    EXPECT_EQ(across_x ? vy : vx, kept);
+  }
+}
+
+TEST(Walls, MoveInwardLeadsToTouching) {
+  const Domain box = box_of(10.0, 20.0);
+  for (Side side : all_sides) {
+    const bool across_x = side == Side::left || side == Side::right;
+    double x = across_x ? touching_coordinate(side, 1.5, box) : 5.0;
+    double y = across_x ? 5.0 : touching_coordinate(side, 1.5, box);
+    EXPECT_EQ(reach_beyond(side, x, y, 1.5, box), 0.0);
+    move_inward(side, 0.5, x, y);
+    EXPECT_EQ(reach_beyond(side, x, y, 1.5, box), -0.5);
+  }
+}
+
+TEST(Walls, TimeSinceWithoutGravity) {
+  for (Side side : all_sides) EXPECT_EQ(time_since_wall(side, 0.5, 2.0, 0.0), 0.25);
+  EXPECT_EQ(time_since_wall(Side::left, 0.5, 2.0, 9.0), 0.25);  // side walls do not feel it
+  EXPECT_EQ(time_since_wall(Side::right, 0.5, 2.0, 9.0), 0.25);
+  EXPECT_EQ(time_since_wall(Side::bottom, 0.0, 2.0, 9.0), 0.0);  // just touching
+}
+
+// Start on the wall, drift by t under gravity: the time found is t. At the ceiling the disk must still be going up.
+TEST(Walls, TimeSinceWithGravityUndoesTheDrift) {
+  test::Draws draws(1);
+  for (int k = 0; k < 5000; ++k) {
+    const Side side = k % 2 == 0 ? Side::bottom : Side::top;
+    const double g = draws.decades(1e-6, 10.0);
+    const double t = draws.decades(1e-4, 1.0);
+    const double into = side == Side::bottom ? draws.decades(1e-3, 10.0) : g * t * (1.0 + draws.decades(1e-2, 100.0));
+    double x = 0.0, y = 0.0, vx = 0.0;
+    double vy = side == Side::bottom ? -into : into;
+    drift<true>(x, y, vx, vy, t, g);
+    const double beyond = std::abs(y);
+    const double speed = outward_speed(side, vx, vy);
+    ASSERT_GT(speed, 0.0);
+    EXPECT_NEAR(time_since_wall(side, beyond, speed, g) / t, 1.0, 1e-12);
+  }
+}
+
+// A disk deeper below the floor than its speed can have carried it was pushed there: its path never was inside.
+TEST(Walls, NeverInsideIsInfinity) {
+  EXPECT_EQ(time_since_wall(Side::bottom, 1.0, 1.0, 0.75), HUGE_VAL);
+  EXPECT_TRUE(std::isfinite(time_since_wall(Side::bottom, 1.0, 1.0, 0.5)));
+}
+
+// One disk against each wall through an engine: it comes back with -wall_restitution times its speed, from the wall and
+// at the time of contact, not from beyond and not at the end of the step.
+TEST(Walls, EnginesReflectAtTheWallWithItsRestitution) {
+  for (Method method : test::stepping_methods) {
+    for (const double restitution : {1.0, 0.5}) {
+      Scene scene = test::scene_of(method, 10.0, 10.0, 0.1, 6.0);
+      scene.box.wall_restitution = restitution;
+      const State end = test::run(scene, test::state_of(scene, {{7.0, 5.0, 0.53, 0.0, 1.0, 1.0}}));
+      const double hit = 2.0 / 0.53;
+      EXPECT_NEAR(end.disks.vx[0], -restitution * 0.53, 1e-15);
+      EXPECT_NEAR(end.disks.x[0], 9.0 - restitution * 0.53 * (6.0 - hit), 1e-13) << test::name_of(method);
+      EXPECT_EQ(end.counters.wall_collisions, 1U);
+      EXPECT_NEAR(end.counters.wall_impulse[1], (1.0 + restitution) * 0.53, 1e-15);
+    }
+  }
+}
+
+TEST(NearestImage, ShortestWayAndAntisymmetric) {
+  EXPECT_EQ(nearest_image(6.0, 10.0), -4.0);
+  EXPECT_EQ(nearest_image(-6.0, 10.0), 4.0);
+  EXPECT_EQ(nearest_image(5.0, 10.0), 5.0);
+  EXPECT_EQ(nearest_image(-5.0, 10.0), -5.0);
+  test::Draws draws(2);
+  for (int k = 0; k < 2000; ++k) {
+    const double period = draws.decades(1e-3, 1e3);
+    const double d = draws.in(-1.49, 1.49) * period;
+    EXPECT_EQ(nearest_image(-d, period), -nearest_image(d, period));
+    EXPECT_LE(std::abs(nearest_image(d, period)), 0.5 * period);
+  }
+}
+
+TEST(WrapCoordinate, HalfOpenInterval) {
+  EXPECT_EQ(wrap(10.0, 10.0), 0.0);
+  EXPECT_EQ(wrap(0.0, 10.0), 0.0);
+  EXPECT_EQ(wrap(-1e-20, 10.0), 0.0);  // -1e-20 + 10 rounds to 10, which is outside
+  EXPECT_EQ(wrap(-0.5, 10.0), 9.5);
+  EXPECT_EQ(wrap(10.5, 10.0), 0.5);
+  EXPECT_EQ(wrap(std::nextafter(10.0, 0.0), 10.0), std::nextafter(10.0, 0.0));
+  test::Draws draws(3);
+  for (int k = 0; k < 5000; ++k) {
+    const double period = draws.decades(1e-6, 1e6);
+    const double c = k % 2 == 0 ? draws.in(-period, 2.0 * period) : -draws.decades(1e-40, 1e-10) * period;
+    const double w = wrap(c, period);
+    EXPECT_GE(w, 0.0);
+    EXPECT_LT(w, period);
+  }
+}
+
+}  // namespace
+}  // namespace carom

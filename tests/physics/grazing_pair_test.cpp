@@ -1,0 +1,38 @@
+// Disks that just touch and pass along each other: rounding may say that they miss, and no time comes of that.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/physics/resolve.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+TEST(GrazingPair, IsResolvedWhereItIs) {
+  test::Draws draws(13);
+  Scene scene = test::scene_of(Method::pairwise, 20.0, 20.0, 0.01, 1.0);
+  int missed = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const double angle = draws.in(0.0, 2.0 * test::pi);
+    const double nx = std::cos(angle);
+    const double ny = std::sin(angle);
+    const double slide = draws.in(0.1, 10.0);
+    Disks disks =
+        test::disks_of({{10.0, 10.0, 0.0, 0.0, 0.5, 1.0}, {10.0 + nx, 10.0 + ny, -slide * ny, slide * nx, 0.5, 1.0}});
+    with_view(disks, [&](const auto& d) {
+      const Relative r = relative(d, 0, 1, scene.box);
+      if (!touches(r.distance2(), 1.0) || !(r.approach() < 0.0)) return;
+      missed += std::isinf(contact_time(r, 1.0)) ? 1 : 0;
+      const Impact impact = resolve_pair(d, {scene.box, 1.0, 0.5, 0.01, true}, 0, 1);
+      EXPECT_TRUE(std::isfinite(impact.virial));
+      EXPECT_NEAR(d.x[0], 10.0, 1e-9);
+      EXPECT_NEAR(d.y[1], 10.0 + ny, 0.01 * slide + 1e-9);
+      EXPECT_GE(relative(d, 0, 1, scene.box).approach(), -1e-12);
+    });
+  }
+  EXPECT_GT(missed, 0) << "the case that this test is about";
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,96 @@
+// Where steps lie in time, and into how many parts a long one is split.
+#include "core/step/step_clock.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+TEST(StepClock, TimesAreProducts) {
+  const StepClock clock = make_step_clock(0.1, 100.0);
+  ASSERT_EQ(clock.steps, 1000U);
+  double sum = 0.0;
+  for (Count k = 0; k < 999; ++k) {
+    EXPECT_EQ(clock.start(k), static_cast<double>(k) * 0.1);
+    EXPECT_EQ(clock.end(k), clock.start(k + 1));
+    EXPECT_EQ(clock.length(k), 0.1);
+    sum += 0.1;
+  }
+  EXPECT_NE(sum, clock.end(998));  // what adding up would have made of it
+  EXPECT_EQ(clock.end(999), 100.0);
+  EXPECT_EQ(clock.length(999), 0.1);
+}
+
+// Quotients that decimals make of whole numbers, a little above and a little below.
+TEST(StepClock, NearlyWholeQuotients) {
+  EXPECT_EQ(make_step_clock(0.1, 0.3).steps, 3U);  // 0.3 / 0.1 < 3
+  EXPECT_EQ(make_step_clock(0.01, 10.0).steps, 1000U);
+  EXPECT_EQ(make_step_clock(0.001, 4.35).steps, 4350U);
+  for (Count n = 1; n < 3000; ++n) {
+    const StepClock clock = make_step_clock(0.007, 0.007 * static_cast<double>(n));
+    EXPECT_EQ(clock.steps, n);
+    EXPECT_EQ(clock.length(n - 1), 0.007);
+  }
+}
+
+TEST(StepClock, LastStepIsShortWhereTheTimeIsNoMultiple) {
+  const StepClock clock = make_step_clock(0.25, 1.0625);
+  EXPECT_EQ(clock.steps, 5U);
+  EXPECT_EQ(clock.length(3), 0.25);
+  EXPECT_EQ(clock.length(4), 0.0625);
+  EXPECT_EQ(clock.end(4), 1.0625);
+  const StepClock one = make_step_clock(3.0, 1.0);
+  EXPECT_EQ(one.steps, 1U);
+  EXPECT_EQ(one.length(0), 1.0);
+  EXPECT_EQ(make_step_clock(0.1, 0.0).steps, 0U);
+}
+
+// Engines end at t_end itself, having moved a free disk by v t_end.
+TEST(StepClock, EnginesEndAtTheEnd) {
+  for (Method method : test::stepping_methods) {
+    for (const double dt : {0.25, 0.3, 5.0}) {
+      const Scene scene = test::scene_of(method, 10.0, 10.0, dt, 1.0625);
+      const State end = test::run(scene, test::state_of(scene, {{2.0, 5.0, 2.0, 0.0, 1.0, 1.0}}));
+      EXPECT_EQ(end.time, 1.0625) << test::name_of(method);
+      EXPECT_NEAR(end.disks.x[0], 4.125, 1e-14);
+      const auto engine = make_reference_engine(scene, end);
+      engine->step();  // nothing is left to do
+      EXPECT_EQ(engine->state().time, 1.0625);
+      EXPECT_EQ(engine->state().disks.x[0], end.disks.x[0]);
+    }
+  }
+}
+
+TEST(Parts, NoDiskMovesMoreThanHalfItsRadius) {
+  EXPECT_EQ(parts_of_step(0.0, 0.0, 1.0), 1U);
+  EXPECT_EQ(parts_of_step(1.0, 0.0, 0.5), 1U);
+  EXPECT_EQ(parts_of_step(1.0, 0.0, 0.501), 2U);
+  EXPECT_EQ(parts_of_step(900.0, 0.0, 1.0), 60U);
+  EXPECT_EQ(parts_of_step(0.25, 0.5, 1.0), 2U);  // gravity's share counts
+  EXPECT_EQ(parts_of_step(250000.0, 0.0, 1.0), 1000U);
+  test::Draws draws(1);
+  for (int k = 0; k < 1000; ++k) {
+    const double speed = draws.decades(1e-3, 1e3);  // radii / time
+    const double dt = draws.decades(1e-3, 0.4);
+    const double part = dt / static_cast<double>(parts_of_step(speed * speed, 0.0, dt));
+    EXPECT_LE(speed * part, 0.5 * (1.0 + 1e-14));
+  }
+}
+
+TEST(Parts, AbsurdStepsAreRefused) {
+  EXPECT_THROW(parts_of_step(251000.0, 0.0, 1.0), PhysicsError);
+  EXPECT_THROW(parts_of_step(HUGE_VAL, 0.0, 1.0), PhysicsError);
+  try {
+    parts_of_step(1e12, 0.0, 1.0);
+    FAIL();
+  } catch (const PhysicsError& error) {
+    EXPECT_NE(std::string(error.what()).find("smaller dt"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace carom

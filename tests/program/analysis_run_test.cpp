@@ -1,0 +1,91 @@
+// Runs with [analysis]: analysis.h5 as another reader sees it, plots, what it costs the physics (nothing), resuming.
+#include "tests/support/program_support.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::text_of;
+
+const std::string analysis = R"([analysis]
+what = ["pair_correlation", "displacement", "speeds", "density", "pressure", "collision_rate"]
+)";
+const std::vector<std::string> plots{"pair_correlation.svg", "displacement.svg", "speeds.svg",
+                                     "density.svg",          "pressure.svg",     "collision_rate.svg"};
+
+class AnalysisRun : public test::ProgramTest {
+ protected:
+  // Samples of the file, as h5py reads it.
+  Outcome read(const std::string& folder, const std::string& series) const {
+    return shell("/usr/bin/python3 " CAROM_SOURCE_DIR "/tests/io/read_analysis.py " + folder + "/analysis.h5 '" +
+                 series + "'");
+  }
+};
+
+TEST_F(AnalysisRun, FilesArePlainToOthersAndTheStateIsUntouched) {
+  for (const std::string method : {"pairwise", "rollback", "exact"}) {
+    write("plain.toml", test::busy_scene(method, "", "none"));
+    write("analysed.toml", test::busy_scene(method, analysis, "none"));
+    const std::string options = " --quiet --force --t-end 2";
+    ASSERT_EQ(carom("run plain.toml -o plain" + options).status, 0);
+    const Outcome o = carom("run analysed.toml -o analysed" + options);
+    ASSERT_EQ(o.status, 0) << o.err;
+    EXPECT_EQ(summary("plain")["state_hash"], summary("analysed")["state_hash"]) << method;
+    EXPECT_FALSE(fs::exists(at("plain/analysis.h5")));
+    const Outcome python = read("analysed", "analysed/series.csv");
+    EXPECT_EQ(python.out, "21\n") << python.err;
+    for (const std::string& plot : plots) EXPECT_TRUE(fs::exists(at("analysed") / plot)) << plot;
+    const Outcome other = carom("run analysed.toml -o other --engine reference" + options);
+    ASSERT_EQ(other.status, 0) << other.err;
+    EXPECT_TRUE(text_of(at("analysed/analysis.h5")) == text_of(at("other/analysis.h5"))) << method;
+  }
+}
+
+TEST_F(AnalysisRun, ResumedItGivesTheSameFiles) {
+  for (const std::string method : {"pairwise", "exact"}) {
+    write("scene.toml", test::replaced(test::replaced(test::busy_scene(method, analysis, "none"), "right = \"sink\"",
+                                                      "left = \"periodic\"\nright = \"periodic\""),
+                                       "side = \"left\"", "side = \"top\""));
+    const std::string run =
+        "run scene.toml --quiet --force --t-end 6 --set analysis.start=1.05 --set analysis.every=0.15 ";
+    ASSERT_EQ(carom(run + "-o whole").status, 0);
+    Outcome o = carom(run + "-o parts --max-walltime 0.001");
+    for (int parts = 1; o.status == 4; ++parts) {
+      const char* const engine = parts % 3 == 0 ? "--engine reference" : "--engine parallel --threads 3";
+      o = carom(std::string("resume parts --quiet --max-walltime 0.05 ") + engine);
+    }
+    EXPECT_EQ(o.status, 0) << o.err;
+    expect_same_results("whole", "parts");
+    EXPECT_TRUE(text_of(at("whole/analysis.h5")) == text_of(at("parts/analysis.h5"))) << method;
+    for (const std::string& plot : plots)
+      EXPECT_TRUE(text_of(at("whole") / plot) == text_of(at("parts") / plot)) << plot;
+    EXPECT_EQ(read("parts", "").out, "34\n") << "from 1.05 on, and the end";
+  }
+}
+
+TEST_F(AnalysisRun, AKilledRunLeavesAFileThatOpens) {
+  write("long.toml", test::busy_scene("pairwise", analysis, "none"));
+  const pid_t run = start({"run", "long.toml", "--t-end", "1e6", "--set", "analysis.every=0.1", "-o", "out"});
+  while (!fs::exists(at("out/carom-unfinished/analysis.h5"))) usleep(1000);
+  kill(run, SIGKILL);
+  EXPECT_EQ(wait_for(run), -SIGKILL);
+  const Outcome o = shell(
+      "/usr/bin/python3 -c 'import h5py; print(h5py.File(\"out/carom-unfinished/analysis.h5\")"
+      "[\"samples/time\"][0])'");
+  EXPECT_EQ(o.out, "0.0\n") << o.err;
+}
+
+TEST_F(AnalysisRun, AloneItHasAFolderAndAFullDiskIsAnError) {
+  write("alone.toml", test::busy_scene("pairwise", "movie = false\n" + analysis, "none"));
+  const std::string run = "run alone.toml --quiet --t-end 0.5 --set output.series=false ";
+  ASSERT_EQ(carom(run).status, 0);
+  EXPECT_TRUE(fs::exists(at("out/alone/analysis.h5")));
+  EXPECT_FALSE(fs::exists(at("out/alone/series.csv")));
+  const Outcome o = shell("ulimit -f 8; $C " + run + "-o full");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.err, ::testing::HasSubstr("cannot write full/carom-unfinished/analysis.h5.new: File too large"));
+}
+
+}  // namespace
+}  // namespace carom

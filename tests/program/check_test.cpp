@@ -1,0 +1,174 @@
+// carom check foresees: collapse, speeds after the fall, what sources add, the size of every file.
+#include <cmath>
+
+#include "tests/support/command_support.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using test::Outcome;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class Check : public test::CommandTest {
+ protected:
+  Json check(const std::string& arguments) const {
+    const Outcome o = carom("check " + arguments + " --json");
+    EXPECT_EQ(o.status, 0) << o.err;
+    return Json::parse(o.out);
+  }
+  static std::string troubles(const Json& j) {
+    std::string all;
+    for (const auto& trouble : j["troubles"]) all += trouble.get<std::string>() + "\n";
+    return all;
+  }
+};
+
+// A disk at rest, radius 0.5, that falls by 8 with g = 1: after 4 units of time it lands with speed 4.
+constexpr const char* falling_disk = R"([box]
+width = 10.0
+height = 10.0
+wall_restitution = 0.5
+[physics]
+gravity = 1.0
+[[disks]]
+count = 1
+positions = [[5.0, 8.5]]
+radius = 0.5
+mass = 1.0
+[run]
+method = "exact"
+t_end = 100.0
+)";
+
+TEST_F(Check, CollapseOnAFloorIsForeseenWithItsTime) {
+  write("fall.toml", falling_disk);
+  const Json j = check("fall.toml");
+  EXPECT_EQ(j["collapse_expected"], true);
+  // Landing after 4, and flights of 4, 2, 1, ... from then on: at rest at t = 12.
+  EXPECT_THAT(troubles(j), HasSubstr("inelastic collapse is to be expected from about t = 12 on"));
+  EXPECT_THAT(carom("check fall.toml").out, HasSubstr("--method pairwise, or give physics.collapse"));
+  const Outcome run = carom("run fall.toml");
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.err, HasSubstr("inelastic collapse at t = 1"));
+
+  EXPECT_EQ(check("fall.toml --t-end 10")["collapse_expected"], false) << "before it is at rest";
+  EXPECT_EQ(check("fall.toml --set box.wall_restitution=1.0")["collapse_expected"], false);
+  EXPECT_EQ(check("fall.toml --set box.bottom='\"sink\"'")["collapse_expected"], false);
+  EXPECT_EQ(check("fall.toml --method pairwise --dt 0.01")["collapse_expected"], false);
+  const std::string remedy = " --set 'physics.collapse={ model = \"tc\", contact_time = 1e-3 }'";
+  EXPECT_EQ(check("fall.toml" + remedy)["collapse_expected"], false);
+}
+
+TEST_F(Check, CollapseOfAGasIsForeseen) {
+  EXPECT_EQ(check("small.toml --method exact --set physics.restitution=0.4")["collapse_expected"], true);
+  EXPECT_EQ(check("small.toml --method exact --set physics.restitution=0.95")["collapse_expected"], false);
+}
+
+TEST_F(Check, TheSafeStepIsThatAfterTheFall) {
+  write("fall.toml", falling_disk);
+  const Json j = check("fall.toml --method pairwise --dt 0.05 --set box.wall_restitution=1.0");
+  EXPECT_NEAR(j["landing_speed"].get<double>(), 4.0, 1e-12);
+  // dt with 4 dt + dt^2 = half a radius, 0.25.
+  EXPECT_NEAR(j["safe_dt"].get<double>(), std::sqrt(4.25) - 2.0, 1e-9);
+  EXPECT_THAT(j["troubles"], IsEmpty());
+  const std::string longer = "fall.toml --method pairwise --dt 0.1";
+  EXPECT_THAT(troubles(check(longer)), HasSubstr("longer than the safe step at the speeds that disks will have"));
+  EXPECT_THAT(carom("check " + longer).out, HasSubstr("0.0616 after falling (speed 4); dt is longer"));
+  EXPECT_THAT(carom("run --quiet --json " + longer + " --t-end 5").out, HasSubstr("the step is split into 2 parts"));
+}
+
+TEST_F(Check, APileAsksForAShorterStepThanItsSpeedsDo) {
+  write("fall.toml", falling_disk);
+  // It lies on the floor already: the largest overlap of a pile, 2 %, is reached with dt = sqrt(0.02 r / g).
+  const Json j = check("fall.toml --method pairwise --dt 0.2 --set disks.0.positions='[[5.0, 0.5]]'");
+  EXPECT_NEAR(j["safe_dt"].get<double>(), 0.1, 1e-9);
+  EXPECT_THAT(troubles(j), HasSubstr("in a pile a disk falls by g dt^2 before it is held"));
+}
+
+TEST_F(Check, SourcesAddDisksSpeedsAndMemory) {
+  write("source.toml", R"([box]
+width = 100.0
+height = 100.0
+[[sources]]
+side = "left"
+rate = 50.0
+radius = 0.25
+mass = 1.0
+velocities = { uniform = 20.0 }
+[run]
+method = "pairwise"
+dt = 0.001
+t_end = 1000.0
+)");
+  const Json j = check("source.toml");
+  EXPECT_EQ(j["particles"], 0);
+  EXPECT_EQ(j["particles_at_end"], 50000);
+  EXPECT_NEAR(j["safe_dt"].get<double>(), 0.125 / (20.0 * std::sqrt(2.0)), 1e-9);
+  EXPECT_THAT(troubles(j), HasSubstr("the sources would fill the box to a packing fraction of 0.98"));
+  EXPECT_GT(j["cost_parts_s"]["steps"].get<double>(), 10.0) << "25000 disks in the mean, a million steps";
+  const Json few = check("source.toml --set sources.0.limit=100");
+  EXPECT_EQ(few["particles_at_end"], 100);
+  EXPECT_THAT(few["troubles"], IsEmpty());
+  EXPECT_GT(j["memory_bytes"].get<double>(), few["memory_bytes"].get<double>() + 1e6);
+  EXPECT_THAT(carom("check source.toml").out, HasSubstr("with what sources emit up to 50000 at t = 1000"));
+}
+
+TEST_F(Check, EveryFileIsForeseenWithItsSize) {
+  const std::string wants =
+      "small.toml --t-end 20 --set output.checkpoint=1000 --set output.movie=true --set output.plots='[\"energy\", "
+      "\"velocity\"]' --set 'analysis.what=[\"speeds\", \"density\"]'";
+  for (const char* const format : {"xyz", "h5md"}) {
+    const std::string scene = wants + " --set output.trajectory='\"" + format + "\"'";
+    const Json files = check(scene)["files_bytes"];
+    ASSERT_EQ(carom("run --quiet --force -o out " + scene).status, 0);
+    for (const std::string& file : files_in("out")) {
+      const bool small = file == "scene.toml" || file == "summary.json" || file == "trajectory.xdmf";
+      const bool plot_of_analysis = file == "speeds.svg" || file == "density.svg";
+      if (small || plot_of_analysis) continue;
+      ASSERT_TRUE(files.contains(file)) << file;
+      const double foreseen = files[file], real = static_cast<double>(fs::file_size(at("out") / file));
+      EXPECT_LT(foreseen, 3.0 * real + 2e4) << file;
+      EXPECT_GT(foreseen, real / 3.0 - 2e4) << file;
+    }
+  }
+}
+
+// Disks that fly out of the box: most frames have hardly any.
+TEST_F(Check, WhatSinksTakeIsLeftOutOfFiles) {
+  std::string sinks;
+  for (const char* const side : {"left", "right", "bottom", "top"}) {
+    sinks += std::string(" --set box.") + side + "='\"sink\"'";
+  }
+  const std::string scene = "small.toml --t-end 1000 --set run.dt=0.001 --set disks.0.count=20" + sinks;
+  const double foreseen = check(scene)["files_bytes"]["trajectory.xyz"];
+  const double full =
+      check("small.toml --t-end 1000 --set run.dt=0.001 --set disks.0.count=20")["files_bytes"]["trajectory.xyz"];
+  EXPECT_LT(foreseen, 0.6 * full);
+  EXPECT_GT(foreseen, 0.05 * full);
+}
+
+TEST_F(Check, AMovieIsWhatAShortRunCosts) {
+  const Json j = check("small.toml --set output.movie=true");
+  EXPECT_GT(j["cost_parts_s"]["frames"].get<double>(), j["cost_parts_s"]["steps"].get<double>());
+  EXPECT_GE(j["cost_s"].get<double>(), j["cost_parts_s"]["frames"].get<double>());
+  EXPECT_THAT(carom("check small.toml --set output.movie=true").out, HasSubstr(", frames and movie "));
+}
+
+TEST_F(Check, ItsRehearsalLeavesNothingBehindAndIsNotNeeded) {
+  fs::create_directories(at("temporary"));
+  const std::string wants = " check small.toml --set output.movie=true";
+  EXPECT_EQ(shell("TMPDIR=$PWD/temporary $C" + wants).status, 0);
+  EXPECT_THAT(files_in("temporary"), IsEmpty());
+  const Outcome o = shell("TMPDIR=/nonexistent $C" + wants);
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.out, HasSubstr("movie.mp4"));
+  EXPECT_THAT(o.out, HasSubstr("(guessed: there is no folder for temporary files)"));
+  EXPECT_THAT(files_in(""), Not(::testing::Contains("out")));
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,247 @@
+// The real program, as a user or another program calls it: exit statuses, one-line errors, what each command prints.
+#include "tests/support/command_support.hpp"
+
+namespace carom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using test::Outcome;
+using test::text_of;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+using CommandLine = test::CommandTest;
+
+TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"", "no command given; expected one of run, check, resume, compare, render, sweep, chart, docs"},
+      {"rnu small.toml",
+       "there is no command \"rnu\"; expected one of run, check, resume, compare, render, sweep, chart, docs (nearest: "
+       "run)"},
+      {"--jsn", "no option \"--jsn\" before the command"},
+      {"run", "run: no scene file given"},
+      {"run --methd pairwise small.toml", "run: there is no option \"--methd\""},
+      {"run --methd pairwise small.toml", "(nearest: --method)"},
+      {"run small.toml other.toml", "one argument too many, \"other.toml\""},
+      {"run small.toml --dt", "--dt: its value is missing"},
+      {"run small.toml --dt abc", "--dt: \"abc\" is not a number"},
+      {"run small.toml --dt 0.1x", "--dt: \"0.1x\" is not a number"},
+      {"run small.toml --dt nan", "--dt: \"nan\" is not a number"},
+      {"run small.toml --dt -1", "--dt: is -1; expected a number above 0"},
+      {"run small.toml --t-end -1", "--t-end: is -1"},
+      {"run small.toml --seed -3", "--seed: is \"-3\""},
+      {"run small.toml --seed 18446744073709551616", "--seed: is \"18446744073709551616\""},
+      {"run small.toml --method pairwize", "--method: there is no method \"pairwize\""},
+      {"run small.toml --method pairwize", "(nearest: pairwise)"},
+      {"run small.toml --engine fast", "--engine: there is no engine \"fast\""},
+      {"run small.toml --threads 0", "--threads: is \"0\"; expected a whole number of 1 or more"},
+      {"run small.toml --threads two", "--threads: is \"two\""},
+      {"run small.toml --set dt", "--set: is \"dt\"; expected KEY=VALUE"},
+      {"run small.toml --set run.dtt=1", "--set run.dtt: unknown key"},
+      {"run small.toml --set run.dt=-1", "--set run.dt: is -1"},
+      {"run small.toml -o --json", "-o: \"--json\" is an option"},
+      {"run small.toml -o small.toml", "small.toml: is a file; expected a folder"},
+      {"run small.toml -o small.toml/out", "cannot be made: Not a directory"},
+      {"run small.toml -o /dev/full", "/dev/full: is a file"},
+      {"run missing.toml", "missing.toml: "},
+      {"run small.toml --max-walltime soon",
+       "--max-walltime: is \"soon\"; expected a time such as 30 s, 10 min or 2 h"},
+      {"run small.toml --set output.checkpoint=0", "--set output.checkpoint: is 0; expected a number above 0"},
+      {"run small.toml --set output.checkpoint='\"2 days\"'",
+       "--set output.checkpoint: is \"2 days\"; expected a time"},
+      {"resume", "resume: no checkpoint given"},
+      {"resume missing", "missing: does not exist; expected a checkpoint"},
+      {"resume .", ".: holds no checkpoint"},
+      {"resume small.toml", "small.toml: is no checkpoint of Carom"},
+      {"resume small.toml --dt 1", "resume: there is no option \"--dt\""},
+      {"check", "check: no scene file given"},
+      {"check small.toml --json --dt x", "--dt: \"x\" is not a number"},
+      {"compare small.toml", "compare: two outputs are needed"},
+      {"compare missing small.toml", "missing: does not exist"},
+      {"compare a b --tolerance x", "--tolerance: \"x\" is not a number"},
+      {"compare a b --tolerance -1", "--tolerance: is -1; expected a number of 0 or more"},
+      {"compare a b --fields x,speed", "--fields: there is no field \"speed\"; expected one of x, y, vx, vy"},
+      {"compare a b --times 3", "--times: is \"3\"; expected FROM:TO"},
+      {"compare a b --times 3:2", "--times: is \"3:2\"; expected the earlier time first"},
+      {"compare a b --times 0:1 --at 2", "--at: goes not with --times"},
+      {"render", "render: no folder given"},
+      {"render .", ".: holds no trajectory.xyz"},
+      {"render small.toml", "small.toml:1: "},
+      {"render small.toml", "is no number of disks; expected trajectory.xyz or trajectory.h5 of a run, or its folder"},
+      {"run .", ".: is a directory; expected a scene file"},
+      {"run small.toml --dt \"$UNSET\"", "--dt: what follows it is empty; expected a value; is a variable"},
+      {"chart small.toml", "one argument too many, \"small.toml\"; expected carom chart --scene small.toml"},
+      {"render small.toml --frame 0", "--frame: is \"0\""},
+  };
+  for (const auto& [arguments, what] : cases) expect_error("$C " + arguments, 2, what);
+  EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "nothing is left behind";
+}
+
+TEST_F(CommandLine, HelpAndVersion) {
+  EXPECT_EQ(carom("--version").out.substr(0, 6), "carom ");
+  for (const char* const command : {"", "run", "check", "resume", "compare", "render"}) {
+    const Outcome o = carom(std::string(command) + " --help");
+    EXPECT_EQ(o.status, 0);
+    EXPECT_THAT(o.out, HasSubstr("Usage: carom")) << command;
+    EXPECT_THAT(o.err, IsEmpty());
+  }
+}
+
+TEST_F(CommandLine, HelpIsAWordToo) {
+  EXPECT_EQ(carom("help").out, carom("--help").out);
+  EXPECT_EQ(carom("help run").out, carom("run --help").out);
+  EXPECT_EQ(carom("help").status, 0);
+  expect_error("$C help rnu", 2, "there is no command \"rnu\"");
+}
+
+TEST_F(CommandLine, FoldersAreToldByWhatIsInThem) {
+  ASSERT_EQ(carom("run small.toml --quiet -o out").status, 0);
+  expect_error("$C run out", 2, "out: is a directory; expected a scene file, such as the out/scene.toml of the run");
+  std::filesystem::create_directories(at("half/carom-unfinished"));
+  expect_error("$C compare out half", 2,
+               "half: holds a run that is not finished; expected a finished one (carom resume "
+               "half), or a trajectory in half/carom-unfinished");
+}
+
+TEST_F(CommandLine, ChartWritesAllItsFilesOrNone) {
+  ASSERT_EQ(carom("chart --tiny --quiet -o chart").status, 0);
+  const std::vector<std::string> names = files_in("chart");
+  EXPECT_THAT(names,
+              ElementsAre("chart.csv", "chart.json", "chart.png", "chart.svg", "chart_all.png", "chart_all.svg"));
+  EXPECT_EQ(Json::parse(text_of(at("chart/chart.json")))["scenes"].size(), 7U);
+  expect_error("$C chart --tiny --quiet -o chart", 2, "chart/chart.svg: exists already");
+  expect_error("$C chart --tiny -o small.toml", 2, "small.toml: is a file");
+  expect_error("$C chart --quik", 2, "chart: there is no option \"--quik\"; expected one of");
+  expect_error("$C chart now", 2, "chart: one argument too many, \"now\"");
+  // Ctrl-C long before the end.
+  shell("timeout --signal=INT 1 $C chart --quiet -o stopped/here");
+  EXPECT_THAT(files_in(""), ElementsAre("chart", "small.toml"));
+}
+
+TEST_F(CommandLine, CheckSaysWhatAnAccuracyNeeds) {
+  const Outcome plain = carom("check small.toml");
+  EXPECT_THAT(plain.out, HasSubstr("--accuracy 1e-3 says"));
+  const Outcome o = carom("check small.toml --accuracy 1e-4");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.out, HasSubstr("for an error of 0.0001 in averages"));
+  EXPECT_THAT(o.out, HasSubstr("take it with --method "));
+  EXPECT_THAT(o.out, Not(HasSubstr("--accuracy 1e-3 says")));
+  const Json j = Json::parse(carom("check small.toml --accuracy 1e-4 --json").out);
+  EXPECT_EQ(j["choice"]["offers"].size(), 2U);
+  EXPECT_EQ(j["choice"]["method"], "exact");
+  expect_error("$C check small.toml --accuracy x", 2, "--accuracy: \"x\" is not a number");
+  expect_error("$C check small.toml --accuracy 0", 2, "--accuracy: is 0; expected a relative error above 0");
+  expect_error("$C check small.toml --accuracy 0.5", 2, "--accuracy: is 0.5; expected a relative error");
+}
+
+TEST_F(CommandLine, MethodAutoIsReportedAndKept) {
+  const Outcome o = carom("run small.toml -o out --method auto --set run.accuracy=1e-4 --json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.err, StartsWith("carom: method auto, accuracy 0.0001: exact ("));
+  EXPECT_EQ(Json::parse(o.out)["method"], "exact");
+  EXPECT_THAT(text_of(at("out/scene.toml")), HasSubstr("# chosen by method = \"auto\", accuracy = 0.0001: "));
+  const Outcome again = carom("run out/scene.toml -o again --json");
+  EXPECT_THAT(again.err, IsEmpty());
+  EXPECT_EQ(Json::parse(again.out)["state_hash"], Json::parse(o.out)["state_hash"]);
+  expect_error("$C run small.toml --method auto", 2, "run.accuracy: missing; expected the relative error");
+  expect_error("$C run small.toml --method aut", 2, "(nearest: auto)");
+  EXPECT_THAT(carom("check small.toml --set run.accuracy=1e-3").err, HasSubstr("only method \"auto\" uses it"));
+}
+
+TEST_F(CommandLine, CompareFindsTheFirstBit) {
+  ASSERT_EQ(carom("run small.toml --quiet -o a").status, 0);
+  ASSERT_EQ(carom("run small.toml --quiet -o b").status, 0);
+  Outcome o = carom("compare a b");
+  EXPECT_EQ(o.status, 0) << o.out;
+  EXPECT_EQ(o.out, "same bits in all 11 frames\n");
+
+  // One digit more in the y of disk 3, in the fourth frame only.
+  std::string text = text_of(at("b/trajectory.xyz"));
+  std::istringstream lines(text);
+  std::string changed, line;
+  for (int n = 1; std::getline(lines, line); ++n) {
+    if (n == 3 * 7 + 2 + 4) line.insert(line.find(' ', 2) + 1, 1, '1');
+    changed += line + '\n';
+  }
+  write("changed.xyz", changed);
+  o = carom("compare a/trajectory.xyz changed.xyz");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.out, HasSubstr("different: first in frame 4 (t = 0.3"));
+  EXPECT_THAT(o.out, HasSubstr("disk 3, y: "));
+  const Json j = Json::parse(carom("compare a/trajectory.xyz changed.xyz --json").out);
+  EXPECT_EQ(j["same"], false);
+  EXPECT_EQ(j["first"]["quantity"], "y");
+  EXPECT_EQ(j["largest"].size(), 1U);
+
+  ASSERT_EQ(carom("run small.toml --quiet -o longer --t-end 1.5").status, 0);
+  o = carom("compare a longer");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.out, HasSubstr("11 frames against 16"));
+  EXPECT_THAT(o.out, HasSubstr("steps           100 against 150"));
+}
+
+TEST_F(CommandLine, RenderMakesAPictureAndAMovie) {
+  ASSERT_EQ(carom("run small.toml --quiet -o out --set output.every=0.5").status, 0);
+  EXPECT_EQ(carom("render out --frame 2").out, "out/frame_2.png\n");
+  EXPECT_THAT(text_of(at("out/frame_2.png")), StartsWith("\x89PNG"));
+  EXPECT_EQ(carom("render out").out, "out/movie.mp4\n");
+  expect_error("$C render out", 2, "out/movie.mp4: exists already");
+  expect_error("$C render out --frame 4", 2, "there is no frame 4; expected 1 to 3");
+  EXPECT_EQ(carom("render out/trajectory.xyz -o elsewhere.png --frame 1 --quiet").status, 0);
+  EXPECT_THAT(files_in(""), ElementsAre("elsewhere.png", "out", "small.toml"));
+}
+
+TEST_F(CommandLine, CheckSaysWhatItWouldModel) {
+  Outcome o = carom("check small.toml --set physics.gravity=0.5");
+  EXPECT_EQ(o.status, 0) << o.err;
+  for (const char* const part :
+       {"5, radius 0.5, mass 1", "10 x 10, packing fraction 0.03927", "left wall", "gravity 0.5",
+        "pairwise, dt = 0.01, 100 steps", "dt is safe", "11 frames", "memory", "cost"}) {
+    EXPECT_THAT(o.out, HasSubstr(part));
+  }
+  EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "check writes nothing";
+  o = carom("check small.toml --json");
+  EXPECT_EQ(Json::parse(o.out)["particles"], 5);
+}
+
+// A scene that the machine could hold and this process may not: a fault of the scene, whether it is run or checked. The
+// address sanitizer takes more room for itself than the limit leaves.
+TEST_F(CommandLine, DisksThatFindNoMemory) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the address sanitizer needs terabytes of address space";
+#endif
+  for (const char* const command : {"run --quiet", "check"}) {
+    expect_error(std::string("ulimit -v 600000; $C ") + command +
+                     " small.toml --set disks.0.count=20000000 --set disks.0.radius=1e-5",
+                 2, "small.toml: disks: 20000000 disks do not fit into the memory that this process may use");
+  }
+  EXPECT_THAT(files_in(""), ElementsAre("small.toml"));
+}
+
+TEST_F(CommandLine, CollapseWithoutTheExactMethodIsWarnedOf) {
+  const std::string collapse = " --set 'physics.collapse={ model = \"tc\", contact_time = 1e-3 }'";
+  for (const std::string command : {"run small.toml -o out --json", "check small.toml"}) {
+    const Outcome o = carom(command + collapse);
+    EXPECT_EQ(o.status, 0);
+    EXPECT_EQ(o.err,
+              "carom: warning: small.toml: physics.collapse: only the exact method uses it, method pairwise does "
+              "not\n");
+  }
+  EXPECT_THAT(carom("check small.toml --method exact --set physics.restitution=0.9" + collapse).err, IsEmpty());
+}
+
+TEST_F(CommandLine, ProgressOnATerminalOnly) {
+  // script(1) gives the program a terminal. Pictures, as there is no ffmpeg, make the run long enough for a line.
+  const Outcome o =
+      shell("script -qec \"PATH=/nonexistent $C run small.toml -o out --set output.movie=true\" /dev/null");
+  EXPECT_EQ(o.status, 0) << o.out;
+  EXPECT_THAT(o.out, HasSubstr(" of 1  "));
+  EXPECT_THAT(o.out, HasSubstr(" steps/s  "));
+  EXPECT_THAT(o.out, HasSubstr(" left"));
+}
+
+}  // namespace
+}  // namespace carom

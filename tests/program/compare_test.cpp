@@ -1,0 +1,93 @@
+// carom compare with a tolerance, on chosen fields and times: what it finds, and its exit status.
+#include <fmt/format.h>
+
+#include "tests/support/command_support.hpp"
+
+namespace carom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using test::Outcome;
+using test::text_of;
+using ::testing::HasSubstr;
+
+// One disk in a box periodic from left to right, at the places and velocities given, a frame each.
+std::string trajectory(const std::vector<std::string>& disks) {
+  std::string text;
+  for (std::size_t k = 0; k < disks.size(); ++k) {
+    text += fmt::format(
+        "1\nLattice=\"10 0 0 0 8 0 0 0 1\" Origin=\"0 0 0\" pbc=\"T F F\" "
+        "Properties=species:S:1:pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1 Time={}\nA {} 0.5 1 0\n",
+        0.1 * static_cast<double>(k), disks[k]);
+  }
+  return text;
+}
+
+class Compare : public test::CommandTest {
+ protected:
+  Compare() {
+    write("a.xyz", trajectory({"1 2 3 4", "9.9995 2 3 4", "5 2 3 4"}));
+    write("b.xyz", trajectory({"1 2 3 4", "0.0005 2 3.25 4", "5.5 2 3 4"}));
+  }
+  Outcome compare(const std::string& options) const { return carom("compare a.xyz b.xyz " + options); }
+};
+
+TEST_F(Compare, PeriodicPlacesDifferByTheNearestImage) {
+  const Outcome o = compare("");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.out, HasSubstr("different: first in frame 2 (t = 0.1), disk 0, x: 9.9995 against 0.0005\n"));
+  const Json j = Json::parse(compare("--times :0.1 --json").out);
+  EXPECT_NEAR(j["largest"]["x"]["by"].get<double>(), 0.001, 1e-12);
+}
+
+TEST_F(Compare, AToleranceForgivesUpToItself) {
+  EXPECT_EQ(compare("--tolerance 0.5").status, 0);
+  EXPECT_EQ(compare("--tolerance 0.5").out,
+            "the same to 0.5 in 3 frames\n"
+            "  x       differs by at most 0.5, in frame 3 (t = 0.2), disk 0\n"
+            "  vx      differs by at most 0.25, in frame 2 (t = 0.1), disk 0\n");
+  Outcome o = compare("--tolerance 0.3");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.out, HasSubstr("different: first in frame 3 (t = 0.2), disk 0, x: 5 against 5.5"));
+  EXPECT_THAT(o.out, HasSubstr("  vx      differs by at most 0.25"));
+  o = compare("--tolerance 0.2");
+  EXPECT_THAT(o.out, HasSubstr("different: first in frame 2 (t = 0.1), disk 0, vx: 3 against 3.25"));
+  EXPECT_EQ(Json::parse(compare("--tolerance 0.2 --json").out)["tolerance"], 0.2);
+}
+
+TEST_F(Compare, FieldsAndTimesAreChosen) {
+  EXPECT_EQ(compare("--fields y,vy,mass").out, "same bits in 3 frames, of y, vy, mass\n");
+  EXPECT_EQ(compare("--fields vx --at 0.2").status, 0);
+  EXPECT_THAT(compare("--fields vx --at 0.1").out, HasSubstr("frame 2 (t = 0.1), disk 0, vx"));
+  EXPECT_EQ(compare("--times :0.05").out, "same bits in 1 frame\n");
+  EXPECT_EQ(compare("--times 0.2:").status, 1);
+  EXPECT_EQ(compare("--times 0.2: --tolerance 0.5").status, 0);
+  expect_error("$C compare a.xyz b.xyz --at 0.3", 2,
+               "a.xyz: has no frame at t = 0.3; expected --at within t = 0 to 0.2");
+  expect_error("$C compare a.xyz b.xyz --times 1:2", 2, "a.xyz: has no frame from t = 1 to 2; expected --times within");
+}
+
+TEST_F(Compare, WithARuleOnlyTrajectoriesCount) {
+  ASSERT_EQ(carom("run small.toml --quiet -o one").status, 0);
+  ASSERT_EQ(carom("run small.toml --quiet -o two --method exact").status, 0);
+  EXPECT_EQ(carom("compare one two").status, 1);
+  const Outcome o = carom("compare one two --tolerance 0.1");
+  EXPECT_EQ(o.status, 0) << o.out << "five disks that hardly meet, and summaries of two methods";
+  std::string bare = test::small_scene;
+  const std::size_t line = bare.find("trajectory = ");
+  ASSERT_NE(line, std::string::npos);
+  bare.erase(line, bare.find('\n', line) + 1 - line);
+  write("bare.toml", bare);
+  ASSERT_EQ(carom("run bare.toml --quiet -o bare").status, 0);
+  expect_error("$C compare one bare --tolerance 1", 2, "bare: holds no trajectory; expected one: --tolerance");
+}
+
+TEST_F(Compare, WhatOnlyOneHasIsADifferenceAtAnyTolerance) {
+  write("b.xyz", trajectory({"1 2 3 4", "9.9995 2 3 4"}));
+  const Outcome o = compare("--tolerance 1e9");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.out, HasSubstr("different: first in frame 3 (t = 0.2): only one has it; 3 frames against 2"));
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,325 @@
+// Signals, limits and faults: what the program says, the status it ends with, and that carom resume loses nothing.
+#include <sys/resource.h>
+
+#include "tests/support/program_support.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::text_of;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class InterruptedRun : public test::ProgramTest {
+ protected:
+  InterruptedRun() { write("busy.toml", test::busy_scene("pairwise", "plots = [\"velocity\", \"energy\"]\n")); }
+
+  // Waits until a file is there; a run that never comes so far fails the test by its time limit.
+  static void await(const fs::path& file) {
+    while (!fs::exists(file)) usleep(1000);
+  }
+};
+
+TEST_F(InterruptedRun, StoppedAgainAndAgainItGivesTheSameResults) {
+  for (const std::string method : {"pairwise", "exact"}) {
+    ASSERT_EQ(carom("run busy.toml --quiet -o whole --force --t-end 8 --method " + method).status, 0);
+    // Stopped at the first look, then after some hundred steps each time; how many depends on the machine.
+    Outcome o = carom("run busy.toml --quiet -o parts --force --max-walltime 0.001 --t-end 8 --method " + method);
+    int parts = 1;
+    for (; o.status == 4; ++parts) {
+      EXPECT_THAT(o.err, HasSubstr("stopped by --max-walltime at t = "));
+      EXPECT_THAT(o.err, HasSubstr(" of 8; go on with carom resume parts\n"));
+      const char* const engine = parts % 3 == 0 ? "--engine reference" : "--engine parallel --threads 3";
+      o = carom(std::string("resume parts --quiet --max-walltime 0.02 ") + engine);
+    }
+    EXPECT_EQ(o.status, 0) << o.err;
+    EXPECT_GE(parts, 2);
+    expect_same_results("whole", "parts");
+    EXPECT_FALSE(fs::exists(at("parts/checkpoint.carom"))) << "the scene did not ask for them";
+  }
+}
+
+// What a warning counts goes on, too: it comes in the part in which the undisturbed run has it, once.
+TEST_F(InterruptedRun, ItWarnsOfTheSame) {
+  const std::string scene = CAROM_SOURCE_DIR "/scenes/stability/f02_bounce_at_a_distance.toml";
+  const std::string dense = " --set disks.0.count=300 --set box.packing_fraction=0.5 --method pairwise --dt 0.05";
+  const std::string warning = "collisions were seen a step late";
+  ASSERT_EQ(carom("run " + scene + dense + " --t-end 40 --quiet -o whole").status, 0);
+  ASSERT_THAT(text_of(at("whole/summary.json")), HasSubstr(warning));
+  Outcome o = carom("run " + scene + dense + " --t-end 40 -o parts --max-walltime 1e-6");
+  std::string told = o.err;
+  int parts = 1;
+  for (; o.status == 4; ++parts) {
+    o = carom("resume parts --max-walltime 0.03");
+    told += o.err;
+  }
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_GE(parts, 2);
+  expect_same_results("whole", "parts");
+  const std::size_t first = told.find(warning);
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(told.find(warning, first + 1), std::string::npos) << told;
+}
+
+// A strict run stops at its first warning; taken up again it is no better, and its result says so.
+TEST_F(InterruptedRun, AWarningThatEndedARunIsNotForgotten) {
+  const std::string scene = CAROM_SOURCE_DIR "/scenes/stability/f02_bounce_at_a_distance.toml";
+  const std::string dense = " --set disks.0.count=300 --set box.packing_fraction=0.5 --method pairwise --dt 0.05";
+  const Outcome o = carom("run " + scene + dense + " --t-end 2 --quiet --strict -o out");
+  EXPECT_EQ(o.status, 3);
+  EXPECT_EQ(o.err.find("warning"), std::string::npos) << "the error says it: " << o.err;
+  const std::string before = "carom: error: ";
+  ASSERT_TRUE(o.err.starts_with(before)) << o.err;
+  const std::string warning = o.err.substr(before.size(), o.err.find(" (--strict)") - before.size());
+  const Outcome strict = carom("resume out --quiet --strict");
+  EXPECT_EQ(strict.status, 3);
+  EXPECT_THAT(strict.err, HasSubstr(warning));
+  EXPECT_EQ(carom("resume out --quiet").status, 0);
+  // With the figures of the whole run, which are worse by then.
+  const std::string reason = "collisions were seen a step late: dt = 0.05";
+  EXPECT_THAT(warning, HasSubstr(reason));
+  EXPECT_THAT(text_of(at("out/summary.json")), HasSubstr(reason));
+}
+
+TEST_F(InterruptedRun, ASignalStopsWithACheckpoint) {
+  write("long.toml", test::busy_scene("pairwise", "checkpoint = \"1 h\"\n"));
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    fs::remove_all(at("out"));  // or the last round's file would be taken for this one's
+    const pid_t run = start({"run", "long.toml", "--t-end", "1e6", "-o", "out", "--quiet"});
+    await(at("out/carom-unfinished/series.csv"));
+    kill(run, signal);
+    EXPECT_EQ(wait_for(run), 4);
+    EXPECT_TRUE(fs::exists(at("out/carom-unfinished/checkpoint.carom")));
+    EXPECT_THAT(said(), HasSubstr(std::string("stopped by ") + (signal == SIGINT    ? "SIGINT"
+                                                                : signal == SIGTERM ? "SIGTERM"
+                                                                                    : "SIGHUP")));
+  }
+  const Outcome o = carom("run long.toml -o out");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_THAT(o.err, HasSubstr("go on with carom resume out, choose another folder"));
+}
+
+TEST_F(InterruptedRun, SigusrWritesOneAndTheRunGoesOn) {
+  const pid_t run = start({"run", "busy.toml", "--t-end", "1e6", "-o", "out"});
+  await(at("out/carom-unfinished/series.csv"));
+  EXPECT_FALSE(fs::exists(at("out/carom-unfinished/checkpoint.carom"))) << "nobody asked for one";
+  usleep(100'000);
+  kill(run, SIGUSR1);
+  await(at("out/carom-unfinished/checkpoint.carom"));
+  const Outcome o = carom("resume out");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_THAT(o.err, HasSubstr("another run is writing there"));
+  EXPECT_EQ(carom("run busy.toml -o out --force").status, 2) << "not even by force";
+  kill(run, SIGKILL);
+  EXPECT_EQ(wait_for(run), -SIGKILL);
+  EXPECT_EQ(carom("resume out --quiet --max-walltime 0.01").status, 4);
+}
+
+// A state that takes minutes to grow.
+constexpr const char* slow_growth = R"([box]
+packing_fraction = 0.84
+[[disks]]
+count = 20000
+positions = "growth"
+radius = { uniform = [1.0, 3.0] }
+mass = 1.0
+velocities = { uniform = 1.0 }
+[growth]
+slowness = 100.0
+[run]
+t_end = 1.0
+[output]
+checkpoint = 1
+)";
+
+class InitialState : public InterruptedRun {
+ protected:
+  // Has the process begun to catch the signal?
+  static bool catches(pid_t pid, int signal) {
+    std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+    for (std::string line; std::getline(status, line);) {
+      if (line.starts_with("SigCgt:")) return ((std::stoull(line.substr(7), nullptr, 16) >> (signal - 1)) & 1U) != 0;
+    }
+    return false;
+  }
+};
+
+TEST_F(InitialState, SignalsDoNotWaitForIt) {
+  write("slow.toml", slow_growth);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const pid_t run = start({"run", "slow.toml", "-o", "out"});
+    while (!catches(run, signal)) usleep(1000);
+    kill(run, SIGUSR1);
+    kill(run, signal);
+    EXPECT_EQ(wait_for(run), 4);
+    EXPECT_THAT(said(), HasSubstr(signal == SIGINT ? "stopped by SIGINT while the initial state was made; there is no "
+                                                     "checkpoint to go on from\n"
+                                                   : "stopped by SIG"));
+    EXPECT_FALSE(fs::exists(at("out")));
+  }
+}
+
+TEST_F(InitialState, ACheckpointThatIsWishedForEarlyDoesNoHarm) {
+  write("slow.toml", slow_growth);
+  const pid_t run = start({"run", "slow.toml", "-o", "out"});
+  while (!catches(run, SIGUSR1)) usleep(1000);
+  kill(run, SIGUSR1);
+  while (said().find("no checkpoint yet: the initial state is still being made\n") == std::string::npos) usleep(1000);
+  kill(run, SIGTERM);
+  EXPECT_EQ(wait_for(run), 4);
+}
+
+TEST_F(InitialState, TheWallTimeEndsItToo) {
+  write("slow.toml", slow_growth);
+  const Outcome o = carom("run slow.toml --quiet -o out --max-walltime 0.5");
+  EXPECT_EQ(o.status, 4);
+  EXPECT_EQ(
+      o.err,
+      "carom: stopped by --max-walltime while the initial state was made; there is no checkpoint to go on from\n");
+}
+
+TEST_F(InterruptedRun, WithoutFilesOfItsOwnItMakesAFolderForTheCheckpoint) {
+  const std::string bare =
+      "run busy.toml --quiet --set output.trajectory=none --set output.series=false --set output.plots='[]' ";
+  fs::create_directories(at("out/busy"));
+  write("out/busy/series.csv", "of somebody else");
+  const Outcome o = carom(bare + "--max-walltime 0.001 --json");
+  EXPECT_EQ(o.status, 4);
+  const auto json = nlohmann::json::parse(o.out);
+  EXPECT_EQ(json["resume_with"], "carom resume out/busy-2");
+  EXPECT_LT(json["time"], 20.0);
+  EXPECT_EQ(carom("resume out/busy-2 --quiet").status, 0);
+  ASSERT_EQ(carom(bare + "-o whole").status, 0);
+  EXPECT_EQ(summary("whole"), summary("out/busy-2"));
+}
+
+TEST_F(InterruptedRun, AFullDiskCostsNothingButTime) {
+  write("small.toml", test::busy_scene("pairwise", "checkpoint = 0.02\n"));
+  ASSERT_EQ(carom("run small.toml --quiet -o whole --t-end 10").status, 0);
+  // The limit on the size of a file, in blocks of 512 bytes, acts like a full disk on the trajectory.
+  Outcome o = shell("ulimit -f 400; $C run small.toml --quiet -o out --t-end 10");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(o.err,
+            "carom: error: cannot write out/carom-unfinished/trajectory.xyz: File too large; the last checkpoint is "
+            "whole: carom resume out\n");
+  o = shell("ulimit -f 401; $C resume out --quiet");
+  EXPECT_EQ(o.status, 1) << "still full";
+  EXPECT_THAT(o.err, HasSubstr("the last checkpoint is whole: carom resume out\n"));
+  // Now even the checkpoint itself finds no room.
+  o = shell("ulimit -f 20; $C resume out --quiet");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.err, HasSubstr("the last checkpoint is whole: carom resume out\n"));
+  EXPECT_EQ(carom("resume out --quiet").status, 0);
+  expect_same_results("whole", "out");
+}
+
+TEST_F(InterruptedRun, ACheckpointThatWasCutShortIsRefusedAndTheOneBeforeServes) {
+  // Two checkpoints: that of the start, and that of the stop.
+  write("small.toml", test::busy_scene("pairwise", "checkpoint = \"1 h\"\n"));
+  ASSERT_EQ(carom("run small.toml --quiet -o whole --t-end 10").status, 0);
+  ASSERT_EQ(carom("run small.toml --quiet -o out --t-end 10 --max-walltime 0.02").status, 4);
+  const fs::path newest = at("out/carom-unfinished/checkpoint.carom");
+  fs::resize_file(newest, fs::file_size(newest) / 2);
+  const std::string before = test::text_of(at("out/carom-unfinished/series.csv"));
+  const Outcome o = carom("resume out");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_EQ(o.err,
+            "carom: error: out/carom-unfinished/checkpoint.carom: is damaged: it was cut short or changed after it was "
+            "written; the one before it is whole: carom resume out/carom-unfinished/checkpoint.previous.carom\n");
+  EXPECT_EQ(test::text_of(at("out/carom-unfinished/series.csv")), before) << "nothing was touched";
+  fs::create_directories(at("alone"));
+  fs::copy_file(newest, at("alone/checkpoint.carom"));
+  EXPECT_EQ(
+      carom("resume alone").err,
+      "carom: error: alone/checkpoint.carom: is damaged: it was cut short or changed after it was written; there is "
+      "no whole one before it, so run the scene again\n");
+  EXPECT_EQ(carom("resume out/carom-unfinished/checkpoint.previous.carom --quiet").status, 0);
+  expect_same_results("whole", "out");
+}
+
+TEST_F(InterruptedRun, OutputsThatAreGoneAreMissed) {
+  ASSERT_EQ(carom("run busy.toml --quiet -o out --max-walltime 0.02").status, 4);
+  fs::resize_file(at("out/carom-unfinished/trajectory.xyz"), 1000);
+  EXPECT_THAT(carom("resume out").err, HasSubstr("trajectory.xyz: has 1000 bytes; expected "));
+  fs::remove(at("out/carom-unfinished/trajectory.xyz"));
+  EXPECT_THAT(carom("resume out").err, HasSubstr("trajectory.xyz: No such file or directory; expected the file that"));
+  EXPECT_TRUE(fs::exists(at("out/carom-unfinished/checkpoint.carom")));
+}
+
+TEST_F(InterruptedRun, IntoAnotherFolderItLeavesTheFirstAsItWas) {
+  ASSERT_EQ(carom("run busy.toml --quiet -o whole").status, 0);
+  ASSERT_EQ(carom("run busy.toml --quiet -o out --max-walltime 0.02").status, 4);
+  const std::string before = test::text_of(at("out/carom-unfinished/trajectory.xyz"));
+  EXPECT_EQ(carom("resume out/carom-unfinished/checkpoint.carom --quiet -o copy").status, 0);
+  expect_same_results("whole", "copy");
+  EXPECT_EQ(test::text_of(at("out/carom-unfinished/trajectory.xyz")), before);
+  EXPECT_EQ(carom("resume out -o whole").status, 2) << "results are not replaced";
+  EXPECT_EQ(carom("resume out --quiet").status, 0);
+  expect_same_results("whole", "out");
+}
+
+TEST_F(InterruptedRun, AFinishedRunGoesOnToALaterEnd) {
+  write("asks.toml", test::busy_scene("pairwise", "checkpoint = \"1 h\"\nplots = [\"energy\"]\nmovie = true\n"));
+  const std::string seldom = " --quiet --set output.every=1.0";
+  ASSERT_EQ(carom("run asks.toml -o whole --t-end 6" + seldom).status, 0);
+  ASSERT_EQ(carom("run asks.toml -o out --t-end 3" + seldom).status, 0);
+  EXPECT_TRUE(fs::exists(at("out/checkpoint.carom")));
+  EXPECT_THAT(carom("resume out").err, HasSubstr("the run came to its end at t = 3; expected --t-end beyond that"));
+  EXPECT_THAT(carom("resume out --t-end 2").err,
+              HasSubstr("--t-end: is 2; expected 3, the checkpoint's time, or more"));
+  EXPECT_THAT(carom("resume out --t-end 3.0000000001").err, HasSubstr("expected a step of 0.002 or more beyond 3"));
+  EXPECT_TRUE(fs::exists(at("out/summary.json"))) << "a refusal changes nothing";
+  EXPECT_EQ(carom("resume out --quiet --t-end 6").status, 0);
+  expect_same_results("whole", "out");
+  EXPECT_EQ(nlohmann::json::parse(test::text_of(at("out/summary.json")))["resumed"], 1);
+
+  // Without a checkpoint, or with a last step that was cut short, only a new run gets further, and it says so.
+  ASSERT_EQ(carom("run busy.toml -o bare --t-end 3" + seldom).status, 0);
+  EXPECT_THAT(carom("resume bare --t-end 6").err,
+              HasSubstr("bare: holds a finished run that kept no checkpoint; to go further, run it once more with one: "
+                        "carom run bare/scene.toml --set output.checkpoint=600 --t-end T -o DIR\n"));
+  ASSERT_EQ(carom("run asks.toml -o cut --set output.movie=false --t-end 3.001" + seldom).status, 0);
+  EXPECT_THAT(carom("resume cut --t-end 6").err, HasSubstr("the run's last step was cut short to end at 3.001"));
+}
+
+TEST_F(InterruptedRun, WhatItWasToldWhenItWentOnIsRemembered) {
+  ASSERT_EQ(carom("run busy.toml --quiet -o out --max-walltime 0.02").status, 4);
+  ASSERT_EQ(carom("resume out --quiet --t-end 22 --max-walltime 0.02").status, 4);
+  ASSERT_EQ(carom("resume out --quiet").status, 0);
+  EXPECT_EQ(summary("out")["time"], 22.0);
+}
+
+TEST_F(InterruptedRun, TheLastGoodStateOfACollapseIsKept) {
+  write("pile.toml", R"([box]
+width = 10.0
+height = 10.0
+wall_restitution = 0.5
+[physics]
+gravity = 1.0
+restitution = 0.1
+[[disks]]
+count = 20
+positions = "random"
+velocities = { maxwell = 1.0 }
+radius = 0.5
+mass = 1.0
+[run]
+t_end = 100.0
+[output]
+every = 0.1
+series = true
+)");
+  const Outcome o = carom("run pile.toml --quiet -o out");
+  EXPECT_EQ(o.status, 3);
+  EXPECT_THAT(o.err, HasSubstr("the run up to there is kept in out/carom-unfinished, its last good state in "
+                               "checkpoint.carom\n"));
+  const Outcome again = carom("resume out --quiet");
+  EXPECT_EQ(again.status, 3);
+  EXPECT_EQ(again.err, o.err) << "the same collapse, from the state before it";
+}
+
+}  // namespace
+}  // namespace carom

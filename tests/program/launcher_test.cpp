@@ -1,0 +1,141 @@
+// The launcher ./carom, among tools that only say what they were asked: what it builds, tests and prints.
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/program_support.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class Launcher : public test::ProgramTest {
+ protected:
+  Launcher() {
+    fs::create_directories(at("root/cmake"));
+    fs::create_directories(at("root/build/release"));
+    fs::create_directories(at("tools"));
+    fs::copy_file(CAROM_SOURCE_DIR "/carom", at("root/carom"));
+    write("root/cmake/packages.txt", "[build]\ncompiler\n");
+    write("root/CMakePresets.json", "{}");
+    tool("dpkg-query", "echo compiler installed");
+    tool("apt-get", "exit 1");
+    tool("cmake",
+         "echo CMAKE_HOME_DIRECTORY:INTERNAL=$ROOT >$ROOT/build/release/CMakeCache.txt; "
+         "touch -d '1 minute' $ROOT/build/release/build.ninja");
+    // Like ninja: a line of its own on a terminal only, and nothing to do the second time.
+    tool("ninja", R"(case "$*" in *-n*) [ -e $ROOT/built ] && echo 'ninja: no work to do.'; exit 0;; esac
+[ -t 1 ] && [ "$1" != --quiet ] && echo "status: $NINJA_STATUS"
+echo 'a word of the compiler'
+touch $ROOT/built)");
+  }
+
+  void tool(const std::string& name, const std::string& script) const {
+    write("tools/" + name, "#!/bin/sh\n" + script + "\n");
+    fs::permissions(at("tools/" + name), fs::perms::owner_all);
+  }
+
+  Outcome launch(const std::string& arguments) const {
+    return shell("export ROOT=$(realpath root) PATH=\"$(realpath tools):$PATH\"; " + arguments);
+  }
+};
+
+constexpr const char* four_tests = R"(cat <<'END'
+Test project /somewhere
+      Start  1: A.One
+      Start  2: A.Two
+ 1/4 Test  #1: A.One ............................   Passed    0.01 sec
+      Start  3: A.Three
+ 2/4 Test  #2: A.Two ............................***Failed    0.02 sec
+what A.Two said
+
+      Start  4: A.Four
+ 3/4 Test  #3: A.Three ..........................***Exception: SegFault  0.00 sec
+
+ 4/4 Test  #4: A.Four ...........................   Passed   12.34 sec
+
+50% tests passed, 2 tests failed out of 4
+
+Total Test time (real) =  12.35 sec
+END
+echo "$*" >$ROOT/asked
+exit 8)";
+
+TEST_F(Launcher, TestSaysHowFarItIsAndWhatFails) {
+  tool("ctest", four_tests);
+  const Outcome o = launch("root/carom test -R 'A B'");
+  EXPECT_EQ(o.status, 8) << "ctest's";
+  EXPECT_EQ(o.out, R"(Test project /somewhere
+ 2/4 Test  #2: A.Two ............................***Failed    0.02 sec
+what A.Two said
+
+ 3/4 Test  #3: A.Three ..........................***Exception: SegFault  0.00 sec
+
+
+50% tests passed, 2 tests failed out of 4
+
+Total Test time (real) =  12.35 sec
+)");
+  EXPECT_THAT(o.err, EndsWith("carom: 1 of 4 tests, 0 failed\ncarom: 2 of 4 tests, 1 failed\n"
+                              "carom: 3 of 4 tests, 2 failed\ncarom: 4 of 4 tests, 2 failed\n"));
+  EXPECT_THAT(test::text_of(at("root/asked")), AllOf(HasSubstr("--output-on-failure"), EndsWith(" -R A B\n")));
+}
+
+TEST_F(Launcher, TestOfHundredsIsTenLines) {
+  tool("ctest", R"(for k in $(seq 300); do echo "      Start $k: T.$k"
+echo "$k/300 Test #$k: T.$k ...   Passed    0.01 sec"; done
+echo; echo '100% tests passed, 0 tests failed out of 300')");
+  const Outcome o = launch("root/carom test");
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(o.out, "\n100% tests passed, 0 tests failed out of 300\n");
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 11) << "a line at every tenth, and of configuring\n" << o.err;
+  EXPECT_THAT(o.err, EndsWith("carom: 300 of 300 tests, 0 failed\n"));
+}
+
+TEST_F(Launcher, TestListsAndTellsAllWhereAsked) {
+  tool("ctest", four_tests);
+  EXPECT_THAT(launch("root/carom test -V").out, HasSubstr("Start  1: A.One"));
+  EXPECT_THAT(launch("root/carom test -N").out, HasSubstr("Start  1: A.One"));
+}
+
+TEST_F(Launcher, BuildingShowsNinjasLineOnATerminalOnly) {
+  tool("ctest", "true");
+  EXPECT_THAT(launch("root/carom test").err, Not(HasSubstr("compiler")));
+  launch("rm root/built");
+  const std::string shown = launch("script -qec 'root/carom test' /dev/null").out;
+  EXPECT_THAT(shown, HasSubstr("status: carom: building, %f of %t"));
+  EXPECT_THAT(launch("script -qec 'root/carom test' /dev/null").out, IsEmpty()) << "nothing to build, no word";
+}
+
+TEST_F(Launcher, ABuildThatFailsSaysWhy) {
+  tool("ninja", "echo 'error: no such thing'; exit 1");
+  for (const char* const command : {"root/carom test", "script -qec 'root/carom test' /dev/null"}) {
+    const Outcome o = launch(command);
+    EXPECT_EQ(o.status, 1) << command;
+    EXPECT_THAT(o.out + o.err, AllOf(HasSubstr("error: no such thing"), HasSubstr("carom: the build failed")))
+        << command;
+  }
+}
+
+TEST_F(Launcher, ItsOwnCommandsHaveHelp) {
+  for (const char* const command : {"bench", "packages"}) {
+    const Outcome o = launch(std::string("root/carom ") + command + " --help");
+    EXPECT_EQ(o.status, 0);
+    EXPECT_THAT(o.out, HasSubstr(std::string("./carom ") + command));
+    EXPECT_FALSE(fs::exists(at("root/built"))) << "nothing is built for that";
+  }
+  const std::string help = carom("--help").out;
+  for (const char* const command : {"./carom", "test", "bench", "packages"}) EXPECT_THAT(help, HasSubstr(command));
+  const Outcome o = carom("test");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_THAT(o.err, HasSubstr("\"test\" is a command of the launcher ./carom"));
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,88 @@
+// The line that tells how far a run has come, by a clock that the test turns.
+#include "app/cli/progress.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace carom {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+struct Clock {
+  double now = 1000.0;
+  std::vector<std::string> written;
+
+  StatusPlace place(bool terminal, std::size_t columns = 80) {
+    return {terminal, columns, [this] { return now; }, [this](const std::string& text) { written.push_back(text); }};
+  }
+};
+
+State state_at(double time, Count steps) {
+  State state;
+  for (std::size_t i = 0; i < 10; ++i) state.disks.x.push_back(0.0);
+  state.time = time;
+  state.counters.steps = steps;
+  return state;
+}
+
+TEST(Progress, OffATerminalIsALineAMinute) {
+  Clock clock;
+  Progress progress(true, 100.0, state_at(0.0, 0), clock.place(false));
+  // A run of three and a half minutes, looked at ten times a second; it slows down after two.
+  for (int tenth = 1; tenth <= 2100; ++tenth) {
+    clock.now += 0.1;
+    const double seconds = 0.1 * tenth;
+    const double time = seconds < 120.0 ? 0.25 * seconds : 30.0 + 0.125 * (seconds - 120.0);
+    progress.update(state_at(time, static_cast<Count>(100.0 * seconds)));
+  }
+  progress.clear();
+  ASSERT_THAT(clock.written, SizeIs(3));
+  EXPECT_THAT(clock.written[0],
+              ::testing::MatchesRegex("carom:  15\\.. %  t = 15(\\.0..?)? of 100  100 steps/s  .* left\n"));
+  for (const std::string& line : clock.written) {
+    EXPECT_TRUE(line.starts_with("carom: ") && line.ends_with(" left\n")) << line;
+    EXPECT_EQ(line.find('\r'), std::string::npos) << line;
+  }
+}
+
+TEST(Progress, AShortRunOffATerminalSaysNothing) {
+  Clock clock;
+  Progress progress(true, 1.0, state_at(0.0, 0), clock.place(false));
+  clock.now += 59.0;
+  progress.update(state_at(0.5, 10));
+  EXPECT_THAT(clock.written, IsEmpty());
+}
+
+TEST(Progress, OnATerminalTheLineIsRenewedInPlace) {
+  Clock clock;
+  {
+    Progress progress(true, 10.0, state_at(0.0, 0), clock.place(true, 20));
+    for (int k = 1; k <= 3; ++k) {
+      clock.now += 0.15;
+      progress.update(state_at(k, static_cast<Count>(k)));
+    }
+  }
+  ASSERT_THAT(clock.written, SizeIs(2)) << "one after 0.3 s, and it is taken away at the end";
+  EXPECT_EQ(clock.written[0], "\r 20.0 %  t = 2 of 1\x1b[K") << "no longer than the terminal is wide";
+  EXPECT_EQ(clock.written[1], "\r\x1b[K");
+}
+
+TEST(Progress, QuietIsQuiet) {
+  for (const bool terminal : {false, true}) {
+    Clock clock;
+    Progress progress(false, 10.0, state_at(0.0, 0), clock.place(terminal));
+    clock.now += 1e4;
+    progress.update(state_at(1.0, 1));
+    progress.clear();
+    EXPECT_THAT(clock.written, IsEmpty());
+  }
+}
+
+}  // namespace
+}  // namespace carom

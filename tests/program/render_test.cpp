@@ -1,0 +1,148 @@
+// carom render: what the extension says, as the options and the scene say, of finished and of unfinished runs.
+#include "tests/support/program_support.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::text_of;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr const char* small_scene = R"(title = "two groups"
+[box]
+width = 20.0
+height = 10.0
+[[disks]]
+count = 10
+positions = "random"
+velocities = { maxwell = 1.0 }
+radius = 0.5
+mass = 1.0
+[[disks]]
+count = 5
+positions = "random"
+radius = { uniform = [0.3, 0.9] }
+mass = 3.0
+[run]
+method = "exact"
+t_end = 2.0
+[output]
+every = 0.5
+trajectory = "xyz"
+movie = { colour = "group", fps = 5, size = [640, 400] }
+)";
+
+class Render : public test::ProgramTest {
+ protected:
+  Render() { write("small.toml", small_scene); }
+
+  void run_small(const std::string& options = "") {
+    const Outcome o = carom("run small.toml --quiet --force -o out " + options);
+    ASSERT_EQ(o.status, 0) << o.err;
+  }
+
+  // Codec, width, height, frames a second, and number of frames.
+  std::string probe(const std::string& file) {
+    return shell(
+               "ffprobe -v error -count_frames -show_entries stream=codec_name,width,height,r_frame_rate,nb_read_frames"
+               " -of csv=p=0 " +
+               file)
+        .out;
+  }
+};
+
+TEST_F(Render, TheScenesMovieLooksAsItSays) {
+  run_small();
+  EXPECT_EQ(probe("out/movie.mp4"), "h264,640,400,5/1,5\n");
+  ASSERT_EQ(carom("render out -o again.mp4 --quiet").status, 0);
+  EXPECT_EQ(text_of(at("again.mp4")), text_of(at("out/movie.mp4")));
+}
+
+TEST_F(Render, TheExtensionSaysWhatItBecomes) {
+  run_small();
+  for (const auto& [file, expected] :
+       {std::pair{"a.mp4", "h264,640,400,10/1,5\n"}, std::pair{"a.webm", "vp9,640,400,10/1,5\n"},
+        std::pair{"a.GIF", "gif,640,400,10/1,5\n"}}) {
+    const Outcome o = carom(std::string("render out --fps 10 -o ") + file);
+    EXPECT_EQ(o.status, 0) << o.err;
+    EXPECT_EQ(o.out, std::string(file) + "\n");
+    EXPECT_EQ(probe(file), expected) << file;
+  }
+  ASSERT_EQ(carom("render out -o last.png --size 800x600").status, 0);
+  ASSERT_EQ(carom("render out -o fifth.png --size 800x600 --frame 5").status, 0);
+  EXPECT_THAT(text_of(at("last.png")), StartsWith("\x89PNG"));
+  EXPECT_EQ(text_of(at("last.png")), text_of(at("fifth.png"))) << "the last unless --frame says which";
+  EXPECT_THAT(probe("last.png"), StartsWith("png,800,600,"));
+  ASSERT_EQ(carom("render out/trajectory.xyz -o picture.svg --colour radius --frame 1").status, 0);
+  EXPECT_THAT(text_of(at("picture.svg")), HasSubstr("<svg"));
+  EXPECT_THAT(text_of(at("picture.svg")), HasSubstr("</svg>"));
+}
+
+TEST_F(Render, WhatItCannotMakeIsRefusedInOneLine) {
+  run_small();
+  const auto refused = [&](const std::string& options, const std::string& message) {
+    const Outcome o = carom("render out " + options);
+    EXPECT_EQ(o.status, 2) << options;
+    EXPECT_THAT(o.err, HasSubstr(message)) << options;
+    EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  };
+  refused("-o film.avi", "film.avi\" ends in \".avi\"; expected .mp4, .webm or .gif for a movie, .png or .svg");
+  refused("-o film", "expected .mp4");
+  refused("-o film.mp4 --frame 2", "is a movie, and --frame asks for a picture; expected .png or .svg");
+  refused("-o x.png --frame 6", "there is no frame 6; expected 1 to 5");
+  refused("-o x.png --colour sped",
+          "there is no \"sped\"; expected one of speed, group, radius, mass, id (nearest: speed)");
+  refused("-o x.png --range 0:1", "--range: is out of place; groups have colours of their own");
+  refused("-o x.png --colour mass --range 2:1", "expected two numbers, the lower first");
+  refused("-o x.png --size 641x400", "expected a width and a height in pixels, even numbers from 320 to 8192");
+  refused("-o x.png --size 640", "expected WIDTHxHEIGHT, as in 1280x720");
+  refused("-o x.gif --fps 60", "expected at most 50 for a GIF");
+  refused("-o x.mp4 --fps 0", "expected from 0.1 to 1000 frames a second");
+  for (const char* const file : {"film.avi", "film", "film.mp4", "x.png", "x.gif", "x.mp4"})
+    EXPECT_FALSE(fs::exists(at(file)));
+}
+
+// While it runs, or after it was killed: of the last frame, only a part may be there.
+TEST_F(Render, AnUnfinishedRunIsShownAsFarAsItCame) {
+  run_small();
+  fs::create_directories(at("broken/carom-unfinished"));
+  const std::string whole = text_of(at("out/trajectory.xyz"));
+  const std::size_t last = whole.rfind("15\nLattice");
+  for (const std::size_t kept : {last, last + 1, last + 40, whole.size() - 300, whole.size() - 1}) {
+    std::ofstream(at("broken/carom-unfinished/trajectory.xyz")) << whole.substr(0, kept);
+    const Outcome o = carom("render broken -o part.mp4 --force");
+    EXPECT_EQ(o.status, 0) << o.err;
+    EXPECT_THAT(probe("part.mp4"), ::testing::EndsWith(",4\n")) << kept;
+  }
+  EXPECT_EQ(carom("render broken/carom-unfinished -o part.png").status, 0);
+  EXPECT_EQ(carom("render broken/carom-unfinished/trajectory.xyz -o part.png --force").status, 0);
+
+  const Outcome stopped = carom("run small.toml --quiet -o cut --max-walltime 1e-6 --set output.trajectory=h5md");
+  ASSERT_EQ(stopped.status, 4) << stopped.err;
+  const Outcome o = carom("render cut");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.out, "cut/movie.mp4\n");
+  ASSERT_EQ(carom("resume cut --quiet").status, 0) << "it is not in the way";
+  EXPECT_EQ(probe("cut/movie.mp4"), "h264,640,400,5/1,5\n");
+}
+
+TEST_F(Render, KeysOfTheSceneAreChecked) {
+  const auto message = [&](const std::string& movie) {
+    const Outcome o = carom("check small.toml --set 'output.movie=" + movie + "'");
+    EXPECT_EQ(o.status, 2) << movie;
+    return o.err;
+  };
+  EXPECT_THAT(message("3"), HasSubstr("output.movie: is an integer; expected true or false, or a table"));
+  EXPECT_THAT(message("{ colour = \"red\" }"), HasSubstr("output.movie.colour: "));
+  EXPECT_THAT(message("{ fps = 2000 }"), HasSubstr("expected from 0.1 to 1000 frames a second"));
+  EXPECT_THAT(message("{ size = [640] }"), HasSubstr("has 1 numbers; expected two numbers"));
+  EXPECT_THAT(message("{ size = [640, 300] }"), HasSubstr("even numbers from 320 to 8192"));
+  EXPECT_THAT(message("{ range = [1, 1] }"), HasSubstr("expected two numbers, the lower first"));
+  EXPECT_THAT(message("{ colour = \"group\", range = [0, 1] }"), HasSubstr("groups have colours of their own"));
+  EXPECT_THAT(message("{ colr = \"group\" }"), HasSubstr("(nearest: colour)"));
+}
+
+}  // namespace
+}  // namespace carom

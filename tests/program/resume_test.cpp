@@ -1,0 +1,60 @@
+// A run that is interrupted and taken up again, by either engine and any number of threads, has the bits of one that
+// was never stopped: for every method, over combinations of features (all of them: resume_validation.cpp).
+#include <tuple>
+
+#include "tests/support/resume_support.hpp"
+
+namespace carom {
+namespace {
+
+class Resume : public ::testing::TestWithParam<std::tuple<const char*, int>> {};
+
+TEST_P(Resume, HasTheBitsOfARunThatWasNeverStopped) {
+  constexpr const char* sides[] = {"wall", "periodic", "periodic_x", "sink"};
+  const auto [method, k] = GetParam();
+  test::expect_same_bits(method, sides[k], static_cast<std::size_t>(k), 7);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllScenes, Resume,
+                         ::testing::Combine(::testing::Values("pairwise", "rollback", "exact"), ::testing::Range(0, 4)),
+                         [](const auto& p) {
+                           return std::string(std::get<0>(p.param)) + std::to_string(std::get<1>(p.param));
+                         });
+
+// A pile that rests on its loads; what is remembered of a step's contacts is what the next one starts from.
+TEST(ResumePile, GoesOnWithItsLoads) {
+  test::Features f;
+  f.gravity = true;
+  f.restitution = 0.4;
+  f.radii = "mixed";
+  const Scene scene = test::feature_scene(f, 300);
+  const auto engine = make_reference_engine(scene, initial_state(scene));
+  while (engine->state().time < scene.run.t_end) engine->step();
+  const State settled = engine->state();
+  ASSERT_GT(settled.loads.size(), 50U);
+  const Scene longer = test::feature_scene(f, 330);
+  test::expect_same_bits(longer, settled, settled.counters.steps + 30, 0);
+}
+
+// A step that failed leaves a state from which it fails again in the same way: nothing in it happens twice.
+TEST(ResumeFailed, AStepThatFailedChangesNothingMore) {
+  for (const char* method : {"pairwise", "rollback"}) {
+    test::Features f;
+    f.method = method;
+    f.diffusion = "accumulate";
+    f.source = true;
+    Scene scene = test::feature_scene(f, 5);
+    scene.physics.diffusion = 1e7;  // too fast for any number of parts
+    const auto engine = make_parallel_engine(scene, initial_state(scene), {2, 512});
+    EXPECT_ANY_THROW(engine->step());
+    const std::string left = test::all_bits(engine->state());
+    EXPECT_ANY_THROW(engine->step());
+    EXPECT_EQ(test::all_bits(engine->state()), left) << method;
+    const auto other = make_reference_engine(scene, engine->state());
+    EXPECT_ANY_THROW(other->step());
+    EXPECT_EQ(test::all_bits(other->state()), left) << method;
+  }
+}
+
+}  // namespace
+}  // namespace carom

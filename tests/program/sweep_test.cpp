@@ -1,0 +1,295 @@
+// carom sweep: the grid, the table, going on, scripts, complaints; and scenes that start from a frame.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TestFolder;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* gas = R"(seed = 3
+[box]
+width = 12.0
+height = 12.0
+[physics]
+restitution = 0.9
+[[disks]]
+count = 20
+positions = "random"
+velocities = { maxwell = 1.0 }
+radius = 0.4
+mass = 1.0
+[run]
+method = "exact"
+t_end = 1.0
+)";
+
+class SweepTest : public testing::Test {
+ protected:
+  SweepTest() : folder_("sweep") { scene_ = folder_.write("gas.toml", gas); }
+
+  std::pair<int, std::string> shell(const std::string& words) const {
+    const std::string command = "cd " + folder_.path().string() + " && " + words + " 2>&1";
+    std::FILE* const pipe = popen(command.c_str(), "r");
+    std::string text;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+    const int status = pclose(pipe);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
+  }
+  std::pair<int, std::string> carom(const std::string& words) const { return shell(CAROM_PROGRAM " " + words); }
+  std::string read(const std::string& name) const {
+    std::ifstream file(folder_.path() / name);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  std::vector<std::string> rows(const std::string& table) const {
+    std::vector<std::string> lines;
+    std::istringstream text(read(table));
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    return lines;
+  }
+  // Without the seconds that it took, which differ from run to run.
+  static std::string without_time(const std::string& row) {
+    const std::size_t hash = row.rfind(',');
+    return row.substr(0, row.rfind(',', hash - 1)) + row.substr(hash);
+  }
+
+  TestFolder folder_;
+  std::string scene_;
+};
+
+TEST_F(SweepTest, RunsTheGridAndGoesOnWhereItStopped) {
+  const std::string words =
+      "sweep gas.toml -o s --over physics.restitution=0.5:1.0:3 --over disks.0.count=10,20 --seeds 2";
+  const auto [status, text] = carom(words);
+  ASSERT_EQ(status, 0) << text;
+  const std::vector<std::string> table = rows("s/sweep.csv");
+  ASSERT_EQ(table.size(), 13U);
+  EXPECT_THAT(table[0], testing::StartsWith("run,physics.restitution,disks.0.count,seed,particles,steps,time"));
+  EXPECT_THAT(table[1], testing::StartsWith("0001,0.5,10,3,10,"));
+  EXPECT_THAT(table[6], testing::StartsWith("0006,0.75,10,4,10,"));
+  EXPECT_THAT(table[12], testing::StartsWith("0012,1,20,4,20,"));
+  // One of them by hand has the same hash.
+  EXPECT_EQ(carom("run gas.toml -o hand --quiet --seed 4 --set physics.restitution=0.75 --set disks.0.count=10").first,
+            0);
+  const std::string hash = table[6].substr(table[6].rfind(',') + 1);
+  EXPECT_THAT(read("hand/summary.json"), HasSubstr(hash));
+
+  fs::remove(folder_.path() / "s/runs/0005/summary.json");
+  fs::remove(folder_.path() / "s/sweep.csv");
+  const std::string kept = read("s/runs/0007/summary.json");
+  EXPECT_THAT(carom(words).second, HasSubstr("1 of 12 runs are left"));
+  EXPECT_EQ(read("s/runs/0007/summary.json"), kept) << "was run again";
+  const std::vector<std::string> again = rows("s/sweep.csv");
+  ASSERT_EQ(again.size(), table.size());
+  for (std::size_t k = 0; k < table.size(); ++k) EXPECT_EQ(without_time(again[k]), without_time(table[k]));
+
+  const auto [other_status, other] = carom("sweep gas.toml -o s --seeds 3");
+  EXPECT_EQ(other_status, 2);
+  EXPECT_THAT(other, HasSubstr("holds another sweep"));
+  EXPECT_EQ(carom("sweep gas.toml -o s --seeds 3 --force").first, 0);
+  EXPECT_EQ(rows("s/sweep.csv").size(), 4U);
+}
+
+// More seeds and values: what is there stays, with its names, and only the rest is run.
+TEST_F(SweepTest, GrowsWithoutLosingWhatIsThere) {
+  ASSERT_EQ(carom("sweep gas.toml -o s --over physics.restitution=0.5,1.0 --seeds 2").first, 0);
+  const std::vector<std::string> before = rows("s/sweep.csv");
+  const std::string kept = read("s/runs/0003/summary.json");
+  const auto [status, text] = carom("sweep gas.toml -o s --over physics.restitution=0.5:1.0:3 --seeds 3");
+  EXPECT_EQ(status, 0) << text;
+  EXPECT_THAT(text, HasSubstr("5 of 9 runs are left"));
+  EXPECT_EQ(read("s/runs/0003/summary.json"), kept);
+  const std::vector<std::string> after = rows("s/sweep.csv");
+  ASSERT_EQ(after.size(), 10U);
+  for (const std::size_t k : {1U, 2U}) EXPECT_THAT(after, testing::Contains(before[k]));
+  EXPECT_THAT(after[7], testing::StartsWith("0003,1,3,20,")) << "1.0 before, and 1 now";
+  EXPECT_THAT(after[3], testing::StartsWith("0005,0.5,5,20,"));
+  EXPECT_THAT(after[9], testing::StartsWith("0009,1,5,20,"));
+  EXPECT_THAT(carom("sweep gas.toml -o s --over physics.restitution=0.5:1.0:3 --seeds 3").second,
+              HasSubstr("0 of 9 runs are left"));
+
+  // Less, or another scene, is another sweep.
+  const auto [less_status, less] = carom("sweep gas.toml -o s --over physics.restitution=0.5,1.0 --seeds 2");
+  EXPECT_EQ(less_status, 2);
+  EXPECT_THAT(less, HasSubstr("s: holds another sweep: this one lacks its run physics.restitution="));
+  EXPECT_THAT(less,
+              HasSubstr("give it all of that and more, choose another folder with -o, or replace it with --force"));
+  folder_.write("gas.toml", std::string(gas) + "# changed\n");
+  EXPECT_THAT(carom("sweep gas.toml -o s --over physics.restitution=0.5:1.0:3 --seeds 3").second,
+              HasSubstr("s: holds another sweep: the scene has changed since; "));
+}
+
+// A sweep that is killed takes its runs with it, and they leave checkpoints.
+TEST_F(SweepTest, ItsRunsEndWithIt) {
+  const pid_t sweep = fork();
+  if (sweep == 0) {
+    if (chdir(folder_.path().c_str()) != 0) _exit(1);
+    execl(CAROM_PROGRAM, "carom", "sweep", "gas.toml", "-o", "s", "--jobs", "2", "--over", "physics.restitution=1,0.99",
+          "--set", "run.t_end=1e9", "--set", "output.checkpoint=1", nullptr);
+    _exit(1);
+  }
+  const auto checkpoint = [&](const char* run) { return folder_.path() / "s/runs" / run / "carom-unfinished"; };
+  for (const char* const run : {"0001", "0002"}) {
+    while (!fs::exists(checkpoint(run) / "checkpoint.carom")) usleep(1000);
+  }
+  kill(sweep, SIGKILL);
+  waitpid(sweep, nullptr, 0);
+  // Their locks go with them.
+  for (const char* const run : {"0001", "0002"}) {
+    const int lock = open((checkpoint(run) / "lock").c_str(), O_RDONLY | O_CLOEXEC);
+    ASSERT_GE(lock, 0);
+    struct flock other {};
+    do {
+      other.l_type = F_WRLCK;
+      other.l_whence = SEEK_SET;
+      ASSERT_EQ(fcntl(lock, F_GETLK, &other), 0);
+      usleep(1000);
+    } while (other.l_type != F_UNLCK);
+    close(lock);
+    EXPECT_EQ(carom(std::string("resume --quiet --max-walltime 1e-9 s/runs/") + run).first, 4);
+  }
+}
+
+TEST_F(SweepTest, ScriptsRunWhatIsLeft) {
+  const std::string words = "sweep gas.toml -o 'a b' --over physics.restitution=0.8,0.9";
+  EXPECT_EQ(carom(words + " --emit parallel").first, 0);
+  EXPECT_THAT(read("a b/sweep.sh"), HasSubstr("parallel"));
+  ASSERT_EQ(carom(words + " --emit slurm").first, 0);
+  const std::string script = read("a b/sweep.sbatch");
+  EXPECT_THAT(script, HasSubstr("#SBATCH --array=1-2\n"));
+  for (const char* const task : {"1", "2"}) {
+    const auto [status, text] = shell(fmt::format("SLURM_ARRAY_TASK_ID={} sh 'a b/sweep.sbatch'", task));
+    EXPECT_EQ(status, 0) << text;
+  }
+  EXPECT_THAT(carom(words).second, HasSubstr("0 of 2 runs are left"));
+  EXPECT_THAT(carom(words + " --emit slurm").second, HasSubstr("0 of 2 runs are left"))
+      << "nothing to write a script for";
+  EXPECT_EQ(rows("a b/sweep.csv").size(), 3U);
+}
+
+TEST_F(SweepTest, NothingRunsWhereAnythingIsWrong) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"--over physics.restitutoin=0.5:1:3", "physics.restitutoin: unknown key; expected one of"},
+      {"--over physics.restitution=0.5:1.5:3", "restitution: is 1.5"},
+      {"--over physics.restitution=0.5:1", "\"physics.restitution=0.5:1\" is no range; expected KEY=FROM:TO:COUNT"},
+      {"--over physics.restitution", "expected KEY=FROM:TO:COUNT"},
+      {"--over physics.restitution=0:1:0", "is no range"},
+      {"--over run.method=exact,exakt", "unknown name \"exakt\""},
+      {"--over seed=1,2", "expected --seeds N"},
+      {"--over run.t_end=1 --over run.t_end=2", "run.t_end is given twice"},
+      {"", "nothing to sweep over"},
+      {"--seeds 3 --set seed=18446744073709551614", "--seeds: 3 seeds from 18446744073709551614 on go beyond 2^64 - 1"},
+      {"--seeds 18446744073709551616", "expected a whole number from 1 to 2147483647"},
+      {"--seeds 2000000000", "2e+09 runs are too many; expected at most 1000000"},
+      {"--seeds 2 --emit pbs", "expected one of slurm, parallel"}};
+  for (const auto& [options, expected] : cases) {
+    const auto [status, text] = carom("sweep gas.toml -o never " + options);
+    EXPECT_EQ(status, 2) << options;
+    EXPECT_THAT(text, HasSubstr(expected)) << options;
+    EXPECT_FALSE(fs::exists(folder_.path() / "never")) << options;
+  }
+}
+
+TEST_F(SweepTest, AFailedRunIsNamedAndTriedAgain) {
+  // Sixty of these disks find no room.
+  const auto [status, text] = carom("sweep gas.toml -o s --over disks.0.count=10,250");
+  EXPECT_EQ(status, 1);
+  EXPECT_THAT(text, HasSubstr("run 0002: "));
+  EXPECT_EQ(rows("s/sweep.csv").size(), 2U);
+  EXPECT_THAT(carom("sweep gas.toml -o s --over disks.0.count=10,250").second, HasSubstr("1 of 2 runs are left"));
+}
+
+// A sweep that is told to stop takes its runs with it; the one that was going on is taken up where it stood.
+TEST_F(SweepTest, StoppedItTakesItsRunsWithItAndGoesOnFromTheirCheckpoints) {
+  const std::string words = "sweep gas.toml -o s --set physics.restitution=1 --over run.t_end=1,1e9 --jobs 2";
+  const auto [status, text] = shell("{ " CAROM_PROGRAM " " + words +
+                                    " & until [ -e s/runs/0002/carom-unfinished/scene.toml -a -e "
+                                    "s/runs/0001/summary.json ]; do sleep 0.01; done; kill -TERM $!; wait $!; }");
+  EXPECT_EQ(status, 4) << text;
+  EXPECT_THAT(text, HasSubstr("stopped by SIGTERM with 1 of 2 runs done; the same command goes on"));
+  EXPECT_EQ(rows("s/sweep.csv").size(), 2U);
+  EXPECT_EQ(carom(words + " --emit parallel").first, 0);
+  EXPECT_THAT(read("s/sweep.sh"), HasSubstr("'resume'"));
+  // Nobody works in the folder any more: else it would be refused with status 2.
+  EXPECT_EQ(carom("resume s/runs/0002 --quiet --max-walltime 0.01").first, 4);
+}
+
+// What a run warns of is not lost among the rows.
+TEST_F(SweepTest, WarningsAreCounted) {
+  const auto [status, text] =
+      carom("sweep gas.toml -o s --method pairwise --dt 0.05 --over disks.0.velocities.maxwell=1,1e4");
+  EXPECT_EQ(status, 0) << text;
+  EXPECT_THAT(text, HasSubstr("1 of 2 runs warn of their method, see the column warnings"));
+  const std::vector<std::string> table = rows("s/sweep.csv");
+  EXPECT_THAT(table.at(0), HasSubstr(",warnings,step_s,state_hash"));
+  EXPECT_THAT(table.at(1), HasSubstr(",0,0,"));
+  EXPECT_THAT(table.at(2), HasSubstr(",0,1,"));
+}
+
+// --- Frames
+// -----------------------------------------------------------------------------------------------------------
+
+TEST_F(SweepTest, AFrameOfAnEarlierRunIsAStart) {
+  for (const std::string format : {"xyz", "h5md"}) {
+    ASSERT_EQ(
+        carom("run gas.toml -o first --force --quiet --set output.every=0.25 --set output.trajectory=" + format).first,
+        0);
+    std::string second = gas;
+    for (const char* const key : {"positions", "velocities", "radius", "mass"}) {
+      const std::size_t begin = second.find(std::string(key) + " = ");
+      second.replace(begin, second.find('\n', begin) - begin, std::string(key) + " = { frame = \"first\", index = 3 }");
+    }
+    folder_.write("second.toml", second);
+    const auto [status, text] = carom(
+        "run second.toml -o second --force --quiet --t-end 0.5 --set output.every=0.25 --set output.trajectory=xyz");
+    ASSERT_EQ(status, 0) << text;
+    // Frame 3 is at t = 0.5; what follows takes the same way, up to the rounding of other window lengths.
+    const std::string first_frame = read("second/trajectory.xyz");
+    folder_.write("by_time.toml", test::replaced(second, "positions = { frame = \"first\", index = 3 }",
+                                                 "positions = { frame = \"first\", time = 0.5 }"));
+    ASSERT_EQ(carom("run by_time.toml -o by_time --force --quiet --t-end 0.5 --set output.every=0.25 --set "
+                    "output.trajectory=xyz")
+                  .first,
+              0);
+    EXPECT_THAT(carom("compare second by_time").second, HasSubstr("same bits"));
+    ASSERT_EQ(carom("run gas.toml -o plain --force --quiet --set output.every=0.25 --set output.trajectory=xyz").first,
+              0);
+    // Frames 3, 4, 5 of the first run hold the numbers of frames 1, 2, 3 of the second, for the first of them exactly.
+    std::istringstream plain(read("plain/trajectory.xyz")), started(first_frame);
+    std::vector<std::string> a, b;
+    for (std::string line; std::getline(plain, line);) a.push_back(line);
+    for (std::string line; std::getline(started, line);) b.push_back(line);
+    for (std::size_t k = 2; k < 22; ++k) EXPECT_EQ(a[2 * 22 + k], b[k]);
+  }
+  for (const auto& [law, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"{ frame = \"first\", index = 9 }", "there is no frame 9; expected 1 to 5"},
+           {"{ frame = \"nowhere\" }", "does not exist"},
+           {"{ frame = \"first\", index = 1, time = 2.0 }", "given beside index"},
+           {"{ frame = \"first\", indx = 1 }", "indx: unknown key"},
+           {"{ frame = \"first\", index = 0 }", "is 0"}}) {
+    folder_.write("bad.toml", test::replaced(gas, "\"random\"", law));
+    const auto [status, text] = carom("check bad.toml");
+    EXPECT_EQ(status, 2) << law;
+    EXPECT_THAT(text, HasSubstr("bad.toml:")) << law;
+    EXPECT_THAT(text, HasSubstr(expected)) << law;
+  }
+}
+
+}  // namespace
+}  // namespace carom

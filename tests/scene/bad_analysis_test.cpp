@@ -1,0 +1,90 @@
+// The table [analysis]: what it takes, what it fills in, and the one line for everything else.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+using test::complaint;
+using test::scene_from;
+using ::testing::HasSubstr;
+
+std::string with(const std::string& lines) {
+  return std::string(test::sound_scene) + "[analysis]\n" + lines + "\n";
+}
+
+TEST(AnalysisScene, FillsInWhatIsNotSaidAndWritesItDown) {
+  const Scene scene = scene_from(with(R"(what = ["density", "speeds", "pair_correlation", "displacement"])"));
+  const AnalysisPlan& plan = scene.analysis;
+  EXPECT_EQ(plan.every, 0.1) << "a hundredth of the run";
+  EXPECT_EQ(plan.start, 0.0);
+  EXPECT_EQ(plan.r_max, 2.0) << "half of what walls 10 apart leave the centres";
+  EXPECT_EQ(plan.wall_margin, 3.0);
+  EXPECT_EQ(plan.r_bins, 50U);
+  EXPECT_FALSE(plan.density_along_x);
+  EXPECT_TRUE(plan.wants(Quantity::displacement));
+  EXPECT_FALSE(plan.wants(Quantity::pressure));
+  const std::string text = resolved_toml(scene);
+  EXPECT_THAT(text, HasSubstr("pair_correlation = { r_max = 2.0, bins = 50 }\nspeeds = { max = 6.0, bins = 60 }\n"
+                              "density = { axis = \"y\", bins = 50 }\n"));
+  EXPECT_EQ(resolved_toml(scene_from(text)), text);
+}
+
+TEST(AnalysisScene, TakesWhatIsSaid) {
+  const Scene scene = scene_from(with("what = [\"density\", \"pair_correlation\"]\nevery = 0.5\nstart = 2.0\n"
+                                      "density = { axis = \"x\", bins = 7 }\npair_correlation = { r_max = 1.5 }"),
+                                 {{"analysis.density.bins", "8"}});
+  EXPECT_EQ(scene.analysis.every, 0.5);
+  EXPECT_EQ(scene.analysis.start, 2.0);
+  EXPECT_TRUE(scene.analysis.density_along_x);
+  EXPECT_EQ(scene.analysis.density_bins, 8U);
+  EXPECT_EQ(scene.analysis.r_max, 1.5);
+  EXPECT_EQ(resolved_toml(scene_from(test::sound_scene)).find("analysis"), std::string::npos);
+}
+
+TEST(AnalysisScene, SamplesComeWithTheFramesWhereThereAreAny) {
+  EXPECT_EQ(scene_from(with("what = [\"speeds\"]\n[output]\nevery = 0.7\nseries = true")).analysis.every, 0.7);
+}
+
+TEST(AnalysisScene, OneLineForWhatItDoesNotTake) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"every = 1.0",
+       "gas.toml:24: analysis.what: missing; expected a list of what to measure, as in "
+       "[\"pair_correlation\"]"},
+      {"what = \"speeds\"", "analysis.what: is a string; expected a list of what to measure"},
+      {"what = [\"speed\"]",
+       "gas.toml:25: analysis.what.0: unknown quantity \"speed\"; expected one of "
+       "pair_correlation, displacement, speeds, density, pressure, collision_rate (nearest: "
+       "speeds)"},
+      {"what = []\nevry = 1.0", "analysis.evry: unknown key"},
+      {"what = []\nevery = -1", "analysis.every: is -1"},
+      {"what = []\nstart = 11", "analysis.start: is 11, after the end of the run; expected at most run.t_end = 10"},
+      {"what = []\ndensity = { bins = 3 }",
+       "analysis.density: has options, but what does not name it; expected "
+       "\"density\" in what"},
+      {"what = [\"density\"]\ndensity = { bins = 0 }",
+       "analysis.density.bins: is 0; expected a whole number from 1 to "
+       "100000"},
+      {"what = [\"density\"]\ndensity = { axis = \"z\" }", "analysis.density.axis: "},
+      {"what = [\"density\"]\ndensity = \"x\"", "analysis.density: is a string; expected a table with axis, bins"},
+      {"what = [\"speeds\"]\nspeeds = { max = 0 }", "analysis.speeds.max: is 0"},
+      {"what = [\"pair_correlation\"]\npair_correlation = { r_max = 4.5 }",
+       "gas.toml:26: analysis.pair_correlation.r_max: 4.5 is too large for the box; expected at most 3.99"},
+  };
+  for (const auto& [lines, expected] : cases) EXPECT_THAT(complaint(with(lines)), HasSubstr(expected)) << lines;
+}
+
+TEST(AnalysisScene, HalfAPeriodIsAsFarAsPairsAreLookedAt) {
+  const std::string periodic = test::replaced(
+      test::replaced(with("what = [\"pair_correlation\"]\npair_correlation = { r_max = 5.5 }"), "left = \"wall\"",
+                     "left = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\""),
+      "right = \"wall\"", "right = \"periodic\"");
+  EXPECT_THAT(complaint(periodic),
+              HasSubstr("5.5 is too large for the box; expected at most 5, half the shorter side"));
+  EXPECT_EQ(complaint(periodic, {{"analysis.pair_correlation.r_max", "5"}}), "");
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,192 @@
+// The table of a scene's keys: every row is read, its example is a scene's, its default is what holds; and
+// docs/scene.md is what the program prints.
+#include "core/scene/scene_keys.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <map>
+
+#include "tests/support/program_support.hpp"
+
+namespace carom {
+namespace {
+
+using testing::HasSubstr;
+
+// Has a table for each kind of key, so that --set reaches all of them.
+constexpr std::string_view full_scene = R"([box]
+width = 100.0
+height = 100.0
+[physics]
+collapse = { model = "tc", contact_time = 1e-6 }
+[[disks]]
+count = 3
+positions = "growth"
+radius = 1.0
+mass = 2.0
+[[sources]]
+region = [0.0, 0.0, 10.0, 5.0]
+rate = 1.0
+radius = 1.0
+mass = 2.0
+[[sources]]
+side = "top"
+rate = 1.0
+radius = 1.0
+mass = 2.0
+[run]
+method = "exact"
+dt = 0.01
+t_end = 10.0
+[output]
+trajectory = "h5md"
+[analysis]
+what = ["pair_correlation", "speeds", "density"]
+)";
+
+SceneFrame three_disks(const FrameAsked&) {
+  return {{{10.0, 10.0}, {20.0, 20.0}, {30.0, 30.0}}, {{0, 0}, {0, 0}, {0, 0}}, {1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}};
+}
+
+std::string message_of(std::string_view text, const std::vector<Override>& changes, const std::string& folder = "") {
+  try {
+    parse_scene(text, "full.toml", folder, changes, three_disks);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// The table in which --set finds this one: a table within a group is the value of one of the group's keys.
+std::string owner_of(std::string_view table, std::string_view name) {
+  if (table.empty()) return "";
+  if (table == "disks" || table == "frame" || table.starts_with("disks.")) return "disks.0.";
+  if (table == "sources") return name == "side" ? "sources.1." : "sources.0.";
+  return std::string(table) + ".";
+}
+
+bool lies_in_a_value(const SceneKey& key) {
+  return key.table == "frame" || key.table.starts_with("disks.");
+}
+
+std::string label(const SceneKey& key) {
+  return fmt::format("[{}] {}", key.table, key.name);
+}
+
+// No key takes a date: whatever reads it complains.
+TEST(SceneKeys, EveryRowIsRead) {
+  for (const SceneKey& key : scene_keys()) {
+    Override change{owner_of(key.table, key.name) + std::string(key.name), "1979-05-27"};
+    if (key.table == "output.movie") {
+      change = {"output.movie", fmt::format("{{ {} = 1979-05-27 }}", key.name)};
+    }
+    if (key.table == "frame") {
+      const std::string frame = key.name == "frame" ? "" : "frame = \"out\", ";
+      change = {"disks.0.positions", fmt::format("{{ {}{} = 1979-05-27 }}", frame, key.name)};
+    } else if (lies_in_a_value(key)) {
+      const std::string owner(key.table.substr(key.table.find('.') + 1));
+      change = {"disks.0." + owner, fmt::format("{{ {} = 1979-05-27 }}", key.name)};
+    }
+    const std::string message = message_of(full_scene, {change});
+    EXPECT_THAT(message, HasSubstr(std::string(key.name) + ":")) << label(key);
+    EXPECT_THAT(message, HasSubstr("is a date or time")) << label(key);
+  }
+}
+
+TEST(SceneKeys, EveryExampleIsAScenes) {
+  const test::TestFolder folder("scene_keys_test");
+  folder.write("p.csv", "10,10\n20,20\n30,30\n");
+  folder.write("v.csv", "1,0\n0,1\n1,1\n");
+  const std::map<std::string_view, std::vector<Override>> companions{
+      {"left", {{"box.right", "periodic"}}},
+      {"right", {{"box.left", "periodic"}}},
+      {"accumulate", {{"physics.diffusion", "0.1"}}},
+  };
+  for (const SceneKey& key : scene_keys()) {
+    const std::size_t equals = key.example.find(" = ");
+    if (equals == std::string_view::npos) continue;  // "[box]"
+    std::string_view owner = key.table;
+    if (owner.starts_with("analysis.")) owner = "analysis";
+    if (owner == "output.movie") owner = "output";
+    if (owner == "physics.collapse" && key.example.starts_with("collapse")) owner = "physics";
+    std::vector<Override> changes{{owner_of(owner, key.name) + std::string(key.example.substr(0, equals)),
+                                   std::string(key.example.substr(equals + 3))}};
+    std::string text(full_scene);
+    if (key.name == "packing_fraction" || key.name == "aspect") {
+      text = test::replaced(text, "width = 100.0\nheight = 100.0", "packing_fraction = 0.1");
+      changes.push_back({"sources.0.region", "[1, 1, 2, 2]"});
+    }
+    if (const auto more = companions.find(key.name); more != companions.end()) {
+      changes.insert(changes.end(), more->second.begin(), more->second.end());
+    }
+    EXPECT_EQ(message_of(text, changes, folder.path().string()), "") << label(key) << ": " << key.example;
+  }
+}
+
+// A key that says what its row says it is without it changes nothing.
+TEST(SceneKeys, EveryDefaultIsWhatHolds) {
+  constexpr std::string_view bare = R"([box]
+width = 100.0
+height = 100.0
+[[disks]]
+count = 3
+positions = "growth"
+radius = 1.0
+mass = 2.0
+[run]
+t_end = 10.0
+[analysis]
+what = ["pair_correlation", "speeds", "density"]
+)";
+  const std::string resolved = resolved_toml(parse_scene(bare, "bare.toml", ""));
+  int seen = 0;
+  for (const SceneKey& key : scene_keys()) {
+    const bool value = !key.initial.empty() && (std::isdigit(static_cast<unsigned char>(key.initial.front())) != 0 ||
+                                                key.initial.front() == '"' || key.initial.front() == '[' ||
+                                                key.initial == "true" || key.initial == "false");
+    if (!value || key.name == "aspect" || key.name == "precision" || key.name == "dimensions") continue;
+    const Override change{owner_of(key.table, key.name) + std::string(key.name), std::string(key.initial)};
+    if (key.name == "accumulate") continue;
+    if (key.table == "output.movie") {  // a table of its own makes a movie
+      const Override movie{"output.movie", "{}"};
+      EXPECT_EQ(resolved_toml(parse_scene(bare, "bare.toml", "", {movie, change})),
+                resolved_toml(parse_scene(bare, "bare.toml", "", {movie})))
+          << label(key);
+      continue;
+    }
+    EXPECT_EQ(resolved_toml(parse_scene(bare, "bare.toml", "", {change})), resolved) << label(key);
+    ++seen;
+  }
+  EXPECT_GT(seen, 20);
+}
+
+TEST(SceneKeys, NamesAreUniqueAndTablesKnown) {
+  for (const SceneKey& key : scene_keys()) {
+    EXPECT_EQ(find_scene_key(key.table, key.name), &key) << label(key);
+    const auto tables = scene_tables();
+    EXPECT_TRUE(std::any_of(tables.begin(), tables.end(), [&](const SceneTable& t) { return t.name == key.table; }))
+        << label(key);
+    EXPECT_FALSE(key.meaning.empty()) << label(key);
+  }
+  EXPECT_EQ(table_of_path("disks.12.radius"), "disks.radius");
+  EXPECT_EQ(table_of_path("sources.0"), "sources");
+  EXPECT_EQ(table_of_path(""), "");
+}
+
+using ScenePage = test::ProgramTest;
+
+TEST_F(ScenePage, IsWhatTheProgramPrints) {
+  const test::Outcome printed = carom("docs scene");
+  EXPECT_EQ(printed.status, 0);
+  EXPECT_TRUE(printed.out == test::text_of(CAROM_SOURCE_DIR "/docs/scene.md"))
+      << "a table has changed; write the page anew with: carom docs scene > docs/scene.md";
+  const test::Outcome wrong = carom("docs scenes");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("there is no page \"scenes\"; expected scene"));
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,204 @@
+// Growth of initial states: no overlap to the last bit, the radii asked for, the same bits by both ways and at any
+// scale, and clear words where the disks jam.
+#include "core/start/growth.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "core/disks/state_hash.hpp"
+#include "core/reference/pair_search.hpp"
+#include "core/start/initial_state.hpp"
+#include "parallel/start/growth_step.hpp"
+#include "parallel/start/random_placement.hpp"
+#include "tests/support/scene_support.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+using test::scene_from;
+using testing::HasSubstr;
+
+constexpr const char* periodic =
+    "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
+
+std::string text_of(std::string_view box, std::string_view disks, std::string_view more = "") {
+  return fmt::format("seed = 11\n[box]\n{}\n{}\n{}\n[run]\nt_end = 1\n", box, disks, more);
+}
+
+std::string group(int count, std::string_view radius) {
+  return fmt::format("[[disks]]\ncount = {}\npositions = \"growth\"\nradius = {}\nmass = 1\n", count, radius);
+}
+
+// Everybody inside, nobody nearer than contact, in the very arithmetic of the contact test.
+void expect_free(const State& state, const Domain& box) {
+  const Disks& d = state.disks;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const double r = d.radius_of(i);
+    if (!box.periodic_x()) {
+      EXPECT_GE(d.x[i], r);
+      EXPECT_LE(d.x[i], box.width - r);
+    }
+    if (!box.periodic_y()) {
+      EXPECT_GE(d.y[i], r);
+      EXPECT_LE(d.y[i], box.height - r);
+    }
+    for (std::size_t j = i + 1; j < d.size(); ++j) {
+      double dx = d.x[j] - d.x[i];
+      double dy = d.y[j] - d.y[i];
+      if (box.periodic_x()) dx = nearest_image(dx, box.width);
+      if (box.periodic_y()) dy = nearest_image(dy, box.height);
+      const double contact = r + d.radius_of(j);
+      EXPECT_GE(dx * dx + dy * dy, contact * contact) << i << " " << j;
+    }
+  }
+}
+
+struct Case {
+  const char* name;
+  std::string box, disks;
+};
+
+// Mixtures, two groups, equal disks, a huge disk among small ones; walls, sinks, periodic sides; a few disks only.
+std::vector<Case> cases() {
+  const std::string torus = periodic;
+  return {{"mixed", torus + "packing_fraction = 0.8", group(120, "{ uniform = [1, 5] }")},
+          {"two_groups", torus + "packing_fraction = 0.78\naspect = 2", group(60, "1") + group(60, "1.4")},
+          {"walls", "packing_fraction = 0.72", group(100, "{ uniform = [1, 5] }")},
+          {"sinks", "left = \"sink\"\nright = \"sink\"\npacking_fraction = 0.7", group(100, "{ uniform = [1, 2] }")},
+          {"equal", torus + "packing_fraction = 0.72", group(120, "0.3")},
+          {"huge", torus + "packing_fraction = 0.7", group(1, "5") + group(300, "0.7")},
+          {"loose", torus + "packing_fraction = 0.2", group(50, "1")},
+          {"one", "width = 2.5\nheight = 2.5", group(1, "1")},
+          {"two", "width = 2.2\nheight = 4.4", group(2, "1")}};
+}
+
+TEST(Growth, PlacesWithoutOverlapToTheLastBit) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const Scene scene = scene_from(text_of(c.box, c.disks));
+    const State state = parallel_initial_state(scene, 2);
+    expect_free(state, scene.box);
+    std::vector<double> radii;
+    std::vector<double> masses;
+    DiskId first = 0;
+    for (const DiskGroup& g : scene.groups) {
+      draw_sizes(scene, g, first, radii, masses);
+      for (std::size_t k = 0; k < g.count; ++k) EXPECT_EQ(state.disks.radius_of(first + k), radii[k]);
+      first += static_cast<DiskId>(g.count);
+    }
+  }
+}
+
+State grown(const Scene& scene, int threads, std::size_t divisor) {
+  const Executor executor(threads, divisor);
+  return initial_state(scene, place_at_random, parallel_growth(executor, {threads, divisor}));
+}
+
+TEST(Growth, SameBitsPlainAndParallel) {
+  for (const Case& c : cases()) {
+    const Scene scene = scene_from(text_of(c.box, c.disks));
+    const State expected = initial_state(scene);
+    const bool all = c.name == std::string("walls");  // threads to spare cost more time than they are worth nine times
+    for (const int threads : all ? std::vector{1, 2, 3, 8} : std::vector{2}) {
+      const State state = grown(scene, threads, threads == 1 ? 1 : 300);
+      EXPECT_EQ(state.disks.x, expected.disks.x) << c.name << ", " << threads;
+      EXPECT_EQ(state.disks.y, expected.disks.y) << c.name << ", " << threads;
+    }
+  }
+}
+
+// The plain step against all pairs: by its definition, each gap shared by what both ends lack.
+TEST(Growth, StepTakesTheLeastOfAllGaps) {
+  test::Draws draws(5);
+  for (int k = 0; k < 20; ++k) {
+    Domain box;
+    box.width = 30.0;
+    box.height = 20.0;
+    test::set_sides(box, k % 2 == 0 ? SideKind::periodic : SideKind::wall, SideKind::wall);
+    State state;
+    state.disks = test::disks_of(test::random_disks(draws, box, 25, {0.2, 1.5}));
+    Disks& d = state.disks;
+    std::vector<double> target;
+    for (const double r : d.radius) target.push_back(draws.in(0, 1) < 0.3 ? r : r * draws.in(1, 2));
+    const std::vector<double> before = d.radius;
+    grow_step(d, box, target);
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      double room = std::min(target[i] - before[i], 0.75 * std::min(d.y[i] - before[i], 20.0 - d.y[i] - before[i]));
+      if (k % 2 == 1) room = std::min(room, 0.75 * std::min(d.x[i] - before[i], 30.0 - d.x[i] - before[i]));
+      for (std::size_t j = 0; j < d.size() && target[i] > before[i]; ++j) {
+        if (j == i) continue;
+        double dx = d.x[j] - d.x[i];
+        if (k % 2 == 0) dx = std::remainder(dx, 30.0);
+        const double gap = std::hypot(dx, d.y[j] - d.y[i]) - before[i] - before[j];
+        const double both = target[i] - before[i] + target[j] - before[j];
+        room = std::min(room, 0.75 * gap * (target[i] - before[i]) / both);
+      }
+      EXPECT_NEAR(d.radius[i], before[i] + room, 1e-12) << i;
+    }
+  }
+}
+
+TEST(Growth, ScalesExactlyWithPowersOfTwo) {
+  const auto state_of = [](double unit, double mass) {
+    const std::string disks =
+        fmt::format("[[disks]]\ncount = 60\npositions = \"growth\"\nradius = {{ uniform = [{}, {}] }}\nmass = {}\n",
+                    unit, 3.0 * unit, mass);
+    return initial_state(
+        scene_from(text_of(fmt::format("{}width = {}\nheight = {}", periodic, 32.0 * unit, 32.0 * unit), disks)));
+  };
+  const State one = state_of(1.0, 1.0);
+  const State large = state_of(0x1p20, 0x1p-20);
+  for (std::size_t i = 0; i < one.disks.size(); ++i) {
+    EXPECT_EQ(large.disks.x[i], 0x1p20 * one.disks.x[i]);
+    EXPECT_EQ(large.disks.y[i], 0x1p20 * one.disks.y[i]);
+  }
+}
+
+TEST(Growth, SeedsDifferAndMassesDoNotMatter) {
+  const std::string text = text_of(std::string(periodic) + "packing_fraction = 0.7", group(60, "{ uniform = [1, 2] }"));
+  const State one = initial_state(scene_from(text));
+  EXPECT_EQ(one.disks.x, initial_state(scene_from(text)).disks.x);
+  EXPECT_EQ(one.disks.x, initial_state(scene_from(test::replaced(text, "mass = 1", "mass = 7"))).disks.x);
+  EXPECT_NE(one.disks.x, initial_state(scene_from(test::replaced(text, "seed = 11", "seed = 12"))).disks.x);
+}
+
+TEST(Growth, JamsWithAClearWord) {
+  const std::string text =
+      text_of(std::string(periodic) + "packing_fraction = 0.89", group(30, "{ uniform = [1, 2] }"));
+  const std::string message = test::complaint(text);
+  EXPECT_THAT(message, HasSubstr("gas.toml:"));
+  EXPECT_THAT(message, HasSubstr("disks.0.positions: \"growth\" stalls at packing fraction 0.8"));
+  EXPECT_THAT(message, HasSubstr("slowness = 10"));
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+  EXPECT_THAT(test::complaint(text + "[growth]\nsteps = 5\n"), HasSubstr("\"growth\" ends at packing fraction 0."));
+}
+
+TEST(Growth, RefusesWhatItCannotDo) {
+  const std::string other = "[[disks]]\ncount = 3\npositions = \"random\"\nradius = 1\nmass = 1\n";
+  EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1") + other)),
+              HasSubstr("disks.1.positions: beside \"growth\" of disks.0"));
+  EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", other, "[growth]\nslowness = 2\n")),
+              HasSubstr("growth: nothing grows"));
+  EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1"), "[growth]\nslowness = 0\n")),
+              HasSubstr("growth.slowness: is 0"));
+  EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1"), "[growth]\nslowness = 1e300\n")),
+              HasSubstr("expected a number from 0.001 to 10000"));
+  EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1"), "[growth]\nslow = 2\n")),
+              HasSubstr("growth.slow: unknown key"));
+}
+
+// The scene written out grows the same disks.
+TEST(Growth, SurvivesBeingWrittenOut) {
+  const Scene scene = scene_from(text_of(std::string(periodic) + "packing_fraction = 0.6",
+                                         group(20, "1") + group(20, "2"), "[growth]\nslowness = 3\nsteps = 200\n"));
+  const Scene again = scene_from(resolved_toml(scene));
+  EXPECT_EQ(again.growth.slowness, 3.0);
+  EXPECT_EQ(again.growth.steps, 200U);
+  EXPECT_EQ(initial_state(again).disks.x, initial_state(scene).disks.x);
+}
+
+}  // namespace
+}  // namespace carom

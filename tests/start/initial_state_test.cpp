@@ -1,0 +1,250 @@
+// Sizes, velocities, columns, and independence of units; where disks stand is placement_test's.
+#include "core/start/initial_state.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/disks/state_hash.hpp"
+#include "tests/support/scene_support.hpp"
+#include "tests/support/support.hpp"
+
+namespace carom {
+namespace {
+
+using test::Draws;
+using test::scene_from;
+using testing::ElementsAre;
+
+// A roomy box with groups as given.
+Scene scene_with(std::string_view groups, std::uint64_t seed = 3) {
+  return scene_from(fmt::format("seed = {}\n[box]\nwidth = 200\nheight = 100\n{}\n[run]\nt_end = 1\n", seed, groups));
+}
+
+std::string group(std::string_view radius, std::string_view mass, Count count = 100, std::string_view more = "") {
+  return fmt::format("[[disks]]\ncount = {}\npositions = \"random\"\nradius = {}\nmass = {}\n{}\n", count, radius, mass,
+                     more);
+}
+
+TEST(Sizes, EqualOnesNeedNoColumn) {
+  const State s = initial_state(scene_with(group("0.5", "2") + group("0.5", "2")));
+  EXPECT_EQ(s.disks.size(), 200U);
+  EXPECT_TRUE(s.disks.radius.empty());
+  EXPECT_TRUE(s.disks.mass.empty());
+  EXPECT_EQ(s.disks.common_radius, 0.5);
+  EXPECT_EQ(s.disks.common_mass, 2.0);
+  EXPECT_EQ(s.next_id, 200U);
+}
+
+TEST(Sizes, EachColumnExistsOnlyWhereDisksDiffer) {
+  const State masses = initial_state(scene_with(group("0.5", "2") + group("0.5", "3")));
+  EXPECT_TRUE(masses.disks.radius.empty());
+  EXPECT_EQ(masses.disks.common_radius, 0.5);
+  EXPECT_EQ(masses.disks.mass.size(), 200U);
+  EXPECT_EQ(masses.disks.mass[99], 2.0);
+  EXPECT_EQ(masses.disks.mass[100], 3.0);
+  const State radii = initial_state(scene_with(group("0.5", "2") + group("0.25", "2")));
+  EXPECT_EQ(radii.disks.radius.size(), 200U);
+  EXPECT_TRUE(radii.disks.mass.empty());
+  const State list = initial_state(scene_with(group("[0.5, 0.5]", "{ uniform = [2, 2] }", 2)));
+  EXPECT_TRUE(list.disks.radius.empty()) << "a list of equal radii";
+  EXPECT_TRUE(list.disks.mass.empty());
+  EXPECT_EQ(list.disks.common_mass, 2.0);
+}
+
+TEST(Sizes, WithoutDisksTheSourceSaysThem) {
+  const Scene scene = scene_with("[[sources]]\nside = \"left\"\nrate = 1\nradius = 0.5\nmass = { from_radius = 2 }");
+  const State s = initial_state(scene);
+  EXPECT_TRUE(s.disks.empty());
+  EXPECT_EQ(s.disks.common_radius, 0.5);
+  EXPECT_DOUBLE_EQ(s.disks.common_mass, test::pi * 2 * 0.25);
+  EXPECT_EQ(s.sources.size(), 1U);
+  EXPECT_EQ(s.next_id, 0U);
+  EXPECT_TRUE(initial_state(scene_with(group("1", "1", 0))).disks.empty());
+}
+
+TEST(Sizes, UniformOnesLieInTheirRangeAndFillIt) {
+  const Scene scene = scene_with(group("{ uniform = [0.1, 0.5] }", "{ uniform = [1, 100] }", 1000));
+  std::vector<double> radii;
+  std::vector<double> masses;
+  draw_sizes(scene, scene.groups[0], 0, radii, masses);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < radii.size(); ++k) {
+    EXPECT_GE(radii[k], 0.1);
+    EXPECT_LE(radii[k], 0.5);
+    EXPECT_GE(masses[k], 1.0);
+    EXPECT_LE(masses[k], 100.0);
+    sum += masses[k];
+  }
+  EXPECT_NEAR(sum / 1000.0, 50.5, 4.0 * 99.0 / std::sqrt(12.0 * 1000.0)) << "mean within four standard errors";
+}
+
+TEST(Sizes, FollowTheDiskNotTheGroup) {
+  const Scene one = scene_with(group("{ uniform = [0.1, 0.5] }", "1", 100));
+  const Scene two = scene_with(group("{ uniform = [0.1, 0.5] }", "1", 40) + group("{ uniform = [0.1, 0.5] }", "1", 60));
+  EXPECT_EQ(initial_state(one).disks.radius, initial_state(two).disks.radius);
+  EXPECT_EQ(state_hash(initial_state(one).disks), state_hash(initial_state(two).disks));
+}
+
+TEST(Sizes, DerivedFromEachOther) {
+  const State from_mass = initial_state(scene_with(group("{ from_mass = 4 }", "{ uniform = [1, 10] }", 50)));
+  const State from_radius = initial_state(scene_with(group("{ uniform = [0.1, 0.5] }", "{ from_radius = 4 }", 50)));
+  for (std::size_t i = 0; i < 50; ++i) {
+    EXPECT_DOUBLE_EQ(from_mass.disks.radius[i], std::sqrt(from_mass.disks.mass[i] / (test::pi * 4)));
+    EXPECT_DOUBLE_EQ(from_radius.disks.mass[i],
+                     test::pi * 4 * from_radius.disks.radius[i] * from_radius.disks.radius[i]);
+  }
+}
+
+TEST(Velocities, AtRestUnlessSaid) {
+  const State s = initial_state(scene_with(group("0.5", "1")));
+  EXPECT_THAT(s.disks.vx, testing::Each(0.0));
+  EXPECT_THAT(s.disks.vy, testing::Each(0.0));
+}
+
+TEST(Velocities, ListsAreTakenAsTheyAre) {
+  const State s =
+      initial_state(scene_with(group("1", "1", 1) + group("1", "1", 2, "velocities = [[1, 2], [-3, 0.1]]")));
+  EXPECT_THAT(s.disks.vx, ElementsAre(0, 1, -3));
+  EXPECT_THAT(s.disks.vy, ElementsAre(0, 2, 0.1));
+}
+
+TEST(Velocities, UniformOnesHaveEitherSign) {
+  const State s = initial_state(scene_with(group("0.5", "1", 500, "velocities = { uniform = 2 }")));
+  int positive = 0;
+  for (std::size_t i = 0; i < 500; ++i) {
+    EXPECT_LE(std::abs(s.disks.vx[i]), 2.0);
+    EXPECT_LE(std::abs(s.disks.vy[i]), 2.0);
+    positive += s.disks.vx[i] > 0 ? 1 : 0;
+  }
+  EXPECT_NEAR(positive, 250, 4 * std::sqrt(125.0));
+}
+
+// Each group by itself: no mean velocity, kinetic energy count * T, whatever the masses.
+TEST(Velocities, MaxwellIsExactInEachGroup) {
+  Draws draws(31);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const double t = draws.decades(1e-6, 1e6);
+    const auto more = fmt::format("velocities = {{ maxwell = {:.17g} }}", t);
+    const Count n = 2 + draws.bits() % 60;
+    const State s = initial_state(scene_with(
+        group("0.5", "{ uniform = [1, 100] }", n, more) + group("0.5", "7", 10, "velocities = { uniform = 1 }"), seed));
+    double mass = 0.0;
+    double px = 0.0;
+    double py = 0.0;
+    double kinetic = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double m = s.disks.mass[i];
+      mass += m;
+      px += m * s.disks.vx[i];
+      py += m * s.disks.vy[i];
+      kinetic += 0.5 * m * (s.disks.vx[i] * s.disks.vx[i] + s.disks.vy[i] * s.disks.vy[i]);
+    }
+    const double expected = static_cast<double>(n) * t;
+    EXPECT_NEAR(kinetic / expected, 1.0, 1e-13);
+    EXPECT_LE(std::sqrt(px * px + py * py), 1e-12 * std::sqrt(2 * mass * expected));
+  }
+}
+
+TEST(Velocities, MaxwellIsNormal) {
+  const State s = initial_state(scene_with(group("0.05", "1", 20000, "velocities = { maxwell = 4 }")));
+  double fourth = 0.0;
+  for (const double v : s.disks.vx) fourth += v * v * v * v / 16.0;
+  EXPECT_NEAR(fourth / 20000.0, 3.0, 4 * std::sqrt(96.0 / 20000.0)) << "fourth moment of a normal deviate";
+}
+
+TEST(InitialState, SameSceneSameBits) {
+  const std::string text = group("{ uniform = [0.3, 0.6] }", "1", 300, "velocities = { maxwell = 1 }");
+  EXPECT_EQ(state_hash(initial_state(scene_with(text)).disks), state_hash(initial_state(scene_with(text)).disks));
+  EXPECT_NE(state_hash(initial_state(scene_with(text)).disks), state_hash(initial_state(scene_with(text, 4)).disks));
+}
+
+// The bits themselves: another compiler, another machine or a changed draw would show here.
+TEST(InitialState, Golden) {
+  const std::string mixed =
+      group("{ uniform = [1, 3] }", "{ from_radius = 0.3 }", 200, "velocities = { maxwell = 2 }") +
+      group("{ from_mass = 0.7 }", "{ uniform = [1, 9] }", 300, "velocities = { uniform = 2 }");
+  EXPECT_EQ(hash_text(state_hash(initial_state(scene_with(mixed)).disks)), "1a51a35fddd27c46");
+  const Scene dense =
+      scene_from("[box]\npacking_fraction = 0.52\nleft = \"periodic\"\nright = \"periodic\"\n[run]\nt_end = 1\n" +
+                 group("0.5", "1", 2000, "velocities = { maxwell = 1 }"));
+  EXPECT_EQ(hash_text(state_hash(initial_state(dense).disks)), "d1368b89c7ac6148");
+}
+
+// The same scene in other units: length, mass and time in powers of two.
+struct Units {
+  double length = 1.0, mass = 1.0, time = 1.0;
+};
+
+void scale(SizeLaw& law, double unit, double density_unit) {
+  law.value *= unit;
+  law.low *= unit;
+  law.high *= unit;
+  for (double& v : law.values) v *= unit;
+  law.density *= density_unit;
+}
+
+Scene scaled(Scene s, const Units& u) {
+  const double speed = u.length / u.time;
+  const double density = u.mass / (u.length * u.length);
+  s.box.width *= u.length;
+  s.box.height *= u.length;
+  for (DiskGroup& g : s.groups) {
+    for (Vec2& p : g.positions.list) p = {p.x * u.length, p.y * u.length};
+    for (Vec2& v : g.velocities.list) v = {v.x * speed, v.y * speed};
+    g.velocities.temperature *= u.mass * speed * speed;
+    g.velocities.limit *= speed;
+    scale(g.radius, u.length, density);
+    scale(g.mass, u.mass, density);
+  }
+  return s;
+}
+
+void expect_scaled(const std::vector<double>& a, const std::vector<double>& b, double unit) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_EQ(a[i] * unit, b[i]) << i;
+}
+
+TEST(InitialState, SameBitsInAnyUnits) {
+  const std::string groups =
+      group("0.5", "2", 3, "velocities = [[1, 0], [0, 1], [1, 1]]") +
+      group("{ uniform = [1, 3] }", "{ from_radius = 0.3 }", 200, "velocities = { maxwell = 2 }") +
+      group("{ from_mass = 0.7 }", "{ uniform = [1, 9] }", 300, "velocities = { uniform = 2 }") +
+      test::replaced(group("0.1", "1", 90), "random", "hexagonal");
+  std::string dense = group("0.5", "1", 300);
+  dense += "[box]\npacking_fraction = 0.52\nleft = \"periodic\"\nright = \"periodic\"\n[run]\nt_end = 1\n";
+  for (const Scene& scene : {scene_with(groups), scene_from(dense)}) {
+    const State s = initial_state(scene);
+    for (const double a : {0x1p20, 0x1p-20}) {
+      for (const Units& u : {Units{a, 1, 1}, Units{1, a, 1}, Units{1, 1, a}, Units{a, 2 * a, 4 / a}}) {
+        const State t = initial_state(scaled(scene, u));
+        expect_scaled(s.disks.x, t.disks.x, u.length);
+        expect_scaled(s.disks.y, t.disks.y, u.length);
+        expect_scaled(s.disks.vx, t.disks.vx, u.length / u.time);
+        expect_scaled(s.disks.vy, t.disks.vy, u.length / u.time);
+        expect_scaled(s.disks.radius, t.disks.radius, u.length);
+        expect_scaled(s.disks.mass, t.disks.mass, u.mass);
+      }
+    }
+  }
+}
+
+// The box that packing_fraction gives scales with the radii too.
+TEST(InitialState, SameBoxInAnyUnits) {
+  const auto box = [](double unit) {
+    return scene_from(
+               fmt::format("[box]\npacking_fraction = 0.3\naspect = 1.7\n[[disks]]\ncount = 20\npositions = "
+                           "\"random\"\nradius = {{ uniform = [{:.17g}, {:.17g}] }}\nmass = 1\n[run]\nt_end = 1\n",
+                           0.3 * unit, 0.7 * unit))
+        .box;
+  };
+  for (const double unit : {0x1p20, 0x1p-20}) {
+    EXPECT_EQ(box(unit).width, unit * box(1).width);
+    EXPECT_EQ(box(unit).height, unit * box(1).height);
+  }
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,179 @@
+// A plain event-driven simulation to hold the exact method against: all pairs, all images, long double, no grid, no
+// windows, every disk advanced at every event. Written from the formulas, sharing no code with core.
+#pragma once
+
+// clang, unlike g++, calls every step from double to the oracle's long double a promotion by mistake; here it is the
+// point.
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wdouble-promotion"
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+
+namespace carom::oracle {
+
+using Real = long double;
+
+struct Ball {
+  Real x, y, vx, vy, r, m;
+};
+
+struct System {
+  std::vector<Ball> balls;
+  Domain box;
+  Real gravity = 0.0L;
+  Real restitution = 1.0L;
+  Real time = 0.0L;
+  std::size_t collisions = 0;
+  std::size_t wall_collisions = 0;
+  Real last_event = -HUGE_VALL;
+  Real shortest = HUGE_VALL;  // time between two events
+};
+
+inline System make_system(const Disks& disks, const Domain& box, double gravity, double restitution) {
+  System s;
+  s.box = box;
+  s.gravity = gravity;
+  s.restitution = restitution;
+  for (const std::size_t i : by_id(disks)) {
+    s.balls.push_back({disks.x[i], disks.y[i], disks.vx[i], disks.vy[i], disks.radius_of(i), disks.mass_of(i)});
+  }
+  return s;
+}
+
+inline constexpr Real no_event = HUGE_VALL;
+
+// Contact of two balls, the second displaced by (ox, oy).
+inline Real pair_time(const Ball& a, const Ball& b, Real ox, Real oy) {
+  const Real dx = b.x + ox - a.x;
+  const Real dy = b.y + oy - a.y;
+  const Real ux = b.vx - a.vx;
+  const Real uy = b.vy - a.vy;
+  const Real along = dx * ux + dy * uy;
+  if (along >= 0.0L) return no_event;
+  const Real u2 = ux * ux + uy * uy;
+  const Real reach = a.r + b.r;
+  const Real gap2 = dx * dx + dy * dy - reach * reach;
+  if (gap2 <= 0.0L) return 0.0L;
+  const Real discriminant = along * along - u2 * gap2;
+  return discriminant < 0.0L ? no_event : gap2 / (-along + std::sqrt(discriminant));
+}
+
+// First t >= 0 at which distance d to a side, closing at speed u with acceleration a towards it, is covered.
+inline Real side_time(Real d, Real u, Real a) {
+  if (d < 0.0L) d = 0.0L;
+  if (a == 0.0L) return u > 0.0L ? d / u : no_event;
+  const Real discriminant = u * u + 2.0L * a * d;
+  if (discriminant < 0.0L || (a < 0.0L && u <= 0.0L)) return no_event;
+  const Real root = std::sqrt(discriminant);
+  return u > 0.0L ? 2.0L * d / (u + root) : (-u + root) / a;
+}
+
+struct Happening {
+  Real time = no_event;
+  std::size_t i = 0, j = 0;
+  Real ox = 0.0L, oy = 0.0L;
+  int side = -1;
+};
+
+inline Happening next_happening(const System& s) {
+  Happening first;
+  const bool px = s.box.periodic_x();
+  const bool py = s.box.periodic_y();
+  for (std::size_t i = 0; i < s.balls.size(); ++i) {
+    const Ball& a = s.balls[i];
+    for (std::size_t j = i + 1; j < s.balls.size(); ++j) {
+      for (int kx = px ? -1 : 0; kx <= (px ? 1 : 0); ++kx) {
+        for (int ky = py ? -1 : 0; ky <= (py ? 1 : 0); ++ky) {
+          const Real ox = kx * static_cast<Real>(s.box.width);
+          const Real oy = ky * static_cast<Real>(s.box.height);
+          const Real t = pair_time(a, s.balls[j], ox, oy);
+          if (t < first.time) first = {t, i, j, ox, oy, -1};
+        }
+      }
+    }
+    const Real w = s.box.width;
+    const Real h = s.box.height;
+    const Real t[4] = {px ? no_event : side_time(a.x - a.r, -a.vx, 0.0L),
+                       px ? no_event : side_time(w - a.r - a.x, a.vx, 0.0L),
+                       py ? no_event : side_time(a.y - a.r, -a.vy, s.gravity),
+                       py ? no_event : side_time(h - a.r - a.y, a.vy, -s.gravity)};
+    for (int k = 0; k < 4; ++k) {
+      if (t[k] < first.time) first = {t[k], i, i, 0.0L, 0.0L, k};
+    }
+  }
+  return first;
+}
+
+inline void advance(System& s, Real t) {
+  for (Ball& b : s.balls) {
+    b.x += b.vx * t;
+    b.y += b.vy * t - 0.5L * s.gravity * t * t;
+    b.vy -= s.gravity * t;
+    if (s.box.periodic_x()) b.x -= std::floor(b.x / s.box.width) * static_cast<Real>(s.box.width);
+    if (s.box.periodic_y()) b.y -= std::floor(b.y / s.box.height) * static_cast<Real>(s.box.height);
+  }
+  s.time += t;
+}
+
+inline void resolve(System& s, const Happening& e) {
+  Ball& a = s.balls[e.i];
+  if (e.side >= 0) {
+    if (e.side < 2) a.vx *= -static_cast<Real>(s.box.wall_restitution);
+    if (e.side >= 2) a.vy *= -static_cast<Real>(s.box.wall_restitution);
+    ++s.wall_collisions;
+    return;
+  }
+  Ball& b = s.balls[e.j];
+  // The image may have wrapped meanwhile: the nearest one touches.
+  Real dx = b.x - a.x;
+  Real dy = b.y - a.y;
+  if (s.box.periodic_x()) dx -= std::round(dx / s.box.width) * static_cast<Real>(s.box.width);
+  if (s.box.periodic_y()) dy -= std::round(dy / s.box.height) * static_cast<Real>(s.box.height);
+  const Real d = std::sqrt(dx * dx + dy * dy);
+  const Real nx = dx / d;
+  const Real ny = dy / d;
+  const Real closing = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny;
+  const Real impulse = -(1.0L + s.restitution) * closing * a.m * b.m / (a.m + b.m);
+  a.vx -= impulse / a.m * nx;
+  a.vy -= impulse / a.m * ny;
+  b.vx += impulse / b.m * nx;
+  b.vy += impulse / b.m * ny;
+  ++s.collisions;
+}
+
+// Runs to time t. False: there were more than so many events before, and the system is at the last of them.
+inline bool run(System& s, Real t, std::size_t most_events = static_cast<std::size_t>(-1)) {
+  std::size_t events = 0;
+  for (;;) {
+    // Periodic images are looked at one period away, so nobody may fly further than a quarter of it unseen.
+    Real longest = no_event;
+    for (const Ball& b : s.balls) {
+      if (s.box.periodic_x()) longest = std::min(longest, 0.25L * s.box.width / (std::abs(b.vx) + 1e-300L));
+      if (s.box.periodic_y()) longest = std::min(longest, 0.25L * s.box.height / (std::abs(b.vy) + 1e-300L));
+    }
+    const Happening e = next_happening(s);
+    const Real left = t - s.time;
+    if (e.time > left && left <= longest) {
+      advance(s, left);
+      return true;
+    }
+    if (e.time > longest) {
+      advance(s, longest);
+    } else {
+      if (++events > most_events) return false;
+      advance(s, e.time);
+      resolve(s, e);
+      s.shortest = std::min(s.shortest, s.time - s.last_event);
+      s.last_event = s.time;
+    }
+  }
+}
+
+}  // namespace carom::oracle

@@ -1,0 +1,94 @@
+// Random small scenes over every combination of features, as TOML text, and the comparison of engines on them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/disks/state_hash.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/start/initial_state.hpp"
+
+namespace carom::test {
+
+struct Features {
+  std::string method = "pairwise";
+  std::string sides = "wall";  // wall | periodic | periodic_x | sink
+  bool gravity = false;
+  double restitution = 1.0;
+  std::string diffusion;        // empty | "replace" | "accumulate"
+  std::string radii = "equal";  // equal | mixed | wide
+  bool own_masses = false;
+  bool source = false;
+  int seed = 1;
+
+  std::string name() const {
+    return method + "_" + sides + (gravity ? "_g" : "") + (restitution < 1.0 ? "_e" : "") +
+           (diffusion.empty() ? "" : "_" + diffusion) + "_" + radii + (own_masses ? "_m" : "") +
+           (source ? "_source" : "");
+  }
+};
+
+inline std::string sides_text(const std::string& sides) {
+  if (sides == "periodic_x") return "left = \"periodic\"\nright = \"periodic\"\nbottom = \"wall\"\ntop = \"sink\"\n";
+  std::string text;
+  for (const char* side : {"left", "right", "bottom", "top"}) text += std::string(side) + " = \"" + sides + "\"\n";
+  return text;
+}
+
+inline std::string physics_text(const Features& f) {
+  std::string text = "[physics]\n";
+  if (f.gravity) text += "gravity = 3.0\n";
+  if (f.restitution < 1.0) text += "restitution = " + std::to_string(f.restitution) + "\n";
+  if (!f.diffusion.empty()) text += "diffusion = 0.3\n";
+  if (f.diffusion == "accumulate") text += "accumulate = true\n";
+  return text;
+}
+
+inline std::string disks_text(const Features& f) {
+  const std::string mass = f.own_masses ? "{ uniform = [1, 20] }" : "1.5";
+  const std::string velocity = "velocities = { uniform = 4.0 }\n";
+  if (f.radii == "wide") {
+    return "[[disks]]\ncount = 2\npositions = \"random\"\nradius = 4.0\nmass = " + mass + "\n" + velocity +
+           "[[disks]]\ncount = 120\npositions = \"random\"\nradius = { uniform = [0.08, 0.5] }\nmass = " + mass + "\n" +
+           velocity;
+  }
+  const std::string radius = f.radii == "equal" ? "0.6" : "{ uniform = [0.3, 1.1] }";
+  return "[[disks]]\ncount = 130\npositions = \"random\"\nradius = " + radius + "\nmass = " + mass + "\n" + velocity;
+}
+
+// About 130 disks at a packing fraction near 0.3 to 0.5, moving up to a third of a radius a step: contacts in every
+// step, crowded ones among them.
+inline Scene feature_scene(const Features& f, int steps) {
+  std::string text = "title = \"" + f.name() + "\"\nseed = " + std::to_string(f.seed) +
+                     "\n[box]\nwidth = 24.0\nheight = 18.0\nwall_restitution = " + (f.gravity ? "0.8" : "1.0") + "\n" +
+                     sides_text(f.sides) + physics_text(f) + disks_text(f);
+  if (f.source) {
+    text +=
+        "[[sources]]\nregion = [4.0, 4.0, 20.0, 14.0]\nrate = 80.0\nradius = 0.25\nmass = 1.5\n"
+        "velocities = { maxwell = 2.0 }\n";
+  }
+  text += "[run]\nmethod = \"" + f.method + "\"\ndt = 0.03\nt_end = " + std::to_string(0.03 * steps) + "\n";
+  return parse_scene(text, f.name(), "", {});
+}
+
+// All combinations of features for one method and one kind of sides.
+inline std::vector<Features> all_features(const std::string& method, const std::string& sides) {
+  std::vector<Features> all;
+  int seed = 1;
+  for (const bool gravity : {false, true}) {
+    for (const double restitution : {1.0, 0.7}) {
+      for (const char* diffusion : {"", "replace", "accumulate"}) {
+        for (const char* radii : {"equal", "mixed", "wide"}) {
+          for (const bool own_masses : {false, true}) {
+            for (const bool source : {false, true}) {
+              all.push_back({method, sides, gravity, restitution, diffusion, radii, own_masses, source, seed++});
+            }
+          }
+        }
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace carom::test

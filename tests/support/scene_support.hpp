@@ -1,0 +1,91 @@
+// What tests of scene files share: a sound scene to spoil, and the complaint that a spoilt one gets.
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/check.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/start/initial_state.hpp"
+
+namespace carom::test {
+
+inline constexpr std::string_view sound_scene = R"(title = "gas"
+seed = 7
+
+[box]
+width = 20.0
+height = 10.0
+left = "wall"
+right = "wall"
+
+[physics]
+restitution = 0.5
+
+[[disks]]
+count = 3
+positions = [[2, 2], [5, 5], [8, 2]]
+velocities = { maxwell = 1.0 }
+radius = 1.0
+mass = 2.0
+
+[run]
+method = "pairwise"
+dt = 0.01
+t_end = 10.0
+)";
+
+// text with the one place where from stands replaced by to.
+inline std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
+  std::string result(text);
+  const std::size_t at = result.find(from);
+  if (at == std::string::npos) throw std::logic_error("nothing to replace: " + std::string(from));
+  return result.replace(at, from.size(), to);
+}
+
+inline Scene scene_from(std::string_view text, const std::vector<Override>& overrides = {}) {
+  return parse_scene(text, "gas.toml", "", overrides);
+}
+
+// The message that reading the scene and making its disks ends with; empty if all is well.
+inline std::string complaint(std::string_view text, const std::vector<Override>& overrides = {},
+                             const std::string& folder = "") {
+  try {
+    initial_state(parse_scene(text, "gas.toml", folder, overrides));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// A folder of this test's own, gone with the object.
+class TestFolder {
+ public:
+  explicit TestFolder(const std::string& name)
+      : path_(std::filesystem::temp_directory_path() / ("carom_" + name + "_" + std::to_string(::getpid()))) {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
+  ~TestFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+  std::string write(const std::string& name, std::string_view text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return (path_ / name).string();
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace carom::test
