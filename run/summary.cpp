@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "app/cli/progress.hpp"
+#include "core/base/short_number.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene_names.hpp"

@@ -18,6 +18,7 @@
 #include "app/cli/progress.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
+#include "core/base/short_number.hpp"
 #include "core/scene/scene_names.hpp"
 #include "io/files/output_file.hpp"
 

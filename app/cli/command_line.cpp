@@ -12,7 +12,6 @@
 #include "app/cli/compare_rule.hpp"
 #include "app/cli/option_complaints.hpp"
 #include "app/cli/option_values.hpp"
-#include "app/tools/scene_page.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/load/method_choice.hpp"
@@ -287,10 +286,10 @@ ChartOptions chart_options(const Words& words) {
   fail_input("chart", "changes to a scene, and no scene", "expected --scene SCENE.toml with them");
 }
 
-TextRequest docs_page(const Words& words) {
+DocsOptions docs_options(const Words& words) {
   constexpr std::array<std::string_view, 1> pages{"scene"};
   require(words.first, "docs", "no page given", "expected carom docs scene");
-  if (words.first == pages[0]) return {scene_page()};
+  if (words.first == pages[0]) return DocsOptions{DocsOptions::Page::scene};
   fail_input("docs", fmt::format("there is no page {}", in_quotes(words.first)), expected_one_of(pages, words.first));
 }
 
@@ -343,7 +342,7 @@ Command parse_command_line(int given, const char* const* given_words) {
   if (compare->parsed()) return compare_options(words);
   if (sweep->parsed()) return sweep_options(words);
   if (chart->parsed()) return chart_options(words);
-  if (docs->parsed()) return docs_page(words);
+  if (docs->parsed()) return docs_options(words);
   return render_options(words);
 }
 

@@ -87,13 +87,17 @@ struct ChartOptions {
   bool force = false;
 };
 
+struct DocsOptions {
+  enum class Page { scene } page = Page::scene;
+};
+
 // What --help or --version print on standard output.
 struct TextRequest {
   std::string text;
 };
 
 using Command = std::variant<RunOptions, CheckOptions, ResumeOptions, CompareOptions, RenderOptions, SweepOptions,
-                             ChartOptions, TextRequest>;
+                             ChartOptions, DocsOptions, TextRequest>;
 
 // Throws InputError with one line that names the option, and the nearest one for a misspelt name.
 Command parse_command_line(int argc, const char* const* argv);

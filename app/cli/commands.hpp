@@ -1,10 +1,10 @@
 // The commands. Each returns the exit status, or throws one of the errors of core/base/check.hpp.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "app/cli/command_line.hpp"
+#include "app/cli/messages.hpp"
 #include "run/json_keys.hpp"
 
 namespace carom {
@@ -16,14 +16,7 @@ int command_compare(const CompareOptions& options);
 int command_render(const RenderOptions& options);
 int command_sweep(const SweepOptions& options);
 int command_chart(const ChartOptions& options);
-
-// Writes to standard output and sees to it that it arrives. Throws RunError if it does not (a full disk, a closed
-// pipe).
-void print_out(std::string_view text);
-
-// "carom: ..." and "carom: warning: ..." on standard error.
-void print_note(std::string_view text);
-void print_warning(std::string_view text);
+int command_docs(const DocsOptions& options);
 
 // What docs/scene.md says of each key of compare --json.
 std::vector<KeyText> compare_key_texts();

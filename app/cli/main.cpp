@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
-#include <cstdio>
-#include <cstring>
 #include <new>
 
 #include "app/cli/commands.hpp"
@@ -14,20 +11,6 @@
 #include "io/files/child_process.hpp"
 
 namespace carom {
-
-void print_out(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
-  throw RunError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
-}
-
-void print_note(std::string_view text) {
-  // A closed standard error is no reason to stop a run.
-  std::fputs(fmt::format("carom: {}\n", text).c_str(), stderr);
-}
-
-void print_warning(std::string_view text) {
-  print_note(fmt::format("warning: {}", text));
-}
 
 namespace {
 
@@ -39,6 +22,7 @@ struct Dispatch {
   int operator()(const RenderOptions& options) const { return command_render(options); }
   int operator()(const SweepOptions& options) const { return command_sweep(options); }
   int operator()(const ChartOptions& options) const { return command_chart(options); }
+  int operator()(const DocsOptions& options) const { return command_docs(options); }
   int operator()(const TextRequest& request) const {
     print_out(request.text);
     return 0;

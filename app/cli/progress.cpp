@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/short_number.hpp"
+
 namespace carom {
 
 namespace {
@@ -14,25 +16,6 @@ namespace {
 constexpr double rate_seconds = 2.0;  // rates are means over once to twice this time
 
 }  // namespace
-
-std::string short_number(double number) {
-  constexpr std::array<const char*, 5> prefixes{"", " k", " M", " G", " T"};
-  std::size_t k = 0;
-  while (number >= 999.5 && k + 1 < prefixes.size()) {
-    number /= 1000.0;
-    ++k;
-  }
-  return fmt::format("{:.3g}{}", number, prefixes[k]);
-}
-
-std::string duration_text(double seconds) {
-  if (!(seconds < 1e8)) return "years";
-  if (seconds < 10.0) return fmt::format("{:.2g} s", seconds);
-  const auto whole = static_cast<long>(std::lround(seconds));
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
-  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-}
 
 std::string progress_text(const ProgressPoint& then, const ProgressPoint& now, std::size_t disks, double t_end) {
   const double share = t_end > 0.0 ? std::min(now.time / t_end, 1.0) : 1.0;

@@ -20,12 +20,6 @@ struct ProgressPoint {
 // `then`: a pile that settles becomes slower, and its beginning says nothing of its end.
 std::string progress_text(const ProgressPoint& then, const ProgressPoint& now, std::size_t disks, double t_end);
 
-// A number of seconds as 12 s, 3:05 or 2:03:05.
-std::string duration_text(double seconds);
-
-// A number with a prefix: 950, 12.3 k, 4.56 M.
-std::string short_number(double number);
-
 // The line of a run: kept up to date on a terminal, a line a minute elsewhere.
 class Progress {
  public:

@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include "core/load/method_choice.hpp"
-#include "core/measure/validity.hpp"
 #include "core/scene/size_law.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
+#include "core/step/validity.hpp"
 
 namespace carom {
 

@@ -15,6 +15,7 @@
 #include "core/scene/size_law.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/checkpoint/checkpoint_place.hpp"
+#include "io/files/checkpoint_names.hpp"
 #include "run/frame_schedule.hpp"
 #include "run/run_outputs.hpp"
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/cli/progress.hpp"
+#include "core/base/short_number.hpp"
 #include "core/load/method_choice.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/step/step_clock.hpp"

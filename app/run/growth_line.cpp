@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/cli/progress.hpp"
+#include "core/base/short_number.hpp"
 
 namespace carom {
 

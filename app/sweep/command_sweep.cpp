@@ -18,6 +18,7 @@
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
+#include "core/base/short_number.hpp"
 #include "io/checkpoint/checkpoint_place.hpp"
 #include "io/files/child_process.hpp"
 #include "io/files/output_file.hpp"

@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "core/base/input_message.hpp"
-#include "core/load/memory_need.hpp"
+#include "core/base/machine_memory.hpp"
 
 namespace carom {
 

@@ -48,7 +48,7 @@ struct WorstFigure {
   double time = 0.0;  // of the step or frame
 };
 
-// What the method was seen to do wrong, and what has been said of it (core/measure/validity.hpp). No disk depends on
+// What the method was seen to do wrong, and what has been said of it (core/step/validity.hpp). No disk depends on
 // it.
 struct ValidityCounts {
   Count amiss = 0;     // collisions that went amiss

@@ -1,9 +1,5 @@
 #include "core/load/memory_need.hpp"
 
-#include <unistd.h>
-
-#include <limits>
-
 namespace carom {
 
 namespace {
@@ -18,13 +14,6 @@ constexpr double exact_bytes = 200.0;
 
 double least_memory(Method method, Count disks) {
   return static_cast<double>(disks) * (method == Method::exact ? exact_bytes : stepping_bytes);
-}
-
-double machine_memory() {
-  const long pages = sysconf(_SC_PHYS_PAGES);
-  const long page = sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || page <= 0) return std::numeric_limits<double>::infinity();
-  return static_cast<double>(pages) * static_cast<double>(page);
 }
 
 }  // namespace carom

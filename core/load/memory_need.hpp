@@ -11,7 +11,4 @@ namespace carom {
 // left out. Measured peaks are in docs/benchmarks.md.
 double least_memory(Method method, Count disks);
 
-// Bytes of the machine's memory; infinity where it does not say.
-double machine_memory();
-
 }  // namespace carom

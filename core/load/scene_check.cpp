@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/base/input_message.hpp"
+#include "core/base/machine_memory.hpp"
 #include "core/load/memory_need.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene_names.hpp"

@@ -1,17 +1,13 @@
 // What must hold between the parts of a scene; each value by itself was checked when it was read.
 #pragma once
 
-#include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "core/scene/place_of_key.hpp"
 #include "core/scene/scene.hpp"
 
 namespace carom {
-
-// The place of a key for messages: "disks.0.count" -> "gas.toml:12: disks.0.count".
-using PlaceOfKey = std::function<std::string(std::string_view key)>;
 
 // Lengths of lists, laws that refer to each other, totals and whether this machine can hold them, sides in pairs, the
 // step that a method needs. The size of the box is not looked at. Throws InputError.

@@ -1,21 +1,15 @@
-// Reading a scene from TOML, checking it, and writing it back with every default.
+// Reading a scene from TOML and checking it.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/scene/override.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_frame.hpp"
 
 namespace carom {
-
-// A change made on the command line: "physics.restitution" = "0.5" (value in TOML syntax; a bare word is a string).
-// key may also address one entry of an array of tables: "disks.0.count".
-struct Override {
-  std::string key;
-  std::string value;
-};
 
 // Reads, applies the overrides, validates. Every list is read in (CSV files included), the box is known: with
 // packing_fraction it is computed from the radii drawn. Throws InputError with one line, "file:line: key: what is
@@ -25,8 +19,5 @@ Scene load_scene(const std::string& path, const std::vector<Override>& overrides
 // The same from text, for tests and fuzzing; name stands for the file in messages, relative CSV paths start at folder.
 Scene parse_scene(std::string_view text, const std::string& name, const std::string& folder,
                   const std::vector<Override>& overrides = {}, const FrameReader& frames = {});
-
-// The scene as TOML with every default filled in; load_scene of it gives an equal scene.
-std::string resolved_toml(const Scene& scene);
 
 }  // namespace carom

@@ -9,13 +9,9 @@
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/overlap.hpp"
+#include "core/disks/pair.hpp"
 
 namespace carom {
-
-struct Pair {
-  std::uint32_t i1, i2;  // storage indices; the disk at i1 has the smaller id
-  bool operator==(const Pair&) const = default;
-};
 
 // All pairs that overlap or touch (nearest image), each once, in order of (smaller id, larger id). A disk lies in the
 // one cell of its centre and cells are no smaller than the largest diameter, so all partners are in the 3 x 3 cells

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/measure/validity.hpp"
 #include "core/step/engine.hpp"
 #include "core/step/step_start.hpp"
+#include "core/step/validity.hpp"
 
 namespace carom {
 

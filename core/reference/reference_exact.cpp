@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/measure/validity.hpp"
 #include "core/reference/reference_window.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_start.hpp"
+#include "core/step/validity.hpp"
 #include "core/step/window_plan.hpp"
 #include "core/step/window_start.hpp"
 

@@ -7,9 +7,9 @@
 
 #include "core/base/collision_log.hpp"
 #include "core/disks/state.hpp"
-#include "core/measure/validity.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/resolve.hpp"
+#include "core/step/validity.hpp"
 
 namespace carom {
 

@@ -1,7 +1,7 @@
 // Reading what a run shall measure on its way, the table [analysis].
 #pragma once
 
-#include "core/load/scene_check.hpp"
+#include "core/scene/place_of_key.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_reader.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/load/scene_check.hpp"
+#include "core/scene/place_of_key.hpp"
 #include "core/scene/scene.hpp"
 
 namespace carom {

@@ -20,7 +20,8 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "core/load/scene_file.hpp"
+#include "core/scene/override.hpp"
+#include "core/scene/scene_frame.hpp"
 #include "core/scene/scene_keys.hpp"
 
 namespace carom {

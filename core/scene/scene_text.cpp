@@ -1,10 +1,11 @@
+#include "core/scene/scene_text.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
 #include <iterator>
 #include <limits>
 
-#include "core/load/scene_file.hpp"
 #include "core/scene/scene_names.hpp"
 
 namespace carom {

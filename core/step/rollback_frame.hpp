@@ -6,12 +6,12 @@
 
 #include "core/base/collision_log.hpp"
 #include "core/disks/state.hpp"
-#include "core/measure/validity.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/impact_tally.hpp"
 #include "core/physics/resolve.hpp"
 #include "core/scene/scene.hpp"
 #include "core/step/step_clock.hpp"
+#include "core/step/validity.hpp"
 
 namespace carom {
 

@@ -9,7 +9,6 @@
 #include "core/base/types.hpp"
 #include "core/disks/overlap.hpp"
 #include "core/disks/state.hpp"
-#include "core/measure/run_start.hpp"
 #include "core/scene/scene.hpp"
 
 namespace carom {
@@ -98,13 +97,5 @@ double fastest_speed(const Disks& disks);
 // What a run at its end has to say of disks that still wait for room: a line for each source whose share of them is
 // above most_waiting, or that never gave one.
 std::vector<std::string> waiting_warnings(const Scene& scene, const State& state);
-
-// Energy at the end, over what was put in at the start and by sources, above which it comes from nowhere: for exact
-// beyond all rounding, for time stepping beyond its error of first order.
-inline constexpr double most_gain_exact = 1e-9;
-inline constexpr double most_gain_stepping = 0.01;
-
-// What a run at its end has to say of energy that nothing put in. Brownian motion keeps none.
-std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state);
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
+#include "io/files/checkpoint_names.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/output_folder.hpp"
 

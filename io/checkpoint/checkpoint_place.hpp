@@ -8,9 +8,6 @@
 
 namespace carom {
 
-inline constexpr const char* checkpoint_name = "checkpoint.carom";
-inline constexpr const char* previous_checkpoint_name = "checkpoint.previous.carom";
-
 // Writes folder/checkpoint.carom; the one before becomes checkpoint.previous.carom. At every moment, whatever happens
 // to the machine, the folder holds a whole one. Throws RunError; then both are as they were.
 void save_checkpoint(const std::string& folder, const RunRecord& record, const State& state);

@@ -11,35 +11,10 @@
 #include "core/disks/state.hpp"
 #include "core/measure/analysis.hpp"
 #include "core/measure/displacement.hpp"
+#include "io/files/file_mark.hpp"
 #include "io/plots/plot.hpp"
 
 namespace carom {
-
-// A file that grows by frames. bytes is its length, 0 for a format that counts in frames alone.
-struct FileMark {
-  std::string name;  // in the run's folder
-  Count frames = 0;
-  std::uint64_t bytes = 0;
-};
-
-// What the means of the next row start from.
-struct MeterMark {
-  double counted_until = 0.0;
-  Counters before;
-};
-
-struct SeriesMark {
-  FileMark file;
-  MeterMark meter;
-};
-
-struct MovieMark {
-  Count frames = 0;
-  bool single_frames = false;      // PNG files in place of a movie
-  std::vector<std::string> parts;  // files, each a movie, that make up all frames so far
-  double low = 0.0, high = 1.0;    // the colour scale, which the first frame set
-  int time_decimals = 2;
-};
 
 // All outputs of a run. What a scene does not ask for is absent.
 struct OutputMark {

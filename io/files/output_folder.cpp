@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/base/check.hpp"
-#include "io/checkpoint/checkpoint_place.hpp"
+#include "io/files/checkpoint_names.hpp"
 
 namespace carom {
 

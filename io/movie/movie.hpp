@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/checkpoint/output_mark.hpp"
 #include "io/files/child_process.hpp"
+#include "io/files/file_mark.hpp"
 #include "io/movie/frame.hpp"
 #include "io/movie/movie_format.hpp"
 

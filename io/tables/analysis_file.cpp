@@ -12,6 +12,7 @@
 #include "core/load/scene_file.hpp"
 #include "core/measure/analysis_curves.hpp"
 #include "core/scene/scene_names.hpp"
+#include "core/scene/scene_text.hpp"
 #include "io/files/output_file.hpp"
 #include "io/hdf5/hdf5_output.hpp"
 

@@ -9,7 +9,7 @@
 #include "core/disks/state.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene.hpp"
-#include "io/checkpoint/output_mark.hpp"
+#include "io/files/file_mark.hpp"
 #include "io/files/output_file.hpp"
 
 namespace carom {

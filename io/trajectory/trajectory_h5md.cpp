@@ -9,6 +9,7 @@
 
 #include "core/load/scene_file.hpp"
 #include "core/scene/disk_group.hpp"
+#include "core/scene/scene_text.hpp"
 #include "io/hdf5/hdf5_output.hpp"
 #include "io/hdf5/shuffled_deflate.hpp"
 #include "io/trajectory/disk_selection.hpp"

@@ -7,7 +7,7 @@
 #include "core/disks/disks.hpp"
 #include "core/measure/displacement.hpp"
 #include "core/scene/scene.hpp"
-#include "io/checkpoint/output_mark.hpp"
+#include "io/files/file_mark.hpp"
 #include "io/tables/series.hpp"
 
 namespace carom {

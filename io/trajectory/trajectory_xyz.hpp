@@ -11,7 +11,7 @@
 #include "core/disks/domain.hpp"
 #include "core/measure/displacement.hpp"
 #include "core/scene/scene.hpp"
-#include "io/checkpoint/output_mark.hpp"
+#include "io/files/file_mark.hpp"
 #include "io/files/output_file.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
 

@@ -9,9 +9,9 @@
 
 #include "core/base/check.hpp"
 #include "core/base/huge_pages.hpp"
-#include "core/measure/validity.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_start.hpp"
+#include "core/step/validity.hpp"
 #include "core/step/window_length.hpp"
 #include "core/step/window_plan.hpp"
 #include "core/step/window_start.hpp"

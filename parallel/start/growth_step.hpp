@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/start/growth.hpp"
-#include "parallel/simulation.hpp"
 #include "parallel/threads/executor.hpp"
+#include "parallel/threads/threads.hpp"
 
 namespace carom {
 

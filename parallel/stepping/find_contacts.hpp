@@ -7,8 +7,8 @@
 
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/pair.hpp"
 #include "core/physics/contact_event.hpp"
-#include "core/reference/pair_search.hpp"
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/cells/counting_sort.hpp"
 #include "parallel/threads/executor.hpp"

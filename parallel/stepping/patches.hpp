@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/disks/disks.hpp"
-#include "core/reference/pair_search.hpp"
+#include "core/disks/pair.hpp"
 #include "parallel/threads/executor.hpp"
 #include "parallel/threads/resize_amply.hpp"
 

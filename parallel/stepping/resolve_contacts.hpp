@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "core/disks/state.hpp"
-#include "core/measure/validity.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/impact_tally.hpp"
 #include "core/physics/resolve.hpp"
 #include "core/reference/step_contacts.hpp"
+#include "core/step/validity.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 #include "parallel/stepping/patches.hpp"
 #include "parallel/stepping/settle_contacts.hpp"

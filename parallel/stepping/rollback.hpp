@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/step/engine.hpp"
-#include "parallel/simulation.hpp"
+#include "parallel/threads/threads.hpp"
 
 namespace carom {
 

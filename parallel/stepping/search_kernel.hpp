@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/disks/domain.hpp"
-#include "core/reference/pair_search.hpp"
+#include "core/disks/pair.hpp"
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 

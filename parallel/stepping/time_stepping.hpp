@@ -8,11 +8,11 @@
 #include "core/step/step_start.hpp"
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/cells/counting_sort.hpp"
-#include "parallel/simulation.hpp"
 #include "parallel/stepping/displaced_disks.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 #include "parallel/stepping/resolve_contacts.hpp"
 #include "parallel/threads/executor.hpp"
+#include "parallel/threads/threads.hpp"
 
 namespace carom {
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "exact_support.hpp"
+#include "tests/support/exact_support.hpp"
 
 namespace carom::exact_tests {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "exact_support.hpp"
 #include "parallel/simulation.hpp"
+#include "tests/support/exact_support.hpp"
 
 namespace carom::exact_tests {
 namespace {

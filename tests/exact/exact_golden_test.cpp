@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/random.hpp"
-#include "exact_support.hpp"
+#include "tests/support/exact_support.hpp"
 
 namespace carom::exact_tests {
 namespace {

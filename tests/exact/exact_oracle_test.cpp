@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "event_oracle.hpp"
-#include "exact_support.hpp"
+#include "tests/support/event_oracle.hpp"
+#include "tests/support/exact_support.hpp"
 
 namespace carom::exact_tests {
 namespace {

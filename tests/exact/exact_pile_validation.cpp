@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "exact_support.hpp"
 #include "parallel/simulation.hpp"
+#include "tests/support/exact_support.hpp"
 
 namespace carom::exact_tests {
 namespace {

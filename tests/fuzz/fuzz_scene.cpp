@@ -6,6 +6,7 @@
 
 #include "core/base/check.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/scene/scene_text.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);

@@ -11,6 +11,7 @@
 #include "core/disks/state_hash.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/scene/scene_names.hpp"
+#include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "parallel/simulation.hpp"

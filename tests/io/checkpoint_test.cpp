@@ -14,6 +14,7 @@
 #include "core/base/random.hpp"
 #include "io/checkpoint/checkpoint_place.hpp"
 #include "io/files/block_hash.hpp"
+#include "io/files/checkpoint_names.hpp"
 #include "io/files/output_folder.hpp"
 #include "tests/support/scene_support.hpp"
 

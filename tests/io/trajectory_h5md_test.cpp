@@ -15,8 +15,8 @@
 #include "core/base/check.hpp"
 #include "io/trajectory/h5md_reader.hpp"
 #include "io/trajectory/trajectory_xyz.hpp"
-#include "scene_support.hpp"
-#include "support.hpp"
+#include "tests/support/scene_support.hpp"
+#include "tests/support/support.hpp"
 
 namespace carom {
 namespace {

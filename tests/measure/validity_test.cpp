@@ -1,5 +1,5 @@
 // A run that leaves what its method can do says so: once, with the figure and the remedy, in both engines alike.
-#include "core/measure/validity.hpp"
+#include "core/step/validity.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -5,7 +5,8 @@
 #include <string>
 
 #include "core/load/scene_check.hpp"
-#include "core/measure/validity.hpp"
+#include "core/measure/energy_gain.hpp"
+#include "core/step/validity.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/exact_support.hpp"
 #include "tests/support/program_support.hpp"

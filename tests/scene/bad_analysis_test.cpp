@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/scene/scene_text.hpp"
 #include "tests/support/scene_support.hpp"
 
 namespace carom {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/machine_memory.hpp"
 #include "core/load/memory_need.hpp"
 #include "core/load/scene_check.hpp"
 #include "tests/support/scene_support.hpp"

@@ -7,6 +7,7 @@
 
 #include "core/load/scene_check.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/scene/scene_text.hpp"
 #include "tests/support/scene_support.hpp"
 
 namespace carom {

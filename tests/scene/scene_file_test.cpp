@@ -8,6 +8,7 @@
 #include <bit>
 
 #include "core/disks/state_hash.hpp"
+#include "core/scene/scene_text.hpp"
 #include "tests/support/scene_support.hpp"
 #include "tests/support/support.hpp"
 

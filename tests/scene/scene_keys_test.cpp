@@ -9,6 +9,7 @@
 #include <cctype>
 #include <map>
 
+#include "core/scene/scene_text.hpp"
 #include "tests/support/program_support.hpp"
 
 namespace carom {

@@ -9,6 +9,7 @@
 
 #include "core/disks/state_hash.hpp"
 #include "core/reference/pair_search.hpp"
+#include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"
 #include "parallel/start/growth_step.hpp"
 #include "parallel/start/random_placement.hpp"

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "core/scene/scene_text.hpp"
 #include "core/step/engine.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "parallel/simulation.hpp"

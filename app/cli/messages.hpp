@@ -1,0 +1,16 @@
+// What the program says on its own streams.
+#pragma once
+
+#include <string_view>
+
+namespace carom {
+
+// Writes to standard output and sees to it that it arrives. Throws RunError if it does not (a full disk, a closed
+// pipe).
+void print_out(std::string_view text);
+
+// "carom: ..." and "carom: warning: ..." on standard error.
+void print_note(std::string_view text);
+void print_warning(std::string_view text);
+
+}  // namespace carom

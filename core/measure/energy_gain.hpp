@@ -1,0 +1,21 @@
+// Energy that nothing put into a run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/disks/state.hpp"
+#include "core/measure/run_start.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+// Energy at the end, over what was put in at the start and by sources, above which it comes from nowhere: for exact
+// beyond all rounding, for time stepping beyond its error of first order.
+inline constexpr double most_gain_exact = 1e-9;
+inline constexpr double most_gain_stepping = 0.01;
+
+// What a run at its end has to say of energy that nothing put in. Brownian motion keeps none.
+std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state);
+
+}  // namespace carom

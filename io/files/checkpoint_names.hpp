@@ -1,0 +1,9 @@
+// What the checkpoints of a run are called.
+#pragma once
+
+namespace carom {
+
+inline constexpr const char* checkpoint_name = "checkpoint.carom";
+inline constexpr const char* previous_checkpoint_name = "checkpoint.previous.carom";
+
+}  // namespace carom
