@@ -17,7 +17,7 @@ struct Domain {
   double width = 0.0;   // length
   double height = 0.0;  // length
   std::array<SideKind, 4> sides{SideKind::wall, SideKind::wall, SideKind::wall, SideKind::wall};
-  double wall_restitution = 1.0;  // in [0, 1]; the original's walls are elastic whatever e is
+  double wall_restitution = 1.0;  // in [0, 1]; elastic whatever e is in docs/original.md
 
   SideKind side(Side s) const { return sides[static_cast<std::size_t>(s)]; }
   bool periodic_x() const { return side(Side::left) == SideKind::periodic; }

@@ -1,4 +1,5 @@
-// Motion of one disk between collisions: straight or in a parabola, forwards and backwards, and Brownian.
+// Motion of one disk between collisions: straight or in a parabola, forwards and backwards, and Brownian. Formulas
+// (14), (15), (20), (21), (24): docs/original.md.
 #pragma once
 
 #include <cmath>

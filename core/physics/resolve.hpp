@@ -1,5 +1,6 @@
 // What a step does with the contacts it found: collide them in order of contact, then push apart what overlap remains.
-// Called by the reference on the whole sorted list, by the engine on independent parts of it.
+// Called by the reference on the whole sorted list, by the engine on independent parts of it. Formula (23) and faults
+// F3, F8, F11: docs/original.md.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// The reference pair search: the original's uniform grid, mended, and the all-pairs search that tests hold against it.
+// The reference pair search: a uniform grid without faults F6 to F14 of docs/original.md, and the all-pairs search that
+// tests compare it with.
 #pragma once
 
 #include <cstdint>

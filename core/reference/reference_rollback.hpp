@@ -1,5 +1,5 @@
-// The method `rollback`: the original's predictor-corrector, plain and serial, with faults F3 to F15 mended. F1 and F2
-// are its nature: one back-up time for the whole system, and every pair found bounces at that moment.
+// The method `rollback`: the predictor-corrector of docs/original.md, plain and serial, without faults F3 to F15. F1
+// and F2 are the method itself: one back-up time for the whole system, and every pair found bounces at that moment.
 #pragma once
 
 #include <memory>

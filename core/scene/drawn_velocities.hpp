@@ -8,7 +8,7 @@
 namespace carom {
 
 // Are velocities those of drawn displacements, so that energy, momentum, pressure and forces mean nothing? Not with
-// accumulate, which adds up velocities as the original's code does.
+// accumulate, which adds up velocities as the program of docs/original.md does.
 inline bool velocities_are_drawn(const Scene& scene) {
   return scene.physics.diffusion > 0.0 && !scene.physics.accumulate;
 }

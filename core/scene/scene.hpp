@@ -75,8 +75,8 @@ struct Source {
 struct Physics {
   double gravity = 0.0;      // length / time^2, along -y
   double restitution = 1.0;  // in [0, 1]
-  double diffusion = 0.0;    // length^2 / time; > 0: Brownian motion (24)
-  bool accumulate = false;   // the original's code: u / dt is added to the velocity instead of replacing it
+  double diffusion = 0.0;    // length^2 / time; > 0: Brownian motion, (24) of docs/original.md
+  bool accumulate = false;   // docs/original.md: u / dt is added to the velocity instead of replacing it
   std::optional<double> collapse_contact_time;  // TC model, exact only
 };
 

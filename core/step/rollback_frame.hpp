@@ -1,4 +1,5 @@
 // The parts of one rollback frame that are its own: which pairs it goes back for, how they bounce, and when it stalls.
+// Formula (23) and faults F1 to F11: docs/original.md.
 #pragma once
 
 #include <cstdint>

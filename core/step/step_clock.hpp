@@ -36,8 +36,8 @@ inline StepClock make_step_clock(double dt, double t_end) {
 }
 
 // In one part of a step no disk may move further than this share of its own radius, so that two disks approach by at
-// most half the sum of their radii: none can jump over another, only graze (F5). Smaller costs parts, larger misses
-// glancing hits (their share grows with the square of the travel).
+// most half the sum of their radii: none can jump over another, only graze (F5 of docs/original.md). Smaller costs
+// parts, larger misses glancing hits (their share grows with the square of the travel).
 inline constexpr double safe_travel = 0.5;
 inline constexpr double most_parts = 1000.0;
 

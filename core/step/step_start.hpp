@@ -23,7 +23,7 @@ inline StepRules rules_for(const Scene& scene, double dt) {
   return {scene.box, scene.physics.gravity, scene.physics.restitution, dt, settles(scene)};
 }
 
-// (24): the velocity of the step becomes u / dt; with accumulate, as in the original's code, u / dt is added to it
+// (24): the velocity of the step becomes u / dt; with accumulate, as in docs/original.md, u / dt is added to it
 // (F15).
 template <class View>
 void draw_brownian(const View& d, const Scene& scene, Count step, double dt, std::size_t begin, std::size_t end) {

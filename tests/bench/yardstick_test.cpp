@@ -23,9 +23,10 @@ Scene gas(int count, double packing_fraction, double t_end) {
                      "test", ".");
 }
 
-// Within half the Lyapunov horizon of references.md (t = 21, 11, 6.8 at packing fractions 0.1, 0.3, 0.5) both follow
-// the same trajectory: every collision of one is a collision of the other, and disks are in the same places. Its times
-// are absolute (rounding 1e-15 at t = 10), which grows by exp(lambda t) = 4e6, 9e6 and 1e7: hence 1e-5, not less.
+// Within half the Lyapunov horizon of docs/reference_values.md (t = 21, 11, 6.8 at packing fractions 0.1, 0.3, 0.5)
+// both follow the same trajectory: every collision of one is a collision of the other, and disks are in the same
+// places. Its times are absolute (rounding 1e-15 at t = 10), which grows by exp(lambda t) = 4e6, 9e6 and 1e7: hence
+// 1e-5, not less.
 TEST(Yardstick, FollowsTheExactReference) {
   const double packing_fractions[] = {0.1, 0.3, 0.5};
   const double times[] = {10.0, 5.5, 3.4};

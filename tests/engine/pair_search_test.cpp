@@ -1,4 +1,4 @@
-// The grid search against all pairs, over boxes and radii that the original's grid could not do.
+// The grid search against all pairs, over boxes and radii with which the original's grid (docs/original.md) fails.
 #include "core/reference/pair_search.hpp"
 
 #include <gtest/gtest.h>

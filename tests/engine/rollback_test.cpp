@@ -1,4 +1,5 @@
-// What is the nature of `rollback`, F1 and F2, shown rather than mended, and the guard that stops a run that stalls.
+// F1 and F2 of docs/original.md, which belong to the method `rollback`, are shown; and the guard that stops a stalled
+// run.
 #include <gtest/gtest.h>
 
 #include <cmath>

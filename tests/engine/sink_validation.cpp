@@ -12,8 +12,8 @@ namespace carom {
 namespace {
 
 // Uniform start in an absorbing square of side L (for a disk, the side less a diameter): share left at tau = D t / L^2,
-// the values of references.md. Disks so small that they hardly ever meet; a long step (tau 0.0025), so that without the
-// crossing probability of sinks the share would come out far too high. 3 standard errors.
+// the values of docs/reference_values.md. Disks so small that they hardly ever meet; a long step (tau 0.0025), so that
+// without the crossing probability of sinks the share would come out far too high. 3 standard errors.
 TEST(Sink, AbsorbingSquareLeavesWhatTheorySays) {
   const double tau[] = {0.01, 0.02, 0.05, 0.1, 0.2};
   const double survival[] = {0.599578, 0.463552, 0.245929, 0.0912753, 0.0126781};

@@ -1,5 +1,5 @@
-// The exact method against published physics (references.md): equation of state and collision rate, granular cooling,
-// the barometric formula, absorption, and what must be conserved over long runs.
+// The exact method against published physics (docs/reference_values.md): equation of state and collision rate, granular
+// cooling, the barometric formula, absorption, and what must be conserved over long runs.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Table, ExactEquationOfState,
                                          StateCase{0.67, 9.36234, 3e-5, 870}));
 
 // T = T0 / (1 + t / tau)^2 while the gas stays uniform (Haff 1983): mean of eight runs, within 2 %, as far as
-// references.md says that it holds (eta = 0.1, e = 0.98, N = 1024, t / tau = 4.7), and on the way there.
+// docs/reference_values.md says that it holds (eta = 0.1, e = 0.98, N = 1024, t / tau = 4.7), and on the way there.
 TEST(ExactHaff, CoolsAsItShould) {
   const double gamma0 = 4.0 * 0.236144 / std::sqrt(std::numbers::pi);
   const double e = 0.98;

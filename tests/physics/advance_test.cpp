@@ -1,4 +1,4 @@
-// Motion between collisions: straight, in a parabola, there and back, and Brownian.
+// Motion between collisions, formulas (14) to (24) of docs/original.md: straight, parabolic, reversed, Brownian.
 #include "core/physics/advance.hpp"
 
 #include <gtest/gtest.h>

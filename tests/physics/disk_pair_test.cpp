@@ -1,4 +1,4 @@
-// Two disks: contact, time of contact against more digits, and the collision rule (23).
+// Two disks: contact, time of contact against more digits, and the collision rule (23) of docs/original.md.
 #include "core/physics/disk_pair.hpp"
 
 #include <gtest/gtest.h>
@@ -151,8 +151,8 @@ TEST(Collide, EnergyFallsByTheFormula) {
   }
 }
 
-// (17)-(19) and (23) as the spec prints them, with more digits: rotate into the contact frame, change the normal
-// components, rotate back.
+// (17)-(19) and (23) of docs/original.md as written there, with more digits: rotate into the contact frame, change the
+// normal components, rotate back.
 void rule_as_printed(const Collision& c, Wide& wx1, Wide& wy1, Wide& wx2, Wide& wy2) {
   const Wide dx = wide(c.r.dx), dy = wide(c.r.dy), e = wide(c.e);
   const Wide vx1 = wide(c.vx1), vy1 = wide(c.vy1), vx2 = wide(c.vx2), vy2 = wide(c.vy2);
@@ -181,8 +181,9 @@ TEST(Collide, IsRule23) {
   }
 }
 
-// references.md, exact cases: m = 1 and 3, e = 1, the first flies along a line 0.5 above the second's centre.
-TEST(Collide, TwoDisksOfTheReferences) {
+// docs/reference_values.md, exact cases: m = 1 and 3, e = 1, the first flies along a line 0.5 above the second's
+// centre.
+TEST(Collide, TwoDisksOfTheReferenceValues) {
   const double h = std::sqrt(0.75);
   double vx1 = 1.0, vy1 = 0.0, vx2 = 0.0, vy2 = 0.0;
   collide({h, -0.5, -1.0, 0.0}, shares(1.0, 3.0), 1.0, vx1, vy1, vx2, vy2);

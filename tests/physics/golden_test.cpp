@@ -1,4 +1,5 @@
-// Exact cases (references.md, "Exact cases") that stepping methods reproduce, to rounding or converging with dt.
+// Exact cases (docs/reference_values.md, "Exact cases") that stepping methods reproduce, to rounding or converging with
+// dt.
 #include <gtest/gtest.h>
 
 #include <algorithm>

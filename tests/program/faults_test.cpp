@@ -1,5 +1,5 @@
-// One test for each fault of the original that both stepping methods mend (spec.md, part 2). Each states what must
-// hold, sees that it does in ours, and that it does not in the original (original.hpp).
+// One test for each fault of the original (docs/original.md) that both stepping methods remedy. Each states a
+// condition, checks that it holds in Carom and that it fails in the original (tests/support/original.hpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>

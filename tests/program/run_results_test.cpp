@@ -139,7 +139,7 @@ TEST_F(RunResults, BrownianDisksHaveNoEnergy) {
   const Outcome table = carom(scene + " -o table");
   EXPECT_THAT(table.out, Not(HasSubstr("energy")));
   EXPECT_THAT(table.out, Not(HasSubstr("pressure")));
-  // As the original has it, velocities add up and have an energy.
+  // With accumulate (F15 of docs/original.md) velocities add up and have an energy.
   EXPECT_TRUE(Json::parse(carom(scene + " --set physics.accumulate=true --quiet --json -o more").out)["energy_final"]
                   .is_number());
 }

@@ -80,7 +80,7 @@ TEST(MethodChoice, ScalesOfTheFluidAreThoseOfTheory) {
   EXPECT_DOUBLE_EQ(s.diameter, 1.0);
   EXPECT_NEAR(s.packing_fraction, 0.5, 1e-12);
   EXPECT_NEAR(s.speed, 1.0, 1e-12);
-  EXPECT_NEAR(s.collision_rate, 7.007, 0.02);  // references: Gamma at packing fraction 0.5
+  EXPECT_NEAR(s.collision_rate, 7.007, 0.02);  // docs/reference_values.md: Gamma at 0.5
   EXPECT_FALSE(s.settles);
   EXPECT_FALSE(s.may_collapse);
 }

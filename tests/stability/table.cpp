@@ -48,8 +48,8 @@ constexpr const char* introduction = R"(# Stability
 
 Where each method fails, and that it says so. Each case is a scene of [scenes/stability/](../scenes/stability), run with
 all three methods; what must come out, and how far off it may be, stands in
-[cases.toml](../scenes/stability/cases.toml) beside them. F1 to F17 are the faults of the 2014 program. Verdicts are
-decided by the numbers:
+[cases.toml](../scenes/stability/cases.toml) beside them. F1 to F17 are the faults of the
+[2014 program](original.md). Verdicts are decided by the numbers:
 
 - *right*: every figure within its bound, at t_end. Time stepping is granted an error of its order in dt. "warns": it
   said all the same that it was near its limits.

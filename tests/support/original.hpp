@@ -1,5 +1,5 @@
-// The 2014 simulator in a few lines, faults included, as docs and spec tell of it: what tests named after a fault run
-// to see that their assertion does break there. Test scenery only.
+// The 2014 simulator in a few lines with its faults, as docs/original.md describes it (formulas (12) to (24), faults F1
+// to F17). Tests of a fault run it to show that their assertion fails there.
 #pragma once
 
 #include <algorithm>
