@@ -9,6 +9,7 @@
 
 #include "core/base/block_runner.hpp"
 #include "core/step/engine.hpp"
+#include "io/checkpoint/output_mark.hpp"
 #include "io/files/output_folder.hpp"
 #include "io/movie/movie.hpp"
 #include "io/plots/plot.hpp"
