@@ -8,6 +8,7 @@
 
 #include "app/cli/commands.hpp"
 #include "core/base/check.hpp"
+#include "core/base/kernel_set.hpp"
 #include "io/files/child_process.hpp"
 
 namespace carom {
@@ -53,6 +54,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   try {
+    kernel_set();  // a wrong CAROM_KERNELS is said before anything is done
     return std::visit(Dispatch{}, parse_command_line(argc, argv));
   } catch (const InputError& error) {
     return fail(2, error.what());

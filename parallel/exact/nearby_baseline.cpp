@@ -1,3 +1,4 @@
+#include "core/base/kernel_set.hpp"
 #include "parallel/exact/nearby_kernel.hpp"
 
 namespace carom {
@@ -18,9 +19,7 @@ std::size_t nearby_baseline(const NearbyFrame& frame, const NearbyColumns& colum
 }
 
 NearbyKernel choose_nearby_kernel() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return nearby_avx2;
-#endif
+  if (kernel_set() == KernelSet::avx2) return nearby_avx2;
   return nearby_baseline;
 }
 

@@ -1,0 +1,46 @@
+// CAROM_KERNELS: what it chooses, and that every kernel with several versions follows it.
+#include "core/base/kernel_set.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <string_view>
+
+#include "core/base/check.hpp"
+#include "parallel/exact/nearby_kernel.hpp"
+#include "parallel/stepping/search_kernel.hpp"
+#include "tests/support/program_support.hpp"
+
+namespace carom {
+namespace {
+
+TEST(KernelSet, BaselineWhereAskedForAndOtherwiseTheBest) {
+  EXPECT_EQ(choose_kernel_set("baseline"), KernelSet::baseline);
+#if defined(__x86_64__)
+  const KernelSet best = __builtin_cpu_supports("avx2") ? KernelSet::avx2 : KernelSet::baseline;
+#else
+  const KernelSet best = KernelSet::baseline;
+#endif
+  EXPECT_EQ(choose_kernel_set(nullptr), best);
+  EXPECT_EQ(choose_kernel_set(""), best);
+}
+
+// ctest runs this test twice, once with CAROM_KERNELS=baseline.
+TEST(KernelSet, KernelsFollowTheEnvironment) {
+  EXPECT_EQ(kernel_set(), choose_kernel_set(std::getenv("CAROM_KERNELS")));
+  const bool baseline = kernel_set() == KernelSet::baseline;
+  EXPECT_EQ(choose_interior_kernel(), baseline ? search_interior_baseline : search_interior_avx2);
+  EXPECT_EQ(choose_nearby_kernel(), baseline ? nearby_baseline : nearby_avx2);
+}
+
+class KernelSetProgram : public test::ProgramTest {};
+
+TEST_F(KernelSetProgram, AnUnknownSetIsOneLineAndStatusTwo) {
+  const test::Outcome o = shell("CAROM_KERNELS=sse9 $C docs scene");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_EQ(o.out, "");
+  EXPECT_EQ(o.err, "carom: error: CAROM_KERNELS: there are no kernels \"sse9\"; expected baseline, or nothing\n");
+}
+
+}  // namespace
+}  // namespace carom
