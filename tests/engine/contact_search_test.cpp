@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/random.hpp"
+#include "core/reference/pair_search.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 
 namespace carom {
