@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/load/scene_file.hpp"
+#include "core/physics/event_order.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
 #include "parallel/simulation.hpp"
@@ -70,8 +71,7 @@ State repeated(const State& tile, double width, std::size_t copies) {
       all.loads.push_back(load);
     }
   }
-  std::sort(all.loads.begin(), all.loads.end(),
-            [](const ContactLoad& a, const ContactLoad& b) { return a.id1 != b.id1 ? a.id1 < b.id1 : a.id2 < b.id2; });
+  std::sort(all.loads.begin(), all.loads.end(), ids_order);
   return all;
 }
 

@@ -1,12 +1,11 @@
 // A contact found at the end of a drift: which disks (or disk and side), and how long ago it began.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
-#include <vector>
 
 #include "core/base/types.hpp"
 #include "core/disks/domain.hpp"
+#include "core/physics/event_order.hpp"
 
 namespace carom {
 
@@ -28,12 +27,9 @@ struct ContactEvent {
   std::uint32_t i1, i2;  // where the disks are stored (i2 unused for a wall)
 };
 
-// The canonical order: earliest contact first, ties by smaller id, then by larger id. A total order, so that sorting
-// gives the same sequence whatever order the search found the contacts in.
-inline bool earlier(const ContactEvent& a, const ContactEvent& b) {
-  if (a.ago != b.ago) return a.ago > b.ago;
-  if (a.id1 != b.id1) return a.id1 < b.id1;
-  return a.id2 < b.id2;
+// For event_order: the contact that began longest ago comes first.
+inline constexpr double time_of(const ContactEvent& e) {
+  return -e.ago;
 }
 
 }  // namespace carom

@@ -86,12 +86,6 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
 struct EventMark {
   double time = never;      // in the window
   DiskId id1 = 0, id2 = 0;  // id2 may be a wall_partner
-
-  // The canonical order.
-  bool before(const EventMark& e) const {
-    if (time != e.time) return time < e.time;
-    return id1 != e.id1 ? id1 < e.id1 : id2 < e.id2;
-  }
 };
 
 // May any of the scene's contacts lose energy?

@@ -28,17 +28,9 @@ inline constexpr double lying_rest = 2.0;
 inline constexpr double contact_slop = 16.0;
 inline constexpr double largest_slop = 5e-3;
 
-inline bool by_ids(const ContactEvent& a, const ContactEvent& b) {
-  return a.id1 != b.id1 ? a.id1 < b.id1 : a.id2 < b.id2;
-}
-inline bool by_ids(const ContactLoad& a, const ContactEvent& b) {
-  return a.id1 != b.id1 ? a.id1 < b.id1 : a.id2 < b.id2;
-}
-
-// Force on the contact in the step before; 0 if it bore none. loads are in order of (id1, id2).
+// Force on the contact in the step before; 0 if it bore none. loads are in ids_order.
 inline double load_of(const std::vector<ContactLoad>& loads, const ContactEvent& e) {
-  const auto it = std::lower_bound(loads.begin(), loads.end(), e,
-                                   [](const ContactLoad& a, const ContactEvent& b) { return by_ids(a, b); });
+  const auto it = std::lower_bound(loads.begin(), loads.end(), e, ids_order);
   return it != loads.end() && it->id1 == e.id1 && it->id2 == e.id2 ? it->force : 0.0;
 }
 

@@ -56,7 +56,7 @@ class ReferenceRollback final : public ReferenceEngine {
         if (!is_met(state_.disks, rules, e)) figures_.left.see(parting_overlap(state_.disks, rules, e));
       }
       std::erase_if(events, [&](const ContactEvent& e) { return !is_met(state_.disks, rules, e); });
-      std::sort(events.begin(), events.end(), earlier);
+      std::sort(events.begin(), events.end(), event_order);
     }
     const PhaseTimer timer(times_, "resolve");
     const double back = events.empty() ? 0.0 : events.front().ago;

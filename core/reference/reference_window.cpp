@@ -18,15 +18,6 @@ struct Event {
   std::uint32_t version1, version2;
 };
 
-// The canonical order of events. The queue wants the earliest on top.
-struct Later {
-  bool operator()(const Event& a, const Event& b) const {
-    if (a.time != b.time) return a.time > b.time;
-    if (a.id1 != b.id1) return a.id1 > b.id1;
-    return a.id2 > b.id2;
-  }
-};
-
 class EventLoop {
  public:
   EventLoop(const ExactRules& rules, const State& state, const WindowPlan& plan, const std::function<bool()>& go_on,
@@ -126,7 +117,7 @@ class EventLoop {
   const double travel_;
   const Neighbourhood near_;
   WindowResult& result_;
-  std::priority_queue<Event, std::vector<Event>, Later> queue_;
+  std::priority_queue<Event, std::vector<Event>, LaterEvent> queue_;
   std::vector<std::uint32_t> version_;
   std::vector<double> travelled_;
   std::vector<Burst> burst_;

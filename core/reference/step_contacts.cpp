@@ -127,7 +127,7 @@ std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules) {
 
 StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events,
                              CollisionLog* log) {
-  std::sort(events.begin(), events.end(), earlier);
+  std::sort(events.begin(), events.end(), event_order);
   StepFigures figures;
   with_view(state.disks, [&](const auto& d) {
     const std::vector<std::uint32_t> contacts = contacts_per_disk(state.disks.size(), events);
@@ -137,7 +137,7 @@ StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<C
     }
     ImpactTally tally;
     resolve_impacts(d, state, rules, events, contacts, log, tally);
-    std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
+    std::sort(events.begin(), events.end(), ids_order);
     if (rules.settles) bear_loads(d, state, rules, events, contacts, tally);
     tally.count_into(state.counters);
     figures.amiss = tally.amiss;

@@ -126,7 +126,7 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
     if (!any_impact_since(before, lists.tallies)) break;
   }
   for (const ImpactTally& t : lists.tallies) tally.add(t);
-  executor.sort(lists.crowded.begin(), lists.crowded.end(), [](const auto& a, const auto& b) { return by_ids(a, b); });
+  executor.sort(lists.crowded.begin(), lists.crowded.end(), ids_order);
   place_crowded(disks, executor, lists);
   run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t) { push_apart(d, rules.box, e, 0.0); });
   for (int sweep = 1; sweep < most_push_sweeps; ++sweep) {
@@ -168,7 +168,7 @@ void join_crowded(std::size_t blocks, ContactLists& lists) {
 void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists& lists, ImpactTally& tally) {
   join_crowded(blocks, lists);
   for (std::size_t b = 0; b < blocks; ++b) tally.add(lists.tallies[b]);
-  executor.sort(lists.crowded.begin(), lists.crowded.end(), earlier);
+  executor.sort(lists.crowded.begin(), lists.crowded.end(), event_order);
 }
 
 void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists) {

@@ -101,7 +101,7 @@ bool look_up_loads(const View& d, const State& state, const StepRules& rules, co
 template <class View>
 void resolve_impacts(const View& d, const Disks& disks, const StepRules& rules, const Executor& executor,
                      ContactLists& lists, ImpactTally& tally) {
-  executor.sort(lists.crowded.begin(), lists.crowded.end(), earlier);
+  executor.sort(lists.crowded.begin(), lists.crowded.end(), event_order);
   place_crowded(disks, executor, lists);
   assign_amply(lists.tallies, lists.patches.count(), {});
   Count before = 0;
