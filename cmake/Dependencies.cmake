@@ -1,6 +1,8 @@
 # Libraries, all from Debian packages (packages.txt), found once here.
 find_package(TBB REQUIRED)
-find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+# Sums in the order of the array, whatever the instruction set.
+target_compile_definitions(Eigen3::Eigen INTERFACE EIGEN_DONT_VECTORIZE)
 find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/column.hpp"
+
 namespace carom::chart {
 
 bool is_seen(const FitPoint& p) {
@@ -19,22 +21,12 @@ std::optional<OrderFit> fit_order(std::vector<FitPoint> points) {
     y.push_back(std::log(std::abs(p.value)));
   }
   if (x.size() < 3) return std::nullopt;
-  const double n = static_cast<double>(x.size());
-  double mx = 0.0, my = 0.0, sxx = 0.0, sxy = 0.0, rest = 0.0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    mx += x[k] / n;
-    my += y[k] / n;
-  }
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    sxx += (x[k] - mx) * (x[k] - mx);
-    sxy += (x[k] - mx) * (y[k] - my);
-  }
-  const double order = sxy / sxx;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const double off = y[k] - my - order * (x[k] - mx);
-    rest += off * off;
-  }
-  return OrderFit{order, std::sqrt(rest / (n - 2.0) / sxx), std::exp(my - order * mx), x.size()};
+  const Column log_dt = column_of(x), log_error = column_of(y);
+  const Column dx = log_dt - log_dt.mean(), dy = log_error - log_error.mean();
+  const double spread = dx.square().sum();
+  const double order = (dx * dy).sum() / spread;
+  const double variance = (dy - order * dx).square().sum() / (static_cast<double>(x.size()) - 2.0);
+  return OrderFit{order, std::sqrt(variance / spread), std::exp(log_error.mean() - order * log_dt.mean()), x.size()};
 }
 
 }  // namespace carom::chart

@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/sample_mean.hpp"
+
 namespace carom::chart {
 
 namespace {
 
 constexpr std::array<Method, 3> methods{Method::rollback, Method::pairwise, Method::exact};
 
+// A single run has no scatter: its mean may be wrong by all of it.
 Mean mean_of(const std::vector<double>& values) {
-  const double n = static_cast<double>(values.size());
-  Mean m;
-  for (const double v : values) m.value += v / n;
-  double squares = 0.0;
-  for (const double v : values) squares += (v - m.value) * (v - m.value);
-  m.error = n > 1.0 ? std::sqrt(squares / (n - 1.0) / n) : std::abs(m.value);
-  return m;
+  const SampleMean mean = sample_mean(values);
+  return {mean.mean, mean.samples > 1 ? mean.standard_error() : std::abs(mean.mean)};
 }
 
 // All samples of one setting with those of exact that each is compared with, seed by seed.

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/measure/displacement.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
@@ -96,30 +97,6 @@ void compare_flights(const Scene& scene, const State& start, const Flight& exact
   sample[Measure::spurious] = static_cast<double>(lacking(flight.collisions, exact.collisions)) / collisions;
 }
 
-// Displacements summed look by look, as places wrap: no disk goes half the box between two looks.
-struct Displacement {
-  std::vector<Vec2> last, sum;
-
-  void add(const Disks& d, const Domain& box) {
-    const bool first = last.empty();
-    last.resize(d.size());
-    sum.resize(d.size());
-    for (std::size_t i = 0; i < d.size(); ++i) {
-      const DiskId id = d.id[i];
-      if (!first) {
-        sum[id].x += nearest_image(d.x[i] - last[id].x, box.width);
-        sum[id].y += nearest_image(d.y[i] - last[id].y, box.height);
-      }
-      last[id] = {d.x[i], d.y[i]};
-    }
-  }
-  double mean_square() const {
-    double total = 0.0;
-    for (const Vec2& v : sum) total += v.x * v.x + v.y * v.y;
-    return total / static_cast<double>(sum.size());
-  }
-};
-
 double momentum_drift(const Momentum& a, const Momentum& b) {
   return std::hypot(b.x - a.x, b.y - a.y) / std::max(a.magnitude, b.magnitude);
 }
@@ -130,15 +107,15 @@ void measure_rates(const ChartScene& scene, const Scene& s, const State& start, 
   engine->forget_paths();
   const double n = static_cast<double>(start.disks.size());
   double seconds = 0.0, overlap = 0.0;
-  Displacement displacement;
-  displacement.add(start.disks, s.box);
+  DisplacementTally displacement;
+  begin_displacement(displacement, start.disks, s.box, 0.0);
   for (int look = 1; look <= looks; ++look) {
     const double until = look == looks ? s.run.t_end : s.run.t_end * look / looks;
     const double before = cpu_seconds();
     while (engine->state().time < until) engine->step();
     seconds += cpu_seconds() - before;
     overlap = std::max(overlap, max_overlap(engine->state().disks, s.box));
-    if (scene.figure == Figure::spread) displacement.add(engine->state().disks, s.box);
+    if (scene.figure == Figure::spread) look_at(displacement, engine->state().disks, s.box, engine->state().time);
   }
   const State& end = engine->state();
   const Energy first = energy_of(start.disks, s.physics.gravity);
@@ -158,7 +135,8 @@ void measure_rates(const ChartScene& scene, const Scene& s, const State& start, 
       sample[Measure::figure] = (std::sqrt(first.kinetic / last.kinetic) - 1.0) / s.run.t_end;
       break;
     case Figure::spread:
-      sample[Measure::figure] = displacement.mean_square() / (4.0 * s.physics.diffusion * s.run.t_end);
+      sample[Measure::figure] =
+          mean_square_displacement(displacement, end.disks, s.box).value / (4.0 * s.physics.diffusion * s.run.t_end);
       break;
   }
 }

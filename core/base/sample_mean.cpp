@@ -3,25 +3,26 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/column.hpp"
+
 namespace carom {
 
+double SampleMean::standard_error() const {
+  return deviation / std::sqrt(static_cast<double>(samples));
+}
+
 SampleMean sample_mean(const std::vector<double>& series, const std::vector<double>& weights) {
+  const auto x = column_of(series);
+  const Eigen::Array<bool, Eigen::Dynamic, 1> known = !x.isNaN();
+  const Column weight = weights.empty() ? Column(known.cast<double>()) : Column(known.select(column_of(weights), 0.0));
   SampleMean result;
-  double sum = 0.0, weight = 0.0;
-  for (std::size_t k = 0; k < series.size(); ++k) {
-    if (std::isnan(series[k])) continue;
-    const double w = weights.empty() ? 1.0 : weights[k];
-    sum += w * series[k];
-    weight += w;
-    ++result.samples;
+  result.samples = static_cast<Count>(known.count());
+  result.mean = result.samples > 0 ? known.select(weight * x, 0.0).sum() / weight.sum()
+                                   : std::numeric_limits<double>::quiet_NaN();
+  if (result.samples > 1) {
+    const double squares = known.select((x - result.mean).square(), 0.0).sum();
+    result.deviation = std::sqrt(squares / (static_cast<double>(result.samples) - 1.0));
   }
-  const auto n = static_cast<double>(result.samples);
-  result.mean = result.samples > 0 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
-  double squares = 0.0;
-  for (const double x : series) {
-    if (!std::isnan(x)) squares += (x - result.mean) * (x - result.mean);
-  }
-  if (result.samples > 1) result.deviation = std::sqrt(squares / (n - 1.0));
   return result;
 }
 

@@ -13,6 +13,9 @@ struct SampleMean {
   double mean = 0.0;
   double deviation = 0.0;
   Count samples = 0;
+
+  // Of the mean, where samples are independent and weigh the same: deviation / sqrt(samples).
+  double standard_error() const;
 };
 
 // weights: empty, or one an entry.

@@ -108,9 +108,4 @@ void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& disks,
   add_means(record, scene, disks, energy, now);
 }
 
-double pair_correlation(const PairRecord& pairs, const DistanceBins& bins, std::size_t k) {
-  if (!(pairs.expected > 0.0)) return nothing;
-  return static_cast<double>(pairs.counts[k]) / (pairs.expected * ring_area(bins, k));
-}
-
 }  // namespace carom

@@ -54,8 +54,4 @@ bool goes_with(const AnalysisRecord& record, const AnalysisPlan& plan);
 void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& disks, double t, const State& now,
                  const PairCounter& count);
 
-// g(r) in bin k: pairs found over those expected of disks strewn at random, which have
-// sum of n (n - 1) / A times the ring's area. NaN before there is anything to expect.
-double pair_correlation(const PairRecord& pairs, const DistanceBins& bins, std::size_t k);
-
 }  // namespace carom

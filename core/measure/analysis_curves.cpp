@@ -1,21 +1,19 @@
 #include "core/measure/analysis_curves.hpp"
 
-#include <numeric>
+#include <limits>
+#include <numbers>
+
+#include "core/base/column.hpp"
 
 namespace carom {
 
 namespace {
 
-// The curve value(k) over the bins of [0, end].
-template <class Value>
-BinnedCurve curve_of(double end, std::size_t bins, Value value) {
-  BinnedCurve curve;
-  const double width = end / static_cast<double>(bins);
-  for (std::size_t k = 0; k < bins; ++k) {
-    curve.middle.push_back(width * (static_cast<double>(k) + 0.5));
-    curve.value.push_back(value(k));
-  }
-  return curve;
+// The curve over the bins of [0, end].
+BinnedCurve curve_of(double end, const Column& value) {
+  const auto bins = static_cast<double>(value.size());
+  const Column middle = end / bins * Column::LinSpaced(value.size(), 0.5, bins - 0.5);
+  return {{middle.begin(), middle.end()}, {value.begin(), value.end()}};
 }
 
 double length_of_profile(const Scene& scene) {
@@ -28,37 +26,42 @@ double slab_area(const AnalysisRecord& record, const Scene& scene) {
          static_cast<double>(record.density.samples);
 }
 
+// Areas of the rings between r and r + width, pi (outer^2 - inner^2), where (k + 1)^2 - k^2 = 2 k + 1; length^2.
+Column ring_areas(const DistanceBins& bins) {
+  const double width = bins.r_max / static_cast<double>(bins.bins);
+  const auto count = static_cast<Eigen::Index>(bins.bins);
+  return std::numbers::pi * width * width * Column::LinSpaced(count, 1.0, 2.0 * static_cast<double>(count) - 1.0);
+}
+
 }  // namespace
 
 BinnedCurve pair_correlation_curve(const AnalysisRecord& record, const AnalysisPlan& plan) {
-  const DistanceBins bins = distance_bins(plan);
-  return curve_of(plan.r_max, bins.bins, [&](std::size_t k) { return pair_correlation(record.pairs, bins, k); });
+  const PairRecord& pairs = record.pairs;
+  const double expected = pairs.expected > 0.0 ? pairs.expected : std::numeric_limits<double>::quiet_NaN();
+  return curve_of(plan.r_max, column_of(pairs.counts).cast<double>() / (expected * ring_areas(distance_bins(plan))));
 }
 
 BinnedCurve speed_curve(const AnalysisRecord& record, const AnalysisPlan& plan) {
-  const SpeedHistogram& h = record.speeds;
-  const auto disks = static_cast<double>(std::accumulate(h.counts.begin(), h.counts.end(), h.beyond));
-  const double width = plan.speed_max / static_cast<double>(h.counts.size());
-  return curve_of(plan.speed_max, h.counts.size(),
-                  [&](std::size_t k) { return static_cast<double>(h.counts[k]) / (disks * width); });
+  const auto counts = column_of(record.speeds.counts);
+  const auto disks = static_cast<double>(counts.sum() + record.speeds.beyond);
+  const double width = plan.speed_max / static_cast<double>(counts.size());
+  return curve_of(plan.speed_max, counts.cast<double>() / (disks * width));
 }
 
 BinnedCurve maxwell_curve(const AnalysisPlan& plan) {
   const auto bins = static_cast<std::size_t>(plan.speed_bins);
   const double width = plan.speed_max / static_cast<double>(bins);
-  return curve_of(plan.speed_max, bins, [&](std::size_t k) { return maxwell_share(plan.speed_max, bins, k) / width; });
+  const auto share = [&](Eigen::Index k) { return maxwell_share(plan.speed_max, bins, static_cast<std::size_t>(k)); };
+  return curve_of(plan.speed_max, Column::NullaryExpr(static_cast<Eigen::Index>(bins), share) / width);
 }
 
 BinnedCurve packing_curve(const AnalysisRecord& record, const Scene& scene) {
-  const double area = slab_area(record, scene);
-  return curve_of(length_of_profile(scene), record.density.covered.size(),
-                  [&](std::size_t k) { return record.density.covered[k] / area; });
+  return curve_of(length_of_profile(scene), column_of(record.density.covered) / slab_area(record, scene));
 }
 
 BinnedCurve number_density_curve(const AnalysisRecord& record, const Scene& scene) {
-  const double area = slab_area(record, scene);
-  return curve_of(length_of_profile(scene), record.density.centres.size(),
-                  [&](std::size_t k) { return static_cast<double>(record.density.centres[k]) / area; });
+  return curve_of(length_of_profile(scene),
+                  column_of(record.density.centres).cast<double>() / slab_area(record, scene));
 }
 
 }  // namespace carom

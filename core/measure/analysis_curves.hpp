@@ -13,7 +13,8 @@ struct BinnedCurve {
   std::vector<double> value;
 };
 
-// g(r).
+// g(r): pairs found over those expected of disks strewn at random, which have sum of n (n - 1) / A times the area of a
+// bin's ring. NaN before there is anything to expect.
 BinnedCurve pair_correlation_curve(const AnalysisRecord& record, const AnalysisPlan& plan);
 
 // Probability densities of the reduced speed: measured, and that of equilibrium; means over each bin. The measured one

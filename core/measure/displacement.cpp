@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/column.hpp"
+
 namespace carom {
 
 namespace {
@@ -16,7 +18,7 @@ constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 // Disks a block of a look: a few milliseconds of work.
 constexpr std::size_t look_block = std::size_t{1} << 16;
 // Ids a block of the sum.
-constexpr std::size_t sum_block = 4096;
+constexpr Eigen::Index sum_block = 4096;
 
 std::int32_t part_of(double coordinate, double period) {
   const double part = std::floor(coordinate / period * static_cast<double>(parts));
@@ -115,23 +117,18 @@ std::int32_t rounds_of(const AxisTally& axis, DiskId id) {
 }
 
 MeanSquare mean_square_displacement(const DisplacementTally& tally, const Disks& d, const Domain& box) {
-  std::vector<double> square(tally.x.from.size(), nowhere);
+  MeanSquare mean;
+  Column square = Column::Zero(static_cast<Eigen::Index>(tally.x.from.size()));  // by id; 0 of disks that are gone
   for (std::size_t i = 0; i < d.size(); ++i) {
     if (!is_followed(tally.x, d.id[i])) continue;
     const double dx = displacement(tally.x, d.x[i], d.id[i], box.width);
     const double dy = displacement(tally.y, d.y[i], d.id[i], box.height);
     square[d.id[i]] = dx * dx + dy * dy;
+    ++mean.disks;
   }
-  MeanSquare mean;
   double total = 0.0;
-  for (std::size_t begin = 0; begin < square.size(); begin += sum_block) {
-    double block = 0.0;
-    for (std::size_t id = begin; id < std::min(begin + sum_block, square.size()); ++id) {
-      if (std::isnan(square[id])) continue;
-      block += square[id];
-      ++mean.disks;
-    }
-    total += block;
+  for (Eigen::Index begin = 0; begin < square.size(); begin += sum_block) {
+    total += square.segment(begin, std::min(sum_block, square.size() - begin)).sum();
   }
   mean.value = mean.disks > 0 ? total / static_cast<double>(mean.disks) : nowhere;
   return mean;

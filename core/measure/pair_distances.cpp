@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace carom {
 
@@ -124,12 +123,6 @@ double area_of_centres(const Domain& box, const DistanceBins& bins) {
   const double width = box.periodic_x() ? box.width : box.width - 2.0 * bins.wall_margin;
   const double height = box.periodic_y() ? box.height : box.height - 2.0 * bins.wall_margin;
   return width * height;
-}
-
-double ring_area(const DistanceBins& bins, std::size_t k) {
-  const double width = bins.r_max / static_cast<double>(bins.bins);
-  // (k + 1)^2 - k^2 = 2 k + 1
-  return std::numbers::pi * width * width * (2.0 * static_cast<double>(k) + 1.0);
 }
 
 }  // namespace carom

@@ -72,7 +72,4 @@ PairCounts count_pairs(const Disks& disks, const Domain& box, const DistanceBins
 // whole circle of radius r_max lies where centres can be. Area; length^2.
 double area_of_centres(const Domain& box, const DistanceBins& bins);
 
-// Area of the ring of bin k, pi (outer^2 - inner^2); length^2.
-double ring_area(const DistanceBins& bins, std::size_t k);
-
 }  // namespace carom

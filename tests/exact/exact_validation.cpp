@@ -6,25 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/sample_mean.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/exact_support.hpp"
 
 namespace carom::exact_tests {
 namespace {
-
-struct Measured {
-  double mean = 0.0, error = 0.0;  // of the mean
-};
-
-Measured from_blocks(const std::vector<double>& blocks) {
-  const auto n = static_cast<double>(blocks.size());
-  Measured m;
-  for (const double b : blocks) m.mean += b / n;
-  double squares = 0.0;
-  for (const double b : blocks) squares += (b - m.mean) * (b - m.mean);
-  m.error = std::sqrt(squares / (n * (n - 1.0)));
-  return m;
-}
 
 Scene gas(int n, double eta, double t_end, const std::string& physics = "") {
   const std::string text = fmt::format(
@@ -76,14 +63,14 @@ TEST_P(ExactEquationOfState, VirialAndRateAgreeWithTheTable) {
     const double gamma = 2.0 * static_cast<double>(after.collisions - before.collisions) / (n * elapsed);
     counted.push_back(1.0 + gamma * std::sqrt(std::numbers::pi / kt) / 4.0);
   }
-  const Measured zv = from_blocks(virial);
-  const Measured zr = from_blocks(counted);
+  const SampleMean zv = sample_mean(virial);
+  const SampleMean zr = sample_mean(counted);
   const double size = (c.z - 1.0) / n;
   fmt::print("eta {:.2f} N {} Z virial {:.5f} +- {:.5f}, rate {:.5f} +- {:.5f}, published {:.5f}\n", c.eta, c.n,
-             zv.mean, zv.error, zr.mean, zr.error, c.z);
-  EXPECT_NEAR(zv.mean, c.z, 3.0 * std::hypot(zv.error, c.z_error) + size);
-  EXPECT_NEAR(zr.mean, c.z, 3.0 * std::hypot(zr.error, c.z_error) + size);
-  EXPECT_LT(zv.error, 0.01 * c.z) << "too short to say anything";
+             zv.mean, zv.standard_error(), zr.mean, zr.standard_error(), c.z);
+  EXPECT_NEAR(zv.mean, c.z, 3.0 * std::hypot(zv.standard_error(), c.z_error) + size);
+  EXPECT_NEAR(zr.mean, c.z, 3.0 * std::hypot(zr.standard_error(), c.z_error) + size);
+  EXPECT_LT(zv.standard_error(), 0.01 * c.z) << "too short to say anything";
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, ExactEquationOfState,
@@ -111,10 +98,10 @@ TEST(ExactHaff, CoolsAsItShould) {
     }
   }
   for (int k = 0; k < 4; ++k) {
-    const Measured ratio = from_blocks(ratios[k]);
-    fmt::print("Haff, t / tau = {}: T over the law's {:.4f} +- {:.4f}\n", times[k], ratio.mean, ratio.error);
+    const SampleMean ratio = sample_mean(ratios[k]);
+    fmt::print("Haff, t / tau = {}: T over the law's {:.4f} +- {:.4f}\n", times[k], ratio.mean, ratio.standard_error());
     EXPECT_NEAR(ratio.mean, 1.0, 0.02) << "t / tau = " << times[k];
-    EXPECT_LT(ratio.error, 0.007) << "too few runs to say anything";
+    EXPECT_LT(ratio.standard_error(), 0.007) << "too few runs to say anything";
   }
 }
 
@@ -173,12 +160,13 @@ TEST(ExactBarometer, DensityInEightLayers) {
   kt /= samples;
   const double step = (height - 2.0 * radius) / static_cast<double>(layers) / kt;  // in scale heights, m g = 1
   for (std::size_t layer = 0; layer < layers; ++layer) {
-    const Measured share = from_blocks(shares[layer]);
+    const SampleMean share = sample_mean(shares[layer]);
     const double y = step * static_cast<double>(layer);
     const double expected = std::exp(-y) * std::expm1(-step) / std::expm1(-step * static_cast<double>(layers));
-    fmt::print("barometer, layer {}: {:.5f} +- {:.5f}, formula {:.5f}\n", layer, share.mean, share.error, expected);
-    EXPECT_NEAR(share.mean, expected, 3.0 * share.error) << "layer " << layer;
-    EXPECT_LT(share.error, 0.02 * expected) << "too short to say anything";
+    fmt::print("barometer, layer {}: {:.5f} +- {:.5f}, formula {:.5f}\n", layer, share.mean, share.standard_error(),
+               expected);
+    EXPECT_NEAR(share.mean, expected, 3.0 * share.standard_error()) << "layer " << layer;
+    EXPECT_LT(share.standard_error(), 0.02 * expected) << "too short to say anything";
   }
 }
 

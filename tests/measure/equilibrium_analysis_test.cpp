@@ -1,9 +1,10 @@
 // What an equilibrium run measures of itself, against published numbers: contact value of g(r), pressure, Maxwell.
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <Eigen/QR>
 #include <cmath>
 
+#include "core/base/column.hpp"
 #include "core/base/sample_mean.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/measure/analysis_curves.hpp"
@@ -67,22 +68,11 @@ double bound(const ChiSquare& chi) {
 // The parabola a + b s + c s^2 that comes nearest to the first `points` values of the curve from `from` on, at s = 0,
 // the place of contact.
 double at_contact(const BinnedCurve& g, std::size_t from, std::size_t points, double contact) {
-  double m[3][4] = {};
-  for (std::size_t k = from; k < from + points; ++k) {
-    const double s = g.middle[k] - contact;
-    const double power[3] = {1.0, s, s * s};
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) m[i][j] += power[i] * power[j];
-      m[i][3] += power[i] * g.value[k];
-    }
-  }
-  for (int i = 2; i > 0; --i) {  // upwards, so that the first unknown comes out last
-    for (int j = 0; j < i; ++j) {
-      const double f = m[j][i] / m[i][i];
-      for (int c = 0; c < 4; ++c) m[j][c] -= f * m[i][c];
-    }
-  }
-  return m[0][3] / m[0][0];
+  const auto first = static_cast<Eigen::Index>(from), count = static_cast<Eigen::Index>(points);
+  const Column s = column_of(g.middle).segment(first, count) - contact;
+  Eigen::MatrixX3d powers(count, 3);
+  powers << Column::Ones(count), s, s.square();
+  return powers.colPivHouseholderQr().solve(column_of(g.value).segment(first, count).matrix())[0];
 }
 
 TEST(EquilibriumAnalysis, ContactValuePressureAndSpeedsAreThoseOfTheory) {

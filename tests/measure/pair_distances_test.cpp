@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/measure/analysis.hpp"
+#include "core/measure/analysis_curves.hpp"
 #include "parallel/pair_counting.hpp"
 #include "tests/support/support.hpp"
 
@@ -89,13 +89,13 @@ TEST(PairDistances, NothingCorrelatedGivesOne) {
     scene.analysis.wall_margin = c.r_max + 0.1;
     AnalysisRecord record = empty_record(scene.analysis);
     for (int k = 0; k < 200; ++k) take_sample(record, scene, strewn(draws, scene.box, 200), k, {}, count_pairs);
+    const BinnedCurve g = pair_correlation_curve(record, scene.analysis);
     for (std::size_t k = 0; k < 12; ++k) {
       const auto pairs = static_cast<double>(record.pairs.counts[k]);
       ASSERT_GT(pairs, 100.0);
       // Each pair is counted twice where both are centres.
       const double error = std::sqrt(2.0 / pairs);
-      EXPECT_NEAR(pair_correlation(record.pairs, distance_bins(scene.analysis), k), 1.0, 4.0 * error)
-          << c.width << " x " << c.height << ", bin " << k;
+      EXPECT_NEAR(g.value[k], 1.0, 4.0 * error) << c.width << " x " << c.height << ", bin " << k;
     }
   }
 }

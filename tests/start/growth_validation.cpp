@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/base/sample_mean.hpp"
 #include "core/measure/invariants.hpp"
 #include "parallel/simulation.hpp"
 #include "parallel/start/random_placement.hpp"
@@ -13,10 +14,6 @@ namespace carom {
 namespace {
 
 using test::scene_from;
-
-struct Measured {
-  double mean = 0.0, error = 0.0;
-};
 
 constexpr int disks = 500;
 
@@ -29,36 +26,31 @@ Scene fluid(std::string_view positions, std::string_view radius, double packing,
 }
 
 // Z = P V / (N kT) from the virial, in blocks after one to forget the start.
-Measured compressibility(std::string_view positions, std::string_view radius, double packing, double block) {
+SampleMean compressibility(std::string_view positions, std::string_view radius, double packing, double block) {
   constexpr int blocks = 24;
   const Scene scene = fluid(positions, radius, packing, 1e9);
   const auto engine = make_parallel_engine(scene, parallel_initial_state(scene, 2), {2, 1});
   engine->forget_paths();
   const double kt = energy_of(engine->state().disks, 0.0).kinetic / (disks - 1.0);
-  double sum = 0.0;
-  double squares = 0.0;
+  std::vector<double> found;
   for (int k = -4; k < blocks; ++k) {
     const double start = engine->state().time;
     const double before = engine->state().counters.virial;
     while (engine->state().time < start + block) engine->step();
     const double z =
         1.0 + (engine->state().counters.virial - before) / (2.0 * (engine->state().time - start) * disks * kt);
-    if (k < 0) continue;
-    sum += z;
-    squares += z * z;
+    if (k >= 0) found.push_back(z);
   }
-  const double mean = sum / blocks;
-  const double variance = squares / blocks - mean * mean;
   EXPECT_GT(engine->state().counters.collisions, 20.0 * disks * blocks) << "too short to say anything";
   EXPECT_LE(max_overlap(engine->state().disks, scene.box), 1e-13);
-  return {mean, std::sqrt(variance / (blocks - 1))};
+  return sample_mean(found);
 }
 
-void expect_same(const Measured& grown, const Measured& other, const char* what) {
-  fmt::print("{}: Z grown {:.4f} +- {:.4f}, other start {:.4f} +- {:.4f}\n", what, grown.mean, grown.error, other.mean,
-             other.error);
-  EXPECT_NEAR(grown.mean, other.mean, 3.0 * std::hypot(grown.error, other.error)) << what;
-  EXPECT_LT(grown.error, 0.01 * grown.mean) << "too short to say anything";
+void expect_same(const SampleMean& grown, const SampleMean& other, const char* what) {
+  fmt::print("{}: Z grown {:.4f} +- {:.4f}, other start {:.4f} +- {:.4f}\n", what, grown.mean, grown.standard_error(),
+             other.mean, other.standard_error());
+  EXPECT_NEAR(grown.mean, other.mean, 3.0 * std::hypot(grown.standard_error(), other.standard_error())) << what;
+  EXPECT_LT(grown.standard_error(), 0.01 * grown.mean) << "too short to say anything";
 }
 
 TEST(GrownFluid, HasThePressureOfAMeltedLattice) {
