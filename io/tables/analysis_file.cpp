@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <limits>
 
 #include "core/base/check.hpp"
 #include "core/base/sample_mean.hpp"
@@ -14,23 +13,15 @@
 #include "core/scene/scene_names.hpp"
 #include "core/scene/scene_text.hpp"
 #include "io/files/output_file.hpp"
+#include "io/hdf5/hdf5_kinds.hpp"
 #include "io/hdf5/hdf5_output.hpp"
 
 namespace carom {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t no_count = 0;
 // Entries a chunk; a file of a short run stays small.
 constexpr hsize_t chunk = 256;
-
-Hdf5Kind double_kind() {
-  return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, sizeof(double), &nothing};
-}
-Hdf5Kind count_kind() {
-  return {H5T_STD_I64LE, H5T_NATIVE_INT64, sizeof(std::int64_t), &no_count};
-}
 
 // Datasets of one group, each with its unit.
 class Group {
@@ -41,12 +32,9 @@ class Group {
     put(name, double_kind(), values.size(), values.data());
     output_.attribute(name_ + "/" + name, "unit", {unit}, false);
   }
-  void counts(const char* name, const std::vector<Count>& values) const {
-    const std::vector<std::int64_t> signed_values(values.begin(), values.end());
-    put(name, count_kind(), values.size(), signed_values.data());
-  }
-  // How many disks: whole, though kept as double.
-  void whole(const char* name, const std::vector<double>& values) const {
+  // Whole numbers, which may be kept as double.
+  template <class Number>
+  void counts(const char* name, const std::vector<Number>& values) const {
     const std::vector<std::int64_t> signed_values(values.begin(), values.end());
     put(name, count_kind(), values.size(), signed_values.data());
   }
@@ -79,12 +67,12 @@ void put_series(Hdf5Output& output, const AnalysisRecord& record, const Analysis
   const SampleSeries& series = record.series;
   const Group samples(output, "/samples");
   samples.numbers("time", series.time, "time");
-  samples.whole("disks", series.disks);
+  samples.counts("disks", series.disks);
   if (!series.temperature.empty()) samples.numbers("temperature", series.temperature, "energy");
   if (plan.wants(Quantity::displacement)) {
     const Group group(output, "/displacement");
     group.numbers("mean_square", series.displacement, "length^2");
-    group.whole("disks", series.followed);
+    group.counts("disks", series.followed);
     group.say("meaning", "since the first sample; of the disks of that time that are still there");
     group.say("doubtful", static_cast<double>(record.displacement.doubtful));
   }

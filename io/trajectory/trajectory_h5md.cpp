@@ -10,9 +10,11 @@
 #include "core/load/scene_file.hpp"
 #include "core/scene/disk_group.hpp"
 #include "core/scene/scene_text.hpp"
+#include "io/hdf5/hdf5_kinds.hpp"
 #include "io/hdf5/hdf5_output.hpp"
 #include "io/hdf5/shuffled_deflate.hpp"
 #include "io/trajectory/disk_selection.hpp"
+#include "io/trajectory/h5md_elements.hpp"
 #include "io/trajectory/h5md_layout.hpp"
 #include "io/trajectory/h5md_values.hpp"
 #include "io/trajectory/xdmf.hpp"
@@ -36,57 +38,12 @@ constexpr hsize_t largest_chunk = 16384;
 constexpr hsize_t smallest_open_chunk = 256;  // where sources may add disks
 constexpr hsize_t frames_per_column_chunk = 1024;
 
-constexpr std::int64_t no_count = 0;
-
-Hdf5Kind double_kind() {
-  return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, sizeof(double), &h5md_nothing};
-}
-Hdf5Kind single_kind() {
-  return {H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, sizeof(float), &h5md_single_nothing};
-}
-Hdf5Kind id_kind() {
-  return {H5T_STD_U32LE, H5T_NATIVE_UINT32, sizeof(DiskId), &h5md_no_id};
-}
-Hdf5Kind image_kind() {
-  return {H5T_STD_I32LE, H5T_NATIVE_INT32, sizeof(std::int32_t), &h5md_no_image};
-}
-Hdf5Kind count_kind() {
-  return {H5T_STD_I64LE, H5T_NATIVE_INT64, sizeof(std::int64_t), &no_count};
-}
-
-// What every disk has: one value or several (x, y and perhaps z), at a place of its own, in each frame or once for all.
-struct Element {
-  H5mdQuantity quantity = H5mdQuantity::position;
-  std::string name;  // of the dataset
-  Hdf5Kind kind;
-  hsize_t components = 1;
-  bool each_frame = true;
-  Hdf5Handle set;
-};
-
 // A chunk on its way into the file, and the room to pack it.
 struct Packer {
   std::vector<unsigned char> buffer;
   ShuffledDeflate deflate;
 };
 constexpr std::size_t chunks_at_once = 16;
-
-// One number a frame, kept here between flushes; or the same numbers in every frame.
-struct Column {
-  std::string name;  // of the dataset
-  Hdf5Kind kind;
-  Hdf5Handle set;
-  std::vector<double> values;
-  Extent shape{};                  // of what a frame has, where it is more than a number
-  std::vector<double> constant{};  // in every frame
-};
-
-// Lengths of a column over so many frames.
-Extent shape_of(const Column& column, Count frames) {
-  Extent extent{frames};
-  extent.insert(extent.end(), column.shape.begin(), column.shape.end());
-  return extent;
-}
 
 std::string user_name() {
   const char* const name = std::getenv("USER");  // NOLINT(concurrency-mt-unsafe): nobody sets it
@@ -111,9 +68,9 @@ struct H5mdWriter::File {
   void make_elements();
   void open_elements(Count frames);
   void write_frame(const Disks& disks, const BlockRunner& run);
-  void write_element(Element& element, const Disks& disks, const BlockRunner& run);
-  void write_once(Element& element, const Disks& disks, hsize_t first, hsize_t last);
-  void fill(const Element& element, const Disks& disks, hsize_t begin, hsize_t end,
+  void write_element(H5mdElement& element, const Disks& disks, const BlockRunner& run);
+  void write_once(H5mdElement& element, const Disks& disks, hsize_t first, hsize_t last);
+  void fill(const H5mdElement& element, const Disks& disks, hsize_t begin, hsize_t end,
             std::vector<unsigned char>& buffer) const {
     fill_with_values(element.quantity, form, disks, {disk_at, begin, end}, buffer);
   }
@@ -129,9 +86,9 @@ struct H5mdWriter::File {
   hsize_t places = 0;  // that the file has
   hsize_t known = 0;   // places whose mass, radius and species are in the file
   Count frames = 0, flushed_frames = 0;
-  std::vector<Element> elements;           // positions first
+  std::vector<H5mdElement> elements;       // positions first
   std::vector<std::size_t> shown_columns;  // of series_columns
-  std::vector<Column> columns;  // step, the observables, and time, which says how many frames are whole, at last
+  std::vector<H5mdColumn> columns;  // step, the observables, and time, which says how many frames are whole, at last
   std::vector<std::uint32_t> disk_at;
   std::vector<Packer> packers = std::vector<Packer>(chunks_at_once);
   double work_seen = 0.0;  // of the run, at the last frame
@@ -144,45 +101,19 @@ H5mdWriter::File::File(const std::string& file_path, const Scene& scene, bool ex
       select(scene.output.select),
       form{scene.output.single_precision, scene.output.dimensions, ends_of_groups(scene), rounds},
       exact(scene.run.method == Method::exact),
-      growing(!scene.sources.empty() || select.by_region) {
+      growing(!scene.sources.empty() || select.by_region),
+      elements(h5md_elements(scene, rounds != nullptr)),
+      shown_columns(observables_of(scene)),
+      columns(h5md_columns(scene)) {
   const Count disks = disks_at_start(scene);
   places = select.by_region ? 0 : (disks + select.stride - 1) / select.stride;
   chunk = std::clamp<hsize_t>(places, growing ? smallest_open_chunk : 1, largest_chunk);
-  const Hdf5Kind place_kind = scene.output.single_precision ? single_kind() : double_kind();
-  const std::string root = std::string(h5md_disks) + "/";
-  const bool moving = select.by_region;
-  const auto once = [&](const std::string& name) { return root + name + (moving ? "/value" : ""); };
-  const auto components = static_cast<hsize_t>(form.dimensions);
-  const auto add = [this](H5mdQuantity quantity, const std::string& name, Hdf5Kind kind, hsize_t width, bool each) {
-    elements.push_back({quantity, name, kind, width, each, {}});
-  };
-  add(H5mdQuantity::position, root + "position/value", place_kind, components, true);
-  add(H5mdQuantity::velocity, root + "velocity/value", place_kind, components, true);
-  add(H5mdQuantity::id, root + "id/value", id_kind(), 1, true);
-  add(H5mdQuantity::mass, once("mass"), double_kind(), 1, moving);
-  add(H5mdQuantity::radius, once("radius"), double_kind(), 1, moving);
-  add(H5mdQuantity::species, once("species"), id_kind(), 1, moving);
-  if (rounds != nullptr) add(H5mdQuantity::image, root + "image/value", image_kind(), components, true);
-  columns.push_back({root + "position/step", count_kind(), {}, {}});
-  for (std::size_t k = 0; k < series_columns.size(); ++k) {
-    const SeriesColumn& column = series_columns[k];
-    if (k == overlap_column && !scene.output.series) continue;  // see SeriesMeter
-    shown_columns.push_back(k);
-    columns.push_back(
-        {fmt::format("/observables/{}/value", column.name), column.whole ? count_kind() : double_kind(), {}, {}});
-  }
-  if (form.dimensions == 3) {
-    // MDAnalysis takes the box of each frame for three vectors.
-    const std::vector<double> edges{scene.box.width, 0.0, 0.0, 0.0, scene.box.height, 0.0, 0.0, 0.0, 1.0};
-    columns.push_back({root + "box/edges/value", double_kind(), {}, {}, {3, 3}, edges});
-  }
-  columns.push_back({root + "position/time", double_kind(), {}, {}});
 }
 
 H5mdWriter::File::~File() {
   if (!output.broken()) return;
-  for (Element& e : elements) e.set.abandon();
-  for (Column& c : columns) c.set.abandon();
+  for (H5mdElement& e : elements) e.set.abandon();
+  for (H5mdColumn& c : columns) c.set.abandon();
   output.abandon();
 }
 
@@ -211,7 +142,7 @@ void H5mdWriter::File::describe(const Scene& scene) const {
 
 void H5mdWriter::File::make_elements() {
   const std::string root = std::string(h5md_disks) + "/";
-  for (Element& e : elements) {
+  for (H5mdElement& e : elements) {
     const hsize_t limit = growing ? H5S_UNLIMITED : std::max<hsize_t>(1, places);
     if (!e.each_frame) {
       // Packed chunks cannot be added to in place without losing room, so that only what is written once is packed.
@@ -219,7 +150,7 @@ void H5mdWriter::File::make_elements() {
           output.make_dataset(e.name, e.kind, {places}, {limit}, {chunk}, growing ? Packing::plain : Packing::deflate);
       continue;
     }
-    output.make_group(e.name.substr(0, e.name.rfind('/')));
+    output.make_group(group_of(e.name));
     Extent size{0, places}, most{H5S_UNLIMITED, limit}, block{1, chunk};
     if (e.components > 1) {
       for (Extent* const extent : {&size, &most, &block}) extent->push_back(e.components);
@@ -227,28 +158,28 @@ void H5mdWriter::File::make_elements() {
     e.set = output.make_dataset(e.name, e.kind, size, most, block, Packing::deflate);
   }
   output.make_group("/observables");
-  for (Column& c : columns) {
-    const std::string group = c.name.substr(0, c.name.rfind('/'));
+  for (H5mdColumn& c : columns) {
+    const std::string group = group_of(c.name);
     if (group != root + "position") output.make_group(group);
     Extent size{0}, most{H5S_UNLIMITED}, block{frames_per_column_chunk};
     for (Extent* const extent : {&size, &most, &block}) extent->insert(extent->end(), c.shape.begin(), c.shape.end());
     c.set = output.make_dataset(c.name, c.kind, size, most, block, Packing::plain);
   }
   const auto share = [&](const std::string& name) {
-    const std::string group = name.substr(0, name.rfind('/'));
+    const std::string group = group_of(name);
     if (group == root + "position") return;
     output.link(root + "position/step", group + "/step");
     output.link(root + "position/time", group + "/time");
   };
-  for (const Element& e : elements) {
+  for (const H5mdElement& e : elements) {
     if (e.each_frame) share(e.name);
   }
-  for (const Column& c : columns) share(c.name);
+  for (const H5mdColumn& c : columns) share(c.name);
 }
 
 void H5mdWriter::File::open_elements(Count kept) {
-  for (Column& c : columns) c.set = output.open_dataset(c.name);
-  for (Element& e : elements) e.set = output.open_dataset(e.name);
+  for (H5mdColumn& c : columns) c.set = output.open_dataset(c.name);
+  for (H5mdElement& e : elements) e.set = output.open_dataset(e.name);
   const Count there = output.size_of(columns.back().set).at(0);
   const Extent held = output.size_of(elements[0].set);
   if (there < kept) output.fail(fmt::format("it holds {} frames, and {} were written before", there, kept));
@@ -258,7 +189,7 @@ void H5mdWriter::File::open_elements(Count kept) {
   places = held[1];
   frames = flushed_frames = kept;
   known = kept == 0 ? 0 : places;
-  for (Element& e : elements) {
+  for (H5mdElement& e : elements) {
     Extent size = output.size_of(e.set);
     if (!e.each_frame) {
       known = std::min(known, size.at(0));  // a kill may have come between it and the others
@@ -268,11 +199,11 @@ void H5mdWriter::File::open_elements(Count kept) {
     size[1] = places;
     output.resize(e.set, size);
   }
-  for (Column& c : columns) output.resize(c.set, shape_of(c, kept));
+  for (H5mdColumn& c : columns) output.resize(c.set, shape_of(c, kept));
 }
 
 // The frame's row of an element, chunk by chunk. Chunks without a disk are not written: they read as fill values.
-void H5mdWriter::File::write_element(Element& e, const Disks& disks, const BlockRunner& run) {
+void H5mdWriter::File::write_element(H5mdElement& e, const Disks& disks, const BlockRunner& run) {
   Extent size{frames + 1, places}, begin{frames, 0};
   if (e.components > 1) {
     size.push_back(e.components);
@@ -301,7 +232,7 @@ void H5mdWriter::File::write_element(Element& e, const Disks& disks, const Block
 
 // What a disk has for ever, of the places first to last - 1. A disk that came and went since the frame before is never
 // seen: its place keeps the fill values.
-void H5mdWriter::File::write_once(Element& e, const Disks& disks, hsize_t first, hsize_t last) {
+void H5mdWriter::File::write_once(H5mdElement& e, const Disks& disks, hsize_t first, hsize_t last) {
   // As long as what is known: a later writer goes by that.
   if (growing) output.resize(e.set, {last});
   for (hsize_t begin = first; begin < last; begin += chunk) {
@@ -314,7 +245,7 @@ void H5mdWriter::File::write_once(Element& e, const Disks& disks, hsize_t first,
 void H5mdWriter::File::write_frame(const Disks& disks, const BlockRunner& run) {
   find_places(select, disks, 0, disk_at);
   places = std::max<hsize_t>(places, disk_at.size());
-  for (Element& e : elements) {
+  for (H5mdElement& e : elements) {
     if (e.each_frame) {
       write_element(e, disks, run);
     } else if (disk_at.size() > known) {
@@ -329,16 +260,16 @@ void H5mdWriter::File::write_frame(const Disks& disks, const BlockRunner& run) {
 void H5mdWriter::File::flush() {
   output.begin_flush();
   if (frames > flushed_frames) {
-    for (Element& e : elements) output.flush(e.set);
+    for (H5mdElement& e : elements) output.flush(e.set);
     std::vector<std::int64_t> whole;
-    for (Column& c : columns) {
+    for (H5mdColumn& c : columns) {
       const Count fresh = frames - flushed_frames;
       if (!c.constant.empty()) {
         c.values.clear();
         for (Count k = 0; k < fresh; ++k) c.values.insert(c.values.end(), c.constant.begin(), c.constant.end());
       }
       const void* data = c.values.data();
-      if (c.kind.width == sizeof(std::int64_t) && c.kind.fill == &no_count) {
+      if (c.whole) {
         whole.assign(c.values.begin(), c.values.end());
         data = whole.data();
       }
@@ -360,8 +291,8 @@ void H5mdWriter::File::close() {
   std::vector<double> times(frames);
   if (frames > 0)
     output.checked(H5Dread(columns.back().set.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data()));
-  for (Element& e : elements) output.checked(e.set.close());
-  for (Column& c : columns) output.checked(c.set.close());
+  for (H5mdElement& e : elements) output.checked(e.set.close());
+  for (H5mdColumn& c : columns) output.checked(c.set.close());
   output.close();
   write_xdmf(path, {times, places, elements[0].kind.width, form.dimensions, select.by_region});
 }

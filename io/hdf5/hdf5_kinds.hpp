@@ -1,0 +1,12 @@
+// The kinds of numbers that most datasets hold.
+#pragma once
+
+#include "io/hdf5/hdf5_output.hpp"
+
+namespace carom {
+
+// Little-endian in the file on every machine. Where nothing was written a double is NaN and a count 0.
+Hdf5Kind double_kind();
+Hdf5Kind count_kind();  // std::int64_t
+
+}  // namespace carom
