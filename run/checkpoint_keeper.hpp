@@ -49,7 +49,7 @@ class CheckpointKeeper {
   // The run is done: a folder that was made for its checkpoints alone goes.
   void discard_own_folder();
 
-  // What to tell the user about a checkpoint that was wished for; asked for once, it is gone.
+  // The line for the user about a checkpoint that was requested; returned once.
   std::string take_note();
 
  private:

@@ -17,8 +17,8 @@ class FrameSchedule {
   // Time of the next frame that is due in a run that has come to `now`, or a negative number if there is none yet.
   double due(double now) const;
 
-  // A frame has been made of the state at `time` (the time asked for, or the step's end where a method knows no
-  // other). All frames due up to there are done, so that long steps do not show one state twice.
+  // A frame has been made of the state at `time` (the time asked for, or the step's end for time stepping). All frames
+  // due up to there are done, so that long steps do not show one state twice.
   void made(double time);
 
  private:

@@ -12,12 +12,12 @@ namespace carom {
 
 using Json = nlohmann::ordered_json;
 
-// What a page says of a key.
+// What docs/scene.md says of a key.
 struct KeyText {
   std::string_view name, unit, meaning;
 };
 
-// A key of an object that tells of a T; a value that is absent() is left out.
+// A key of an object that describes a T; a value that is absent() is left out.
 template <class T>
 struct JsonKey {
   std::string_view name, unit, meaning;
@@ -28,7 +28,7 @@ inline Json absent() {
   return Json(Json::value_t::discarded);
 }
 
-// JSON knows no infinity and no NaN.
+// JSON has no infinity and no NaN.
 inline Json json_number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }

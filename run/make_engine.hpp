@@ -24,7 +24,8 @@ struct EngineChoice {
 // thread whatever is asked for. Throws InputError for an engine that does not exist.
 EngineChoice choose_engine(const std::string& engine, std::optional<int> threads);
 
-// The disks of a scene; either engine's way gives the same bits. watch is told how a growth goes on, and may be empty.
+// The disks of a scene; either engine's way gives the same bits. watch is called after each step of a growth, and may
+// be empty.
 State make_initial_state(const EngineChoice& choice, const Scene& scene,
                          const std::function<void(const GrowthProgress&)>& watch = {});
 
@@ -33,14 +34,14 @@ std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& sce
 // The threads that it chooses, for other work between its steps.
 BlockRunner make_block_runner(const EngineChoice& choice);
 
-// Who counts pairs by distance (core/measure/pair_distances.hpp); either engine's way gives the same numbers.
+// Counts pairs by distance (core/measure/pair_distances.hpp); either engine's way gives the same numbers.
 PairCounter make_pair_counter(const EngineChoice& choice);
 
-// Throws the InputError of a scene whose disks found no memory.
+// Throws the InputError of a scene whose disks do not fit into memory.
 [[noreturn]] void fail_memory(const Scene& scene);
 
 // make(), which makes the scene's disks or their engine. A limit on this process may be far below what the machine has,
-// so that the scene's check cannot know it.
+// and the check of the scene does not see it.
 template <class Make>
 auto within_memory(const Scene& scene, Make&& make) {
   try {

@@ -17,13 +17,13 @@ using Clock = std::chrono::steady_clock;
 constexpr double pulse_seconds = 0.01;
 constexpr Count most_steps_between_looks = 100'000;
 
-// Time stepping adds up dt; an exact run can be looked at any time, and needs no slack.
+// Time stepping adds up dt; an exact run has its state at any time, and needs no slack.
 double slack_of(const Scene& scene) {
   constexpr double slack = 1e-6;
   return scene.run.method == Method::exact ? 0.0 : slack;
 }
 
-// One of those who look at the disks at times of their own, from `start` on.
+// A function that gets the disks at times of its own, from `start` on.
 struct Watcher {
   const std::function<void(const Disks&, double)>* look = nullptr;
   double start = 0.0, early = 0.0;  // early: how much sooner than start will do
@@ -45,7 +45,7 @@ Watcher watcher(const std::function<void(const Disks&, double)>& look, const Sce
   return w;
 }
 
-// Looks at the clock, and asks whether to go on, while a step is made; what it finds out ends the batch of steps.
+// Reads the clock and asks whether to go on during a step; either may end the batch of steps.
 class StepWatch {
  public:
   StepWatch(Engine& engine, const RunObserver& observer) : engine_(engine) {
@@ -73,7 +73,7 @@ class StepWatch {
   std::atomic<bool> stopped_{false}, late_{false};
 };
 
-// Shows the disks to whom they are due.
+// Calls the watchers that are due with the disks.
 class FrameMaker {
  public:
   FrameMaker(const Engine& engine, const Scene& scene, const RunObserver& observer)

@@ -8,7 +8,7 @@
 
 namespace carom {
 
-// Who watches a run. Functions may be empty. Looking never changes the state.
+// Functions that are called during a run; each may be empty. Output never changes the state.
 struct RunObserver {
   // A frame: the disks and their time. The first is at 0, the last at t_end, none comes twice.
   std::function<void(const Disks&, double)> frame;

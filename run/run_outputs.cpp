@@ -86,7 +86,7 @@ bool RunOutputs::shows_rounds() const {
   return scene_.output.trajectory != TrajectoryFormat::none && (scene_.box.periodic_x() || scene_.box.periodic_y());
 }
 
-// Groups are told apart where there are several, sources among them.
+// Groups have numbers where there are several, sources included.
 XyzPlan RunOutputs::xyz_plan() const {
   XyzPlan plan{scene_.box, scene_.output.select};
   if (scene_.groups.size() + (scene_.sources.empty() ? 0 : 1) > 1) plan.group_ends = ends_of_groups(scene_);

@@ -26,14 +26,14 @@ bool wants_files(const Scene& scene);
 
 class RunOutputs {
  public:
-  // Opens the files in the folder. count: who counts pairs for scene.analysis. Throws RunError where a file cannot be
+  // Opens the files in the folder. count: counts pairs for scene.analysis. Throws RunError where a file cannot be
   // written, here and below.
   RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count);
 
   // Goes on behind a mark: cuts back what came after it. Precondition: files_of(from) are in folder.unfinished().
   RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count, const OutputMark& from);
 
-  // Who shares the work of a frame; without, it is done in one thread. The files are the same.
+  // Runs the work of a frame on threads; without it, one thread does it. The files are the same.
   void share_work(BlockRunner run) { run_ = std::move(run); }
 
   // To be called after each step, and before a frame or a sample at time t: how often disks go round periodic sides.

@@ -14,7 +14,7 @@ namespace carom {
 
 namespace {
 
-// So often that who watches a long run sees it grow, so rarely that it costs nothing.
+// Often enough to show the progress of a long run, and rarely enough to cost nothing.
 constexpr std::chrono::seconds write_interval{5};
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace carom {
 
 class RunningAnalysis {
  public:
-  // count: who counts pairs. Precondition: scene.analysis.any(). scene and folder must outlive it.
+  // count: counts pairs. Precondition: scene.analysis.any(). scene and folder must outlive it.
   RunningAnalysis(const Scene& scene, const OutputFolder& folder, PairCounter count);
 
   // Goes on from what was gathered up to a checkpoint. Throws InputError where it does not go with the scene.

@@ -1,5 +1,4 @@
-// Signals as wishes: what arrives while a run goes on is noted, and asked for between two steps and, a stop, within
-// long ones.
+// Signals as requests: what arrives during a run is noted and acted on between two steps; a stop also within long ones.
 #pragma once
 
 #include <string_view>
@@ -12,15 +11,15 @@ enum class Wish {
   stop         // SIGINT, SIGTERM, SIGHUP: write one and stop
 };
 
-// From here on the signals above no longer end the process, but for a SIGINT that comes when a stop is wished for
-// already: somebody does not want to wait. Signals that the caller has ignored stay so (nohup, a shell's background
-// jobs). To be called once, before a run's first step.
+// From here on the signals above no longer end the process, except a SIGINT after a stop has been requested: it ends
+// the process at once. Signals that the caller has ignored stay so (nohup, a shell's background jobs). To be called
+// once, before a run's first step.
 void catch_signals();
 
-// The strongest wish since the last call. A stop stays a wish.
+// The strongest request since the last call. A stop stays requested.
 Wish take_wish();
 
-// Is a stop wished for? Any thread may ask.
+// Has a stop been requested? Any thread may call this.
 bool stop_wished();
 
 // "SIGTERM", after a wish to stop.

@@ -36,7 +36,7 @@ struct Summary {
   PhaseTimes phases;
 };
 
-// Everything but the times, the number of frames and the warnings, which the caller knows.
+// Everything but the times, the number of frames and the warnings, which the caller adds.
 Summary summarize(const RunStart& start, const Engine& engine, const Scene& scene, const EngineChoice& choice);
 
 // One JSON object with the keys of the table in summary.cpp, in its order (resume_with only of a run that stopped

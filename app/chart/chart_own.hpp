@@ -6,10 +6,10 @@
 
 namespace carom::chart {
 
-// What is looked at in it and for how long: paths until a disk has collided twice in the mean, rates until 25 times or
-// to t_end, steps from the longest safe one on and the scene's own. Runs it once by exact, to know. Throws InputError,
-// with the remedy, for a scene that cannot be charted: it needs disks that stay, that collide, and that exact can carry
-// to there.
+// What is measured in it and for how long: paths until a disk has collided twice in the mean, rates until 25 times or
+// to t_end, steps from the longest safe one on and the scene's own. Runs it once by exact to find these times. Throws
+// InputError, with the remedy, for a scene that cannot be charted: it needs disks that stay, that collide, and that
+// exact can carry to there.
 ChartScene own_scene(const Scene& scene);
 
 // So many disks at most: paths are compared by the plain references, some fifty runs of them.

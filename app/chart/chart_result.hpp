@@ -80,14 +80,14 @@ Effort for_own(Effort effort);
 // sqrt(2 D / dt) have Gamma dt of order 1/2.
 std::optional<double> predicted_order(const ChartScene& scene, Method method, Measure measure);
 
-// Is told what share of the work is done.
+// Called with the share of the work that is done.
 using Watch = std::function<void(double share)>;
 
 // These scenes, without crowds.
 ChartResult measure_scenes(const std::vector<ChartScene>& scenes, const Effort& effort, int threads,
                            const Watch& watch);
 
-// All of it, on `threads` threads, one run a thread. Reads the clock only to know costs.
+// All of it, on `threads` threads, one run a thread. Reads the clock only to measure costs.
 ChartResult measure_chart(const Effort& effort, int threads, const Watch& watch);
 
 // Sums up the samples of one scene: samples[seed][setting].

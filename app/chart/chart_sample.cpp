@@ -16,7 +16,7 @@ namespace carom::chart {
 
 namespace {
 
-// How often a run is looked at for overlaps.
+// How often overlaps are measured in a run.
 constexpr int looks = 20;
 
 // Of this thread: others measure at the same time.
@@ -48,7 +48,7 @@ State moved_by_rounding(State state) {
   return state;
 }
 
-// Where a short run ended, and who collided on the way.
+// Where a short run ended, and which disks collided.
 struct Flight {
   std::vector<Vec2> places;  // by id
   CollisionLog collisions;   // sorted

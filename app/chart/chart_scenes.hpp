@@ -1,4 +1,4 @@
-// The scenes of the speed-accuracy chart, each with what is looked at in it and for how long.
+// The scenes of the speed-accuracy chart, each with what is measured in it and for how long.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ struct ChartScene {
   bool keeps_momentum = true;
   // Of a scene of the user's own (chart_own.hpp): it starts as it says, not melted.
   std::shared_ptr<const Scene> own{};
-  bool same_start = false;  // whatever the seed: one run tells all
+  bool same_start = false;  // the same for every seed: one run is enough
   double own_step = 0.0;    // a step to run besides; 0: none
   double unit = 1.0;        // time that costs are given in where there is Brownian motion: diameter^2 / D
 };

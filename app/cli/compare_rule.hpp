@@ -1,4 +1,4 @@
-// What carom compare is told to look at.
+// What carom compare compares, from its options.
 #pragma once
 
 #include <optional>

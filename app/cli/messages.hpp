@@ -5,8 +5,7 @@
 
 namespace carom {
 
-// Writes to standard output and sees to it that it arrives. Throws RunError if it does not (a full disk, a closed
-// pipe).
+// Writes to standard output. Throws RunError where that fails (a full disk, a closed pipe).
 void print_out(std::string_view text);
 
 // "carom: ..." and "carom: warning: ..." on standard error.

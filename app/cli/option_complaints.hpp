@@ -13,8 +13,8 @@ void check_leftovers(const CLI::App* command);
 // InputError of one line.
 [[noreturn]] void fail_as_one_line(const CLI::ParseError& error);
 
-// CLI11's help, without the brackets around arguments: it knows them as optional, so that complaints are ours.
-// shown: app itself or one of its commands.
+// CLI11's help, without the brackets around arguments: they are registered as optional, so that the messages about
+// missing ones are ours. shown: app itself or one of its commands.
 std::string help_of(const CLI::App& app, const CLI::App& shown);
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// The line that tells how far a run has come.
+// The line of progress of a run.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A line on standard error that tells how far something has come.
+// A line of progress on standard error.
 #pragma once
 
 #include <cstddef>

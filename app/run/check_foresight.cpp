@@ -144,7 +144,7 @@ StepForesight foresee_steps(const Scene& scene, const Disks& start) {
   }
   const double fall = radius < infinity ? g / radius : 0.0;
   f.later = std::min(step_for(later, fall), brownian_step(scene, radius));
-  // Supports are told by speeds of about g dt: at rest a disk falls by g dt^2 before it is held.
+  // A support is recognised by speeds of about g dt: a disk at rest falls by g dt^2 before its contact is found.
   f.resting = settles(scene) && radius < infinity ? std::sqrt(largest_overlap * radius / g) : infinity;
   return f;
 }

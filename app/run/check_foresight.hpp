@@ -1,4 +1,4 @@
-// What carom check can foretell of a run from its scene and its start.
+// What carom check predicts of a run from its scene and its start.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ struct Population {
 
 struct CollapseForesight {
   bool expected = false;
-  std::optional<double> from;  // simulated time, where it can be told
+  std::optional<double> from;  // simulated time, where it can be predicted
 };
 
 StepForesight foresee_steps(const Scene& scene, const Disks& start);

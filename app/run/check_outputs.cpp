@@ -88,7 +88,7 @@ double folded(double c, double low, double high, bool periodic) {
   return low + (part < length ? part : 2.0 * length - part);
 }
 
-// The disks some time later, if they did not see each other: movies of disks at rest would be too cheap.
+// The disks some time later, as if they did not collide: movies of disks at rest would be too cheap.
 Disks moved(const Disks& disks, const Scene& scene, double time) {
   Disks later = disks;
   const double spread = std::sqrt(2.0 * scene.physics.diffusion * time);
@@ -194,7 +194,8 @@ void guess_files(const Scene& scene, double disks, OutputForesight& f) {
 void extrapolate(const Rehearsed& one, const Rehearsed& several, Count rehearsed, double scale, OutputForesight& f) {
   const double more = std::max(1.0, static_cast<double>(rehearsed - 1));
   const double rest = static_cast<double>(f.frames) - 1.0;
-  // Processor time tells a frame's share, which wall time does not on a busy machine; both together how busy it is.
+  // A frame's cost is measured in processor time, as wall time depends on how busy the machine is; their ratio says how
+  // busy.
   const double each = std::max(0.0, several.cpu - one.cpu) / more;
   const double busy = (one.wall + several.wall) / std::max(1e-9, one.cpu + several.cpu);
   const double start = several.cpu > one.cpu ? std::max(0.0, one.cpu - each) : 0.0;  // ffmpeg's, whatever the disks
@@ -221,7 +222,7 @@ void rehearse_files(const Scene& scene, const EngineChoice& choice, const Engine
       rehearse(rehearsal, choice, tried, shown, workshop / "one", std::min<Count>(f.frames, 1), sample);
   f.analysis_s = one.sample_seconds * static_cast<double>(f.samples);
   if (f.frames == 0) return;
-  // A frame that takes long tells enough by itself, but for what comes before it.
+  // A frame that takes long is enough to measure, except for what happens before the first frame.
   const Count several = std::min(f.frames, one.cpu < slow_frame ? rehearsed_frames : 2);
   const Rehearsed more =
       several > 1 ? rehearse(rehearsal, choice, tried, shown, workshop / "more", several, false) : one;

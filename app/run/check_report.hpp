@@ -26,7 +26,7 @@ struct Findings {
   OutputForesight outputs;
   double start_seconds = 0.0;   // of making the initial state
   double growth_seconds = 0.0;  // of one core; above longest_growth the disks were not grown, and no step tried
-  double step_seconds = 0.0;    // of all steps, as far as the first ones tell; may be infinite
+  double step_seconds = 0.0;    // of all steps, extrapolated from the first ones; may be infinite
   double memory_bytes = 0.0;
   std::string stopped;  // what the physics said, if it stopped the trial
 

@@ -35,7 +35,7 @@ Count begun_steps(const Scene& scene, const State& state) {
   return scene.physics.diffusion > 0.0 ? state.intervals : 0;
 }
 
-// May the run end at another time than it was told at first? It must not have to go back, and the step that was cut
+// May the run end at another time than the one given at first? It must not have to go back, and the step that was cut
 // short to end at the old time must not have begun.
 void check_end(const Scene& before, const Scene& now, const State& state) {
   const double t_end = now.run.t_end;

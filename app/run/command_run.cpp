@@ -111,8 +111,8 @@ void warn(const std::vector<std::string>& warnings, Progress& progress, bool qui
   for (const std::string& warning : warnings) print_warning(warning);
 }
 
-// A run that the physics stopped keeps what it has written, as somebody will want to see what happened, but nowhere
-// that it could be taken for a result; and the last good state as a checkpoint.
+// A run that a PhysicsError stopped keeps what it has written, for inspection, in a place where it cannot be taken for
+// a result; and the last good state as a checkpoint.
 [[noreturn]] void keep_stopped(const PhysicsError& error, const State& state, Results& results,
                                CheckpointKeeper& keeper, double step_s) {
   std::string last_state;
@@ -127,8 +127,8 @@ void warn(const std::vector<std::string>& warnings, Progress& progress, bool qui
                                  results.folder.keep_unfinished(), last_state));
 }
 
-// Steps to the end with everybody watching, or until the keeper says stop; returns the seconds in steps.
-// told: what the engine warned of.
+// Steps to the end with all outputs, progress and checkpoints, or until the keeper says stop; returns the seconds in
+// steps. told: the warnings that the engine has raised, printed or not.
 double run_watched(Engine& engine, const RunTask& task, Results* results, CheckpointKeeper& keeper,
                    std::vector<std::string>& told) {
   const Scene& scene = task.scene;
@@ -180,8 +180,8 @@ double run_watched(Engine& engine, const RunTask& task, Results* results, Checkp
     }
     return step_s;
   } catch (const PhysicsError& error) {
-    take_news(task.quiet ||
-              task.strict);  // the state, which is kept, knows them as told; with --strict the error tells
+    // The state that is kept has them marked as told; with --strict the error has the warning.
+    take_news(task.quiet || task.strict);
     if (results == nullptr) throw;
     keep_stopped(error, engine.state(), *results, keeper, step_s);
   }
@@ -337,7 +337,7 @@ int carry_out(RunTask task) {
     if (files != nullptr) files->outputs.share_work(make_block_runner(task.choice));
     const bool there = task.from && !goes_elsewhere(task);
     if (files != nullptr) keeper.write_to(&files->folder, &files->outputs, there);
-    // A run that is killed in its first minutes is not lost either, nor what it was told when it was taken up again.
+    // So that a run that is killed in its first minutes is not lost, nor the options with which it was resumed.
     if (new_plan || (!there && (task.from || scene.output.checkpoint > 0.0))) keeper.write(engine->state(), 0.0);
     std::vector<std::string> told;
     const double step_s = run_watched(*engine, task, files, keeper, told);

@@ -1,4 +1,4 @@
-// The line that tells how far the growth of an initial state has come.
+// The line of progress of the growth of an initial state.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace carom {
 
-// To be told of the growth's steps: keeps the line (status_line.hpp) on standard error and takes it away when the last
-// copy goes. Empty where nothing is wanted.
+// To be called after each step of the growth: keeps the line (status_line.hpp) on standard error and takes it away when
+// the last copy goes. Empty where nothing is wanted.
 std::function<void(const GrowthProgress&)> growth_line(bool wanted);
 
 }  // namespace carom

@@ -31,8 +31,8 @@ struct RunTask {
   std::unique_ptr<SetupWatch> setup = nullptr;  // until the first step
 };
 
-// Runs to the end, or until it is told to stop, and reports. Returns the exit status: 0, 4 if stopped early, or 1 if
-// a picture could not be made.
+// Runs to the end, or until a stop is requested, and reports. Returns the exit status: 0, 4 if stopped early, or 1 if a
+// picture could not be made.
 int carry_out(RunTask task);
 
 }  // namespace carom

@@ -154,7 +154,7 @@ class Sweep {
     return line;
   }
 
-  // Runs what is not there yet, several at once. Failures are told as they come.
+  // Runs what is not there yet, several at once. Failures are reported as they occur.
   SweepCount run_all() const {
     std::vector<const SweepRun*> rest;
     for (const SweepRun& run : runs_) {
@@ -233,7 +233,7 @@ class Sweep {
     axes_.push_back(axis);
   }
 
-  // Keys of the sweep are --set to the runs, and --over to whoever reads the message.
+  // The runs get the keys of the sweep by --set; the user gave them by --over, so messages say that.
   void check_run(const SweepRun& run) const {
     try {
       load_scene_as_told(options_.scene, {run.overrides, run.overrides.size()});
@@ -251,7 +251,7 @@ class Sweep {
     return fs::absolute(folder_ / "runs" / (run.name + ".log")).string();
   }
 
-  // What a run that failed said last.
+  // The last message of a run that failed.
   std::string last_words(const SweepRun& run, int status) const {
     constexpr std::string_view by_a_run = "carom: error: ";
     const std::string words = last_line(log_of(run));
@@ -296,7 +296,8 @@ class Sweep {
   std::vector<SweepRun> runs_;
 };
 
-// One line a run that is left, for GNU parallel; afterwards `carom sweep`, told the same, has only the table to write.
+// One line a run that is left, for GNU parallel; afterwards `carom sweep` with the same arguments has only the table to
+// write.
 std::string parallel_script(const Sweep& sweep) {
   std::string text = "#!/bin/sh\n# Runs what is left of the sweep with GNU parallel, which must be installed.\n";
   text += "parallel --will-cite \"$@\" <<'RUNS'\n";

@@ -17,8 +17,8 @@ struct Programs {
   std::function<void(std::size_t)> pulse;                           // several times a second: so many have ended
 };
 
-// Runs them all. Signals are those of stop_signals.hpp, whose catch_signals() has been called: a wish to stop goes on
-// to those that run, and no other is started. Returns false if that happened.
+// Runs them all. Signals are those of stop_signals.hpp, whose catch_signals() has been called: a stop is passed on to
+// those that run, and no other is started. Returns false if that happened.
 bool run_programs(const Programs& programs);
 
 }  // namespace carom

@@ -28,7 +28,7 @@ struct SweepRun {
 std::vector<SweepRun> sweep_runs(const SceneChanges& changes, const std::vector<SweepAxis>& axes, std::uint64_t seed,
                                  int seeds);
 
-// Everything that tells one sweep from another, as text: the runs with what they change, and the scene.
+// Everything that distinguishes one sweep from another, as text: the runs with what they change, and the scene.
 std::string sweep_identity(const std::string& scene_text, const std::vector<SweepRun>& runs);
 
 // Enlarges a sweep: the runs that the one of this identity has keep its names, so that nothing of it is run again; the

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a run came to, whoever computed it and however long that took.
+// The results of a run that depend neither on the engine nor on the machine.
 constexpr std::array<const char*, 17> compared_keys{
     "state_hash",   "method",          "seed",           "particles",    "steps",          "time",
     "collisions",   "wall_collisions", "energy_initial", "energy_final", "momentum_drift", "max_overlap",

@@ -69,7 +69,7 @@ void sort_row(benchmark::State& row, std::size_t disks, int threads, bool shuffl
   SortedCells cells;
   time_work(
       row, disks, [&] { state = input; }, [&] { sort_into_cells(state.disks, gas.grid, executor, cells); });
-  // Ids in their new order: those who share a cell keep the order they came in.
+  // Ids in their new order: those of one cell keep the order they came in.
   std::uint64_t order = 0;
   for (const DiskId id : state.disks.id) order = order * 0x9e3779b97f4a7c15ULL + id;
   row.SetLabel(hash_text(order));
@@ -80,7 +80,7 @@ void drift_row(benchmark::State& row, std::size_t disks, int threads) {
   const Executor executor(threads);
   State state = gas.state;
   std::vector<double> scratch;
-  double t = gas.start.scene.run.dt;  // to and fro, so that nobody runs away
+  double t = gas.start.scene.run.dt;  // to and fro, so that disks stay where they are on average
   time_work(
       row, disks, [&] { t = -t; }, [&] { drift_blocks(state.disks, gas.start.scene.box, 0.0, t, executor, scratch); });
   row.SetLabel(hash_text(state_hash(state.disks)));

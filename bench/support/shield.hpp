@@ -1,5 +1,5 @@
 // Keeps other programs off the processors while something is measured, on a machine that is shared. Only where it is
-// asked for (CAROM_BENCH_SHIELD=1) and allowed (root): everybody else waits meanwhile.
+// asked for (CAROM_BENCH_SHIELD=1) and allowed (root): all other processes wait meanwhile.
 #pragma once
 
 #include <sched.h>
@@ -28,8 +28,8 @@ class Shield {
   }
 
  private:
-  // A thread's class counts for itself alone, so each is told; threads made later inherit it. Where it is not allowed,
-  // nothing happens.
+  // The scheduling class is set thread by thread; threads made later inherit it. Where it is not allowed, nothing
+  // happens.
   static void set(int policy, int priority) {
     sched_param parameters{};
     parameters.sched_priority = priority;

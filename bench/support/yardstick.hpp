@@ -1,4 +1,4 @@
-// What the exact method's speed is held against: an event-driven simulation as the textbooks write it (Rapaport, The
+// What the exact method's speed is compared with: an event-driven simulation as the textbooks write it (Rapaport, The
 // Art of Molecular Dynamics Simulation, ch. 14). One binary heap of all predicted events, invalidated lazily by a
 // counter a disk; cells with lists and cell-crossing events; every disk at a time of its own; nothing parallel, no
 // windows. Equal disks of mass 1 in a periodic box.
@@ -159,7 +159,7 @@ class Yardstick {
     }
   }
 
-  // Into the next cell; beyond it lie three that the disk has not been held against.
+  // Into the next cell; beyond it lie three whose disks have not been tested against this one.
   void cross(std::uint32_t i, std::uint32_t border) {
     leave_cell(i);
     Ball& b = balls_[i];

@@ -121,7 +121,7 @@ std::uint64_t verified_content(std::ifstream& file, const std::string& path) {
   return tail.bytes;
 }
 
-// What must hold of any state. Only a bug of whoever wrote the file can break it.
+// What must hold of any state. Only a bug in the program that wrote the file can break it.
 void check_state(const State& state) {
   const Disks& d = state.disks;
   const std::size_t n = d.size();

@@ -21,7 +21,7 @@ struct RunRecord {
   OutputMark outputs;
   double wall_s = 0.0, cpu_s = 0.0, step_s = 0.0;  // spent so far, as in the summary
   Count resumed = 0;                               // how often the run went on from a checkpoint
-  std::vector<std::string> warnings;               // of its start; the state knows the others
+  std::vector<std::string> warnings;               // of its start; the others are in the state
 };
 
 struct Checkpoint {
@@ -32,11 +32,11 @@ struct Checkpoint {
 // Writes the file and returns when it is on the disk itself. Throws RunError.
 void write_checkpoint(const std::string& path, const RunRecord& record, const State& state);
 
-// Reads it back. The checksum over the whole file is taken before anything in it is believed. Throws InputError, "path:
+// Reads it back. The checksum over the whole file is verified before anything in it is used. Throws InputError, "path:
 // what is wrong", for a file that is cut short, changed in any bit, of another byte order or format, or no checkpoint.
 Checkpoint read_checkpoint(const std::string& path);
 
-// The part of a checkpoint behind its checksum, from memory: what a fuzzer is let loose on. Throws InputError.
+// The part of a checkpoint behind its checksum, from memory, for the fuzzer. Throws InputError.
 Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name);
 std::string encode_checkpoint(const RunRecord& record, const State& state);
 

@@ -23,8 +23,8 @@ void save_checkpoint(const std::string& folder, const RunRecord& record, const S
     fs::remove(beside, error);  // a full disk needs the room
     throw;
   }
-  // A second name for the newest, so that it never goes without one. Where the file system knows no second names, there
-  // is a moment in which only the previous is there.
+  // A hard link to the newest, so that it always has a name. Where the file system has no hard links, there is a moment
+  // in which only the previous is there.
   fs::remove(previous, error);
   fs::create_hard_link(newest, previous, error);
   if (error && fs::exists(newest)) fs::rename(newest, previous, error);

@@ -64,7 +64,7 @@ namespace {
 
 constexpr const char* parent_name = "CAROM_PARENT";
 
-// The environment of this process, and who its parent is for a child that must not outlive it.
+// The environment of this process, and its process id, for a child that must not outlive it.
 std::vector<std::string> environment_for(ChildSignals signals) {
   std::vector<std::string> environment;
   for (char** entry = environ; *entry != nullptr; ++entry) environment.emplace_back(*entry);

@@ -24,7 +24,7 @@ class OutputFile {
 
   void write(std::string_view text);
 
-  // Hands what is buffered to the system, so that somebody who watches the file sees whole records.
+  // Hands what is buffered to the system, so that a reader of the growing file sees whole records.
   void flush();
 
   // Flushes, and returns when the disk itself has everything: from here on not even a power cut takes it away.
@@ -33,7 +33,7 @@ class OutputFile {
   // How long the file is, buffered text included. Known after close() as well.
   std::uint64_t bytes() const { return bytes_; }
 
-  // Flushes and closes. To be called by whoever wants to know that all is written; the destructor stays silent.
+  // Flushes and closes. Throws RunError where something is not written; the destructor does not.
   void close();
 
   const std::string& path() const { return path_; }
@@ -50,7 +50,7 @@ class OutputFile {
 // Throws InputError where path is no file of at least so many bytes (0: where there is nothing); changes nothing.
 void check_at_least(const std::string& path, std::uint64_t bytes);
 
-// Returns when a file that somebody else wrote, or the entries of a folder (new files, new names), are on the disk
+// Returns when a file that another library wrote, or the entries of a folder (new files, new names), are on the disk
 // itself. Throws RunError.
 void sync_path(const std::string& path);
 

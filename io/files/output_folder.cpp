@@ -43,7 +43,7 @@ bool is_checkpoint(std::string_view name) {
   return name == checkpoint_name || name == previous_checkpoint_name;
 }
 
-// A name that nobody else gives a folder, because --force removes it.
+// A name that no other program is likely to use, because --force removes the folder.
 fs::path unfinished_of(const fs::path& folder) {
   return folder / unfinished_name;
 }
@@ -66,7 +66,7 @@ bool holds_frames_only(const fs::path& frames) {
 
 // The lock of a folder is a record lock on a file in it: it belongs to the process alone, so no child inherits it, not
 // even between its fork and its exec, and it ends with the process however that ends. The process loses it when it
-// closes any descriptor of the file, so it opens no second one: it knows which files it holds.
+// closes any descriptor of the file, so it opens no second one: it keeps a list of the files that it holds.
 constexpr const char* lock_name = "lock";
 
 std::vector<fs::path>& locks_held() {
@@ -87,8 +87,7 @@ struct flock whole_file() {
   return lock;
 }
 
-// A descriptor that holds the lock on a folder; -1 where another run has it. File systems that know no locks have
-// none.
+// A descriptor that holds the lock on a folder; -1 where another run has it. File systems without locks have none.
 int take_lock(const fs::path& folder, bool& another) {
   const fs::path file = folder / lock_name;
   another = is_held(file);
@@ -270,7 +269,7 @@ void OutputFolder::take_back(bool finished, const std::vector<std::string>& file
 void OutputFolder::remove_unfinished() noexcept {
   std::error_code ignored;
   fs::remove_all(unfinished_, ignored);
-  // Folders that we made go too, if nobody else put anything there: remove() takes empty ones only.
+  // Folders that we made are removed too, if nothing else is in them: remove() takes empty ones only.
   for (auto p = made_.rbegin(); p != made_.rend(); ++p) fs::remove(*p, ignored);
 }
 

@@ -10,7 +10,7 @@ namespace carom {
 inline constexpr const char* unfinished_name = "carom-unfinished";
 
 // The files of a run grow in FOLDER/carom-unfinished, where they can be watched, and move up to FOLDER when the run is
-// done, summary.json last. Who finds FOLDER/summary.json has a complete result; a run that was killed leaves
+// done, summary.json last. A folder with summary.json holds a complete result; a run that was killed leaves
 // carom-unfinished only.
 class OutputFolder {
  public:
@@ -44,7 +44,7 @@ class OutputFolder {
   // Moves everything up, replacing what an earlier run left; checkpoints only if they are to be kept. Throws RunError.
   void finish(bool keep_checkpoints = false);
 
-  // Leaves the files as they are, for a run that stopped where somebody may want to look. Returns its path.
+  // Leaves the files as they are, for inspection of a run that failed. Returns its path.
   std::string keep_unfinished();
 
   // Takes that back: the files go with this object.

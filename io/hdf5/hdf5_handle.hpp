@@ -1,5 +1,5 @@
 // HDF5's identifiers with an owner each, and its errors as exceptions. Only the .cpp files of trajectory.h5 include
-// this, so that nobody else sees HDF5's names.
+// this, so that HDF5's names stay inside them.
 #pragma once
 
 #include <hdf5.h>
@@ -39,8 +39,8 @@ class Hdf5Handle {
   Close close_ = nullptr;
 };
 
-// Before anything else: HDF5 prints its errors on standard error unless told not to; and at exit it would try once more
-// to write what a full disk did not take, and crash over it.
+// Before anything else: HDF5 prints its errors on standard error unless that is switched off; and at exit it would try
+// once more to write what a full disk did not take, and crash over it.
 inline void silence_hdf5() {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

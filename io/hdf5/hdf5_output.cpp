@@ -25,7 +25,8 @@ hid_t as_id(herr_t status) {
 
 namespace {
 
-// The superblock's extension is made like any group without a plan of its own, and would tell when it was made.
+// The superblock's extension is made like any group without a plan of its own, and would contain the time at which it
+// was made.
 class TimelessGroups {
  public:
   explicit TimelessGroups(const Hdf5Output& output) {
@@ -223,7 +224,7 @@ void Hdf5Output::begin_flush() const {
 
 void Hdf5Output::end_flush() const {
   checked(H5Fflush(file(), H5F_SCOPE_LOCAL));
-  // HDF5 has just said again that the file is being written; whoever finds it after a kill shall open it all the same.
+  // HDF5 has just set the mark "being written" again; without it the file can be opened after a kill.
   make_readable(path_, flush_room);
 }
 

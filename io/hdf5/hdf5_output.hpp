@@ -12,7 +12,7 @@ namespace carom {
 // Lengths of a dataset, slowest first.
 using Extent = std::vector<hsize_t>;
 
-// The values of one dataset: their type, their width and what stands where nobody wrote.
+// The values of one dataset: their type, their width and their fill value.
 struct Hdf5Kind {
   hid_t in_file = -1, in_memory = -1;
   std::size_t width = 0;       // bytes in memory, and in the file
@@ -26,8 +26,8 @@ class Hdf5Output {
   // Makes the file, or opens one that is there. Throws RunError, "cannot write PATH: why", here and below.
   Hdf5Output(std::string path, bool existing);
 
-  // A file in memory, of which image() makes bytes; path is what messages call it. Nothing in it tells when or by whom
-  // it was made: the same content has the same bytes.
+  // A file in memory, of which image() makes bytes; path is what messages call it. It contains neither a time nor a
+  // user: the same content has the same bytes.
   explicit Hdf5Output(std::string path);
   std::string image() const;
 

@@ -1,4 +1,4 @@
-// What the colours of disks tell, and from where to where they reach.
+// What the colours of disks stand for, and the range of the scale.
 #pragma once
 
 #include <vector>

@@ -30,7 +30,7 @@ struct FrameStyle {
   bool sources = false;              // the last of them are disks from sources
 };
 
-// What a run's disks will have, as far as its scene and its first disks tell. Speeds to expect are those at the start
+// What a run's disks will have, as far as its scene and its first disks show. Speeds to expect are those at the start
 // (2.5 times the root mean square, or the fastest disk if it is slower), what falling to the floor adds on average,
 // what equipartition gives the lighter ones, what sources and Brownian motion bring in.
 SeenValues foreseen_values(const Scene& scene, const Disks& first);
@@ -57,8 +57,8 @@ class FramePainter {
   FramePainter& operator=(const FramePainter&) = delete;
   ~FramePainter();
 
-  // Draws a frame; pixels() and write_png() give it until the next call. group: of each disk, where the trajectory
-  // tells; empty: by the style's group_ends.
+  // Draws a frame; pixels() and write_png() give it until the next call. group: of each disk, where the trajectory has
+  // it; empty: by the style's group_ends.
   void paint(const Disks& disks, double time, const std::vector<DiskId>& group = {});
 
   // Pixels are 32-bit words 0x00rrggbb, row by row from the top.

@@ -120,7 +120,7 @@ void draw_colour_bar(cairo_t* c, const FrameStyle& style, const FrameLayout& lay
   cairo_fill(c);
   const std::string_view name = colour_names[static_cast<std::size_t>(style.look.colour)];
   draw_text(c, std::string(name), x, low - rows - 12.0 * u, 16.0 * u, Align::left);
-  // Disks beyond an end have its colour, where the scale was given or foreseen.
+  // Disks beyond an end have its colour, where the scale was given or predicted.
   const bool given = style.look.range.has_value();
   const bool open_low = given, open_high = given || style.look.colour == ColourBy::speed;
   const int intervals = one_value ? 0 : intervals_of(style.low, style.high);

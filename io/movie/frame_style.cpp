@@ -10,7 +10,7 @@ namespace carom {
 
 namespace {
 
-// Where only a mean square speed can be foretold, the scale ends at this many of it: the tail shares one colour, but
+// Where only a mean square speed can be predicted, the scale ends at this many of it: the tail shares one colour, but
 // the rest is not all dark.
 constexpr double tail = 2.5;
 

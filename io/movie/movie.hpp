@@ -12,7 +12,7 @@
 
 namespace carom {
 
-// A movie is encoded in parts, as nobody can go on with a file that ffmpeg has not finished: every mark ends a part. A
+// A movie is encoded in parts, as a file that ffmpeg has not finished cannot be continued: every mark ends a part. A
 // run without marks has one part, which becomes the movie; else ffmpeg joins them, without encoding anything again.
 class MovieWriter {
  public:

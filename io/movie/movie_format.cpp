@@ -21,7 +21,7 @@ struct FormatRow {
 };
 
 const FormatRow& row_of(MovieFormat format) {
-  // H.264 with the pixel format and the colour space that every player knows. crf 20 is visually lossless for flat
+  // H.264 with the pixel format and the colour space that every player supports. crf 20 is visually lossless for flat
   // disks; without B-frames (bf 0) parts can be joined with no frame out of its time; faststart lets a browser begin
   // before the end has arrived. VP9 likewise. A GIF has a palette for each frame, so that none need be kept in memory.
   static const std::array<FormatRow, 3> rows{{

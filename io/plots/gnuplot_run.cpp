@@ -37,7 +37,7 @@ struct ScratchFolder {
   fs::path path;
 };
 
-// gnuplot does not tell of a full disk; a picture without its end tells.
+// gnuplot reports no full disk; a picture without its end shows it.
 bool is_whole(const std::string& picture) {
   return picture.find("</svg>") != std::string::npos || picture.find("IEND") != std::string::npos;
 }

@@ -46,7 +46,7 @@ struct Packer {
 constexpr std::size_t chunks_at_once = 16;
 
 std::string user_name() {
-  const char* const name = std::getenv("USER");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+  const char* const name = std::getenv("USER");  // NOLINT(concurrency-mt-unsafe): it is never set here
   return name == nullptr || *name == '\0' ? "unknown" : name;
 }
 

@@ -17,7 +17,7 @@ namespace carom {
 class H5mdWriter {
  public:
   // Creates or replaces the file. rounds: how often each disk has gone round the periodic sides, kept by the caller;
-  // null: the file does not tell. Throws RunError where it cannot be written, here and below.
+  // null: the file does not contain it. Throws RunError where it cannot be written, here and below.
   H5mdWriter(const std::string& path, const Scene& scene, const DisplacementTally* rounds = nullptr);
 
   // Goes on with the file that a writer of this scene left, closed or killed, after its first `frames` frames; what

@@ -11,13 +11,13 @@
 
 namespace carom {
 
-// One frame as read back, disks in order of id; radius and mass always come as columns. Of the box, files tell size and
+// One frame as read back, disks in order of id; radius and mass always come as columns. Of the box, files have size and
 // periodic sides; all others appear as walls.
 struct TrajectoryFrame {
   Disks disks;
   double time = 0.0;
   Domain box;
-  std::vector<DiskId> group;  // of each disk (disk_group.hpp); empty where the file does not tell
+  std::vector<DiskId> group;  // of each disk (disk_group.hpp); empty where the file does not have it
 };
 
 class TrajectoryReader {

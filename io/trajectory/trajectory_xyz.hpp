@@ -69,8 +69,8 @@ class XyzReader : public TrajectoryReader {
   explicit XyzReader(const std::string& path, bool growing = false);
 
   // The next frame, or false at the end of the file. Radius and mass always come as columns. Columns may stand in any
-  // order, positions and velocities may have two components or three, and columns that Carom does not know are passed
-  // over. Throws InputError, "file:line: what is wrong, what was expected", for a file that lacks something.
+  // order, positions and velocities may have two components or three, and unknown columns are skipped. Throws
+  // InputError, "file:line: what is wrong, what was expected", for a file that lacks something.
   bool read(XyzFrame& frame) override;
 
  private:

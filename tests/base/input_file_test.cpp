@@ -1,4 +1,4 @@
-// Only files that end are read: no device, no FIFO, and none that waits for somebody to write.
+// Only files that end are read: no device and no FIFO, which would wait for a writer.
 #include "core/base/input_file.hpp"
 
 #include <sys/stat.h>

@@ -88,7 +88,7 @@ TEST(DeterministicLog, AgreesWithTheLibraryOverAllMagnitudes) {
   RecordProperty("worst", std::to_string(worst * 1e16) + "e-16");
 }
 
-// Where log x -> 0, only a relative error tells; and at the seam of the reduction, sqrt(1/2) and sqrt(2).
+// Where log x -> 0, the relative error counts; and at the seam of the reduction, sqrt(1/2) and sqrt(2).
 TEST(DeterministicLog, AgreesNearOneAndAtTheSeams) {
   double worst = 0.0;
   for (int k = 1; k <= 52; ++k) {

@@ -57,7 +57,7 @@ TEST_F(ChartOwn, HasAllMethodsTheOwnStepAndATable) {
   expect_error("$C chart --tiny --scene my.gas.toml", 2, "chart.svg: exists already");
 }
 
-// Two disks on a line, no random numbers: one run tells all, without a standard error.
+// Two disks on a line, no random numbers: one run is enough, without a standard error.
 TEST_F(ChartOwn, AStartWithoutChanceIsRunOnce) {
   write("two.toml", R"([box]
 width = 10.0

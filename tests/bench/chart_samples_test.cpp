@@ -1,4 +1,4 @@
-// What the chart measures, on runs small enough to know what must come out.
+// What the chart measures, on runs so small that the result is known.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

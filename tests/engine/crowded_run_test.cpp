@@ -1,5 +1,5 @@
-// A run whose windows are crowded listens to signals and to its wall time, goes on with the same bits, and says why
-// where it cannot get on.
+// A run whose windows are crowded reacts to signals and to its wall time, resumes with the same bits, and reports why
+// where time stands still.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

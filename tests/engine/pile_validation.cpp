@@ -19,7 +19,7 @@ struct Worst {
   double gained = -HUGE_VAL;  // total energy above the start's, over it
 };
 
-// Looks at every step.
+// Measures after every step.
 void expect_to_settle(const char* file) {
   const Scene scene = load_scene(std::string(CAROM_SOURCE_DIR "/scenes/") + file);
   const State start = initial_state(scene);

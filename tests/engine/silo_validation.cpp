@@ -16,8 +16,8 @@
 namespace carom {
 namespace {
 
-// Of the disks that are held. A small one on the floor, below an arch that bears the others, slides: what little it
-// feels of its neighbours does not stop it.
+// Of the disks that are held. A small one on the floor, below an arch that bears the others, slides: the forces of its
+// neighbours are too small to stop it.
 double largest_speed(const State& state, double gravity) {
   std::vector<double> pressed(state.next_id, 0.0);  // by other disks and the sides
   for (const ContactLoad& load : state.loads) {

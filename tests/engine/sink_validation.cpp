@@ -48,7 +48,8 @@ TEST(Sink, AbsorbingSquareLeavesWhatTheorySays) {
   }
 }
 
-// The whole run: the count only falls, and in the end hardly anyone is left (the slowest mode has decayed by exp(-2)).
+// The whole run: the count only falls, and in the end hardly any disk is left (the slowest mode has decayed by
+// exp(-2)).
 TEST(Sink, BrownianSinkSceneOnlyTakes) {
   const Scene scene = load_scene(CAROM_SOURCE_DIR "/scenes/brownian_sink.toml");
   const State start = initial_state(scene);

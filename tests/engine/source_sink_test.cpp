@@ -88,7 +88,7 @@ TEST_P(SourceSink, StopsAtItsLimit) {
   EXPECT_EQ(end.disks.size(), 50U);
 }
 
-// A sink takes a disk in the step in which its edge touches, not its centre, and nobody else.
+// A sink takes a disk in the step in which its edge touches, not its centre, and no other disk.
 TEST_P(SourceSink, SinkRemovesOnContact) {
   for (Side side : all_sides) {
     Scene s = scene(0.1, 3.0);
@@ -109,7 +109,7 @@ TEST_P(SourceSink, SinkRemovesOnContact) {
   }
 }
 
-// Left to right through the box: whoever is there has an id of its own, larger for the later born, none used twice.
+// Left to right through the box: every disk has an id of its own, larger for a later one, none used twice.
 TEST_P(SourceSink, IdsAreNeverReused) {
   Scene s = test::scene_of(GetParam(), 20.0, 20.0, 0.05, 20.0);
   s.box.sides[static_cast<std::size_t>(Side::right)] = SideKind::sink;

@@ -55,8 +55,8 @@ void* counted(std::size_t bytes, std::size_t alignment) {
 namespace carom {
 namespace {
 
-// Allocations of 60 steps after a warm-up in which every list has had its longest day: it runs ten times as long, so
-// that a record in the steps that count would be rare, and vectors that grow double. Steps that sort, known by their
+// Allocations of 60 steps after a warm-up in which every list reaches its greatest length: it runs ten times as long,
+// so that a record in the steps that count would be rare, and vectors that grow double. Steps that sort, known by their
 // new storage order, are among those that count, but where disks lie still.
 long allocations_when_warm(const std::string& text, int threads, int warm_up = 600) {
   const Scene scene = parse_scene(text + "[run]\nmethod = \"pairwise\"\ndt = 0.005\nt_end = 1000.0\n", "warm", "");

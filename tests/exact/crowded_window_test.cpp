@@ -180,8 +180,7 @@ TEST(CrowdedWindow, AContactTimeBelowTheResolutionOfTime) {
   EXPECT_THAT(outcome(scene, initial), AllOf(HasSubstr("stands still"), HasSubstr("contact_time is too short")));
 }
 
-// A step that is told not to go on comes back with the state of its start, and a later one has the bits that it would
-// have had.
+// A step that is given up leaves the state of its start, and a later one has the bits that it would have had.
 TEST(CrowdedWindow, AStepGivenUpChangesNoBit) {
   Scene scene = burst_scene();
   for (const bool parallel : {false, true}) {

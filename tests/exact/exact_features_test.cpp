@@ -105,7 +105,7 @@ TEST(ExactFrames, LookingChangesNothingAndSeesThePath) {
       EXPECT_EQ(watched->disks_at(t, frame), t);
       EXPECT_EQ(max_overlap(frame, box), 0.0);
       EXPECT_LT(wall_overlap(frame, box), 1e-13);
-      // The path is continuous: a moment later everybody is where speed carries him.
+      // The path is continuous: a moment later each disk is where its velocity carries it.
       const double dt = 1e-6;
       watched->disks_at(t + dt, late);
       for (std::size_t i = 0; i < 2; ++i)
@@ -224,7 +224,7 @@ TEST(ExactCollapse, TcLeavesRareCollisionsAlone) {
 }
 
 // Bad input: the right answer or one clear line, never a hang.
-TEST(ExactHostile, NobodyMovesNobodyThereNoTime) {
+TEST(ExactHostile, NothingMovesNoDisksNoTime) {
   Domain box;
   box.width = box.height = 10.0;
   for (const auto kind : {SideKind::wall, SideKind::periodic, SideKind::sink}) {

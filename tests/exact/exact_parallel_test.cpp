@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
         ParallelCase{"sources_alone", {20, 20, open_sides, "gravity = 0.2", sources, 10, ""}}),
     [](const auto& p) { return std::string(p.param.name); });
 
-// Scenes put together at random from all that there is.
+// Random scenes over all features.
 TEST(ExactParallelRandom, ScenesOfAllFeatures) {
   for (std::uint32_t k = 0; k < 12; ++k) {
     const auto u = uniforms(41, Stream::position, k, 0);
@@ -198,8 +198,8 @@ t_end = 60
   }
 }
 
-// Nothing is known beforehand of how fast disks get: a projectile that scatters a cold gas, light disks hit by heavy
-// ones. Whatever the engine takes for granted of the speeds then proves wrong, and the window is done again.
+// How fast disks get is not known beforehand: a projectile that scatters a cold gas, light disks hit by heavy ones.
+// The engine's speed bound then proves too small, and the window is done again.
 TEST(ExactParallelSpeeds, ThatRiseWithinAWindow) {
   const std::string cold = "velocities = { maxwell = 1e-6 }\nradius = 0.4\nmass = 0.001";
   const std::string heavy =
@@ -209,7 +209,7 @@ TEST(ExactParallelSpeeds, ThatRiseWithinAWindow) {
   expect_same_bits(make_scene({24, 24, "wall", "gravity = 3.0", heavy + disks(300, cold), 3, ""}));
 }
 
-// Each disk of a row is a quarter of the one before: every hit hands on 1.6 times the speed, 1.6^15 = 1150 in all, at
+// Each disk of a row is a quarter of the one before: every hit passes on 1.6 times the speed, 1.6^15 = 1150 in all, at
 // once.
 TEST(ExactParallelSpeeds, ThatRiseAThousandfoldWithinAWindow) {
   std::string row = "[[disks]]\ncount = 16\nradius = 0.4\npositions = [";
@@ -242,8 +242,8 @@ TEST(ExactParallelSize, TilesAsTheyAre) {
   }
 }
 
-// Frames: the same bits too, and looking changes nothing.
-// Without its memory the engine knows no paths, only the state; what it makes anew leads to the same bits.
+// Frames: the same bits too, and reading them changes nothing. After release_memory() the engine has no paths, only the
+// state; what it makes anew leads to the same bits.
 TEST(ExactParallelMemory, GivenBackChangesNoBit) {
   const Scene scene = make_scene({30, 30, "periodic", "", disks(500, mixed), 50.0, ""});
   const State initial = initial_state(scene);

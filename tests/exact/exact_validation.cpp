@@ -189,7 +189,7 @@ TEST(ExactAbsorption, SurvivorsOfASquare) {
 }
 
 // The bounds are meant for 10^8 collisions, here over 10^7 (docs/methods.md has the long run's figures). Overlap is
-// looked at after every window: nothing that a collision does wrong could hide.
+// measured after every window, so that no wrong collision goes unnoticed.
 TEST(ExactLongRun, NoOverlapNoDrift) {
   const Scene scene = gas(20000, 0.6, 90.0);
   const State initial = initial_state(scene);

@@ -1,6 +1,6 @@
-// Any bytes are a trajectory or an InputError; a frame that was read has whole columns. What the HDF5 library makes of
-// damaged files is its own affair, but the reader must not trust it: sizes, types and the mending of a killed writer's
-// file (hdf5_superblock.hpp) are ours.
+// Any bytes are a trajectory or an InputError; a frame that was read has whole columns. What the HDF5 library reads
+// from damaged files is outside our control, so the reader checks sizes and types itself, and repairs the file of a
+// killed writer (hdf5_superblock.hpp).
 #include <unistd.h>
 
 #include <cstddef>

@@ -47,7 +47,7 @@ struct Result {
   bool refused = false;
 };
 
-// In the child: says what it is about to do, does it, says what came out.
+// In the child: reports what it is about to do, does it, reports the result.
 void try_number(const Options& options, std::uint32_t number, std::FILE* out) {
   for (std::uint32_t attempt = 0; attempt < most_attempts; ++attempt) {
     fmt::print(out, "attempt {}\n", attempt);

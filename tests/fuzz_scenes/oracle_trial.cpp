@@ -1,5 +1,5 @@
-// How the comparison knows when to stop: beside the oracle runs a second one, whose disks stand a little elsewhere. Two
-// runs can be compared as long as those two stay together, and what lies between them bounds what rounding may do.
+// When the comparison stops: beside the oracle runs a second one, whose disks are slightly displaced. Two runs can be
+// compared as long as those two stay together, and what lies between them bounds what rounding may do.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ double fastest(const oracle::System& system, double speed) {
   return speed;
 }
 
-// Again and again, as rounding does: collisions without rebound put disks on one line, and forget where they were.
+// Repeatedly, as rounding acts: collisions without rebound put disks on one line, which removes the displacement.
 void displace(oracle::System& system, double radius, int look) {
   Dice dice(1, static_cast<std::uint32_t>(look), 0);
   for (oracle::Ball& b : system.balls) {

@@ -11,7 +11,7 @@ namespace carom::fuzz {
 // attempt < 256.
 std::string random_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t attempt);
 
-// A small scene that the all-pairs oracle knows: disks, walls and periodic sides, gravity, restitution, nothing else.
+// A small scene that the all-pairs oracle can run: disks, walls and periodic sides, gravity, restitution, nothing else.
 std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t attempt);
 
 }  // namespace carom::fuzz

@@ -14,7 +14,7 @@ namespace {
 
 // Rounding, over many collisions.
 constexpr double rounding = 1e-9;
-// What a warning would have told: twice the bound of overlaps that only the next step finds.
+// What a warning would have reported: twice the bound of overlaps that only the next step finds.
 constexpr double silent_overlap = 0.2;
 // TC model under gravity: energy that comes from nowhere, over what was there.
 constexpr double silent_heating = 0.01;

@@ -159,7 +159,7 @@ TEST_F(CheckpointFile, EveryOtherLengthIsRefused) {
 }
 
 TEST_F(CheckpointFile, ZerosInPlaceOfABlockAreRefused) {
-  // What a power cut leaves where the file system knew the length before the content.
+  // What a power cut leaves where the file system stored the length before the content.
   for (std::size_t at = 0; at + 16 < whole_.size(); at += 8) {
     std::string holed = whole_;
     holed.replace(at, 16, std::string(16, '\0'));
@@ -207,7 +207,7 @@ TEST_F(CheckpointFile, ContentThatContradictsItselfIsRefused) {
               HasSubstr("outside its folder"));
 }
 
-// Behind a checksum that is right, anything may stand: it is taken or refused, and no length in it is believed.
+// Behind a checksum that is right, anything may stand: it is taken or refused, and no length in it is used unchecked.
 TEST(CheckpointContent, ChangedAtRandomItIsTakenOrRefused) {
   const std::string whole = encode_checkpoint(full_record(), full_state());
   int refused = 0;

@@ -161,7 +161,7 @@ Scene drifting_scene() {
   return scene;
 }
 
-// Frame k: disks k to 40 + k are left, each at a place that tells its id and the frame.
+// Frame k: disks k to 40 + k are left, each at a place that follows from its id and the frame.
 Disks frame_disks(Count k) {
   Disks disks;
   for (Count id = k; id < 40 + k; ++id) {
@@ -242,8 +242,8 @@ TEST(TrajectoryH5md, EqualRunsLeaveEqualFiles) {
   }
 }
 
-// A child writes and flushes frame after frame, and is killed at once when it has told of the k-th: somewhere in the
-// next ones. A later kill finds the file that an earlier one left.
+// A child writes and flushes frame after frame, and is killed as soon as it has reported the k-th, while it writes one
+// of the next. A later kill finds the file that an earlier one left.
 TEST(TrajectoryH5md, AKilledWritersFileIsWholeAndGoesOn) {
   const TestFolder folder("h5md_killed");
   const std::string path = (folder.path() / "trajectory.h5").string();

@@ -1,4 +1,4 @@
-// Mean square displacement: across periodic sides, whoever looks how often; free flight, Brownian motion, sinks.
+// Mean square displacement: across periodic sides, however often it is sampled; free flight, Brownian motion, sinks.
 #include "core/measure/displacement.hpp"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ TEST(Displacement, FreeFallIsFollowedThoughItBeginsAtRest) {
   EXPECT_EQ(f.doubtful, 0U);
 }
 
-// A step that nobody can see into and that is longer than the box is no reason for a wrong number in silence.
+// A step in which disks cross the whole box, with no samples within, gives a warning instead of a wrong number.
 TEST(Displacement, AStepTooLongIsADoubt) {
   Scene scene = periodic_scene(Method::pairwise, 1.0, 10.0);
   std::vector<Disk> list = rows(3, 10.0);

@@ -140,7 +140,7 @@ TEST(Validity, TheDeepestOverlapsOfARunAreKeptWithTimeAndIds) {
 }
 
 // A heavy disk presses a light one against the wall, ever deeper, and lets go of it long before the end: the warning
-// tells first of what it sees, and of the worst at the end. Steps are split, so parts of a step count, too.
+// has the first overlap when it occurs, and the worst at the end. Steps are split, so parts of a step count, too.
 TEST(Validity, TheWorstIsToldAtTheEnd) {
   const Scene scene = stability_scene("mass_ratio_1e6", {{"run.method", "pairwise"}, {"run.dt", "0.02"}});
   const State start = initial_state(scene);

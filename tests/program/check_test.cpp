@@ -1,4 +1,4 @@
-// carom check foresees: collapse, speeds after the fall, what sources add, the size of every file.
+// carom check predicts: collapse, speeds after the fall, what sources add, the size of every file.
 #include <cmath>
 
 #include "tests/support/command_support.hpp"

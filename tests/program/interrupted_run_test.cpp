@@ -105,7 +105,7 @@ TEST_F(InterruptedRun, ASignalStopsWithACheckpoint) {
 TEST_F(InterruptedRun, SigusrWritesOneAndTheRunGoesOn) {
   const pid_t run = start({"run", "busy.toml", "--t-end", "1e6", "-o", "out"});
   await(at("out/carom-unfinished/series.csv"));
-  EXPECT_FALSE(fs::exists(at("out/carom-unfinished/checkpoint.carom"))) << "nobody asked for one";
+  EXPECT_FALSE(fs::exists(at("out/carom-unfinished/checkpoint.carom"))) << "no checkpoint was requested";
   usleep(100'000);
   kill(run, SIGUSR1);
   await(at("out/carom-unfinished/checkpoint.carom"));

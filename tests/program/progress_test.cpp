@@ -1,4 +1,4 @@
-// The line that tells how far a run has come, by a clock that the test turns.
+// The line of progress of a run, by a clock that the test sets.
 #include "app/cli/progress.hpp"
 
 #include <gmock/gmock.h>

@@ -28,7 +28,7 @@ TEST_F(RunResults, StrictEndsARunAtItsFirstWarning) {
   ASSERT_FALSE(warnings.empty());
   EXPECT_THAT(warnings[0].get<std::string>(), HasSubstr("the step is split into"));
   EXPECT_EQ(Json::parse(text_of(at("a/summary.json")))["warnings"], warnings);
-  // While it runs it tells of what it sees first, in the summary of the worst.
+  // The warning during the run has the first overlap, the summary the worst.
   const std::string before = "carom: warning: ";
   ASSERT_THAT(lenient.err, StartsWith(before));
   const std::string first = lenient.err.substr(before.size(), lenient.err.find('\n') - before.size());
@@ -94,8 +94,8 @@ TEST_F(RunResults, RatesFollowFromTheCounts) {
   EXPECT_NEAR(s["energy_final"].get<double>() / s["energy_initial"].get<double>(), 1.0, 1e-12);
 }
 
-// Disks that are pressed together in the middle of a run and free again at its end: the summary knows of it, and an
-// interrupted run knows the same.
+// Disks that are pressed together in the middle of a run and free again at its end: the summary has it, and that of an
+// interrupted run has the same.
 TEST_F(RunResults, TheWorstOverlapOfTheRunBesideThatOfItsEnd) {
   const std::string scene = CAROM_SOURCE_DIR "/scenes/stability/mass_ratio_1e6.toml --method pairwise --dt 0.02";
   const Outcome o = carom("run " + scene + " --quiet --json -o out");

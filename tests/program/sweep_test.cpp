@@ -215,7 +215,7 @@ TEST_F(SweepTest, AFailedRunIsNamedAndTriedAgain) {
   EXPECT_THAT(carom("sweep gas.toml -o s --over disks.0.count=10,250").second, HasSubstr("1 of 2 runs are left"));
 }
 
-// A sweep that is told to stop takes its runs with it; the one that was going on is taken up where it stood.
+// A sweep that is stopped stops its runs; the one that was running is resumed from where it was.
 TEST_F(SweepTest, StoppedItTakesItsRunsWithItAndGoesOnFromTheirCheckpoints) {
   const std::string words = "sweep gas.toml -o s --set physics.restitution=1 --over run.t_end=1,1e9 --jobs 2";
   const auto [status, text] = shell("{ " CAROM_PROGRAM " " + words +
@@ -226,7 +226,7 @@ TEST_F(SweepTest, StoppedItTakesItsRunsWithItAndGoesOnFromTheirCheckpoints) {
   EXPECT_EQ(rows("s/sweep.csv").size(), 2U);
   EXPECT_EQ(carom(words + " --emit parallel").first, 0);
   EXPECT_THAT(read("s/sweep.sh"), HasSubstr("'resume'"));
-  // Nobody works in the folder any more: else it would be refused with status 2.
+  // No process writes to the folder any more: otherwise it would be refused with status 2.
   EXPECT_EQ(carom("resume s/runs/0002 --quiet --max-walltime 0.01").first, 4);
 }
 

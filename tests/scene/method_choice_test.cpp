@@ -40,7 +40,7 @@ struct Expected {
 };
 
 // A gas: steps where 1e-2 will do, exact below. A pile: exact would collapse. Brownian motion: its own interval is the
-// error, and nobody takes 1e9 steps.
+// error, and no run of 1e9 steps is offered.
 TEST(MethodChoice, OfTheScenesThatComeWithCarom) {
   const Expected all[] = {
       {"two_disks.toml", "pairwise 0.022", "exact", "exact"},

@@ -12,7 +12,7 @@ namespace carom::stability {
 
 // One figure of a run and what it must be: |measured - expected| <= bound.
 struct Check {
-  std::string what;                   // a name that measure.hpp knows
+  std::string what;                   // a name listed in measure.hpp
   double expected = 0.0;              // ignored where like_exact
   bool like_exact = false;            // expected is what the exact method measures
   bool relative = false;              // the bound is a share of |expected|

@@ -34,7 +34,7 @@ struct Measured {
 // the end over all energy at the start), momentum, overlap, wall_overlap,
 // outside, passed (pairs that were left and right of each other and have changed places), x0, y0, vx0, vy0 (of the disk
 // with id 0, and so on), kinetic_now (energy), fastest (largest speed at the end), disks, lean (largest |x - x(0)|).
-// Throws InputError for a name it does not know.
+// Throws InputError for any other name.
 double measure(const std::string& what, const Measured& run);
 
 }  // namespace carom::stability

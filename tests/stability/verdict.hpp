@@ -36,7 +36,7 @@ struct MethodResult {
 
 // A run that is right but costs more than so many times the cheapest right method is slow.
 inline constexpr double slow_factor = 20.0;
-// Nobody waits for less than this many disk-steps, a tenth of a second.
+// Runs of fewer disk-steps than this, a tenth of a second, are never called slow.
 inline constexpr double little_work = 3e6;
 // Nor is rollback called slow for more than two frames a dt where there is next to nothing to do.
 inline constexpr double most_frames = 2.0;

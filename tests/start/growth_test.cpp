@@ -1,5 +1,5 @@
 // Growth of initial states: no overlap to the last bit, the radii asked for, the same bits by both ways and at any
-// scale, and clear words where the disks jam.
+// scale, and a clear message where the disks jam.
 #include "core/start/growth.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ std::string group(int count, std::string_view radius) {
   return fmt::format("[[disks]]\ncount = {}\npositions = \"growth\"\nradius = {}\nmass = 1\n", count, radius);
 }
 
-// Everybody inside, nobody nearer than contact, in the very arithmetic of the contact test.
+// All disks inside, none nearer than contact, in the very arithmetic of the contact test.
 void expect_free(const State& state, const Domain& box) {
   const Disks& d = state.disks;
   for (std::size_t i = 0; i < d.size(); ++i) {

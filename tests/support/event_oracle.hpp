@@ -152,7 +152,7 @@ inline void resolve(System& s, const Happening& e) {
 inline bool run(System& s, Real t, std::size_t most_events = static_cast<std::size_t>(-1)) {
   std::size_t events = 0;
   for (;;) {
-    // Periodic images are looked at one period away, so nobody may fly further than a quarter of it unseen.
+    // Only images one period away are tested, so no disk may fly further than a quarter of it between predictions.
     Real longest = no_event;
     for (const Ball& b : s.balls) {
       if (s.box.periodic_x()) longest = std::min(longest, 0.25L * s.box.width / (std::abs(b.vx) + 1e-300L));
