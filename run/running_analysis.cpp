@@ -30,7 +30,7 @@ RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder,
       warned_(record_.displacement.doubtful > 0) {
   if (!goes_with(record_, scene.analysis)) {
     throw InputError(
-        "the checkpoint's analysis does not go with its scene; expected the checkpoint that the run wrote");
+        "the checkpoint's analysis does not belong to its scene; expected the checkpoint that the run wrote");
   }
 }
 
@@ -66,7 +66,8 @@ std::string RunningAnalysis::take_warning() {
   if (warned_ || record_.displacement.doubtful == 0) return "";
   warned_ = true;
   return fmt::format(
-      "displacement: at t = {:g} disks came too far within a step to tell how often they went round the periodic box; "
+      "displacement: at t = {:g} disks moved too far within a step to count how often they went round the periodic "
+      "box; "
       "the mean square displacement may be wrong from there on; use a smaller dt",
       record_.displacement.looked_at);
 }

@@ -101,7 +101,7 @@ void add_run_options(CLI::App* run, Words& words) {
   run->add_flag("--json", words.json, "print the summary as JSON, and nothing else, on standard output");
   run->add_flag("--quiet", words.quiet, "print nothing but errors");
   run->add_flag("--force", words.force, "replace the results of an earlier run in the folder");
-  run->add_flag("--strict", words.strict, "end with status 3 at the first warning that the method is out of its depth");
+  run->add_flag("--strict", words.strict, "end with status 3 at the first warning of a limit of the method");
 }
 
 void describe_run(CLI::App* run, Words& words) {
@@ -123,7 +123,7 @@ void describe_resume(CLI::App* resume, Words& words) {
 void describe_compare(CLI::App* compare, Words& words) {
   compare->add_option("A", words.first, "folder of a run, or a trajectory")->type_name("");
   compare->add_option("B", words.second, "the other one")->type_name("");
-  add_value(compare, "--tolerance", words.tolerance, "X", "values count as the same that differ by at most X");
+  add_value(compare, "--tolerance", words.tolerance, "X", "values that differ by at most X count as the same");
   add_value(compare, "--fields", words.fields, "x,y,...", "only these of x, y, vx, vy, radius, mass");
   add_value(compare, "--times", words.times, "T0:T1", "only frames of these times; either may be left out");
   add_value(compare, "--at", words.at, "T", "only the frame of each that is nearest to this time");
@@ -139,7 +139,7 @@ void describe_render(CLI::App* render, Words& words) {
       render, "-o,--output", words.folder, "FILE",
       "a movie (.mp4, .webm, .gif) or a picture (.png, .svg); default DIR/movie.mp4, or DIR/frame_K.png with --frame");
   add_value(render, "--frame", words.frame, "K", "picture of the K-th frame, counted from 1; default the last");
-  add_value(render, "--colour", words.colour, "speed|group|radius|mass|id", "what the colour of a disk tells");
+  add_value(render, "--colour", words.colour, "speed|group|radius|mass|id", "what the colour of a disk stands for");
   add_value(render, "--range", words.range, "LOW:HIGH", "ends of the colour scale; default as all frames ask");
   add_value(render, "--size", words.size, "WIDTHxHEIGHT", "of the picture, in pixels");
   add_value(render, "--fps", words.fps, "N", "frames a second; default 25");

@@ -53,7 +53,7 @@ std::optional<CompareRule> compare_rule(const std::string& tolerance, const std:
   if (!fields.empty()) read_fields(fields, rule);
   if (!times.empty()) read_times(times, rule);
   if (!at.empty()) rule.at = number_of("--at", at);
-  if (!times.empty() && !at.empty()) fail_input("--at", "goes not with --times", "expected one of them");
+  if (!times.empty() && !at.empty()) fail_input("--at", "cannot be used with --times", "expected one of them");
   return rule;
 }
 

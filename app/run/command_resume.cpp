@@ -84,7 +84,7 @@ int command_resume(const ResumeOptions& options) {
   const RunRecord& record = checkpoint.record;
   const Scene scene = scene_of(record, options.changes);
   if (checkpoint.state.sources.size() != scene.sources.size()) {
-    fail_input(options.checkpoint, "holds a state that does not go with its scene",
+    fail_input(options.checkpoint, "holds a state that does not belong to its scene",
                "expected a checkpoint as Carom wrote it; the one before may serve (checkpoint.previous.carom)");
   }
   check_end(scene_of(record, {}), scene, checkpoint.state);

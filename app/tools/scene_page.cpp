@@ -135,7 +135,7 @@ std::string json_sections() {
              "`carom run --json` and `carom resume --json` print one object, and nothing else on standard output; "
              "summary.json in the results is the same. A number that is not finite is null.",
              summary_key_texts()) +
-         json_rows("Keys of `check --json`", "What is foreseen, without a run.", check_key_texts()) +
+         json_rows("Keys of `check --json`", "What is predicted, without a run.", check_key_texts()) +
          json_rows("Keys of `compare --json`", "Two outputs against each other.", compare_key_texts());
 }
 

@@ -105,7 +105,7 @@ struct Selection {
   Vec2 low, high;  // of the rectangle, corners included
 };
 
-// What the colour of a disk tells in movies and pictures.
+// What the colour of a disk stands for in movies and pictures.
 enum class ColourBy : std::uint8_t { speed, group, radius, mass, id };
 
 // How movies and pictures look.

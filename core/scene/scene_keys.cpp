@@ -234,7 +234,7 @@ constexpr SceneKey keys[] = {
      choice,
      none,
      "\"speed\"",
-     "What the colour of a disk tells; groups are those of `[[disks]]`.",
+     "What the colour of a disk stands for; groups are those of `[[disks]]`.",
      R"(movie = { colour = "radius" })",
      {},
      colour_names},
@@ -242,7 +242,8 @@ constexpr SceneKey keys[] = {
     {"output.movie", "size", special, none, "as the box's shape asks", "Width and height of the picture in pixels.",
      "movie = { size = [1280, 720] }", size_allowed},
     {"output.movie", "range", special, none, "as the run asks",
-     "The ends of the colour scale, in the unit of what colour tells; disks beyond them have the colour of the end.",
+     "The ends of the colour scale, in the unit of the coloured quantity; disks beyond them have the colour of the "
+     "end.",
      "movie = { range = [0, 2] }", "[low, high] with low < high; not with `\"group\"`"},
     {"output", "checkpoint", positive, none, "only when a run is stopped",
      "Wall time between checkpoints, in seconds or with a unit.", R"(checkpoint = "10 min")",

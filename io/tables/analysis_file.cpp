@@ -99,7 +99,7 @@ void put_pairs(Hdf5Output& output, const AnalysisRecord& record, const Scene& sc
   group.say("bin_width", scene.analysis.r_max / static_cast<double>(scene.analysis.r_bins));
   group.say("centres", static_cast<double>(record.pairs.centres) / samples);
   group.say("meaning",
-            "pairs over those of as many disks strewn at random; centres: disks, on average, whose "
+            "pairs over those of as many disks placed at random; centres: disks, on average, whose "
             "surroundings were counted, all but those near sides that are not periodic");
 }
 

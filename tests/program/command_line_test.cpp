@@ -66,7 +66,7 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
       {"compare a b --fields x,speed", "--fields: there is no field \"speed\"; expected one of x, y, vx, vy"},
       {"compare a b --times 3", "--times: is \"3\"; expected FROM:TO"},
       {"compare a b --times 3:2", "--times: is \"3:2\"; expected the earlier time first"},
-      {"compare a b --times 0:1 --at 2", "--at: goes not with --times"},
+      {"compare a b --times 0:1 --at 2", "--at: cannot be used with --times"},
       {"render", "render: no folder given"},
       {"render .", ".: holds no trajectory.xyz"},
       {"render small.toml", "small.toml:1: "},
