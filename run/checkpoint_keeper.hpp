@@ -18,15 +18,15 @@ class CheckpointKeeper {
   using Clock = std::chrono::steady_clock;
 
   // record: of the run so far, with the times that its earlier parts spent. started: when this process began with it.
-  // interval and max_walltime in seconds; an interval of 0 means none but on a wish.
+  // interval and max_walltime in seconds; an interval of 0 means none except on request.
   CheckpointKeeper(RunRecord record, Clock::time_point started, double interval, double max_walltime);
 
-  // Where they go. Without a folder one is made when the first checkpoint is wished for: out/NAME of the scene, or
-  // out/NAME-2 and so on where that is taken. outputs may be null.
-  // there: the folder holds the checkpoint that the run goes on from.
+  // Where they go. Without a folder one is made when the first checkpoint is requested: out/NAME of the scene, or
+  // out/NAME-2 and so on where that is taken. outputs may be null. there: the folder holds the checkpoint that the run
+  // goes on from.
   void write_to(OutputFolder* folder, RunOutputs* outputs, bool there);
 
-  // To be called between steps: writes a checkpoint if one is due or wished for. Returns false when the run is to stop.
+  // To be called between steps: writes a checkpoint if one is due or requested. Returns false when the run is to stop.
   // Throws RunError where it cannot be written; the ones before stay.
   bool look(const State& state, double t_end, double step_s);
 

@@ -113,8 +113,8 @@ double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observe
   if (!observer.frame && !observer.sample) engine.forget_paths();
   frames.make_due();
   double step_seconds = 0.0;
-  // Steps between two looks at the clock: reading it costs as much as a step of two disks. How many they are depends on
-  // the machine's speed, but nothing that they compute does.
+  // Steps between two readings of the clock, each of which costs as much as a step of two disks. Their number depends
+  // on the machine's speed, but nothing that they compute does.
   Count batch = 1;
   StepWatch watch(engine, observer);
   while (engine.state().time < scene.run.t_end) {

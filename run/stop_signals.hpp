@@ -22,7 +22,7 @@ Wish take_wish();
 // Has a stop been requested? Any thread may call this.
 bool stop_wished();
 
-// "SIGTERM", after a wish to stop.
+// "SIGTERM", after a stop was requested.
 std::string_view stop_signal_name();
 
 }  // namespace carom

@@ -22,7 +22,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Random addition jams at a packing fraction of 0.547 (equal disks): sources find no room much beyond it.
 constexpr double source_fill = 0.547;
 
-// So many draws of a source are looked at for the smallest disk and the mean area.
+// So many draws of a source give the smallest disk and the mean area.
 constexpr Count most_draws = 1000;
 
 // The longest dt with fastest dt + fall dt^2 <= safe_travel; speeds and gravity in radii.

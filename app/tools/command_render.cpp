@@ -75,7 +75,7 @@ std::optional<Scene> scene_of(const Recording& recording) {
   }
 }
 
-// As the run's movie looks, but for what the user says.
+// The look of the run's movie, changed by the options.
 PictureLook look_of(const RenderOptions& options, const std::optional<Scene>& scene) {
   PictureLook look = scene ? scene->output.look : PictureLook{};
   if (options.colour && *options.colour != look.colour) {

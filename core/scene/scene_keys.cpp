@@ -40,7 +40,7 @@ constexpr SceneTable tables[] = {
     {"output.movie", "`movie = { ... }` in `[output]`",
      "How the movie looks, and what `carom render` makes of the trajectory; see "
      "[output.md](output.md#movies-and-pictures)."},
-    {"analysis", "`[analysis]`", "What a run measures on its way, see [output.md](output.md#measuring-on-the-way)."},
+    {"analysis", "`[analysis]`", "What a run measures, see [output.md](output.md#measuring-during-a-run)."},
     {"analysis.pair_correlation", "`pair_correlation = { ... }` in `[analysis]`", ""},
     {"analysis.speeds", "`speeds = { ... }` in `[analysis]`", ""},
     {"analysis.density", "`density = { ... }` in `[analysis]`", ""},

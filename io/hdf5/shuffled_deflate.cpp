@@ -9,7 +9,7 @@ namespace carom {
 
 namespace {
 
-// Bytes of a plane that are looked at to tell whether it is worth compressing.
+// Bytes of a plane that are sampled to decide whether it is worth compressing.
 constexpr std::size_t sample_bytes = 1024;
 
 // Level of the planes that are: the fastest, as higher ones gain a few per cent at several times the cost.

@@ -120,7 +120,7 @@ TEST(PairSearch, FewCells) {
   }
 }
 
-TEST(PairSearch, NobodyAndOneAlone) {
+TEST(PairSearch, NoDisksAndOneDisk) {
   const Domain box = box_of(10.0, 10.0, true, true);
   EXPECT_EQ(expect_same({}, box), 0U);
   EXPECT_EQ(expect_same(test::disks_of({{1.0, 1.0, 0, 0, 5.0, 1.0}}), box), 0U);

@@ -1,4 +1,4 @@
-// Production B and C to their end: the pile stands, nothing sinks, nothing overlaps, no energy from nowhere.
+// Production B and C to their end: the pile stands, nothing sinks, nothing overlaps, no energy is gained.
 #include <gtest/gtest.h>
 
 #include <algorithm>

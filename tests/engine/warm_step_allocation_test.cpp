@@ -101,8 +101,8 @@ TEST_P(WarmStep, BetweenWallsUnderGravityAllocatesNothing) {
             0);
 }
 
-// Disks that fell the width of a hair onto one another: supports, their loads and pushing in every step. They take
-// longer to find their last neighbours.
+// Disks that fell a tiny distance onto one another: supports, their loads and pushing in every step. They take longer
+// to find their last neighbours.
 TEST_P(WarmStep, OfAPileAllocatesNothing) {
   EXPECT_EQ(allocations_when_warm("[box]\nwidth = 40.0\nheight = 30.0\nwall_restitution = 0.5\n[physics]\n"
                                   "gravity = 1.0\nrestitution = 0.5\n[[disks]]\ncount = 1000\n"

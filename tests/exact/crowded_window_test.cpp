@@ -1,5 +1,5 @@
-// Windows of the exact method that hold too many events: every one of them ends, both engines agree on what becomes of
-// it, and a run that can be stopped stops within one.
+// Windows of the exact method that hold too many events: every one of them ends, both engines agree on the result, and
+// a run that can be stopped stops within one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What the exact method does besides elastic collisions: scaling, windows, frames, sinks, sources, Brownian motion, the
-// TC model, inelastic collapse, and input that is hostile.
+// TC model, inelastic collapse, and hostile input.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -87,7 +87,7 @@ TEST(ExactWindows, LengthMattersOnlyByRounding) {
   }
 }
 
-TEST(ExactFrames, LookingChangesNothingAndSeesThePath) {
+TEST(ExactFrames, FramesChangeNothingAndLieOnThePath) {
   Domain box;
   box.width = box.height = 10.0;
   const Scene scene = plain_scene(box, 200.0, 0.0);

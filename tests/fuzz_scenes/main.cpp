@@ -1,5 +1,5 @@
-// carom_fuzz_scenes N [SEED]: N random scenes on trial, each in a process of its own, so that one that crashes or never
-// ends is a failing scene like the others. docs/faults.md says how to use it.
+// carom_fuzz_scenes N [SEED]: N random scenes, each in a process of its own, so that one that crashes or never ends is
+// a failing scene like the others. docs/faults.md says how to use it.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

@@ -16,7 +16,7 @@ namespace {
 constexpr double rounding = 1e-9;
 // What a warning would have reported: twice the bound of overlaps that only the next step finds.
 constexpr double silent_overlap = 0.2;
-// TC model under gravity: energy that comes from nowhere, over what was there.
+// TC model under gravity: energy gained, over the energy at the start.
 constexpr double silent_heating = 0.01;
 
 bool sane(double x) {

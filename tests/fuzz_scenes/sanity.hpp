@@ -1,5 +1,5 @@
-// What must hold in any run, whatever the scene: numbers are numbers, disks stay in the box, nothing comes from nowhere
-// or is lost, unless a warning says so.
+// What must hold in any run, whatever the scene: numbers are finite, disks stay in the box, and disks, momentum and
+// energy are conserved, unless a warning says so.
 #pragma once
 
 #include <string>

@@ -25,7 +25,7 @@ namespace carom::fuzz {
 
 namespace {
 
-// Steps that are looked at, and disks times steps.
+// Steps that are compared, and disks times steps.
 constexpr std::size_t most_steps = 250;
 constexpr std::size_t most_work = 30'000;
 constexpr std::size_t least_steps = 8;

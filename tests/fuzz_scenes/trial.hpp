@@ -1,5 +1,5 @@
-// One scene on trial: every engine, at every number of threads, looked at, interrupted and resumed, has the reference's
-// bits, and they make sense.
+// One scene: every engine, at every number of threads, with frames, interrupted and resumed, has the reference's bits,
+// and they make sense.
 #pragma once
 
 #include <string>

@@ -141,7 +141,7 @@ TEST(Validity, TheDeepestOverlapsOfARunAreKeptWithTimeAndIds) {
 
 // A heavy disk presses a light one against the wall, ever deeper, and lets go of it long before the end: the warning
 // has the first overlap when it occurs, and the worst at the end. Steps are split, so parts of a step count, too.
-TEST(Validity, TheWorstIsToldAtTheEnd) {
+TEST(Validity, TheWorstIsReportedAtTheEnd) {
   const Scene scene = stability_scene("mass_ratio_1e6", {{"run.method", "pairwise"}, {"run.dt", "0.02"}});
   const State start = initial_state(scene);
   const auto engine = make_reference_engine(scene, start);
@@ -169,7 +169,7 @@ TEST(Validity, ExactSaysThatTheCollapseModelTakesOver) {
                                                              HasSubstr("contact_time = 0.1 is long"))));
 }
 
-TEST(Validity, ScenesThatNoMethodServesAreToldBeforeTheFirstStep) {
+TEST(Validity, ScenesThatNoMethodServesWarnBeforeTheFirstStep) {
   Scene scene = test::scene_from(test::sound_scene);
   EXPECT_THAT(validity_of(scene, 1.0), IsEmpty());
   EXPECT_THAT(validity_of(scene, 0.0), IsEmpty());

@@ -22,7 +22,7 @@ TEST(StateHash, DoesNotDependOnStorageOrder) {
   EXPECT_EQ(state_hash(disks), state_hash(turned));
 }
 
-TEST(StateHash, TellsEveryColumnApart) {
+TEST(StateHash, DependsOnEveryColumn) {
   const std::uint64_t hash = state_hash(some_disks());
   EXPECT_NE(hash, state_hash(some_disks(0x1p-52)));
   for (int column = 0; column < 4; ++column) {

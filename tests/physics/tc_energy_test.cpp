@@ -1,4 +1,4 @@
-// The TC model does nothing where nothing dissipates; what energy a run has from nowhere it says at its end.
+// The TC model does nothing where nothing dissipates; energy that a run has gained is reported at its end.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST(TcEnergy, AnElasticGasUnderGravityKeepsItsEnergy) {
 }
 
 // contact_time so long that all but the first collisions are elastic, and hops at the floor are faster than the gas.
-TEST(TcEnergy, AGasThatIsHeatedByItsHopsSaysSo) {
+TEST(TcEnergy, AGasThatIsHeatedByItsHopsWarns) {
   const Scene scene = gas_scene(0.9, 10.0);
   const State start = initial_state(scene);
   const State end = run_both(scene, start);
@@ -65,9 +65,9 @@ TEST(TcEnergy, AGasThatIsHeatedByItsHopsSaysSo) {
               ElementsAre(AllOf(HasSubstr("was put in"), HasSubstr("contact_time = 10 is long"))));
 }
 
-// A disk that lies on the floor has to hop, with m (g t_c)^2 / 32: nothing for a short contact time, and said for a
-// long one.
-TEST(TcEnergy, WhatComesFromNowhereIsSaid) {
+// A disk that lies on the floor has to hop, with an energy of m (g t_c)^2 / 32: negligible for a short contact time,
+// reported for a long one.
+TEST(TcEnergy, EnergyGainIsReported) {
   Domain box;
   box.width = box.height = 10.0;
   box.wall_restitution = 0.5;
@@ -86,7 +86,7 @@ TEST(TcEnergy, WhatComesFromNowhereIsSaid) {
   }
 }
 
-TEST(TcEnergy, WhatSourcesAndBrownianMotionPutInIsNotFromNowhere) {
+TEST(TcEnergy, EnergyFromSourcesAndBrownianMotionIsNoGain) {
   for (const std::string method : {"exact", "pairwise", "rollback"}) {
     Scene scene = make_scene({20, 20, "wall", "gravity = 0.2",
                               "[[sources]]\nside = \"top\"\nrate = 5\nradius = 0.3\nmass = 2\n"

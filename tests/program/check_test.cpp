@@ -44,7 +44,7 @@ method = "exact"
 t_end = 100.0
 )";
 
-TEST_F(Check, CollapseOnAFloorIsForeseenWithItsTime) {
+TEST_F(Check, CollapseOnAFloorIsPredictedWithItsTime) {
   write("fall.toml", falling_disk);
   const Json j = check("fall.toml");
   EXPECT_EQ(j["collapse_expected"], true);
@@ -63,7 +63,7 @@ TEST_F(Check, CollapseOnAFloorIsForeseenWithItsTime) {
   EXPECT_EQ(check("fall.toml" + remedy)["collapse_expected"], false);
 }
 
-TEST_F(Check, CollapseOfAGasIsForeseen) {
+TEST_F(Check, CollapseOfAGasIsPredicted) {
   EXPECT_EQ(check("small.toml --method exact --set physics.restitution=0.4")["collapse_expected"], true);
   EXPECT_EQ(check("small.toml --method exact --set physics.restitution=0.95")["collapse_expected"], false);
 }
@@ -117,7 +117,7 @@ t_end = 1000.0
   EXPECT_THAT(carom("check source.toml").out, HasSubstr("with what sources emit up to 50000 at t = 1000"));
 }
 
-TEST_F(Check, EveryFileIsForeseenWithItsSize) {
+TEST_F(Check, EveryFileIsPredictedWithItsSize) {
   const std::string wants =
       "small.toml --t-end 20 --set output.checkpoint=1000 --set output.movie=true --set output.plots='[\"energy\", "
       "\"velocity\"]' --set 'analysis.what=[\"speeds\", \"density\"]'";

@@ -97,7 +97,7 @@ TEST_F(CommandLine, HelpIsAWordToo) {
   expect_error("$C help rnu", 2, "there is no command \"rnu\"");
 }
 
-TEST_F(CommandLine, FoldersAreToldByWhatIsInThem) {
+TEST_F(CommandLine, FoldersAreRecognisedByTheirContents) {
   ASSERT_EQ(carom("run small.toml --quiet -o out").status, 0);
   expect_error("$C run out", 2, "out: is a directory; expected a scene file, such as the out/scene.toml of the run");
   std::filesystem::create_directories(at("half/carom-unfinished"));

@@ -271,7 +271,7 @@ TEST_P(Faults, F14_PairInTwoSharedCells) {
 }
 
 // (24): v = u / dt afresh each step, kinetic energy fluctuates about N m 2 D / dt (4 standard errors of 2 N deviates
-// squared); with accumulate = true, as the original has it, it grows with every step.
+// squared); with accumulate = true, as in the original, it grows with every step.
 TEST_P(Faults, F15_BrownianEnergyDoesNotGrow) {
   constexpr int n = 100;
   Scene s = scene(100.0, 0.01, 1.0);

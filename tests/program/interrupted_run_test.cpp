@@ -64,13 +64,14 @@ TEST_F(InterruptedRun, ItWarnsOfTheSame) {
   EXPECT_EQ(told.find(warning, first + 1), std::string::npos) << told;
 }
 
-// A strict run stops at its first warning; taken up again it is no better, and its result says so.
+// A strict run stops at its first warning. Resumed with --strict it stops again; without, it goes on, and its summary
+// has the warning.
 TEST_F(InterruptedRun, AWarningThatEndedARunIsNotForgotten) {
   const std::string scene = CAROM_SOURCE_DIR "/scenes/stability/f02_bounce_at_a_distance.toml";
   const std::string dense = " --set disks.0.count=300 --set box.packing_fraction=0.5 --method pairwise --dt 0.05";
   const Outcome o = carom("run " + scene + dense + " --t-end 2 --quiet --strict -o out");
   EXPECT_EQ(o.status, 3);
-  EXPECT_EQ(o.err.find("warning"), std::string::npos) << "the error says it: " << o.err;
+  EXPECT_EQ(o.err.find("warning"), std::string::npos) << "the error has it: " << o.err;
   const std::string before = "carom: error: ";
   ASSERT_TRUE(o.err.starts_with(before)) << o.err;
   const std::string warning = o.err.substr(before.size(), o.err.find(" (--strict)") - before.size());
@@ -285,7 +286,7 @@ TEST_F(InterruptedRun, AFinishedRunGoesOnToALaterEnd) {
   EXPECT_THAT(carom("resume cut --t-end 6").err, HasSubstr("the run's last step was cut short to end at 3.001"));
 }
 
-TEST_F(InterruptedRun, WhatItWasToldWhenItWentOnIsRemembered) {
+TEST_F(InterruptedRun, OptionsOfResumeAreKept) {
   ASSERT_EQ(carom("run busy.toml --quiet -o out --max-walltime 0.02").status, 4);
   ASSERT_EQ(carom("resume out --quiet --t-end 22 --max-walltime 0.02").status, 4);
   ASSERT_EQ(carom("resume out --quiet").status, 0);

@@ -1,4 +1,4 @@
-// The launcher ./carom, among tools that only say what they were asked: what it builds, tests and prints.
+// The launcher ./carom with stand-ins for its tools, which print their arguments: what it builds, tests and prints.
 #include <filesystem>
 #include <fstream>
 
@@ -98,7 +98,7 @@ echo; echo '100% tests passed, 0 tests failed out of 300')");
   EXPECT_THAT(o.err, EndsWith("carom: 300 of 300 tests, 0 failed\n"));
 }
 
-TEST_F(Launcher, TestListsAndTellsAllWhereAsked) {
+TEST_F(Launcher, TestListsAndPrintsAllWhereAsked) {
   tool("ctest", four_tests);
   EXPECT_THAT(launch("root/carom test -V").out, HasSubstr("Start  1: A.One"));
   EXPECT_THAT(launch("root/carom test -N").out, HasSubstr("Start  1: A.One"));

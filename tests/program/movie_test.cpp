@@ -167,7 +167,7 @@ std::pair<std::uint32_t, std::uint32_t> colours_of(const Scene& scene, ColourBy 
   return {pixel(painter, 28 + 200, 78 + 200), pixel(painter, 28 + 600, 78 + 600)};
 }
 
-TEST(FrameStyle, ColoursTellWhatTheLookSays) {
+TEST(FrameStyle, ColoursFollowTheLook) {
   Scene scene;
   scene.box = square_box(10.0);
   scene.run.t_end = 1.0;

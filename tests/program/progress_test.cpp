@@ -34,7 +34,7 @@ State state_at(double time, Count steps) {
 TEST(Progress, OffATerminalIsALineAMinute) {
   Clock clock;
   Progress progress(true, 100.0, state_at(0.0, 0), clock.place(false));
-  // A run of three and a half minutes, looked at ten times a second; it slows down after two.
+  // A run of three and a half minutes, whose line is updated ten times a second; it slows down after two.
   for (int tenth = 1; tenth <= 2100; ++tenth) {
     clock.now += 0.1;
     const double seconds = 0.1 * tenth;

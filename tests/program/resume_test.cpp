@@ -21,7 +21,7 @@ INSTANTIATE_TEST_SUITE_P(AllScenes, Resume,
                            return std::string(std::get<0>(p.param)) + std::to_string(std::get<1>(p.param));
                          });
 
-// A pile that rests on its loads; what is remembered of a step's contacts is what the next one starts from.
+// A pile that rests on its loads; the loads of a step's contacts are what the next one starts from.
 TEST(ResumePile, GoesOnWithItsLoads) {
   test::Features f;
   f.gravity = true;
@@ -36,7 +36,7 @@ TEST(ResumePile, GoesOnWithItsLoads) {
   test::expect_same_bits(longer, settled, settled.counters.steps + 30, 0);
 }
 
-// A step that failed leaves a state from which it fails again in the same way: nothing in it happens twice.
+// A step that failed leaves a state from which it fails again in the same way: no part of it is done twice.
 TEST(ResumeFailed, AStepThatFailedChangesNothingMore) {
   for (const char* method : {"pairwise", "rollback"}) {
     test::Features f;

@@ -191,7 +191,7 @@ TEST_F(RunResults, FramesOfAnExactRunAreAtTheTimesAskedFor) {
   EXPECT_EQ(k, 11);
 }
 
-TEST_F(RunResults, LookingChangesNothing) {
+TEST_F(RunResults, OutputChangesNothing) {
   const auto hash = [&](const std::string& options) {
     const Outcome o = carom("run small.toml --json " + options);
     EXPECT_EQ(o.status, 0) << o.err;

@@ -77,7 +77,7 @@ TEST(AnalysisScene, OneLineForWhatItDoesNotTake) {
   for (const auto& [lines, expected] : cases) EXPECT_THAT(complaint(with(lines)), HasSubstr(expected)) << lines;
 }
 
-TEST(AnalysisScene, HalfAPeriodIsAsFarAsPairsAreLookedAt) {
+TEST(AnalysisScene, PairsAreCountedUpToHalfAPeriod) {
   const std::string periodic = test::replaced(
       test::replaced(with("what = [\"pair_correlation\"]\npair_correlation = { r_max = 5.5 }"), "left = \"wall\"",
                      "left = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\""),

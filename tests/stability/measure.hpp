@@ -9,7 +9,7 @@
 
 namespace carom::stability {
 
-// The worst of a run, looked at after some of its steps and at its end.
+// The worst of a run, measured after some of its steps and at its end.
 struct Worst {
   double overlap = 0.0;       // of two disks, over the sum of radii
   double wall_overlap = 0.0;  // over the radius

@@ -25,7 +25,7 @@ constexpr std::array<const char*, 3> methods{"rollback", "pairwise", "exact"};
 // Cost of an event of the exact method, in disk-steps (docs/benchmarks.md: about 1 us against 30 ns).
 constexpr double event_work = 30.0;
 
-// How often a run is looked at, at most: the search for overlaps costs as much as some steps.
+// How often a run is measured, at most: the search for overlaps costs as much as some steps.
 constexpr Count looks = 200;
 
 constexpr Count shared_from = 2000;  // disks from which two threads pay

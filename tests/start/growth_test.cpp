@@ -166,7 +166,7 @@ TEST(Growth, SeedsDifferAndMassesDoNotMatter) {
   EXPECT_NE(one.disks.x, initial_state(scene_from(test::replaced(text, "seed = 11", "seed = 12"))).disks.x);
 }
 
-TEST(Growth, JamsWithAClearWord) {
+TEST(Growth, JamsWithAClearMessage) {
   const std::string text =
       text_of(std::string(periodic) + "packing_fraction = 0.89", group(30, "{ uniform = [1, 2] }"));
   const std::string message = test::complaint(text);

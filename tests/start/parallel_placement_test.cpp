@@ -65,7 +65,7 @@ TEST(ParallelPlacement, SameBitsAsThePlainSearch) {
   }
 }
 
-TEST(ParallelPlacement, JammedScenesEndWithTheSameWords) {
+TEST(ParallelPlacement, JammedScenesEndWithTheSameMessage) {
   const Scene scene = scene_from(scene_text(
       periodic, "packing_fraction = 0.6\n[[disks]]\ncount = 150\npositions = \"random\"\nradius = 1\nmass = 1"));
   const auto words = [](auto&& make) {
