@@ -51,10 +51,10 @@ struct WorstFigure {
 // What the method was seen to do wrong, and what has been said of it (core/step/validity.hpp). No disk depends on
 // it.
 struct ValidityCounts {
-  Count amiss = 0;     // collisions that went amiss
-  Count frames = 0;    // of rollback, since `since`
-  double since = 0.0;  // simulated time at which the frames that are watched begin
-  bool split_told = false, overlap_told = false, amiss_told = false, slow_told = false;
+  Count inaccurate = 0;  // collisions
+  Count frames = 0;      // of rollback, since `since`
+  double since = 0.0;    // simulated time at which the frames that are watched begin
+  bool split_told = false, overlap_told = false, inaccurate_told = false, slow_told = false;
   WorstOverlap disks, wall;    // of two disks, of a disk and a wall
   WorstFigure parts, advance;  // most parts that a step was split into; least advance of a frame in dt, if told
 };

@@ -96,7 +96,7 @@ inline bool dissipates(const Domain& box, double restitution) {
 // Is this an impact that loses energy? partner: the second disk's id, or a wall_partner.
 inline bool loses_energy(const ExactRules& rules, DiskId partner, const Impact& impact) {
   const double e = is_wall(partner) ? rules.box.wall_restitution : rules.restitution;
-  return e < 1.0 && impact.happened && !impact.amiss;
+  return e < 1.0 && impact.happened && !impact.inaccurate;
 }
 
 // Inelastic collapse: more than this many impacts of one disk that lose energy, within this share of the window's

@@ -16,14 +16,14 @@ struct ImpactTally {
   Count collisions = 0;
   Count wall_collisions = 0;
   Count loads = 0, wall_loads = 0;  // supports that bore (resting.hpp): their impulses count, as collisions they do not
-  Count amiss = 0;                  // of both collisions, see Impact
+  Count inaccurate = 0;             // of both collisions, see Impact
   ExactSum virial;
   std::array<ExactSum, 4> wall_impulse;
 
   // partner: the second disk's id, or a wall_partner.
   void add(DiskId partner, const Impact& impact) {
     if (!impact.happened) return;
-    amiss += impact.amiss ? 1 : 0;
+    inaccurate += impact.inaccurate ? 1 : 0;
     if (is_wall(partner)) {
       ++wall_collisions;
       wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.virial);
@@ -46,7 +46,7 @@ struct ImpactTally {
 
   void add(const ImpactTally& other) {
     collisions += other.collisions;
-    amiss += other.amiss;
+    inaccurate += other.inaccurate;
     wall_collisions += other.wall_collisions;
     loads += other.loads;
     wall_loads += other.wall_loads;

@@ -30,7 +30,8 @@ struct StepRules {
 struct Impact {
   double virial = 0.0;  // |impulse| x distance of a disk pair, |impulse| of a wall; mass length^2 / time or m l / t
   bool happened = false;
-  bool amiss = false;  // late: the disks have overlapped since before the step; or made elastic by the TC model (exact)
+  // Late, since the disks have overlapped since before the step; or made elastic by the TC model (exact).
+  bool inaccurate = false;
 };
 
 template <class View>

@@ -104,7 +104,7 @@ class ReferenceExact final : public Engine {
     }
     state_.counters.removed += remove_marked(d, result.gone);
     finish_window(state_, plan, result.tally, scale_);
-    validity_.see_step(scene_, {{}, {}, {}, result.tally.amiss}, state_);
+    validity_.see_step(scene_, {{}, {}, {}, result.tally.inaccurate}, state_);
     check_pace(state_, plan);
   }
 

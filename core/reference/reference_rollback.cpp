@@ -61,7 +61,7 @@ class ReferenceRollback final : public ReferenceEngine {
     const PhaseTimer timer(times_, "resolve");
     const double back = events.empty() ? 0.0 : events.front().ago;
     if (back > 0.0) drift_all(-back);
-    count_amiss(rules, events, back);
+    count_inaccurate(rules, events, back);
     ImpactTally tally;
     bounce_all(state_.disks, rules, events, tally, log_);
     with_view(state_.disks, [&](const auto& d) {
@@ -75,11 +75,11 @@ class ReferenceRollback final : public ReferenceEngine {
   }
 
   // Pairs that bounce before they touch, with a disk that bounces in another pair too.
-  void count_amiss(const StepRules& rules, const std::vector<ContactEvent>& met, double back) {
+  void count_inaccurate(const StepRules& rules, const std::vector<ContactEvent>& met, double back) {
     std::vector<unsigned> pairs(state_.disks.size(), 0);
     for (const ContactEvent& e : met) ++pairs[e.i1], ++pairs[e.i2];
     for (const ContactEvent& e : met) {
-      if (is_at_a_distance(rules, e, back) && pairs[e.i1] + pairs[e.i2] > 2) ++figures_.amiss;
+      if (is_at_a_distance(rules, e, back) && pairs[e.i1] + pairs[e.i2] > 2) ++figures_.inaccurate;
     }
   }
 

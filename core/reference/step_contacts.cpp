@@ -140,7 +140,7 @@ StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<C
     std::sort(events.begin(), events.end(), ids_order);
     if (rules.settles) bear_loads(d, state, rules, events, contacts, tally);
     tally.count_into(state.counters);
-    figures.amiss = tally.amiss;
+    figures.inaccurate = tally.inaccurate;
     push_all(d, state, rules, events, contacts);
     for (const ContactEvent& e : events) see_overlap_left(d, rules.box, e, figures);
   });

@@ -18,7 +18,7 @@ namespace carom {
 
 namespace {
 
-// The collisions of which some may go amiss.
+// The collisions of which some may be inaccurate.
 Count collisions_watched(const Scene& scene, const State& state) {
   return state.counters.collisions + (scene.run.method == Method::exact ? state.counters.wall_collisions : Count{0});
 }
@@ -28,8 +28,8 @@ const char* or_exact(const Scene& scene) {
   return velocities_are_drawn(scene) ? "" : " or --method exact";
 }
 
-// What went amiss with collisions, and the remedy.
-std::string amiss_text(const Scene& scene) {
+// What makes collisions inaccurate, and the remedy.
+std::string inaccurate_text(const Scene& scene) {
   if (scene.run.method == Method::exact && settles(scene)) {
     return fmt::format(
         "were made elastic by the TC model (contact_time = {:g}), as all are of disks that rest on each other; use "
@@ -67,9 +67,9 @@ std::string overlap_text(const Scene& scene, const WorstOverlap& disks, const Wo
       worst.time, what, 100.0 * largest_overlap, scene.run.dt, or_exact(scene));
 }
 
-std::string amiss_text(const Scene& scene, const State& state) {
-  return fmt::format("by time {:g} {} of {} collisions {}", state.time, state.validity.amiss,
-                     collisions_watched(scene, state), amiss_text(scene));
+std::string inaccurate_text(const Scene& scene, const State& state) {
+  return fmt::format("by time {:g} {} of {} collisions {}", state.time, state.validity.inaccurate,
+                     collisions_watched(scene, state), inaccurate_text(scene));
 }
 
 std::string slow_text(const Scene& scene, const WorstFigure& advance, std::size_t disks) {
@@ -92,7 +92,7 @@ void Validity::see_step(const Scene& scene, const StepFigures& figures, State& s
   see_overlap(scene, figures, state);
   // Supports keep a little overlap, so that a pile's impacts are often late without harm: its overlaps tell.
   const bool pile = scene.run.method == Method::pairwise && settles(scene);
-  if (figures.amiss > 0 && !pile) see_amiss(scene, figures.amiss, state);
+  if (figures.inaccurate > 0 && !pile) see_inaccurate(scene, figures.inaccurate, state);
   if (rollback) see_advance(scene, state);
 }
 
@@ -108,12 +108,13 @@ void Validity::see_overlap(const Scene& scene, const StepFigures& figures, State
   warnings_.push_back(overlap_text(scene, {deepest, state.time}, {figures.wall, state.time}));
 }
 
-void Validity::see_amiss(const Scene& scene, Count count, State& state) {
-  const Count amiss = state.validity.amiss += count;
+void Validity::see_inaccurate(const Scene& scene, Count count, State& state) {
+  const Count inaccurate = state.validity.inaccurate += count;
   const Count all = collisions_watched(scene, state);
-  if (amiss <= least_amiss || static_cast<double>(amiss) <= largest_amiss_share * static_cast<double>(all)) return;
-  if (std::exchange(state.validity.amiss_told, true)) return;
-  warnings_.push_back(amiss_text(scene, state));
+  const double bound = largest_inaccurate_share * static_cast<double>(all);
+  if (inaccurate <= least_inaccurate || static_cast<double>(inaccurate) <= bound) return;
+  if (std::exchange(state.validity.inaccurate_told, true)) return;
+  warnings_.push_back(inaccurate_text(scene, state));
 }
 
 void Validity::see_advance(const Scene& scene, State& state) {
@@ -134,7 +135,7 @@ std::vector<std::string> Validity::take_warnings() {
 
 std::vector<std::string> validity_so_far(const Scene& scene, const State& state) {
   std::vector<std::string> warnings = worst_moments(scene, state);
-  if (state.validity.amiss_told) warnings.push_back(amiss_text(scene, state));
+  if (state.validity.inaccurate_told) warnings.push_back(inaccurate_text(scene, state));
   return warnings;
 }
 

@@ -18,12 +18,12 @@ inline constexpr double largest_overlap = 0.02;
 // The same of two disks that impacts of the step before have brought together, and of a disk and a wall: a few per cent
 // are what disks move in a step, and the next one sees to them.
 inline constexpr double largest_overlap_before = 0.1;
-// Share of the collisions that went amiss: seen a step late (pairwise), bounced together with another of the same disk
+// Share of the inaccurate collisions: seen a step late (pairwise), bounced together with another of the same disk
 // (rollback, F2), made elastic by the TC model (exact). Measured on gases of packing fraction 0.3 to 0.88, with such a
 // share the collision rate (for the TC model, the dissipation) is off by about 1 % (pairwise, rollback) or 5 % (TC).
-inline constexpr double largest_amiss_share = 0.05;
+inline constexpr double largest_inaccurate_share = 0.05;
 // So many of them may happen before a share means anything.
-inline constexpr Count least_amiss = 10;
+inline constexpr Count least_inaccurate = 10;
 // Time that a frame of rollback advances, in dt, averaged over the frames watched: below this time all but stands (F1).
 inline constexpr double least_advance = 0.1;
 inline constexpr Count frames_watched = 1000;
@@ -41,16 +41,16 @@ inline constexpr double most_waiting = 0.05;
 
 // What a step (or a part of it) did that no exact motion does.
 struct StepFigures {
-  Overlap left;     // the deepest of two disks after pushing apart, or of disks that part
-  Overlap before;   // that two disks in contact had when the step began
-  Overlap wall;     // of a disk and a wall, after pushing
-  Count amiss = 0;  // collisions, see largest_amiss_share
+  Overlap left;          // the deepest of two disks after pushing apart, or of disks that part
+  Overlap before;        // that two disks in contact had when the step began
+  Overlap wall;          // of a disk and a wall, after pushing
+  Count inaccurate = 0;  // collisions, see largest_inaccurate_share
 
   void add(const StepFigures& other) {
     left.see(other.left);
     before.see(other.before);
     wall.see(other.wall);
-    amiss += other.amiss;
+    inaccurate += other.inaccurate;
   }
 
   // Goes on with a later round of the same step: what is left is what that one leaves.
@@ -58,7 +58,7 @@ struct StepFigures {
     left = later.left;
     wall = later.wall;
     before.see(later.before);
-    amiss += later.amiss;
+    inaccurate += later.inaccurate;
   }
 };
 
@@ -76,7 +76,7 @@ class Validity {
 
  private:
   void see_overlap(const Scene& scene, const StepFigures& figures, State& state);
-  void see_amiss(const Scene& scene, Count count, State& state);
+  void see_inaccurate(const Scene& scene, Count count, State& state);
   void see_advance(const Scene& scene, State& state);
 
   std::vector<std::string> warnings_;

@@ -58,8 +58,9 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<ValidityCounts> T>
 void fields(Stream& stream, T& value) {
-  auto& [amiss, frames, since, split_told, overlap_told, amiss_told, slow_told, disks, wall, parts, advance] = value;
-  stream(amiss, frames, since, split_told, overlap_told, amiss_told, slow_told, disks, wall, parts, advance);
+  auto& [inaccurate, frames, since, split_told, overlap_told, inaccurate_told, slow_told, disks, wall, parts, advance] =
+      value;
+  stream(inaccurate, frames, since, split_told, overlap_told, inaccurate_told, slow_told, disks, wall, parts, advance);
 }
 
 template <class Stream, Is<State> T>

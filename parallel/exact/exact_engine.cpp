@@ -322,7 +322,7 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
   if (any_gone) remove(gone_);
   const ImpactTally tally = sweep_.tally();
   finish_window(state_, plan, tally, 1.0);
-  validity_.see_step(scene_, {{}, {}, {}, tally.amiss}, state_);
+  validity_.see_step(scene_, {{}, {}, {}, tally.inaccurate}, state_);
 }
 
 double ParallelExact::disks_at(double t, Disks& out) const {

@@ -239,7 +239,7 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
     // Contacts that were alone are finished.
     speed2 = std::max(speed2, finish_contacts(state.disks, rules.box, executor, lists.crowded, lists));
   }
-  lists.figures.amiss += tally.amiss;
+  lists.figures.inaccurate += tally.inaccurate;
   tally.count_into(state.counters);
   return speed2;
 }

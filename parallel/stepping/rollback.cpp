@@ -59,7 +59,7 @@ class ParallelRollback final : public TimeStepping {
     for (const ContactEvent& e : lists_.events) back = std::max(back, e.ago);
     if (back > 0.0) drift(-back);
     for (const ContactEvent& e : lists_.events) {
-      if (!is_alone(lists_, e) && is_at_a_distance(rules, e, back)) ++lists_.figures.amiss;
+      if (!is_alone(lists_, e) && is_at_a_distance(rules, e, back)) ++lists_.figures.inaccurate;
     }
     const PhaseTimer timer(times_, "resolve");
     ImpactTally tally;
