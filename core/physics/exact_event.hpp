@@ -58,12 +58,12 @@ inline Impact collide_at(const ExactRules& rules, double s, double mass_a, doubl
 
 // A disk that lies on the floor would collide infinitely often. Under the TC model it leaves the floor with at least
 // this share of g contact_time, so that its hops last half a contact time or more; their energy, m (g t_c)^2 / 32, is
-// of the order of what the model leaves to any disk at rest. It comes from nowhere, but bounds what a pile costs: with
-// hops of disks at rest only, a pile cools on and has four times as many collisions.
+// of the order of what the model leaves to any disk at rest. That energy is added, but bounds what a pile costs:
+// without it, where only the hops of disks at rest remain, a pile cools further and has four times as many collisions.
 inline constexpr double least_hop = 0.25;
 
-// Disk a meets a side at time s: bounces off a wall, crosses a periodic side; a sink takes it, which the caller sees
-// to.
+// Disk a reaches a side at time s: it bounces off a wall or crosses a periodic side. What a sink takes, the caller
+// removes.
 inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double mass, ExactDisk& a) {
   PathSegment& p = a.path;
   p = carried_to(p, s, rules.gravity);

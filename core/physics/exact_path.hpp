@@ -1,6 +1,6 @@
-// The exact method's geometry: the path of a disk between two events, and when paths meet each other or a side.
-// Every prediction is a pure function of the segments it is about: neither the present moment, nor the search that
-// found the pair, nor the window's division among threads can change its bits.
+// The exact method's geometry: the path of a disk between two events, and the times at which paths meet each other or a
+// side. Every prediction is a pure function of the segments it is about: neither the time of the prediction, nor the
+// search that found the pair, nor the division of the window among threads can change its bits.
 #pragma once
 
 #include <algorithm>
@@ -38,10 +38,10 @@ inline Relative relative(const PathSegment& a, const PathSegment& b, const Domai
 }
 
 // Time from now until the disks touch, >= 0. Disks that approach and overlap (by rounding) collide now; disks that
-// recede have no event, overlapping or not (Bannerman et al. 2014): the root that cancels is never used.
-inline double time_to_contact(const Relative& r, double reach) {
+// recede have no event, overlapping or not (Bannerman et al. 2014): the root that suffers cancellation is never used.
+inline double time_to_contact(const Relative& r, double contact_distance) {
   if (!(r.approach() < 0.0)) return never;
-  const double t = contact_time(r, reach);
+  const double t = contact_time(r, contact_distance);
   return t > 0.0 ? t : 0.0;
 }
 
@@ -50,32 +50,34 @@ inline double time_to_contact(const Relative& r, double reach) {
 // behind it can be met. Larger values would need more images.
 inline constexpr double longest_flight = 0.25;
 
-// Time to contact with the images beyond the nearest one, if any can be reached within `span`.
-inline double time_to_far_contact(const Relative& r, double reach, const Domain& box, double span) {
-  // A little more than the true travel, against rounding; one image too many does no harm.
+// Time to contact with the images beyond the nearest one, if any of them can be reached within `span` (time).
+inline double time_to_far_contact(const Relative& r, double contact_distance, const Domain& box, double span) {
+  // A little more than the true travel, against rounding; one image too many changes nothing.
   constexpr double margin = 1.0 + 1e-9;
-  const bool far_x = box.periodic_x() && std::abs(r.dvx) * span * margin + reach * margin >= box.width - std::abs(r.dx);
+  const bool far_x =
+      box.periodic_x() && std::abs(r.dvx) * span * margin + contact_distance * margin >= box.width - std::abs(r.dx);
   const bool far_y =
-      box.periodic_y() && std::abs(r.dvy) * span * margin + reach * margin >= box.height - std::abs(r.dy);
+      box.periodic_y() && std::abs(r.dvy) * span * margin + contact_distance * margin >= box.height - std::abs(r.dy);
   double t = never;
   Relative image = r;
   image.dx = r.dx > 0.0 ? r.dx - box.width : r.dx + box.width;
-  if (far_x) t = std::min(t, time_to_contact(image, reach));
+  if (far_x) t = std::min(t, time_to_contact(image, contact_distance));
   image.dy = r.dy > 0.0 ? r.dy - box.height : r.dy + box.height;
-  if (far_x && far_y) t = std::min(t, time_to_contact(image, reach));
+  if (far_x && far_y) t = std::min(t, time_to_contact(image, contact_distance));
   image.dx = r.dx;
-  if (far_y) t = std::min(t, time_to_contact(image, reach));
+  if (far_y) t = std::min(t, time_to_contact(image, contact_distance));
   return t;
 }
 
-// When two paths meet: the time of contact, `never` if that is after `end`. The first disk is the one with the smaller
-// id. reach = r1 + r2. Relative motion does not feel gravity, so the same quadratic serves.
-inline double meeting_time(const PathSegment& first, const PathSegment& second, double reach, const Domain& box,
-                           double g, double end) {
+// The time at which two paths come into contact, `never` if that is after `end`. The first disk is the one with the
+// smaller id. contact_distance = r1 + r2. Gravity cancels in relative motion, so that the quadratic is that of straight
+// paths.
+inline double collision_time(const PathSegment& first, const PathSegment& second, double contact_distance,
+                             const Domain& box, double g, double end) {
   const double both = std::max(first.start, second.start);
   const Relative r = relative(carried_to(first, both, g), carried_to(second, both, g), box);
-  double t = time_to_contact(r, reach);
-  if (box.periodic_x() || box.periodic_y()) t = std::min(t, time_to_far_contact(r, reach, box, end - both));
+  double t = time_to_contact(r, contact_distance);
+  if (box.periodic_x() || box.periodic_y()) t = std::min(t, time_to_far_contact(r, contact_distance, box, end - both));
   const double s = both + t;
   return s <= end ? s : never;
 }
@@ -108,8 +110,8 @@ inline double time_to_crossing(Side side, const PathSegment& p, const Domain& bo
   return this_side ? 2.0 * flight / (fast + root) : never;
 }
 
-// When a path meets a side: a wall's or sink's contact, a periodic side's crossing event. A sink takes what touches it,
-// wherever that moves. `never` if after `end`.
+// The time of a path's event at a side: contact with a wall or sink, or crossing a periodic side. A sink takes a disk
+// that touches it, wherever the disk moves. `never` if after `end`.
 inline double side_time(const PathSegment& p, Side side, double radius, const Domain& box, double g, double end) {
   const SideKind kind = box.side(side);
   const double gap = -reach_beyond(side, p.x, p.y, radius, box);

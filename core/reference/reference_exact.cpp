@@ -29,10 +29,10 @@ class ReferenceExact final : public Engine {
     const PhaseTimer timer(times_, "window");
     const ExactRules rules = exact_rules(scene_, state_.disks);
     has_paths_ = false;
-    WindowResult result = run_window(rules, state_, plan, go_on_);
+    WindowResult result = run_reference_window(rules, state_, plan, go_on_);
     while (result.crowded && !result.given_up) {
       plan = shortened(plan, rules, *result.crowded);
-      result = run_window(rules, state_, plan, go_on_);
+      result = run_reference_window(rules, state_, plan, go_on_);
     }
     if (result.given_up) return;
     last_plan_ = plan;
@@ -118,7 +118,7 @@ class ReferenceExact final : public Engine {
   WindowPlan last_plan_;
   WindowPaths paths_;
   bool has_paths_ = false;
-  Disks at_start_;  // of the last window; columns other than the places are read
+  Disks at_start_;  // of the last window; columns other than positions and velocities are read
 };
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace carom {
 
 namespace {
 
-constexpr Count events_between_looks = 1024;
+constexpr Count events_between_polls = 1024;
 
 struct Event {
   double time;
@@ -33,19 +33,20 @@ class EventLoop {
         travelled_(disks_.size(), 0.0),
         burst_(disks_.size()) {}
 
-  // Returns the longest way that any disk went; beyond `travel` the neighbourhood was too small and the result is void.
+  // Returns the longest path length of any disk; beyond `travel` the neighbourhood was too small and the result is
+  // void.
   double run() {
     for (std::uint32_t i = 0; i < disks_.size(); ++i) predict(i, true);
     double end = plan_.length;
     for (Count taken = 1; !queue_.empty() && !result_.crowded && !collapse_; ++taken) {
       const Event e = queue_.top();
       queue_.pop();
-      if (taken % events_between_looks == 0 && go_on_ && !go_on_()) {
+      if (taken % events_between_polls == 0 && go_on_ && !go_on_()) {
         result_.given_up = true;
         return farthest_;
       }
       if (version_[e.i1] != e.version1 || version_[e.i2] != e.version2) continue;
-      happen(e);
+      process(e);
       if (farthest_ > travel_) return farthest_;
       if (result_.crowded || collapse_) end = e.time;
     }
@@ -69,13 +70,13 @@ class EventLoop {
       const bool in_order = disks_.id[i] < disks_.id[j];
       const std::uint32_t a = in_order ? i : j;
       const std::uint32_t b = in_order ? j : i;
-      const double reach = disks_.radius_of(a) + disks_.radius_of(b);
-      const double t = meeting_time(path(a), path(b), reach, rules_.box, rules_.gravity, plan_.length);
+      const double contact_distance = disks_.radius_of(a) + disks_.radius_of(b);
+      const double t = collision_time(path(a), path(b), contact_distance, rules_.box, rules_.gravity, plan_.length);
       if (t < never) queue_.push({t, disks_.id[a], disks_.id[b], a, b, version_[a], version_[b]});
     });
   }
 
-  void happen(const Event& e) {
+  void process(const Event& e) {
     const bool pair = !is_wall(e.id2);
     add_travel(e.i1, e.time);
     if (pair) add_travel(e.i2, e.time);
@@ -102,7 +103,7 @@ class EventLoop {
     if (inelastic && burst_[i].add(e.time, plan_.length)) collapse_ = mark;
   }
 
-  // Adds the way along the present segment up to time s; under gravity a bound.
+  // Adds the path length along the present segment up to time s; under gravity an upper bound.
   void add_travel(std::uint32_t i, double s) {
     const PathSegment& p = path(i);
     const double t = s - p.start;
@@ -140,7 +141,7 @@ WindowResult fresh_result(const State& state) {
   return result;
 }
 
-// A first guess at how far disks go: somewhat more than the way of the fastest one.
+// A first guess at how far disks move: somewhat more than the fastest one does without collisions.
 double guess_travel(const ExactRules& rules, const Disks& d, double length) {
   double fastest2 = 0.0;
   for (std::size_t i = 0; i < d.size(); ++i) fastest2 = std::max(fastest2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
@@ -149,8 +150,8 @@ double guess_travel(const ExactRules& rules, const Disks& d, double length) {
 
 }  // namespace
 
-WindowResult run_window(const ExactRules& rules, const State& state, const WindowPlan& plan,
-                        const std::function<bool()>& go_on) {
+WindowResult run_reference_window(const ExactRules& rules, const State& state, const WindowPlan& plan,
+                                  const std::function<bool()>& go_on) {
   double travel = guess_travel(rules, state.disks, plan.length);
   for (;;) {
     WindowResult result = fresh_result(state);

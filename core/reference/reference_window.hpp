@@ -31,13 +31,14 @@ struct WindowResult {
   std::vector<unsigned char> gone;  // left through a sink
   ImpactTally tally;
   CollisionLog collisions;
-  std::optional<EventMark> crowded;  // the window is to be shortened: nothing of it counts
-  bool given_up = false;             // nor where go_on said no
+  // Nothing of the window counts: it is to be shortened (with the event that tells), or go_on said to stop.
+  std::optional<EventMark> crowded;
+  bool given_up = false;
 };
 
 // Finds and resolves every event of [0, plan.length]; `state` is that of the window's start and is not changed.
 // go_on: as in Engine::set_watch. Throws PhysicsError at inelastic collapse.
-WindowResult run_window(const ExactRules& rules, const State& state, const WindowPlan& plan,
-                        const std::function<bool()>& go_on);
+WindowResult run_reference_window(const ExactRules& rules, const State& state, const WindowPlan& plan,
+                                  const std::function<bool()>& go_on);
 
 }  // namespace carom

@@ -1,15 +1,15 @@
-#include "parallel/exact/exact_queue.hpp"
+#include "parallel/exact/event_queue.hpp"
 
 namespace carom {
 
 namespace {
 
-// Few enough to be looked through for the first, enough that a page is not an empty one.
+// Few enough to be searched for the first, enough that few pages are empty.
 constexpr std::size_t events_per_page = 3;
 
 }  // namespace
 
-void ExactQueue::begin(double start, double end, std::size_t expected) {
+void EventQueue::begin(double start, double end, std::size_t expected) {
   const std::size_t pages = expected / events_per_page + 1;
   first_.assign(pages, none);
   chunks_.clear();
@@ -22,9 +22,9 @@ void ExactQueue::begin(double start, double end, std::size_t expected) {
   pages_per_time_ = end > start ? static_cast<double>(pages) / (end - start) : 0.0;
 }
 
-void ExactQueue::write(std::uint32_t page, const Note& note) {
+void EventQueue::write(std::uint32_t page, const Entry& entry) {
   std::uint32_t c = first_[page];
-  if (c == none || chunks_[c].count == chunk_notes) {
+  if (c == none || chunks_[c].count == entries_a_chunk) {
     std::uint32_t fresh = free_;
     if (fresh != none) {
       free_ = chunks_[fresh].next;
@@ -37,15 +37,15 @@ void ExactQueue::write(std::uint32_t page, const Note& note) {
     first_[page] = c = fresh;
   }
   Chunk& chunk = chunks_[c];
-  chunk.note[chunk.count++] = note;
+  chunk.entry[chunk.count++] = entry;
 }
 
-void ExactQueue::turn_page() {
+void EventQueue::turn_page() {
   std::uint32_t c = first_[next_page_++];
   while (c != none) {
     Chunk& chunk = chunks_[c];
     for (std::uint32_t k = 0; k < chunk.count; ++k) {
-      now_.push_back({chunk.note[k].time, 0, 0, chunk.note[k].disk});
+      now_.push_back({chunk.entry[k].time, 0, 0, chunk.entry[k].disk});
     }
     const std::uint32_t next = chunk.next;
     chunk.next = free_;

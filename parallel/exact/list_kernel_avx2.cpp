@@ -1,5 +1,5 @@
-// Compiled with -mavx2 on x86-64 (CMakeLists.txt); elsewhere it is the baseline, which is called then.
-#include "parallel/exact/nearby_kernel.hpp"
+// Compiled with -mavx2 on x86-64 (CMakeLists.txt); elsewhere it calls the baseline.
+#include "parallel/exact/list_kernel.hpp"
 
 #if defined(__AVX2__)
 
@@ -26,16 +26,16 @@ constexpr auto packing = [] {
   return table;
 }();
 
-// The frame in every lane.
+// The query in every lane.
 struct Lanes {
   __m256i x, y, self;
-  __m256 unit_x, unit_y, reach, reach2;
+  __m256 unit_x, unit_y, cutoff, cutoff2;
 };
 
 // Lanes that are near.
 template <bool unequal_radii>
-inline __m256 near(const Lanes& l, const NearbyFrame& f, const NearbyColumns& columns, std::uint32_t j) {
-  const auto* const p = reinterpret_cast<const float*>(columns.spot + j);
+inline __m256 near_lanes(const Lanes& l, const ListQuery& q, const ListColumns& columns, std::uint32_t j) {
+  const auto* const p = reinterpret_cast<const float*>(columns.position + j);
   const __m256 a = _mm256_loadu_ps(p);
   const __m256 b = _mm256_loadu_ps(p + lanes);
   // Lanes 0, 1, 4, 5, 2, 3, 6, 7, put in order at the end.
@@ -45,16 +45,16 @@ inline __m256 near(const Lanes& l, const NearbyFrame& f, const NearbyColumns& co
   const __m256 dy = _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_sub_epi32(y, l.y)), l.unit_y);
   const __m256 unordered = _mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy));
   const __m256 distance2 = _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(unordered), 0xd8));
-  if constexpr (!unequal_radii) return _mm256_cmp_ps(distance2, l.reach2, _CMP_LE_OQ);
-  const __m256d per_length = _mm256_set1_pd(f.per_length);
+  if constexpr (!unequal_radii) return _mm256_cmp_ps(distance2, l.cutoff2, _CMP_LE_OQ);
+  const __m256d per_length = _mm256_set1_pd(q.per_length);
   const __m128 low = _mm256_cvtpd_ps(_mm256_mul_pd(_mm256_loadu_pd(columns.radius + j), per_length));
   const __m128 high = _mm256_cvtpd_ps(_mm256_mul_pd(_mm256_loadu_pd(columns.radius + j + 4), per_length));
-  const __m256 reach = _mm256_add_ps(l.reach, _mm256_set_m128(high, low));
-  return _mm256_cmp_ps(distance2, _mm256_mul_ps(reach, reach), _CMP_LE_OQ);
+  const __m256 cutoff = _mm256_add_ps(l.cutoff, _mm256_set_m128(high, low));
+  return _mm256_cmp_ps(distance2, _mm256_mul_ps(cutoff, cutoff), _CMP_LE_OQ);
 }
 
 // Packs the lanes of a run of up to `left` disks from j on.
-inline std::size_t take(const Lanes& l, const NearbyColumns& columns, std::uint32_t j, std::uint32_t left, __m256 near,
+inline std::size_t take(const Lanes& l, const ListColumns& columns, std::uint32_t j, std::uint32_t left, __m256 near,
                         std::uint32_t* found) {
   const __m256i number = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   const __m256i at = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(j)), number);
@@ -72,27 +72,27 @@ inline std::size_t take(const Lanes& l, const NearbyColumns& columns, std::uint3
 }
 
 template <bool unequal_radii>
-std::size_t nearby(const NearbyFrame& f, const NearbyColumns& columns, const DiskRun* runs, std::size_t count,
-                   std::uint32_t* found) {
-  const float reach = f.reach + f.common_radius;
-  const Lanes l{_mm256_set1_epi32(static_cast<int>(f.spot.x)),
-                _mm256_set1_epi32(static_cast<int>(f.spot.y)),
-                _mm256_set1_epi32(static_cast<int>(f.self)),
-                _mm256_set1_ps(f.unit_x),
-                _mm256_set1_ps(f.unit_y),
-                _mm256_set1_ps(f.reach),
-                _mm256_set1_ps(reach * reach)};
+std::size_t find(const ListQuery& q, const ListColumns& columns, const DiskRun* runs, std::size_t count,
+                 std::uint32_t* found) {
+  const float cutoff = q.cutoff + q.common_radius;
+  const Lanes l{_mm256_set1_epi32(static_cast<int>(q.position.x)),
+                _mm256_set1_epi32(static_cast<int>(q.position.y)),
+                _mm256_set1_epi32(static_cast<int>(q.self)),
+                _mm256_set1_ps(q.unit_x),
+                _mm256_set1_ps(q.unit_y),
+                _mm256_set1_ps(q.cutoff),
+                _mm256_set1_ps(cutoff * cutoff)};
   std::size_t n = 0;
   for (std::size_t k = 0; k < count; ++k) {
     std::uint32_t j = runs[k].first;
     const std::uint32_t last = runs[k].last;
-    // The last few with some that come after them, which are masked out; where there are none, one by one.
+    // The last few together with disks that follow them, which are masked out; where none follow, one by one.
     for (; j < last && j + lanes <= columns.count; j += lanes) {
-      n += take(l, columns, j, last - j, near<unequal_radii>(l, f, columns, j), found + n);
+      n += take(l, columns, j, last - j, near_lanes<unequal_radii>(l, q, columns, j), found + n);
     }
     if (j < last) {
       const DiskRun rest{j, last};
-      n += nearby_baseline(f, columns, &rest, 1, found + n);
+      n += list_kernel_baseline(q, columns, &rest, 1, found + n);
     }
   }
   return n;
@@ -100,10 +100,10 @@ std::size_t nearby(const NearbyFrame& f, const NearbyColumns& columns, const Dis
 
 }  // namespace
 
-std::size_t nearby_avx2(const NearbyFrame& frame, const NearbyColumns& columns, const DiskRun* runs, std::size_t count,
-                        std::uint32_t* found) {
-  return columns.radius == nullptr ? nearby<false>(frame, columns, runs, count, found)
-                                   : nearby<true>(frame, columns, runs, count, found);
+std::size_t list_kernel_avx2(const ListQuery& query, const ListColumns& columns, const DiskRun* runs, std::size_t count,
+                             std::uint32_t* found) {
+  return columns.radius == nullptr ? find<false>(query, columns, runs, count, found)
+                                   : find<true>(query, columns, runs, count, found);
 }
 
 }  // namespace carom
@@ -112,9 +112,9 @@ std::size_t nearby_avx2(const NearbyFrame& frame, const NearbyColumns& columns, 
 
 namespace carom {
 
-std::size_t nearby_avx2(const NearbyFrame& frame, const NearbyColumns& columns, const DiskRun* runs, std::size_t count,
-                        std::uint32_t* found) {
-  return nearby_baseline(frame, columns, runs, count, found);
+std::size_t list_kernel_avx2(const ListQuery& query, const ListColumns& columns, const DiskRun* runs, std::size_t count,
+                             std::uint32_t* found) {
+  return list_kernel_baseline(query, columns, runs, count, found);
 }
 
 }  // namespace carom

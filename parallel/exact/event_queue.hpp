@@ -1,4 +1,4 @@
-// The events to come of a window, in order of time: a calendar whose pages are heaps.
+// The event queue: a calendar queue whose pages are heaps.
 #pragma once
 
 #include <algorithm>
@@ -8,60 +8,54 @@
 #include <vector>
 
 #include "core/base/types.hpp"
+#include "core/physics/event_order.hpp"
 
 namespace carom {
 
-// What is to happen to a disk at a time.
 struct QueuedEvent {
   double time = 0.0;
-  DiskId id1 = 0, id2 = 0;  // of the two that meet; 0, 0: the disk has to look, which comes before what meets
-  std::uint32_t disk = 0;   // storage index, perhaps with a mark in its first bit
-
-  // The canonical order, backwards.
-  bool after(const QueuedEvent& e) const {
-    if (time != e.time) return time > e.time;
-    if (id1 != e.id1) return id1 > e.id1;
-    return id2 > e.id2;
-  }
+  // Of a contact: the ids of the two; 0, 0 for anything else that is to be done for the disk, which comes first then.
+  DiskId id1 = 0, id2 = 0;
+  std::uint32_t disk = 0;  // storage index; its highest bit is the caller's
 };
 
-// Events are put on the page of their time, in any order; the first of a page is looked for when its time comes, in a
-// heap if there are many. So an event costs the same however many there are, and little memory is touched but the page
-// at hand. What became void meanwhile stays in the queue; whoever takes it out has to see that.
-class ExactQueue {
+// An event is written on the page of its time, unordered; a page is ordered when its time comes, by a heap if it holds
+// many. So the cost of an event does not depend on how many there are, and little memory is touched but the present
+// page. Invalidated events stay in the queue; the caller recognises and drops them.
+class EventQueue {
  public:
-  // Empty, for about `expected` events in [start, end). Others are welcome too, at some cost.
+  // Empties the queue, for about `expected` events in [start, end). Other numbers and times are right too, but slower.
   void begin(double start, double end, std::size_t expected);
 
   void push(const QueuedEvent& e) {
     const std::uint32_t page = page_of(e.time);
     if (page < next_page_) {
       now_.push_back(e);
-      if (is_heap_) std::push_heap(now_.begin(), now_.end(), after);
+      if (is_heap_) std::push_heap(now_.begin(), now_.end(), LaterEvent{});
       if (!is_heap_ && now_.size() > few_events) make_heap();
     } else {
       write(page, {e.time, e.disk});
     }
   }
 
-  // Takes out the first event; false if there is none. name(e) sets the ids of an event; soon(disk) hears of those
-  // whose time will come before long.
-  template <class Name, class Soon>
-  bool pop(QueuedEvent& e, Name&& name, Soon&& soon) {
+  // Takes out the first event; false if there is none. name(e) sets the ids of an event whose page is turned;
+  // prefetch(disk) is called for events of the next page.
+  template <class Name, class Prefetch>
+  bool pop(QueuedEvent& e, Name&& name, Prefetch&& prefetch) {
     while (now_.empty()) {
       if (next_page_ == first_.size()) return false;
       turn_page();
       const std::uint32_t next = next_page_ < first_.size() ? first_[next_page_] : none;
       if (next != none) {
         const Chunk& chunk = chunks_[next];
-        for (std::uint32_t k = 0; k < chunk.count; ++k) soon(chunk.note[k].disk);
+        for (std::uint32_t k = 0; k < chunk.count; ++k) prefetch(chunk.entry[k].disk);
       }
       for (QueuedEvent& event : now_) name(event);
       is_heap_ = false;
       if (now_.size() > few_events) make_heap();
     }
     if (is_heap_) {
-      std::pop_heap(now_.begin(), now_.end(), after);
+      std::pop_heap(now_.begin(), now_.end(), LaterEvent{});
     } else {
       std::swap(now_[first_of_few()], now_.back());
     }
@@ -72,34 +66,33 @@ class ExactQueue {
 
  private:
   static constexpr std::uint32_t none = 0xffffffffU;
-  struct Note {
+  struct Entry {
     double time;
     std::uint32_t disk;
   };
-  static constexpr std::uint32_t chunk_notes = 7;
+  static constexpr std::uint32_t entries_a_chunk = 7;
   // Two cache lines of a page.
   struct alignas(64) Chunk {
-    Note note[chunk_notes];
+    Entry entry[entries_a_chunk];
     std::uint32_t next;
     std::uint32_t count;
   };
   static_assert(sizeof(Chunk) == 128);
 
-  // So many are looked through faster than a heap is kept.
+  // So few are searched faster than a heap is kept.
   static constexpr std::size_t few_events = 12;
 
-  static bool after(const QueuedEvent& a, const QueuedEvent& b) { return a.after(b); }
   void make_heap() {
-    std::make_heap(now_.begin(), now_.end(), after);
+    std::make_heap(now_.begin(), now_.end(), LaterEvent{});
     is_heap_ = true;
   }
-  // Which of them comes first is as good as random: no branch depends on times, but for equal ones.
+  // Which of them is first is as good as random: no branch depends on the times, except on equal ones.
   std::size_t first_of_few() const {
     std::size_t first = 0;
     for (std::size_t k = 1; k < now_.size(); ++k) {
       const bool tie = now_[k].time == now_[first].time;
       if (tie) [[unlikely]] {
-        first = now_[first].after(now_[k]) ? k : first;
+        first = event_order(now_[k], now_[first]) ? k : first;
       } else {
         first = now_[k].time < now_[first].time ? k : first;
       }
@@ -112,7 +105,7 @@ class ExactQueue {
     if (!(page > 0.0)) return 0;
     return page < last_page_ ? static_cast<std::uint32_t>(page) : static_cast<std::uint32_t>(first_.size() - 1);
   }
-  void write(std::uint32_t page, const Note& note);
+  void write(std::uint32_t page, const Entry& entry);
   void turn_page();
 
   double start_ = 0.0;
@@ -122,7 +115,7 @@ class ExactQueue {
   std::uint32_t free_ = none;         // chunks that hold nothing, chained
   std::vector<std::uint32_t> first_;  // chunk of each page
   std::vector<Chunk> chunks_;
-  std::vector<QueuedEvent> now_;  // what is left of the pages turned
+  std::vector<QueuedEvent> now_;  // events left of the pages turned
   bool is_heap_ = false;
 };
 

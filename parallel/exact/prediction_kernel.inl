@@ -1,4 +1,4 @@
-// The kernel, compiled once for every instruction set; CAROM_MEETING_KERNELS names the version. Four neighbours at a
+// The kernel, compiled once for every instruction set; CAROM_PREDICTION_KERNELS names the version. Four neighbours at a
 // time, in the compilers' own vector types: on a machine without them the compiler splits them.
 
 #include <bit>
@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "parallel/exact/meeting_kernel.hpp"
+#include "parallel/exact/prediction_kernel.hpp"
 
 namespace carom {
 
@@ -18,7 +18,7 @@ using Longs = long long __attribute__((vector_size(32)));
 constexpr std::uint32_t lanes = 4;
 
 static_assert(offsetof(PathSegment, vy) == offsetof(PathSegment, x) + 3 * sizeof(double));
-static_assert(most_neighbours % lanes == 0);
+static_assert(max_batch % lanes == 0);
 
 // x, y, vx, vy of a segment.
 inline Doubles load_motion(const PathSegment& p) {
@@ -74,10 +74,10 @@ inline unsigned bits_of(Longs truth) {
 #endif
 }
 
-// The constants of a look in every lane.
+// The constants of a prediction in every lane.
 struct Lanes {
   Doubles start, x, y, vx, vy;
-  Doubles g, half_g, radius, reach2;
+  Doubles g, half_g, radius, contact2;
   Doubles width, height, half_width, half_height;
   Doubles close2, slow2;
 };
@@ -86,11 +86,11 @@ inline Doubles nearest(Doubles d, Doubles period, Doubles half) {
   return (d - where(d > half, period)) + where(d < -half, period);
 }
 
-// core's meeting_time(), operation by operation: carried_to, relative, time_to_contact, contact_time. All differences
+// core's collision_time(), operation by operation: carried_to, relative, time_to_contact, contact_time. All differences
 // may have the other sign, which changes no bit of the time. lasting: set where a contact lasts.
 template <bool gravity, bool unequal_radii>
-inline Doubles meet_four(const Lanes& own, const Flight& f0, const Flight& f1, const Flight& f2, const Flight& f3,
-                         Longs& lasting) {
+inline Doubles four_contacts(const Lanes& own, const DiskRecord& f0, const DiskRecord& f1, const DiskRecord& f2,
+                             const DiskRecord& f3, Longs& lasting) {
   const Doubles m0 = load_motion(f0.path);
   const Doubles m1 = load_motion(f1.path);
   const Doubles m2 = load_motion(f2.path);
@@ -122,23 +122,24 @@ inline Doubles meet_four(const Lanes& own, const Flight& f0, const Flight& f1, c
   const Doubles dvy = vy - own_vy;
   const Doubles approach = dx * dvx + dy * dvy;
   const Doubles cross = dx * dvy - dy * dvx;
-  Doubles reach2 = own.reach2;
+  Doubles contact2 = own.contact2;
   if constexpr (unequal_radii) {
-    const Doubles reach = own.radius + Doubles{f0.radius, f1.radius, f2.radius, f3.radius};
-    reach2 = reach * reach;
+    const Doubles contact_distance = own.radius + Doubles{f0.radius, f1.radius, f2.radius, f3.radius};
+    contact2 = contact_distance * contact_distance;
   }
-  const Doubles discriminant = (dvx * dvx + dvy * dvy) * reach2 - cross * cross;
-  const Doubles gap = (dx * dx + dy * dy) - reach2;
+  const Doubles discriminant = (dvx * dvx + dvy * dvy) * contact2 - cross * cross;
+  const Doubles gap = (dx * dx + dy * dy) - contact2;
   lasting |= (gap * gap <= own.close2) & (approach * approach <= own.slow2);
-  const Doubles contact = gap / (root(discriminant) - approach);
-  const Longs meets = (approach < all(0.0)) & ~(discriminant < all(0.0));
-  return choose(meets, both + where(contact > all(0.0), contact), all(never));
+  const Doubles until_contact = gap / (root(discriminant) - approach);
+  const Longs touches = (approach < all(0.0)) & ~(discriminant < all(0.0));
+  return choose(touches, both + where(until_contact > all(0.0), until_contact), all(never));
 }
 
 template <bool gravity, bool unequal_radii, class Offset>
-FirstMeetings first_meetings(const MeetingFrame& f, const Flight* flight, const Offset* offset, std::uint32_t count) {
-  const PathSegment& p = flight->path;
-  const double reach = flight->radius + flight->radius;
+FirstContacts first_contacts(const PredictionConstants& f, const DiskRecord* record, const Offset* offset,
+                             std::uint32_t count) {
+  const PathSegment& p = record->path;
+  const double contact_distance = record->radius + record->radius;
   const Lanes own{all(p.start),
                   all(p.x),
                   all(p.y),
@@ -146,24 +147,25 @@ FirstMeetings first_meetings(const MeetingFrame& f, const Flight* flight, const 
                   all(p.vy),
                   all(f.gravity),
                   all(0.5 * f.gravity),
-                  all(flight->radius),
-                  all(reach * reach),
+                  all(record->radius),
+                  all(contact_distance * contact_distance),
                   all(f.width),
                   all(f.height),
                   all(f.half_width),
                   all(f.half_height),
                   all(f.close2),
                   all(f.slow2)};
-  Doubles time[most_neighbours / lanes];
+  Doubles time[max_batch / lanes];
   Doubles least = all(never);
   Longs lasting{};
   const std::uint32_t fours = (count + lanes - 1) / lanes;
   for (std::uint32_t k = 0; k < fours; ++k) {
     const Offset* const n = offset + std::size_t{k} * lanes;
-    time[k] = meet_four<gravity, unequal_radii>(own, flight[n[0]], flight[n[1]], flight[n[2]], flight[n[3]], lasting);
+    time[k] =
+        four_contacts<gravity, unequal_radii>(own, record[n[0]], record[n[1]], record[n[2]], record[n[3]], lasting);
     least = smaller(time[k], least);
   }
-  FirstMeetings first;
+  FirstContacts first;
   first.lasting = bits_of(lasting) != 0;
   const double least01 = least[0] < least[1] ? least[0] : least[1];
   const double least23 = least[2] < least[3] ? least[2] : least[3];
@@ -174,11 +176,11 @@ FirstMeetings first_meetings(const MeetingFrame& f, const Flight* flight, const 
 
 }  // namespace
 
-MeetingKernels CAROM_MEETING_KERNELS(bool gravity, bool unequal_radii) {
+PredictionKernels CAROM_PREDICTION_KERNELS(bool gravity, bool unequal_radii) {
   const auto both = [](auto has_gravity, auto has_radii) {
     constexpr bool g = decltype(has_gravity)::value;
     constexpr bool r = decltype(has_radii)::value;
-    return MeetingKernels{first_meetings<g, r, std::int16_t>, first_meetings<g, r, std::int32_t>};
+    return PredictionKernels{first_contacts<g, r, std::int16_t>, first_contacts<g, r, std::int32_t>};
   };
   if (gravity && unequal_radii) return both(std::true_type{}, std::true_type{});
   if (gravity) return both(std::true_type{}, std::false_type{});

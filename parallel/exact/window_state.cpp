@@ -1,0 +1,59 @@
+#include "parallel/exact/window_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/huge_pages.hpp"
+#include "core/step/window_length.hpp"
+
+namespace carom {
+
+namespace {
+
+// Events are predicted this many windows ahead; a disk that has none by then is predicted again.
+constexpr double windows_ahead = 4.0;
+// Disks that approach at more than `slow` meet at a time that rounding shifts by less than this part of a window.
+constexpr double rounding_ratio = 1e5;
+
+template <class T>
+void resize_column(std::vector<T>& column, std::size_t n) {
+  if (column.capacity() < n) resize_in_huge_pages(column, n);
+  column.resize(n);
+}
+
+}  // namespace
+
+void WindowState::begin(const ExactRules& window_rules, const Disks& all, const WindowPlan& plan, double fastest_speed2,
+                        double radius) {
+  rules = window_rules;
+  disks = &all;
+  length = plan.length;
+  horizon = windows_ahead * plan.length;
+  next_start = std::nextafter(plan.length, never);
+  most_paths = carom::most_paths(all.size());
+  fastest2 = fastest_speed2;
+  largest_radius = radius;
+  set_tolerances();
+  resize_column(record, all.size());
+  resize_column(next_event_time, all.size());
+  burst.resize(dissipates(rules.box, rules.restitution) ? all.size() : 0);
+}
+
+void WindowState::set_tolerances() {
+  const double side = std::max(rules.box.width, rules.box.height);
+  slack = 1e-9 * 2.0 * largest_radius + 1e-14 * side;
+  // Coordinates, and distances that velocities make in the windows ahead, are rounded to this.
+  const double fastest = std::sqrt(fastest2) + rules.gravity * length;
+  const double rounding = 0x1p-51 * (side + fastest * horizon);
+  close = 4.0 * rounding_ratio * rounding;
+  slow = rounding_ratio * rounding / length;
+}
+
+void WindowState::release_memory() {
+  std::vector<DiskRecord>().swap(record);
+  std::vector<double>().swap(next_event_time);
+  std::vector<DiskProgress>().swap(progress);
+  std::vector<std::uint8_t>().swap(mark);
+}
+
+}  // namespace carom

@@ -1,0 +1,67 @@
+// What one thread works on in a window of the exact engine, and what it finds out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/physics/exact_event.hpp"
+#include "core/physics/impact_tally.hpp"
+#include "parallel/exact/event_queue.hpp"
+#include "parallel/exact/neighbour_lists.hpp"
+
+namespace carom {
+
+// A segment of a disk's path in the last window; frames are read from these.
+struct LoggedSegment {
+  std::uint32_t disk;
+  bool gone;  // left through a sink at path.start
+  PathSegment path;
+};
+
+// In BlockedDisk::tile: no tile of the region can resolve the disk; it is deferred to the serial pass.
+inline constexpr std::uint32_t serial_pass = 0xffffffffU;
+
+// A disk whose motion is known up to its safe time only, because that of a neighbour is not known.
+struct BlockedDisk {
+  std::uint32_t disk;
+  std::uint32_t tile;  // that has to be processed first, or serial_pass
+  double safe_time;
+};
+
+// Members are of the window where nothing else is said.
+struct Worker {
+  ListRegion region;      // what it may read and write
+  bool is_serial = true;  // it sees all disks, and no other thread works at the same time
+  EventQueue queue;
+  ImpactTally tally;
+  std::vector<LoggedSegment> log;  // a disk's segments in order
+  bool any_gone = false;
+  double fastest2 = 0.0;              // largest v^2
+  Count segments = 0;                 // begun
+  std::optional<EventMark> collapse;  // the first one, if serial
+  // Each of these voids the window: a disk was faster than the speed bound, or a disk that was done had to collide; it
+  // holds too many events (with the event that tells, the first one if serial); Engine::set_watch said to stop.
+  bool too_fast = false;
+  std::optional<EventMark> crowded;
+  bool given_up = false;
+  bool ended = false;                 // one of these, or a collapse if serial: no further event
+  Count until_poll = 0;               // events before go_on is asked again
+  Count relisted = 0;                 // disks, in the slice
+  std::vector<std::uint32_t> border;  // disks that came to list one of another region in the slice
+  std::vector<BlockedDisk> blocked;   // in the slice
+  FoundNeighbours found;              // scratch
+
+  void begin_window() {
+    tally = {};
+    log.clear();
+    any_gone = false;
+    fastest2 = 0.0;
+    segments = 0;
+    collapse.reset();
+    crowded.reset();
+    too_fast = given_up = ended = false;
+  }
+};
+
+}  // namespace carom
