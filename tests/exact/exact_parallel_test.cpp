@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/random.hpp"
+#include "parallel/exact/engine_mode.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/exact_support.hpp"
 
@@ -30,7 +31,7 @@ std::string fingerprint(const State& s) {
       c.emitted, c.waiting, c.virial, c.wall_impulse[0], c.wall_impulse[1], c.wall_impulse[2], c.wall_impulse[3]);
 }
 
-// Tiles so small that even these scenes have many; with 1 in place of 128 there are none, and all events run alone.
+// Tiles so small that even these scenes have many; with 1 in place of 128 there are none, and one queue has all events.
 State run_parallel(const Scene& scene, const State& initial, int threads, std::size_t block_divisor = 128) {
   const auto engine = make_parallel_engine(scene, initial, {threads, block_divisor});
   run_to_end(*engine, scene);
@@ -44,7 +45,7 @@ void expect_same_bits(const Scene& scene) {
   for (const int threads : {1, 2, 3, 5, 8}) {
     ASSERT_EQ(fingerprint(run_parallel(scene, initial, threads)), fingerprint(reference)) << threads << " threads";
   }
-  ASSERT_EQ(fingerprint(run_parallel(scene, initial, 2, 1)), fingerprint(reference)) << "alone";
+  ASSERT_EQ(fingerprint(run_parallel(scene, initial, 2, 1)), fingerprint(reference)) << "single queue";
   ASSERT_EQ(fingerprint(run_parallel(scene, initial, 3, 1024)), fingerprint(reference)) << "tiles of eight disks";
 }
 
@@ -160,17 +161,8 @@ TEST(ExactParallelContacts, OfDisksWithoutRoom) {
   }
 }
 
-// Where events pile up at one moment, the report names the reference's, whatever the tiles.
-TEST(ExactParallelCollapse, IsReportedAlike) {
-  const auto report_of = [](Engine& engine, const Scene& scene) -> std::string {
-    try {
-      run_to_end(engine, scene);
-    } catch (const PhysicsError& error) {
-      return error.what();
-    }
-    return "none";
-  };
-  const Scene scene = parse_scene(R"(seed = 712775
+Scene collapsing_gas(int count) {
+  return parse_scene(fmt::format(R"(seed = 712775
 [box]
 packing_fraction = 0.3403
 aspect = 0.1441
@@ -179,27 +171,50 @@ top = "periodic"
 [physics]
 restitution = 0.2
 [[disks]]
-count = 26
+count = {}
 positions = "growth"
-velocities = { uniform = 1.005 }
-radius = { from_mass = 0.6127 }
-mass = { uniform = [0.04807, 1.923] }
+velocities = {{ uniform = 1.005 }}
+radius = {{ from_mass = 0.6127 }}
+mass = {{ uniform = [0.04807, 1.923] }}
 [run]
 method = "exact"
 t_end = 60
 )",
-                                  "test", ".");
-  const State initial = initial_state(scene);
-  const std::string expected = report_of(*make_reference_exact(scene, initial), scene);
-  EXPECT_NE(expected.find("inelastic collapse"), std::string::npos) << expected;
-  for (const std::size_t block_divisor : {1U, 128U, 512U, 1024U}) {
-    const auto engine = make_parallel_engine(scene, initial, {3, block_divisor});
-    EXPECT_EQ(report_of(*engine, scene), expected) << "divisor " << block_divisor;
+                                 count),
+                     "test", ".");
+}
+
+std::string collapse_report(Engine& engine, const Scene& scene) {
+  try {
+    run_to_end(engine, scene);
+  } catch (const PhysicsError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+// Where events pile up at one moment, the report names the reference's, in every mode.
+TEST(ExactParallelCollapse, IsReportedAlike) {
+  struct Case {
+    int disks;
+    std::size_t block_divisor;
+    EngineMode mode;
+  };
+  for (const Case c :
+       {Case{26, 1, EngineMode::all_pairs}, Case{160, 1, EngineMode::single_queue}, Case{160, 128, EngineMode::tiled},
+        Case{160, 512, EngineMode::tiled}, Case{160, 1024, EngineMode::tiled}}) {
+    SCOPED_TRACE(fmt::format("{} disks, divisor {}", c.disks, c.block_divisor));
+    ASSERT_EQ(choose_layout(static_cast<std::size_t>(c.disks), true, Executor(3, c.block_divisor)).mode, c.mode);
+    const Scene scene = collapsing_gas(c.disks);
+    const State initial = initial_state(scene);
+    const std::string expected = collapse_report(*make_reference_exact(scene, initial), scene);
+    EXPECT_NE(expected.find("inelastic collapse"), std::string::npos) << expected;
+    const auto engine = make_parallel_engine(scene, initial, {3, c.block_divisor});
+    EXPECT_EQ(collapse_report(*engine, scene), expected);
   }
 }
 
-// How fast disks get is not known beforehand: a projectile that scatters a cold gas, light disks hit by heavy ones.
-// The engine's speed bound then proves too small, and the window is done again.
+// The speed bound fails: a projectile scatters a cold gas, heavy disks hit light ones. The window is run again.
 TEST(ExactParallelSpeeds, ThatRiseWithinAWindow) {
   const std::string cold = "velocities = { maxwell = 1e-6 }\nradius = 0.4\nmass = 0.001";
   const std::string heavy =
@@ -209,8 +224,8 @@ TEST(ExactParallelSpeeds, ThatRiseWithinAWindow) {
   expect_same_bits(make_scene({24, 24, "wall", "gravity = 3.0", heavy + disks(300, cold), 3, ""}));
 }
 
-// Each disk of a row is a quarter of the one before: every hit passes on 1.6 times the speed, 1.6^15 = 1150 in all, at
-// once.
+// The mass of each disk of a row is a quarter of the one before: every collision passes on 1.6 times the speed,
+// 1.6^15 = 1150 in all, within one window.
 TEST(ExactParallelSpeeds, ThatRiseAThousandfoldWithinAWindow) {
   std::string row = "[[disks]]\ncount = 16\nradius = 0.4\npositions = [";
   std::string masses = "mass = [";
@@ -242,8 +257,7 @@ TEST(ExactParallelSize, TilesAsTheyAre) {
   }
 }
 
-// Frames: the same bits too, and reading them changes nothing. After release_memory() the engine has no paths, only the
-// state; what it makes anew leads to the same bits.
+// Without its memory the engine knows no paths, only the state; what it builds again leads to the same bits.
 TEST(ExactParallelMemory, GivenBackChangesNoBit) {
   const Scene scene = make_scene({30, 30, "periodic", "", disks(500, mixed), 50.0, ""});
   const State initial = initial_state(scene);
@@ -263,6 +277,7 @@ TEST(ExactParallelMemory, GivenBackChangesNoBit) {
   }
 }
 
+// Frames have the same bits too, and reading them changes nothing.
 TEST(ExactParallelFrames, SameBitsAtAnyTime) {
   const Scene scene = make_scene({20, 20, open_sides, "gravity = 0.4", disks(150, mixed), 2.0, ""});
   const State initial = initial_state(scene);
