@@ -23,9 +23,9 @@ namespace carom {
 
 namespace {
 
-// Where chunks come to lie in the file depends on when it is flushed, and equal runs leave equal files: so not a clock
-// tells when, but the work of the run, in units of about 100 ns: a disk moved a step, a tenth of a collision of exact
-// motion, a tenth of a disk written. A run on one core flushes about twice a second.
+// The places of chunks in the file depend on when it is flushed, and equal runs must leave equal files: so flushes
+// follow the work of the run, not a clock, in units of about 100 ns: a disk moved a step, a tenth of a collision of
+// exact motion, a tenth of a disk written. A run on one core flushes about twice a second.
 constexpr double flush_work = 5e6;
 constexpr double work_of_collision = 10.0, work_of_disk_written = 10.0, work_of_step = 10.0;
 

@@ -257,7 +257,7 @@ TEST(ExactParallelSize, TilesAsTheyAre) {
   }
 }
 
-// Without its memory the engine knows no paths, only the state; what it builds again leads to the same bits.
+// After release_memory() the engine has no paths, only the state; what it builds again leads to the same bits.
 TEST(ExactParallelMemory, GivenBackChangesNoBit) {
   const Scene scene = make_scene({30, 30, "periodic", "", disks(500, mixed), 50.0, ""});
   const State initial = initial_state(scene);

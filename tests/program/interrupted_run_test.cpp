@@ -186,7 +186,7 @@ TEST_F(InterruptedRun, WithoutFilesOfItsOwnItMakesAFolderForTheCheckpoint) {
   const std::string bare =
       "run busy.toml --quiet --set output.trajectory=none --set output.series=false --set output.plots='[]' ";
   fs::create_directories(at("out/busy"));
-  write("out/busy/series.csv", "of somebody else");
+  write("out/busy/series.csv", "of another program");
   const Outcome o = carom(bare + "--max-walltime 0.001 --json");
   EXPECT_EQ(o.status, 4);
   const auto json = nlohmann::json::parse(o.out);
