@@ -47,14 +47,13 @@ std::string markdown_table(const std::vector<CaseResult>& results) {
 constexpr const char* introduction = R"(# Stability
 
 Where each method fails, and that it says so. Each case is a scene of [scenes/stability/](../scenes/stability), run with
-all three methods; what must come out, and how far off it may be, stands in
-[cases.toml](../scenes/stability/cases.toml) beside them. F1 to F17 are the faults of the
-[2014 program](original.md). Verdicts are decided by the numbers:
+all three methods; the expected figures and their bounds stand in [cases.toml](../scenes/stability/cases.toml) beside
+them. F1 to F17 are the faults of the [2014 program](original.md). The numbers decide the verdicts:
 
-- *right*: every figure within its bound, at t_end. Time stepping is granted an error of its order in dt. "warns": it
-  said all the same that it was near its limits.
-- *right but slow*: the same for more than 20 times the work of the cheapest right method, and not in a blink; for
-  rollback also where a dt takes more than two frames.
+- *right*: every figure within its bound, at t_end. Time stepping is granted an error of its order in dt. "warns": the
+  run was near its limits and warned of it.
+- *right but slow*: the same for more than 20 times the work of the cheapest right method, if that is a tenth of a second
+  or more; for rollback also where a dt takes more than two frames.
 - *wrong and says so*: a warning, or status 3, with the figure and the remedy.
 - *wrong in silence*: none of these. Nothing may be.
 
