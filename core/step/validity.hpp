@@ -19,8 +19,9 @@ inline constexpr double largest_overlap = 0.02;
 // are what disks move in a step, and the next one sees to them.
 inline constexpr double largest_overlap_before = 0.1;
 // Share of the inaccurate collisions: seen a step late (pairwise), bounced together with another of the same disk
-// (rollback, F2), made elastic by the TC model (exact). Measured on gases of packing fraction 0.3 to 0.88, with such a
-// share the collision rate (for the TC model, the dissipation) is off by about 1 % (pairwise, rollback) or 5 % (TC).
+// (rollback, F2 of docs/original.md), made elastic by the TC model (exact). Measured on gases of packing fraction 0.3
+// to 0.88, with such a share the collision rate (for the TC model, the dissipation) is off by about 1 % (pairwise,
+// rollback) or 5 % (TC).
 inline constexpr double largest_inaccurate_share = 0.05;
 // So many of them may happen before a share means anything.
 inline constexpr Count least_inaccurate = 10;

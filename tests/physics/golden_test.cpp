@@ -164,8 +164,8 @@ TEST_P(Golden, Reversible) {
   }
 }
 
-// scenes/two_disks.toml: each collision of the run, from the paths before the step, the contact time and (23) written
-// out with more digits than a double has.
+// scenes/two_disks.toml: each collision of the run, from the paths before the step, the contact time and (23) of
+// docs/original.md written out with more digits than a double has.
 TEST_P(Golden, TwoDisksSceneCollidesByRule23) {
   using test::wide;
   using test::Wide;
@@ -203,7 +203,7 @@ TEST_P(Golden, TwoDisksSceneCollidesByRule23) {
     before = after;
   });
   EXPECT_GE(collisions, 5);
-  std::printf("%s: %d collisions of two_disks held against (23)\n", test::name_of(GetParam()).c_str(), collisions);
+  std::printf("%s: %d collisions of two_disks compared with (23)\n", test::name_of(GetParam()).c_str(), collisions);
 }
 
 }  // namespace
