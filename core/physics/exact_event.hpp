@@ -58,8 +58,8 @@ inline Impact collide_at(const ExactRules& rules, double s, double mass_a, doubl
 
 // A disk that lies on the floor would collide infinitely often. Under the TC model it leaves the floor with at least
 // this share of g contact_time, so that its hops last half a contact time or more; their energy, m (g t_c)^2 / 32, is
-// of the order of what the model leaves to any disk at rest. That energy is added, but bounds what a pile costs:
-// without it, where only the hops of disks at rest remain, a pile cools further and has four times as many collisions.
+// of the order of what the model leaves to any disk at rest. The energy is added to the system, which bounds what a
+// pile costs: were it given only to disks at rest, a pile would cool further and have four times as many collisions.
 inline constexpr double least_hop = 0.25;
 
 // Disk a reaches a side at time s: it bounces off a wall or crosses a periodic side. What a sink takes, the caller

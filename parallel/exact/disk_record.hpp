@@ -39,6 +39,10 @@ class Partner {
   explicit constexpr Partner(std::uint32_t bits) : bits_(bits) {}
   std::uint32_t bits_ = none_bits;
 };
+static_assert(Partner().is_none() && !Partner::none().is_contact() && !Partner::none().is_wall());
+static_assert(Partner::relist().is_relist() && !Partner::relist().is_contact() && !Partner::relist().is_wall());
+static_assert(Partner::wall(Side::top).is_wall() && !Partner::wall(Side::top).is_disk());
+static_assert(Partner::disk(first_wall_partner - 1).is_disk());
 
 // What a prediction reads of a disk, in one cache line.
 struct alignas(64) DiskRecord {

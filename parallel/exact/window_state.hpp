@@ -48,6 +48,10 @@ class DiskProgress {
   explicit constexpr DiskProgress(std::uint32_t bits) : bits_(bits) {}
   std::uint32_t bits_ = pending_bits;
 };
+static_assert(DiskProgress::active().is_resolved() && DiskProgress::done().is_resolved());
+static_assert(!DiskProgress::pending().is_resolved() && !DiskProgress::blocked(0).is_resolved());
+static_assert(DiskProgress::active().finished().is(Progress::done));
+static_assert(DiskProgress::blocked(7).finished().is(Progress::blocked));
 
 // Bits of WindowState::mark.
 inline constexpr std::uint8_t lists_other_region = 1;
