@@ -1,9 +1,9 @@
 #include "parallel/stepping/settle_contacts.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 
-#include "parallel/stepping/contact_count.hpp"
 #include "parallel/stepping/resolve_contacts.hpp"
 #include "parallel/stepping/support_sweeps.hpp"
 #include "parallel/threads/resize_amply.hpp"
@@ -32,9 +32,9 @@ void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector
   const bool shared = executor.threads() > 1;
   const auto count = [&](std::uint32_t i) {
     if (shared) {
-      count_contact_shared(lists.contacts[i]);
+      std::atomic_ref<std::uint16_t>(lists.contacts[i]).fetch_add(1, std::memory_order_relaxed);
     } else {
-      count_contact(lists.contacts[i]);
+      ++lists.contacts[i];
     }
   };
   executor.run(found.used, [&](std::size_t b) {
@@ -49,7 +49,7 @@ void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector
   for (const auto& buffer : walls) {
     for (const ContactEvent& e : buffer) {
       pairs[place++] = {id_key(e.id1, e.id2), e.i1, e.i1};
-      count_contact(lists.contacts[e.i1]);
+      ++lists.contacts[e.i1];
     }
   }
 }
