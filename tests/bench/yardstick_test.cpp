@@ -1,5 +1,5 @@
-// The yardstick of the benchmarks computes what it is held against: a comparison with a program that is wrong, or does
-// less, would say nothing.
+// The yardstick of the benchmarks computes the same as the engine that it is compared with: a comparison with a program
+// that is wrong, or does less, would say nothing.
 #include "bench/support/yardstick.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What a run did, step by step, so that two runs that should be the same can be held against each other.
+// What a run did, step by step, so that two runs that should be the same can be compared.
 #pragma once
 
 #include <array>

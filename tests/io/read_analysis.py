@@ -1,4 +1,4 @@
-"""Reads the analysis.h5 of a run of analysis_run_test by h5py and holds it against the run's own series.csv and against
+"""Reads the analysis.h5 of a run of analysis_run_test by h5py and compares it with the run's own series.csv and against
 itself. Says how many samples there are."""
 import csv
 import sys

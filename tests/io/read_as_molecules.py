@@ -1,5 +1,5 @@
 """Reads a run's trajectory.xyz by ASE and MDAnalysis, and its trajectory.h5 (dimensions = 3) by MDAnalysis, if there
-is one, and holds them against the numbers in the text. Called by trajectory_programs_test; says what differs."""
+is one, and compares them with the numbers in the text. Called by trajectory_programs_test; says what differs."""
 import sys
 import warnings
 

@@ -1,5 +1,5 @@
-"""Reads a run's trajectory.xyz and the trajectory.h5 of the same run, by itself and by h5py, and holds them against
-each other bit by bit. Called by trajectory_h5md_test with the two files and the scene of the run; says what differs."""
+"""Reads a run's trajectory.xyz and the trajectory.h5 of the same run, by itself and by h5py, and compares
+them bit by bit. Called by trajectory_h5md_test with the two files and the scene of the run; says what differs."""
 import struct
 import sys
 import xml.etree.ElementTree

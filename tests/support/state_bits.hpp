@@ -1,4 +1,4 @@
-// All that a state is, in bits: what two runs that should agree are held against each other by.
+// All of a state in bits, by which two runs that should agree are compared.
 #pragma once
 
 #include <string>

@@ -17,7 +17,7 @@ namespace carom::test {
 
 inline constexpr double pi = 3.14159265358979323846;
 
-// More digits than a double has, for formulas held against ours.
+// More digits than a double has, for formulas to compare ours with.
 using Wide = long double;
 inline Wide wide(double x) {
   return static_cast<Wide>(x);
