@@ -18,7 +18,10 @@ using ::testing::Not;
 class Launcher : public test::ProgramTest {
  protected:
   Launcher() {
-    fs::create_directories(at("root/cmake"));
+    for (const char* const folder : {"core", "parallel", "io", "run", "app", "cmake"}) {
+      fs::create_directories(at("root") / folder);
+    }
+    write("root/CMakeLists.txt", "");
     fs::create_directories(at("root/build/release"));
     fs::create_directories(at("tools"));
     fs::copy_file(CAROM_SOURCE_DIR "/carom", at("root/carom"));
@@ -135,6 +138,25 @@ TEST_F(Launcher, ItsOwnCommandsHaveHelp) {
   const Outcome o = carom("test");
   EXPECT_EQ(o.status, 2);
   EXPECT_THAT(o.err, HasSubstr("\"test\" is a command of the launcher ./carom"));
+}
+
+TEST_F(Launcher, BuildsAgainAfterAChangeInAnyFolderOfTheProgram) {
+  write("root/build/release/carom", "#!/bin/sh\necho the program\n");
+  fs::permissions(at("root/build/release/carom"), fs::perms::owner_all);
+  const auto builds = [&] {
+    fs::remove(at("root/built"));
+    EXPECT_EQ(launch("root/carom check").out, "the program\n");
+    return fs::exists(at("root/built"));
+  };
+  EXPECT_TRUE(builds());
+  EXPECT_FALSE(builds());
+  for (const std::string folder : {"core", "parallel", "io", "run", "app", "cmake"}) {
+    write("root/" + folder + "/new.hpp", "");
+    EXPECT_TRUE(builds()) << folder;
+    EXPECT_FALSE(builds()) << folder;
+    fs::remove(at("root/" + folder + "/new.hpp"));
+    EXPECT_TRUE(builds()) << folder;
+  }
 }
 
 }  // namespace
