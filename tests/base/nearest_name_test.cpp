@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/base/input_message.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {

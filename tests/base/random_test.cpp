@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/support/support.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {

@@ -8,7 +8,6 @@
 #include "core/disks/state_hash.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
-#include "tests/support/support.hpp"
 
 namespace carom::chart {
 namespace {

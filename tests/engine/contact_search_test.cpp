@@ -7,9 +7,12 @@
 #include "core/base/random.hpp"
 #include "core/reference/pair_search.hpp"
 #include "parallel/stepping/find_contacts.hpp"
+#include "tests/support/disks_by_hand.hpp"
 
 namespace carom {
 namespace {
+
+using test::box_of;
 
 struct Searched {
   std::vector<Pair> pairs;  // as ids
@@ -59,15 +62,6 @@ Searched search(Disks d, const Domain& box, double moved, int threads, std::size
   result.pairs = as_ids(pairs, d);
   if (at_search != nullptr) *at_search = d;
   return result;
-}
-
-Domain box_of(double width, double height, bool periodic_x, bool periodic_y) {
-  Domain box;
-  box.width = width;
-  box.height = height;
-  if (periodic_x) box.sides[0] = box.sides[1] = SideKind::periodic;
-  if (periodic_y) box.sides[2] = box.sides[3] = SideKind::periodic;
-  return box;
 }
 
 // n disks anywhere in the box and a little beyond, overlapping freely; radii from small to large, log-uniform.

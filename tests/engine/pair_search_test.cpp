@@ -6,19 +6,13 @@
 #include <algorithm>
 #include <numeric>
 
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {
 
-Domain box_of(double width, double height, bool periodic_x = false, bool periodic_y = false) {
-  Domain box;
-  box.width = width;
-  box.height = height;
-  test::set_sides(box, periodic_x ? SideKind::periodic : SideKind::wall,
-                  periodic_y ? SideKind::periodic : SideKind::wall);
-  return box;
-}
+using test::box_of;
 
 // The same pairs in the same order, each once, smaller id first. Returns how many.
 std::size_t expect_same(const Disks& disks, const Domain& box) {

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "core/measure/invariants.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/reference_run.hpp"
 
 namespace carom {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/load/scene_file.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/start/initial_state.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/reference_run.hpp"
 
 namespace carom {
 namespace {

@@ -4,17 +4,20 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "core/base/check.hpp"
 #include "core/step/rollback_frame.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/reference_run.hpp"
 
 namespace carom {
 namespace {
 
 // n equal elastic disks at packing fraction 0.2 in a periodic box.
 Scene gas_scene(Method method, int per_side, double dt, double t_end) {
-  const double spacing = std::sqrt(test::pi / 4.0 / 0.2);  // diameter 1
+  const double spacing = std::sqrt(std::numbers::pi / 4.0 / 0.2);  // diameter 1
   Scene scene = test::scene_of(method, per_side * spacing, per_side * spacing, dt, t_end);
   test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
   return scene;

@@ -8,7 +8,8 @@
 #include "core/physics/boundary.hpp"
 #include "core/step/source.hpp"
 #include "parallel/simulation.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/reference_run.hpp"
 
 namespace carom {
 namespace {

@@ -6,7 +6,8 @@
 
 #include "core/load/scene_file.hpp"
 #include "core/start/initial_state.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/reference_run.hpp"
 
 namespace carom {
 namespace {

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "core/measure/invariants.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/step/source.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/reference_run.hpp"
 
 namespace carom {
 namespace {
@@ -171,7 +173,7 @@ TEST(Emission, MaxwellIsThatOfAGasBehindAHole) {
     across += d.vy * d.vy / n;
   }
   const double unit = std::sqrt(2.0 / 4.0);
-  EXPECT_NEAR(inward / unit, std::sqrt(0.5 * test::pi), 4.0 * std::sqrt((2.0 - 0.5 * test::pi) / n));
+  EXPECT_NEAR(inward / unit, std::sqrt(0.5 * std::numbers::pi), 4.0 * std::sqrt((2.0 - 0.5 * std::numbers::pi) / n));
   EXPECT_NEAR(across / (unit * unit), 1.0, 4.0 * std::sqrt(2.0 / n));
 }
 

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "core/base/check.hpp"
 #include "core/step/window_length.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/exact_support.hpp"
-#include "tests/support/support.hpp"
 
 namespace carom::exact_tests {
 namespace {
@@ -63,7 +63,7 @@ TEST(CrowdedWindow, FiniteBurstsAreCountedToTheEndByBothEngines) {
     EXPECT_EQ(outcome_of(*parallel, scene), plain);
     EXPECT_THAT(plain, HasSubstr("done"));
     const Counters& c = reference->state().counters;
-    EXPECT_NEAR(static_cast<double>(c.collisions), 0.5 * test::pi / std::sqrt(ratio), 2.0) << ratio;
+    EXPECT_NEAR(static_cast<double>(c.collisions), 0.5 * std::numbers::pi / std::sqrt(ratio), 2.0) << ratio;
     EXPECT_NEAR(energy_of(reference->state().disks, 0.0).kinetic, 0.5, 1e-9) << ratio;
   }
 }

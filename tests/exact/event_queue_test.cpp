@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "tests/support/support.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {

@@ -8,15 +8,10 @@
 
 #include "parallel/simulation.hpp"
 #include "tests/support/exact_support.hpp"
+#include "tests/support/silo.hpp"
 
 namespace carom::exact_tests {
 namespace {
-
-double weight_of(const Scene& scene, const Disks& d) {
-  double mass = 0.0;
-  for (std::size_t i = 0; i < d.size(); ++i) mass += d.mass_of(i);
-  return mass * scene.physics.gravity;
-}
 
 double lift_of(const Counters& c) {
   return c.wall_impulse[static_cast<std::size_t>(Side::bottom)] - c.wall_impulse[static_cast<std::size_t>(Side::top)];
@@ -33,7 +28,7 @@ void expect_to_settle(const char* file) {
   const State start = initial_state(scene);
   const double g = scene.physics.gravity;
   const double energy = energy_of(start.disks, g).total();
-  const double weight = weight_of(scene, start.disks);
+  const double weight = test::weight_of(start.disks, scene.physics.gravity);
   const auto engine = make_parallel_engine(scene, start, {1, 1});
   double overlap = 0.0;
   double wall = 0.0;

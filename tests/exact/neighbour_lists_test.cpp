@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "parallel/exact/list_kernel.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {

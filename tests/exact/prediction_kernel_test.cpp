@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/physics/boundary.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {

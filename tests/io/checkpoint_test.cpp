@@ -17,6 +17,7 @@
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/output_folder.hpp"
 #include "tests/support/scene_support.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {

@@ -8,11 +8,10 @@
 #include <array>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "core/base/check.hpp"
 #include "io/files/output_file.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {
@@ -22,20 +21,9 @@ using ::testing::HasSubstr;
 
 class OutputFolderTest : public ::testing::Test {
  protected:
-  OutputFolderTest() {
-    const auto* const info = ::testing::UnitTest::GetInstance()->current_test_info();
-    base_ = fs::temp_directory_path() / (std::string("carom_folder_") + info->name());
-    fs::remove_all(base_);
-    fs::create_directories(base_);
-    write_file(base_ / "input.toml", "scene");
-  }
-  ~OutputFolderTest() override { fs::remove_all(base_); }
+  OutputFolderTest() { write_file(base_ / "input.toml", "scene"); }
 
-  static std::string text(const fs::path& path) {
-    std::ostringstream all;
-    all << std::ifstream(path).rdbuf();
-    return all.str();
-  }
+  static std::string text(const fs::path& path) { return test::text_of(path); }
   std::string refusal(const fs::path& folder, bool force) const {
     try {
       check_output_folder(folder, base_ / "input.toml", force);
@@ -49,7 +37,8 @@ class OutputFolderTest : public ::testing::Test {
     write_file(out.path("summary.json"), result);
     out.finish();
   }
-  fs::path base_;
+  const test::TestFolder folder_{::testing::UnitTest::GetInstance()->current_test_info()->name()};
+  const fs::path base_ = folder_.path();
 };
 
 TEST_F(OutputFolderTest, ResultsAppearOnlyWhenFinished) {

@@ -6,28 +6,24 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "core/base/check.hpp"
 #include "io/files/child_process.hpp"
 #include "io/plots/gnuplot.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {
 
 namespace fs = std::filesystem;
+using test::text_of;
 using ::testing::ElementsAre;
 
-std::string temporary(const char* name) {
-  return (fs::temp_directory_path() / name).string();
-}
-
-std::string text_of(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
+class Plot : public ::testing::Test {
+ protected:
+  std::string at(const std::string& name) const { return folder_.path() / name; }
+  const test::TestFolder folder_{::testing::UnitTest::GetInstance()->current_test_info()->name()};
+};
 
 Disks disks_with_ids(const std::vector<DiskId>& ids) {
   Disks d;
@@ -60,11 +56,11 @@ TEST(VelocityRecord, NewcomersFillUpAndLostDisksEnd) {
   EXPECT_THAT(r.curves[2].t, ElementsAre(1.0));
 }
 
-TEST(Plot, VelocitiesOfTwoDisks) {
+TEST_F(Plot, VelocitiesOfTwoDisks) {
   VelocityRecord r;
   for (int k = 0; k < 10000; ++k) record(r, disks_with_ids({0, 1}), 0.01 * k);
-  const std::string path = temporary("carom_plot_velocity.svg");
-  const std::string marker = temporary("carom_plot_injected");
+  const std::string path = at("velocity.svg");
+  const std::string marker = at("injected");
   // A title is only text, whatever it says to gnuplot or to a shell.
   ASSERT_TRUE(plot_velocity(path, "it's `touch " + marker + "`\n'; system('touch " + marker + "') <&> {/Bold é}", r));
   const std::string svg = text_of(path);
@@ -73,11 +69,10 @@ TEST(Plot, VelocitiesOfTwoDisks) {
     EXPECT_TRUE(svg.find(shown) != std::string::npos) << shown;
   }
   EXPECT_LT(svg.size(), 600000U) << "long lines are thinned out";
-  fs::remove(path);
 }
 
 // Of more disks than there are colours, one sees how they are distributed.
-TEST(Plot, VelocitiesOfManyDisksAreBands) {
+TEST_F(Plot, VelocitiesOfManyDisksAreBands) {
   VelocityRecord r;
   for (int k = 0; k < 9000; ++k) {
     Disks d;
@@ -91,7 +86,7 @@ TEST(Plot, VelocitiesOfManyDisksAreBands) {
   ASSERT_EQ(r.bands.size(), 9000U);
   EXPECT_THAT(r.bands[77].vx, ElementsAre(-50.0, -45.0, -25.0, 0.0, 25.0, 45.0, 50.0));
   EXPECT_THAT(r.bands[77].vy, ElementsAre(-100.0, -90.0, -50.0, 0.0, 50.0, 90.0, 100.0));
-  const std::string path = temporary("carom_plot_bands.svg");
+  const std::string path = at("bands.svg");
   ASSERT_TRUE(plot_velocity(path, "many", r));
   const std::string svg = text_of(path);
   for (const char* const shown : {"velocities of all disks", "median", "95 %", "greatest", ">vx<", ">vy<"}) {
@@ -99,10 +94,9 @@ TEST(Plot, VelocitiesOfManyDisksAreBands) {
   }
   EXPECT_TRUE(svg.find("disk 0") == std::string::npos);
   EXPECT_LT(svg.size(), 3'000'000U);
-  fs::remove(path);
 }
 
-TEST(Plot, BandsDoNotDependOnStorageOrder) {
+TEST_F(Plot, BandsDoNotDependOnStorageOrder) {
   VelocityRecord a, b;
   Disks there, back;
   for (DiskId id = 0; id < 50'000; ++id) append(there, {0.0, 0.0, std::sin(id), std::cos(id), 1.0, 1.0, id});
@@ -114,29 +108,27 @@ TEST(Plot, BandsDoNotDependOnStorageOrder) {
   EXPECT_NEAR(a.bands[0].vx[5], std::sin(0.45 * M_PI), 0.01);
 }
 
-TEST(Plot, ALineThatEndsEarlyIsMarked) {
+TEST_F(Plot, ALineThatEndsEarlyIsMarked) {
   VelocityRecord r;
   record(r, disks_with_ids({0, 1}), 0.0);
   record(r, disks_with_ids({0, 1}), 1.0);
   record(r, disks_with_ids({1}), 2.0);
-  const std::string path = temporary("carom_plot_gone.svg");
+  const std::string path = at("gone.svg");
   ASSERT_TRUE(plot_velocity(path, "a sink", r));
   EXPECT_TRUE(text_of(path).find("disk 0, gone") != std::string::npos);
   EXPECT_TRUE(text_of(path).find("disk 1, gone") == std::string::npos);
-  fs::remove(path);
 }
 
-TEST(Plot, NothingToShowIsStillAPlot) {
-  const std::string path = temporary("carom_plot_empty.svg");
+TEST_F(Plot, NothingToShowIsStillAPlot) {
+  const std::string path = at("empty.svg");
   EXPECT_TRUE(plot_velocity(path, "no disks", {}));
   EXPECT_TRUE(plot_energy(path, "one frame at rest", {{0.0}, {0.0}, {0.0}, {0.0}}));
   EXPECT_TRUE(plot_energy(path, "", {{0.0, 1.0}, {2.0, 1.0}, {0.0, 1.0}, {2.0, 2.0}}));
   EXPECT_TRUE(text_of(path).find("potential") != std::string::npos);
-  fs::remove(path);
 }
 
-TEST(Plot, LogarithmicAxesAndAGuide) {
-  const std::string path = temporary("carom_plot_log.svg");
+TEST_F(Plot, LogarithmicAxesAndAGuide) {
+  const std::string path = at("log.svg");
   const Line curve{"measured", {0.1, 1.0, 100.0}, {1e-3, 1.0, 1e3}};
   const Line guide{"~ t", {0.1, 50.0}, {1e-3, 0.5}, LineStyle::guide};
   ASSERT_TRUE(draw_svg({"log", "t", 100.0, {{"y", {curve, guide}}}, true}, path));
@@ -145,15 +137,14 @@ TEST(Plot, LogarithmicAxesAndAGuide) {
     EXPECT_TRUE(svg.find(shown) != std::string::npos) << shown;
   }
   ASSERT_TRUE(draw_svg({"nothing", "t", 0.0, {{"y", {}}}, true}, path)) << "nor is nothing a reason to fail";
-  fs::remove(path);
 }
 
-TEST(Plot, AFullDiskIsAnError) {
+TEST_F(Plot, AFullDiskIsAnError) {
   EXPECT_THROW(plot_energy("/dev/full", "full", {{0.0, 1.0}, {2.0, 1.0}, {0.0, 1.0}, {2.0, 2.0}}), RunError);
 }
 
-TEST(Plot, WithoutGnuplotNothingIsWritten) {
-  const std::string path = temporary("carom_plot_none.svg");
+TEST_F(Plot, WithoutGnuplotNothingIsWritten) {
+  const std::string path = at("none.svg");
   const std::string saved = getenv("PATH");
   setenv("PATH", "/nonexistent", 1);
   EXPECT_FALSE(plot_velocity(path, "none", {}));

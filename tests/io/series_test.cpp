@@ -3,18 +3,16 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {
-
-namespace fs = std::filesystem;
 
 Scene small_scene() {
   Scene scene;
@@ -46,7 +44,8 @@ std::vector<Row> read_csv(const std::string& path) {
 }
 
 TEST(Series, RowsHoldStateAndIntervalMeans) {
-  const std::string path = (fs::temp_directory_path() / "carom_series_test.csv").string();
+  const test::TestFolder folder("series");
+  const std::string path = folder.path() / "series.csv";
   Disks d;
   append(d, {1.0, 1.5, 3.0, 0.0, 0.5, 2.0, 0});
   append(d, {3.0, 0.5, 0.0, -1.0, 0.5, 4.0, 1});
@@ -66,7 +65,6 @@ TEST(Series, RowsHoldStateAndIntervalMeans) {
   series.close();
 
   auto rows = read_csv(path);
-  fs::remove(path);
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0]["disks"], 2.0);
   EXPECT_EQ(rows[0]["kinetic"], 11.0);
@@ -87,17 +85,15 @@ TEST(Series, RowsHoldStateAndIntervalMeans) {
 }
 
 TEST(Series, WithoutDisksEveryNumberIsFinite) {
-  const std::string path = (fs::temp_directory_path() / "carom_series_empty.csv").string();
+  const test::TestFolder folder("series");
+  const std::string path = folder.path() / "series.csv";
   State state;
   SeriesWriter series(path, small_scene());
   series.write({}, 0.0, state);
   state.time = 1.0;
   series.write({}, 1.0, state);
   series.close();
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  fs::remove(path);
-  EXPECT_THAT(text.str(), ::testing::Not(::testing::HasSubstr("nan")));
+  EXPECT_THAT(test::text_of(path), ::testing::Not(::testing::HasSubstr("nan")));
 }
 
 TEST(Series, AFullDiskIsAnError) {

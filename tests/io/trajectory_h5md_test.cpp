@@ -15,8 +15,9 @@
 #include "core/base/check.hpp"
 #include "io/trajectory/h5md_reader.hpp"
 #include "io/trajectory/trajectory_xyz.hpp"
+#include "tests/support/disks_by_hand.hpp"
 #include "tests/support/scene_support.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {

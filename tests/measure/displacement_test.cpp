@@ -9,7 +9,9 @@
 #include "core/measure/follow_disks.hpp"
 #include "core/start/initial_state.hpp"
 #include "parallel/simulation.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/reference_run.hpp"
 
 namespace carom {
 namespace {

@@ -7,7 +7,8 @@
 
 #include "core/measure/analysis_curves.hpp"
 #include "parallel/pair_counting.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "core/measure/analysis_curves.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {
@@ -22,7 +24,7 @@ TEST(DensityProfile, ShareBelowALine) {
       const double y = -1.0 + (h + 1.0) * (k + 0.5) / strips;
       sum += 2.0 * std::sqrt(1.0 - y * y) * (h + 1.0) / strips;
     }
-    EXPECT_NEAR(share_below(h), sum / test::pi, 1e-7) << h;
+    EXPECT_NEAR(share_below(h), sum / std::numbers::pi, 1e-7) << h;
   }
 }
 
@@ -36,12 +38,12 @@ TEST(DensityProfile, AreaIsSharedOutAndNoneIsLost) {
     const Disks disks = test::disks_of({{at, at, 0.0, 0.0, 1.0, 1.0}, {4.0, 4.0, 0.0, 0.0, 0.5, 1.0}});
     add_density(profile, disks, box, along_x);
     add_density(profile, disks, box, along_x);
-    const double corner = along_x ? test::pi * share_below(-0.25) : 0.0;
+    const double corner = along_x ? std::numbers::pi * share_below(-0.25) : 0.0;
     EXPECT_EQ(profile.centres, (std::vector<Count>{2, 0, 2, 0}));
-    EXPECT_NEAR(profile.covered[0], 2.0 * (test::pi - corner), 1e-12);
+    EXPECT_NEAR(profile.covered[0], 2.0 * (std::numbers::pi - corner), 1e-12);
     EXPECT_NEAR(profile.covered[3], 2.0 * corner, 1e-12);
-    EXPECT_NEAR(profile.covered[1], test::pi * 0.25, 1e-12);
-    EXPECT_NEAR(profile.covered[2], test::pi * 0.25, 1e-12);
+    EXPECT_NEAR(profile.covered[1], std::numbers::pi * 0.25, 1e-12);
+    EXPECT_NEAR(profile.covered[2], std::numbers::pi * 0.25, 1e-12);
   }
 }
 

@@ -6,17 +6,14 @@
 #include <cmath>
 
 #include "core/physics/advance.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/reference_run.hpp"
 
 namespace carom {
 namespace {
 
-Domain box_of(double width, double height) {
-  Domain box;
-  box.width = width;
-  box.height = height;
-  return box;
-}
+using test::box_of;
 
 // x - r <= 0 and so on: touching counts, and the sign says inside or beyond.
 TEST(Walls, ReachBeyondEachSide) {

@@ -6,7 +6,9 @@
 #include <cstdio>
 
 #include "core/measure/invariants.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/reference_run.hpp"
 
 namespace carom {
 namespace {
@@ -59,10 +61,11 @@ TEST_P(Conservation, EnergyOfElasticDisks) {
       const State start = start_of(s, seed);
       const double energy = energy_of(start.disks, 0.0).total();
       double worst = 0.0;
-      test::run(s, start, [&](const Engine& engine) {
+      const State end = test::run(s, start, [&](const Engine& engine) {
         worst = std::max(worst, std::abs(energy_of(engine.state().disks, 0.0).total() / energy - 1.0));
       });
       EXPECT_LE(worst, 1e-12);
+      EXPECT_GT(end.counters.collisions, 30U);
     }
   }
 }

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "tests/support/support.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/wide.hpp"
 
 namespace carom {
 namespace {
@@ -51,7 +53,7 @@ TEST(ContactTime, KeepsItsDigitsFarAwayAndGrazing) {
     const double gap = draws.decades(1e-9, 1.0);
     const double miss = 1.0 - gap;
     const double distance = k % 2 == 0 ? 1.0 + draws.decades(1e-6, 1e9) : draws.in(miss + 0.5 * gap, 1.0);
-    const Relative r = towards(distance, miss, reach, draws.in(0.0, 2.0 * test::pi), speed);
+    const Relative r = towards(distance, miss, reach, draws.in(0.0, 2.0 * std::numbers::pi), speed);
     if (r.approach() >= 0.0) continue;
     const Wide exact = contact_time_with_more_digits(r, reach);
     if (std::isinf(exact)) continue;
@@ -101,7 +103,7 @@ Collision random_collision(test::Draws& draws, double mass_low, double mass_high
   c.m2 = draws.decades(mass_low, mass_high);
   c.e = draws.in(0.0, 1.0);
   do {
-    const double angle = draws.in(0.0, 2.0 * test::pi);
+    const double angle = draws.in(0.0, 2.0 * std::numbers::pi);
     c.vx1 = draws.in(-1, 1), c.vy1 = draws.in(-1, 1), c.vx2 = draws.in(-1, 1), c.vy2 = draws.in(-1, 1);
     c.r = {std::cos(angle), std::sin(angle), c.vx2 - c.vx1, c.vy2 - c.vy1};
   } while (c.r.approach() >= 0.0);

@@ -8,7 +8,10 @@
 
 #include "core/load/scene_file.hpp"
 #include "core/start/initial_state.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/reference_run.hpp"
+#include "tests/support/wide.hpp"
 
 namespace carom {
 namespace {

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/physics/resolve.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {
@@ -14,7 +16,7 @@ TEST(GrazingPair, IsResolvedWhereItIs) {
   Scene scene = test::scene_of(Method::pairwise, 20.0, 20.0, 0.01, 1.0);
   int missed = 0;
   for (int k = 0; k < 20000; ++k) {
-    const double angle = draws.in(0.0, 2.0 * test::pi);
+    const double angle = draws.in(0.0, 2.0 * std::numbers::pi);
     const double nx = std::cos(angle);
     const double ny = std::sin(angle);
     const double slide = draws.in(0.1, 10.0);

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
 
 namespace carom {
 namespace {

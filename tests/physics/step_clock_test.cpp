@@ -5,7 +5,9 @@
 
 #include <cmath>
 
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/reference_run.hpp"
 
 namespace carom {
 namespace {

@@ -9,8 +9,9 @@
 #include "core/base/check.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/reference/pair_search.hpp"
+#include "tests/support/disks_by_hand.hpp"
 #include "tests/support/original.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/reference_run.hpp"
 
 namespace carom {
 namespace {

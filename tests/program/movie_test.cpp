@@ -15,6 +15,7 @@
 #include "core/base/check.hpp"
 #include "io/movie/colour_map.hpp"
 #include "io/movie/disk_raster.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {
@@ -241,14 +242,8 @@ std::string probe(const std::string& path) {
 
 class Movie : public ::testing::Test {
  protected:
-  Movie() {
-    const auto* const info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = (fs::temp_directory_path() / (std::string("carom_movie_") + info->name())).string();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Movie() override { fs::remove_all(folder_); }
-  std::string folder_;
+  const test::TestFolder test_folder_{::testing::UnitTest::GetInstance()->current_test_info()->name()};
+  const std::string folder_ = test_folder_.path().string();
 };
 
 TEST_F(Movie, IsH264WithEveryFrame) {

@@ -1,6 +1,7 @@
 // What the real program prints of a run, and the files that it leaves.
 #include "io/trajectory/trajectory_xyz.hpp"
 #include "tests/support/command_support.hpp"
+#include "tests/support/scene_support.hpp"
 
 namespace carom {
 namespace {

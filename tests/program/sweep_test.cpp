@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "tests/support/scene_support.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {

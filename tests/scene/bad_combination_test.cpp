@@ -7,6 +7,7 @@
 #include "core/load/memory_need.hpp"
 #include "core/load/scene_check.hpp"
 #include "tests/support/scene_support.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {

@@ -6,8 +6,9 @@
 
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/support/scene_support.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {

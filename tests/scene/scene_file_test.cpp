@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <numbers>
 
 #include "core/disks/state_hash.hpp"
 #include "core/scene/scene_text.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/support/scene_support.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {
@@ -166,13 +168,13 @@ TEST(PackingFraction, GivesTheBox) {
       replaced(least_scene, "width = 20\nheight = 10", "packing_fraction = 0.25\naspect = 4\nleft = \"wall\"");
   const Scene s = scene_from(text);
   EXPECT_DOUBLE_EQ(s.box.width, 4 * s.box.height);
-  EXPECT_DOUBLE_EQ(2 * test::pi / (s.box.width * s.box.height), 0.25);
+  EXPECT_DOUBLE_EQ(2 * std::numbers::pi / (s.box.width * s.box.height), 0.25);
   const Scene drawn = scene_from(text, {{"disks.0.radius", "{ uniform = [1, 2] }"}, {"disks.0.count", "50"}});
   std::vector<double> radii;
   std::vector<double> masses;
   draw_sizes(drawn, drawn.groups[0], 0, radii, masses);
   double area = 0.0;
-  for (const double r : radii) area += test::pi * r * r;
+  for (const double r : radii) area += std::numbers::pi * r * r;
   EXPECT_DOUBLE_EQ(area / (drawn.box.width * drawn.box.height), 0.25);
 }
 

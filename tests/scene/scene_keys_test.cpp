@@ -11,6 +11,8 @@
 
 #include "core/scene/scene_text.hpp"
 #include "tests/support/program_support.hpp"
+#include "tests/support/scene_support.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {

@@ -10,7 +10,9 @@
 #include "core/measure/invariants.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/command_support.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/reference_run.hpp"
+#include "tests/support/scene_support.hpp"
 
 namespace carom {
 namespace {

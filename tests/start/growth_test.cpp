@@ -13,8 +13,9 @@
 #include "core/start/initial_state.hpp"
 #include "parallel/start/growth_step.hpp"
 #include "parallel/start/random_placement.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/support/scene_support.hpp"
-#include "tests/support/support.hpp"
 
 namespace carom {
 namespace {

@@ -6,16 +6,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/disks/state_hash.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/other_units.hpp"
 #include "tests/support/scene_support.hpp"
-#include "tests/support/support.hpp"
 
 namespace carom {
 namespace {
 
 using test::Draws;
+using test::scaled;
 using test::scene_from;
+using test::Units;
 using testing::ElementsAre;
 
 // A roomy box with groups as given.
@@ -59,7 +63,7 @@ TEST(Sizes, WithoutDisksTheSourceSaysThem) {
   const State s = initial_state(scene);
   EXPECT_TRUE(s.disks.empty());
   EXPECT_EQ(s.disks.common_radius, 0.5);
-  EXPECT_DOUBLE_EQ(s.disks.common_mass, test::pi * 2 * 0.25);
+  EXPECT_DOUBLE_EQ(s.disks.common_mass, std::numbers::pi * 2 * 0.25);
   EXPECT_EQ(s.sources.size(), 1U);
   EXPECT_EQ(s.next_id, 0U);
   EXPECT_TRUE(initial_state(scene_with(group("1", "1", 0))).disks.empty());
@@ -92,9 +96,9 @@ TEST(Sizes, DerivedFromEachOther) {
   const State from_mass = initial_state(scene_with(group("{ from_mass = 4 }", "{ uniform = [1, 10] }", 50)));
   const State from_radius = initial_state(scene_with(group("{ uniform = [0.1, 0.5] }", "{ from_radius = 4 }", 50)));
   for (std::size_t i = 0; i < 50; ++i) {
-    EXPECT_DOUBLE_EQ(from_mass.disks.radius[i], std::sqrt(from_mass.disks.mass[i] / (test::pi * 4)));
+    EXPECT_DOUBLE_EQ(from_mass.disks.radius[i], std::sqrt(from_mass.disks.mass[i] / (std::numbers::pi * 4)));
     EXPECT_DOUBLE_EQ(from_radius.disks.mass[i],
-                     test::pi * 4 * from_radius.disks.radius[i] * from_radius.disks.radius[i]);
+                     std::numbers::pi * 4 * from_radius.disks.radius[i] * from_radius.disks.radius[i]);
   }
 }
 
@@ -171,35 +175,6 @@ TEST(InitialState, Golden) {
       scene_from("[box]\npacking_fraction = 0.52\nleft = \"periodic\"\nright = \"periodic\"\n[run]\nt_end = 1\n" +
                  group("0.5", "1", 2000, "velocities = { maxwell = 1 }"));
   EXPECT_EQ(hash_text(state_hash(initial_state(dense).disks)), "d1368b89c7ac6148");
-}
-
-// The same scene in other units: length, mass and time in powers of two.
-struct Units {
-  double length = 1.0, mass = 1.0, time = 1.0;
-};
-
-void scale(SizeLaw& law, double unit, double density_unit) {
-  law.value *= unit;
-  law.low *= unit;
-  law.high *= unit;
-  for (double& v : law.values) v *= unit;
-  law.density *= density_unit;
-}
-
-Scene scaled(Scene s, const Units& u) {
-  const double speed = u.length / u.time;
-  const double density = u.mass / (u.length * u.length);
-  s.box.width *= u.length;
-  s.box.height *= u.length;
-  for (DiskGroup& g : s.groups) {
-    for (Vec2& p : g.positions.list) p = {p.x * u.length, p.y * u.length};
-    for (Vec2& v : g.velocities.list) v = {v.x * speed, v.y * speed};
-    g.velocities.temperature *= u.mass * speed * speed;
-    g.velocities.limit *= speed;
-    scale(g.radius, u.length, density);
-    scale(g.mass, u.mass, density);
-  }
-  return s;
 }
 
 void expect_scaled(const std::vector<double>& a, const std::vector<double>& b, double unit) {

@@ -5,21 +5,14 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {
 
+using test::box_of;
 using test::Draws;
-
-Domain box_of(double width, double height, bool periodic_x, bool periodic_y) {
-  Domain box;
-  box.width = width;
-  box.height = height;
-  test::set_sides(box, periodic_x ? SideKind::periodic : SideKind::wall,
-                  periodic_y ? SideKind::periodic : SideKind::wall);
-  return box;
-}
 
 // Least distance of two sites, images included; infinite for one site.
 double least_distance(const Domain& box, const std::vector<Vec2>& sites) {

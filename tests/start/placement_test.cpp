@@ -8,8 +8,9 @@
 #include <cmath>
 
 #include "core/start/open_cells.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/support/scene_support.hpp"
-#include "tests/support/support.hpp"
 
 namespace carom {
 namespace {

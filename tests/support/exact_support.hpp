@@ -14,6 +14,7 @@
 #include "core/reference/reference_exact.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
+#include "tests/support/disks_by_hand.hpp"
 
 namespace carom::exact_tests {
 
@@ -49,14 +50,7 @@ inline Scene plain_scene(const Domain& box, double t_end, double gravity = 0.0, 
   return scene;
 }
 
-inline State state_of(const std::vector<Disk>& disks) {
-  State state;
-  for (Disk d : disks) {
-    d.id = state.next_id++;
-    append(state.disks, d);
-  }
-  return state;
-}
+using test::state_of;
 
 inline void run_to_end(Engine& engine, const Scene& scene) {
   while (engine.state().time < scene.run.t_end) engine.step();

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/scene_support.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom::test {
 
@@ -24,12 +24,6 @@ struct Outcome {
   int status = -1;
   std::string out, err;
 };
-
-inline std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 class ProgramTest : public ::testing::Test {
  protected:
@@ -76,6 +70,26 @@ class ProgramTest : public ::testing::Test {
     int status = 0;
     waitpid(pid, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  // Takes a stopped run up again, by either engine, until it comes to its end. Each part is allowed more time than the
+  // one before: on a busy machine the first ones may do no more than read the checkpoint.
+  struct Resumed {
+    Outcome last;
+    int parts = 1;
+    std::string said;  // by all parts, on standard error
+  };
+  Resumed resume_to_the_end(const std::string& folder, Outcome stopped, const std::string& options = "--quiet") const {
+    Resumed resumed{std::move(stopped), 1, ""};
+    resumed.said = resumed.last.err;
+    for (double seconds = 0.01; resumed.last.status == 4; seconds *= 1.5) {
+      const char* const engine = resumed.parts % 3 == 0 ? "reference" : "parallel --threads 3";
+      resumed.last = carom("resume " + folder + " " + options + " --engine " + engine + " --max-walltime " +
+                           std::to_string(seconds));
+      resumed.said += resumed.last.err;
+      ++resumed.parts;
+    }
+    return resumed;
   }
 
   // The summary without what differs from run to run: times, and how often it was resumed.

@@ -5,10 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
-#include "tests/support/support.hpp"
+#include "tests/support/disks_by_hand.hpp"
 
 namespace carom::test {
 
@@ -26,7 +27,7 @@ inline constexpr double filled = 0.84, poured = 0.4;
 inline Scene silo_scene(const Silo& silo) {
   const double a = silo.smallest;
   const double b = silo.largest;
-  const double area = static_cast<double>(silo.disks) * pi * (a * a + a * b + b * b) / 3.0;
+  const double area = static_cast<double>(silo.disks) * std::numbers::pi * (a * a + a * b + b * b) / 3.0;
   const double width = std::sqrt(area / filled / silo.aspect);
   Scene scene = scene_of(Method::pairwise, width, area / poured / width, silo.dt, 0.0);
   scene.box.wall_restitution = 0.5;

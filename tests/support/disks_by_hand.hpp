@@ -1,52 +1,15 @@
-// What physics tests share: scenes and states written down by hand, seeded draws, running an engine step by step.
+// Scenes, boxes and disks that a test writes down itself, without a scene file.
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <utility>
+#include <cstddef>
 #include <vector>
 
 #include "core/disks/state.hpp"
 #include "core/physics/disk_pair.hpp"
 #include "core/scene/scene.hpp"
-#include "core/step/engine.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom::test {
-
-inline constexpr double pi = 3.14159265358979323846;
-
-// More digits than a double has, for formulas to compare ours with.
-using Wide = long double;
-inline Wide wide(double x) {
-  return static_cast<Wide>(x);
-}
-
-// The methods that step in time.
-inline const std::vector<Method> stepping_methods{Method::rollback, Method::pairwise};
-
-inline std::string name_of(Method method) {
-  return method == Method::rollback ? "rollback" : method == Method::pairwise ? "pairwise" : "exact";
-}
-
-// Seeded draws for scenery: splitmix64, so that every machine gets the same test.
-class Draws {
- public:
-  explicit Draws(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t bits() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ULL);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-  }
-  double in(double low, double high) { return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53); }
-  // Every decade equally likely.
-  double decades(double low, double high) { return std::exp(in(std::log(low), std::log(high))); }
-
- private:
-  std::uint64_t state_;
-};
 
 // A box of walls, nothing moves it: no gravity, e = 1.
 inline Scene scene_of(Method method, double width, double height, double dt, double t_end) {
@@ -62,6 +25,13 @@ inline void set_sides(Domain& box, SideKind left_right, SideKind bottom_top) {
   box.sides = {left_right, left_right, bottom_top, bottom_top};
 }
 
+// Sides are walls unless they are periodic.
+inline Domain box_of(double width, double height, bool periodic_x = false, bool periodic_y = false) {
+  Domain box{width, height};
+  set_sides(box, periodic_x ? SideKind::periodic : SideKind::wall, periodic_y ? SideKind::periodic : SideKind::wall);
+  return box;
+}
+
 inline Disks disks_of(const std::vector<Disk>& list) {
   Disks disks;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -73,10 +43,15 @@ inline Disks disks_of(const std::vector<Disk>& list) {
 }
 
 // Ids from 0 on, in the order of the list.
-inline State state_of(const Scene& scene, const std::vector<Disk>& list) {
+inline State state_of(const std::vector<Disk>& list) {
   State state;
   state.disks = disks_of(list);
   state.next_id = static_cast<DiskId>(list.size());
+  return state;
+}
+
+inline State state_of(const Scene& scene, const std::vector<Disk>& list) {
+  State state = state_of(list);
   state.sources.resize(scene.sources.size());
   return state;
 }
@@ -114,16 +89,6 @@ inline std::vector<Disk> random_disks(Draws& draws, const Domain& box, std::size
     if (free) list.push_back(d);
   }
   return list;
-}
-
-// Steps to the end of the run; look(engine) after each step.
-inline State run(const Scene& scene, State initial, const std::function<void(const Engine&)>& look = {}) {
-  const auto engine = make_reference_engine(scene, std::move(initial));
-  while (engine->state().time < scene.run.t_end) {
-    engine->step();
-    if (look) look(*engine);
-  }
-  return engine->state();
 }
 
 }  // namespace carom::test
