@@ -116,22 +116,14 @@ TEST_F(TrajectoryPrograms, RoundsDoNotDependOnHowTheRunWasMade) {
 TEST_F(TrajectoryPrograms, AStoppedAndResumedRunCountsOn) {
   const std::string longer = "--t-end 400 --set output.every=4 ";
   const std::string whole = run_scene("whole", longer);
-  // Stopped at the first look, then as often as the machine comes to: a busy one may need all the time that is allowed
-  // to read the checkpoint, so each turn allows more.
-  const auto resume_to_the_end = [&](Outcome o) {
-    for (double seconds = 0.01; o.status == 4; seconds *= 1.5) {
-      o = carom(fmt::format("resume parts --quiet --max-walltime {}", seconds));
-    }
-    return o;
-  };
   Outcome o = carom("run scene.toml --quiet -o parts --max-walltime 1e-6 " + longer);
   ASSERT_EQ(o.status, 4) << o.err;
-  o = resume_to_the_end(o);
+  o = resume_to_the_end("parts", o).last;
   ASSERT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(text_of(at("parts/trajectory.xyz")), whole);
   const std::string h5md = " --set output.trajectory=h5md --set output.dimensions=3 --force";
   o = carom("run scene.toml --quiet -o parts --max-walltime 1e-6 " + longer + h5md);
-  o = resume_to_the_end(o);
+  o = resume_to_the_end("parts", o).last;
   ASSERT_EQ(o.status, 0) << o.err;
   const Outcome read = shell("/usr/bin/python3 " CAROM_SOURCE_DIR
                              "/tests/io/read_as_molecules.py whole/trajectory.xyz parts/trajectory.h5");

@@ -26,17 +26,12 @@ class InterruptedRun : public test::ProgramTest {
 TEST_F(InterruptedRun, StoppedAgainAndAgainItGivesTheSameResults) {
   for (const std::string method : {"pairwise", "exact"}) {
     ASSERT_EQ(carom("run busy.toml --quiet -o whole --force --t-end 8 --method " + method).status, 0);
-    // Stopped at the first look, then after some hundred steps each time; how many depends on the machine.
-    Outcome o = carom("run busy.toml --quiet -o parts --force --max-walltime 0.001 --t-end 8 --method " + method);
-    int parts = 1;
-    for (; o.status == 4; ++parts) {
-      EXPECT_THAT(o.err, HasSubstr("stopped by --max-walltime at t = "));
-      EXPECT_THAT(o.err, HasSubstr(" of 8; go on with carom resume parts\n"));
-      const char* const engine = parts % 3 == 0 ? "--engine reference" : "--engine parallel --threads 3";
-      o = carom(std::string("resume parts --quiet --max-walltime 0.02 ") + engine);
-    }
-    EXPECT_EQ(o.status, 0) << o.err;
-    EXPECT_GE(parts, 2);
+    const Resumed resumed = resume_to_the_end(
+        "parts", carom("run busy.toml --quiet -o parts --force --max-walltime 1e-9 --t-end 8 --method " + method));
+    EXPECT_EQ(resumed.last.status, 0) << resumed.last.err;
+    EXPECT_GE(resumed.parts, 3);
+    EXPECT_THAT(resumed.said, HasSubstr("stopped by --max-walltime at t = "));
+    EXPECT_THAT(resumed.said, HasSubstr(" of 8; go on with carom resume parts\n"));
     expect_same_results("whole", "parts");
     EXPECT_FALSE(fs::exists(at("parts/checkpoint.carom"))) << "the scene did not ask for them";
   }
@@ -49,19 +44,14 @@ TEST_F(InterruptedRun, ItWarnsOfTheSame) {
   const std::string warning = "collisions were seen a step late";
   ASSERT_EQ(carom("run " + scene + dense + " --t-end 40 --quiet -o whole").status, 0);
   ASSERT_THAT(text_of(at("whole/summary.json")), HasSubstr(warning));
-  Outcome o = carom("run " + scene + dense + " --t-end 40 -o parts --max-walltime 1e-6");
-  std::string told = o.err;
-  int parts = 1;
-  for (; o.status == 4; ++parts) {
-    o = carom("resume parts --max-walltime 0.03");
-    told += o.err;
-  }
-  EXPECT_EQ(o.status, 0) << o.err;
-  EXPECT_GE(parts, 2);
+  const Resumed resumed =
+      resume_to_the_end("parts", carom("run " + scene + dense + " --t-end 40 -o parts --max-walltime 1e-9"), "");
+  EXPECT_EQ(resumed.last.status, 0) << resumed.last.err;
+  EXPECT_GE(resumed.parts, 3);
   expect_same_results("whole", "parts");
-  const std::size_t first = told.find(warning);
+  const std::size_t first = resumed.said.find(warning);
   ASSERT_NE(first, std::string::npos);
-  EXPECT_EQ(told.find(warning, first + 1), std::string::npos) << told;
+  EXPECT_EQ(resumed.said.find(warning, first + 1), std::string::npos) << resumed.said;
 }
 
 // A strict run stops at its first warning. Resumed with --strict it stops again; without, it goes on, and its summary
@@ -107,7 +97,6 @@ TEST_F(InterruptedRun, SigusrWritesOneAndTheRunGoesOn) {
   const pid_t run = start({"run", "busy.toml", "--t-end", "1e6", "-o", "out"});
   await(at("out/carom-unfinished/series.csv"));
   EXPECT_FALSE(fs::exists(at("out/carom-unfinished/checkpoint.carom"))) << "no checkpoint was requested";
-  usleep(100'000);
   kill(run, SIGUSR1);
   await(at("out/carom-unfinished/checkpoint.carom"));
   const Outcome o = carom("resume out");
@@ -116,7 +105,7 @@ TEST_F(InterruptedRun, SigusrWritesOneAndTheRunGoesOn) {
   EXPECT_EQ(carom("run busy.toml -o out --force").status, 2) << "not even by force";
   kill(run, SIGKILL);
   EXPECT_EQ(wait_for(run), -SIGKILL);
-  EXPECT_EQ(carom("resume out --quiet --max-walltime 0.01").status, 4);
+  EXPECT_EQ(carom("resume out --quiet --max-walltime 1e-9").status, 4);
 }
 
 // A state that takes minutes to grow.
@@ -187,7 +176,7 @@ TEST_F(InterruptedRun, WithoutFilesOfItsOwnItMakesAFolderForTheCheckpoint) {
       "run busy.toml --quiet --set output.trajectory=none --set output.series=false --set output.plots='[]' ";
   fs::create_directories(at("out/busy"));
   write("out/busy/series.csv", "of another program");
-  const Outcome o = carom(bare + "--max-walltime 0.001 --json");
+  const Outcome o = carom(bare + "--max-walltime 1e-9 --json");
   EXPECT_EQ(o.status, 4);
   const auto json = nlohmann::json::parse(o.out);
   EXPECT_EQ(json["resume_with"], "carom resume out/busy-2");
@@ -221,7 +210,7 @@ TEST_F(InterruptedRun, ACheckpointThatWasCutShortIsRefusedAndTheOneBeforeServes)
   // Two checkpoints: that of the start, and that of the stop.
   write("small.toml", test::busy_scene("pairwise", "checkpoint = \"1 h\"\n"));
   ASSERT_EQ(carom("run small.toml --quiet -o whole --t-end 10").status, 0);
-  ASSERT_EQ(carom("run small.toml --quiet -o out --t-end 10 --max-walltime 0.02").status, 4);
+  ASSERT_EQ(carom("run small.toml --quiet -o out --t-end 10 --max-walltime 1e-9").status, 4);
   const fs::path newest = at("out/carom-unfinished/checkpoint.carom");
   fs::resize_file(newest, fs::file_size(newest) / 2);
   const std::string before = test::text_of(at("out/carom-unfinished/series.csv"));
@@ -242,7 +231,7 @@ TEST_F(InterruptedRun, ACheckpointThatWasCutShortIsRefusedAndTheOneBeforeServes)
 }
 
 TEST_F(InterruptedRun, OutputsThatAreGoneAreMissed) {
-  ASSERT_EQ(carom("run busy.toml --quiet -o out --max-walltime 0.02").status, 4);
+  ASSERT_EQ(carom("run busy.toml --quiet -o out --max-walltime 1e-9").status, 4);
   fs::resize_file(at("out/carom-unfinished/trajectory.xyz"), 1000);
   EXPECT_THAT(carom("resume out").err, HasSubstr("trajectory.xyz: has 1000 bytes; expected "));
   fs::remove(at("out/carom-unfinished/trajectory.xyz"));
@@ -252,7 +241,7 @@ TEST_F(InterruptedRun, OutputsThatAreGoneAreMissed) {
 
 TEST_F(InterruptedRun, IntoAnotherFolderItLeavesTheFirstAsItWas) {
   ASSERT_EQ(carom("run busy.toml --quiet -o whole").status, 0);
-  ASSERT_EQ(carom("run busy.toml --quiet -o out --max-walltime 0.02").status, 4);
+  ASSERT_EQ(carom("run busy.toml --quiet -o out --max-walltime 1e-9").status, 4);
   const std::string before = test::text_of(at("out/carom-unfinished/trajectory.xyz"));
   EXPECT_EQ(carom("resume out/carom-unfinished/checkpoint.carom --quiet -o copy").status, 0);
   expect_same_results("whole", "copy");
@@ -287,8 +276,8 @@ TEST_F(InterruptedRun, AFinishedRunGoesOnToALaterEnd) {
 }
 
 TEST_F(InterruptedRun, OptionsOfResumeAreKept) {
-  ASSERT_EQ(carom("run busy.toml --quiet -o out --max-walltime 0.02").status, 4);
-  ASSERT_EQ(carom("resume out --quiet --t-end 22 --max-walltime 0.02").status, 4);
+  ASSERT_EQ(carom("run busy.toml --quiet -o out --max-walltime 1e-9").status, 4);
+  ASSERT_EQ(carom("resume out --quiet --t-end 22 --max-walltime 1e-9").status, 4);
   ASSERT_EQ(carom("resume out --quiet").status, 0);
   EXPECT_EQ(summary("out")["time"], 22.0);
 }
