@@ -25,7 +25,8 @@ double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-CheckpointKeeper::CheckpointKeeper(RunRecord record, Clock::time_point started, double interval, double max_walltime)
+CheckpointKeeper::CheckpointKeeper(RunRecord record, WallClock::time_point started, double interval,
+                                   double max_walltime)
     : before_(std::move(record)),
       started_(started),
       interval_(interval),

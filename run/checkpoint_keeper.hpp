@@ -1,12 +1,12 @@
 // When a run writes checkpoints: in intervals of wall time, on signals, when its time is up, at its end.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
 
+#include "core/base/wall_clock.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/files/output_folder.hpp"
 #include "run/run_outputs.hpp"
@@ -15,11 +15,9 @@ namespace carom {
 
 class CheckpointKeeper {
  public:
-  using Clock = std::chrono::steady_clock;
-
   // record: of the run so far, with the times that its earlier parts spent. started: when this process began with it.
   // interval and max_walltime in seconds; an interval of 0 means none except on request.
-  CheckpointKeeper(RunRecord record, Clock::time_point started, double interval, double max_walltime);
+  CheckpointKeeper(RunRecord record, WallClock::time_point started, double interval, double max_walltime);
 
   // Where they go. Without a folder one is made when the first checkpoint is requested: out/NAME of the scene, or
   // out/NAME-2 and so on where that is taken. outputs may be null. there: the folder holds the checkpoint that the run
@@ -53,11 +51,11 @@ class CheckpointKeeper {
   std::string take_note();
 
  private:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - started_).count(); }
+  double seconds() const { return seconds_since(started_); }
   OutputFolder& folder();
 
   RunRecord before_;
-  Clock::time_point started_;
+  WallClock::time_point started_;
   double interval_;
   double max_walltime_;
   double due_;  // seconds

@@ -15,10 +15,11 @@ constexpr double end_slack = 1e-6;
 
 FrameSchedule::FrameSchedule(double every, double t_end, double slack) : every_(every), t_end_(t_end), slack_(slack) {}
 
-double FrameSchedule::due(double now) const {
-  if (finished_) return -1.0;
-  if (next_ == t_end_) return now >= t_end_ ? t_end_ : -1.0;
-  return now >= next_ - slack_ * every_ ? std::min(next_, now) : -1.0;
+std::optional<double> FrameSchedule::due(double now) const {
+  if (finished_) return std::nullopt;
+  const bool last = next_ == t_end_;
+  if (now < (last ? t_end_ : next_ - slack_ * every_)) return std::nullopt;
+  return last ? t_end_ : std::min(next_, now);
 }
 
 void FrameSchedule::made(double time) {

@@ -1,6 +1,8 @@
 // When frames are due: at 0, at every multiple of an interval, and at the end.
 #pragma once
 
+#include <optional>
+
 #include "core/base/types.hpp"
 
 namespace carom {
@@ -14,8 +16,8 @@ class FrameSchedule {
   // for the next step.
   FrameSchedule(double every, double t_end, double slack);
 
-  // Time of the next frame that is due in a run that has come to `now`, or a negative number if there is none yet.
-  double due(double now) const;
+  // Time of the next frame that is due in a run that has come to `now`, none if there is none yet.
+  std::optional<double> due(double now) const;
 
   // A frame has been made of the state at `time` (the time asked for, or the step's end for time stepping). All frames
   // due up to there are done, so that long steps do not show one state twice.

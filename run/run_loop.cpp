@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 
+#include "core/base/wall_clock.hpp"
 #include "run/frame_schedule.hpp"
 
 namespace carom {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double pulse_seconds = 0.01;
 constexpr Count most_steps_between_looks = 100'000;
@@ -29,11 +27,11 @@ struct Watcher {
   double start = 0.0, early = 0.0;  // early: how much sooner than start will do
   FrameSchedule schedule;
 
-  // The time at which it is due in a run that has come to `now`, or a negative number.
-  double due(double now) const {
-    if (*look == nullptr || now < start - early) return -1.0;
-    const double since = schedule.due(std::max(now - start, 0.0));
-    return since < 0.0 ? since : start + since;
+  // The time at which it is due in a run that has come to `now`, if it is.
+  std::optional<double> due(double now) const {
+    if (*look == nullptr || now < start - early) return std::nullopt;
+    const std::optional<double> since = schedule.due(std::max(now - start, 0.0));
+    return since ? std::optional(start + *since) : std::nullopt;
   }
 };
 
@@ -60,16 +58,16 @@ class StepWatch {
   ~StepWatch() { engine_.set_watch({}); }
 
   void begin_batch() {
-    start_ = Clock::now();
+    start_ = WallClock::now();
     late_ = false;
   }
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double seconds() const { return seconds_since(start_); }
   bool ends_batch() const { return stopped_ || late_; }
   bool stopped() const { return stopped_; }
 
  private:
   Engine& engine_;
-  Clock::time_point start_;
+  WallClock::time_point start_;
   std::atomic<bool> stopped_{false}, late_{false};
 };
 
@@ -83,16 +81,16 @@ class FrameMaker {
 
   bool due() const {
     const double now = engine_.state().time;
-    return watchers_[0].due(now) >= 0.0 || watchers_[1].due(now) >= 0.0;
+    return watchers_[0].due(now) || watchers_[1].due(now);
   }
 
   void make_due() {
     const double now = engine_.state().time;
-    double shown = -1.0;  // the time asked for that disks_ are of
+    std::optional<double> shown;  // the time asked for that disks_ are of
     while (due()) {
-      const double times[] = {watchers_[0].due(now), watchers_[1].due(now)};
-      const std::size_t first = times[1] < 0.0 || (times[0] >= 0.0 && times[0] <= times[1]) ? 0 : 1;
-      if (times[first] != shown) time_ = engine_.disks_at(times[first], disks_);
+      const std::optional<double> times[] = {watchers_[0].due(now), watchers_[1].due(now)};
+      const std::size_t first = !times[1] || (times[0] && *times[0] <= *times[1]) ? 0 : 1;
+      if (times[first] != shown) time_ = engine_.disks_at(*times[first], disks_);
       shown = times[first];
       (*watchers_[first].look)(disks_, time_);
       watchers_[first].schedule.made(time_ - watchers_[first].start);

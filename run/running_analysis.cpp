@@ -44,7 +44,7 @@ void RunningAnalysis::follow(const Engine& engine, double t) {
 
 void RunningAnalysis::sample(const Disks& disks, double time, const State& now) {
   take_sample(record_, scene_, disks, time, now, count_);
-  if (Clock::now() - written_ > write_interval) write();
+  if (WallClock::now() - written_ > write_interval) write();
 }
 
 double RunningAnalysis::displacement(const Disks& disks, double time) {
@@ -55,7 +55,7 @@ double RunningAnalysis::displacement(const Disks& disks, double time) {
 
 void RunningAnalysis::write() {
   write_analysis(folder_.path("analysis.h5"), scene_, record_);
-  written_ = Clock::now();
+  written_ = WallClock::now();
 }
 
 bool RunningAnalysis::draw() const {

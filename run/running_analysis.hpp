@@ -1,9 +1,9 @@
 // What a run measures on its way, from the first sample to the file and the plots.
 #pragma once
 
-#include <chrono>
 #include <string>
 
+#include "core/base/wall_clock.hpp"
 #include "core/measure/analysis.hpp"
 #include "core/step/engine.hpp"
 #include "io/files/output_folder.hpp"
@@ -39,13 +39,11 @@ class RunningAnalysis {
   std::string take_warning();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   const Scene& scene_;
   const OutputFolder& folder_;
   PairCounter count_;
   AnalysisRecord record_;
-  Clock::time_point written_{};
+  WallClock::time_point written_{};
   bool warned_ = false;
 };
 

@@ -94,13 +94,6 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return phase_seconds(s); }},
 };
 
-double momentum_drift(const Momentum& start, const Momentum& end) {
-  const double dx = end.x - start.x;
-  const double dy = end.y - start.y;
-  const double scale = std::max(start.magnitude, end.magnitude);
-  return scale > 0.0 ? std::sqrt(dx * dx + dy * dy) / scale : 0.0;
-}
-
 // "1 disk", "2 disks".
 std::string counted(Count n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
@@ -137,7 +130,7 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   Summary s;
   s.scene = scene.file;
   s.title = scene.title;
-  s.method = method_names[static_cast<std::size_t>(scene.run.method)];
+  s.method = name_of(scene.run.method);
   s.engine = choice;
   s.particles = state.disks.size();
   s.time = state.time;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scene/scene_names.hpp"
+
 namespace carom {
 
 using chart::ChartResult;
@@ -53,8 +55,7 @@ Range widened(const Range& range) {
 
 // Name and order; exact is named where its point is.
 std::string order_text(const SceneResult& result, const Curve& curve, Measure measure) {
-  const char* const names[] = {"rollback", "pairwise", "exact"};
-  const std::string name = names[static_cast<std::size_t>(curve.method)];
+  const std::string name(name_of(curve.method));
   const auto& fit = curve.fit(measure);
   const auto predicted = chart::predicted_order(result.scene, curve.method, measure);
   if (!fit) return curve.method == Method::exact ? "" : name;

@@ -97,10 +97,6 @@ void compare_flights(const Scene& scene, const State& start, const Flight& exact
   sample[Measure::spurious] = static_cast<double>(lacking(flight.collisions, exact.collisions)) / collisions;
 }
 
-double momentum_drift(const Momentum& a, const Momentum& b) {
-  return std::hypot(b.x - a.x, b.y - a.y) / std::max(a.magnitude, b.magnitude);
-}
-
 // The long run: what it costs and what its figures are.
 void measure_rates(const ChartScene& scene, const Scene& s, const State& start, Sample& sample) {
   const auto engine = make_parallel_engine(s, start, {1});

@@ -15,10 +15,6 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value) : "";
 }
 
-std::string_view name_of(Method method) {
-  return method_names[static_cast<std::size_t>(method)];
-}
-
 void add_point(std::string& text, const SceneResult& scene, const Curve& curve, const Point& p) {
   for (std::size_t m = 0; m < measure_count; ++m) {
     const auto measure = static_cast<Measure>(m);

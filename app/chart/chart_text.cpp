@@ -16,10 +16,6 @@ using chart::Point;
 
 namespace {
 
-std::string_view name_of(Method method) {
-  return method_names[static_cast<std::size_t>(method)];
-}
-
 // An error, or what it is seen to be below.
 std::string error_text(const Point& p, Measure measure) {
   const chart::Mean& m = p[measure];

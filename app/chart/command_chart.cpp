@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -19,6 +18,7 @@
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
+#include "core/base/wall_clock.hpp"
 #include "core/scene/scene_names.hpp"
 #include "io/files/output_file.hpp"
 
@@ -27,15 +27,10 @@ namespace carom {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 6> file_names{"chart.svg",     "chart.png", "chart_all.svg",
                                                 "chart_all.png", "chart.csv", "chart.json"};
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Refuses a folder that cannot take the chart now, rather than after half an hour. Leaves nothing behind.
 void check_folder(const fs::path& folder, bool force) {
@@ -73,7 +68,7 @@ class ChartProgress {
 
  private:
   StatusLine line_;
-  Clock::time_point start_ = Clock::now();
+  WallClock::time_point start_ = WallClock::now();
 };
 
 std::string processor() {
@@ -97,7 +92,7 @@ Json verdicts_of(const chart::SceneResult& scene) {
       Json verdict{{"measure", chart::measure_names[static_cast<std::size_t>(measure)]}, {"error", error}};
       std::optional<double> least;
       for (const chart::Curve& curve : scene.curves) {
-        const std::string name(method_names[static_cast<std::size_t>(curve.method)]);
+        const std::string name(name_of(curve.method));
         const std::optional<double> cost = chart::cost_at(curve, measure, error);
         verdict[name] = number(cost);
         if (!cost || (least && *least <= *cost)) continue;
@@ -132,20 +127,6 @@ Json json_of(const chart::ChartResult& result, const chart::Effort& effort, int 
   return j;
 }
 
-// Beside its place first, so that a full disk leaves what was there before.
-void replace_file(const fs::path& path, const std::string& text) {
-  const fs::path part = path.string() + ".part";
-  std::error_code error;
-  try {
-    write_file(part.string(), text);
-  } catch (const RunError&) {
-    fs::remove(part, error);
-    throw;
-  }
-  fs::rename(part, path, error);
-  if (error) throw RunError(fmt::format("cannot write {}: {}", path.string(), error.message()));
-}
-
 // Draws beside its place, then moves both pictures there.
 bool draw(const LogFigure& figure, const fs::path& folder, const std::string& name) {
   const std::string svg = folder / (name + ".svg"), png = folder / (name + ".png");
@@ -157,8 +138,8 @@ bool draw(const LogFigure& figure, const fs::path& folder, const std::string& na
     fs::remove(png + ".part", error);
     throw;
   }
-  fs::rename(svg + ".part", svg);
-  fs::rename(png + ".part", png);
+  rename_file(svg + ".part", svg);
+  rename_file(png + ".part", png);
   return true;
 }
 
@@ -174,7 +155,7 @@ int command_chart(const ChartOptions& options) {
   const fs::path folder = options.folder.value_or((fs::path("out") / name).string());
   const bool own = !options.scene.empty();
   check_folder(folder, options.force);
-  const auto start = Clock::now();
+  const auto start = WallClock::now();
   const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const chart::Effort effort = own ? chart::for_own(effort_of(options)) : effort_of(options);
   ChartProgress progress(options.quiet);

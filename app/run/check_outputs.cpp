@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include <stdexcept>
 
 #include "core/base/check.hpp"
+#include "core/base/wall_clock.hpp"
 #include "core/scene/size_law.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/checkpoint/checkpoint_place.hpp"
@@ -24,7 +24,6 @@ namespace carom {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 using Sizes = std::map<std::string, double>;
 
 // A frame of so many disks is written, at most; of more it is scaled up.
@@ -40,10 +39,6 @@ constexpr std::size_t most_sampled = 2'000'000;
 constexpr double xyz_bytes = 134.0, h5md_bytes = 32.0, h5md_single_bytes = 15.0, row_bytes = 200.0, movie_bytes = 2e4;
 // gnuplot's SVG: of the axes, and of a point.
 constexpr double plot_bytes = 16e3, point_bytes = 19.0;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Processor time of this process and of those that it has waited for.
 double cpu_seconds() {
@@ -137,7 +132,7 @@ Rehearsed rehearse(const Scene& scene, const EngineChoice& choice, const Engine&
   Rehearsed r;
   const double every = scene.output.every > 0.0 ? scene.output.every : scene.run.t_end;
   const OutputFolder folder(path, scene.file, true);
-  auto start = Clock::now();
+  auto start = WallClock::now();
   const double cpu_before = cpu_seconds();
   RunOutputs outputs(scene, folder, make_pair_counter(choice));
   outputs.share_work(make_block_runner(choice));
@@ -155,7 +150,7 @@ Rehearsed rehearse(const Scene& scene, const EngineChoice& choice, const Engine&
   }
   r.sizes.erase("lock");
   if (!sample || outputs.analysis() == nullptr) return r;
-  start = Clock::now();
+  start = WallClock::now();
   outputs.analysis()->follow(tried, tried.state().time);
   outputs.analysis()->sample(tried.state().disks, tried.state().time, tried.state());
   r.sample_seconds = seconds_since(start);
@@ -164,7 +159,7 @@ Rehearsed rehearse(const Scene& scene, const EngineChoice& choice, const Engine&
 
 // The time of one plot: almost all of it is starting gnuplot.
 double plot_seconds(const fs::path& folder) {
-  const auto start = Clock::now();
+  const auto start = WallClock::now();
   const EnergyRecord record{{0.0, 1.0}, {1.0, 1.0}, {0.0, 0.0}, {1.0, 1.0}};
   return plot_energy((folder / "energy.svg").string(), "", record) ? seconds_since(start) : 0.0;
 }

@@ -43,7 +43,7 @@ std::string physics_text(const Scene& scene) {
 }
 
 std::string method_text(const Scene& scene) {
-  const std::string_view name = method_names[static_cast<std::size_t>(scene.run.method)];
+  const std::string_view name = name_of(scene.run.method);
   if (!uses_dt(scene)) return fmt::format("{} to t = {:g}", name, scene.run.t_end);
   return fmt::format("{}, dt = {:g}, {} steps to t = {:g}", name, scene.run.dt,
                      make_step_clock(scene.run.dt, scene.run.t_end).steps, scene.run.t_end);
@@ -107,7 +107,7 @@ std::string cost_text(const Findings& f) {
 }
 
 std::string offer_text(const MethodOffer& offer, bool best) {
-  const std::string_view name = method_names[static_cast<std::size_t>(offer.method)];
+  const std::string_view name = name_of(offer.method);
   if (!offer.possible) return fmt::format("  {:<10}no: {}\n", name, offer.why);
   const std::string dt = offer.dt > 0.0 ? fmt::format("dt = {:g}, ", offer.dt) : "";
   const std::string error = offer.error > 0.0 ? fmt::format("{:.1e}", offer.error) : "rounding only";
@@ -137,7 +137,7 @@ std::string choice_text(const Scene& scene, double accuracy) {
   const MethodOffer& best = choice.offers[static_cast<std::size_t>(choice.best)];
   const std::string dt = best.dt > 0.0 ? fmt::format(" --dt {:g}", best.dt) : "";
   return text + fmt::format("  take it with --method {}{}, or method = \"auto\", accuracy = {:g} in [run]\n",
-                            method_names[static_cast<std::size_t>(best.method)], dt, accuracy);
+                            name_of(best.method), dt, accuracy);
 }
 
 Json choice_json(const Scene& scene, double accuracy) {
@@ -145,7 +145,7 @@ Json choice_json(const Scene& scene, double accuracy) {
   Json j{{"accuracy", accuracy}, {"method", nullptr}, {"why", choice.why}};
   for (std::size_t k = 0; k < choice.offers.size(); ++k) {
     const MethodOffer& o = choice.offers[k];
-    const std::string_view name = method_names[static_cast<std::size_t>(o.method)];
+    const std::string_view name = name_of(o.method);
     if (static_cast<int>(k) == choice.best) j["method"] = name;
     j["offers"].push_back({{"method", name},
                            {"possible", o.possible},
@@ -173,7 +173,7 @@ Json file_sizes(const OutputForesight& outputs) {
 const JsonKey<Told> check_keys[] = {
     {"scene", "", "the scene's file", [](const Told& t) -> Json { return t.scene.file; }},
     {"method", "", "`rollback`, `pairwise` or `exact`",
-     [](const Told& t) -> Json { return method_names[static_cast<std::size_t>(t.scene.run.method)]; }},
+     [](const Told& t) -> Json { return name_of(t.scene.run.method); }},
     {"particles", "", "disks at the start", [](const Told& t) -> Json { return t.found.disks; }},
     {"particles_at_end", "", "disks at the end, as predicted from sources and sinks",
      [](const Told& t) -> Json { return t.found.population.end; }},

@@ -1,7 +1,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include "app/cli/commands.hpp"
 #include "app/run/check_report.hpp"
 #include "core/base/check.hpp"
+#include "core/base/wall_clock.hpp"
 #include "core/load/memory_need.hpp"
 #include "core/load/method_choice.hpp"
 #include "core/load/method_rates.hpp"
@@ -28,12 +28,6 @@ namespace {
 constexpr double trial_seconds = 0.2;
 // A step that takes longer is given up; seconds.
 constexpr double longest_trial = 60.0;
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void measure_sizes(const Scene& scene, const Disks& disks, Findings& f) {
   f.disks = disks.size();
@@ -103,7 +97,7 @@ double share_left(const Engine& engine, const Scene& scene, const Population& po
 
 // Runs the first steps, and extrapolates.
 void try_steps(Engine& engine, const Scene& scene, Findings& f) {
-  const auto start = Clock::now();
+  const auto start = WallClock::now();
   engine.set_watch([&] { return seconds_since(start) < longest_trial; });
   double seconds = 0.0;
   try {
@@ -145,7 +139,7 @@ int command_check(const CheckOptions& options) {
   const EngineChoice choice = choose_engine("", std::nullopt);
   for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
   Findings found;
-  const auto start = Clock::now();
+  const auto start = WallClock::now();
   State initial =
       within_memory(scene, [&] { return grows(scene) ? ungrown_state(scene) : make_initial_state(choice, scene); });
   measure_sizes(scene, initial.disks, found);

@@ -28,12 +28,8 @@ constexpr double short_cpu = 1.0, short_wall = 60.0;
   std::_Exit(stopped_early);
 }
 
-double seconds_since(SetupWatch::Clock::time_point start) {
-  return std::chrono::duration<double>(SetupWatch::Clock::now() - start).count();
-}
-
-void watch(const std::stop_token& done, SetupWatch::Clock::time_point started, double max_walltime) {
-  const auto begun = SetupWatch::Clock::now();
+void watch(const std::stop_token& done, WallClock::time_point started, double max_walltime) {
+  const auto begun = WallClock::now();
   std::mutex mutex;
   std::condition_variable_any woken;
   std::unique_lock lock(mutex);
@@ -49,7 +45,7 @@ void watch(const std::stop_token& done, SetupWatch::Clock::time_point started, d
 
 }  // namespace
 
-SetupWatch::SetupWatch(Clock::time_point started, double max_walltime)
+SetupWatch::SetupWatch(WallClock::time_point started, double max_walltime)
     : thread_([=](const std::stop_token& done) { watch(done, started, max_walltime); }) {}
 
 SetupWatch::~SetupWatch() = default;

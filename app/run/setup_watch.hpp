@@ -1,8 +1,9 @@
 // Signals and the wall time while the initial state is made, which no step interrupts.
 #pragma once
 
-#include <chrono>
 #include <thread>
+
+#include "core/base/wall_clock.hpp"
 
 namespace carom {
 
@@ -11,10 +12,8 @@ namespace carom {
 // stop_signals.hpp, whose catch_signals() has been called. It must be gone before anything is written.
 class SetupWatch {
  public:
-  using Clock = std::chrono::steady_clock;
-
   // The process began at `started` and may take max_walltime seconds.
-  SetupWatch(Clock::time_point started, double max_walltime);
+  SetupWatch(WallClock::time_point started, double max_walltime);
   SetupWatch(const SetupWatch&) = delete;
   SetupWatch& operator=(const SetupWatch&) = delete;
   ~SetupWatch();

@@ -214,9 +214,7 @@ class Sweep {
       text += row_of(run, summary);
       if (!summary.value("warnings", Json()).empty()) ++warned;
     }
-    const fs::path table = folder_ / "sweep.csv";
-    write_file(table.string() + ".new", text);
-    fs::rename(table.string() + ".new", table);
+    replace_file(folder_ / "sweep.csv", text);
     return warned;
   }
 

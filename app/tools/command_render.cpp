@@ -10,6 +10,7 @@
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/scene/picture_look.hpp"
+#include "io/files/output_file.hpp"
 #include "io/files/output_folder.hpp"
 #include "io/movie/movie.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
@@ -128,12 +129,6 @@ struct WorkFolder {
   fs::path path;
 };
 
-void move_to(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::rename(from, to, error);
-  if (error) throw RunError(fmt::format("cannot write {}: {}", to.string(), error.message()));
-}
-
 // What a file's extension asks for.
 struct Target {
   fs::path file;
@@ -178,7 +173,7 @@ void render_picture(const Recording& recording, const RenderOptions& options, co
     painter.paint(frame.disks, frame.time, frame.group);
     painter.write_png(made.string());
   }
-  move_to(made, target.file);
+  rename_file(made, target.file);
 }
 
 // Returns what was made: the file, or a folder of single frames.
@@ -200,7 +195,7 @@ fs::path render_movie(const Recording& recording, const RenderOptions& options, 
   for (Count k = 0; k < survey.frames && reader->read(frame); ++k) movie.add(frame.disks, frame.time, frame.group);
   movie.finish();
   const fs::path to = movie.single_frames() ? target.file.parent_path() / "frames" : target.file;
-  move_to(work.path / (movie.single_frames() ? "frames" : movie_name(*target.movie)), to);
+  rename_file(work.path / (movie.single_frames() ? "frames" : movie_name(*target.movie)), to);
   return to;
 }
 

@@ -224,7 +224,7 @@ std::string reason_of(const MethodChoice& choice) {
   }
   const MethodOffer& best = choice.offers[static_cast<std::size_t>(choice.best)];
   const MethodOffer& other = choice.offers[choice.best == 0 ? 1 : 0];
-  const std::string_view name = method_names[static_cast<std::size_t>(other.method)];
+  const std::string_view name = name_of(other.method);
   const std::string against = other.possible ? fmt::format("{} would cost {:.2g} times as much", name,
                                                            other.seconds / std::max(best.seconds, 1e-12))
                                              : fmt::format("not {}: {}", name, other.why);
@@ -271,8 +271,8 @@ MethodChoice choose_method(const Scene& scene, double accuracy) {
 
 std::string choice_text(const Scene& scene) {
   const std::string dt = scene.run.dt > 0.0 ? fmt::format(", dt = {:g}", scene.run.dt) : "";
-  return fmt::format("method auto, accuracy {:g}: {}{} ({})", scene.run.accuracy,
-                     method_names[static_cast<std::size_t>(scene.run.method)], dt, scene.run.choice);
+  return fmt::format("method auto, accuracy {:g}: {}{} ({})", scene.run.accuracy, name_of(scene.run.method), dt,
+                     scene.run.choice);
 }
 
 }  // namespace carom

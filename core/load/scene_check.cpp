@@ -32,7 +32,7 @@ void check_memory(Method method, Count total, const std::string& where) {
   if (need <= have) return;
   fail_input(where,
              fmt::format("{} disks need {:.3g} GB of memory or more by method {}, and this machine has {:.3g} GB",
-                         total, need / gigabyte, method_names[static_cast<std::size_t>(method)], have / gigabyte),
+                         total, need / gigabyte, name_of(method), have / gigabyte),
              "expected fewer disks");
 }
 
@@ -213,7 +213,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   std::vector<std::string> warnings;
   if (scene.physics.collapse_contact_time && scene.run.method != Method::exact) {
     warnings.push_back(fmt::format("{}: physics.collapse: only the exact method uses it, method {} does not",
-                                   scene.file, method_names[static_cast<std::size_t>(scene.run.method)]));
+                                   scene.file, name_of(scene.run.method)));
   }
   if (scene.physics.collapse_contact_time && scene.run.method == Method::exact && !has_tc(scene)) {
     warnings.push_back(
@@ -233,7 +233,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   }
   if (scene.run.accuracy > 0.0 && !scene.run.automatic) {
     warnings.push_back(fmt::format("{}: run.accuracy: only method \"auto\" uses it, method {} does not", scene.file,
-                                   method_names[static_cast<std::size_t>(scene.run.method)]));
+                                   name_of(scene.run.method)));
   }
   return warnings;
 }

@@ -57,6 +57,13 @@ Momentum momentum_of(const Disks& d) {
   return momentum_of(d, by_id(d), run_in_order);
 }
 
+double momentum_drift(const Momentum& start, const Momentum& end) {
+  const double dx = end.x - start.x;
+  const double dy = end.y - start.y;
+  const double scale = std::max(start.magnitude, end.magnitude);
+  return scale > 0.0 ? std::sqrt(dx * dx + dy * dy) / scale : 0.0;
+}
+
 Overlap deepest_overlap(const Disks& d, const Domain& box, const BlockRunner& run) {
   const auto overlap = [&](std::uint32_t i, std::uint32_t j) {
     double dx = d.x[j] - d.x[i];

@@ -31,6 +31,9 @@ Momentum momentum_of(const Disks& disks);
 Energy energy_of(const Disks& disks, const std::vector<std::size_t>& order, double gravity, const BlockRunner& run);
 Momentum momentum_of(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run);
 
+// |end - start| over the larger of the two sums of m |v|; 0 where nothing moves.
+double momentum_drift(const Momentum& start, const Momentum& end);
+
 // Largest overlap of two disks over the sum of their radii (nearest image), 0 if none; uses a grid, O(N).
 double max_overlap(const Disks& disks, const Domain& box, const BlockRunner& run = run_in_order);
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "core/scene/scene.hpp"
+
 namespace carom {
 
 inline constexpr std::array<std::string_view, 4> side_names{"left", "right", "bottom", "top"};   // Side
@@ -21,5 +23,9 @@ inline constexpr std::array<std::string_view, 6> quantity_names{
 inline constexpr std::array<std::string_view, 2> axis_names{"x", "y"};
 inline constexpr std::array<std::string_view, 1> collapse_models{"tc"};
 inline constexpr std::array<std::string_view, 2> plot_names{"velocity", "energy"};
+
+constexpr std::string_view name_of(Method method) {
+  return method_names[static_cast<std::size_t>(method)];
+}
 
 }  // namespace carom

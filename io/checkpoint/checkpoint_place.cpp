@@ -28,8 +28,7 @@ void save_checkpoint(const std::string& folder, const RunRecord& record, const S
   fs::remove(previous, error);
   fs::create_hard_link(newest, previous, error);
   if (error && fs::exists(newest)) fs::rename(newest, previous, error);
-  fs::rename(beside, newest, error);
-  if (error) throw RunError(fmt::format("cannot write {}: {}", newest.string(), error.message()));
+  rename_file(beside, newest);
   sync_path(folder);
 }
 

@@ -71,6 +71,22 @@ void write_file(const std::string& path, std::string_view text) {
   file.close();
 }
 
+void rename_file(const std::string& from, const std::string& to) {
+  if (std::rename(from.c_str(), to.c_str()) == 0) return;
+  throw RunError(fmt::format("cannot write {}: {}", to, std::strerror(errno)));
+}
+
+void replace_file(const std::string& path, std::string_view text) {
+  const std::string beside = path + ".new";
+  try {
+    write_file(beside, text);
+  } catch (const RunError&) {
+    std::remove(beside.c_str());  // a full disk needs the room
+    throw;
+  }
+  rename_file(beside, path);
+}
+
 void check_at_least(const std::string& path, std::uint64_t bytes) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);

@@ -139,9 +139,7 @@ void MovieWriter::join_parts() {
     made = joined_name;
     sync_path(path(made));
   }
-  std::error_code error;
-  fs::rename(path(made), path(file_name_), error);
-  if (error) throw RunError(fmt::format("cannot write {}: {}", path(file_name_), error.message()));
+  rename_file(path(made), path(file_name_));
 }
 
 void MovieWriter::fail() const {

@@ -14,10 +14,6 @@ namespace carom {
 
 namespace {
 
-std::string heading(const Scene& scene, const char* subject) {
-  return scene.title.empty() ? subject : fmt::format("{}: {}", scene.title, subject);
-}
-
 // Leaves out what is not a number.
 Line line_of(std::string name, const std::vector<double>& x, const std::vector<double>& y,
              LineStyle style = LineStyle::solid) {
@@ -41,7 +37,7 @@ Figure pair_figure(const Scene& scene, const AnalysisRecord& record) {
   panel.lines.push_back(level("random", scene.analysis.r_max, 1.0));
   const double end = panel.lines[0].x.empty() ? scene.analysis.r_max : panel.lines[0].x.back();
   panel.lines[1].x.back() = end;
-  return {heading(scene, "pair correlation"), "distance r", end, {panel}};
+  return {heading(scene.title, "pair correlation"), "distance r", end, {panel}};
 }
 
 Figure speed_figure(const Scene& scene, const AnalysisRecord& record) {
@@ -58,7 +54,7 @@ Figure speed_figure(const Scene& scene, const AnalysisRecord& record) {
   Panel panel{"probability density", {}, true, false};
   panel.lines.push_back(line_of("measured", measured.middle, measured.value, LineStyle::points));
   panel.lines.push_back(line_of("Maxwell", maxwell.middle, maxwell.value));
-  return {heading(scene, "speeds"), "speed v, in units of sqrt(T / m)", measured.middle.back(), {panel}};
+  return {heading(scene.title, "speeds"), "speed v, in units of sqrt(T / m)", measured.middle.back(), {panel}};
 }
 
 Figure density_figure(const Scene& scene, const AnalysisRecord& record) {
@@ -69,7 +65,8 @@ Figure density_figure(const Scene& scene, const AnalysisRecord& record) {
   const SampleMean mean = sample_mean(packing.value);
   const double end = packing.middle.back();
   if (mean.samples > 0) panel.lines.push_back(level("mean", end, mean.mean));
-  return {heading(scene, "density profile"), fmt::format("position {}", axis_names[along_x ? 0 : 1]), end, {panel}};
+  return {
+      heading(scene.title, "density profile"), fmt::format("position {}", axis_names[along_x ? 0 : 1]), end, {panel}};
 }
 
 Figure series_figure(const Scene& scene, const AnalysisRecord& record, const std::vector<double>& values,
@@ -80,7 +77,7 @@ Figure series_figure(const Scene& scene, const AnalysisRecord& record, const std
   const double end = samples.x.empty() ? 0.0 : samples.x.back();
   const double mean = sample_mean(values, record.series.interval).mean;
   if (!samples.x.empty()) panel.lines.push_back({"mean", {samples.x.front(), end}, {mean, mean}, LineStyle::dashed});
-  return {heading(scene, subject), "time t", end, {panel}};
+  return {heading(scene.title, subject), "time t", end, {panel}};
 }
 
 // A power law through a point of the curve, over as much of the picture as lies within its heights.
@@ -111,7 +108,7 @@ Figure displacement_figure(const Scene& scene, const AnalysisRecord& record) {
     panel.lines.push_back(slope("~ t^2", curve, 0, 2.0));
     panel.lines.push_back(slope("~ t", curve, curve.x.size() - 1, 1.0));
   }
-  return {heading(scene, "displacement"), "time since the first sample", end, {panel}, true};
+  return {heading(scene.title, "displacement"), "time since the first sample", end, {panel}, true};
 }
 
 }  // namespace

@@ -222,6 +222,10 @@ std::string data_of(const Figure& figure) {
 
 }  // namespace
 
+std::string heading(const std::string& title, const char* subject) {
+  return title.empty() ? subject : fmt::format("{}: {}", title, subject);
+}
+
 bool draw_svg(const Figure& figure, const std::string& path) {
   return run_gnuplot(script_of(figure), data_of(figure), {{"plot.svg", path}});
 }

@@ -40,6 +40,9 @@ struct Figure {
   bool logarithmic = false;  // both axes; then all x and y are above 0, and the horizontal axis begins with the data
 };
 
+// What a figure is called: "title: subject", or the subject alone.
+std::string heading(const std::string& title, const char* subject);
+
 // Writes the figure as SVG. Returns false, and writes nothing, where gnuplot is not installed. Throws RunError if it
 // fails or the file cannot be written.
 bool draw_svg(const Figure& figure, const std::string& path);

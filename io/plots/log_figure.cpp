@@ -120,7 +120,7 @@ std::string panel_commands(const LogPanel& panel, const Page& page, double left,
   for (const LogNote& note : panel.notes) {
     text += fmt::format("set label {} at first {}, first {} {} offset {},0 textcolor rgb '{}' font ',10' front\n",
                         gnuplot_quoted(note.text), note.x, note.y, note.left ? "right" : "left", note.left ? -0.8 : 0.8,
-                        note.style < 0 ? grey : colours[style_of(note.style)]);
+                        note.style ? colours[style_of(*note.style)] : grey);
   }
   std::string plot;
   for (const LogCurve& curve : panel.curves) {

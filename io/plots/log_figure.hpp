@@ -1,6 +1,7 @@
 // A page of small panels with logarithmic axes, as gnuplot draws it: curves of errors, each named where it is.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,8 @@ struct LogCurve {
 struct LogNote {
   double x = 0.0, y = 0.0;
   std::string text;
-  int style = -1;     // colour of that style; -1: grey
-  bool left = false;  // of the point; otherwise right of it
+  std::optional<int> style;  // colour of that style; none: grey
+  bool left = false;         // of the point; otherwise right of it
 };
 
 struct LogPanel {

@@ -73,10 +73,6 @@ Panel band_panel(const char* y_label, const VelocityRecord& record,
   return panel;
 }
 
-std::string heading(const std::string& title, const char* subject) {
-  return title.empty() ? subject : fmt::format("{}: {}", title, subject);
-}
-
 }  // namespace
 
 void record(VelocityRecord& record, const Disks& disks, double time) {

@@ -1,12 +1,8 @@
 #include "io/tables/analysis_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
 
-#include "core/base/check.hpp"
 #include "core/base/sample_mean.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/measure/analysis_curves.hpp"
@@ -142,11 +138,7 @@ void write_analysis(const std::string& path, const Scene& scene, const AnalysisR
   if (plan.wants(Quantity::pair_correlation)) put_pairs(output, record, scene);
   if (plan.wants(Quantity::speeds)) put_speeds(output, record, scene);
   if (plan.wants(Quantity::density)) put_density(output, record, scene);
-  const std::string beside = path + ".new";
-  write_file(beside, output.image());
-  if (std::rename(beside.c_str(), path.c_str()) != 0) {
-    throw RunError("cannot write " + path + ": " + std::strerror(errno));
-  }
+  replace_file(path, output.image());
 }
 
 }  // namespace carom

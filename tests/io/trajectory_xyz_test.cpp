@@ -4,34 +4,21 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "core/base/check.hpp"
 #include "core/disks/state_hash.hpp"
-#include "run/frame_schedule.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 class TrajectoryXyz : public ::testing::Test {
  protected:
-  TrajectoryXyz() {
-    const auto* const info = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = (fs::temp_directory_path() / (std::string("carom_xyz_") + info->name())).string();
-  }
-  ~TrajectoryXyz() override { fs::remove(path_); }
-
-  std::string text() const {
-    std::ostringstream all;
-    all << std::ifstream(path_).rdbuf();
-    return all.str();
-  }
+  std::string text() const { return test::text_of(path_); }
   void write_text(const std::string& text) const { std::ofstream(path_) << text; }
 
   // The message of the error that reading the file to its end gives.
@@ -47,7 +34,8 @@ class TrajectoryXyz : public ::testing::Test {
     return "no error";
   }
 
-  std::string path_;
+  const test::TestFolder folder_{::testing::UnitTest::GetInstance()->current_test_info()->name()};
+  const std::string path_ = folder_.path() / "trajectory.xyz";
 };
 
 Disks three_disks() {
@@ -196,41 +184,6 @@ TEST(TrajectoryXyzDisk, AFullDiskIsAnError) {
   } catch (const RunError& e) {
     EXPECT_STREQ(e.what(), "cannot write /dev/full: No space left on device");
   }
-}
-
-// Times at which a run that advances by dt makes frames.
-std::vector<double> frame_times(FrameSchedule schedule, double dt, double t_end) {
-  std::vector<double> times;
-  double now = 0.0;
-  for (Count step = 0;; ++step) {
-    for (double due = schedule.due(now); due >= 0.0; due = schedule.due(now)) {
-      times.push_back(due);
-      schedule.made(due);
-    }
-    if (now >= t_end) return times;
-    now = std::min(now + dt, t_end);
-  }
-}
-
-TEST(FrameSchedule, AddedUpStepsMakePunctualFrames) {
-  const auto times = frame_times(FrameSchedule(0.1, 0.7, 1e-6), 0.01, 0.7);
-  ASSERT_EQ(times.size(), 8U);
-  for (std::size_t k = 0; k < times.size(); ++k) EXPECT_NEAR(times[k], 0.1 * static_cast<double>(k), 1e-12);
-  EXPECT_EQ(frame_count(0.1, 0.7), 8U);
-}
-
-TEST(FrameSchedule, FirstAndLastAlways) {
-  EXPECT_THAT(frame_times(FrameSchedule(0.0, 2.0, 0.0), 0.5, 2.0), ::testing::ElementsAre(0.0, 2.0));
-  EXPECT_THAT(frame_times(FrameSchedule(5.0, 2.0, 0.0), 0.5, 2.0), ::testing::ElementsAre(0.0, 2.0));
-  EXPECT_THAT(frame_times(FrameSchedule(0.75, 2.0, 0.0), 2.0, 2.0), ::testing::ElementsAre(0.0, 0.75, 1.5, 2.0));
-  EXPECT_THAT(frame_times(FrameSchedule(1.0, 0.0, 0.0), 1.0, 0.0), ::testing::ElementsAre(0.0));
-}
-
-TEST(FrameSchedule, IntervalsFarBelowAStepDoNotHang) {
-  FrameSchedule schedule(1e-300, 1.0, 1e-6);
-  schedule.made(0.5);
-  EXPECT_EQ(schedule.due(0.25), -1.0);
-  EXPECT_GT(schedule.due(0.75), 0.5) << "no time comes twice";
 }
 
 }  // namespace

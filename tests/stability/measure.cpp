@@ -84,15 +84,12 @@ void Worst::look(const Scene& scene, const State& start, const State& now) {
   const double g = scene.physics.gravity;
   const Energy before = energy_of(start.disks, g);
   const Energy after = energy_of(now.disks, g);
-  const Momentum p = momentum_of(start.disks);
-  const Momentum q = momentum_of(now.disks);
   overlap = std::max(overlap, max_overlap(now.disks, scene.box));
   wall_overlap = std::max(wall_overlap, carom::wall_overlap(now.disks, scene.box));
   const double drift = ratio(after.total(), before.total()) - (before.total() != 0.0 ? 1.0 : 0.0);
   energy_drift = std::max(energy_drift, std::abs(drift));
   energy_gain = std::max(energy_gain, drift);
-  const double scale = std::max(p.magnitude, q.magnitude);
-  if (scale > 0.0) momentum = std::max(momentum, std::hypot(q.x - p.x, q.y - p.y) / scale);
+  momentum = std::max(momentum, momentum_drift(momentum_of(start.disks), momentum_of(now.disks)));
   Count lost = 0;
   for (std::size_t i = 0; i < now.disks.size(); ++i) lost += is_outside(now.disks, scene.box, i) ? 1U : 0U;
   outside = std::max(outside, lost);

@@ -1,0 +1,53 @@
+// When frames are due: at 0, at every multiple of an interval, and at the end, whatever the steps between.
+#include "run/frame_schedule.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace carom {
+namespace {
+
+using ::testing::ElementsAre;
+
+// Times at which a run that advances by dt makes frames.
+std::vector<double> frame_times(FrameSchedule schedule, double dt, double t_end) {
+  std::vector<double> times;
+  double now = 0.0;
+  for (Count step = 0;; ++step) {
+    while (const std::optional<double> due = schedule.due(now)) {
+      times.push_back(*due);
+      schedule.made(*due);
+    }
+    if (now >= t_end) return times;
+    now = std::min(now + dt, t_end);
+  }
+}
+
+TEST(FrameSchedule, AddedUpStepsMakePunctualFrames) {
+  const auto times = frame_times(FrameSchedule(0.1, 0.7, 1e-6), 0.01, 0.7);
+  ASSERT_EQ(times.size(), 8U);
+  for (std::size_t k = 0; k < times.size(); ++k) EXPECT_NEAR(times[k], 0.1 * static_cast<double>(k), 1e-12);
+  EXPECT_EQ(frame_count(0.1, 0.7), 8U);
+}
+
+TEST(FrameSchedule, FirstAndLastAlways) {
+  EXPECT_THAT(frame_times(FrameSchedule(0.0, 2.0, 0.0), 0.5, 2.0), ElementsAre(0.0, 2.0));
+  EXPECT_THAT(frame_times(FrameSchedule(5.0, 2.0, 0.0), 0.5, 2.0), ElementsAre(0.0, 2.0));
+  EXPECT_THAT(frame_times(FrameSchedule(0.75, 2.0, 0.0), 2.0, 2.0), ElementsAre(0.0, 0.75, 1.5, 2.0));
+  EXPECT_THAT(frame_times(FrameSchedule(1.0, 0.0, 0.0), 1.0, 0.0), ElementsAre(0.0));
+}
+
+TEST(FrameSchedule, IntervalsFarBelowAStepDoNotHang) {
+  FrameSchedule schedule(1e-300, 1.0, 1e-6);
+  schedule.made(0.5);
+  EXPECT_EQ(schedule.due(0.25), std::nullopt);
+  ASSERT_TRUE(schedule.due(0.75).has_value());
+  EXPECT_GT(*schedule.due(0.75), 0.5) << "no time comes twice";
+}
+
+}  // namespace
+}  // namespace carom
