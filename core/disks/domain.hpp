@@ -40,6 +40,19 @@ inline double nearest_image(double d, double period) {
   return d;
 }
 
+// The difference of two positions, taken to the nearest image across periodic sides. Precondition as above.
+inline Vec2 nearest_image(Vec2 d, const Domain& box) {
+  if (box.periodic_x()) d.x = nearest_image(d.x, box.width);
+  if (box.periodic_y()) d.y = nearest_image(d.y, box.height);
+  return d;
+}
+
+// Squared distance of two positions whose difference is d, nearest image; length^2. Precondition as above.
+inline double nearest_distance2(Vec2 d, const Domain& box) {
+  d = nearest_image(d, box);
+  return d.x * d.x + d.y * d.y;
+}
+
 // A coordinate brought back into [0, period). Precondition: -period <= c < 2 period.
 // A tiny negative c gives c + period == period in floating point; that is the same place as 0.
 inline double wrap(double c, double period) {

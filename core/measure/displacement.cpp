@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/base/column.hpp"
+#include "core/disks/cell_index.hpp"
 
 namespace carom {
 
@@ -21,8 +22,7 @@ constexpr std::size_t look_block = std::size_t{1} << 16;
 constexpr Eigen::Index sum_block = 4096;
 
 std::int32_t part_of(double coordinate, double period) {
-  const double part = std::floor(coordinate / period * static_cast<double>(parts));
-  return part > 0.0 ? static_cast<std::int32_t>(std::min(part, static_cast<double>(parts - 1))) : 0;
+  return cell_index(coordinate / period * static_cast<double>(parts), parts);
 }
 
 bool is_followed(const AxisTally& axis, DiskId id) {

@@ -66,12 +66,8 @@ double momentum_drift(const Momentum& start, const Momentum& end) {
 
 Overlap deepest_overlap(const Disks& d, const Domain& box, const BlockRunner& run) {
   const auto overlap = [&](std::uint32_t i, std::uint32_t j) {
-    double dx = d.x[j] - d.x[i];
-    double dy = d.y[j] - d.y[i];
-    if (box.periodic_x()) dx = nearest_image(dx, box.width);
-    if (box.periodic_y()) dy = nearest_image(dy, box.height);
     const double reach = d.radius_of(i) + d.radius_of(j);
-    return (reach - std::sqrt(dx * dx + dy * dy)) / reach;
+    return (reach - std::sqrt(nearest_distance2({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box))) / reach;
   };
   Overlap deepest;
   for (const Overlap& found : deepest_of_touching_pairs(d, box, run, overlap)) deepest.see(found);

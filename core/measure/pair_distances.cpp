@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/disks/cell_index.hpp"
+
 namespace carom {
 
 namespace {
@@ -13,9 +15,7 @@ double most_cells(std::size_t disks) {
 }
 
 std::size_t cell_of(double coordinate, double length, std::size_t cells) {
-  const double c = std::floor(coordinate / length * static_cast<double>(cells));
-  if (!(c > 0.0)) return 0;
-  return std::min(static_cast<std::size_t>(std::min(c, 4e9)), cells - 1);
+  return cell_index(coordinate / length * static_cast<double>(cells), cells);
 }
 
 // Is a coordinate far enough from the two sides?
@@ -26,9 +26,7 @@ bool is_inside(double c, double length, bool periodic, double margin) {
 }  // namespace
 
 DistanceCells::Axis DistanceCells::axis(double length, bool periodic, std::size_t disks) const {
-  // Wider than r_max by more than the rounding of cell_of.
-  const double fit = std::floor(length / bins_.r_max * (1.0 - 0x1p-40));
-  const auto cells = static_cast<std::size_t>(std::clamp(fit, 1.0, most_cells(disks)));
+  const auto cells = static_cast<std::size_t>(cells_along(length, bins_.r_max, most_cells(disks)));
   return {length, periodic, cells < 3 ? 1 : cells};
 }
 

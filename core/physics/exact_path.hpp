@@ -31,10 +31,8 @@ inline PathSegment carried_to(PathSegment p, double s, double g) {
 }
 
 inline Relative relative(const PathSegment& a, const PathSegment& b, const Domain& box) {
-  Relative r{b.x - a.x, b.y - a.y, b.vx - a.vx, b.vy - a.vy};
-  if (box.periodic_x()) r.dx = nearest_image(r.dx, box.width);
-  if (box.periodic_y()) r.dy = nearest_image(r.dy, box.height);
-  return r;
+  const Vec2 apart = nearest_image({b.x - a.x, b.y - a.y}, box);
+  return {apart.x, apart.y, b.vx - a.vx, b.vy - a.vy};
 }
 
 // Time from now until the disks touch, >= 0. Disks that approach and overlap (by rounding) collide now; disks that

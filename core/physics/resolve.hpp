@@ -36,10 +36,8 @@ struct Impact {
 
 template <class View>
 Relative relative(const View& d, std::uint32_t i, std::uint32_t j, const Domain& box) {
-  Relative r{d.x[j] - d.x[i], d.y[j] - d.y[i], d.vx[j] - d.vx[i], d.vy[j] - d.vy[i]};
-  if (box.periodic_x()) r.dx = nearest_image(r.dx, box.width);
-  if (box.periodic_y()) r.dy = nearest_image(r.dy, box.height);
-  return r;
+  const Vec2 apart = nearest_image({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box);
+  return {apart.x, apart.y, d.vx[j] - d.vx[i], d.vy[j] - d.vy[i]};
 }
 
 template <class View>
@@ -197,12 +195,8 @@ template <class View>
 bool is_deep(const View& d, const Domain& box, const ContactEvent& e, double share, double slack = 0.0) {
   const double r = d.radius(e.i1);
   if (is_wall(e.id2)) return reach_beyond(wall_side(e.id2), d.x[e.i1], d.y[e.i1], r, box) > share * r + slack;
-  const double dx = d.x[e.i2] - d.x[e.i1];
-  const double dy = d.y[e.i2] - d.y[e.i1];
-  const double nx = box.periodic_x() ? nearest_image(dx, box.width) : dx;
-  const double ny = box.periodic_y() ? nearest_image(dy, box.height) : dy;
   const double reach = (r + d.radius(e.i2)) * (1.0 - share) - slack;
-  return nx * nx + ny * ny < reach * reach;
+  return nearest_distance2({d.x[e.i2] - d.x[e.i1], d.y[e.i2] - d.y[e.i1]}, box) < reach * reach;
 }
 
 // Walls do not give way: a disk that others pushed into a wall deeper than shallow_overlap of its radius comes back,

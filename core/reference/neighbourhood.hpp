@@ -1,12 +1,12 @@
-// Who may meet whom in a window: a grid over the disks' places at its start.
+// Which disks may meet in a window: a grid over the disks' places at its start.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "core/disks/cell_index.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 
@@ -18,8 +18,8 @@ class Neighbourhood {
  public:
   Neighbourhood(const Disks& disks, const Domain& box, double travel) : box_(box) {
     const double cell = 2.0 * largest_radius(disks) + 2.0 * travel;
-    columns_ = cells_along(box.width, cell, disks.size());
-    rows_ = cells_along(box.height, cell, disks.size());
+    columns_ = cells_of_side(box.width, cell, disks.size());
+    rows_ = cells_of_side(box.height, cell, disks.size());
     cells_.resize(columns_ * rows_);
     home_.resize(disks.size());
     for (std::size_t i = 0; i < disks.size(); ++i) {
@@ -48,16 +48,13 @@ class Neighbourhood {
     std::size_t column, row;
   };
 
-  // The rounding of cell_of must not put neighbours two cells apart.
-  static std::size_t cells_along(double length, double cell, std::size_t disks) {
-    const double most = std::sqrt(static_cast<double>(disks)) + 1.0;
-    const double fit = std::floor(std::min(length / cell * (1.0 - 0x1p-40), most));
-    return fit < 3.0 ? 1 : static_cast<std::size_t>(fit);
+  static std::size_t cells_of_side(double length, double cell, std::size_t disks) {
+    const double cells = cells_along(length, cell, std::sqrt(static_cast<double>(disks)) + 1.0);
+    return cells < 3.0 ? 1 : static_cast<std::size_t>(cells);
   }
 
-  static std::size_t cell_of(double c, double length, std::size_t cells) {
-    const double k = std::floor(c / length * static_cast<double>(cells));
-    return k > 0.0 ? std::min(static_cast<std::size_t>(k), cells - 1) : 0;
+  static std::size_t cell_of(double coordinate, double length, std::size_t cells) {
+    return cell_index(coordinate / length * static_cast<double>(cells), cells);
   }
 
   // c - 1, c, c + 1, round the corner of a periodic axis.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/disks/cell_index.hpp"
 #include "core/physics/disk_pair.hpp"
 
 namespace carom {
@@ -17,25 +18,17 @@ struct UniformGrid {
   std::vector<std::uint32_t> members;  // storage indices, cell by cell
 };
 
-// Number of cells along one side: none smaller than the largest diameter (and by more than the rounding of cell_of, so
-// that two touching disks never lie two cells apart), no more than about one a disk.
-std::size_t cells_along(double length, double diameter, std::size_t disks) {
-  const double most = std::sqrt(static_cast<double>(disks)) + 1.0;
-  const double fit = std::floor(length / diameter * (1.0 - 0x1p-40));
-  return fit < 1.0 ? 1 : static_cast<std::size_t>(std::min(fit, most));
-}
-
 std::size_t cell_of(double coordinate, double length, std::size_t cells) {
-  const double c = std::floor(coordinate / length * static_cast<double>(cells));
-  if (!(c > 0.0)) return 0;
-  return std::min(static_cast<std::size_t>(std::min(c, 4e9)), cells - 1);
+  return cell_index(coordinate / length * static_cast<double>(cells), cells);
 }
 
+// Cells no smaller than the largest diameter, and no more than about one a disk.
 UniformGrid make_grid(const Disks& d, const Domain& box) {
   UniformGrid grid;
   const double diameter = 2.0 * largest_radius(d);
-  grid.columns = cells_along(box.width, diameter, d.size());
-  grid.rows = cells_along(box.height, diameter, d.size());
+  const double most = std::sqrt(static_cast<double>(d.size())) + 1.0;
+  grid.columns = static_cast<std::size_t>(cells_along(box.width, diameter, most));
+  grid.rows = static_cast<std::size_t>(cells_along(box.height, diameter, most));
   grid.start.assign(grid.columns * grid.rows + 1, 0);
   std::vector<std::uint32_t> cell(d.size());
   for (std::size_t i = 0; i < d.size(); ++i) {
@@ -69,11 +62,7 @@ Neighbours neighbours(std::size_t c, std::size_t cells, bool periodic) {
 }
 
 bool touch(const Disks& d, const Domain& box, std::size_t i, std::size_t j) {
-  double dx = d.x[j] - d.x[i];
-  double dy = d.y[j] - d.y[i];
-  if (box.periodic_x()) dx = nearest_image(dx, box.width);
-  if (box.periodic_y()) dy = nearest_image(dy, box.height);
-  return touches(dx * dx + dy * dy, d.radius_of(i) + d.radius_of(j));
+  return touches(nearest_distance2({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box), d.radius_of(i) + d.radius_of(j));
 }
 
 void add_in_id_order(std::vector<Pair>& pairs, const Disks& d, std::size_t i, std::size_t j) {

@@ -41,11 +41,7 @@ void see_overlap_left(const View& d, const Domain& box, const ContactEvent& e, S
   if (is_wall(e.id2)) return;
   see_wall_overlap(d, box, e.i2, figures);
   const double reach = d.radius(e.i1) + d.radius(e.i2);
-  const double dx = d.x[e.i2] - d.x[e.i1];
-  const double dy = d.y[e.i2] - d.y[e.i1];
-  const double nx = box.periodic_x() ? nearest_image(dx, box.width) : dx;
-  const double ny = box.periodic_y() ? nearest_image(dy, box.height) : dy;
-  const double distance2 = nx * nx + ny * ny;
+  const double distance2 = nearest_distance2({d.x[e.i2] - d.x[e.i1], d.y[e.i2] - d.y[e.i1]}, box);
   // No square root for what is surely shallower than what was seen: in a pile every contact overlaps a little.
   constexpr double deep = 0.5, above_rounding = 1.0 + 1e-14;
   const double seen = figures.left.size < deep ? reach * (1.0 - figures.left.size) : reach;

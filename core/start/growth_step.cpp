@@ -15,7 +15,7 @@ GrowthTally grow_step(Disks& d, const Domain& box, const std::vector<double>& ta
     d.radius[i] = growth_reach(before[i], target[d.id[i]]);
   }
   for (const Pair& p : find_touching_pairs(d, box)) {
-    const double distance2 = image_distance2(box, d.x[p.i2] - d.x[p.i1], d.y[p.i2] - d.y[p.i1]);
+    const double distance2 = nearest_distance2({d.x[p.i2] - d.x[p.i1], d.y[p.i2] - d.y[p.i1]}, box);
     const double contact = before[p.i1] + before[p.i2];
     tally.overlap = tally.overlap || distance2 < contact * contact;
     const double usable = usable_gap(std::sqrt(distance2) - contact, length);

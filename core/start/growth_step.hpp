@@ -49,13 +49,6 @@ inline bool within_sides(const Domain& box, double x, double y, double radius) {
          (box.periodic_y() || (y >= radius && y <= box.height - radius));
 }
 
-// Squared distance of two centres, nearest images.
-inline double image_distance2(const Domain& box, double dx, double dy) {
-  if (box.periodic_x()) dx = nearest_image(dx, box.width);
-  if (box.periodic_y()) dy = nearest_image(dy, box.height);
-  return dx * dx + dy * dy;
-}
-
 // What a step found and did. Sums have no rounding, so the order of the disks does not matter.
 struct GrowthTally {
   std::size_t lacking = 0;  // disks that lacked something before the step

@@ -128,12 +128,9 @@ void place_on_lattice(const Scene& scene, std::size_t group, DiskId first_id, Di
 }
 
 [[noreturn]] void fail_overlap(const Scene& scene, const Disks& disks, std::size_t i, std::size_t j) {
-  double dx = disks.x[j] - disks.x[i];
-  double dy = disks.y[j] - disks.y[i];
-  if (scene.box.periodic_x()) dx = nearest_image(dx, scene.box.width);
-  if (scene.box.periodic_y()) dy = nearest_image(dy, scene.box.height);
+  const double distance2 = nearest_distance2({disks.x[j] - disks.x[i], disks.y[j] - disks.y[i]}, scene.box);
   const double contact = disks.radius_of(i) + disks.radius_of(j);
-  const double overlap = contact - std::sqrt(dx * dx + dy * dy);
+  const double overlap = contact - std::sqrt(distance2);
   const std::size_t later = std::max(i, j);
   fail_input(place_in_group(scene, group_of(scene, static_cast<DiskId>(later)), "positions"),
              fmt::format("disks {} and {} overlap by {:.6g} ({:.3g} % of r1 + r2)", std::min(i, j), later, overlap,

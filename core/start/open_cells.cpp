@@ -38,15 +38,6 @@ OpenCells::OpenCells(const Domain& box, double smallest, std::size_t disks)
   close_margins(smallest);
 }
 
-std::size_t OpenCells::column_of(double x) const {
-  return static_cast<std::size_t>(std::clamp(x / cell_x_, 0.0, static_cast<double>(columns_ - 1)));
-}
-
-std::size_t OpenCells::row_of(double y) const {
-  return static_cast<std::size_t>(std::clamp(y / cell_y_, 0.0, static_cast<double>(rows_ - 1)));
-}
-
-// No centre comes nearer than the radius to a wall or sink.
 void OpenCells::close_margins(double smallest) {
   const auto cells = [&](double cell) { return static_cast<std::size_t>(std::max(0.0, smallest / cell - margin)); };
   const std::size_t across = box_.periodic_x() ? 0 : std::min(cells(cell_x_), columns_ / 2);

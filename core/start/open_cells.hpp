@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/disks/cell_index.hpp"
 #include "core/disks/domain.hpp"
 #include "core/start/voxel_list.hpp"
 
@@ -37,8 +38,8 @@ class OpenCells {
   bool full() const { return open_ == 0; }
 
  private:
-  std::size_t column_of(double x) const;
-  std::size_t row_of(double y) const;
+  std::size_t column_of(double x) const { return cell_index(x / cell_x_, columns_); }
+  std::size_t row_of(double y) const { return cell_index(y / cell_y_, rows_); }
   bool closed(std::size_t cell) const { return (bits_[cell / 64] >> (cell % 64) & 1U) != 0; }
   void read_row(std::size_t row, std::vector<Voxel>& open) const;
   void close_span(std::size_t row, std::size_t first, std::size_t count);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/huge_pages.hpp"
+#include "core/disks/cell_index.hpp"
 
 namespace carom {
 
@@ -47,10 +48,6 @@ std::size_t wrap_cell(std::ptrdiff_t cell, std::size_t cells) {
   return static_cast<std::size_t>(cell < 0 ? cell + n : (cell >= n ? cell - n : cell));
 }
 
-std::size_t cell_of(double coordinate, double per_length, std::size_t cells) {
-  return static_cast<std::size_t>(std::clamp(coordinate * per_length, 0.0, static_cast<double>(cells - 1)));
-}
-
 }  // namespace
 
 PlacementGrid::PlacementGrid(const Domain& box, const Disks& disks)
@@ -88,8 +85,8 @@ void PlacementGrid::size_cells(Level& level) const {
 
 void PlacementGrid::insert(std::size_t i) {
   Level& level = levels_[disks_.radius.empty() ? 0 : class_of(disks_.radius[i], largest_radius_)];
-  const std::size_t column = cell_of(disks_.x[i], level.per_x, level.columns);
-  const std::size_t row = cell_of(disks_.y[i], level.per_y, level.rows);
+  const std::size_t column = cell_index(disks_.x[i] * level.per_x, level.columns);
+  const std::size_t row = cell_index(disks_.y[i] * level.per_y, level.rows);
   std::uint32_t& head = level.head[row * level.columns + column];
   placed_[i] = {disks_.x[i], disks_.y[i], head};
   head = static_cast<std::uint32_t>(i);
@@ -100,7 +97,7 @@ void PlacementGrid::prefetch_cells(double x, double y) const {
   for (const Level& level : levels_) {
     if (level.disks == 0) continue;
     const std::size_t cell =
-        cell_of(y, level.per_y, level.rows) * level.columns + cell_of(x, level.per_x, level.columns);
+        cell_index(y * level.per_y, level.rows) * level.columns + cell_index(x * level.per_x, level.columns);
     const std::uint32_t* const head = level.head.data() + cell;
     __builtin_prefetch(head);
     if (cell >= level.columns) __builtin_prefetch(head - level.columns);
@@ -112,7 +109,7 @@ void PlacementGrid::prefetch_disks(double x, double y) const {
   for (const Level& level : levels_) {
     if (level.disks == 0) continue;
     const std::size_t centre =
-        cell_of(y, level.per_y, level.rows) * level.columns + cell_of(x, level.per_x, level.columns);
+        cell_index(y * level.per_y, level.rows) * level.columns + cell_index(x * level.per_x, level.columns);
     if (centre < level.columns + 1 || centre + level.columns + 1 >= level.head.size()) continue;
     for (std::size_t row = 0; row < 3; ++row) {
       const std::size_t first = centre + row * level.columns - level.columns - 1;
@@ -126,11 +123,8 @@ void PlacementGrid::prefetch_disks(double x, double y) const {
 }
 
 PlacementGrid::Near PlacementGrid::seen_from(std::size_t i, double x, double y, double radius) const {
-  double dx = placed_[i].x - x;
-  double dy = placed_[i].y - y;
-  if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
-  if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
-  return {dx, dy, radius + disks_.radius_of(i)};
+  const Vec2 apart = nearest_image({placed_[i].x - x, placed_[i].y - y}, box_);
+  return {apart.x, apart.y, radius + disks_.radius_of(i)};
 }
 
 bool PlacementGrid::overlaps(std::size_t i, double x, double y, double radius, bool slack) const {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/disks/cell_index.hpp"
+
 namespace carom {
 
 namespace {
@@ -42,11 +44,8 @@ Vec2 VoxelList::point(TwoUniforms in_voxel, double which) const {
 }
 
 bool VoxelList::holds(Vec2 point) const {
-  const auto along = [](double c, double size, std::uint64_t cells) {
-    return static_cast<std::uint32_t>(std::clamp(c / size, 0.0, static_cast<double>(cells - 1)));
-  };
-  const std::uint32_t column = along(point.x, size_x_, columns_);
-  const std::uint32_t row = along(point.y, size_y_, rows_);
+  const std::uint64_t column = cell_index(point.x / size_x_, columns_);
+  const std::uint64_t row = cell_index(point.y / size_y_, rows_);
   return std::any_of(list_.begin(), list_.end(), [&](Voxel v) { return v.column == column && v.row == row; });
 }
 

@@ -105,11 +105,8 @@ Disk draw_emission(const Scene& scene, std::size_t index, DiskId id, Count emitt
 
 bool meets(const Disks& d, const Domain& box, const Disk& newcomer, std::size_t first, std::size_t last) {
   for (std::size_t i = first; i < last; ++i) {
-    double dx = newcomer.x - d.x[i];
-    double dy = newcomer.y - d.y[i];
-    if (box.periodic_x()) dx = nearest_image(dx, box.width);
-    if (box.periodic_y()) dy = nearest_image(dy, box.height);
-    if (touches(dx * dx + dy * dy, newcomer.radius + d.radius_of(i))) return true;
+    const double distance2 = nearest_distance2({newcomer.x - d.x[i], newcomer.y - d.y[i]}, box);
+    if (touches(distance2, newcomer.radius + d.radius_of(i))) return true;
   }
   return false;
 }

@@ -24,11 +24,7 @@ inline constexpr double pressed_overlap = 0.01;
 // Square of the way that resolving has moved disk i by from (x0, y0), where its drift ended; length^2.
 template <class View>
 double displacement2(const View& d, const Domain& box, std::size_t i, double x0, double y0) {
-  double dx = d.x[i] - x0;
-  double dy = d.y[i] - y0;
-  if (box.periodic_x()) dx = nearest_image(dx, box.width);
-  if (box.periodic_y()) dy = nearest_image(dy, box.height);
-  return dx * dx + dy * dy;
+  return nearest_distance2({d.x[i] - x0, d.y[i] - y0}, box);
 }
 
 // Was that far enough to meet others?
@@ -52,12 +48,8 @@ bool is_pressed_into_wall(const View& d, const Domain& box, std::size_t i) {
 // Are disks i and j pressed into each other?
 template <class View>
 bool are_pressed(const View& d, const Domain& box, std::size_t i, std::size_t j) {
-  double dx = d.x[j] - d.x[i];
-  double dy = d.y[j] - d.y[i];
-  if (box.periodic_x()) dx = nearest_image(dx, box.width);
-  if (box.periodic_y()) dy = nearest_image(dy, box.height);
   const double reach = (d.radius(i) + d.radius(j)) * (1.0 - pressed_overlap);
-  return dx * dx + dy * dy < reach * reach;
+  return nearest_distance2({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box) < reach * reach;
 }
 
 }  // namespace carom

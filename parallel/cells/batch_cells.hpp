@@ -1,4 +1,4 @@
-// Finding who is near a point among a few thousand, in cells that fit into a core's cache.
+// Finding the points near a point among a few thousand, in cells that fit into a core's cache.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/disks/cell_index.hpp"
 #include "core/disks/domain.hpp"
 
 namespace carom {
@@ -15,17 +16,19 @@ class BatchCells {
  public:
   // For up to `most` members with numbers below it.
   void fit(const Domain& box, double reach, std::size_t most) {
-    columns_ = std::max(1.0, std::floor(box.width / reach));
-    rows_ = std::max(1.0, std::floor(box.height / reach));
-    per_x_ = columns_ / box.width;
-    per_y_ = rows_ / box.height;
+    const double columns = std::max(1.0, std::floor(box.width / reach));
+    const double rows = std::max(1.0, std::floor(box.height / reach));
+    per_x_ = columns / box.width;
+    per_y_ = rows / box.height;
+    columns_ = static_cast<std::int64_t>(columns);
+    rows_ = static_cast<std::int64_t>(rows);
     std::size_t slots = 64;
     while (slots < 2 * most) slots *= 2;
-    head_.assign(slots, nobody);
-    next_.assign(most, nobody);
+    head_.assign(slots, none);
+    next_.assign(most, none);
   }
 
-  void clear() { std::fill(head_.begin(), head_.end(), nobody); }
+  void clear() { std::fill(head_.begin(), head_.end(), none); }
 
   void insert(std::uint32_t k, Vec2 point) {
     std::uint32_t& head = head_[slot(column_of(point.x), row_of(point.y))];
@@ -40,13 +43,14 @@ class BatchCells {
     insert(k, to);
   }
 
-  // Is use(k) true for one who may be within reach of the point? Some are asked about more than once, in any order.
+  // Is use(k) true for a member that may be within reach of the point? Some are asked about more than once, in any
+  // order.
   template <class Use>
   bool any_near(Vec2 point, Use use) const {
-    for (double r = -1.0; r <= 1.0; r += 1.0) {
-      for (double c = -1.0; c <= 1.0; c += 1.0) {
+    for (std::int64_t r = -1; r <= 1; ++r) {
+      for (std::int64_t c = -1; c <= 1; ++c) {
         const std::size_t at = slot(turned(column_of(point.x) + c, columns_), turned(row_of(point.y) + r, rows_));
-        for (std::uint32_t k = head_[at]; k != nobody; k = next_[k]) {
+        for (std::uint32_t k = head_[at]; k != none; k = next_[k]) {
           if (use(k)) return true;
         }
       }
@@ -63,19 +67,21 @@ class BatchCells {
   }
 
  private:
-  static constexpr std::uint32_t nobody = 0xffffffffU;
+  static constexpr std::uint32_t none = 0xffffffffU;  // ends a list
 
-  double column_of(double x) const { return std::min(std::floor(x * per_x_), columns_ - 1.0); }
-  double row_of(double y) const { return std::min(std::floor(y * per_y_), rows_ - 1.0); }
+  std::int64_t column_of(double x) const { return cell_index(x * per_x_, columns_); }
+  std::int64_t row_of(double y) const { return cell_index(y * per_y_, rows_); }
   // Around the box; where sides are walls, that asks about some in vain.
-  static double turned(double cell, double cells) { return cell < 0.0 ? cells - 1.0 : cell >= cells ? 0.0 : cell; }
+  static std::int64_t turned(std::int64_t cell, std::int64_t cells) {
+    return cell < 0 ? cells - 1 : cell >= cells ? 0 : cell;
+  }
   // Neighbours in a row keep together; a prime spreads the rows.
-  std::size_t slot(double column, double row) const {
+  std::size_t slot(std::int64_t column, std::int64_t row) const {
     const auto hash = static_cast<std::uint64_t>(row) * 0x9e3779b1ULL + static_cast<std::uint64_t>(column);
     return static_cast<std::size_t>(hash) & (head_.size() - 1);
   }
 
-  double columns_ = 1.0, rows_ = 1.0;
+  std::int64_t columns_ = 1, rows_ = 1;
   double per_x_ = 0.0, per_y_ = 0.0;
   std::vector<std::uint32_t> head_, next_;
 };

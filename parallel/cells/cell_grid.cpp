@@ -7,10 +7,9 @@ namespace carom {
 
 namespace {
 
-// Cells along one side. `least` is the smallest cell that still finds every neighbour; `most` bounds the memory.
-std::uint32_t cells_along(double length, double least, double most, bool periodic) {
-  const double fit = std::floor(length / least * (1.0 - 0x1p-40));
-  const double cells = std::max(1.0, std::min(fit, most));
+// `least` is the smallest cell that still finds every neighbour.
+std::uint32_t cells_of_side(double length, double least, double most, bool periodic) {
+  const double cells = cells_along(length, least, most);
   return periodic && cells < 3.0 ? 1 : static_cast<std::uint32_t>(cells);
 }
 
@@ -30,8 +29,8 @@ void make_grid(const Domain& box, double largest_radius, const std::vector<std::
     // About two cells a disk at most, shared between the sides as the box is.
     const double cells = 2.0 * static_cast<double>(count[k]) + 1.0;
     const double across = std::sqrt(cells * box.width / box.height);
-    level.columns = cells_along(box.width, least, std::clamp(across, 1.0, cells), box.periodic_x());
-    level.rows = cells_along(box.height, least, cells / std::min<double>(level.columns, cells), box.periodic_y());
+    level.columns = cells_of_side(box.width, least, std::clamp(across, 1.0, cells), box.periodic_x());
+    level.rows = cells_of_side(box.height, least, cells / std::min<double>(level.columns, cells), box.periodic_y());
     level.cell_width = box.width / level.columns;
     level.cell_height = box.height / level.rows;
     level.columns_per_length = level.columns / box.width;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/disks/cell_index.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 
@@ -73,16 +74,9 @@ inline std::size_t class_of_radius(double radius, double largest_radius) {
   return k;
 }
 
-// The column (or row) of a coordinate, the nearest one for what lies outside.
-inline std::uint32_t cell_index(double coordinate, double cells_per_length, std::uint32_t cells) {
-  const double c = coordinate * cells_per_length;
-  const double most = static_cast<double>(cells - 1);
-  return static_cast<std::uint32_t>(c < 0.0 ? 0.0 : c < most ? c : most);
-}
-
 inline std::uint32_t key_of(const GridLevel& level, double x, double y) {
-  return level.key_at(cell_index(y, level.rows_per_length, level.rows),
-                      cell_index(x, level.columns_per_length, level.columns));
+  return level.key_at(cell_index(y * level.rows_per_length, level.rows),
+                      cell_index(x * level.columns_per_length, level.columns));
 }
 
 }  // namespace carom

@@ -23,8 +23,8 @@ inline Span span_around(double c, double reach, double length, double per_length
   double high = c + reach;
   if (periodic && low < 0.0) low += length;
   if (periodic && high >= length) high -= length;
-  const std::uint32_t first = cell_index(low, per_length, cells);
-  const std::uint32_t last = cell_index(high, per_length, cells);
+  const std::uint32_t first = cell_index(low * per_length, cells);
+  const std::uint32_t last = cell_index(high * per_length, cells);
   return {first, last >= first ? last - first + 1 : cells - first + last + 1};
 }
 

@@ -58,7 +58,7 @@ double grown_radius(const Disks& d, const Domain& box, double target, const Cell
   double after = std::min(target, radius_within_sides(box, d.x[i], d.y[i], radius));
   overlap = overlap || !within_sides(box, d.x[i], d.y[i], radius);
   const auto look = [&](std::size_t j) {
-    const double distance2 = image_distance2(box, d.x[j] - d.x[i], d.y[j] - d.y[i]);
+    const double distance2 = nearest_distance2({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box);
     if (!touches(distance2, d.radius[i] + d.radius[j])) return;
     const double contact = radius + columns.before[j];
     overlap = overlap || distance2 < contact * contact;

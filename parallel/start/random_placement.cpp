@@ -144,13 +144,9 @@ class BatchSearch {
   }
 
   bool apart(std::size_t k, Vec2 point, double radius) const {
-    const Domain& box = search_.scene.box;
-    double dx = candidates_[k].point.x - point.x;
-    double dy = candidates_[k].point.y - point.y;
-    if (box.periodic_x()) dx = nearest_image(dx, box.width);
-    if (box.periodic_y()) dy = nearest_image(dy, box.height);
+    const Vec2 other = candidates_[k].point;
     const double contact = radius + radius_of(k);
-    return !(dx * dx + dy * dy < contact * contact);
+    return !(nearest_distance2({other.x - point.x, other.y - point.y}, search_.scene.box) < contact * contact);
   }
 
   // Is k's point covered by one before it in the batch?

@@ -20,12 +20,8 @@ constexpr std::size_t cross_block = 64;
 constexpr std::size_t stray_block = 256;
 
 bool touch(const SearchInput& in, std::size_t i, std::size_t j) {
-  double dx = in.x[j] - in.x[i];
-  double dy = in.y[j] - in.y[i];
-  if (in.box.periodic_x()) dx = nearest_image(dx, in.box.width);
-  if (in.box.periodic_y()) dy = nearest_image(dy, in.box.height);
   const double reach = in.radius == nullptr ? in.common_radius + in.common_radius : in.radius[j] + in.radius[i];
-  return touches(dx * dx + dy * dy, reach);
+  return touches(nearest_distance2({in.x[j] - in.x[i], in.y[j] - in.y[i]}, in.box), reach);
 }
 
 void test_run(const SearchInput& in, std::size_t i, std::uint32_t first, std::uint32_t last, std::vector<Pair>& pairs) {
@@ -54,11 +50,10 @@ Columns columns_around(std::uint32_t c, const GridLevel& level, bool periodic) {
 double excursion(const SearchInput& in, const GridLevel& level, std::size_t i) {
   const std::uint32_t row = (in.key[i] - level.first_key) / level.stride;
   const std::uint32_t column = (in.key[i] - level.first_key) % level.stride;
-  double off_x = std::clamp(in.x[i], 0.0, in.box.width) - (column + 0.5) * level.cell_width;
-  double off_y = std::clamp(in.y[i], 0.0, in.box.height) - (row + 0.5) * level.cell_height;
-  if (in.box.periodic_x()) off_x = nearest_image(off_x, in.box.width);
-  if (in.box.periodic_y()) off_y = nearest_image(off_y, in.box.height);
-  return std::max(std::abs(off_x) - 0.5 * level.cell_width, std::abs(off_y) - 0.5 * level.cell_height);
+  const Vec2 off = nearest_image({std::clamp(in.x[i], 0.0, in.box.width) - (column + 0.5) * level.cell_width,
+                                  std::clamp(in.y[i], 0.0, in.box.height) - (row + 0.5) * level.cell_height},
+                                 in.box);
+  return std::max(std::abs(off.x) - 0.5 * level.cell_width, std::abs(off.y) - 0.5 * level.cell_height);
 }
 
 // Near periodic sides: cell by cell with nearest images. The cells to the right and in the row above, round the corner.

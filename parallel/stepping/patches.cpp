@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/disks/cell_index.hpp"
+
 namespace carom {
 
 namespace {
@@ -16,7 +18,7 @@ constexpr std::size_t disk_block = 8192;
 // all, nor is a place where edges of two of them cross on an edge of the third.
 constexpr std::array<std::uint32_t, patch_layouts> shift_quarters{0, 2, 1};
 
-// Patches along the sides and quarters of them per length, from the corner (x, y).
+// Patches along the sides and quarters of them (cells) per length, from the corner (x, y).
 struct Layout {
   double x, y;
   double columns_per_length, rows_per_length;
@@ -58,13 +60,6 @@ Layout layout_for(const std::array<double, 4>& bounds, std::size_t wanted) {
           static_cast<std::uint32_t>(rows)};
 }
 
-// Quarter of a patch, the nearest one for what lies outside.
-std::uint32_t quarter(double distance, double per_length, std::uint32_t quarters) {
-  const double q = distance * per_length;
-  const auto most = static_cast<double>(quarters - 1);
-  return static_cast<std::uint32_t>(q < 0.0 ? 0.0 : q < most ? q : most);
-}
-
 // Round the corner where a shifted patch begins in the last quarters: right for periodic sides, no harm for others.
 std::uint32_t patch_of(std::uint32_t quarter, std::uint32_t shift, std::uint32_t patches) {
   const std::uint32_t p = (quarter + shift) / 4;
@@ -86,8 +81,8 @@ bool lay_out(Patches& patches, const Disks& d, const std::vector<std::uint16_t>&
   executor.for_ranges(d.size(), disk_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (in_contact[i] == 0) continue;
-      const std::uint32_t column = quarter(d.x[i] - layout.x, layout.columns_per_length, 4 * layout.columns);
-      const std::uint32_t row = quarter(d.y[i] - layout.y, layout.rows_per_length, 4 * layout.rows);
+      const std::uint32_t column = cell_index((d.x[i] - layout.x) * layout.columns_per_length, 4 * layout.columns);
+      const std::uint32_t row = cell_index((d.y[i] - layout.y) * layout.rows_per_length, 4 * layout.rows);
       for (std::uint32_t l = 0; l < patch_layouts; ++l) {
         patches.home[i][l] = static_cast<std::uint16_t>(patch_of(row, shift_quarters[l], layout.rows) * layout.columns +
                                                         patch_of(column, shift_quarters[l], layout.columns));
