@@ -8,8 +8,7 @@
 
 namespace carom {
 
-// Precondition: threads.count >= 1, initial is a state of scene. Throws InputError for a method that does not exist
-// yet.
+// Precondition: threads.count >= 1, initial is a state of scene.
 std::unique_ptr<Engine> make_parallel_engine(const Scene& scene, State initial, const Threads& threads);
 
 }  // namespace carom

@@ -8,7 +8,6 @@ namespace carom {
 
 template <bool own_radius, bool own_mass>
 struct DiskView {
-  static constexpr bool has_radius = own_radius;
   static constexpr bool has_mass = own_mass;
   double* x;
   double* y;

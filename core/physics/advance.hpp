@@ -21,10 +21,17 @@ inline void drift(double& x, double& y, double& vx, double& vy, double t, double
   }
 }
 
+// A centre brought back into the box across periodic sides; it has left by less than a period.
 template <bool periodic_x, bool periodic_y>
 inline void wrap(double& x, double& y, const Domain& box) {
   if constexpr (periodic_x) x = wrap(x, box.width);
   if constexpr (periodic_y) y = wrap(y, box.height);
+}
+
+// The same for a box whose sides are not known by type.
+inline void wrap(double& x, double& y, const Domain& box) {
+  if (box.periodic_x()) x = wrap(x, box.width);
+  if (box.periodic_y()) y = wrap(y, box.height);
 }
 
 // Brownian velocity of one step, (24): u / dt with u = sqrt(2 D dt) (r_x, r_y), r standard normal by (seed, id, step).

@@ -65,23 +65,6 @@ inline void bounce(Side side, double restitution, double& vx, double& vy) {
   }
 }
 
-// Moves the disk along the side's inward normal by depth.
-inline void move_inward(Side side, double depth, double& x, double& y) {
-  switch (side) {
-    case Side::left:
-      x += depth;
-      break;
-    case Side::right:
-      x -= depth;
-      break;
-    case Side::bottom:
-      y += depth;
-      break;
-    default:
-      y -= depth;
-  }
-}
-
 // Coordinate of a centre that just touches the side: the exact place after a correction, free of rounding drift.
 inline double touching_coordinate(Side side, double r, const Domain& box) {
   switch (side) {

@@ -31,7 +31,7 @@ inline bool touches(double distance2, double reach) {
 // now: the contact lies that far back. The discriminant is taken as a reach^2 - (dr x dv)^2, which is the same number
 // with less cancellation for distant disks. Same with gravity, which relative motion does not feel.
 // Preconditions: approach() < 0 (so a > 0: F9 cannot happen). Returns infinity when the paths miss.
-inline double contact_time(const Relative& r, double reach) {
+inline double touching_time(const Relative& r, double reach) {
   const double cross = r.dx * r.dvy - r.dy * r.dvx;
   const double discriminant = r.speed2() * (reach * reach) - cross * cross;
   if (discriminant < 0.0) return HUGE_VAL;

@@ -39,7 +39,7 @@ inline Relative relative(const PathSegment& a, const PathSegment& b, const Domai
 // recede have no event, overlapping or not (Bannerman et al. 2014): the root that suffers cancellation is never used.
 inline double time_to_contact(const Relative& r, double contact_distance) {
   if (!(r.approach() < 0.0)) return never;
-  const double t = contact_time(r, contact_distance);
+  const double t = touching_time(r, contact_distance);
   return t > 0.0 ? t : 0.0;
 }
 

@@ -54,7 +54,7 @@ template <class View>
 ContactEvent pair_event(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
   const Relative r = relative(d, i, j, rules.box);
   double ago = rules.dt;
-  if (r.approach() < 0.0) ago = std::clamp(-contact_time(r, d.radius(i) + d.radius(j)), 0.0, rules.dt);
+  if (r.approach() < 0.0) ago = std::clamp(-touching_time(r, d.radius(i) + d.radius(j)), 0.0, rules.dt);
   return {ago, d.id[i], d.id[j], i, j};
 }
 
@@ -91,8 +91,8 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
   Relative r = relative(d, i, j, rules.box);
   const double reach = d.radius(i) + d.radius(j);
   if (!touches(r.distance2(), reach) || !(r.approach() < 0.0)) return {};
-  // Disks that just touch and pass along each other may miss by rounding (contact_time is infinite): that is now.
-  const double ago = std::max(0.0, -contact_time(r, reach));
+  // Disks that just touch and pass along each other may miss by rounding (touching_time is infinite): that is now.
+  const double ago = std::max(0.0, -touching_time(r, reach));
   const bool inside_step = ago <= rules.dt;
   if (inside_step) {
     drift_one(d, i, -ago, rules.gravity);
@@ -164,18 +164,17 @@ Impact resolve_event(const View& d, const StepRules& rules, const ContactEvent& 
 inline constexpr int most_impact_passes = 8;
 
 // A disk that reaches further than slack (length) beyond a wall is put back to slack beyond it; velocities are not
-// touched. Returns the depth that it found, over the radius.
+// touched.
 template <class View>
-double push_wall(const View& d, const Domain& box, std::uint32_t i, Side side, double slack) {
+void push_wall(const View& d, const Domain& box, std::uint32_t i, Side side, double slack) {
   const double r = d.radius(i);
   const double push = reach_beyond(side, d.x[i], d.y[i], r, box) - slack;
-  if (!(push > 0.0)) return 0.0;
+  if (!(push > 0.0)) return;
   if (side == Side::left || side == Side::right) {
     d.x[i] = touching_coordinate(side, r, box) + (side == Side::left ? -slack : slack);
   } else {
     d.y[i] = touching_coordinate(side, r, box) + (side == Side::bottom ? -slack : slack);
   }
-  return push / r;
 }
 
 // After one sweep that pushes every contact, further ones push only those that others have pressed deeper than this
@@ -210,16 +209,16 @@ void keep_inside(const View& d, const Domain& box, std::uint32_t i) {
 
 // What overlap remains beyond slack (length) is pushed apart along the line of centres, by mass, so that the centre of
 // mass, and with it momentum and potential energy, stays; velocities are not touched. Coincident centres part along x.
-// Neither is left in a wall. Returns the overlap that it found, over the sum of the radii.
+// Neither is left in a wall.
 template <class View>
-double push_pair(const View& d, const Domain& box, std::uint32_t i, std::uint32_t j, double slack) {
+void push_pair(const View& d, const Domain& box, std::uint32_t i, std::uint32_t j, double slack) {
   const Relative r = relative(d, i, j, box);
   const double reach = d.radius(i) + d.radius(j);
   const double distance2 = r.distance2();
-  if (distance2 >= reach * reach) return 0.0;
+  if (distance2 >= reach * reach) return;
   const double distance = std::sqrt(distance2);
   const double push = reach - distance - slack;
-  if (!(push > 0.0)) return 0.0;
+  if (!(push > 0.0)) return;
   const Shares share = shares_of(d, i, j);
   const double px = distance > 0.0 ? push * (r.dx / distance) : push;
   const double py = distance > 0.0 ? push * (r.dy / distance) : 0.0;
@@ -229,12 +228,15 @@ double push_pair(const View& d, const Domain& box, std::uint32_t i, std::uint32_
   d.y[j] += share.second * py;
   keep_inside(d, box, i);
   keep_inside(d, box, j);
-  return push / reach;
 }
 
 template <class View>
-double push_apart(const View& d, const Domain& box, const ContactEvent& e, double slack) {
-  return is_wall(e.id2) ? push_wall(d, box, e.i1, wall_side(e.id2), slack) : push_pair(d, box, e.i1, e.i2, slack);
+void push_apart(const View& d, const Domain& box, const ContactEvent& e, double slack) {
+  if (is_wall(e.id2)) {
+    push_wall(d, box, e.i1, wall_side(e.id2), slack);
+  } else {
+    push_pair(d, box, e.i1, e.i2, slack);
+  }
 }
 
 }  // namespace carom

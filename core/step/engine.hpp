@@ -50,8 +50,7 @@ class Engine {
 };
 
 // The plain serial engine for scene.run.method. Precondition: initial is a state of scene (initial_state.hpp).
-// Throws InputError for a method that does not exist yet. Every collision of two disks is added to log, where one is
-// given; it must outlive the engine.
+// Every collision of two disks is added to log, where one is given; it must outlive the engine.
 std::unique_ptr<Engine> make_reference_engine(const Scene& scene, State initial, CollisionLog* log = nullptr);
 
 }  // namespace carom

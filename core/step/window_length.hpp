@@ -32,8 +32,8 @@ SpeedSummary summarise_speeds(const SpeedTally& tally, std::size_t disks);
 // proportionally further, so that a window of two disks still holds some tens of events. Infinity when nothing moves.
 double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_t disks);
 
-// The window after one that took `elapsed` and saw `events` (disk and wall): aims at collisions_aimed of them, by at
-// most a factor of two at a time. window: the length that was meant before anything cut it short.
+// The window after one that took `elapsed` and saw `events` (disk and wall): aims at two events a disk, and at 32 where
+// disks are few, by at most a factor of two at a time. window: the length that was meant before anything cut it short.
 double next_window(double window, double elapsed, Count events, std::size_t disks);
 
 // `window` (0: the first one) kept within least_window and longest. A window that is longer than its events ask for

@@ -17,7 +17,7 @@ using test::Wide;
 using test::wide;
 
 // The smaller root of (12) in 64 bits of mantissa; infinity where the paths miss.
-Wide contact_time_with_more_digits(const Relative& r, double reach) {
+Wide touching_time_with_more_digits(const Relative& r, double reach) {
   const Wide dx = wide(r.dx), dy = wide(r.dy), dvx = wide(r.dvx), dvy = wide(r.dvy), s = wide(reach);
   const Wide a = dvx * dvx + dvy * dvy;
   const Wide cross = dx * dvy - dy * dvx;
@@ -36,10 +36,10 @@ Relative towards(double distance, double miss, double reach, double angle, doubl
 }
 
 TEST(ContactTime, HeadOn) {
-  EXPECT_EQ(contact_time({5.0, 0.0, -2.0, 0.0}, 1.0), 2.0);
-  EXPECT_EQ(contact_time({1.0, 0.0, -2.0, 0.0}, 1.0), 0.0);
-  EXPECT_EQ(contact_time({0.5, 0.0, -2.0, 0.0}, 1.0), -0.25);
-  EXPECT_EQ(contact_time({5.0, 2.0, -2.0, 0.0}, 1.0), HUGE_VAL);
+  EXPECT_EQ(touching_time({5.0, 0.0, -2.0, 0.0}, 1.0), 2.0);
+  EXPECT_EQ(touching_time({1.0, 0.0, -2.0, 0.0}, 1.0), 0.0);
+  EXPECT_EQ(touching_time({0.5, 0.0, -2.0, 0.0}, 1.0), -0.25);
+  EXPECT_EQ(touching_time({5.0, 2.0, -2.0, 0.0}, 1.0), HUGE_VAL);
 }
 
 // From touching to 1e9 reaches away, from head-on to grazing within 1e-9, overlapping too. The error allowed is that of
@@ -55,9 +55,9 @@ TEST(ContactTime, KeepsItsDigitsFarAwayAndGrazing) {
     const double distance = k % 2 == 0 ? 1.0 + draws.decades(1e-6, 1e9) : draws.in(miss + 0.5 * gap, 1.0);
     const Relative r = towards(distance, miss, reach, draws.in(0.0, 2.0 * std::numbers::pi), speed);
     if (r.approach() >= 0.0) continue;
-    const Wide exact = contact_time_with_more_digits(r, reach);
+    const Wide exact = touching_time_with_more_digits(r, reach);
     if (std::isinf(exact)) continue;
-    const double t = contact_time(r, reach);
+    const double t = touching_time(r, reach);
     const double scale = std::abs(t) / std::sqrt(gap) + reach / speed / std::sqrt(gap);
     worst = std::max(worst, static_cast<double>(std::abs(static_cast<Wide>(t) - exact)) / scale);
   }
@@ -68,21 +68,21 @@ TEST(ContactTime, KeepsItsDigitsFarAwayAndGrazing) {
 TEST(ContactTime, DoesNotCancelWhereTheTextbookFormDoes) {
   const Relative r{1.0 + 0x1p-40, 0.0, -1.0, 0.0};
   const double exact = 0x1p-40;
-  EXPECT_NEAR(contact_time(r, 1.0) / exact, 1.0, 1e-12);
+  EXPECT_NEAR(touching_time(r, 1.0) / exact, 1.0, 1e-12);
   const Relative slant = towards(1.0 + 1e-10, 0.3, 1.0, 0.7, 3.0);
   const double b = slant.approach();
   const double textbook = (-b - std::sqrt(b * b - slant.speed2() * (slant.distance2() - 1.0))) / slant.speed2();
-  const auto digits = static_cast<double>(contact_time_with_more_digits(slant, 1.0));
+  const auto digits = static_cast<double>(touching_time_with_more_digits(slant, 1.0));
   EXPECT_GT(std::abs(textbook / digits - 1.0), 1e-7);
-  EXPECT_LT(std::abs(contact_time(slant, 1.0) / digits - 1.0), 1e-5);  // distance2 - 1 itself has 6 digits left
+  EXPECT_LT(std::abs(touching_time(slant, 1.0) / digits - 1.0), 1e-5);  // distance2 - 1 itself has 6 digits left
 }
 
-// After contact_time the distance is the sum of the radii, to the rounding of the coordinates.
+// After touching_time the distance is the sum of the radii, to the rounding of the coordinates.
 TEST(ContactTime, LeadsToContact) {
   test::Draws draws(3);
   for (int k = 0; k < 2000; ++k) {
     const Relative r = towards(draws.in(1.0, 20.0), draws.in(-0.999, 0.999), 2.0, draws.in(0.0, 6.0), 1.5);
-    const double t = contact_time(r, 2.0);
+    const double t = touching_time(r, 2.0);
     const double dx = r.dx + r.dvx * t;
     const double dy = r.dy + r.dvy * t;
     EXPECT_NEAR(std::sqrt(dx * dx + dy * dy), 2.0, 5e-14);

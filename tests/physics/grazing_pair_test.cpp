@@ -25,7 +25,7 @@ TEST(GrazingPair, IsResolvedWhereItIs) {
     with_view(disks, [&](const auto& d) {
       const Relative r = relative(d, 0, 1, scene.box);
       if (!touches(r.distance2(), 1.0) || !(r.approach() < 0.0)) return;
-      missed += std::isinf(contact_time(r, 1.0)) ? 1 : 0;
+      missed += std::isinf(touching_time(r, 1.0)) ? 1 : 0;
       const Impact impact = resolve_pair(d, {scene.box, 1.0, 0.5, 0.01, true}, 0, 1);
       EXPECT_TRUE(std::isfinite(impact.virial));
       EXPECT_NEAR(d.x[0], 10.0, 1e-9);
