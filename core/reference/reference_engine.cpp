@@ -45,15 +45,15 @@ Count ReferenceEngine::parts(double dt) {
   return parts;
 }
 
-void ReferenceEngine::drift_all(double t) {
+void ReferenceEngine::drift(double t) {
   const PhaseTimer timer(times_, "drift");
   const double g = scene_.physics.gravity;
   with_view(state_.disks, [&](const auto& d) {
     for (std::size_t i = 0; i < state_.disks.size(); ++i) {
       if (g > 0.0) {
-        drift<true>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
+        carom::drift<true>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
       } else {
-        drift<false>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
+        carom::drift<false>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
       }
     }
   });
@@ -62,12 +62,7 @@ void ReferenceEngine::drift_all(double t) {
 
 void ReferenceEngine::wrap_all() {
   Disks& d = state_.disks;
-  if (scene_.box.periodic_x()) {
-    for (double& x : d.x) x = wrap(x, scene_.box.width);
-  }
-  if (scene_.box.periodic_y()) {
-    for (double& y : d.y) y = wrap(y, scene_.box.height);
-  }
+  for (std::size_t i = 0; i < d.size(); ++i) wrap(d.x[i], d.y[i], scene_.box);
 }
 
 void ReferenceEngine::remove_at_sinks() {

@@ -1,4 +1,5 @@
-// What the two time-stepping references share: the state, the start of a step, sinks, warnings.
+// What the two time-stepping references share: the state, and the phases that PairwiseMethod and RollbackMethod
+// (core/step) both have.
 #pragma once
 
 #include <string>
@@ -25,7 +26,8 @@ class ReferenceEngine : public Engine {
   void start_interval(double t, double dt, Count step);
   // Number of parts that an interval of length dt needs at the present speeds; warns the first time it is above 1.
   Count parts(double dt);
-  void drift_all(double t);
+  void sort_if_due() {}  // its disks stay in the order in which they came
+  void drift(double t);  // all disks
   void wrap_all();
   void remove_at_sinks();
 

@@ -13,20 +13,6 @@ namespace carom {
 
 namespace {
 
-// How many contacts each disk has in this step, by storage index: two or more, and it is crowded.
-std::vector<std::uint32_t> contacts_per_disk(std::size_t disks, const std::vector<ContactEvent>& events) {
-  std::vector<std::uint32_t> contacts(disks, 0);
-  for (const ContactEvent& e : events) {
-    ++contacts[e.i1];
-    if (!is_wall(e.id2)) ++contacts[e.i2];
-  }
-  return contacts;
-}
-
-bool is_crowded(const std::vector<std::uint32_t>& contacts, const ContactEvent& e) {
-  return contacts[e.i1] > 1 || (!is_wall(e.id2) && contacts[e.i2] > 1);
-}
-
 template <class View>
 void resolve_impacts(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
                      const std::vector<std::uint32_t>& contacts, CollisionLog* log, ImpactTally& tally) {
@@ -112,7 +98,16 @@ void push_all(const View& d, const State& state, const StepRules& rules, const s
 
 }  // namespace
 
-std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules) {
+std::vector<std::uint32_t> contacts_per_disk(std::size_t disks, const std::vector<ContactEvent>& events) {
+  std::vector<std::uint32_t> contacts(disks, 0);
+  for (const ContactEvent& e : events) {
+    ++contacts[e.i1];
+    if (!is_wall(e.id2)) ++contacts[e.i2];
+  }
+  return contacts;
+}
+
+std::vector<ContactEvent> contacts_after_drift(Disks& disks, const StepRules& rules) {
   std::vector<ContactEvent> events;
   const std::vector<Pair> pairs = find_touching_pairs(disks, rules.box);
   with_view(disks, [&](const auto& d) {
@@ -125,7 +120,7 @@ std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules) {
   return events;
 }
 
-StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events,
+StepFigures resolve_serially(State& state, const StepRules& rules, std::vector<ContactEvent>& events,
                              CollisionLog* log) {
   std::sort(events.begin(), events.end(), event_order);
   StepFigures figures;
@@ -143,6 +138,9 @@ StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<C
     figures.inaccurate = tally.inaccurate;
     push_all(d, state, rules, events, contacts);
     for (const ContactEvent& e : events) see_overlap_left(d, rules.box, e, figures);
+    for (std::uint32_t i = 0; i < contacts.size(); ++i) {
+      if (contacts[i] > 0) see_wall_overlap(d, rules.box, i, figures);
+    }
   });
   return figures;
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/base/collision_log.hpp"
@@ -25,6 +27,7 @@ void see_overlap_before(const View& d, const StepRules& rules, std::uint32_t i, 
   if (distance2 < reach * reach) figures.before.see({(reach - std::sqrt(distance2)) / reach, d.id[i], d.id[j]});
 }
 
+// How deep a disk lies in walls at the end of the step. Only disks in contact can: to be asked once for each of them.
 template <class View>
 void see_wall_overlap(const View& d, const Domain& box, std::uint32_t i, StepFigures& figures) {
   for (Side side : all_sides) {
@@ -34,12 +37,10 @@ void see_wall_overlap(const View& d, const Domain& box, std::uint32_t i, StepFig
   }
 }
 
-// How deep the disks of a contact lie in one another and in walls at the end of the step.
+// How deep the two disks of a contact lie in one another at the end of the step; a wall's contact has none to see.
 template <class View>
 void see_overlap_left(const View& d, const Domain& box, const ContactEvent& e, StepFigures& figures) {
-  see_wall_overlap(d, box, e.i1, figures);
   if (is_wall(e.id2)) return;
-  see_wall_overlap(d, box, e.i2, figures);
   const double reach = d.radius(e.i1) + d.radius(e.i2);
   const double distance2 = nearest_distance2({d.x[e.i2] - d.x[e.i1], d.y[e.i2] - d.y[e.i1]}, box);
   // No square root for what is surely shallower than what was seen: in a pile every contact overlaps a little.
@@ -49,13 +50,19 @@ void see_overlap_left(const View& d, const Domain& box, const ContactEvent& e, S
   figures.left.see({(reach - std::sqrt(distance2)) / reach, e.id1, e.id2});
 }
 
+// How many contacts each disk has, by storage index. Two or more, and it is crowded, as its contacts are.
+std::vector<std::uint32_t> contacts_per_disk(std::size_t disks, const std::vector<ContactEvent>& events);
+inline bool is_crowded(const std::vector<std::uint32_t>& contacts, const ContactEvent& e) {
+  return contacts[e.i1] > 1 || (!is_wall(e.id2) && contacts[e.i2] > 1);
+}
+
 // Pair and wall contacts at the end of a drift of length rules.dt, in no particular order.
-std::vector<ContactEvent> find_contacts(Disks& disks, const StepRules& rules);
+std::vector<ContactEvent> contacts_after_drift(Disks& disks, const StepRules& rules);
 
 // Impacts in order of contact, then supports (settling scenes), then pushing apart; counts into state.counters and
 // keeps the loads in state.loads. Sorts events. Returns what went wrong. Pairs that collide are added to log, where one
 // is given.
-StepFigures resolve_contacts(State& state, const StepRules& rules, std::vector<ContactEvent>& events,
+StepFigures resolve_serially(State& state, const StepRules& rules, std::vector<ContactEvent>& events,
                              CollisionLog* log = nullptr);
 
 }  // namespace carom

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 
 #include "core/physics/advance.hpp"
+#include "parallel/stepping/wall_reach.hpp"
 
 namespace carom {
 
@@ -40,17 +40,6 @@ DriftRange choose_drift(const Domain& box, double g) {
   return kernels[(g > 0.0 ? 4U : 0U) + (box.periodic_x() ? 2U : 0U) + (box.periodic_y() ? 1U : 0U)];
 }
 
-// What reach_beyond must exceed for a side to be a wall that was touched: 0, or infinity for other sides, so that the
-// scan of a block does not ask what each side is.
-std::array<double, 4> wall_limits(const Domain& box) {
-  std::array<double, 4> limits{};
-  for (Side side : all_sides) {
-    limits[static_cast<std::size_t>(side)] =
-        box.side(side) == SideKind::wall ? 0.0 : std::numeric_limits<double>::infinity();
-  }
-  return limits;
-}
-
 }  // namespace
 
 double drift_blocks(Disks& d, const Domain& box, double gravity, double t, const Executor& executor,
@@ -73,15 +62,12 @@ void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& ex
     buffers.back().reserve(drift_block / 16);
   }
   buffers.resize(executor.blocks(disks.size(), drift_block));
-  const std::array<double, 4> limit = wall_limits(rules.box);
+  const WallReach walls(rules.box);
   with_view(disks, [&](const auto& d) {
     executor.for_ranges(disks.size(), drift_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
       buffers[b].clear();
       for (std::size_t i = begin; i < end; ++i) {
-        const double r = d.radius(i);
-        const bool touched = (r - d.x[i] >= limit[0]) | ((d.x[i] + r) - rules.box.width >= limit[1]) |
-                             (r - d.y[i] >= limit[2]) | ((d.y[i] + r) - rules.box.height >= limit[3]);
-        if (!touched) continue;
+        if (!walls.touches(d.x[i], d.y[i], d.radius(i))) continue;
         for_each_wall_contact(d, rules, static_cast<std::uint32_t>(i),
                               [&](const ContactEvent& e) { buffers[b].push_back(e); });
       }

@@ -7,24 +7,18 @@
 
 #include "core/physics/resting.hpp"
 #include "core/reference/step_contacts.hpp"
+#include "parallel/stepping/contact_count.hpp"
+#include "parallel/stepping/finish_disk.hpp"
+#include "parallel/stepping/wall_reach.hpp"
 #include "parallel/threads/resize_amply.hpp"
 
 namespace carom {
 
 namespace {
 
-// Counts are sums of ones: whichever thread adds first, they end the same.
-void count_contact(std::vector<std::uint16_t>& contacts, const ContactEvent& e) {
-  std::atomic_ref<std::uint16_t>(contacts[e.i1]).fetch_add(1, std::memory_order_relaxed);
-  if (!is_wall(e.id2)) std::atomic_ref<std::uint16_t>(contacts[e.i2]).fetch_add(1, std::memory_order_relaxed);
-}
-
-// A disk after its only contact of the step. Returns its squared speed.
-template <class View>
-double finish_disk(const View& d, const Domain& box, std::uint32_t i) {
-  if (box.periodic_x()) d.x[i] = wrap(d.x[i], box.width);
-  if (box.periodic_y()) d.y[i] = wrap(d.y[i], box.height);
-  return d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
+void count_event(std::vector<std::uint16_t>& contacts, const ContactEvent& e) {
+  count_contact_shared(contacts[e.i1]);
+  if (!is_wall(e.id2)) count_contact_shared(contacts[e.i2]);
 }
 
 // Contacts are far apart in memory: their disks are asked for this many contacts ahead, about the time that memory
@@ -46,13 +40,67 @@ void count_found(const FoundPairs& found, const std::vector<std::vector<ContactE
   lists.contacts.resize(disks, 0);
   executor.run(found.used, [&](std::size_t b) {
     for (const Pair& p : found.buffers[b].pairs) {
-      std::atomic_ref<std::uint16_t>(lists.contacts[p.i1]).fetch_add(1, std::memory_order_relaxed);
-      std::atomic_ref<std::uint16_t>(lists.contacts[p.i2]).fetch_add(1, std::memory_order_relaxed);
+      count_contact_shared(lists.contacts[p.i1]);
+      count_contact_shared(lists.contacts[p.i2]);
     }
   });
   executor.run(walls.size(), [&](std::size_t b) {
-    for (const ContactEvent& e : walls[b]) count_contact(lists.contacts, e);
+    for (const ContactEvent& e : walls[b]) count_event(lists.contacts, e);
   });
+}
+
+// Lists for so many blocks, emptied.
+void begin_blocks(std::size_t blocks, ContactLists& lists) {
+  while (lists.crowded_blocks.size() < blocks) {
+    lists.crowded_blocks.emplace_back();
+    lists.crowded_blocks.back().reserve(contact_block / 8);
+  }
+  for (std::size_t b = 0; b < blocks; ++b) lists.crowded_blocks[b].clear();
+  lists.crowded.reserve(contact_block);
+  lists.tallies.assign(blocks, {});
+  lists.largest.assign(blocks, 0.0);
+  assign_amply(lists.seen, blocks, {});
+}
+
+// The pairs that block b of the search found.
+template <class View>
+void resolve_alone_pairs(const View& d, const StepRules& rules, const WallReach& walls, const std::vector<Pair>& pairs,
+                         std::size_t b, ContactLists& lists) {
+  StepFigures& seen = lists.seen[b];
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [i, j] = in_id_order(d.id, pairs[k]);
+    if (k + ahead < pairs.size()) {
+      prefetch_disk(d, pairs[k + ahead].i1);
+      prefetch_disk(d, pairs[k + ahead].i2);
+    }
+    see_overlap_before(d, rules, i, j, seen);
+    if (lists.contacts[i] != 1 || lists.contacts[j] != 1) {
+      lists.crowded_blocks[b].push_back(pair_event(d, rules, i, j));
+      continue;
+    }
+    lists.tallies[b].add(d.id[j], resolve_pair(d, rules, i, j));
+    push_pair(d, rules.box, i, j, 0.0);
+    see_overlap_left(d, rules.box, {0.0, d.id[i], d.id[j], i, j}, seen);
+    const double v2 = std::max(finish_disk(d, rules.box, walls, i, seen), finish_disk(d, rules.box, walls, j, seen));
+    lists.largest[b] = std::max(lists.largest[b], v2);
+    lists.contacts[i] = lists.contacts[j] = 0;
+  }
+}
+
+// Likewise for wall contacts.
+template <class View>
+void resolve_alone_walls(const View& d, const StepRules& rules, const WallReach& walls,
+                         const std::vector<ContactEvent>& events, std::size_t b, ContactLists& lists) {
+  for (const ContactEvent& e : events) {
+    if (lists.contacts[e.i1] != 1) {
+      lists.crowded_blocks[b].push_back(e);
+      continue;
+    }
+    lists.tallies[b].add(e.id2, resolve_event(d, rules, e));
+    push_apart(d, rules.box, e, 0.0);
+    lists.largest[b] = std::max(lists.largest[b], finish_disk(d, rules.box, walls, e.i1, lists.seen[b]));
+    lists.contacts[e.i1] = 0;
+  }
 }
 
 // Contacts that are alone, each from impact to pushing and wrapping in one visit; they commute with all others, so the
@@ -63,53 +111,34 @@ double resolve_alone(const View& d, const StepRules& rules, const FoundPairs& fo
                      ContactLists& lists, ImpactTally& tally) {
   count_found(found, walls, disks, executor, lists);
   const std::size_t blocks = found.used + walls.size();
-  while (lists.crowded_blocks.size() < blocks) {
-    lists.crowded_blocks.emplace_back();
-    lists.crowded_blocks.back().reserve(contact_block / 8);
-  }
-  lists.crowded.reserve(contact_block);
-  lists.tallies.assign(blocks, {});
-  lists.largest.assign(blocks, 0.0);
-  assign_amply(lists.seen, blocks, {});
-  executor.run(found.used, [&](std::size_t b) {
-    const std::vector<Pair>& pairs = found.buffers[b].pairs;
-    lists.crowded_blocks[b].clear();
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      const auto [i, j] = in_id_order(d.id, pairs[k]);
-      if (k + ahead < pairs.size()) {
-        prefetch_disk(d, pairs[k + ahead].i1);
-        prefetch_disk(d, pairs[k + ahead].i2);
-      }
-      see_overlap_before(d, rules, i, j, lists.seen[b]);
-      if (lists.contacts[i] != 1 || lists.contacts[j] != 1) {
-        lists.crowded_blocks[b].push_back(pair_event(d, rules, i, j));
-        continue;
-      }
-      lists.tallies[b].add(d.id[j], resolve_pair(d, rules, i, j));
-      push_pair(d, rules.box, i, j, 0.0);
-      see_overlap_left(d, rules.box, {0.0, d.id[i], d.id[j], i, j}, lists.seen[b]);
-      lists.largest[b] = std::max({lists.largest[b], finish_disk(d, rules.box, i), finish_disk(d, rules.box, j)});
-      lists.contacts[i] = lists.contacts[j] = 0;
-    }
-  });
-  executor.run(walls.size(), [&](std::size_t w) {
-    const std::size_t b = found.used + w;
-    lists.crowded_blocks[b].clear();
-    for (const ContactEvent& e : walls[w]) {
-      if (lists.contacts[e.i1] != 1) {
-        lists.crowded_blocks[b].push_back(e);
-        continue;
-      }
-      lists.tallies[b].add(e.id2, resolve_event(d, rules, e));
-      push_apart(d, rules.box, e, 0.0);
-      see_wall_overlap(d, rules.box, e.i1, lists.seen[b]);
-      lists.largest[b] = std::max(lists.largest[b], finish_disk(d, rules.box, e.i1));
-      lists.contacts[e.i1] = 0;
-    }
-  });
+  begin_blocks(blocks, lists);
+  const WallReach reach(rules.box);
+  executor.run(found.used,
+               [&](std::size_t b) { resolve_alone_pairs(d, rules, reach, found.buffers[b].pairs, b, lists); });
+  executor.run(walls.size(),
+               [&](std::size_t w) { resolve_alone_walls(d, rules, reach, walls[w], found.used + w, lists); });
   add_seen(lists);
   collect_crowded(blocks, executor, lists, tally);
   return blocks == 0 ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
+}
+
+// finish(i, block) for each disk i of these events, once, and clears its count. Returns the largest result.
+template <class Finish>
+double finish_each(const std::vector<ContactEvent>& events, const Executor& executor, ContactLists& lists,
+                   Finish&& finish) {
+  lists.largest.assign(executor.blocks(events.size(), contact_block), 0.0);
+  executor.for_ranges(events.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    // The thread that takes the count away finishes the disk; which one it is does not change the result.
+    const auto finish_once = [&](std::uint32_t i) {
+      if (std::atomic_ref<std::uint16_t>(lists.contacts[i]).exchange(0, std::memory_order_relaxed) == 0) return;
+      lists.largest[b] = std::max(lists.largest[b], finish(i, b));
+    };
+    for (std::size_t k = begin; k < end; ++k) {
+      finish_once(events[k].i1);
+      if (!is_wall(events[k].id2)) finish_once(events[k].i2);
+    }
+  });
+  return lists.largest.empty() ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
 }
 
 // Impacts of the crowded contacts in order of time, then the sweeps of pushing in order of ids.
@@ -140,6 +169,18 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
   }
   see_overlaps_left(d, rules.box, lists.crowded.size(), executor, lists,
                     [&](std::size_t k) { return lists.crowded[k]; });
+}
+
+// Finishes the disks of the crowded contacts. Returns the largest squared speed among them.
+template <class View>
+double finish_crowded(const View& d, const Domain& box, const Executor& executor, ContactLists& lists) {
+  const WallReach walls(box);
+  assign_amply(lists.seen, executor.blocks(lists.crowded.size(), contact_block), {});
+  const double speed2 = finish_each(lists.crowded, executor, lists, [&](std::uint32_t i, std::size_t b) {
+    return finish_disk(d, box, walls, i, lists.seen[b]);
+  });
+  add_seen(lists);
+  return speed2;
 }
 
 }  // namespace
@@ -212,7 +253,7 @@ void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found
 
 void count_contacts(ContactLists& lists, const Executor& executor) {
   executor.for_ranges(lists.events.size(), contact_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) count_contact(lists.contacts, lists.events[k]);
+    for (std::size_t k = begin; k < end; ++k) count_event(lists.contacts, lists.events[k]);
   });
 }
 
@@ -235,9 +276,8 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
     with_view(state.disks, [&](const auto& d) {
       speed2 = resolve_alone(d, rules, found, walls, state.disks.size(), executor, lists, tally);
       resolve_crowded(d, rules, state.disks, executor, lists, tally);
+      speed2 = std::max(speed2, finish_crowded(d, rules.box, executor, lists));
     });
-    // Contacts that were alone are finished.
-    speed2 = std::max(speed2, finish_contacts(state.disks, rules.box, executor, lists.crowded, lists));
   }
   lists.figures.inaccurate += tally.inaccurate;
   tally.count_into(state.counters);
@@ -246,25 +286,7 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
 
 double finish_contacts(Disks& disks, const Domain& box, const Executor& executor,
                        const std::vector<ContactEvent>& events, ContactLists& lists) {
-  const std::size_t blocks = executor.blocks(events.size(), contact_block);
-  lists.largest.assign(blocks, 0.0);
-  executor.for_ranges(events.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    // Whoever takes the count away wraps the disk: once each, and the result does not depend on who.
-    const auto finish = [&](std::uint32_t i) {
-      if (std::atomic_ref<std::uint16_t>(lists.contacts[i]).exchange(0, std::memory_order_relaxed) == 0) return;
-      if (box.periodic_x()) disks.x[i] = wrap(disks.x[i], box.width);
-      if (box.periodic_y()) disks.y[i] = wrap(disks.y[i], box.height);
-      const double v2 = disks.vx[i] * disks.vx[i] + disks.vy[i] * disks.vy[i];
-      lists.largest[b] = std::max(lists.largest[b], v2);
-    };
-    for (std::size_t k = begin; k < end; ++k) {
-      finish(events[k].i1);
-      if (!is_wall(events[k].id2)) finish(events[k].i2);
-    }
-  });
-  double largest = 0.0;
-  for (const double v2 : lists.largest) largest = std::max(largest, v2);
-  return largest;
+  return finish_each(events, executor, lists, [&](std::uint32_t i, std::size_t) { return wrap_moved(disks, box, i); });
 }
 
 }  // namespace carom

@@ -1,9 +1,10 @@
 #include "parallel/stepping/settle_contacts.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 
+#include "parallel/stepping/contact_count.hpp"
+#include "parallel/stepping/finish_disk.hpp"
 #include "parallel/stepping/resolve_contacts.hpp"
 #include "parallel/stepping/support_sweeps.hpp"
 #include "parallel/threads/resize_amply.hpp"
@@ -32,9 +33,9 @@ void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector
   const bool shared = executor.threads() > 1;
   const auto count = [&](std::uint32_t i) {
     if (shared) {
-      std::atomic_ref<std::uint16_t>(lists.contacts[i]).fetch_add(1, std::memory_order_relaxed);
+      count_contact_shared(lists.contacts[i]);
     } else {
-      ++lists.contacts[i];
+      count_contact(lists.contacts[i]);
     }
   };
   executor.run(found.used, [&](std::size_t b) {
@@ -49,7 +50,7 @@ void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector
   for (const auto& buffer : walls) {
     for (const ContactEvent& e : buffer) {
       pairs[place++] = {id_key(e.id1, e.id2), e.i1, e.i1};
-      ++lists.contacts[e.i1];
+      count_contact(lists.contacts[e.i1]);
     }
   }
 }
@@ -139,20 +140,23 @@ void push_contacts(const View& d, const StepRules& rules, const Executor& execut
                     [&](std::size_t k) { return settle.placed[k].event(); });
 }
 
-// Wraps the disks that had contacts, clears their counts, and returns the largest squared speed among them.
-double finish_disks(Disks& d, const Domain& box, const Executor& executor, ContactLists& lists) {
-  assign_amply(lists.largest, executor.blocks(d.size(), finish_block), 0.0);
-  executor.for_ranges(d.size(), finish_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+// Finishes the disks that had contacts, clears their counts, and returns the largest squared speed among them.
+template <class View>
+double finish_disks(const View& d, std::size_t n, const Domain& box, const Executor& executor, ContactLists& lists) {
+  const WallReach walls(box);
+  const std::size_t blocks = executor.blocks(n, finish_block);
+  assign_amply(lists.largest, blocks, 0.0);
+  assign_amply(lists.seen, blocks, {});
+  executor.for_ranges(n, finish_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     double largest = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
       if (lists.contacts[i] == 0) continue;
       lists.contacts[i] = 0;
-      if (box.periodic_x()) d.x[i] = wrap(d.x[i], box.width);
-      if (box.periodic_y()) d.y[i] = wrap(d.y[i], box.height);
-      largest = std::max(largest, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+      largest = std::max(largest, finish_disk(d, box, walls, static_cast<std::uint32_t>(i), lists.seen[b]));
     }
     lists.largest[b] = largest;
   });
+  add_seen(lists);
   return lists.largest.empty() ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
 }
 
@@ -163,14 +167,14 @@ double settle_contacts(State& state, const StepRules& rules, const FoundPairs& f
                        ContactLists& lists, ImpactTally& tally) {
   gather_pairs(state.disks, found, walls, executor, lists);
   sort_by_ids(lists.settle.pairs, state.next_id, executor);
-  with_view(state.disks, [&](const auto& d) {
+  return with_view(state.disks, [&](const auto& d) {
     if (look_up_loads(d, state, rules, executor, lists)) {
       resolve_impacts(d, state.disks, rules, executor, lists, tally);
     }
     bear_loads(d, state, rules, executor, lists, tally);
     push_contacts(d, rules, executor, lists);
+    return finish_disks(d, state.disks.size(), rules.box, executor, lists);
   });
-  return finish_disks(state.disks, rules.box, executor, lists);
 }
 
 }  // namespace carom

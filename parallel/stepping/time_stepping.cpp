@@ -164,9 +164,10 @@ void TimeStepping::search(const StepRules& rules) {
   find_wall_contacts(state_.disks, rules, executor_, walls_);
 }
 
-void TimeStepping::resolve(const StepRules& rules) {
+StepFigures TimeStepping::resolve(const StepRules& rules) {
   const PhaseTimer timer(times_, "resolve");
   speed2_ = std::max(speed2_, resolve_contacts(state_, rules, pairs_, walls_, executor_, lists_));
+  return lists_.figures;
 }
 
 void TimeStepping::keep_places() {

@@ -32,7 +32,7 @@ class TimeStepping : public Engine {
   void sort_if_due();                                    // disks into cells, when they have left them too far
   void drift(double t);                                  // all disks
   void search(const StepRules& rules);                   // touching pairs and wall contacts
-  void resolve(const StepRules& rules);                  // impacts, supports, pushing apart, wrapping (pairwise)
+  StepFigures resolve(const StepRules& rules);           // impacts, supports, pushing apart, wrapping (pairwise)
   void keep_places();                                    // before resolving, for
   bool presses_others();                                 // has resolving pressed disks together? (a pile)
   void gather(const StepRules& rules);                   // all contacts into lists_.events (rollback)

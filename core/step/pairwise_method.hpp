@@ -1,0 +1,73 @@
+// The method `pairwise`: what a step consists of, in which order. Written once; the reference and the parallel engine
+// each bring the phases.
+#pragma once
+
+#include <utility>
+
+#include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
+#include "core/step/step_clock.hpp"
+#include "core/step/step_rounds.hpp"
+#include "core/step/step_start.hpp"
+#include "core/step/validity.hpp"
+
+namespace carom {
+
+// Phases is an Engine with scene_, state_ and validity_, and with the phases that are called here.
+template <class Phases>
+class PairwiseMethod final : public Phases {
+ public:
+  // rest: what else Phases is made from.
+  template <class... Rest>
+  PairwiseMethod(const Scene& scene, State initial, const Rest&... rest)
+      : Phases(scene, std::move(initial), rest...), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
+
+  void step() override {
+    const Count k = state_.counters.steps;
+    if (k >= clock_.steps) return;
+    const double dt = clock_.length(k);
+    // Once only, even where parts() throws: the state that it leaves can be stepped again.
+    if (!std::exchange(state_.step_begun, true)) start_interval(clock_.start(k), dt, k);
+    const Count n = parts(dt);
+    StepFigures figures;
+    for (Count part = 0; part < n; ++part) figures.add(advance(rules_for(scene_, dt / static_cast<double>(n))));
+    remove_at_sinks();
+    state_.step_begun = false;
+    ++state_.counters.steps;
+    state_.time = clock_.end(k);
+    validity_.see_step(scene_, figures, state_);
+  }
+
+ private:
+  using Phases::scene_;
+  using Phases::state_;
+  using Phases::validity_;
+
+  using Phases::drift;
+  using Phases::keep_places;
+  using Phases::parts;
+  using Phases::presses_others;
+  using Phases::remove_at_sinks;
+  using Phases::resolve;
+  using Phases::search;
+  using Phases::sort_if_due;
+  using Phases::start_interval;
+
+  // Drift, find the overlaps, take each pair and wall in order of contact, push apart what remains; in a pile, again
+  // while that presses other disks together.
+  StepFigures advance(StepRules rules) {
+    sort_if_due();
+    drift(rules.dt);
+    if (rules.settles) keep_places();
+    StepFigures figures;
+    do {
+      search(rules);
+      figures.go_on(resolve(rules));
+    } while (rules.settles && ++rules.round < most_rounds && presses_others());
+    return figures;
+  }
+
+  StepClock clock_;
+};
+
+}  // namespace carom

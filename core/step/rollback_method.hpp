@@ -1,0 +1,90 @@
+// The method `rollback`: what a frame of the original's predictor-corrector consists of, in which order. Written once;
+// the reference and the parallel engine each bring the phases.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "core/disks/state.hpp"
+#include "core/physics/contact_event.hpp"
+#include "core/physics/impact_tally.hpp"
+#include "core/scene/scene.hpp"
+#include "core/step/rollback_frame.hpp"
+#include "core/step/step_clock.hpp"
+#include "core/step/step_start.hpp"
+#include "core/step/validity.hpp"
+
+namespace carom {
+
+// Phases is an Engine with scene_, state_ and validity_, and with the phases that are called here.
+template <class Phases>
+class RollbackMethod final : public Phases {
+ public:
+  // rest: what else Phases is made from.
+  template <class... Rest>
+  RollbackMethod(const Scene& scene, State initial, const Rest&... rest)
+      : Phases(scene, std::move(initial), rest...), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
+
+  void step() override {
+    if (state_.time >= scene_.run.t_end) return;
+    begin_frame();
+    const double end = frame_limit(scene_, state_, clock_);
+    const double length = std::min(scene_.run.dt / static_cast<double>(parts(scene_.run.dt)), end - state_.time);
+    StepFigures figures;
+    const double back = advance(rules_for(scene_, length), figures);
+    state_.time = back == 0.0 && state_.time + length >= end ? end : std::min(end, state_.time + (length - back));
+    remove_at_sinks();
+    ++state_.counters.steps;
+    validity_.see_step(scene_, figures, state_);
+    check_stall(state_, scene_);
+  }
+
+ private:
+  using Phases::scene_;
+  using Phases::state_;
+  using Phases::validity_;
+
+  using Phases::bounce;
+  using Phases::drift;
+  using Phases::find_approaching;
+  using Phases::is_alone;
+  using Phases::meet_all_walls;
+  using Phases::parts;
+  using Phases::remove_at_sinks;
+  using Phases::sort_if_due;
+  using Phases::start_interval;
+
+  // A frame may end before its Brownian interval does; the next one then goes on with the velocities drawn.
+  void begin_frame() {
+    if (scene_.physics.diffusion > 0.0) {
+      if (state_.time < clock_.start(state_.intervals)) return;
+      const Count k = state_.intervals++;
+      start_interval(state_.time, clock_.length(k), k);
+    } else {
+      start_interval(state_.time, scene_.run.dt, state_.counters.steps);
+    }
+  }
+
+  // Steps 1 to 5 of the original's frame. Returns the time by which everything went back.
+  double advance(const StepRules& rules, StepFigures& figures) {
+    sort_if_due();
+    drift(rules.dt);
+    const std::vector<ContactEvent>& pairs = find_approaching(rules, figures);
+    double back = 0.0;
+    for (const ContactEvent& e : pairs) back = std::max(back, e.ago);
+    if (back > 0.0) drift(-back);
+    for (const ContactEvent& e : pairs) {
+      if (!is_alone(e) && is_at_a_distance(rules, e, back)) ++figures.inaccurate;
+    }
+    ImpactTally tally;
+    bounce(rules, tally);
+    meet_all_walls(rules, tally);
+    tally.count_into(state_.counters);
+    return back;
+  }
+
+  StepClock clock_;
+};
+
+}  // namespace carom

@@ -1,0 +1,26 @@
+// Counting the contacts of a disk in a step.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace carom {
+
+// What matters is whether a disk has no contact, one or more. A count of 16 bits would say one at 65,537: from here on
+// it no longer grows.
+inline constexpr std::uint16_t many_contacts = 0x8000;
+
+inline void count_contact(std::uint16_t& contacts) {
+  if (contacts < many_contacts) ++contacts;
+}
+
+// On several threads at once. Counts are sums of ones, the same in whatever order; those above many_contacts exceed it
+// by at most one for each thread.
+inline void count_contact_shared(std::uint16_t& contacts) {
+  const std::atomic_ref<std::uint16_t> count(contacts);
+  if (count.fetch_add(1, std::memory_order_relaxed) >= many_contacts) [[unlikely]] {
+    count.fetch_sub(1, std::memory_order_relaxed);
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,29 @@
+// The end of a step for a disk that had contacts in it.
+#pragma once
+
+#include <cstddef>
+
+#include "core/disks/domain.hpp"
+#include "core/physics/advance.hpp"
+#include "core/reference/step_contacts.hpp"
+#include "core/step/validity.hpp"
+#include "parallel/stepping/wall_reach.hpp"
+
+namespace carom {
+
+// Wraps disk i, which contacts may have moved across a periodic side. Returns its squared speed. Columns: Disks, or a
+// view of them.
+template <class Columns>
+double wrap_moved(Columns& d, const Domain& box, std::size_t i) {
+  wrap(d.x[i], d.y[i], box);
+  return d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
+}
+
+// Likewise, and what it is left to reach beyond a wall goes to `seen`.
+template <class View>
+double finish_disk(const View& d, const Domain& box, const WallReach& walls, std::uint32_t i, StepFigures& seen) {
+  if (walls.touches(d.x[i], d.y[i], d.radius(i))) see_wall_overlap(d, box, i, seen);
+  return wrap_moved(d, box, i);
+}
+
+}  // namespace carom

@@ -1,0 +1,34 @@
+// Which disks touch a wall, asked of all of them without asking each time what the four sides are.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+// What reach_beyond (core/physics/boundary.hpp) must come to for a side to be a wall that is touched: 0, or infinity
+// for other sides.
+class WallReach {
+ public:
+  explicit WallReach(const Domain& box) : width_(box.width), height_(box.height) {
+    for (Side side : all_sides) {
+      least_[static_cast<std::size_t>(side)] =
+          box.side(side) == SideKind::wall ? 0.0 : std::numeric_limits<double>::infinity();
+    }
+  }
+
+  // Does a disk of radius r at (x, y) touch a wall or reach beyond it?
+  bool touches(double x, double y, double r) const {
+    return (r - x >= least_[0]) | ((x + r) - width_ >= least_[1]) | (r - y >= least_[2]) |
+           ((y + r) - height_ >= least_[3]);
+  }
+
+ private:
+  double width_, height_;          // length
+  std::array<double, 4> least_{};  // in the order of Side; length
+};
+
+}  // namespace carom
