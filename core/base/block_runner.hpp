@@ -1,4 +1,4 @@
-// Work in numbered blocks, for whoever can share it out, without knowing how many threads there are or whose.
+// Work in numbered blocks, to be shared out by the caller, whatever threads it has.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Which disks collided, for who compares two methods collision by collision. Only the references keep one.
+// Which disks collided, to compare two methods collision by collision. Only the references keep one.
 #pragma once
 
 #include <utility>

@@ -6,12 +6,12 @@
 
 namespace carom {
 
-// The whole file as text. where ("file:line: key") is who asked for it. Throws InputError unless it is a regular file
+// The whole file as text. where ("file:line: key") is what asked for it. Throws InputError unless it is a regular file
 // that can be read and fits into memory, or an open stream of this process (/dev/stdin, /dev/fd/N) of at most 1 GB.
 std::string read_text_file(const std::string& path, std::string_view where);
 
 // Throws InputError, "path: ...", where there is something else than a regular file: it may never end. A file that is
-// not there is left to whoever opens it.
+// not there is left to what opens it.
 void check_regular_file(const std::string& path);
 
 }  // namespace carom

@@ -1,5 +1,5 @@
 // Counter-based random numbers (Philox 4x32-10, Salmon et al. 2011, from Random123): a number is a function of
-// (seed, stream, disk id, step), never of who asked first.
+// (seed, stream, disk id, step), never of what was drawn before.
 #pragma once
 
 #include <cstdint>

@@ -99,7 +99,7 @@ bool may_collapse(const Scene& scene, double disks, bool settles) {
   return e < 1.0 && disks > std::log(4.0 / (1.0 - e)) / (1.0 - e);
 }
 
-// Rounded down to two digits: nobody needs more of a step.
+// Rounded down to two digits: a step needs no more.
 double tidy(double dt) {
   double digits = std::strtod(fmt::format("{:.1e}", dt).c_str(), nullptr);
   if (digits > dt) digits = std::strtod(fmt::format("{:.1e}", 0.95 * digits).c_str(), nullptr);

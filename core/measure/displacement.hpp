@@ -15,10 +15,9 @@ namespace carom {
 
 // Along an axis: where each disk was at the start, by id (NaN: no such disk; empty where only rounds are counted), and,
 // where the axis is periodic, its unwrapped coordinate in sixteenths of the period, rounded down (not_followed: no such
-// disk). Who knows a coordinate to a sixteenth tells from the
-// next look how often it went round, as long as nobody moves further than a quarter period between two looks. The
-// sixteenths only count periods: the displacement itself is the difference of two coordinates and does not depend on
-// when anybody looked. 2^27 periods fit.
+// disk). A coordinate known to a sixteenth tells, with the next frame, how often it went round, as long as no disk
+// moves further than a quarter period between two frames. The sixteenths only count periods: the displacement itself is
+// the difference of two coordinates and does not depend on when frames were taken. 2^27 periods fit.
 inline constexpr std::int32_t not_followed = std::numeric_limits<std::int32_t>::min();
 struct AxisTally {
   std::vector<double> from;             // length

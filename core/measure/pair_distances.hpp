@@ -63,7 +63,7 @@ struct PairCounts {
   std::vector<Count> counts;  // ordered pairs from them, by bin
 };
 
-// Who counts: serially, or on all threads with the same result.
+// What counts them: serially, or on all threads with the same result.
 using PairCounter = std::function<PairCounts(const Disks&, const Domain&, const DistanceBins&)>;
 
 PairCounts count_pairs(const Disks& disks, const Domain& box, const DistanceBins& bins);

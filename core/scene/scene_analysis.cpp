@@ -12,7 +12,7 @@ namespace carom {
 
 namespace {
 
-// More would be noise, and a file that nobody reads.
+// More would be noise, and a file too long to read.
 constexpr Count most_bins = 100'000;
 // Where nothing is said: pairs up to five diameters in bins of a fiftieth, so that the first bin beyond contact of
 // equal disks begins at contact; speeds up to six thermal ones, beyond which no disk in 10^7 is.

@@ -1,5 +1,5 @@
-// A frame of an earlier run, as a scene that starts from it asks for it. Trajectories are read elsewhere (io/): whoever
-// loads a scene hands in how.
+// A frame of an earlier run, as a scene that starts from it asks for it. Trajectories are read elsewhere (io/): the
+// caller that loads a scene brings the reader.
 #pragma once
 
 #include <functional>

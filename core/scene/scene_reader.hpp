@@ -32,7 +32,7 @@ struct SceneOrigin {
   std::string folder;  // where relative CSV paths start
   const toml::table* root = nullptr;
   std::vector<Override> overrides;
-  FrameReader frames;  // how to read a frame of a trajectory; empty where nobody can
+  FrameReader frames;  // how to read a frame of a trajectory; empty where there is no way to
 
   // "file:line: key", or "--set key" where an override made it. A missing key has the line of the table it should be
   // in.

@@ -79,7 +79,7 @@ class Growth {
     state_.next_id = static_cast<DiskId>(n);
   }
 
-  // Until everybody has the final radius and nobody overlaps.
+  // Until all disks have their final radii and none overlap.
   void grow() {
     double length = longest_flight_;
     double lack_then = HUGE_VAL;

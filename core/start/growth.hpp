@@ -20,7 +20,7 @@ struct GrowthProgress {
   double final_packing_fraction = 0.0;
 };
 
-// Who does the work of a growth. Plain and parallel, they give the same bits.
+// What does the work of a growth. The serial and the parallel tools give the same bits.
 struct GrowthTools {
   // The state at scene.run.t_end, by the exact method.
   std::function<State(const Scene&, State)> fly;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "core/base/input_message.hpp"
 #include "core/scene/size_law.hpp"
@@ -145,8 +146,8 @@ void insert_fixed(const Scene& scene, const Disks& disks, std::vector<std::uint3
                      [&](std::uint32_t a, std::uint32_t b) { return disks.radius[a] > disks.radius[b]; });
   }
   for (const std::uint32_t i : members) {
-    const std::size_t j = grid.overlapping(disks.x[i], disks.y[i], disks.radius_of(i), true);
-    if (j != PlacementGrid::nobody) fail_overlap(scene, disks, i, j);
+    const std::optional<std::size_t> j = grid.overlapping(disks.x[i], disks.y[i], disks.radius_of(i), true);
+    if (j) fail_overlap(scene, disks, i, *j);
     grid.insert(i);
   }
 }

@@ -10,7 +10,7 @@
 namespace carom {
 
 // Places disks one by one (large ones first, equal ones by id): trial k of disk id is a point uniform over the room its
-// centre may have, from (seed, Stream::position, id, k), and is taken if it overlaps nobody placed before. members are
+// centre may have, from (seed, Stream::position, id, k), and is taken if it overlaps no disk placed before. members are
 // indices into disks, entry i having id i; grid holds the disks already there and gets the new ones. group_of tells
 // the group of an index for messages.
 // Throws InputError (disk, packing fraction reached, remedy) when trials run out: random addition of equal disks jams

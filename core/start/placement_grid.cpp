@@ -152,8 +152,8 @@ bool PlacementGrid::any_around(const Level& level, double x, double y, double re
   return false;
 }
 
-std::size_t PlacementGrid::overlapping(double x, double y, double radius, bool slack) const {
-  std::size_t found = nobody;
+std::optional<std::size_t> PlacementGrid::overlapping(double x, double y, double radius, bool slack) const {
+  std::size_t found = 0;
   for (const Level& level : levels_) {
     if (level.disks == 0) continue;
     const bool any = any_around(level, x, y, radius + level.largest_radius, [&](std::uint32_t i) {
@@ -162,7 +162,7 @@ std::size_t PlacementGrid::overlapping(double x, double y, double radius, bool s
     });
     if (any) return found;
   }
-  return nobody;
+  return std::nullopt;
 }
 
 void PlacementGrid::find_near(double x, double y, double radius, double spread, std::vector<Near>& found) const {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/disks/disks.hpp"
@@ -14,8 +15,6 @@ namespace carom {
 // ones does not make every cell huge. About 32 bytes a disk.
 class PlacementGrid {
  public:
-  static constexpr std::size_t nobody = static_cast<std::size_t>(-1);
-
   // For the disks of box; radii are known, positions are read from disks when a disk is inserted. disks outlives the
   // grid, and holds at most 2^32 - 2 entries.
   PlacementGrid(const Domain& box, const Disks& disks);
@@ -23,9 +22,9 @@ class PlacementGrid {
   // Adds disk i at its position in disks.
   void insert(std::size_t i);
 
-  // A disk in the grid whose centre is nearer than the sum of the radii to a disk of this radius at (x, y), or nobody.
+  // A disk in the grid whose centre is nearer than the sum of the radii to a disk of this radius at (x, y), if any.
   // With slack, overlaps that rounding of the input explains do not count.
-  std::size_t overlapping(double x, double y, double radius, bool slack) const;
+  std::optional<std::size_t> overlapping(double x, double y, double radius, bool slack) const;
 
   // A disk of the grid seen from a point: the nearest image of its centre, and the sum of the radii.
   struct Near {

@@ -98,7 +98,7 @@ void PlacementSearch::place_one(std::size_t k) {
     const TrialDraw draw = draw_trial(scene.seed, i, trials_of_one, listed != nullptr);
     const Vec2 point = trial_point(scene.box, room, listed, draw);
     const bool closed = cells && !cells->is_open(point.x, point.y);
-    if (!closed && room.holds(point) && grid.overlapping(point.x, point.y, radius, false) == PlacementGrid::nobody) {
+    if (!closed && room.holds(point) && !grid.overlapping(point.x, point.y, radius, false)) {
       settle(i, point.x, point.y);
       return;
     }

@@ -31,7 +31,7 @@ class Engine {
   // Time stepping knows step ends only and gives state() whatever t is; the return value is the time of what it gave.
   virtual double disks_at(double t, Disks& out) const = 0;
 
-  // Nobody will ask for times within a step: an exact engine then need not remember its paths, and disks_at gives
+  // Says that no times within a step will be asked for: an exact engine then keeps no paths, and disks_at gives
   // state(). Changes no bit of the state.
   virtual void forget_paths() {}
 

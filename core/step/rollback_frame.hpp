@@ -32,7 +32,7 @@ Impact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::
 // How far a pair that is not met overlaps; 0 for a wall. Nothing in the frame will see to it.
 Overlap parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& event);
 
-// Had the pair met not yet touched, now that everybody has gone back by `back` (F2)? Where one of its disks bounces in
+// Had the pair met not yet touched, now that all disks have gone back by `back` (F2)? Where one of its disks bounces in
 // another pair as well, it might never have.
 bool is_at_a_distance(const StepRules& rules, const ContactEvent& event, double back);
 

@@ -72,7 +72,7 @@ class Validity {
   void see_step(const Scene& scene, const StepFigures& figures, State& state);
 
   // Those since the last call, one of each kind in a run: with what was seen first. What was counted, and that it was
-  // told, is in the state: who keeps a state keeps these.
+  // told, is in the state: a checkpoint keeps both.
   std::vector<std::string> take_warnings();
 
  private:

@@ -7,8 +7,8 @@ namespace carom {
 
 namespace {
 
-// Events a disk a window: more save advancing everybody at its end, fewer keep the paths that frames are read from
-// short.
+// Events a disk a window: more of them, and all disks are advanced to a window's end less often; fewer, and the paths
+// that frames are read from stay short.
 constexpr double events_per_disk = 2.0;
 constexpr double least_events = 32.0;
 // The distance to the neighbours, for the disk of root mean square speed.

@@ -49,7 +49,8 @@ CellGrid sort_by_reach(const Executor& executor, Disks& d, const Domain& box, co
   return grid;
 }
 
-// The radius that all gaps around disk i allow; each pair is looked at from both of its ends, so nobody waits.
+// The radius that all gaps around disk i allow; each pair is looked at from both of its ends, so that no
+// thread waits for another.
 double grown_radius(const Disks& d, const Domain& box, double target, const CellGrid& grid, const SortedCells& cells,
                     const StepColumns& columns, std::size_t i, bool& overlap) {
   const double length = std::max(box.width, box.height);

@@ -28,7 +28,7 @@ constexpr std::size_t voxels_per_member = 256;
 // Trials after which a disk is left to the plain search, which may learn more for it, and knows when to give up.
 constexpr std::uint64_t patience = trials_between_lessons;
 
-// The first point of a member that nobody takes who was there before the batch.
+// The first point of a member that no disk placed before the batch covers.
 struct Candidate {
   Vec2 point;
   std::uint64_t trial = 0;
@@ -38,7 +38,7 @@ struct Candidate {
 // A search in batches. The point that the plain search takes for a disk is the first of its sequence that none of the
 // disks before it covers. For a batch, all threads find the first points that are free of the disks placed so far:
 // points before those are refused whatever the batch does. Then the few whose point another of the batch covers are
-// looked at again in their order, until everyone has the first point that is free of all before him; that is the
+// searched for again in their order, until each has the first point that is free of all disks before it; that is the
 // definition, so neither batches nor threads can change a bit. What the plain search does between two disks (learn more
 // of the free places, give up) ends a batch.
 class BatchSearch {
@@ -139,9 +139,7 @@ class BatchSearch {
     for (Lane& l : all) l.alive = l.alive && is_free(l.point, radius_of(l.member));
   }
 
-  bool is_free(Vec2 point, double radius) const {
-    return search_.grid.overlapping(point.x, point.y, radius, false) == PlacementGrid::nobody;
-  }
+  bool is_free(Vec2 point, double radius) const { return !search_.grid.overlapping(point.x, point.y, radius, false); }
 
   bool apart(std::size_t k, Vec2 point, double radius) const {
     const Vec2 other = candidates_[k].point;
@@ -155,7 +153,7 @@ class BatchSearch {
     return cells_.any_near(point, [&](std::uint32_t other) { return other < k && !apart(other, point, radius); });
   }
 
-  // Gives everyone of the batch his final point; returns how many have one, up to the first that found none.
+  // Gives each disk of the batch its final point; returns how many have one, up to the first that found none.
   std::size_t settle_conflicts(std::size_t count) {
     std::size_t whole = 0;
     cells_.clear();

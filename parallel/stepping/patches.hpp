@@ -18,7 +18,7 @@
 
 namespace carom {
 
-// Layouts of patches tried one after another; whoever fits none of them is left to the last phase.
+// Layouts of patches tried one after another; a contact that fits none of them is left to the last phase.
 inline constexpr std::uint32_t patch_layouts = 3;
 inline constexpr std::uint32_t patch_phases = patch_layouts + 1;
 

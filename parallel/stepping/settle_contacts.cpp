@@ -64,8 +64,8 @@ void reserve_crowded_blocks(std::size_t blocks, const Executor& executor, Contac
 }
 
 // What every pair bore in the step before: its and the loads' orders are the same. Contacts that may be impacts, all
-// but the loaded and crowded, are collected in lists.crowded; false: none of them is one, now that nobody has moved
-// yet.
+// but the loaded and crowded, are collected in lists.crowded; false: none of them is one, before any disk has
+// moved.
 template <class View>
 bool look_up_loads(const View& d, const State& state, const StepRules& rules, const Executor& executor,
                    ContactLists& lists) {

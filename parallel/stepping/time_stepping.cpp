@@ -43,8 +43,8 @@ void TimeStepping::start_interval(double t, double dt, Count step) {
   if (scene_.physics.diffusion > 0.0) draw_velocities(dt, step);
 }
 
-// A newcomer is held against the disks in the cells around it and against those who came in just before it. The cells
-// are made afresh at the first question of a step, when nobody has come in yet.
+// A newcomer is tested against the disks in the cells around it and against those that came in just before it. The
+// cells are made anew at the first question of a step, when none has come in yet.
 void TimeStepping::emit_from_sources(double t, Count step) {
   const Disks& d = state_.disks;
   std::size_t in_cells = 0;

@@ -291,8 +291,7 @@ TEST(VoxelList, KeepsWhatIsFreeWhenRefined) {
     VoxelList list = cells.list();
     const auto free = [&](Vec2 p) {
       return (box.periodic_x() || (p.x >= 0.5 && p.x <= box.width - 0.5)) &&
-             (box.periodic_y() || (p.y >= 0.5 && p.y <= box.height - 0.5)) &&
-             grid.overlapping(p.x, p.y, 0.5, false) == PlacementGrid::nobody;
+             (box.periodic_y() || (p.y >= 0.5 && p.y <= box.height - 0.5)) && !grid.overlapping(p.x, p.y, 0.5, false);
     };
     std::vector<Vec2> places;
     for (int i = 0; i < 500; ++i) {
