@@ -1,6 +1,5 @@
 #include "parallel/pair_counting.hpp"
 
-#include <algorithm>
 #include <memory>
 
 #include "parallel/threads/executor.hpp"

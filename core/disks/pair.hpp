@@ -1,7 +1,7 @@
 // Two disks that may touch.
 #pragma once
 
-#include "core/base/types.hpp"
+#include <cstdint>
 
 namespace carom {
 

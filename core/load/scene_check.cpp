@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "core/base/input_message.hpp"
 #include "core/base/machine_memory.hpp"

@@ -1,8 +1,6 @@
 // The canonical order of events: the one sequence in which a method, serial or parallel, takes what happens.
 #pragma once
 
-#include "core/base/types.hpp"
-
 namespace carom {
 
 // a before b by the smaller id, then by the larger. For any records with id1 <= id2, where id2 may be a wall's partner.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <filesystem>
 #include <string>
 
@@ -10,7 +9,6 @@
 #include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
 #include "core/scene/csv.hpp"
-#include "core/scene/scene_names.hpp"
 
 namespace carom {
 

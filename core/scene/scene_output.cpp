@@ -9,7 +9,6 @@
 
 #include "core/base/input_message.hpp"
 #include "core/scene/picture_look.hpp"
-#include "core/scene/scene_names.hpp"
 
 namespace carom {
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <iterator>
 #include <limits>
 
 #include "core/scene/scene_names.hpp"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <vector>
 
 #include "core/disks/domain.hpp"
 #include "parallel/cells/cell_grid.hpp"

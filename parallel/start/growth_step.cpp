@@ -1,6 +1,5 @@
 #include "parallel/start/growth_step.hpp"
 
-#include <memory>
 #include <utility>
 
 #include "core/physics/disk_pair.hpp"

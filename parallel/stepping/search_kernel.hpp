@@ -3,10 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "core/disks/domain.hpp"
-#include "core/disks/pair.hpp"
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 

@@ -1,7 +1,6 @@
 // No hidden unit, no absolute tolerance: lengths, masses or times scaled by 2^20 or 2^-20 give the same bits, scaled.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 
 #include "core/load/scene_file.hpp"

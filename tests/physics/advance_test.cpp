@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/measure/invariants.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/reference_run.hpp"

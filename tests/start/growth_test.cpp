@@ -7,7 +7,6 @@
 
 #include <cmath>
 
-#include "core/disks/state_hash.hpp"
 #include "core/reference/pair_search.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"

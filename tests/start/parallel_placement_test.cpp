@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "core/disks/state_hash.hpp"
 #include "core/start/initial_state.hpp"
 #include "parallel/start/random_placement.hpp"
 #include "tests/support/scene_support.hpp"
