@@ -9,6 +9,7 @@
 #include "core/disks/cell_index.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
+#include "core/reference/cell_neighbours.hpp"
 
 namespace carom {
 
@@ -31,10 +32,8 @@ class Neighbourhood {
   // Calls see(j) for every disk j other than i in the cells around i's home.
   template <class See>
   void visit(std::uint32_t i, See&& see) const {
-    for (std::size_t row : around(home_[i].row, rows_, box_.periodic_y())) {
-      if (row == outside) continue;
-      for (std::size_t column : around(home_[i].column, columns_, box_.periodic_x())) {
-        if (column == outside) continue;
+    for (const std::size_t row : CellNeighbours(home_[i].row, rows_, box_.periodic_y())) {
+      for (const std::size_t column : CellNeighbours(home_[i].column, columns_, box_.periodic_x())) {
         for (const std::uint32_t j : cells_[row * columns_ + column]) {
           if (j != i) see(j);
         }
@@ -43,7 +42,6 @@ class Neighbourhood {
   }
 
  private:
-  static constexpr std::size_t outside = static_cast<std::size_t>(-1);
   struct Home {
     std::size_t column, row;
   };
@@ -55,14 +53,6 @@ class Neighbourhood {
 
   static std::size_t cell_of(double coordinate, double length, std::size_t cells) {
     return cell_index(coordinate / length * static_cast<double>(cells), cells);
-  }
-
-  // c - 1, c, c + 1, round the corner of a periodic axis.
-  static std::vector<std::size_t> around(std::size_t c, std::size_t cells, bool periodic) {
-    if (cells == 1) return {0};
-    const std::size_t before = c > 0 ? c - 1 : (periodic ? cells - 1 : outside);
-    const std::size_t after = c + 1 < cells ? c + 1 : (periodic ? 0 : outside);
-    return {before, c, after};
   }
 
   Domain box_;

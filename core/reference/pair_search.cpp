@@ -1,12 +1,12 @@
 #include "core/reference/pair_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "core/disks/cell_index.hpp"
 #include "core/physics/disk_pair.hpp"
+#include "core/reference/cell_neighbours.hpp"
 
 namespace carom {
 
@@ -43,24 +43,6 @@ UniformGrid make_grid(const Disks& d, const Domain& box) {
   return grid;
 }
 
-// The cells c - 1, c, c + 1 along one side, each once: across a periodic side round the corner, else cut off.
-struct Neighbours {
-  std::array<std::size_t, 3> cell{};
-  std::size_t count = 0;
-};
-
-Neighbours neighbours(std::size_t c, std::size_t cells, bool periodic) {
-  Neighbours n;
-  const auto add = [&](std::size_t k) {
-    const auto end = n.cell.begin() + static_cast<std::ptrdiff_t>(n.count);
-    if (std::find(n.cell.begin(), end, k) == end) n.cell[n.count++] = k;
-  };
-  add(c);
-  if (c > 0 || periodic) add((c + cells - 1) % cells);
-  if (c + 1 < cells || periodic) add((c + 1) % cells);
-  return n;
-}
-
 bool touch(const Disks& d, const Domain& box, std::size_t i, std::size_t j) {
   return touches(nearest_distance2({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box), d.radius_of(i) + d.radius_of(j));
 }
@@ -76,26 +58,25 @@ void sort_by_id(std::vector<Pair>& pairs, const Disks& d) {
   });
 }
 
-}  // namespace
-
-namespace {
-
 // Calls use(i, j) for the touching pairs whose disk of smaller id lies in this row of the grid.
 template <class Use>
 void for_pairs_of_row(const UniformGrid& grid, std::size_t row, const Disks& d, const Domain& box, Use use) {
-  const Neighbours rows = neighbours(row, grid.rows, box.periodic_y());
-  for (std::size_t column = 0; column < grid.columns; ++column) {
-    const Neighbours columns = neighbours(column, grid.columns, box.periodic_x());
-    const std::size_t home = row * grid.columns + column;
-    for (std::size_t k = 0; k < rows.count * columns.count; ++k) {
-      const std::size_t other = rows.cell[k / columns.count] * grid.columns + columns.cell[k % columns.count];
-      for (std::uint32_t a = grid.start[home]; a < grid.start[home + 1]; ++a) {
-        for (std::uint32_t b = grid.start[other]; b < grid.start[other + 1]; ++b) {
-          const std::uint32_t i = grid.members[a];
-          const std::uint32_t j = grid.members[b];
-          if (d.id[i] < d.id[j] && touch(d, box, i, j)) use(i, j);
-        }
+  const auto use_pairs_between = [&](std::size_t home, std::size_t other) {
+    for (std::uint32_t a = grid.start[home]; a < grid.start[home + 1]; ++a) {
+      for (std::uint32_t b = grid.start[other]; b < grid.start[other + 1]; ++b) {
+        const std::uint32_t i = grid.members[a];
+        const std::uint32_t j = grid.members[b];
+        if (d.id[i] < d.id[j] && touch(d, box, i, j)) use(i, j);
       }
+    }
+  };
+  const CellNeighbours rows(row, grid.rows, box.periodic_y());
+  for (std::size_t column = 0; column < grid.columns; ++column) {
+    const std::size_t home = row * grid.columns + column;
+    if (grid.start[home] == grid.start[home + 1]) continue;
+    const CellNeighbours columns(column, grid.columns, box.periodic_x());
+    for (const std::size_t r : rows) {
+      for (const std::size_t c : columns) use_pairs_between(home, r * grid.columns + c);
     }
   }
 }

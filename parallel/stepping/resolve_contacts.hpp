@@ -23,7 +23,7 @@ namespace carom {
 // Lists that the resolve fills again and again; kept so that a warm step allocates nothing.
 struct ContactLists {
   std::vector<ContactEvent> events;     // all of the step, in storage order
-  std::vector<std::uint16_t> contacts;  // of each disk in this step; all 0 between steps
+  std::vector<std::uint16_t> contacts;  // of each disk in this step (contact_count.hpp); all 0 between steps
   std::vector<ContactEvent> crowded;
   std::vector<std::vector<ContactEvent>> crowded_blocks;
   std::vector<ContactEvent> placed;  // the crowded in the order of the patches
@@ -41,7 +41,7 @@ void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found
                    const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor, ContactLists& lists);
 
 // Resolves and pushes apart all pairs found and wall contacts, wraps the disks that had contacts, and returns the
-// largest squared speed among those. Bits of resolve_contacts (core/reference/step_contacts.hpp).
+// largest squared speed among those. Bits of resolve_serially (core/reference/step_contacts.hpp).
 double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& found,
                         const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
                         ContactLists& lists);
@@ -54,7 +54,7 @@ double finish_contacts(Disks& disks, const Domain& box, const Executor& executor
 template <class Keep>
 void keep_events(ContactLists& lists, const Executor& executor, Keep&& keep);
 
-// Sets the contact counts of the disks in lists.events: how many of the events each is in.
+// Sets the contact counts of the disks in lists.events (contact_count.hpp).
 void count_contacts(ContactLists& lists, const Executor& executor);
 void clear_contact_counts(ContactLists& lists);
 
