@@ -245,10 +245,7 @@ double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& 
   if (mode_ == EngineMode::all_pairs) return never;
   const PathSegment p = carried_to(path, from, g);
   const Vec2 position = listed_position(i);
-  double dx = p.x - position.x;
-  double dy = p.y - position.y;
-  if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
-  if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
+  const auto [dx, dy] = nearest_image({p.x - position.x, p.y - position.y}, box_);
   double room = relist_distance_ * (1.0 - 1e-9);
   double ahead = never;
   if (g > 0.0) {
@@ -275,11 +272,9 @@ bool NeighbourLists::stays_listed(std::uint32_t i, const PathSegment& path, doub
   const Vec2 position = listed_position(i);
   const auto inside = [&](double t) {
     const double s = t - path.start;
-    double dx = path.x + path.vx * s - position.x;
-    double dy = path.y + (path.vy - 0.5 * g * s) * s - position.y;
-    if (box_.periodic_x()) dx = nearest_image(dx, box_.width);
-    if (box_.periodic_y()) dy = nearest_image(dy, box_.height);
-    return dx * dx + dy * dy < room * room;
+    const double x = path.x + path.vx * s;
+    const double y = path.y + (path.vy - 0.5 * g * s) * s;
+    return nearest_distance2({x - position.x, y - position.y}, box_) < room * room;
   };
   // A straight path begins inside anyway; a bent one has to begin further inside.
   return room > 0.0 && inside(until) && (g == 0.0 || inside(from));

@@ -86,7 +86,7 @@ inline Doubles nearest(Doubles d, Doubles period, Doubles half) {
   return (d - where(d > half, period)) + where(d < -half, period);
 }
 
-// core's collision_time(), operation by operation: carried_to, relative, time_to_contact, touching_time. All differences
+// core's collision_time(), operation by operation: carried_to, relative, time_to_contact, touching_time. Differences
 // may have the other sign, which changes no bit of the time. lasting: set where a contact lasts.
 template <bool gravity, bool unequal_radii>
 inline Doubles four_contacts(const Lanes& own, const DiskRecord& f0, const DiskRecord& f1, const DiskRecord& f2,
