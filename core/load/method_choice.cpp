@@ -19,7 +19,7 @@ namespace carom {
 namespace {
 
 // A run of more steps than this is refused: it would take days for a hundred disks.
-constexpr double most_steps = 1e9;
+constexpr double most_steps_offered = 1e9;
 
 // The density at which disks of a settling scene meet, when they have come down.
 constexpr double settled_fraction = 0.6;
@@ -135,7 +135,7 @@ double safe_step(const SceneScales& s) {
 }
 
 std::string steps_text(double t_end, double dt) {
-  return fmt::format("dt = {:.1e} would make {:.1e} steps, more than {:.0e}", dt, t_end / dt, most_steps);
+  return fmt::format("dt = {:.1e} would make {:.1e} steps, more than {:.0e}", dt, t_end / dt, most_steps_offered);
 }
 
 MethodOffer offer_pairwise(const Scene& scene, const SceneScales& s, double accuracy) {
@@ -149,7 +149,7 @@ MethodOffer offer_pairwise(const Scene& scene, const SceneScales& s, double accu
   const double steps = std::max(1.0, scene.run.t_end / offer.dt);
   const double collisions = 0.5 * s.disks * s.collision_rate * scene.run.t_end;
   offer.seconds = rates::pairwise_step * s.disks * steps + rates::pairwise_collision * collisions;
-  offer.possible = steps <= most_steps;
+  offer.possible = steps <= most_steps_offered;
   offer.why = !offer.possible ? steps_text(scene.run.t_end, offer.dt)
               : safe < wanted ? fmt::format("dt is the longest in which no disk moves half its radius")
                               : fmt::format("{:.2g} collisions of a disk in a step", s.collision_rate * offer.dt);
@@ -200,7 +200,7 @@ void offer_brownian(const Scene& scene, const SceneScales& s, double accuracy, M
     const double interval = rates::brownian_step + (stepping ? rates::pairwise_step : rates::exact_interval);
     offer.seconds = intervals * s.disks * interval +
                     collisions * (stepping ? rates::pairwise_collision : exact_collision_seconds(s));
-    offer.possible = intervals <= most_steps;
+    offer.possible = intervals <= most_steps_offered;
     offer.why = offer.possible ? fmt::format("{:.2g} collisions of a disk between two draws", x * std::sqrt(offer.dt))
                                : steps_text(scene.run.t_end, offer.dt);
     choice.offers.push_back(offer);

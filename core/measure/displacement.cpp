@@ -19,7 +19,7 @@ constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 // Disks a block of a look: a few milliseconds of work.
 constexpr std::size_t look_block = std::size_t{1} << 16;
 // Ids a block of the sum.
-constexpr Eigen::Index sum_block = 4096;
+constexpr Eigen::Index mean_block = 4096;
 
 std::int32_t part_of(double coordinate, double period) {
   return cell_index(coordinate / period * static_cast<double>(parts), parts);
@@ -127,8 +127,8 @@ MeanSquare mean_square_displacement(const DisplacementTally& tally, const Disks&
     ++mean.disks;
   }
   double total = 0.0;
-  for (Eigen::Index begin = 0; begin < square.size(); begin += sum_block) {
-    total += square.segment(begin, std::min(sum_block, square.size() - begin)).sum();
+  for (Eigen::Index begin = 0; begin < square.size(); begin += mean_block) {
+    total += square.segment(begin, std::min(mean_block, square.size() - begin)).sum();
   }
   mean.value = mean.disks > 0 ? total / static_cast<double>(mean.disks) : nowhere;
   return mean;

@@ -12,10 +12,6 @@ namespace carom {
 
 namespace {
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 // Letters, digits and the marks of file names: what counts as a string although it has no quotes.
 bool is_bare_word(std::string_view s) {
   return !s.empty() && std::all_of(s.begin(), s.end(), [](char c) {

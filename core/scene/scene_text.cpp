@@ -16,7 +16,7 @@ std::size_t index(Enum value) {
 }
 
 // At most 17 significant digits, the fewest that give the same double back; always a TOML float, so that -0.0 stays.
-std::string number(double value) {
+std::string decimal(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
@@ -49,21 +49,21 @@ std::string list_of(const std::vector<T>& values, Write write) {
 }
 
 std::string pair(const Vec2& v) {
-  return fmt::format("[{}, {}]", number(v.x), number(v.y));
+  return fmt::format("[{}, {}]", decimal(v.x), decimal(v.y));
 }
 
 std::string size_text(const SizeLaw& law, std::string_view other_key) {
   switch (law.kind) {
     case SizeLaw::Kind::constant:
-      return number(law.value);
+      return decimal(law.value);
     case SizeLaw::Kind::list:
-      return list_of(law.values, number);
+      return list_of(law.values, decimal);
     case SizeLaw::Kind::uniform:
-      return fmt::format("{{ uniform = [{}, {}] }}", number(law.low), number(law.high));
+      return fmt::format("{{ uniform = [{}, {}] }}", decimal(law.low), decimal(law.high));
     case SizeLaw::Kind::from_other:
       break;
   }
-  return fmt::format("{{ {} = {} }}", other_key, number(law.density));
+  return fmt::format("{{ {} = {} }}", other_key, decimal(law.density));
 }
 
 std::string positions_text(const PositionLaw& law) {
@@ -77,9 +77,9 @@ std::string velocities_line(const VelocityLaw& law) {
     case VelocityLaw::Kind::rest:
       return "";
     case VelocityLaw::Kind::maxwell:
-      return fmt::format("velocities = {{ maxwell = {} }}\n", number(law.temperature));
+      return fmt::format("velocities = {{ maxwell = {} }}\n", decimal(law.temperature));
     case VelocityLaw::Kind::uniform:
-      return fmt::format("velocities = {{ uniform = {} }}\n", number(law.limit));
+      return fmt::format("velocities = {{ uniform = {} }}\n", decimal(law.limit));
     case VelocityLaw::Kind::list:
       break;
   }
@@ -87,21 +87,22 @@ std::string velocities_line(const VelocityLaw& law) {
 }
 
 std::string box_text(const Domain& box) {
-  std::string text = fmt::format("\n[box]\nwidth = {}\nheight = {}\n", number(box.width), number(box.height));
+  std::string text = fmt::format("\n[box]\nwidth = {}\nheight = {}\n", decimal(box.width), decimal(box.height));
   for (std::size_t s = 0; s < side_names.size(); ++s) {
     text += fmt::format("{} = \"{}\"\n", side_names[s], side_kind_names[index(box.sides[s])]);
   }
-  return text + fmt::format("wall_restitution = {}\n", number(box.wall_restitution));
+  return text + fmt::format("wall_restitution = {}\n", decimal(box.wall_restitution));
 }
 
 std::string physics_text(const Physics& physics) {
-  std::string text = fmt::format("\n[physics]\ngravity = {}\nrestitution = {}\n", number(physics.gravity),
-                                 number(physics.restitution));
+  std::string text = fmt::format("\n[physics]\ngravity = {}\nrestitution = {}\n", decimal(physics.gravity),
+                                 decimal(physics.restitution));
   if (physics.diffusion > 0.0) {
-    text += fmt::format("diffusion = {}\naccumulate = {}\n", number(physics.diffusion), physics.accumulate);
+    text += fmt::format("diffusion = {}\naccumulate = {}\n", decimal(physics.diffusion), physics.accumulate);
   }
   if (physics.collapse_contact_time) {
-    text += fmt::format("collapse = {{ model = \"tc\", contact_time = {} }}\n", number(*physics.collapse_contact_time));
+    text +=
+        fmt::format("collapse = {{ model = \"tc\", contact_time = {} }}\n", decimal(*physics.collapse_contact_time));
   }
   return text;
 }
@@ -116,7 +117,7 @@ std::string group_text(const DiskGroup& group) {
 std::string growth_text(const Scene& scene) {
   for (const DiskGroup& group : scene.groups) {
     if (group.positions.kind != PositionLaw::Kind::growth) continue;
-    return fmt::format("\n[growth]\nslowness = {}\nsteps = {}\n", number(scene.growth.slowness), scene.growth.steps);
+    return fmt::format("\n[growth]\nslowness = {}\nsteps = {}\n", decimal(scene.growth.slowness), scene.growth.steps);
   }
   return "";
 }
@@ -126,11 +127,11 @@ std::string source_text(const Source& source) {
   if (source.side) {
     text += fmt::format("side = \"{}\"\n", side_names[index(*source.side)]);
   } else {
-    text += fmt::format("region = [{}, {}, {}, {}]\n", number(source.region_low.x), number(source.region_low.y),
-                        number(source.region_high.x), number(source.region_high.y));
+    text += fmt::format("region = [{}, {}, {}, {}]\n", decimal(source.region_low.x), decimal(source.region_low.y),
+                        decimal(source.region_high.x), decimal(source.region_high.y));
   }
   text +=
-      fmt::format("rate = {}\nradius = {}\nmass = {}\n{}", number(source.rate), size_text(source.radius, "from_mass"),
+      fmt::format("rate = {}\nradius = {}\nmass = {}\n{}", decimal(source.rate), size_text(source.radius, "from_mass"),
                   size_text(source.mass, "from_radius"), velocities_line(source.velocities));
   if (source.limit) text += fmt::format("limit = {}\n", *source.limit);
   return text;
@@ -142,8 +143,8 @@ std::string run_text(const RunPlan& run) {
   if (run.automatic)
     text += fmt::format("# chosen by method = \"auto\", accuracy = {}: {}\n", run.accuracy, run.choice);
   text += fmt::format("method = \"{}\"\n", method_names[index(run.method)]);
-  if (run.dt > 0.0) text += fmt::format("dt = {}\n", number(run.dt));
-  return text + fmt::format("t_end = {}\n", number(run.t_end));
+  if (run.dt > 0.0) text += fmt::format("dt = {}\n", decimal(run.dt));
+  return text + fmt::format("t_end = {}\n", decimal(run.t_end));
 }
 
 // Empty where the trajectory shows all disks in full precision, which is what absent keys mean.
@@ -151,8 +152,8 @@ std::string selection_lines(const OutputPlan& output) {
   const Selection& select = output.select;
   std::string text;
   if (select.by_region) {
-    text += fmt::format("select = [{}, {}, {}, {}]\n", number(select.low.x), number(select.low.y),
-                        number(select.high.x), number(select.high.y));
+    text += fmt::format("select = [{}, {}, {}, {}]\n", decimal(select.low.x), decimal(select.low.y),
+                        decimal(select.high.x), decimal(select.high.y));
   } else if (select.stride > 1) {
     text += fmt::format("select = \"every {}th\"\n", select.stride);
   }
@@ -164,17 +165,17 @@ std::string selection_lines(const OutputPlan& output) {
 std::string movie_text(const OutputPlan& output) {
   const PictureLook& look = output.look;
   if (!output.movie || look == PictureLook{}) return output.movie ? "true" : "false";
-  std::string text = fmt::format("{{ colour = \"{}\", fps = {}", colour_names[index(look.colour)], number(look.fps));
+  std::string text = fmt::format("{{ colour = \"{}\", fps = {}", colour_names[index(look.colour)], decimal(look.fps));
   if (look.width > 0) text += fmt::format(", size = [{}, {}]", look.width, look.height);
-  if (look.range) text += fmt::format(", range = [{}, {}]", number((*look.range)[0]), number((*look.range)[1]));
+  if (look.range) text += fmt::format(", range = [{}, {}]", decimal((*look.range)[0]), decimal((*look.range)[1]));
   return text + " }";
 }
 
 std::string output_text(const OutputPlan& output) {
   const std::string checkpoint =
-      output.checkpoint > 0.0 ? fmt::format("checkpoint = {}\n", number(output.checkpoint)) : "";
+      output.checkpoint > 0.0 ? fmt::format("checkpoint = {}\n", decimal(output.checkpoint)) : "";
   return fmt::format("\n[output]\nevery = {}\ntrajectory = \"{}\"\n{}series = {}\nplots = {}\nmovie = {}\n",
-                     number(output.every), trajectory_names[index(output.trajectory)], selection_lines(output),
+                     decimal(output.every), trajectory_names[index(output.trajectory)], selection_lines(output),
                      output.series, list_of(output.plots, [](const std::string& name) { return quoted_toml(name); }),
                      movie_text(output)) +
          checkpoint;
@@ -184,22 +185,22 @@ std::string output_text(const OutputPlan& output) {
 std::string analysis_text(const AnalysisPlan& plan) {
   if (!plan.any()) return "";
   std::vector<std::string> names;
-  std::string tables;
+  std::string lines;
   for (std::size_t k = 0; k < quantity_names.size(); ++k) {
     if (plan.wanted[k]) names.emplace_back(quantity_names[k]);
   }
   if (plan.wants(Quantity::pair_correlation)) {
-    tables += fmt::format("pair_correlation = {{ r_max = {}, bins = {} }}\n", number(plan.r_max), plan.r_bins);
+    lines += fmt::format("pair_correlation = {{ r_max = {}, bins = {} }}\n", decimal(plan.r_max), plan.r_bins);
   }
   if (plan.wants(Quantity::speeds)) {
-    tables += fmt::format("speeds = {{ max = {}, bins = {} }}\n", number(plan.speed_max), plan.speed_bins);
+    lines += fmt::format("speeds = {{ max = {}, bins = {} }}\n", decimal(plan.speed_max), plan.speed_bins);
   }
   if (plan.wants(Quantity::density)) {
-    tables += fmt::format("density = {{ axis = \"{}\", bins = {} }}\n", axis_names[plan.density_along_x ? 0 : 1],
-                          plan.density_bins);
+    lines += fmt::format("density = {{ axis = \"{}\", bins = {} }}\n", axis_names[plan.density_along_x ? 0 : 1],
+                         plan.density_bins);
   }
   return fmt::format("\n[analysis]\nwhat = {}\nevery = {}\nstart = {}\n{}", list_of(names, quoted_toml),
-                     number(plan.every), number(plan.start), tables);
+                     decimal(plan.every), decimal(plan.start), lines);
 }
 
 // TOML integers end at 2^63 - 1; a larger seed is written as a string.

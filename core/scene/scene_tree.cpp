@@ -10,10 +10,6 @@ namespace carom {
 
 namespace {
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 // Puts quotes around the digits of "seed = digits" in the line numbered line (from 1). False if it is another line.
 bool quote_seed(std::string& text, std::size_t line) {
   std::size_t begin = 0;

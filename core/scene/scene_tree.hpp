@@ -5,6 +5,10 @@
 
 namespace carom {
 
+inline bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
 // Reads a scene's text. seed may be any unsigned 64-bit number although TOML integers end at 2^63 - 1: a larger one
 // is kept as a string. Throws InputError, "name:line: ...", for a syntax error or a duplicate key.
 toml::table parse_scene_tree(std::string_view text, const std::string& name);

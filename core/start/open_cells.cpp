@@ -21,7 +21,7 @@ constexpr std::size_t listed_per_disk = 4;
 constexpr std::size_t least_listed = 4096;
 
 // Share of a cell by which spans stay inside a circle, so that rounding never closes a cell that it should not.
-constexpr double margin = 1e-6;
+constexpr double cell_margin = 1e-6;
 
 }  // namespace
 
@@ -39,7 +39,9 @@ OpenCells::OpenCells(const Domain& box, double smallest, std::size_t disks)
 }
 
 void OpenCells::close_margins(double smallest) {
-  const auto cells = [&](double cell) { return static_cast<std::size_t>(std::max(0.0, smallest / cell - margin)); };
+  const auto cells = [&](double cell) {
+    return static_cast<std::size_t>(std::max(0.0, smallest / cell - cell_margin));
+  };
   const std::size_t across = box_.periodic_x() ? 0 : std::min(cells(cell_x_), columns_ / 2);
   const std::size_t up = box_.periodic_y() ? 0 : std::min(cells(cell_y_), rows_ / 2);
   for (std::size_t row = 0; row < rows_; ++row) {
@@ -81,8 +83,8 @@ void OpenCells::close_columns(double row, double first, double last) {
 void OpenCells::close_around(double x, double y, double radius) {
   const auto rows = static_cast<double>(rows_);
   const double reach = radius + smallest_;
-  const double low = std::ceil((y - reach) / cell_y_ + margin);
-  const double high = std::floor((y + reach) / cell_y_ - margin);
+  const double low = std::ceil((y - reach) / cell_y_ + cell_margin);
+  const double high = std::floor((y + reach) / cell_y_ - cell_margin);
   for (double row = low; row < high; row += 1.0) {
     // A cell is ruled out when its farthest corner is within reach.
     const double dy = std::max(std::abs(row * cell_y_ - y), std::abs((row + 1.0) * cell_y_ - y));
@@ -91,7 +93,8 @@ void OpenCells::close_around(double x, double y, double radius) {
     if (half_squared <= 0.0 || (outside && !box_.periodic_y())) continue;
     const double half = std::sqrt(half_squared);
     const double wrapped = row < 0.0 ? row + rows : (row >= rows ? row - rows : row);
-    close_columns(wrapped, std::ceil((x - half) / cell_x_ + margin), std::floor((x + half) / cell_x_ - margin));
+    close_columns(wrapped, std::ceil((x - half) / cell_x_ + cell_margin),
+                  std::floor((x + half) / cell_x_ - cell_margin));
   }
 }
 

@@ -14,14 +14,14 @@ constexpr std::size_t halved_per_disk = 1;
 constexpr std::size_t halved_at_least = 4096;
 
 // Part of a contact distance by which rounding must not close what is free.
-constexpr double margin = 1e-9;
+constexpr double contact_margin = 1e-9;
 
 // Is a voxel with this middle, seen from the point that `near` is about, within one of those disks' contact circles?
 bool ruled_out(const std::vector<PlacementGrid::Near>& near, Vec2 middle, double half_x, double half_y) {
   return std::any_of(near.begin(), near.end(), [&](const PlacementGrid::Near& disk) {
     const double x = std::abs(disk.dx - middle.x) + half_x;
     const double y = std::abs(disk.dy - middle.y) + half_y;
-    return x * x + y * y < disk.contact * disk.contact * (1.0 - margin);
+    return x * x + y * y < disk.contact * disk.contact * (1.0 - contact_margin);
   });
 }
 
@@ -58,7 +58,7 @@ bool VoxelList::halved() const {
 // Nothing of it is in the room that walls and sinks leave to a centre.
 bool VoxelList::outside(double x, double y, double half_x, double half_y) const {
   const auto beyond = [&](double c, double half, double length) {
-    const double room = smallest_ * (1.0 - margin);
+    const double room = smallest_ * (1.0 - contact_margin);
     return c + half < room || c - half > length - room;
   };
   return (!box_.periodic_x() && beyond(x, half_x, box_.width)) ||

@@ -14,10 +14,10 @@ namespace carom {
 namespace {
 
 // Okabe and Ito: vermilion, blue, green apart for all common kinds of colour blindness; symbols differ too.
-constexpr std::array<const char*, 4> colours{"#D55E00", "#0072B2", "#009E73", "#000000"};
+constexpr std::array<const char*, 4> series_colours{"#D55E00", "#0072B2", "#009E73", "#000000"};
 constexpr std::array<int, 4> filled{5, 7, 13, 9};  // square, circle, diamond, triangle
 constexpr std::array<int, 4> open{4, 6, 12, 8};
-constexpr const char* grey = "#666666";
+constexpr const char* note_grey = "#666666";
 
 // Pixels of the SVG.
 constexpr double panel_width = 262.0, panel_height = 236.0;
@@ -41,7 +41,7 @@ Page page_of(const LogFigure& figure) {
 }
 
 std::size_t style_of(int style) {
-  return static_cast<std::size_t>(style) % colours.size();
+  return static_cast<std::size_t>(style) % series_colours.size();
 }
 
 void add_block(std::string& data, const std::vector<LogPoint>& points, bool bounds) {
@@ -61,11 +61,11 @@ std::string plot_commands(const LogCurve& curve, std::size_t block) {
   const std::size_t s = style_of(curve.style);
   const double width = curve.faint ? 1.0 : 1.6, size = curve.faint ? 0.42 : 0.62;
   std::string text = fmt::format("'data' index {} using 1:2 with lines lw {} dt {} lc rgb '{}'", block, width,
-                                 curve.faint ? "(6,4)" : "solid", colours[s]);
+                                 curve.faint ? "(6,4)" : "solid", series_colours[s]);
   text += fmt::format(", 'data' index {} using 1:2:3:4 with yerrorbars pt {} ps {} lw 0.8 lc rgb '{}'", block,
-                      curve.faint ? open[s] : filled[s], size, colours[s]);
+                      curve.faint ? open[s] : filled[s], size, series_colours[s]);
   text += fmt::format(", 'data' index {} using 1:2 with points pt {} ps {} lw 1 lc rgb '{}'", block + 1, open[s], size,
-                      colours[s]);
+                      series_colours[s]);
   return text;
 }
 
@@ -78,7 +78,7 @@ std::string corner_names(const LogPanel& panel) {
   for (const LogCurve& curve : panel.curves) {
     if (curve.name.empty()) continue;
     text += fmt::format("set label {} at graph 0.98, graph {} right textcolor rgb '{}' font ',10.5' front\n",
-                        gnuplot_quoted(curve.name), y, colours[style_of(curve.style)]);
+                        gnuplot_quoted(curve.name), y, series_colours[style_of(curve.style)]);
     y -= line_height;
   }
   return text;
@@ -120,7 +120,7 @@ std::string panel_commands(const LogPanel& panel, const Page& page, double left,
   for (const LogNote& note : panel.notes) {
     text += fmt::format("set label {} at first {}, first {} {} offset {},0 textcolor rgb '{}' font ',10' front\n",
                         gnuplot_quoted(note.text), note.x, note.y, note.left ? "right" : "left", note.left ? -0.8 : 0.8,
-                        note.style ? colours[style_of(*note.style)] : grey);
+                        note.style ? series_colours[style_of(*note.style)] : note_grey);
   }
   std::string plot;
   for (const LogCurve& curve : panel.curves) {
