@@ -21,21 +21,21 @@ struct Relative {
   double speed2() const { return dvx * dvx + dvy * dvy; }
 };
 
-// (6), with contact included: "overlaps or touches". reach = r1 + r2.
-inline bool touches(double distance2, double reach) {
-  return distance2 <= reach * reach;
+// (6), with contact included: "overlaps or touches". contact_distance = r1 + r2.
+inline bool touches(double distance2, double contact_distance) {
+  return distance2 <= contact_distance * contact_distance;
 }
 
 // Time from now at which two disks on straight relative paths touch: the smaller root of (12) in the form that does
-// not cancel, t = c / (-b + sqrt(b^2 - a c)) with a = dv.dv, b = dr.dv, c = dr.dr - reach^2. Negative when they overlap
-// now: the contact lies that far back. The discriminant is taken as a reach^2 - (dr x dv)^2, which is the same number
-// with less cancellation for distant disks. Same with gravity, which relative motion does not feel.
-// Preconditions: approach() < 0 (so a > 0: F9 cannot happen). Returns infinity when the paths miss.
-inline double touching_time(const Relative& r, double reach) {
+// not cancel, t = c / (-b + sqrt(b^2 - a c)) with a = dv.dv, b = dr.dv, c = dr.dr - contact_distance^2. Negative when
+// they overlap now: the contact lies that far back. The discriminant is taken as a contact_distance^2 - (dr x dv)^2,
+// which is the same number with less cancellation for distant disks. Same with gravity, which relative motion does not
+// feel. Preconditions: approach() < 0 (so a > 0: F9 cannot happen). Returns infinity when the paths miss.
+inline double touching_time(const Relative& r, double contact_distance) {
   const double cross = r.dx * r.dvy - r.dy * r.dvx;
-  const double discriminant = r.speed2() * (reach * reach) - cross * cross;
+  const double discriminant = r.speed2() * (contact_distance * contact_distance) - cross * cross;
   if (discriminant < 0.0) return HUGE_VAL;
-  return (r.distance2() - reach * reach) / (std::sqrt(discriminant) - r.approach());
+  return (r.distance2() - contact_distance * contact_distance) / (std::sqrt(discriminant) - r.approach());
 }
 
 // Shares of a change of relative velocity (or position): first = m2 / (m1 + m2), second = m1 / (m1 + m2).

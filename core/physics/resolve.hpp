@@ -89,10 +89,10 @@ void drift_one(const View& d, std::uint32_t i, double t, double g) {
 template <class View>
 Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
   Relative r = relative(d, i, j, rules.box);
-  const double reach = d.radius(i) + d.radius(j);
-  if (!touches(r.distance2(), reach) || !(r.approach() < 0.0)) return {};
+  const double contact_distance = d.radius(i) + d.radius(j);
+  if (!touches(r.distance2(), contact_distance) || !(r.approach() < 0.0)) return {};
   // Disks that just touch and pass along each other may miss by rounding (touching_time is infinite): that is now.
-  const double ago = std::max(0.0, -touching_time(r, reach));
+  const double ago = std::max(0.0, -touching_time(r, contact_distance));
   const bool inside_step = ago <= rules.dt;
   if (inside_step) {
     drift_one(d, i, -ago, rules.gravity);
@@ -213,11 +213,11 @@ void keep_inside(const View& d, const Domain& box, std::uint32_t i) {
 template <class View>
 void push_pair(const View& d, const Domain& box, std::uint32_t i, std::uint32_t j, double slack) {
   const Relative r = relative(d, i, j, box);
-  const double reach = d.radius(i) + d.radius(j);
+  const double contact_distance = d.radius(i) + d.radius(j);
   const double distance2 = r.distance2();
-  if (distance2 >= reach * reach) return;
+  if (distance2 >= contact_distance * contact_distance) return;
   const double distance = std::sqrt(distance2);
-  const double push = reach - distance - slack;
+  const double push = contact_distance - distance - slack;
   if (!(push > 0.0)) return;
   const Shares share = shares_of(d, i, j);
   const double px = distance > 0.0 ? push * (r.dx / distance) : push;

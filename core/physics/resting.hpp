@@ -67,8 +67,8 @@ bool is_solved(const View& d, const StepRules& rules, const ContactEvent& e, boo
 // Length that a loaded contact may overlap by.
 template <class View>
 double slack_of(const View& d, const StepRules& rules, const ContactEvent& e) {
-  const double reach = is_wall(e.id2) ? d.radius(e.i1) : d.radius(e.i1) + d.radius(e.i2);
-  return std::min(contact_slop * rules.gravity * rules.dt * rules.dt, largest_slop * reach);
+  const double contact_distance = is_wall(e.id2) ? d.radius(e.i1) : d.radius(e.i1) + d.radius(e.i2);
+  return std::min(contact_slop * rules.gravity * rules.dt * rules.dt, largest_slop * contact_distance);
 }
 
 // A disk that bears on a wall stays on it: where its loads have lifted it off by less than slack (length), it is laid

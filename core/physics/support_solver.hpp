@@ -30,16 +30,16 @@ inline constexpr double pressing_share = 1e-3;
 inline constexpr int most_cycles = 256;
 
 struct Support {
-  std::uint32_t i1, i2;    // where the disks are stored; twice the same for a wall
-  double nx, ny;           // from first to second, or into the wall
-  double inverse1;         // 1 / mass of the first
-  double inverse2;         // 1 / mass of the second, 0 for a wall
-  double effective;        // mass that the contact feels
-  double reach;            // sum of radii (the radius, at a wall); length
-  double impulse;          // accumulated, >= 0; mass length / time
-  double counted = 0.0;    // of it, in an earlier round of the step
-  double before = 0.0;     // impulse when the cycle began
-  double direction = 0.0;  // of the conjugate gradient; mass length / time
+  std::uint32_t i1, i2;     // where the disks are stored; twice the same for a wall
+  double nx, ny;            // from first to second, or into the wall
+  double inverse1;          // 1 / mass of the first
+  double inverse2;          // 1 / mass of the second, 0 for a wall
+  double effective;         // mass that the contact feels
+  double contact_distance;  // sum of radii (the radius, at a wall); length
+  double impulse;           // accumulated, >= 0; mass length / time
+  double counted = 0.0;     // of it, in an earlier round of the step
+  double before = 0.0;      // impulse when the cycle began
+  double direction = 0.0;   // of the conjugate gradient; mass length / time
 };
 
 inline bool is_wall_support(const Support& s) {
@@ -65,7 +65,7 @@ Support make_support(const View& d, const StepRules& rules, const ContactEvent& 
   s.nx = distance > 0.0 ? r.dx / distance : 1.0;
   s.ny = distance > 0.0 ? r.dy / distance : 0.0;
   s.inverse2 = 1.0 / d.mass(e.i2);
-  s.reach += d.radius(e.i2);
+  s.contact_distance += d.radius(e.i2);
   s.effective = reduced_mass(d.mass(e.i1), d.mass(e.i2));
   return s;
 }
@@ -100,7 +100,7 @@ void shift_by_load(const View& d, const Support& s, double dt) {
 // What the support bore in this round: impulse (r1 + r2), the virial, or at a wall the impulse itself.
 inline double borne(const Support& s) {
   const double impulse = s.impulse - s.counted;
-  return is_wall_support(s) ? impulse : impulse * s.reach;
+  return is_wall_support(s) ? impulse : impulse * s.contact_distance;
 }
 
 // One support's part of a sweep: the impulse that stops the approach, never less than 0 in total.
@@ -133,7 +133,7 @@ template <class View>
 void relax_back(const View& d, Support& s, CycleFigures& figures) {
   figures.largest = std::max(figures.largest, relax(d, s));
   const double change = s.impulse - s.before;
-  figures.strain = std::max(figures.strain, std::abs(change) / (s.effective * s.reach));
+  figures.strain = std::max(figures.strain, std::abs(change) / (s.effective * s.contact_distance));
   figures.square.add(change * change / s.effective);
 }
 

@@ -22,9 +22,11 @@ void see_overlap_before(const View& d, const StepRules& rules, std::uint32_t i, 
   const Relative r = relative(d, i, j, rules.box);
   const double dx = r.dx - r.dvx * rules.dt;
   const double dy = r.dy - r.dvy * rules.dt;
-  const double reach = d.radius(i) + d.radius(j);
+  const double contact_distance = d.radius(i) + d.radius(j);
   const double distance2 = dx * dx + dy * dy;
-  if (distance2 < reach * reach) figures.before.see({(reach - std::sqrt(distance2)) / reach, d.id[i], d.id[j]});
+  if (distance2 < contact_distance * contact_distance) {
+    figures.before.see({(contact_distance - std::sqrt(distance2)) / contact_distance, d.id[i], d.id[j]});
+  }
 }
 
 // How deep a disk lies in walls at the end of the step. Only disks in contact can: to be asked once for each of them.
@@ -41,13 +43,13 @@ void see_wall_overlap(const View& d, const Domain& box, std::uint32_t i, StepFig
 template <class View>
 void see_overlap_left(const View& d, const Domain& box, const ContactEvent& e, StepFigures& figures) {
   if (is_wall(e.id2)) return;
-  const double reach = d.radius(e.i1) + d.radius(e.i2);
+  const double contact_distance = d.radius(e.i1) + d.radius(e.i2);
   const double distance2 = nearest_distance2({d.x[e.i2] - d.x[e.i1], d.y[e.i2] - d.y[e.i1]}, box);
   // No square root for what is surely shallower than what was seen: in a pile every contact overlaps a little.
   constexpr double deep = 0.5, above_rounding = 1.0 + 1e-14;
-  const double seen = figures.left.size < deep ? reach * (1.0 - figures.left.size) : reach;
-  if (distance2 >= reach * reach || distance2 > seen * seen * above_rounding) return;
-  figures.left.see({(reach - std::sqrt(distance2)) / reach, e.id1, e.id2});
+  const double seen = figures.left.size < deep ? contact_distance * (1.0 - figures.left.size) : contact_distance;
+  if (distance2 >= contact_distance * contact_distance || distance2 > seen * seen * above_rounding) return;
+  figures.left.see({(contact_distance - std::sqrt(distance2)) / contact_distance, e.id1, e.id2});
 }
 
 // How many contacts each disk has, by storage index. Two or more, and it is crowded, as its contacts are.

@@ -17,8 +17,9 @@ bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& e) {
 Overlap parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& e) {
   if (is_wall(e.id2)) return {};
   return with_view(disks, [&](const auto& d) {
-    const double reach = d.radius(e.i1) + d.radius(e.i2);
-    return Overlap{(reach - std::sqrt(relative(d, e.i1, e.i2, rules.box).distance2())) / reach, e.id1, e.id2};
+    const double contact_distance = d.radius(e.i1) + d.radius(e.i2);
+    return Overlap{(contact_distance - std::sqrt(relative(d, e.i1, e.i2, rules.box).distance2())) / contact_distance,
+                   e.id1, e.id2};
   });
 }
 

@@ -20,8 +20,9 @@ constexpr std::size_t cross_block = 64;
 constexpr std::size_t stray_block = 256;
 
 bool touch(const SearchInput& in, std::size_t i, std::size_t j) {
-  const double reach = in.radius == nullptr ? in.common_radius + in.common_radius : in.radius[j] + in.radius[i];
-  return touches(nearest_distance2({in.x[j] - in.x[i], in.y[j] - in.y[i]}, in.box), reach);
+  const double contact_distance =
+      in.radius == nullptr ? in.common_radius + in.common_radius : in.radius[j] + in.radius[i];
+  return touches(nearest_distance2({in.x[j] - in.x[i], in.y[j] - in.y[i]}, in.box), contact_distance);
 }
 
 void test_run(const SearchInput& in, std::size_t i, std::uint32_t first, std::uint32_t last, std::vector<Pair>& pairs) {

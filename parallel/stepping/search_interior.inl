@@ -44,8 +44,8 @@ inline unsigned touching(const SearchInput& in, double x, double y, double r, st
                          std::uint32_t count) {
   const Doubles dx = load(in.x + first) - all(x);
   const Doubles dy = load(in.y + first) - all(y);
-  const Doubles reach = own_radius ? load(in.radius + first) + all(r) : all(r + r);
-  const Longs near = dx * dx + dy * dy <= reach * reach;
+  const Doubles contact_distance = own_radius ? load(in.radius + first) + all(r) : all(r + r);
+  const Longs near = dx * dx + dy * dy <= contact_distance * contact_distance;
   const auto c = static_cast<long long>(count);
   const Longs inside = Longs{0, 1, 2, 3} < Longs{c, c, c, c};
   return bits_of(near & inside);
@@ -71,8 +71,8 @@ void scan_run(const SearchInput& in, std::size_t i, double r, std::uint32_t firs
     for (std::uint32_t j = first; j < last; ++j) {
       const double dx = in.x[j] - in.x[i];
       const double dy = in.y[j] - in.y[i];
-      const double reach = (own_radius ? in.radius[j] : r) + r;
-      if (dx * dx + dy * dy <= reach * reach) add_pair(i, j, pairs);
+      const double contact_distance = (own_radius ? in.radius[j] : r) + r;
+      if (dx * dx + dy * dy <= contact_distance * contact_distance) add_pair(i, j, pairs);
     }
   }
 }
