@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/build_version.hpp"
 #include "core/base/short_number.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/scene/drawn_velocities.hpp"
@@ -65,7 +66,8 @@ const JsonKey<Summary> summary_keys[] = {
     {"emitted", "", "disks that came from sources", [](const Summary& s) -> Json { return s.counters.emitted; }},
     {"state_hash", "", "64-bit hash of (id, x, y, vx, vy) of all disks at the end",
      [](const Summary& s) -> Json { return s.state_hash; }},
-    {"version", "", "of Carom", [](const Summary&) -> Json { return CAROM_VERSION; }},
+    {"version", "", "of Carom, with the commit that it was built from",
+     [](const Summary&) -> Json { return build_version(); }},
     {"seed", "", "of the random numbers", [](const Summary& s) -> Json { return s.seed; }},
     {"waiting", "", "disks that are due from sources and find no room",
      [](const Summary& s) -> Json { return s.counters.waiting; }},

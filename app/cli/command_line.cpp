@@ -12,6 +12,7 @@
 #include "app/cli/compare_rule.hpp"
 #include "app/cli/option_complaints.hpp"
 #include "app/cli/option_values.hpp"
+#include "core/base/build_version.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/load/method_choice.hpp"
@@ -301,7 +302,7 @@ Command parse_command_line(int given, const char* const* given_words) {
   const char* const* const argv = checked.data();
   Words words;
   CLI::App app("Carom simulates hard disks in a rectangle.", "carom");
-  app.set_version_flag("--version", "carom " CAROM_VERSION);
+  app.set_version_flag("--version", std::string("carom ") + build_version());
   app.require_subcommand(1);
   CLI::App* const run = app.add_subcommand("run", "run a scene");
   CLI::App* const check = app.add_subcommand("check", "read a scene and say what it would model, and at what cost");
@@ -328,7 +329,7 @@ Command parse_command_line(int given, const char* const* given_words) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
-    return TextRequest{"carom " CAROM_VERSION "\n"};
+    return TextRequest{fmt::format("carom {}\n", build_version())};
   } catch (const CLI::Success&) {
     const CLI::App* const shown = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
     return TextRequest{help_of(app, *shown)};
