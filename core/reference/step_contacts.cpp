@@ -89,7 +89,7 @@ void push_all(const View& d, const State& state, const StepRules& rules, const s
   for (int sweep = 1; sweep < push_sweeps(rules) && any_deep; ++sweep) {
     any_deep = false;
     for (const ContactEvent& e : events) {
-      if (!is_crowded(contacts, e) || !is_deep(d, rules.box, e, shallow_overlap, slack(e))) continue;
+      if (!is_crowded(contacts, e) || !is_deep(d, rules.box, e, overlap_to_push(sweep), slack(e))) continue;
       push_apart(d, rules.box, e, slack(e));
       any_deep = true;
     }

@@ -128,7 +128,7 @@ void push_contacts(const View& d, const StepRules& rules, const Executor& execut
         const IdPair& p = settle.placed[at];
         const ContactEvent e = p.event();
         const double slack = settle.holding[at] != 0 ? slack_of(d, rules, e) : 0.0;
-        if (sweep > 0 && (!is_crowded(lists, p) || !is_deep(d, rules.box, e, shallow_overlap, slack))) continue;
+        if (sweep > 0 && (!is_crowded(lists, p) || !is_deep(d, rules.box, e, overlap_to_push(sweep), slack))) continue;
         if (sweep == 0 && is_wall(e.id2) && slack > 0.0) hold_at_wall(d, rules.box, e, slack);
         push_apart(d, rules.box, e, slack);
         lists.largest[q] = 1.0;
