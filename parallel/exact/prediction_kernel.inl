@@ -1,7 +1,6 @@
 // The kernel, compiled once for every instruction set; CAROM_PREDICTION_KERNELS names the version. Four neighbours at a
 // time, in the compilers' own vector types: on a machine without them the compiler splits them.
 
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
@@ -33,16 +32,16 @@ inline Doubles all(double a) {
 
 // a where truth, else 0.
 inline Doubles where(Longs truth, Doubles a) {
-  return std::bit_cast<Doubles>(truth & std::bit_cast<Longs>(a));
+  return __builtin_bit_cast(Doubles, truth & __builtin_bit_cast(Longs, a));
 }
 
 inline Doubles choose(Longs truth, Doubles a, Doubles b) {
-  return std::bit_cast<Doubles>((truth & std::bit_cast<Longs>(a)) | (~truth & std::bit_cast<Longs>(b)));
+  return __builtin_bit_cast(Doubles, (truth & __builtin_bit_cast(Longs, a)) | (~truth & __builtin_bit_cast(Longs, b)));
 }
 
 inline Doubles root(Doubles v) {
 #if defined(__AVX__)
-  return std::bit_cast<Doubles>(__builtin_ia32_sqrtpd256(v));
+  return __builtin_bit_cast(Doubles, __builtin_ia32_sqrtpd256(v));
 #else
   return Doubles{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 #endif
@@ -50,7 +49,7 @@ inline Doubles root(Doubles v) {
 
 inline Doubles larger(Doubles a, Doubles b) {
 #if defined(__AVX__)
-  return std::bit_cast<Doubles>(__builtin_ia32_maxpd256(a, b));
+  return __builtin_bit_cast(Doubles, __builtin_ia32_maxpd256(a, b));
 #else
   return choose(a > b, a, b);
 #endif
@@ -58,7 +57,7 @@ inline Doubles larger(Doubles a, Doubles b) {
 
 inline Doubles smaller(Doubles a, Doubles b) {
 #if defined(__AVX__)
-  return std::bit_cast<Doubles>(__builtin_ia32_minpd256(a, b));
+  return __builtin_bit_cast(Doubles, __builtin_ia32_minpd256(a, b));
 #else
   return choose(a < b, a, b);
 #endif
@@ -67,7 +66,7 @@ inline Doubles smaller(Doubles a, Doubles b) {
 // Bit k is set where lane k is true.
 inline unsigned bits_of(Longs truth) {
 #if defined(__AVX__)
-  return static_cast<unsigned>(__builtin_ia32_movmskpd256(std::bit_cast<Doubles>(truth)));
+  return static_cast<unsigned>(__builtin_ia32_movmskpd256(__builtin_bit_cast(Doubles, truth)));
 #else
   const Longs weighted = truth & Longs{1, 2, 4, 8};
   return static_cast<unsigned>(weighted[0] | weighted[1] | weighted[2] | weighted[3]);

@@ -2,7 +2,6 @@
 // Vectors of four doubles in the compilers' own vector types: on a machine without them the compiler splits them.
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "parallel/stepping/search_kernel.hpp"
@@ -27,10 +26,11 @@ inline Doubles all(double a) {
   return Doubles{a, a, a, a};
 }
 
-// Bit k is set where lane k is true.
+// Bit k is set where lane k is true. The built-in cast in place of std::bit_cast: without optimisation that is a
+// function of its own, which the versions for several instruction sets, with their ways to pass a vector, would share.
 inline unsigned bits_of(Longs truth) {
 #if defined(__AVX__)
-  return static_cast<unsigned>(__builtin_ia32_movmskpd256(std::bit_cast<Doubles>(truth)));
+  return static_cast<unsigned>(__builtin_ia32_movmskpd256(__builtin_bit_cast(Doubles, truth)));
 #else
   const Longs weighted = truth & Longs{1, 2, 4, 8};
   return static_cast<unsigned>(weighted[0] | weighted[1] | weighted[2] | weighted[3]);
