@@ -184,8 +184,8 @@ inline constexpr double shallow_overlap = 1e-3;
 inline constexpr int most_push_sweeps = 4;
 // In a pile, where whole layers have to make room.
 inline constexpr int most_pile_push_sweeps = 256;
-// A light disk between heavy ones moves them by its share of the mass only, a sweep: after so many sweeps they go on for
-// what is deeper than deep_overlap alone.
+// A light disk between heavy ones moves them by its share of the mass only, a sweep: after so many sweeps they go on
+// for what is deeper than deep_overlap alone.
 inline constexpr int shallow_push_sweeps = 32;
 inline constexpr double deep_overlap = 5e-3;
 inline double overlap_to_push(int sweep) {

@@ -344,20 +344,27 @@ void NeighbourLists::insert_wide(Row& row, std::int32_t offset) {
   last.offset[last.count++] = offset;
 }
 
-// Takes the disk out of the chain of this cell.
-void NeighbourLists::unchain(std::uint32_t i, std::uint32_t key) {
+// Takes the disk out of the chain of this cell. False, without a change, if the link to it is that of a disk stored
+// outside the region, which another thread may read.
+bool NeighbourLists::unchain(std::uint32_t i, std::uint32_t key, const ListRegion& region) {
   std::uint32_t* link = &head_[key];
-  while (*link != i) link = &next_[*link];
-  *link = next_[i];
+  bool holds_link = true;
+  while (*link != i) {
+    holds_link = region.holds(*link);
+    link = &next_[*link];
+  }
+  if (holds_link) *link = next_[i];
+  return holds_link;
 }
 
-// Chains the disk to the cell of this position; false, without a change, if its old cell is outside the region.
+// Chains the disk to the cell of this position; false, without a change, if its old cell or the link to it there is
+// outside the region.
 bool NeighbourLists::move_to_cell_of(const Disks& d, std::uint32_t i, FixedPointPosition position,
                                      const ListRegion& region) {
   if (next_[i] != unchained) {
     const std::uint32_t old_key = cell_of(d, i, listed_at_[i]);
     if (old_key < region.first_key || old_key >= region.last_key) return false;
-    unchain(i, old_key);
+    if (!unchain(i, old_key, region)) return false;
   }
   const std::uint32_t key = cell_of(d, i, position);
   next_[i] = head_[key];

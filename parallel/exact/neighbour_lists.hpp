@@ -220,7 +220,7 @@ class NeighbourLists {
   void insert(std::uint32_t i, std::uint32_t j);
   void insert_wide(Row& row, std::int32_t offset);
   void set_list(std::uint32_t i, std::span<const std::uint32_t> found);
-  void unchain(std::uint32_t i, std::uint32_t key);
+  bool unchain(std::uint32_t i, std::uint32_t key, const ListRegion& region);
 
   EngineMode mode_ = EngineMode::single_queue;
   Domain box_;
