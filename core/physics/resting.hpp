@@ -23,9 +23,9 @@ inline constexpr double lying_rest = 2.0;
 // Overlap that a loaded contact keeps, in units of g dt^2 and at most this share of the sum of radii (of the radius, at
 // a wall). The loads of a step are known to a tolerance; what is left of them moves a contact by a little in each step,
 // and a contact that opened would lose its load and start a tremor. With 2 g dt^2 a silo of fifty layers never came to
-// rest, from 10 on it did; 10^4 disks with radii 1 : 10, in seventy layers, trembled with 16 (kinetic energy as of
-// speeds of 3 g dt) and came to rest with 64.
-inline constexpr double contact_slop = 64.0;
+// rest; from 10 on it did. 64 gives a wide pile of unequal disks more rest, and sets a tall one swinging
+// (docs/experiments.md).
+inline constexpr double contact_slop = 16.0;
 inline constexpr double largest_slop = 5e-3;
 
 // Force on the contact in the step before; 0 if it bore none. loads are in ids_order.
