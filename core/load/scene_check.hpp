@@ -17,7 +17,7 @@ void check_parts(const Scene& scene, const PlaceOfKey& place);
 // box.height are known and positive. Throws InputError. Returns the largest radius that a disk of the scene can have.
 double check_box(const Scene& scene, const PlaceOfKey& place);
 
-// What is no error, but not what somebody may think it is: keys that the scene's method does not use. One line each.
+// What is no error, but may not be what was meant: keys that the scene's method does not use. One line each.
 std::vector<std::string> scene_warnings(const Scene& scene);
 
 }  // namespace carom

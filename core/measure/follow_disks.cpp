@@ -8,7 +8,7 @@ namespace carom {
 namespace {
 
 // In periods. A look is due after an eighth, which leaves the other half of the quarter that displacement.hpp allows
-// for what happens before somebody asks; the speed is asked for as often as the fastest disk comes this far.
+// for what happens between two samples; the speed is asked for as often as the fastest disk comes this far.
 constexpr double look_share = 0.125, longest_share = 0.25, check_share = 1.0 / 64.0;
 // So few disks are asked every time.
 constexpr std::size_t few_disks = 4096;

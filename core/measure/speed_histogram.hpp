@@ -1,4 +1,4 @@
-// How many disks are how fast, to be held against Maxwell and Boltzmann.
+// Histogram of speeds, to compare with the Maxwell-Boltzmann distribution.
 #pragma once
 
 #include <vector>
