@@ -25,6 +25,7 @@ std::vector<std::string_view> option_names(const CLI::App* command, std::vector<
 constexpr const char* launcher_help = R"(The launcher ./carom in the sources has three more:
   test [ctest's arguments]    build and run the tests
   bench                       build and run the benchmarks
+  bench counts [--check]      count the instructions and cache misses of fixed scenes
   packages [SECTION]          only install what cmake/packages.txt lists
 )";
 

@@ -135,15 +135,14 @@ Start wide_radii() {
   return prepared(text, "wide radii", 0.02, 20, 0.005);
 }
 
-Start settled_pile() {
-  constexpr double width = 120.0;
-  constexpr std::size_t copies = 104;
+Start settled_pile(std::size_t tile_disks, std::size_t copies) {
+  const double width = static_cast<double>(tile_disks) / 8.0;
   const std::string text = fmt::format(
       "[box]\nwidth = {:.1f}\nheight = 320.0\nwall_restitution = 0.5\nleft = \"periodic\"\nright = \"periodic\"\n"
       "[physics]\ngravity = 0.5\nrestitution = 0.5\n"
-      "[[disks]]\ncount = 960\npositions = \"random\"\nvelocities = {{ uniform = 2.0 }}\n"
+      "[[disks]]\ncount = {}\npositions = \"random\"\nvelocities = {{ uniform = 2.0 }}\n"
       "radius = {{ uniform = [1.0, 2.5] }}\nmass = {{ from_radius = 1.0 }}\n",
-      width);
+      width, tile_disks);
   // It falls for 36 units of time and then calms down, with long steps; a thousand of B's own follow.
   Start pile = prepared(text, "pile", 0.01, 20'000, 0.002);
   pile.state = repeated(after(pile.scene, std::move(pile.state), 1000), width, copies);

@@ -126,6 +126,20 @@ TEST_F(Launcher, ABuildThatFailsSaysWhy) {
   }
 }
 
+TEST_F(Launcher, CountsAreOfTheProgramBuiltNow) {
+  tool("ninja", "echo \"$*\" >>$ROOT/ninja_asked");
+  fs::create_directories(at("root/bench"));
+  write("root/bench/counts.sh", "echo \"$*\"; exit 3");
+  write("root/cmake/packages.txt", "[build]\ncompiler\n[counts]\nvalgrind\n");
+  EXPECT_THAT(launch("root/carom bench counts --check").err, HasSubstr("could not install: valgrind"));
+  tool("dpkg-query", "echo compiler installed; echo valgrind installed");
+  const Outcome o = launch("root/carom bench counts --check");
+  EXPECT_EQ(o.status, 3) << "the script's";
+  EXPECT_THAT(o.out, EndsWith("/bench/carom_counts " + fs::canonical(at("root")).string() +
+                              "/bench/results/counts.csv --check\n"));
+  EXPECT_THAT(test::text_of(at("root/ninja_asked")), HasSubstr(" carom carom_counts\n"));
+}
+
 TEST_F(Launcher, ItsOwnCommandsHaveHelp) {
   for (const char* const command : {"bench", "packages"}) {
     const Outcome o = launch(std::string("root/carom ") + command + " --help");

@@ -1,0 +1,105 @@
+// The scenes whose instructions and cache misses are counted (bench/counts.sh): started in a state made beforehand and
+// run for two lengths, so that the difference of the two counts is of the steady part alone.
+//   carom_counts scenes                       a line each: name, disks, what the work is counted in
+//   carom_counts compiler                     that built it: counts of another are other counts
+//   carom_counts prepare SCENE FILE           writes the state it starts from, a checkpoint
+//   carom_counts run SCENE FILE short|long    runs it on one thread and prints the work done
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bench/support/bench_scenes.hpp"
+#include "core/base/kernel_set.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/scene/scene_text.hpp"
+#include "core/step/engine.hpp"
+#include "io/checkpoint/checkpoint.hpp"
+#include "parallel/simulation.hpp"
+
+namespace carom::bench {
+namespace {
+
+struct Counted {
+  std::string name;
+  std::size_t disks;
+  const char* work;  // that counts are divided by
+  int short_run;     // steps, or windows of exact; enough for queues and lists to take their shape
+  int long_run;
+  Start (*make)();
+};
+
+// Sorted into cells in one step of a dozen: the long runs of pairwise are several sorts longer than the short ones.
+const std::vector<Counted>& all_counted() {
+  static const std::vector<Counted> all{
+      {"exact_0.7", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.7); }},
+      {"exact_0.5", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.5); }},
+      {"exact_0.2", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.2); }},
+      {"exact_0.5_tiles", 50'000, "collision", 2, 6, [] { return exact_gas(50'000, 0.5); }},
+      {"pairwise_gas", 100'000, "disk and step", 12, 60, [] { return gas(100'000); }},
+      {"pairwise_brownian", 100'000, "disk and step", 2, 14, [] { return gas(100'000, "brownian"); }},
+      {"pairwise_pile", 9'600, "disk and step", 2, 8, [] { return settled_pile(240, 40); }}};
+  return all;
+}
+
+const Counted& counted(const std::string& name) {
+  const auto& all = all_counted();
+  const auto it = std::find_if(all.begin(), all.end(), [&](const Counted& c) { return c.name == name; });
+  if (it == all.end()) throw std::invalid_argument("no scene " + name);
+  return *it;
+}
+
+void prepare(const Counted& scene, const std::string& path) {
+  const Start start = scene.make();
+  if (start.state.disks.size() != scene.disks) throw std::logic_error(scene.name + " has another number of disks");
+  RunRecord record;
+  record.scene_text = resolved_toml(start.scene);
+  write_checkpoint(path, record, start.state);
+}
+
+void run(const Counted& counted, const std::string& path, int steps) {
+  if (kernel_set() == KernelSet::baseline) throw std::runtime_error("counts are of a processor with AVX2");
+  Checkpoint start = read_checkpoint(path);
+  const Scene scene = parse_scene(start.record.scene_text, counted.name, "");
+  const auto engine = make_parallel_engine(scene, std::move(start.state), {1});
+  engine->forget_paths();
+  for (int k = 0; k < steps; ++k) engine->step();
+  const bool exact = scene.run.method == Method::exact;
+  fmt::print("{}\n", exact ? engine->state().counters.collisions : counted.disks * static_cast<std::size_t>(steps));
+}
+
+int act(const std::vector<std::string>& words) {
+  const std::string& command = words.at(0);
+  if (command == "scenes") {
+    for (const Counted& c : all_counted()) fmt::print("{} {} {}\n", c.name, c.disks, c.work);
+    return 0;
+  }
+  if (command == "compiler") {
+    fmt::print("{}\n", CAROM_COMPILER);
+    return 0;
+  }
+  const Counted& scene = counted(words.at(1));
+  if (command == "prepare") {
+    prepare(scene, words.at(2));
+  } else if (command == "run") {
+    run(scene, words.at(2), words.at(3) == "long" ? scene.long_run : scene.short_run);
+  } else {
+    throw std::invalid_argument("no command " + command);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace carom::bench
+
+int main(int argc, char** argv) {
+  try {
+    return carom::bench::act({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "carom_counts: {}\n", error.what());
+    return 1;
+  }
+}
