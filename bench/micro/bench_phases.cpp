@@ -28,6 +28,7 @@ struct Drifted {
   State state;
   CellGrid grid;
   SortedCells cells;
+  CoarsePositions coarse;
 };
 
 const Drifted& drifted_gas(std::size_t disks) {
@@ -41,8 +42,8 @@ const Drifted& drifted_gas(std::size_t disks) {
   d.grid = make_grid(d.start.scene.box, radius, {disks});
   sort_into_cells(d.start.state.disks, d.grid, executor, d.cells);
   d.state = d.start.state;
-  std::vector<double> scratch;
-  drift_blocks(d.state.disks, d.start.scene.box, 0.0, d.start.scene.run.dt, executor, scratch);
+  begin_coarse_positions(d.state.disks, d.grid, d.cells, executor, d.coarse);
+  drift_blocks(d.state.disks, d.start.scene.box, 0.0, d.start.scene.run.dt, d.grid, d.cells, executor, d.coarse);
   return d;
 }
 
@@ -79,10 +80,11 @@ void drift_row(benchmark::State& row, std::size_t disks, int threads) {
   const Drifted& gas = drifted_gas(disks);
   const Executor executor(threads);
   State state = gas.state;
-  std::vector<double> scratch;
+  CoarsePositions coarse = gas.coarse;
   double t = gas.start.scene.run.dt;  // to and fro, so that disks stay where they are on average
   time_work(
-      row, disks, [&] { t = -t; }, [&] { drift_blocks(state.disks, gas.start.scene.box, 0.0, t, executor, scratch); });
+      row, disks, [&] { t = -t; },
+      [&] { drift_blocks(state.disks, gas.start.scene.box, 0.0, t, gas.grid, gas.cells, executor, coarse); });
   row.SetLabel(hash_text(state_hash(state.disks)));
 }
 
@@ -92,10 +94,10 @@ void search_row(benchmark::State& row, std::size_t disks, int threads) {
   FoundPairs found;
   time_work(
       row, disks, [] {},
-      [&] { find_contacts(gas.state.disks, gas.start.scene.box, gas.grid, gas.cells, executor, found); });
+      [&] { find_contacts(gas.state.disks, gas.start.scene.box, gas.grid, gas.cells, gas.coarse, executor, found); });
   std::uint64_t pairs = found.count();
   for (std::size_t b = 0; b < found.used; ++b) {
-    for (const Pair& p : found.buffers[b].pairs) pairs = (pairs * 0x9e3779b97f4a7c15ULL + p.i1) * 31 + p.i2;
+    for (const Pair& p : found.buffers[b]) pairs = (pairs * 0x9e3779b97f4a7c15ULL + p.i1) * 31 + p.i2;
   }
   row.SetLabel(hash_text(pairs));
 }
@@ -105,7 +107,7 @@ void resolve_row(benchmark::State& row, std::size_t disks, int threads) {
   const Executor executor(threads);
   const StepRules rules = rules_for(gas.start.scene, gas.start.scene.run.dt);
   FoundPairs found;
-  find_contacts(gas.state.disks, gas.start.scene.box, gas.grid, gas.cells, executor, found);
+  find_contacts(gas.state.disks, gas.start.scene.box, gas.grid, gas.cells, gas.coarse, executor, found);
   const std::vector<std::vector<ContactEvent>> no_walls;
   ContactLists lists;
   State state;

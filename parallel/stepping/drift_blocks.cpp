@@ -1,11 +1,11 @@
 #include "parallel/stepping/drift_blocks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
-#include "core/physics/advance.hpp"
+#include "parallel/stepping/move_kernel.hpp"
 #include "parallel/stepping/wall_reach.hpp"
+#include "parallel/threads/resize_amply.hpp"
 
 namespace carom {
 
@@ -14,44 +14,48 @@ namespace {
 // Disks a block: four columns of it fit the second-level cache.
 constexpr std::size_t drift_block = 8192;
 
-template <bool gravity, bool periodic_x, bool periodic_y>
-double drift_range(Disks& d, const Domain& box, double g, double t, std::size_t begin, std::size_t end) {
-  double* x = d.x.data();
-  double* y = d.y.data();
-  double* vx = d.vx.data();
-  double* vy = d.vy.data();
+// All disks through the kernel, level by level. Returns the largest squared speed.
+double move_all(MoveInput in, const CellGrid& grid, const SortedCells& cells, const Executor& executor,
+                CoarsePositions& coarse) {
+  const MoveKernel kernel = choose_move_kernel();
+  in.key = cells.key.data();
+  in.position = coarse.position.data();
   double speed2 = 0.0;
-  for (std::size_t i = begin; i < end; ++i) {
-    drift<gravity>(x[i], y[i], vx[i], vy[i], t, g);
-    wrap<periodic_x, periodic_y>(x[i], y[i], box);
-    const double v2 = vx[i] * vx[i] + vy[i] * vy[i];
-    speed2 = v2 > speed2 ? v2 : speed2;
+  coarse.blocks = 0;
+  for (const GridLevel& level : grid.levels) {
+    const LevelRange range = range_of(level, cells);
+    const std::size_t n = range.last - range.first;
+    const std::size_t before = coarse.blocks;
+    coarse.blocks += executor.blocks(n, drift_block);
+    while (coarse.strays.size() < coarse.blocks) {
+      coarse.strays.emplace_back();
+      coarse.strays.back().reserve(drift_block / 64);
+    }
+    assign_amply(coarse.speed2, executor.blocks(n, drift_block), 0.0);
+    executor.for_ranges(n, drift_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+      std::vector<std::uint32_t>& strays = coarse.strays[before + b];
+      strays.clear();
+      coarse.speed2[b] = kernel(in, level, range.first + begin, range.first + end, strays);
+    });
+    for (const double v2 : coarse.speed2) speed2 = std::max(speed2, v2);
   }
+  coarse.current = true;
   return speed2;
-}
-
-using DriftRange = double (*)(Disks&, const Domain&, double, double, std::size_t, std::size_t);
-
-DriftRange choose_drift(const Domain& box, double g) {
-  static constexpr std::array<DriftRange, 8> kernels{drift_range<false, false, false>, drift_range<false, false, true>,
-                                                     drift_range<false, true, false>,  drift_range<false, true, true>,
-                                                     drift_range<true, false, false>,  drift_range<true, false, true>,
-                                                     drift_range<true, true, false>,   drift_range<true, true, true>};
-  return kernels[(g > 0.0 ? 4U : 0U) + (box.periodic_x() ? 2U : 0U) + (box.periodic_y() ? 1U : 0U)];
 }
 
 }  // namespace
 
-double drift_blocks(Disks& d, const Domain& box, double gravity, double t, const Executor& executor,
-                    std::vector<double>& block_speed2) {
-  const DriftRange kernel = choose_drift(box, gravity);
-  block_speed2.resize(executor.blocks(d.size(), drift_block));
-  executor.for_ranges(d.size(), drift_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    block_speed2[b] = kernel(d, box, gravity, t, begin, end);
-  });
-  double largest = 0.0;
-  for (const double v2 : block_speed2) largest = std::max(largest, v2);
-  return largest;
+double drift_blocks(Disks& d, const Domain& box, double gravity, double t, const CellGrid& grid,
+                    const SortedCells& cells, const Executor& executor, CoarsePositions& coarse) {
+  const Motion motion = gravity > 0.0 ? Motion::parabola : Motion::straight;
+  return move_all({d.x.data(), d.y.data(), d.vx.data(), d.vy.data(), nullptr, nullptr, box, motion, t, gravity}, grid,
+                  cells, executor, coarse);
+}
+
+void note_coarse_positions(Disks& d, const Domain& box, const CellGrid& grid, const SortedCells& cells,
+                           const Executor& executor, CoarsePositions& coarse) {
+  move_all({d.x.data(), d.y.data(), d.vx.data(), d.vy.data(), nullptr, nullptr, box, Motion::none, 0.0, 0.0}, grid,
+           cells, executor, coarse);
 }
 
 void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor,

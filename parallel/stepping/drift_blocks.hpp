@@ -6,14 +6,22 @@
 #include "core/disks/disks.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/resolve.hpp"
+#include "parallel/cells/cell_grid.hpp"
+#include "parallel/cells/counting_sort.hpp"
+#include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
 
-// Drifts every disk by t (negative: back) and wraps centres across periodic sides. Returns the largest squared speed
-// after it; block_speed2 is scratch. Each disk by itself: no order can matter.
-double drift_blocks(Disks& disks, const Domain& box, double gravity, double t, const Executor& executor,
-                    std::vector<double>& block_speed2);
+// Drifts every disk by t (negative: back) and wraps centres across periodic sides; takes down coarse positions and
+// strays. Returns the largest squared speed after it. Each disk by itself: no order can matter.
+// Preconditions: the disks are stored in the order of cells, and begin_coarse_positions was called since.
+double drift_blocks(Disks& disks, const Domain& box, double gravity, double t, const CellGrid& grid,
+                    const SortedCells& cells, const Executor& executor, CoarsePositions& coarse);
+
+// Takes down coarse positions and strays of disks that have been moved otherwise; changes none. Same preconditions.
+void note_coarse_positions(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells,
+                           const Executor& executor, CoarsePositions& coarse);
 
 // The wall contacts of all disks, buffer by buffer in storage order; empty buffers without walls.
 void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor,

@@ -59,24 +59,23 @@ double excursion(const SearchInput& in, const GridLevel& level, std::size_t i) {
 
 // Near periodic sides: cell by cell with nearest images. The cells to the right and in the row above, round the corner.
 void search_border(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin, std::size_t end,
-                   BlockPairs& found) {
+                   std::vector<Pair>& pairs) {
   const bool px = in.box.periodic_x();
   const std::uint32_t row_key = level.first_key + row * level.stride;
   const bool has_above = level.rows > 1 && (row + 1 < level.rows || in.box.periodic_y());
   const std::uint32_t above_key = level.first_key + (row + 1 < level.rows ? row + 1 : 0) * level.stride;
   for (std::size_t i = begin; i < end; ++i) {
-    if (excursion(in, level, i) > level.margin) found.strays.push_back(static_cast<std::uint32_t>(i));
     const std::uint32_t column = in.key[i] - row_key;
-    test_run(in, i, static_cast<std::uint32_t>(i + 1), in.start[in.key[i] + 1], found.pairs);
+    test_run(in, i, static_cast<std::uint32_t>(i + 1), in.start[in.key[i] + 1], pairs);
     if (level.columns > 1 && (column + 1 < level.columns || px)) {
       const std::uint32_t right = row_key + (column + 1 < level.columns ? column + 1 : 0);
-      test_run(in, i, in.start[right], in.start[right + 1], found.pairs);
+      test_run(in, i, in.start[right], in.start[right + 1], pairs);
     }
     if (!has_above) continue;
     const Columns around = columns_around(column, level, px);
     for (std::size_t k = 0; k < around.count; ++k) {
       const std::uint32_t cell = above_key + around.at[k];
-      test_run(in, i, in.start[cell], in.start[cell + 1], found.pairs);
+      test_run(in, i, in.start[cell], in.start[cell + 1], pairs);
     }
   }
 }
@@ -85,7 +84,7 @@ void search_border(const SearchInput& in, const GridLevel& level, std::uint32_t 
 // the interior kernel. A disk that was sorted into the first column may have wrapped to the far side since, so columns
 // that look at the outermost ones count as border, rows likewise.
 void search_row(const SearchInput& in, const GridLevel& level, InteriorKernel interior, std::uint32_t row,
-                std::size_t begin, std::size_t end, BlockPairs& found) {
+                std::size_t begin, std::size_t end, std::vector<Pair>& pairs) {
   const bool border_row = in.box.periodic_y() && (row == 0 || row + 3 > level.rows);
   std::size_t low = begin;
   std::size_t high = end;
@@ -96,17 +95,17 @@ void search_row(const SearchInput& in, const GridLevel& level, InteriorKernel in
     low = std::clamp<std::size_t>(in.start[row_key + 2], begin, end);
     high = std::clamp<std::size_t>(in.start[row_key + level.columns - 2], low, end);
   }
-  search_border(in, level, row, begin, low, found);
-  interior(in, level, row, low, high, found);
-  search_border(in, level, row, high, end, found);
+  search_border(in, level, row, begin, low, pairs);
+  interior(in, level, low, high, pairs);
+  search_border(in, level, row, high, end, pairs);
 }
 
 void search_level(const SearchInput& in, const GridLevel& level, InteriorKernel interior, std::size_t begin,
-                  std::size_t end, BlockPairs& found) {
+                  std::size_t end, std::vector<Pair>& pairs) {
   while (begin < end) {
     const std::uint32_t row = (in.key[begin] - level.first_key) / level.stride;
     const std::size_t row_end = std::min<std::size_t>(end, in.start[level.first_key + (row + 1) * level.stride]);
-    search_row(in, level, interior, row, begin, row_end, found);
+    search_row(in, level, interior, row, begin, row_end, pairs);
     begin = row_end;
   }
 }
@@ -125,13 +124,9 @@ std::size_t more_buffers(FoundPairs& found, std::size_t blocks) {
   while (found.buffers.size() < found.used) {
     // Room for the contacts of a dense fluid, so that a later, busier step need not ask for more.
     found.buffers.emplace_back();
-    found.buffers.back().pairs.reserve(search_block / 16);
-    found.buffers.back().strays.reserve(search_block / 64);
+    found.buffers.back().reserve(search_block / 16);
   }
-  for (std::size_t b = first; b < found.used; ++b) {
-    found.buffers[b].pairs.clear();
-    found.buffers[b].strays.clear();
-  }
+  for (std::size_t b = first; b < found.used; ++b) found.buffers[b].clear();
   return first;
 }
 
@@ -158,10 +153,11 @@ void search_stray(const SearchInput& in, const CellGrid& grid, double furthest, 
 }
 
 // What the rows found with strays is neither complete nor needed: it goes, and each stray is searched for by itself.
-void search_strays(const SearchInput& in, const CellGrid& grid, const Executor& executor, FoundPairs& found) {
+void search_strays(const SearchInput& in, const CellGrid& grid, const CoarsePositions& coarse, const Executor& executor,
+                   FoundPairs& found) {
   found.strays.clear();
-  for (std::size_t b = 0; b < found.used; ++b) {
-    found.strays.insert(found.strays.end(), found.buffers[b].strays.begin(), found.buffers[b].strays.end());
+  for (std::size_t b = 0; b < coarse.blocks; ++b) {
+    found.strays.insert(found.strays.end(), coarse.strays[b].begin(), coarse.strays[b].end());
   }
   found.furthest = 0.0;
   if (found.strays.empty()) return;
@@ -172,13 +168,12 @@ void search_strays(const SearchInput& in, const CellGrid& grid, const Executor& 
     furthest = std::max(furthest, excursion(in, level_of(in, grid, i), i));
   }
   executor.run(found.used, [&](std::size_t b) {
-    std::erase_if(found.buffers[b].pairs,
-                  [&](const Pair& p) { return (found.strayed[p.i1] | found.strayed[p.i2]) != 0; });
+    std::erase_if(found.buffers[b], [&](const Pair& p) { return (found.strayed[p.i1] | found.strayed[p.i2]) != 0; });
   });
   const std::size_t first = more_buffers(found, executor.blocks(found.strays.size(), stray_block));
   executor.for_ranges(found.strays.size(), stray_block, [&](std::size_t b, std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k) {
-      search_stray(in, grid, furthest, found.strays[k], found.strayed, found.buffers[first + b].pairs);
+      search_stray(in, grid, furthest, found.strays[k], found.strayed, found.buffers[first + b]);
     }
   });
   for (const std::uint32_t i : found.strays) found.strayed[i] = 0;
@@ -187,11 +182,13 @@ void search_strays(const SearchInput& in, const CellGrid& grid, const Executor& 
 }  // namespace
 
 std::size_t find_contacts(const Disks& d, const Domain& box, const CellGrid& grid, const SortedCells& cells,
-                          const Executor& executor, FoundPairs& found) {
+                          const CoarsePositions& coarse, const Executor& executor, FoundPairs& found) {
   const SearchInput in{d.x.data(),
                        d.y.data(),
                        d.radius.empty() ? nullptr : d.radius.data(),
                        d.common_radius,
+                       coarse.position.data(),
+                       coarse.radius.empty() ? nullptr : coarse.radius.data(),
                        cells.key.data(),
                        cells.start.data(),
                        d.size(),
@@ -211,12 +208,11 @@ std::size_t find_contacts(const Disks& d, const Domain& box, const CellGrid& gri
     const std::size_t across = more_buffers(found, executor.blocks(n, cross_block));
     executor.for_ranges(n, cross_block, [&](std::size_t b, std::size_t from, std::size_t to) {
       for (std::size_t i = begin + from; i < begin + to; ++i) {
-        for (std::size_t s = k + 1; s < levels; ++s)
-          search_across(in, grid.levels[s], i, found.buffers[across + b].pairs);
+        for (std::size_t s = k + 1; s < levels; ++s) search_across(in, grid.levels[s], i, found.buffers[across + b]);
       }
     });
   }
-  search_strays(in, grid, executor, found);
+  search_strays(in, grid, coarse, executor, found);
   return found.strays.size();
 }
 

@@ -11,20 +11,16 @@
 #include "core/physics/contact_event.hpp"
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/cells/counting_sort.hpp"
+#include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
 
-// What one block of the search found, in order of storage.
-struct BlockPairs {
-  std::vector<Pair> pairs;
-  std::vector<std::uint32_t> strays;  // disks that have left their cell by more than the margin
-};
-
-// One buffer for each block: nothing is dropped because a buffer was full, and the order of the pairs depends on the
-// blocks alone. Pairs name the disks in order of storage; ids are not looked at.
+// What each block of the search found, in order of storage. One buffer for each block: nothing is dropped because a
+// buffer was full, and the order of the pairs depends on the blocks alone. Pairs name the disks in order of storage;
+// ids are not looked at.
 struct FoundPairs {
-  std::vector<BlockPairs> buffers;
+  std::vector<std::vector<Pair>> buffers;
   std::size_t used = 0;   // buffers of this search
   double furthest = 0.0;  // that a stray has left its cell by; length
   // Of the strays' own search.
@@ -33,7 +29,7 @@ struct FoundPairs {
 
   std::size_t count() const {
     std::size_t sum = 0;
-    for (std::size_t b = 0; b < used; ++b) sum += buffers[b].pairs.size();
+    for (std::size_t b = 0; b < used; ++b) sum += buffers[b].size();
     return sum;
   }
 };
@@ -44,10 +40,10 @@ inline Pair in_id_order(const DiskId* id, Pair p) {
 }
 
 // Finds the pairs of disks that overlap or touch now; disks moved since they were sorted into cells. Rows of cells find
-// the pairs of all disks that are still within the margin of their cells; every stray, found out by looking at each
-// disk's place, is then searched for by itself, as far as any stray has gone. So the result is complete however old the
-// cells are; they only become slow. Returns the number of strays.
+// the pairs of all disks that are still within the margin of their cells; every stray is searched for by itself, as far
+// as any stray has gone. So the result is complete however old the cells are; they only become slow. Returns the number
+// of strays. Precondition: coarse is current.
 std::size_t find_contacts(const Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells,
-                          const Executor& executor, FoundPairs& found);
+                          const CoarsePositions& coarse, const Executor& executor, FoundPairs& found);
 
 }  // namespace carom

@@ -39,7 +39,7 @@ void count_found(const FoundPairs& found, const std::vector<std::vector<ContactE
                  const Executor& executor, ContactLists& lists) {
   lists.contacts.resize(disks, 0);
   executor.run(found.used, [&](std::size_t b) {
-    for (const Pair& p : found.buffers[b].pairs) {
+    for (const Pair& p : found.buffers[b]) {
       count_contact_shared(lists.contacts[p.i1]);
       count_contact_shared(lists.contacts[p.i2]);
     }
@@ -113,8 +113,7 @@ double resolve_alone(const View& d, const StepRules& rules, const FoundPairs& fo
   const std::size_t blocks = found.used + walls.size();
   begin_blocks(blocks, lists);
   const WallReach reach(rules.box);
-  executor.run(found.used,
-               [&](std::size_t b) { resolve_alone_pairs(d, rules, reach, found.buffers[b].pairs, b, lists); });
+  executor.run(found.used, [&](std::size_t b) { resolve_alone_pairs(d, rules, reach, found.buffers[b], b, lists); });
   executor.run(walls.size(),
                [&](std::size_t w) { resolve_alone_walls(d, rules, reach, walls[w], found.used + w, lists); });
   add_seen(lists);
@@ -234,12 +233,12 @@ void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found
   std::size_t place = 0;
   for (std::size_t b = 0; b < found.used; ++b) {
     lists.offsets.push_back(place);
-    place += found.buffers[b].pairs.size();
+    place += found.buffers[b].size();
   }
   with_view(disks, [&](const auto& d) {
     executor.run(found.used, [&](std::size_t b) {
       std::size_t at = lists.offsets[b];
-      for (const Pair& found_pair : found.buffers[b].pairs) {
+      for (const Pair& found_pair : found.buffers[b]) {
         const Pair p = in_id_order(d.id, found_pair);
         lists.events[at++] = pair_event(d, rules, p.i1, p.i2);
       }

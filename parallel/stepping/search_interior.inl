@@ -1,138 +1,217 @@
 // The interior search kernel, compiled once for every instruction set; CAROM_INTERIOR names the version.
-// Vectors of four doubles in the compilers' own vector types: on a machine without them the compiler splits them.
 
-#include <algorithm>
-#include <cmath>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
 
+#include "core/physics/disk_pair.hpp"
 #include "parallel/stepping/search_kernel.hpp"
 
 namespace carom {
 
 namespace {
 
-constexpr std::uint32_t lanes = 4;
-// Disks by which the row above is asked for before it is read: it comes from memory, the own row is still in the cache.
-constexpr std::size_t prefetch_ahead = 256;
-using Doubles = double __attribute__((vector_size(32)));
-using Longs = long long __attribute__((vector_size(32)));
+constexpr std::uint32_t lanes = coarse_lanes;
 
-inline Doubles load(const double* p) {
-  Doubles v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
+// Eight coarse positions or radii, or eight squared distances: x and y of 16 bits side by side, or one number of 32.
+#if defined(__AVX2__)
+
+struct Eight {
+  __m256i v;
+};
+inline Eight load(const std::uint32_t* p) {
+  return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))};
+}
+inline Eight all(std::uint32_t a) {
+  return {_mm256_set1_epi32(static_cast<int>(a))};
+}
+inline Eight difference(Eight a, Eight b) {
+  return {_mm256_sub_epi16(a.v, b.v)};
+}
+inline Eight sum(Eight a, Eight b) {
+  return {_mm256_add_epi16(a.v, b.v)};
+}
+// x x + y y.
+inline Eight squared(Eight a) {
+  return {_mm256_madd_epi16(a.v, a.v)};
+}
+// All bits of the lanes in which a > b.
+inline Eight exceeds(Eight a, Eight b) {
+  return {_mm256_cmpgt_epi32(a.v, b.v)};
+}
+inline Eight either(Eight a, Eight b) {
+  return {_mm256_or_si256(a.v, b.v)};
+}
+inline unsigned bits_of(Eight truth) {
+  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(truth.v)));
 }
 
-inline Doubles all(double a) {
-  return Doubles{a, a, a, a};
+#elif defined(__SSE2__)
+
+struct Eight {
+  __m128i low, high;
+};
+inline Eight load(const std::uint32_t* p) {
+  return {_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)),
+          _mm_loadu_si128(reinterpret_cast<const __m128i*>(p + 4))};
+}
+inline Eight all(std::uint32_t a) {
+  const __m128i v = _mm_set1_epi32(static_cast<int>(a));
+  return {v, v};
+}
+inline Eight difference(Eight a, Eight b) {
+  return {_mm_sub_epi16(a.low, b.low), _mm_sub_epi16(a.high, b.high)};
+}
+inline Eight sum(Eight a, Eight b) {
+  return {_mm_add_epi16(a.low, b.low), _mm_add_epi16(a.high, b.high)};
+}
+inline Eight squared(Eight a) {
+  return {_mm_madd_epi16(a.low, a.low), _mm_madd_epi16(a.high, a.high)};
+}
+inline Eight exceeds(Eight a, Eight b) {
+  return {_mm_cmpgt_epi32(a.low, b.low), _mm_cmpgt_epi32(a.high, b.high)};
+}
+inline Eight either(Eight a, Eight b) {
+  return {_mm_or_si128(a.low, b.low), _mm_or_si128(a.high, b.high)};
+}
+inline unsigned bits_of(Eight truth) {
+  return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(truth.low))) |
+         static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(truth.high))) << 4U;
 }
 
-// Bit k is set where lane k is true. The built-in cast in place of std::bit_cast: without optimisation that is a
-// function of its own, which the versions for several instruction sets, with their ways to pass a vector, would share.
-inline unsigned bits_of(Longs truth) {
-#if defined(__AVX__)
-  return static_cast<unsigned>(__builtin_ia32_movmskpd256(__builtin_bit_cast(Doubles, truth)));
 #else
-  const Longs weighted = truth & Longs{1, 2, 4, 8};
-  return static_cast<unsigned>(weighted[0] | weighted[1] | weighted[2] | weighted[3]);
+
+// Sums of two squares of 16 bits fit into 32 without sign.
+struct Eight {
+  std::uint32_t v[lanes];
+};
+template <class Operation>
+inline Eight lane_by_lane(Operation&& operation) {
+  Eight result;
+  for (std::uint32_t k = 0; k < lanes; ++k) result.v[k] = operation(k);
+  return result;
+}
+inline Eight load(const std::uint32_t* p) {
+  return lane_by_lane([&](std::uint32_t k) { return p[k]; });
+}
+inline Eight all(std::uint32_t a) {
+  return lane_by_lane([&](std::uint32_t) { return a; });
+}
+inline Eight difference(Eight a, Eight b) {
+  return lane_by_lane(
+      [&](std::uint32_t k) { return ((a.v[k] - b.v[k]) & 0xffffU) | (((a.v[k] >> 16) - (b.v[k] >> 16)) << 16); });
+}
+inline Eight sum(Eight a, Eight b) {
+  return lane_by_lane(
+      [&](std::uint32_t k) { return ((a.v[k] + b.v[k]) & 0xffffU) | (((a.v[k] >> 16) + (b.v[k] >> 16)) << 16); });
+}
+inline Eight squared(Eight a) {
+  return lane_by_lane([&](std::uint32_t k) {
+    const std::int32_t x = static_cast<std::int16_t>(a.v[k]);
+    const std::int32_t y = static_cast<std::int16_t>(a.v[k] >> 16);
+    return static_cast<std::uint32_t>(x * x) + static_cast<std::uint32_t>(y * y);
+  });
+}
+inline Eight exceeds(Eight a, Eight b) {
+  return lane_by_lane([&](std::uint32_t k) { return a.v[k] > b.v[k] ? ~0U : 0U; });
+}
+inline Eight either(Eight a, Eight b) {
+  return lane_by_lane([&](std::uint32_t k) { return a.v[k] | b.v[k]; });
+}
+inline unsigned bits_of(Eight truth) {
+  unsigned bits = 0;
+  for (std::uint32_t k = 0; k < lanes; ++k) bits |= (truth.v[k] & 1U) << k;
+  return bits;
+}
+
 #endif
-}
 
-// Which of the disks first .. first + 3 touch disk i; lanes at and beyond `count` are false. touches() of
-// core/physics/disk_pair.hpp with the same operations. Precondition: first + 3 < n.
+// The coarse columns, and what the disks of a level are tested against.
 template <bool own_radius>
-inline unsigned touching(const SearchInput& in, double x, double y, double r, std::uint32_t first,
-                         std::uint32_t count) {
-  const Doubles dx = load(in.x + first) - all(x);
-  const Doubles dy = load(in.y + first) - all(y);
-  const Doubles contact_distance = own_radius ? load(in.radius + first) + all(r) : all(r + r);
-  const Longs near = dx * dx + dy * dy <= contact_distance * contact_distance;
-  const auto c = static_cast<long long>(count);
-  const Longs inside = Longs{0, 1, 2, 3} < Longs{c, c, c, c};
-  return bits_of(near & inside);
-}
+class CoarseTest {
+ public:
+  CoarseTest(const SearchInput& in, const GridLevel& level)
+      : position_(in.position),
+        radius_(in.coarse_radius),
+        contact2_(all(coarse_contact2(in.common_radius + in.common_radius, level))) {}
 
-inline void add_pair(std::size_t i, std::size_t j, std::vector<Pair>& pairs) {
-  pairs.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
-}
+  void set_disk(std::size_t i) {
+    own_position_ = all(position_[i]);
+    if constexpr (own_radius) own_reach_ = all(radius_[i] + coarse_radius_error);
+  }
 
-inline void add_hits(std::size_t i, std::uint32_t first, unsigned hits, std::vector<Pair>& pairs) {
-  for (; hits != 0; hits &= hits - 1) add_pair(i, first + static_cast<unsigned>(__builtin_ctz(hits)), pairs);
-}
+  // Which of the disks first .. first + 7 may touch the disk that was set.
+  Eight may_touch(std::size_t first) const {
+    const Eight distance2 = squared(difference(own_position_, load(position_ + first)));
+    if constexpr (own_radius) return exceeds(squared(sum(own_reach_, load(radius_ + first))), distance2);
+    return exceeds(contact2_, distance2);
+  }
 
-// A run of any length, to its end.
+ private:
+  const std::uint32_t* position_;
+  const std::uint32_t* radius_;
+  Eight contact2_;      // equal radii: disks as far apart do not touch
+  Eight own_position_;  // of the disk that was set
+  Eight own_reach_;     // unequal radii: its own and the error
+};
+
+// Disk i and those of [first, last) that the coarse test lets through, in double precision.
 template <bool own_radius>
-void scan_run(const SearchInput& in, std::size_t i, double r, std::uint32_t first, std::uint32_t last,
-              std::vector<Pair>& pairs) {
+void test_run(const SearchInput& in, const CoarseTest<own_radius>& coarse, std::size_t i, std::uint32_t first,
+              std::uint32_t last, std::vector<Pair>& pairs) {
+  const double r = own_radius ? in.radius[i] : in.common_radius;
   for (; first < last; first += lanes) {
-    if (first + lanes <= in.n) {
-      add_hits(i, first, touching<own_radius>(in, in.x[i], in.y[i], r, first, last - first), pairs);
-      continue;
-    }
-    for (std::uint32_t j = first; j < last; ++j) {
+    for (unsigned hits = bits_of(coarse.may_touch(first)); hits != 0; hits &= hits - 1) {
+      const std::uint32_t j = first + static_cast<unsigned>(__builtin_ctz(hits));
+      if (j >= last) break;
       const double dx = in.x[j] - in.x[i];
       const double dy = in.y[j] - in.y[i];
-      const double contact_distance = (own_radius ? in.radius[j] : r) + r;
-      if (dx * dx + dy * dy <= contact_distance * contact_distance) add_pair(i, j, pairs);
+      if (!touches(dx * dx + dy * dy, (own_radius ? in.radius[j] : r) + r)) continue;
+      pairs.push_back({static_cast<std::uint32_t>(i), j});
     }
   }
 }
 
+// Disk i against both runs. Few disks get here: not inlined, so that the loop over all of them keeps its registers.
 template <bool own_radius>
-void search_row(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin, std::size_t end,
-                BlockPairs& found) {
-  const std::uint32_t row_key = level.first_key + row * level.stride;
-  const double middle = (row + 0.5) * level.cell_height;
-  const double far_x = 0.5 * level.cell_width + level.margin;
-  const double far_y = 0.5 * level.cell_height + level.margin;
-  std::vector<Pair>& pairs = found.pairs;
+[[gnu::noinline]] void test_disk(const SearchInput& in, const GridLevel& level, std::size_t i,
+                                 std::vector<Pair>& pairs) {
+  CoarseTest<own_radius> coarse(in, level);
+  coarse.set_disk(i);
+  const std::uint32_t* const start = in.start + in.key[i];
+  test_run(in, coarse, i, static_cast<std::uint32_t>(i + 1), start[2], pairs);
+  test_run(in, coarse, i, start[level.stride - 1], start[level.stride + 2], pairs);
+}
+
+template <bool own_radius>
+void search_row(const SearchInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
+                std::vector<Pair>& pairs) {
+  const std::uint32_t* const key = in.key;
+  const std::uint32_t* const cells = in.start;
+  const std::uint32_t* const cells_above = in.start + level.stride - 1;
+  CoarseTest<own_radius> coarse(in, level);
   for (std::size_t i = begin; i < end; ++i) {
-    const std::uint32_t key = in.key[i];
-    const double x = in.x[i];
-    const double y = in.y[i];
-    const double r = own_radius ? in.radius[i] : in.common_radius;
-    // What lies beyond the box belongs to the nearest cell however far out it is: only the way along the box counts.
-    const double centre = (static_cast<int>(key - row_key) + 0.5) * level.cell_width;
-    const double off_x = std::abs(std::min(std::max(x, 0.0), in.box.width) - centre);
-    const double off_y = std::abs(std::min(std::max(y, 0.0), in.box.height) - middle);
-    if ((off_x > far_x) | (off_y > far_y)) [[unlikely]]
-      found.strays.push_back(static_cast<std::uint32_t>(i));
-    const auto own = static_cast<std::uint32_t>(i + 1);
-    const std::uint32_t own_end = in.start[key + 2];
-    const std::uint32_t above = in.start[key + level.stride - 1];
-    const std::uint32_t above_end = in.start[key + level.stride + 2];
-    __builtin_prefetch(in.x + above + prefetch_ahead);
-    __builtin_prefetch(in.y + above + prefetch_ahead);
-    if (above + 2 * lanes <= in.n) [[likely]] {
-      // The usual case without a loop: up to four disks in the own row, up to eight above.
-      const unsigned hits_own = touching<own_radius>(in, x, y, r, own, own_end - own);
-      const unsigned hits_above = touching<own_radius>(in, x, y, r, above, above_end - above);
-      const std::uint32_t second = above + lanes;
-      const unsigned hits_second =
-          touching<own_radius>(in, x, y, r, second, above_end > second ? above_end - second : 0);
-      if ((hits_own | hits_above | hits_second) != 0) [[unlikely]] {
-        add_hits(i, own, hits_own, pairs);
-        add_hits(i, above, hits_above, pairs);
-        add_hits(i, second, hits_second, pairs);
-      }
-      if (own_end > own + lanes) [[unlikely]]
-        scan_run<own_radius>(in, i, r, own + lanes, own_end, pairs);
-      if (above_end > second + lanes) [[unlikely]]
-        scan_run<own_radius>(in, i, r, second + lanes, above_end, pairs);
-    } else {
-      scan_run<own_radius>(in, i, r, own, own_end, pairs);
-      scan_run<own_radius>(in, i, r, above, above_end, pairs);
-    }
+    const std::size_t cell = key[i];
+    const std::size_t own = i + 1;
+    const std::size_t own_end = cells[cell + 2];
+    const std::size_t above = cells_above[cell];
+    const std::size_t above_end = cells_above[cell + 3];
+    coarse.set_disk(i);
+    // Mostly neither run has more than eight disks, and none of them touches.
+    const Eight near = either(coarse.may_touch(own), coarse.may_touch(above));
+    if (bits_of(near) != 0 || own_end > own + lanes || above_end > above + lanes) [[unlikely]]
+      test_disk<own_radius>(in, level, i, pairs);
   }
 }
 
 }  // namespace
 
-void CAROM_INTERIOR(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
-                    std::size_t end, BlockPairs& found) {
+void CAROM_INTERIOR(const SearchInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
+                    std::vector<Pair>& pairs) {
   if (in.radius == nullptr) {
-    search_row<false>(in, level, row, begin, end, found);
+    search_row<false>(in, level, begin, end, pairs);
   } else {
-    search_row<true>(in, level, row, begin, end, found);
+    search_row<true>(in, level, begin, end, pairs);
   }
 }
 

@@ -15,6 +15,8 @@ struct SearchInput {
   const double* y;
   const double* radius;  // null: common_radius
   double common_radius;
+  const std::uint32_t* position;       // coarse (coarse_positions.hpp)
+  const std::uint32_t* coarse_radius;  // null: common_radius
   const std::uint32_t* key;
   const std::uint32_t* start;
   std::size_t n;  // all disks
@@ -22,15 +24,15 @@ struct SearchInput {
 };
 
 // Disks [begin, end) of one row of one level, all away from periodic sides, against the rest of their own row and the
-// row above: two contiguous runs of disks, tested by vectors that ask for what the scalar formula asks, with the same
-// operations. Appends the pairs, and the disks that have left their cell by more than the level's margin.
-using InteriorKernel = void (*)(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
-                                std::size_t end, BlockPairs& found);
+// row above: two contiguous runs of disks. Coarse positions are tested by vectors, what may touch by the scalar
+// formula. Appends the pairs.
+using InteriorKernel = void (*)(const SearchInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
+                                std::vector<Pair>& pairs);
 
-void search_interior_baseline(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
-                              std::size_t end, BlockPairs& found);
-void search_interior_avx2(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin,
-                          std::size_t end, BlockPairs& found);
+void search_interior_baseline(const SearchInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
+                              std::vector<Pair>& pairs);
+void search_interior_avx2(const SearchInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
+                          std::vector<Pair>& pairs);
 
 // The best version for the processor at hand; all give the same pairs in the same order.
 InteriorKernel choose_interior_kernel();

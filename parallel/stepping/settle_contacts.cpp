@@ -24,7 +24,7 @@ void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector
   std::size_t total = 0;
   for (std::size_t b = 0; b < found.used; ++b) {
     lists.offsets.push_back(total);
-    total += found.buffers[b].pairs.size();
+    total += found.buffers[b].size();
   }
   std::vector<IdPair>& pairs = lists.settle.pairs.found;
   std::size_t place = total;
@@ -40,7 +40,7 @@ void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector
   };
   executor.run(found.used, [&](std::size_t b) {
     std::size_t at = lists.offsets[b];
-    for (const Pair& found_pair : found.buffers[b].pairs) {
+    for (const Pair& found_pair : found.buffers[b]) {
       const Pair p = in_id_order(disks.id.data(), found_pair);
       pairs[at++] = {id_key(disks.id[p.i1], disks.id[p.i2]), p.i1, p.i2};
       count(p.i1);

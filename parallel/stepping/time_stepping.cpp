@@ -142,13 +142,16 @@ void TimeStepping::sort_now() {
   }
   make_grid(scene_.box, largest, count, grid_);
   sort_into_cells(state_.disks, grid_, executor_, cells_);
+  begin_coarse_positions(state_.disks, grid_, cells_, executor_, coarse_);
   cells_valid_ = true;
   strays_ = 0;
 }
 
 void TimeStepping::drift(double t) {
   const PhaseTimer timer(times_, "drift");
-  speed2_ = drift_blocks(state_.disks, scene_.box, scene_.physics.gravity, t, executor_, block_values_);
+  speed2_ = 0.0;
+  if (!state_.disks.empty())
+    speed2_ = drift_blocks(state_.disks, scene_.box, scene_.physics.gravity, t, grid_, cells_, executor_, coarse_);
   speed2_known_ = true;
 }
 
@@ -157,7 +160,11 @@ void TimeStepping::search(const StepRules& rules) {
     const PhaseTimer timer(times_, "search");
     pairs_.used = 0;
     strays_ = 0;
-    if (!state_.disks.empty()) strays_ = find_contacts(state_.disks, scene_.box, grid_, cells_, executor_, pairs_);
+    if (!state_.disks.empty()) {
+      if (!coarse_.current) note_coarse_positions(state_.disks, scene_.box, grid_, cells_, executor_, coarse_);
+      strays_ = find_contacts(state_.disks, scene_.box, grid_, cells_, coarse_, executor_, pairs_);
+      coarse_.current = false;  // what was found will be moved
+    }
   }
   if (!rules.box.has(SideKind::wall)) return;
   const PhaseTimer timer(times_, "walls");

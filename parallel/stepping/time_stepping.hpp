@@ -8,6 +8,7 @@
 #include "core/step/step_start.hpp"
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/cells/counting_sort.hpp"
+#include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/stepping/displaced_disks.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 #include "parallel/stepping/resolve_contacts.hpp"
@@ -56,6 +57,7 @@ class TimeStepping : public Engine {
 
   CellGrid grid_;
   SortedCells cells_;
+  CoarsePositions coarse_;
   FoundPairs pairs_;
   std::vector<std::vector<ContactEvent>> walls_;
   DisplacedDisks displaced_;

@@ -6,6 +6,7 @@
 
 #include "core/base/random.hpp"
 #include "core/reference/pair_search.hpp"
+#include "parallel/stepping/drift_blocks.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 #include "tests/support/disks_by_hand.hpp"
 
@@ -52,12 +53,15 @@ Searched search(Disks d, const Domain& box, double moved, int threads, std::size
     if (box.periodic_x()) d.x[i] = wrap(d.x[i], box.width);
     if (box.periodic_y()) d.y[i] = wrap(d.y[i], box.height);
   }
+  CoarsePositions coarse;
+  begin_coarse_positions(d, grid, cells, executor, coarse);
+  note_coarse_positions(d, box, grid, cells, executor, coarse);
   FoundPairs found;
   Searched result;
-  result.strays = find_contacts(d, box, grid, cells, executor, found);
+  result.strays = find_contacts(d, box, grid, cells, coarse, executor, found);
   std::vector<Pair> pairs;
   for (std::size_t b = 0; b < found.used; ++b) {
-    pairs.insert(pairs.end(), found.buffers[b].pairs.begin(), found.buffers[b].pairs.end());
+    pairs.insert(pairs.end(), found.buffers[b].begin(), found.buffers[b].end());
   }
   result.pairs = as_ids(pairs, d);
   if (at_search != nullptr) *at_search = d;
@@ -116,6 +120,26 @@ TEST_P(ContactSearch, FindsPairsOnEdgesAndCorners) {
     for (int j = 0; j < 12; ++j) append(d, {i * 1.0, j * 1.0, 0, 0, 0.5, 1.0, id++});
   }
   expect_all_pairs(d, box, 0.0);
+}
+
+// The search's positions are rounded to a few thousandths of a diameter.
+TEST_P(ContactSearch, FindsPairsThatOnlyJustTouch) {
+  const Domain box = box_of(400.0, 320.0, (GetParam() & 1) != 0, (GetParam() & 2) != 0);
+  for (const double ratio : {1.0, 1.5}) {
+    Disks d;
+    for (DiskId id = 0; id < 8000; id += 2) {
+      const TwoUniforms place = uniforms(11, Stream::position, id, 0);
+      const TwoUniforms other = uniforms(11, Stream::radius, id, 0);
+      const double radius = 0.5 * std::pow(ratio, other.b);
+      const double x = 5.0 * (id / 2 % 80) + 1.0 + 2.0 * place.a;
+      const double y = 5.0 * (id / 160) + 1.0 + 2.0 * place.b;
+      const double apart = (0.5 + radius) * (1.0 - 1e-12);
+      append(d, {x, y, 0, 0, 0.5, 1.0, id});
+      append(d,
+             {x + apart * std::cos(6.28 * other.a), y + apart * std::sin(6.28 * other.a), 0, 0, radius, 1.0, id + 1});
+    }
+    EXPECT_EQ(search(d, box, 0.0, 1, 1).pairs.size(), 4000U) << ratio;
+  }
 }
 
 TEST_P(ContactSearch, FindsPairsInOneCellAndAmongEmptyOnes) {

@@ -8,6 +8,7 @@
 
 #include "core/base/check.hpp"
 #include "parallel/exact/list_kernel.hpp"
+#include "parallel/stepping/move_kernel.hpp"
 #include "parallel/stepping/search_kernel.hpp"
 #include "tests/support/program_support.hpp"
 
@@ -30,6 +31,7 @@ TEST(KernelSet, KernelsFollowTheEnvironment) {
   EXPECT_EQ(kernel_set(), choose_kernel_set(std::getenv("CAROM_KERNELS")));
   const bool baseline = kernel_set() == KernelSet::baseline;
   EXPECT_EQ(choose_interior_kernel(), baseline ? search_interior_baseline : search_interior_avx2);
+  EXPECT_EQ(choose_move_kernel(), baseline ? move_disks_baseline : move_disks_avx2);
   EXPECT_EQ(choose_list_kernel(), baseline ? list_kernel_baseline : list_kernel_avx2);
 }
 

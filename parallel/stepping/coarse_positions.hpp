@@ -1,0 +1,64 @@
+// Positions of 32 bits a disk, which the contact search reads in place of the coordinates: eight disks are tested at
+// once, and only pairs that may touch are asked in double precision.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "parallel/cells/cell_grid.hpp"
+#include "parallel/cells/counting_sort.hpp"
+#include "parallel/threads/executor.hpp"
+
+namespace carom {
+
+// Coarse positions that are read at once; so many more entries than disks may be read.
+inline constexpr std::uint32_t coarse_lanes = 8;
+
+// By storage index, coarse_lanes entries more than disks. A coordinate is a whole number of units of the disk's level,
+// nearest to the true one, and known up to multiples of 2^16 units: x in the lower 16 bits, y in the upper. Differences
+// of 16 bits are then off by at most one unit, or by 2^16 units, which is far more than a contact distance: two disks
+// may seem near that are not, never the reverse.
+struct CoarsePositions {
+  std::vector<std::uint32_t> position;
+  std::vector<std::uint32_t> radius;  // in units, rounded up; empty: all disks have the common one
+  // Disks that have left their cell by more than the level's margin, of each block.
+  std::vector<std::vector<std::uint32_t>> strays;
+  std::size_t blocks = 0;      // that strays are of
+  std::vector<double> speed2;  // scratch
+  bool current = false;        // position and strays are of where the disks are now
+};
+
+// A unit of the level's coarse coordinates; length. A cell is a sixteenth of what 16 bits hold, so that the few disks
+// read beyond the cells of interest do not seem near, and 4096 units, to which a diameter is 3400 in a dense fluid.
+inline double coarse_unit(const GridLevel& level) {
+  return std::max(level.cell_width, level.cell_height) / 4096.0;
+}
+
+// A distance of coarse positions is off by less than this, in units: each coordinate by at most one half, a difference
+// by one, the distance by the square root of two. Radii are whole numbers.
+inline constexpr double coarse_error = 1.5;
+inline constexpr std::uint32_t coarse_radius_error = 2;
+
+// Disks whose squared coarse distance is as much as this do not touch.
+inline std::uint32_t coarse_contact2(double contact_distance, const GridLevel& level) {
+  const double reach = contact_distance / coarse_unit(level) + coarse_error;
+  return static_cast<std::uint32_t>(reach * reach) + 2U;
+}
+
+// Disks [first, last) of a level.
+struct LevelRange {
+  std::size_t first, last;
+};
+inline LevelRange range_of(const GridLevel& level, const SortedCells& cells) {
+  return {cells.start[level.first_key], cells.start[level.first_key + level.keys()]};
+}
+
+// Room for all disks, and their radii. To be called once the disks have been sorted into cells.
+void begin_coarse_positions(const Disks& disks, const CellGrid& grid, const SortedCells& cells,
+                            const Executor& executor, CoarsePositions& coarse);
+
+}  // namespace carom

@@ -1,0 +1,42 @@
+// The kernel that moves disks and takes down where the contact search finds them, in the versions that this machine may
+// have.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/disks/domain.hpp"
+#include "parallel/cells/cell_grid.hpp"
+
+namespace carom {
+
+enum class Motion { none, straight, parabola };
+
+struct MoveInput {
+  double* x;
+  double* y;
+  const double* vx;
+  double* vy;
+  const std::uint32_t* key;  // cell that the disk was sorted into
+  std::uint32_t* position;   // coarse (coarse_positions.hpp)
+  Domain box;
+  Motion motion;
+  double t, gravity;
+};
+
+// Moves disks [begin, end) of a level as drift and wrap do (core/physics/advance.hpp), with the same operations; writes
+// their coarse positions, and appends those that are further outside their cell than the margin. Returns their largest
+// squared speed.
+using MoveKernel = double (*)(const MoveInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
+                              std::vector<std::uint32_t>& strays);
+
+double move_disks_baseline(const MoveInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
+                           std::vector<std::uint32_t>& strays);
+double move_disks_avx2(const MoveInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
+                       std::vector<std::uint32_t>& strays);
+
+// The best version for the processor at hand; all give the same bits.
+MoveKernel choose_move_kernel();
+
+}  // namespace carom
