@@ -131,8 +131,8 @@ TEST_P(ContactSearch, FindsPairsThatOnlyJustTouch) {
       const TwoUniforms place = uniforms(11, Stream::position, id, 0);
       const TwoUniforms other = uniforms(11, Stream::radius, id, 0);
       const double radius = 0.5 * std::pow(ratio, other.b);
-      const double x = 5.0 * (id / 2 % 80) + 1.0 + 2.0 * place.a;
-      const double y = 5.0 * (id / 160) + 1.0 + 2.0 * place.b;
+      const double x = 5.0 * (id / 2 % 80) + 1.5 + 0.9 * place.a;
+      const double y = 5.0 * (id / 160) + 1.5 + 0.9 * place.b;
       const double apart = (0.5 + radius) * (1.0 - 1e-12);
       append(d, {x, y, 0, 0, 0.5, 1.0, id});
       append(d,
