@@ -15,7 +15,8 @@ std::uint32_t cells_of_side(double length, double least, double most, bool perio
 
 }  // namespace
 
-void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid) {
+void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid,
+               double margin) {
   grid.levels.clear();
   grid.keys = 0;
   grid.tiles = 1;
@@ -24,7 +25,7 @@ void make_grid(const Domain& box, double largest_radius, const std::vector<std::
   for (std::size_t k = 0; k < count.size(); ++k, radius /= class_ratio) {
     GridLevel level;
     level.largest_radius = radius;
-    level.margin = grid_margin * 2.0 * radius;
+    level.margin = margin * 2.0 * radius;
     const double least = 2.0 * radius + 2.0 * level.margin;
     // About two cells a disk at most, shared between the sides as the box is.
     const double cells = 2.0 * static_cast<double>(count[k]) + 1.0;

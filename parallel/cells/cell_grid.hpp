@@ -62,9 +62,11 @@ struct CellGrid {
 
 // Levels for radii between smallest and largest in the box. count[k] is the number of disks of class k
 // (class_of_radius). A level's cells are at least a diameter and twice the margin wide, and not many more than its
-// disks; where fewer than three would fit across a periodic side there is one, which is its own neighbour.
+// disks; where fewer than three would fit across a periodic side there is one, which is its own neighbour. margin: as
+// grid_margin.
 // The memory that grid has is used again.
-void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid);
+void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid,
+               double margin = grid_margin);
 CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count);
 
 // Class k holds radii r with largest / 2^(k+1) < r <= largest / 2^k.

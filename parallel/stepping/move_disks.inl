@@ -1,188 +1,203 @@
 // The kernel that moves disks, compiled once for every instruction set; CAROM_MOVE_DISKS names the version.
 
 #include <algorithm>
-#include <array>
-#include <cstring>
+#include <cmath>
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
 
+#include "core/physics/advance.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/stepping/move_kernel.hpp"
-#include "parallel/stepping/vectors.inl"
 
 namespace carom {
 
 namespace {
 
 constexpr std::size_t lanes = 4;
-using Words = std::int32_t __attribute__((vector_size(16)));
+
+// Vectors of four doubles in the compilers' own vector types: on a machine without them the compiler splits them.
+using Doubles = double __attribute__((vector_size(32)));
+using Longs = long long __attribute__((vector_size(32)));
+using Words = std::int32_t __attribute__((vector_size(32)));
+using FourWords = std::int32_t __attribute__((vector_size(16)));
 
 // Added to a number and taken away again: rounds it to the nearest whole one, which meanwhile is in the lowest bits.
 constexpr double rounding = 0x1.8p52;
 
-// Four disks on their way through the kernel.
-struct Four {
-  Doubles x, y, vx, vy;
-  Words key;
+inline Doubles load(const double* p) {
+  Doubles v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+
+inline void store(double* p, Doubles v) {
+  __builtin_memcpy(p, &v, sizeof v);
+}
+
+inline Doubles all(double a) {
+  return Doubles{a, a, a, a};
+}
+
+// The built-in cast in place of std::bit_cast: without optimisation that is a function of its own, which the versions
+// for several instruction sets, with their ways to pass a vector, would share.
+inline Longs as_longs(Doubles v) {
+  return __builtin_bit_cast(Longs, v);
+}
+
+inline Doubles magnitude(Doubles v) {
+  constexpr long long all_but_sign = ~(1LL << 63);
+  return __builtin_bit_cast(Doubles, as_longs(v) & Longs{all_but_sign, all_but_sign, all_but_sign, all_but_sign});
+}
+
+inline bool any(Longs truth) {
+#if defined(__AVX__)
+  return _mm256_movemask_pd(__builtin_bit_cast(__m256d, truth)) != 0;
+#else
+  return (truth[0] | truth[1] | truth[2] | truth[3]) != 0;
+#endif
+}
+
+inline Doubles load_keys(const std::uint32_t* p) {
+#if defined(__AVX__)
+  return __builtin_bit_cast(Doubles, _mm256_cvtepi32_pd(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))));
+#else
+  FourWords v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return __builtin_convertvector(v, Doubles);
+#endif
+}
+
+// What the cells and the coarse positions of a level look like from its disks.
+struct LevelView {
+  double per_unit;  // coarse units per length
+  double columns_per_length, rows_per_length;
+  double far_x, far_y;  // from its cell's centre, in cells: beyond it a disk is a stray
+  double columns, rows;
+  double first_key, stride, per_stride;
 };
 
-// What the lanes need of the step and of the level.
-struct Constants {
-  Doubles t, width, height;
-  Doubles fall, slowing;  // by gravity, of the place and of the speed
-  Doubles per_unit;       // coarse units per length
-  Doubles columns_per_length, rows_per_length, columns, rows;
-  Doubles far_x, far_y;  // from a cell's centre, in cells: beyond it a disk is a stray
-  Doubles stride, per_stride;
-  std::int32_t first_key;
-};
-
-Constants constants_for(const MoveInput& in, const GridLevel& level) {
-  return {all(in.t),
-          all(in.box.width),
-          all(in.box.height),
-          all(0.5 * in.gravity * (in.t * in.t)),
-          all(in.gravity * in.t),
-          all(1.0 / coarse_unit(level)),
-          all(level.columns_per_length),
-          all(level.rows_per_length),
-          all(level.columns),
-          all(level.rows),
-          all(0.5 + level.margin * level.columns_per_length),
-          all(0.5 + level.margin * level.rows_per_length),
-          all(level.stride),
-          all(1.0 / level.stride),
-          static_cast<std::int32_t>(level.first_key)};
+LevelView view_of(const GridLevel& level) {
+  return {1.0 / coarse_unit(level),
+          level.columns_per_length,
+          level.rows_per_length,
+          0.5 + level.margin * level.columns_per_length,
+          0.5 + level.margin * level.rows_per_length,
+          static_cast<double>(level.columns),
+          static_cast<double>(level.rows),
+          static_cast<double>(level.first_key),
+          static_cast<double>(level.stride),
+          1.0 / level.stride};
 }
 
-// wrap of core/disks/domain.hpp.
-inline Doubles wrapped(Doubles c, Doubles period) {
-  const Doubles above = c + period;
-  const Doubles from_below = as_doubles((above < period) & as_longs(above));
-  return choose(c < all(0.0), from_below, choose(c < period, c, c - period));
+// The row of a key that is given from the level's first: the quotient by the stride is at least half a column away from
+// the middle between two rows.
+template <class Number>
+inline Number row_of(Number key, Number per_stride, Number half, Number rounder) {
+  return ((key + half) * per_stride - half + rounder) - rounder;
 }
 
-template <Motion motion, bool periodic_x, bool periodic_y>
-inline void move(Four& d, const Constants& c) {
-  if constexpr (motion == Motion::none) return;
-  d.x += d.vx * c.t;
-  if constexpr (motion == Motion::parabola) {
-    d.y += d.vy * c.t - c.fall;
-    d.vy -= c.slowing;
-  } else {
-    d.y += d.vy * c.t;
-  }
-  if constexpr (periodic_x) d.x = wrapped(d.x, c.width);
-  if constexpr (periodic_y) d.y = wrapped(d.y, c.height);
+// Across a periodic side the cell may be round the corner.
+inline bool is_far(double off, double far, double across, bool periodic) {
+  const double distance = std::abs(off);
+  return (periodic ? std::min(distance, across - distance) : distance) > far;
 }
 
-// Is a coordinate, in cells, further from the centre of its cell than far? across: cells of the side.
-template <bool periodic>
-inline Longs is_far(Doubles coordinate, Doubles cell, Doubles far, Doubles across) {
-  const Doubles off = coordinate - (cell + all(0.5));
-  Doubles distance = as_doubles(as_longs(off) & Longs{~(1LL << 63), ~(1LL << 63), ~(1LL << 63), ~(1LL << 63)});
-  if constexpr (periodic) {
-    const Doubles round_the_corner = across - distance;
-    distance = choose(round_the_corner < distance, round_the_corner, distance);
-  }
-  return distance > far;
+bool is_stray(const MoveInput& in, const LevelView& v, std::size_t i) {
+  const double key = in.key[i] - v.first_key;
+  const double row = row_of(key, v.per_stride, 0.5, rounding);
+  const double column = key - row * v.stride;
+  return is_far(in.x[i] * v.columns_per_length - (column + 0.5), v.far_x, v.columns, in.box.periodic_x()) ||
+         is_far(in.y[i] * v.rows_per_length - (row + 0.5), v.far_y, v.rows, in.box.periodic_y());
 }
 
-// The quotient of a key by the stride is at least half a column away from the middle between two rows.
+inline std::uint32_t coarse(double x, double y, double per_unit) {
+  const auto bits = [&](double c) { return __builtin_bit_cast(unsigned long long, c* per_unit + rounding); };
+  return static_cast<std::uint32_t>((bits(x) & 0xffffU) | (bits(y) << 16U));
+}
+
+// Wraps disk i, which has been moved, and takes it down.
 template <bool periodic_x, bool periodic_y>
-inline Longs are_strays(const Four& d, const Constants& c) {
-  const Doubles key = __builtin_convertvector(d.key - c.first_key, Doubles);
-  const Doubles row = ((key + all(0.5)) * c.per_stride - all(0.5) + all(rounding)) - all(rounding);
-  const Doubles column = key - row * c.stride;
-  return is_far<periodic_x>(d.x * c.columns_per_length, column, c.far_x, c.columns) |
-         is_far<periodic_y>(d.y * c.rows_per_length, row, c.far_y, c.rows);
+void finish_one(const MoveInput& in, const LevelView& v, std::size_t i, std::vector<std::uint32_t>& strays) {
+  if (in.motion != Motion::none) wrap<periodic_x, periodic_y>(in.x[i], in.y[i], in.box);
+  in.position[i] = coarse(in.x[i], in.y[i], v.per_unit);
+  if (is_stray(in, v, i)) strays.push_back(static_cast<std::uint32_t>(i));
 }
 
-inline Words coarse(const Four& d, const Constants& c) {
-  const Longs x = as_longs(d.x * c.per_unit + all(rounding));
-  const Longs y = as_longs(d.y * c.per_unit + all(rounding));
-  return __builtin_convertvector((x & 0xffff) | (y << 16), Words);
+// Few disks cross a periodic side or stray. Not inlined, so that the loop over all keeps its registers.
+template <bool periodic_x, bool periodic_y>
+[[gnu::noinline]] void finish_four(MoveInput in, const GridLevel& level, std::size_t i,
+                                   std::vector<std::uint32_t>& strays) {
+  const LevelView v = view_of(level);
+  for (std::size_t k = i; k < i + lanes; ++k) finish_one<periodic_x, periodic_y>(in, v, k, strays);
 }
 
-template <Motion motion>
-inline Four load_four(const MoveInput& in, std::size_t i) {
-  Four d{load(in.x + i), load(in.y + i), all(0.0), all(0.0), {}};
-  if constexpr (motion != Motion::none) {
-    d.vx = load(in.vx + i);
-    d.vy = load(in.vy + i);
+// The last few, one by one. Returns their largest squared speed.
+template <Motion motion, bool periodic_x, bool periodic_y>
+double move_rest(MoveInput in, const GridLevel& level, std::size_t begin, std::size_t end,
+                 std::vector<std::uint32_t>& strays) {
+  const LevelView v = view_of(level);
+  double speed2 = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    double vx = in.vx[i];
+    if constexpr (motion != Motion::none)
+      drift<motion == Motion::parabola>(in.x[i], in.y[i], vx, in.vy[i], in.t, in.gravity);
+    finish_one<periodic_x, periodic_y>(in, v, i, strays);
+    speed2 = std::max(speed2, vx * vx + in.vy[i] * in.vy[i]);
   }
-  __builtin_memcpy(&d.key, in.key + i, sizeof d.key);
-  return d;
+  return speed2;
 }
 
-template <Motion motion>
-inline void store_four(const MoveInput& in, std::size_t i, const Four& d, Words position) {
-  if constexpr (motion != Motion::none) {
-    store(in.x + i, d.x);
-    store(in.y + i, d.y);
-  }
-  if constexpr (motion == Motion::parabola) store(in.vy + i, d.vy);
-  __builtin_memcpy(in.position + i, &position, sizeof position);
+inline double largest_of(Doubles v) {
+  return std::max(std::max(v[0], v[1]), std::max(v[2], v[3]));
 }
 
 template <Motion motion, bool periodic_x, bool periodic_y>
-inline unsigned move_four(const MoveInput& in, const Constants& c, std::size_t i, Doubles& speed2) {
-  Four d = load_four<motion>(in, i);
-  move<motion, periodic_x, periodic_y>(d, c);
-  const Doubles v2 = d.vx * d.vx + d.vy * d.vy;
-  speed2 = choose(v2 > speed2, v2, speed2);
-  store_four<motion>(in, i, d, coarse(d, c));
-  return bits_of(are_strays<periodic_x, periodic_y>(d, c));
-}
-
-// The last few, [begin, end), in columns of their own that are filled up with the last disk.
-template <Motion motion, bool periodic_x, bool periodic_y>
-unsigned move_rest(const MoveInput& in, const Constants& c, std::size_t begin, std::size_t end, Doubles& speed2) {
-  std::array<double, lanes> x{}, y{}, vx{}, vy{};
-  std::array<std::uint32_t, lanes> key{}, position{};
-  for (std::size_t k = 0; k < lanes; ++k) {
-    const std::size_t i = std::min(begin + k, end - 1);
-    x[k] = in.x[i];
-    y[k] = in.y[i];
-    vx[k] = in.vx[i];
-    vy[k] = in.vy[i];
-    key[k] = in.key[i];
-  }
-  MoveInput rest = in;
-  rest.x = x.data();
-  rest.y = y.data();
-  rest.vx = vx.data();
-  rest.vy = vy.data();
-  rest.key = key.data();
-  rest.position = position.data();
-  const unsigned strays = move_four<motion, periodic_x, periodic_y>(rest, c, 0, speed2);
-  for (std::size_t k = 0; k < end - begin; ++k) {
-    in.x[begin + k] = x[k];
-    in.y[begin + k] = y[k];
-    in.vy[begin + k] = vy[k];
-    in.position[begin + k] = position[k];
-  }
-  return strays & ((1U << (end - begin)) - 1U);
-}
-
-inline void add_strays(std::size_t i, unsigned bits, std::vector<std::uint32_t>& strays) {
-  for (; bits != 0; bits &= bits - 1)
-    strays.push_back(static_cast<std::uint32_t>(i) + static_cast<unsigned>(__builtin_ctz(bits)));
-}
-
-template <Motion motion, bool periodic_x, bool periodic_y>
-double move_range(const MoveInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
+double move_range(const MoveInput& input, const GridLevel& level, std::size_t begin, std::size_t end,
                   std::vector<std::uint32_t>& strays) {
-  const Constants c = constants_for(in, level);
+  const MoveInput in = input;  // by itself, so that no store can change it
+  const LevelView v = view_of(level);
+  const double fall = 0.5 * in.gravity * (in.t * in.t);
+  const double slowing = in.gravity * in.t;
   Doubles speed2 = all(0.0);
   std::size_t i = begin;
   for (; i + lanes <= end; i += lanes) {
-    const unsigned bits = move_four<motion, periodic_x, periodic_y>(in, c, i, speed2);
-    if (bits != 0) [[unlikely]]
-      add_strays(i, bits, strays);
+    Doubles x = load(in.x + i);
+    Doubles y = load(in.y + i);
+    // drift of core/physics/advance.hpp.
+    if constexpr (motion != Motion::none) {
+      const Doubles vx = load(in.vx + i);
+      Doubles vy = load(in.vy + i);
+      x += vx * all(in.t);
+      if constexpr (motion == Motion::parabola) {
+        y += vy * all(in.t) - all(fall);
+        vy -= all(slowing);
+        store(in.vy + i, vy);
+      } else {
+        y += vy * all(in.t);
+      }
+      store(in.x + i, x);
+      store(in.y + i, y);
+      const Doubles v2 = vx * vx + vy * vy;
+      speed2 = v2 > speed2 ? v2 : speed2;
+    }
+    const Doubles key = load_keys(in.key + i) - all(v.first_key);
+    const Doubles row = row_of(key, all(v.per_stride), all(0.5), all(rounding));
+    const Doubles column = key - row * all(v.stride);
+    const Doubles off_x = x * all(v.columns_per_length) - (column + all(0.5));
+    const Doubles off_y = y * all(v.rows_per_length) - (row + all(0.5));
+    Longs special = (magnitude(off_x) > all(v.far_x)) | (magnitude(off_y) > all(v.far_y));
+    if constexpr (periodic_x) special |= (x < all(0.0)) | (x >= all(in.box.width));
+    if constexpr (periodic_y) special |= (y < all(0.0)) | (y >= all(in.box.height));
+    const Longs coarse_x = as_longs(x * all(v.per_unit) + all(rounding));
+    const Longs coarse_y = as_longs(y * all(v.per_unit) + all(rounding));
+    const auto words = __builtin_bit_cast(Words, (coarse_x & 0xffff) | (coarse_y << 16));
+    const FourWords position = __builtin_shufflevector(words, words, 0, 2, 4, 6);
+    __builtin_memcpy(in.position + i, &position, sizeof position);
+    if (any(special)) [[unlikely]]
+      finish_four<periodic_x, periodic_y>(in, level, i, strays);
   }
-  if (i < end) add_strays(i, move_rest<motion, periodic_x, periodic_y>(in, c, i, end, speed2), strays);
-  double largest = 0.0;
-  for (std::size_t k = 0; k < lanes; ++k) largest = std::max(largest, speed2[k]);
-  return largest;
+  return std::max(largest_of(speed2), move_rest<motion, periodic_x, periodic_y>(in, level, i, end, strays));
 }
 
 template <Motion motion>

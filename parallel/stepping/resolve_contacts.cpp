@@ -38,10 +38,18 @@ void prefetch_disk(const View& d, std::uint32_t i) {
 void count_found(const FoundPairs& found, const std::vector<std::vector<ContactEvent>>& walls, std::size_t disks,
                  const Executor& executor, ContactLists& lists) {
   lists.contacts.resize(disks, 0);
+  // On one thread without atomic operations, each of which waits for all before it.
+  const bool shared = executor.threads() > 1;
   executor.run(found.used, [&](std::size_t b) {
-    for (const Pair& p : found.buffers[b]) {
-      count_contact_shared(lists.contacts[p.i1]);
-      count_contact_shared(lists.contacts[p.i2]);
+    const std::vector<Pair>& pairs = found.buffers[b];
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (k + ahead < pairs.size()) {
+        __builtin_prefetch(&lists.contacts[pairs[k + ahead].i1], 1);
+        __builtin_prefetch(&lists.contacts[pairs[k + ahead].i2], 1);
+      }
+      for (const std::uint32_t i : {pairs[k].i1, pairs[k].i2}) {
+        shared ? count_contact_shared(lists.contacts[i]) : count_contact(lists.contacts[i]);
+      }
     }
   });
   executor.run(walls.size(), [&](std::size_t b) {
