@@ -34,10 +34,15 @@ inline void wrap(double& x, double& y, const Domain& box) {
   if (box.periodic_y()) y = wrap(y, box.height);
 }
 
+// Root mean square of a component of the Brownian velocity u / dt of one step; length / time.
+inline double brownian_speed(double diffusion, double dt) {
+  return std::sqrt(2.0 * diffusion * dt) / dt;
+}
+
 // Brownian velocity of one step, (24): u / dt with u = sqrt(2 D dt) (r_x, r_y), r standard normal by (seed, id, step).
 inline Vec2 brownian_velocity(std::uint64_t seed, DiskId id, std::uint64_t step, double diffusion, double dt) {
   const Vec2 r = normals(seed, Stream::brownian, id, step);
-  const double scale = std::sqrt(2.0 * diffusion * dt) / dt;
+  const double scale = brownian_speed(diffusion, dt);
   return {scale * r.x, scale * r.y};
 }
 

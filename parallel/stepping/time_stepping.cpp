@@ -8,6 +8,7 @@
 #include "core/step/step_clock.hpp"
 #include "parallel/cells/compact.hpp"
 #include "parallel/cells/nearby_runs.hpp"
+#include "parallel/stepping/brownian_kernel.hpp"
 #include "parallel/stepping/drift_blocks.hpp"
 
 namespace carom {
@@ -74,21 +75,38 @@ void TimeStepping::emit_from_sources(double t, Count step) {
 }
 
 void TimeStepping::draw_velocities(double dt, Count step) {
+  Disks& d = state_.disks;
+  const BrownianKernel kernel = choose_brownian_kernel();
+  const BrownianInput in{d.vx.data(),
+                         d.vy.data(),
+                         d.id.data(),
+                         scene_.seed,
+                         step,
+                         brownian_speed(scene_.physics.diffusion, dt),
+                         scene_.physics.accumulate};
+  block_values_.assign(executor_.blocks(d.size(), look_block), 0.0);
+  executor_.for_ranges(d.size(), look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    block_values_[b] = kernel(in, begin, end);
+  });
+  speed2_ = 0.0;
+  for (const double v2 : block_values_) speed2_ = std::max(speed2_, v2);
+  speed2_known_ = true;
+  if (has_brownian_sink(scene_)) remove_crossing(dt, step);
+}
+
+void TimeStepping::remove_crossing(double dt, Count step) {
   const std::size_t n = state_.disks.size();
-  const bool sinks = has_brownian_sink(scene_);
-  gone_.resize(sinks ? n : 0);
+  gone_.resize(n);
   block_values_.assign(executor_.blocks(n, look_block), 0.0);
   with_view(state_.disks, [&](const auto& d) {
     executor_.for_ranges(n, look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-      draw_brownian(d, scene_, step, dt, begin, end);
-      for (std::size_t i = begin; sinks && i < end; ++i) {
+      for (std::size_t i = begin; i < end; ++i) {
         gone_[i] = crosses_sink(d, scene_, step, dt, i) ? 1 : 0;
         block_values_[b] += gone_[i];
       }
     });
   });
-  speed2_known_ = false;
-  if (sinks) remove_gone();
+  remove_gone();
 }
 
 // Blocks' counts are whole numbers below 2^53: their sum is exact.

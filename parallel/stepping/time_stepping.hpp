@@ -52,6 +52,7 @@ class TimeStepping : public Engine {
   void sort_now();
   void emit_from_sources(double t, Count step);
   void draw_velocities(double dt, Count step);
+  void remove_crossing(double dt, Count step);  // sinks, between two steps
   double exact_travel2();
   void remove_gone();
 

@@ -1,0 +1,234 @@
+// Compiled with -mavx2 on x86-64 (CMakeLists.txt); elsewhere it calls the baseline.
+#include "parallel/stepping/brownian_kernel.hpp"
+
+#if defined(__AVX2__)
+
+#include <immintrin.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/base/random.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t lanes = 4;
+constexpr int rounds = 10;
+// Disks whose points are drawn together: they stay in the first-level cache. A multiple of the lanes.
+constexpr std::size_t batch = 512;
+
+inline __m256d all(double a) {
+  return _mm256_set1_pd(a);
+}
+inline __m256i all(std::uint64_t a) {
+  return _mm256_set1_epi64x(static_cast<long long>(a));
+}
+
+// Philox 4x32-10 (core/base/random.cpp) on four counters, each number in the lower half of a lane. What is in the upper
+// halves is of no use: products leave it out.
+class Philox {
+ public:
+  Philox(std::uint64_t seed, std::uint64_t step) : step_low_(all(step & 0xffffffffU)), step_high_(all(step >> 32)) {
+    auto low = static_cast<std::uint32_t>(seed);
+    auto high = static_cast<std::uint32_t>(seed >> 32);
+    for (std::size_t k = 0; k < rounds; ++k) {
+      key_low_[k] = all(std::uint64_t{low});
+      key_high_[k] = all(std::uint64_t{high});
+      low += 0x9E3779B9U;
+      high += 0xBB67AE85U;
+    }
+  }
+
+  // 52 random bits for each of two uniforms.
+  struct Bits {
+    __m256i a, b;
+  };
+  Bits operator()(__m256i id, std::uint32_t attempt) const {
+    const __m256i multiplier0 = all(std::uint64_t{0xD2511F53U});
+    const __m256i multiplier1 = all(std::uint64_t{0xCD9E8D57U});
+    __m256i c0 = step_low_;
+    __m256i c1 = step_high_;
+    __m256i c2 = id;
+    __m256i c3 = all(std::uint64_t{(static_cast<std::uint32_t>(Stream::brownian) << 8U) | (attempt & 0xffU)});
+    for (std::size_t k = 0; k < rounds; ++k) {
+      const __m256i product0 = _mm256_mul_epu32(multiplier0, c0);
+      const __m256i product1 = _mm256_mul_epu32(multiplier1, c2);
+      c0 = _mm256_xor_si256(_mm256_xor_si256(_mm256_srli_epi64(product1, 32), c1), key_low_[k]);
+      c2 = _mm256_xor_si256(_mm256_xor_si256(_mm256_srli_epi64(product0, 32), c3), key_high_[k]);
+      c1 = product1;
+      c3 = product0;
+    }
+    return {joined(c0, c1), joined(c2, c3)};
+  }
+
+ private:
+  // The upper 52 of the 64 bits of two halves.
+  static __m256i joined(__m256i low, __m256i high) {
+    return _mm256_srli_epi64(_mm256_blend_epi32(low, _mm256_slli_epi64(high, 32), 0xaa), 12);
+  }
+
+  __m256i step_low_, step_high_;
+  __m256i key_low_[rounds], key_high_[rounds];
+};
+
+// 2 u - 1 of the uniform u = (bits + 1/2) 2^-52: all these numbers are exact.
+inline __m256d centred(__m256i bits) {
+  const __m256d from_one = _mm256_castsi256_pd(_mm256_or_si256(bits, _mm256_castpd_si256(all(1.0))));
+  const __m256d half = _mm256_sub_pd(from_one, all(1.5));
+  return _mm256_add_pd(_mm256_add_pd(half, half), all(0x1p-52));
+}
+
+// deterministic_log of core/base/random.cpp, the same operations in the same order.
+inline __m256d log_of(__m256d x) {
+  const __m256i bits = _mm256_castpd_si256(x);
+  const __m256d one = all(1.0);
+  __m256d f = _mm256_or_pd(_mm256_and_pd(x, _mm256_castsi256_pd(all(std::uint64_t{0x000fffffffffffff}))), one);
+  const __m256d large = _mm256_cmp_pd(f, all(1.4142135623730951), _CMP_GT_OQ);
+  f = _mm256_blendv_pd(f, _mm256_mul_pd(f, all(0.5)), large);
+  // The exponent in the lowest bits of 2^52.
+  const __m256i biased = _mm256_or_si256(_mm256_srli_epi64(bits, 52), _mm256_castpd_si256(all(0x1p52)));
+  const __m256d k =
+      _mm256_add_pd(_mm256_sub_pd(_mm256_castsi256_pd(biased), all(0x1p52 + 1023.0)), _mm256_and_pd(large, one));
+  const __m256d s = _mm256_div_pd(_mm256_sub_pd(f, one), _mm256_add_pd(f, one));
+  const __m256d s2 = _mm256_mul_pd(s, s);
+  __m256d sum = all(0.0);
+  for (int n = 23; n >= 3; n -= 2) sum = _mm256_mul_pd(_mm256_add_pd(sum, all(1.0 / n)), s2);
+  const __m256d twice = _mm256_add_pd(s, s);
+  const __m256d low = _mm256_add_pd(_mm256_mul_pd(twice, sum), _mm256_mul_pd(k, all(0x1.cf79abc9e3b3ap-40)));
+  return _mm256_add_pd(_mm256_mul_pd(k, all(0x1.62e42fefa0000p-1)), _mm256_add_pd(twice, low));
+}
+
+// Points of a batch of disks, each uniform in the unit circle: attempt after attempt, the disks whose point lay outside
+// by themselves. In a loop of its own, as is what follows: the processor then has the work of several fours at hand
+// while it waits for one.
+class Points {
+ public:
+  // The points of disks id[0] to id[n - 1], n <= batch.
+  void draw(const Philox& philox, const DiskId* id, std::size_t n) {
+    rejected_ = 0;
+    std::size_t i = 0;
+    for (; i + lanes <= n; i += lanes) {
+      const Four at = four_of(philox, _mm_loadu_si128(reinterpret_cast<const __m128i*>(id + i)), 0);
+      _mm256_store_pd(&a_[i], at.a);
+      _mm256_store_pd(&b_[i], at.b);
+      _mm256_store_pd(&q_[i], at.q);
+      for (std::size_t lane = 0; lane < lanes; ++lane) reject(i + lane, (at.outside >> lane & 1U) != 0);
+    }
+    std::size_t left = n - i;
+    for (std::size_t k = 0; k < left; ++k) reject_[batch + k] = static_cast<std::uint32_t>(i + k);
+    if (left > 0) draw_again(philox, id, 0, &reject_[batch], left);
+    for (std::uint32_t attempt = 1; rejected_ > 0; ++attempt) {
+      left = std::exchange(rejected_, 0);
+      draw_again(philox, id, attempt, reject_.data(), left);
+    }
+  }
+
+  __m256d a(std::size_t i) const { return _mm256_load_pd(&a_[i]); }
+  __m256d b(std::size_t i) const { return _mm256_load_pd(&b_[i]); }
+  __m256d q(std::size_t i) const { return _mm256_load_pd(&q_[i]); }  // a a + b b
+
+ private:
+  struct Four {
+    __m256d a, b, q;
+    unsigned outside;  // a bit a lane
+  };
+  static Four four_of(const Philox& philox, __m128i id, std::uint32_t attempt) {
+    const Philox::Bits bits = philox(_mm256_cvtepu32_epi64(id), attempt);
+    const __m256d a = centred(bits.a);
+    const __m256d b = centred(bits.b);
+    const __m256d q = _mm256_add_pd(_mm256_mul_pd(a, a), _mm256_mul_pd(b, b));
+    return {a, b, q, static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(q, all(1.0), _CMP_GE_OQ)))};
+  }
+
+  // Without a branch, which could not be predicted.
+  void reject(std::size_t i, bool outside) {
+    reject_[rejected_] = static_cast<std::uint32_t>(i);
+    rejected_ += outside ? 1U : 0U;
+  }
+
+  // The disks of list, by fours; the last four are filled up with the last disk.
+  void draw_again(const Philox& philox, const DiskId* id, std::uint32_t attempt, const std::uint32_t* list,
+                  std::size_t count) {
+    for (std::size_t k = 0; k < count; k += lanes) {
+      std::array<std::uint32_t, lanes> i;
+      alignas(16) std::array<DiskId, lanes> its_id;
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        i[lane] = list[std::min(k + lane, count - 1)];
+        its_id[lane] = id[i[lane]];
+      }
+      const Four at = four_of(philox, _mm_load_si128(reinterpret_cast<const __m128i*>(its_id.data())), attempt);
+      alignas(32) std::array<double, lanes> a, b, q;
+      _mm256_store_pd(a.data(), at.a);
+      _mm256_store_pd(b.data(), at.b);
+      _mm256_store_pd(q.data(), at.q);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        a_[i[lane]] = a[lane];
+        b_[i[lane]] = b[lane];
+        q_[i[lane]] = q[lane];
+        reject(i[lane], (at.outside >> lane & 1U) != 0 && k + lane < count);
+      }
+    }
+  }
+
+  alignas(32) std::array<double, batch> a_, b_, q_;
+  std::array<std::uint32_t, batch + lanes> reject_;  // disks without a point, the first rejected_ entries
+  std::size_t rejected_ = 0;
+};
+
+// Velocities of up to four disks from their points; returns their squared speeds. count < lanes: only the first are
+// read and written, the other lanes are 0.
+__m256d set_velocities(const BrownianInput& in, std::size_t i, const Points& points, std::size_t k, std::size_t count) {
+  const __m256d q = points.q(k);
+  const __m256d scale = _mm256_sqrt_pd(_mm256_div_pd(_mm256_mul_pd(all(-2.0), log_of(q)), q));
+  __m256d vx = _mm256_mul_pd(all(in.speed), _mm256_mul_pd(points.a(k), scale));
+  __m256d vy = _mm256_mul_pd(all(in.speed), _mm256_mul_pd(points.b(k), scale));
+  const __m256i used = _mm256_cmpgt_epi64(all(std::uint64_t{count}), _mm256_setr_epi64x(0, 1, 2, 3));
+  if (in.accumulate) {
+    vx = _mm256_add_pd(_mm256_maskload_pd(in.vx + i, used), vx);
+    vy = _mm256_add_pd(_mm256_maskload_pd(in.vy + i, used), vy);
+  }
+  if (count >= lanes) {
+    _mm256_storeu_pd(in.vx + i, vx);
+    _mm256_storeu_pd(in.vy + i, vy);
+  } else {
+    _mm256_maskstore_pd(in.vx + i, used, vx);
+    _mm256_maskstore_pd(in.vy + i, used, vy);
+  }
+  const __m256d speed2 = _mm256_add_pd(_mm256_mul_pd(vx, vx), _mm256_mul_pd(vy, vy));
+  return _mm256_and_pd(speed2, _mm256_castsi256_pd(used));
+}
+
+}  // namespace
+
+double draw_brownian_avx2(const BrownianInput& in, std::size_t begin, std::size_t end) {
+  const Philox philox(in.seed, in.step);
+  __m256d speed2 = all(0.0);
+  Points points;
+  for (; begin < end; begin += batch) {
+    const std::size_t n = std::min(batch, end - begin);
+    points.draw(philox, in.id + begin, n);
+    for (std::size_t k = 0; k < n; k += lanes) {
+      speed2 = _mm256_max_pd(speed2, set_velocities(in, begin + k, points, k, n - k));
+    }
+  }
+  alignas(32) std::array<double, lanes> largest;
+  _mm256_store_pd(largest.data(), speed2);
+  return *std::max_element(largest.begin(), largest.end());
+}
+
+}  // namespace carom
+
+#else
+
+namespace carom {
+
+double draw_brownian_avx2(const BrownianInput& in, std::size_t begin, std::size_t end) {
+  return draw_brownian_baseline(in, begin, end);
+}
+
+}  // namespace carom
+
+#endif
