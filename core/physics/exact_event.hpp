@@ -34,25 +34,35 @@ inline bool made_elastic(const ExactRules& rules, double s, double last_contact)
   return rules.tc() && s - last_contact < rules.contact_time;
 }
 
-// Disks a and b (smaller id first) collide at time s; their new segments start there.
-inline Impact collide_at(const ExactRules& rules, double s, double mass_a, double mass_b, ExactDisk& a, ExactDisk& b) {
-  PathSegment& p = a.path;
-  PathSegment& q = b.path;
-  p = carried_to(p, s, rules.gravity);
-  q = carried_to(q, s, rules.gravity);
-  const Relative r = relative(p, q, rules.box);
+// Two disks (smaller id first) collide at time s with restitution e; their new segments p and q start there. share and
+// reduced_mass: of their masses. gravity: is g not 0?
+template <bool gravity>
+inline Impact collide_paths(const Domain& box, double g, double s, Shares share, double reduced_mass, double e,
+                            PathSegment& p, PathSegment& q) {
+  drift<gravity>(p.x, p.y, p.vx, p.vy, s - p.start, g);
+  drift<gravity>(q.x, q.y, q.vx, q.vy, s - q.start, g);
+  p.start = q.start = s;
+  const Relative r = relative(p, q, box);
   Impact outcome;
   if (r.approach() < 0.0 && r.distance2() > 0.0) {
-    const Shares share = rules.common_mass ? equal_shares : shares(mass_a, mass_b);
-    const bool elastic = made_elastic(rules, s, std::max(a.last_contact, b.last_contact));
-    const double e = elastic ? 1.0 : rules.restitution;
-    const double change = collide(r, share, e, p.vx, p.vy, q.vx, q.vy);
-    outcome = {reduced_mass(mass_a, mass_b) * change, true, elastic && rules.restitution < 1.0};
-    a.last_contact = s;
-    b.last_contact = s;
+    outcome = {reduced_mass * collide(r, share, e, p.vx, p.vy, q.vx, q.vy), true, false};
   }
-  wrap_into(p, rules.box);
-  wrap_into(q, rules.box);
+  wrap_into(p, box);
+  wrap_into(q, box);
+  return outcome;
+}
+
+// Disks a and b (smaller id first) collide at time s; their new segments start there.
+inline Impact collide_at(const ExactRules& rules, double s, double mass_a, double mass_b, ExactDisk& a, ExactDisk& b) {
+  const Shares share = rules.common_mass ? equal_shares : shares(mass_a, mass_b);
+  const bool elastic = made_elastic(rules, s, std::max(a.last_contact, b.last_contact));
+  const double e = elastic ? 1.0 : rules.restitution;
+  Impact outcome =
+      collide_paths<true>(rules.box, rules.gravity, s, share, reduced_mass(mass_a, mass_b), e, a.path, b.path);
+  if (outcome.happened) {
+    outcome.inaccurate = elastic && rules.restitution < 1.0;
+    a.last_contact = b.last_contact = s;
+  }
   return outcome;
 }
 

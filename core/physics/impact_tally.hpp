@@ -28,9 +28,14 @@ struct ImpactTally {
       ++wall_collisions;
       wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.virial);
     } else {
-      ++collisions;
-      virial.add(impact.virial);
+      add_collision(impact.virial);
     }
+  }
+
+  // A collision of two disks.
+  void add_collision(double its_virial) {
+    ++collisions;
+    virial.add(its_virial);
   }
 
   // What a support bore in this round of the step, |impulse| (r1 + r2) or, for a wall, |impulse|.

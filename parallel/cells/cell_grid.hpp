@@ -45,6 +45,7 @@ struct GridLevel {
   std::uint32_t key_of_row(std::uint32_t row) const {
     return (row >> group_shift) * group_keys + (row & ((1U << group_shift) - 1U)) * stride;
   }
+  bool begins_group(std::uint32_t row) const { return (row & ((1U << group_shift) - 1U)) == 0; }
   std::uint32_t key_of_column(std::uint32_t column) const {
     return (column >> band_shift) * band_keys + (column & ((1U << band_shift) - 1U));
   }

@@ -1,94 +1,123 @@
 #include "parallel/exact/event_predictor.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "core/physics/event_order.hpp"
 
 namespace carom {
 
-NextEvent EventPredictor::earliest(std::uint32_t i, bool& lasting) const {
-  const DiskRecord* const record = window_->record.data();
-  const bool far = moves_far(record[i].path);
-  lasting = far;  // far is rare, and its contacts are not examined
-  NextEvent best;
-  if (far || lists_->sides_near(i) != 0) best = earliest_at_sides(i, record[i].path, far, lasting);
-  if (far) {
-    lists_->for_each_neighbour(i, [&](std::uint32_t j) { see_collision_with_images(i, j, best); });
-    return best;
-  }
-  const auto see_batch = [&](const auto& kernel, const auto* offset, std::uint32_t count) {
-    const FirstContacts first = kernel(constants_, record + i, offset, count);
-    lasting = lasting || first.lasting;
-    if (!(first.time <= window_->horizon) || first.time > best.time) return;
-    for (std::uint32_t left = first.bits; left != 0; left &= left - 1U) {
-      see_collision(i, i + static_cast<std::uint32_t>(std::int32_t{offset[std::countr_zero(left)]}), first.time, best);
-    }
+namespace {
+
+// |dr.dv| is rounded; what is a little above the limit is looked at too.
+constexpr double slow_margin = 1.0 + 1e-9;
+
+EventMark mark_of(const WindowState& window, std::uint32_t i, const NextEvent& e) {
+  const DiskId own = window.record[i].id;
+  const DiskId other = e.partner.is_disk() ? window.record[e.partner.index()].id : e.partner.wall_id();
+  return {e.time, std::min(own, other), std::max(own, other)};
+}
+
+}  // namespace
+
+// Does disk i's event a happen before its event b, ties in canonical order?
+bool EventPredictor::comes_first(std::uint32_t i, const NextEvent& a, const NextEvent& b) const {
+  if (a.time != b.time || !(a.time < never)) return a.time < b.time;
+  return event_order(mark_of(*window_, i, a), mark_of(*window_, i, b));
+}
+
+// Of all rows of the list; FirstContact::neighbour is a storage index here.
+FirstContact EventPredictor::first_contact(std::uint32_t i) const {
+  const DiskRecord* const own = &window_->record[i];
+  FirstContact first;
+  const auto see = [&](const auto& kernel, const auto* offset, std::uint32_t count) {
+    FirstContact found = kernel(constants_, own, offset, count);
+    found.neighbour = i + static_cast<std::uint32_t>(std::int32_t{offset[found.neighbour]});
+    const bool tie = found.time == first.time && found.time < never;
+    const bool ambiguous = first.ambiguous || found.ambiguous || tie;
+    if (found.time < first.time) first = found;
+    first.ambiguous = ambiguous;
   };
-  static_assert(NeighbourLists::row_capacity <= max_batch);
-  lists_->visit_offsets(
-      i, [&](const std::int16_t* offset, std::uint32_t count) { see_batch(kernels_.near, offset, count); },
-      [&](const std::int32_t* offset, std::uint32_t count) { see_batch(kernels_.far, offset, count); });
-  return best;
+  lists_->rows().visit_offsets(
+      i, [&](const std::int16_t* offset, std::uint32_t count) { see(kernels_.near, offset, count); },
+      [&](const std::int32_t* offset, std::uint32_t count) { see(kernels_.far, offset, count); });
+  return first;
 }
 
-void EventPredictor::see_collision_with_images(std::uint32_t i, std::uint32_t j, NextEvent& best) const {
+NextEvent EventPredictor::earliest_with_sides(std::uint32_t i) const {
+  if (far_) return earliest_one_by_one(i);
+  const FirstContact first = first_contact(i);
+  if (first.ambiguous) return earliest_one_by_one(i);
+  NextEvent best = earliest_at_sides(i);
+  if (!(first.time <= window_->horizon)) return best;
+  const NextEvent contact{first.time, Partner::disk(first.neighbour), best.lasting};
+  return comes_first(i, contact, best) ? contact : best;
+}
+
+// By core's formulas: any images, any ties.
+NextEvent EventPredictor::earliest_one_by_one(std::uint32_t i) const {
   const DiskRecord& own = window_->record[i];
-  const DiskRecord& other = window_->record[j];
   const ExactRules& rules = window_->rules;
-  const bool in_order = own.id < other.id;
-  const double contact_distance = own.radius + other.radius;
-  const double t = collision_time(in_order ? own.path : other.path, in_order ? other.path : own.path, contact_distance,
-                                  rules.box, rules.gravity, window_->horizon);
-  if (t < never) see_collision(i, j, t, best);
-}
-
-// `best` becomes this collision if it comes first.
-void EventPredictor::see_collision(std::uint32_t i, std::uint32_t j, double time, NextEvent& best) const {
-  const DiskId own = window_->record[i].id;
-  const DiskId other = window_->record[j].id;
-  const NextEvent e{time, std::min(own, other), std::max(own, other), Partner::disk(j)};
-  if (event_order(e, best)) best = e;
+  NextEvent best = earliest_at_sides(i);
+  // far is rare, and its contacts are not examined.
+  bool lasting = best.lasting || far_;
+  lists_->for_each_neighbour(i, [&](std::uint32_t j) {
+    const DiskRecord& other = window_->record[j];
+    const bool in_order = own.id < other.id;
+    const PathSegment& a = in_order ? own.path : other.path;
+    const PathSegment& b = in_order ? other.path : own.path;
+    const double contact_distance = own.radius + other.radius;
+    const double both = std::max(a.start, b.start);
+    const Relative r = relative(carried_to(a, both, rules.gravity), carried_to(b, both, rules.gravity), rules.box);
+    const double gap = r.distance2() - contact_distance * contact_distance;
+    lasting = lasting || (gap * gap <= window_->close2() && r.approach() * r.approach() <= window_->slow2());
+    const double time = collision_time(a, b, contact_distance, rules.box, rules.gravity, window_->horizon);
+    const NextEvent contact{time, Partner::disk(j)};
+    if (comes_first(i, contact, best)) best = contact;
+  });
+  best.lasting = lasting;
+  return best;
 }
 
 PredictionConstants EventPredictor::constants_of(const WindowState& window) {
   const ExactRules& rules = window.rules;
-  PredictionConstants f{rules.gravity, 0.0, 0.0, HUGE_VAL, HUGE_VAL};
-  const double contact_distance = 2.0 * window.largest_radius;
-  f.close2 = 4.0 * (contact_distance * contact_distance) * (window.close * window.close);
-  f.slow2 = (contact_distance * contact_distance) * (window.slow * window.slow);
+  PredictionConstants f;
+  f.gravity = in_all_lanes(rules.gravity);
+  f.half_gravity = in_all_lanes(0.5 * rules.gravity);
+  const double contact_distance = window.disks->common_radius + window.disks->common_radius;
+  f.contact2 = in_all_lanes(contact_distance * contact_distance);
+  f.slow_approach = std::sqrt(window.slow2()) * slow_margin;
   if (rules.box.periodic_x()) {
-    f.width = rules.box.width;
-    f.half_width = 0.5 * f.width;
+    f.period_x = in_all_lanes(rules.box.width);
+    f.periods_per_x = in_all_lanes(1.0 / rules.box.width);
   }
   if (rules.box.periodic_y()) {
-    f.height = rules.box.height;
-    f.half_height = 0.5 * f.height;
+    f.period_y = in_all_lanes(rules.box.height);
+    f.periods_per_y = in_all_lanes(1.0 / rules.box.height);
   }
   return f;
 }
 
-NextEvent EventPredictor::earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far, bool& lasting) const {
+NextEvent EventPredictor::earliest_at_sides(std::uint32_t i) const {
   const DiskRecord& own = window_->record[i];
+  const PathSegment& path = own.path;
   const Domain& box = window_->rules.box;
   const double g = window_->rules.gravity;
   NextEvent best;
+  bool lasting = false;
   const auto see_side = [&](Side side) {
-    const NextEvent e{side_time(path, side, own.radius, box, g, window_->horizon), own.id, wall_partner(side),
-                      Partner::wall(side)};
-    if (e.time < never && event_order(e, best)) best = e;
+    const NextEvent e{side_time(path, side, own.radius, box, g, window_->horizon), Partner::wall(side)};
+    if (comes_first(i, e, best)) best = e;
   };
-  const unsigned near = lists_->sides_near(i);
-  if (near != 0) {
-    for (const Side side : all_sides) {
-      if ((near >> static_cast<unsigned>(side) & 1U) == 0) continue;
-      see_side(side);
-      const bool close = std::abs(reach_beyond(side, path.x, path.y, own.radius, box)) <= window_->close;
-      lasting = lasting || (close && std::abs(outward_speed(side, path.vx, path.vy)) <= window_->slow);
-    }
+  const unsigned near = lists_->rows().sides_near(i);
+  for (const Side side : all_sides) {
+    if ((near >> static_cast<unsigned>(side) & 1U) == 0) continue;
+    see_side(side);
+    const bool close = std::abs(reach_beyond(side, path.x, path.y, own.radius, box)) <= window_->close;
+    lasting = lasting || (close && std::abs(outward_speed(side, path.vx, path.vy)) <= window_->slow);
   }
-  if (!far) return best;
+  best.lasting = lasting;
+  if (!far_) return best;
   // Only a disk that moves far within the window has crossing events.
   const double span = (window_->horizon - path.start) * (1.0 + 1e-9);
   if (box.periodic_x() && std::abs(path.vx) * span >= longest_flight * box.width) {
@@ -97,6 +126,7 @@ NextEvent EventPredictor::earliest_at_sides(std::uint32_t i, const PathSegment& 
   if (box.periodic_y() && (std::abs(path.vy) + g * span) * span >= longest_flight * box.height) {
     see_side(path.vy > 0.0 ? Side::top : Side::bottom);
   }
+  best.lasting = lasting;
   return best;
 }
 

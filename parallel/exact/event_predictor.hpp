@@ -1,7 +1,6 @@
 // The prediction of a disk's next event: its earliest contact with a side or with a disk of its neighbour list.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "parallel/exact/neighbour_lists.hpp"
@@ -12,8 +11,8 @@ namespace carom {
 
 struct NextEvent {
   double time = never;
-  DiskId id1 = 0, id2 = 0;  // of the event; id2 may be a wall_partner
-  Partner partner;          // of the disk whose event it is
+  Partner partner;       // of the disk whose event it is
+  bool lasting = false;  // a contact of the disk lasts (WindowState::close): the next window may see other events
 };
 
 class EventPredictor {
@@ -23,24 +22,38 @@ class EventPredictor {
         lists_(&lists),
         kernels_(choose_prediction_kernels(window.rules.gravity != 0.0, !window.disks->radius.empty())),
         constants_(constants_of(window)),
-        fastest2_(window.fastest2) {}
+        fastest2_(window.fastest2),
+        far_(!(fastest2_ <= window.safe_speed2)) {}
 
-  // The earliest event of disk i with a side or a neighbour, up to the horizon, all on their present paths. lasting:
-  // one of its contacts lasts (WindowState::close), so that the next window may see other events.
-  NextEvent earliest(std::uint32_t i, bool& lasting) const;
+  // The earliest event of disk i with a side or a neighbour, up to the horizon, all on their present paths. newest: no
+  // neighbour's segment starts later than the disk's own.
+  template <bool newest>
+  NextEvent earliest(std::uint32_t i) const {
+    const ListRows::PlainList list = lists_->rows().plain_list(i);
+    if (far_ || !list.is_plain) return earliest_with_sides(i);
+    const auto kernel = newest ? kernels_.near_newest : kernels_.near;
+    const FirstContact first = kernel(constants_, &window_->record[i], list.offset, list.count);
+    if (first.ambiguous) [[unlikely]]
+      return earliest_one_by_one(i);
+    if (!(first.time <= window_->horizon)) return {};
+    return {first.time, Partner::disk(i + static_cast<std::uint32_t>(std::int32_t{list.offset[first.neighbour]}))};
+  }
 
   // To be called for every segment that begins, with its v^2.
-  void note_speed(double v2) { fastest2_ = std::max(fastest2_, v2); }
+  void note_speed(double v2) {
+    if (v2 <= fastest2_) [[likely]]
+      return;
+    fastest2_ = v2;
+    far_ = !(fastest2_ <= window_->safe_speed2);
+  }
   double fastest2() const { return fastest2_; }
 
  private:
-  // May it, or a disk that it meets, move so far that images beyond the nearest one or crossing events matter?
-  bool moves_far(const PathSegment& path) const {
-    return !(std::max(fastest2_, path.vx * path.vx + path.vy * path.vy) <= window_->safe_speed2);
-  }
-  NextEvent earliest_at_sides(std::uint32_t i, const PathSegment& path, bool far, bool& lasting) const;
-  void see_collision_with_images(std::uint32_t i, std::uint32_t j, NextEvent& best) const;
-  void see_collision(std::uint32_t i, std::uint32_t j, double time, NextEvent& best) const;
+  FirstContact first_contact(std::uint32_t i) const;
+  NextEvent earliest_with_sides(std::uint32_t i) const;
+  NextEvent earliest_one_by_one(std::uint32_t i) const;
+  NextEvent earliest_at_sides(std::uint32_t i) const;
+  bool comes_first(std::uint32_t i, const NextEvent& a, const NextEvent& b) const;
   static PredictionConstants constants_of(const WindowState& window);
 
   const WindowState* window_;
@@ -48,6 +61,7 @@ class EventPredictor {
   PredictionKernels kernels_;
   PredictionConstants constants_;
   double fastest2_;  // largest v^2 so far
+  bool far_;         // may a disk move so far that images beyond the nearest one, or crossing events, matter?
 };
 
 }  // namespace carom

@@ -34,8 +34,9 @@ constexpr std::size_t pass_block = 8192;
 constexpr double early_share = 1e-3;
 // Events a disk in a slice: fewer leave less to the serial pass, more need fewer passes over all tiles.
 constexpr double events_per_slice = 0.25;
-// The lists are rebuilt, and the disks sorted, when one disk in so many has been relisted.
-constexpr std::size_t relisted_share = 2;
+// The lists are rebuilt, and the disks sorted, when they have been relisted so many times each: by then neighbours are
+// no longer neighbours in storage.
+constexpr Count relistings_a_disk = 8;
 // Tiled mode: no disk may become faster in a window than this factor times the fastest one at its start. A window in
 // which one does is run again with a larger factor, and at last without tiles.
 constexpr double speed_margin = 1.25;
@@ -184,7 +185,7 @@ SpeedSummary ParallelExact::summarise() {
 
 // Returns whether it did.
 bool ParallelExact::rebuild_lists_if_due(bool tiles_allowed) {
-  if (valid_ != Valid::nothing && scheduler_.relisted() * relisted_share <= state_.disks.size()) return false;
+  if (valid_ != Valid::nothing && scheduler_.relisted() <= relistings_a_disk * state_.disks.size()) return false;
   const PhaseTimer timer(times_, "list");
   const ListLayout layout = choose_layout(state_.disks.size(), tiles_allowed, executor_);
   lists_.build(state_.disks, scene_.box, layout, executor_);

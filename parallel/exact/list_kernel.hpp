@@ -7,9 +7,6 @@
 
 namespace carom {
 
-// In the chains of relisted disks: the disk is still in the cell that it was sorted into.
-inline constexpr std::uint32_t unchained = 0xfffffffeU;
-
 // A position in the box, rounded down, in 2^-32 of a period or 2^-31 of a side between walls: differences of whole
 // numbers wrap round a period by themselves, which gives the nearest image.
 struct FixedPointPosition {
@@ -22,22 +19,22 @@ struct ListQuery {
   float unit_x = 0.0F, unit_y = 0.0F;  // of FixedPointPosition; length
   float cutoff = 0.0F;                 // without the neighbour's radius; length
   float common_radius = 0.0F;          // where all disks have one; length
-  double per_length = 1.0;             // converts a radius of ListColumns to this unit
   std::uint32_t self = 0;              // is not its own neighbour
 };
 
-// By storage index.
-struct ListColumns {
+// By slot.
+struct SlotColumns {
   const FixedPointPosition* position = nullptr;
-  const double* radius = nullptr;       // null: all have the common one
-  const std::uint32_t* next = nullptr;  // only disks that are unchained here are found; null: all
-  std::uint32_t count = 0;              // of disks that may be read, found or not
+  const std::uint32_t* disk = nullptr;  // empty_slot: none
+  const float* radius = nullptr;        // length, in the query's unit; null: all have the common one
 };
+inline constexpr std::uint32_t empty_slot = 0xffffffffU;
 
-// Disks [first, last), neighbours in storage.
-struct DiskRun {
+// Slots [first, last), a multiple of slots_a_cell.
+struct SlotRun {
   std::uint32_t first, last;
 };
+inline constexpr std::uint32_t slots_a_cell = 4;
 
 // All versions do these operations in this order, so that they find the same disks.
 inline bool is_neighbour(const ListQuery& q, FixedPointPosition p, float radius) {
@@ -46,19 +43,16 @@ inline bool is_neighbour(const ListQuery& q, FixedPointPosition p, float radius)
   const float cutoff = q.cutoff + radius;
   return dx * dx + dy * dy <= cutoff * cutoff;
 }
-inline float radius_in(const ListQuery& q, const ListColumns& columns, std::uint32_t j) {
-  return columns.radius != nullptr ? static_cast<float>(columns.radius[j] * q.per_length) : q.common_radius;
-}
 
-// Writes the neighbours among the disks of the runs, in order, and returns how many. found has room for all disks of
-// the runs and list_kernel_padding more.
+// Writes the neighbours among the disks in the slots of the runs, in order, and returns how many. found has room for
+// as many as there are slots, and list_kernel_padding more.
 inline constexpr std::size_t list_kernel_padding = 8;
-using ListKernel = std::size_t (*)(const ListQuery& query, const ListColumns& columns, const DiskRun* runs,
+using ListKernel = std::size_t (*)(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs,
                                    std::size_t count, std::uint32_t* found);
 
-std::size_t list_kernel_baseline(const ListQuery& query, const ListColumns& columns, const DiskRun* runs,
+std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs,
                                  std::size_t count, std::uint32_t* found);
-std::size_t list_kernel_avx2(const ListQuery& query, const ListColumns& columns, const DiskRun* runs, std::size_t count,
+std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                              std::uint32_t* found);
 
 // The best version for the processor at hand.

@@ -6,7 +6,6 @@
 #include <immintrin.h>
 
 #include <array>
-#include <bit>
 
 namespace carom {
 
@@ -32,12 +31,16 @@ struct Lanes {
   __m256 unit_x, unit_y, cutoff, cutoff2;
 };
 
-// Lanes that are near.
-template <bool unequal_radii>
-inline __m256 near_lanes(const Lanes& l, const ListQuery& q, const ListColumns& columns, std::uint32_t j) {
-  const auto* const p = reinterpret_cast<const float*>(columns.position + j);
-  const __m256 a = _mm256_loadu_ps(p);
-  const __m256 b = _mm256_loadu_ps(p + lanes);
+// Packs the near disks of the slots from s on: eight, or slots_a_cell.
+template <bool unequal_radii, bool eight>
+inline std::size_t take(const Lanes& l, const SlotColumns& columns, std::uint32_t s, std::uint32_t* found) {
+  const auto half = [](const auto* column) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(column)); };
+  const auto whole = [](const auto* column) { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(column)); };
+  const __m256 a = _mm256_castsi256_ps(whole(columns.position + s));
+  const __m256 b = eight ? _mm256_castsi256_ps(whole(columns.position + s + slots_a_cell)) : a;
+  const __m256i disk =
+      eight ? whole(columns.disk + s)
+            : _mm256_inserti128_si256(_mm256_set1_epi32(static_cast<int>(empty_slot)), half(columns.disk + s), 0);
   // Lanes 0, 1, 4, 5, 2, 3, 6, 7, put in order at the end.
   const __m256i x = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0x88));
   const __m256i y = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0xdd));
@@ -45,34 +48,25 @@ inline __m256 near_lanes(const Lanes& l, const ListQuery& q, const ListColumns& 
   const __m256 dy = _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_sub_epi32(y, l.y)), l.unit_y);
   const __m256 unordered = _mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy));
   const __m256 distance2 = _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(unordered), 0xd8));
-  if constexpr (!unequal_radii) return _mm256_cmp_ps(distance2, l.cutoff2, _CMP_LE_OQ);
-  const __m256d per_length = _mm256_set1_pd(q.per_length);
-  const __m128 low = _mm256_cvtpd_ps(_mm256_mul_pd(_mm256_loadu_pd(columns.radius + j), per_length));
-  const __m128 high = _mm256_cvtpd_ps(_mm256_mul_pd(_mm256_loadu_pd(columns.radius + j + 4), per_length));
-  const __m256 cutoff = _mm256_add_ps(l.cutoff, _mm256_set_m128(high, low));
-  return _mm256_cmp_ps(distance2, _mm256_mul_ps(cutoff, cutoff), _CMP_LE_OQ);
-}
-
-// Packs the lanes of a run of up to `left` disks from j on.
-inline std::size_t take(const Lanes& l, const ListColumns& columns, std::uint32_t j, std::uint32_t left, __m256 near,
-                        std::uint32_t* found) {
-  const __m256i number = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-  const __m256i at = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(j)), number);
-  __m256i taken = _mm256_andnot_si256(_mm256_cmpeq_epi32(at, l.self), _mm256_castps_si256(near));
-  taken = _mm256_and_si256(taken, _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(left)), number));
-  if (columns.next != nullptr) {
-    const __m256i next = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(columns.next + j));
-    taken = _mm256_and_si256(taken, _mm256_cmpeq_epi32(next, _mm256_set1_epi32(static_cast<int>(unchained))));
+  __m256 cutoff2 = l.cutoff2;
+  if constexpr (unequal_radii) {
+    const __m256 radius =
+        eight ? _mm256_loadu_ps(columns.radius + s) : _mm256_castps128_ps256(_mm_loadu_ps(columns.radius + s));
+    const __m256 cutoff = _mm256_add_ps(l.cutoff, radius);
+    cutoff2 = _mm256_mul_ps(cutoff, cutoff);
   }
-  const auto bits = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(taken)));
+  const __m256i excluded = _mm256_or_si256(_mm256_cmpeq_epi32(disk, l.self),
+                                           _mm256_cmpeq_epi32(disk, _mm256_set1_epi32(static_cast<int>(empty_slot))));
+  const __m256i near = _mm256_castps_si256(_mm256_cmp_ps(distance2, cutoff2, _CMP_LE_OQ));
+  const auto bits = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_andnot_si256(excluded, near))));
   const __m128i order = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(packing[bits].data()));
-  const __m256i packed = _mm256_add_epi32(_mm256_cvtepu8_epi32(order), _mm256_set1_epi32(static_cast<int>(j)));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(found), packed);
-  return static_cast<std::size_t>(std::popcount(bits));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(found),
+                      _mm256_permutevar8x32_epi32(disk, _mm256_cvtepu8_epi32(order)));
+  return static_cast<std::size_t>(__builtin_popcount(bits));
 }
 
 template <bool unequal_radii>
-std::size_t find(const ListQuery& q, const ListColumns& columns, const DiskRun* runs, std::size_t count,
+std::size_t find(const ListQuery& q, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                  std::uint32_t* found) {
   const float cutoff = q.cutoff + q.common_radius;
   const Lanes l{_mm256_set1_epi32(static_cast<int>(q.position.x)),
@@ -84,23 +78,17 @@ std::size_t find(const ListQuery& q, const ListColumns& columns, const DiskRun* 
                 _mm256_set1_ps(cutoff * cutoff)};
   std::size_t n = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    std::uint32_t j = runs[k].first;
+    std::uint32_t s = runs[k].first;
     const std::uint32_t last = runs[k].last;
-    // The last few together with disks that follow them, which are masked out; where none follow, one by one.
-    for (; j < last && j + lanes <= columns.count; j += lanes) {
-      n += take(l, columns, j, last - j, near_lanes<unequal_radii>(l, q, columns, j), found + n);
-    }
-    if (j < last) {
-      const DiskRun rest{j, last};
-      n += list_kernel_baseline(q, columns, &rest, 1, found + n);
-    }
+    for (; s + lanes <= last; s += lanes) n += take<unequal_radii, true>(l, columns, s, found + n);
+    if (s < last) n += take<unequal_radii, false>(l, columns, s, found + n);
   }
   return n;
 }
 
 }  // namespace
 
-std::size_t list_kernel_avx2(const ListQuery& query, const ListColumns& columns, const DiskRun* runs, std::size_t count,
+std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                              std::uint32_t* found) {
   return columns.radius == nullptr ? find<false>(query, columns, runs, count, found)
                                    : find<true>(query, columns, runs, count, found);
@@ -112,7 +100,7 @@ std::size_t list_kernel_avx2(const ListQuery& query, const ListColumns& columns,
 
 namespace carom {
 
-std::size_t list_kernel_avx2(const ListQuery& query, const ListColumns& columns, const DiskRun* runs, std::size_t count,
+std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                              std::uint32_t* found) {
   return list_kernel_baseline(query, columns, runs, count, found);
 }

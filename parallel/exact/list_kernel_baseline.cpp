@@ -4,15 +4,16 @@
 namespace carom {
 
 // No branch depends on a position: which disks are near is as good as random.
-std::size_t list_kernel_baseline(const ListQuery& query, const ListColumns& columns, const DiskRun* runs,
+std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs,
                                  std::size_t count, std::uint32_t* found) {
   std::size_t n = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    for (std::uint32_t j = runs[k].first; j < runs[k].last; ++j) {
-      const bool here = columns.next == nullptr || columns.next[j] == unchained;
-      found[n] = j;
-      n += static_cast<unsigned>(is_neighbour(query, columns.position[j], radius_in(query, columns, j))) &
-           static_cast<unsigned>(here) & static_cast<unsigned>(j != query.self);
+    for (std::uint32_t s = runs[k].first; s < runs[k].last; ++s) {
+      const std::uint32_t disk = columns.disk[s];
+      const float radius = columns.radius != nullptr ? columns.radius[s] : query.common_radius;
+      found[n] = disk;
+      n += static_cast<unsigned>(is_neighbour(query, columns.position[s], radius)) &
+           static_cast<unsigned>(disk != empty_slot) & static_cast<unsigned>(disk != query.self);
     }
   }
   return n;

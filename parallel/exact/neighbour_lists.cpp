@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "core/base/huge_pages.hpp"
@@ -18,8 +19,12 @@ namespace {
 constexpr std::size_t disks_per_block = 4096;
 constexpr std::size_t most_blocks = 65536;
 // Twice the skin and a diameter make this many mean spacings: about eleven neighbours. Longer lists take longer to go
-// through, shorter ones have to be renewed more often.
-constexpr double cutoff_in_spacings = 2.0;
+// through, shorter ones have to be renewed more often, the sooner the less dense the system is: with one queue the
+// fewest instructions a collision at 10^4 disks are at 2.1, 1.8 and 1.65 spacings at packing fractions 0.2, 0.5 and
+// 0.7.
+constexpr double tiled_cutoff_in_spacings = 2.0;
+constexpr double thin_cutoff_in_spacings = 2.25;
+constexpr double cutoff_by_packing_fraction = -0.9;
 // In very dense systems the skin is at least this share of a mean diameter.
 constexpr double least_skin = 0.08;
 // The skin in units of fixed point, whose rounding must not count.
@@ -32,41 +37,42 @@ constexpr double two_to_31 = 2147483648.0;
 // Share of the skin that gravity may bend a path by before earliest_relist_time is asked again.
 constexpr double bend_share = 0.1;
 
-// Collects the neighbours of one disk: from runs of disks by the kernel, relisted ones one by one.
+// Collects the neighbours of one disk: from runs of slots by the kernel, those without a slot one by one.
 class NeighbourCollector {
  public:
-  NeighbourCollector(ListKernel kernel, const ListQuery& query, const ListColumns& columns, FoundNeighbours& found)
+  NeighbourCollector(ListKernel kernel, const ListQuery& query, const SlotColumns& columns, FoundNeighbours& found)
       : kernel_(kernel), query_(query), columns_(columns), found_(found) {
     found.count = 0;
   }
 
-  void add_run(std::uint32_t first, std::uint32_t last) {
+  void add(SlotRun run) {
     if (held_ == runs_.size()) search();
-    runs_[held_++] = {first, last};
-    disks_ += last - first;
+    runs_[held_++] = run;
+    slots_ += run.last - run.first;
   }
 
-  void add(std::uint32_t j) {
+  // A disk near which the query's disk may be.
+  void add(std::uint32_t j, FixedPointPosition position, float radius) {
     if (found_.buffer.size() < found_.count + list_kernel_padding) found_.grow(found_.count);
     found_.buffer[found_.count] = j;
-    found_.count += is_neighbour(query_, columns_.position[j], radius_in(query_, columns_, j)) && j != query_.self;
+    found_.count += is_neighbour(query_, position, radius) && j != query_.self ? 1U : 0U;
   }
 
   // Searches the runs that are held.
   void search() {
-    if (found_.buffer.size() < found_.count + disks_ + list_kernel_padding) found_.grow(found_.count + disks_);
+    if (found_.buffer.size() < found_.count + slots_ + list_kernel_padding) found_.grow(found_.count + slots_);
     found_.count += kernel_(query_, columns_, runs_.data(), held_, found_.buffer.data() + found_.count);
-    held_ = disks_ = 0;
+    held_ = slots_ = 0;
   }
 
  private:
   ListKernel kernel_;
   const ListQuery& query_;
-  const ListColumns& columns_;
+  const SlotColumns columns_;
   FoundNeighbours& found_;
-  std::array<DiskRun, runs_at_once> runs_;
+  std::array<SlotRun, runs_at_once> runs_;
   std::size_t held_ = 0;
-  std::size_t disks_ = 0;  // in the runs
+  std::size_t slots_ = 0;  // in the runs
 };
 
 }  // namespace
@@ -77,16 +83,24 @@ void FoundNeighbours::grow(std::size_t disks) {
 
 void NeighbourLists::choose_skin(const Disks& d, double relist_share) {
   const double n = static_cast<double>(d.size());
-  double radius = d.common_radius;
-  if (!d.radius.empty()) {
-    radius = 0.0;
-    for (const double r : d.radius) radius += r;
-    radius /= n;
+  double radius = 0.0;
+  double area = 0.0;
+  for (const double r : d.radius) {
+    radius += r / n;
+    area += std::numbers::pi * r * r;
   }
-  const double spacing = std::sqrt(box_.width * box_.height / n);
-  skin_ = std::max({0.5 * (cutoff_in_spacings * spacing - 2.0 * radius), least_skin * 2.0 * radius,
+  if (d.radius.empty()) {
+    radius = d.common_radius;
+    area = n * std::numbers::pi * radius * radius;
+  }
+  const double space = box_.width * box_.height;
+  const double cutoff = mode_ == EngineMode::tiled
+                            ? tiled_cutoff_in_spacings
+                            : thin_cutoff_in_spacings + cutoff_by_packing_fraction * area / space;
+  skin_ = std::max({0.5 * (cutoff * std::sqrt(space / n) - 2.0 * radius), least_skin * 2.0 * radius,
                     least_units * std::max(unit_x_, unit_y_)});
   relist_distance_ = relist_share * skin_;
+  stay2_ = relist_distance_ * relist_distance_ * (1.0 - 2e-9);
 }
 
 void NeighbourLists::sort(Disks& d, std::size_t disks_per_tile, const Executor& executor) {
@@ -104,8 +118,6 @@ void NeighbourLists::sort(Disks& d, std::size_t disks_per_tile, const Executor& 
     make_grid(box_, largest, count, grid_);
   }
   sort_into_cells(d, grid_, executor, cells_);
-  head_.assign(grid_.keys, none);
-  next_.assign(d.size(), unchained);
 }
 
 void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout, const Executor& executor) {
@@ -113,18 +125,22 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   box_ = box;
   unit_x_ = box.width / (box.periodic_x() ? 2.0 * two_to_31 : two_to_31);
   unit_y_ = box.height / (box.periodic_y() ? 2.0 * two_to_31 : two_to_31);
+  all_periodic_ = box.periodic_x() && box.periodic_y();
+  period_x_ = box.periodic_x() ? box.width : 0.0;
+  period_y_ = box.periodic_y() ? box.height : 0.0;
+  periods_per_x_ = box.periodic_x() ? 1.0 / box.width : 0.0;
+  periods_per_y_ = box.periodic_y() ? 1.0 / box.height : 0.0;
   const std::size_t n = d.size();
   largest_radius_ = largest_radius(d);
   grid_.tiles = 1;
   grid_.tile_keys = 0;
+  stay2_ = never;
   if (mode_ != EngineMode::all_pairs) {
     choose_skin(d, layout.relist_share);
     // Much memory: that of the rows is given back for what sorting needs.
-    if (mode_ == EngineMode::tiled) std::vector<Row>().swap(rows_);
+    if (mode_ == EngineMode::tiled) rows_.release();
     sort(d, layout.disks_per_tile, executor);
   }
-  if (rows_.capacity() < n) resize_in_huge_pages(rows_, n);
-  rows_.resize(n);
   if (listed_at_.capacity() < n) resize_in_huge_pages(listed_at_, n);
   listed_at_.resize(n);
   executor.for_ranges(n, disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -134,15 +150,21 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
 }
 
 void NeighbourLists::list_all(const Disks& d, const Executor& executor) {
+  if (mode_ != EngineMode::all_pairs) slots_.begin(grid_.keys, d.size(), !d.radius.empty());
   if (mode_ == EngineMode::tiled) {
-    wide_.resize(grid_.tiles);
-    executor.run(wide_.size(), [&](std::size_t t) {
+    executor.run(grid_.tiles, [&](std::size_t t) {
+      const auto tile = static_cast<std::uint32_t>(t);
+      fill_slots(d, tile * grid_.tile_keys, (tile + 1) * grid_.tile_keys);
+    });
+    rows_.begin(d.size(), grid_.tiles);
+    executor.run(grid_.tiles, [&](std::size_t t) {
       const auto tile = static_cast<std::uint32_t>(t);
       list_block(d, t, first_disk_of(tile), first_disk_of(tile + 1));
     });
   } else {
     const std::size_t per_block = std::max(disks_per_block, d.size() / most_blocks + 1);
-    wide_.resize(executor.blocks(d.size(), per_block));
+    if (mode_ == EngineMode::single_queue) fill_slots(d, 0, grid_.keys);
+    rows_.begin(d.size(), executor.blocks(d.size(), per_block));
     executor.for_ranges(d.size(), per_block,
                         [&](std::size_t b, std::size_t begin, std::size_t end) { list_block(d, b, begin, end); });
   }
@@ -150,19 +172,26 @@ void NeighbourLists::list_all(const Disks& d, const Executor& executor) {
 
 void NeighbourLists::list_block(const Disks& d, std::size_t block, std::size_t begin, std::size_t end) {
   thread_local FoundNeighbours found;
-  wide_[block].clear();
-  ListRegion everything;
-  everything.none_relisted = true;
+  rows_.clear_block(block);
+  const ListRegion everything;
   for (std::size_t k = begin; k < end; ++k) {
     const auto i = static_cast<std::uint32_t>(k);
-    rows_[i].block = static_cast<std::uint16_t>(block);
-    rows_[i].sides = static_cast<std::uint8_t>(find_sides(d, i));
+    rows_.enter(i, block, find_sides(d, i));
     if (mode_ == EngineMode::all_pairs) {
       find_all_others(i, found);
     } else {
       find_neighbours(d, i, listed_at_[i], everything, found);
     }
-    set_list(i, found.disks());
+    rows_.set(i, found.disks());
+  }
+}
+
+// Puts the disks sorted into cells [first_key, last_key) into the cells' slots.
+void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::uint32_t last_key) {
+  for (std::uint32_t key = first_key; key < last_key; ++key) {
+    for (std::uint32_t i = cells_.start[key]; i < cells_.start[key + 1]; ++i) {
+      slots_.insert(key, i, listed_at_[i], radius_in_units(d.radius_of(i)));
+    }
   }
 }
 
@@ -175,7 +204,11 @@ FixedPointPosition NeighbourLists::fixed_point(double x, double y) const {
   return {units(x, unit_x_, box_.periodic_x()), units(y, unit_y_, box_.periodic_y())};
 }
 
-// Lengths in units of the skin.
+// In units of the skin, a little more.
+float NeighbourLists::radius_in_units(double radius) const {
+  return static_cast<float>(radius * (1.0 / skin_ * single_margin));
+}
+
 ListQuery NeighbourLists::query_at(const Disks& d, std::uint32_t i, FixedPointPosition position) const {
   const double per_length = 1.0 / skin_;
   const double distance = d.radius_of(i) + 2.0 * skin_;
@@ -185,26 +218,16 @@ ListQuery NeighbourLists::query_at(const Disks& d, std::uint32_t i, FixedPointPo
           single(unit_y_),
           single(distance * single_margin),
           single(d.common_radius * single_margin),
-          per_length * single_margin,
           i};
-}
-
-// Relisted disks are not found in the cells that they were sorted into, but in the chains of their present cells.
-ListColumns NeighbourLists::columns_in(const Disks& d, const ListRegion& region) const {
-  return {listed_at_.data(), d.radius.empty() ? nullptr : d.radius.data(),
-          region.none_relisted ? nullptr : next_.data(),
-          std::min(static_cast<std::uint32_t>(listed_at_.size()), region.last_disk)};
 }
 
 bool NeighbourLists::find_neighbours(const Disks& d, std::uint32_t i, FixedPointPosition position,
                                      const ListRegion& region, FoundNeighbours& found) const {
   const ListQuery query = query_at(d, i, position);
-  const ListColumns columns = columns_in(d, region);
-  NeighbourCollector collector(kernel_, query, columns, found);
+  NeighbourCollector collector(kernel_, query, slots_.columns(), found);
   const bool inside = visit_runs_near(
-      position_of(position), d.radius_of(i) + 2.0 * skin_, region,
-      [&](std::uint32_t first, std::uint32_t last) { collector.add_run(first, last); },
-      [&](std::uint32_t j) { collector.add(j); });
+      position_of(position), d.radius_of(i) + 2.0 * skin_, region, [&](SlotRun run) { collector.add(run); },
+      [&](std::uint32_t j) { collector.add(j, listed_at_[j], radius_in_units(d.radius_of(j))); });
   collector.search();
   return inside;
 }
@@ -217,6 +240,7 @@ void NeighbourLists::find_all_others(std::uint32_t i, FoundNeighbours& found) co
 }
 
 unsigned NeighbourLists::find_sides(const Disks& d, std::uint32_t i) const {
+  if (all_periodic_) return 0;
   unsigned sides = 0;
   const Vec2 position = listed_position(i);
   for (const Side side : all_sides) {
@@ -264,20 +288,17 @@ double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& 
   return from + std::min(t, ahead);
 }
 
-// A straight path whose ends are in a circle is in it; gravity bends it by g t^2 / 8 at most.
-bool NeighbourLists::stays_listed(std::uint32_t i, const PathSegment& path, double from, double until, double g) const {
+// A straight path whose ends are in a circle is in it; gravity bends it by g t^2 / 8 at most, so that it has to begin
+// and end further inside.
+bool NeighbourLists::stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until,
+                                          double g) const {
   if (mode_ == EngineMode::all_pairs) return true;
-  const double bend = 0.125 * g * (until - from) * (until - from);
-  const double room = relist_distance_ * (1.0 - 1e-9) - bend;
-  const Vec2 position = listed_position(i);
+  const double room = relist_distance_ * (1.0 - 1e-9) - 0.125 * g * (until - from) * (until - from);
   const auto inside = [&](double t) {
     const double s = t - path.start;
-    const double x = path.x + path.vx * s;
-    const double y = path.y + (path.vy - 0.5 * g * s) * s;
-    return nearest_distance2({x - position.x, y - position.y}, box_) < room * room;
+    return is_within(i, path.x + path.vx * s, path.y + (path.vy - 0.5 * g * s) * s, room * room);
   };
-  // A straight path begins inside anyway; a bent one has to begin further inside.
-  return room > 0.0 && inside(until) && (g == 0.0 || inside(from));
+  return room > 0.0 && inside(until) && inside(from);
 }
 
 // Listed disks are within their contact distance and 4 skins of each other, carried back to the window's start by two
@@ -299,76 +320,14 @@ std::uint32_t NeighbourLists::cell_of(const Disks& d, std::uint32_t i, FixedPoin
   return key_of(grid_.levels[level], position.x, position.y);
 }
 
-bool NeighbourLists::lists(std::uint32_t i, std::uint32_t j) const {
-  const Row& row = rows_[i];
-  const auto offset = static_cast<std::int32_t>(j - i);
-  // All of the row, so that the compiler can take several at a time; those beyond count are 0.
-  const auto sought = static_cast<std::int16_t>(offset);
-  std::int16_t seen = 0;
-  for (std::uint32_t k = 0; k < row_capacity; ++k) {
-    seen = static_cast<std::int16_t>(seen | -(row.offset[k] == sought));
-  }
-  if (seen != 0 && sought == offset) return true;
-  for (std::uint32_t w = row.more; w != none; w = wide_[row.block][w].next) {
-    const WideRow& wide = wide_[row.block][w];
-    if (std::find(wide.offset, wide.offset + wide.count, offset) != wide.offset + wide.count) return true;
-  }
-  return false;
-}
-
-void NeighbourLists::set_list(std::uint32_t i, std::span<const std::uint32_t> found) {
-  Row& row = rows_[i];
-  row.more = none;
-  row.count = 0;
-  std::fill(std::begin(row.offset), std::end(row.offset), std::int16_t{0});
-  for (const std::uint32_t j : found) insert(i, j);
-}
-
-void NeighbourLists::insert(std::uint32_t i, std::uint32_t j) {
-  Row& row = rows_[i];
-  const auto offset = static_cast<std::int32_t>(j - i);
-  if (row.count < row_capacity && offset == static_cast<std::int16_t>(offset)) {
-    row.offset[row.count++] = static_cast<std::int16_t>(offset);
-  } else {
-    insert_wide(row, offset);
-  }
-}
-
-void NeighbourLists::insert_wide(Row& row, std::int32_t offset) {
-  std::vector<WideRow>& wide = wide_[row.block];
-  if (row.more == none || wide[row.more].count == wide_row_capacity) {
-    wide.push_back({{}, 0, row.more});
-    row.more = static_cast<std::uint32_t>(wide.size() - 1);
-  }
-  WideRow& last = wide[row.more];
-  last.offset[last.count++] = offset;
-}
-
-// Takes the disk out of the chain of this cell. False, without a change, if the link to it is that of a disk stored
-// outside the region, which another thread may read.
-bool NeighbourLists::unchain(std::uint32_t i, std::uint32_t key, const ListRegion& region) {
-  std::uint32_t* link = &head_[key];
-  bool holds_link = true;
-  while (*link != i) {
-    holds_link = region.holds(*link);
-    link = &next_[*link];
-  }
-  if (holds_link) *link = next_[i];
-  return holds_link;
-}
-
-// Chains the disk to the cell of this position; false, without a change, if its old cell or the link to it there is
+// Moves the disk to the cell of this position; false, without a change, if its old cell, or the link to it there, is
 // outside the region.
 bool NeighbourLists::move_to_cell_of(const Disks& d, std::uint32_t i, FixedPointPosition position,
                                      const ListRegion& region) {
-  if (next_[i] != unchained) {
-    const std::uint32_t old_key = cell_of(d, i, listed_at_[i]);
-    if (old_key < region.first_key || old_key >= region.last_key) return false;
-    if (!unchain(i, old_key, region)) return false;
-  }
-  const std::uint32_t key = cell_of(d, i, position);
-  next_[i] = head_[key];
-  head_[key] = i;
+  const std::uint32_t old_key = slots_.cell_of(i);
+  if (old_key < region.first_key || old_key >= region.last_key) return false;
+  if (!slots_.remove(i, [&](std::uint32_t j) { return region.holds(j); })) return false;
+  slots_.insert(cell_of(d, i, position), i, position, radius_in_units(d.radius_of(i)));
   return true;
 }
 
@@ -384,11 +343,8 @@ bool NeighbourLists::relist(std::uint32_t i, Vec2 at, const Disks& d, const List
   if (!std::all_of(near.begin(), near.end(), [&](std::uint32_t j) { return region.holds(j); })) return false;
   if (!move_to_cell_of(d, i, position, region)) return false;
   listed_at_[i] = position;
-  rows_[i].sides = static_cast<std::uint8_t>(find_sides(d, i));
-  set_list(i, near);
-  for (const std::uint32_t j : near) {
-    if (!lists(j, i)) insert(j, i);
-  }
+  rows_.set_sides(i, find_sides(d, i));
+  rows_.replace(i, near, region);
   return true;
 }
 

@@ -12,8 +12,10 @@
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/cells/counting_sort.hpp"
 #include "parallel/cells/nearby_runs.hpp"
+#include "parallel/exact/cell_slots.hpp"
 #include "parallel/exact/engine_mode.hpp"
 #include "parallel/exact/list_kernel.hpp"
+#include "parallel/exact/list_rows.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
@@ -29,23 +31,21 @@ void for_each_cell_run_near(const GridLevel& level, const Domain& box, double x,
     // Up to the end of the band or of the row.
     const std::uint32_t band = std::min(level.columns - column, level.columns_left_in_band(column));
     const std::uint32_t run = std::min(left, band);
-    const std::uint32_t column_key = level.first_key + level.key_of_column(column);
-    for (std::uint32_t k = 0, row = rows.first; k < rows.count; ++k, row = row + 1 < level.rows ? row + 1 : 0) {
-      const std::uint32_t first = column_key + level.key_of_row(row);
+    std::uint32_t first = level.first_key + level.key_of_column(column) + level.key_of_row(rows.first);
+    for (std::uint32_t k = 0, row = rows.first; k < rows.count; ++k) {
       visit(first, first + run);
+      const bool wraps = ++row == level.rows;
+      if (wraps || level.begins_group(row)) [[unlikely]] {
+        row = wraps ? 0 : row;
+        first = level.first_key + level.key_of_column(column) + level.key_of_row(row);
+      } else {
+        first += level.stride;
+      }
     }
     left -= run;
     column = column + run < level.columns ? column + run : 0;
   }
 }
-
-// Cells and disks, both contiguous in memory, that one thread may read and write.
-struct ListRegion {
-  std::uint32_t first_key = 0, last_key = 0xffffffffU;    // cells [first, last)
-  std::uint32_t first_disk = 0, last_disk = 0xffffffffU;  // disks stored in [first, last)
-  bool none_relisted = false;                             // all are in the cells that they were sorted into
-  bool holds(std::uint32_t disk) const { return disk >= first_disk && disk < last_disk; }
-};
 
 // Buffer of a search for neighbours, and the neighbours that it found.
 struct FoundNeighbours {
@@ -61,8 +61,6 @@ struct FoundNeighbours {
 // by the relist distance, a share of the skin, is listed again where it is. In all-pairs mode every disk lists every
 // other one, and none is ever relisted.
 class NeighbourLists {
-  static constexpr std::uint32_t none = 0xffffffffU;
-
  public:
   // Sorts the disks into cells (their storage order changes) and lists all of them where they are; in all-pairs mode
   // they are not sorted.
@@ -82,51 +80,32 @@ class NeighbourLists {
                                 : cells_.start[std::size_t{tile} * grid_.tile_keys];
   }
   ListRegion region_of_tiles(std::uint32_t first, std::uint32_t last) const {
-    return {first * grid_.tile_keys, last * grid_.tile_keys, first_disk_of(first), first_disk_of(last), false};
+    return {first * grid_.tile_keys, last * grid_.tile_keys, first_disk_of(first), first_disk_of(last)};
   }
   // Of disk i, in tiled mode.
-  std::uint32_t tile_of(std::uint32_t i) const { return rows_[i].block; }
+  std::uint32_t tile_of(std::uint32_t i) const { return rows_.block_of(i); }
 
   // No path at this speed (v^2) or less leads to any other image of a neighbour than the nearest one within a window
   // of this length, nor a quarter round the box. Negative: any may.
   double safe_speed2(double length, double g) const;
 
-  // Calls near(offset, count) and, where those are not all, far(offset, count): the neighbours of disk i are disks i +
-  // offset[k], at most row_capacity at a time; what follows up to the next multiple of four is 0.
-  static constexpr std::uint32_t row_capacity = 28;
-  template <class Near, class Far>
-  void visit_offsets(std::uint32_t i, Near&& near, Far&& far) const {
-    const Row& row = rows_[i];
-    near(static_cast<const std::int16_t*>(row.offset), std::uint32_t{row.count});
-    for (std::uint32_t w = row.more; w != none;) {
-      const WideRow& wide = wide_[row.block][w];
-      far(static_cast<const std::int32_t*>(wide.offset), wide.count);
-      w = wide.next;
-    }
-  }
   // Calls visit(j) for each neighbour j of disk i.
   template <class Visit>
   void for_each_neighbour(std::uint32_t i, Visit&& visit) const {
-    const auto some = [&](const auto* offset, std::uint32_t count) {
-      for (std::uint32_t k = 0; k < count; ++k) visit(i + static_cast<std::uint32_t>(std::int32_t{offset[k]}));
-    };
-    visit_offsets(i, some, some);
+    rows_.for_each_neighbour(i, visit);
   }
+  const ListRows& rows() const { return rows_; }
 
   // Prefetches the list of disk i, or of disks [first, last).
   void prefetch(std::uint32_t i) const {
-    __builtin_prefetch(&rows_[i]);
+    rows_.prefetch(i);
     __builtin_prefetch(&listed_at_[i]);
   }
   void prefetch(std::uint32_t first, std::uint32_t last) const {
-    const Row* const row = rows_.data();
     const FixedPointPosition* const position = listed_at_.data();
-    for (std::uint32_t i = first; i < last; ++i) __builtin_prefetch(row + i);
+    for (std::uint32_t i = first; i < last; ++i) rows_.prefetch(i);
     for (std::uint32_t i = first; i < last; i += 64 / sizeof(FixedPointPosition)) __builtin_prefetch(position + i);
   }
-
-  // Bits (1 << side) of the walls and sinks that the disk can touch within the skin.
-  unsigned sides_near(std::uint32_t i) const { return rows_[i].sides; }
 
   // A time up to which the disk, now (at time `from`) on this path, stays within the relist distance of its listed
   // position; `from` itself when it does not. Extrapolates no further than `until`, or as far as gravity bends the path
@@ -135,7 +114,11 @@ class NeighbourLists {
 
   // Does the disk, within the relist distance of its listed position at time `from`, stay so until `until`? May say no
   // where earliest_relist_time would say yes, never the other way round; much faster.
-  bool stays_listed(std::uint32_t i, const PathSegment& path, double from, double until, double g) const;
+  bool stays_listed(std::uint32_t i, const PathSegment& path, double from, double until, double g) const {
+    if (g != 0.0) return stays_listed_falling(i, path, from, until, g);
+    const double s = until - path.start;
+    return is_within(i, path.x + path.vx * s, path.y + path.vy * s, stay2_);
+  }
 
   // Gives back memory that only building needs, where that is much.
   void release_scratch();
@@ -152,19 +135,23 @@ class NeighbourLists {
   // (x, y); for a few others too, and for some twice.
   template <class Visit>
   void visit_possible_overlaps(double x, double y, double radius, Visit&& visit) const {
-    const auto run = [&](std::uint32_t first, std::uint32_t last) {
-      for (std::uint32_t j = first; j < last; ++j) visit(j);
-    };
     if (mode_ == EngineMode::all_pairs) {
-      run(0, static_cast<std::uint32_t>(rows_.size()));
-    } else {
-      visit_runs_near({x, y}, radius + skin_, ListRegion{}, run, visit);
+      for (std::uint32_t j = 0; j < rows_.size(); ++j) visit(j);
+      return;
     }
+    const SlotColumns columns = slots_.columns();
+    const auto run = [&](SlotRun slots) {
+      for (std::uint32_t s = slots.first; s < slots.last; ++s) {
+        if (columns.disk[s] != empty_slot) visit(columns.disk[s]);
+      }
+    };
+    visit_runs_near({x, y}, radius + skin_, ListRegion{}, run, visit);
   }
 
  private:
-  // Calls run(first, last) and visit(j) for runs of disks and single disks whose listed positions may be within
-  // `distance`, their radii added, of this position. False, perhaps too early, if that would leave the region.
+  // Calls run(slots) and visit(j) for the slots, and the disks without a slot, of cells that may hold disks whose
+  // listed positions are within `distance`, their radii added, of this position. False, perhaps too early, if that
+  // would leave the region.
   template <class Run, class Visit>
   bool visit_runs_near(Vec2 position, double distance, const ListRegion& region, Run&& run, Visit&& visit) const {
     bool inside = true;
@@ -174,34 +161,25 @@ class NeighbourLists {
       for_each_cell_run_near(level, box_, position.x, position.y, cutoff, [&](std::uint32_t first, std::uint32_t last) {
         inside = inside && first >= region.first_key && last <= region.last_key;
         if (!inside) return;
-        run(cells_.start[first], cells_.start[last]);
-        if (region.none_relisted) return;
-        for (std::uint32_t key = first; key < last; ++key) {
-          for (std::uint32_t m = head_[key]; m != none; m = next_[m]) visit(m);
-        }
+        run(SlotRun{first * slots_a_cell, last * slots_a_cell});
+        slots_.visit_chained(first, last, region.last_key, visit);
       });
     }
     return inside;
   }
 
-  // A disk's list in one cache line. Most neighbours are stored nearby, so that offsets to them fit in 16 bits. Offsets
-  // beyond count are 0.
-  struct alignas(64) Row {
-    std::uint32_t more = none;  // number of a wide row of its block
-    std::uint8_t count = 0;
-    std::uint8_t sides = 0;
-    std::uint16_t block = 0;  // its tile, where there are tiles
-    std::int16_t offset[row_capacity] = {};
-  };
-  static_assert(sizeof(Row) == 64);
-  // Neighbours that did not fit in the row.
-  static constexpr std::uint32_t wide_row_capacity = 12;
-  struct alignas(64) WideRow {
-    std::int32_t offset[wide_row_capacity] = {};
-    std::uint32_t count = 0;
-    std::uint32_t next = none;
-  };
-
+  // Is this place within a distance of disk i's listed position? distance2: its square.
+  bool is_within(std::uint32_t i, double x, double y, double distance2) const {
+    // To the nearest whole number.
+    constexpr double shift = 0x1.8p52;
+    const Vec2 listed = listed_position(i);
+    double dx = x - listed.x;
+    double dy = y - listed.y;
+    dx -= period_x_ * ((dx * periods_per_x_ + shift) - shift);
+    dy -= period_y_ * ((dy * periods_per_y_ + shift) - shift);
+    return dx * dx + dy * dy < distance2;
+  }
+  bool stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until, double g) const;
   void choose_skin(const Disks& disks, double relist_share);
   void sort(Disks& disks, std::size_t disks_per_tile, const Executor& executor);
   void list_all(const Disks& disks, const Executor& executor);
@@ -209,18 +187,14 @@ class NeighbourLists {
   FixedPointPosition fixed_point(double x, double y) const;
   Vec2 position_of(FixedPointPosition p) const { return {p.x * unit_x_, p.y * unit_y_}; }
   ListQuery query_at(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
-  ListColumns columns_in(const Disks& disks, const ListRegion& region) const;
+  float radius_in_units(double radius) const;
   bool find_neighbours(const Disks& disks, std::uint32_t i, FixedPointPosition position, const ListRegion& region,
                        FoundNeighbours& found) const;
   void find_all_others(std::uint32_t i, FoundNeighbours& found) const;
   std::uint32_t cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
+  void fill_slots(const Disks& disks, std::uint32_t first_key, std::uint32_t last_key);
   bool move_to_cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position, const ListRegion& region);
-  bool lists(std::uint32_t i, std::uint32_t j) const;
   unsigned find_sides(const Disks& disks, std::uint32_t i) const;
-  void insert(std::uint32_t i, std::uint32_t j);
-  void insert_wide(Row& row, std::int32_t offset);
-  void set_list(std::uint32_t i, std::span<const std::uint32_t> found);
-  bool unchain(std::uint32_t i, std::uint32_t key, const ListRegion& region);
 
   EngineMode mode_ = EngineMode::single_queue;
   Domain box_;
@@ -228,14 +202,15 @@ class NeighbourLists {
   SortedCells cells_;
   double skin_ = 0.0;
   double relist_distance_ = 0.0;
+  bool all_periodic_ = false;
+  double stay2_ = 0.0;                                // relist distance squared, a little less
+  double period_x_ = 0.0, period_y_ = 0.0;            // length; 0: none
+  double periods_per_x_ = 0.0, periods_per_y_ = 0.0;  // 1 / period; 0: none
   double largest_radius_ = 0.0;
   double unit_x_ = 0.0, unit_y_ = 0.0;  // of a FixedPointPosition; length
-  std::vector<Row> rows_;
+  ListRows rows_;
   std::vector<FixedPointPosition> listed_at_;
-  std::vector<std::vector<WideRow>> wide_;  // of each block
-  // Relisted disks, chained by the cell of their listed position: head_[key] is the last one that came to that cell.
-  std::vector<std::uint32_t> head_;
-  std::vector<std::uint32_t> next_;  // of each disk; unchained: still in the cell that it was sorted into
+  CellSlots slots_;
   ListKernel kernel_ = choose_list_kernel();
 };
 

@@ -8,35 +8,46 @@
 
 namespace carom {
 
+// Neighbours that the kernel takes at a time. A list is padded to a multiple of it: with neighbours that it has.
+inline constexpr std::uint32_t prediction_lanes = 4;
+
+// The same number in each lane.
+struct alignas(32) LaneConstant {
+  double lane[prediction_lanes];
+};
+constexpr LaneConstant in_all_lanes(double a) {
+  return {{a, a, a, a}};
+}
+
 // The same for all disks.
 struct PredictionConstants {
-  double gravity = 0.0;                        // length / time^2
-  double width = 0.0, height = 0.0;            // periods; 0: none
-  double half_width = 0.0, half_height = 0.0;  // infinite where there is no period
-  // A contact lasts where the squares of distance^2 - contact_distance^2 and of dr.dv are within these: rounding
-  // decides in every window whether there is an event.
-  double close2 = 0.0, slow2 = 0.0;
+  LaneConstant period_x = in_all_lanes(0.0), period_y = in_all_lanes(0.0);            // length; 0: none
+  LaneConstant periods_per_x = in_all_lanes(0.0), periods_per_y = in_all_lanes(0.0);  // 1 / period; 0: none
+  LaneConstant gravity = in_all_lanes(0.0), half_gravity = in_all_lanes(0.0);         // length / time^2
+  LaneConstant contact2 = in_all_lanes(0.0);  // of equal disks: contact distance, squared
+  // |dr.dv| of a pair that approaches so slowly that its contact may last (WindowState::close).
+  double slow_approach = 0.0;
 };
 
-// The first contacts: their time, `never` if there is none, and bit k for each neighbour k that is touched then.
-struct FirstContacts {
-  double time = never;
-  std::uint32_t bits = 0;
-  bool lasting = false;  // a contact with one of the neighbours lasts
+// The first contact of a disk with one of its neighbours.
+struct FirstContact {
+  double time = never;          // `never`: there is none
+  std::uint32_t neighbour = 0;  // its place in the list
+  // The kernel cannot tell: two neighbours are touched at the same time, or a neighbour is approached slowly. Nothing
+  // else counts then.
+  bool ambiguous = false;
 };
 
-// Neighbours in one call, at most.
-inline constexpr std::uint32_t max_batch = 28;
-
-// The first of the contacts of disk *own with own[offset[k]], k < count <= max_batch: the same bits as core's
-// collision_time() gives, where no image beyond the nearest one can be reached. Offsets beyond count, up to the next
-// multiple of four, are 0: a disk has no contact with itself.
+// The first of the contacts of disk *own with own[offset[k]], k < count: the same bits as core's collision_time()
+// gives. Preconditions: offsets beyond count, up to the next multiple of prediction_lanes, are any of the others; while
+// paths last, no neighbour is further away than 0.49 periods, nearest image. newest: no neighbour's segment starts
+// later than the disk's own.
 template <class Offset>
-using PredictionKernel = FirstContacts (*)(const PredictionConstants& constants, const DiskRecord* own,
-                                           const Offset* offset, std::uint32_t count);
+using PredictionKernel = FirstContact (*)(const PredictionConstants& constants, const DiskRecord* own,
+                                          const Offset* offset, std::uint32_t count);
 
 struct PredictionKernels {
-  PredictionKernel<std::int16_t> near;
+  PredictionKernel<std::int16_t> near, near_newest;
   PredictionKernel<std::int32_t> far;
 };
 

@@ -1,6 +1,7 @@
 // The kernel, compiled once for every instruction set; CAROM_PREDICTION_KERNELS names the version. Four neighbours at a
 // time, in the compilers' own vector types: on a machine without them the compiler splits them.
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
@@ -14,10 +15,10 @@ namespace {
 using Doubles = double __attribute__((vector_size(32)));
 using Longs = long long __attribute__((vector_size(32)));
 
-constexpr std::uint32_t lanes = 4;
+constexpr std::uint32_t lanes = prediction_lanes;
 
 static_assert(offsetof(PathSegment, vy) == offsetof(PathSegment, x) + 3 * sizeof(double));
-static_assert(max_batch % lanes == 0);
+static_assert(sizeof(LaneConstant) == sizeof(Doubles));
 
 // x, y, vx, vy of a segment.
 inline Doubles load_motion(const PathSegment& p) {
@@ -26,17 +27,30 @@ inline Doubles load_motion(const PathSegment& p) {
   return v;
 }
 
+inline Doubles load(const LaneConstant& c) {
+  Doubles v;
+  __builtin_memcpy(&v, c.lane, sizeof v);
+  return v;
+}
+
 inline Doubles all(double a) {
   return Doubles{a, a, a, a};
 }
 
-// a where truth, else 0.
-inline Doubles where(Longs truth, Doubles a) {
-  return __builtin_bit_cast(Doubles, truth & __builtin_bit_cast(Longs, a));
+inline Longs bits(Doubles a) {
+  return __builtin_bit_cast(Longs, a);
+}
+
+inline Doubles number(Longs a) {
+  return __builtin_bit_cast(Doubles, a);
 }
 
 inline Doubles choose(Longs truth, Doubles a, Doubles b) {
-  return __builtin_bit_cast(Doubles, (truth & __builtin_bit_cast(Longs, a)) | (~truth & __builtin_bit_cast(Longs, b)));
+#if defined(__AVX__)
+  return __builtin_ia32_blendvpd256(b, a, number(truth));
+#else
+  return number((truth & bits(a)) | (~truth & bits(b)));
+#endif
 }
 
 inline Doubles root(Doubles v) {
@@ -47,6 +61,7 @@ inline Doubles root(Doubles v) {
 #endif
 }
 
+// The next two give b where one of both is not a number.
 inline Doubles larger(Doubles a, Doubles b) {
 #if defined(__AVX__)
   return __builtin_bit_cast(Doubles, __builtin_ia32_maxpd256(a, b));
@@ -63,33 +78,53 @@ inline Doubles smaller(Doubles a, Doubles b) {
 #endif
 }
 
+inline Doubles magnitude(Doubles v) {
+  constexpr long long magnitude_bits = 0x7fffffffffffffffLL;
+  return number(bits(v) & Longs{magnitude_bits, magnitude_bits, magnitude_bits, magnitude_bits});
+}
+
 // Bit k is set where lane k is true.
 inline unsigned bits_of(Longs truth) {
 #if defined(__AVX__)
-  return static_cast<unsigned>(__builtin_ia32_movmskpd256(__builtin_bit_cast(Doubles, truth)));
+  return static_cast<unsigned>(__builtin_ia32_movmskpd256(number(truth)));
 #else
   const Longs weighted = truth & Longs{1, 2, 4, 8};
   return static_cast<unsigned>(weighted[0] | weighted[1] | weighted[2] | weighted[3]);
 #endif
 }
 
-// The constants of a prediction in every lane.
-struct Lanes {
-  Doubles start, x, y, vx, vy;
-  Doubles g, half_g, radius, contact2;
-  Doubles width, height, half_width, half_height;
-  Doubles close2, slow2;
-};
-
-inline Doubles nearest(Doubles d, Doubles period, Doubles half) {
-  return (d - where(d > half, period)) + where(d < -half, period);
+inline double least_lane(Doubles v) {
+  const double least01 = v[0] < v[1] ? v[0] : v[1];
+  const double least23 = v[2] < v[3] ? v[2] : v[3];
+  return least01 < least23 ? least01 : least23;
 }
 
+// To the nearest whole number, |v| < 2^51.
+inline Doubles rounded(Doubles v) {
+#if defined(__AVX__)
+  return __builtin_ia32_roundpd256(v, 8);
+#else
+  constexpr double shift = 0x1.8p52;
+  return (v + all(shift)) - all(shift);
+#endif
+}
+
+// Further than 0.01 periods from half a period this takes the same image as core's nearest_image, by the same one
+// subtraction: d - 0 is d, and d - (-period) is d + period.
+inline Doubles nearest(Doubles d, const LaneConstant& period, const LaneConstant& periods_per_length) {
+  return d - load(period) * rounded(d * load(periods_per_length));
+}
+
+struct Own {
+  Doubles start, x, y, vx, vy, radius;
+};
+
 // core's collision_time(), operation by operation: carried_to, relative, time_to_contact, touching_time. Differences
-// may have the other sign, which changes no bit of the time. lasting: set where a contact lasts.
-template <bool gravity, bool unequal_radii>
-inline Doubles four_contacts(const Lanes& own, const DiskRecord& f0, const DiskRecord& f1, const DiskRecord& f2,
-                             const DiskRecord& f3, Longs& lasting) {
+// may have the other sign, which changes no bit of the time. Not a number where there is no contact. slowest: the
+// least |dr.dv| so far.
+template <bool gravity, bool unequal_radii, bool newest>
+inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const DiskRecord& f0, const DiskRecord& f1,
+                             const DiskRecord& f2, const DiskRecord& f3, Doubles& slowest) {
   const Doubles m0 = load_motion(f0.path);
   const Doubles m1 = load_motion(f1.path);
   const Doubles m2 = load_motion(f2.path);
@@ -101,76 +136,80 @@ inline Doubles four_contacts(const Lanes& own, const DiskRecord& f0, const DiskR
   const Doubles vx = __builtin_shufflevector(xs01, xs23, 2, 3, 6, 7);
   Doubles vy = __builtin_shufflevector(ys01, ys23, 2, 3, 6, 7);
   const Doubles start = Doubles{f0.path.start, f1.path.start, f2.path.start, f3.path.start};
-  const Doubles both = larger(start, own.start);
+  const Doubles both = newest ? own.start : larger(start, own.start);
   const Doubles s = both - start;
-  const Doubles t = both - own.start;
   const Doubles x = __builtin_shufflevector(xs01, xs23, 0, 1, 4, 5) + vx * s;
   Doubles rise = vy * s;
-  Doubles own_rise = own.vy * t;
+  Doubles own_x = own.x;
+  Doubles own_y = own.y;
   Doubles own_vy = own.vy;
   if constexpr (gravity) {
-    rise = rise - own.half_g * (s * s);
-    own_rise = own_rise - own.half_g * (t * t);
-    vy = vy - own.g * s;
-    own_vy = own_vy - own.g * t;
+    rise = rise - load(f.half_gravity) * (s * s);
+    vy = vy - load(f.gravity) * s;
+  }
+  if constexpr (!newest) {
+    const Doubles t = both - own.start;
+    own_x = own.x + own.vx * t;
+    Doubles own_rise = own.vy * t;
+    if constexpr (gravity) {
+      own_rise = own_rise - load(f.half_gravity) * (t * t);
+      own_vy = own.vy - load(f.gravity) * t;
+    }
+    own_y = own.y + own_rise;
   }
   const Doubles y = __builtin_shufflevector(ys01, ys23, 0, 1, 4, 5) + rise;
-  const Doubles dx = nearest(x - (own.x + own.vx * t), own.width, own.half_width);
-  const Doubles dy = nearest(y - (own.y + own_rise), own.height, own.half_height);
+  const Doubles dx = nearest(x - own_x, f.period_x, f.periods_per_x);
+  const Doubles dy = nearest(y - own_y, f.period_y, f.periods_per_y);
   const Doubles dvx = vx - own.vx;
   const Doubles dvy = vy - own_vy;
   const Doubles approach = dx * dvx + dy * dvy;
   const Doubles cross = dx * dvy - dy * dvx;
-  Doubles contact2 = own.contact2;
+  Doubles contact2 = load(f.contact2);
   if constexpr (unequal_radii) {
     const Doubles contact_distance = own.radius + Doubles{f0.radius, f1.radius, f2.radius, f3.radius};
     contact2 = contact_distance * contact_distance;
   }
-  const Doubles discriminant = (dvx * dvx + dvy * dvy) * contact2 - cross * cross;
-  const Doubles gap = (dx * dx + dy * dy) - contact2;
-  lasting |= (gap * gap <= own.close2) & (approach * approach <= own.slow2);
-  const Doubles until_contact = gap / (root(discriminant) - approach);
-  const Longs touches = (approach < all(0.0)) & ~(discriminant < all(0.0));
-  return choose(touches, both + where(until_contact > all(0.0), until_contact), all(never));
+  slowest = smaller(magnitude(approach), slowest);
+  // Not a number where the paths miss.
+  const Doubles until_meeting = root((dvx * dvx + dvy * dvy) * contact2 - cross * cross) - approach;
+  const Doubles until_contact = ((dx * dx + dy * dy) - contact2) / until_meeting;
+  const Longs recedes = approach >= all(0.0);
+  return both + larger(all(0.0), number(bits(until_contact) | recedes));
 }
 
-template <bool gravity, bool unequal_radii, class Offset>
-FirstContacts first_contacts(const PredictionConstants& f, const DiskRecord* record, const Offset* offset,
-                             std::uint32_t count) {
+template <bool gravity, bool unequal_radii, bool newest, class Offset>
+FirstContact first_contact(const PredictionConstants& f, const DiskRecord* record, const Offset* offset,
+                           std::uint32_t count) {
   const PathSegment& p = record->path;
-  const double contact_distance = record->radius + record->radius;
-  const Lanes own{all(p.start),
-                  all(p.x),
-                  all(p.y),
-                  all(p.vx),
-                  all(p.vy),
-                  all(f.gravity),
-                  all(0.5 * f.gravity),
-                  all(record->radius),
-                  all(contact_distance * contact_distance),
-                  all(f.width),
-                  all(f.height),
-                  all(f.half_width),
-                  all(f.half_height),
-                  all(f.close2),
-                  all(f.slow2)};
-  Doubles time[max_batch / lanes];
-  Doubles least = all(never);
-  Longs lasting{};
-  const std::uint32_t fours = (count + lanes - 1) / lanes;
-  for (std::uint32_t k = 0; k < fours; ++k) {
-    const Offset* const n = offset + std::size_t{k} * lanes;
-    time[k] =
-        four_contacts<gravity, unequal_radii>(own, record[n[0]], record[n[1]], record[n[2]], record[n[3]], lasting);
-    least = smaller(time[k], least);
+  const Own own{all(p.start), all(p.x), all(p.y), all(p.vx), all(p.vy), all(record->radius)};
+  Doubles first = all(never);
+  Longs batch_of_first{};
+  Longs ties{};
+  Longs batch{};
+  Doubles slowest = all(never);
+  for (const Offset* n = offset; n < offset + count; n += lanes, batch += 1) {
+    const Doubles time = four_contacts<gravity, unequal_radii, newest>(f, own, record[n[0]], record[n[1]], record[n[2]],
+                                                                       record[n[3]], slowest);
+    const Longs sooner = time < first;
+    ties |= time == first;
+    batch_of_first = bits(choose(sooner, number(batch), number(batch_of_first)));
+    first = smaller(time, first);
   }
-  FirstContacts first;
-  first.lasting = bits_of(lasting) != 0;
-  const double least01 = least[0] < least[1] ? least[0] : least[1];
-  const double least23 = least[2] < least[3] ? least[2] : least[3];
-  first.time = least01 < least23 ? least01 : least23;
-  for (std::uint32_t k = 0; k < fours; ++k) first.bits |= bits_of(time[k] == all(first.time)) << (k * lanes);
-  return first;
+  FirstContact found;
+  found.time = least_lane(first);
+  const unsigned firsts = bits_of(first == all(found.time));
+  const auto lane = static_cast<std::uint32_t>(std::countr_zero(firsts));
+  found.neighbour = static_cast<std::uint32_t>(batch_of_first[lane & (lanes - 1)]) * lanes + lane;
+  found.ambiguous = bits_of(ties | (slowest <= all(f.slow_approach))) != 0;
+  if ((firsts & (firsts - 1)) != 0 && found.time < never) [[unlikely]] {
+    // Padding gives the same neighbour twice.
+    for (unsigned left = firsts & (firsts - 1); left != 0; left &= left - 1) {
+      const auto other = static_cast<std::uint32_t>(std::countr_zero(left));
+      const std::uint32_t k = static_cast<std::uint32_t>(batch_of_first[other]) * lanes + other;
+      found.ambiguous = found.ambiguous || offset[k] != offset[found.neighbour];
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -179,7 +218,8 @@ PredictionKernels CAROM_PREDICTION_KERNELS(bool gravity, bool unequal_radii) {
   const auto both = [](auto has_gravity, auto has_radii) {
     constexpr bool g = decltype(has_gravity)::value;
     constexpr bool r = decltype(has_radii)::value;
-    return PredictionKernels{first_contacts<g, r, std::int16_t>, first_contacts<g, r, std::int32_t>};
+    return PredictionKernels{first_contact<g, r, false, std::int16_t>, first_contact<g, r, true, std::int16_t>,
+                             first_contact<g, r, false, std::int32_t>};
   };
   if (gravity && unequal_radii) return both(std::true_type{}, std::true_type{});
   if (gravity) return both(std::true_type{}, std::false_type{});

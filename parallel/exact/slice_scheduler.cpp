@@ -86,7 +86,6 @@ SliceOutcome SliceScheduler::run(double start, double end, double expected, doub
   const SliceOutcome reached = outcome();
   if (reached != SliceOutcome::done) return reached;
   if (serial_.collapse && !tiled()) fail_collapse(*serial_.collapse, window_start);
-  for (const Region& region : regions_) window_.fastest2 = std::max(window_.fastest2, region.worker.fastest2);
   window_.fastest2 = std::max(window_.fastest2, serial_.fastest2);
   return SliceOutcome::done;
 }
@@ -118,11 +117,11 @@ void SliceScheduler::begin_queue(Worker& worker, double expected) {
 }
 
 void SliceScheduler::run_single_queue(double expected) {
-  begin_queue(serial_, expected);
   serial_.relisted = 0;
-  EventProcessor events(window_, lists_, serial_);
-  for (std::uint32_t i = 0; i < window_.record.size(); ++i) events.push_next_event(i);
+  EventProcessor<false> events(window_, lists_, serial_);
+  events.enter_all(static_cast<std::size_t>(expected));
   events.run();
+  events.leave_all();
   relisted_ += serial_.relisted;
 }
 
@@ -132,6 +131,7 @@ void SliceScheduler::run_tiles(double expected) {
   for (const Region& region : regions_) {
     relisted_ += region.worker.relisted;
     if (region.worker.ended) return;
+    window_.fastest2 = std::max(window_.fastest2, region.worker.fastest2);
   }
   run_serial_pass(per_disk);
 }
@@ -154,7 +154,7 @@ void SliceScheduler::begin_slice(Region& region) {
 // expected: events a disk.
 void SliceScheduler::run_region(Region& region, double expected) {
   begin_slice(region);
-  EventProcessor events(window_, lists_, region.worker);
+  EventProcessor<true> events(window_, lists_, region.worker);
   for (std::uint32_t tile = region.first; tile < region.last && !region.worker.ended; ++tile) {
     const std::size_t first_blocked = region.worker.blocked.size();
     begin_tile(region, tile, expected);
@@ -186,7 +186,8 @@ void SliceScheduler::activate(std::uint32_t tile, const std::vector<BlockedDisk>
   for (const std::uint32_t k : forwarded_[tile]) progress[blocked[k].disk] = DiskProgress::active();
 }
 
-void SliceScheduler::queue_tile(std::uint32_t tile, const std::vector<BlockedDisk>& blocked, EventProcessor& events) {
+void SliceScheduler::queue_tile(std::uint32_t tile, const std::vector<BlockedDisk>& blocked,
+                                EventProcessor<true>& events) {
   const std::uint32_t last = lists_.first_disk_of(tile + 1);
   const double stop = window_.slice_stop();
   const double* const next_event_time = window_.next_event_time.data();
@@ -225,7 +226,7 @@ void SliceScheduler::run_serial_pass(double expected) {
   for (const Region& region : regions_) disks += region.border.size() + region.deferred.size();
   if (disks == 0) return;
   begin_queue(serial_, expected * static_cast<double>(disks));
-  EventProcessor events(window_, lists_, serial_);
+  EventProcessor<true> events(window_, lists_, serial_);
   for (const Region& region : regions_) {
     for (const std::uint32_t i : region.border) events.push_next_event(i);
     for (const std::uint32_t k : region.deferred) events.push_next_event(region.worker.blocked[k].disk);

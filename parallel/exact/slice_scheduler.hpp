@@ -70,7 +70,7 @@ class SliceScheduler {
   void run_region(Region& region, double expected);
   void begin_tile(Region& region, std::uint32_t tile, double expected);
   void activate(std::uint32_t tile, const std::vector<BlockedDisk>& blocked);
-  void queue_tile(std::uint32_t tile, const std::vector<BlockedDisk>& blocked, EventProcessor& events);
+  void queue_tile(std::uint32_t tile, const std::vector<BlockedDisk>& blocked, EventProcessor<true>& events);
   void finish_tile(Region& region, std::uint32_t tile, std::size_t first_blocked);
   void run_serial_pass(double expected);
   void begin_queue(Worker& worker, double expected);

@@ -83,6 +83,9 @@ struct WindowState {
   double close = 0.0;  // length
   double slow = 0.0;   // length / time
   double largest_radius = 0.0;
+  // The same for disks of any radii: squares of distance^2 - contact_distance^2 and of dr.dv.
+  double close2() const { return 16.0 * largest_radius * largest_radius * (close * close); }
+  double slow2() const { return 4.0 * largest_radius * largest_radius * (slow * slow); }
   // Up to this v^2 no disk moves so far in a window that images beyond the nearest one, or crossing events, matter.
   double safe_speed2 = 0.0;
   double fastest2 = 0.0;  // largest v^2 so far

@@ -7,6 +7,7 @@
 
 #include "core/physics/exact_event.hpp"
 #include "core/physics/impact_tally.hpp"
+#include "parallel/exact/event_calendar.hpp"
 #include "parallel/exact/event_queue.hpp"
 #include "parallel/exact/neighbour_lists.hpp"
 
@@ -31,9 +32,10 @@ struct BlockedDisk {
 
 // Members are of the window where nothing else is said.
 struct Worker {
-  ListRegion region;      // what it may read and write
-  bool is_serial = true;  // it sees all disks, and no other thread works at the same time
-  EventQueue queue;
+  ListRegion region;       // what it may read and write
+  bool is_serial = true;   // it sees all disks, and no other thread works at the same time
+  EventQueue queue;        // tiled mode
+  EventCalendar calendar;  // single queue
   ImpactTally tally;
   std::vector<LoggedSegment> log;  // a disk's segments in order
   bool any_gone = false;

@@ -131,30 +131,32 @@ TEST(NeighbourLists, KeepToTheirRegion) {
 
 TEST(ListKernel, AllVersionsFindTheSame) {
   test::Draws draws(8);
-  const Disks d = random_disks(draws, 203, 10.0, 8.0, true);
+  constexpr std::uint32_t cells = 51;
   std::vector<FixedPointPosition> position;
-  std::vector<std::uint32_t> next;
-  for (std::size_t i = 0; i < d.size(); ++i) {
+  std::vector<std::uint32_t> disk;
+  std::vector<float> radius;
+  for (std::uint32_t s = 0; s < cells * slots_a_cell; ++s) {
     position.push_back({static_cast<std::uint32_t>(draws.bits()), static_cast<std::uint32_t>(draws.bits())});
-    next.push_back(draws.bits() % 4 == 0 ? 7U : unchained);
+    disk.push_back(draws.bits() % 4 == 0 ? empty_slot : s);
+    radius.push_back(static_cast<float>(draws.in(0.05, 2.0)));
   }
   std::size_t found = 0;
   for (std::uint32_t round = 0; round < 300; ++round) {
     ListQuery query;
-    query.self = static_cast<std::uint32_t>(draws.bits() % d.size());
+    query.self = static_cast<std::uint32_t>(draws.bits() % disk.size());
     query.position = position[query.self];
     query.unit_x = 0x1p-32F * 10.0F;
     query.unit_y = 0x1p-32F * 8.0F;
     query.cutoff = static_cast<float>(draws.in(0.2, 3.0));
     query.common_radius = 0.5F;
-    query.per_length = 0.7;
-    const ListColumns columns{position.data(), round % 2 == 0 ? d.radius.data() : nullptr,
-                              round % 5 < 2 ? next.data() : nullptr, static_cast<std::uint32_t>(d.size())};
-    std::vector<DiskRun> runs;
+    const SlotColumns columns{position.data(), disk.data(), round % 2 == 0 ? radius.data() : nullptr};
+    if (columns.radius != nullptr) query.common_radius = 0.0F;
+    std::vector<SlotRun> runs;
     std::size_t room = list_kernel_padding;
     for (std::uint32_t k = 0; k < round % 4; ++k) {
-      const auto first = static_cast<std::uint32_t>(draws.bits() % d.size());
-      runs.push_back({first, first + static_cast<std::uint32_t>(draws.bits() % (d.size() + 1 - first))});
+      const auto first = static_cast<std::uint32_t>(draws.bits() % cells);
+      const auto last = first + static_cast<std::uint32_t>(draws.bits() % (cells + 1 - first));
+      runs.push_back({first * slots_a_cell, last * slots_a_cell});
       room += runs.back().last - runs.back().first;
     }
     std::vector<std::uint32_t> a(room);

@@ -1,0 +1,76 @@
+#include "parallel/exact/event_calendar.hpp"
+
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+// A disk's entry is taken out or moved two or three times a collision, so that one or two are on the present page.
+constexpr double pages_per_event = 1.6;
+constexpr std::size_t most_pages_a_disk = 8;
+constexpr std::size_t few_pages = 64;
+// Pages are shortened where the events of a crowded one are spread over this share of it or more.
+constexpr double spread_share = 0.125;
+constexpr double events_a_page = 2.0;
+
+}  // namespace
+
+void EventCalendar::begin(double start, double end, std::size_t disks, std::size_t expected) {
+  end_of_list_ = static_cast<std::uint32_t>(disks);
+  node_.resize(disks + 1);
+  end_ = end;
+  const std::size_t most = most_pages_a_disk * disks + few_pages;
+  const std::size_t wanted =
+      expected == 0 ? 2 * disks : static_cast<std::size_t>(pages_per_event * static_cast<double>(expected));
+  const std::size_t pages = std::clamp(wanted, disks / 2 + 1, most);
+  set_pages(start, end > start ? static_cast<double>(pages) / (end - start) : 0.0, pages);
+}
+
+void EventCalendar::set_pages(double start, double pages_per_time, std::size_t pages) {
+  first_.assign(pages + 1, end_of_list_);
+  start_ = start;
+  pages_per_time_ = pages_per_time;
+  pages_ = static_cast<std::uint32_t>(pages);
+  last_page_ = static_cast<double>(pages - 1);
+  page_ = 0;
+  is_sorted_ = false;
+}
+
+// Divides what is left of the time anew, so that the events of the present page fall on many; what is beyond the most
+// pages stays together on the last one, until it is divided in turn. False, without a change, where that would not
+// help.
+bool EventCalendar::shorten_pages() {
+  collect_page();
+  const auto earlier = [&](std::uint32_t a, std::uint32_t b) { return node_[a].time < node_[b].time; };
+  const auto [first, last] = std::minmax_element(crowded_.begin(), crowded_.end(), earlier);
+  const double page_start = node_[*first].time;
+  const double spread = node_[*last].time - page_start;
+  const double page_length = page_ + 1 == pages_ ? end_ - page_start : 1.0 / pages_per_time_;
+  const double pages_per_time = static_cast<double>(crowded_.size()) / (events_a_page * spread);
+  if (!(spread >= spread_share * page_length) || !(pages_per_time < HUGE_VAL)) return false;
+  const std::size_t most = most_pages_a_disk * end_of_list_ + few_pages;
+  const double pages = (end_ - page_start) * pages_per_time + 1.0;
+  set_pages(page_start, pages_per_time, pages < static_cast<double>(most) ? static_cast<std::size_t>(pages) : most);
+  for (std::uint32_t disk = 0; disk < end_of_list_; ++disk) insert(disk, node_[disk].time);
+  return true;
+}
+
+void EventCalendar::collect_page() {
+  crowded_.clear();
+  for (std::uint32_t k = first_[page_]; k != end_of_list_; k = node_[k].next) crowded_.push_back(k);
+}
+
+void EventCalendar::relink_page() {
+  std::uint32_t previous = page_ | page_bit;
+  first_[page_] = crowded_.front();
+  for (const std::uint32_t disk : crowded_) {
+    node_[disk].previous = previous;
+    if ((previous & page_bit) == 0) node_[previous].next = disk;
+    previous = disk;
+  }
+  node_[previous].next = end_of_list_;
+  is_sorted_ = true;
+}
+
+}  // namespace carom

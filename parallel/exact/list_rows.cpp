@@ -1,0 +1,215 @@
+#include "parallel/exact/list_rows.hpp"
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "core/base/huge_pages.hpp"
+
+namespace carom {
+
+namespace {
+
+// Puts the offset at place `count` and at what is left of the kernel's batch then. capacity: of the list.
+template <std::uint32_t capacity>
+void put_and_pad(std::int16_t* offsets, std::uint32_t count, std::int16_t offset) {
+  // As one number; some places more do no harm, and cost no branch.
+  const std::uint64_t four = static_cast<std::uint16_t>(offset) * 0x0001000100010001ULL;
+  static_assert(sizeof four == prediction_lanes * sizeof offset);
+  if (count + prediction_lanes <= capacity) [[likely]] {
+    std::memcpy(offsets + count, &four, sizeof four);
+  } else {
+    std::fill(offsets + count, offsets + capacity, offset);
+  }
+}
+template <std::uint32_t capacity>
+void put_and_pad(std::int32_t* offsets, std::uint32_t count, std::int32_t offset) {
+  std::fill(offsets + count, offsets + std::min(count + prediction_lanes, capacity), offset);
+}
+
+// A row, to be searched for offsets. header: the 8 bytes before its 28 offsets, 16-byte aligned.
+class RowSearch {
+ public:
+#if defined(__SSE2__)
+  explicit RowSearch(const void* header) {
+    for (int k = 0; k < 4; ++k) part_[k] = _mm_load_si128(static_cast<const __m128i*>(header) + k);
+  }
+  // Bit k is set where the offset at place k is this one; above that, anything.
+  std::uint32_t places_of(std::int16_t offset) const {
+    const __m128i sought = _mm_set1_epi16(offset);
+    const auto equal = [&](int k) { return _mm_cmpeq_epi16(part_[k], sought); };
+    const auto low = static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(equal(0), equal(1))));
+    const auto high = static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(equal(2), equal(3))));
+    return (high << 16 | low) >> header_places;
+  }
+
+ private:
+  static constexpr unsigned header_places = 4;
+  __m128i part_[4];
+#else
+  explicit RowSearch(const void* header) : offset_(static_cast<const std::int16_t*>(header) + 4) {}
+  std::uint32_t places_of(std::int16_t offset) const {
+    std::uint32_t places = 0;
+    for (unsigned k = 0; k < 28; ++k) places |= static_cast<std::uint32_t>(offset_[k] == offset) << k;
+    return places;
+  }
+
+ private:
+  const std::int16_t* offset_;
+#endif
+};
+
+}  // namespace
+
+void ListRows::begin(std::size_t disks, std::size_t blocks) {
+  if (rows_.capacity() < disks) resize_in_huge_pages(rows_, disks);
+  rows_.resize(disks);
+  wide_.resize(blocks);
+  free_wide_.assign(blocks, none);
+}
+
+void ListRows::clear_block(std::size_t block) {
+  wide_[block].clear();
+  free_wide_[block] = none;
+}
+
+void ListRows::enter(std::uint32_t i, std::size_t block, unsigned sides) {
+  Row& row = rows_[i];
+  row.more = none;
+  row.count = 0;
+  row.sides = static_cast<std::uint8_t>(sides);
+  row.block = static_cast<std::uint16_t>(block);
+}
+
+// Precondition: no wide row is chained to the disk's row.
+void ListRows::set(std::uint32_t i, std::span<const std::uint32_t> near) {
+  Row& row = rows_[i];
+  row.count = 0;
+  if (near.size() <= row_capacity) [[likely]] {
+    bool fits = true;
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      const auto offset = static_cast<std::int32_t>(near[k] - i);
+      row.offset[k] = static_cast<std::int16_t>(offset);
+      fits &= offset == static_cast<std::int16_t>(offset);
+    }
+    if (fits) [[likely]] {
+      row.count = static_cast<std::uint8_t>(near.size());
+      put_and_pad<row_capacity>(row.offset, row.count, row.offset[0]);
+      return;
+    }
+  }
+  for (const std::uint32_t j : near) insert(i, j);
+}
+
+void ListRows::insert(std::uint32_t i, std::uint32_t j) {
+  Row& row = rows_[i];
+  const auto offset = static_cast<std::int32_t>(j - i);
+  if (row.count < row_capacity && offset == static_cast<std::int16_t>(offset)) [[likely]] {
+    put_and_pad<row_capacity>(row.offset, row.count++, static_cast<std::int16_t>(offset));
+  } else {
+    insert_wide(row, offset);
+  }
+}
+
+void ListRows::insert_wide(Row& row, std::int32_t offset) {
+  std::vector<WideRow>& wide = wide_[row.block];
+  if (row.more == none || wide[row.more].count == wide_row_capacity) {
+    std::uint32_t fresh = free_wide_[row.block];
+    if (fresh != none) {
+      free_wide_[row.block] = wide[fresh].next;
+    } else {
+      fresh = static_cast<std::uint32_t>(wide.size());
+      wide.emplace_back();
+    }
+    wide[fresh].count = 0;
+    wide[fresh].next = row.more;
+    row.more = fresh;
+  }
+  WideRow& last = wide[row.more];
+  put_and_pad<wide_row_capacity>(last.offset, last.count++, offset);
+}
+
+void ListRows::free_wide_rows(std::uint32_t i) {
+  Row& row = rows_[i];
+  while (row.more != none) {
+    WideRow& wide = wide_[row.block][row.more];
+    const std::uint32_t next = wide.next;
+    wide.next = free_wide_[row.block];
+    free_wide_[row.block] = row.more;
+    row.more = next;
+  }
+}
+
+// Takes disk j out of the list of disk i, if it is there.
+void ListRows::remove(std::uint32_t i, std::uint32_t j) {
+  Row& row = rows_[i];
+  const auto offset = static_cast<std::int32_t>(j - i);
+  // Padding may have the offset too, but after it.
+  const std::uint32_t places = RowSearch(&row).places_of(static_cast<std::int16_t>(offset));
+  const auto place = static_cast<std::uint32_t>(std::countr_zero(places));
+  if (place >= row.count || offset != static_cast<std::int16_t>(offset)) [[unlikely]] {
+    remove_wide(row, offset);
+    return;
+  }
+  --row.count;
+  row.offset[place] = row.offset[row.count];
+  put_and_pad<row_capacity>(row.offset, row.count, row.offset[0]);
+}
+
+void ListRows::remove_wide(Row& row, std::int32_t offset) {
+  for (std::uint32_t w = row.more; w != none; w = wide_[row.block][w].next) {
+    WideRow& wide = wide_[row.block][w];
+    std::int32_t* const place = std::find(wide.offset, wide.offset + wide.count, offset);
+    if (place == wide.offset + wide.count) continue;
+    *place = wide.offset[--wide.count];
+    put_and_pad<wide_row_capacity>(wide.offset, wide.count, wide.offset[0]);
+    return;
+  }
+}
+
+void ListRows::replace(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region) {
+  const Row& row = rows_[i];
+  if (row.more != none || row.count == 0) [[unlikely]] {
+    for_each_neighbour(i, [&](std::uint32_t j) {
+      if (region.holds(j)) remove(j, i);
+    });
+    free_wide_rows(i);
+    for (const std::uint32_t j : near) insert(j, i);
+    set(i, near);
+  } else {
+    patch(i, near, region);
+  }
+}
+
+// Where the old list is all in one row.
+void ListRows::patch(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region) {
+  Row& row = rows_[i];
+  const Row old = row;
+  const RowSearch search(&old);
+  row.count = 0;
+  std::uint32_t stay = 0;
+  for (const std::uint32_t j : near) {
+    const auto offset = static_cast<std::int32_t>(j - i);
+    const bool fits = row.count < row_capacity && offset == static_cast<std::int16_t>(offset);
+    if (!fits) [[unlikely]] {
+      insert_wide(row, offset);
+      insert(j, i);
+      continue;
+    }
+    row.offset[row.count++] = static_cast<std::int16_t>(offset);
+    const std::uint32_t places = search.places_of(static_cast<std::int16_t>(offset));
+    stay |= places;
+    if ((places & ((1U << old.count) - 1U)) == 0) insert(j, i);
+  }
+  if (row.count > 0) put_and_pad<row_capacity>(row.offset, row.count, row.offset[0]);
+  for (std::uint32_t go = ~stay & ((1U << old.count) - 1U); go != 0; go &= go - 1U) {
+    const std::uint32_t j = i + static_cast<std::uint32_t>(std::int32_t{old.offset[std::countr_zero(go)]});
+    if (region.holds(j)) remove(j, i);
+  }
+}
+
+}  // namespace carom

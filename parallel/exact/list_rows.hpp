@@ -1,0 +1,110 @@
+// The neighbour lists as they lie in memory: for each disk a row of the storage offsets to its neighbours.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "parallel/exact/prediction_kernel.hpp"
+
+namespace carom {
+
+// Cells and disks, both contiguous in memory, that one thread may read and write.
+struct ListRegion {
+  std::uint32_t first_key = 0, last_key = 0xffffffffU;    // cells [first, last)
+  std::uint32_t first_disk = 0, last_disk = 0xffffffffU;  // disks stored in [first, last)
+  bool holds(std::uint32_t disk) const { return disk >= first_disk && disk < last_disk; }
+};
+
+// Which disk is in which list; what makes them neighbours is not known here (neighbour_lists.hpp).
+class ListRows {
+ public:
+  // Rows for this many disks, in blocks of disks that share memory for long lists: a block is for one thread at a time.
+  // The lists are as they were, to be set anew.
+  void begin(std::size_t disks, std::size_t blocks);
+  std::size_t size() const { return rows_.size(); }
+  void release() { std::vector<Row>().swap(rows_); }
+
+  // All of a block's lists are forgotten; disk i belongs to the block, with an empty list.
+  void clear_block(std::size_t block);
+  void enter(std::uint32_t i, std::size_t block, unsigned sides);
+  std::uint32_t block_of(std::uint32_t i) const { return rows_[i].block; }
+
+  // Calls near(offset, count) and, where those are not all, far(offset, count): the neighbours of disk i are disks i +
+  // offset[k], at most row_capacity at a time; what follows up to the next multiple of prediction_lanes is one of them.
+  static constexpr std::uint32_t row_capacity = 28;
+  template <class Near, class Far>
+  void visit_offsets(std::uint32_t i, Near&& near, Far&& far) const {
+    const Row& row = rows_[i];
+    near(static_cast<const std::int16_t*>(row.offset), std::uint32_t{row.count});
+    for (std::uint32_t w = row.more; w != none;) {
+      const WideRow& wide = wide_[row.block][w];
+      far(static_cast<const std::int32_t*>(wide.offset), wide.count);
+      w = wide.next;
+    }
+  }
+  // Calls visit(j) for each neighbour j of disk i.
+  template <class Visit>
+  void for_each_neighbour(std::uint32_t i, Visit&& visit) const {
+    const auto some = [&](const auto* offset, std::uint32_t count) {
+      for (std::uint32_t k = 0; k < count; ++k) visit(i + static_cast<std::uint32_t>(std::int32_t{offset[k]}));
+    };
+    visit_offsets(i, some, some);
+  }
+
+  // Bits (1 << side) of the walls and sinks that the disk can touch while it stays listed.
+  unsigned sides_near(std::uint32_t i) const { return rows_[i].sides; }
+
+  // A list that is all in one row, of a disk with no side near; nothing to visit but offset[0] to offset[count - 1].
+  struct PlainList {
+    bool is_plain;  // otherwise the rest means nothing
+    const std::int16_t* offset;
+    std::uint32_t count;
+  };
+  PlainList plain_list(std::uint32_t i) const {
+    const Row& row = rows_[i];
+    return {row.more == none && row.sides == 0, row.offset, row.count};
+  }
+
+  void set_sides(std::uint32_t i, unsigned sides) { rows_[i].sides = static_cast<std::uint8_t>(sides); }
+  void prefetch(std::uint32_t i) const { __builtin_prefetch(rows_.data() + i); }
+
+  // Gives disk i, whose list is empty, these neighbours.
+  void set(std::uint32_t i, std::span<const std::uint32_t> near);
+  // Gives disk i another list, and takes it into or out of its neighbours' lists where that changes them. All of the
+  // new list is in the region. Disks of other regions that list disk i keep it: one too many does no harm.
+  void replace(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region);
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffU;
+  // A disk's list in one cache line. Most neighbours are stored nearby, so that offsets to them fit in 16 bits.
+  struct alignas(64) Row {
+    std::uint32_t more = none;  // number of a wide row of its block
+    std::uint8_t count = 0;
+    std::uint8_t sides = 0;
+    std::uint16_t block = 0;  // its tile, where there are tiles
+    std::int16_t offset[row_capacity] = {};
+  };
+  static_assert(sizeof(Row) == 64);
+  // Neighbours that did not fit in the row.
+  static constexpr std::uint32_t wide_row_capacity = 12;
+  struct alignas(64) WideRow {
+    std::int32_t offset[wide_row_capacity] = {};
+    std::uint32_t count = 0;
+    std::uint32_t next = none;
+  };
+
+  void insert(std::uint32_t i, std::uint32_t j);
+  void insert_wide(Row& row, std::int32_t offset);
+  void free_wide_rows(std::uint32_t i);
+  void patch(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region);
+  void remove(std::uint32_t i, std::uint32_t j);
+  void remove_wide(Row& row, std::int32_t offset);
+
+  std::vector<Row> rows_;
+  std::vector<std::vector<WideRow>> wide_;  // of each block
+  std::vector<std::uint32_t> free_wide_;    // of each block: the first of its wide rows that are not in use
+};
+
+}  // namespace carom

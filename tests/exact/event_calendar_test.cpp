@@ -1,0 +1,91 @@
+// The event calendar: the first event of all disks, in order of time, ties as told, whatever their times are.
+#include "parallel/exact/event_calendar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/support/draws.hpp"
+
+namespace carom {
+namespace {
+
+bool smaller_number(std::uint32_t a, std::uint32_t b) {
+  return a < b;
+}
+
+// How long after an event a disk's next one comes.
+struct Pattern {
+  std::string name;
+  std::function<double(test::Draws&)> wait;
+};
+
+const std::vector<Pattern> patterns = {
+    {"spread", [](test::Draws& draws) { return -std::log(1.0 - draws.in(0.0, 1.0)); }},
+    {"in turns", [](test::Draws&) { return 0.25; }},
+    {"many at once", [](test::Draws& draws) { return std::floor(draws.in(0.0, 4.0)); }},
+    {"in clusters", [](test::Draws& draws) { return std::floor(draws.in(0.0, 3.0)) + draws.in(0.0, 1e-9); }},
+    {"some at the same time", [](test::Draws& draws) { return draws.bits() % 8 == 0 ? 0.0 : draws.in(0.0, 1.0); }},
+    {"some never", [](test::Draws& draws) { return draws.bits() % 50 == 0 ? never : draws.in(0.0, 0.5); }},
+};
+
+// Against a search through all disks.
+void expect_order(const Pattern& pattern, std::uint32_t disks, std::size_t expected) {
+  test::Draws draws(disks + expected);
+  constexpr double start = 0.5;
+  constexpr double end = 8.0;
+  EventCalendar calendar;
+  calendar.begin(start, end, disks, expected);
+  std::vector<double> time(disks);
+  for (std::uint32_t k = 0; k < disks; ++k) {
+    // Some before the start, which come first.
+    time[k] = k % 10 == 0 ? draws.in(-1.0, start) : start + pattern.wait(draws);
+    calendar.insert(k, time[k]);
+  }
+  std::uint32_t found = 0;
+  for (int event = 0; event < 4000; ++event) {
+    const auto first = static_cast<std::uint32_t>(std::min_element(time.begin(), time.end()) - time.begin());
+    const bool any = calendar.find_first(found, smaller_number);
+    ASSERT_EQ(any, time[first] <= end) << pattern.name << ", event " << event;
+    if (!any) return;
+    ASSERT_EQ(found, first) << pattern.name << ", event " << event;
+    ASSERT_EQ(calendar.time_of(found), time[found]);
+    time[found] += pattern.wait(draws);
+    calendar.move(found, time[found], smaller_number);
+    // Another disk's event moves too, as when a collision takes its partner away.
+    const auto other = static_cast<std::uint32_t>(draws.bits() % disks);
+    time[other] = std::max(time[other], time[found]) + (draws.bits() % 2 == 0 ? 0.0 : pattern.wait(draws));
+    calendar.move(other, time[other], smaller_number);
+  }
+}
+
+TEST(EventCalendar, GivesTheFirstEventOfAllDisks) {
+  for (const Pattern& pattern : patterns) {
+    for (const std::uint32_t disks : {1U, 3U, 50U, 700U}) {
+      for (const std::size_t expected : {std::size_t{0}, std::size_t{10}, std::size_t{20000}}) {
+        expect_order(pattern, disks, expected);
+      }
+    }
+  }
+}
+
+TEST(EventCalendar, HoldsTheLastMoment) {
+  EventCalendar calendar;
+  calendar.begin(0.0, 1.0, 3, 0);
+  calendar.insert(0, 1.0);
+  calendar.insert(1, std::nextafter(1.0, 2.0));
+  calendar.insert(2, never);
+  std::uint32_t found = 9;
+  ASSERT_TRUE(calendar.find_first(found, smaller_number));
+  EXPECT_EQ(found, 0U);
+  calendar.move(0, never, smaller_number);
+  EXPECT_FALSE(calendar.find_first(found, smaller_number));
+}
+
+}  // namespace
+}  // namespace carom
