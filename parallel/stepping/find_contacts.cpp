@@ -80,20 +80,20 @@ void search_border(const SearchInput& in, const GridLevel& level, std::uint32_t 
   }
 }
 
-// One row's part of a block: the disks whose neighbours all lie on the same side of every periodic border go through
-// the interior kernel. A disk that was sorted into the first column may have wrapped to the far side since, so columns
-// that look at the outermost ones count as border, rows likewise.
+// One row's part of a block. The outermost rows and columns at periodic sides go cell by cell, all others through the
+// interior kernel: what touches a disk there lies on the same side of every periodic border. For it is within the
+// margin of its cell, thus further from the border than a contact distance, a cell being that and two margins wide.
 void search_row(const SearchInput& in, const GridLevel& level, InteriorKernel interior, std::uint32_t row,
                 std::size_t begin, std::size_t end, std::vector<Pair>& pairs) {
-  const bool border_row = in.box.periodic_y() && (row == 0 || row + 3 > level.rows);
+  const bool border_row = in.box.periodic_y() && (row == 0 || row + 1 == level.rows);
   std::size_t low = begin;
   std::size_t high = end;
   if (border_row || (in.box.periodic_x() && level.columns < 5)) {
     low = high = end;
   } else if (in.box.periodic_x()) {
     const std::uint32_t row_key = level.first_key + row * level.stride;
-    low = std::clamp<std::size_t>(in.start[row_key + 2], begin, end);
-    high = std::clamp<std::size_t>(in.start[row_key + level.columns - 2], low, end);
+    low = std::clamp<std::size_t>(in.start[row_key + 1], begin, end);
+    high = std::clamp<std::size_t>(in.start[row_key + level.columns - 1], low, end);
   }
   search_border(in, level, row, begin, low, pairs);
   interior(in, level, low, high, pairs);

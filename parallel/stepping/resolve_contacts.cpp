@@ -70,10 +70,10 @@ void begin_blocks(std::size_t blocks, ContactLists& lists) {
   assign_amply(lists.seen, blocks, {});
 }
 
-// The pairs that block b of the search found.
+// The pairs that block b of the search found. All that it calls is inlined: a third of its instructions were calls.
 template <class View>
-void resolve_alone_pairs(const View& d, const StepRules& rules, const WallReach& walls, const std::vector<Pair>& pairs,
-                         std::size_t b, ContactLists& lists) {
+[[gnu::flatten]] void resolve_alone_pairs(const View& d, const StepRules& rules, const WallReach& walls,
+                                          const std::vector<Pair>& pairs, std::size_t b, ContactLists& lists) {
   StepFigures& seen = lists.seen[b];
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [i, j] = in_id_order(d.id, pairs[k]);

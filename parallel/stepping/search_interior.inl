@@ -130,10 +130,9 @@ inline unsigned bits_of(Eight truth) {
 template <bool own_radius>
 class CoarseTest {
  public:
-  CoarseTest(const SearchInput& in, const GridLevel& level)
-      : position_(in.position),
-        radius_(in.coarse_radius),
-        contact2_(all(coarse_contact2(in.common_radius + in.common_radius, level))) {}
+  // contact2: equal radii: disks whose squared coarse distance is as much do not touch.
+  CoarseTest(const SearchInput& in, std::uint32_t contact2)
+      : position_(in.position), radius_(in.coarse_radius), contact2_(all(contact2)) {}
 
   void set_disk(std::size_t i) {
     own_position_ = all(position_[i]);
@@ -150,23 +149,25 @@ class CoarseTest {
  private:
   const std::uint32_t* position_;
   const std::uint32_t* radius_;
-  Eight contact2_;      // equal radii: disks as far apart do not touch
+  Eight contact2_;
   Eight own_position_;  // of the disk that was set
   Eight own_reach_;     // unequal radii: its own and the error
 };
 
-// Disk i and those of [first, last) that the coarse test lets through, in double precision.
+// Adds the pairs of disk i and those of [first, last) that the coarse test lets through. What the test in double
+// precision will read is asked for now, as it comes from memory.
 template <bool own_radius>
-void test_run(const SearchInput& in, const CoarseTest<own_radius>& coarse, std::size_t i, std::uint32_t first,
-              std::uint32_t last, std::vector<Pair>& pairs) {
-  const double r = own_radius ? in.radius[i] : in.common_radius;
+void add_candidates(const SearchInput& in, const CoarseTest<own_radius>& coarse, std::size_t i, std::uint32_t first,
+                    std::uint32_t last, std::vector<Pair>& pairs) {
   for (; first < last; first += lanes) {
-    for (unsigned hits = bits_of(coarse.may_touch(first)); hits != 0; hits &= hits - 1) {
-      const std::uint32_t j = first + static_cast<unsigned>(__builtin_ctz(hits));
+    for (unsigned near = bits_of(coarse.may_touch(first)); near != 0; near &= near - 1) {
+      const std::uint32_t j = first + static_cast<unsigned>(__builtin_ctz(near));
       if (j >= last) break;
-      const double dx = in.x[j] - in.x[i];
-      const double dy = in.y[j] - in.y[i];
-      if (!touches(dx * dx + dy * dy, (own_radius ? in.radius[j] : r) + r)) continue;
+      for (const std::size_t k : {i, std::size_t{j}}) {
+        __builtin_prefetch(in.x + k);
+        __builtin_prefetch(in.y + k);
+        if constexpr (own_radius) __builtin_prefetch(in.radius + k);
+      }
       pairs.push_back({static_cast<std::uint32_t>(i), j});
     }
   }
@@ -174,13 +175,28 @@ void test_run(const SearchInput& in, const CoarseTest<own_radius>& coarse, std::
 
 // Disk i against both runs. Few disks get here: not inlined, so that the loop over all of them keeps its registers.
 template <bool own_radius>
-[[gnu::noinline]] void test_disk(const SearchInput& in, const GridLevel& level, std::size_t i,
+[[gnu::noinline]] void test_disk(const SearchInput& in, std::uint32_t contact2, std::uint32_t stride, std::size_t i,
                                  std::vector<Pair>& pairs) {
-  CoarseTest<own_radius> coarse(in, level);
+  CoarseTest<own_radius> coarse(in, contact2);
   coarse.set_disk(i);
   const std::uint32_t* const start = in.start + in.key[i];
-  test_run(in, coarse, i, static_cast<std::uint32_t>(i + 1), start[2], pairs);
-  test_run(in, coarse, i, start[level.stride - 1], start[level.stride + 2], pairs);
+  add_candidates(in, coarse, i, static_cast<std::uint32_t>(i + 1), start[2], pairs);
+  add_candidates(in, coarse, i, start[stride - 1], start[stride + 2], pairs);
+}
+
+// Keeps of the pairs from `first` on those that touch.
+template <bool own_radius>
+void keep_touching(const SearchInput& in, std::size_t first, std::vector<Pair>& pairs) {
+  std::size_t kept = first;
+  for (std::size_t k = first; k < pairs.size(); ++k) {
+    const auto [i, j] = pairs[k];
+    const double dx = in.x[j] - in.x[i];
+    const double dy = in.y[j] - in.y[i];
+    const double contact_distance = own_radius ? in.radius[j] + in.radius[i] : in.common_radius + in.common_radius;
+    pairs[kept] = pairs[k];
+    kept += touches(dx * dx + dy * dy, contact_distance) ? 1U : 0U;
+  }
+  pairs.resize(kept);
 }
 
 template <bool own_radius>
@@ -189,7 +205,9 @@ void search_row(const SearchInput& in, const GridLevel& level, std::size_t begin
   const std::uint32_t* const key = in.key;
   const std::uint32_t* const cells = in.start;
   const std::uint32_t* const cells_above = in.start + level.stride - 1;
-  CoarseTest<own_radius> coarse(in, level);
+  const std::uint32_t contact2 = coarse_contact2(in.common_radius + in.common_radius, level);
+  CoarseTest<own_radius> coarse(in, contact2);
+  const std::size_t found = pairs.size();
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t cell = key[i];
     const std::size_t own = i + 1;
@@ -200,8 +218,9 @@ void search_row(const SearchInput& in, const GridLevel& level, std::size_t begin
     // Mostly neither run has more than eight disks, and none of them touches.
     const Eight near = either(coarse.may_touch(own), coarse.may_touch(above));
     if (bits_of(near) != 0 || own_end > own + lanes || above_end > above + lanes) [[unlikely]]
-      test_disk<own_radius>(in, level, i, pairs);
+      test_disk<own_radius>(in, contact2, level.stride, i, pairs);
   }
+  keep_touching<own_radius>(in, found, pairs);
 }
 
 }  // namespace
