@@ -25,11 +25,14 @@ inline constexpr std::uint32_t coarse_lanes = 8;
 struct CoarsePositions {
   std::vector<std::uint32_t> position;
   std::vector<std::uint32_t> radius;  // in units, rounded up; empty: all disks have the common one
+  // Disks that have more than coarse_lanes others in one of their runs (near_runs), ascending.
+  std::vector<std::uint32_t> crowded;
   // Disks that have left their cell by more than the level's margin, of each block.
   std::vector<std::vector<std::uint32_t>> strays;
   std::size_t blocks = 0;      // that strays are of
   std::vector<double> speed2;  // scratch
-  bool current = false;        // position and strays are of where the disks are now
+  std::vector<std::vector<std::uint32_t>> crowded_blocks;
+  bool current = false;  // position and strays are of where the disks are now
 };
 
 // A unit of the level's coarse coordinates; length. A cell is a sixteenth of what 16 bits hold, so that the few disks
@@ -57,7 +60,16 @@ inline LevelRange range_of(const GridLevel& level, const SortedCells& cells) {
   return {cells.start[level.first_key], cells.start[level.first_key + level.keys()]};
 }
 
-// Room for all disks, and their radii. To be called once the disks have been sorted into cells.
+// The runs of disks in storage that the search compares a disk with, away from periodic sides: what follows it in its
+// own cell and in the next one, and the disks of the three cells above.
+struct NearRuns {
+  std::uint32_t own, own_end, above, above_end;
+};
+inline NearRuns near_runs(const std::uint32_t* start, std::uint32_t key, std::uint32_t stride, std::uint32_t i) {
+  return {i + 1, start[key + 2], start[key + stride - 1], start[key + stride + 2]};
+}
+
+// Room for all disks, their radii, and which are crowded. To be called once the disks have been sorted into cells.
 void begin_coarse_positions(const Disks& disks, const CellGrid& grid, const SortedCells& cells,
                             const Executor& executor, CoarsePositions& coarse);
 

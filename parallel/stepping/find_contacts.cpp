@@ -189,6 +189,7 @@ std::size_t find_contacts(const Disks& d, const Domain& box, const CellGrid& gri
                        d.common_radius,
                        coarse.position.data(),
                        coarse.radius.empty() ? nullptr : coarse.radius.data(),
+                       coarse.crowded,
                        cells.key.data(),
                        cells.start.data(),
                        d.size(),

@@ -4,6 +4,8 @@
 #include <immintrin.h>
 #endif
 
+#include <algorithm>
+
 #include "core/physics/disk_pair.hpp"
 #include "parallel/stepping/search_kernel.hpp"
 
@@ -173,15 +175,30 @@ void add_candidates(const SearchInput& in, const CoarseTest<own_radius>& coarse,
   }
 }
 
-// Disk i against both runs. Few disks get here: not inlined, so that the loop over all of them keeps its registers.
+// Disk i against the first disks of both runs. Few disks get here: not inlined, so that the loop over all of them keeps
+// its registers.
 template <bool own_radius>
 [[gnu::noinline]] void test_disk(const SearchInput& in, std::uint32_t contact2, std::uint32_t stride, std::size_t i,
                                  std::vector<Pair>& pairs) {
   CoarseTest<own_radius> coarse(in, contact2);
   coarse.set_disk(i);
-  const std::uint32_t* const start = in.start + in.key[i];
-  add_candidates(in, coarse, i, static_cast<std::uint32_t>(i + 1), start[2], pairs);
-  add_candidates(in, coarse, i, start[stride - 1], start[stride + 2], pairs);
+  const NearRuns runs = near_runs(in.start, in.key[i], stride, static_cast<std::uint32_t>(i));
+  add_candidates(in, coarse, i, runs.own, std::min(runs.own_end, runs.own + lanes), pairs);
+  add_candidates(in, coarse, i, runs.above, std::min(runs.above_end, runs.above + lanes), pairs);
+}
+
+// The crowded ones of disks [begin, end) against the rest of both runs.
+template <bool own_radius>
+void test_crowded(const SearchInput& in, std::uint32_t contact2, std::uint32_t stride, std::size_t begin,
+                  std::size_t end, std::vector<Pair>& pairs) {
+  CoarseTest<own_radius> coarse(in, contact2);
+  auto it = std::lower_bound(in.crowded.begin(), in.crowded.end(), begin);
+  for (; it != in.crowded.end() && *it < end; ++it) {
+    coarse.set_disk(*it);
+    const NearRuns runs = near_runs(in.start, in.key[*it], stride, *it);
+    add_candidates(in, coarse, *it, runs.own + lanes, runs.own_end, pairs);
+    add_candidates(in, coarse, *it, runs.above + lanes, runs.above_end, pairs);
+  }
 }
 
 // Keeps of the pairs from `first` on those that touch.
@@ -199,27 +216,28 @@ void keep_touching(const SearchInput& in, std::size_t first, std::vector<Pair>& 
   pairs.resize(kept);
 }
 
+// Eight disks of each run are mostly more than there are, and mostly none of them touches.
 template <bool own_radius>
 void search_row(const SearchInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
                 std::vector<Pair>& pairs) {
   const std::uint32_t* const key = in.key;
-  const std::uint32_t* const cells = in.start;
   const std::uint32_t* const cells_above = in.start + level.stride - 1;
   const std::uint32_t contact2 = coarse_contact2(in.common_radius + in.common_radius, level);
   CoarseTest<own_radius> coarse(in, contact2);
-  const std::size_t found = pairs.size();
-  for (std::size_t i = begin; i < end; ++i) {
-    const std::size_t cell = key[i];
-    const std::size_t own = i + 1;
-    const std::size_t own_end = cells[cell + 2];
-    const std::size_t above = cells_above[cell];
-    const std::size_t above_end = cells_above[cell + 3];
+  const auto near_disk = [&](std::size_t i) {
     coarse.set_disk(i);
-    // Mostly neither run has more than eight disks, and none of them touches.
-    const Eight near = either(coarse.may_touch(own), coarse.may_touch(above));
-    if (bits_of(near) != 0 || own_end > own + lanes || above_end > above + lanes) [[unlikely]]
-      test_disk<own_radius>(in, contact2, level.stride, i, pairs);
+    return either(coarse.may_touch(i + 1), coarse.may_touch(cells_above[key[i]]));
+  };
+  const std::size_t found = pairs.size();
+  std::size_t i = begin;
+  for (; i + 2 <= end; i += 2) {
+    if (bits_of(either(near_disk(i), near_disk(i + 1))) == 0) [[likely]]
+      continue;
+    test_disk<own_radius>(in, contact2, level.stride, i, pairs);
+    test_disk<own_radius>(in, contact2, level.stride, i + 1, pairs);
   }
+  if (i < end) test_disk<own_radius>(in, contact2, level.stride, i, pairs);
+  test_crowded<own_radius>(in, contact2, level.stride, begin, end, pairs);
   keep_touching<own_radius>(in, found, pairs);
 }
 

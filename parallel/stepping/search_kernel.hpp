@@ -17,6 +17,7 @@ struct SearchInput {
   double common_radius;
   const std::uint32_t* position;       // coarse (coarse_positions.hpp)
   const std::uint32_t* coarse_radius;  // null: common_radius
+  const std::vector<std::uint32_t>& crowded;
   const std::uint32_t* key;
   const std::uint32_t* start;
   std::size_t n;  // all disks
