@@ -58,9 +58,9 @@ class PairwiseMethod final : public Phases {
   StepFigures advance(StepRules rules) {
     sort_if_due();
     drift(rules.dt);
-    if (rules.settles) keep_places();
     StepFigures figures;
     do {
+      if (rules.settles) keep_places();
       search(rules);
       figures.go_on(resolve(rules));
     } while (rules.settles && ++rules.round < most_rounds && presses_others());

@@ -15,14 +15,15 @@ namespace carom {
 // safe step overlapped by up to 3.0 % with 8 at most, and by 1.5 % with 32.
 inline constexpr int most_rounds = 32;
 
-// A disk that resolving moved by less than this share of its radius makes no overlap worth another round.
+// A disk that resolving moved by less than this share of its radius, from where the round's search saw it, makes no
+// overlap worth another round.
 inline constexpr double displaced_share = 0.005;
 
 // Overlap, over the sum of radii (over the radius, at a wall), that is too much to be left to the next step: half of
 // what a pile may have.
 inline constexpr double pressed_overlap = 0.01;
 
-// Square of the way that resolving has moved disk i by from (x0, y0), where its drift ended; length^2.
+// Square of the way that resolving has moved disk i by from (x0, y0), where the search saw it; length^2.
 template <class View>
 double displacement2(const View& d, const Domain& box, std::size_t i, double x0, double y0) {
   return nearest_distance2({d.x[i] - x0, d.y[i] - y0}, box);
