@@ -19,16 +19,26 @@ constexpr std::size_t cross_block = 64;
 // Strays a block.
 constexpr std::size_t stray_block = 256;
 
+// Magnitude of nearest_image(d, period) or its opposite, with the same bits and without a branch: whether a neighbour
+// is across the border cannot be predicted. Beyond half a period the difference is exact.
+double nearest_magnitude(double d, double period) {
+  return std::min(std::abs(d), period - std::abs(d));
+}
+
+double contact_distance(const SearchInput& in, std::size_t i, std::size_t j) {
+  return in.radius == nullptr ? in.common_radius + in.common_radius : in.radius[j] + in.radius[i];
+}
+
 bool touch(const SearchInput& in, std::size_t i, std::size_t j) {
-  const double contact_distance =
-      in.radius == nullptr ? in.common_radius + in.common_radius : in.radius[j] + in.radius[i];
-  return touches(nearest_distance2({in.x[j] - in.x[i], in.y[j] - in.y[i]}, in.box), contact_distance);
+  const double dx = nearest_magnitude(in.x[j] - in.x[i], in.period_x);
+  const double dy = nearest_magnitude(in.y[j] - in.y[i], in.period_y);
+  return touches(dx * dx + dy * dy, contact_distance(in, i, j));
 }
 
 void test_run(const SearchInput& in, std::size_t i, std::uint32_t first, std::uint32_t last, std::vector<Pair>& pairs) {
   for (std::uint32_t j = first; j < last; ++j) {
-    if (!touch(in, i, j)) continue;
-    pairs.push_back({static_cast<std::uint32_t>(i), j});
+    if (touch(in, i, j)) [[unlikely]]
+      pairs.push_back({static_cast<std::uint32_t>(i), j});
   }
 }
 
@@ -193,7 +203,9 @@ std::size_t find_contacts(const Disks& d, const Domain& box, const CellGrid& gri
                        cells.key.data(),
                        cells.start.data(),
                        d.size(),
-                       box};
+                       box,
+                       box.periodic_x() ? box.width : HUGE_VAL,
+                       box.periodic_y() ? box.height : HUGE_VAL};
   const InteriorKernel interior = choose_interior_kernel();
   const std::size_t levels = grid.levels.size();
   found.used = 0;

@@ -22,6 +22,7 @@ struct SearchInput {
   const std::uint32_t* start;
   std::size_t n;  // all disks
   Domain box;
+  double period_x, period_y;  // infinity between other sides
 };
 
 // Disks [begin, end) of one row of one level, all away from periodic sides, against the rest of their own row and the
