@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <bit>
 
 #include "core/base/random.hpp"
 
@@ -76,22 +76,23 @@ class Philox {
 
 // 2 u - 1 of the uniform u = (bits + 1/2) 2^-52: all these numbers are exact.
 inline __m256d centred(__m256i bits) {
-  const __m256d from_one = _mm256_castsi256_pd(_mm256_or_si256(bits, _mm256_castpd_si256(all(1.0))));
-  const __m256d half = _mm256_sub_pd(from_one, all(1.5));
-  return _mm256_add_pd(_mm256_add_pd(half, half), all(0x1p-52));
+  const __m256d from_two = _mm256_castsi256_pd(_mm256_or_si256(bits, _mm256_castpd_si256(all(2.0))));
+  return _mm256_add_pd(_mm256_sub_pd(from_two, all(3.0)), all(0x1p-52));
 }
 
 // deterministic_log of core/base/random.cpp, the same operations in the same order.
 inline __m256d log_of(__m256d x) {
-  const __m256i bits = _mm256_castpd_si256(x);
+  // A fraction above that of sqrt(2), here 1.4142135623730951, carries into the exponent, and f is halved.
+  constexpr std::uint64_t fraction = 0x000fffffffffffff;
+  constexpr std::uint64_t of_root = 0x0006a09e667f3bcd;
   const __m256d one = all(1.0);
-  __m256d f = _mm256_or_pd(_mm256_and_pd(x, _mm256_castsi256_pd(all(std::uint64_t{0x000fffffffffffff}))), one);
-  const __m256d large = _mm256_cmp_pd(f, all(1.4142135623730951), _CMP_GT_OQ);
-  f = _mm256_blendv_pd(f, _mm256_mul_pd(f, all(0.5)), large);
+  const __m256i bits = _mm256_castpd_si256(x);
+  const __m256i carried = _mm256_add_epi64(bits, all(fraction - of_root));
+  const __m256i exponent = _mm256_andnot_si256(all(fraction), carried);
+  const __m256d f = _mm256_castsi256_pd(_mm256_add_epi64(_mm256_sub_epi64(bits, exponent), _mm256_castpd_si256(one)));
   // The exponent in the lowest bits of 2^52.
-  const __m256i biased = _mm256_or_si256(_mm256_srli_epi64(bits, 52), _mm256_castpd_si256(all(0x1p52)));
-  const __m256d k =
-      _mm256_add_pd(_mm256_sub_pd(_mm256_castsi256_pd(biased), all(0x1p52 + 1023.0)), _mm256_and_pd(large, one));
+  const __m256i biased = _mm256_or_si256(_mm256_srli_epi64(carried, 52), _mm256_castpd_si256(all(0x1p52)));
+  const __m256d k = _mm256_sub_pd(_mm256_castsi256_pd(biased), all(0x1p52 + 1023.0));
   const __m256d s = _mm256_div_pd(_mm256_sub_pd(f, one), _mm256_add_pd(f, one));
   const __m256d s2 = _mm256_mul_pd(s, s);
   __m256d sum = all(0.0);
@@ -101,6 +102,19 @@ inline __m256d log_of(__m256d x) {
   return _mm256_add_pd(_mm256_mul_pd(k, all(0x1.62e42fefa0000p-1)), _mm256_add_pd(twice, low));
 }
 
+// For each set of lanes, the bytes that put the numbers of those in it first.
+constexpr auto packing = [] {
+  std::array<std::array<std::uint8_t, 16>, 16> table{};
+  for (unsigned bits = 0; bits < 16; ++bits) {
+    std::size_t to = 0;
+    for (unsigned lane = 0; lane < lanes; ++lane) {
+      if ((bits >> lane & 1U) == 0) continue;
+      for (unsigned byte = 0; byte < 4; ++byte) table[bits][to++] = static_cast<std::uint8_t>(4 * lane + byte);
+    }
+  }
+  return table;
+}();
+
 // Points of a batch of disks, each uniform in the unit circle: attempt after attempt, the disks whose point lay outside
 // by themselves. In a loop of its own, as is what follows: the processor then has the work of several fours at hand
 // while it waits for one.
@@ -108,22 +122,22 @@ class Points {
  public:
   // The points of disks id[0] to id[n - 1], n <= batch.
   void draw(const Philox& philox, const DiskId* id, std::size_t n) {
-    rejected_ = 0;
+    std::size_t outside = 0;
     std::size_t i = 0;
     for (; i + lanes <= n; i += lanes) {
-      const Four at = four_of(philox, _mm_loadu_si128(reinterpret_cast<const __m128i*>(id + i)), 0);
+      const Four at = four_of(philox, load(id + i), 0);
       _mm256_store_pd(&a_[i], at.a);
       _mm256_store_pd(&b_[i], at.b);
       _mm256_store_pd(&q_[i], at.q);
-      for (std::size_t lane = 0; lane < lanes; ++lane) reject(i + lane, (at.outside >> lane & 1U) != 0);
+      const __m128i number = _mm_add_epi32(_mm_set1_epi32(static_cast<int>(i)), _mm_setr_epi32(0, 1, 2, 3));
+      outside += append(number, at.outside, &outside_[outside]);
     }
-    std::size_t left = n - i;
-    for (std::size_t k = 0; k < left; ++k) reject_[batch + k] = static_cast<std::uint32_t>(i + k);
-    if (left > 0) draw_again(philox, id, 0, &reject_[batch], left);
-    for (std::uint32_t attempt = 1; rejected_ > 0; ++attempt) {
-      left = std::exchange(rejected_, 0);
-      draw_again(philox, id, attempt, reject_.data(), left);
-    }
+    std::array<std::uint32_t, 2 * lanes> rest{};
+    for (std::size_t k = i; k < n; ++k) rest[k - i] = static_cast<std::uint32_t>(k);
+    std::size_t left = draw_again(philox, id, 0, rest.data(), n - i);
+    std::copy(rest.begin(), rest.begin() + left, &outside_[outside]);
+    left += outside;
+    for (std::uint32_t attempt = 1; left > 0; ++attempt) left = draw_again(philox, id, attempt, outside_.data(), left);
   }
 
   __m256d a(std::size_t i) const { return _mm256_load_pd(&a_[i]); }
@@ -143,39 +157,45 @@ class Points {
     return {a, b, q, static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(q, all(1.0), _CMP_GE_OQ)))};
   }
 
-  // Without a branch, which could not be predicted.
-  void reject(std::size_t i, bool outside) {
-    reject_[rejected_] = static_cast<std::uint32_t>(i);
-    rejected_ += outside ? 1U : 0U;
+  static __m128i load(const std::uint32_t* p) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }
+
+  // Writes those of the four numbers that are in the set, and whatever after them; returns how many they are. Without a
+  // branch, which could not be predicted.
+  static std::size_t append(__m128i number, unsigned set, std::uint32_t* to) {
+    const __m128i order = _mm_loadu_si128(reinterpret_cast<const __m128i*>(packing[set].data()));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_shuffle_epi8(number, order));
+    return static_cast<std::size_t>(std::popcount(set));
   }
 
-  // The disks of list, by fours; the last four are filled up with the last disk.
-  void draw_again(const Philox& philox, const DiskId* id, std::uint32_t attempt, const std::uint32_t* list,
-                  std::size_t count) {
+  // The disks of a list, by fours; the last four are filled up with the last disk. Returns how many are outside again,
+  // which are now the first of the list. The list has room for three more.
+  std::size_t draw_again(const Philox& philox, const DiskId* id, std::uint32_t attempt, std::uint32_t* list,
+                         std::size_t count) {
+    if (count == 0) return 0;
+    for (std::size_t k = 0; k + 1 < lanes; ++k) list[count + k] = list[count - 1];
+    std::size_t outside = 0;
     for (std::size_t k = 0; k < count; k += lanes) {
-      std::array<std::uint32_t, lanes> i;
-      alignas(16) std::array<DiskId, lanes> its_id;
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        i[lane] = list[std::min(k + lane, count - 1)];
-        its_id[lane] = id[i[lane]];
-      }
-      const Four at = four_of(philox, _mm_load_si128(reinterpret_cast<const __m128i*>(its_id.data())), attempt);
-      alignas(32) std::array<double, lanes> a, b, q;
-      _mm256_store_pd(a.data(), at.a);
-      _mm256_store_pd(b.data(), at.b);
-      _mm256_store_pd(q.data(), at.q);
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        a_[i[lane]] = a[lane];
-        b_[i[lane]] = b[lane];
-        q_[i[lane]] = q[lane];
-        reject(i[lane], (at.outside >> lane & 1U) != 0 && k + lane < count);
-      }
+      const __m128i number = load(list + k);
+      const std::array<std::uint32_t, lanes> i{list[k], list[k + 1], list[k + 2], list[k + 3]};
+      const Four at = four_of(philox, _mm_i32gather_epi32(reinterpret_cast<const int*>(id), number, 4), attempt);
+      scatter(at.a, i, a_);
+      scatter(at.b, i, b_);
+      scatter(at.q, i, q_);
+      const unsigned used = count - k >= lanes ? 15U : (1U << (count - k)) - 1U;
+      outside += append(number, at.outside & used, list + outside);
     }
+    return outside;
   }
 
-  alignas(32) std::array<double, batch> a_, b_, q_;
-  std::array<std::uint32_t, batch + lanes> reject_;  // disks without a point, the first rejected_ entries
-  std::size_t rejected_ = 0;
+  using Column = std::array<double, batch>;
+  static void scatter(__m256d v, const std::array<std::uint32_t, lanes>& i, Column& column) {
+    alignas(32) std::array<double, lanes> values;
+    _mm256_store_pd(values.data(), v);
+    for (std::size_t lane = 0; lane < lanes; ++lane) column[i[lane]] = values[lane];
+  }
+
+  alignas(32) Column a_, b_, q_;
+  std::array<std::uint32_t, batch + 2 * lanes> outside_;  // disks without a point
 };
 
 // Velocities of up to four disks from their points; returns their squared speeds. count < lanes: only the first are
