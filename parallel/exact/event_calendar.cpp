@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/huge_pages.hpp"
+
 namespace carom {
 
 namespace {
@@ -18,6 +20,7 @@ constexpr double events_a_page = 2.0;
 
 void EventCalendar::begin(double start, double end, std::size_t disks, std::size_t expected) {
   end_of_list_ = static_cast<std::uint32_t>(disks);
+  if (node_.capacity() < disks + 1) resize_in_huge_pages(node_, disks + 1);
   node_.resize(disks + 1);
   end_ = end;
   const std::size_t most = most_pages_a_disk * disks + few_pages;
@@ -28,6 +31,7 @@ void EventCalendar::begin(double start, double end, std::size_t disks, std::size
 }
 
 void EventCalendar::set_pages(double start, double pages_per_time, std::size_t pages) {
+  if (first_.capacity() < pages + 1) resize_in_huge_pages(first_, pages + 1);
   first_.assign(pages + 1, end_of_list_);
   start_ = start;
   pages_per_time_ = pages_per_time;

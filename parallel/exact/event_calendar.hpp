@@ -44,13 +44,16 @@ class EventCalendar {
 
   // The disk whose event is the first one up to the end; false if there is none. It stays where it is until it is
   // moved. comes_first(a, b): of two disks with events at the same time, does that of a come first?
-  template <class ComesFirst>
-  bool find_first(std::uint32_t& disk, ComesFirst&& comes_first) {
+  // soon(disk) is called for a disk of a page that comes soon.
+  template <class ComesFirst, class Soon>
+  bool find_first(std::uint32_t& disk, ComesFirst&& comes_first, Soon&& soon) {
     for (;;) {
       const std::uint32_t begin = first_[page_];
       if (begin == end_of_list_) {
         is_sorted_ = false;
-        if (++page_ == pages_) return --page_, false;
+        if (page_ + 1 == pages_) return false;
+        const std::uint32_t next = first_[std::min(++page_ + pages_ahead, pages_)];
+        if (next != end_of_list_) soon(next);
         continue;
       }
       disk = begin;
@@ -82,6 +85,7 @@ class EventCalendar {
   static constexpr std::uint32_t page_bit = 0x80000000U;
   // More than so many entries on a page are not searched.
   static constexpr std::uint32_t crowd = 64;
+  static constexpr std::uint32_t pages_ahead = 3;
 
   std::uint32_t page_of(double time) const {
     const double page = std::min(std::max((time - start_) * pages_per_time_, 0.0), last_page_);

@@ -29,7 +29,7 @@ EventProcessor<tiled>::EventProcessor(WindowState& window, NeighbourLists& lists
       safe_times_(window, lists, worker),
       predictor_(window, lists),
       record_(window.record.data()),
-      is_plain_(!tiled && is_plain(window)),
+      is_plain_(is_plain(window)),
       reduced_mass_(reduced_mass(window.disks->common_mass, window.disks->common_mass)) {}
 
 template <bool tiled>
@@ -63,8 +63,12 @@ void EventProcessor<tiled>::run() {
 template <bool tiled>
 void EventProcessor<tiled>::run_calendar() {
   const auto order = [this](std::uint32_t a, std::uint32_t b) { return comes_first(a, b); };
+  const auto soon = [this](std::uint32_t k) {
+    __builtin_prefetch(&record_[k]);
+    lists_.prefetch(k);
+  };
   std::uint32_t i = 0;
-  while (!worker_.ended && worker_.calendar.find_first(i, order)) {
+  while (!worker_.ended && worker_.calendar.find_first(i, order, soon)) {
     process(i, worker_.calendar.time_of(i));
     if (worker_.until_poll-- == 0) poll_watch();
   }
@@ -256,19 +260,24 @@ void EventProcessor<tiled>::collide_pair(std::uint32_t i, std::uint32_t j, doubl
   }
 }
 
-// In a plain scene, on one queue: the same as below without what such a scene does not have.
+// In a plain scene: the same as below without what such a scene does not have.
 template <bool tiled>
 void EventProcessor<tiled>::collide_plain_pair(std::uint32_t i, std::uint32_t j, double time) {
   if (record_[i].id > record_[j].id) std::swap(i, j);
   PathSegment p = record_[i].path;
   PathSegment q = record_[j].path;
+  // The speed bound excluded this collision, so it does not hold.
+  if (!(std::max(p.start, q.start) <= time) || (tiled && (window_.is_done(i) || window_.is_done(j)))) [[unlikely]] {
+    worker_.too_fast = worker_.ended = true;
+    return;
+  }
   const Impact impact =
       collide_paths<false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, window_.rules.restitution, p, q);
   if (impact.happened) worker_.tally.add_collision(impact.virial);
   begin_plain_segment(i, j, p);
   begin_plain_segment(j, i, q);
-  predict_next_event<true>(i, time);
-  predict_next_event<true>(j, time);
+  predict_next_event<!tiled>(i, time);
+  predict_next_event<!tiled>(j, time);
 }
 
 template <bool tiled>
@@ -280,7 +289,12 @@ void EventProcessor<tiled>::begin_plain_segment(std::uint32_t i, std::uint32_t p
     worker_.crowded = EventMark{path.start, std::min(f.id, record_[partner].id), std::max(f.id, record_[partner].id)};
     worker_.ended = true;
   }
-  predictor_.note_speed(path.vx * path.vx + path.vy * path.vy);
+  const double v2 = path.vx * path.vx + path.vy * path.vy;
+  predictor_.note_speed(v2);
+  if constexpr (tiled) {
+    if (v2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
+    if (!worker_.is_serial && (window_.mark[i] & has_unresolved_neighbour) != 0) safe_times_.push(i, path.start);
+  }
 }
 
 template <bool tiled>

@@ -50,7 +50,7 @@ void expect_order(const Pattern& pattern, std::uint32_t disks, std::size_t expec
   std::uint32_t found = 0;
   for (int event = 0; event < 4000; ++event) {
     const auto first = static_cast<std::uint32_t>(std::min_element(time.begin(), time.end()) - time.begin());
-    const bool any = calendar.find_first(found, smaller_number);
+    const bool any = calendar.find_first(found, smaller_number, [](std::uint32_t) {});
     ASSERT_EQ(any, time[first] <= end) << pattern.name << ", event " << event;
     if (!any) return;
     ASSERT_EQ(found, first) << pattern.name << ", event " << event;
@@ -81,10 +81,10 @@ TEST(EventCalendar, HoldsTheLastMoment) {
   calendar.insert(1, std::nextafter(1.0, 2.0));
   calendar.insert(2, never);
   std::uint32_t found = 9;
-  ASSERT_TRUE(calendar.find_first(found, smaller_number));
+  ASSERT_TRUE(calendar.find_first(found, smaller_number, [](std::uint32_t) {}));
   EXPECT_EQ(found, 0U);
   calendar.move(0, never, smaller_number);
-  EXPECT_FALSE(calendar.find_first(found, smaller_number));
+  EXPECT_FALSE(calendar.find_first(found, smaller_number, [](std::uint32_t) {}));
 }
 
 }  // namespace
