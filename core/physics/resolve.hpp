@@ -185,11 +185,12 @@ inline constexpr int most_push_sweeps = 4;
 // In a pile, where whole layers have to make room.
 inline constexpr int most_pile_push_sweeps = 256;
 // A light disk between heavy ones moves them by its share of the mass only, a sweep: after so many sweeps they go on
-// for what is deeper than deep_overlap alone.
+// for what is deeper than deep_overlap alone. So do contacts that bear load, from the second sweep on: to push a pile's
+// contacts again and again for less opens some of them in every step, and each lost load starts a tremor.
 inline constexpr int shallow_push_sweeps = 32;
 inline constexpr double deep_overlap = 5e-3;
-inline double overlap_to_push(int sweep) {
-  return sweep < shallow_push_sweeps ? shallow_overlap : deep_overlap;
+inline double overlap_to_push(int sweep, bool loaded) {
+  return sweep < shallow_push_sweeps && !loaded ? shallow_overlap : deep_overlap;
 }
 inline int push_sweeps(const StepRules& rules) {
   return rules.settles ? most_pile_push_sweeps : most_push_sweeps;

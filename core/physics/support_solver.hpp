@@ -28,6 +28,13 @@ inline constexpr double landing_change = 4.0;
 // below.
 inline constexpr double pressing_share = 1e-3;
 inline constexpr int most_cycles = 256;
+// In a high pile that trembles they go on too, up to so many times its height in layers: a load passes on by a few
+// layers a cycle, and with too few of them a pile sways, which opens contacts and keeps it swaying. It trembles where a
+// cycle changes relative velocities by an amount between these, in units of g dt (root mean square, by the mass that
+// contacts feel); larger changes are those of disks that land.
+inline constexpr double cycles_a_layer = 0.2;
+inline constexpr double calm_change = 3e-4;
+inline constexpr double trembling_change = 0.1;
 
 struct Support {
   std::uint32_t i1, i2;     // where the disks are stored; twice the same for a wall
@@ -148,8 +155,41 @@ void extrapolate(const View& d, Support& s, double beta) {
   apply_impulse(d, s, step);
 }
 
+// What all supports bear and feel.
+struct SupportTotals {
+  ExactSum impulse;  // mass length / time
+  ExactSum mass;     // effective
+
+  void add(const Support& s) {
+    impulse.add(s.impulse);
+    mass.add(s.effective);
+  }
+  void add(const SupportTotals& other) {
+    impulse.add(other.impulse);
+    mass.add(other.mass);
+  }
+};
+
+// How many cycles to go on for, beyond the usual ones, and down to which sum of squares (CycleFigures::square).
+struct CalmingCycles {
+  int most = 0;
+  double square = 0.0;  // mass length^2 / time^2
+};
+
+// fall: g dt; square: what is left after the usual cycles. The height in layers is the mean load over the weight of a
+// disk: a pile of N disks has 2 N contacts (without friction it stands on no more), so that they feel together the mass
+// of the pile, and the sum of their loads times diameters, its virial, is its weight times its height.
+inline CalmingCycles calming_cycles(const SupportTotals& totals, double fall, double square) {
+  const double mass = totals.mass.value();
+  const double trembling = trembling_change * fall;
+  if (square > trembling * trembling * mass) return {};
+  const double layers = totals.impulse.value() / (fall * mass);
+  const double calm = calm_change * fall;
+  return {static_cast<int>(std::min(cycles_a_layer * layers, static_cast<double>(most_cycles))), calm * calm * mass};
+}
+
 // sweeps.cycle() relaxes all supports forward and back and returns its CycleFigures; sweeps.extrapolate(beta) calls
-// extrapolate on all, in order. The loads of the step before have been applied.
+// extrapolate on all, in order; sweeps.totals() adds them all up. The loads of the step before have been applied.
 template <class Sweeps>
 void solve_supports(const StepRules& rules, Sweeps&& sweeps) {
   const double fall = rules.gravity * rules.dt;
@@ -157,15 +197,18 @@ void solve_supports(const StepRules& rules, Sweeps&& sweeps) {
   int usual_cycles = resting_cycles;
   const double pressing = pressing_share / rules.dt;
   double square = 0.0;
+  CalmingCycles calming;
   for (int cycle = 1; cycle <= most_cycles; ++cycle) {
     const CycleFigures figures = sweeps.cycle();
     if (cycle == 1) {
       settled = std::max(settled, settled_change * figures.largest);
       if (figures.largest > landing_change * fall) usual_cycles = landing_cycles;
     }
-    if (figures.largest <= settled || (cycle >= usual_cycles && figures.strain <= pressing)) return;
-    if (cycle == most_cycles) return;
+    if (figures.largest <= settled || cycle == most_cycles) return;
     const double now = figures.square.value();
+    if (cycle == usual_cycles) calming = calming_cycles(sweeps.totals(), fall, now);
+    const bool calm = cycle >= calming.most || now <= calming.square;
+    if (cycle >= usual_cycles && figures.strain <= pressing && calm) return;
     // Fletcher and Reeves; where the changes grow, the gradient begins anew.
     sweeps.extrapolate(square > 0.0 && now < square ? now / square : 0.0);
     square = now;

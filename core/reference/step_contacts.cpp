@@ -43,6 +43,11 @@ struct Sweeps {
     for (std::size_t k = supports.size(); k-- > 0;) relax_back(d, supports[k], figures);
     return figures;
   }
+  SupportTotals totals() const {
+    SupportTotals all;
+    for (const Support& s : supports) all.add(s);
+    return all;
+  }
   void extrapolate(double beta) {
     for (Support& s : supports) carom::extrapolate(d, s, beta);
   }
@@ -78,20 +83,12 @@ void bear_loads(const View& d, State& state, const StepRules& rules, const std::
 template <class View>
 void push_all(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
               const std::vector<std::uint32_t>& contacts) {
-  const auto slack = [&](const ContactEvent& e) {
-    return rules.settles && load_of(state.loads, e) > 0.0 ? slack_of(d, rules, e) : 0.0;
-  };
-  for (const ContactEvent& e : events) {
-    if (is_wall(e.id2) && slack(e) > 0.0) hold_at_wall(d, rules.box, e, slack(e));
-    push_apart(d, rules.box, e, slack(e));
-  }
-  bool any_deep = true;
-  for (int sweep = 1; sweep < push_sweeps(rules) && any_deep; ++sweep) {
-    any_deep = false;
+  bool any_pushed = true;
+  for (int sweep = 0; sweep < push_sweeps(rules) && any_pushed; ++sweep) {
+    any_pushed = false;
     for (const ContactEvent& e : events) {
-      if (!is_crowded(contacts, e) || !is_deep(d, rules.box, e, overlap_to_push(sweep), slack(e))) continue;
-      push_apart(d, rules.box, e, slack(e));
-      any_deep = true;
+      const bool loaded = rules.settles && load_of(state.loads, e) > 0.0;
+      any_pushed = push_in_sweep(d, rules, e, sweep, is_crowded(contacts, e), loaded) || any_pushed;
     }
   }
 }

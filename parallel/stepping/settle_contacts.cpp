@@ -126,12 +126,8 @@ void push_contacts(const View& d, const StepRules& rules, const Executor& execut
     run_patches(lists.patches, false, executor, [&](std::size_t q) {
       for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) {
         const IdPair& p = settle.placed[at];
-        const ContactEvent e = p.event();
-        const double slack = settle.holding[at] != 0 ? slack_of(d, rules, e) : 0.0;
-        if (sweep > 0 && (!is_crowded(lists, p) || !is_deep(d, rules.box, e, overlap_to_push(sweep), slack))) continue;
-        if (sweep == 0 && is_wall(e.id2) && slack > 0.0) hold_at_wall(d, rules.box, e, slack);
-        push_apart(d, rules.box, e, slack);
-        lists.largest[q] = 1.0;
+        const bool loaded = settle.holding[at] != 0;
+        if (push_in_sweep(d, rules, p.event(), sweep, is_crowded(lists, p), loaded)) lists.largest[q] = 1.0;
       }
     });
     if (!any_deep(lists)) break;

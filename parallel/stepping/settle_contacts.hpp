@@ -25,6 +25,7 @@ struct SettleLists {
   std::vector<std::uint32_t> place;    // of each support's pair in placed
   std::vector<std::uint32_t> bearing;  // supports of each patch
   std::vector<CycleFigures> figures;   // of each patch in a cycle of sweeps
+  std::vector<SupportTotals> totals;   // of each patch
 };
 
 // Resolves all pairs found and wall contacts, keeps their loads in state.loads, wraps the disks that had contacts, and

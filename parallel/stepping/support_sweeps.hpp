@@ -34,6 +34,7 @@ void make_supports(const View& d, const Disks& disks, const StepRules& rules, co
   resize_amply(settle.supports, pairs.size());
   resize_amply(settle.place, pairs.size());
   resize_amply(settle.bearing, patches.count());
+  resize_amply(settle.totals, patches.count());  // here, as few steps need them: a warm one allocates nothing
   executor.run(patches.count(), [&](std::size_t q) {
     std::uint32_t s = patches.start[q];
     for (std::uint32_t at = s; at < patches.start[q + 1]; ++at) {
@@ -80,6 +81,15 @@ struct PatchSweeps {
       all.strain = std::max(all.strain, f.strain);
       all.square.add(f.square);
     }
+    return all;
+  }
+
+  SupportTotals totals() const {
+    std::vector<SupportTotals>& patch = lists.settle.totals;
+    assign_amply(patch, lists.patches.count(), SupportTotals{});
+    sweep(false, [&](const Support& s, std::size_t q) { patch[q].add(s); });
+    SupportTotals all;
+    for (const SupportTotals& t : patch) all.add(t);
     return all;
   }
 
