@@ -1,6 +1,7 @@
 // How the exact engine finds and orders the events of a window. Results do not depend on it, only speed.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -25,18 +26,22 @@ struct ListLayout {
 
 // Up to so many disks all pairs are as fast as lists, and nothing has to be relisted in the long windows of few disks.
 inline constexpr std::size_t all_pairs_up_to = 40;
-// The most disks for which one queue is faster than tiles: on one thread, which tiles spare misses of the caches only,
-// and on several.
+// The most disks for which one queue, on one thread, is faster than tiles on one thread, and on so many that all are
+// busy.
 inline constexpr std::size_t single_queue_up_to = 131072;
-inline constexpr std::size_t single_queue_of_many_threads_up_to = 16384;
+inline constexpr std::size_t least_single_queue_up_to = 16384;
 inline constexpr std::size_t disks_a_tile = 8192;
 inline constexpr double tiled_relist_share = 0.85;
 
 // The only place where the mode is chosen. tiles_allowed: false where a window is run again without tiles.
 inline ListLayout choose_layout(std::size_t disks, bool tiles_allowed, const Executor& executor) {
   if (disks <= all_pairs_up_to) return {EngineMode::all_pairs, 0, 1.0};
-  const std::size_t single = executor.threads() == 1 ? single_queue_up_to : single_queue_of_many_threads_up_to;
-  if (!tiles_allowed || disks <= executor.grain(single)) return {EngineMode::single_queue, 0, 1.0};
+  // Where work is cut into smaller blocks, tiles are wanted for fewer disks too.
+  const bool is_cut = executor.grain(disks_a_tile) < disks_a_tile;
+  const std::size_t shared = single_queue_up_to / static_cast<std::size_t>(executor.threads());
+  const std::size_t single =
+      is_cut ? executor.grain(least_single_queue_up_to) : std::max(shared, least_single_queue_up_to);
+  if (!tiles_allowed || disks <= single) return {EngineMode::single_queue, 0, 1.0};
   return {EngineMode::tiled, executor.grain(disks_a_tile), tiled_relist_share};
 }
 
