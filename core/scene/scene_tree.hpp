@@ -14,8 +14,7 @@ inline bool is_digit(char c) {
 toml::table parse_scene_tree(std::string_view text, const std::string& name);
 
 // The first character outside ASCII that is neither in a string nor in a comment; empty if there is none. TOML allows
-// none, and they are looked for before parsing: toml++ 3.3 runs into code that it declares unreachable when some of
-// them follow a space, and a minus sign from a word processor deserves a plain message.
+// none, and a minus sign from a word processor deserves a plainer message than the parser's.
 std::string_view stray_character(std::string_view text);
 
 }  // namespace carom

@@ -236,6 +236,12 @@ TEST(BadFile, OnlyStringsAndCommentsLeaveAscii) {
   EXPECT_EQ(complaint("\xef\xbb\xbf" + std::string(sound_scene)), "") << "byte order mark";
 }
 
+// U+FDBF is where the parser looks for the end of a number, and our own search takes it for part of a string.
+TEST(BadFile, CharactersOutsideAsciiAfterANumber) {
+  EXPECT_THAT(complaint(replaced(sound_scene, "dt = 0.01", "dt = +\"0.01\ufdbf")),
+              StartsWith("gas.toml:22: TOML syntax: "));
+}
+
 TEST(BadFile, CsvThatCannotBeRead) {
   const TestFolder folder("bad_csv_test");
   folder.write("good.csv", "x,y\n2,2\n5,5\n8,2\n");

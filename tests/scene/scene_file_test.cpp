@@ -37,6 +37,14 @@ mass = 2
 t_end = 3
 )";
 
+// A backslash at the end of a line swallows the white space behind it, and no other character.
+TEST(SceneFile, StringsGoOnAfterABackslashWithAnyCharacter) {
+  for (const std::string_view c : {"\u00a7", "\u00e9", "\u1e9e", "\u3042", "\ufb4b", "\ufdbf", "\ufe0f"}) {
+    const Scene s = scene_from(fmt::format("title = \"\"\"a\\\n  {}\"\"\"\n{}", c, least_scene));
+    EXPECT_EQ(s.title, fmt::format("a{}", c));
+  }
+}
+
 TEST(SceneFile, AbsentKeysHaveTheirDefaults) {
   const Scene s = scene_from(least_scene);
   EXPECT_EQ(s.title, "");
