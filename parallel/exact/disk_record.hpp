@@ -44,14 +44,51 @@ static_assert(Partner::relist().is_relist() && !Partner::relist().is_contact() &
 static_assert(Partner::wall(Side::top).is_wall() && !Partner::wall(Side::top).is_disk());
 static_assert(Partner::disk(first_wall_partner - 1).is_disk());
 
+// With regions: how far a disk's motion is known in the present slice. Active: as far as events have been processed. At
+// a border: up to the slice's start. Blocked: up to a safe time within the slice, that of its BlockedDisk (worker.hpp).
+// And marks that the disk has besides. 32 bits.
+class DiskProgress {
+ public:
+  enum Mark : std::uint32_t {
+    at_border = 1,                // lists a disk of another region
+    lists_border = 2,             // lists a disk that is at a border
+    has_unresolved_neighbour = 4  // perhaps: one that is at a border, or blocked in this slice
+  };
+
+  constexpr DiskProgress() = default;  // active
+  constexpr bool is_active() const { return state() == active_state; }
+  constexpr bool is_border() const { return state() == border_state; }
+  constexpr bool is_blocked() const { return state() < border_state; }
+  // Of a blocked disk: the number of its BlockedDisk.
+  constexpr std::uint32_t blocked() const { return state(); }
+  constexpr void set_active() { set_state(active_state); }
+  constexpr void set_border() { set_state(border_state); }
+  constexpr void set_blocked(std::uint32_t number) { set_state(number); }
+
+  constexpr bool has(Mark mark) const { return (bits_ & mark) != 0; }
+  constexpr void set(Mark mark) { bits_ |= mark; }
+  constexpr void clear(Mark mark) { bits_ &= ~static_cast<std::uint32_t>(mark); }
+
+ private:
+  static constexpr std::uint32_t mark_bits = 3;
+  static constexpr std::uint32_t marks = (1U << mark_bits) - 1U;
+  static constexpr std::uint32_t active_state = 0xffffffffU >> mark_bits;
+  static constexpr std::uint32_t border_state = active_state - 1;
+  constexpr std::uint32_t state() const { return bits_ >> mark_bits; }
+  constexpr void set_state(std::uint32_t state) { bits_ = state << mark_bits | (bits_ & marks); }
+  std::uint32_t bits_ = active_state << mark_bits;
+};
+static_assert(sizeof(DiskProgress) == 4 && DiskProgress().is_active() && !DiskProgress().is_blocked());
+
 // What a prediction reads of a disk, in one cache line.
 struct alignas(64) DiskRecord {
   PathSegment path;
   double radius = 0.0;
   DiskId id = 0;
   Partner partner;                    // of the next event
-  std::uint32_t version = 0;          // segments begun in the window
-  std::uint32_t partner_version = 0;  // of the partner's path that the event was predicted on
+  std::uint16_t version = 0;          // segments begun in the window
+  std::uint16_t partner_version = 0;  // of the partner's path that the event was predicted on
+  DiskProgress progress;
 };
 static_assert(sizeof(DiskRecord) == 64);
 

@@ -10,39 +10,52 @@
 namespace carom {
 
 enum class EngineMode : std::uint8_t {
-  all_pairs,     // every disk lists every other one; one event queue
-  single_queue,  // neighbour lists with a skin; one event queue, on one thread
-  tiled,         // neighbour lists with a skin; an event queue for each tile, on all threads
+  all_pairs,     // every disk lists every other one; one event calendar
+  single_queue,  // neighbour lists with a skin; one event calendar, on one thread
+  regions,       // neighbour lists with a skin; an event calendar for each region of the box, on all threads
 };
 
 // The mode and what follows from it for the neighbour lists.
 struct ListLayout {
   EngineMode mode = EngineMode::single_queue;
-  std::size_t disks_per_tile = 0;  // tiled mode
-  // Share of the skin that a disk may move through before it is relisted. Below 1 where there are tiles: a disk that is
-  // pending or blocked must not cross the whole skin within a slice.
+  std::size_t disks_per_tile = 0;  // with regions
+  std::size_t regions = 0;
+  // Share of the skin that a disk may move through before it is relisted. Below 1 where there are regions: a disk that
+  // is blocked, or at a border, must not cross the whole skin within a slice.
   double relist_share = 1.0;
+  // The calendars hold more disks than a cache: what comes soon is prefetched.
+  bool looks_ahead = false;
 };
 
 // Up to so many disks all pairs are as fast as lists, and nothing has to be relisted in the long windows of few disks.
 inline constexpr std::size_t all_pairs_up_to = 40;
-// The most disks for which one queue, on one thread, is faster than tiles on one thread, and on so many that all are
-// busy.
-inline constexpr std::size_t single_queue_up_to = 131072;
-inline constexpr std::size_t least_single_queue_up_to = 16384;
-inline constexpr std::size_t disks_a_tile = 8192;
-inline constexpr double tiled_relist_share = 0.85;
+// Up to so many disks one queue on one thread is as fast as regions on two.
+inline constexpr std::size_t single_queue_up_to = 49152;
+inline constexpr std::size_t single_queue_of_cut_work_up_to = 8192;
+// What so many disks take, 250 bytes each, is in a cache of the second level.
+inline constexpr std::size_t disks_in_cache = 16384;
+// Disks that are neighbours in memory; regions consist of whole tiles.
+inline constexpr std::size_t most_disks_a_tile = 8192;
+inline constexpr std::size_t tiles_a_region = 16;
+inline constexpr double region_relist_share = 0.85;
+// With more disks than this, memory that is not needed all the time is given back.
+inline constexpr std::size_t disks_of_much_memory = 65536;
 
-// The only place where the mode is chosen. tiles_allowed: false where a window is run again without tiles.
-inline ListLayout choose_layout(std::size_t disks, bool tiles_allowed, const Executor& executor) {
-  if (disks <= all_pairs_up_to) return {EngineMode::all_pairs, 0, 1.0};
-  // Where work is cut into smaller blocks, tiles are wanted for fewer disks too.
-  const bool is_cut = executor.grain(disks_a_tile) < disks_a_tile;
-  const std::size_t shared = single_queue_up_to / static_cast<std::size_t>(executor.threads());
-  const std::size_t single =
-      is_cut ? executor.grain(least_single_queue_up_to) : std::max(shared, least_single_queue_up_to);
-  if (!tiles_allowed || disks <= single) return {EngineMode::single_queue, 0, 1.0};
-  return {EngineMode::tiled, executor.grain(disks_a_tile), tiled_relist_share};
+// The only place where the mode is chosen. regions_allowed: false where a window is run again without.
+inline ListLayout choose_layout(std::size_t disks, bool regions_allowed, const Executor& executor) {
+  if (disks <= all_pairs_up_to) return {EngineMode::all_pairs, 0, 0, 1.0, false};
+  // Where work is cut into smaller blocks, regions are wanted for fewer disks too, and more than one on one thread.
+  const bool is_cut = executor.grain(single_queue_up_to) < single_queue_up_to;
+  const std::size_t single = is_cut                    ? executor.grain(single_queue_of_cut_work_up_to)
+                             : executor.threads() == 1 ? disks
+                                                       : single_queue_up_to;
+  if (!regions_allowed || disks <= single) {
+    return {EngineMode::single_queue, 0, 0, 1.0, disks > executor.grain(disks_in_cache)};
+  }
+  const std::size_t regions = std::max<std::size_t>(static_cast<std::size_t>(executor.threads()), 2);
+  const std::size_t disks_a_tile = std::min(executor.grain(most_disks_a_tile), disks / (tiles_a_region * regions) + 1);
+  return {EngineMode::regions, disks_a_tile, regions, region_relist_share,
+          disks / regions > executor.grain(disks_in_cache)};
 }
 
 }  // namespace carom

@@ -18,7 +18,9 @@ constexpr double events_a_page = 2.0;
 
 }  // namespace
 
-void EventCalendar::begin(double start, double end, std::size_t disks, std::size_t expected) {
+void EventCalendar::begin(double start, double end, std::size_t disks, std::size_t expected, bool many) {
+  many_ = many;
+  pages_written_at_once_ = many ? pages_of_transit : absent;
   end_of_list_ = static_cast<std::uint32_t>(disks);
   if (node_.capacity() < disks + 1) resize_in_huge_pages(node_, disks + 1);
   node_.resize(disks + 1);
@@ -30,6 +32,11 @@ void EventCalendar::begin(double start, double end, std::size_t disks, std::size
   set_pages(start, end > start ? static_cast<double>(pages) / (end - start) : 0.0, pages);
 }
 
+void EventCalendar::release_memory() {
+  std::vector<Node>().swap(node_);
+  std::vector<std::uint32_t>().swap(first_);
+}
+
 void EventCalendar::set_pages(double start, double pages_per_time, std::size_t pages) {
   if (first_.capacity() < pages + 1) resize_in_huge_pages(first_, pages + 1);
   first_.assign(pages + 1, end_of_list_);
@@ -39,12 +46,16 @@ void EventCalendar::set_pages(double start, double pages_per_time, std::size_t p
   last_page_ = static_cast<double>(pages - 1);
   page_ = 0;
   is_sorted_ = false;
+  transit_.fill({end_of_list_, 0});
+  first_in_transit_ = absent;
+  announced_.fill(0);
 }
 
 // Divides what is left of the time anew, so that the events of the present page fall on many; what is beyond the most
 // pages stays together on the last one, until it is divided in turn. False, without a change, where that would not
 // help.
 bool EventCalendar::shorten_pages() {
+  deliver_all();
   collect_page();
   const auto earlier = [&](std::uint32_t a, std::uint32_t b) { return node_[a].time < node_[b].time; };
   const auto [first, last] = std::minmax_element(crowded_.begin(), crowded_.end(), earlier);
@@ -56,7 +67,9 @@ bool EventCalendar::shorten_pages() {
   const std::size_t most = most_pages_a_disk * end_of_list_ + few_pages;
   const double pages = (end_ - page_start) * pages_per_time + 1.0;
   set_pages(page_start, pages_per_time, pages < static_cast<double>(most) ? static_cast<std::size_t>(pages) : most);
-  for (std::uint32_t disk = 0; disk < end_of_list_; ++disk) insert(disk, node_[disk].time);
+  for (std::uint32_t disk = 0; disk < end_of_list_; ++disk) {
+    if (holds(disk)) insert(disk, node_[disk].time);
+  }
   return true;
 }
 

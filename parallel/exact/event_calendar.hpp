@@ -1,7 +1,8 @@
-// The event calendar: one entry a disk, the time of its next event. For one queue of all disks.
+// The event calendar: one entry a disk, the time of its next event. For all disks, or for those of a region.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -14,37 +15,55 @@ namespace carom {
 // on it, in no order. The present page is searched for the first event whenever it is asked for; pages are so short
 // that it holds one or two. An entry that becomes invalid moves to its new page, so that none has to be recognised and
 // dropped. Where events crowd, pages are made shorter, and a page on which they crowd all the same is put in order.
+//
+// Where there are many disks, neither a page nor the disks on it are in a cache: an entry for a page that comes later
+// is written to it some moves later, when the page has been prefetched, and the disks of pages that come soon are
+// announced.
 class EventCalendar {
  public:
+  // How often a disk is announced before its event comes.
+  static constexpr int stages = 3;
+
   // Empties the calendar, for events in [start, end] of this many disks; about `expected` of them, if that is known.
-  void begin(double start, double end, std::size_t disks, std::size_t expected);
+  // many: announces what comes soon.
+  void begin(double start, double end, std::size_t disks, std::size_t expected, bool many);
+
+  // Gives back all memory; begin() is next.
+  void release_memory();
 
   // Enters the disk, before any event is asked for; once for each. `never` and other times beyond the end are allowed.
   void insert(std::uint32_t disk, double time) {
     node_[disk].time = time;
     link(disk, page_of(time));
   }
-  // The disk's next event is at another time. comes_first: as in find_first.
+  // Instead of insert(): the disk is not in the calendar, until it is moved.
+  void leave_out(std::uint32_t disk) { node_[disk].previous = node_[disk].next = absent; }
+  // The disk's next event is at another time; a disk that was taken out is in again. comes_first: as in find_first.
   template <class ComesFirst>
   void move(std::uint32_t disk, double time, ComesFirst&& comes_first) {
-    const Node left = node_[disk];
-    std::uint32_t& to_here =
-        (left.previous & page_bit) != 0 ? first_[left.previous & ~page_bit] : node_[left.previous].next;
-    to_here = left.next;
-    node_[left.next].previous = left.previous;
+    unlink(disk);
     node_[disk].time = time;
     const std::uint32_t page = page_of(time);
-    if (is_sorted_ && page == page_) [[unlikely]] {
+    if (page - page_ > pages_written_at_once_) {
+      post(disk, page);
+    } else if (is_sorted_ && page == page_) [[unlikely]] {
       link_in_order(disk, comes_first);
     } else {
       link(disk, page);
     }
   }
+  // Takes the disk out; it keeps its time.
+  void take_out(std::uint32_t disk) {
+    unlink(disk);
+    leave_out(disk);
+  }
+  bool holds(std::uint32_t disk) const { return node_[disk].next != absent; }
   double time_of(std::uint32_t disk) const { return node_[disk].time; }
+  [[gnu::always_inline]] void prefetch(std::uint32_t disk) const { __builtin_prefetch(&node_[disk]); }
 
   // The disk whose event is the first one up to the end; false if there is none. It stays where it is until it is
   // moved. comes_first(a, b): of two disks with events at the same time, does that of a come first?
-  // soon(disk) is called for a disk of a page that comes soon.
+  // soon(disk, stage) is called for disks of pages that come soon, stage < stages.
   template <class ComesFirst, class Soon>
   bool find_first(std::uint32_t& disk, ComesFirst&& comes_first, Soon&& soon) {
     for (;;) {
@@ -52,8 +71,11 @@ class EventCalendar {
       if (begin == end_of_list_) {
         is_sorted_ = false;
         if (page_ + 1 == pages_) return false;
-        const std::uint32_t next = first_[std::min(++page_ + pages_ahead, pages_)];
-        if (next != end_of_list_) soon(next);
+        ++page_;
+        if (!many_) continue;
+        if (page_ + pages_ahead >= first_in_transit_) [[unlikely]]
+          deliver_all();
+        announce(soon);
         continue;
       }
       disk = begin;
@@ -78,14 +100,30 @@ class EventCalendar {
  private:
   struct Node {
     double time;
-    std::uint32_t previous;  // disk; or page_bit and the page that begins with this one
-    std::uint32_t next;      // disk, or end_of_list_
+    // A disk; page_bit and the page that begins with this one; in transit, in_transit and the place there; absent.
+    std::uint32_t previous;
+    std::uint32_t next;  // disk, or end_of_list_
   };
   static_assert(sizeof(Node) == 16);
   static constexpr std::uint32_t page_bit = 0x80000000U;
+  static constexpr std::uint32_t absent = 0xffffffffU;
+  static constexpr std::uint32_t in_transit = 0xfffffffeU;  // Node::next is the place
   // More than so many entries on a page are not searched.
   static constexpr std::uint32_t crowd = 64;
-  static constexpr std::uint32_t pages_ahead = 3;
+  // From one announcement to the next.
+  static constexpr std::uint32_t disks_a_stage = 2;
+  static constexpr std::uint32_t pages_ahead = 7;
+  // Only entries of later pages are kept back.
+  static constexpr std::uint32_t pages_of_transit = 2 * pages_ahead;
+  static constexpr std::uint32_t places_in_transit = 4;
+  // The disks of a page that are announced; more are rare.
+  static constexpr int announced_a_page = 2;
+
+  // An entry that has not been written to its page yet.
+  struct Transit {
+    std::uint32_t disk;  // end_of_list_: none
+    std::uint32_t page;
+  };
 
   std::uint32_t page_of(double time) const {
     const double page = std::min(std::max((time - start_) * pages_per_time_, 0.0), last_page_);
@@ -99,8 +137,57 @@ class EventCalendar {
     node_[next].previous = disk;
     first_[page] = disk;
   }
+  void unlink(std::uint32_t disk) {
+    const Node left = node_[disk];
+    if ((left.previous & page_bit) == 0) {
+      node_[left.previous].next = left.next;
+    } else if (left.previous < in_transit) {
+      first_[left.previous & ~page_bit] = left.next;
+    } else {
+      if (left.previous == in_transit) transit_[left.next].disk = end_of_list_;
+      return;
+    }
+    node_[left.next].previous = left.previous;
+  }
+  // Takes the place of the entry that has been in transit longest, which is delivered.
+  [[gnu::noinline]] void post(std::uint32_t disk, std::uint32_t page) {
+    Transit& oldest = transit_[next_place_];
+    if (oldest.disk != end_of_list_) link(oldest.disk, oldest.page);
+    oldest = {disk, page};
+    node_[disk].previous = in_transit;
+    node_[disk].next = next_place_;
+    __builtin_prefetch(&first_[page], 1);
+    first_in_transit_ = std::min(first_in_transit_, page);
+    // The page of this one has come.
+    const Transit& half_way = transit_[(next_place_ + places_in_transit / 2) % places_in_transit];
+    if (half_way.disk != end_of_list_) __builtin_prefetch(&node_[first_[half_way.page]], 1);
+    next_place_ = (next_place_ + 1) % places_in_transit;
+  }
+  [[gnu::noinline]] void deliver_all() {
+    for (Transit& t : transit_) {
+      if (t.disk != end_of_list_) link(t.disk, t.page);
+      t.disk = end_of_list_;
+    }
+    first_in_transit_ = absent;
+  }
+  // Announces the disks of a page that comes soon, and once more those that were announced a little before. soon has to
+  // be inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
+  template <class Soon>
+  [[gnu::noinline]] void announce(Soon&& soon) {
+    __builtin_prefetch(&node_[first_[std::min(page_ + pages_ahead + 1, pages_)]]);
+    std::uint32_t k = first_[std::min(page_ + pages_ahead, pages_)];
+    for (int m = 0; m < announced_a_page && k != end_of_list_; ++m, k = node_[k].next) {
+      announced_[next_announced_ % announced_.size()] = k;
+      for (std::uint32_t stage = 0; stage < stages; ++stage) {
+        const std::uint32_t before = next_announced_ - stage * disks_a_stage;
+        soon(announced_[before % announced_.size()], static_cast<int>(stage));
+      }
+      ++next_announced_;
+    }
+  }
+
   template <class ComesFirst>
-  void link_in_order(std::uint32_t disk, ComesFirst&& comes_first) {
+  [[gnu::noinline]] void link_in_order(std::uint32_t disk, ComesFirst&& comes_first) {
     const double time = node_[disk].time;
     std::uint32_t previous = page_ | page_bit;
     std::uint32_t next = first_[page_];
@@ -133,7 +220,14 @@ class EventCalendar {
   std::uint32_t pages_ = 1;
   std::uint32_t page_ = 0;  // the present one
   bool is_sorted_ = false;  // the present page
+  bool many_ = false;
+  std::uint32_t pages_written_at_once_ = absent;  // from the present one; entries of later ones are in transit first
   std::uint32_t end_of_list_ = 0;
+  std::array<Transit, places_in_transit> transit_{};
+  std::uint32_t next_place_ = 0;
+  std::uint32_t first_in_transit_ = absent;   // a page; there is none before
+  std::array<std::uint32_t, 8> announced_{};  // the last ones, in turn
+  std::uint32_t next_announced_ = 0;
   std::vector<Node> node_;              // of each disk, and one that ends all lists
   std::vector<std::uint32_t> first_;    // of each page, and of what comes after the end
   std::vector<std::uint32_t> crowded_;  // scratch

@@ -18,79 +18,158 @@ bool is_plain(const WindowState& window) {
 }
 
 constexpr Count events_between_polls = 4096;
+// Of a list. What follows a shorter one in memory are neighbours that the disk had before.
+constexpr std::uint32_t prefetched_neighbours = 12;
+// The calendar makes room for no more: windows aim at two.
+constexpr double most_events_a_disk = 2.2;
 
 }  // namespace
 
-template <bool tiled>
-EventProcessor<tiled>::EventProcessor(WindowState& window, NeighbourLists& lists, Worker& worker)
+template <Scope scope>
+EventProcessor<scope>::EventProcessor(WindowState& window, NeighbourLists& lists, Worker& worker)
     : window_(window),
       lists_(lists),
       worker_(worker),
       safe_times_(window, lists, worker),
       predictor_(window, lists),
       record_(window.record.data()),
+      first_(worker.region.first_disk),
       is_plain_(is_plain(window)),
       reduced_mass_(reduced_mass(window.disks->common_mass, window.disks->common_mass)) {}
 
-template <bool tiled>
-void EventProcessor<tiled>::enter_all(std::size_t expected) {
-  const auto disks = static_cast<std::uint32_t>(window_.record.size());
+template <Scope scope>
+void EventProcessor<scope>::enter_all(double events_a_disk) {
+  const auto last = std::min(static_cast<std::uint32_t>(window_.record.size()), worker_.region.last_disk);
   EventCalendar& calendar = worker_.calendar;
-  calendar.begin(window_.slice_start, window_.slice_stop(), disks, expected);
-  for (std::uint32_t i = 0; i < disks; ++i) calendar.insert(i, window_.next_event_time[i]);
+  const std::size_t disks = last - first_;
+  const double expected = std::min(events_a_disk, most_events_a_disk) * static_cast<double>(disks);
+  calendar.begin(window_.slice_start, window_.length, disks, static_cast<std::size_t>(expected), window_.looks_ahead);
+  const auto is_active = [this](std::uint32_t i) { return !has_regions || record_[i].progress.is_active(); };
+  for (std::uint32_t i = first_; i < last; ++i) {
+    if (is_active(i)) {
+      calendar.insert(i - first_, window_.next_event_time[i]);
+    } else {
+      calendar.leave_out(i - first_);
+    }
+  }
   // As nothing has happened yet, these may be predicted in any order, and the first page of the calendar stays short.
-  for (std::uint32_t i = 0; i < disks; ++i) {
-    if (window_.next_event_time[i] <= 0.0) predict_next_event<false>(i, 0.0);
+  for (std::uint32_t i = first_; i < last; ++i) {
+    if (window_.next_event_time[i] <= 0.0 && is_active(i)) predict_next_event<false>(i, 0.0);
   }
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::leave_all() {
-  const auto disks = static_cast<std::uint32_t>(window_.record.size());
-  for (std::uint32_t i = 0; i < disks; ++i) window_.next_event_time[i] = worker_.calendar.time_of(i);
+template <Scope scope>
+void EventProcessor<scope>::leave_all() {
+  const auto last = std::min(static_cast<std::uint32_t>(window_.record.size()), worker_.region.last_disk);
+  for (std::uint32_t i = first_; i < last; ++i) {
+    if (worker_.calendar.holds(i - first_)) window_.next_event_time[i] = worker_.calendar.time_of(i - first_);
+  }
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::run() {
-  if constexpr (tiled) {
-    run_queue();
-  } else {
-    run_calendar();
-  }
+template <Scope scope>
+void EventProcessor<scope>::enter(std::uint32_t i) {
+  worker_.calendar.move(i - first_, window_.next_event_time[i],
+                        [this](std::uint32_t a, std::uint32_t b) { return comes_first(a + first_, b + first_); });
+}
+
+template <Scope scope>
+void EventProcessor<scope>::push_next_event(std::uint32_t i) {
+  if (window_.in_slice(window_.next_event_time[i])) worker_.queue.push({window_.next_event_time[i], 0, 0, i});
+}
+
+template <Scope scope>
+void EventProcessor<scope>::run() {
+  if constexpr (scope == Scope::all) run_all();
+  if constexpr (scope == Scope::region) run_region();
+  if constexpr (scope == Scope::border) run_border();
   worker_.fastest2 = std::max(worker_.fastest2, predictor_.fastest2());
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::run_calendar() {
-  const auto order = [this](std::uint32_t a, std::uint32_t b) { return comes_first(a, b); };
-  const auto soon = [this](std::uint32_t k) {
-    __builtin_prefetch(&record_[k]);
-    lists_.prefetch(k);
+// The disk whose event is the first one in the calendar.
+template <Scope scope>
+inline bool EventProcessor<scope>::find_first(std::uint32_t& i) {
+  const auto order = [this](std::uint32_t a, std::uint32_t b) { return comes_first(a + first_, b + first_); };
+  const auto soon = [this](std::uint32_t k, int stage) __attribute__((always_inline)) {
+    announce(k + first_, stage);
   };
+  const bool found = worker_.calendar.find_first(i, order, soon);
+  i += first_;
+  return found;
+}
+
+template <Scope scope>
+void EventProcessor<scope>::run_all() {
   std::uint32_t i = 0;
-  while (!worker_.ended && worker_.calendar.find_first(i, order, soon)) {
+  while (!worker_.ended && find_first(i)) {
     process(i, worker_.calendar.time_of(i));
     if (worker_.until_poll-- == 0) poll_watch();
   }
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::run_queue() {
-  const auto name_event = [this](QueuedEvent& event) { name(event); };
-  const auto prefetch = [this](std::uint32_t disk) {
-    __builtin_prefetch(&record_[disk & ~safe_time_bit]);
-    lists_.prefetch(disk & ~safe_time_bit);
-  };
-  QueuedEvent e;
-  while (!worker_.ended && worker_.queue.pop(e, name_event, prefetch)) {
-    process(e);
+template <Scope scope>
+void EventProcessor<scope>::run_region() {
+  std::uint32_t i = 0;
+  while (!worker_.ended) {
+    const double time = find_first(i) ? worker_.calendar.time_of(i - first_) : never;
+    const double safe_time = safe_times_.first();
+    if (safe_time <= time && safe_time < never) {
+      safe_times_.reach_first();
+    } else if (window_.in_slice(time)) {
+      process(i, time);
+    } else {
+      return;
+    }
     if (worker_.until_poll-- == 0) poll_watch();
   }
 }
 
+template <Scope scope>
+void EventProcessor<scope>::run_border() {
+  const auto name_event = [this](QueuedEvent& event) { name(event); };
+  const auto prefetch = [this](std::uint32_t disk) {
+    __builtin_prefetch(&record_[disk]);
+    lists_.prefetch(disk);
+  };
+  QueuedEvent e;
+  while (!worker_.ended && worker_.queue.pop(e, name_event, prefetch)) {
+    process_border(e);
+    if (worker_.until_poll-- == 0) poll_watch();
+  }
+}
+
+// Prefetches what an event of the disk reads: the disk and its list; its neighbours, its partner and the partner's
+// list; the partner's neighbours.
+template <Scope scope>
+inline void EventProcessor<scope>::announce(std::uint32_t i, int stage) const {
+  if (stage == 0) {
+    __builtin_prefetch(&record_[i]);
+    lists_.prefetch(i);
+    return;
+  }
+  const Partner partner = record_[i].partner;
+  if (stage == 1) prefetch_neighbours(i);
+  if (!partner.is_disk() || !worker_.region.holds(partner.index())) return;
+  const std::uint32_t j = partner.index();
+  if (stage == 1) {
+    __builtin_prefetch(&record_[j]);
+    lists_.prefetch(j);
+    worker_.calendar.prefetch(j - first_);
+  } else {
+    prefetch_neighbours(j);
+  }
+}
+
+template <Scope scope>
+inline void EventProcessor<scope>::prefetch_neighbours(std::uint32_t i) const {
+  const std::int16_t* const offset = lists_.rows().plain_list(i).offset;
+  for (std::uint32_t k = 0; k < prefetched_neighbours; ++k) {
+    __builtin_prefetch(&record_[i + static_cast<std::uint32_t>(std::int32_t{offset[k]})]);
+  }
+}
+
 // Of disks whose next events are at the same time: in canonical order; what is not a contact comes first.
-template <bool tiled>
-bool EventProcessor<tiled>::comes_first(std::uint32_t a, std::uint32_t b) const {
+template <Scope scope>
+bool EventProcessor<scope>::comes_first(std::uint32_t a, std::uint32_t b) const {
   QueuedEvent first{0.0, 0, 0, a};
   QueuedEvent second{0.0, 0, 0, b};
   name(first);
@@ -98,17 +177,16 @@ bool EventProcessor<tiled>::comes_first(std::uint32_t a, std::uint32_t b) const 
   return event_order(first, second);
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::poll_watch() {
+template <Scope scope>
+void EventProcessor<scope>::poll_watch() {
   worker_.until_poll = events_between_polls;
   if (!window_.go_on || window_.go_on()) return;
   worker_.given_up = worker_.ended = true;
 }
 
 // The ids of the disk's next event. An entry that is invalid by now may get any.
-template <bool tiled>
-void EventProcessor<tiled>::name(QueuedEvent& e) const {
-  if ((e.disk & safe_time_bit) != 0) return;
+template <Scope scope>
+void EventProcessor<scope>::name(QueuedEvent& e) const {
   const DiskRecord& f = record_[e.disk];
   if (!f.partner.is_contact()) return;
   const DiskId partner = f.partner.is_disk() ? record_[f.partner.index()].id : f.partner.wall_id();
@@ -116,67 +194,59 @@ void EventProcessor<tiled>::name(QueuedEvent& e) const {
   e.id2 = std::max(f.id, partner);
 }
 
-// Single queue.
-template <bool tiled>
-void EventProcessor<tiled>::process(std::uint32_t i, double time) {
+// The event of a disk in the calendar.
+template <Scope scope>
+void EventProcessor<scope>::process(std::uint32_t i, double time) {
   const Partner partner = record_[i].partner;
   if (partner.is_disk()) {
-    if (record_[partner.index()].version == record_[i].partner_version) {
-      collide_pair(i, partner.index(), time);
-      return;
-    }
+    process_pair(i, partner.index(), time);
   } else if (partner.is_wall()) {
     meet_side(i, time);
-    return;
   } else if (partner.is_relist()) {
-    relist(i, time);
-  }
-  predict_next_event<false>(i, time);
-}
-
-template <bool tiled>
-void EventProcessor<tiled>::process(const QueuedEvent& e) {
-  const std::uint32_t i = e.disk & ~safe_time_bit;
-  if (!is_resolved(i)) return;
-  if (i != e.disk) {
-    safe_times_.reach(i, e.time);
-    return;
-  }
-  if (window_.next_event_time[i] != e.time) return;  // invalid: the disk's events have been predicted again
-  const DiskRecord& f = record_[i];
-  if (f.partner.is_disk()) {
-    process_pair(i, e);
-  } else if (f.partner.is_wall()) {
-    if (e.id1 == f.id && e.id2 == f.partner.wall_id()) meet_side(i, e.time);
-  } else if (f.partner.is_relist() && !relist(i, e.time)) {
-    safe_times_.block(i, e.time, serial_pass);
+    relist_and_predict(i, time);
   } else {
-    predict_next_event<false>(i, e.time);
+    predict_next_event<false>(i, time);
   }
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::process_pair(std::uint32_t i, const QueuedEvent& e) {
-  const std::uint32_t j = record_[i].partner.index();
-  const DiskId id = record_[i].id;
-  const DiskId other = record_[j].id;
-  // An event of the same time may have taken this one's place in the queue; then there is another entry for it.
-  if (e.id1 != std::min(id, other) || e.id2 != std::max(id, other)) return;
-  if (!is_resolved(j)) {
-    safe_times_.block(i, e.time, safe_times_.blocking_tile(j));
+template <Scope scope>
+void EventProcessor<scope>::process_pair(std::uint32_t i, std::uint32_t j, double time) {
+  if (scope == Scope::region && !record_[j].progress.is_active()) {
+    safe_times_.block(i, time);
   } else if (record_[j].version == record_[i].partner_version) {
-    collide_pair(i, j, e.time);
+    collide_pair(i, j, time);
   } else {
-    predict_next_event<false>(i, e.time);
+    predict_next_event<false>(i, time);
   }
+}
+
+template <Scope scope>
+void EventProcessor<scope>::relist_and_predict(std::uint32_t i, double time) {
+  if (relist(i, time)) {
+    predict_next_event<false>(i, time);
+  } else {
+    safe_times_.block(i, time);
+  }
+}
+
+// Border: an event of the queue. It is invalid where the disk's events have been predicted again; an event of the same
+// time may have taken its place, and then there is another entry for that one.
+template <Scope scope>
+void EventProcessor<scope>::process_border(const QueuedEvent& e) {
+  const std::uint32_t i = e.disk;
+  if (window_.next_event_time[i] != e.time) return;
+  QueuedEvent present = e;
+  present.id1 = present.id2 = 0;
+  name(present);
+  if (present.id1 == e.id1 && present.id2 == e.id2) process(i, e.time);
 }
 
 // Finds and schedules the earliest event of the disk on its present path; nothing happens to it up to `from`. When it
 // has to be relisted is extrapolated no further than gravity bends the path little: that is later than `from` then,
 // however long the window is, so that relisting always makes progress.
-template <bool tiled>
+template <Scope scope>
 template <bool newest>
-void EventProcessor<tiled>::predict_next_event(std::uint32_t i, double from) {
+void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
   DiskRecord& record = record_[i];
   from = std::max(from, record.path.start);
   const NextEvent next = predictor_.template earliest<newest>(i);
@@ -187,6 +257,8 @@ void EventProcessor<tiled>::predict_next_event(std::uint32_t i, double from) {
     at = next.time;
     partner = next.partner;
     if (partner.is_disk()) record.partner_version = record_[partner.index()].version;
+  } else if (!next.lasting) {
+    at = window_.last_look(i);
   }
   if (!lists_.stays_listed(i, record.path, from, at, window_.rules.gravity)) {
     const double relist_at = lists_.earliest_relist_time(i, record.path, from, from, window_.rules.gravity);
@@ -198,43 +270,51 @@ void EventProcessor<tiled>::predict_next_event(std::uint32_t i, double from) {
   schedule(i, at, partner);
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::schedule(std::uint32_t i, double time, Partner partner) {
+// Of a disk whose path begins at this time: but for the border pass no neighbour's begins later.
+template <Scope scope>
+void EventProcessor<scope>::predict_after_event(std::uint32_t i, double time) {
+  predict_next_event<scope != Scope::border>(i, time);
+}
+
+template <Scope scope>
+inline void EventProcessor<scope>::schedule(std::uint32_t i, double time, Partner partner) {
   record_[i].partner = partner;
-  if constexpr (tiled) {
+  if constexpr (scope == Scope::border) {
     window_.next_event_time[i] = time;
     QueuedEvent e{time, 0, 0, i};
     if (!window_.in_slice(time)) return;
     name(e);
     worker_.queue.push(e);
   } else {
-    worker_.calendar.move(i, time, [this](std::uint32_t a, std::uint32_t b) { return comes_first(a, b); });
+    worker_.calendar.move(i - first_, time,
+                          [this](std::uint32_t a, std::uint32_t b) { return comes_first(a + first_, b + first_); });
   }
 }
 
 // False if that would change the lists of another region.
-template <bool tiled>
-bool EventProcessor<tiled>::relist(std::uint32_t i, double time) {
+template <Scope scope>
+bool EventProcessor<scope>::relist(std::uint32_t i, double time) {
   PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
   wrap_into(p, window_.rules.box);
   if (!lists_.relist(i, {p.x, p.y}, *window_.disks, worker_.region, worker_.found)) return false;
   ++worker_.relisted;
-  if constexpr (tiled) {
+  if constexpr (scope == Scope::border) safe_times_.mark_relisted_at_border(i);
+  if constexpr (scope == Scope::region) {
     safe_times_.mark_relisted(i);
-    if (!worker_.is_serial) push_safe_time(i, time);
+    safe_times_.push(i, time);
   }
   return true;
 }
 
-template <bool tiled>
-ExactDisk EventProcessor<tiled>::disk(std::uint32_t i) const {
+template <Scope scope>
+ExactDisk EventProcessor<scope>::disk(std::uint32_t i) const {
   ExactDisk now{record_[i].path};
   if (!window_.last_contact.empty()) now.last_contact = window_.last_contact[i];
   return now;
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::meet_side(std::uint32_t i, double time) {
+template <Scope scope>
+void EventProcessor<scope>::meet_side(std::uint32_t i, double time) {
   const Side side = record_[i].partner.side();
   const DiskId partner = record_[i].partner.wall_id();
   ExactDisk now = disk(i);
@@ -246,13 +326,13 @@ void EventProcessor<tiled>::meet_side(std::uint32_t i, double time) {
   if (gone) {
     schedule(i, never, Partner::none());
   } else {
-    predict_next_event<!tiled>(i, time);
+    predict_after_event(i, time);
   }
   if (!window_.burst.empty() && loses_energy(window_.rules, partner, impact)) count_burst(i, event);
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::collide_pair(std::uint32_t i, std::uint32_t j, double time) {
+template <Scope scope>
+void EventProcessor<scope>::collide_pair(std::uint32_t i, std::uint32_t j, double time) {
   if (is_plain_) {
     collide_plain_pair(i, j, time);
   } else {
@@ -261,13 +341,13 @@ void EventProcessor<tiled>::collide_pair(std::uint32_t i, std::uint32_t j, doubl
 }
 
 // In a plain scene: the same as below without what such a scene does not have.
-template <bool tiled>
-void EventProcessor<tiled>::collide_plain_pair(std::uint32_t i, std::uint32_t j, double time) {
+template <Scope scope>
+void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j, double time) {
   if (record_[i].id > record_[j].id) std::swap(i, j);
   PathSegment p = record_[i].path;
   PathSegment q = record_[j].path;
   // The speed bound excluded this collision, so it does not hold.
-  if (!(std::max(p.start, q.start) <= time) || (tiled && (window_.is_done(i) || window_.is_done(j)))) [[unlikely]] {
+  if (!(std::max(p.start, q.start) <= time) || is_over(i) || is_over(j)) [[unlikely]] {
     worker_.too_fast = worker_.ended = true;
     return;
   }
@@ -276,12 +356,12 @@ void EventProcessor<tiled>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
   if (impact.happened) worker_.tally.add_collision(impact.virial);
   begin_plain_segment(i, j, p);
   begin_plain_segment(j, i, q);
-  predict_next_event<!tiled>(i, time);
-  predict_next_event<!tiled>(j, time);
+  predict_after_event(i, time);
+  predict_after_event(j, time);
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::begin_plain_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path) {
+template <Scope scope>
+void EventProcessor<scope>::begin_plain_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path) {
   DiskRecord& f = record_[i];
   if (window_.keeps_paths) log_segment(i, false, path);
   f.path = path;
@@ -291,20 +371,19 @@ void EventProcessor<tiled>::begin_plain_segment(std::uint32_t i, std::uint32_t p
   }
   const double v2 = path.vx * path.vx + path.vy * path.vy;
   predictor_.note_speed(v2);
-  if constexpr (tiled) {
-    if (v2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
-    if (!worker_.is_serial && (window_.mark[i] & has_unresolved_neighbour) != 0) safe_times_.push(i, path.start);
-  }
+  if (has_regions && v2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
+  if (scope == Scope::region && record_[i].progress.has(DiskProgress::has_unresolved_neighbour))
+    safe_times_.push(i, path.start);
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::log_segment(std::uint32_t i, bool gone, const PathSegment& path) {
+template <Scope scope>
+void EventProcessor<scope>::log_segment(std::uint32_t i, bool gone, const PathSegment& path) {
   if (record_[i].version == 0) worker_.log.push_back({i, false, record_[i].path});
   worker_.log.push_back({i, gone, path});
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::collide_any_pair(std::uint32_t i, std::uint32_t j, double time) {
+template <Scope scope>
+void EventProcessor<scope>::collide_any_pair(std::uint32_t i, std::uint32_t j, double time) {
   if (record_[i].id > record_[j].id) std::swap(i, j);
   const Disks& d = *window_.disks;
   const DiskId id1 = record_[i].id;
@@ -312,7 +391,7 @@ void EventProcessor<tiled>::collide_any_pair(std::uint32_t i, std::uint32_t j, d
   ExactDisk a = disk(i);
   ExactDisk b = disk(j);
   // The speed bound excluded this collision, so it does not hold.
-  if ((tiled && (window_.is_done(i) || window_.is_done(j))) || !(std::max(a.path.start, b.path.start) <= time)) {
+  if (!(std::max(a.path.start, b.path.start) <= time) || is_over(i) || is_over(j)) {
     worker_.too_fast = worker_.ended = true;
     return;
   }
@@ -321,15 +400,15 @@ void EventProcessor<tiled>::collide_any_pair(std::uint32_t i, std::uint32_t j, d
   const EventMark event{time, id1, id2};
   begin_segment(i, a, false, event);
   begin_segment(j, b, false, event);
-  predict_next_event<!tiled>(i, time);
-  predict_next_event<!tiled>(j, time);
+  predict_after_event(i, time);
+  predict_after_event(j, time);
   if (window_.burst.empty() || !loses_energy(window_.rules, id2, impact)) return;
   count_burst(i, event);
   count_burst(j, event);
 }
 
-template <bool tiled>
-void EventProcessor<tiled>::begin_segment(std::uint32_t i, const ExactDisk& now, bool gone, const EventMark& event) {
+template <Scope scope>
+void EventProcessor<scope>::begin_segment(std::uint32_t i, const ExactDisk& now, bool gone, const EventMark& event) {
   DiskRecord& f = record_[i];
   if (window_.keeps_paths) log_segment(i, gone, now.path);
   f.path = now.path;
@@ -345,23 +424,25 @@ void EventProcessor<tiled>::begin_segment(std::uint32_t i, const ExactDisk& now,
     // No path meets one that is not a number.
     f.path.x = f.path.y = std::numeric_limits<double>::quiet_NaN();
     worker_.any_gone = true;
-  } else if (tiled && !worker_.is_serial && (window_.mark[i] & has_unresolved_neighbour) != 0) {
-    push_safe_time(i, now.path.start);
+  } else if (scope == Scope::region && record_[i].progress.has(DiskProgress::has_unresolved_neighbour)) {
+    safe_times_.push(i, now.path.start);
   }
 }
 
-// A disk whose impacts pile up is deferred to the serial pass; in tiled mode the window is then run again without
-// tiles.
-template <bool tiled>
-void EventProcessor<tiled>::count_burst(std::uint32_t i, const EventMark& event) {
+// A disk of a region whose impacts pile up waits for the border pass; the window is then run again without regions.
+template <Scope scope>
+void EventProcessor<scope>::count_burst(std::uint32_t i, const EventMark& event) {
   if (!window_.burst[i].add(event.time, window_.length)) return;
   if (!worker_.collapse) worker_.collapse = event;
-  worker_.ended = worker_.ended || worker_.is_serial;
-  if (tiled && !worker_.is_serial && window_.progress[i].is(Progress::active))
-    safe_times_.block(i, event.time, serial_pass);
+  if constexpr (scope == Scope::region) {
+    if (record_[i].progress.is_active()) safe_times_.block(i, event.time);
+  } else {
+    worker_.ended = true;
+  }
 }
 
-template class EventProcessor<false>;
-template class EventProcessor<true>;
+template class EventProcessor<Scope::all>;
+template class EventProcessor<Scope::region>;
+template class EventProcessor<Scope::border>;
 
 }  // namespace carom

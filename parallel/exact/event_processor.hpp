@@ -1,4 +1,4 @@
-// The events of a slice in order of time: of all disks, or of a tile's disks as far as their motion is known.
+// The events of a slice in order of time: of all disks, of a region's as far as their motion is known, or of the rest.
 #pragma once
 
 #include <cstdint>
@@ -11,44 +11,54 @@
 
 namespace carom {
 
-// A serial worker sees all disks, and nothing else changes any of them. A region's worker is given disks whose motion
-// is known (SafeTimes).
-//
-// tiled: false for a single queue, whose worker sees all disks: an event calendar takes the place of the queue, and
-// whatever has to do with unresolved disks is not there.
-template <bool tiled>
+// Whose events are processed. Motion that is not known, and whatever follows from it, is there only with regions.
+enum class Scope : std::uint8_t {
+  all,     // of all disks: a single queue
+  region,  // of a region's disks, as far as their motion is known (SafeTimes), on a thread of its own
+  border,  // of the disks at borders and those that were blocked, after all regions; no other thread works
+};
+
+template <Scope scope>
 class EventProcessor {
  public:
   EventProcessor(WindowState& window, NeighbourLists& lists, Worker& worker);
 
-  // Single queue: enters all disks into the calendar, for about `expected` events in the window, and takes the times
-  // of their next events out again.
-  void enter_all(std::size_t expected);
+  // All and region: enters the disks into the calendar, for about so many events a disk in the window, and takes the
+  // times of their next events out again.
+  void enter_all(double events_a_disk);
   void leave_all();
-  // Tiled: queues the disk's next event, if it is within the slice.
-  void push_next_event(std::uint32_t i) {
-    if (window_.in_slice(window_.next_event_time[i])) worker_.queue.push({window_.next_event_time[i], 0, 0, i});
-  }
-  // Tiled: queues the disk's safe time (SafeTimes::push).
-  void push_safe_time(std::uint32_t i, double time) { safe_times_.push(i, time); }
-  // Processes all events that are queued; stops early where the worker's `ended` is set.
+  // Region: the disk, whose motion was not known, is active from now on.
+  void enter(std::uint32_t i);
+  // Region: for the disk, at the start of a slice, as SafeTimes::push.
+  void push_safe_time(std::uint32_t i) { safe_times_.push(i, window_.slice_start); }
+  // Border: queues the disk's next event, if it is within the slice.
+  void push_next_event(std::uint32_t i);
+  // Processes all events of the slice; stops early where the worker's `ended` is set.
   void run();
 
  private:
+  static constexpr bool has_regions = scope != Scope::all;
+
   void poll_watch();
   void name(QueuedEvent& e) const;
-  void run_calendar();
-  void run_queue();
+  void run_all();
+  void run_region();
+  void run_border();
+  [[gnu::always_inline]] inline bool find_first(std::uint32_t& i);
   bool comes_first(std::uint32_t a, std::uint32_t b) const;
+  // Inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
+  [[gnu::always_inline]] inline void announce(std::uint32_t i, int stage) const;
+  [[gnu::always_inline]] inline void prefetch_neighbours(std::uint32_t i) const;
   void process(std::uint32_t i, double time);
-  void process(const QueuedEvent& e);
-  void process_pair(std::uint32_t i, const QueuedEvent& e);
-  bool is_resolved(std::uint32_t i) const { return worker_.is_serial || window_.progress[i].is_resolved(); }
+  void process_pair(std::uint32_t i, std::uint32_t j, double time);
+  void process_border(const QueuedEvent& e);
+  void predict_after_event(std::uint32_t i, double time);
 
   // newest: as EventPredictor::earliest.
   template <bool newest>
   void predict_next_event(std::uint32_t i, double from);
-  void schedule(std::uint32_t i, double time, Partner partner);
+  [[gnu::always_inline]] inline void schedule(std::uint32_t i, double time, Partner partner);
+  void relist_and_predict(std::uint32_t i, double time);
   bool relist(std::uint32_t i, double time);
   void meet_side(std::uint32_t i, double time);
   void collide_pair(std::uint32_t i, std::uint32_t j, double time);
@@ -58,6 +68,8 @@ class EventProcessor {
   void log_segment(std::uint32_t i, bool gone, const PathSegment& path);
   void begin_segment(std::uint32_t i, const ExactDisk& now, bool gone, const EventMark& event);
   void count_burst(std::uint32_t i, const EventMark& event);
+  // Border: has the disk's motion been known to the end of the slice before?
+  bool is_over(std::uint32_t i) const { return scope == Scope::border && record_[i].progress.is_active(); }
   ExactDisk disk(std::uint32_t i) const;
 
   WindowState& window_;
@@ -66,6 +78,7 @@ class EventProcessor {
   SafeTimes safe_times_;
   EventPredictor predictor_;
   DiskRecord* record_;
+  std::uint32_t first_;  // disk of the calendar; entry k is of disk first_ + k
   bool is_plain_;
   double reduced_mass_;  // of two disks of a plain scene
 };

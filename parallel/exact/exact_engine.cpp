@@ -32,13 +32,13 @@ constexpr std::size_t pass_block = 8192;
 // they were predicted: disks are predicted again this share of a window early. That is enough where the approach is
 // faster than WindowState::slow; slower contacts that are close are predicted at every start.
 constexpr double early_share = 1e-3;
-// Events a disk in a slice: fewer leave less to the serial pass, more need fewer passes over all tiles.
+// Events a disk in a slice: fewer leave less to the border pass, more need fewer passes.
 constexpr double events_per_slice = 0.25;
 // The lists are rebuilt, and the disks sorted, when they have been relisted so many times each: by then neighbours are
 // no longer neighbours in storage.
 constexpr Count relistings_a_disk = 8;
-// Tiled mode: no disk may become faster in a window than this factor times the fastest one at its start. A window in
-// which one does is run again with a larger factor, and at last without tiles.
+// With regions: no disk may become faster in a window than this factor times the fastest one at its start. A window in
+// which one does is run again with a larger factor, and at last without regions.
 constexpr double speed_margin = 1.25;
 constexpr int most_retries = 4;
 
@@ -81,13 +81,13 @@ class ParallelExact final : public Engine {
   bool has_room(const Disk& newcomer) const;
   void remove(const std::vector<unsigned char>& gone);
   SpeedSummary summarise();
-  bool rebuild_lists_if_due(bool tiles_allowed);
+  bool rebuild_lists_if_due(bool regions_allowed);
   void load_paths(const WindowPlan& plan, bool rebuilt);
   void load_disk(std::size_t i, const WindowPlan& plan, bool rebuilt);
   double carried_event_time(std::size_t i, const WindowPlan& plan, bool rebuilt) const;
   void set_speed_bound(const WindowPlan& plan, double margin);
   bool run_window_with_retry(WindowPlan& plan);
-  SliceOutcome run_window(const WindowPlan& plan, double margin, bool tiles_allowed);
+  SliceOutcome run_window(const WindowPlan& plan, double margin, bool regions_allowed);
   double slice_end(const WindowPlan& plan, double start) const;
   void store_paths(const WindowPlan& plan);
   std::vector<PathSegment> paths_at(double s, std::vector<unsigned char>& gone) const;
@@ -133,6 +133,7 @@ void ParallelExact::start_window() {
 
 void ParallelExact::release_memory() {
   window_.release_memory();
+  scheduler_.release_calendars();
   lists_ = NeighbourLists();
   logged_.reset();
   valid_ = Valid::nothing;
@@ -184,12 +185,16 @@ SpeedSummary ParallelExact::summarise() {
 }
 
 // Returns whether it did.
-bool ParallelExact::rebuild_lists_if_due(bool tiles_allowed) {
+bool ParallelExact::rebuild_lists_if_due(bool regions_allowed) {
   if (valid_ != Valid::nothing && scheduler_.relisted() <= relistings_a_disk * state_.disks.size()) return false;
   const PhaseTimer timer(times_, "list");
-  const ListLayout layout = choose_layout(state_.disks.size(), tiles_allowed, executor_);
+  // Sorting takes about as much.
+  if (state_.disks.size() > disks_of_much_memory) scheduler_.release_calendars();
+  const ListLayout layout = choose_layout(state_.disks.size(), regions_allowed, executor_);
   lists_.build(state_.disks, scene_.box, layout, executor_);
   window_.mode = layout.mode;
+  window_.regions = layout.regions;
+  window_.looks_ahead = layout.looks_ahead;
   largest_radius_ = largest_radius(state_.disks);
   valid_ = std::max(valid_, Valid::lists);
   // Two disks that did not list each other before cannot touch before one of them reaches its next event, at the latest
@@ -216,7 +221,8 @@ void ParallelExact::load_disk(std::size_t i, const WindowPlan& plan, bool rebuil
   // A contact is predicted again, since rounding at the start of paths may make another event the first.
   const bool relists = valid_ == Valid::lists_and_times && !rebuilt && record.partner.is_relist();
   const Partner partner = relists ? Partner::relist() : Partner::none();
-  record = {{0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]}, d.radius_of(i), d.id[i], partner, 0, 0};
+  const DiskProgress progress = record.progress;
+  record = {{0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]}, d.radius_of(i), d.id[i], partner, 0, 0, progress};
   window_.next_event_time[i] = valid_ == Valid::lists_and_times ? carried_event_time(i, plan, rebuilt) : 0.0;
   if (!window_.last_contact.empty()) window_.last_contact[i] = state_.last_contact[d.id[i]] - plan.start;
   if (!window_.burst.empty()) window_.burst[i] = {};
@@ -235,7 +241,7 @@ double ParallelExact::carried_event_time(std::size_t i, const WindowPlan& plan, 
 void ParallelExact::set_speed_bound(const WindowPlan& plan, double margin) {
   const double fall = window_.rules.gravity * plan.length;
   const double fastest = margin * std::sqrt(window_.fastest2) + fall;
-  window_.speed_limit2 = window_.mode == EngineMode::tiled ? fastest * fastest : HUGE_VAL;
+  window_.speed_limit2 = window_.mode == EngineMode::regions ? fastest * fastest : HUGE_VAL;
   window_.speed_bound = fastest + fall;
 }
 
@@ -244,15 +250,15 @@ void ParallelExact::set_speed_bound(const WindowPlan& plan, double margin) {
 bool ParallelExact::run_window_with_retry(WindowPlan& plan) {
   double margin = speed_margin;
   int retries = 0;
-  bool tiles_allowed = true;
-  SliceOutcome outcome = run_window(plan, margin, tiles_allowed);
+  bool regions_allowed = true;
+  SliceOutcome outcome = run_window(plan, margin, regions_allowed);
   for (; outcome == SliceOutcome::too_fast || outcome == SliceOutcome::crowded;
-       outcome = run_window(plan, margin, tiles_allowed)) {
+       outcome = run_window(plan, margin, regions_allowed)) {
     valid_ = Valid::nothing;
     if (outcome == SliceOutcome::crowded) {
       // Only a single queue processes events in canonical order, and can tell at which of them it was too many.
-      if (window_.mode != EngineMode::tiled) plan = shortened(plan, window_.rules, scheduler_.crowding());
-      tiles_allowed = false;
+      if (window_.mode != EngineMode::regions) plan = shortened(plan, window_.rules, scheduler_.crowding());
+      regions_allowed = false;
       continue;
     }
     if (retries++ == most_retries) {
@@ -260,16 +266,16 @@ bool ParallelExact::run_window_with_retry(WindowPlan& plan) {
           fmt::format("exact: the speed bound failed after {} retries, at t = {}; please report this scene",
                       most_retries, plan.start));
     }
-    if (retries == most_retries) tiles_allowed = false;
+    if (retries == most_retries) regions_allowed = false;
     margin *= 2.0 * speed_margin;
   }
-  if (outcome == SliceOutcome::given_up || !tiles_allowed) valid_ = Valid::nothing;
+  if (outcome == SliceOutcome::given_up || !regions_allowed) valid_ = Valid::nothing;
   return outcome == SliceOutcome::done;
 }
 
 // Unless the outcome is `done`, the state is as it was.
-SliceOutcome ParallelExact::run_window(const WindowPlan& plan, double margin, bool tiles_allowed) {
-  const bool rebuilt = rebuild_lists_if_due(tiles_allowed);
+SliceOutcome ParallelExact::run_window(const WindowPlan& plan, double margin, bool regions_allowed) {
+  const bool rebuilt = rebuild_lists_if_due(regions_allowed);
   load_paths(plan, rebuilt);
   const PhaseTimer timer(times_, "events");
   scheduler_.begin_window(rebuilt);
@@ -278,13 +284,14 @@ SliceOutcome ParallelExact::run_window(const WindowPlan& plan, double margin, bo
   for (double start = 0.0; start < plan.length;) {
     const double end = slice_end(plan, start);
     const double elapsed = std::min(end, plan.length) - start;
-    const double expected = std::min(rate_ * elapsed, 4.0 * static_cast<double>(state_.disks.size()));
-    const SliceOutcome outcome = scheduler_.run(start, end, expected, plan.start);
+    const double per_disk = rate_ / static_cast<double>(state_.disks.size());
+    const SliceOutcome outcome = scheduler_.run(start, end, per_disk, plan.start);
     if (outcome != SliceOutcome::done) return outcome;
     rate_ = static_cast<double>(scheduler_.events() - before) / elapsed;
     before = scheduler_.events();
     start = end;
   }
+  scheduler_.end_window();
   return SliceOutcome::done;
 }
 

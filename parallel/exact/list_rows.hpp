@@ -68,7 +68,7 @@ class ListRows {
   }
 
   void set_sides(std::uint32_t i, unsigned sides) { rows_[i].sides = static_cast<std::uint8_t>(sides); }
-  void prefetch(std::uint32_t i) const { __builtin_prefetch(rows_.data() + i); }
+  [[gnu::always_inline]] void prefetch(std::uint32_t i) const { __builtin_prefetch(rows_.data() + i); }
 
   // Gives disk i, whose list is empty, these neighbours.
   void set(std::uint32_t i, std::span<const std::uint32_t> near);

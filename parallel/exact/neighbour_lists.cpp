@@ -22,7 +22,7 @@ constexpr std::size_t most_blocks = 65536;
 // through, shorter ones have to be renewed more often, the sooner the less dense the system is: with one queue the
 // fewest instructions a collision at 10^4 disks are at 2.1, 1.8 and 1.65 spacings at packing fractions 0.2, 0.5 and
 // 0.7.
-constexpr double tiled_cutoff_in_spacings = 2.0;
+constexpr double region_cutoff_in_spacings = 2.0;
 constexpr double thin_cutoff_in_spacings = 2.25;
 constexpr double cutoff_by_packing_fraction = -0.9;
 // In very dense systems the skin is at least this share of a mean diameter.
@@ -94,8 +94,8 @@ void NeighbourLists::choose_skin(const Disks& d, double relist_share) {
     area = n * std::numbers::pi * radius * radius;
   }
   const double space = box_.width * box_.height;
-  const double cutoff = mode_ == EngineMode::tiled
-                            ? tiled_cutoff_in_spacings
+  const double cutoff = mode_ == EngineMode::regions
+                            ? region_cutoff_in_spacings
                             : thin_cutoff_in_spacings + cutoff_by_packing_fraction * area / space;
   skin_ = std::max({0.5 * (cutoff * std::sqrt(space / n) - 2.0 * radius), least_skin * 2.0 * radius,
                     least_units * std::max(unit_x_, unit_y_)});
@@ -137,8 +137,8 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   stay2_ = never;
   if (mode_ != EngineMode::all_pairs) {
     choose_skin(d, layout.relist_share);
-    // Much memory: that of the rows is given back for what sorting needs.
-    if (mode_ == EngineMode::tiled) rows_.release();
+    // That of the rows is given back for what sorting needs.
+    if (n > disks_of_much_memory) rows_.release();
     sort(d, layout.disks_per_tile, executor);
   }
   if (listed_at_.capacity() < n) resize_in_huge_pages(listed_at_, n);
@@ -151,7 +151,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
 
 void NeighbourLists::list_all(const Disks& d, const Executor& executor) {
   if (mode_ != EngineMode::all_pairs) slots_.begin(grid_.keys, d.size(), !d.radius.empty());
-  if (mode_ == EngineMode::tiled) {
+  if (mode_ == EngineMode::regions) {
     executor.run(grid_.tiles, [&](std::size_t t) {
       const auto tile = static_cast<std::uint32_t>(t);
       fill_slots(d, tile * grid_.tile_keys, (tile + 1) * grid_.tile_keys);
@@ -261,7 +261,7 @@ void NeighbourLists::sort_along(std::vector<double>& column, const Executor& exe
 }
 
 void NeighbourLists::release_scratch() {
-  if (mode_ == EngineMode::tiled) release_sort_scratch(cells_);
+  if (rows_.size() > disks_of_much_memory) release_sort_scratch(cells_);
 }
 
 double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& path, double from, double until,

@@ -73,7 +73,7 @@ class NeighbourLists {
   // Of disk i; inside the box, but for rounding.
   Vec2 listed_position(std::uint32_t i) const { return position_of(listed_at_[i]); }
 
-  // Tiles are runs of disks in storage that are neighbours in space; one where the mode is not tiled.
+  // Tiles are runs of disks in storage that are neighbours in space; one where there are no regions.
   std::uint32_t tiles() const { return grid_.tiles; }
   std::uint32_t first_disk_of(std::uint32_t tile) const {
     return grid_.tile_keys == 0 ? (tile == 0 ? 0 : static_cast<std::uint32_t>(rows_.size()))
@@ -82,7 +82,7 @@ class NeighbourLists {
   ListRegion region_of_tiles(std::uint32_t first, std::uint32_t last) const {
     return {first * grid_.tile_keys, last * grid_.tile_keys, first_disk_of(first), first_disk_of(last)};
   }
-  // Of disk i, in tiled mode.
+  // Of disk i, where there are regions.
   std::uint32_t tile_of(std::uint32_t i) const { return rows_.block_of(i); }
 
   // No path at this speed (v^2) or less leads to any other image of a neighbour than the nearest one within a window
@@ -97,7 +97,7 @@ class NeighbourLists {
   const ListRows& rows() const { return rows_; }
 
   // Prefetches the list of disk i, or of disks [first, last).
-  void prefetch(std::uint32_t i) const {
+  [[gnu::always_inline]] void prefetch(std::uint32_t i) const {
     rows_.prefetch(i);
     __builtin_prefetch(&listed_at_[i]);
   }

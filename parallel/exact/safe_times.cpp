@@ -7,20 +7,19 @@ namespace carom {
 
 namespace {
 
-// A disk whose safe time proves to be later than it was queued for, by at least this share of the slice, is queued
-// again; otherwise it is blocked.
+// A disk whose safe time proves to be later than it was due, by at least this share of the slice, is asked again;
+// otherwise it is blocked.
 constexpr double worthwhile_share = 1.0 / 16.0;
-}  // namespace
 
-std::uint32_t SafeTimes::blocking_tile(std::uint32_t i) const {
-  const DiskProgress progress = window_.progress[i];
-  if (progress.is(Progress::blocked)) return worker_.blocked[progress.record()].tile;
-  return (window_.mark[i] & lists_other_region) != 0 ? serial_pass : lists_.tile_of(i);
+bool is_due_later(const SafeTimeDue& a, const SafeTimeDue& b) {
+  return a.time > b.time;
 }
 
+}  // namespace
+
 double SafeTimes::known_until(std::uint32_t unresolved) const {
-  const DiskProgress progress = window_.progress[unresolved];
-  return progress.is(Progress::blocked) ? worker_.blocked[progress.record()].safe_time : window_.slice_start;
+  const DiskProgress progress = window_.record[unresolved].progress;
+  return progress.is_blocked() ? worker_.blocked[progress.blocked()].safe_time : window_.slice_start;
 }
 
 // Before this time, no earlier than `time`, the unresolved disk cannot touch disk i on its present path; `never` if not
@@ -47,67 +46,89 @@ double SafeTimes::safe_time_from(std::uint32_t i, double time, std::uint32_t unr
 SafeTimes::SafeTime SafeTimes::safe_time(std::uint32_t i, double time) const {
   SafeTime first;
   lists_.for_each_neighbour(i, [&](std::uint32_t j) {
-    if (window_.progress[j].is_resolved()) return;
+    if (window_.record[j].progress.is_active()) return;
     first.any = true;
-    const double t = safe_time_from(i, time, j);
-    if (t < first.time) {
-      first.time = t;
-      first.tile = blocking_tile(j);
-    }
+    first.time = std::min(first.time, safe_time_from(i, time, j));
   });
   return first;
+}
+
+void SafeTimes::push_due(double time, std::uint32_t i) {
+  if (!window_.in_slice(time)) return;
+  worker_.safe_times.push_back({time, i});
+  std::push_heap(worker_.safe_times.begin(), worker_.safe_times.end(), is_due_later);
+}
+
+void SafeTimes::mark_unresolved_neighbour(std::uint32_t i) {
+  if (window_.record[i].progress.has(DiskProgress::has_unresolved_neighbour)) return;
+  window_.record[i].progress.set(DiskProgress::has_unresolved_neighbour);
+  worker_.marked.push_back(i);
 }
 
 void SafeTimes::push(std::uint32_t i, double time) {
   const SafeTime safe = safe_time(i, time);
   if (!safe.any) return;
-  window_.mark[i] |= has_unresolved_neighbour;
-  if (window_.in_slice(safe.time)) worker_.queue.push({safe.time, 0, 0, i | safe_time_bit});
+  mark_unresolved_neighbour(i);
+  push_due(safe.time, i);
 }
 
-void SafeTimes::reach(std::uint32_t i, double time) {
+void SafeTimes::reach_first() {
+  const auto [time, i] = worker_.safe_times.front();
+  std::pop_heap(worker_.safe_times.begin(), worker_.safe_times.end(), is_due_later);
+  worker_.safe_times.pop_back();
+  if (!window_.record[i].progress.is_active()) return;
   const SafeTime safe = safe_time(i, time);
   const double slice = window_.slice_stop() - window_.slice_start;
   if (safe.time <= time + worthwhile_share * slice) {
-    block(i, time, safe.tile);
-  } else if (window_.in_slice(safe.time)) {
-    worker_.queue.push({safe.time, 0, 0, i | safe_time_bit});
+    block(i, time);
+  } else {
+    push_due(safe.time, i);
   }
 }
 
-void SafeTimes::block(std::uint32_t i, double time, std::uint32_t tile) {
-  window_.progress[i] = DiskProgress::blocked(static_cast<std::uint32_t>(worker_.blocked.size()));
-  worker_.blocked.push_back({i, tile, time});
+void SafeTimes::block(std::uint32_t i, double time) {
+  const std::uint32_t entry = i - worker_.region.first_disk;
+  worker_.calendar.take_out(entry);
+  window_.next_event_time[i] = worker_.calendar.time_of(entry);
+  window_.record[i].progress.set_blocked(static_cast<std::uint32_t>(worker_.blocked.size()));
+  worker_.blocked.push_back({i, time});
   lists_.for_each_neighbour(i, [&](std::uint32_t j) {
-    if (window_.progress[j].is(Progress::done)) return;
-    window_.mark[j] |= has_unresolved_neighbour;
-    if (!window_.progress[j].is(Progress::active)) return;
-    const double safe = safe_time_from(j, time, i);
-    if (window_.in_slice(safe)) worker_.queue.push({safe, 0, 0, j | safe_time_bit});
+    if (!window_.record[j].progress.is_active()) return;
+    mark_unresolved_neighbour(j);
+    push_due(safe_time_from(j, time, i), j);
   });
 }
 
 void SafeTimes::mark_relisted(std::uint32_t i) {
-  const auto mark_later_tile = [&](std::uint32_t a, std::uint32_t b) {
-    if (lists_.tile_of(b) > lists_.tile_of(a) || (window_.mark[b] & lists_other_region) != 0) {
-      window_.mark[a] |= lists_later_tile;
-    }
-  };
   lists_.for_each_neighbour(i, [&](std::uint32_t j) {
-    if (region_of(i) != region_of(j)) {
-      mark_other_region(i);
-      mark_other_region(j);
-    }
-    mark_later_tile(i, j);
-    mark_later_tile(j, i);
+    if (window_.record[j].progress.has(DiskProgress::at_border)) mark_lists_border(i);
   });
 }
 
-void SafeTimes::mark_other_region(std::uint32_t i) {
-  if ((window_.mark[i] & lists_other_region) != 0) return;
-  window_.mark[i] |= lists_other_region;
+// Marks are set at once: the neighbours keep disk i in their lists, however soon it is relisted.
+void SafeTimes::mark_relisted_at_border(std::uint32_t i) {
+  lists_.for_each_neighbour(i, [&](std::uint32_t j) {
+    if (region_of(i) != region_of(j)) {
+      mark_border(i);
+      mark_border(j);
+    }
+    if (window_.record[j].progress.has(DiskProgress::at_border)) mark_lists_border(i);
+    if (window_.record[i].progress.has(DiskProgress::at_border)) mark_lists_border(j);
+  });
+}
+
+// From the next slice on: in this one a disk that was active goes on as it did.
+void SafeTimes::mark_border(std::uint32_t i) {
+  if (window_.record[i].progress.has(DiskProgress::at_border)) return;
+  window_.record[i].progress.set(DiskProgress::at_border);
   worker_.border.push_back(i);
-  lists_.for_each_neighbour(i, [&](std::uint32_t j) { window_.mark[j] |= lists_later_tile; });
+  lists_.for_each_neighbour(i, [&](std::uint32_t j) { mark_lists_border(j); });
+}
+
+void SafeTimes::mark_lists_border(std::uint32_t i) {
+  if (window_.record[i].progress.has(DiskProgress::lists_border)) return;
+  window_.record[i].progress.set(DiskProgress::lists_border);
+  worker_.near_border.push_back(i);
 }
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// The events of a slice of a window, shared out among tiles and threads.
+// The events of a slice of a window, shared out among regions and threads.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ namespace carom {
 // window is crowded (core/step/window_length.hpp); it was given up.
 enum class SliceOutcome : std::uint8_t { done, too_fast, crowded, given_up };
 
-// With a single queue, a window is one slice, and one worker processes its events. In tiled mode each thread has a
-// region, a run of tiles, and goes through its tiles in order; in each it processes the events of the tile's disks as
-// far as they do not depend on disks whose motion is not yet known. A disk that is blocked by one of a later tile is
-// forwarded to that tile. A disk that lists one of another region, or is blocked by one that does, is deferred to a
-// serial pass over the region borders. Which tile processes an event depends on the threads, the event does not.
+// With a single queue, a window is one slice, and one worker processes its events. With regions, each thread has a
+// region, a run of tiles, and processes the events of its disks as far as they do not depend on disks whose motion is
+// not yet known: a disk that lists one of another region is at the border, and its motion in a slice becomes known in
+// the border pass, after all regions; so does that of disks that are blocked because of one. Which worker processes an
+// event depends on the threads, the event does not.
 class SliceScheduler {
  public:
   SliceScheduler(WindowState& window, NeighbourLists& lists, const Executor& executor)
@@ -33,11 +33,13 @@ class SliceScheduler {
   // The longest time that a slice may last; window.speed_bound has been set.
   double longest_slice() const;
 
-  // Runs the slice, with about `expected` events. At inelastic collapse the result is `crowded` in tiled mode;
-  // otherwise it throws PhysicsError.
-  SliceOutcome run(double start, double end, double expected, double window_start);
-  // Not in tiled mode: the event that tells that the window is crowded, the same as the reference's.
-  const EventMark& crowding() const { return *serial_.crowded; }
+  // Runs the slice, the window's first where it starts at 0; per_disk: events a disk and time, about. At inelastic
+  // collapse the result is `crowded` with regions; otherwise it throws PhysicsError.
+  SliceOutcome run(double start, double end, double per_disk, double window_start);
+  // After the window's last slice, if all were done.
+  void end_window();
+  // Without regions: the event that tells that the window is crowded, the same as the reference's.
+  const EventMark& crowding() const { return *common_.crowded; }
 
   // Of the window so far.
   ImpactTally tally() const;
@@ -46,42 +48,40 @@ class SliceScheduler {
   template <class Read>
   void read_logs(Read&& read) const {
     for (const Region& region : regions_) read(region.worker.log);
-    read(serial_.log);
+    read(common_.log);
   }
+  // Between windows: gives back the memory of the calendars.
+  void release_calendars();
   // Disks relisted since the lists were built.
   Count relisted() const { return relisted_; }
 
  private:
-  // Tiles [first, last), contiguous in memory.
+  // Disks that are contiguous in memory, those of a run of tiles.
   struct Region {
-    std::uint32_t first = 0, last = 0;
     Worker worker;
-    std::vector<std::uint32_t> border;    // disks marked lists_other_region
-    std::vector<std::uint32_t> deferred;  // numbers of blocked disks that no tile of the region can resolve
+    std::vector<std::uint32_t> border;       // disks marked at_border
+    std::vector<std::uint32_t> near_border;  // disks marked lists_border; some have come to be at the border since
   };
 
-  bool tiled() const { return window_.mode == EngineMode::tiled; }
+  bool has_regions() const { return window_.mode == EngineMode::regions; }
   void lay_out_regions();
   void find_border(Region& region);
-  void find_later_tiles(Region& region);
-  void run_single_queue(double expected);
-  void run_tiles(double expected);
+  void find_near_border(Region& region);
+  void run_single_queue(double per_disk);
+  void run_regions(double per_disk);
+  void run_region(Region& region, double per_disk);
   void begin_slice(Region& region);
-  void run_region(Region& region, double expected);
-  void begin_tile(Region& region, std::uint32_t tile, double expected);
-  void activate(std::uint32_t tile, const std::vector<BlockedDisk>& blocked);
-  void queue_tile(std::uint32_t tile, const std::vector<BlockedDisk>& blocked, EventProcessor<true>& events);
-  void finish_tile(Region& region, std::uint32_t tile, std::size_t first_blocked);
-  void run_serial_pass(double expected);
-  void begin_queue(Worker& worker, double expected);
+  void run_border(double per_disk);
+  void finish_slice(Region& region);
+  void take_in_new_border();
+  Region& region_of(std::uint32_t i) { return regions_[window_.region_of_tile[lists_.tile_of(i)]]; }
   SliceOutcome outcome() const;
 
   WindowState& window_;
   NeighbourLists& lists_;
   const Executor& executor_;
-  std::vector<Region> regions_;                        // tiled mode
-  std::vector<std::vector<std::uint32_t>> forwarded_;  // to each tile: numbers of blocked disks
-  Worker serial_;                                      // single queue: all disks; tiled mode: the serial pass
+  std::vector<Region> regions_;
+  Worker common_;  // single queue: all disks; with regions: the border pass
   Count relisted_ = 0;
 };
 

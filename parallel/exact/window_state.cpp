@@ -52,8 +52,6 @@ void WindowState::set_tolerances() {
 void WindowState::release_memory() {
   std::vector<DiskRecord>().swap(record);
   std::vector<double>().swap(next_event_time);
-  std::vector<DiskProgress>().swap(progress);
-  std::vector<std::uint8_t>().swap(mark);
 }
 
 }  // namespace carom

@@ -20,39 +20,44 @@ struct LoggedSegment {
   PathSegment path;
 };
 
-// In BlockedDisk::tile: no tile of the region can resolve the disk; it is deferred to the serial pass.
-inline constexpr std::uint32_t serial_pass = 0xffffffffU;
-
 // A disk whose motion is known up to its safe time only, because that of a neighbour is not known.
 struct BlockedDisk {
   std::uint32_t disk;
-  std::uint32_t tile;  // that has to be processed first, or serial_pass
   double safe_time;
+};
+
+// A moment at which the disk's safe time is to be computed again.
+struct SafeTimeDue {
+  double time;
+  std::uint32_t disk;
 };
 
 // Members are of the window where nothing else is said.
 struct Worker {
-  ListRegion region;       // what it may read and write
-  bool is_serial = true;   // it sees all disks, and no other thread works at the same time
-  EventQueue queue;        // tiled mode
-  EventCalendar calendar;  // single queue
+  ListRegion region;                    // what it may read and write
+  EventCalendar calendar;               // of a single queue, or of a region
+  std::vector<SafeTimeDue> safe_times;  // of a region: a heap, the first on top
+  EventQueue queue;                     // of the border pass
   ImpactTally tally;
   std::vector<LoggedSegment> log;  // a disk's segments in order
   bool any_gone = false;
   double fastest2 = 0.0;              // largest v^2
   Count segments = 0;                 // begun
-  std::optional<EventMark> collapse;  // the first one, if serial
-  // Each of these voids the window: a disk was faster than the speed bound, or a disk that was done had to collide; it
-  // holds too many events (with the event that tells, the first one if serial); Engine::set_watch said to stop.
+  std::optional<EventMark> collapse;  // the first one, but for a region
+  // Each of these voids the window: a disk was faster than the speed bound, or one whose motion was known had to
+  // collide; it holds too many events (with the event that tells, the first one but for a region);
+  // Engine::set_watch said to stop.
   bool too_fast = false;
   std::optional<EventMark> crowded;
   bool given_up = false;
-  bool ended = false;                 // one of these, or a collapse if serial: no further event
-  Count until_poll = 0;               // events before go_on is asked again
-  Count relisted = 0;                 // disks, in the slice
-  std::vector<std::uint32_t> border;  // disks that came to list one of another region in the slice
-  std::vector<BlockedDisk> blocked;   // in the slice
-  FoundNeighbours found;              // scratch
+  bool ended = false;                      // one of these, or a collapse but for a region: no further event
+  Count until_poll = 0;                    // events before go_on is asked again
+  Count relisted = 0;                      // disks, in the slice
+  std::vector<BlockedDisk> blocked;        // in the slice
+  std::vector<std::uint32_t> marked;       // disks marked has_unresolved_neighbour in the slice
+  std::vector<std::uint32_t> border;       // disks that came to be at a border in the slice
+  std::vector<std::uint32_t> near_border;  // disks marked lists_border in the slice
+  FoundNeighbours found;                   // scratch
 
   void begin_window() {
     tally = {};
@@ -63,6 +68,14 @@ struct Worker {
     collapse.reset();
     crowded.reset();
     too_fast = given_up = ended = false;
+  }
+  void begin_slice() {
+    relisted = 0;
+    safe_times.clear();
+    blocked.clear();
+    marked.clear();
+    border.clear();
+    near_border.clear();
   }
 };
 

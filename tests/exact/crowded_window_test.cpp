@@ -33,7 +33,7 @@ std::string outcome_of(Engine& engine, const Scene& scene) {
          std::to_string(s.counters.wall_collisions);
 }
 
-// Of both engines, with and without tiles; returns the reference's.
+// Of both engines, with and without regions; returns the reference's.
 std::string outcome(const Scene& scene, const State& initial) {
   const std::string plain = outcome_of(*make_reference_exact(scene, initial), scene);
   EXPECT_EQ(outcome_of(*make_parallel_engine(scene, initial, {1}), scene), plain);
@@ -78,7 +78,7 @@ TEST(CrowdedWindow, AnElasticBurstIsNoCollapseWhereOtherContactsDissipate) {
   EXPECT_THAT(outcome(scene, initial), HasSubstr("done"));
 }
 
-// A burst in a corner of a gas, in tiles: which event was too much is found without them.
+// A burst in a corner of a gas, with regions: which event was too much is found without them.
 TEST(CrowdedWindow, ABurstAmongOthersInTiles) {
   const Scene scene =
       make_scene({30, 30, "wall", "",

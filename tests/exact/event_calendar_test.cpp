@@ -35,12 +35,12 @@ const std::vector<Pattern> patterns = {
 };
 
 // Against a search through all disks.
-void expect_order(const Pattern& pattern, std::uint32_t disks, std::size_t expected) {
+void expect_order(const Pattern& pattern, std::uint32_t disks, std::size_t expected, bool many) {
   test::Draws draws(disks + expected);
   constexpr double start = 0.5;
   constexpr double end = 8.0;
   EventCalendar calendar;
-  calendar.begin(start, end, disks, expected);
+  calendar.begin(start, end, disks, expected, many);
   std::vector<double> time(disks);
   for (std::uint32_t k = 0; k < disks; ++k) {
     // Some before the start, which come first.
@@ -50,7 +50,7 @@ void expect_order(const Pattern& pattern, std::uint32_t disks, std::size_t expec
   std::uint32_t found = 0;
   for (int event = 0; event < 4000; ++event) {
     const auto first = static_cast<std::uint32_t>(std::min_element(time.begin(), time.end()) - time.begin());
-    const bool any = calendar.find_first(found, smaller_number, [](std::uint32_t) {});
+    const bool any = calendar.find_first(found, smaller_number, [](std::uint32_t, int) {});
     ASSERT_EQ(any, time[first] <= end) << pattern.name << ", event " << event;
     if (!any) return;
     ASSERT_EQ(found, first) << pattern.name << ", event " << event;
@@ -68,7 +68,8 @@ TEST(EventCalendar, GivesTheFirstEventOfAllDisks) {
   for (const Pattern& pattern : patterns) {
     for (const std::uint32_t disks : {1U, 3U, 50U, 700U}) {
       for (const std::size_t expected : {std::size_t{0}, std::size_t{10}, std::size_t{20000}}) {
-        expect_order(pattern, disks, expected);
+        expect_order(pattern, disks, expected, false);
+        expect_order(pattern, disks, expected, true);
       }
     }
   }
@@ -76,15 +77,78 @@ TEST(EventCalendar, GivesTheFirstEventOfAllDisks) {
 
 TEST(EventCalendar, HoldsTheLastMoment) {
   EventCalendar calendar;
-  calendar.begin(0.0, 1.0, 3, 0);
+  calendar.begin(0.0, 1.0, 3, 0, false);
   calendar.insert(0, 1.0);
   calendar.insert(1, std::nextafter(1.0, 2.0));
   calendar.insert(2, never);
   std::uint32_t found = 9;
-  ASSERT_TRUE(calendar.find_first(found, smaller_number, [](std::uint32_t) {}));
+  ASSERT_TRUE(calendar.find_first(found, smaller_number, [](std::uint32_t, int) {}));
   EXPECT_EQ(found, 0U);
   calendar.move(0, never, smaller_number);
-  EXPECT_FALSE(calendar.find_first(found, smaller_number, [](std::uint32_t) {}));
+  EXPECT_FALSE(calendar.find_first(found, smaller_number, [](std::uint32_t, int) {}));
+}
+
+// Disks that are taken out have no event until they are moved in again, some of them to a time that has passed.
+TEST(EventCalendar, ForgetsDisksThatAreOut) {
+  for (const bool many : {false, true}) {
+    test::Draws draws(7);
+    constexpr std::uint32_t disks = 300;
+    EventCalendar calendar;
+    calendar.begin(0.0, 4.0, disks, 2000, many);
+    std::vector<double> time(disks);
+    std::vector<bool> out(disks);
+    for (std::uint32_t k = 0; k < disks; ++k) {
+      time[k] = draws.in(0.0, 1.0);
+      out[k] = k % 7 == 0;
+      if (out[k]) {
+        calendar.leave_out(k);
+      } else {
+        calendar.insert(k, time[k]);
+      }
+    }
+    for (int event = 0; event < 3000; ++event) {
+      std::uint32_t first = disks;
+      for (std::uint32_t k = 0; k < disks; ++k) {
+        if (!out[k] && (first == disks || time[k] < time[first])) first = k;
+      }
+      std::uint32_t found = disks;
+      const bool any = calendar.find_first(found, smaller_number, [](std::uint32_t, int) {});
+      ASSERT_EQ(any, time[first] <= 4.0) << "event " << event;
+      if (!any) break;
+      ASSERT_EQ(found, first) << "event " << event;
+      time[found] += draws.in(0.0, 0.3);
+      calendar.move(found, time[found], smaller_number);
+      const auto other = static_cast<std::uint32_t>(draws.bits() % disks);
+      if (out[other]) {
+        time[other] = calendar.time_of(first) - (event % 2 == 0 ? 0.0 : 0.1);
+        calendar.move(other, time[other], smaller_number);
+      } else {
+        calendar.take_out(other);
+        ASSERT_EQ(calendar.time_of(other), time[other]);
+      }
+      out[other] = !out[other];
+      ASSERT_EQ(calendar.holds(other), !out[other]);
+    }
+  }
+}
+
+// Each disk of a page is announced before its event, at every stage in turn.
+TEST(EventCalendar, AnnouncesWhatComesSoon) {
+  constexpr std::uint32_t disks = 2000;
+  EventCalendar calendar;
+  calendar.begin(0.0, 1.0, disks, disks, true);
+  for (std::uint32_t k = 0; k < disks; ++k) calendar.insert(k, (k + 0.5) / disks);
+  std::vector<int> announced(disks, 0);
+  const auto soon = [&](std::uint32_t k, int stage) {
+    if (announced[k] == stage) ++announced[k];
+  };
+  std::uint32_t found = 0;
+  std::uint32_t in_time = 0;
+  while (calendar.find_first(found, smaller_number, soon)) {
+    in_time += announced[found] == EventCalendar::stages ? 1U : 0U;
+    calendar.move(found, never, smaller_number);
+  }
+  EXPECT_GT(in_time, disks * 9 / 10);
 }
 
 }  // namespace

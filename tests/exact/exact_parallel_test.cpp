@@ -31,7 +31,8 @@ std::string fingerprint(const State& s) {
       c.emitted, c.waiting, c.virial, c.wall_impulse[0], c.wall_impulse[1], c.wall_impulse[2], c.wall_impulse[3]);
 }
 
-// Tiles so small that even these scenes have many; with 1 in place of 128 there are none, and one queue has all events.
+// Regions and tiles so small that even these scenes have some; with 1 in place of 128 there are none, and one queue
+// has all events.
 State run_parallel(const Scene& scene, const State& initial, int threads, std::size_t block_divisor = 128) {
   const auto engine = make_parallel_engine(scene, initial, {threads, block_divisor});
   run_to_end(*engine, scene);
@@ -201,8 +202,8 @@ TEST(ExactParallelCollapse, IsReportedAlike) {
     EngineMode mode;
   };
   for (const Case c :
-       {Case{26, 1, EngineMode::all_pairs}, Case{160, 1, EngineMode::single_queue}, Case{160, 128, EngineMode::tiled},
-        Case{160, 512, EngineMode::tiled}, Case{160, 1024, EngineMode::tiled}}) {
+       {Case{26, 1, EngineMode::all_pairs}, Case{160, 1, EngineMode::single_queue}, Case{160, 128, EngineMode::regions},
+        Case{160, 512, EngineMode::regions}, Case{160, 1024, EngineMode::regions}}) {
     SCOPED_TRACE(fmt::format("{} disks, divisor {}", c.disks, c.block_divisor));
     ASSERT_EQ(choose_layout(static_cast<std::size_t>(c.disks), true, Executor(3, c.block_divisor)).mode, c.mode);
     const Scene scene = collapsing_gas(c.disks);
@@ -247,8 +248,8 @@ TEST(ExactParallelSpeeds, ThatRiseAThousandfoldWithinAWindow) {
   EXPECT_GT(fastest2, 100.0 * 100.0);
 }
 
-// Tiles and regions of the size that runs have.
-TEST(ExactParallelSize, TilesAsTheyAre) {
+// Regions of the size that runs have.
+TEST(ExactParallelSize, RegionsAsTheyAre) {
   const Scene scene = make_scene({285, 285, "periodic", "", disks(50000, equal), 0.12, ""});
   const State initial = initial_state(scene);
   const std::string reference = fingerprint(run_reference(scene, initial));

@@ -87,10 +87,10 @@ void expect_lists(std::size_t n, const ListLayout& layout, bool mixed, bool peri
 TEST(NeighbourLists, HoldAllDisksNear) {
   for (const bool mixed : {false, true}) {
     for (const bool periodic : {false, true}) {
-      expect_lists(30, {EngineMode::all_pairs, 0, 1.0}, mixed, periodic);
-      expect_lists(400, {EngineMode::single_queue, 0, 1.0}, mixed, periodic);
+      expect_lists(30, {EngineMode::all_pairs, 0, 0, 1.0, false}, mixed, periodic);
+      expect_lists(400, {EngineMode::single_queue, 0, 0, 1.0, false}, mixed, periodic);
       for (const std::size_t disks_per_tile : {1U, 10U, 100U}) {
-        expect_lists(400, {EngineMode::tiled, disks_per_tile, 0.9}, mixed, periodic);
+        expect_lists(400, {EngineMode::regions, disks_per_tile, 2, 0.9, false}, mixed, periodic);
       }
     }
   }
@@ -105,7 +105,7 @@ TEST(NeighbourLists, KeepToTheirRegion) {
   Disks d = random_disks(draws, 2000, 60.0, 60.0, false);
   NeighbourLists lists;
   const Executor executor(1);
-  lists.build(d, box, {EngineMode::tiled, 100, 0.9}, executor);
+  lists.build(d, box, {EngineMode::regions, 100, 2, 0.9, false}, executor);
   const std::uint32_t half = lists.tiles() / 2;
   const ListRegion region = lists.region_of_tiles(0, half);
   FoundNeighbours found;
