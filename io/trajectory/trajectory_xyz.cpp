@@ -20,10 +20,10 @@ namespace carom {
 
 namespace {
 
-// A space and a double as %.17g writes it: enough digits for every double to come back as the same bits.
+// A space and a double, with as many digits as it takes to come back as the same bits.
 void append_number(std::string& text, double value) {
   char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 17);
+  const auto end = std::to_chars(digits, digits + sizeof digits, value);
   text += ' ';
   text.append(digits, end.ptr);
 }

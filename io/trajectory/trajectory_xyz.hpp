@@ -41,7 +41,7 @@ class XyzWriter {
   // shorter.
   XyzWriter(const std::string& path, XyzPlan plan, const FileMark& from);
 
-  // One frame: the selected disks in order of id, numbers with 17 significant digits.
+  // One frame: the selected disks in order of id, numbers with as many digits as it takes to read them back.
   void write(const Disks& disks, double time, const BlockRunner& run = run_in_order);
 
   // Where the file has come to; all up to there is on the disk.
