@@ -7,6 +7,7 @@
 
 #include "core/physics/event_order.hpp"
 #include "core/step/window_length.hpp"
+#include "parallel/exact/prefetch_event.hpp"
 
 namespace carom {
 
@@ -18,8 +19,6 @@ bool is_plain(const WindowState& window) {
 }
 
 constexpr Count events_between_polls = 4096;
-// Of a list. What follows a shorter one in memory are neighbours that the disk had before.
-constexpr std::uint32_t prefetched_neighbours = 12;
 // The calendar makes room for no more: windows aim at two.
 constexpr double most_events_a_disk = 2.2;
 
@@ -90,7 +89,7 @@ template <Scope scope>
 inline bool EventProcessor<scope>::find_first(std::uint32_t& i) {
   const auto order = [this](std::uint32_t a, std::uint32_t b) { return comes_first(a + first_, b + first_); };
   const auto soon = [this](std::uint32_t k, int stage) __attribute__((always_inline)) {
-    announce(k + first_, stage);
+    prefetch_event(record_, lists_, worker_, k + first_, stage);
   };
   const bool found = worker_.calendar.find_first(i, order, soon);
   i += first_;
@@ -134,36 +133,6 @@ void EventProcessor<scope>::run_border() {
   while (!worker_.ended && worker_.queue.pop(e, name_event, prefetch)) {
     process_border(e);
     if (worker_.until_poll-- == 0) poll_watch();
-  }
-}
-
-// Prefetches what an event of the disk reads: the disk and its list; its neighbours, its partner and the partner's
-// list; the partner's neighbours.
-template <Scope scope>
-inline void EventProcessor<scope>::announce(std::uint32_t i, int stage) const {
-  if (stage == 0) {
-    __builtin_prefetch(&record_[i]);
-    lists_.prefetch(i);
-    return;
-  }
-  const Partner partner = record_[i].partner;
-  if (stage == 1) prefetch_neighbours(i);
-  if (!partner.is_disk() || !worker_.region.holds(partner.index())) return;
-  const std::uint32_t j = partner.index();
-  if (stage == 1) {
-    __builtin_prefetch(&record_[j]);
-    lists_.prefetch(j);
-    worker_.calendar.prefetch(j - first_);
-  } else {
-    prefetch_neighbours(j);
-  }
-}
-
-template <Scope scope>
-inline void EventProcessor<scope>::prefetch_neighbours(std::uint32_t i) const {
-  const std::int16_t* const offset = lists_.rows().plain_list(i).offset;
-  for (std::uint32_t k = 0; k < prefetched_neighbours; ++k) {
-    __builtin_prefetch(&record_[i + static_cast<std::uint32_t>(std::int32_t{offset[k]})]);
   }
 }
 

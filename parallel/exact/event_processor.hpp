@@ -46,9 +46,6 @@ class EventProcessor {
   void run_border();
   [[gnu::always_inline]] inline bool find_first(std::uint32_t& i);
   bool comes_first(std::uint32_t a, std::uint32_t b) const;
-  // Inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
-  [[gnu::always_inline]] inline void announce(std::uint32_t i, int stage) const;
-  [[gnu::always_inline]] inline void prefetch_neighbours(std::uint32_t i) const;
   void process(std::uint32_t i, double time);
   void process_pair(std::uint32_t i, std::uint32_t j, double time);
   void process_border(const QueuedEvent& e);

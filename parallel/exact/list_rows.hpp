@@ -83,7 +83,7 @@ class ListRows {
     std::uint32_t more = none;  // number of a wide row of its block
     std::uint8_t count = 0;
     std::uint8_t sides = 0;
-    std::uint16_t block = 0;  // its tile, where there are tiles
+    std::uint16_t block = 0;  // its tile, where there are regions
     std::int16_t offset[row_capacity] = {};
   };
   static_assert(sizeof(Row) == 64);

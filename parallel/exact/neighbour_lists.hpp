@@ -96,17 +96,11 @@ class NeighbourLists {
   }
   const ListRows& rows() const { return rows_; }
 
-  // Prefetches the list of disk i, or of disks [first, last).
+  // Prefetches the list of disk i.
   [[gnu::always_inline]] void prefetch(std::uint32_t i) const {
     rows_.prefetch(i);
     __builtin_prefetch(&listed_at_[i]);
   }
-  void prefetch(std::uint32_t first, std::uint32_t last) const {
-    const FixedPointPosition* const position = listed_at_.data();
-    for (std::uint32_t i = first; i < last; ++i) rows_.prefetch(i);
-    for (std::uint32_t i = first; i < last; i += 64 / sizeof(FixedPointPosition)) __builtin_prefetch(position + i);
-  }
-
   // A time up to which the disk, now (at time `from`) on this path, stays within the relist distance of its listed
   // position; `from` itself when it does not. Extrapolates no further than `until`, or as far as gravity bends the path
   // little.

@@ -1,0 +1,46 @@
+// Prefetching what an event reads, some events before it comes. Inlined, as g++ 12 leaves out calls of functions that
+// do nothing but prefetch.
+#pragma once
+
+#include <cstdint>
+
+#include "parallel/exact/disk_record.hpp"
+#include "parallel/exact/neighbour_lists.hpp"
+#include "parallel/exact/worker.hpp"
+
+namespace carom {
+
+// Of a list. What follows a shorter one in memory are neighbours that the disk had before.
+inline constexpr std::uint32_t prefetched_neighbours = 12;
+
+[[gnu::always_inline]] inline void prefetch_neighbours(const DiskRecord* record, const NeighbourLists& lists,
+                                                       std::uint32_t i) {
+  const std::int16_t* const offset = lists.rows().plain_list(i).offset;
+  for (std::uint32_t k = 0; k < prefetched_neighbours; ++k) {
+    __builtin_prefetch(&record[i + static_cast<std::uint32_t>(std::int32_t{offset[k]})]);
+  }
+}
+
+// For an event of disk i. At stage 0 the disk and its list; at stage 1, when those have come, its neighbours, its
+// partner and the partner's list; at stage 2 the partner's neighbours. Reads nothing outside the worker's region.
+[[gnu::always_inline]] inline void prefetch_event(const DiskRecord* record, const NeighbourLists& lists,
+                                                  const Worker& worker, std::uint32_t i, int stage) {
+  if (stage == 0) {
+    __builtin_prefetch(&record[i]);
+    lists.prefetch(i);
+    return;
+  }
+  if (stage == 1) prefetch_neighbours(record, lists, i);
+  const Partner partner = record[i].partner;
+  if (!partner.is_disk() || !worker.region.holds(partner.index())) return;
+  const std::uint32_t j = partner.index();
+  if (stage == 1) {
+    __builtin_prefetch(&record[j]);
+    lists.prefetch(j);
+    worker.calendar.prefetch(j - worker.region.first_disk);
+  } else {
+    prefetch_neighbours(record, lists, j);
+  }
+}
+
+}  // namespace carom
