@@ -55,6 +55,9 @@ bool CheckpointKeeper::look(const State& state, double t_end, double step_s) {
     stopped_by_ = stop_signal_name();
   } else if (now > max_walltime_) {
     stopped_by_ = "--max-walltime";
+  } else if (!asked_.empty()) {
+    stopped_by_ = asked_;
+    if (folder_ == nullptr) return false;
   }
   const bool stop = !stopped_by_.empty();
   if (!stop && wish == Wish::nothing && now < due_) return true;

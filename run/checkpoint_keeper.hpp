@@ -28,6 +28,10 @@ class CheckpointKeeper {
   // Throws RunError where it cannot be written; the ones before stay.
   bool look(const State& state, double t_end, double step_s);
 
+  // The next look() is to stop the run for this reason, such as "Ctrl-C"; an empty one changes nothing. It then writes
+  // a checkpoint only if the run has a folder.
+  void ask_to_stop(const std::string& why) { asked_ = why; }
+
   // Is the run to stop, by a signal or since its time is up? To be asked at any time, by any thread.
   bool wants_stop() const;
 
@@ -63,6 +67,7 @@ class CheckpointKeeper {
   std::optional<OutputFolder> own_folder_;
   RunOutputs* outputs_ = nullptr;
   std::string written_to_;  // the folder's name, which outlives it; empty: no checkpoint yet
+  std::string asked_;       // why the caller wants it to stop
   std::string stopped_by_;
   std::string note_;
 };

@@ -5,6 +5,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "core/base/float_environment.hpp"
+
 #ifdef CAROM_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
 #endif
@@ -59,6 +61,7 @@ void Executor::run_blocks(std::size_t blocks, Call call, void* task) const {
         tbb::blocked_range<std::size_t>(0, blocks, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
           order.begin_block();
+          const FloatEnvironment environment;
           for (std::size_t b = range.begin(); b != range.end(); ++b) call(task, b);
           order.end_block();
         },

@@ -1,0 +1,64 @@
+#include "app/run/run_and_report.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/cli/messages.hpp"
+#include "app/cli/progress.hpp"
+#include "app/run/growth_line.hpp"
+
+namespace carom {
+
+namespace {
+
+// Runs with what the run says shown as it comes, a line of progress below.
+RunOutcome run_shown(const CarryOptions& options, const Scene& scene, RunSettings settings,
+                     std::optional<ResumeFrom> from, std::unique_ptr<SetupWatch> setup) {
+  std::optional<Progress> progress;
+  RunListener& listener = settings.listener;
+  listener.ready = [&] { setup = nullptr; };
+  if (!options.quiet) {
+    const auto clear = [&] {
+      if (progress) progress->clear();
+    };
+    listener.growth = growth_line(!from);
+    listener.begins = [&](const State& state) { progress.emplace(true, scene.run.t_end, state); };
+    listener.progress = [&](const State& state) { progress->update(state); };
+    listener.note = [=](std::string_view text) { clear(), print_note(text); };
+    listener.warning = [=](std::string_view text) { clear(), print_warning(text); };
+  }
+  return from ? resume(scene, std::move(*from), std::move(settings)) : run(scene, std::move(settings));
+}
+
+}  // namespace
+
+RunSettings settings_of(const CarryOptions& options) {
+  RunSettings settings;
+  settings.max_walltime = options.max_walltime;
+  settings.force = options.force;
+  settings.strict = options.strict;
+  return settings;
+}
+
+int run_and_report(const CarryOptions& options, const Scene& scene, RunSettings settings,
+                   std::optional<ResumeFrom> from, std::unique_ptr<SetupWatch> setup) {
+  const RunOutcome outcome = run_shown(options, scene, std::move(settings), std::move(from), std::move(setup));
+  const Summary& summary = outcome.summary;
+  const bool stopped = !outcome.stopped_by.empty();
+  if (stopped) {
+    print_note(fmt::format("stopped by {} at t = {:g} of {:g}; go on with {}", outcome.stopped_by, summary.time,
+                           scene.run.t_end, summary.resume_with));
+  }
+  if (options.json) {
+    print_out(json_text(summary));
+  } else if (!options.quiet && !stopped) {
+    print_out(table_text(summary, outcome.folder));
+  }
+  if (stopped) return 4;
+  if (outcome.lost_pictures.empty()) return 0;
+  print_note(fmt::format("error: {}", outcome.lost_pictures));
+  return 1;
+}
+
+}  // namespace carom

@@ -1,0 +1,21 @@
+// A run as the command line shows it: progress and warnings on standard error, what it came to on standard output.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "app/cli/command_line.hpp"
+#include "app/run/setup_watch.hpp"
+#include "run/run_scene.hpp"
+
+namespace carom {
+
+// What the options say of a run, but for its engine and its folder.
+RunSettings settings_of(const CarryOptions& options);
+
+// Runs the scene, or goes on from a checkpoint, and reports. setup: ends when the disks are there; may be null. Returns
+// the exit status: 0, 4 if stopped early, or 1 if a picture could not be made. Throws as run() does.
+int run_and_report(const CarryOptions& options, const Scene& scene, RunSettings settings,
+                   std::optional<ResumeFrom> from, std::unique_ptr<SetupWatch> setup);
+
+}  // namespace carom

@@ -1,0 +1,56 @@
+#include "run/run_files.hpp"
+
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "core/scene/scene_text.hpp"
+#include "io/files/checkpoint_names.hpp"
+#include "io/files/output_file.hpp"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Brings the files that the run goes on with into the folder's unfinished part. Returns the folder.
+const OutputFolder& with_files(OutputFolder& folder, const fs::path& path, const ResumeFrom& from) {
+  const CheckpointPlace& place = from.place;
+  std::vector<std::string> files;
+  for (const MarkedFile& file : files_of(from.checkpoint.record.outputs)) files.push_back(file.name);
+  if (goes_elsewhere(from, path)) {
+    for (const std::string& file : files) {
+      fs::copy(present_path(place.folder, file), folder.path(file), fs::copy_options::recursive);
+    }
+    return folder;
+  }
+  // What comes after the checkpoint that was named is given up, a damaged newer one with it.
+  if (place.file.filename() == previous_checkpoint_name) {
+    fs::rename(place.file, place.file.parent_path() / checkpoint_name);
+  }
+  files.insert(files.end(), {previous_checkpoint_name, checkpoint_name});
+  folder.take_back(place.finished, files);
+  return folder;
+}
+
+}  // namespace
+
+bool goes_elsewhere(const ResumeFrom& from, const fs::path& folder) {
+  std::error_code error;
+  return !fs::equivalent(folder, from.place.folder, error);
+}
+
+RunFiles::RunFiles(const Scene& scene, const RunSettings& settings, const fs::path& path)
+    : folder(path, scene.file, settings.force), outputs(scene, folder, make_pair_counter(settings.engine)) {
+  write_file(folder.path("scene.toml"), resolved_toml(scene));
+}
+
+RunFiles::RunFiles(const Scene& scene, const RunSettings& settings, const fs::path& path, const ResumeFrom& from)
+    : folder(goes_elsewhere(from, path) ? OutputFolder(path, from.place.file, settings.force) : OutputFolder(path)),
+      outputs(scene, with_files(folder, path, from), make_pair_counter(settings.engine),
+              from.checkpoint.record.outputs) {
+  write_file(folder.path("scene.toml"), resolved_toml(scene));
+}
+
+}  // namespace carom

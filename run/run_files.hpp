@@ -1,0 +1,25 @@
+// The files of a run, from the first byte to the finished folder.
+#pragma once
+
+#include <filesystem>
+
+#include "io/files/output_folder.hpp"
+#include "run/run_outputs.hpp"
+#include "run/run_scene.hpp"
+
+namespace carom {
+
+// Does the run go on in another folder than the one in which its files lie, with copies of them?
+bool goes_elsewhere(const ResumeFrom& from, const std::filesystem::path& folder);
+
+struct RunFiles {
+  // Of a run that begins; scene must outlive it. Throws InputError, RunError.
+  RunFiles(const Scene& scene, const RunSettings& settings, const std::filesystem::path& path);
+  // Of a run that goes on.
+  RunFiles(const Scene& scene, const RunSettings& settings, const std::filesystem::path& path, const ResumeFrom& from);
+
+  OutputFolder folder;
+  RunOutputs outputs;
+};
+
+}  // namespace carom

@@ -1,0 +1,323 @@
+#include "run/run_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "core/base/check.hpp"
+#include "core/base/float_environment.hpp"
+#include "core/measure/energy_gain.hpp"
+#include "core/scene/scene_text.hpp"
+#include "core/step/validity.hpp"
+#include "io/files/checkpoint_names.hpp"
+#include "io/files/output_file.hpp"
+#include "run/checkpoint_keeper.hpp"
+#include "run/run_files.hpp"
+#include "run/run_loop.hpp"
+#include "run/strict_engine.hpp"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Calls one of a listener's functions, if it is there.
+template <class Function, class... Arguments>
+void tell(const Function& function, const Arguments&... arguments) {
+  if (function) function(arguments...);
+}
+
+void tell_all(const RunListener& listener, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) tell(listener.warning, warning);
+}
+
+// What the machine did not let happen; how to go on where there is a checkpoint.
+[[noreturn]] void fail_resumable(const std::string& what, const CheckpointKeeper& keeper) {
+  const std::string command = keeper.resume_command();
+  throw RunError(command.empty() ? what : fmt::format("{}; the last checkpoint is whole: {}", what, command));
+}
+
+// What the run warns of when it has come to this state: of its start, and the worst of what was seen.
+std::vector<std::string> warnings_so_far(const RunRecord& record, const Scene& scene, const State& state) {
+  std::vector<std::string> warnings = record.warnings;
+  for (std::string& warning : validity_so_far(scene, state)) warnings.push_back(std::move(warning));
+  return warnings;
+}
+
+// The record of a run that begins, or of one that goes on.
+RunRecord record_of(const Scene& scene, const ResumeFrom* from, const RunSettings& settings, const Engine& engine) {
+  RunRecord record;
+  if (from != nullptr) {
+    record = from->checkpoint.record;
+    ++record.resumed;
+  } else {
+    record.start = run_start(engine.state(), scene);
+    record.scene_file = scene.file;
+  }
+  record.version = CAROM_VERSION;
+  record.scene_text = resolved_toml(scene);
+  record.engine = settings.engine.name;
+  return record;
+}
+
+// Plots and a movie that could not be made, on one line, and how to make them.
+std::string lost_pictures(const Scene& scene, const RunFiles& files, bool resumable) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+  for (const std::string& plot : files.outputs.lost_plots()) add(plot);
+  const std::string& folder = files.folder.name();
+  const std::string& movie = files.outputs.lost_movie();
+  if (!movie.empty()) add(movie);
+  if (text.empty()) return text;
+  add(fmt::format("all else of the run is in {}", folder));
+  if (resumable && !files.outputs.lost_plots().empty()) add(fmt::format("carom resume {} draws the plots", folder));
+  if (!movie.empty() && scene.output.trajectory != TrajectoryFormat::none) {
+    add(fmt::format("carom render {} makes the movie", folder));
+  }
+  return text;
+}
+
+// One run, with its engine, its files (if any) and its checkpoints.
+class SceneRun {
+ public:
+  SceneRun(const Scene& scene, const RunSettings& settings, Engine& engine, RunFiles* files, CheckpointKeeper& keeper,
+           bool goes_on)
+      : scene_(scene),
+        settings_(settings),
+        listener_(settings.listener),
+        engine_(engine),
+        files_(files),
+        keeper_(keeper),
+        goes_on_(goes_on) {}
+
+  // Steps to the end with all outputs, progress and checkpoints, or until the keeper says stop.
+  void go();
+
+  // What the run came to, when it has stopped early; and at its end, with all files complete.
+  RunOutcome stopped();
+  RunOutcome finished();
+
+ private:
+  RunObserver observer();
+  void take_news(bool silent);
+  bool pulse(double seconds);
+  void take_output_warnings() { tell_all(listener_, files_->outputs.take_warnings()); }
+  [[noreturn]] void keep_stopped(const PhysicsError& error);
+  Summary summary() const;
+  bool keep_last_checkpoint(const OutputMark& mark);
+
+  const Scene& scene_;
+  const RunSettings& settings_;
+  const RunListener& listener_;
+  Engine& engine_;
+  RunFiles* files_;
+  CheckpointKeeper& keeper_;
+  bool goes_on_;
+  double step_s_ = 0.0;            // seconds in steps
+  std::vector<std::string> told_;  // the warnings that the engine has raised
+};
+
+void SceneRun::take_news(bool silent) {
+  const std::vector<std::string> news = engine_.take_warnings();
+  if (!silent) tell_all(listener_, news);
+  told_.insert(told_.end(), news.begin(), news.end());
+}
+
+bool SceneRun::pulse(double seconds) {
+  step_s_ = seconds;
+  take_news(false);
+  tell(listener_.progress, engine_.state());
+  if (listener_.stop) keeper_.ask_to_stop(listener_.stop());
+  const bool go_on = keeper_.look(engine_.state(), scene_.run.t_end, seconds);
+  const std::string note = keeper_.take_note();
+  if (!note.empty()) tell(listener_.note, note);
+  return go_on;
+}
+
+RunObserver SceneRun::observer() {
+  RunObserver observer;
+  observer.go_on = [this] { return !keeper_.wants_stop(); };
+  observer.pulse = [this](double seconds) { return pulse(seconds); };
+  if (files_ == nullptr) return observer;
+  RunOutputs& outputs = files_->outputs;
+  if (wants_frames(scene_.output)) {
+    observer.frame = [this, &outputs](const Disks& disks, double time) {
+      outputs.follow(engine_, time);
+      outputs.frame(disks, time, engine_.state());
+      take_output_warnings();
+    };
+    if (goes_on_ && outputs.frames() > 0) observer.last_frame = outputs.last_time();
+  }
+  if (RunningAnalysis* const analysis = outputs.analysis()) {
+    observer.sample = [this, &outputs, analysis](const Disks& disks, double time) {
+      outputs.follow(engine_, time);
+      analysis->sample(disks, time, engine_.state());
+      take_output_warnings();
+    };
+    if (!analysis->record().series.time.empty()) observer.last_sample = analysis->last_time();
+  }
+  if (outputs.follows()) observer.stepped = [this, &outputs] { outputs.follow(engine_, engine_.state().time); };
+  return observer;
+}
+
+void SceneRun::go() {
+  tell(listener_.begins, engine_.state());
+  try {
+    step_s_ = run_to_end(engine_, scene_, observer());
+    if (settings_.strict && keeper_.stopped_by().empty()) {
+      fail_if_any(energy_warnings(scene_, keeper_.record(step_s_).start, engine_.state()));
+    }
+  } catch (const PhysicsError& error) {
+    // The state that is kept has them marked as told; with --strict the error has the warning.
+    take_news(settings_.strict);
+    if (files_ == nullptr) throw;
+    keep_stopped(error);
+  }
+}
+
+// A run that a PhysicsError stopped keeps what it has written, for inspection, in a place where it cannot be taken for
+// a result; and the last good state as a checkpoint.
+void SceneRun::keep_stopped(const PhysicsError& error) {
+  std::string last_state;
+  try {
+    keeper_.write(engine_.state(), step_s_);
+    last_state = fmt::format(", its last good state in {}", checkpoint_name);
+  } catch (const RunError& why) {
+    last_state = fmt::format("; {}", why.what());
+  }
+  files_->outputs.finish(false);
+  throw PhysicsError(fmt::format("{}; the run up to there is kept in {}{}", error.what(),
+                                 files_->folder.keep_unfinished(), last_state));
+}
+
+Summary SceneRun::summary() const {
+  const RunRecord record = keeper_.record(step_s_);
+  Summary summary = summarize(record.start, engine_, scene_, settings_.engine);
+  summary.frames = files_ != nullptr ? files_->outputs.frames() : 0;
+  summary.step_s = record.step_s;
+  summary.wall_s = record.wall_s;
+  summary.cpu_s = record.cpu_s;
+  summary.resumed = record.resumed;
+  summary.warnings = warnings_so_far(record, scene_, engine_.state());
+  return summary;
+}
+
+RunOutcome SceneRun::stopped() {
+  if (files_ != nullptr) files_->outputs.pause();
+  RunOutcome outcome{summary(), files_ != nullptr ? files_->folder.name() : "", keeper_.stopped_by(), ""};
+  outcome.summary.resume_with = keeper_.resume_command();
+  return outcome;
+}
+
+// The last checkpoint of a run that is done: asked for, or needed to draw lost plots from. Is there one?
+bool SceneRun::keep_last_checkpoint(const OutputMark& mark) {
+  const bool wanted = scene_.output.checkpoint > 0.0;
+  if (!wanted && files_->outputs.lost_plots().empty()) return false;
+  try {
+    keeper_.write(engine_.state(), step_s_, mark);
+  } catch (const RunError&) {
+    if (wanted) throw;
+    return false;
+  }
+  return true;
+}
+
+RunOutcome SceneRun::finished() {
+  bool keeps_checkpoint = false;
+  if (files_ != nullptr) {
+    const OutputMark mark = files_->outputs.finish(true);
+    keeps_checkpoint = keep_last_checkpoint(mark);
+    take_output_warnings();
+  }
+  for (const std::string& warning : worst_moments(scene_, engine_.state())) {
+    if (std::find(told_.begin(), told_.end(), warning) == told_.end()) tell(listener_.warning, warning);
+  }
+  keeper_.discard_own_folder();
+  RunOutcome outcome{summary(), "", "", ""};
+  std::vector<std::string> at_end = energy_warnings(scene_, keeper_.record(step_s_).start, engine_.state());
+  for (const std::string& warning : waiting_warnings(scene_, engine_.state())) at_end.push_back(warning);
+  tell_all(listener_, at_end);
+  outcome.summary.warnings.insert(outcome.summary.warnings.end(), at_end.begin(), at_end.end());
+  if (files_ == nullptr) return outcome;
+  write_file(files_->folder.path("summary.json"), json_text(outcome.summary));
+  files_->folder.finish(keeps_checkpoint);
+  outcome.folder = files_->folder.name();
+  outcome.lost_pictures = lost_pictures(scene_, *files_, keeps_checkpoint);
+  return outcome;
+}
+
+State state_of(const Scene& scene, ResumeFrom* from, RunSettings& settings) {
+  if (from != nullptr) return std::move(from->checkpoint.state);
+  // Its line of progress goes with it.
+  const auto watch = std::exchange(settings.listener.growth, {});
+  return make_initial_state(settings.engine, scene, watch);
+}
+
+// The engine at the run's start. warnings: of that start.
+std::unique_ptr<Engine> engine_of(const Scene& scene, ResumeFrom* from, RunSettings& settings,
+                                  std::vector<std::string>& warnings) {
+  auto engine =
+      within_memory(scene, [&] { return make_engine(settings.engine, scene, state_of(scene, from, settings)); });
+  const State& state = engine->state();
+  warnings = validity_of(scene, smallest_radius(state.disks), fastest_speed(state.disks));
+  if (!settings.strict) return engine;
+  fail_if_any(warnings);
+  if (from != nullptr) fail_if_any(warnings_so_far(from->checkpoint.record, scene, state));
+  return make_strict(std::move(engine));
+}
+
+RunOutcome carry_out(const Scene& scene, ResumeFrom* from, RunSettings settings) {
+  const FloatEnvironment environment;
+  std::vector<std::string> warnings;
+  const std::unique_ptr<Engine> engine = engine_of(scene, from, settings, warnings);
+  tell_all(settings.listener, warnings);
+  tell(settings.listener.ready);
+  RunRecord record = record_of(scene, from, settings, *engine);
+  if (from == nullptr) record.warnings = warnings;
+  const bool new_plan = from != nullptr && record.scene_text != from->checkpoint.record.scene_text;
+  const double interval = settings.folder ? scene.output.checkpoint : 0.0;
+  CheckpointKeeper keeper(record, settings.start_time, interval, settings.max_walltime);
+  try {
+    std::optional<RunFiles> results;
+    if (settings.folder && from != nullptr) results.emplace(scene, settings, *settings.folder, *from);
+    if (settings.folder && from == nullptr) results.emplace(scene, settings, *settings.folder);
+    RunFiles* const files = results ? &*results : nullptr;
+    if (files != nullptr) files->outputs.share_work(make_block_runner(settings.engine));
+    const bool there = from != nullptr && settings.folder && !goes_elsewhere(*from, *settings.folder);
+    if (files != nullptr) keeper.write_to(&files->folder, &files->outputs, there);
+    // So that a run that is killed in its first minutes is not lost, nor the options with which it was resumed.
+    const bool wanted = from != nullptr || scene.output.checkpoint > 0.0;
+    if (files != nullptr && (new_plan || (!there && wanted))) keeper.write(engine->state(), 0.0);
+    SceneRun scene_run(scene, settings, *engine, files, keeper, from != nullptr);
+    scene_run.go();
+    return keeper.stopped_by().empty() ? scene_run.finished() : scene_run.stopped();
+  } catch (const RunError& error) {
+    fail_resumable(error.what(), keeper);
+  } catch (const std::bad_alloc&) {
+    fail_resumable("out of memory", keeper);
+  }
+}
+
+}  // namespace
+
+RunOutcome run(const Scene& scene, RunSettings settings) {
+  return carry_out(scene, nullptr, std::move(settings));
+}
+
+RunOutcome resume(const Scene& scene, ResumeFrom from, RunSettings settings) {
+  return carry_out(scene, &from, std::move(settings));
+}
+
+std::optional<fs::path> usual_folder(const Scene& scene, bool force) {
+  if (!wants_files(scene)) return std::nullopt;
+  const fs::path wanted = fs::path("out") / fs::path(scene.file).stem();
+  if (!force) return free_output_folder(wanted, scene.file);
+  check_output_folder(wanted, scene.file, true);
+  return wanted;
+}
+
+}  // namespace carom
