@@ -91,7 +91,7 @@ double brownian_step(const Scene& scene, double radius) {
 // When a disk that falls from this height, moving up at vy, has bounced its last on the floor, if nothing else meets
 // it: the flights become shorter by the wall's restitution each time.
 double rest_time(const Scene& scene, double height, double vy) {
-  const double g = scene.physics.gravity, e = scene.box.wall_restitution;
+  const double g = scene.physics.gravity, e = scene.box.restitution(Side::bottom);
   const double landing = std::sqrt(vy * vy + 2.0 * g * std::max(height, 0.0));
   return (vy + landing) / g + 2.0 * landing * e / (g * (1.0 - e));
 }
@@ -173,7 +173,7 @@ CollapseForesight foresee_collapse(const Scene& scene, const Disks& start) {
   const SceneScales scales = scales_of(scene);
   if (!scales.may_collapse) return {};
   const bool floor = p.gravity > 0.0 && scene.box.side(Side::bottom) == SideKind::wall;
-  if (!floor || scene.box.wall_restitution >= 1.0) return {p.gravity == 0.0 || floor, std::nullopt};
+  if (!floor || scene.box.restitution(Side::bottom) >= 1.0) return {p.gravity == 0.0 || floor, std::nullopt};
   const double first = first_rest(scene, start);
   return first < scene.run.t_end ? CollapseForesight{true, first} : CollapseForesight{};
 }

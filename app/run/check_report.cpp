@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/cli/progress.hpp"
 #include "core/base/short_number.hpp"
@@ -30,11 +31,25 @@ std::string sides_text(const Domain& box) {
   return text;
 }
 
+// Restitution at walls: one for all, or each with the name of its side.
+std::string walls_text(const Domain& box) {
+  std::string text;
+  bool equal = true;
+  std::optional<double> first;
+  for (const Side side : all_sides) {
+    if (box.side(side) != SideKind::wall) continue;
+    equal = equal && box.restitution(side) == first.value_or(box.restitution(side));
+    if (!first) first = box.restitution(side);
+    text += fmt::format(", {:g} at the {} wall", box.restitution(side), side_names[static_cast<std::size_t>(side)]);
+  }
+  return equal && first ? fmt::format(", {:g} at walls", *first) : text;
+}
+
 std::string physics_text(const Scene& scene) {
   const Physics& p = scene.physics;
   std::string text = p.gravity > 0.0 ? fmt::format("gravity {:g} downwards; ", p.gravity) : "no gravity; ";
   text += p.restitution == 1.0 ? "elastic collisions" : fmt::format("restitution {:g} of disks", p.restitution);
-  if (scene.box.has(SideKind::wall)) text += fmt::format(", {:g} at walls", scene.box.wall_restitution);
+  text += walls_text(scene.box);
   if (p.diffusion > 0.0) {
     text += fmt::format("; Brownian motion, D = {:g}{}", p.diffusion, p.accumulate ? ", accumulating velocity" : "");
   }

@@ -17,9 +17,18 @@ struct Domain {
   double width = 0.0;   // length
   double height = 0.0;  // length
   std::array<SideKind, 4> sides{SideKind::wall, SideKind::wall, SideKind::wall, SideKind::wall};
-  double wall_restitution = 1.0;  // in [0, 1]; elastic whatever e is in docs/original.md
+  std::array<double, 4> restitutions{1.0, 1.0, 1.0, 1.0};  // in [0, 1]; only those of walls count
 
   SideKind side(Side s) const { return sides[static_cast<std::size_t>(s)]; }
+  // Of a wall: speed away from it over speed towards it. Elastic whatever e is in docs/original.md.
+  double restitution(Side s) const { return restitutions[static_cast<std::size_t>(s)]; }
+  // May a collision with a wall lose energy?
+  bool walls_dissipate() const {
+    for (Side s : all_sides) {
+      if (side(s) == SideKind::wall && restitution(s) < 1.0) return true;
+    }
+    return false;
+  }
   bool periodic_x() const { return side(Side::left) == SideKind::periodic; }
   bool periodic_y() const { return side(Side::bottom) == SideKind::periodic; }
   bool has(SideKind kind) const {

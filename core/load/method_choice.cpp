@@ -95,7 +95,7 @@ bool may_collapse(const Scene& scene, double disks, bool settles) {
   const double e = scene.physics.restitution;
   constexpr double two_dimensions = 0.6;
   if (!settles) return e <= two_dimensions && disks > 2.0;
-  if (scene.box.side(Side::bottom) == SideKind::wall && scene.box.wall_restitution < 1.0) return true;
+  if (scene.box.side(Side::bottom) == SideKind::wall && scene.box.restitution(Side::bottom) < 1.0) return true;
   return e < 1.0 && disks > std::log(4.0 / (1.0 - e)) / (1.0 - e);
 }
 

@@ -20,6 +20,7 @@
 #include "core/scene/scene_override.hpp"
 #include "core/scene/scene_range_check.hpp"
 #include "core/scene/scene_reader.hpp"
+#include "core/scene/scene_sides.hpp"
 #include "core/scene/scene_tree.hpp"
 #include "core/scene/size_law.hpp"
 
@@ -82,10 +83,7 @@ struct BoxSize {
 
 BoxSize read_box(const SceneOrigin& origin, Domain& box) {
   const TableReader reader(origin, "box", required_section(origin, "box", "width and height"));
-  for (std::size_t s = 0; s < side_names.size(); ++s) {
-    box.sides[s] = static_cast<SideKind>(reader.choice_or_initial(side_names[s]));
-  }
-  box.wall_restitution = reader.number_or_initial("wall_restitution");
+  read_sides(reader, box);
   const BoxSize size{reader.number("width"), reader.number("height"), reader.number("packing_fraction"),
                      reader.number("aspect")};
   if (size.packing_fraction) {

@@ -80,12 +80,12 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
   Impact outcome;
   if (rules.box.side(side) == SideKind::wall) {
     const bool elastic = made_elastic(rules, s, a.last_contact);
-    const double e = elastic ? 1.0 : rules.box.wall_restitution;
+    const double e = elastic ? 1.0 : rules.box.restitution(side);
     const double before = outward_speed(side, p.vx, p.vy);
     if (before > 0.0) bounce(side, e, p.vx, p.vy);
     if (side == Side::bottom && rules.tc()) p.vy = std::max(p.vy, least_hop * rules.gravity * rules.contact_time);
     outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), true,
-               elastic && rules.box.wall_restitution < 1.0};
+               elastic && rules.box.restitution(side) < 1.0};
     a.last_contact = s;
   }
   if (rules.box.side(side) != SideKind::sink) wrap_into(p, rules.box);
@@ -100,12 +100,12 @@ struct EventMark {
 
 // May any of the scene's contacts lose energy?
 inline bool dissipates(const Domain& box, double restitution) {
-  return restitution < 1.0 || (box.wall_restitution < 1.0 && box.has(SideKind::wall));
+  return restitution < 1.0 || box.walls_dissipate();
 }
 
 // Is this an impact that loses energy? partner: the second disk's id, or a wall_partner.
 inline bool loses_energy(const ExactRules& rules, DiskId partner, const Impact& impact) {
-  const double e = is_wall(partner) ? rules.box.wall_restitution : rules.restitution;
+  const double e = is_wall(partner) ? rules.box.restitution(wall_side(partner)) : rules.restitution;
   return e < 1.0 && impact.happened && !impact.inaccurate;
 }
 

@@ -118,7 +118,7 @@ double bounce_at_wall(const View& d, const StepRules& rules, std::uint32_t i, Si
   const double r = d.radius(i);
   const double speed = outward_speed(side, d.vx[i], d.vy[i]);
   const double beyond = reach_beyond(side, d.x[i], d.y[i], r, rules.box);
-  const double away = rules.box.wall_restitution * speed_at_wall(side, beyond, speed, rules.gravity);
+  const double away = rules.box.restitution(side) * speed_at_wall(side, beyond, speed, rules.gravity);
   if (side == Side::left || side == Side::right) {
     d.x[i] = touching_coordinate(side, r, rules.box);
     d.vx[i] = side == Side::left ? away : -away;
@@ -143,8 +143,8 @@ Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side
     drift_one(d, i, -ago, rules.gravity);
     const double impact_speed = speed();
     if (impact_speed > 0.0) {
-      change = impact_speed * (1.0 + rules.box.wall_restitution);
-      bounce(side, rules.box.wall_restitution, d.vx[i], d.vy[i]);
+      change = impact_speed * (1.0 + rules.box.restitution(side));
+      bounce(side, rules.box.restitution(side), d.vx[i], d.vy[i]);
     }
     drift_one(d, i, ago, rules.gravity);
   }

@@ -49,13 +49,13 @@ bool is_support(const View& d, const StepRules& rules, const ContactEvent& e, bo
   if (loaded && squeezed) return true;
   const double speed = std::abs(normal_velocity(d, rules.box, e));
   if (squeezed) return speed <= squeezed_rest * rules.gravity * rules.dt;
-  const bool lies = is_wall(e.id2) && rules.box.wall_restitution < 1.0;
+  const bool lies = is_wall(e.id2) && rules.box.restitution(wall_side(e.id2)) < 1.0;
   return lies && speed <= lying_rest * rules.gravity * rules.dt;
 }
 
 // Does what is left of the approach, after the impacts, dissipate at this contact?
 inline bool dissipates(const StepRules& rules, const ContactEvent& e) {
-  return (is_wall(e.id2) ? rules.box.wall_restitution : rules.restitution) < 1.0;
+  return (is_wall(e.id2) ? rules.box.restitution(wall_side(e.id2)) : rules.restitution) < 1.0;
 }
 
 // Is this contact solved together with the others? Supports are; so are all crowded contacts that dissipate, since what

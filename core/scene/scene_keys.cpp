@@ -16,6 +16,8 @@ constexpr SceneTable tables[] = {
     {"box", "`[box]`",
      "The rectangle from (0, 0) to (width, height): either `width` and `height`, or `packing_fraction`. Periodic sides "
      "come in opposite pairs. A sink takes away what touches it."},
+    {"box.side", "`left = { ... }` in `[box]`, likewise `right`, `bottom` and `top`",
+     "A side of which there is more to say than its kind."},
     {"physics", "`[physics]`", "What acts on the disks. A scene states only what it has."},
     {"physics.collapse", "`collapse = { ... }` in `[physics]`",
      "The remedy for inelastic collapse under method `exact`: the TC model (Luding and McNamara 1998), in which a "
@@ -47,6 +49,7 @@ constexpr SceneTable tables[] = {
 };
 
 constexpr std::string_view side_says = "What this side does.";
+constexpr std::string_view side_allowed = "NAMES, or a table `{ kind = ... }`";
 constexpr std::string_view bins_allowed = "a whole number from 1 to 100000";
 constexpr std::string_view fps_allowed = "a number from 0.1 to 1000";
 constexpr std::string_view size_allowed = "two even whole numbers from 320 to 8192";
@@ -80,12 +83,26 @@ constexpr SceneKey keys[] = {
      "Area of the disks at the start over that of the box, which is made to fit.", "packing_fraction = 0.5",
      "a number above 0 and below pi / sqrt(12) = 0.9069"},
     {"box", "aspect", positive, none, "1", "Width over height; only beside `packing_fraction`.", "aspect = 2.0"},
-    {"box", "left", choice, none, "\"wall\"", side_says, R"(left = "periodic")", {}, side_kind_names},
-    {"box", "right", choice, none, "\"wall\"", side_says, R"(right = "periodic")", {}, side_kind_names},
-    {"box", "bottom", choice, none, "\"wall\"", side_says, R"(bottom = "sink")", {}, side_kind_names},
-    {"box", "top", choice, none, "\"wall\"", side_says, R"(top = "wall")", {}, side_kind_names},
+    {"box", "left", special, none, "\"wall\"", side_says, R"(left = "periodic")", side_allowed, side_kind_names},
+    {"box", "right", special, none, "\"wall\"", side_says, R"(right = "periodic")", side_allowed, side_kind_names},
+    {"box", "bottom", special, none, "\"wall\"", side_says, R"(bottom = "sink")", side_allowed, side_kind_names},
+    {"box", "top", special, none, "\"wall\"", side_says, R"(top = { kind = "wall", restitution = 0.5 })", side_allowed,
+     side_kind_names},
     {"box", "wall_restitution", unit_interval, none, "1",
-     "Speed away from a wall over speed towards it, in a collision of disk and wall.", "wall_restitution = 0.9"},
+     "Speed away from a wall over speed towards it, in a collision of disk and wall, where the side has no "
+     "`restitution` of its own.",
+     "wall_restitution = 0.9"},
+    {"box.side",
+     "kind",
+     choice,
+     none,
+     "\"wall\"",
+     "What the side does.",
+     R"(left = { kind = "wall" })",
+     {},
+     side_kind_names},
+    {"box.side", "restitution", unit_interval, none, "wall_restitution",
+     "Of a wall: speed away from it over speed towards it.", "left = { restitution = 0.5 }"},
 
     {"physics", "gravity", non_negative, Dimension::acceleration, "0", "Acceleration downwards, along -y.",
      "gravity = 0.5"},

@@ -86,12 +86,27 @@ std::string velocities_line(const VelocityLaw& law) {
   return fmt::format("velocities = {}\n", list_of(law.list, pair));
 }
 
+// wall_restitution: what sides without a restitution of their own have. A side that is no wall has no other.
+double common_restitution(const Domain& box) {
+  for (const Side side : all_sides) {
+    if (box.side(side) != SideKind::wall) return box.restitution(side);
+  }
+  return box.restitution(Side::left);
+}
+
+std::string side_text(const Domain& box, std::size_t s, double common) {
+  const std::string kind = quoted_toml(side_kind_names[index(box.sides[s])]);
+  if (box.restitutions[s] == common) return kind;
+  return fmt::format("{{ kind = {}, restitution = {} }}", kind, decimal(box.restitutions[s]));
+}
+
 std::string box_text(const Domain& box) {
   std::string text = fmt::format("\n[box]\nwidth = {}\nheight = {}\n", decimal(box.width), decimal(box.height));
+  const double common = common_restitution(box);
   for (std::size_t s = 0; s < side_names.size(); ++s) {
-    text += fmt::format("{} = \"{}\"\n", side_names[s], side_kind_names[index(box.sides[s])]);
+    text += fmt::format("{} = {}\n", side_names[s], side_text(box, s, common));
   }
-  return text + fmt::format("wall_restitution = {}\n", decimal(box.wall_restitution));
+  return text + fmt::format("wall_restitution = {}\n", decimal(common));
 }
 
 std::string physics_text(const Physics& physics) {

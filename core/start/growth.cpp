@@ -40,7 +40,7 @@ Scene flight_scene(const Scene& scene) {
   Scene flight;
   flight.file = scene.file;
   flight.box = scene.box;
-  flight.box.wall_restitution = 1.0;
+  flight.box.restitutions.fill(1.0);
   for (SideKind& side : flight.box.sides) side = side == SideKind::periodic ? side : SideKind::wall;
   flight.run.method = Method::exact;
   return flight;

@@ -16,7 +16,9 @@ namespace carom {
 
 // Contacts may bear load where gravity presses and something dissipates. Without dissipation no pile ever rests.
 inline bool settles(const Scene& scene) {
-  return scene.physics.gravity > 0.0 && (scene.physics.restitution < 1.0 || scene.box.wall_restitution < 1.0);
+  const auto& walls = scene.box.restitutions;
+  const bool dissipates = scene.physics.restitution < 1.0 || *std::min_element(walls.begin(), walls.end()) < 1.0;
+  return scene.physics.gravity > 0.0 && dissipates;
 }
 
 inline StepRules rules_for(const Scene& scene, double dt) {

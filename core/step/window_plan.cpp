@@ -29,7 +29,7 @@ std::string partner_text(DiskId id) {
 
 // Time does not get on past this event. Why that is follows from what kind of contact it is.
 [[noreturn]] void fail_standstill(const ExactRules& rules, const EventMark& event, double start) {
-  const double e = is_wall(event.id2) ? rules.box.wall_restitution : rules.restitution;
+  const double e = is_wall(event.id2) ? rules.box.restitution(wall_side(event.id2)) : rules.restitution;
   const bool rests = rules.gravity > 0.0 && dissipates(rules.box, rules.restitution);
   if (!rules.tc() && (e < 1.0 || rests)) fail_collapse(event, start);
   throw PhysicsError(fmt::format(

@@ -42,7 +42,7 @@ TEST(CalmingCycles, OfTheEngineAreTheReferences) {
   Scene scene = test::scene_of(Method::pairwise, 2.2, 900.0, 0.005, 1.0);
   scene.physics.gravity = 1.0;
   scene.physics.restitution = 0.5;
-  scene.box.wall_restitution = 0.5;
+  scene.box.restitutions.fill(0.5);
   std::vector<Disk> list;
   for (int k = 0; k < 300; ++k) list.push_back({k % 2 == 0 ? 1.0 : 1.2, 1.0 + 1.99 * k, 0.0, 0.0, 1.0, 1.0 + k % 3});
   list.push_back({1.1, 1.0 + 1.99 * 300 + 0.2, 0.0, 0.0, 1.0, 1.0});

@@ -84,7 +84,7 @@ TEST_P(ParallelBits, EqualTheReferenceAfterEveryStep) {
 
 INSTANTIATE_TEST_SUITE_P(AllScenes, ParallelBits,
                          ::testing::Combine(::testing::Values("pairwise", "rollback", "exact"),
-                                            ::testing::Values("wall", "periodic", "periodic_x", "sink")),
+                                            ::testing::Values("wall", "periodic", "periodic_x", "sink", "soft")),
                          [](const auto& p) { return std::string(std::get<0>(p.param)) + "_" + std::get<1>(p.param); });
 
 // Blocks of any size give the same state: nothing depends on where one block ends and the next begins.

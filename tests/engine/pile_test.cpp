@@ -15,7 +15,7 @@ Scene pile_scene(double e, double dt, double t_end) {
   Scene scene = test::scene_of(Method::pairwise, 20.0, 40.0, dt, t_end);
   scene.physics.gravity = 0.5;
   scene.physics.restitution = e;
-  scene.box.wall_restitution = e;
+  scene.box.restitutions.fill(e);
   return scene;
 }
 

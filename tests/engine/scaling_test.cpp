@@ -117,7 +117,7 @@ Scene random_scene(std::uint64_t seed, Method method) {
   test::set_sides(s.box, kinds[draws.bits() % 3], kinds[draws.bits() % 3]);
   if (draws.bits() % 2 == 0) s.physics.gravity = draws.in(0.0, 1.0);
   if (draws.bits() % 2 == 0) s.physics.restitution = draws.in(0.3, 1.0);
-  if (draws.bits() % 2 == 0) s.box.wall_restitution = draws.in(0.3, 1.0);
+  if (draws.bits() % 2 == 0) s.box.restitutions.fill(draws.in(0.3, 1.0));
   if (draws.bits() % 3 == 0) {
     s.physics.gravity = 0.0;
     s.physics.diffusion = draws.in(0.01, 0.2);
@@ -163,7 +163,7 @@ TEST(Scaling, PileAtRest) {
   s.title = "pile";
   s.physics.gravity = 0.5;
   s.physics.restitution = 0.4;
-  s.box.wall_restitution = 0.4;
+  s.box.restitutions.fill(0.4);
   DiskGroup group;
   group.count = 14;
   group.radius.kind = SizeLaw::Kind::uniform;

@@ -72,7 +72,7 @@ TEST(CrowdedWindow, FiniteBurstsAreCountedToTheEndByBothEngines) {
 // thrown against.
 TEST(CrowdedWindow, AnElasticBurstIsNoCollapseWhereOtherContactsDissipate) {
   Scene scene = burst_scene();
-  scene.box.wall_restitution = 0.5;
+  scene.box.restitutions.fill(0.5);
   scene.run.t_end = 20.0;
   const State initial = state_of({{3, 10, 1, 0, 1, 1.0, 0}, {20, 10, 0, 0, 1, 1e-10, 0}, {36, 10, -1, 0, 1, 1.0, 0}});
   EXPECT_THAT(outcome(scene, initial), HasSubstr("done"));
@@ -160,7 +160,7 @@ Scene resting_pile(double contact_time) {
                             "[[disks]]\ncount = 6\npositions = [[1, 0.5], [2, 0.5], [3, 0.5], [4, 0.5], [1.5, 1.5], "
                             "[2.5, 1.5]]\nradius = 0.5\nmass = 1\n",
                             20.0, ""});
-  scene.box.wall_restitution = 0.5;
+  scene.box.restitutions.fill(0.5);
   scene.physics.collapse_contact_time = contact_time;
   return scene;
 }

@@ -280,7 +280,7 @@ TEST(ExactHostile, ADiskAtRestOnTheFloor) {
   EXPECT_THROW(run_reference(scene, initial), PhysicsError);
   scene.physics.collapse_contact_time = 0.01;
   EXPECT_THROW(run_reference(scene, initial), PhysicsError) << "nothing dissipates, so there is no TC model";
-  scene.box.wall_restitution = 0.5;
+  scene.box.restitutions.fill(0.5);
   const State s = run_reference(scene, initial);
   EXPECT_EQ(s.time, 1.0);
   EXPECT_NEAR(s.disks.y[0], 1.0, 1e-4);

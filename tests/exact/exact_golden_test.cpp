@@ -101,7 +101,7 @@ TEST(ExactGolden, HardRodsFollowSortedFreePaths) {
 TEST(ExactGolden, BouncingBallRestsInTime) {
   for (const double e : {0.5, 0.8}) {
     Domain box = box_of(10, 10);
-    box.wall_restitution = e;
+    box.restitutions.fill(e);
     const Scene scene = plain_scene(box, 100.0, 2.0);
     const auto engine = make_reference_exact(scene, state_of({{5, 5, 0, 0, 1, 1, 0}}));
     const double rest = std::sqrt(2.0 * 4.0 / 2.0) * (1.0 + e) / (1.0 - e);
@@ -123,7 +123,7 @@ TEST(ExactGolden, BouncingBallRestsInTime) {
 // A few bounces before that, each leaves with e times the speed it came with.
 TEST(ExactGolden, BouncingBallKeepsItsParabolas) {
   Domain box = box_of(10, 100);
-  box.wall_restitution = 0.5;
+  box.restitutions.fill(0.5);
   // Down in 1, then flights of 1, 1/2, 1/4; 0.1 into the next.
   const State s = run_reference(plain_scene(box, 2.85, 8.0), state_of({{5, 5, 0, 0, 1, 1, 0}}));
   EXPECT_EQ(s.counters.wall_collisions, 4U);

@@ -60,6 +60,8 @@ const std::string giant =
     "[[disks]]\ncount = 1\npositions = [[1.0, 5.0]]\nradius = 3.0\nmass = 50.0\n"
     "[[disks]]\ncount = 80\npositions = \"random\"\nvelocities = { uniform = 1.0 }\nradius = 0.1\nmass = 0.01\n";
 const std::string walls_of_salt = "wall_restitution = 0.9";
+const std::string four_restitutions =
+    "left = { restitution = 0.5 }\nright = { restitution = 0.8 }\ntop = { restitution = 0.3 }\nwall_restitution = 0.9";
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, ExactOracle,
@@ -74,6 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
         OracleCase{"unequal", {9, 9, "wall", "", mixed, 3.0, ""}},
         OracleCase{"unequal_periodic", {9, 9, "periodic", "", mixed, 2.0, ""}},
         OracleCase{"giant", {12.5, 12.5, "periodic", "", giant, 3.0, ""}},
+        OracleCase{"four_restitutions", {8, 8, four_restitutions, "restitution = 0.95\ngravity = 0.1", gas, 3.0, ""}},
         OracleCase{"inelastic", {8, 8, walls_of_salt, "restitution = 0.8", gas, 5.0, ""}},
         OracleCase{"inelastic_gravity", {8, 12, walls_of_salt, "restitution = 0.7\ngravity = 0.5", mixed, 4.0, ""}}),
     [](const auto& p) { return std::string(p.param.name); });

@@ -119,6 +119,12 @@ void choose_times(Dice& dice, Draft& draft) {
   if (dice.chance(0.01)) draft.t_end = 0.0;
 }
 
+// Some walls have a restitution of their own.
+std::string side_line(Dice& dice, std::string_view name, const std::string& kind) {
+  if (kind != "wall" || !dice.chance(0.1)) return fmt::format("{} = \"{}\"\n", name, kind);
+  return fmt::format("{} = {{ kind = \"wall\", restitution = {} }}\n", name, random_restitution(dice));
+}
+
 std::string box_text(Dice& dice, const Draft& draft) {
   std::string text = "[box]\n";
   if (draft.crowd.packing_fraction > 0.0 && dice.chance(0.25)) {
@@ -128,7 +134,7 @@ std::string box_text(Dice& dice, const Draft& draft) {
     text += fmt::format("width = {}\nheight = {}\n", draft.width, draft.height);
   }
   constexpr std::array<const char*, 4> names{"left", "right", "bottom", "top"};
-  for (std::size_t s = 0; s < names.size(); ++s) text += fmt::format("{} = \"{}\"\n", names[s], draft.sides[s]);
+  for (std::size_t s = 0; s < names.size(); ++s) text += side_line(dice, names[s], draft.sides[s]);
   if (draft.wall_restitution < 1.0) text += fmt::format("wall_restitution = {}\n", draft.wall_restitution);
   return text;
 }

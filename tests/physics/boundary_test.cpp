@@ -85,7 +85,7 @@ TEST(Walls, EnginesReflectAtTheWallWithItsRestitution) {
   for (Method method : test::stepping_methods) {
     for (const double restitution : {1.0, 0.5}) {
       Scene scene = test::scene_of(method, 10.0, 10.0, 0.1, 6.0);
-      scene.box.wall_restitution = restitution;
+      scene.box.restitutions.fill(restitution);
       const State end = test::run(scene, test::state_of(scene, {{7.0, 5.0, 0.53, 0.0, 1.0, 1.0}}));
       const double hit = 2.0 / 0.53;
       EXPECT_NEAR(end.disks.vx[0], -restitution * 0.53, 1e-15);

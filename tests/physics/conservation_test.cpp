@@ -77,7 +77,7 @@ TEST_P(Conservation, DissipatingDisksNeverGainEnergy) {
       Scene s = scene(0.01, 10.0, false);
       s.physics.gravity = g;
       s.physics.restitution = 0.5;
-      s.box.wall_restitution = seed % 4 < 2 ? 1.0 : 0.5;
+      s.box.restitutions.fill(seed % 4 < 2 ? 1.0 : 0.5);
       const State start = start_of(s, seed);
       const double energy = energy_of(start.disks, g).total();
       double highest = -1.0;

@@ -131,7 +131,7 @@ TEST_P(Golden, BouncingBall) {
     for (const double dt : {0.02, 0.005, 0.00125}) {
       Scene s = scene(10.0, dt, 20.0);
       s.physics.gravity = 1.0;
-      s.box.wall_restitution = e;
+      s.box.restitutions.fill(e);
       const Bounces b = drop(s, h);
       std::printf("%s e %g dt %g: rest time %+.3g, path %+.3g, height %.3g\n", test::name_of(GetParam()).c_str(), e, dt,
                   b.rest_time - rest_time, b.path - path, b.height);

@@ -70,7 +70,7 @@ TEST(TcEnergy, AGasThatIsHeatedByItsHopsWarns) {
 TEST(TcEnergy, EnergyGainIsReported) {
   Domain box;
   box.width = box.height = 10.0;
-  box.wall_restitution = 0.5;
+  box.restitutions.fill(0.5);
   Scene scene = plain_scene(box, 20.0, 1.0);
   const State start = state_of({{5, 1, 0, 0, 1, 1, 0}});
   for (const double contact_time : {1e-4, 1.0}) {

@@ -209,7 +209,7 @@ TEST_P(Faults, F11_RestingDiskNeitherSinksNorGains) {
   for (const double wall_restitution : {0.5, 1.0}) {
     Scene s = scene(10.0, 0.01, 20.0);
     s.physics.gravity = 0.5;
-    s.box.wall_restitution = wall_restitution;
+    s.box.restitutions.fill(wall_restitution);
     const State start = test::state_of(s, {{5.0, 1.0, 0.0, 0.0, 1.0, 1.0}});
     const double energy = energy_of(start.disks, 0.5).total();
     const Holds rests = [&](const Disks& d) {

@@ -156,7 +156,8 @@ TEST(MethodChoice, ExactIsRefusedWhereCollapseIsToBeExpected) {
   Scene pile = load_scene(folder + "production_c.toml");
   pile.physics.collapse_contact_time.reset();
   for (const double restitution : {0.2, 0.5, 0.6}) {
-    gas.physics.restitution = pile.physics.restitution = pile.box.wall_restitution = restitution;
+    gas.physics.restitution = pile.physics.restitution = restitution;
+    pile.box.restitutions.fill(restitution);
     for (const Scene& scene : {gas, pile}) {
       for (const double accuracy : accuracies) {
         const MethodChoice choice = choose_method(scene, accuracy);

@@ -51,7 +51,7 @@ TEST(SceneFile, AbsentKeysHaveTheirDefaults) {
   EXPECT_EQ(s.file, "gas.toml");
   EXPECT_EQ(s.seed, 1U);
   EXPECT_THAT(s.box.sides, testing::Each(SideKind::wall));
-  EXPECT_EQ(s.box.wall_restitution, 1.0);
+  EXPECT_EQ(s.box.restitutions, (std::array{1.0, 1.0, 1.0, 1.0}));
   EXPECT_EQ(s.physics.gravity, 0.0);
   EXPECT_EQ(s.physics.restitution, 1.0);
   EXPECT_EQ(s.physics.diffusion, 0.0);

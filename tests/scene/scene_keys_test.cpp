@@ -67,6 +67,7 @@ std::string message_of(std::string_view text, const std::vector<Override>& chang
 std::string owner_of(std::string_view table, std::string_view name) {
   if (table.empty()) return "";
   if (table == "disks" || table == "frame" || table.starts_with("disks.")) return "disks.0.";
+  if (table == "box.side") return "box.left.";
   if (table == "sources") return name == "side" ? "sources.1." : "sources.0.";
   return std::string(table) + ".";
 }
@@ -114,6 +115,7 @@ TEST(SceneKeys, EveryExampleIsAScenes) {
     std::string_view owner = key.table;
     if (owner.starts_with("analysis.")) owner = "analysis";
     if (owner == "output.movie") owner = "output";
+    if (owner == "box.side") owner = "box";
     if (owner == "physics.collapse" && key.example.starts_with("collapse")) owner = "physics";
     std::vector<Override> changes{{owner_of(owner, key.name) + std::string(key.example.substr(0, equals)),
                                    std::string(key.example.substr(equals + 3))}};

@@ -125,8 +125,7 @@ inline void advance(System& s, Real t) {
 inline void resolve(System& s, const Happening& e) {
   Ball& a = s.balls[e.i];
   if (e.side >= 0) {
-    if (e.side < 2) a.vx *= -static_cast<Real>(s.box.wall_restitution);
-    if (e.side >= 2) a.vy *= -static_cast<Real>(s.box.wall_restitution);
+    (e.side < 2 ? a.vx : a.vy) *= -static_cast<Real>(s.box.restitutions[static_cast<std::size_t>(e.side)]);
     ++s.wall_collisions;
     return;
   }

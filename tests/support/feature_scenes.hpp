@@ -12,7 +12,7 @@ namespace carom::test {
 
 struct Features {
   std::string method = "pairwise";
-  std::string sides = "wall";  // wall | periodic | periodic_x | sink
+  std::string sides = "wall";  // wall | periodic | periodic_x | sink | soft
   bool gravity = false;
   double restitution = 1.0;
   std::string diffusion;        // empty | "replace" | "accumulate"
@@ -30,6 +30,11 @@ struct Features {
 
 inline std::string sides_text(const std::string& sides) {
   if (sides == "periodic_x") return "left = \"periodic\"\nright = \"periodic\"\nbottom = \"wall\"\ntop = \"sink\"\n";
+  // A restitution of its own for each side.
+  if (sides == "soft") {
+    return "left = { restitution = 0.9 }\nright = { kind = \"wall\", restitution = 0.4 }\nbottom = \"wall\"\n"
+           "top = { restitution = 0.0 }\n";
+  }
   std::string text;
   for (const char* side : {"left", "right", "bottom", "top"}) text += std::string(side) + " = \"" + sides + "\"\n";
   return text;

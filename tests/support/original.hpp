@@ -88,19 +88,19 @@ inline void move(Disks& d, double t, double g) {
 // Walls turn the velocity of whatever touches and leave it where it is (F11); periodic sides shift a disk when its edge
 // crosses (F12).
 inline void boundary(Disks& d, const Domain& box) {
-  const auto side = [&](double& c, double& v, double r, double length, bool periodic) {
+  const auto side = [&](double& c, double& v, double r, double length, bool periodic, Side first) {
     const bool low = c - r <= 0.0;
     const bool high = c + r >= length;
     if (!low && !high) return;
     if (periodic) {
       c += low ? length : -length;
     } else {
-      v = -box.wall_restitution * v;
+      v = -box.restitution(first) * v;
     }
   };
   for (std::size_t i = 0; i < d.size(); ++i) {
-    side(d.x[i], d.vx[i], d.radius_of(i), box.width, box.periodic_x());
-    side(d.y[i], d.vy[i], d.radius_of(i), box.height, box.periodic_y());
+    side(d.x[i], d.vx[i], d.radius_of(i), box.width, box.periodic_x(), Side::left);
+    side(d.y[i], d.vy[i], d.radius_of(i), box.height, box.periodic_y(), Side::bottom);
   }
 }
 

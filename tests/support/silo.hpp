@@ -30,7 +30,7 @@ inline Scene silo_scene(const Silo& silo) {
   const double area = static_cast<double>(silo.disks) * std::numbers::pi * (a * a + a * b + b * b) / 3.0;
   const double width = std::sqrt(area / filled / silo.aspect);
   Scene scene = scene_of(Method::pairwise, width, area / poured / width, silo.dt, 0.0);
-  scene.box.wall_restitution = 0.5;
+  scene.box.restitutions.fill(0.5);
   scene.physics.gravity = 1.0;
   scene.physics.restitution = 0.5;
   DiskGroup group;
