@@ -172,10 +172,16 @@ void add_plots(const Scene& scene, double disks, OutputForesight& f) {
   }
 }
 
+// Of a frame's disks those of the group that the trajectory shows; of those from sources, all.
+double disks_shown(const Scene& scene, double disks) {
+  const IdRange& ids = scene.output.select.ids;
+  return std::min(disks, static_cast<double>(ids.end) - static_cast<double>(ids.first));
+}
+
 void guess_files(const Scene& scene, double disks, OutputForesight& f) {
   const auto frames = static_cast<double>(f.frames);
   const OutputPlan& plan = scene.output;
-  const double shown = disks / static_cast<double>(plan.select.stride);
+  const double shown = disks_shown(scene, disks) / static_cast<double>(plan.select.stride);
   if (plan.trajectory == TrajectoryFormat::xyz) f.files.emplace_back("trajectory.xyz", xyz_bytes * shown * frames);
   if (plan.trajectory == TrajectoryFormat::h5md) {
     const double each = plan.single_precision ? h5md_single_bytes : h5md_bytes;

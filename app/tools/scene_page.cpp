@@ -116,10 +116,16 @@ std::string series_rows() {
   for (const SeriesColumn& column : series_columns) {
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
   }
-  return text + fmt::format(
-                    "| `{}` | length^2 | mean square displacement since the first sample, where `[analysis]` asks "
-                    "for it |\n",
-                    displacement_column);
+  text += fmt::format(
+      "| `{}` | length^2 | mean square displacement since the first sample, where `[analysis]` asks for it |\n",
+      displacement_column);
+  text +=
+      "\nThen, for each `[[disks]]` block with a `name`, and for `sources` if there are any, these with `_` and the "
+      "name behind, as in `temperature_tracer`:\n\n| column | unit | what it is |\n| --- | --- | --- |\n";
+  for (const GroupColumn& column : group_column_kinds()) {
+    text += fmt::format("| `{}_` | {} | {} |\n", column.name, column.unit, column.meaning);
+  }
+  return text;
 }
 
 std::string json_rows(std::string_view heading, std::string_view meaning, const std::vector<KeyText>& keys) {

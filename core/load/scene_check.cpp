@@ -101,6 +101,17 @@ void check_run(const Scene& scene, const PlaceOfKey& place) {
                            : "expected the time step of Brownian motion (diffusion > 0)");
 }
 
+void check_names(const Scene& scene, const PlaceOfKey& place) {
+  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
+    for (std::size_t before = 0; before < g; ++before) {
+      if (scene.groups[g].name.empty() || scene.groups[g].name != scene.groups[before].name) continue;
+      fail_input(place(fmt::format("disks.{}.name", g)),
+                 fmt::format("is \"{}\", the name of disks.{}", scene.groups[g].name, before),
+                 "expected a name of its own");
+    }
+  }
+}
+
 // Disks that stand already would need to be walls for those that grow between them.
 void check_growth(const Scene& scene, const PlaceOfKey& place) {
   const auto group_with = [&](bool growth) {
@@ -204,6 +215,7 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
   if (scene.physics.accumulate && scene.physics.diffusion == 0.0) {
     fail_input(place("physics.accumulate"), "needs Brownian motion", "expected diffusion as well");
   }
+  check_names(scene, place);
   check_growth(scene, place);
   check_run(scene, place);
 }

@@ -14,6 +14,7 @@
 #include "core/load/method_choice.hpp"
 #include "core/load/scene_check.hpp"
 #include "core/scene/scene_analysis.hpp"
+#include "core/scene/scene_group_name.hpp"
 #include "core/scene/scene_laws.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/scene/scene_output.hpp"
@@ -128,6 +129,7 @@ DiskGroup read_group(const SceneOrigin& origin, const std::string& path, const t
   const TableReader reader(origin, path, table);
   DiskGroup group;
   group.line = static_cast<int>(table.source().begin.line);
+  group.name = read_group_name(reader);
   reader.require("count", "expected how many disks the group has");
   group.count = reader.count("count").value();
   group.positions = read_positions(reader);
@@ -257,13 +259,13 @@ double read_checkpoint_interval(const TableReader& output) {
   return *seconds;
 }
 
-OutputPlan read_output(const SceneOrigin& origin, double t_end) {
+OutputPlan read_output(const SceneOrigin& origin, const Scene& scene) {
   OutputPlan output;
   const toml::table* table = section(origin, "output");
   if (table == nullptr) return output;
   const TableReader reader(origin, "output", *table);
   output.trajectory = static_cast<TrajectoryFormat>(reader.choice_or_initial("trajectory"));
-  output.select = read_selection(reader);
+  output.select = read_selection(reader, scene);
   output.single_precision = read_single_precision(reader);
   output.dimensions = read_third_dimension(reader) ? 3 : 2;
   output.series = reader.flag_or_initial("series");
@@ -272,7 +274,7 @@ OutputPlan read_output(const SceneOrigin& origin, double t_end) {
   output.checkpoint = read_checkpoint_interval(reader);
   const bool frames =
       output.trajectory != TrajectoryFormat::none || output.series || output.movie || !output.plots.empty();
-  output.every = reader.number("every").value_or(frames ? t_end / 100.0 : 0.0);
+  output.every = reader.number("every").value_or(frames ? scene.run.t_end / 100.0 : 0.0);
   return output;
 }
 
@@ -323,7 +325,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   }
   scene.growth = read_growth(origin);
   scene.run = read_run(origin);
-  scene.output = read_output(origin, scene.run.t_end);
+  scene.output = read_output(origin, scene);
   const toml::table* analysis = section(origin, "analysis");
   if (analysis != nullptr) scene.analysis = read_analysis(origin, *analysis, scene);
   check_parts(scene, place);

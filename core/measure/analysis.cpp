@@ -11,6 +11,23 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
+Disks disks_of(const Disks& all, const IdRange& ids) {
+  Disks some;
+  some.common_radius = all.common_radius;
+  some.common_mass = all.common_mass;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!ids.holds(all.id[i])) continue;
+    some.x.push_back(all.x[i]);
+    some.y.push_back(all.y[i]);
+    some.vx.push_back(all.vx[i]);
+    some.vy.push_back(all.vy[i]);
+    some.id.push_back(all.id[i]);
+    if (!all.radius.empty()) some.radius.push_back(all.radius[i]);
+    if (!all.mass.empty()) some.mass.push_back(all.mass[i]);
+  }
+  return some;
+}
+
 void add_pairs(PairRecord& pairs, const PairCounts& found, double area) {
   const auto n = static_cast<double>(found.centres);
   for (std::size_t k = 0; k < pairs.counts.size(); ++k) pairs.counts[k] += found.counts[k];
@@ -30,8 +47,8 @@ void add_displacement(AnalysisRecord& record, const Scene& scene, const Disks& d
   record.series.followed.push_back(static_cast<double>(mean.disks));
 }
 
-// Means over the time since the sample before.
-void add_means(AnalysisRecord& record, const Scene& scene, const Disks& disks, const Energy& energy, const State& now) {
+// Means over the time since the sample before, of all disks.
+void add_means(AnalysisRecord& record, const Scene& scene, const Disks& disks, const State& now) {
   const bool first = record.series.time.size() == 1;
   const double elapsed = first ? 0.0 : now.time - record.counted_until;
   const double disk_time = elapsed * static_cast<double>(disks.size());
@@ -39,7 +56,7 @@ void add_means(AnalysisRecord& record, const Scene& scene, const Disks& disks, c
   if (scene.analysis.wants(Quantity::pressure)) {
     const double virial = now.counters.virial - record.before.virial;
     const bool known = elapsed > 0.0 && !velocities_are_drawn(scene);
-    record.series.pressure.push_back(known ? pressure(energy, virial, elapsed, scene.box) : nothing);
+    record.series.pressure.push_back(known ? pressure(energy_of(disks, 0.0), virial, elapsed, scene.box) : nothing);
   }
   if (scene.analysis.wants(Quantity::collision_rate)) {
     const auto collisions = static_cast<double>(now.counters.collisions - record.before.collisions);
@@ -88,15 +105,17 @@ bool goes_with(const AnalysisRecord& record, const AnalysisPlan& plan) {
          (tally.y.sixteenth.empty() || tally.y.sixteenth.size() == tally.y.from.size());
 }
 
-void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& disks, double t, const State& now,
+void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& all, double t, const State& now,
                  const PairCounter& count) {
   const AnalysisPlan& plan = scene.analysis;
+  const bool part = !plan.group.empty();
+  const Disks selected = part ? disks_of(all, plan.ids) : Disks{};
+  const Disks& disks = part ? selected : all;
   record.series.time.push_back(t);
   record.series.disks.push_back(static_cast<double>(disks.size()));
-  Energy energy;
   if (plan.wants(Quantity::speeds) || plan.wants(Quantity::pressure)) {
-    energy = energy_of(disks, 0.0);
-    record.series.temperature.push_back(disks.empty() ? nothing : energy.kinetic / static_cast<double>(disks.size()));
+    const double kinetic = energy_of(disks, 0.0).kinetic;
+    record.series.temperature.push_back(disks.empty() ? nothing : kinetic / static_cast<double>(disks.size()));
   }
   if (plan.wants(Quantity::pair_correlation)) {
     const DistanceBins bins = distance_bins(plan);
@@ -105,7 +124,7 @@ void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& disks,
   if (plan.wants(Quantity::displacement)) add_displacement(record, scene, disks, t);
   if (plan.wants(Quantity::speeds)) add_speeds(record.speeds, disks, record.series.temperature.back(), plan.speed_max);
   if (plan.wants(Quantity::density)) add_density(record.density, disks, scene.box, plan.density_along_x);
-  add_means(record, scene, disks, energy, now);
+  add_means(record, scene, all, now);
 }
 
 }  // namespace carom

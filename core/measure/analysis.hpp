@@ -50,7 +50,8 @@ bool goes_with(const AnalysisRecord& record, const AnalysisPlan& plan);
 
 // Adds the disks of time t; now: what has been counted, at the end of the step that t lies in, as in series.csv. Means
 // are over the steps that have ended since the sample before: no collision is lost or counted twice, but of several
-// samples in one window of an exact run only the first has a mean, and the run's first sample has none.
+// samples in one window of an exact run only the first has a mean, and the run's first sample has none. Where the plan
+// names a group, all but those means is of its disks alone.
 void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& disks, double t, const State& now,
                  const PairCounter& count);
 

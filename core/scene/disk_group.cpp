@@ -15,4 +15,26 @@ DiskId group_of(const std::vector<DiskId>& ends, DiskId id) {
   return static_cast<DiskId>(std::upper_bound(ends.begin(), ends.end(), id) - ends.begin());
 }
 
+std::vector<NamedGroup> named_groups(const Scene& scene) {
+  std::vector<NamedGroup> named;
+  const std::vector<DiskId> ends = ends_of_groups(scene);
+  DiskId first = 0;
+  for (std::size_t g = 0; g < ends.size(); first = ends[g++]) {
+    if (scene.groups[g].name.empty()) continue;
+    named.push_back({scene.groups[g].name, static_cast<DiskId>(g), {first, ends[g]}});
+  }
+  if (!scene.sources.empty()) {
+    IdRange later;
+    later.first = first;
+    named.push_back({std::string(sources_name), static_cast<DiskId>(ends.size()), later});
+  }
+  return named;
+}
+
+std::vector<NamedGroup> reported_groups(const Scene& scene) {
+  const auto has_name = [](const DiskGroup& group) { return !group.name.empty(); };
+  if (std::none_of(scene.groups.begin(), scene.groups.end(), has_name)) return {};
+  return named_groups(scene);
+}
+
 }  // namespace carom

@@ -1,6 +1,9 @@
 // Which [[disks]] block of its scene a disk is of, told by its id.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/scene/scene.hpp"
@@ -12,5 +15,21 @@ std::vector<DiskId> ends_of_groups(const Scene& scene);
 
 // The number of the block, counted from 0; for a disk from a source, the number after the last block's.
 DiskId group_of(const std::vector<DiskId>& ends, DiskId id);
+
+// What the disks of all sources together are called.
+inline constexpr std::string_view sources_name = "sources";
+
+// Disks that have a name.
+struct NamedGroup {
+  std::string name;
+  DiskId number = 0;  // as group_of says
+  IdRange ids;
+};
+
+// The blocks with a name, in the order of the scene, and "sources" where the scene has any.
+std::vector<NamedGroup> named_groups(const Scene& scene);
+
+// The same, but none where no block has a name: what a run tells of each group.
+std::vector<NamedGroup> reported_groups(const Scene& scene);
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,6 +54,7 @@ struct VelocityLaw {
 };
 
 struct DiskGroup {
+  std::string name;  // that columns, options and messages call it by; empty: none
   Count count = 0;
   PositionLaw positions;
   VelocityLaw velocities;
@@ -98,11 +100,22 @@ struct RunPlan {
 
 enum class TrajectoryFormat : std::uint8_t { none, xyz, h5md };
 
-// The disks that a trajectory shows: those whose id is a multiple of stride, or those with the centre in a rectangle.
+// Disks first to end - 1, by id. The largest number is no disk's id, so that the default holds all.
+struct IdRange {
+  DiskId first = 0;
+  DiskId end = std::numeric_limits<DiskId>::max();
+  bool holds(DiskId id) const { return id >= first && id < end; }
+  bool operator==(const IdRange&) const = default;
+};
+
+// The disks that a trajectory shows: those of a group, or every so many by id, or those with the centre in a rectangle.
 struct Selection {
+  std::string group;  // empty: all
+  IdRange ids;        // of the group
   Count stride = 1;
   bool by_region = false;
   Vec2 low, high;  // of the rectangle, corners included
+  bool all() const { return !by_region && stride == 1 && ids == IdRange{}; }
 };
 
 // What the colour of a disk stands for in movies and pictures.
@@ -136,6 +149,8 @@ enum class Quantity : std::uint8_t { pair_correlation, displacement, speeds, den
 // Measured at the times start + k every, and at t_end.
 struct AnalysisPlan {
   std::array<bool, 6> wanted{};  // by Quantity
+  std::string group;             // that all but pressure and collision rate is measured of; empty: all disks
+  IdRange ids;                   // of the group
   double every = 0.0;            // simulated time between samples; 0: only the first and the last
   double start = 0.0;            // simulated time of the first
   double r_max = 0.0;            // of the pair correlation; length

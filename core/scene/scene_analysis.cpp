@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/input_message.hpp"
+#include "core/scene/scene_group_name.hpp"
 #include "core/scene/scene_names.hpp"
 
 namespace carom {
@@ -109,6 +110,8 @@ AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, 
   const TableReader reader(origin, "analysis", table);
   AnalysisPlan plan;
   read_wanted(reader, plan);
+  plan.group = reader.text("select").value_or("");
+  if (reader.find("select") != nullptr) plan.ids = find_group(reader, "select", plan.group, scene);
   const double usual = scene.output.every > 0.0 ? scene.output.every : scene.run.t_end / default_samples;
   plan.every = reader.number("every").value_or(usual);
   plan.start = reader.number_or_initial("start");

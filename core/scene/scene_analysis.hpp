@@ -7,7 +7,8 @@
 
 namespace carom {
 
-// The table with the defaults that do not depend on the box. scene: run and output are known. Throws InputError.
+// The table with the defaults that do not depend on the box. scene: groups, run and output are known. Throws
+// InputError.
 AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, const Scene& scene);
 
 // The rest, once the box is known: how far pairs are looked at, whether that fits into the box, and the bins.

@@ -141,6 +141,10 @@ constexpr SceneKey keys[] = {
      velocities_allowed},
     {"disks", "radius", positive, Dimension::length, "required", "Radii.", "radius = 0.5", radius_allowed},
     {"disks", "mass", positive, Dimension::mass, "required", "Masses.", "mass = 1.0", mass_allowed},
+    {"disks", "name", text, none, "none",
+     "What the group is called, for `select`, columns of series.csv, and the legend of pictures. `sources` names the "
+     "disks of all sources together.",
+     R"(name = "tracer")", "a letter, then letters, digits, `_` or `-`, 40 in all at most; no two alike"},
     {"disks.positions", "file", text, Dimension::length, "",
      "A CSV file, a line `x,y` a disk; from the scene's folder.", R"(positions = { file = "p.csv" })"},
     {"disks.positions", "frame", text, none, "", "See `{ frame = ... }`.", R"(positions = { frame = "out/melt" })"},
@@ -226,8 +230,9 @@ constexpr SceneKey keys[] = {
      {},
      trajectory_names},
     {"output", "select", special, Dimension::length, "all disks",
-     "Which disks the trajectory shows: every so many by id, or those with their centre in a rectangle.",
-     R"(select = "every 100th")", "`\"every 100th\"`, or [x0, y0, x1, y1]"},
+     "Which disks the trajectory shows: every so many by id, those of a group, or those with their centre in a "
+     "rectangle.",
+     R"(select = "every 100th")", "`\"every 100th\"`, the name of a group, or [x0, y0, x1, y1]"},
     {"output",
      "precision",
      choice,
@@ -268,6 +273,9 @@ constexpr SceneKey keys[] = {
 
     {"analysis", "what", special, none, "required", "What to measure.", R"(what = ["pair_correlation", "speeds"])",
      "a list of NAMES", quantity_names},
+    {"analysis", "select", text, none, "all disks",
+     "The group whose disks are measured, as if there were no others; pressure and collision rate stay those of all.",
+     R"(select = "tracer")", "the name of a group"},
     {"analysis", "every", non_negative, Dimension::time, "as frames, or t_end / 100",
      "Simulated time between two samples; 0: only the first and the last.", "every = 0.05"},
     {"analysis", "start", non_negative, Dimension::time, "0", "Time of the first sample.", "start = 5.0"},

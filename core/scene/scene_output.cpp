@@ -8,14 +8,16 @@
 #include <optional>
 
 #include "core/base/input_message.hpp"
+#include "core/scene/disk_group.hpp"
 #include "core/scene/picture_look.hpp"
+#include "core/scene/scene_group_name.hpp"
 
 namespace carom {
 
 namespace {
 
 constexpr std::string_view select_expected =
-    "expected \"every 100th\" (disks by id), or a region [x0, y0, x1, y1] with x0 < x1, y0 < y1";
+    "expected \"every 100th\" (disks by id), the name of a group, or a region [x0, y0, x1, y1] with x0 < x1, y0 < y1";
 
 // The number in "every 100th"; 0 for any other text.
 Count stride_of(std::string_view text) {
@@ -33,7 +35,7 @@ Count stride_of(std::string_view text) {
 
 }  // namespace
 
-Selection read_selection(const TableReader& output) {
+Selection read_selection(const TableReader& output, const Scene& scene) {
   Selection select;
   const toml::node* node = output.find("select");
   if (node == nullptr) return select;
@@ -43,7 +45,13 @@ Selection read_selection(const TableReader& output) {
   if (node->is_string()) {
     const std::string text = output.text("select").value();
     select.stride = stride_of(text);
-    if (select.stride == 0) output.fail("select", fmt::format("is {}", in_quotes(text)), select_expected);
+    if (select.stride > 0) return select;
+    if (text.find(' ') != std::string::npos || named_groups(scene).empty()) {
+      output.fail("select", fmt::format("is {}", in_quotes(text)), select_expected);
+    }
+    select.stride = 1;
+    select.group = text;
+    select.ids = find_group(output, "select", text, scene);
     return select;
   }
   if (!node->is_array()) output.fail("select", fmt::format("is {}", type_name(*node)), select_expected);

@@ -6,9 +6,10 @@
 
 namespace carom {
 
-// The value of "select": "every 100th" (a whole number, 1 or more, with any ending) or [x0, y0, x1, y1]; all disks
-// where it is absent. Throws InputError for anything else, and where no trajectory is written.
-Selection read_selection(const TableReader& output);
+// The value of "select": "every 100th" (a whole number, 1 or more, with any ending), the name of a group, or
+// [x0, y0, x1, y1]; all disks where it is absent. scene: groups and sources are known. Throws InputError for anything
+// else, and where no trajectory is written.
+Selection read_selection(const TableReader& output, const Scene& scene);
 
 // Whether "precision" is "single". Throws InputError unless it is absent or trajectory is "h5md".
 bool read_single_precision(const TableReader& output);

@@ -123,7 +123,8 @@ std::string physics_text(const Physics& physics) {
 }
 
 std::string group_text(const DiskGroup& group) {
-  return fmt::format("\n[[disks]]\ncount = {}\npositions = {}\n{}radius = {}\nmass = {}\n", group.count,
+  const std::string name = group.name.empty() ? "" : fmt::format("name = \"{}\"\n", group.name);
+  return fmt::format("\n[[disks]]\n{}count = {}\npositions = {}\n{}radius = {}\nmass = {}\n", name, group.count,
                      positions_text(group.positions), velocities_line(group.velocities),
                      size_text(group.radius, "from_mass"), size_text(group.mass, "from_radius"));
 }
@@ -169,6 +170,8 @@ std::string selection_lines(const OutputPlan& output) {
   if (select.by_region) {
     text += fmt::format("select = [{}, {}, {}, {}]\n", decimal(select.low.x), decimal(select.low.y),
                         decimal(select.high.x), decimal(select.high.y));
+  } else if (!select.group.empty()) {
+    text += fmt::format("select = \"{}\"\n", select.group);
   } else if (select.stride > 1) {
     text += fmt::format("select = \"every {}th\"\n", select.stride);
   }
@@ -214,6 +217,7 @@ std::string analysis_text(const AnalysisPlan& plan) {
     lines += fmt::format("density = {{ axis = \"{}\", bins = {} }}\n", axis_names[plan.density_along_x ? 0 : 1],
                          plan.density_bins);
   }
+  if (!plan.group.empty()) lines += fmt::format("select = \"{}\"\n", plan.group);
   return fmt::format("\n[analysis]\nwhat = {}\nevery = {}\nstart = {}\n{}", list_of(names, quoted_toml),
                      decimal(plan.every), decimal(plan.start), lines);
 }

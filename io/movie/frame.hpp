@@ -21,13 +21,13 @@ namespace carom {
 struct FrameStyle {
   std::string title;
   Domain box;
-  double high = 1.0;                 // upper end of the colour scale; disks beyond it get the same colour
-  int time_decimals = 2;             // digits of the time stamp after the point; negative: scientific
-  double low = 0.0;                  // lower end of the colour scale
-  PictureLook look{};                // its range is already in low and high
-  std::vector<DiskId> group_ends{};  // see disk_group.hpp; only where groups are coloured
-  DiskId groups = 0;                 // that the list of colours names
-  bool sources = false;              // the last of them are disks from sources
+  double high = 1.0;                       // upper end of the colour scale; disks beyond it get the same colour
+  int time_decimals = 2;                   // digits of the time stamp after the point; negative: scientific
+  double low = 0.0;                        // lower end of the colour scale
+  PictureLook look{};                      // its range is already in low and high
+  std::vector<DiskId> group_ends{};        // see disk_group.hpp; only where groups are coloured
+  DiskId groups = 0;                       // that the list of colours names
+  std::vector<std::string> group_names{};  // by number, of those that have one
 };
 
 // What a run's disks will have, as far as its scene and its first disks show. Speeds to expect are those at the start

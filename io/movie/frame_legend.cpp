@@ -150,8 +150,9 @@ void draw_groups(cairo_t* c, const FrameStyle& style, const FrameLayout& layout)
     set_colour(c, group_colour(group));
     cairo_rectangle(c, x, y, 16.0 * u, 16.0 * u);
     cairo_fill(c);
-    const bool source = style.sources && group + 1 == style.groups;
-    draw_text(c, source ? "sources" : fmt::format("group {}", group), x + 24.0 * u, y + 13.0 * u, 14.0 * u,
+    const bool named = group < style.group_names.size() && !style.group_names[group].empty();
+    const std::string name = named ? style.group_names[group] : fmt::format("group {}", group);
+    draw_text(c, fitting(c, name, 14.0 * u, (right_margin - 52.0) * u), x + 24.0 * u, y + 13.0 * u, 14.0 * u,
               Align::left);
   }
   if (listed < style.groups)

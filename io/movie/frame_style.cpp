@@ -95,7 +95,8 @@ FrameStyle frame_style(const Scene& scene, const PictureLook& look, const SeenVa
   style.time_decimals = decimals_for(scene.output.every, scene.run.t_end);
   style.group_ends = ends_of_groups(scene);
   style.groups = static_cast<DiskId>(scene.groups.size() + (scene.sources.empty() ? 0 : 1));
-  style.sources = !scene.sources.empty();
+  for (const DiskGroup& group : scene.groups) style.group_names.push_back(group.name);
+  if (!scene.sources.empty()) style.group_names.emplace_back(sources_name);
   return style;
 }
 

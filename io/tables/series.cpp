@@ -44,16 +44,21 @@ SeriesRow SeriesMeter::row(const Disks& disks, const State& now, const BlockRunn
 }
 
 SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
-    : file_(path), meter_(scene, true), with_displacement_(scene.analysis.wants(Quantity::displacement)) {
+    : file_(path),
+      meter_(scene, true),
+      groups_(scene),
+      with_displacement_(scene.analysis.wants(Quantity::displacement)) {
   std::string heading = "t";
   for (const SeriesColumn& column : series_columns) heading += fmt::format(",{}", column.name);
   if (with_displacement_) heading += fmt::format(",{}", displacement_column);
+  for (const GroupColumn& column : groups_.columns()) heading += fmt::format(",{}", column.name);
   file_.write(heading + "\n");
 }
 
 SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from)
     : file_(path, from.file.bytes),
       meter_(scene, true, from.meter),
+      groups_(scene),
       with_displacement_(scene.analysis.wants(Quantity::displacement)),
       rows_(from.file.frames) {}
 
@@ -75,6 +80,7 @@ SeriesRow SeriesWriter::write(const Disks& disks, double time, const State& now,
     }
   }
   if (with_displacement_) fmt::format_to(std::back_inserter(line), ",{}", displacement);
+  for (const double value : groups_.row(disks)) fmt::format_to(std::back_inserter(line), ",{}", value);
   file_.write(line + "\n");
   file_.flush();
   ++rows_;

@@ -11,6 +11,7 @@
 #include "core/scene/scene.hpp"
 #include "io/files/file_mark.hpp"
 #include "io/files/output_file.hpp"
+#include "io/tables/group_columns.hpp"
 
 namespace carom {
 
@@ -43,7 +44,7 @@ inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"force_bottom", false, "force", "likewise on the floor"},
     {"force_top", false, "force", "likewise on the ceiling"},
 }};
-inline constexpr const char* displacement_column = "displacement";  // the last, where [analysis] asks for it
+inline constexpr const char* displacement_column = "displacement";  // behind them, where [analysis] asks for it
 using SeriesRow = std::array<double, series_columns.size()>;        // counts are exact up to 2^53
 
 inline constexpr std::size_t collisions_column = 6, wall_collisions_column = 7;
@@ -84,8 +85,8 @@ class SeriesWriter {
   // shorter.
   SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from);
 
-  // One row, which it returns: see SeriesMeter::row. displacement: the mean square, the last column where
-  // scene.analysis asks for it.
+  // One row, which it returns: see SeriesMeter::row. displacement: the mean square, a column where
+  // scene.analysis asks for it. The columns of groups with names come last.
   SeriesRow write(const Disks& disks, double time, const State& now, double displacement = 0.0,
                   const BlockRunner& run = run_in_order);
 
@@ -97,6 +98,7 @@ class SeriesWriter {
  private:
   OutputFile file_;
   SeriesMeter meter_;
+  GroupMeter groups_;
   bool with_displacement_;
   Count rows_ = 0;
 };

@@ -16,8 +16,8 @@ void find_places(const Selection& select, const Disks& disks, std::size_t least,
   }
   places.resize(least, no_disk);
   for (std::size_t i = 0; i < disks.size(); ++i) {
-    if (disks.id[i] % select.stride != 0) continue;
-    const std::size_t place = disks.id[i] / select.stride;
+    if (!is_selected(select, disks, i)) continue;
+    const std::size_t place = (disks.id[i] - select.ids.first) / select.stride;
     if (place >= places.size()) places.resize(std::max(place + 1, places.size() + places.size() / 2), no_disk);
     places[place] = static_cast<std::uint32_t>(i);
   }

@@ -10,16 +10,17 @@
 namespace carom {
 
 inline bool is_selected(const Selection& select, const Disks& disks, std::size_t i) {
-  if (!select.by_region) return disks.id[i] % select.stride == 0;
+  const DiskId id = disks.id[i];
+  if (!select.by_region) return select.ids.holds(id) && (id - select.ids.first) % select.stride == 0;
   return disks.x[i] >= select.low.x && disks.x[i] <= select.high.x && disks.y[i] >= select.low.y &&
          disks.y[i] <= select.high.y;
 }
 
 inline constexpr std::uint32_t no_disk = 0xffffffffU;
 
-// Storage index by place, no_disk where there is none. By stride, the disk k * stride has place k for ever, and places
-// of disks that are gone stay empty; in a region, disks come and go, and take places 0, 1, ... in order of id.
-// least: number of places at least.
+// Storage index by place, no_disk where there is none. By stride, the disk k * stride (counted from the first of a
+// group) has place k for ever, and places of disks that are gone stay empty; in a region, disks come and go, and take
+// places 0, 1, ... in order of id. least: number of places at least.
 void find_places(const Selection& select, const Disks& disks, std::size_t least, std::vector<std::uint32_t>& places);
 
 }  // namespace carom

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/hdf5/hdf5_kinds.hpp"
+#include "io/tables/group_columns.hpp"
 #include "io/tables/series.hpp"
 #include "io/trajectory/h5md_layout.hpp"
 
@@ -64,6 +65,9 @@ std::vector<H5mdColumn> h5md_columns(const Scene& scene) {
   columns.push_back(column(of_disks("position/step"), true));
   for (const std::size_t k : observables_of(scene)) {
     columns.push_back(column(fmt::format("/observables/{}/value", series_columns[k].name), series_columns[k].whole));
+  }
+  for (const GroupColumn& c : GroupMeter(scene).columns()) {
+    columns.push_back(column(fmt::format("/observables/{}/value", c.name), c.whole));
   }
   if (scene.output.dimensions == 3) {
     // MDAnalysis takes the box of each frame for three vectors.

@@ -13,6 +13,7 @@
 #include "io/hdf5/hdf5_kinds.hpp"
 #include "io/hdf5/hdf5_output.hpp"
 #include "io/hdf5/shuffled_deflate.hpp"
+#include "io/tables/group_columns.hpp"
 #include "io/trajectory/disk_selection.hpp"
 #include "io/trajectory/h5md_elements.hpp"
 #include "io/trajectory/h5md_layout.hpp"
@@ -56,6 +57,16 @@ Count disks_at_start(const Scene& scene) {
   return disks;
 }
 
+// How many places a file has whatever comes later, and whether anything may come.
+Count places_at_start(const Selection& select, Count disks) {
+  if (select.by_region) return 0;
+  const Count end = std::min<Count>(select.ids.end, disks);
+  return end > select.ids.first ? (end - select.ids.first + select.stride - 1) / select.stride : 0;
+}
+bool may_grow(const Selection& select, const Scene& scene, Count disks) {
+  return select.by_region || (!scene.sources.empty() && select.ids.end > disks);
+}
+
 }  // namespace
 
 struct H5mdWriter::File {
@@ -89,6 +100,7 @@ struct H5mdWriter::File {
   std::vector<H5mdElement> elements;       // positions first
   std::vector<std::size_t> shown_columns;  // of series_columns
   std::vector<H5mdColumn> columns;  // step, the observables, and time, which says how many frames are whole, at last
+  GroupMeter groups;
   std::vector<std::uint32_t> disk_at;
   std::vector<Packer> packers = std::vector<Packer>(chunks_at_once);
   double work_seen = 0.0;  // of the run, at the last frame
@@ -101,12 +113,12 @@ H5mdWriter::File::File(const std::string& file_path, const Scene& scene, bool ex
       select(scene.output.select),
       form{scene.output.single_precision, scene.output.dimensions, ends_of_groups(scene), rounds},
       exact(scene.run.method == Method::exact),
-      growing(!scene.sources.empty() || select.by_region),
+      growing(may_grow(select, scene, disks_at_start(scene))),
       elements(h5md_elements(scene, rounds != nullptr)),
       shown_columns(observables_of(scene)),
-      columns(h5md_columns(scene)) {
-  const Count disks = disks_at_start(scene);
-  places = select.by_region ? 0 : (disks + select.stride - 1) / select.stride;
+      columns(h5md_columns(scene)),
+      groups(scene) {
+  places = places_at_start(select, disks_at_start(scene));
   chunk = std::clamp<hsize_t>(places, growing ? smallest_open_chunk : 1, largest_chunk);
 }
 
@@ -317,7 +329,9 @@ void H5mdWriter::write(const Disks& disks, double time, Count step, const Series
   const Count shown = f.exact ? f.frames : step;
   f.write_frame(disks, run);
   f.columns.front().values.push_back(static_cast<double>(shown));
-  for (std::size_t k = 0; k < f.shown_columns.size(); ++k) f.columns[k + 1].values.push_back(row[f.shown_columns[k]]);
+  std::size_t column = 0;
+  for (const std::size_t k : f.shown_columns) f.columns[++column].values.push_back(row[k]);
+  for (const double value : f.groups.row(disks)) f.columns[++column].values.push_back(value);
   f.columns.back().values.push_back(time);
   const auto count = static_cast<double>(disks.size());
   const double work = work_done(step, row[collisions_column] + row[wall_collisions_column], count);

@@ -108,7 +108,7 @@ void XyzWriter::write_lines(const Disks& disks, const std::vector<std::size_t>& 
 void XyzWriter::write(const Disks& disks, double time, const BlockRunner& run) {
   std::vector<std::size_t> order = by_id(disks);
   const Selection& select = plan_.select;
-  if (select.by_region || select.stride != 1) {
+  if (!select.all()) {
     std::erase_if(order, [&](std::size_t i) { return !is_selected(select, disks, i); });
   }
   std::string head = fmt::format("{}\n{}", order.size(), lattice_);

@@ -91,7 +91,8 @@ std::string numbers_text(const std::vector<double>& numbers) {
 void add_group(Crowd& crowd, Dice& dice, const Units& units, std::size_t count, const char* positions, double largest) {
   const Sizes sizes = random_laws(dice, units, largest);
   const double mass = dice.chance(0.9) ? sizes.lightest : sizes.heaviest;
-  crowd.text += fmt::format("[[disks]]\ncount = {}\npositions = \"{}\"\n{}{}", count, positions,
+  const std::string name = dice.chance(0.2) ? fmt::format("name = \"group-{}\"\n", crowd.disks) : "";
+  crowd.text += fmt::format("[[disks]]\n{}count = {}\npositions = \"{}\"\n{}{}", name, count, positions,
                             random_velocities(dice, units, count, mass), sizes.text);
   crowd.smallest = crowd.disks == 0 ? sizes.smallest : std::min(crowd.smallest, sizes.smallest);
   crowd.largest = std::max(crowd.largest, sizes.largest);

@@ -26,6 +26,7 @@ height = 100.0
 [physics]
 collapse = { model = "tc", contact_time = 1e-6 }
 [[disks]]
+name = "tracer"
 count = 3
 positions = "growth"
 radius = 1.0
