@@ -23,6 +23,14 @@ Json phase_seconds(const Summary& s) {
   return phases;
 }
 
+Json heat_of(const Summary& s) {
+  Json heat = Json::object();
+  for (std::size_t k = 0; k < side_names.size(); ++k) {
+    if (s.box.is_thermal(all_sides[k])) heat[std::string(side_names[k])] = json_number(s.counters.heat[k]);
+  }
+  return heat.empty() ? absent() : heat;
+}
+
 // These ids, if there was an overlap.
 Json ids_of(const WorstOverlap& worst, const std::vector<DiskId>& ids) {
   return worst.overlap.size > 0.0 ? Json(ids) : Json::array();
@@ -68,6 +76,8 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return s.state_hash; }},
     {"version", "", "of Carom, with the commit that it was built from",
      [](const Summary&) -> Json { return build_version(); }},
+    {"heat", "energy", "only with thermal sides: an object, what each of them gave to the disks",
+     [](const Summary& s) -> Json { return heat_of(s); }},
     {"seed", "", "of the random numbers", [](const Summary& s) -> Json { return s.seed; }},
     {"waiting", "", "disks that are due from sources and find no room",
      [](const Summary& s) -> Json { return s.counters.waiting; }},
@@ -158,6 +168,7 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   if (disk_time > 0.0) s.collision_rate = 2.0 * static_cast<double>(state.counters.collisions) / disk_time;
   s.state_hash = hash_text(state_hash(state.disks));
   s.seed = scene.seed;
+  s.box = scene.box;
   s.phases = engine.phase_times();
   return s;
 }

@@ -29,6 +29,7 @@ struct Summary {
   double collision_rate = 0.0;  // per disk per unit time: a collision counts for both disks
   std::string state_hash;
   std::uint64_t seed = 1;
+  Domain box;
   Count frames = 0;
   std::vector<std::string> warnings;  // of the physics, in order
   Count resumed = 0;                  // how often it went on from a checkpoint; the times are those of all parts

@@ -38,9 +38,15 @@ std::string walls_text(const Domain& box) {
   std::optional<double> first;
   for (const Side side : all_sides) {
     if (box.side(side) != SideKind::wall) continue;
+    const std::string_view name = side_names[static_cast<std::size_t>(side)];
+    if (box.is_thermal(side)) {
+      equal = false;
+      text += fmt::format(", the {} wall at temperature {:g}", name, box.temperature(side));
+      continue;
+    }
     equal = equal && box.restitution(side) == first.value_or(box.restitution(side));
     if (!first) first = box.restitution(side);
-    text += fmt::format(", {:g} at the {} wall", box.restitution(side), side_names[static_cast<std::size_t>(side)]);
+    text += fmt::format(", {:g} at the {} wall", box.restitution(side), name);
   }
   return equal && first ? fmt::format(", {:g} at walls", *first) : text;
 }

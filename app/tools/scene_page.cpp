@@ -119,6 +119,8 @@ std::string series_rows() {
   text += fmt::format(
       "| `{}` | length^2 | mean square displacement since the first sample, where `[analysis]` asks for it |\n",
       displacement_column);
+  text += fmt::format("| `{}_left`, likewise `_right`, `_bottom`, `_top` | {} | {}; a column a thermal side |\n",
+                      heat_column.name, heat_column.unit, heat_column.meaning);
   text +=
       "\nThen, for each `[[disks]]` block with a `name`, and for `sources` if there are any, these with `_` and the "
       "name behind, as in `temperature_tracer`:\n\n| column | unit | what it is |\n| --- | --- | --- |\n";

@@ -21,6 +21,7 @@ enum class Stream : std::uint32_t {
   source_radius,
   source_mass,
   growth_velocity,
+  thermal_side,
 };
 
 struct TwoUniforms {

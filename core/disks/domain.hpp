@@ -18,10 +18,17 @@ struct Domain {
   double height = 0.0;  // length
   std::array<SideKind, 4> sides{SideKind::wall, SideKind::wall, SideKind::wall, SideKind::wall};
   std::array<double, 4> restitutions{1.0, 1.0, 1.0, 1.0};  // in [0, 1]; only those of walls count
+  std::array<double, 4> temperatures{0.0, 0.0, 0.0, 0.0};  // of thermal walls, energy; 0: not thermal
 
   SideKind side(Side s) const { return sides[static_cast<std::size_t>(s)]; }
   // Of a wall: speed away from it over speed towards it. Elastic whatever e is in docs/original.md.
   double restitution(Side s) const { return restitutions[static_cast<std::size_t>(s)]; }
+  // A thermal wall reflects with Maxwell's flux distribution (core/physics/thermal_side.hpp).
+  double temperature(Side s) const { return temperatures[static_cast<std::size_t>(s)]; }
+  bool is_thermal(Side s) const { return temperature(s) > 0.0; }
+  bool has_thermal_side() const {
+    return is_thermal(Side::left) || is_thermal(Side::right) || is_thermal(Side::bottom) || is_thermal(Side::top);
+  }
   // May a collision with a wall lose energy?
   bool walls_dissipate() const {
     for (Side s : all_sides) {

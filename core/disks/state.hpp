@@ -1,6 +1,7 @@
 // The state of a run: the disks, the time, and what has been counted so far. Nothing else changes while a run goes on.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/base/types.hpp"
@@ -19,6 +20,7 @@ struct Counters {
   double virial = 0.0;                    // sum over disk-disk collisions of |impulse| (r1 + r2); mass length^2 / time
   double emitted_energy = 0.0;            // that disks from sources came with, kinetic and potential
   double wall_impulse[4] = {0, 0, 0, 0};  // sum of |impulse| on each side (order of Side); mass length / time
+  double heat[4] = {0, 0, 0, 0};          // energy that each thermal side has given to the disks
 };
 
 struct SourceState {
@@ -71,7 +73,8 @@ struct State {
   StallWatch stall;                  // rollback, exact
   ValidityCounts validity;           // counted on in a run that is taken up again, so that it warns of the same
   double window = 0.0;  // exact: length meant for the next window; time, 0 before the first, < 0 after a crowded one
-  std::vector<double> last_contact;  // exact with the TC model: by id, time of the last collision; else empty
+  std::vector<double> last_contact;         // exact with the TC model: by id, time of the last collision; else empty
+  std::vector<std::uint32_t> thermal_hits;  // with thermal sides: by id, reflections by one so far; else empty
 };
 
 }  // namespace carom

@@ -47,10 +47,12 @@ double mean_square_speed(const VelocityLaw& law, double mass) {
 // Sums over the disks of the scene.
 struct Tally {
   double disks = 0.0, radius2 = 0.0, speed2 = 0.0;
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = std::numeric_limits<double>::infinity();  // radius
+  double lightest = std::numeric_limits<double>::infinity();  // mass
 
-  void add(double count, double sum_radius2, double smallest_radius, double mean_speed2) {
+  void add(double count, double sum_radius2, double smallest_radius, double mass, double mean_speed2) {
     if (!(count > 0.0)) return;
+    lightest = std::min(lightest, mass);
     disks += count;
     radius2 += sum_radius2;
     speed2 += count * mean_speed2;
@@ -70,7 +72,7 @@ Tally tally_of(const Scene& scene) {
     const SizeSummary sizes = summarise_sizes(group, scene.seed, first_id);
     const double mass = middle(sizes.smallest.mass, sizes.largest.mass);
     const double speed2 = group.count > 0 ? mean_square_speed(group.velocities, mass) : 0.0;
-    tally.add(static_cast<double>(group.count), sizes.radius_squared, sizes.smallest.radius, speed2);
+    tally.add(static_cast<double>(group.count), sizes.radius_squared, sizes.smallest.radius, mass, speed2);
     first_id += static_cast<DiskId>(group.count);
   }
   for (const Source& source : scene.sources) {
@@ -78,9 +80,15 @@ Tally tally_of(const Scene& scene) {
     if (source.limit) count = std::min(count, static_cast<double>(*source.limit));
     const DiskSize size =
         draw_size(source.radius, source.mass, scene.seed, Stream::source_radius, Stream::source_mass, 0, 0);
-    tally.add(count, count * size.radius * size.radius, size.radius, mean_square_speed(source.velocities, size.mass));
+    tally.add(count, count * size.radius * size.radius, size.radius, size.mass,
+              mean_square_speed(source.velocities, size.mass));
   }
   return tally;
+}
+
+// The gas comes to have the temperature of its sides, or one between them; 0 where none is thermal.
+double hottest_side(const Scene& scene) {
+  return *std::max_element(scene.box.temperatures.begin(), scene.box.temperatures.end());
 }
 
 // Compressibility of hard disks, good to 0.1 % up to packing fraction 0.65 (virial series resummed; docs/methods.md).
@@ -243,7 +251,8 @@ SceneScales scales_of(const Scene& scene) {
   s.diameter = 2.0 * std::sqrt(tally.radius2 / tally.disks);
   s.packing_fraction = std::min(0.9, std::numbers::pi * tally.radius2 / (scene.box.width * scene.box.height));
   // A disk falls through half the box in the mean: v_y^2 = g H, of which half for each component.
-  s.speed = std::sqrt(tally.speed2 / tally.disks + 0.5 * scene.physics.gravity * scene.box.height);
+  const double speed2 = std::max(tally.speed2 / tally.disks, hottest_side(scene) / tally.lightest);
+  s.speed = std::sqrt(speed2 + 0.5 * scene.physics.gravity * scene.box.height);
   const double eta = s.settles ? std::max(settled_fraction, s.packing_fraction) : s.packing_fraction;
   s.collision_rate =
       s.disks > 1.0 ? 4.0 * (compressibility(eta) - 1.0) * s.speed / (std::sqrt(std::numbers::pi) * s.diameter) : 0.0;

@@ -92,6 +92,17 @@ void check_sides(const Domain& box, const PlaceOfKey& place) {
   }
 }
 
+// Brownian disks have no velocity that a thermal side could give them.
+void check_thermal_motion(const Scene& scene, const PlaceOfKey& place) {
+  if (!(scene.physics.diffusion > 0.0)) return;
+  for (const Side side : all_sides) {
+    if (!scene.box.is_thermal(side)) continue;
+    fail_input(place(fmt::format("box.{}.temperature", side_names[static_cast<std::size_t>(side)])),
+               "given beside physics.diffusion: velocities of Brownian disks are drawn anew in each step",
+               "expected one of the two");
+  }
+}
+
 void check_run(const Scene& scene, const PlaceOfKey& place) {
   if (scene.run.automatic) return;  // its dt is still to be chosen
   const bool time_stepping = scene.run.method != Method::exact;
@@ -195,6 +206,7 @@ void check_region(const Source& source, const Domain& box, double radius, const 
 
 void check_parts(const Scene& scene, const PlaceOfKey& place) {
   check_sides(scene.box, place);
+  check_thermal_motion(scene, place);
   Count total = 0;
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     const std::string path = fmt::format("disks.{}", g);
@@ -254,7 +266,9 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
   check_times(scene, place);
   double smallest = 0.0;  // radius; 0: no disk yet
   double largest = 0.0;
+  double lightest = 0.0;
   const auto add = [&](const DiskSize& low, const DiskSize& high) {
+    lightest = lightest > 0.0 ? std::min(lightest, low.mass) : low.mass;
     smallest = smallest > 0.0 ? std::min(smallest, low.radius) : low.radius;
     largest = std::max(largest, high.radius);
   };
@@ -282,6 +296,7 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
   check_axis(scene.box.width, scene.box.periodic_x(), largest, "width", place);
   check_axis(scene.box.height, scene.box.periodic_y(), largest, "height", place);
   check_resolution(scene, smallest, place);
+  check_thermal_sides(scene, lightest, place);
   return largest;
 }
 

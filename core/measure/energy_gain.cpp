@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/measure/invariants.hpp"
 #include "core/step/window_plan.hpp"
 
@@ -10,9 +12,14 @@ namespace carom {
 std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state) {
   if (scene.physics.diffusion > 0.0) return {};
   const bool exact = scene.run.method == Method::exact;
-  const double before = start.energy.total() + state.counters.emitted_energy;
+  double before = start.energy.total() + state.counters.emitted_energy;
+  double moved = before;  // what rounding is to be held against
+  for (const double heat : state.counters.heat) {
+    before += heat;
+    moved += std::abs(heat);
+  }
   const double after = energy_of(state.disks, scene.physics.gravity).total();
-  if (!(after - before > (exact ? most_gain_exact : most_gain_stepping) * before)) return {};
+  if (!(after - before > (exact ? most_gain_exact : most_gain_stepping) * moved)) return {};
   std::string why = "speeds or sizes differ too much for double precision";
   if (exact && has_tc(scene)) {
     why = fmt::format(

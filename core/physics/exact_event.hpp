@@ -18,6 +18,7 @@ struct ExactRules {
   double gravity = 0.0;        // length / time^2
   double restitution = 1.0;    // of disk pairs
   double contact_time = -1.0;  // TC model; time, < 0: off
+  std::uint64_t seed = 0;      // with thermal sides
   bool common_mass = true;     // pairs share impulses half and half
 
   bool tc() const { return contact_time >= 0.0; }
@@ -26,7 +27,8 @@ struct ExactRules {
 // What an event reads and writes of one disk.
 struct ExactDisk {
   PathSegment path;
-  double last_contact = -never;  // TC model: when it last collided, disk or wall; time in the window, may be < 0
+  double last_contact = -never;    // TC model: when it last collided, disk or wall; time in the window, may be < 0
+  std::uint32_t thermal_hits = 0;  // reflections by thermal sides so far
 };
 
 // TC model (Luding and McNamara 1998): e = 1 where one of the disks collided less than contact_time ago.
@@ -45,7 +47,7 @@ inline Impact collide_paths(const Domain& box, double g, double s, Shares share,
   const Relative r = relative(p, q, box);
   Impact outcome;
   if (r.approach() < 0.0 && r.distance2() > 0.0) {
-    outcome = {reduced_mass * collide(r, share, e, p.vx, p.vy, q.vx, q.vy), true, false};
+    outcome = {reduced_mass * collide(r, share, e, p.vx, p.vy, q.vx, q.vy), 0.0, true, false};
   }
   wrap_into(p, box);
   wrap_into(q, box);
@@ -72,19 +74,35 @@ inline Impact collide_at(const ExactRules& rules, double s, double mass_a, doubl
 // pile costs: were it given only to disks at rest, a pile would cool further and have four times as many collisions.
 inline constexpr double least_hop = 0.25;
 
-// Disk a reaches a side at time s: it bounces off a wall or crosses a periodic side. What a sink takes, the caller
-// removes.
-inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double mass, ExactDisk& a) {
+// Disk a, which has this id, is at a thermal side at time s.
+inline Impact meet_thermal_side(const ExactRules& rules, double s, Side side, double mass, DiskId id, ExactDisk& a) {
+  PathSegment& p = a.path;
+  const double before = outward_speed(side, p.vx, p.vy);
+  Impact outcome{0.0, 0.0, true, false};
+  if (before > 0.0) {
+    outcome.heat =
+        reflect_thermally(side, rules.box.temperature(side), mass, {rules.seed, id}, a.thermal_hits, p.vx, p.vy);
+    outcome.virial = mass * (before - outward_speed(side, p.vx, p.vy));
+  }
+  a.last_contact = s;
+  return outcome;
+}
+
+// Disk a, which has this id, reaches a side at time s: it bounces off a wall or crosses a periodic side. What a sink
+// takes, the caller removes.
+inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double mass, DiskId id, ExactDisk& a) {
   PathSegment& p = a.path;
   p = carried_to(p, s, rules.gravity);
   Impact outcome;
-  if (rules.box.side(side) == SideKind::wall) {
+  if (rules.box.is_thermal(side)) {
+    outcome = meet_thermal_side(rules, s, side, mass, id, a);
+  } else if (rules.box.side(side) == SideKind::wall) {
     const bool elastic = made_elastic(rules, s, a.last_contact);
     const double e = elastic ? 1.0 : rules.box.restitution(side);
     const double before = outward_speed(side, p.vx, p.vy);
     if (before > 0.0) bounce(side, e, p.vx, p.vy);
     if (side == Side::bottom && rules.tc()) p.vy = std::max(p.vy, least_hop * rules.gravity * rules.contact_time);
-    outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), true,
+    outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), 0.0, true,
                elastic && rules.box.restitution(side) < 1.0};
     a.last_contact = s;
   }

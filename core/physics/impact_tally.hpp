@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/base/exact_sum.hpp"
 #include "core/disks/state.hpp"
@@ -19,6 +20,7 @@ struct ImpactTally {
   Count inaccurate = 0;             // of both collisions, see Impact
   ExactSum virial;
   std::array<ExactSum, 4> wall_impulse;
+  std::vector<ExactSum> heat;  // of each side; empty where no thermal side gave any
 
   // partner: the second disk's id, or a wall_partner.
   void add(DiskId partner, const Impact& impact) {
@@ -27,9 +29,15 @@ struct ImpactTally {
     if (is_wall(partner)) {
       ++wall_collisions;
       wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.virial);
+      if (impact.heat != 0.0) add_heat(wall_side(partner), impact.heat);
     } else {
       add_collision(impact.virial);
     }
+  }
+
+  void add_heat(Side side, double given) {
+    heat.resize(all_sides.size());
+    heat[static_cast<std::size_t>(side)].add(given);
   }
 
   // A collision of two disks.
@@ -59,6 +67,9 @@ struct ImpactTally {
     if (other.wall_collisions + other.wall_loads > 0) {
       for (std::size_t k = 0; k < wall_impulse.size(); ++k) wall_impulse[k].add(other.wall_impulse[k]);
     }
+    if (other.heat.empty()) return;
+    heat.resize(all_sides.size());
+    for (std::size_t k = 0; k < heat.size(); ++k) heat[k].add(other.heat[k]);
   }
 
   // Rounds once a step.
@@ -68,6 +79,7 @@ struct ImpactTally {
     if (collisions + loads > 0) counters.virial += virial.value();
     if (wall_collisions + wall_loads == 0) return;
     for (std::size_t k = 0; k < wall_impulse.size(); ++k) counters.wall_impulse[k] += wall_impulse[k].value();
+    for (std::size_t k = 0; k < heat.size(); ++k) counters.heat[k] += heat[k].value();
   }
 };
 

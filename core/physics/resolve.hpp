@@ -13,6 +13,7 @@
 #include "core/physics/boundary.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/disk_pair.hpp"
+#include "core/physics/thermal_side.hpp"
 
 namespace carom {
 
@@ -21,14 +22,17 @@ struct StepRules {
   Domain box;
   double gravity = 0.0;
   double restitution = 1.0;
-  double dt = 0.0;       // length of the step just drifted
-  bool settles = false;  // gravity > 0 and a contact dissipates: contacts may bear load (resting.hpp)
-  int round = 0;         // of resolving within the step; later ones find what the one before pressed together
+  double dt = 0.0;                        // length of the step just drifted
+  bool settles = false;                   // gravity > 0 and a contact dissipates: contacts may bear load (resting.hpp)
+  std::uint64_t seed = 0;                 // with thermal sides
+  std::uint32_t* thermal_hits = nullptr;  // State::thermal_hits; a disk in contact changes its own
+  int round = 0;  // of resolving within the step; later ones find what the one before pressed together
 };
 
 // What became of one contact event.
 struct Impact {
   double virial = 0.0;  // |impulse| x distance of a disk pair, |impulse| of a wall; mass length^2 / time or m l / t
+  double heat = 0.0;    // energy that a thermal side gave; mass length^2 / time^2
   bool happened = false;
   // Late, since the disks have overlapped since before the step; or made elastic by the TC model (exact).
   bool inaccurate = false;
@@ -103,7 +107,7 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
   if (r.distance2() > 0.0 && r.approach() < 0.0) {
     const Shares share = shares_of(d, i, j);
     const double change = collide(r, share, rules.restitution, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
-    impact = {reduced_mass(d.mass(i), d.mass(j)) * change, true, !inside_step};
+    impact = {reduced_mass(d.mass(i), d.mass(j)) * change, 0.0, true, !inside_step};
   }
   if (inside_step) {
     drift_one(d, i, ago, rules.gravity);
@@ -129,6 +133,34 @@ double bounce_at_wall(const View& d, const StepRules& rules, std::uint32_t i, Si
   return speed + away;
 }
 
+// Disk i is reflected by a thermal side where it is.
+template <class View>
+Impact reflect_at_side(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
+  const double before = outward_speed(side, d.vx[i], d.vy[i]);
+  const DiskId id = d.id[i];
+  const double heat = reflect_thermally(side, rules.box.temperature(side), d.mass(i), {rules.seed, id},
+                                        rules.thermal_hits[id], d.vx[i], d.vy[i]);
+  return {d.mass(i) * (before - outward_speed(side, d.vx[i], d.vy[i])), heat, true};
+}
+
+// A disk that reaches beyond a thermal side and moves into it, at speed `speed`: reflected once, at its contact, or at
+// the side where that is older than the step. Where gravity brings it back within the step, it stays at the side.
+template <class View>
+Impact resolve_thermal_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side, double beyond,
+                            double speed) {
+  const double ago = time_since_wall(side, beyond, speed, rules.gravity);
+  const bool inside_step = ago <= rules.dt;
+  Impact impact;
+  if (inside_step) drift_one(d, i, -ago, rules.gravity);
+  if (outward_speed(side, d.vx[i], d.vy[i]) > 0.0) impact = reflect_at_side(d, rules, i, side);
+  if (inside_step) drift_one(d, i, ago, rules.gravity);
+  const double r = d.radius(i);
+  if (reach_beyond(side, d.x[i], d.y[i], r, rules.box) >= 0.0) {
+    (side == Side::left || side == Side::right ? d.x : d.y)[i] = touching_coordinate(side, r, rules.box);
+  }
+  return impact;
+}
+
 // Likewise for a disk and a wall (F11: position and velocity are both put right). A disk that gravity brings back to
 // the wall within the step, and one whose contact is older than the step, bounces at the step's end with the speed that
 // its energy allows: so a disk at rest on the floor stays at rest, and the lift gives it no energy.
@@ -137,6 +169,7 @@ Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side
   const auto beyond = [&] { return reach_beyond(side, d.x[i], d.y[i], d.radius(i), rules.box); };
   const auto speed = [&] { return outward_speed(side, d.vx[i], d.vy[i]); };
   if (!(beyond() >= 0.0) || !(speed() > 0.0)) return {};
+  if (rules.box.is_thermal(side)) return resolve_thermal_wall(d, rules, i, side, beyond(), speed());
   const double ago = time_since_wall(side, beyond(), speed(), rules.gravity);
   double change = 0.0;
   if (ago <= rules.dt) {
@@ -149,7 +182,7 @@ Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side
     drift_one(d, i, ago, rules.gravity);
   }
   if (beyond() >= 0.0 && speed() > 0.0) change += bounce_at_wall(d, rules, i, side);
-  return {d.mass(i) * change, change > 0.0};
+  return {d.mass(i) * change, 0.0, change > 0.0};
 }
 
 template <class View>

@@ -46,6 +46,7 @@ double normal_velocity(const View& d, const Domain& box, const ContactEvent& e) 
 // Is this contact a support? loaded: it bore load in the step before; squeezed: one of its disks has another contact.
 template <class View>
 bool is_support(const View& d, const StepRules& rules, const ContactEvent& e, bool loaded, bool squeezed) {
+  if (is_wall(e.id2) && rules.box.is_thermal(wall_side(e.id2))) return false;
   if (loaded && squeezed) return true;
   const double speed = std::abs(normal_velocity(d, rules.box, e));
   if (squeezed) return speed <= squeezed_rest * rules.gravity * rules.dt;

@@ -74,6 +74,7 @@ class ReferenceExact final : public Engine {
     const PhaseTimer timer(times_, "start");
     emit_at_window_start(scene_, state_, [&](const Disk& d) { return has_room(state_.disks, scene_.box, d); });
     if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
+    count_thermal_hits(scene_, state_);
     if (!brownian_interval_begins(scene_, state_)) return;
     const BrownianInterval interval = begin_brownian_interval(scene_, state_);
     std::vector<unsigned char> gone(state_.disks.size(), 0);
@@ -101,6 +102,7 @@ class ReferenceExact final : public Engine {
     for (std::size_t i = 0; i < d.size(); ++i) {
       place(result.disks[i].path, plan.length, d, i);
       if (!state_.last_contact.empty()) state_.last_contact[d.id[i]] = plan.start + result.disks[i].last_contact;
+      if (!state_.thermal_hits.empty()) state_.thermal_hits[d.id[i]] = result.disks[i].thermal_hits;
     }
     state_.counters.removed += remove_marked(d, result.gone);
     finish_window(state_, plan, result.tally, scale_);

@@ -83,7 +83,7 @@ class EventLoop {
     ExactDisk& first = result_.disks[e.i1];
     const Impact outcome =
         pair ? collide_at(rules_, e.time, disks_.mass_of(e.i1), disks_.mass_of(e.i2), first, result_.disks[e.i2])
-             : meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), first);
+             : meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), e.id1, first);
     result_.tally.add(e.id2, outcome);
     if (pair && outcome.happened) result_.collisions.emplace_back(e.id1, e.id2);
     if (!pair && rules_.box.side(wall_side(e.id2)) == SideKind::sink) result_.gone[e.i1] = 1;
@@ -136,6 +136,7 @@ WindowResult fresh_result(const State& state) {
     ExactDisk& disk = result.disks[i];
     disk.path = {0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]};
     if (!state.last_contact.empty()) disk.last_contact = state.last_contact[d.id[i]] - state.time;
+    if (!state.thermal_hits.empty()) disk.thermal_hits = state.thermal_hits[d.id[i]];
     result.paths.first[i] = disk.path;
   }
   return result;

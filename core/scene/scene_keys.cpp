@@ -103,6 +103,11 @@ constexpr SceneKey keys[] = {
      side_kind_names},
     {"box.side", "restitution", unit_interval, none, "wall_restitution",
      "Of a wall: speed away from it over speed towards it.", "left = { restitution = 0.5 }"},
+    {"box.side", "temperature", positive, Dimension::energy, "not thermal",
+     "T of a thermal wall (k_B = 1): whatever the velocity with which a disk reaches it, the disk leaves with one "
+     "drawn "
+     "from Maxwell's flux distribution. Takes the place of `restitution`. Not with Brownian motion.",
+     "left = { temperature = 2.0 }"},
 
     {"physics", "gravity", non_negative, Dimension::acceleration, "0", "Acceleration downwards, along -y.",
      "gravity = 0.5"},

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/base/input_message.hpp"
+#include "core/scene/scene_names.hpp"
 #include "core/scene/scene_ranges.hpp"
 
 namespace carom {
@@ -31,6 +32,17 @@ void check_flight(const Scene& scene, double distance, const std::string& where,
   if (crossings <= most_crossings) return;
   fail_input(where, fmt::format("{} crosses the box {:g} times until run.t_end = {}", what, crossings, scene.run.t_end),
              fmt::format("expected at most 2^53 = {:g} times", most_crossings));
+}
+
+// No normal deviate of this program is larger.
+constexpr double largest_deviate = 9.0;
+
+// what: has that speed.
+void check_speed(const Scene& scene, double speed, const std::string& where, const std::string& what) {
+  if (!(speed <= magnitudes_of(Dimension::speed).most)) {
+    fail_input(where, fmt::format("{} has a speed of {}", what, speed), expected_range(Dimension::speed));
+  }
+  check_flight(scene, speed * scene.run.t_end, where, what);
 }
 
 bool steps_in_time(const Scene& scene) {
@@ -77,14 +89,9 @@ void check_positions(const PositionLaw& law, const std::string& path, const Plac
 void check_velocities(const Scene& scene, const VelocityLaw& law, double mass, const std::string& path,
                       const PlaceOfKey& place) {
   const auto check = [&](double speed, const std::string& key, const std::string& what) {
-    if (!(speed <= magnitudes_of(Dimension::speed).most)) {
-      fail_input(place(key), fmt::format("{} has a speed of {}", what, speed), expected_range(Dimension::speed));
-    }
-    check_flight(scene, speed * scene.run.t_end, place(key), what);
+    check_speed(scene, speed, place(key), what);
   };
   const std::string key = path + ".velocities";
-  // No normal deviate of this program is larger than 9.
-  constexpr double largest_deviate = 9.0;
   if (law.kind == VelocityLaw::Kind::maxwell) {
     check(largest_deviate * std::sqrt(law.temperature / mass), key,
           fmt::format("maxwell = {} with mass {}", law.temperature, mass));
@@ -99,6 +106,17 @@ void check_velocities(const Scene& scene, const VelocityLaw& law, double mass, c
     const Vec2 v = law.list[k];
     if (std::abs(v.x) <= 0.5 * most && std::abs(v.y) <= 0.5 * most) continue;  // the rule, at no cost
     check(std::hypot(v.x, v.y), fmt::format("{}.{}", key, k), fmt::format("is [{}, {}]: it", v.x, v.y));
+  }
+}
+
+void check_thermal_sides(const Scene& scene, double smallest_mass, const PlaceOfKey& place) {
+  if (!(smallest_mass > 0.0)) return;
+  for (const Side side : all_sides) {
+    if (!scene.box.is_thermal(side)) continue;
+    const double temperature = scene.box.temperature(side);
+    check_speed(scene, largest_deviate * std::sqrt(temperature / smallest_mass),
+                place(fmt::format("box.{}.temperature", side_names[static_cast<std::size_t>(side)])),
+                fmt::format("is {}: a disk of mass {}", temperature, smallest_mass));
   }
 }
 

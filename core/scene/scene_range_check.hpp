@@ -19,6 +19,9 @@ void check_positions(const PositionLaw& law, const std::string& path, const Plac
 void check_velocities(const Scene& scene, const VelocityLaw& law, double mass, const std::string& path,
                       const PlaceOfKey& place);
 
+// Speeds that thermal sides give. smallest_mass: of all disks, 0 if there are none.
+void check_thermal_sides(const Scene& scene, double smallest_mass, const PlaceOfKey& place);
+
 // How many disks a source has to give.
 void check_emissions(const Scene& scene, const Source& source, const std::string& path, const PlaceOfKey& place);
 

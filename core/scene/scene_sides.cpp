@@ -20,6 +20,14 @@ void require_wall(const TableReader& side, std::string_view name, SideKind kind)
 void read_side(const TableReader& side, std::size_t s, Domain& domain) {
   domain.sides[s] = static_cast<SideKind>(side.choice_or_initial("kind"));
   require_wall(side, "restitution", domain.sides[s]);
+  require_wall(side, "temperature", domain.sides[s]);
+  if (const auto temperature = side.number("temperature")) {
+    if (side.find("restitution") != nullptr) {
+      side.fail("restitution", "given beside temperature, which draws the velocity anew", "expected one of the two");
+    }
+    domain.temperatures[s] = *temperature;
+    domain.restitutions[s] = 1.0;
+  }
   if (const auto restitution = side.number("restitution")) domain.restitutions[s] = *restitution;
 }
 

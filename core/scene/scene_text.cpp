@@ -96,6 +96,9 @@ double common_restitution(const Domain& box) {
 
 std::string side_text(const Domain& box, std::size_t s, double common) {
   const std::string kind = quoted_toml(side_kind_names[index(box.sides[s])]);
+  if (box.temperatures[s] > 0.0) {
+    return fmt::format("{{ kind = {}, temperature = {} }}", kind, decimal(box.temperatures[s]));
+  }
   if (box.restitutions[s] == common) return kind;
   return fmt::format("{{ kind = {}, restitution = {} }}", kind, decimal(box.restitutions[s]));
 }

@@ -41,6 +41,7 @@ Scene flight_scene(const Scene& scene) {
   flight.file = scene.file;
   flight.box = scene.box;
   flight.box.restitutions.fill(1.0);
+  flight.box.temperatures.fill(0.0);
   for (SideKind& side : flight.box.sides) side = side == SideKind::periodic ? side : SideKind::wall;
   flight.run.method = Method::exact;
   return flight;

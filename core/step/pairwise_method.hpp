@@ -30,7 +30,7 @@ class PairwiseMethod final : public Phases {
     if (!std::exchange(state_.step_begun, true)) start_interval(clock_.start(k), dt, k);
     const Count n = parts(dt);
     StepFigures figures;
-    for (Count part = 0; part < n; ++part) figures.add(advance(rules_for(scene_, dt / static_cast<double>(n))));
+    for (Count part = 0; part < n; ++part) figures.add(advance(rules_for(scene_, state_, dt / static_cast<double>(n))));
     remove_at_sinks();
     state_.step_begun = false;
     ++state_.counters.steps;

@@ -26,7 +26,7 @@ Impact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::
   const Relative r = relative(d, i, j, rules.box);
   if (!(r.approach() < 0.0)) return {};
   const double change = collide(r, shares_of(d, i, j), rules.restitution, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
-  return {reduced_mass(d.mass(i), d.mass(j)) * change, true};
+  return {reduced_mass(d.mass(i), d.mass(j)) * change, 0.0, true};
 }
 
 // How far a pair that is not met overlaps; 0 for a wall. Nothing in the frame will see to it.

@@ -32,7 +32,7 @@ class RollbackMethod final : public Phases {
     const double end = frame_limit(scene_, state_, clock_);
     const double length = std::min(scene_.run.dt / static_cast<double>(parts(scene_.run.dt)), end - state_.time);
     StepFigures figures;
-    const double back = advance(rules_for(scene_, length), figures);
+    const double back = advance(rules_for(scene_, state_, length), figures);
     state_.time = back == 0.0 && state_.time + length >= end ? end : std::min(end, state_.time + (length - back));
     remove_at_sinks();
     ++state_.counters.steps;

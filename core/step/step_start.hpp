@@ -7,6 +7,7 @@
 
 #include "core/base/random.hpp"
 #include "core/disks/disk_view.hpp"
+#include "core/disks/state.hpp"
 #include "core/physics/advance.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/physics/resolve.hpp"
@@ -23,6 +24,20 @@ inline bool settles(const Scene& scene) {
 
 inline StepRules rules_for(const Scene& scene, double dt) {
   return {scene.box, scene.physics.gravity, scene.physics.restitution, dt, settles(scene)};
+}
+
+// With thermal sides: every disk that has an id has a count of its reflections.
+inline void count_thermal_hits(const Scene& scene, State& state) {
+  if (scene.box.has_thermal_side()) state.thermal_hits.resize(state.next_id, 0);
+}
+
+// The rules of a step of this state, whose disks are all there.
+inline StepRules rules_for(const Scene& scene, State& state, double dt) {
+  StepRules rules = rules_for(scene, dt);
+  count_thermal_hits(scene, state);
+  rules.seed = scene.seed;
+  rules.thermal_hits = state.thermal_hits.data();
+  return rules;
 }
 
 // (24): the velocity of the step becomes u / dt; with accumulate, as in docs/original.md, u / dt is added to it

@@ -56,6 +56,7 @@ ExactRules exact_rules(const Scene& scene, const Disks& disks) {
   rules.gravity = scene.physics.gravity;
   rules.restitution = scene.physics.restitution;
   if (has_tc(scene)) rules.contact_time = *scene.physics.collapse_contact_time;
+  rules.seed = scene.seed;
   rules.common_mass = disks.mass.empty();
   return rules;
 }

@@ -23,7 +23,7 @@ namespace {
 struct Header {
   std::array<char, 8> magic{'c', 'a', 'r', 'o', 'm', 'c', 'k', 'p'};
   std::uint64_t byte_order = 0x0102030405060708ULL;
-  std::uint64_t format = 7;  // goes up with every change of what is written
+  std::uint64_t format = 8;  // goes up with every change of what is written
 };
 struct Tail {
   std::uint64_t bytes = 0;     // of the content, without the zeros
@@ -133,6 +133,8 @@ void check_state(const State& state) {
   if (!std::all_of(d.id.begin(), d.id.end(), born)) throw BadBytes("has a disk that was never made");
   const std::size_t times = state.last_contact.size();
   if (times > state.next_id) throw BadBytes("has contact times of disks that were never made");
+  const std::size_t hits = state.thermal_hits.size();
+  if (hits > state.next_id) throw BadBytes("has reflections of disks that were never made");
 }
 
 // Files lie in the run's folder, nowhere else.

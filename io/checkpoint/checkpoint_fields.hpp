@@ -16,8 +16,9 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<Counters> T>
 void fields(Stream& stream, T& value) {
-  auto& [steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse] = value;
-  stream(steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse);
+  auto& [steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse, heat] =
+      value;
+  stream(steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse, heat);
 }
 
 template <class Stream, Is<SourceState> T>
@@ -65,9 +66,10 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<State> T>
 void fields(Stream& stream, T& value) {
-  auto& [disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, validity, window, last_contact] =
-      value;
-  stream(disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, validity, window, last_contact);
+  auto& [disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, validity, window, last_contact,
+         thermal_hits] = value;
+  stream(disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, validity, window, last_contact,
+         thermal_hits);
 }
 
 template <class Stream, Is<FileMark> T>

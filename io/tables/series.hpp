@@ -12,6 +12,7 @@
 #include "io/files/file_mark.hpp"
 #include "io/files/output_file.hpp"
 #include "io/tables/group_columns.hpp"
+#include "io/tables/side_columns.hpp"
 
 namespace carom {
 
@@ -97,6 +98,7 @@ class SeriesWriter {
 
  private:
   OutputFile file_;
+  Domain box_;
   SeriesMeter meter_;
   GroupMeter groups_;
   bool with_displacement_;

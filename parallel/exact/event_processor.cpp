@@ -279,6 +279,7 @@ template <Scope scope>
 ExactDisk EventProcessor<scope>::disk(std::uint32_t i) const {
   ExactDisk now{record_[i].path};
   if (!window_.last_contact.empty()) now.last_contact = window_.last_contact[i];
+  if (!window_.thermal_hits.empty()) now.thermal_hits = window_.thermal_hits[i];
   return now;
 }
 
@@ -287,7 +288,7 @@ void EventProcessor<scope>::meet_side(std::uint32_t i, double time) {
   const Side side = record_[i].partner.side();
   const DiskId partner = record_[i].partner.wall_id();
   ExactDisk now = disk(i);
-  const Impact impact = meet_side_at(window_.rules, time, side, window_.disks->mass_of(i), now);
+  const Impact impact = meet_side_at(window_.rules, time, side, window_.disks->mass_of(i), record_[i].id, now);
   worker_.tally.add(partner, impact);
   const bool gone = window_.rules.box.side(side) == SideKind::sink;
   const EventMark event{time, record_[i].id, partner};
@@ -389,6 +390,7 @@ void EventProcessor<scope>::begin_segment(std::uint32_t i, const ExactDisk& now,
   predictor_.note_speed(v2);
   if (v2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
   if (!window_.last_contact.empty()) window_.last_contact[i] = now.last_contact;
+  if (!window_.thermal_hits.empty()) window_.thermal_hits[i] = now.thermal_hits;
   if (gone) {
     // No path meets one that is not a number.
     f.path.x = f.path.y = std::numeric_limits<double>::quiet_NaN();

@@ -128,6 +128,7 @@ void ParallelExact::start_window() {
     if (state_.counters.emitted != before) valid_ = Valid::nothing;
   }
   if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
+  count_thermal_hits(scene_, state_);
   if (brownian_interval_begins(scene_, state_)) begin_brownian();
 }
 
@@ -210,6 +211,7 @@ void ParallelExact::load_paths(const WindowPlan& plan, bool rebuilt) {
   window_.begin(exact_rules(scene_, d), d, plan, speeds_.largest2, largest_radius_);
   window_.safe_speed2 = lists_.safe_speed2(plan.length, window_.rules.gravity);
   window_.last_contact.resize(state_.last_contact.empty() ? 0 : d.size());
+  window_.thermal_hits.resize(state_.thermal_hits.empty() ? 0 : d.size());
   executor_.for_ranges(d.size(), pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) load_disk(i, plan, rebuilt);
   });
@@ -225,6 +227,7 @@ void ParallelExact::load_disk(std::size_t i, const WindowPlan& plan, bool rebuil
   record = {{0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]}, d.radius_of(i), d.id[i], partner, 0, 0, progress};
   window_.next_event_time[i] = valid_ == Valid::lists_and_times ? carried_event_time(i, plan, rebuilt) : 0.0;
   if (!window_.last_contact.empty()) window_.last_contact[i] = state_.last_contact[d.id[i]] - plan.start;
+  if (!window_.thermal_hits.empty()) window_.thermal_hits[i] = state_.thermal_hits[d.id[i]];
   if (!window_.burst.empty()) window_.burst[i] = {};
 }
 
@@ -321,6 +324,7 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
       }
       put(p, d, i);
       if (!state_.last_contact.empty()) state_.last_contact[d.id[i]] = plan.start + window_.last_contact[i];
+      if (!state_.thermal_hits.empty()) state_.thermal_hits[d.id[i]] = window_.thermal_hits[i];
     }
   });
   at_start_ = any_gone ? d : Disks{};

@@ -25,8 +25,9 @@ struct WindowState {
   // No event that is stored with this disk happens before. An event of two disks is stored with the one that began its
   // path last (or with both), contact with a side and relisting with the disk itself.
   std::vector<double> next_event_time;
-  std::vector<double> last_contact;  // with the TC model
-  std::vector<Burst> burst;          // where any contact dissipates
+  std::vector<double> last_contact;         // with the TC model
+  std::vector<std::uint32_t> thermal_hits;  // with thermal sides
+  std::vector<Burst> burst;                 // where any contact dissipates
   // With regions only.
   std::vector<std::uint16_t> region_of_tile;
 

@@ -61,7 +61,8 @@ class RollbackPhases : public TimeStepping {
       });
     });
     for (const ImpactTally& t : lists_.tallies) tally.add(t);
-    if (rules.gravity > 0.0) forget_speeds();  // a ceiling sends a disk down faster than it came
+    // A ceiling sends a disk down faster than it came, and a hot side may send any.
+    if (rules.gravity > 0.0 || rules.box.has_thermal_side()) forget_speeds();
   }
 };
 

@@ -1,5 +1,6 @@
 // The parallel exact engine against the reference: every bit, at any number of threads, over scenes of every feature.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,9 +27,11 @@ void PrintTo(const ParallelCase& c, std::ostream* out) {
 std::string fingerprint(const State& s) {
   const Counters& c = s.counters;
   return fmt::format(
-      "{} t {} n {} steps {} collisions {} walls {} removed {} emitted {} waiting {} virial {} sides {} {} {} {}",
+      "{} t {} n {} steps {} collisions {} walls {} removed {} emitted {} waiting {} virial {} sides {} {} {} {} heat "
+      "{}",
       hash_text(state_hash(s.disks)), s.time, s.disks.size(), c.steps, c.collisions, c.wall_collisions, c.removed,
-      c.emitted, c.waiting, c.virial, c.wall_impulse[0], c.wall_impulse[1], c.wall_impulse[2], c.wall_impulse[3]);
+      c.emitted, c.waiting, c.virial, c.wall_impulse[0], c.wall_impulse[1], c.wall_impulse[2], c.wall_impulse[3],
+      fmt::join(c.heat, " "));
 }
 
 // Regions and tiles so small that even these scenes have some; with 1 in place of 128 there are none, and one queue
@@ -71,6 +74,7 @@ const std::string sources =
     "[[sources]]\nside = \"left\"\nrate = 20.0\nradius = 0.3\nmass = 1.0\nvelocities = { maxwell = 1.0 }\n"
     "[[sources]]\nregion = [2, 2, 10, 10]\nrate = 7.0\nradius = { uniform = [0.2, 0.4] }\nmass = 2.0\nlimit = 9\n";
 const std::string open_sides = "left = \"wall\"\nright = \"sink\"\nbottom = \"periodic\"\ntop = \"periodic\"";
+const std::string hot = "left = { temperature = 25.0 }\nright = { temperature = 0.3 }\nwall_restitution = 0.9";
 const std::string soft = "wall_restitution = 0.7";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -95,6 +99,9 @@ INSTANTIATE_TEST_SUITE_P(
             "tc",
             {20, 40, soft, "gravity = 1.0\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.01 }",
              disks(120, mixed), 12, ""}},
+        ParallelCase{"hot", {25, 25, hot, "restitution = 0.95", disks(300, equal), 6, ""}},
+        ParallelCase{"hot_mixed", {30, 30, hot, "gravity = 0.4", disks(250, mixed), 12, ""}},
+        ParallelCase{"hot_with_source", {20, 20, hot, "", sources, 10, ""}},
         ParallelCase{"brownian", {20, 20, "periodic", "diffusion = 0.5", disks(200, equal), 1, "dt = 0.01"}},
         ParallelCase{"brownian_sinks", {20, 20, "sink", "diffusion = 0.5", disks(200, equal), 3, "dt = 0.01"}},
         ParallelCase{"brownian_accumulating",

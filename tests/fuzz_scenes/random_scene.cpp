@@ -20,7 +20,8 @@ struct Draft {
   double width = 0.0, height = 0.0;
   std::array<std::string, 4> sides;
   double gravity = 0.0, restitution = 1.0, wall_restitution = 1.0, diffusion = 0.0;
-  double speed = 0.0;  // that disks have, about
+  bool only_reflects = false;  // walls: no thermal ones
+  double speed = 0.0;          // that disks have, about
   double dt = 0.0, t_end = 0.0;
 
   double spacing() const {
@@ -119,8 +120,12 @@ void choose_times(Dice& dice, Draft& draft) {
   if (dice.chance(0.01)) draft.t_end = 0.0;
 }
 
-// Some walls have a restitution of their own.
-std::string side_line(Dice& dice, std::string_view name, const std::string& kind) {
+// Some walls have a restitution of their own, or a temperature.
+std::string side_line(Dice& dice, const Draft& draft, std::string_view name, const std::string& kind) {
+  if (kind == "wall" && !draft.only_reflects && draft.diffusion == 0.0 && dice.chance(0.04)) {
+    const double energy = draft.units.mass * draft.units.speed * draft.units.speed;
+    return fmt::format("{} = {{ kind = \"wall\", temperature = {} }}\n", name, rounded(energy * dice.decades(-1, 1)));
+  }
   if (kind != "wall" || !dice.chance(0.1)) return fmt::format("{} = \"{}\"\n", name, kind);
   return fmt::format("{} = {{ kind = \"wall\", restitution = {} }}\n", name, random_restitution(dice));
 }
@@ -134,7 +139,7 @@ std::string box_text(Dice& dice, const Draft& draft) {
     text += fmt::format("width = {}\nheight = {}\n", draft.width, draft.height);
   }
   constexpr std::array<const char*, 4> names{"left", "right", "bottom", "top"};
-  for (std::size_t s = 0; s < names.size(); ++s) text += side_line(dice, names[s], draft.sides[s]);
+  for (std::size_t s = 0; s < names.size(); ++s) text += side_line(dice, draft, names[s], draft.sides[s]);
   if (draft.wall_restitution < 1.0) text += fmt::format("wall_restitution = {}\n", draft.wall_restitution);
   return text;
 }
@@ -227,6 +232,7 @@ std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::u
   Dice dice(seed ^ 0x6f7261636c65ULL, number, attempt);
   Draft draft;
   draft.method = "exact";
+  draft.only_reflects = true;
   draft.units = random_units(dice);
   draft.cast = dice.chance(0.3) ? Cast::few : Cast::gas;
   const std::size_t disks = draft.cast == Cast::few ? 1 + dice.below(4) : 5 + dice.below(18);

@@ -117,7 +117,7 @@ void Sanity::look_at_overlaps(const State& state) {
 void Sanity::look_at_motion(const State& state) {
   const Physics& p = scene_.physics;
   const Domain& box = scene_.box;
-  if (p.diffusion > 0.0 || !scene_.sources.empty() || box.has(SideKind::sink)) return;
+  if (p.diffusion > 0.0 || !scene_.sources.empty() || box.has(SideKind::sink) || box.has_thermal_side()) return;
   const Momentum now = momentum_of(state.disks);
   largest_momentum_ = std::max(largest_momentum_, now.magnitude);
   if (box.periodic_x() && std::abs(now.x - momentum_.x) > rounding * largest_momentum_) {

@@ -51,6 +51,7 @@ State full_state() {
                 {0.0625, 0.875}};
   s.window = 0.0625;
   s.last_contact = {0.5, -std::numeric_limits<double>::infinity(), 1.5, 2.5};
+  s.thermal_hits = {0, 3, 1, 7};
   return s;
 }
 

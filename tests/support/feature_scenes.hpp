@@ -12,7 +12,7 @@ namespace carom::test {
 
 struct Features {
   std::string method = "pairwise";
-  std::string sides = "wall";  // wall | periodic | periodic_x | sink | soft
+  std::string sides = "wall";  // wall | periodic | periodic_x | sink | soft | hot
   bool gravity = false;
   double restitution = 1.0;
   std::string diffusion;        // empty | "replace" | "accumulate"
@@ -35,6 +35,8 @@ inline std::string sides_text(const std::string& sides) {
     return "left = { restitution = 0.9 }\nright = { kind = \"wall\", restitution = 0.4 }\nbottom = \"wall\"\n"
            "top = { restitution = 0.0 }\n";
   }
+  // Two thermal sides and two that are not.
+  if (sides == "hot") return "left = { temperature = 9.0 }\nright = { temperature = 0.5 }\n";
   std::string text;
   for (const char* side : {"left", "right", "bottom", "top"}) text += std::string(side) + " = \"" + sides + "\"\n";
   return text;
@@ -83,6 +85,7 @@ inline std::vector<Features> all_features(const std::string& method, const std::
   for (const bool gravity : {false, true}) {
     for (const double restitution : {1.0, 0.7}) {
       for (const char* diffusion : {"", "replace", "accumulate"}) {
+        if (sides == "hot" && *diffusion != '\0') continue;
         for (const char* radii : {"equal", "mixed", "wide"}) {
           for (const bool own_masses : {false, true}) {
             for (const bool source : {false, true}) {

@@ -1,0 +1,52 @@
+// A side that is kept at a temperature: what reaches it leaves with the velocity of a gas behind a hole.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/base/random.hpp"
+#include "core/physics/boundary.hpp"
+
+namespace carom {
+
+// Velocity of a disk that comes out of a hole in a wall.
+struct FluxVelocity {
+  double away = 0.0;   // from the wall, > 0; length / time
+  double along = 0.0;  // the wall
+};
+
+// Maxwell's flux distribution: away from the wall the density is v exp(-v^2 / (2 s^2)) / s^2 (the root of the sum of
+// two normal deviates squared), along it normal. scale: s = sqrt(T / m), length / time. Drawn by (seed, stream, id,
+// number).
+inline FluxVelocity flux_velocity(std::uint64_t seed, Stream stream, DiskId id, std::uint64_t number, double scale) {
+  const Vec2 a = normals(seed, stream, id, 2 * number);
+  const Vec2 b = normals(seed, stream, id, 2 * number + 1);
+  return {scale * std::sqrt(a.x * a.x + a.y * a.y), scale * b.x};
+}
+
+// Disk `id` leaves a side with this velocity.
+inline void leave_side(Side side, const FluxVelocity& v, double& vx, double& vy) {
+  const bool vertical = side == Side::left || side == Side::right;
+  const double away = side == Side::left || side == Side::bottom ? v.away : -v.away;
+  vx = vertical ? away : v.along;
+  vy = vertical ? v.along : away;
+}
+
+// What draws of thermal sides depend on: the seed, the disk, and how many such reflections it has had. So they are the
+// same in every engine, on any number of threads, whatever a step or a window is.
+struct ThermalDraw {
+  std::uint64_t seed = 0;
+  DiskId id = 0;
+};
+
+// A disk of this mass that moves towards the side is reflected with a velocity drawn at temperature T. hits: how often
+// that has happened to it. Returns the energy that the side gave it, mass length^2 / time^2.
+inline double reflect_thermally(Side side, double temperature, double mass, const ThermalDraw& draw,
+                                std::uint32_t& hits, double& vx, double& vy) {
+  const double before = vx * vx + vy * vy;
+  const double scale = std::sqrt(temperature / mass);
+  leave_side(side, flux_velocity(draw.seed, Stream::thermal_side, draw.id, hits++, scale), vx, vy);
+  return 0.5 * mass * ((vx * vx + vy * vy) - before);
+}
+
+}  // namespace carom

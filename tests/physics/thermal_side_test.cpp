@@ -1,0 +1,216 @@
+// Thermal sides: Maxwell's flux distribution, equipartition, the account of heat, free molecular flow, conduction.
+#include "core/physics/thermal_side.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "core/load/scene_file.hpp"
+#include "core/measure/invariants.hpp"
+#include "core/start/initial_state.hpp"
+#include "parallel/simulation.hpp"
+
+namespace carom {
+namespace {
+
+const std::string folder = CAROM_SOURCE_DIR "/scenes/";
+
+double sum_of_heat(const State& state) {
+  return std::accumulate(std::begin(state.counters.heat), std::end(state.counters.heat), 0.0);
+}
+
+// Runs by the engine on two threads; calls see(state) after every step.
+template <class See>
+State run(const Scene& scene, const State& start, See&& see) {
+  const auto engine = make_parallel_engine(scene, start, {2, 1});
+  while (engine->state().time < scene.run.t_end) {
+    engine->step();
+    see(engine->state());
+  }
+  return engine->state();
+}
+
+State run(const Scene& scene, const State& start) {
+  return run(scene, start, [](const State&) {});
+}
+
+// Kolmogorov and Smirnov, one sample in 10^5 deviates by more than 2.23 / sqrt(n).
+TEST(ThermalSide, DrawsMaxwellsFluxDistribution) {
+  constexpr std::size_t n = 200'000;
+  constexpr double scale = 1.7;
+  std::vector<double> away;
+  double along2 = 0.0;
+  double along4 = 0.0;
+  double product = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const FluxVelocity v = flux_velocity(5, Stream::thermal_side, static_cast<DiskId>(k % 100), k / 100, scale);
+    away.push_back(v.away);
+    along2 += v.along * v.along;
+    along4 += v.along * v.along * v.along * v.along;
+    product += v.away * v.along;
+  }
+  std::sort(away.begin(), away.end());
+  double worst = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double cumulative = 1.0 - std::exp(-away[k] * away[k] / (2.0 * scale * scale));
+    worst = std::max(worst, std::abs(cumulative - (static_cast<double>(k) + 0.5) / n));
+  }
+  const double root = std::sqrt(static_cast<double>(n));
+  EXPECT_LT(worst, 2.23 / root);
+  EXPECT_NEAR(along2 / n / (scale * scale), 1.0, 5.0 * std::sqrt(2.0) / root);
+  EXPECT_NEAR(along4 / n / (3.0 * std::pow(scale, 4)), 1.0, 5.0 * 3.3 / root);
+  EXPECT_NEAR(product / n / (scale * scale), 0.0, 5.0 * std::sqrt(2.0) / root);
+}
+
+// A wall of each direction sends the disk back into the box.
+TEST(ThermalSide, SendsADiskInward) {
+  for (const Side side : all_sides) {
+    double vx = 0.0;
+    double vy = 0.0;
+    leave_side(side, {2.0, -0.5}, vx, vy);
+    EXPECT_EQ(outward_speed(side, vx, vy), -2.0);
+    EXPECT_EQ(vx * vx + vy * vy, 4.25);
+  }
+}
+
+Scene gas(const std::string& method, double temperature, const std::string& physics) {
+  const std::string side = " = { temperature = " + std::to_string(temperature) + " }\n";
+  return parse_scene("[box]\nwidth = 20.0\nheight = 16.0\nleft" + side + "right" + side + "bottom" + side + "top" +
+                         side + "[physics]\n" + physics +
+                         "\n[[disks]]\ncount = 150\npositions = \"random\"\nvelocities = { maxwell = 5.0 }\n"
+                         "radius = { uniform = [0.2, 0.5] }\nmass = { uniform = [1, 9] }\n[run]\nmethod = \"" +
+                         method + "\"\ndt = 0.005\nt_end = 300.0\n",
+                     "gas", "");
+}
+
+// A gas that was too hot comes to the temperature of its walls, light disks and heavy ones alike; the energy that it
+// has is what it had and what the sides gave.
+TEST(ThermalSide, BringsAGasToItsTemperature) {
+  const Scene scene = gas("exact", 2.0, "");
+  const State start = initial_state(scene);
+  double light = 0.0;
+  double heavy = 0.0;
+  std::size_t lights = 0;
+  std::size_t heavies = 0;
+  const State end = run(scene, start, [&](const State& s) {
+    if (s.time < 60.0) return;
+    const Disks& d = s.disks;
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      const double energy = 0.5 * d.mass_of(i) * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+      (d.mass_of(i) < 5.0 ? light : heavy) += energy;
+      ++(d.mass_of(i) < 5.0 ? lights : heavies);
+    }
+  });
+  EXPECT_NEAR(light / static_cast<double>(lights), 2.0, 0.06);
+  EXPECT_NEAR(heavy / static_cast<double>(heavies), 2.0, 0.06);
+  const double before = energy_of(start.disks, 0.0).total();
+  const double after = energy_of(end.disks, 0.0).total();
+  EXPECT_NEAR(before + sum_of_heat(end), after, 1e-12 * (before + after));
+  EXPECT_GT(end.counters.wall_collisions, 4000U);
+}
+
+// The account of heat with gravity, and of every method: no energy comes from anywhere else. Stepping under gravity is
+// right to first order only.
+TEST(ThermalSide, GivesTheEnergyThatIsGained) {
+  for (const std::string method : {"exact", "pairwise", "rollback"}) {
+    for (const std::string physics : {"", "gravity = 0.5"}) {
+      SCOPED_TRACE(method + physics);
+      Scene scene = gas(method, 2.0, physics);
+      scene.run.t_end = 20.0;
+      const State start = initial_state(scene);
+      const State end = run(scene, start);
+      const double g = scene.physics.gravity;
+      const double before = energy_of(start.disks, g).total();
+      const double after = energy_of(end.disks, g).total();
+      EXPECT_LT(sum_of_heat(end), -0.1 * before);
+      EXPECT_NEAR(before + sum_of_heat(end), after, (g > 0.0 && method != "exact" ? 1e-2 : 1e-11) * before);
+      EXPECT_LE(wall_overlap(end.disks, scene.box), 1e-12);
+    }
+  }
+}
+
+// Disks that meet walls only carry N (3 / 2) (T1 - T2) a round trip, whose mean duration is
+// L sqrt(pi m / 2) (T1^-1/2 + T2^-1/2).
+TEST(ThermalSide, GivesTheHeatFlowOfAFreeMolecularGas) {
+  const Scene scene = load_scene(folder + "knudsen_gap.toml", {{"run.t_end", "4000"}});
+  const State end = run(scene, initial_state(scene));
+  const double gap = scene.box.width - 2.0 * end.disks.common_radius;
+  const double t1 = scene.box.temperature(Side::left);
+  const double t2 = scene.box.temperature(Side::right);
+  const double trip = gap * std::sqrt(std::numbers::pi / 2.0) * (1.0 / std::sqrt(t1) + 1.0 / std::sqrt(t2));
+  const double flow = static_cast<double>(end.disks.size()) * 1.5 * (t1 - t2) / trip;
+  EXPECT_NEAR(end.counters.heat[0] / end.time / flow, 1.0, 0.03);
+  EXPECT_NEAR(-end.counters.heat[1] / end.time / flow, 1.0, 0.03);
+  EXPECT_LT(end.counters.collisions * 50, end.counters.wall_collisions);
+}
+
+// Slabs along x: the mean temperature and density of each, over a run.
+struct Slabs {
+  std::vector<double> energy, count;
+  double width;
+
+  Slabs(std::size_t n, double box_width) : energy(n), count(n), width(box_width / static_cast<double>(n)) {}
+  void add(const Disks& d) {
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      const auto k = std::min(static_cast<std::size_t>(d.x[i] / width), energy.size() - 1);
+      energy[k] += 0.5 * d.mass_of(i) * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+      count[k] += 1.0;
+    }
+  }
+  double temperature(std::size_t k) const { return energy[k] / count[k]; }
+};
+
+// Conductivity of hard disks by Enskog's theory (Gass 1971): that of the dilute gas, 2 sqrt(T / (pi m)) / d times
+// 1.0292 (third Sonine approximation), times b rho (1 / y + 3 / 2 + 0.8718 y), y = b rho chi, b = pi d^2 / 2.
+double conductivity(double temperature, double density, double diameter) {
+  const double dilute = 1.0292 * 2.0 * std::sqrt(temperature / std::numbers::pi) / diameter;
+  const double packing = 0.25 * std::numbers::pi * diameter * diameter * density;
+  const double b = 2.0 * packing;
+  const double y = b * (1.0 - 7.0 * packing / 16.0) / ((1.0 - packing) * (1.0 - packing));
+  return dilute * b * (1.0 / y + 1.5 + 0.8718 * y);
+}
+
+// The flow of heat is the conductivity times the slope of the temperature; at the walls the temperature jumps towards
+// the gas.
+TEST(ThermalSide, ConductsHeatAsEnskogsTheorySays) {
+  const Scene scene = load_scene(folder + "heat_conduction.toml", {{"run.t_end", "1500"}});
+  const double begin = 150.0;
+  Slabs slabs(12, scene.box.width);
+  double heat_before[2] = {0.0, 0.0};
+  double from = 0.0;
+  const State end = run(scene, initial_state(scene), [&](const State& s) {
+    if (s.time < begin) {
+      std::copy_n(s.counters.heat, 2, heat_before);
+      from = s.time;
+    } else {
+      slabs.add(s.disks);
+    }
+  });
+  const double in = (end.counters.heat[0] - heat_before[0]) / (end.time - from);
+  const double out = (heat_before[1] - end.counters.heat[1]) / (end.time - from);
+  EXPECT_NEAR(in / out, 1.0, 0.05);
+  const double flow = 0.5 * (in + out) / scene.box.height;
+  // Away from the walls by four mean free paths and more.
+  const double slope = (slabs.temperature(2) + slabs.temperature(3) - slabs.temperature(8) - slabs.temperature(9)) /
+                       (2.0 * 6.0 * slabs.width);
+  double predicted = 0.0;
+  double total = 0.0;
+  for (const double c : slabs.count) total += c;
+  for (std::size_t k = 3; k < 9; ++k) {
+    const double density =
+        static_cast<double>(end.disks.size()) * slabs.count[k] / (total * slabs.width * scene.box.height);
+    predicted += conductivity(slabs.temperature(k), density, 2.0 * end.disks.common_radius) / 6.0;
+  }
+  EXPECT_NEAR(flow / slope / predicted, 1.0, 0.08);
+  EXPECT_LT(slabs.temperature(0), 1.97);
+  EXPECT_GT(slabs.temperature(11), 1.03);
+  EXPECT_GT(slabs.temperature(0), slabs.temperature(3));
+  EXPECT_GT(slabs.temperature(8), slabs.temperature(11));
+}
+
+}  // namespace
+}  // namespace carom
