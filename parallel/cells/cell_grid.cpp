@@ -19,7 +19,7 @@ void make_grid(const Domain& box, double largest_radius, const std::vector<std::
                double margin) {
   grid.levels.clear();
   grid.keys = 0;
-  grid.tiles = 1;
+  grid.tiles = grid.tiles_a_layer = 1;
   grid.tile_keys = 0;
   double radius = largest_radius;
   for (std::size_t k = 0; k < count.size(); ++k, radius /= class_ratio) {

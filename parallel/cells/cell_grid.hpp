@@ -21,8 +21,8 @@ inline constexpr double class_ratio = 2.0;
 
 // The grid of one size class. Row r's cells are keys first_key + r * stride + column; each row ends in one empty cell
 // and one empty row follows the last, so that the neighbours of every cell can be looked up without asking where it
-// lies. A tiled level is cut into tiles of 2^band_shift columns and 2^group_shift rows, without the empty cells: bands
-// of columns, one after the other in memory, each cut into groups of rows.
+// lies. A tiled level is cut into bands of 2^band_shift columns and groups of 2^group_shift rows, without the empty
+// cells: a tile is what a band and a group have in common.
 struct GridLevel {
   double largest_radius = 0.0;      // of the class; length
   double cell_width = 0.0;          // length
@@ -58,7 +58,8 @@ struct CellGrid {
   std::vector<GridLevel> levels;  // from the largest disks to the smallest
   std::uint32_t keys = 0;         // of all levels
   std::uint32_t tiles = 1;
-  std::uint32_t tile_keys = 0;  // of all levels in a tile, which are neighbours in memory; 0: not tiled
+  std::uint32_t tiles_a_layer = 1;  // neighbours in memory, from one side of the box to the other
+  std::uint32_t tile_keys = 0;      // of all levels in a tile, which are neighbours in memory; 0: not tiled
 };
 
 // Levels for radii between smallest and largest in the box. count[k] is the number of disks of class k

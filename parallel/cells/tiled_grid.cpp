@@ -12,31 +12,44 @@ namespace {
 constexpr double disks_per_cell = 2.0;
 // The number of a tile has to fit in 16 bits; sides that are rounded make up to twice as many.
 constexpr double most_tiles = 30000.0;
+// Of a region: enough that regions can be given nearly the same number of disks where those are spread unevenly.
+constexpr std::uint32_t most_layers_a_region = 8;
+// Thinner layers would cut most searches in two.
+constexpr double least_cells_a_layer = 8.0;
 
 // log2 of the number of parts of about this size in the whole.
 unsigned shift_for(double whole, double part) {
   return static_cast<unsigned>(std::clamp(std::lround(std::log2(std::max(1.0, whole / part))), 0L, 20L));
 }
 
-std::uint32_t tiles_along(double length, double side) {
-  return static_cast<std::uint32_t>(std::max(1L, std::lround(length / side)));
+std::uint32_t parts_of(double whole, double part) {
+  return static_cast<std::uint32_t>(std::max(1L, std::lround(whole / part)));
+}
+
+// Parts of a side of the box. cell: of the most frequent class; part: wanted; lengths.
+std::uint32_t layers_for(double side, double cell, double part, std::size_t regions) {
+  const auto most = static_cast<std::uint32_t>(std::max(1.0, side / (least_cells_a_layer * cell)));
+  const auto shares = static_cast<std::uint32_t>(regions);
+  const std::uint32_t few = most < shares ? most : shares * std::min(most / shares, most_layers_a_region);
+  return std::max(few, shares * (parts_of(side, part) / shares));
 }
 
 }  // namespace
 
 void make_tiled_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
-                     std::size_t disks_per_tile, CellGrid& grid) {
+                     std::size_t disks_per_tile, std::size_t regions, CellGrid& grid) {
   const double n = static_cast<double>(std::accumulate(count.begin(), count.end(), std::size_t{0}));
   const double area = box.width * box.height;
   const auto cell_of = [&](double disks) { return std::sqrt(area / (disks / disks_per_cell + 1.0)); };
   const double most = static_cast<double>(*std::max_element(count.begin(), count.end()));
-  // A tile's sides are whole numbers of cells of the most frequent class, powers of two; it is square or twice as high.
-  const double wanted = std::max(static_cast<double>(disks_per_tile), n / most_tiles) * most / n;
-  const unsigned shift = shift_for(wanted, disks_per_cell);
-  const double side = cell_of(most) * static_cast<double>(1U << (shift / 2));
-  const std::uint32_t bands = tiles_along(box.width, std::min(side, box.width));
-  const double higher = shift % 2 == 0 ? side : 2.0 * side;
-  const std::uint32_t groups = tiles_along(box.height, std::min(higher, box.height));
+  const double tile_area = std::max(static_cast<double>(disks_per_tile), n / most_tiles) * area / n;
+  const double longer = std::max(box.width, box.height);
+  const double shorter = std::min(box.width, box.height);
+  const std::uint32_t layers = layers_for(longer, cell_of(most), std::sqrt(tile_area), regions);
+  const std::uint32_t tiles_a_layer = parts_of(shorter, tile_area / (longer / layers));
+  const bool wide = box.width >= box.height;
+  const std::uint32_t bands = wide ? layers : tiles_a_layer;
+  const std::uint32_t groups = wide ? tiles_a_layer : layers;
   const double width = box.width / bands;
   const double height = box.height / groups;
   grid.levels.clear();
@@ -60,10 +73,11 @@ void make_tiled_grid(const Domain& box, double largest_radius, const std::vector
     grid.levels.push_back(level);
   }
   for (GridLevel& level : grid.levels) {
-    level.group_keys = grid.tile_keys;
-    level.band_keys = groups * grid.tile_keys;
+    level.group_keys = wide ? grid.tile_keys : bands * grid.tile_keys;
+    level.band_keys = wide ? groups * grid.tile_keys : grid.tile_keys;
   }
   grid.tiles = bands * groups;
+  grid.tiles_a_layer = tiles_a_layer;
   grid.keys = grid.tiles * grid.tile_keys;
 }
 

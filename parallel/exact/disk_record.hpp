@@ -50,9 +50,10 @@ static_assert(Partner::disk(first_wall_partner - 1).is_disk());
 class DiskProgress {
  public:
   enum Mark : std::uint32_t {
-    at_border = 1,                // lists a disk of another region
-    lists_border = 2,             // lists a disk that is at a border
-    has_unresolved_neighbour = 4  // perhaps: one that is at a border, or blocked in this slice
+    at_border = 1,                 // lists a disk of another region
+    lists_border = 2,              // lists a disk that is at a border
+    has_unresolved_neighbour = 4,  // perhaps: one that is at a border, or blocked in this slice
+    relists_late = 8               // is due to be relisted, which waits for the end of the slice
   };
 
   constexpr DiskProgress() = default;  // active
@@ -70,7 +71,7 @@ class DiskProgress {
   constexpr void clear(Mark mark) { bits_ &= ~static_cast<std::uint32_t>(mark); }
 
  private:
-  static constexpr std::uint32_t mark_bits = 3;
+  static constexpr std::uint32_t mark_bits = 4;
   static constexpr std::uint32_t marks = (1U << mark_bits) - 1U;
   static constexpr std::uint32_t active_state = 0xffffffffU >> mark_bits;
   static constexpr std::uint32_t border_state = active_state - 1;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "core/disks/domain.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
@@ -34,25 +36,37 @@ inline constexpr std::size_t single_queue_up_to = 49152;
 inline constexpr std::size_t single_queue_of_cut_work_up_to = 8192;
 // What so many disks take, 250 bytes each, is in a cache of the second level.
 inline constexpr std::size_t disks_in_cache = 16384;
-// Disks that are neighbours in memory; regions consist of whole tiles.
+// Disks that are neighbours in memory; regions consist of whole layers of tiles.
 inline constexpr std::size_t most_disks_a_tile = 8192;
 inline constexpr std::size_t tiles_a_region = 16;
-inline constexpr double region_relist_share = 0.85;
+// The larger, the fewer relistings; the smaller, the longer slices. The fewest instructions a collision with two
+// regions of 25000 disks.
+inline constexpr double region_relist_share = 0.8;
+// Mean spacings that a region is wide, at least: in narrower ones what is blocked from one border reaches that from the
+// other.
+inline constexpr double least_region_width = 30.0;
 // With more disks than this, memory that is not needed all the time is given back.
 inline constexpr std::size_t disks_of_much_memory = 65536;
 
+// How many regions of the least width the box's longer side has room for.
+inline std::size_t most_regions(std::size_t disks, const Domain& box) {
+  const double aspect = std::max(box.width / box.height, box.height / box.width);
+  return static_cast<std::size_t>(std::sqrt(aspect * static_cast<double>(disks)) / least_region_width);
+}
+
 // The only place where the mode is chosen. regions_allowed: false where a window is run again without.
-inline ListLayout choose_layout(std::size_t disks, bool regions_allowed, const Executor& executor) {
+inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regions_allowed, const Executor& executor) {
   if (disks <= all_pairs_up_to) return {EngineMode::all_pairs, 0, 0, 1.0, false};
   // Where work is cut into smaller blocks, regions are wanted for fewer disks too, and more than one on one thread.
   const bool is_cut = executor.grain(single_queue_up_to) < single_queue_up_to;
   const std::size_t single = is_cut                    ? executor.grain(single_queue_of_cut_work_up_to)
                              : executor.threads() == 1 ? disks
                                                        : single_queue_up_to;
-  if (!regions_allowed || disks <= single) {
+  const std::size_t wanted = std::max<std::size_t>(static_cast<std::size_t>(executor.threads()), 2);
+  const std::size_t regions = is_cut ? wanted : std::min(wanted, most_regions(disks, box));
+  if (!regions_allowed || disks <= single || regions < 2) {
     return {EngineMode::single_queue, 0, 0, 1.0, disks > executor.grain(disks_in_cache)};
   }
-  const std::size_t regions = std::max<std::size_t>(static_cast<std::size_t>(executor.threads()), 2);
   const std::size_t disks_a_tile = std::min(executor.grain(most_disks_a_tile), disks / (tiles_a_region * regions) + 1);
   return {EngineMode::regions, disks_a_tile, regions, region_relist_share,
           disks / regions > executor.grain(disks_in_cache)};

@@ -191,10 +191,32 @@ void EventProcessor<scope>::process_pair(std::uint32_t i, std::uint32_t j, doubl
 
 template <Scope scope>
 void EventProcessor<scope>::relist_and_predict(std::uint32_t i, double time) {
-  if (relist(i, time)) {
+  if (scope == Scope::border || relist(i, time)) {
     predict_next_event<false>(i, time);
   } else {
     safe_times_.block(i, time);
+  }
+}
+
+template <Scope scope>
+void EventProcessor<scope>::put_off_relisting(std::uint32_t i) {
+  if (record_[i].progress.has(DiskProgress::relists_late)) return;
+  record_[i].progress.set(DiskProgress::relists_late);
+  worker_.late.push_back(i);
+}
+
+template <Scope scope>
+void EventProcessor<scope>::relist_late(const std::vector<std::uint32_t>& disks) {
+  for (const std::uint32_t i : disks) {
+    DiskRecord& record = record_[i];
+    if (!record.progress.has(DiskProgress::relists_late)) continue;
+    const bool gone = std::isnan(record.path.x);
+    if (!gone && !relist(i, window_.slice_stop())) continue;
+    record.progress.clear(DiskProgress::relists_late);
+    if (gone) continue;
+    const auto [time, partner] = next_event<false>(i, window_.slice_stop());
+    window_.next_event_time[i] = time;
+    record.partner = partner;
   }
 }
 
@@ -210,33 +232,37 @@ void EventProcessor<scope>::process_border(const QueuedEvent& e) {
   if (present.id1 == e.id1 && present.id2 == e.id2) process(i, e.time);
 }
 
-// Finds and schedules the earliest event of the disk on its present path; nothing happens to it up to `from`. When it
-// has to be relisted is extrapolated no further than gravity bends the path little: that is later than `from` then,
-// however long the window is, so that relisting always makes progress.
+// The earliest event of the disk on its present path; nothing happens to it up to `from`. When it has to be relisted is
+// extrapolated no further than gravity bends the path little: that is later than `from` then, however long the window
+// is, so that relisting always makes progress.
 template <Scope scope>
 template <bool newest>
-void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
+inline ScheduledEvent EventProcessor<scope>::next_event(std::uint32_t i, double from) {
   DiskRecord& record = record_[i];
   from = std::max(from, record.path.start);
   const NextEvent next = predictor_.template earliest<newest>(i);
   // The events of lasting contacts are predicted again when the next window starts.
-  double at = next.lasting ? window_.next_start : window_.horizon;
-  Partner partner;
-  if (next.time < at) {
-    at = next.time;
-    partner = next.partner;
-    if (partner.is_disk()) record.partner_version = record_[partner.index()].version;
+  ScheduledEvent event{next.lasting ? window_.next_start : window_.horizon, Partner::none()};
+  if (next.time < event.time) {
+    event = {next.time, next.partner};
+    if (next.partner.is_disk()) record.partner_version = record_[next.partner.index()].version;
   } else if (!next.lasting) {
-    at = window_.last_look(i);
+    event.time = window_.last_look(i);
   }
-  if (!lists_.stays_listed(i, record.path, from, at, window_.rules.gravity)) {
-    const double relist_at = lists_.earliest_relist_time(i, record.path, from, from, window_.rules.gravity);
-    if (relist_at < at) {
-      at = relist_at;
-      partner = Partner::relist();
-    }
+  if (lists_.stays_listed(i, record.path, from, event.time, window_.rules.gravity)) return event;
+  const double relist_at = lists_.earliest_relist_time(i, record.path, from, from, window_.rules.gravity);
+  if (scope == Scope::border && from < window_.slice_stop() && window_.in_slice(relist_at)) {
+    put_off_relisting(i);
+    return event;
   }
-  schedule(i, at, partner);
+  return relist_at < event.time ? ScheduledEvent{relist_at, Partner::relist()} : event;
+}
+
+template <Scope scope>
+template <bool newest>
+void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
+  const auto [time, partner] = next_event<newest>(i, from);
+  schedule(i, time, partner);
 }
 
 // Of a disk whose path begins at this time: but for the border pass no neighbour's begins later.
@@ -267,7 +293,6 @@ bool EventProcessor<scope>::relist(std::uint32_t i, double time) {
   wrap_into(p, window_.rules.box);
   if (!lists_.relist(i, {p.x, p.y}, *window_.disks, worker_.region, worker_.found)) return false;
   ++worker_.relisted;
-  if constexpr (scope == Scope::border) safe_times_.mark_relisted_at_border(i);
   if constexpr (scope == Scope::region) {
     safe_times_.mark_relisted(i);
     safe_times_.push(i, time);

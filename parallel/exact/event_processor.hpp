@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "parallel/exact/event_predictor.hpp"
 #include "parallel/exact/neighbour_lists.hpp"
@@ -15,7 +16,13 @@ namespace carom {
 enum class Scope : std::uint8_t {
   all,     // of all disks: a single queue
   region,  // of a region's disks, as far as their motion is known (SafeTimes), on a thread of its own
-  border,  // of the disks at borders and those that were blocked, after all regions; no other thread works
+  border,  // of a border's disks whose motion is not known, after all regions (BorderPass)
+};
+
+// A disk's next event, as it is scheduled.
+struct ScheduledEvent {
+  double time;
+  Partner partner;
 };
 
 template <Scope scope>
@@ -33,6 +40,11 @@ class EventProcessor {
   void push_safe_time(std::uint32_t i) { safe_times_.push(i, window_.slice_start); }
   // Border: queues the disk's next event, if it is within the slice.
   void push_next_event(std::uint32_t i);
+  // Border, at the slice's end: relists those of the disks that are marked relists_late, as far as their lists are
+  // within the worker's region, and predicts their next events.
+  void relist_late(const std::vector<std::uint32_t>& disks);
+  // Border: what a new list means for the next slice; no other thread works.
+  void mark_relisted(std::uint32_t i) { safe_times_.mark_relisted_at_border(i); }
   // Processes all events of the slice; stops early where the worker's `ended` is set.
   void run();
 
@@ -53,9 +65,12 @@ class EventProcessor {
 
   // newest: as EventPredictor::earliest.
   template <bool newest>
+  [[gnu::always_inline]] inline ScheduledEvent next_event(std::uint32_t i, double from);
+  template <bool newest>
   void predict_next_event(std::uint32_t i, double from);
   [[gnu::always_inline]] inline void schedule(std::uint32_t i, double time, Partner partner);
   void relist_and_predict(std::uint32_t i, double time);
+  void put_off_relisting(std::uint32_t i);
   bool relist(std::uint32_t i, double time);
   void meet_side(std::uint32_t i, double time);
   void collide_pair(std::uint32_t i, std::uint32_t j, double time);

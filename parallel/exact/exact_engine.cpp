@@ -32,7 +32,7 @@ constexpr std::size_t pass_block = 8192;
 // they were predicted: disks are predicted again this share of a window early. That is enough where the approach is
 // faster than WindowState::slow; slower contacts that are close are predicted at every start.
 constexpr double early_share = 1e-3;
-// Events a disk in a slice: fewer leave less to the border pass, more need fewer passes.
+// Events a disk in a slice, at most: fewer leave less to the border pass, more need fewer passes.
 constexpr double events_per_slice = 0.25;
 // The lists are rebuilt, and the disks sorted, when they have been relisted so many times each: by then neighbours are
 // no longer neighbours in storage.
@@ -191,7 +191,7 @@ bool ParallelExact::rebuild_lists_if_due(bool regions_allowed) {
   const PhaseTimer timer(times_, "list");
   // Sorting takes about as much.
   if (state_.disks.size() > disks_of_much_memory) scheduler_.release_calendars();
-  const ListLayout layout = choose_layout(state_.disks.size(), regions_allowed, executor_);
+  const ListLayout layout = choose_layout(state_.disks.size(), scene_.box, regions_allowed, executor_);
   lists_.build(state_.disks, scene_.box, layout, executor_);
   window_.mode = layout.mode;
   window_.regions = layout.regions;

@@ -103,15 +103,15 @@ void NeighbourLists::choose_skin(const Disks& d, double relist_share) {
   stay2_ = relist_distance_ * relist_distance_ * (1.0 - 2e-9);
 }
 
-void NeighbourLists::sort(Disks& d, std::size_t disks_per_tile, const Executor& executor) {
+void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& executor) {
   const double largest = largest_radius_;
   std::vector<std::size_t> count(class_of_radius(smallest_radius(d), largest) + 1, 0);
   if (count.size() == 1) count[0] = d.size();
   if (count.size() > 1) {
     for (const double r : d.radius) ++count[class_of_radius(r, largest)];
   }
-  if (disks_per_tile > 0) {
-    make_tiled_grid(box_, largest, count, disks_per_tile, grid_);
+  if (layout.disks_per_tile > 0) {
+    make_tiled_grid(box_, largest, count, layout.disks_per_tile, layout.regions, grid_);
   } else {
     // About two disks a cell: lists extend over several cells, and each costs as much to visit, empty or not.
     for (std::size_t& c : count) c = c / 4 + 1;
@@ -132,14 +132,14 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   periods_per_y_ = box.periodic_y() ? 1.0 / box.height : 0.0;
   const std::size_t n = d.size();
   largest_radius_ = largest_radius(d);
-  grid_.tiles = 1;
+  grid_.tiles = grid_.tiles_a_layer = 1;
   grid_.tile_keys = 0;
   stay2_ = never;
   if (mode_ != EngineMode::all_pairs) {
     choose_skin(d, layout.relist_share);
     // That of the rows is given back for what sorting needs.
     if (n > disks_of_much_memory) rows_.release();
-    sort(d, layout.disks_per_tile, executor);
+    sort(d, layout, executor);
   }
   if (listed_at_.capacity() < n) resize_in_huge_pages(listed_at_, n);
   listed_at_.resize(n);

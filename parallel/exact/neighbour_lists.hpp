@@ -73,8 +73,10 @@ class NeighbourLists {
   // Of disk i; inside the box, but for rounding.
   Vec2 listed_position(std::uint32_t i) const { return position_of(listed_at_[i]); }
 
-  // Tiles are runs of disks in storage that are neighbours in space; one where there are no regions.
+  // Tiles are runs of disks in storage that are neighbours in space, and layers are runs of as many tiles each, which
+  // reach from one of the box's longer sides to the other; one where there are no regions.
   std::uint32_t tiles() const { return grid_.tiles; }
+  std::uint32_t tiles_a_layer() const { return grid_.tiles_a_layer; }
   std::uint32_t first_disk_of(std::uint32_t tile) const {
     return grid_.tile_keys == 0 ? (tile == 0 ? 0 : static_cast<std::uint32_t>(rows_.size()))
                                 : cells_.start[std::size_t{tile} * grid_.tile_keys];
@@ -175,7 +177,7 @@ class NeighbourLists {
   }
   bool stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until, double g) const;
   void choose_skin(const Disks& disks, double relist_share);
-  void sort(Disks& disks, std::size_t disks_per_tile, const Executor& executor);
+  void sort(Disks& disks, const ListLayout& layout, const Executor& executor);
   void list_all(const Disks& disks, const Executor& executor);
   void list_block(const Disks& disks, std::size_t block, std::size_t begin, std::size_t end);
   FixedPointPosition fixed_point(double x, double y) const;

@@ -9,8 +9,9 @@ namespace carom {
 
 void SliceScheduler::begin_window(bool rebuilt) {
   for (Region& region : regions_) region.worker.begin_window();
-  common_.begin_window();
-  common_.region = ListRegion{};
+  border_pass_.begin_window();
+  single_.begin_window();
+  single_.region = ListRegion{};
   if (!rebuilt) return;
   relisted_ = 0;
   lay_out_regions();
@@ -19,20 +20,29 @@ void SliceScheduler::begin_window(bool rebuilt) {
 // With about as many disks each.
 void SliceScheduler::lay_out_regions() {
   const std::size_t n = window_.record.size();
-  const std::uint32_t tiles = lists_.tiles();
-  const std::size_t count = has_regions() ? std::min<std::size_t>(window_.regions, tiles) : 0;
+  const std::uint32_t tiles_a_layer = lists_.tiles_a_layer();
+  const std::uint32_t layers = lists_.tiles() / tiles_a_layer;
+  const std::size_t count = has_regions() ? std::min<std::size_t>(window_.regions, layers) : 0;
   regions_.resize(count);
-  window_.region_of_tile.assign(tiles, 0);
-  std::uint32_t tile = 0;
+  window_.region_of_tile.assign(lists_.tiles(), 0);
+  const auto first_disk = [&](std::uint32_t layer) { return std::size_t{lists_.first_disk_of(layer * tiles_a_layer)}; };
+  std::uint32_t layer = 0;
   for (std::size_t r = 0; r < count; ++r) {
-    const std::uint32_t first = tile;
-    while (tile < tiles && (r + 1 == count || lists_.first_disk_of(tile) < n * (r + 1) / count)) {
-      window_.region_of_tile[tile++] = static_cast<std::uint16_t>(r);
+    const std::uint32_t first = layer;
+    // Of a layer the greater part decides.
+    while (layer < layers &&
+           (r + 1 == count || (first_disk(layer) + first_disk(layer + 1)) / 2 < n * (r + 1) / count)) {
+      ++layer;
     }
-    regions_[r].worker.region = lists_.region_of_tiles(first, tile);
+    const std::uint32_t last_tile = layer * tiles_a_layer;
+    regions_[r].middle_tile = (first + (layer - first) / 2) * tiles_a_layer;
+    std::fill(window_.region_of_tile.begin() + first * tiles_a_layer, window_.region_of_tile.begin() + last_tile,
+              static_cast<std::uint16_t>(r));
+    regions_[r].worker.region = lists_.region_of_tiles(first * tiles_a_layer, last_tile);
     regions_[r].worker.begin_window();
     regions_[r].worker.begin_slice();  // a void window leaves blocked disks behind
   }
+  border_pass_.lay_out(regions_);
   executor_.run(count, [&](std::size_t r) { find_border(regions_[r]); });
   executor_.run(count, [&](std::size_t r) { find_near_border(regions_[r]); });
 }
@@ -64,11 +74,10 @@ void SliceScheduler::find_near_border(Region& region) {
   }
 }
 
-// Two disks that do not list each other cannot touch unless together they move by twice the skin. A disk that is
-// resolved moves by no more than the relist distance, one that is not by no more than that and what it covers in the
-// slice.
+// No disk leaves its skin: one that is resolved moves by no more than the relist distance, and one that is not by no
+// more than that and what it covers in the slice.
 double SliceScheduler::longest_slice() const {
-  return has_regions() ? 2.0 * (lists_.skin() - lists_.relist_distance()) / window_.speed_bound : never;
+  return has_regions() ? (lists_.skin() - lists_.relist_distance()) / window_.speed_bound : never;
 }
 
 SliceOutcome SliceScheduler::run(double start, double end, double per_disk, double window_start) {
@@ -81,8 +90,8 @@ SliceOutcome SliceScheduler::run(double start, double end, double per_disk, doub
   }
   const SliceOutcome reached = outcome();
   if (reached != SliceOutcome::done) return reached;
-  if (common_.collapse && !has_regions()) fail_collapse(*common_.collapse, window_start);
-  window_.fastest2 = std::max(window_.fastest2, common_.fastest2);
+  if (single_.collapse && !has_regions()) fail_collapse(*single_.collapse, window_start);
+  for_each_worker([&](const Worker& worker) { window_.fastest2 = std::max(window_.fastest2, worker.fastest2); });
   return SliceOutcome::done;
 }
 
@@ -93,7 +102,7 @@ void SliceScheduler::end_window() {
 
 void SliceScheduler::release_calendars() {
   for (Region& region : regions_) region.worker.calendar.release_memory();
-  common_.calendar.release_memory();
+  single_.calendar.release_memory();
 }
 
 SliceOutcome SliceScheduler::outcome() const {
@@ -102,15 +111,13 @@ SliceOutcome SliceScheduler::outcome() const {
   bool given_up = false;
   bool collapsed = false;
   Count segments = 0;
-  const auto see = [&](const Worker& worker) {
+  for_each_worker([&](const Worker& worker) {
     too_fast = too_fast || worker.too_fast;
     crowded = crowded || worker.crowded;
     given_up = given_up || worker.given_up;
     collapsed = collapsed || worker.collapse;
     segments += worker.segments;
-  };
-  for (const Region& region : regions_) see(region.worker);
-  see(common_);
+  });
   if (given_up) return SliceOutcome::given_up;
   if (too_fast) return SliceOutcome::too_fast;
   // Events pile up at one moment: which of them is the reference's first, regions cannot tell.
@@ -119,12 +126,12 @@ SliceOutcome SliceScheduler::outcome() const {
 }
 
 void SliceScheduler::run_single_queue(double per_disk) {
-  common_.begin_slice();
-  EventProcessor<Scope::all> events(window_, lists_, common_);
+  single_.begin_slice();
+  EventProcessor<Scope::all> events(window_, lists_, single_);
   events.enter_all(per_disk * window_.length);
   events.run();
   events.leave_all();
-  relisted_ += common_.relisted;
+  relisted_ += single_.relisted;
 }
 
 void SliceScheduler::run_regions(double per_disk) {
@@ -134,8 +141,9 @@ void SliceScheduler::run_regions(double per_disk) {
     if (region.worker.ended) return;
     window_.fastest2 = std::max(window_.fastest2, region.worker.fastest2);
   }
-  run_border(per_disk);
-  if (common_.ended) return;
+  border_pass_.run(regions_, per_disk);
+  if (border_pass_.ended()) return;
+  relisted_ += border_pass_.relisted();
   executor_.run(regions_.size(), [&](std::size_t r) { finish_slice(regions_[r]); });
   take_in_new_border();
 }
@@ -157,24 +165,6 @@ void SliceScheduler::begin_slice(Region& region) {
   region.worker.begin_slice();
 }
 
-// The disks at the borders and those that were blocked; all others are done.
-void SliceScheduler::run_border(double per_disk) {
-  common_.begin_slice();
-  std::size_t disks = 0;
-  for (const Region& region : regions_) disks += region.border.size() + region.worker.blocked.size();
-  if (disks == 0) return;
-  const double time = window_.slice_stop() - window_.slice_start;
-  common_.queue.begin(window_.slice_start, window_.slice_stop(),
-                      static_cast<std::size_t>(per_disk * time * static_cast<double>(disks)));
-  EventProcessor<Scope::border> events(window_, lists_, common_);
-  for (const Region& region : regions_) {
-    for (const std::uint32_t i : region.border) events.push_next_event(i);
-    for (const BlockedDisk& blocked : region.worker.blocked) events.push_next_event(blocked.disk);
-  }
-  events.run();
-  relisted_ += common_.relisted;
-}
-
 // Disks that were blocked go on with the region.
 void SliceScheduler::finish_slice(Region& region) {
   EventProcessor<Scope::region> events(window_, lists_, region.worker);
@@ -187,7 +177,7 @@ void SliceScheduler::finish_slice(Region& region) {
 }
 
 void SliceScheduler::take_in_new_border() {
-  for (const std::uint32_t i : common_.border) {
+  for (const std::uint32_t i : border_pass_.new_border()) {
     Region& region = region_of(i);
     const std::uint32_t entry = i - region.worker.region.first_disk;
     region.worker.calendar.take_out(entry);
@@ -195,24 +185,25 @@ void SliceScheduler::take_in_new_border() {
     window_.record[i].progress.set_border();
     region.border.push_back(i);
   }
-  for (const std::uint32_t i : common_.near_border) region_of(i).near_border.push_back(i);
+  for (const std::uint32_t i : border_pass_.new_near_border()) region_of(i).near_border.push_back(i);
 }
 
 ImpactTally SliceScheduler::tally() const {
-  ImpactTally sum = common_.tally;
-  for (const Region& region : regions_) sum.add(region.worker.tally);
+  ImpactTally sum;
+  for_each_worker([&](const Worker& worker) { sum.add(worker.tally); });
   return sum;
 }
 
 Count SliceScheduler::events() const {
-  Count events = common_.tally.collisions + common_.tally.wall_collisions;
-  for (const Region& region : regions_) events += region.worker.tally.collisions + region.worker.tally.wall_collisions;
+  Count events = 0;
+  for_each_worker([&](const Worker& worker) { events += worker.tally.collisions + worker.tally.wall_collisions; });
   return events;
 }
 
 bool SliceScheduler::any_gone() const {
-  const auto gone = [](const Region& region) { return region.worker.any_gone; };
-  return common_.any_gone || std::any_of(regions_.begin(), regions_.end(), gone);
+  bool any = false;
+  for_each_worker([&](const Worker& worker) { any = any || worker.any_gone; });
+  return any;
 }
 
 }  // namespace carom

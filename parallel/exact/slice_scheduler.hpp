@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "core/physics/impact_tally.hpp"
+#include "parallel/exact/border_pass.hpp"
 #include "parallel/exact/event_processor.hpp"
 #include "parallel/exact/neighbour_lists.hpp"
+#include "parallel/exact/region.hpp"
 #include "parallel/exact/window_state.hpp"
 #include "parallel/exact/worker.hpp"
 #include "parallel/threads/executor.hpp"
@@ -18,14 +20,14 @@ namespace carom {
 enum class SliceOutcome : std::uint8_t { done, too_fast, crowded, given_up };
 
 // With a single queue, a window is one slice, and one worker processes its events. With regions, each thread has a
-// region, a run of tiles, and processes the events of its disks as far as they do not depend on disks whose motion is
+// region, a run of layers, and processes the events of its disks as far as they do not depend on disks whose motion is
 // not yet known: a disk that lists one of another region is at the border, and its motion in a slice becomes known in
 // the border pass, after all regions; so does that of disks that are blocked because of one. Which worker processes an
 // event depends on the threads, the event does not.
 class SliceScheduler {
  public:
   SliceScheduler(WindowState& window, NeighbourLists& lists, const Executor& executor)
-      : window_(window), lists_(lists), executor_(executor) {}
+      : window_(window), lists_(lists), executor_(executor), border_pass_(window, lists, executor) {}
 
   // A window begins, in window.mode. rebuilt: so do the lists.
   void begin_window(bool rebuilt);
@@ -39,7 +41,7 @@ class SliceScheduler {
   // After the window's last slice, if all were done.
   void end_window();
   // Without regions: the event that tells that the window is crowded, the same as the reference's.
-  const EventMark& crowding() const { return *common_.crowded; }
+  const EventMark& crowding() const { return *single_.crowded; }
 
   // Of the window so far.
   ImpactTally tally() const;
@@ -47,8 +49,7 @@ class SliceScheduler {
   bool any_gone() const;
   template <class Read>
   void read_logs(Read&& read) const {
-    for (const Region& region : regions_) read(region.worker.log);
-    read(common_.log);
+    for_each_worker([&](const Worker& worker) { read(worker.log); });
   }
   // Between windows: gives back the memory of the calendars.
   void release_calendars();
@@ -56,13 +57,12 @@ class SliceScheduler {
   Count relisted() const { return relisted_; }
 
  private:
-  // Disks that are contiguous in memory, those of a run of tiles.
-  struct Region {
-    Worker worker;
-    std::vector<std::uint32_t> border;       // disks marked at_border
-    std::vector<std::uint32_t> near_border;  // disks marked lists_border; some have come to be at the border since
-  };
-
+  template <class Visit>
+  void for_each_worker(Visit&& visit) const {
+    for (const Region& region : regions_) visit(region.worker);
+    border_pass_.for_each_worker(visit);
+    visit(single_);
+  }
   bool has_regions() const { return window_.mode == EngineMode::regions; }
   void lay_out_regions();
   void find_border(Region& region);
@@ -71,7 +71,6 @@ class SliceScheduler {
   void run_regions(double per_disk);
   void run_region(Region& region, double per_disk);
   void begin_slice(Region& region);
-  void run_border(double per_disk);
   void finish_slice(Region& region);
   void take_in_new_border();
   Region& region_of(std::uint32_t i) { return regions_[window_.region_of_tile[lists_.tile_of(i)]]; }
@@ -81,7 +80,8 @@ class SliceScheduler {
   NeighbourLists& lists_;
   const Executor& executor_;
   std::vector<Region> regions_;
-  Worker common_;  // single queue: all disks; with regions: the border pass
+  BorderPass border_pass_;  // with regions
+  Worker single_;           // with a single queue: all disks
   Count relisted_ = 0;
 };
 

@@ -37,7 +37,7 @@ struct Worker {
   ListRegion region;                    // what it may read and write
   EventCalendar calendar;               // of a single queue, or of a region
   std::vector<SafeTimeDue> safe_times;  // of a region: a heap, the first on top
-  EventQueue queue;                     // of the border pass
+  EventQueue queue;                     // of a border
   ImpactTally tally;
   std::vector<LoggedSegment> log;  // a disk's segments in order
   bool any_gone = false;
@@ -57,6 +57,7 @@ struct Worker {
   std::vector<std::uint32_t> marked;       // disks marked has_unresolved_neighbour in the slice
   std::vector<std::uint32_t> border;       // disks that came to be at a border in the slice
   std::vector<std::uint32_t> near_border;  // disks marked lists_border in the slice
+  std::vector<std::uint32_t> late;         // disks marked relists_late in the slice, and relisted at its end
   FoundNeighbours found;                   // scratch
 
   void begin_window() {
@@ -76,6 +77,7 @@ struct Worker {
     marked.clear();
     border.clear();
     near_border.clear();
+    late.clear();
   }
 };
 

@@ -34,7 +34,7 @@ void expect_counted(const Domain& box, double radius, const std::vector<std::siz
 
 void expect_counted_in_tiles(const Domain& box, double radius, const std::vector<std::size_t>& count) {
   CellGrid grid;
-  make_tiled_grid(box, radius, count, 8192, grid);
+  make_tiled_grid(box, radius, count, 8192, 2, grid);
   std::uint64_t cells = 0;
   for (const GridLevel& level : grid.levels) {
     cells += std::uint64_t{level.rows} * level.columns;

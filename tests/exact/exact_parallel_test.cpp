@@ -212,8 +212,9 @@ TEST(ExactParallelCollapse, IsReportedAlike) {
        {Case{26, 1, EngineMode::all_pairs}, Case{160, 1, EngineMode::single_queue}, Case{160, 128, EngineMode::regions},
         Case{160, 512, EngineMode::regions}, Case{160, 1024, EngineMode::regions}}) {
     SCOPED_TRACE(fmt::format("{} disks, divisor {}", c.disks, c.block_divisor));
-    ASSERT_EQ(choose_layout(static_cast<std::size_t>(c.disks), true, Executor(3, c.block_divisor)).mode, c.mode);
     const Scene scene = collapsing_gas(c.disks);
+    const Executor executor(3, c.block_divisor);
+    ASSERT_EQ(choose_layout(static_cast<std::size_t>(c.disks), scene.box, true, executor).mode, c.mode);
     const State initial = initial_state(scene);
     const std::string expected = collapse_report(*make_reference_exact(scene, initial), scene);
     EXPECT_NE(expected.find("inelastic collapse"), std::string::npos) << expected;

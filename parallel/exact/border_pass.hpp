@@ -1,0 +1,74 @@
+// What is left of a slice after all regions: the events of the disks whose motion is not known, border by border.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "parallel/exact/event_processor.hpp"
+#include "parallel/exact/neighbour_lists.hpp"
+#include "parallel/exact/region.hpp"
+#include "parallel/exact/window_state.hpp"
+#include "parallel/exact/worker.hpp"
+#include "parallel/threads/executor.hpp"
+
+namespace carom {
+
+// Between two regions that follow each other is a border; the last region borders on the first one. The disks of a
+// border are those from the middle of one region to the middle of the next, so that each disk belongs to one border,
+// and one thread processes the events of a border's disks. Borders are independent of each other unless a disk whose
+// motion is not known lists one of another border; such borders are joined for the slice and have one thread. No disk
+// is relisted before the slice's end: in a slice none goes further than its skin (SliceScheduler::longest_slice).
+class BorderPass {
+ public:
+  BorderPass(WindowState& window, NeighbourLists& lists, const Executor& executor)
+      : window_(window), lists_(lists), executor_(executor) {}
+
+  // New regions, with their tiles and middles.
+  void lay_out(const std::vector<Region>& regions);
+  void begin_window();
+
+  // Processes the events of the slice that regions left over. per_disk: events a disk and time, about.
+  void run(const std::vector<Region>& regions, double per_disk);
+  // Was the window found void?
+  bool ended() const;
+
+  // Disks that came to be at a border, and that list one now, in the slice.
+  const std::vector<std::uint32_t>& new_border() const { return late_.border; }
+  const std::vector<std::uint32_t>& new_near_border() const { return late_.near_border; }
+  // Disks relisted in the slice.
+  Count relisted() const;
+
+  template <class Visit>
+  void for_each_worker(Visit&& visit) const {
+    for (const Border& border : borders_) visit(border.worker);
+  }
+
+ private:
+  struct Border {
+    Worker worker;
+    ListRegion region;                   // of its disks
+    bool wraps = false;                  // its disks are those outside the region: from the last one to the first one
+    std::vector<std::uint32_t> disks;    // whose motion is not known
+    std::vector<std::uint32_t> touches;  // other borders
+    std::uint32_t leader = 0;            // of those that are joined: the one whose worker processes the events
+    bool is_alone = true;
+    bool holds(std::uint32_t disk) const { return region.holds(disk) != wraps; }
+  };
+
+  std::uint32_t border_of(std::uint32_t i) const { return border_of_tile_[lists_.tile_of(i)]; }
+  void collect(std::uint32_t b, const std::vector<Region>& regions);
+  void collect(Border& border, std::uint32_t i) const;
+  void join();
+  std::uint32_t leader_of(std::uint32_t b) const;
+  void process(std::uint32_t leader, double per_disk);
+  void relist_late();
+
+  WindowState& window_;
+  NeighbourLists& lists_;
+  const Executor& executor_;
+  std::vector<Border> borders_;                // one behind each region
+  std::vector<std::uint16_t> border_of_tile_;  // by tile
+  Worker late_;                                // relists what reaches beyond its border
+};
+
+}  // namespace carom
