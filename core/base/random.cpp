@@ -52,6 +52,25 @@ double deterministic_log(double x) {
   return k * ln2_high + (2.0 * s + (2.0 * s * sum + k * ln2_low));
 }
 
+double deterministic_exp(double x) {
+  // x = k ln 2 + r with |r| < 0.347; the series of e^r, whose term r^14 / 14! is below 5e-18.
+  constexpr double ln2_high = 0x1.62e42fefa0000p-1;
+  constexpr double ln2_low = 0x1.cf79abc9e3b3ap-40;
+  constexpr double per_ln2 = 1.4426950408889634;
+  const double k = std::floor(x * per_ln2 + 0.5);
+  const double r = (x - k * ln2_high) - k * ln2_low;
+  double sum = 1.0;
+  for (int n = 13; n >= 1; --n) sum = 1.0 + r * sum / n;
+  return sum * std::bit_cast<double>(static_cast<std::uint64_t>(1023 + static_cast<int>(k)) << 52);
+}
+
+double bounded_normal(std::uint64_t seed, Stream stream, DiskId id) {
+  for (std::uint64_t draw = 0;; ++draw) {
+    const double deviate = normals(seed, stream, id, draw).x;
+    if (std::abs(deviate) <= most_deviations) return deviate;
+  }
+}
+
 Vec2 normals(std::uint64_t seed, Stream stream, DiskId id, std::uint64_t step) {
   // A point uniform in the unit disk; each attempt succeeds with probability pi / 4, so 256 of them fail with 1e-171.
   for (std::uint32_t attempt = 0;; ++attempt) {

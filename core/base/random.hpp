@@ -34,8 +34,16 @@ TwoUniforms uniforms(std::uint64_t seed, Stream stream, DiskId id, std::uint64_t
 // Two independent standard normal deviates (polar method of Marsaglia, with deterministic_log in place of libm's).
 Vec2 normals(std::uint64_t seed, Stream stream, DiskId id, std::uint64_t step);
 
+// A standard normal deviate drawn again until it lies within this many standard deviations, which one in 16,000 does
+// not. A run's sizes so have bounds that its cells and checks can rely on.
+inline constexpr double most_deviations = 4.0;
+double bounded_normal(std::uint64_t seed, Stream stream, DiskId id);
+
 // Natural logarithm from + - * / only, so that every IEEE machine gives the same bits; relative error below 4e-16.
 // Precondition: x > 0, finite, normal.
 double deterministic_log(double x);
+
+// e^x, likewise; relative error below 4e-16. Precondition: |x| <= 700.
+double deterministic_exp(double x);
 
 }  // namespace carom

@@ -71,7 +71,8 @@ Tally tally_of(const Scene& scene) {
   for (const DiskGroup& group : scene.groups) {
     const SizeSummary sizes = summarise_sizes(group, scene.seed, first_id);
     const double mass = middle(sizes.smallest.mass, sizes.largest.mass);
-    const double speed2 = group.count > 0 ? mean_square_speed(group.velocities, mass) : 0.0;
+    const double drift2 = 0.5 * (group.drift.x * group.drift.x + group.drift.y * group.drift.y);
+    const double speed2 = group.count > 0 ? mean_square_speed(group.velocities, mass) + drift2 : 0.0;
     tally.add(static_cast<double>(group.count), sizes.radius_squared, sizes.smallest.radius, mass, speed2);
     first_id += static_cast<DiskId>(group.count);
   }

@@ -47,6 +47,11 @@ void check_group(const DiskGroup& group, const std::string& path, const PlaceOfK
   if (group.positions.kind == PositionLaw::Kind::list) {
     check_length(group.positions.list.size(), group.count, at("positions"));
   }
+  const PositionLaw::Kind kind = group.positions.kind;
+  if (group.positions.region && (kind == PositionLaw::Kind::list || kind == PositionLaw::Kind::growth)) {
+    fail_input(at("region"), kind == PositionLaw::Kind::list ? "beside positions that are given" : "beside \"growth\"",
+               "expected positions = \"random\", \"square\" or \"hexagonal\" with it");
+  }
   if (group.velocities.kind == VelocityLaw::Kind::list) {
     check_length(group.velocities.list.size(), group.count, at("velocities"));
   }
@@ -165,9 +170,10 @@ void check_axis(double length, bool periodic, double radius, std::string_view na
 // The least and the largest that a source's law can give; each law is monotonic.
 std::pair<DiskSize, DiskSize> source_sizes(const Source& source) {
   const auto end_of = [](SizeLaw law, bool high) {
-    if (law.kind != SizeLaw::Kind::uniform) return law;
+    if (law.kind == SizeLaw::Kind::from_other) return law;
+    const SizeRange range = size_range(law);
     law.kind = SizeLaw::Kind::constant;
-    law.value = high ? law.high : law.low;
+    law.value = high ? range.high : range.low;
     return law;
   };
   const auto size = [&](bool high) {
@@ -200,6 +206,29 @@ void check_region(const Source& source, const Domain& box, double radius, const 
   }
   fail_input(where, fmt::format("is no place for the centre of a disk of radius {}: it lies nearer to a side", radius),
              "expected a region that reaches a radius or more from each side that is not periodic");
+}
+
+// radius: the largest of the group.
+void check_start_region(const StartRegion& region, const Domain& box, double radius, const std::string& where) {
+  const Vec2 low = region.low;
+  const Vec2 high = region.high;
+  constexpr std::string_view expected =
+      "expected [x0, y0, x1, y1] with x0 < x1, y0 < y1, or { circle = [x, y, r] }, inside the box";
+  if (!(low.x < high.x && low.y < high.y)) fail_input(where, "its corners are not in order", expected);
+  if (!(low.x >= 0.0 && low.y >= 0.0 && high.x <= box.width && high.y <= box.height)) {
+    fail_input(where, fmt::format("reaches out of the box of {} x {}", box.width, box.height), expected);
+  }
+  if (high.x - low.x >= 2.0 * radius && high.y - low.y >= 2.0 * radius) return;
+  fail_input(where, fmt::format("is too small for a disk of radius {}", radius),
+             "expected a region that holds whole disks");
+}
+
+void check_drift(const Scene& scene, const DiskGroup& group, const std::string& path, const PlaceOfKey& place) {
+  if (group.drift == Vec2{}) return;
+  VelocityLaw drift;
+  drift.kind = VelocityLaw::Kind::list;
+  drift.list = {group.drift};
+  check_velocities(scene, drift, 0.0, path, [&](std::string_view) { return place(fmt::format("{}.drift", path)); });
 }
 
 }  // namespace
@@ -280,6 +309,10 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
     const SizeSummary sizes = summarise_sizes(group, scene.seed, first_id);
     check_sizes(sizes.smallest, sizes.largest, path, place);
     check_velocities(scene, group.velocities, sizes.smallest.mass, path, place);
+    check_drift(scene, group, path, place);
+    if (group.positions.region) {
+      check_start_region(*group.positions.region, scene.box, sizes.largest.radius, place(path + ".region"));
+    }
     add(sizes.smallest, sizes.largest);
     first_id += static_cast<DiskId>(group.count);
   }

@@ -134,6 +134,7 @@ DiskGroup read_group(const SceneOrigin& origin, const std::string& path, const t
   group.count = reader.count("count").value();
   group.positions = read_positions(reader);
   group.velocities = read_velocities(reader);
+  group.drift = read_drift(reader);
   group.radius = read_size(reader, "radius", "from_mass");
   group.mass = read_size(reader, "mass", "from_radius");
   return group;

@@ -22,21 +22,35 @@ struct SizeLaw {
     constant,   // value
     list,       // values, one a disk
     uniform,    // drawn from [low, high]
+    normal,     // mean value, standard deviation
+    lognormal,  // value times exp of a normal deviate of this standard deviation
+    choice,     // one of values, by weights
     from_other  // radius from mass, r = sqrt(m / (pi density)), or mass from radius, m = pi density r^2
   };
   Kind kind = Kind::constant;
   double value = 0.0;
   std::vector<double> values;
   double low = 0.0, high = 0.0;
-  double density = 0.0;  // mass / length^2
+  double deviation = 0.0;       // of the size for normal, of its logarithm for lognormal
+  std::vector<double> weights;  // as many as values
+  double density = 0.0;         // mass / length^2
+};
+
+// Part of the box within which a group starts, with whole disks: a rectangle or a circle.
+struct StartRegion {
+  bool circle = false;
+  Vec2 low, high;       // corners of the rectangle; of the square around a circle
+  Vec2 centre;          // of a circle
+  double radius = 0.0;  // likewise; length
 };
 
 struct PositionLaw {
   enum class Kind : std::uint8_t { random, square, hexagonal, growth, list };
   Kind kind = Kind::random;
-  std::vector<Vec2> list;  // from the scene or from a CSV file
-  std::string file;        // where the list came from, empty if the scene; for error messages
-  std::string where;       // "file:line: key" of positions, for error messages; empty if no file was read
+  std::vector<Vec2> list;             // from the scene or from a CSV file
+  std::string file;                   // where the list came from, empty if the scene; for error messages
+  std::optional<StartRegion> region;  // of random places and lattices; absent: the box
+  std::string where;                  // "file:line: key" of positions, for error messages; empty if no file was read
 };
 
 struct VelocityLaw {
@@ -58,6 +72,7 @@ struct DiskGroup {
   Count count = 0;
   PositionLaw positions;
   VelocityLaw velocities;
+  Vec2 drift;  // added to the velocities of the law; length / time
   SizeLaw radius;
   SizeLaw mass;
   int line = 0;  // of the [[disks]] header in the scene file, for error messages

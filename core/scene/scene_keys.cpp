@@ -26,9 +26,12 @@ constexpr SceneTable tables[] = {
      "A group of disks; a scene may have many, or none where it has sources. Ids run on from 0 in the order of the "
      "file."},
     {"disks.positions", "`positions = { ... }` in `[[disks]]`", "Places from elsewhere; exactly one of these keys."},
+    {"disks.region", "`region = { ... }` in `[[disks]]`", "A circle, in place of the four numbers of a rectangle."},
     {"disks.velocities", "`velocities = { ... }` in `[[disks]]` and `[[sources]]`", "Exactly one of these keys."},
-    {"disks.radius", "`radius = { ... }` in `[[disks]]` and `[[sources]]`", "Exactly one of these keys."},
-    {"disks.mass", "`mass = { ... }` in `[[disks]]` and `[[sources]]`", "Exactly one of these keys."},
+    {"disks.radius", "`radius = { ... }` in `[[disks]]` and `[[sources]]`",
+     "Exactly one of these keys; `weights` goes with `choice`. Every disk draws its own by its id."},
+    {"disks.mass", "`mass = { ... }` in `[[disks]]` and `[[sources]]`",
+     "Exactly one of these keys; `weights` goes with `choice`. Every disk draws its own by its id."},
     {"frame", "`{ frame = ... }` in `[[disks]]`",
      "Starts from a frame of an earlier run: `positions`, `velocities`, `radius` and `mass` may each be taken from "
      "one. The last frame, unless `index` or `time` says which."},
@@ -54,9 +57,11 @@ constexpr std::string_view bins_allowed = "a whole number from 1 to 100000";
 constexpr std::string_view fps_allowed = "a number from 0.1 to 1000";
 constexpr std::string_view size_allowed = "two even whole numbers from 320 to 8192";
 constexpr std::string_view radius_allowed =
-    "a number above 0, a list of them, `{ uniform = ... }`, `{ from_mass = ... }`, or `{ frame = ... }`";
+    "a number above 0, a list of them, `{ uniform = ... }`, `{ normal = ... }`, `{ lognormal = ... }`, `{ choice = ... "
+    "}`, `{ from_mass = ... }`, or `{ frame = ... }`";
 constexpr std::string_view mass_allowed =
-    "a number above 0, a list of them, `{ uniform = ... }`, `{ from_radius = ... }`, or `{ frame = ... }`";
+    "a number above 0, a list of them, `{ uniform = ... }`, `{ normal = ... }`, `{ lognormal = ... }`, `{ choice = ... "
+    "}`, `{ from_radius = ... }`, or `{ frame = ... }`";
 constexpr std::string_view velocities_allowed =
     "`{ maxwell = ... }`, `{ uniform = ... }`, a list of [vx, vy], `{ file = ... }`, or `{ frame = ... }`";
 constexpr std::string_view range_allowed = "[low, high] with 0 < low <= high";
@@ -146,6 +151,13 @@ constexpr SceneKey keys[] = {
      velocities_allowed},
     {"disks", "radius", positive, Dimension::length, "required", "Radii.", "radius = 0.5", radius_allowed},
     {"disks", "mass", positive, Dimension::mass, "required", "Masses.", "mass = 1.0", mass_allowed},
+    {"disks", "region", special, Dimension::length, "the box",
+     "Where random disks and lattices start: whole disks within this rectangle or circle. A rectangle from one "
+     "periodic "
+     "side to the other has no edge there.",
+     "region = [0.0, 0.0, 50.0, 100.0]", "[x0, y0, x1, y1], or `{ circle = ... }`"},
+    {"disks", "drift", special, Dimension::speed, "[0, 0]", "A velocity that all disks of the group get on top.",
+     "drift = [1.0, 0.0]", "[vx, vy]"},
     {"disks", "name", text, none, "none",
      "What the group is called, for `select`, columns of series.csv, and the legend of pictures. `sources` names the "
      "disks of all sources together.",
@@ -153,9 +165,13 @@ constexpr SceneKey keys[] = {
     {"disks.positions", "file", text, Dimension::length, "",
      "A CSV file, a line `x,y` a disk; from the scene's folder.", R"(positions = { file = "p.csv" })"},
     {"disks.positions", "frame", text, none, "", "See `{ frame = ... }`.", R"(positions = { frame = "out/melt" })"},
+    {"disks.region", "circle", special, Dimension::length, "", "Centre and radius.",
+     "region = { circle = [50.0, 50.0, 40.0] }", "[x, y, r]"},
     {"disks.velocities", "maxwell", non_negative, Dimension::energy, "",
-     "Temperature T (k_B = 1): normal deviates, their mean taken off, then scaled so that the mean kinetic energy of a "
-     "disk is T exactly. From a side of a source: as gas flows through a hole.",
+     "Temperature T of this group (k_B = 1), whatever the others have: normal deviates, their mean taken off, then "
+     "scaled "
+     "so that the mean kinetic energy of a disk is T exactly; `drift` comes on top. From a side of a source: as gas "
+     "flows through a hole.",
      "velocities = { maxwell = 1.0 }"},
     {"disks.velocities", "uniform", non_negative, Dimension::speed, "", "v: each component uniform between -v and v.",
      "velocities = { uniform = 2.0 }"},
@@ -165,12 +181,34 @@ constexpr SceneKey keys[] = {
      R"(velocities = { frame = "out/melt" })"},
     {"disks.radius", "uniform", special, Dimension::length, "", "Each drawn uniformly between the two.",
      "radius = { uniform = [1, 5] }", range_allowed},
+    {"disks.radius", "normal", special, Dimension::length, "",
+     "Mean and standard deviation of normal deviates; one beyond 4 deviations is drawn again.",
+     "radius = { normal = [1.0, 0.1] }", "[mean, deviation] with mean above 4 deviations"},
+    {"disks.radius", "lognormal", special, Dimension::length, "",
+     "Median, and the standard deviation of the logarithm; one beyond 4 deviations is drawn again.",
+     "radius = { lognormal = [1.0, 0.2] }", "[median, sigma] with 0 <= sigma <= 2"},
+    {"disks.radius", "choice", special, Dimension::length, "", "Each disk gets one of these.",
+     "radius = { choice = [1.0, 1.4] }", "a list of numbers above 0"},
+    {"disks.radius", "weights", special, none, "equal ones",
+     "How often each of `choice` is taken, relative to the others.",
+     "radius = { choice = [1.0, 1.4], weights = [2, 1] }", "as many numbers, 0 or more"},
     {"disks.radius", "from_mass", positive, Dimension::density, "", "Density rho: r = sqrt(m / (pi rho)).",
      "radius = { from_mass = 1.0 }"},
     {"disks.radius", "frame", text, none, "", "See `{ frame = ... }`. Not for sources.",
      R"(radius = { frame = "out/melt" })"},
     {"disks.mass", "uniform", special, Dimension::mass, "", "Each drawn uniformly between the two.",
      "mass = { uniform = [1, 100] }", range_allowed},
+    {"disks.mass", "normal", special, Dimension::mass, "",
+     "Mean and standard deviation of normal deviates; one beyond 4 deviations is drawn again.",
+     "mass = { normal = [1.0, 0.1] }", "[mean, deviation] with mean above 4 deviations"},
+    {"disks.mass", "lognormal", special, Dimension::mass, "",
+     "Median, and the standard deviation of the logarithm; one beyond 4 deviations is drawn again.",
+     "mass = { lognormal = [1.0, 0.2] }", "[median, sigma] with 0 <= sigma <= 2"},
+    {"disks.mass", "choice", special, Dimension::mass, "", "Each disk gets one of these.",
+     "mass = { choice = [1.0, 1.4] }", "a list of numbers above 0"},
+    {"disks.mass", "weights", special, none, "equal ones",
+     "How often each of `choice` is taken, relative to the others.", "mass = { choice = [1.0, 1.4], weights = [2, 1] }",
+     "as many numbers, 0 or more"},
     {"disks.mass", "from_radius", positive, Dimension::density, "", "Density rho: m = pi rho r^2.",
      "mass = { from_radius = 1.0 }"},
     {"disks.mass", "frame", text, none, "", "See `{ frame = ... }`. Not for sources.",

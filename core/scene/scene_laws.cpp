@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
+#include "core/base/random.hpp"
 #include "core/scene/csv.hpp"
 
 namespace carom {
@@ -78,6 +81,74 @@ SizeLaw read_uniform_size(const TableReader& law, const toml::node& node) {
   return size;
 }
 
+// Two numbers under a key of a law; the first is above 0.
+std::vector<double> read_two(const TableReader& law, std::string_view name, std::string_view expected) {
+  std::vector<double> numbers = as_numbers(law.origin(), law.key(name), *law.find(name));
+  if (numbers.size() != 2) law.fail(name, fmt::format("has {} numbers", numbers.size()), expected);
+  return numbers;
+}
+
+SizeLaw read_normal_size(const TableReader& law) {
+  constexpr std::string_view expected =
+      "expected [mean, deviation] with 0 <= deviation and 4 deviations below the mean (lognormal sizes have no such "
+      "bound)";
+  const std::vector<double> two = read_two(law, "normal", expected);
+  if (!(two[1] >= 0.0 && two[0] > most_deviations * two[1])) {
+    law.fail("normal", fmt::format("is [{}, {}]", two[0], two[1]), expected);
+  }
+  SizeLaw size;
+  size.kind = SizeLaw::Kind::normal;
+  size.value = two[0];
+  size.deviation = two[1];
+  return size;
+}
+
+SizeLaw read_lognormal_size(const TableReader& law) {
+  constexpr std::string_view expected = "expected [median, sigma] with 0 < median and 0 <= sigma <= 2";
+  const std::vector<double> two = read_two(law, "lognormal", expected);
+  if (!(two[0] > 0.0 && two[1] >= 0.0 && two[1] <= 2.0)) {
+    law.fail("lognormal", fmt::format("is [{}, {}]", two[0], two[1]), expected);
+  }
+  SizeLaw size;
+  size.kind = SizeLaw::Kind::lognormal;
+  size.value = two[0];
+  size.deviation = two[1];
+  return size;
+}
+
+// Each number of the list is `fine`, and there is one at least.
+template <class Fine>
+void check_each(const TableReader& law, std::string_view name, const std::vector<double>& numbers,
+                std::string_view expected, Fine fine) {
+  if (numbers.empty()) law.fail(name, "is empty", expected);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    if (fine(numbers[k])) continue;
+    law.origin().fail(fmt::format("{}.{}", law.key(name), k), fmt::format("is {}", numbers[k]), expected);
+  }
+}
+
+SizeLaw read_choice_of_sizes(const TableReader& law) {
+  constexpr std::string_view expected =
+      "expected { choice = [a, b], weights = [1, 2] } with numbers above 0; weights may be left out";
+  SizeLaw size;
+  size.kind = SizeLaw::Kind::choice;
+  const toml::node* weights = law.find("weights");
+  if (weights != nullptr) size.weights = as_numbers(law.origin(), law.key("weights"), *weights);
+  size.values = as_numbers(law.origin(), law.key("choice"), law.require("choice", expected));
+  check_each(law, "choice", size.values, expected, [](double v) { return v > 0.0; });
+  if (weights == nullptr) size.weights.assign(size.values.size(), 1.0);
+  check_each(law, "weights", size.weights, "expected numbers from 1e-9 to 1e9, or 0",
+             [](double w) { return w == 0.0 || (w >= 1e-9 && w <= 1e9); });
+  if (size.weights.size() != size.values.size()) {
+    law.fail("weights", fmt::format("has {} numbers for {} to choose from", size.weights.size(), size.values.size()),
+             "expected one each");
+  }
+  if (std::all_of(size.weights.begin(), size.weights.end(), [](double w) { return w == 0.0; })) {
+    law.fail("weights", "are all 0", "expected one above 0 at least");
+  }
+  return size;
+}
+
 SizeLaw read_size_list(const TableReader& owner, const std::string& key, Dimension dimension, const toml::node& node) {
   SizeLaw size;
   size.kind = SizeLaw::Kind::list;
@@ -89,6 +160,34 @@ SizeLaw read_size_list(const TableReader& owner, const std::string& key, Dimensi
                         value > 0.0 ? expected_range(dimension) : "expected a number above 0");
   }
   return size;
+}
+
+// [x0, y0, x1, y1] or { circle = [x, y, r] }; absent without the key.
+std::optional<StartRegion> read_start_region(const TableReader& group) {
+  const toml::node* node = group.find("region");
+  if (node == nullptr) return {};
+  constexpr std::string_view expected = "expected [x0, y0, x1, y1], or { circle = [x, y, r] }";
+  const std::string key = group.key("region");
+  StartRegion region;
+  if (const toml::table* table = node->as_table()) {
+    const TableReader reader(group.origin(), key, *table, "disks.region");
+    const toml::node& circle = reader.require("circle", expected);
+    const std::vector<double> c = as_numbers(group.origin(), reader.key("circle"), circle);
+    if (c.size() != 3) reader.fail("circle", fmt::format("has {} numbers", c.size()), "expected [x, y, r]");
+    if (!(c[2] > 0.0)) reader.fail("circle", fmt::format("has radius {}", c[2]), "expected [x, y, r] with r above 0");
+    region.circle = true;
+    region.centre = {c[0], c[1]};
+    region.radius = c[2];
+    region.low = {c[0] - c[2], c[1] - c[2]};
+    region.high = {c[0] + c[2], c[1] + c[2]};
+    return region;
+  }
+  if (!node->is_array()) group.fail("region", fmt::format("is {}", type_name(*node)), expected);
+  const std::vector<double> corners = as_numbers(group.origin(), key, *node);
+  if (corners.size() != 4) group.fail("region", fmt::format("has {} numbers", corners.size()), expected);
+  region.low = {corners[0], corners[1]};
+  region.high = {corners[2], corners[3]};
+  return region;
 }
 
 }  // namespace
@@ -113,7 +212,18 @@ PositionLaw read_positions(const TableReader& group) {
     law.kind = PositionLaw::Kind::list;
     law.list = as_pairs(group.origin(), key, node);
   }
+  law.region = read_start_region(group);
   return law;
+}
+
+Vec2 read_drift(const TableReader& group) {
+  const toml::node* node = group.find("drift");
+  if (node == nullptr) return {};
+  constexpr std::string_view expected = "expected [vx, vy]";
+  if (!node->is_array()) group.fail("drift", fmt::format("is {}", type_name(*node)), expected);
+  const std::vector<double> v = as_numbers(group.origin(), group.key("drift"), *node);
+  if (v.size() != 2) group.fail("drift", fmt::format("has {} numbers", v.size()), expected);
+  return {v[0], v[1]};
 }
 
 VelocityLaw read_velocities(const TableReader& owner) {
@@ -150,7 +260,8 @@ VelocityLaw read_velocities(const TableReader& owner) {
 
 SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_view other_key) {
   const std::string expected = fmt::format(
-      "expected a number, a list of numbers, {{ uniform = [low, high] }}, {{ {} = density }}, or {{ frame = \"DIR\" }}",
+      "expected a number, a list of numbers, {{ uniform = [low, high] }}, {{ normal = [mean, deviation] }}, "
+      "{{ lognormal = [median, sigma] }}, {{ choice = [a, b] }}, {{ {} = density }}, or {{ frame = \"DIR\" }}",
       other_key);
   const toml::node& node = owner.require(name, expected);
   const std::string key = owner.key(name);
@@ -165,7 +276,11 @@ SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_v
       return law;
     }
     const TableReader reader(owner.origin(), key, *table, fmt::format("disks.{}", name));
-    if (only_key(owner, name, *table, expected) == "uniform") return read_uniform_size(reader, *table->get("uniform"));
+    if (reader.find("choice") != nullptr || reader.find("weights") != nullptr) return read_choice_of_sizes(reader);
+    const std::string_view kind = only_key(owner, name, *table, expected);
+    if (kind == "uniform") return read_uniform_size(reader, *table->get("uniform"));
+    if (kind == "normal") return read_normal_size(reader);
+    if (kind == "lognormal") return read_lognormal_size(reader);
     law.kind = SizeLaw::Kind::from_other;
     law.density = reader.number(other_key).value();
     return law;

@@ -7,15 +7,18 @@
 namespace carom {
 
 // The value of "positions" of a group: a name, a list of [x, y], { file = "p.csv" } or { frame = "DIR" }, which are
-// read in. The other laws take { frame = ... } likewise. Throws InputError for anything else, for a missing key, and
-// for a CSV file that cannot be read.
+// read in, and of "region", the part of the box that random places and lattices keep to. The other laws take { frame =
+// ... } likewise. Throws InputError for anything else, for a missing key, and for a CSV file that cannot be read.
 PositionLaw read_positions(const TableReader& group);
 
 // The value of "velocities": { maxwell = T }, { uniform = v }, a list, { file = ... }; at rest when absent.
 VelocityLaw read_velocities(const TableReader& owner);
 
-// The value of "radius" or "mass" (name): a number, a list, { uniform = [low, high] }, or other_key = density, where
-// other_key is "from_mass" for radii and "from_radius" for masses.
+// The value of "drift", [vx, vy]; 0 when absent.
+Vec2 read_drift(const TableReader& group);
+
+// The value of "radius" or "mass" (name): a number, a list, { uniform = [low, high] }, a distribution, or other_key =
+// density, where other_key is "from_mass" for radii and "from_radius" for masses.
 SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_view other_key);
 
 }  // namespace carom

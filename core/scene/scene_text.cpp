@@ -48,6 +48,13 @@ std::string list_of(const std::vector<T>& values, Write write) {
   return text + "]";
 }
 
+// An inline table has no line breaks.
+std::string list_in_line(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + decimal(value);
+  return "[" + text + "]";
+}
+
 std::string pair(const Vec2& v) {
   return fmt::format("[{}, {}]", decimal(v.x), decimal(v.y));
 }
@@ -60,6 +67,12 @@ std::string size_text(const SizeLaw& law, std::string_view other_key) {
       return list_of(law.values, decimal);
     case SizeLaw::Kind::uniform:
       return fmt::format("{{ uniform = [{}, {}] }}", decimal(law.low), decimal(law.high));
+    case SizeLaw::Kind::normal:
+      return fmt::format("{{ normal = [{}, {}] }}", decimal(law.value), decimal(law.deviation));
+    case SizeLaw::Kind::lognormal:
+      return fmt::format("{{ lognormal = [{}, {}] }}", decimal(law.value), decimal(law.deviation));
+    case SizeLaw::Kind::choice:
+      return fmt::format("{{ choice = {}, weights = {} }}", list_in_line(law.values), list_in_line(law.weights));
     case SizeLaw::Kind::from_other:
       break;
   }
@@ -69,6 +82,14 @@ std::string size_text(const SizeLaw& law, std::string_view other_key) {
 std::string positions_text(const PositionLaw& law) {
   if (law.kind == PositionLaw::Kind::list) return list_of(law.list, pair);
   return quoted_toml(position_names[index(law.kind)]);
+}
+
+// Empty where there is none.
+std::string region_line(const PositionLaw& law) {
+  if (!law.region) return "";
+  const StartRegion& r = *law.region;
+  if (r.circle) return fmt::format("region = {{ circle = {} }}\n", list_in_line({r.centre.x, r.centre.y, r.radius}));
+  return fmt::format("region = {}\n", list_in_line({r.low.x, r.low.y, r.high.x, r.high.y}));
 }
 
 // Empty for disks at rest, which is what an absent key means.
@@ -126,10 +147,13 @@ std::string physics_text(const Physics& physics) {
 }
 
 std::string group_text(const DiskGroup& group) {
-  const std::string name = group.name.empty() ? "" : fmt::format("name = \"{}\"\n", group.name);
-  return fmt::format("\n[[disks]]\n{}count = {}\npositions = {}\n{}radius = {}\nmass = {}\n", name, group.count,
-                     positions_text(group.positions), velocities_line(group.velocities),
-                     size_text(group.radius, "from_mass"), size_text(group.mass, "from_radius"));
+  std::string text = "\n[[disks]]\n";
+  if (!group.name.empty()) text += fmt::format("name = \"{}\"\n", group.name);
+  text += fmt::format("count = {}\npositions = {}\n{}{}", group.count, positions_text(group.positions),
+                      region_line(group.positions), velocities_line(group.velocities));
+  if (group.drift != Vec2{}) text += fmt::format("drift = {}\n", pair(group.drift));
+  return text + fmt::format("radius = {}\nmass = {}\n", size_text(group.radius, "from_mass"),
+                            size_text(group.mass, "from_radius"));
 }
 
 // Empty where nothing grows.

@@ -8,6 +8,21 @@ namespace carom {
 
 namespace {
 
+// The value whose share of all weights, laid end to end, holds u in (0, 1).
+double choose(const SizeLaw& law, double u) {
+  double all = 0.0;
+  for (const double weight : law.weights) all += weight;
+  double rest = u * all;
+  std::size_t chosen = 0;
+  for (std::size_t k = 0; k < law.weights.size(); ++k) {
+    if (law.weights[k] == 0.0) continue;
+    chosen = k;  // the last one with a weight, should rounding leave some rest
+    rest -= law.weights[k];
+    if (rest < 0.0) break;
+  }
+  return law.values[chosen];
+}
+
 double draw(const SizeLaw& law, std::uint64_t seed, Stream stream, DiskId id, Count k) {
   switch (law.kind) {
     case SizeLaw::Kind::list:
@@ -15,6 +30,12 @@ double draw(const SizeLaw& law, std::uint64_t seed, Stream stream, DiskId id, Co
     case SizeLaw::Kind::uniform:
       // Rounding of high - low may carry the sum past high.
       return std::min(law.high, law.low + (law.high - law.low) * uniforms(seed, stream, id, 0).a);
+    case SizeLaw::Kind::normal:
+      return law.value + law.deviation * bounded_normal(seed, stream, id);
+    case SizeLaw::Kind::lognormal:
+      return law.value * deterministic_exp(law.deviation * bounded_normal(seed, stream, id));
+    case SizeLaw::Kind::choice:
+      return choose(law, uniforms(seed, stream, id, 0).a);
     case SizeLaw::Kind::constant:
     case SizeLaw::Kind::from_other:
       break;
@@ -36,6 +57,29 @@ DiskSize draw_size(const SizeLaw& radius, const SizeLaw& mass, std::uint64_t see
   size.mass = mass.kind == SizeLaw::Kind::from_other ? std::numbers::pi * mass.density * (size.radius * size.radius)
                                                      : draw(mass, seed, mass_stream, id, k);
   return size;
+}
+
+SizeRange size_range(const SizeLaw& law) {
+  switch (law.kind) {
+    case SizeLaw::Kind::uniform:
+      return {law.low, law.high};
+    case SizeLaw::Kind::normal:
+      return {law.value - most_deviations * law.deviation, law.value + most_deviations * law.deviation};
+    case SizeLaw::Kind::lognormal: {
+      const double factor = deterministic_exp(most_deviations * law.deviation);
+      return {law.value / factor, law.value * factor};
+    }
+    case SizeLaw::Kind::list:
+    case SizeLaw::Kind::choice: {
+      if (law.values.empty()) return {};
+      const auto [low, high] = std::minmax_element(law.values.begin(), law.values.end());
+      return {*low, *high};
+    }
+    case SizeLaw::Kind::constant:
+    case SizeLaw::Kind::from_other:
+      break;
+  }
+  return {law.value, law.value};
 }
 
 bool same_for_all(const SizeLaw& radius, const SizeLaw& mass) {

@@ -17,6 +17,12 @@ struct DiskSize {
 DiskSize draw_size(const SizeLaw& radius, const SizeLaw& mass, std::uint64_t seed, Stream radius_stream,
                    Stream mass_stream, DiskId id, Count k);
 
+// The least and the largest that a law can give, rounding aside. Precondition: it is not from_other.
+struct SizeRange {
+  double low = 0.0, high = 0.0;
+};
+SizeRange size_range(const SizeLaw& law);
+
 // True when every disk gets the same radius and mass, so that one draw tells them all.
 bool same_for_all(const SizeLaw& radius, const SizeLaw& mass);
 

@@ -65,6 +65,14 @@ void set_uniform(const Scene& scene, double limit, Disks& d, Range range) {
   }
 }
 
+void add_drift(Vec2 drift, Disks& d, Range range) {
+  if (drift == Vec2{}) return;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    d.vx[i] += drift.x;
+    d.vy[i] += drift.y;
+  }
+}
+
 void check_finite(const Scene& scene, std::size_t group, const Disks& d, Range range) {
   for (std::size_t i = range.first; i < range.last; ++i) {
     if (std::isfinite(d.vx[i]) && std::isfinite(d.vy[i])) continue;
@@ -91,6 +99,7 @@ void set_velocities(const Scene& scene, Disks& d) {
         d.vy[range.first + k] = law.list[k].y;
       }
     }
+    add_drift(scene.groups[g].drift, d, range);
     check_finite(scene, g, d, range);
   }
 }

@@ -7,12 +7,6 @@ namespace carom {
 
 namespace {
 
-// Lengths that hold a whole number of diameters up to rounding count as holding them: 0.3 / 0.1 is just below 3.
-constexpr double rounding = 1.0 + 1e-12;
-
-// Height of an equilateral triangle of unit side, sqrt(3) / 2.
-constexpr double triangle_height = 0.86602540378443864676;
-
 Count whole(double ratio) {
   return ratio < 1.0 ? 0 : static_cast<Count>(std::min(ratio, 4.3e9));
 }
@@ -50,17 +44,17 @@ Spacing columns_spacing(const Domain& box, Count columns, double diameter) {
 }
 
 bool columns_fit(const Domain& box, Count columns, const Spacing& s, double diameter) {
-  return s.x * rounding >= diameter || (columns == 1 && !box.periodic_x());
+  return s.x * lattice_rounding >= diameter || (columns == 1 && !box.periodic_x());
 }
 
 // The most rows that fit over each other; a periodic height takes an even number, so that the shift closes.
 Count most_rows(const Domain& box, const Spacing& s, double diameter) {
-  if (box.periodic_y()) return whole(box.height / s.least_y * rounding) / 2 * 2;
-  return whole((box.height - diameter) / s.least_y * rounding) + 1;
+  if (box.periodic_y()) return whole(box.height / s.least_y * lattice_rounding) / 2 * 2;
+  return whole((box.height - diameter) / s.least_y * lattice_rounding) + 1;
 }
 
 Count most_columns(const Domain& box, double diameter) {
-  const double ratio = box.width / diameter * rounding;
+  const double ratio = box.width / diameter * lattice_rounding;
   return std::max<Count>(1, whole(box.periodic_x() ? ratio : ratio - 0.5));
 }
 
@@ -117,8 +111,8 @@ std::optional<Lattice> search_columns(double ideal, Count last, double ideal_rat
 }  // namespace
 
 std::optional<Lattice> square_lattice(const Domain& box, Count count, double diameter) {
-  const Count widest = std::max<Count>(1, whole(box.width / diameter * rounding));
-  const Count highest = std::max<Count>(1, whole(box.height / diameter * rounding));
+  const Count widest = std::max<Count>(1, whole(box.width / diameter * lattice_rounding));
+  const Count highest = std::max<Count>(1, whole(box.height / diameter * lattice_rounding));
   const auto make = [&](Count columns) -> std::optional<Lattice> {
     const Count rows = divide_up(count, columns);
     if (rows > highest) return std::nullopt;
@@ -144,7 +138,7 @@ std::optional<Lattice> hexagonal_lattice(const Domain& box, Count count, double 
 }
 
 Count square_capacity(const Domain& box, double diameter) {
-  return whole(box.width / diameter * rounding) * whole(box.height / diameter * rounding);
+  return whole(box.width / diameter * lattice_rounding) * whole(box.height / diameter * lattice_rounding);
 }
 
 Count hexagonal_capacity(const Domain& box, double diameter) {

@@ -8,6 +8,13 @@
 
 namespace carom {
 
+// Lengths that hold a whole number of diameters up to lattice_rounding count as holding them: 0.3 / 0.1 is just
+// below 3.
+inline constexpr double lattice_rounding = 1.0 + 1e-12;
+
+// Height of an equilateral triangle of unit side, sqrt(3) / 2.
+inline constexpr double triangle_height = 0.86602540378443864676;
+
 // rows x columns sites, spaced evenly: columns run along x, odd rows are shifted by shift along x. Periodic axes are
 // divided evenly by the spacing, so that the lattice closes; along the others the outermost disks keep a radius or
 // more from the side.

@@ -25,8 +25,8 @@ constexpr double cell_margin = 1e-6;
 
 }  // namespace
 
-OpenCells::OpenCells(const Domain& box, double smallest, std::size_t disks)
-    : box_(box), smallest_(smallest), disks_(disks) {
+OpenCells::OpenCells(const Domain& box, double smallest, std::size_t disks, const StartRegion* region)
+    : box_(box), region_(region), smallest_(smallest), disks_(disks) {
   const auto most = static_cast<double>(std::min(most_cells, most_cells_per_disk * disks + 4096));
   const double edge = std::max(smallest / cells_per_radius, box.width * std::sqrt(box.height / box.width / most));
   columns_ = static_cast<std::size_t>(std::clamp(box.width / edge, 1.0, most));
@@ -36,6 +36,18 @@ OpenCells::OpenCells(const Domain& box, double smallest, std::size_t disks)
   open_ = columns_ * rows_;
   resize_in_huge_pages(bits_, open_ / 64 + 1);
   close_margins(smallest);
+  if (region_ != nullptr) close_outside();
+}
+
+void OpenCells::close_outside() {
+  for (std::size_t row = 0; row < rows_; ++row) {
+    const double low = static_cast<double>(row) * cell_y_;
+    for (std::size_t column = 0; column < columns_; ++column) {
+      const double left = static_cast<double>(column) * cell_x_;
+      const bool allowed = may_hold_centre(*region_, box_, {left, low}, {left + cell_x_, low + cell_y_}, smallest_);
+      if (!allowed) close_span(row, column, 1);
+    }
+  }
 }
 
 void OpenCells::close_margins(double smallest) {
@@ -139,7 +151,7 @@ VoxelList OpenCells::list() const {
       }
     }
   }
-  return {box_, smallest_, disks_, columns_, rows_, std::move(open)};
+  return {box_, smallest_, disks_, columns_, rows_, std::move(open), region_};
 }
 
 }  // namespace carom

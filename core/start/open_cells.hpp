@@ -7,6 +7,7 @@
 
 #include "core/disks/cell_index.hpp"
 #include "core/disks/domain.hpp"
+#include "core/start/start_region.hpp"
 #include "core/start/voxel_list.hpp"
 
 namespace carom {
@@ -16,7 +17,8 @@ namespace carom {
 // disk: this makes the last disks of a dense random start cheap, when only one place in thousands is free.
 class OpenCells {
  public:
-  OpenCells(const Domain& box, double smallest, std::size_t disks);
+  // region: null, or where whole disks are to lie; it must outlive this.
+  OpenCells(const Domain& box, double smallest, std::size_t disks, const StartRegion* region = nullptr);
 
   // Closes what a disk placed at (x, y) rules out.
   void close_around(double x, double y, double radius);
@@ -45,8 +47,10 @@ class OpenCells {
   void close_span(std::size_t row, std::size_t first, std::size_t count);
   void close_columns(double row, double first, double last);
   void close_margins(double smallest);
+  void close_outside();
 
   Domain box_;
+  const StartRegion* region_;
   double smallest_;
   std::size_t disks_;
   std::size_t columns_ = 1, rows_ = 1;

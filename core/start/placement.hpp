@@ -11,8 +11,8 @@ namespace carom {
 
 // Places disks one by one (large ones first, equal ones by id): trial k of disk id is a point uniform over the room its
 // centre may have, from (seed, Stream::position, id, k), and is taken if it overlaps no disk placed before. members are
-// indices into disks, entry i having id i; grid holds the disks already there and gets the new ones. group_of tells
-// the group of an index for messages.
+// indices into disks, entry i having id i; grid holds the disks already there and gets the new ones. Members
+// are all of one group, or of groups without a region.
 // Throws InputError (disk, packing fraction reached, remedy) when trials run out: random addition of equal disks jams
 // at a packing fraction of 0.547 (Feder 1980), and slows down without bound before.
 void place_at_random(const Scene& scene, Disks& disks, PlacementGrid& grid, std::vector<std::uint32_t> members);

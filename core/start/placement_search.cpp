@@ -24,6 +24,11 @@ PlacementRoom::Axis room_along(double length, bool periodic, double radius) {
   return periodic ? PlacementRoom::Axis{0.0, length} : PlacementRoom::Axis{radius, length - radius};
 }
 
+void narrow(PlacementRoom::Axis& axis, double low, double high) {
+  axis.low = std::max(axis.low, low);
+  axis.high = std::max(axis.low, std::min(axis.high, high));
+}
+
 // One past the last member whose radius is above half of that of members[begin]; members are in order of radius.
 std::size_t end_of_class(const Disks& disks, const std::vector<std::uint32_t>& members, std::size_t begin) {
   if (disks.radius.empty()) return members.size();
@@ -35,8 +40,17 @@ std::size_t end_of_class(const Disks& disks, const std::vector<std::uint32_t>& m
 
 }  // namespace
 
-PlacementRoom placement_room(const Domain& box, double radius) {
-  return {room_along(box.width, box.periodic_x(), radius), room_along(box.height, box.periodic_y(), radius)};
+PlacementRoom placement_room(const Domain& box, double radius, const StartRegion* region) {
+  PlacementRoom room{room_along(box.width, box.periodic_x(), radius), room_along(box.height, box.periodic_y(), radius)};
+  if (region == nullptr) return room;
+  if (!spans_x(*region, box)) narrow(room.across, region->low.x + radius, region->high.x - radius);
+  if (!spans_y(*region, box)) narrow(room.up, region->low.y + radius, region->high.y - radius);
+  if (region->circle) {
+    const double reach = region->radius - radius;
+    room.circle2 = reach * reach;
+    room.middle = region->centre;
+  }
+  return room;
 }
 
 TrialDraw draw_trial(std::uint64_t seed, std::uint32_t id, std::uint64_t trial, bool listed) {
@@ -75,7 +89,7 @@ void PlacementSearch::learn() {
     cells.reset();
     in_vain = 0;
   } else {
-    cells.emplace(scene.box, disks.radius_of(members[end - 1]), end - begin);
+    cells.emplace(scene.box, disks.radius_of(members[end - 1]), end - begin, region);
     grid.for_each([&](std::size_t i) { cells->close_around(disks.x[i], disks.y[i], disks.radius_of(i)); });
   }
 }
@@ -90,7 +104,7 @@ void PlacementSearch::refine(std::vector<Voxel> survivors) {
 void PlacementSearch::place_one(std::size_t k) {
   const std::uint32_t i = members[k];
   const double radius = disks.radius_of(i);
-  const PlacementRoom room = placement_room(scene.box, radius);
+  const PlacementRoom room = placement_room(scene.box, radius, region);
   for (trials_of_one = 0; trials_of_one < most_trials_of_one && trials < most; ++trials_of_one) {
     if (trials_of_one % trials_between_lessons == 0 && trials_of_one > 0 && lesson_due(k)) learn();
     if (list && list->empty()) break;
@@ -121,12 +135,18 @@ void PlacementSearch::settle(std::uint32_t i, double x, double y) {
 
 void PlacementSearch::fail_jammed(std::size_t k) const {
   double radius_squared = 0.0;
-  grid.for_each([&](std::size_t i) { radius_squared += disks.radius_of(i) * disks.radius_of(i); });
-  const double reached = std::numbers::pi * radius_squared / (scene.box.width * scene.box.height);
+  const auto add = [&](std::size_t i) { radius_squared += disks.radius_of(i) * disks.radius_of(i); };
+  if (region == nullptr) {
+    grid.for_each(add);
+  } else {
+    std::for_each(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(k), add);
+  }
+  const double area = region == nullptr ? scene.box.width * scene.box.height : area_of(*region);
   fail_input(
       place_in_group(scene, group_of(scene, members[k]), "positions"),
-      fmt::format("\"random\" finds no room for disk {} after {} trials; {} of {} placed, packing fraction {:.4f}",
-                  members[k], trials_of_one, k, members.size(), reached),
+      fmt::format("\"random\" finds no room for disk {}{} after {} trials; {} of {} placed, packing fraction {:.4f}",
+                  members[k], region == nullptr ? "" : " in its region", trials_of_one, k, members.size(),
+                  std::numbers::pi * radius_squared / area),
       "expected fewer disks or a larger box, or positions = \"growth\" (denser), \"hexagonal\" or \"square\"");
 }
 
@@ -137,7 +157,12 @@ PlacementSearch make_placement_search(const Scene& scene, Disks& disks, Placemen
                      [&](std::uint32_t a, std::uint32_t b) { return disks.radius[a] > disks.radius[b]; });
   }
   const std::uint64_t most = std::max(most_trials_at_least, most_trials_each * members.size());
-  return {scene, disks, grid, members, most, 0, 0, std::nullopt, std::nullopt, 0, 0, 0, 0};
+  const StartRegion* region = nullptr;
+  if (!members.empty()) {
+    const auto& of_first = scene.groups[group_of(scene, members.front())].positions.region;
+    if (of_first) region = &*of_first;
+  }
+  return {scene, disks, grid, members, region, most, 0, 0, std::nullopt, std::nullopt, 0, 0, 0, 0};
 }
 
 }  // namespace carom

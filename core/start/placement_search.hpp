@@ -10,11 +10,12 @@
 #include "core/scene/scene.hpp"
 #include "core/start/open_cells.hpp"
 #include "core/start/placement_grid.hpp"
+#include "core/start/start_region.hpp"
 #include "core/start/voxel_list.hpp"
 
 namespace carom {
 
-// Where a centre may lie: r off walls and sinks, anywhere along a periodic axis.
+// Where a centre may lie: r off walls and sinks, anywhere along a periodic axis; r within the edge of a region.
 struct PlacementRoom {
   struct Axis {
     double low = 0.0, high = 0.0;
@@ -22,9 +23,18 @@ struct PlacementRoom {
     double at(double u) const { return std::min(high, low + (high - low) * u); }
   };
   Axis across, up;
-  bool holds(Vec2 p) const { return across.holds(p.x) && up.holds(p.y); }
+  double circle2 = -1.0;  // square of the largest distance from `middle`; negative: the region is no circle
+  Vec2 middle{};
+  bool holds(Vec2 p) const {
+    if (!across.holds(p.x) || !up.holds(p.y)) return false;
+    if (circle2 < 0.0) return true;
+    const double x = p.x - middle.x;
+    const double y = p.y - middle.y;
+    return x * x + y * y <= circle2;
+  }
 };
-PlacementRoom placement_room(const Domain& box, double radius);
+// region: null where the whole box is one.
+PlacementRoom placement_room(const Domain& box, double radius, const StartRegion* region = nullptr);
 
 // The random numbers of one trial, from (seed, Stream::position, id, trial) alone.
 struct TrialDraw {
@@ -44,6 +54,7 @@ struct PlacementSearch {
   Disks& disks;
   PlacementGrid& grid;
   const std::vector<std::uint32_t>& members;  // all, large ones first
+  const StartRegion* region = nullptr;        // of all members; null: the box
   std::uint64_t most = 0;                     // trials that the search may cost
   std::size_t begin = 0, end = 0;             // of the class, in members
   std::optional<OpenCells> cells;             // made once trials become many

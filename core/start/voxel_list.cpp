@@ -28,8 +28,9 @@ bool ruled_out(const std::vector<PlacementGrid::Near>& near, Vec2 middle, double
 }  // namespace
 
 VoxelList::VoxelList(const Domain& box, double smallest, std::size_t disks, std::size_t columns, std::size_t rows,
-                     std::vector<Voxel> open)
+                     std::vector<Voxel> open, const StartRegion* region)
     : box_(box),
+      region_(region),
       smallest_(smallest),
       disks_(disks),
       columns_(columns),
@@ -61,6 +62,10 @@ bool VoxelList::outside(double x, double y, double half_x, double half_y) const 
     const double room = smallest_ * (1.0 - contact_margin);
     return c + half < room || c - half > length - room;
   };
+  if (region_ != nullptr &&
+      !may_hold_centre(*region_, box_, {x - half_x, y - half_y}, {x + half_x, y + half_y}, smallest_)) {
+    return true;
+  }
   return (!box_.periodic_x() && beyond(x, half_x, box_.width)) ||
          (!box_.periodic_y() && beyond(y, half_y, box_.height));
 }

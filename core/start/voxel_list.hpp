@@ -9,6 +9,7 @@
 #include "core/base/random.hpp"
 #include "core/disks/domain.hpp"
 #include "core/start/placement_grid.hpp"
+#include "core/start/start_region.hpp"
 
 namespace carom {
 
@@ -29,7 +30,7 @@ class VoxelList {
   // A grid of columns x rows over the box, and those of its cells that are open, best tile by tile. disks is the number
   // that the list is for: it bounds the memory, 8 bytes a voxel.
   VoxelList(const Domain& box, double smallest, std::size_t disks, std::size_t columns, std::size_t rows,
-            std::vector<Voxel> open);
+            std::vector<Voxel> open, const StartRegion* region = nullptr);
 
   std::size_t size() const { return list_.size(); }
   bool empty() const { return list_.empty(); }
@@ -61,6 +62,7 @@ class VoxelList {
   }
 
   Domain box_;
+  const StartRegion* region_;  // see OpenCells
   double smallest_;
   std::size_t disks_;
   std::uint64_t columns_, rows_;

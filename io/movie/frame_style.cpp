@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/scene/disk_group.hpp"
+#include "core/scene/size_law.hpp"
 #include "io/movie/frame.hpp"
 
 namespace carom {
@@ -41,11 +42,8 @@ double falling_square(const Disks& disks, double gravity) {
 
 // What the radii and masses of a source may be.
 ValueRange given_range(const SizeLaw& law) {
-  if (law.kind == SizeLaw::Kind::uniform) return {law.low, law.high};
-  if (law.kind == SizeLaw::Kind::constant) return {law.value, law.value};
-  if (law.values.empty()) return {};
-  const auto [low, high] = std::minmax_element(law.values.begin(), law.values.end());
-  return {*low, *high};
+  const SizeRange range = size_range(law);
+  return {range.low, range.high};
 }
 ValueRange radius_range(const Source& source) {
   if (source.radius.kind != SizeLaw::Kind::from_other) return given_range(source.radius);
@@ -65,9 +63,7 @@ double source_square(const Source& source) {
     return 2.0 * source.velocities.limit * source.velocities.limit;
   if (source.velocities.kind != VelocityLaw::Kind::maxwell) return 0.0;
   // A mass that is not a constant is of the order of the numbers that describe it.
-  const double mass = source.mass.kind == SizeLaw::Kind::uniform    ? source.mass.low
-                      : source.mass.kind == SizeLaw::Kind::constant ? source.mass.value
-                                                                    : 1.0;
+  const double mass = source.mass.kind == SizeLaw::Kind::from_other ? 1.0 : size_range(source.mass).low;
   return mass > 0.0 ? tail * 2.0 * source.velocities.temperature / mass : 0.0;
 }
 

@@ -124,7 +124,7 @@ class BatchSearch {
       if (listed) listed_->prefetch(l.draw.voxel);
     }
     for (Lane& l : all) {
-      const PlacementRoom room = placement_room(box, radius_of(l.member));
+      const PlacementRoom room = placement_room(box, radius_of(l.member), search_.region);
       l.point = trial_point(box, room, listed_, l.draw);
       l.alive = room.holds(l.point);
       if (search_.cells) search_.cells->prefetch_cell(l.point.x, l.point.y);

@@ -104,6 +104,21 @@ TEST(DeterministicLog, AgreesNearOneAndAtTheSeams) {
   EXPECT_EQ(deterministic_log(1.0), 0.0);
 }
 
+TEST(DeterministicExp, AgreesWithTheLibraryAndKeepsItsBits) {
+  test::Draws draws(3);
+  double worst = 0.0;
+  for (int k = 0; k < 40000; ++k) {
+    const double x = k % 2 == 0 ? draws.in(-700.0, 700.0) : draws.in(-2.0, 2.0);
+    const long double exact = std::exp(static_cast<long double>(x));
+    worst = std::max(worst,
+                     static_cast<double>(std::abs((static_cast<long double>(deterministic_exp(x)) - exact) / exact)));
+  }
+  EXPECT_LT(worst, 4e-16);
+  EXPECT_EQ(deterministic_exp(0.0), 1.0);
+  EXPECT_EQ(deterministic_exp(1.0), 0x1.5bf0a8b14576ap+1);
+  EXPECT_EQ(deterministic_exp(-3.7), 0x1.9511fc6871044p-6);
+}
+
 // P(normal < x)
 double normal_below(double x) {
   return 0.5 * std::erfc(-x / std::sqrt(2.0));

@@ -34,6 +34,35 @@ Range random_range(Dice& dice, double high, std::initializer_list<double> ratios
   return {ratio == 1.0 ? top : rounded(top / ratio), top};
 }
 
+// Radii of a distribution, all at most `largest`. Normal and lognormal sizes end at four deviations.
+Sizes random_distribution(Dice& dice, const Units& units, const Range& mass, double largest) {
+  Sizes sizes{"", 0.0, largest, mass.low, mass.high, 0.0};
+  const double middle = rounded(largest * dice.in(0.3, 0.5));
+  if (dice.chance(0.4)) {
+    const double small = rounded(largest * dice.in(0.1, 0.9));
+    sizes.text = fmt::format("radius = {{ choice = [{}, {}], weights = [{}, 1] }}\n", small, middle, 1 + dice.below(5));
+    sizes.smallest = std::min(small, middle);
+  } else if (dice.chance(0.5)) {
+    const double deviation = rounded(middle * dice.in(0.001, 0.2));
+    sizes.text = fmt::format("radius = {{ normal = [{}, {}] }}\n", middle, deviation);
+    sizes.smallest = middle - 4.0 * deviation;
+  } else {
+    const double sigma = rounded(dice.in(0.001, 0.17));  // exp(4 * 0.17) = 2
+    sizes.text = fmt::format("radius = {{ lognormal = [{}, {}] }}\n", middle, sigma);
+    sizes.smallest = middle * std::exp(-4.0 * sigma);
+  }
+  sizes.area = pi * 0.3 * largest * largest;
+  const double density = rounded(units.mass / (pi * largest * largest));
+  if (!dice.chance(0.3)) {
+    sizes.text += fmt::format("mass = {}\n", mass.text());
+    return sizes;
+  }
+  sizes.text += fmt::format("mass = {{ from_radius = {} }}\n", density);
+  sizes.lightest = pi * density * sizes.smallest * sizes.smallest;
+  sizes.heaviest = pi * density * largest * largest;
+  return sizes;
+}
+
 Sizes random_laws(Dice& dice, const Units& units, double largest) {
   const Range mass = random_range(dice, units.mass * dice.in(0.5, 2.0), {1.0001, 3.0, 40.0, 1e4, 1e8});
   if (dice.chance(0.1)) {  // radius from mass
@@ -47,6 +76,7 @@ Sizes random_laws(Dice& dice, const Units& units, double largest) {
             mass.high,
             0.5 * pi * (low * low + high * high)};
   }
+  if (dice.chance(0.1)) return random_distribution(dice, units, mass, largest);
   const Range radius = random_range(dice, largest * dice.in(0.5, 0.999), {1.0001, 1.4, 5.0, 10.0});
   const double area = pi * (radius.low * radius.low + radius.low * radius.high + radius.high * radius.high) / 3.0;
   if (dice.chance(0.25)) {  // mass from radius
@@ -94,6 +124,11 @@ void add_group(Crowd& crowd, Dice& dice, const Units& units, std::size_t count, 
   const std::string name = dice.chance(0.2) ? fmt::format("name = \"group-{}\"\n", crowd.disks) : "";
   crowd.text += fmt::format("[[disks]]\n{}count = {}\npositions = \"{}\"\n{}{}", name, count, positions,
                             random_velocities(dice, units, count, mass), sizes.text);
+  if (dice.chance(0.1)) {
+    crowd.text +=
+        fmt::format("drift = [{}, {}]\n", rounded(units.speed * dice.in(-1.0, 1.0)), rounded(0.3 * units.speed));
+  }
+  if (std::string_view(positions) != "growth") crowd.text += region_mark;
   crowd.smallest = crowd.disks == 0 ? sizes.smallest : std::min(crowd.smallest, sizes.smallest);
   crowd.largest = std::max(crowd.largest, sizes.largest);
   crowd.heaviest = std::max(crowd.heaviest, sizes.heaviest);

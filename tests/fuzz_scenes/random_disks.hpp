@@ -2,10 +2,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "tests/fuzz_scenes/dice.hpp"
 
 namespace carom::fuzz {
+
+// Stands in a crowd's text where a group may have a region, for which the box must be known.
+inline constexpr std::string_view region_mark = "# region\n";
 
 // Scales of a scene: lengths, masses and speeds are of the order of these. Powers of two, so that disks which touch in
 // one scale touch in every other.

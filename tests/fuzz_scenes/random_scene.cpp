@@ -158,6 +158,22 @@ std::string physics_text(Dice& dice, const Draft& draft) {
   return text + fmt::format("collapse = {{ model = \"tc\", contact_time = {} }}\n", rounded(time));
 }
 
+// The crowd's text, here and there with a region: most of the box, so that there is room for all.
+std::string disks_text(Dice& dice, const Draft& draft) {
+  std::string text = draft.crowd.text;
+  for (std::size_t at = 0; (at = text.find(region_mark, at)) != std::string::npos;) {
+    std::string region;
+    const bool thin = draft.crowd.packing_fraction < 0.3;
+    if (thin && dice.chance(0.15)) {
+      const double x = draft.width * dice.in(0.0, 0.08), y = draft.height * dice.in(0.0, 0.08);
+      region = fmt::format("region = [{}, {}, {}, {}]\n", x, y, draft.width * dice.in(0.92, 1.0), draft.height * 0.95);
+      if (dice.chance(0.3)) region = fmt::format("region = [0.0, {}, {}, {}]\n", y, draft.width, draft.height * 0.95);
+    }
+    text.replace(at, region_mark.size(), region);
+  }
+  return text;
+}
+
 std::string sources_text(Dice& dice, const Draft& draft) {
   const std::size_t sources = draft.cast == Cast::none ? 1 + dice.below(2) : dice.chance(0.2) ? 1 + dice.below(3) : 0;
   std::string text;
@@ -222,7 +238,7 @@ std::string random_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t
   text += seed_text(dice);
   text += box_text(dice, draft);
   text += physics_text(dice, draft);
-  text += draft.crowd.text;
+  text += disks_text(dice, draft);
   text += sources_text(dice, draft);
   if (draft.cast == Cast::grown && dice.chance(0.3)) text += "[growth]\nslowness = 0.5\nsteps = 2000\n";
   return text + run_text(dice, draft);
@@ -247,7 +263,7 @@ std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::u
   text += seed_text(dice);
   text += box_text(dice, draft);
   text += fmt::format("[physics]\ngravity = {}\nrestitution = {}\n", draft.gravity, draft.restitution);
-  text += draft.crowd.text;
+  text += disks_text(dice, draft);
   return text + run_text(dice, draft);
 }
 

@@ -109,6 +109,8 @@ TEST(SceneKeys, EveryExampleIsAScenes) {
       {"left", {{"box.right", "periodic"}}},
       {"right", {{"box.left", "periodic"}}},
       {"accumulate", {{"physics.diffusion", "0.1"}}},
+      {"region", {{"disks.0.positions", "random"}}},
+      {"circle", {{"disks.0.positions", "random"}}},
   };
   for (const SceneKey& key : scene_keys()) {
     const std::size_t equals = key.example.find(" = ");

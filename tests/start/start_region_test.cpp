@@ -1,0 +1,190 @@
+// Where and how groups start: regions, drift, distributions of sizes, and what is said of those that cannot be.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/disks/state_hash.hpp"
+#include "core/measure/group_motion.hpp"
+#include "core/measure/invariants.hpp"
+#include "core/scene/scene_text.hpp"
+#include "core/start/circle_lattice.hpp"
+#include "parallel/start/random_placement.hpp"
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+using test::complaint;
+using test::replaced;
+using test::scene_from;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string scene_with(const std::string& disks, const std::string& sides = "") {
+  return "seed = 5\n[box]\nwidth = 40.0\nheight = 30.0\n" + sides + disks + "[run]\nt_end = 1.0\n";
+}
+
+std::string group(int count, const std::string& positions, const std::string& more) {
+  return fmt::format("[[disks]]\ncount = {}\npositions = \"{}\"\nradius = 0.5\nmass = 2.0\n{}", count, positions, more);
+}
+
+constexpr const char* all_periodic =
+    "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
+
+// The same bits from one thread and from three, no overlap, and nothing beyond a side.
+Disks start_of(const std::string& text) {
+  const Scene scene = scene_from(text);
+  const State state = initial_state(scene);
+  EXPECT_EQ(state_hash(parallel_initial_state(scene, 3).disks), state_hash(state.disks));
+  EXPECT_LT(max_overlap(state.disks, scene.box), 1e-12);
+  EXPECT_LT(wall_overlap(state.disks, scene.box), 1e-12);
+  return state.disks;
+}
+
+void expect_in_rectangle(const Disks& d, std::size_t first, std::size_t last, Vec2 low, Vec2 high) {
+  for (std::size_t i = first; i < last; ++i) {
+    const double r = d.radius_of(i) * (1.0 - 1e-12);
+    EXPECT_TRUE(d.x[i] >= low.x + r && d.x[i] <= high.x - r && d.y[i] >= low.y + r && d.y[i] <= high.y - r) << i;
+  }
+}
+
+void expect_in_circle(const Disks& d, std::size_t first, std::size_t last, Vec2 centre, double radius) {
+  for (std::size_t i = first; i < last; ++i) {
+    EXPECT_LE(std::hypot(d.x[i] - centre.x, d.y[i] - centre.y), (radius - d.radius_of(i)) * (1.0 + 1e-9)) << i;
+  }
+}
+
+TEST(StartRegion, RandomDisksFillTheirOwnAsDenselyAsABox) {
+  // Packing fraction 0.47 within each region, which only a search of the last free places reaches; the rest is empty.
+  const Disks d =
+      start_of(scene_with(group(60, "random", "region = [2.0, 3.0, 12.0, 13.0]\n") +
+                          group(60, "random", "region = { circle = [28.0, 20.0, 5.65] }\n") + group(30, "random", "")));
+  expect_in_rectangle(d, 0, 60, {2.0, 3.0}, {12.0, 13.0});
+  expect_in_circle(d, 60, 120, {28.0, 20.0}, 5.65);
+  expect_in_rectangle(d, 120, 150, {0.0, 0.0}, {40.0, 30.0});
+}
+
+TEST(StartRegion, PlacesAreUniformOverIt) {
+  // Without overlap to speak of: the centres' mean square distance from the middle is that of a uniform disk, R^2 / 2.
+  std::string text = scene_with(group(4000, "random", "region = { circle = [20.0, 15.0, 12.0] }\n"));
+  text = replaced(text, "radius = 0.5", "radius = 0.001");
+  const Disks d = start_of(text);
+  double squares = 0.0, x = 0.0, y = 0.0;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    squares += (d.x[i] - 20.0) * (d.x[i] - 20.0) + (d.y[i] - 15.0) * (d.y[i] - 15.0);
+    x += d.x[i] - 20.0;
+    y += d.y[i] - 15.0;
+  }
+  // The deviation of the mean of 4000 such squares is R^2 / sqrt(12 * 4000); four of them.
+  EXPECT_NEAR(squares / 4000.0, 72.0, 4.0 * 144.0 / std::sqrt(48000.0));
+  EXPECT_NEAR(x / 4000.0, 0.0, 4.0 * 6.0 / std::sqrt(4000.0));
+  EXPECT_NEAR(y / 4000.0, 0.0, 4.0 * 6.0 / std::sqrt(4000.0));
+}
+
+TEST(StartRegion, ALatticeFillsARectangleAndMayTouchItsEdges) {
+  const std::string region = "region = [20.0, 10.0, 30.0, 15.0]\n";
+  const Disks d = start_of(scene_with(group(50, "square", region)));
+  expect_in_rectangle(d, 0, 50, {20.0, 10.0}, {30.0, 15.0});
+  EXPECT_EQ((Vec2{d.x[0], d.y[0]}), (Vec2{20.5, 10.5})) << "ten by five disks of diameter 1";
+  expect_in_rectangle(start_of(scene_with(group(45, "hexagonal", region))), 0, 45, {20.0, 10.0}, {30.0, 15.0});
+}
+
+TEST(StartRegion, ItHasNoEdgeWhereItSpansAPeriodicSide) {
+  const Disks d = start_of(scene_with(group(400, "square", "region = [0.0, 0.0, 40.0, 10.0]\n") +
+                                          group(300, "random", "region = [0.0, 10.0, 40.0, 30.0]\n"),
+                                      all_periodic));
+  double least = 1.0;
+  for (std::size_t i = 400; i < 700; ++i) least = std::min(least, d.x[i]);
+  EXPECT_LT(least, 0.5) << "random disks lie across the side";
+  // The whole box is what no region is.
+  const std::string all = scene_with(group(300, "random", "region = [0.0, 0.0, 40.0, 30.0]\n"), all_periodic);
+  EXPECT_EQ(state_hash(start_of(all)), state_hash(start_of(replaced(all, "region = [0.0, 0.0, 40.0, 30.0]\n", ""))));
+}
+
+TEST(StartRegion, ALatticeInACircleIsCentredAndAsWideAsItCanBe) {
+  // Seven touching disks fill a circle of three radii.
+  const std::vector<Vec2> seven = circle_sites({true, 2.0, 2.0}, 7);
+  ASSERT_EQ(seven.size(), 7U);
+  EXPECT_EQ(seven[3], (Vec2{0.0, 0.0}));
+  for (std::size_t k = 0; k < 7; ++k) {
+    EXPECT_NEAR(std::hypot(seven[k].x, seven[k].y), k == 3 ? 0.0 : 2.0, 1e-11);
+  }
+  EXPECT_TRUE(circle_sites({true, 2.0, 2.0}, 8).empty());
+  EXPECT_EQ(circle_capacity({true, 2.0, 2.0}), 7U);
+  EXPECT_EQ(circle_capacity({false, 2.0, 2.0}), 5U);
+  EXPECT_EQ(circle_sites({false, 3.0, 1.0}, 1).at(0), (Vec2{0.0, 0.0}));
+  for (const char* kind : {"square", "hexagonal"}) {
+    for (const int count : {1, 2, 19, 100, 101}) {
+      const Disks d = start_of(scene_with(group(count, kind, "region = { circle = [20.0, 15.0, 8.0] }\n")));
+      expect_in_circle(d, 0, d.size(), {20.0, 15.0}, 8.0);
+    }
+  }
+}
+
+TEST(StartRegion, BadOnesAreNamedByLineAndKey) {
+  const auto region = [](const std::string& kind, const std::string& value) {
+    return complaint(scene_with(group(40, kind, "region = " + value + "\n")));
+  };
+  EXPECT_THAT(region("random", "[2, 3, 1, 9]"),
+              StartsWith("gas.toml:10: disks.0.region: its corners are not in order; expected [x0, y0, x1, y1]"));
+  EXPECT_THAT(region("random", "[2, 3, 50, 9]"), HasSubstr("reaches out of the box of 40 x 30; expected"));
+  EXPECT_THAT(region("random", "{ circle = [5, 5, 5.5] }"), HasSubstr("reaches out of the box of 40 x 30; expected"));
+  EXPECT_THAT(region("random", "[2, 3, 2.9, 9]"), HasSubstr("is too small for a disk of radius 0.5; expected"));
+  EXPECT_THAT(region("random", "[2, 3, 9]"), HasSubstr("disks.0.region: has 3 numbers; expected [x0, y0, x1, y1], or"));
+  EXPECT_THAT(region("random", "\"left\""), HasSubstr("disks.0.region: is a string; expected [x0, y0, x1, y1], or"));
+  EXPECT_THAT(region("random", "{ circle = [5, 5] }"), HasSubstr("disks.0.region.circle: has 2 numbers; expected"));
+  EXPECT_THAT(region("random", "{ circle = [5, 5, 0] }"), HasSubstr("disks.0.region.circle: has radius 0; expected"));
+  EXPECT_THAT(region("random", "{ circl = [5, 5, 3] }"), HasSubstr("disks.0.region.circl: unknown key"));
+  EXPECT_THAT(region("growth", "[2, 3, 20, 9]"), HasSubstr("disks.0.region: beside \"growth\"; expected"));
+  EXPECT_THAT(complaint(replaced(scene_with(group(1, "random", "region = [2, 3, 20, 9]\n")), "\"random\"", "[[3, 4]]")),
+              HasSubstr("disks.0.region: beside positions that are given; expected"));
+  EXPECT_THAT(region("random", "[2, 3, 7, 8]"), HasSubstr("disks.0.positions: \"random\" finds no room for disk"));
+  EXPECT_THAT(region("random", "[2, 3, 7, 8]"), HasSubstr("in its region after"));
+  EXPECT_THAT(region("square", "[2, 3, 7, 8]"),
+              HasSubstr("do not fit on a square lattice in the region of 5 x 5; expected at most 25"));
+  EXPECT_THAT(region("hexagonal", "{ circle = [5, 5, 1.5] }"),
+              HasSubstr("do not fit on a hexagonal lattice in the circle of radius 1.5; expected at most 7"));
+}
+
+TEST(Drift, ComesOnTopOfTheTemperatureOfEachGroup) {
+  const Scene scene =
+      scene_from(scene_with(group(100, "random", "velocities = { maxwell = 2.0 }\ndrift = [3.0, -1.0]\n") +
+                            group(50, "random", "drift = [0.0, 0.25]\n")));
+  const State state = initial_state(scene);
+  std::vector<std::size_t> first(100), second(50);
+  for (std::size_t i = 0; i < 100; ++i) first[i] = i;
+  for (std::size_t i = 0; i < 50; ++i) second[i] = 100 + i;
+  const GroupMotion hot = group_motion(state.disks, first);
+  EXPECT_NEAR(hot.velocity.x, 3.0, 1e-12);
+  EXPECT_NEAR(hot.velocity.y, -1.0, 1e-12);
+  EXPECT_NEAR(hot.temperature, 2.0, 1e-12);
+  EXPECT_EQ(group_motion(state.disks, second).velocity, (Vec2{0.0, 0.25}));
+  EXPECT_EQ(group_motion(state.disks, second).temperature, 0.0);
+}
+
+TEST(Drift, BadOnesAreNamedByLineAndKey) {
+  const auto drift = [](const std::string& value) {
+    return complaint(scene_with(group(4, "random", "drift = " + value + "\n")));
+  };
+  EXPECT_THAT(drift("3.0"), StartsWith("gas.toml:10: disks.0.drift: is a number; expected [vx, vy]"));
+  EXPECT_THAT(drift("[1, 2, 3]"), HasSubstr("disks.0.drift: has 3 numbers; expected [vx, vy]"));
+  EXPECT_THAT(drift("[1, inf]"), HasSubstr("disks.0.drift"));
+  EXPECT_THAT(drift("[0, 1e300]"), HasSubstr("disks.0.drift"));
+}
+
+TEST(StartRegion, AResolvedSceneKeepsAllOfIt) {
+  const std::string text =
+      scene_with(group(7, "random", "region = { circle = [20.0, 15.0, 8.0] }\ndrift = [1.0, 0.5]\nname = \"a\"\n") +
+                 replaced(group(9, "square", "region = [1.0, 2.0, 30.0, 29.0]\n"), "radius = 0.5\nmass = 2.0",
+                          "radius = { choice = [0.3, 0.4], weights = [1, 3] }\nmass = { lognormal = [2.0, 0.5] }") +
+                 replaced(group(5, "random", ""), "radius = 0.5", "radius = { normal = [0.2, 0.01] }"));
+  const Scene scene = scene_from(text);
+  const std::string resolved = resolved_toml(scene);
+  EXPECT_EQ(resolved_toml(scene_from(resolved)), resolved);
+  EXPECT_EQ(state_hash(initial_state(scene_from(resolved)).disks), state_hash(initial_state(scene).disks));
+}
+
+}  // namespace
+}  // namespace carom
