@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -20,45 +21,64 @@ namespace carom {
 
 namespace {
 
-// A space and a double, with as many digits as it takes to come back as the same bits.
-void append_number(std::string& text, double value) {
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value);
-  text += ' ';
-  text.append(digits, end.ptr);
-}
+// The text of one line, on the stack.
+class LineText {
+ public:
+  std::string_view text() const { return {buffer_.data(), static_cast<std::size_t>(end_ - buffer_.data())}; }
+  void add(std::string_view part) { end_ = std::copy(part.begin(), part.end(), end_); }
+  // A space and a double, with as many digits as it takes to come back as the same bits; or a whole number.
+  template <class Number>
+  void add_number(Number value) {
+    *end_++ = ' ';
+    end_ = std::to_chars(end_, buffer_.data() + buffer_.size(), value).ptr;
+  }
 
-template <class Whole>
-void append_whole(std::string& text, Whole number) {
-  char digits[16];
-  const auto end = std::to_chars(digits, digits + sizeof digits, number);
-  text += ' ';
-  text.append(digits, end.ptr);
+ private:
+  // Six doubles of up to 24 characters, six whole numbers of up to 11, and what stands between them.
+  std::array<char, 256> buffer_;
+  char* end_ = buffer_.data();
+};
+
+std::string number_text(double value) {
+  LineText text;
+  text.add_number(value);
+  return std::string(text.text());
 }
 
 // Lines are made in blocks of so many, some hundreds of KB of text, so many blocks at the same time.
 constexpr std::size_t lines_of_block = 4096;
-constexpr std::size_t blocks_at_once = 32;
+constexpr std::size_t blocks_at_once = 16;
+// In order of id, disks lie all over memory: what a line is made of is prefetched so many lines before.
+constexpr std::size_t lines_ahead = 16;
 
 // Radius and mass are often the same for many disks in a row: their text is made once.
 struct RepeatedNumber {
   double value = std::numeric_limits<double>::quiet_NaN();
   std::string text;
-  void append_to(std::string& line, double next) {
+  void add_to(LineText& line, double next) {
     if (std::bit_cast<std::uint64_t>(next) != std::bit_cast<std::uint64_t>(value)) {
       value = next;
-      text.clear();
-      append_number(text, value);
+      text = number_text(value);
     }
-    line += text;
+    line.add(text);
   }
 };
 
+// Inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
+[[gnu::always_inline]] inline void prefetch_disk(const Disks& d, std::size_t i) {
+  __builtin_prefetch(&d.x[i]);
+  __builtin_prefetch(&d.y[i]);
+  __builtin_prefetch(&d.vx[i]);
+  __builtin_prefetch(&d.vy[i]);
+  __builtin_prefetch(&d.id[i]);
+  if (!d.radius.empty()) __builtin_prefetch(&d.radius[i]);
+  if (!d.mass.empty()) __builtin_prefetch(&d.mass[i]);
+}
+
 // The constant part of each frame's second line.
 std::string lattice_text(const XyzPlan& plan) {
-  std::string width, height;
-  append_number(width, plan.box.width);
-  append_number(height, plan.box.height);
+  const std::string width = number_text(plan.box.width);
+  const std::string height = number_text(plan.box.height);
   return fmt::format(
       "Lattice=\"{} 0 0 0{} 0 0 0 1\" Origin=\"0 0 0\" pbc=\"{} {} F\" Properties={}{}{} Time=", width.substr(1),
       height, plan.box.periodic_x() ? 'T' : 'F', plan.box.periodic_y() ? 'T' : 'F', xyz_properties,
@@ -84,24 +104,27 @@ void XyzWriter::write_lines(const Disks& disks, const std::vector<std::size_t>& 
   RepeatedNumber radius, mass;
   for (std::size_t k = begin; k < end; ++k) {
     const std::size_t i = order[k];
+    if (k + lines_ahead < end) prefetch_disk(disks, order[k + lines_ahead]);
     const DiskId id = disks.id[i];
-    text += 'X';
-    append_number(text, disks.x[i]);
-    append_number(text, disks.y[i]);
-    text += " 0";
-    append_number(text, disks.vx[i]);
-    append_number(text, disks.vy[i]);
-    text += " 0";
-    radius.append_to(text, disks.radius_of(i));
-    mass.append_to(text, disks.mass_of(i));
-    append_whole(text, id);
-    if (!plan_.group_ends.empty()) append_whole(text, group_of(plan_.group_ends, id));
+    LineText line;
+    line.add("X");
+    line.add_number(disks.x[i]);
+    line.add_number(disks.y[i]);
+    line.add(" 0");
+    line.add_number(disks.vx[i]);
+    line.add_number(disks.vy[i]);
+    line.add(" 0");
+    radius.add_to(line, disks.radius_of(i));
+    mass.add_to(line, disks.mass_of(i));
+    line.add_number(id);
+    if (!plan_.group_ends.empty()) line.add_number(group_of(plan_.group_ends, id));
     if (plan_.rounds != nullptr) {
-      append_whole(text, rounds_of(plan_.rounds->x, id));
-      append_whole(text, rounds_of(plan_.rounds->y, id));
-      text += " 0";
+      line.add_number(rounds_of(plan_.rounds->x, id));
+      line.add_number(rounds_of(plan_.rounds->y, id));
+      line.add(" 0");
     }
-    text += '\n';
+    line.add("\n");
+    text += line.text();
   }
 }
 
@@ -112,22 +135,33 @@ void XyzWriter::write(const Disks& disks, double time, const BlockRunner& run) {
     std::erase_if(order, [&](std::size_t i) { return !is_selected(select, disks, i); });
   }
   std::string head = fmt::format("{}\n{}", order.size(), lattice_);
-  std::string time_text;
-  append_number(time_text, time);
-  head.append(time_text, 1);
+  head.append(number_text(time), 1);
   file_.write(head + '\n');
-  const std::size_t blocks = (order.size() + lines_of_block - 1) / lines_of_block;
-  texts_.resize(std::min(blocks, blocks_at_once));
-  for (std::size_t first = 0; first < blocks; first += blocks_at_once) {
-    const std::size_t count = std::min(blocks_at_once, blocks - first);
-    run(count, [&](std::size_t b) {
-      const std::size_t begin = (first + b) * lines_of_block;
-      write_lines(disks, order, begin, std::min(begin + lines_of_block, order.size()), texts_[b]);
-    });
-    for (std::size_t b = 0; b < count; ++b) file_.write(texts_[b]);
-  }
+  write_blocks(disks, order, run);
   file_.flush();
   ++frames_;
+}
+
+// While the lines of some blocks are made, one task writes those of the blocks before.
+void XyzWriter::write_blocks(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run) {
+  const std::size_t blocks = (order.size() + lines_of_block - 1) / lines_of_block;
+  texts_.resize(std::min(blocks, blocks_at_once));
+  written_.resize(texts_.size());
+  std::size_t held = 0;  // of written_
+  const auto write_held = [&] {
+    for (std::size_t b = 0; b < held; ++b) file_.write(written_[b]);
+  };
+  for (std::size_t first = 0; first < blocks; first += blocks_at_once) {
+    const std::size_t count = std::min(blocks_at_once, blocks - first);
+    run(count + 1, [&](std::size_t task) {
+      if (task == 0) return write_held();
+      const std::size_t begin = (first + task - 1) * lines_of_block;
+      write_lines(disks, order, begin, std::min(begin + lines_of_block, order.size()), texts_[task - 1]);
+    });
+    texts_.swap(written_);
+    held = count;
+  }
+  write_held();
 }
 
 XyzReader::XyzReader(const std::string& path, bool growing) : path_(path), growing_(growing), file_(path) {

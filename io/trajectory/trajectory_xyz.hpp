@@ -52,12 +52,14 @@ class XyzWriter {
  private:
   void write_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
                    std::string& text) const;
+  void write_blocks(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run);
 
   OutputFile file_;
   Count frames_ = 0;
   XyzPlan plan_;
-  std::string lattice_;             // the constant part of each frame's second line
-  std::vector<std::string> texts_;  // of the blocks being written; kept for their capacity
+  std::string lattice_;  // the constant part of each frame's second line
+  // Of the blocks whose lines are made, and of those being written; kept for their capacity.
+  std::vector<std::string> texts_, written_;
 };
 
 using XyzFrame = TrajectoryFrame;
