@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/base/blocking_error.hpp"
 #include "core/base/sample_mean.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/measure/analysis_curves.hpp"
+#include "core/measure/diffusion_fit.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/scene/scene_text.hpp"
 #include "io/files/output_file.hpp"
@@ -56,6 +58,7 @@ void put_means(const Group& group, const std::vector<double>& series, const std:
   const SampleMean mean = sample_mean(series, interval);
   group.say("mean", mean.mean);
   group.say("standard_deviation", mean.deviation);
+  group.say("standard_error", blocking_error(series));
   group.say("samples", static_cast<double>(mean.samples));
 }
 
@@ -70,6 +73,10 @@ void put_series(Hdf5Output& output, const AnalysisRecord& record, const Analysis
     group.numbers("mean_square", series.displacement, "length^2");
     group.counts("disks", series.followed);
     group.say("meaning", "since the first sample; of the disks of that time that are still there");
+    const DiffusionFit fit = fit_diffusion(series.time, series.displacement);
+    group.say("diffusion", fit.value);
+    group.say("diffusion_error", fit.error);
+    group.say("diffusion_from", fit.from);
     group.say("doubtful", static_cast<double>(record.displacement.doubtful));
   }
   if (plan.wants(Quantity::pressure)) {

@@ -17,7 +17,9 @@ namespace carom {
 // /density            position, packing_fraction, number_density; centres counted
 // /parameters/scene   the scene with all defaults, as TOML
 // Whatever was not asked for is not there. r, u and position are the middles of the bins. Attributes say the units, how
-// many samples went in, and, of a series, its mean and how its samples scatter.
+// many samples went in; of a series, its mean, how its samples scatter, and the standard error of the mean by blocking
+// (blocking_error.hpp); of the displacement, the diffusion coefficient of its second half with its error
+// (diffusion_fit.hpp).
 //
 // Writes the file beside and renames it, so that a whole one is there at any moment. Throws RunError.
 void write_analysis(const std::string& path, const Scene& scene, const AnalysisRecord& record);

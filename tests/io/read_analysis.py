@@ -29,10 +29,15 @@ def main(h5_path, csv_path):
             value, interval = file[name]["value"][:], file[name]["interval"][:]
             known = numpy.isfinite(value)
             assert not known[0] and (known == (interval > 0.0)).all() and known.any(), name
+            assert file[name].attrs["standard_error"] > 0.0
             assert numpy.isclose(file[name].attrs["mean"], numpy.average(value[known], weights=interval[known]))
         squares = file["displacement/mean_square"][:]
         assert squares[0] == 0.0 and (squares[1:] > 0.0).all()
         assert (numpy.diff(file["displacement/disks"][:]) <= 0).all()
+        attributes = file["displacement"].attrs
+        first = list(time).index(attributes["diffusion_from"])
+        slope = (squares[-1] - squares[first]) / (4.0 * (time[-1] - time[first]))
+        assert numpy.isclose(attributes["diffusion"], slope) and attributes["diffusion_error"] > 0.0
         if csv_path:
             with open(csv_path, newline="") as table:
                 rows = {float(row["t"]): row for row in csv.DictReader(table)}

@@ -1,0 +1,35 @@
+#include "core/measure/diffusion_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+
+namespace {
+constexpr std::size_t slopes = 8;
+}
+
+DiffusionFit fit_diffusion(const std::vector<double>& time, const std::vector<double>& square) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  DiffusionFit fit{nothing, nothing, nothing};
+  if (time.empty()) return fit;
+  const double middle = 0.5 * (time.front() + time.back());
+  const auto first = static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), middle) - time.begin());
+  const std::size_t steps = time.size() - 1 - first;
+  if (steps < slopes) return fit;
+  const auto slope = [&](std::size_t a, std::size_t b) {
+    return (square[b] - square[a]) / (4.0 * (time[b] - time[a]));
+  };
+  fit.from = time[first];
+  fit.value = slope(first, time.size() - 1);
+  double squares = 0.0;
+  for (std::size_t k = 0; k < slopes; ++k) {
+    const double part = slope(first + k * steps / slopes, first + (k + 1) * steps / slopes);
+    squares += (part - fit.value) * (part - fit.value);
+  }
+  fit.error = std::sqrt(squares / (slopes - 1.0) / slopes);
+  return fit;
+}
+
+}  // namespace carom

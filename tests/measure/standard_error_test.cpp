@@ -1,0 +1,80 @@
+// Errors by blocking, and the diffusion coefficient of a displacement with its error, against what is known of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/base/blocking_error.hpp"
+#include "core/base/random.hpp"
+#include "core/measure/diffusion_fit.hpp"
+
+namespace carom {
+namespace {
+
+constexpr std::size_t samples = 1 << 15;
+
+// x_k+1 = a x_k + sqrt(1 - a^2) noise: variance 1, correlation a^k, so that the mean of n has the error
+// sqrt((1 + a) / (1 - a) / n).
+std::vector<double> correlated(double a, std::uint64_t seed) {
+  std::vector<double> series(samples);
+  double x = normals(seed, Stream::velocity, 0, 0).x;
+  for (std::size_t k = 0; k < samples; ++k) {
+    series[k] = 3.0 + x;
+    x = a * x + std::sqrt(1.0 - a * a) * normals(seed, Stream::velocity, 1, k).x;
+  }
+  return series;
+}
+
+TEST(BlockingError, KnowsCorrelations) {
+  for (const double a : {0.0, 0.5, 0.9, 0.97}) {
+    double mean = 0.0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) mean += blocking_error(correlated(a, seed)) / 8.0;
+    const double known = std::sqrt((1.0 + a) / (1.0 - a) / samples);
+    // The largest of several estimates is a little too large, by about one of their own errors.
+    EXPECT_GT(mean, 0.95 * known) << a;
+    EXPECT_LT(mean, 1.25 * known) << a;
+  }
+}
+
+TEST(BlockingError, OfFewSamplesIsThatOfIndependentOnes) {
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_DOUBLE_EQ(blocking_error({missing, 1.0, 2.0, missing, 3.0, 4.0}), std::sqrt(1.25 / 3.0));
+  EXPECT_TRUE(std::isnan(blocking_error({missing, 1.0})));
+  EXPECT_TRUE(std::isnan(blocking_error({})));
+}
+
+// Random walks of 400 disks with D = 0.5.
+TEST(DiffusionFit, FindsThatOfARandomWalkWithinItsError) {
+  constexpr double d = 0.5, dt = 0.1;
+  double off2 = 0.0, error2 = 0.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    std::vector<Vec2> place(400);
+    std::vector<double> time, square;
+    for (std::uint64_t step = 0; step <= 200; ++step) {
+      double sum = 0.0;
+      for (const Vec2& p : place) sum += p.x * p.x + p.y * p.y;
+      time.push_back(static_cast<double>(step) * dt);
+      square.push_back(sum / 400.0);
+      for (DiskId id = 0; id < 400; ++id) {
+        const Vec2 u = normals(seed, Stream::brownian, id, step);
+        place[id].x += std::sqrt(2.0 * d * dt) * u.x;
+        place[id].y += std::sqrt(2.0 * d * dt) * u.y;
+      }
+    }
+    const DiffusionFit fit = fit_diffusion(time, square);
+    EXPECT_DOUBLE_EQ(fit.from, 10.0);
+    EXPECT_NEAR(fit.value, d, 5.0 * fit.error) << seed;
+    off2 += (fit.value - d) * (fit.value - d);
+    error2 += fit.error * fit.error;
+  }
+  EXPECT_GT(error2, 0.4 * off2) << "the errors are those that there are, by and large";
+  EXPECT_LT(error2, 2.5 * off2);
+}
+
+TEST(DiffusionFit, SaysNothingOfFewSamples) {
+  EXPECT_TRUE(std::isnan(fit_diffusion({0, 1, 2, 3}, {0, 1, 2, 3}).value));
+  EXPECT_TRUE(std::isnan(fit_diffusion({}, {}).value));
+}
+
+}  // namespace
+}  // namespace carom
