@@ -22,6 +22,11 @@ class StrictEngine final : public Engine {
   void forget_paths() override { engine_->forget_paths(); }
   void release_memory() override { engine_->release_memory(); }
   void set_watch(const std::function<bool()>& go_on) override { engine_->set_watch(go_on); }
+  bool edit(const Edit& edit) override { return engine_->edit(edit); }
+  bool visit_near(Vec2 centre, double half_width, double half_height,
+                  const std::function<void(std::size_t)>& visit) override {
+    return engine_->visit_near(centre, half_width, half_height, visit);
+  }
   const PhaseTimes& phase_times() const override { return engine_->phase_times(); }
   std::vector<std::string> take_warnings() override {
     std::vector<std::string> warnings = std::exchange(warnings_, {});

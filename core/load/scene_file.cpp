@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/base/duration.hpp"
+#include "core/base/float_environment.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
 #include "core/load/method_choice.hpp"
@@ -305,6 +306,7 @@ void settle_box(Scene& scene, const BoxSize& size, const PlaceOfKey& place) {
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::string& folder,
                   const std::vector<Override>& overrides, const FrameReader& frames) {
+  const FloatEnvironment environment;
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     fail_input(fmt::format("{}:1", name), "the file is empty", "expected a scene with [box], [[disks]] and [run]");
   }

@@ -10,6 +10,7 @@
 #include "core/base/phase_times.hpp"
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
+#include "core/step/edit.hpp"
 
 namespace carom {
 
@@ -42,6 +43,19 @@ class Engine {
   // Asked now and then within long steps, from any thread: shall the step go on? Where not, step() may return with the
   // step not made, and state() that of its start. Empty: always. Changes no bit of the state.
   virtual void set_watch(const std::function<bool()>& /*go_on*/) {}
+
+  // Makes a change between two steps, and keeps what it knows of the other disks; state() is then what apply() makes of
+  // it, in any storage order. False, without a change, where the engine cannot, and another one is to be made of the
+  // changed state: the bits of later steps are the same.
+  virtual bool edit(const Edit& /*edit*/) { return false; }
+
+  // Calls visit(i) for every disk of state() whose centre is within half_width and half_height of a place in the box
+  // (nearest images); perhaps for others too, and for some twice. False, with no call, where the engine has no cells at
+  // hand; then it may be any disk.
+  virtual bool visit_near(Vec2 /*centre*/, double /*half_width*/, double /*half_height*/,
+                          const std::function<void(std::size_t)>& /*visit*/) {
+    return false;
+  }
 
   virtual const PhaseTimes& phase_times() const = 0;
 

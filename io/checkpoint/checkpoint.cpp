@@ -84,18 +84,35 @@ std::ifstream open_file(const std::string& path) {
   return file;
 }
 
+constexpr const char* damaged = "is damaged: it was cut short or changed after it was written";
+
+void check_header(const Header& header, const std::string& name) {
+  if (header.magic != Header{}.magic)
+    refuse(name, "is no checkpoint of Carom, or a damaged one; expected a checkpoint.carom, or the folder of a run");
+  if (header.byte_order == 0x0807060504030201ULL)
+    refuse(name, "comes from a machine of the other byte order; expected to go on with it there");
+}
+
+// size: of all. Precondition: the checksum is right.
+void check_frame(const Header& header, const Tail& tail, std::uint64_t size, const std::string& name) {
+  if (header.byte_order != Header{}.byte_order || (tail.bytes + 7) / 8 * 8 != size - sizeof header - sizeof tail) {
+    refuse(name, damaged);
+  }
+  if (header.format != Header{}.format) {
+    refuse(name, fmt::format("has format {}, and this version of Carom reads format {}; expected the version that "
+                             "wrote it",
+                             header.format, Header{}.format));
+  }
+}
+
 // Reads the file once from end to end. Returns the size of its content when all of it is as it was written.
 std::uint64_t verified_content(std::ifstream& file, const std::string& path) {
-  constexpr const char* damaged = "is damaged: it was cut short or changed after it was written";
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   Header header;
   header.magic = {};
   file.read(reinterpret_cast<char*>(&header), sizeof header);
-  if (header.magic != Header{}.magic)
-    refuse(path, "is no checkpoint of Carom, or a damaged one; expected a checkpoint.carom, or the folder of a run");
-  if (header.byte_order == 0x0807060504030201ULL)
-    refuse(path, "comes from a machine of the other byte order; expected to go on with it there");
+  check_header(header, path);
   if (error || !file || size < sizeof(Header) + sizeof(Tail) || size % 8 != 0) refuse(path, damaged);
   BlockHash hash;
   hash.add(reinterpret_cast<const char*>(&header), sizeof header);
@@ -110,14 +127,7 @@ std::uint64_t verified_content(std::ifstream& file, const std::string& path) {
   Tail tail;
   file.seekg(static_cast<std::streamoff>(size - sizeof tail));
   if (!file.read(reinterpret_cast<char*>(&tail), sizeof tail) || tail.checksum != hash.value()) refuse(path, damaged);
-  if (header.byte_order != Header{}.byte_order || (tail.bytes + 7) / 8 * 8 != size - sizeof header - sizeof tail) {
-    refuse(path, damaged);
-  }
-  if (header.format != Header{}.format) {
-    refuse(path, fmt::format("has format {}, and this version of Carom reads format {}; expected the version that "
-                             "wrote it",
-                             header.format, Header{}.format));
-  }
+  check_frame(header, tail, size, path);
   return tail.bytes;
 }
 
@@ -181,6 +191,35 @@ Checkpoint read_checkpoint(const std::string& path) {
     if (!file.read(data, static_cast<std::streamsize>(bytes))) throw BadBytes("could not be read twice");
   };
   return decode(ByteReader(take, content), path);
+}
+
+std::string checkpoint_bytes(const RunRecord& record, const State& state) {
+  const Header header;
+  std::string bytes(reinterpret_cast<const char*>(&header), sizeof header);
+  ByteWriter writer([&](const char* data, std::size_t count) { bytes.append(data, count); });
+  writer(record, state);
+  Tail tail;
+  tail.bytes = bytes.size() - sizeof header;
+  bytes.resize((bytes.size() + 7) / 8 * 8, '\0');
+  bytes.append(reinterpret_cast<const char*>(&tail.bytes), sizeof tail.bytes);
+  BlockHash hash;
+  hash.add(bytes.data(), bytes.size());
+  tail.checksum = hash.value();
+  return bytes.append(reinterpret_cast<const char*>(&tail.checksum), sizeof tail.checksum);
+}
+
+Checkpoint checkpoint_from_bytes(std::string_view bytes, const std::string& name) {
+  Header header;
+  Tail tail;
+  if (bytes.size() < sizeof header + sizeof tail || bytes.size() % 8 != 0) refuse(name, damaged);
+  std::memcpy(&header, bytes.data(), sizeof header);
+  check_header(header, name);
+  std::memcpy(&tail, bytes.data() + bytes.size() - sizeof tail, sizeof tail);
+  BlockHash hash;
+  hash.add(bytes.data(), bytes.size() - sizeof tail.checksum);
+  if (tail.checksum != hash.value()) refuse(name, damaged);
+  check_frame(header, tail, bytes.size(), name);
+  return decode_checkpoint(bytes.substr(sizeof header, tail.bytes), name);
 }
 
 std::string encode_checkpoint(const RunRecord& record, const State& state) {

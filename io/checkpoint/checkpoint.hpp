@@ -36,6 +36,10 @@ void write_checkpoint(const std::string& path, const RunRecord& record, const St
 // what is wrong", for a file that is cut short, changed in any bit, of another byte order or format, or no checkpoint.
 Checkpoint read_checkpoint(const std::string& path);
 
+// The same in memory: the bytes of the file, and back. name is for messages. Throws InputError as read_checkpoint does.
+std::string checkpoint_bytes(const RunRecord& record, const State& state);
+Checkpoint checkpoint_from_bytes(std::string_view bytes, const std::string& name);
+
 // The part of a checkpoint behind its checksum, from memory, for the fuzzer. Throws InputError.
 Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name);
 std::string encode_checkpoint(const RunRecord& record, const State& state);

@@ -34,6 +34,16 @@ class CellSlots {
     return unchain(disk, holds);
   }
 
+  // Between windows: one more disk, the last, in no cell yet; and one less, which is in none.
+  void append() {
+    cell_.push_back(none);
+    next_.push_back(none);
+  }
+  void drop_last() {
+    cell_.pop_back();
+    next_.pop_back();
+  }
+
   SlotColumns columns() const { return {position_.data(), disk_.data(), radius_.empty() ? nullptr : radius_.data()}; }
   // Calls visit(disk) for the disks chained to cells [first, last). Reads nothing of cells from `end` on.
   template <class Visit>

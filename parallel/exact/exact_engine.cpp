@@ -72,11 +72,15 @@ class ParallelExact final : public Engine {
   void set_watch(const std::function<bool()>& go_on) override { window_.go_on = go_on; }
   void forget_paths() override { window_.keeps_paths = false; }
   void release_memory() override;
+  bool edit(const Edit& edit) override;
+  bool visit_near(Vec2 centre, double half_width, double half_height,
+                  const std::function<void(std::size_t)>& visit) override;
   const PhaseTimes& phase_times() const override { return times_; }
   std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }
 
  private:
   void start_window();
+  bool lists_take(const Edit& edit);
   void begin_brownian();
   bool has_room(const Disk& newcomer) const;
   void remove(const std::vector<unsigned char>& gone);
@@ -138,6 +142,52 @@ void ParallelExact::release_memory() {
   lists_ = NeighbourLists();
   logged_.reset();
   valid_ = Valid::nothing;
+}
+
+bool ParallelExact::edit(const Edit& edit) {
+  // The paths of the last window no longer go with the disks.
+  logged_.reset();
+  at_start_ = Disks{};
+  const bool known = valid_ != Valid::nothing && lists_take(edit);
+  apply(edit, state_);
+  if (!known) {
+    valid_ = Valid::nothing;
+  } else if (edit.kind == Edit::Kind::add) {
+    lists_.append(state_.disks);
+  }
+  return true;
+}
+
+// Makes the change in what is known of the disks, but for a new one's list; false where all is to be made anew. A disk
+// whose next event is now is predicted at the start of the next window, with all disks near it.
+bool ParallelExact::lists_take(const Edit& edit) {
+  const Disks& d = state_.disks;
+  const double now = last_length_;
+  if (edit.kind == Edit::Kind::set_velocity) {
+    window_.next_event_time[edit.index] = now;
+    return true;
+  }
+  if (window_.mode != EngineMode::single_queue || d.size() <= all_pairs_up_to) return false;
+  if (edit.kind == Edit::Kind::add) {
+    const bool fits = d.radius.empty() ? edit.disk.radius == d.common_radius : edit.disk.radius <= largest_radius_;
+    if (!fits) return false;
+    window_.record.emplace_back();
+    window_.next_event_time.push_back(now);
+    return true;
+  }
+  lists_.remove(static_cast<std::uint32_t>(edit.index), d);
+  window_.record[edit.index] = window_.record.back();
+  window_.record.pop_back();
+  window_.next_event_time[edit.index] = window_.next_event_time.back();
+  window_.next_event_time.pop_back();
+  return true;
+}
+
+bool ParallelExact::visit_near(Vec2 centre, double half_width, double half_height,
+                               const std::function<void(std::size_t)>& visit) {
+  if (valid_ == Valid::nothing || window_.mode == EngineMode::all_pairs) return false;
+  lists_.visit_near(centre, half_width, half_height, [&](std::uint32_t i) { visit(i); });
+  return true;
 }
 
 // While sources emit, the lists know the disks that were there before.

@@ -67,6 +67,14 @@ class ListRows {
     return {row.more == none && row.sides == 0, row.offset, row.count};
   }
 
+  // Between windows: one more disk, the last, with an empty list; and one less, whose list is empty and which no other
+  // disk lists.
+  void append(std::size_t block, unsigned sides) {
+    rows_.emplace_back();
+    enter(static_cast<std::uint32_t>(rows_.size() - 1), block, sides);
+  }
+  void drop_last() { rows_.pop_back(); }
+
   void set_sides(std::uint32_t i, unsigned sides) { rows_[i].sides = static_cast<std::uint8_t>(sides); }
   [[gnu::always_inline]] void prefetch(std::uint32_t i) const { __builtin_prefetch(rows_.data() + i); }
 

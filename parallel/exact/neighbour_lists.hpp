@@ -127,6 +127,25 @@ class NeighbourLists {
   // would reach beyond it, nothing changes and the result is false. found: scratch.
   bool relist(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region, FoundNeighbours& found);
 
+  // Between windows, with a single queue: the last disk of the columns is new; disk i is to go, and the last one takes
+  // its number. The columns are those with both.
+  void append(const Disks& disks);
+  void remove(std::uint32_t i, const Disks& disks);
+
+  // Calls visit(j) for all disks whose centres may be within half a width and a height of a place; for others too. Not
+  // in all-pairs mode.
+  template <class Visit>
+  void visit_near(Vec2 centre, double half_width, double half_height, Visit&& visit) const {
+    const double reach = std::max(half_width, half_height) + skin_;
+    const SlotColumns columns = slots_.columns();
+    const auto run = [&](SlotRun slots) {
+      for (std::uint32_t s = slots.first; s < slots.last; ++s) {
+        if (columns.disk[s] != empty_slot) visit(columns.disk[s]);
+      }
+    };
+    visit_runs_near(centre, reach, ListRegion{}, run, visit);
+  }
+
   // Calls visit(j) for all disks that, within the skin of their listed positions, may overlap a disk of this radius at
   // (x, y); for a few others too, and for some twice.
   template <class Visit>

@@ -54,6 +54,7 @@ void begin_coarse_positions(const Disks& d, const CellGrid& grid, const SortedCe
                             CoarsePositions& coarse) {
   coarse.position.resize(d.size() + coarse_lanes);
   coarse.current = false;
+  coarse.loose.clear();
   coarse.radius.clear();
   if (!d.radius.empty()) note_radii(d, grid, cells, executor, coarse);
   note_crowded(grid, cells, executor, coarse);

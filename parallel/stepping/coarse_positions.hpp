@@ -32,6 +32,9 @@ struct CoarsePositions {
   std::size_t blocks = 0;      // that strays are of
   std::vector<double> speed2;  // scratch
   std::vector<std::vector<std::uint32_t>> crowded_blocks;
+  // Disks that a program put or moved into storage between two steps, in ascending order: their keys say nothing of
+  // where they are. Those from `sorted` on are in no cell's run.
+  std::vector<std::uint32_t> loose;
   bool current = false;  // position and strays are of where the disks are now
 };
 

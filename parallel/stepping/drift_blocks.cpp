@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t drift_block = 8192;
 
 // All disks through the kernel, level by level. Returns the largest squared speed.
-double move_all(MoveInput in, const CellGrid& grid, const SortedCells& cells, const Executor& executor,
-                CoarsePositions& coarse) {
+double move_all(MoveInput in, std::size_t disks, const CellGrid& grid, const SortedCells& cells,
+                const Executor& executor, CoarsePositions& coarse) {
   const MoveKernel kernel = choose_move_kernel();
   in.key = cells.key.data();
   in.position = coarse.position.data();
@@ -39,6 +39,12 @@ double move_all(MoveInput in, const CellGrid& grid, const SortedCells& cells, co
     });
     for (const double v2 : coarse.speed2) speed2 = std::max(speed2, v2);
   }
+  // Loose disks behind the last cell: each loose disk is searched for by itself, whether it strays or not.
+  const std::size_t sorted = cells.start.back();
+  if (sorted < disks) [[unlikely]] {
+    std::vector<std::uint32_t> unread;
+    speed2 = std::max(speed2, kernel(in, grid.levels.front(), sorted, disks, unread));
+  }
   coarse.current = true;
   return speed2;
 }
@@ -48,14 +54,14 @@ double move_all(MoveInput in, const CellGrid& grid, const SortedCells& cells, co
 double drift_blocks(Disks& d, const Domain& box, double gravity, double t, const CellGrid& grid,
                     const SortedCells& cells, const Executor& executor, CoarsePositions& coarse) {
   const Motion motion = gravity > 0.0 ? Motion::parabola : Motion::straight;
-  return move_all({d.x.data(), d.y.data(), d.vx.data(), d.vy.data(), nullptr, nullptr, box, motion, t, gravity}, grid,
-                  cells, executor, coarse);
+  return move_all({d.x.data(), d.y.data(), d.vx.data(), d.vy.data(), nullptr, nullptr, box, motion, t, gravity},
+                  d.size(), grid, cells, executor, coarse);
 }
 
 void note_coarse_positions(Disks& d, const Domain& box, const CellGrid& grid, const SortedCells& cells,
                            const Executor& executor, CoarsePositions& coarse) {
-  move_all({d.x.data(), d.y.data(), d.vx.data(), d.vy.data(), nullptr, nullptr, box, Motion::none, 0.0, 0.0}, grid,
-           cells, executor, coarse);
+  move_all({d.x.data(), d.y.data(), d.vx.data(), d.vy.data(), nullptr, nullptr, box, Motion::none, 0.0, 0.0}, d.size(),
+           grid, cells, executor, coarse);
 }
 
 void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor,

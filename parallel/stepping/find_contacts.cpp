@@ -146,7 +146,10 @@ const GridLevel& level_of(const SearchInput& in, const CellGrid& grid, std::size
   return grid.levels[k];
 }
 
-// Pairs of one stray with all disks; of two strays, the one stored first reports the pair.
+constexpr unsigned char is_loose = 2;
+
+// Pairs of one stray or loose disk with all disks in cells; of two strays, the one stored first reports the pair, of a
+// stray and a loose disk the loose one.
 void search_stray(const SearchInput& in, const CellGrid& grid, double furthest, std::size_t i,
                   const std::vector<unsigned char>& strayed, std::vector<Pair>& pairs) {
   const double r = in.radius == nullptr ? in.common_radius : in.radius[i];
@@ -154,11 +157,20 @@ void search_stray(const SearchInput& in, const CellGrid& grid, double furthest, 
     const double reach = r + level.largest_radius + std::max(level.margin, furthest);
     for_each_run_near(level, in.start, in.box, in.x[i], in.y[i], reach, [&](std::uint32_t first, std::uint32_t last) {
       for (std::uint32_t j = first; j < last; ++j) {
-        if (j == i || (strayed[j] != 0 && j < i) || !touch(in, i, j)) continue;
+        if (j == i || strayed[j] == is_loose || (strayed[j] == strayed[i] && j < i) || !touch(in, i, j)) continue;
         const auto a = static_cast<std::uint32_t>(i);
         pairs.push_back(a < j ? Pair{a, j} : Pair{j, a});
       }
     });
+  }
+}
+
+// Loose disks with each other.
+void search_loose(const SearchInput& in, const std::vector<std::uint32_t>& loose, std::vector<Pair>& pairs) {
+  for (std::size_t k = 1; k < loose.size(); ++k) {
+    for (std::size_t m = 0; m < k; ++m) {
+      if (touch(in, loose[m], loose[k])) pairs.push_back({loose[m], loose[k]});
+    }
   }
 }
 
@@ -170,13 +182,16 @@ void search_strays(const SearchInput& in, const CellGrid& grid, const CoarsePosi
     found.strays.insert(found.strays.end(), coarse.strays[b].begin(), coarse.strays[b].end());
   }
   found.furthest = 0.0;
-  if (found.strays.empty()) return;
+  if (found.strays.empty() && coarse.loose.empty()) return;
   found.strayed.resize(in.n, 0);
+  for (const std::uint32_t i : coarse.loose) found.strayed[i] = is_loose;
+  std::erase_if(found.strays, [&](std::uint32_t i) { return found.strayed[i] != 0; });
   double& furthest = found.furthest;
   for (const std::uint32_t i : found.strays) {
     found.strayed[i] = 1;
     furthest = std::max(furthest, excursion(in, level_of(in, grid, i), i));
   }
+  found.strays.insert(found.strays.end(), coarse.loose.begin(), coarse.loose.end());
   executor.run(found.used, [&](std::size_t b) {
     std::erase_if(found.buffers[b], [&](const Pair& p) { return (found.strayed[p.i1] | found.strayed[p.i2]) != 0; });
   });
@@ -186,10 +201,28 @@ void search_strays(const SearchInput& in, const CellGrid& grid, const CoarsePosi
       search_stray(in, grid, furthest, found.strays[k], found.strayed, found.buffers[first + b]);
     }
   });
+  if (!coarse.loose.empty()) search_loose(in, coarse.loose, found.buffers[more_buffers(found, 1)]);
   for (const std::uint32_t i : found.strays) found.strayed[i] = 0;
 }
 
 }  // namespace
+
+double furthest_excursion(const Disks& d, const Domain& box, const CellGrid& grid, const SortedCells& cells,
+                          const CoarsePositions& coarse) {
+  const SearchInput in{d.x.data(),       d.y.data(),         nullptr,  0.0, nullptr, nullptr, coarse.crowded,
+                       cells.key.data(), cells.start.data(), d.size(), box, 0.0,     0.0};
+  double furthest = 0.0;
+  auto loose = coarse.loose.begin();
+  for (const GridLevel& level : grid.levels) {
+    const LevelRange range = range_of(level, cells);
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      while (loose != coarse.loose.end() && *loose < i) ++loose;
+      if (loose != coarse.loose.end() && *loose == i) continue;
+      furthest = std::max(furthest, excursion(in, level, i));
+    }
+  }
+  return furthest;
+}
 
 std::size_t find_contacts(const Disks& d, const Domain& box, const CellGrid& grid, const SortedCells& cells,
                           const CoarsePositions& coarse, const Executor& executor, FoundPairs& found) {

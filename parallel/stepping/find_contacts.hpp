@@ -25,7 +25,7 @@ struct FoundPairs {
   double furthest = 0.0;  // that a stray has left its cell by; length
   // Of the strays' own search.
   std::vector<std::uint32_t> strays;
-  std::vector<unsigned char> strayed;  // of each disk; all 0 between searches
+  std::vector<unsigned char> strayed;  // of each disk: 1 a stray, 2 a loose one; all 0 between searches
 
   std::size_t count() const {
     std::size_t sum = 0;
@@ -42,8 +42,12 @@ inline Pair in_id_order(const DiskId* id, Pair p) {
 // Finds the pairs of disks that overlap or touch now; disks moved since they were sorted into cells. Rows of cells find
 // the pairs of all disks that are still within the margin of their cells; every stray is searched for by itself, as far
 // as any stray has gone. So the result is complete however old the cells are; they only become slow. Returns the number
-// of strays. Precondition: coarse is current.
+// of strays, loose disks (coarse_positions.hpp) among them. Precondition: coarse is current.
 std::size_t find_contacts(const Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells,
                           const CoarsePositions& coarse, const Executor& executor, FoundPairs& found);
+
+// How far a disk has left its cell by at most, loose disks apart; length.
+double furthest_excursion(const Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells,
+                          const CoarsePositions& coarse);
 
 }  // namespace carom

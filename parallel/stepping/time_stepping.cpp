@@ -138,7 +138,7 @@ Count TimeStepping::parts(double dt) {
   // and it is the reference's. Sinks may have taken the smallest disk: then too the true figure is taken.
   const double fall = scene_.physics.gravity * dt / smallest_radius_;
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
-  if (scene_.box.has(SideKind::sink)) smallest_radius_ = smallest_radius(state_.disks);
+  if (scene_.box.has(SideKind::sink) || smallest_may_be_gone_) smallest_radius_ = smallest_radius(state_.disks);
   const Count parts = parts_of_step(exact_travel2(), scene_.physics.gravity * dt / smallest_radius_, dt);
   if (parts > 1) validity_.see_split(state_, dt, parts);
   return parts;
@@ -167,10 +167,12 @@ void TimeStepping::sort_now() {
   begin_coarse_positions(state_.disks, grid_, cells_, executor_, coarse_);
   cells_valid_ = true;
   strays_ = 0;
+  excursion_ = -1.0;
 }
 
 void TimeStepping::drift(double t) {
   const PhaseTimer timer(times_, "drift");
+  excursion_ = -1.0;
   speed2_ = 0.0;
   if (!state_.disks.empty())
     speed2_ = drift_blocks(state_.disks, scene_.box, scene_.physics.gravity, t, grid_, cells_, executor_, coarse_);

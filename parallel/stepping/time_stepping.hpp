@@ -23,6 +23,9 @@ class TimeStepping : public Engine {
 
   const State& state() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
+  bool edit(const Edit& edit) override;
+  bool visit_near(Vec2 centre, double half_width, double half_height,
+                  const std::function<void(std::size_t)>& visit) override;
   const PhaseTimes& phase_times() const override { return times_; }
   std::vector<std::string> take_warnings() override;
 
@@ -50,6 +53,7 @@ class TimeStepping : public Engine {
 
  private:
   void sort_now();
+  bool may_be_loose(const Edit& edit) const;
   void emit_from_sources(double t, Count step);
   void draw_velocities(double dt, Count step);
   void remove_crossing(double dt, Count step);  // sinks, between two steps
@@ -65,11 +69,13 @@ class TimeStepping : public Engine {
   std::vector<unsigned char> gone_;
   std::vector<double> block_values_;       // scratch, one a block
   std::vector<std::size_t> class_counts_;  // disks of each size class
-  double smallest_radius_ = 0.0;
-  double speed2_ = 0.0;        // no disk's squared speed is larger
-  bool speed2_known_ = false;  // false: speed2_ must be taken anew
-  bool cells_valid_ = false;   // storage order and cells_ still belong together
-  std::size_t strays_ = 0;     // in the last search
+  double smallest_radius_ = 0.0;           // 0: not known
+  bool smallest_may_be_gone_ = false;      // a program took a disk away
+  double excursion_ = -1.0;                // as furthest_excursion; negative: not known
+  double speed2_ = 0.0;                    // no disk's squared speed is larger
+  bool speed2_known_ = false;              // false: speed2_ must be taken anew
+  bool cells_valid_ = false;               // storage order and cells_ still belong together
+  std::size_t strays_ = 0;                 // in the last search
 };
 
 }  // namespace carom

@@ -1,0 +1,46 @@
+// Neighbour lists while a program adds and takes away disks between windows.
+#include <span>
+#include <vector>
+
+#include "parallel/exact/neighbour_lists.hpp"
+
+namespace carom {
+
+void NeighbourLists::append(const Disks& d) {
+  const auto i = static_cast<std::uint32_t>(d.size() - 1);
+  const FixedPointPosition position = fixed_point(d.x[i], d.y[i]);
+  const ListRegion everything;
+  listed_at_.push_back(position);
+  slots_.append();
+  rows_.append(0, find_sides(d, i));
+  FoundNeighbours found;
+  find_neighbours(d, i, position, everything, found);
+  slots_.insert(cell_of(d, i, position), i, position, radius_in_units(d.radius_of(i)));
+  rows_.replace(i, found.disks(), everything);
+}
+
+void NeighbourLists::remove(std::uint32_t i, const Disks& d) {
+  const auto last = static_cast<std::uint32_t>(d.size() - 1);
+  const ListRegion everything;
+  const auto always = [](std::uint32_t) { return true; };
+  const auto take_out = [&](std::uint32_t disk) {
+    rows_.replace(disk, {}, everything);
+    slots_.remove(disk, always);
+  };
+  take_out(i);
+  if (i != last) {
+    std::vector<std::uint32_t> near;
+    for_each_neighbour(last, [&](std::uint32_t j) { near.push_back(j); });
+    const std::uint32_t cell = slots_.cell_of(last);
+    take_out(last);
+    listed_at_[i] = listed_at_[last];
+    slots_.insert(cell, i, listed_at_[i], radius_in_units(d.radius_of(last)));
+    rows_.set_sides(i, rows_.sides_near(last));
+    rows_.replace(i, near, everything);
+  }
+  rows_.drop_last();
+  slots_.drop_last();
+  listed_at_.pop_back();
+}
+
+}  // namespace carom

@@ -1,0 +1,48 @@
+// Which disks are in a rectangle, which is nearest to a place, which one a ray meets first.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+// Calls visit(i) for every disk (storage index) whose centre is within half_width and half_height of a place inside the
+// box, nearest images included; perhaps for others too, and for some twice.
+using Visit = std::function<void(std::size_t)>;
+using VisitNear = std::function<void(Vec2 centre, double half_width, double half_height, const Visit& visit)>;
+
+// All disks, whatever the place.
+VisitNear visit_all(const Disks& disks);
+
+struct NearDisk {
+  DiskId id = 0;
+  double distance = 0.0;  // of the centre, to the nearest image
+};
+
+struct RayHit {
+  DiskId id = 0;
+  double distance = 0.0;  // along the ray to the disk's edge; 0 if the ray begins inside
+  Vec2 place;             // there, inside the box
+};
+
+// Ids, ascending, of the disks whose centres lie in the rectangle, its sides included. Across periodic sides it may
+// reach out of the box, and sees images; one that is as long as the box or longer sees all. Throws InputError where a
+// number is not finite or low is above high.
+std::vector<DiskId> disks_in(const Disks& disks, const Domain& box, const VisitNear& near, Vec2 low, Vec2 high);
+
+// The disk with its centre nearest to a place, of two as near the one with the smaller id; absent without disks. Throws
+// InputError where the place is not finite or lies outside the box.
+std::optional<NearDisk> nearest_disk(const Disks& disks, const Domain& box, const VisitNear& near, Vec2 place);
+
+// The first disk on a straight line of this length; it goes through periodic sides and ends at others. Throws
+// InputError where a number is not finite, the direction is 0, the line begins outside the box, or is longer than 10^6
+// times the box.
+std::optional<RayHit> cast_ray(const Disks& disks, const Domain& box, const VisitNear& near, Vec2 from, Vec2 direction,
+                               double length);
+
+}  // namespace carom

@@ -1,0 +1,275 @@
+#include "run/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/check.hpp"
+#include "core/base/float_environment.hpp"
+#include "core/base/input_message.hpp"
+#include "core/disks/state_hash.hpp"
+#include "core/scene/scene_ranges.hpp"
+#include "core/scene/scene_text.hpp"
+#include "core/step/source.hpp"
+#include "core/step/validity.hpp"
+#include "io/checkpoint/checkpoint_place.hpp"
+
+namespace carom {
+
+namespace {
+
+void check_magnitude(const char* what, Dimension dimension, double value) {
+  if (in_range(dimension, value)) return;
+  fail_input(what, fmt::format("is {}", value), expected_range(dimension));
+}
+
+void check_size(const char* what, Dimension dimension, double value) {
+  check_magnitude(what, dimension, value);
+  if (!(value > 0.0)) fail_input(what, fmt::format("is {}", value), "expected a number above 0");
+}
+
+// One coordinate of a disk that is to lie inside the box.
+void check_coordinate(const char* what, double c, double radius, double size, bool periodic) {
+  const bool inside = periodic ? c >= 0.0 && c < size : c >= radius && c <= size - radius;
+  if (!inside) {
+    fail_input(what, fmt::format("is {}", c),
+               periodic ? fmt::format("expected a number from 0 to below {}", size)
+                        : fmt::format("expected the whole disk inside the box, from {} to {}", radius, size - radius));
+  }
+}
+
+Scene scene_in(const Checkpoint& checkpoint, const std::string& name) {
+  const RunRecord& record = checkpoint.record;
+  Scene scene = parse_scene(record.scene_text, record.scene_file, "");
+  if (checkpoint.state.sources.size() != scene.sources.size()) {
+    fail_input(name, "holds a state that does not belong to its scene", "expected a checkpoint as Carom wrote it");
+  }
+  return scene;
+}
+
+}  // namespace
+
+Simulation::Simulation(Scene scene, EngineChoice engine)
+    : scene_(std::move(scene)), scene_text_(resolved_toml(scene_)), choice_(std::move(engine)) {
+  const FloatEnvironment environment;
+  within_memory(scene_, [&] { engine_ = make_engine(choice_, scene_, make_initial_state(choice_, scene_)); });
+  start_ = run_start(state(), scene_);
+  warnings_ = validity_of(scene_, smallest_radius(state().disks), fastest_speed(state().disks));
+}
+
+Simulation::Simulation(Checkpoint checkpoint, const std::string& name, EngineChoice engine)
+    : scene_(scene_in(checkpoint, name)),
+      scene_text_(resolved_toml(scene_)),
+      choice_(std::move(engine)),
+      start_(checkpoint.record.start) {
+  const FloatEnvironment environment;
+  within_memory(scene_, [&] { engine_ = make_engine(choice_, scene_, std::move(checkpoint.state)); });
+}
+
+Simulation Simulation::resume(const std::string& name, EngineChoice engine) {
+  return {read_checkpoint_at(find_checkpoint(name)), name, std::move(engine)};
+}
+
+Simulation Simulation::from_bytes(std::string_view bytes, EngineChoice engine) {
+  return {checkpoint_from_bytes(bytes, "saved state"), "saved state", std::move(engine)};
+}
+
+Engine& Simulation::engine() {
+  if (edited_) {
+    engine_ = make_engine(choice_, scene_, *edited_);
+    edited_.reset();
+  }
+  return *engine_;
+}
+
+void Simulation::change(const Edit& edit) {
+  order_known_ = false;
+  if (!edited_ && engine_->edit(edit)) return;
+  if (!edited_) {
+    const std::vector<std::string> news = engine_->take_warnings();
+    warnings_.insert(warnings_.end(), news.begin(), news.end());
+    edited_ = engine_->state();
+  }
+  apply(edit, *edited_);
+}
+
+void Simulation::step(Count n) {
+  const FloatEnvironment environment;
+  Engine& steps = engine();
+  order_known_ = false;
+  for (Count k = 0; k < n && !done(); ++k) steps.step();
+}
+
+void Simulation::run_until(double t, const std::function<bool()>& go_on) {
+  if (std::isnan(t)) fail_input("time", "is not a number", "expected a time");
+  const FloatEnvironment environment;
+  Engine& steps = engine();
+  order_known_ = false;
+  while (time() < t && !done() && (!go_on || go_on())) steps.step();
+}
+
+const std::vector<std::size_t>& Simulation::order() const {
+  if (!order_known_) order_ = by_id(state().disks);
+  order_known_ = true;
+  return order_;
+}
+
+Disks Simulation::disks() const {
+  Disks sorted;
+  disks_at(time(), sorted);
+  return sorted;
+}
+
+double Simulation::disks_at(double t, Disks& out) const {
+  const FloatEnvironment environment;
+  if (!(t <= time())) fail_input("time", fmt::format("is {}", t), fmt::format("expected {} or less", time()));
+  Disks stored = state().disks;
+  const double at = edited_ ? time() : engine_->disks_at(t, stored);
+  const std::vector<std::size_t> by = by_id(stored);  // disks that a sink took in the last step are there again
+  const auto sort = [&](auto& to, const auto& from) {
+    to.resize(from.size());
+    for (std::size_t k = 0; k < from.size(); ++k) to[k] = from[by[k]];
+  };
+  sort(out.x, stored.x);
+  sort(out.y, stored.y);
+  sort(out.vx, stored.vx);
+  sort(out.vy, stored.vy);
+  sort(out.id, stored.id);
+  sort(out.radius, stored.radius);
+  sort(out.mass, stored.mass);
+  out.common_radius = stored.common_radius;
+  out.common_mass = stored.common_mass;
+  return at;
+}
+
+std::uint64_t Simulation::hash() const {
+  return state_hash(state().disks);
+}
+
+Summary Simulation::summary() {
+  const FloatEnvironment environment;
+  Summary s = summarize(start_, engine(), scene_, choice_);
+  s.warnings = validity_so_far(scene_, state());
+  return s;
+}
+
+std::vector<std::string> Simulation::take_warnings() {
+  std::vector<std::string> warnings = std::exchange(warnings_, {});
+  const std::vector<std::string> news = engine_->take_warnings();
+  warnings.insert(warnings.end(), news.begin(), news.end());
+  return warnings;
+}
+
+RunRecord Simulation::record() const {
+  RunRecord record;
+  record.version = CAROM_VERSION;
+  record.scene_file = scene_.file;
+  record.scene_text = scene_text_;
+  record.engine = choice_.name;
+  record.start = start_;
+  return record;
+}
+
+std::string Simulation::save() const {
+  return checkpoint_bytes(record(), state());
+}
+
+void Simulation::save(const std::string& file) const {
+  write_checkpoint(file, record(), state());
+}
+
+void Simulation::load(std::string_view bytes) {
+  Checkpoint checkpoint = checkpoint_from_bytes(bytes, "saved state");
+  if (checkpoint.record.scene_text != scene_text_) {
+    *this = Simulation(std::move(checkpoint), "saved state", choice_);
+    return;
+  }
+  if (checkpoint.state.sources.size() != scene_.sources.size()) scene_in(checkpoint, "saved state");
+  start_ = checkpoint.record.start;
+  edited_ = std::move(checkpoint.state);
+  order_known_ = false;
+}
+
+void Simulation::check_newcomer(const Disk& disk) const {
+  const Domain& box = scene_.box;
+  check_size("radius", Dimension::length, disk.radius);
+  check_size("mass", Dimension::mass, disk.mass);
+  check_magnitude("vx", Dimension::speed, disk.vx);
+  check_magnitude("vy", Dimension::speed, disk.vy);
+  const auto check_axis = [&](const char* what, double size, bool periodic) {
+    if (!periodic || size >= 4.0 * disk.radius) return;
+    fail_input("radius", fmt::format("is {}", disk.radius),
+               fmt::format("expected at most a quarter of the periodic {}, {}", what, 0.25 * size));
+  };
+  check_axis("width", box.width, box.periodic_x());
+  check_axis("height", box.height, box.periodic_y());
+  check_coordinate("x", disk.x, disk.radius, box.width, box.periodic_x());
+  check_coordinate("y", disk.y, disk.radius, box.height, box.periodic_y());
+  if (state().next_id >= most_disks) fail_input("disk", "has no id left", "expected fewer disks");
+}
+
+std::optional<DiskId> Simulation::add(Disk disk) {
+  const FloatEnvironment environment;
+  check_newcomer(disk);
+  const Disks& present = state().disks;
+  bool met = false;
+  const double reach = disk.radius + largest_radius(present);
+  visit_near()({disk.x, disk.y}, reach, reach,
+               [&](std::size_t i) { met = met || meets(present, scene_.box, disk, i, i + 1); });
+  if (met) return std::nullopt;
+  disk.id = state().next_id;
+  change({Edit::Kind::add, disk, 0});
+  return disk.id;
+}
+
+std::optional<std::size_t> Simulation::find(DiskId id) const {
+  const std::vector<DiskId>& ids = state().disks.id;
+  const auto at = std::find(ids.begin(), ids.end(), id);
+  if (at == ids.end()) return std::nullopt;
+  return static_cast<std::size_t>(at - ids.begin());
+}
+
+bool Simulation::remove(DiskId id) {
+  const std::optional<std::size_t> i = find(id);
+  if (!i) return false;
+  change({Edit::Kind::remove, {}, *i});
+  return true;
+}
+
+bool Simulation::set_velocity(DiskId id, Vec2 velocity) {
+  check_magnitude("vx", Dimension::speed, velocity.x);
+  check_magnitude("vy", Dimension::speed, velocity.y);
+  const std::optional<std::size_t> i = find(id);
+  if (!i) return false;
+  Edit edit{Edit::Kind::set_velocity, {}, *i};
+  edit.disk.vx = velocity.x;
+  edit.disk.vy = velocity.y;
+  change(edit);
+  return true;
+}
+
+VisitNear Simulation::visit_near() const {
+  return [this](Vec2 centre, double half_width, double half_height, const Visit& visit) {
+    if (!edited_ && engine_->visit_near(centre, half_width, half_height, visit)) return;
+    for (std::size_t i = 0; i < state().disks.size(); ++i) visit(i);
+  };
+}
+
+std::vector<DiskId> Simulation::disks_in(Vec2 low, Vec2 high) const {
+  const FloatEnvironment environment;
+  return carom::disks_in(state().disks, scene_.box, visit_near(), low, high);
+}
+
+std::optional<NearDisk> Simulation::nearest(Vec2 place) const {
+  const FloatEnvironment environment;
+  return nearest_disk(state().disks, scene_.box, visit_near(), place);
+}
+
+std::optional<RayHit> Simulation::cast_ray(Vec2 from, Vec2 direction, double length) const {
+  const FloatEnvironment environment;
+  return carom::cast_ray(state().disks, scene_.box, visit_near(), from, direction, length);
+}
+
+}  // namespace carom

@@ -1,0 +1,108 @@
+// A scene in the hands of a program: stepped as far as it likes, looked at, changed between steps, saved and loaded.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/disks/state.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/step/edit.hpp"
+#include "core/step/engine.hpp"
+#include "io/checkpoint/checkpoint.hpp"
+#include "run/disk_queries.hpp"
+#include "run/make_engine.hpp"
+#include "run/summary.hpp"
+
+namespace carom {
+
+// Gives the bits of `carom run` of the same scene, whatever the host program's rounding mode. All calls are of one
+// thread at a time; different simulations share nothing. Writes no files but where told to, prints nothing, and leaves
+// signals alone. What a call throws leaves the simulation as it was before, but for step and run_until, which leave it
+// at the end of the last step that was made.
+class Simulation {
+ public:
+  // A scene as load_scene reads it from a file and parse_scene from text. Throws InputError: disks that find no place.
+  explicit Simulation(Scene scene, EngineChoice engine = choose_engine("", std::nullopt));
+
+  // Goes on from a checkpoint: a file, or the folder of a run; or the bytes that save() gave, whose name is for
+  // messages. Throws InputError where it is none.
+  static Simulation resume(const std::string& name, EngineChoice engine = choose_engine("", std::nullopt));
+  static Simulation from_bytes(std::string_view bytes, EngineChoice engine = choose_engine("", std::nullopt));
+
+  // At most n steps; fewer where the end is reached (done()). Throws PhysicsError where the method cannot go on.
+  void step(Count n = 1);
+
+  // Steps until time() >= t, or to the end. A step is dt, a frame (rollback) or a window (exact), and none is cut short
+  // for t, so that bits do not depend on where a program looks: disks_at(t) has the disks at t itself. go_on is asked
+  // between steps and may be empty.
+  void run_until(double t, const std::function<bool()>& go_on = {});
+
+  double time() const { return state().time; }  // end of the last step
+  bool done() const { return !(state().time < scene_.run.t_end); }
+  const Scene& scene() const { return scene_; }
+  const EngineChoice& engine_choice() const { return choice_; }
+
+  // The disks in storage order, which any step may change. Valid until the next call that is not const.
+  const State& state() const { return edited_ ? *edited_ : engine_->state(); }
+
+  // Storage indices in order of id. Likewise.
+  const std::vector<std::size_t>& order() const;
+
+  // The disks in order of id: now, and at a time within the last step (time stepping: now). Returns their time.
+  Disks disks() const;
+  double disks_at(double t, Disks& out) const;
+
+  std::uint64_t hash() const;  // state_hash of carom run
+  Summary summary();           // as of carom run, but for wall times and files
+
+  // Warnings of the physics since the last call, one line each.
+  std::vector<std::string> take_warnings();
+
+  // Everything from which to go on, bit for bit; the bytes are those of the file. Throws RunError where the file cannot
+  // be written.
+  std::string save() const;
+  void save(const std::string& file) const;
+
+  // Takes up what save() gave, of this or of another simulation. Throws InputError where it is damaged.
+  void load(std::string_view bytes);
+
+  // Changes between two steps. add: its id is given, which no disk has had before; absent where the disk would overlap
+  // another. The others: false where there is no such disk. Throw InputError for numbers out of range, or a disk that
+  // reaches out of the box or touches a sink.
+  std::optional<DiskId> add(Disk disk);
+  bool remove(DiskId id);
+  bool set_velocity(DiskId id, Vec2 velocity);
+
+  // Where a disk lies in storage now, if there is one of this id.
+  std::optional<std::size_t> find(DiskId id) const;
+
+  // See disk_queries.hpp.
+  std::vector<DiskId> disks_in(Vec2 low, Vec2 high) const;
+  std::optional<NearDisk> nearest(Vec2 place) const;
+  std::optional<RayHit> cast_ray(Vec2 from, Vec2 direction, double length) const;
+
+ private:
+  Simulation(Checkpoint checkpoint, const std::string& name, EngineChoice engine);
+  RunRecord record() const;
+  Engine& engine();
+  void change(const Edit& edit);
+  VisitNear visit_near() const;
+  void check_newcomer(const Disk& disk) const;
+
+  Scene scene_;
+  std::string scene_text_;
+  EngineChoice choice_;
+  RunStart start_;
+  std::unique_ptr<Engine> engine_;
+  std::optional<State> edited_;  // of which the engine is made anew before the next step
+  std::vector<std::string> warnings_;
+  mutable std::vector<std::size_t> order_;
+  mutable bool order_known_ = false;
+};
+
+}  // namespace carom

@@ -1,0 +1,136 @@
+// Queries against all disks and all their images.
+#include "run/disk_queries.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/base/check.hpp"
+#include "core/load/scene_file.hpp"
+#include "run/simulation.hpp"
+#include "tests/support/draws.hpp"
+
+namespace carom {
+namespace {
+
+struct Gas {
+  std::string method, sides;
+  int disks;
+};
+
+Simulation gas(const Gas& g) {
+  const std::string text =
+      "[box]\npacking_fraction = " + std::string(g.disks > 1 ? "0.2" : "0.02") + "\naspect = 1.5\n" + g.sides +
+      "[[disks]]\ncount = " + std::to_string(g.disks) +
+      "\nvelocities = { uniform = 2.0 }\nradius = { uniform = [0.05, 0.5] }\nmass = 1.0\npositions = \"random\"\n"
+      "[run]\ndt = 0.005\nt_end = 10.0\nmethod = \"" +
+      g.method + "\"\n";
+  return Simulation(parse_scene(text, "gas.toml", ""), choose_engine("parallel", 1));
+}
+
+// Every image within a box of the box.
+template <class Look>
+void for_each_image(const Simulation& s, int around, const Look& look) {
+  const Disks d = s.disks();
+  const Domain& box = s.scene().box;
+  const int nx = box.periodic_x() ? around : 0, ny = box.periodic_y() ? around : 0;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    for (int kx = -nx; kx <= nx; ++kx) {
+      for (int ky = -ny; ky <= ny; ++ky)
+        look(d.id[i], Vec2{d.x[i] + kx * box.width, d.y[i] + ky * box.height}, d.radius_of(i));
+    }
+  }
+}
+
+// The entry point by the plain quadratic.
+double plain_entry(Vec2 centre, double radius, Vec2 from, Vec2 unit) {
+  const double x = from.x - centre.x, y = from.y - centre.y;
+  const double b = x * unit.x + y * unit.y, c = x * x + y * y - radius * radius;
+  if (c <= 0.0) return 0.0;
+  if (b >= 0.0 || b * b < c) return std::numeric_limits<double>::infinity();
+  return -b - std::sqrt(b * b - c);
+}
+
+void check_all(const Simulation& s, test::Draws& draw) {
+  const Domain& box = s.scene().box;
+  for (int k = 0; k < 60; ++k) {
+    const Vec2 place{draw.in(0.0, box.width), draw.in(0.0, box.height)};
+    const Vec2 size{draw.in(0.0, 0.4 * box.width), draw.in(0.0, 0.4 * box.height)};
+    const Vec2 low{place.x - 0.5 * size.x, place.y - 0.5 * size.y}, high{low.x + size.x, low.y + size.y};
+    std::vector<DiskId> inside;
+    NearDisk nearest{0, 1e9};
+    const double angle = draw.in(0.0, 6.28);
+    const Vec2 unit{std::cos(angle), std::sin(angle)};
+    const double length = 0.9 * std::max(box.width, box.height);
+    RayHit hit{0, 1e9, {}};
+    for_each_image(s, 2, [&](DiskId id, Vec2 at, double radius) {
+      if (at.x >= low.x && at.x <= high.x && at.y >= low.y && at.y <= high.y) inside.push_back(id);
+      const double distance = std::hypot(at.x - place.x, at.y - place.y);
+      if (distance < nearest.distance) nearest = {id, distance};
+      const double t = plain_entry(at, radius, place, unit);
+      if (t < hit.distance) hit = {id, t, {}};
+    });
+    EXPECT_THAT(s.disks_in(low, high), testing::UnorderedElementsAreArray(inside));
+    const std::optional<NearDisk> found = s.nearest(place);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->id, nearest.id);
+    EXPECT_NEAR(found->distance, nearest.distance, 1e-9);
+    const std::optional<RayHit> met = s.cast_ray(place, {3.0 * unit.x, 3.0 * unit.y}, length);
+    const bool outside = hit.distance > length;  // walls end the line, and all disks lie inside
+    ASSERT_EQ(met.has_value(), !outside);
+    if (outside) continue;
+    EXPECT_EQ(met->id, hit.id);
+    EXPECT_NEAR(met->distance, hit.distance, 1e-9);
+  }
+}
+
+TEST(DiskQueries, AgreeWithAllDisksAndImages) {
+  const std::string around = "left = \"periodic\"\nright = \"periodic\"\n";
+  const std::string both = around + "bottom = \"periodic\"\ntop = \"periodic\"\n";
+  test::Draws draw(3);
+  for (const std::string method : {"exact", "pairwise"}) {
+    for (const std::string& sides : {std::string(), around, both}) {
+      for (const int disks : {1, 30, 600}) {
+        Simulation s = gas({method, sides, disks});
+        check_all(s, draw);
+        for (int part = 0; part < 3; ++part) {
+          s.step(3);
+          check_all(s, draw);
+          s.set_velocity(0, {1.0, 2.0});
+          if (part == 1) s.remove(0);
+          if (s.state().disks.empty()) break;
+          check_all(s, draw);
+        }
+      }
+    }
+  }
+}
+
+TEST(DiskQueries, OfNoDiskAtAll) {
+  Simulation s = gas({"exact", "", 1});
+  s.remove(0);
+  EXPECT_FALSE(s.nearest({0.1, 0.1}));
+  EXPECT_FALSE(s.cast_ray({0.1, 0.1}, {1.0, 0.0}, 10.0));
+  EXPECT_TRUE(s.disks_in({0.0, 0.0}, {100.0, 100.0}).empty());
+  s.step(3);
+}
+
+TEST(DiskQueries, RefuseWhatIsNoPlaceOrLine) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Simulation s = gas({"exact", "left = \"periodic\"\nright = \"periodic\"\n", 30});
+  EXPECT_THROW(s.nearest({nan, 0.0}), InputError);
+  EXPECT_THROW(s.nearest({-1.0, 0.0}), InputError);
+  EXPECT_THROW(s.disks_in({1.0, 1.0}, {0.0, 2.0}), InputError);
+  EXPECT_THROW(s.disks_in({nan, 1.0}, {0.0, 2.0}), InputError);
+  EXPECT_THROW(s.cast_ray({1.0, 1.0}, {0.0, 0.0}, 1.0), InputError);
+  EXPECT_THROW(s.cast_ray({1.0, 1.0}, {1.0, 0.0}, infinity), InputError);
+  EXPECT_THROW(s.cast_ray({1.0, 1.0}, {1.0, 0.0}, 1e12), InputError);
+  EXPECT_THROW(s.cast_ray({nan, 1.0}, {1.0, 0.0}, 1.0), InputError);
+  EXPECT_NO_THROW(s.cast_ray({1.0, 1.0}, {0.0, 1.0}, 1e12));  // ends at the wall
+}
+
+}  // namespace
+}  // namespace carom

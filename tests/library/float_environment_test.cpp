@@ -1,0 +1,125 @@
+// A host program's rounding mode and flush-to-zero change no bit, and are as they were afterwards.
+#include "core/base/float_environment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cfenv>
+
+#include "parallel/threads/executor.hpp"
+#include "run/run_scene.hpp"
+#include "run/simulation.hpp"
+
+namespace carom {
+namespace {
+
+#ifdef __SSE2__
+constexpr unsigned flush_to_zero = 0x8040U;  // FTZ and DAZ
+#else
+constexpr unsigned flush_to_zero = 0;
+#endif
+
+// As libraries leave it that were built with -ffast-math, and rounding upwards besides.
+class HostileHost {
+ public:
+  HostileHost() {
+    std::fesetround(FE_UPWARD);
+#ifdef __SSE2__
+    _mm_setcsr(_mm_getcsr() | flush_to_zero);
+#endif
+  }
+  ~HostileHost() {
+    std::fesetenv(&before_);
+  }
+  HostileHost(const HostileHost&) = delete;
+  HostileHost& operator=(const HostileHost&) = delete;
+
+  static bool is_as_set() {
+#ifdef __SSE2__
+    if ((_mm_getcsr() & flush_to_zero) != flush_to_zero) return false;
+#endif
+    return std::fegetround() == FE_UPWARD;
+  }
+
+ private:
+  std::fenv_t before_ = [] {
+    std::fenv_t now;
+    std::fegetenv(&now);
+    return now;
+  }();
+};
+
+Scene gas(const char* method) {
+  const std::string text = R"(
+    [box]
+    packing_fraction = 0.4
+    [physics]
+    gravity = 0.1
+    restitution = 0.9
+    [[disks]]
+    count = 12000
+    positions = "hexagonal"
+    velocities = { maxwell = 1.0 }
+    radius = 0.5
+    mass = 1.0
+    [run]
+    dt = 0.01
+    t_end = 0.05
+    method = ")" + std::string(method) +
+                           "\"\n";
+  return parse_scene(text, "gas.toml", "");
+}
+
+TEST(FloatEnvironment, NumbersAreTheUsualOnesInside) {
+  const HostileHost host;
+  volatile double one = 1.0, third = 3.0, tiny = 1e-310;
+  const double up = one / third;
+  {
+    const FloatEnvironment environment;
+    EXPECT_LT(one / third, up);
+    EXPECT_GT(tiny * 1.0, 0.0);
+  }
+  EXPECT_TRUE(HostileHost::is_as_set());
+  EXPECT_EQ(one / third, up);
+}
+
+TEST(FloatEnvironment, WorkersRoundAsUsual) {
+  const HostileHost host;
+  const Executor executor(4);
+  std::vector<double> thirds(1000);
+  executor.run(thirds.size(), [&](std::size_t b) {
+    volatile double one = 1.0, third = 3.0;
+    thirds[b] = one / third;
+  });
+  const FloatEnvironment environment;
+  volatile double one = 1.0, third = 3.0;
+  for (const double t : thirds) EXPECT_EQ(t, one / third);
+}
+
+TEST(FloatEnvironment, SimulationAndRunHaveTheSameBits) {
+  for (const char* method : {"pairwise", "exact"}) {
+    for (const int threads : {1, 3}) {
+      const EngineChoice engine = choose_engine("parallel", threads);
+      const auto simulated = [&] {
+        Simulation s(gas(method), engine);
+        s.run_until(0.02);
+        s.add({0.1, 0.1, 0.0, 0.0, 0.01, 1e-6});
+        s.run_until(0.05);
+        return s.hash();
+      };
+      const auto run_whole = [&] {
+        RunSettings settings;
+        settings.engine = engine;
+        return run(gas(method), settings).summary.state_hash;
+      };
+      const std::uint64_t hash = simulated();
+      const std::string whole = run_whole();
+      const HostileHost host;
+      EXPECT_EQ(simulated(), hash) << method << threads;
+      EXPECT_EQ(run_whole(), whole) << method << threads;
+      EXPECT_TRUE(HostileHost::is_as_set());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,221 @@
+// carom::Simulation: the bits of a run however it is stepped, saved and looked at, and what changes between steps do.
+#include "run/simulation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "core/base/check.hpp"
+#include "core/disks/state_hash.hpp"
+#include "core/measure/invariants.hpp"
+#include "run/run_scene.hpp"
+#include "tests/support/draws.hpp"
+
+namespace carom {
+namespace {
+
+const std::string scenes = CAROM_SOURCE_DIR "/scenes/";
+
+// Gas of two sizes in a box that is periodic along x, with walls above and below.
+Scene gas(const std::string& method, Count disks = 200) {
+  const std::string text = R"(
+    [box]
+    packing_fraction = 0.3
+    left = "periodic"
+    right = "periodic"
+    [[disks]]
+    count = )" + std::to_string(disks) +
+                           R"(
+    velocities = { maxwell = 1.0 }
+    positions = "random"
+    radius = { uniform = [0.3, 0.6] }
+    mass = { from_radius = 1.0 }
+    [run]
+    dt = 0.01
+    t_end = 3.0
+    method = ")" + method + "\"\n";
+  return parse_scene(text, "gas.toml", "");
+}
+
+const char* const methods[] = {"exact", "pairwise", "rollback"};
+
+EngineChoice choice(const char* engine = "parallel", int threads = 1) {
+  return choose_engine(engine, threads);
+}
+
+TEST(Simulation, HasTheBitsOfARun) {
+  for (const std::string file : {"two_disks.toml", "production_a.toml", "brownian_sink.toml"}) {
+    const Scene scene = load_scene(scenes + file, {{"run.t_end", "2.0"}});
+    RunSettings settings;
+    settings.engine = choice("parallel", 2);
+    const RunOutcome outcome = run(scene, settings);
+    Simulation simulation(scene, choice());
+    while (!simulation.done()) {
+      simulation.run_until(simulation.time() + 0.3);
+      simulation.step();
+      simulation.disks();
+    }
+    EXPECT_EQ(hash_text(simulation.hash()), outcome.summary.state_hash) << file;
+    EXPECT_EQ(simulation.summary().counters.collisions, outcome.summary.counters.collisions) << file;
+  }
+}
+
+TEST(Simulation, WritesNoFilesAndStopsWhereAsked) {
+  Simulation simulation(gas("pairwise"), choice());
+  simulation.run_until(1.0);
+  EXPECT_DOUBLE_EQ(simulation.time(), 1.0);
+  int asked = 0;
+  simulation.run_until(2.0, [&] { return ++asked <= 7; });
+  EXPECT_DOUBLE_EQ(simulation.time(), 1.07);
+  simulation.step(1'000'000);
+  EXPECT_TRUE(simulation.done());
+  EXPECT_EQ(simulation.time(), 3.0);
+}
+
+TEST(Simulation, GivesDisksInOrderOfId) {
+  Simulation simulation(gas("exact"), choice());
+  simulation.run_until(1.0);
+  const Disks d = simulation.disks();
+  EXPECT_EQ(state_hash(d), simulation.hash());
+  for (std::size_t k = 0; k < d.size(); ++k) EXPECT_EQ(d.id[k], k);
+  Disks earlier;
+  const double at = simulation.disks_at(1.0, earlier);
+  EXPECT_DOUBLE_EQ(at, 1.0);
+  EXPECT_THROW(simulation.disks_at(simulation.time() + 1.0, earlier), InputError);
+}
+
+TEST(Simulation, SavedAndLoadedGoesOnBitForBit) {
+  for (const char* method : methods) {
+    Simulation simulation(gas(method), choice());
+    simulation.step(40);
+    const std::string saved = simulation.save();
+    simulation.step(40);
+    const std::uint64_t then = simulation.hash();
+    simulation.load(saved);
+    simulation.step(40);
+    EXPECT_EQ(simulation.hash(), then) << method;
+    Simulation other = Simulation::from_bytes(saved, choice("reference"));
+    other.step(40);
+    EXPECT_EQ(other.hash(), then) << method;
+    std::string damaged = saved;
+    damaged[damaged.size() / 2] ^= 1;
+    EXPECT_THROW(simulation.load(damaged), InputError);
+    EXPECT_THROW(simulation.load(saved.substr(0, saved.size() - 8)), InputError);
+    EXPECT_THROW(simulation.load(""), InputError);
+    EXPECT_EQ(simulation.hash(), then) << method;
+  }
+}
+
+// The same changes at the same steps, on both engines.
+TEST(Simulation, ChangesBetweenStepsHaveTheReferencesBits) {
+  for (const char* method : methods) {
+    const auto hash = [&](const EngineChoice& engine) {
+      Simulation s(gas(method), engine);
+      s.step(10);
+      EXPECT_TRUE(s.remove(17));
+      EXPECT_FALSE(s.remove(17));
+      EXPECT_TRUE(s.set_velocity(3, {5.0, -1.0}));
+      s.step(10);
+      const Vec2 free = [&] {
+        for (double x = 0.5;; x += 0.25) {
+          const Disks d = s.disks();
+          bool room = true;
+          for (std::size_t i = 0; i < d.size(); ++i) {
+            room = room && std::hypot(nearest_image(d.x[i] - x, s.scene().box.width), d.y[i] - 4.0) > d.radius[i] + 0.3;
+          }
+          if (room) return Vec2{x, 4.0};
+        }
+      }();
+      const std::optional<DiskId> id = s.add({free.x, free.y, 1.0, 0.0, 0.25, 2.0});
+      EXPECT_EQ(id, DiskId{200});
+      EXPECT_FALSE(s.add({free.x + 0.1, free.y, 1.0, 0.0, 0.25, 2.0}));
+      s.step(30);
+      EXPECT_EQ(s.state().disks.size(), 200U);
+      EXPECT_LE(method == std::string("exact") ? max_overlap(s.state().disks, s.scene().box) : 0.0, 1e-9);
+      return s.hash();
+    };
+    const std::uint64_t reference = hash(choice("reference"));
+    EXPECT_EQ(hash(choice("parallel", 1)), reference) << method;
+    EXPECT_EQ(hash(choice("parallel", 3)), reference) << method;
+  }
+}
+
+// Many changes of all kinds, in a box where the engines keep cells and lists from step to step.
+std::uint64_t hash_after_changes(const Scene& scene, const EngineChoice& engine, int rounds) {
+  Simulation s(scene, engine);
+  test::Draws draw(5);
+  for (int round = 0; round < rounds; ++round) {
+    for (int k = 0; k < 6; ++k) {
+      const auto id = static_cast<DiskId>(draw.bits() % s.state().next_id);
+      const Vec2 place{draw.in(0.7, scene.box.width - 0.7), draw.in(0.7, scene.box.height - 0.7)};
+      const Vec2 velocity{draw.in(-2.0, 2.0), draw.in(-2.0, 2.0)};
+      switch (draw.bits() % 3) {
+        case 0:
+          s.remove(id);
+          break;
+        case 1:
+          s.set_velocity(id, velocity);
+          break;
+        default:
+          s.add({place.x, place.y, velocity.x, velocity.y, 0.3, 1.0});
+      }
+    }
+    s.step(static_cast<Count>(draw.bits() % 3));
+  }
+  return s.hash();
+}
+
+TEST(Simulation, ManyChangesHaveTheReferencesBits) {
+  for (const char* method : methods) {
+    for (const char* radius : {"0.3", "{ uniform = [0.1, 0.6] }"}) {
+      for (const char* sides : {"", "left = \"periodic\"\nright = \"periodic\"\n"}) {
+        const Scene scene = parse_scene(std::string("[box]\npacking_fraction = 0.2\n") + sides +
+                                            "[[disks]]\ncount = 3000\npositions = \"random\"\nmass = 1.0\n"
+                                            "velocities = { maxwell = 1.0 }\nradius = " +
+                                            radius + "\n[run]\ndt = 0.01\nt_end = 1e3\nmethod = \"" + method + "\"\n",
+                                        "gas.toml", "");
+        const int rounds = method == std::string("exact") ? 8 : 15;
+        const std::uint64_t reference = hash_after_changes(scene, choice("reference"), rounds);
+        EXPECT_EQ(hash_after_changes(scene, choice("parallel", 1), rounds), reference) << method << radius << sides;
+        EXPECT_EQ(hash_after_changes(scene, choice("parallel", 2), rounds), reference) << method << radius << sides;
+      }
+    }
+  }
+}
+
+TEST(Simulation, RefusesDisksThatCannotBe) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Simulation s(gas("exact"), choice());
+  const std::uint64_t before = s.hash();
+  EXPECT_THROW(s.add({nan, 5.0, 0.0, 0.0, 0.1, 1.0}), InputError);
+  EXPECT_THROW(s.add({5.0, 5.0, nan, 0.0, 0.1, 1.0}), InputError);
+  EXPECT_THROW(s.add({5.0, 5.0, 0.0, 0.0, 0.0, 1.0}), InputError);
+  EXPECT_THROW(s.add({5.0, 5.0, 0.0, 0.0, 0.1, -1.0}), InputError);
+  EXPECT_THROW(s.add({5.0, 0.05, 0.0, 0.0, 0.1, 1.0}), InputError);  // through the floor
+  EXPECT_THROW(s.add({-0.1, 5.0, 0.0, 0.0, 0.1, 1.0}), InputError);
+  EXPECT_THROW(s.add({5.0, 5.0, 0.0, 0.0, 1000.0, 1.0}), InputError);
+  EXPECT_THROW(s.set_velocity(3, {nan, 0.0}), InputError);
+  EXPECT_THROW(s.run_until(nan), InputError);
+  EXPECT_EQ(s.hash(), before);
+}
+
+TEST(Simulation, TwoInTwoThreadsDoNotMeet) {
+  const auto hash = [](int threads) {
+    Simulation s(gas("exact", 500), choice("parallel", threads));
+    s.run_until(1.0);
+    return s.hash();
+  };
+  const std::uint64_t alone = hash(1);
+  std::uint64_t first = 0, second = 0;
+  std::jthread one([&] { first = hash(2); });
+  second = hash(1);
+  one.join();
+  EXPECT_EQ(first, alone);
+  EXPECT_EQ(second, alone);
+}
+
+}  // namespace
+}  // namespace carom
