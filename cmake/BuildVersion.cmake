@@ -27,3 +27,4 @@ add_custom_command(OUTPUT ${version_file}
   DEPENDS ${version_depends} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "" VERBATIM)
 add_library(carom_build_version STATIC ${version_file})
 target_include_directories(carom_build_version PRIVATE ${PROJECT_SOURCE_DIR})
+set_target_properties(carom_build_version PROPERTIES POSITION_INDEPENDENT_CODE ON)

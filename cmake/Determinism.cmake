@@ -4,3 +4,7 @@
 #   -fno-math-errno     lets sqrt be one instruction; errno is not read anywhere, results are the same
 add_library(carom_determinism INTERFACE)
 target_compile_options(carom_determinism INTERFACE -ffp-contract=off -fno-fast-math -fno-math-errno)
+# As part of another project that names no build type, hot loops are compiled for speed all the same.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  target_compile_options(carom_determinism INTERFACE $<$<CONFIG:>:-O3>)
+endif()

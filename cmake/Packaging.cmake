@@ -1,0 +1,37 @@
+# What belongs to the installed program beside the library, and Debian packages of both by cpack.
+include(GNUInstallDirs)
+if(CAROM_PROGRAM)
+  install(TARGETS carom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  # From what the program says of itself.
+  add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/carom.1
+    COMMAND bash ${PROJECT_SOURCE_DIR}/cmake/man_page.sh $<TARGET_FILE:carom> ${PROJECT_VERSION} > carom.1
+    DEPENDS carom ${PROJECT_SOURCE_DIR}/cmake/man_page.sh WORKING_DIRECTORY ${PROJECT_BINARY_DIR} COMMENT "" VERBATIM)
+  add_custom_target(carom_man_page ALL DEPENDS ${PROJECT_BINARY_DIR}/carom.1)
+  install(FILES ${PROJECT_BINARY_DIR}/carom.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  install(FILES ${PROJECT_SOURCE_DIR}/cmake/carom.bash RENAME carom
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+endif()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "Carom <carom@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "hard disks in a rectangle, simulated exactly and fast")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME carom)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gnuplot-nox, ffmpeg")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME libcarom${PROJECT_VERSION_MAJOR})
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libcarom-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libcarom${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_COMPONENTS_ALL "")
+if(CAROM_PROGRAM)
+  list(APPEND CPACK_COMPONENTS_ALL program)
+endif()
+if(CAROM_LIBRARY)
+  list(APPEND CPACK_COMPONENTS_ALL runtime dev)
+endif()
+include(CPack)

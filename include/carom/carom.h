@@ -1,0 +1,170 @@
+/* Carom from C: hard disks in a rectangle, stepped, looked at and changed by a program.
+ *
+ * A world is a handle; all calls on one are of one thread at a time, and worlds share nothing. No call throws, prints or
+ * touches a signal. Every call that can fail returns a carom_status, and carom_error() of the world has a line that says
+ * what was wrong; a failed call leaves the world as it was, but for steps, which leave it at the end of the last one
+ * made. Lengths, times and masses are in the scene's own units. The bits are those of `carom run` of the same scene,
+ * whatever the program's compiler flags, rounding mode and threads. docs/library.md shows the use. */
+#ifndef CAROM_H
+#define CAROM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define CAROM_API __attribute__((visibility("default")))
+#else
+#define CAROM_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct carom_world carom_world;
+
+typedef enum carom_status {
+  CAROM_OK = 0,
+  CAROM_FAILED = 1,    /* the machine: memory, a file that cannot be written */
+  CAROM_INPUT = 2,     /* a bad scene, a number out of range, an array too short, a null pointer */
+  CAROM_PHYSICS = 3,   /* the method cannot go on (a step far too long, inelastic collapse) */
+  CAROM_NO_ROOM = 4,   /* a disk that would overlap another */
+  CAROM_NOT_FOUND = 5  /* no disk of this id, or none that a query asks for */
+} carom_status;
+
+/* How a world is computed; no bit depends on it. Set by carom_options_init before anything is changed. */
+typedef struct carom_options {
+  int threads;   /* 1; 0: all cores */
+  int reference; /* 0; 1: the plain serial engine, for comparisons */
+} carom_options;
+
+typedef enum carom_method { CAROM_EXACT = 0, CAROM_PAIRWISE = 1, CAROM_ROLLBACK = 2 } carom_method;
+typedef enum carom_side { CAROM_WALL = 0, CAROM_PERIODIC = 1, CAROM_SINK = 2 } carom_side;
+
+/* A scene without disks, to which carom_add adds. Set by carom_scene_init: a box of 1 x 1 with elastic walls. What a
+ * scene file can say besides (sources, growth, collapse models) needs one: carom_from_text. */
+typedef struct carom_scene {
+  double width, height;
+  int left, right, bottom, top; /* carom_side; periodic ones in opposite pairs */
+  double wall_restitution;      /* 1; in [0, 1] */
+  double gravity;               /* 0; along -y, length / time^2 */
+  double restitution;           /* 1; of two disks, in [0, 1] */
+  double diffusion;             /* 0; length^2 / time */
+  int method;                   /* CAROM_EXACT */
+  double dt;                    /* 0; the step of pairwise and rollback, and of Brownian motion */
+  double t_end;                 /* 1e9 */
+  uint64_t seed;                /* 1 */
+} carom_scene;
+
+typedef struct carom_disk {
+  double x, y;   /* centre; length */
+  double vx, vy; /* length / time */
+  double radius, mass;
+  uint32_t id;
+} carom_disk;
+
+typedef struct carom_hit {
+  double distance; /* along the ray to the disk's edge; 0 if the ray begins inside */
+  double x, y;     /* there, inside the box */
+  uint32_t id;
+} carom_hit;
+
+/* --- The library ---------------------------------------------------------------------------------------------------- */
+
+CAROM_API const char* carom_version(void);                        /* "0.1.0" */
+CAROM_API const char* carom_status_text(carom_status status);     /* "no room"; never null */
+CAROM_API void carom_options_init(carom_options* options);        /* null: does nothing */
+CAROM_API void carom_scene_init(carom_scene* scene);              /* likewise */
+
+/* --- Making a world -------------------------------------------------------------------------------------------------
+ * options may be null: the usual ones. *world is set whenever there is memory for it: after a failure it is good for
+ * carom_error and carom_destroy only. A scene is TOML (docs/scene.md); what it says of [output] and [analysis] is left
+ * to carom run. */
+
+CAROM_API carom_status carom_from_file(const char* path, const carom_options* options, carom_world** world);
+CAROM_API carom_status carom_from_text(const char* text, size_t length, const carom_options* options,
+                                       carom_world** world);
+CAROM_API carom_status carom_from_scene(const carom_scene* scene, const carom_options* options, carom_world** world);
+/* A checkpoint of carom run or carom_save, or the folder of a run; and what carom_save_memory gave. */
+CAROM_API carom_status carom_from_checkpoint(const char* path, const carom_options* options, carom_world** world);
+CAROM_API carom_status carom_from_memory(const void* bytes, size_t size, const carom_options* options,
+                                         carom_world** world);
+CAROM_API void carom_destroy(carom_world* world); /* null: does nothing */
+
+/* What was wrong with the last call on this world that failed, one line; empty if none did. Valid until the next call
+ * on it. Never null. */
+CAROM_API const char* carom_error(const carom_world* world);
+/* The next warning of the physics, one line, likewise; null if there is none. */
+CAROM_API const char* carom_next_warning(carom_world* world);
+
+/* --- Stepping ------------------------------------------------------------------------------------------------------- */
+
+/* At most `steps` steps; fewer where the scene's end is reached. */
+CAROM_API carom_status carom_step(carom_world* world, uint64_t steps);
+/* Steps until the time is t or later. A step is dt, or a window of the exact method, and none is cut short. */
+CAROM_API carom_status carom_run_until(carom_world* world, double t);
+/* Likewise, and asks go_on(context) between steps: 0 ends it. */
+CAROM_API carom_status carom_run_while(carom_world* world, double t, int (*go_on)(void* context), void* context);
+
+/* --- Looking at a world; of a null world all is 0 ------------------------------------------------------------------- */
+
+CAROM_API double carom_time(const carom_world* world);      /* end of the last step */
+CAROM_API double carom_end_time(const carom_world* world);  /* t_end of the scene */
+CAROM_API int carom_done(const carom_world* world);         /* 1 at the scene's end */
+CAROM_API size_t carom_count(const carom_world* world);     /* disks now */
+CAROM_API uint64_t carom_steps(const carom_world* world);
+CAROM_API uint64_t carom_collisions(const carom_world* world); /* of two disks */
+CAROM_API uint64_t carom_wall_collisions(const carom_world* world);
+CAROM_API uint64_t carom_removed(const carom_world* world); /* by sinks */
+CAROM_API uint64_t carom_emitted(const carom_world* world); /* by sources */
+CAROM_API uint64_t carom_hash(const carom_world* world);    /* state_hash of carom run */
+CAROM_API double carom_width(const carom_world* world);
+CAROM_API double carom_height(const carom_world* world);
+CAROM_API double carom_kinetic_energy(const carom_world* world);
+CAROM_API double carom_potential_energy(const carom_world* world);
+
+/* All disks in order of id, into arrays with room for `room` disks; CAROM_INPUT where carom_count() is more. */
+CAROM_API carom_status carom_disks(const carom_world* world, carom_disk* disks, size_t room);
+CAROM_API carom_status carom_ids(const carom_world* world, uint32_t* ids, size_t room);
+CAROM_API carom_status carom_positions(const carom_world* world, double* xy, size_t room);  /* x0, y0, x1, y1, ... */
+CAROM_API carom_status carom_velocities(const carom_world* world, double* xy, size_t room); /* likewise */
+CAROM_API carom_status carom_radii(const carom_world* world, double* radii, size_t room);
+/* Those at a time within the last step (with pairwise and rollback, at its end): how many, and their time. */
+CAROM_API carom_status carom_disks_at(const carom_world* world, double t, carom_disk* disks, size_t room, size_t* count,
+                                      double* time);
+CAROM_API carom_status carom_get(const carom_world* world, uint32_t id, carom_disk* disk);
+
+/* --- Changing it, between two steps --------------------------------------------------------------------------------- */
+
+/* A new disk; its id is given and not read. id may be null. */
+CAROM_API carom_status carom_add(carom_world* world, const carom_disk* disk, uint32_t* id);
+CAROM_API carom_status carom_remove(carom_world* world, uint32_t id);
+CAROM_API carom_status carom_set_velocity(carom_world* world, uint32_t id, double vx, double vy);
+
+/* --- Asking --------------------------------------------------------------------------------------------------------- */
+
+/* The disks whose centres lie in a rectangle, ids ascending; it may reach across periodic sides. *count is how many
+ * there are; CAROM_INPUT, and no ids, where that is more than room. */
+CAROM_API carom_status carom_query_box(const carom_world* world, double x0, double y0, double x1, double y1,
+                                       uint32_t* ids, size_t room, size_t* count);
+/* The disk whose centre is nearest; distance, to the nearest image, may be null. */
+CAROM_API carom_status carom_nearest(const carom_world* world, double x, double y, uint32_t* id, double* distance);
+/* The first disk on a line of this length from (x, y) along (dx, dy); it goes through periodic sides. */
+CAROM_API carom_status carom_cast_ray(const carom_world* world, double x, double y, double dx, double dy, double length,
+                                      carom_hit* hit);
+
+/* --- Saving --------------------------------------------------------------------------------------------------------- */
+
+/* Everything from which to go on, bit for bit, in a file that `carom resume` takes too. */
+CAROM_API carom_status carom_save(const carom_world* world, const char* path);
+/* The same in memory: *size bytes, CAROM_INPUT where room is less. bytes may be null where only the size is asked for;
+ * it changes with every step. */
+CAROM_API carom_status carom_save_memory(const carom_world* world, void* bytes, size_t room, size_t* size);
+/* Goes back, or on, to what was saved. */
+CAROM_API carom_status carom_load_memory(carom_world* world, const void* bytes, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,93 @@
+#!/bin/bash
+# Installs a build to an empty prefix and builds examples/ against it as users would; every way gives the same hashes.
+#   installed.sh BUILD SOURCE [sources]     sources: once more with Carom's sources by add_subdirectory, which takes long
+set -euo pipefail
+build=$1 source=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+prefix=$work/prefix
+examples="hello hello_cpp billiards rollback"
+
+say() { printf '%s\n' "$*"; }
+
+# Everything below the prefix is found there after it was moved.
+cmake --install "$build" --prefix "$work/first" >/dev/null
+mv "$work/first" "$prefix"
+libraries=$(dirname "$(find "$prefix" -name libcarom.so)")
+for file in bin/carom include/carom/carom.h include/carom/carom.hpp share/man/man1/carom.1 share/bash-completion/completions/carom; do
+    [[ -s $prefix/$file ]] || { say "$file is not installed" && exit 1; }
+done
+readelf -d "$libraries/libcarom.so" | grep -q 'SONAME.*\[libcarom\.so\.[0-9]*\]' || { say "libcarom.so has no soname" && exit 1; }
+
+# The hashes that a folder of programs prints.
+hashes() { # FOLDER
+    local example
+    for example in $examples; do
+        say "$example $("$1/$example" | grep '^hash' | tr '\n' ' ')"
+    done
+}
+
+# Silent but where it fails.
+configure_and_build() { # SOURCE FOLDER OPTION...
+    if ! { cmake -S "$1" -B "$2" -G Ninja "${@:3}" && cmake --build "$2"; } >"$2.log" 2>&1; then
+        cat "$2.log" >&2
+        exit 1
+    fi
+}
+
+with_cmake() { # FOLDER OPTION...
+    local folder=$work/$1
+    configure_and_build "$source/examples" "$folder" -DCMAKE_BUILD_TYPE=Release "${@:2}"
+    hashes "$folder"
+}
+
+with_pkg_config() { # FOLDER FLAG...
+    local folder=$work/$1 example file flags
+    mkdir "$folder"
+    # shellcheck disable=SC2207  # flags are words
+    flags=($(PKG_CONFIG_PATH=$libraries/pkgconfig pkg-config --cflags --libs carom))
+    for example in $examples; do
+        file=$(echo "$source/examples/$example".c*)
+        if [[ $file == *.c ]]; then
+            ${CC:-cc} -O1 "${@:2}" "$file" -o "$folder/$example" "${flags[@]}" -Wl,-rpath,"$libraries"
+        else
+            ${CXX:-c++} -std=c++20 -O1 "${@:2}" "$file" -o "$folder/$example" "${flags[@]}" -Wl,-rpath,"$libraries"
+        fi
+    done
+    hashes "$folder"
+}
+
+same() { # WHAT HASHES
+    [[ $2 == "$wanted" ]] || { printf '%s gives\n%s\nand pkg-config\n%s\n' "$1" "$2" "$wanted" && exit 1; }
+    say "$1: the same hashes"
+}
+
+wanted=$(with_pkg_config plain)
+say "$wanted"
+[[ $(grep -o '[0-9a-f]\{16\}' <<<"$wanted" | wc -l) == 5 ]] || { say "an example prints no hash" && exit 1; }
+same "-ffast-math" "$(with_pkg_config fast -ffast-math)"
+same "find_package" "$(with_cmake installed -DCMAKE_PREFIX_PATH="$prefix")"
+[[ ${3-} != sources ]] || same "add_subdirectory" "$(with_cmake sources -DCAROM_SOURCE="$source")"
+
+# The static library, with all that it needs.
+cat >"$work/CMakeLists.txt" <<EOP
+cmake_minimum_required(VERSION 3.25)
+project(static LANGUAGES C CXX)
+find_package(Carom REQUIRED COMPONENTS static)
+add_executable(hello $source/examples/hello.c)
+target_link_libraries(hello PRIVATE Carom::static)
+set_target_properties(hello PROPERTIES LINKER_LANGUAGE CXX)
+EOP
+configure_and_build "$work" "$work/static" -DCMAKE_PREFIX_PATH="$prefix"
+[[ $("$work/static/hello" | grep '^hash') == "$(sed -n 's/^hello \(.*\) $/\1/p' <<<"$wanted")" ]] || { say "the static library has another hash" && exit 1; }
+say "static library: the same hash"
+
+# Completion offers the commands and the options that --help has.
+complete_with() { # WORDS...
+    bash -c "source '$prefix/share/bash-completion/completions/carom'"'
+        COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _carom; printf "%s " "${COMPREPLY[@]}"' bash "$@"
+}
+[[ $(complete_with "$prefix/bin/carom" re) == "resume render " ]] || { say "completion of commands" && exit 1; }
+[[ $(complete_with "$prefix/bin/carom" run --th) == "--threads " ]] || { say "completion of options" && exit 1; }
+grep -q 'max\\-walltime' "$prefix/share/man/man1/carom.1" || { say "the manual page lacks options" && exit 1; }
+say "manual page and completion: there"
