@@ -140,6 +140,16 @@ TEST_F(Launcher, CountsAreOfTheProgramBuiltNow) {
   EXPECT_THAT(test::text_of(at("root/ninja_asked")), HasSubstr(" carom carom_counts\n"));
 }
 
+TEST_F(Launcher, PythonHasTheModuleOnItsPathAndItsPackagesOnlyThen) {
+  write("root/cmake/packages.txt", "[build]\ncompiler\n[python]\nheaders\n");
+  const std::string line = "root/carom python -c 'import os; print(os.environ[\"PYTHONPATH\"])'";
+  EXPECT_THAT(launch(line).err, HasSubstr("could not install: headers"));
+  tool("dpkg-query", "echo compiler installed; echo headers installed");
+  const Outcome o = launch(line);
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.out, EndsWith("/root/build/release/python\n"));
+}
+
 TEST_F(Launcher, ItsOwnCommandsHaveHelp) {
   for (const char* const command : {"bench", "packages"}) {
     const Outcome o = launch(std::string("root/carom ") + command + " --help");
@@ -148,7 +158,8 @@ TEST_F(Launcher, ItsOwnCommandsHaveHelp) {
     EXPECT_FALSE(fs::exists(at("root/built"))) << "nothing is built for that";
   }
   const std::string help = carom("--help").out;
-  for (const char* const command : {"./carom", "test", "bench", "packages"}) EXPECT_THAT(help, HasSubstr(command));
+  for (const char* const command : {"./carom", "test", "bench", "python", "packages"})
+    EXPECT_THAT(help, HasSubstr(command));
   const Outcome o = carom("test");
   EXPECT_EQ(o.status, 2);
   EXPECT_THAT(o.err, HasSubstr("\"test\" is a command of the launcher ./carom"));

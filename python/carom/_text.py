@@ -1,0 +1,54 @@
+"""Dictionaries as TOML, which is how a scene is read and checked."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any, Mapping
+
+_bare = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def _key(name) -> str:
+    return name if _bare.fullmatch(name) else json.dumps(name)
+
+
+def value(v: Any) -> str:
+    """A value in TOML: numbers in full precision, numpy's as Python's."""
+    if hasattr(v, "tolist"):
+        v = v.tolist()
+    if isinstance(v, bool):
+        return "true" if v else "false"
+    if isinstance(v, (int, float)):
+        return repr(v)
+    if isinstance(v, str):
+        return json.dumps(v, ensure_ascii=False)
+    if isinstance(v, Mapping):
+        return "{ " + ", ".join(f"{_key(k)} = {value(item)}" for k, item in v.items()) + " }"
+    if isinstance(v, (list, tuple)):
+        return "[" + ", ".join(value(item) for item in v) + "]"
+    if hasattr(v, "__fspath__"):
+        return json.dumps(v.__fspath__())
+    raise TypeError(f"a scene holds numbers, strings, lists and dictionaries; not {type(v).__name__}")
+
+
+def _is_table_list(v) -> bool:
+    return isinstance(v, (list, tuple)) and len(v) > 0 and all(isinstance(item, Mapping) for item in v)
+
+
+def toml(tables: Mapping[str, Any]) -> str:
+    """A scene's tables, plain keys first, as they stand in a file."""
+    plain, rest = [], []
+    for name, item in tables.items():
+        if isinstance(item, Mapping):
+            rest += [f"[{_key(name)}]"] + [f"{_key(k)} = {value(v)}" for k, v in item.items()]
+        elif _is_table_list(item):
+            for entry in item:
+                rest += [f"[[{_key(name)}]]"] + [f"{_key(k)} = {value(v)}" for k, v in entry.items()]
+        else:
+            plain.append(f"{_key(name)} = {value(item)}")
+    return "\n".join(plain + rest) + "\n"
+
+
+def overrides(changes: Mapping[str, Any]) -> list:
+    return [(key, value(v)) for key, v in changes.items()]

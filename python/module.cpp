@@ -1,0 +1,285 @@
+// The compiled part of the Python module: carom::Simulation, carom::run and readers of trajectories, with columns as
+// numpy arrays. What a user sees is in carom/__init__.py.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/build_version.hpp"
+#include "core/base/check.hpp"
+#include "core/base/wall_clock.hpp"
+#include "core/disks/state_hash.hpp"
+#include "core/load/scene_check.hpp"
+#include "core/scene/scene_text.hpp"
+#include "io/files/output_folder.hpp"
+#include "io/trajectory/scene_frame_reader.hpp"
+#include "io/trajectory/trajectory_reader.hpp"
+#include "run/run_scene.hpp"
+#include "run/simulation.hpp"
+
+namespace py = pybind11;
+
+namespace carom {
+
+namespace {
+
+using Changes = std::vector<std::pair<std::string, std::string>>;
+
+// A column of its own.
+template <class T>
+py::array_t<T> copied(const std::vector<T>& column) {
+  return py::array_t<T>(static_cast<py::ssize_t>(column.size()), column.data());
+}
+
+// One number for all disks, as a column.
+py::array_t<double> repeated(std::size_t n, double value) {
+  py::array_t<double> column(static_cast<py::ssize_t>(n));
+  std::fill_n(column.mutable_data(), n, value);
+  return column;
+}
+
+py::array_t<double> size_column(const std::vector<double>& column, std::size_t n, double common) {
+  return column.empty() ? repeated(n, common) : copied(column);
+}
+
+py::dict columns_of(const Disks& d) {
+  py::dict columns;
+  columns["x"] = copied(d.x);
+  columns["y"] = copied(d.y);
+  columns["vx"] = copied(d.vx);
+  columns["vy"] = copied(d.vy);
+  columns["radius"] = size_column(d.radius, d.size(), d.common_radius);
+  columns["mass"] = size_column(d.mass, d.size(), d.common_mass);
+  columns["id"] = copied(d.id);
+  return columns;
+}
+
+EngineChoice engine_of(const std::string& engine, std::optional<int> threads) {
+  if (threads && *threads < 1) throw InputError("threads: expected 1 or more");
+  return choose_engine(engine, threads);
+}
+
+std::vector<Override> overrides_of(const Changes& changes) {
+  std::vector<Override> overrides;
+  for (const auto& [key, value] : changes) overrides.push_back({key, value});
+  return overrides;
+}
+
+// Has the user pressed Ctrl-C? On the thread that holds the interpreter's lock.
+bool interrupted() {
+  if (PyErr_CheckSignals() == 0) return false;
+  return true;
+}
+
+// A simulation, and how many arrays show its columns as they lie in memory: while there is one, nothing may change.
+class PySimulation {
+ public:
+  explicit PySimulation(Simulation simulation) : simulation_(std::move(simulation)) {}
+
+  const Simulation& look() const { return simulation_; }
+
+  Simulation& change() {
+    if (*views_ > 0) {
+      throw std::runtime_error("a view of the disks is open, or an array of it still in use; close it before changes");
+    }
+    return simulation_;
+  }
+
+  // Steps for a while, or so many, or until t; returns the steps made. Python looks at signals in between.
+  Count step_for(Count n, double t, double seconds) {
+    Simulation& s = change();
+    const py::gil_scoped_release free;
+    const WallClock::time_point start = WallClock::now();
+    Count made = 0;
+    while (made < n && s.time() < t && !s.done()) {
+      s.step();
+      ++made;
+      if (seconds_since(start) > seconds) break;
+    }
+    return made;
+  }
+
+  py::dict view() {
+    const Disks& d = simulation_.state().disks;
+    // Every array holds one, and counts as long as it lives.
+    const auto guard = [this] {
+      ++*views_;
+      return py::capsule(new std::shared_ptr<int>(views_), [](void* held) {
+        const std::unique_ptr<std::shared_ptr<int>> count(static_cast<std::shared_ptr<int>*>(held));
+        --**count;
+      });
+    };
+    const auto shown = [&](const auto& column) {
+      using T = typename std::decay_t<decltype(column)>::value_type;
+      py::array_t<T> array(static_cast<py::ssize_t>(column.size()), column.data(), guard());
+      array.attr("flags").attr("writeable") = false;
+      return array;
+    };
+    py::dict columns;
+    columns["x"] = shown(d.x);
+    columns["y"] = shown(d.y);
+    columns["vx"] = shown(d.vx);
+    columns["vy"] = shown(d.vy);
+    columns["id"] = shown(d.id);
+    if (!d.radius.empty()) columns["radius"] = shown(d.radius);
+    if (!d.mass.empty()) columns["mass"] = shown(d.mass);
+    return columns;
+  }
+
+ private:
+  Simulation simulation_;
+  std::shared_ptr<int> views_ = std::make_shared<int>(0);
+};
+
+// What `carom run` does, with what it says handed to Python. Returns the summary as JSON, the folder, why it stopped,
+// and what pictures were lost.
+py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder, const std::string& engine,
+                    std::optional<int> threads, bool force, bool strict, const py::function& say) {
+  RunSettings settings;
+  settings.engine = engine_of(engine, threads);
+  settings.force = force;
+  settings.strict = strict;
+  if (folder) {
+    check_output_folder(*folder, scene.file, force);
+    settings.folder = *folder;
+  }
+  bool pressed = false;
+  settings.listener.warning = [&](std::string_view text) {
+    const py::gil_scoped_acquire lock;
+    say(std::string(text));
+  };
+  settings.listener.stop = [&]() -> std::string {
+    const py::gil_scoped_acquire lock;
+    if (!pressed && interrupted()) {
+      PyErr_Clear();
+      pressed = true;
+    }
+    return pressed ? "Ctrl-C" : "";
+  };
+  RunOutcome outcome;
+  {
+    const py::gil_scoped_release free;
+    outcome = run(scene, std::move(settings));
+  }
+  return py::make_tuple(json_text(outcome.summary), outcome.folder, outcome.stopped_by, outcome.lost_pictures);
+}
+
+// A reader's next frame, or None.
+py::object next_frame(TrajectoryReader& reader) {
+  TrajectoryFrame frame;
+  bool there = false;
+  {
+    const py::gil_scoped_release free;
+    there = reader.read(frame);
+  }
+  if (!there) return py::none();
+  py::dict columns = columns_of(frame.disks);
+  if (!frame.group.empty()) columns["group"] = copied(frame.group);
+  return py::make_tuple(frame.time, frame.box.width, frame.box.height, frame.box.periodic_x(), frame.box.periodic_y(),
+                        columns);
+}
+
+void bind_scene(py::module_& m) {
+  py::class_<Scene>(m, "Scene")
+      .def_property_readonly("title", [](const Scene& s) { return s.title; })
+      .def_property_readonly("file", [](const Scene& s) { return s.file; })
+      .def_property_readonly("width", [](const Scene& s) { return s.box.width; })
+      .def_property_readonly("height", [](const Scene& s) { return s.box.height; })
+      .def_property_readonly("t_end", [](const Scene& s) { return s.run.t_end; })
+      .def_property_readonly("seed", [](const Scene& s) { return s.seed; })
+      .def("toml", [](const Scene& s) { return resolved_toml(s); })
+      .def("warnings", [](const Scene& s) { return scene_warnings(s); });
+  m.def("load_scene", [](const std::string& path, const Changes& changes) {
+    return load_scene(path, overrides_of(changes), read_scene_frame);
+  });
+  m.def("parse_scene",
+        [](const std::string& text, const std::string& name, const std::string& folder, const Changes& changes) {
+          return parse_scene(text, name, folder, overrides_of(changes), read_scene_frame);
+        });
+}
+
+void bind_simulation(py::module_& m) {
+  py::class_<PySimulation>(m, "Simulation")
+      .def(py::init([](const Scene& scene, const std::string& engine, std::optional<int> threads) {
+        const py::gil_scoped_release free;
+        return std::make_unique<PySimulation>(Simulation(scene, engine_of(engine, threads)));
+      }))
+      .def_static("resume",
+                  [](const std::string& name, const std::string& engine, std::optional<int> threads) {
+                    return std::make_unique<PySimulation>(Simulation::resume(name, engine_of(engine, threads)));
+                  })
+      .def("step_for", &PySimulation::step_for)
+      .def("view", &PySimulation::view)
+      .def_property_readonly("time", [](const PySimulation& s) { return s.look().time(); })
+      .def_property_readonly("done", [](const PySimulation& s) { return s.look().done(); })
+      .def_property_readonly("scene", [](const PySimulation& s) { return s.look().scene(); })
+      .def_property_readonly("threads", [](const PySimulation& s) { return s.look().engine_choice().threads; })
+      .def_property_readonly("count", [](const PySimulation& s) { return s.look().state().disks.size(); })
+      .def_property_readonly("steps", [](const PySimulation& s) { return s.look().state().counters.steps; })
+      .def_property_readonly("collisions", [](const PySimulation& s) { return s.look().state().counters.collisions; })
+      .def_property_readonly("wall_collisions",
+                             [](const PySimulation& s) { return s.look().state().counters.wall_collisions; })
+      .def("hash", [](const PySimulation& s) { return hash_text(s.look().hash()); })
+      .def("summary", [](PySimulation& s) { return json_text(s.change().summary()); })
+      .def("warnings", [](PySimulation& s) { return s.change().take_warnings(); })
+      .def("disks", [](const PySimulation& s) { return columns_of(s.look().disks()); })
+      .def("disks_at",
+           [](const PySimulation& s, double t) {
+             Disks disks;
+             const double at = s.look().disks_at(t, disks);
+             return py::make_tuple(at, columns_of(disks));
+           })
+      .def("save", [](const PySimulation& s, const std::string& file) { s.look().save(file); })
+      .def("save_bytes", [](const PySimulation& s) { return py::bytes(s.look().save()); })
+      .def("load_bytes", [](PySimulation& s, const py::bytes& bytes) { s.change().load(std::string_view(bytes)); })
+      .def("add",
+           [](PySimulation& s, double x, double y, double vx, double vy, double radius, double mass) {
+             return s.change().add({x, y, vx, vy, radius, mass, 0});
+           })
+      .def("remove", [](PySimulation& s, DiskId id) { return s.change().remove(id); })
+      .def("set_velocity",
+           [](PySimulation& s, DiskId id, double vx, double vy) {
+             return s.change().set_velocity(id, {vx, vy});
+           })
+      .def("disks_in",
+           [](const PySimulation& s, double x0, double y0, double x1, double y1) {
+             return copied(s.look().disks_in({x0, y0}, {x1, y1}));
+           })
+      .def("nearest",
+           [](const PySimulation& s, double x, double y) -> py::object {
+             const auto found = s.look().nearest({x, y});
+             return found ? py::object(py::make_tuple(found->id, found->distance)) : py::none();
+           })
+      .def("cast_ray",
+           [](const PySimulation& s, double x, double y, double dx, double dy, double length) -> py::object {
+             const auto hit = s.look().cast_ray({x, y}, {dx, dy}, length);
+             return hit ? py::object(py::make_tuple(hit->id, hit->distance, hit->place.x, hit->place.y)) : py::none();
+           });
+}
+
+}  // namespace
+
+}  // namespace carom
+
+PYBIND11_MODULE(_carom, m) {
+  using namespace carom;
+  m.doc() = "The compiled part of carom.";
+  // Later ones are asked first.
+  py::register_exception<RunError>(m, "RunError", PyExc_OSError);
+  py::register_exception<PhysicsError>(m, "PhysicsError", PyExc_RuntimeError);
+  py::register_exception<InputError>(m, "SceneError", PyExc_ValueError);
+  m.attr("version") = build_version();
+  bind_scene(m);
+  bind_simulation(m);
+  m.def("run", &run_scene);
+  py::class_<TrajectoryReader>(m, "TrajectoryReader").def("next", &next_frame);
+  m.def("open_trajectory", [](const std::string& path) { return open_trajectory(path, true); });
+  m.def("trajectory_in", [](const std::string& folder) { return trajectory_in(folder).string(); });
+}

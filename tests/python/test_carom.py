@@ -1,0 +1,271 @@
+"""The Python module: the command line's bits, and what it promises of copies, views, signals and threads."""
+
+import glob
+import json
+import os
+import pathlib
+import pickle
+import signal
+import subprocess
+import threading
+import time
+
+import carom
+import numpy as np
+import pytest
+
+source = pathlib.Path(os.environ["CAROM_SOURCE_DIR"])
+program = os.environ["CAROM_PROGRAM"]
+
+# What a scene runs to here: a few steps of the large ones.
+short = {"gas_million.toml": 0.02, "dense_mixture.toml": 0.05, "production_c.toml": 0.5, "analysis.toml": 15.0}
+
+
+def gas(disks=200, **run):
+    return carom.Scene({
+        "title": "gas",
+        "box": {"packing_fraction": 0.3},
+        "disks": [{"count": disks, "positions": "random", "velocities": {"maxwell": 1.0}, "radius": 0.5, "mass": 1.0}],
+        "run": {"method": "pairwise", "dt": 0.01, "t_end": 5.0} | run,
+    })
+
+
+@pytest.mark.parametrize("file", sorted(os.path.basename(f) for f in glob.glob(str(source / "scenes/*.toml"))))
+def test_every_scene_has_the_command_lines_hash(file, tmp_path):
+    path = source / "scenes" / file
+    changes = {"run.t_end": short.get(file, 1.0)}
+    if file == "gas_million.toml":
+        changes["disks.0.count"] = 100_000
+    sets = [word for key, value in changes.items() for word in ("--set", f"{key}={value}")]
+    line = [program, "run", path, *sets, "--json", "--quiet", "-o", tmp_path / "cli"]
+    told = json.loads(subprocess.run(line, check=True, capture_output=True).stdout)
+    result = carom.run(carom.Scene.load(path, changes), warn=lambda _: None)
+    assert result.hash == told["state_hash"]
+    assert result.summary["collisions"] == told["collisions"]
+
+
+def test_stepping_has_the_bits_of_a_run():
+    scene = gas(method="exact")
+    sim = carom.Simulation(scene)
+    sim.step(3)
+    sim.run(until=1.0)
+    assert sim.time >= 1.0
+    sim.disks(at=1.0)
+    sim.run()
+    assert sim.done and sim.time == 5.0
+    assert sim.hash == carom.run(scene).hash == sim.summary["state_hash"]
+
+
+def test_a_bad_scene_says_what_the_command_line_says(tmp_path):
+    bad = tmp_path / "bad.toml"
+    bad.write_text("[box]\nwidht = 3\n")
+    told = subprocess.run([program, "check", bad], capture_output=True, text=True).stderr
+    with pytest.raises(carom.SceneError) as error:
+        carom.Scene.load(bad)
+    assert f"carom: error: {error.value}" == told.strip()
+    with pytest.raises(ValueError, match="disks: missing"):
+        carom.Scene({"box": {"width": 1.0, "height": 1.0}})
+    with pytest.raises(TypeError, match="a scene holds"):
+        carom.Scene({"box": {"width": object()}})
+
+
+def test_a_scene_from_arrays_gives_their_numbers_back():
+    places = np.array([[1.1, 2.2], [5.5, 1 / 3 + 1]])
+    scene = carom.Scene({
+        "box": {"width": 10.0, "height": 5.0},
+        "disks": [{"count": 2, "positions": places, "velocities": np.array([[0.1, 0.0], [-0.3, 1e-9]]), "radius": [0.5, 0.25],
+                   "mass": np.float64(2.0)}],
+        "run": {"t_end": 1},
+    })
+    d = carom.Simulation(scene).disks()
+    assert np.array_equal(np.column_stack([d.x, d.y]), places)
+    assert d.vy[1] == 1e-9 and list(d.radius) == [0.5, 0.25] and list(d.mass) == [2.0, 2.0] and list(d.id) == [0, 1]
+    assert d.positions3d().shape == (2, 3)
+    assert carom.Scene.parse(scene.toml()).toml() == scene.toml()
+    assert pickle.loads(pickle.dumps(scene)).toml() == scene.toml()
+
+
+def test_callbacks_come_at_their_times_and_what_they_raise_ends_the_run_only():
+    sim = carom.Simulation(gas(), threads=1)
+    seen = []
+    sim.every(0.25, lambda s: seen.append(s.time))
+    sim.run(until=1.0)
+    assert seen == pytest.approx([0.25, 0.5, 0.75, 1.0])
+    other = carom.Simulation(gas(), threads=1)
+
+    def fail(s):
+        raise ZeroDivisionError("on purpose")
+
+    other.every(0.5, fail)
+    with pytest.raises(ZeroDivisionError):
+        other.run(until=1.0)
+    assert other.time == pytest.approx(0.5)
+    with pytest.raises(ZeroDivisionError):
+        other.run(until=1.0)
+    assert other.time == pytest.approx(1.0)
+    assert other.hash == sim.hash
+
+
+def press_ctrl_c(seconds):
+    timer = threading.Timer(seconds, lambda: signal.pthread_kill(threading.main_thread().ident, signal.SIGINT))
+    timer.start()
+    return timer
+
+
+def test_ctrl_c_stops_between_steps_and_the_simulation_goes_on():
+    scene = gas(2000, t_end=1e6)
+    sim = carom.Simulation(scene, threads=1)
+    timer = press_ctrl_c(0.3)
+    with pytest.raises(KeyboardInterrupt):
+        sim.run()
+    timer.join()
+    steps = sim.steps
+    sim.step(10)
+    other = carom.Simulation(scene, threads=1)
+    other.step(steps + 10)
+    assert other.hash == sim.hash
+
+
+def test_ctrl_c_in_a_whole_run_leaves_a_checkpoint(tmp_path):
+    scene = carom.Scene({"box": {"packing_fraction": 0.3}, "output": {"series": True},
+                         "disks": [{"count": 2000, "positions": "random", "radius": 0.5, "mass": 1.0,
+                                    "velocities": {"maxwell": 1.0}}],
+                         "run": {"method": "pairwise", "dt": 0.01, "t_end": 1e6}})
+    timer = press_ctrl_c(0.5)
+    with pytest.raises(KeyboardInterrupt):
+        carom.run(scene, out=tmp_path / "run")
+    timer.join()
+    assert carom.resume(tmp_path / "run").time > 0.0
+
+
+def test_a_view_copies_nothing_and_is_never_stale():
+    sim = carom.Simulation(gas(), threads=1)
+    with sim.view() as v, sim.view() as again:
+        assert v.x.__array_interface__["data"] == again.x.__array_interface__["data"]
+        assert not v.x.flags.writeable and not v.x.flags.owndata
+        assert np.array_equal(np.sort(v.x), np.sort(sim.disks().x))
+        with pytest.raises(RuntimeError, match="view"):
+            sim.step()
+        with pytest.raises(ValueError):
+            v.x[0] = 1.0
+    with pytest.raises(RuntimeError, match="closed"):
+        v.x
+    sim.step()
+    view = sim.view()
+    kept = view.x
+    view.close()
+    with pytest.raises(RuntimeError, match="in use"):
+        sim.remove(0)
+    del kept
+    sim.step()
+
+
+def test_changes_and_questions():
+    sim = carom.Simulation(gas(50), threads=1)
+    sim.step(10)
+    d = sim.disks()
+    assert sim.nearest(d.x[7], d.y[7]) == (7, 0.0)
+    assert sim.add(d.x[7], d.y[7], radius=0.5) is None
+    assert sim.remove(7) and not sim.remove(7) and len(sim) == 49
+    new = sim.add(d.x[7], d.y[7], vx=1.0, radius=0.5, mass=2.0)
+    assert new == 50
+    assert sim.set_velocity(50, 0.0, 3.0) and not sim.set_velocity(7, 0.0, 0.0)
+    hit = sim.cast_ray(d.x[7], d.y[7], 1.0, 0.0, 1.0)
+    assert hit == carom.Hit(50, 0.0, d.x[7], d.y[7])
+    assert 50 in sim.disks_in(d.x[7] - 0.1, d.y[7] - 0.1, d.x[7] + 0.1, d.y[7] + 0.1)
+    with pytest.raises(carom.SceneError):
+        sim.add(np.nan, 1.0)
+    sim.step(10)
+
+
+def test_saved_and_resumed(tmp_path):
+    sim = carom.Simulation(gas(method="exact"))
+    sim.step(5)
+    saved = sim.to_bytes()
+    sim.save(tmp_path / "a.carom")
+    sim.step(5)
+    then = sim.hash
+    sim.from_bytes(saved)
+    sim.step(5)
+    assert sim.hash == then
+    for engine in ("parallel", "reference"):
+        other = carom.resume(tmp_path / "a.carom", engine=engine)
+        other.step(5)
+        assert other.hash == then
+    with pytest.raises(carom.SceneError, match="damaged"):
+        sim.from_bytes(saved[:-8])
+    with pytest.raises(carom.SceneError):
+        carom.resume(tmp_path / "none.carom")
+
+
+@pytest.mark.parametrize("form", ["xyz", "h5md"])
+def test_results_as_columns_and_frames(form, tmp_path):
+    scene = carom.Scene.parse(gas(method="exact", t_end=1.0).toml(), {
+        "output.trajectory": form, "output.series": True, "output.every": 0.25, "analysis.what": ["pair_correlation"]})
+    result = carom.run(scene, out=tmp_path / "run")
+    series = result.series
+    assert list(series["t"]) == [0.0, 0.25, 0.5, 0.75, 1.0]
+    frames = result.frames
+    assert len(frames) == 5
+    assert [f.t for f in frames] == list(series["t"])
+    sim = carom.Simulation(scene)
+    sim.run()
+    last = frames[-1]
+    assert np.array_equal(last.x, sim.disks().x) and np.array_equal(last.vy, sim.disks().vy)
+    assert last.positions3d().shape == (200, 3) and last.box == (scene.width, scene.height)
+    with pytest.raises(IndexError):
+        frames[5]
+    assert any("pair_correlation" in name for name in result.analysis)
+    with pytest.raises(carom.SceneError, match="holds"):
+        carom.run(scene, out=tmp_path / "run")
+    with pytest.raises(carom.SceneError):
+        carom.Trajectory(tmp_path / "nothing.xyz")
+
+
+def test_two_simulations_in_two_threads_while_python_runs():
+    scene = gas(3000)
+    alone = carom.Simulation(scene, threads=1)
+    alone.step(300)
+    sims = [carom.Simulation(scene, threads=1) for _ in range(2)]
+    threads = [threading.Thread(target=s.step, args=(300,)) for s in sims]
+    for t in threads:
+        t.start()
+    counted = 0
+    while any(t.is_alive() for t in threads):
+        counted += 1  # the steps let this loop run
+        time.sleep(0)
+    assert counted > 10
+    assert [s.hash for s in sims] == [alone.hash] * 2
+
+
+def test_a_fork_is_refused_where_threads_would_be_missing():
+    carom.Simulation(gas(), threads=2).step(3)
+    alone = carom.Simulation(gas(), threads=1)
+    alone.step(3)
+    read, write = os.pipe()
+    pid = os.fork()
+    if pid == 0:
+        said = b"no"
+        try:
+            carom.Simulation(gas(), threads=2)
+        except RuntimeError as error:
+            said = b"refused" if "forked" in str(error) else b"other"
+        one = carom.Simulation(gas(), threads=1)
+        one.step(3)
+        os.write(write, said + b" " + one.hash.encode())
+        os._exit(0)
+    os.waitpid(pid, 0)
+    assert os.read(read, 100).decode() == f"refused {alone.hash}"
+
+
+def test_map_runs_each_by_itself():
+    scenes = [carom.Scene.parse(gas(50, t_end=0.5).toml(), {"seed": seed}) for seed in (1, 2, 3)]
+    results = carom.map(scenes, jobs=2)
+    assert [r.hash for r in results] == [carom.run(s).hash for s in scenes]
+    assert len({r.hash for r in results}) == 3
+
+
+def test_import_is_quick():
+    line = ["/usr/bin/python3", "-c", "import numpy, time; t = time.process_time(); import carom; print(time.process_time() - t)"]
+    told = subprocess.run(line, check=True, capture_output=True, text=True).stdout
+    assert float(told) < 0.3
