@@ -1,5 +1,6 @@
 # What belongs to the installed program beside the library, and Debian packages of both by cpack.
 include(GNUInstallDirs)
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # neither tests nor benchmarks are installed
 if(CAROM_PROGRAM)
   install(TARGETS carom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
   # From what the program says of itself.
