@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "core/base/build_version.hpp"
 #include "core/base/short_number.hpp"
+#include "core/disks/obstacle_cells.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene_names.hpp"
@@ -156,7 +158,9 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.energy_final = of_velocities(energy.total());
   s.momentum_drift = of_velocities(momentum_drift(start.momentum, momentum_of(state.disks)));
   const Overlap of_disks = deepest_overlap(state.disks, scene.box);
-  const Overlap of_wall = deepest_wall_overlap(state.disks, scene.box);
+  Domain box = scene.box;
+  const std::unique_ptr<const ObstacleCells> obstacles = place_obstacles(state.obstacles, box);
+  const Overlap of_wall = deepest_wall_overlap(state.disks, box);
   s.max_overlap = of_disks.size;
   s.wall_overlap = of_wall.size;
   s.worst_disks = worst_of(state.validity.disks, of_disks, state.time);

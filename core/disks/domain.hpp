@@ -1,4 +1,4 @@
-// The rectangle [0, width] x [0, height], what its four sides do, nearest images and wrapping.
+// The rectangle [0, width] x [0, height], what its four sides do and what stands in it, nearest images and wrapping.
 #pragma once
 
 #include <array>
@@ -7,6 +7,8 @@
 #include "core/base/types.hpp"
 
 namespace carom {
+
+class ObstacleCells;
 
 enum class Side : std::uint8_t { left, right, bottom, top };
 inline constexpr std::array<Side, 4> all_sides{Side::left, Side::right, Side::bottom, Side::top};
@@ -19,6 +21,8 @@ struct Domain {
   std::array<SideKind, 4> sides{SideKind::wall, SideKind::wall, SideKind::wall, SideKind::wall};
   std::array<double, 4> restitutions{1.0, 1.0, 1.0, 1.0};  // in [0, 1]; only those of walls count
   std::array<double, 4> temperatures{0.0, 0.0, 0.0, 0.0};  // of thermal walls, energy; 0: not thermal
+  // What stands in the box (place_obstacles); null where nothing does. Outlives the box.
+  const ObstacleCells* obstacles = nullptr;
 
   SideKind side(Side s) const { return sides[static_cast<std::size_t>(s)]; }
   // Of a wall: speed away from it over speed towards it. Elastic whatever e is in docs/original.md.

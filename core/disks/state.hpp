@@ -6,6 +6,7 @@
 
 #include "core/base/types.hpp"
 #include "core/disks/disks.hpp"
+#include "core/disks/obstacle.hpp"
 #include "core/disks/overlap.hpp"
 
 namespace carom {
@@ -73,7 +74,8 @@ struct State {
   StallWatch stall;                  // rollback, exact
   ValidityCounts validity;           // counted on in a run that is taken up again, so that it warns of the same
   double window = 0.0;  // exact: length meant for the next window; time, 0 before the first, < 0 after a crowded one
-  std::vector<double> last_contact;         // exact with the TC model: by id, time of the last collision; else empty
+  std::vector<Obstacle> obstacles;   // never change; a contact's id2 is obstacle_partner of the place in this list
+  std::vector<double> last_contact;  // exact with the TC model: by id, time of the last collision; else empty
   std::vector<std::uint32_t> thermal_hits;  // with thermal sides: by id, reflections by one so far; else empty
 };
 

@@ -69,6 +69,10 @@ Tally tally_of(const Scene& scene) {
   Tally tally;
   DiskId first_id = 0;
   for (const DiskGroup& group : scene.groups) {
+    if (group.fixed) {
+      first_id += static_cast<DiskId>(group.count);
+      continue;
+    }
     const SizeSummary sizes = summarise_sizes(group, scene.seed, first_id);
     const double mass = middle(sizes.smallest.mass, sizes.largest.mass);
     const double drift2 = 0.5 * (group.drift.x * group.drift.x + group.drift.y * group.drift.y);

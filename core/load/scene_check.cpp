@@ -130,6 +130,7 @@ void check_names(const Scene& scene, const PlaceOfKey& place) {
 
 // Disks that stand already would need to be walls for those that grow between them.
 void check_growth(const Scene& scene, const PlaceOfKey& place) {
+  const auto fixed = std::find_if(scene.groups.begin(), scene.groups.end(), [](const DiskGroup& g) { return g.fixed; });
   const auto group_with = [&](bool growth) {
     std::size_t g = 0;
     while (g < scene.groups.size() && (scene.groups[g].positions.kind == PositionLaw::Kind::growth) != growth) ++g;
@@ -137,6 +138,12 @@ void check_growth(const Scene& scene, const PlaceOfKey& place) {
   };
   if (scene.growth.given && group_with(true) == scene.groups.size()) {
     fail_input(place("growth"), "nothing grows", "expected positions = \"growth\" in [[disks]] as well");
+  }
+  if (group_with(true) < scene.groups.size() && fixed != scene.groups.end()) {
+    const auto g = static_cast<std::size_t>(fixed - scene.groups.begin());
+    fail_input(place(fmt::format("disks.{}.fixed", g)),
+               fmt::format("beside \"growth\" of disks.{}: disks do not grow around fixed ones", group_with(true)),
+               "expected \"random\" positions, or no fixed disks");
   }
   const std::size_t other = group_with(false);
   if (group_with(true) == scene.groups.size() || other == scene.groups.size()) return;

@@ -126,6 +126,19 @@ Physics read_physics(const SceneOrigin& origin) {
   return physics;
 }
 
+// What fixed disks do not have. Their mass, which nothing asks for, is 1.
+void read_fixed(const TableReader& reader, DiskGroup& group) {
+  constexpr std::string_view expected = "expected fixed disks without this key";
+  if (reader.find("mass") != nullptr) reader.fail("mass", "given beside fixed = true, an infinite mass", expected);
+  for (const std::string_view key : {"velocities", "drift"}) {
+    if (reader.find(key) != nullptr) reader.fail(key, "given beside fixed = true", expected);
+  }
+  if (group.radius.kind == SizeLaw::Kind::from_other) {
+    reader.fail("radius", "from_mass beside fixed = true", "expected radii that do not ask for a mass");
+  }
+  group.mass.value = 1.0;
+}
+
 DiskGroup read_group(const SceneOrigin& origin, const std::string& path, const toml::table& table) {
   const TableReader reader(origin, path, table);
   DiskGroup group;
@@ -137,7 +150,12 @@ DiskGroup read_group(const SceneOrigin& origin, const std::string& path, const t
   group.velocities = read_velocities(reader);
   group.drift = read_drift(reader);
   group.radius = read_size(reader, "radius", "from_mass");
-  group.mass = read_size(reader, "mass", "from_radius");
+  group.fixed = reader.flag_or_initial("fixed");
+  if (group.fixed) {
+    read_fixed(reader, group);
+  } else {
+    group.mass = read_size(reader, "mass", "from_radius");
+  }
   return group;
 }
 

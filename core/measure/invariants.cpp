@@ -5,6 +5,7 @@
 
 #include "core/physics/boundary.hpp"
 #include "core/physics/contact_event.hpp"
+#include "core/physics/obstacle_contact.hpp"
 #include "core/reference/pair_search.hpp"
 
 namespace carom {
@@ -86,6 +87,11 @@ Overlap deepest_wall_overlap(const Disks& d, const Domain& box) {
       const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius_of(i), box) / d.radius_of(i);
       if (beyond > 0.0) deepest.see({beyond, d.id[i], wall_partner(side)});
     }
+    if (box.obstacles == nullptr) continue;
+    const double r = d.radius_of(i);
+    for_each_obstacle_touched(box, d.x[i], d.y[i], r, [&](std::uint32_t k, const ObstacleGap& gap) {
+      if (gap.beyond > 0.0) deepest.see({gap.beyond / r, d.id[i], obstacle_partner(k)});
+    });
   }
   return deepest;
 }

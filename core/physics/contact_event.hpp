@@ -1,6 +1,7 @@
 // A contact found at the end of a drift: which disks (or disk and side), and how long ago it began.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/base/types.hpp"
@@ -9,13 +10,24 @@
 
 namespace carom {
 
-// Ids from here on are not disks: the partner of a wall contact is wall_partner(side).
+// Ids from here on are not disks: the partner of a wall contact is wall_partner(side), that of a contact with an
+// obstacle obstacle_partner(its place in State::obstacles). Both are walls: they do not move.
+inline constexpr DiskId first_obstacle_partner = 0xf0000000U;
 inline constexpr DiskId first_wall_partner = 0xfffffff0U;
 inline constexpr DiskId wall_partner(Side side) {
   return first_wall_partner + static_cast<DiskId>(side);
 }
 inline constexpr bool is_wall(DiskId partner) {
-  return partner >= first_wall_partner;
+  return partner >= first_obstacle_partner;
+}
+inline constexpr DiskId obstacle_partner(std::size_t place) {
+  return first_obstacle_partner + static_cast<DiskId>(place);
+}
+inline constexpr bool is_obstacle(DiskId partner) {
+  return partner - first_obstacle_partner < first_wall_partner - first_obstacle_partner;
+}
+inline constexpr std::uint32_t obstacle_of(DiskId partner) {
+  return partner - first_obstacle_partner;
 }
 inline constexpr Side wall_side(DiskId partner) {
   return static_cast<Side>(partner - first_wall_partner);

@@ -8,6 +8,7 @@
 #include "core/base/types.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/exact_path.hpp"
+#include "core/physics/obstacle_path.hpp"
 #include "core/physics/resolve.hpp"
 
 namespace carom {
@@ -110,6 +111,34 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
   return outcome;
 }
 
+// Disk a touches obstacle k (its place in State::obstacles) at time s: it bounces along the line of centres. Under the
+// TC model it hops as from the floor, in proportion to the part of gravity that presses it against the obstacle.
+inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t k, double mass, ExactDisk& a) {
+  PathSegment& p = a.path;
+  p = carried_to(p, s, rules.gravity);
+  const Obstacle& o = (*rules.box.obstacles)[k];
+  const Vec2 apart = nearest_image({p.x - o.x, p.y - o.y}, rules.box);
+  const double distance2 = apart.x * apart.x + apart.y * apart.y;
+  const double approach = apart.x * p.vx + apart.y * p.vy;
+  const double distance = std::sqrt(distance2);
+  Impact outcome;
+  if (distance > 0.0) {
+    const bool elastic = made_elastic(rules, s, a.last_contact);
+    const double e = elastic ? 1.0 : o.restitution;
+    double change = approach < 0.0 ? -(1.0 + e) * approach : 0.0;  // of the approach
+    if (rules.tc()) {
+      const double least = least_hop * rules.contact_time * (rules.gravity * apart.y);
+      change = std::max(change, least - approach);
+    }
+    p.vx += change / distance2 * apart.x;
+    p.vy += change / distance2 * apart.y;
+    outcome = {mass * (change / distance), 0.0, change > 0.0, elastic && o.restitution < 1.0};
+    if (outcome.happened) a.last_contact = s;
+  }
+  wrap_into(p, rules.box);
+  return outcome;
+}
+
 // When an event happens and to which disks.
 struct EventMark {
   double time = never;      // in the window
@@ -118,12 +147,12 @@ struct EventMark {
 
 // May any of the scene's contacts lose energy?
 inline bool dissipates(const Domain& box, double restitution) {
-  return restitution < 1.0 || box.walls_dissipate();
+  return restitution < 1.0 || box.walls_dissipate() || (box.obstacles != nullptr && box.obstacles->dissipates());
 }
 
 // Is this an impact that loses energy? partner: the second disk's id, or a wall_partner.
 inline bool loses_energy(const ExactRules& rules, DiskId partner, const Impact& impact) {
-  const double e = is_wall(partner) ? rules.box.restitution(wall_side(partner)) : rules.restitution;
+  const double e = is_wall(partner) ? restitution_of_wall(rules.box, partner) : rules.restitution;
   return e < 1.0 && impact.happened && !impact.inaccurate;
 }
 

@@ -15,7 +15,7 @@ namespace carom {
 
 struct ImpactTally {
   Count collisions = 0;
-  Count wall_collisions = 0;
+  Count wall_collisions = 0;        // with obstacles too; their impulses are no force on a side
   Count loads = 0, wall_loads = 0;  // supports that bore (resting.hpp): their impulses count, as collisions they do not
   Count inaccurate = 0;             // of both collisions, see Impact
   ExactSum virial;
@@ -28,6 +28,7 @@ struct ImpactTally {
     inaccurate += impact.inaccurate ? 1 : 0;
     if (is_wall(partner)) {
       ++wall_collisions;
+      if (is_obstacle(partner)) return;
       wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.virial);
       if (impact.heat != 0.0) add_heat(wall_side(partner), impact.heat);
     } else {
@@ -50,7 +51,7 @@ struct ImpactTally {
   void add_load(DiskId partner, double borne) {
     if (is_wall(partner)) {
       ++wall_loads;
-      wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(borne);
+      if (!is_obstacle(partner)) wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(borne);
     } else {
       ++loads;
       virial.add(borne);

@@ -13,6 +13,7 @@
 #include "core/physics/boundary.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/disk_pair.hpp"
+#include "core/physics/obstacle_contact.hpp"
 #include "core/physics/thermal_side.hpp"
 
 namespace carom {
@@ -71,7 +72,38 @@ ContactEvent wall_event(const View& d, const StepRules& rules, std::uint32_t i, 
   return {ago, d.id[i], wall_partner(side), i, 0};
 }
 
-// Calls found(event) for each wall side that disk i reaches beyond or touches.
+// Likewise for an obstacle.
+template <class View>
+ContactEvent obstacle_event(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t k,
+                            const ObstacleGap& gap) {
+  double ago = rules.dt;
+  if (speed_towards(gap, d.vx[i], d.vy[i]) > 0.0 && gap.beyond >= 0.0) {
+    const Obstacle& o = (*rules.box.obstacles)[k];
+    ago = std::min(rules.dt, time_since_obstacle(o, gap, d.radius(i), d.vx[i], d.vy[i], rules.gravity));
+  }
+  return {ago, d.id[i], obstacle_partner(k), i, 0};
+}
+
+// How disk i lies to the obstacle of a contact.
+template <class View>
+ObstacleGap gap_to(const View& d, const Domain& box, std::uint32_t i, DiskId partner) {
+  return gap_to((*box.obstacles)[obstacle_of(partner)], d.x[i], d.y[i], d.radius(i), box);
+}
+
+// How far disk i reaches beyond the wall, or the obstacle, of a contact; length.
+template <class View>
+double reach_beyond_wall(const View& d, const Domain& box, std::uint32_t i, DiskId partner) {
+  if (is_obstacle(partner)) return gap_to(d, box, i, partner).beyond;
+  return reach_beyond(wall_side(partner), d.x[i], d.y[i], d.radius(i), box);
+}
+
+// Restitution of a contact with a wall or an obstacle.
+inline double restitution_of_wall(const Domain& box, DiskId partner) {
+  return is_obstacle(partner) ? (*box.obstacles)[obstacle_of(partner)].restitution
+                              : box.restitution(wall_side(partner));
+}
+
+// Calls found(event) for each wall side and obstacle that disk i reaches beyond or touches.
 template <class View, class Found>
 void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t i, Found&& found) {
   for (Side side : all_sides) {
@@ -79,6 +111,10 @@ void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t 
     const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius(i), rules.box);
     if (beyond >= 0.0) found(wall_event(d, rules, i, side, beyond));
   }
+  if (rules.box.obstacles == nullptr) return;
+  for_each_obstacle_touched(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
+    found(obstacle_event(d, rules, i, k, gap));
+  });
 }
 
 // Along the disk's own path, back where t < 0.
@@ -185,9 +221,57 @@ Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side
   return {d.mass(i) * change, 0.0, change > 0.0};
 }
 
+// Gives disk i the speed `change` more away from an obstacle.
+template <class View>
+void kick_away(const View& d, std::uint32_t i, const ObstacleGap& gap, double change) {
+  d.vx[i] += change * gap.nx;
+  d.vy[i] += change * gap.ny;
+}
+
+// Bounces off the obstacle where it is, from the obstacle's edge: as bounce_at_wall. Returns the change of speed.
+template <class View>
+double bounce_at_obstacle(const View& d, const StepRules& rules, std::uint32_t i, const Obstacle& o) {
+  const ObstacleGap gap = gap_to(o, d.x[i], d.y[i], d.radius(i), rules.box);
+  const double speed = speed_towards(gap, d.vx[i], d.vy[i]);
+  // What lifting it by gap.beyond along the normal costs is taken from its motion along the normal.
+  const double left = speed * speed - 2.0 * (rules.gravity * gap.ny) * gap.beyond;
+  const double away = o.restitution * std::sqrt(std::max(0.0, left));
+  d.x[i] += gap.beyond * gap.nx;
+  d.y[i] += gap.beyond * gap.ny;
+  kick_away(d, i, gap, speed + away);
+  return speed + away;
+}
+
+// Likewise for a disk and an obstacle.
+template <class View>
+Impact resolve_obstacle(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t k) {
+  const Obstacle& o = (*rules.box.obstacles)[k];
+  const auto gap_now = [&] { return gap_to(o, d.x[i], d.y[i], d.radius(i), rules.box); };
+  const auto speed = [&](const ObstacleGap& gap) { return speed_towards(gap, d.vx[i], d.vy[i]); };
+  ObstacleGap gap = gap_now();
+  if (!(gap.beyond >= 0.0) || !(speed(gap) > 0.0)) return {};
+  const double ago = time_since_obstacle(o, gap, d.radius(i), d.vx[i], d.vy[i], rules.gravity);
+  double change = 0.0;
+  if (ago <= rules.dt) {
+    drift_one(d, i, -ago, rules.gravity);
+    gap = gap_now();
+    const double impact_speed = speed(gap);
+    if (impact_speed > 0.0) {
+      change = impact_speed * (1.0 + o.restitution);
+      kick_away(d, i, gap, change);
+    }
+    drift_one(d, i, ago, rules.gravity);
+    gap = gap_now();
+  }
+  if (gap.beyond >= 0.0 && speed(gap) > 0.0) change += bounce_at_obstacle(d, rules, i, o);
+  return {d.mass(i) * change, 0.0, change > 0.0};
+}
+
 template <class View>
 Impact resolve_event(const View& d, const StepRules& rules, const ContactEvent& e) {
-  return is_wall(e.id2) ? resolve_wall(d, rules, e.i1, wall_side(e.id2)) : resolve_pair(d, rules, e.i1, e.i2);
+  if (!is_wall(e.id2)) return resolve_pair(d, rules, e.i1, e.i2);
+  if (is_obstacle(e.id2)) return resolve_obstacle(d, rules, e.i1, obstacle_of(e.id2));
+  return resolve_wall(d, rules, e.i1, wall_side(e.id2));
 }
 
 // One pass over the contacts in order of time; then passes over the crowded ones, those of disks that have another
@@ -208,6 +292,16 @@ void push_wall(const View& d, const Domain& box, std::uint32_t i, Side side, dou
   } else {
     d.y[i] = touching_coordinate(side, r, box) + (side == Side::bottom ? -slack : slack);
   }
+}
+
+// Likewise for an obstacle.
+template <class View>
+void push_from_obstacle(const View& d, const Domain& box, std::uint32_t i, const Obstacle& o, double slack) {
+  const ObstacleGap gap = gap_to(o, d.x[i], d.y[i], d.radius(i), box);
+  const double push = gap.beyond - slack;
+  if (!(push > 0.0)) return;
+  d.x[i] += push * gap.nx;
+  d.y[i] += push * gap.ny;
 }
 
 // After one sweep that pushes every contact, further ones push only those that others have pressed deeper than this
@@ -234,7 +328,7 @@ inline int push_sweeps(const StepRules& rules) {
 template <class View>
 bool is_deep(const View& d, const Domain& box, const ContactEvent& e, double share, double slack = 0.0) {
   const double r = d.radius(e.i1);
-  if (is_wall(e.id2)) return reach_beyond(wall_side(e.id2), d.x[e.i1], d.y[e.i1], r, box) > share * r + slack;
+  if (is_wall(e.id2)) return reach_beyond_wall(d, box, e.i1, e.id2) > share * r + slack;
   const double reach = (r + d.radius(e.i2)) * (1.0 - share) - slack;
   return nearest_distance2({d.x[e.i2] - d.x[e.i1], d.y[e.i2] - d.y[e.i1]}, box) < reach * reach;
 }
@@ -246,6 +340,10 @@ void keep_inside(const View& d, const Domain& box, std::uint32_t i) {
   for (Side side : all_sides) {
     if (box.side(side) == SideKind::wall) push_wall(d, box, i, side, shallow_overlap * d.radius(i));
   }
+  if (box.obstacles == nullptr) return;
+  for_each_obstacle_touched(box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap&) {
+    push_from_obstacle(d, box, i, (*box.obstacles)[k], shallow_overlap * d.radius(i));
+  });
 }
 
 // What overlap remains beyond slack (length) is pushed apart along the line of centres, by mass, so that the centre of
@@ -273,7 +371,9 @@ void push_pair(const View& d, const Domain& box, std::uint32_t i, std::uint32_t 
 
 template <class View>
 void push_apart(const View& d, const Domain& box, const ContactEvent& e, double slack) {
-  if (is_wall(e.id2)) {
+  if (is_obstacle(e.id2)) {
+    push_from_obstacle(d, box, e.i1, (*box.obstacles)[obstacle_of(e.id2)], slack);
+  } else if (is_wall(e.id2)) {
     push_wall(d, box, e.i1, wall_side(e.id2), slack);
   } else {
     push_pair(d, box, e.i1, e.i2, slack);

@@ -37,6 +37,7 @@ inline double load_of(const std::vector<ContactLoad>& loads, const ContactEvent&
 // Relative velocity along the line of centres (or of the disk away from the wall); < 0: approaching. length / time.
 template <class View>
 double normal_velocity(const View& d, const Domain& box, const ContactEvent& e) {
+  if (is_obstacle(e.id2)) return -speed_towards(gap_to(d, box, e.i1, e.id2), d.vx[e.i1], d.vy[e.i1]);
   if (is_wall(e.id2)) return -outward_speed(wall_side(e.id2), d.vx[e.i1], d.vy[e.i1]);
   const Relative r = relative(d, e.i1, e.i2, box);
   const double distance2 = r.distance2();
@@ -46,17 +47,17 @@ double normal_velocity(const View& d, const Domain& box, const ContactEvent& e) 
 // Is this contact a support? loaded: it bore load in the step before; squeezed: one of its disks has another contact.
 template <class View>
 bool is_support(const View& d, const StepRules& rules, const ContactEvent& e, bool loaded, bool squeezed) {
-  if (is_wall(e.id2) && rules.box.is_thermal(wall_side(e.id2))) return false;
+  if (is_wall(e.id2) && !is_obstacle(e.id2) && rules.box.is_thermal(wall_side(e.id2))) return false;
   if (loaded && squeezed) return true;
   const double speed = std::abs(normal_velocity(d, rules.box, e));
   if (squeezed) return speed <= squeezed_rest * rules.gravity * rules.dt;
-  const bool lies = is_wall(e.id2) && rules.box.restitution(wall_side(e.id2)) < 1.0;
+  const bool lies = is_wall(e.id2) && restitution_of_wall(rules.box, e.id2) < 1.0;
   return lies && speed <= lying_rest * rules.gravity * rules.dt;
 }
 
 // Does what is left of the approach, after the impacts, dissipate at this contact?
 inline bool dissipates(const StepRules& rules, const ContactEvent& e) {
-  return (is_wall(e.id2) ? rules.box.restitution(wall_side(e.id2)) : rules.restitution) < 1.0;
+  return (is_wall(e.id2) ? restitution_of_wall(rules.box, e.id2) : rules.restitution) < 1.0;
 }
 
 // Is this contact solved together with the others? Supports are; so are all crowded contacts that dissipate, since what
@@ -77,6 +78,13 @@ double slack_of(const View& d, const StepRules& rules, const ContactEvent& e) {
 // back. Else a step shorter than the one before would not find the contact.
 template <class View>
 void hold_at_wall(const View& d, const Domain& box, const ContactEvent& e, double slack) {
+  if (is_obstacle(e.id2)) {
+    const ObstacleGap gap = gap_to(d, box, e.i1, e.id2);
+    if (gap.beyond >= 0.0 || gap.beyond < -slack) return;
+    d.x[e.i1] += gap.beyond * gap.nx;
+    d.y[e.i1] += gap.beyond * gap.ny;
+    return;
+  }
   const Side side = wall_side(e.id2);
   const double r = d.radius(e.i1);
   const double beyond = reach_beyond(side, d.x[e.i1], d.y[e.i1], r, box);

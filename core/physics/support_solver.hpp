@@ -59,6 +59,14 @@ Support make_support(const View& d, const StepRules& rules, const ContactEvent& 
   const double impulse = force * rules.dt;
   Support s{
       e.i1, e.i2, 0.0, 0.0, 1.0 / d.mass(e.i1), 0.0, 0.0, d.radius(e.i1), impulse, rules.round == 0 ? 0.0 : impulse};
+  if (is_obstacle(e.id2)) {
+    const ObstacleGap gap = gap_to(d, rules.box, e.i1, e.id2);
+    s.nx = -gap.nx;
+    s.ny = -gap.ny;
+    s.i2 = e.i1;
+    s.effective = d.mass(e.i1);
+    return s;
+  }
   if (is_wall(e.id2)) {
     const Side side = wall_side(e.id2);
     s.nx = side == Side::left ? -1.0 : side == Side::right ? 1.0 : 0.0;

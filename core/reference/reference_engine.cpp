@@ -10,7 +10,8 @@
 
 namespace carom {
 
-ReferenceEngine::ReferenceEngine(const Scene& scene, State initial) : scene_(scene), state_(std::move(initial)) {}
+ReferenceEngine::ReferenceEngine(const Scene& scene, State initial)
+    : scene_(scene), state_(std::move(initial)), obstacles_(place_obstacles(state_.obstacles, scene_.box)) {}
 
 double ReferenceEngine::disks_at(double /*t*/, Disks& out) const {
   out = state_.disks;

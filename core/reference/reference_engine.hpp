@@ -2,9 +2,11 @@
 // (core/step) both have.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/disks/obstacle_cells.hpp"
 #include "core/step/engine.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/validity.hpp"
@@ -37,6 +39,8 @@ class ReferenceEngine : public Engine {
   Validity validity_;
 
  private:
+  std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box
+
   void remove(const std::vector<unsigned char>& gone);
 };
 

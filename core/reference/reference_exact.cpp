@@ -18,7 +18,11 @@ namespace {
 class ReferenceExact final : public Engine {
  public:
   ReferenceExact(const Scene& scene, State initial, double window_scale, CollisionLog* log)
-      : scene_(scene), state_(std::move(initial)), scale_(window_scale), log_(log) {}
+      : scene_(scene),
+        state_(std::move(initial)),
+        obstacles_(place_obstacles(state_.obstacles, scene_.box)),
+        scale_(window_scale),
+        log_(log) {}
 
   void step() override {
     if (!(state_.time < scene_.run.t_end)) return;
@@ -112,6 +116,7 @@ class ReferenceExact final : public Engine {
 
   Scene scene_;
   State state_;
+  std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box
   double scale_;
   Validity validity_;
   CollisionLog* log_;

@@ -13,8 +13,8 @@ constexpr Count events_between_polls = 1024;
 
 struct Event {
   double time;
-  DiskId id1, id2;       // id2 may be a wall (a side of any kind)
-  std::uint32_t i1, i2;  // storage; i2 == i1 for a side
+  DiskId id1, id2;       // id2 may be a wall (a side of any kind) or an obstacle
+  std::uint32_t i1, i2;  // storage; i2 == i1 for a side or an obstacle
   std::uint32_t version1, version2;
 };
 
@@ -53,7 +53,7 @@ class EventLoop {
     for (std::uint32_t i = 0; i < disks_.size(); ++i) {
       if (result_.gone[i] == 0) add_travel(i, end);
     }
-    if (collapse_ && !result_.crowded && farthest_ <= travel_) fail_collapse(*collapse_, plan_.start);
+    if (collapse_ && !result_.crowded && farthest_ <= travel_) fail_collapse(rules_, *collapse_, plan_.start);
     return farthest_;
   }
 
@@ -64,6 +64,13 @@ class EventLoop {
     for (const Side side : all_sides) {
       const double t = side_time(path(i), side, disks_.radius_of(i), rules_.box, rules_.gravity, plan_.length);
       if (t < never) queue_.push({t, disks_.id[i], wall_partner(side), i, i, version_[i], version_[i]});
+    }
+    if (rules_.box.obstacles != nullptr) {
+      const ObstacleContact first =
+          first_obstacle_contact(path(i), disks_.radius_of(i), rules_.box, rules_.gravity, plan_.length);
+      if (first.time < never) {
+        queue_.push({first.time, disks_.id[i], obstacle_partner(first.obstacle), i, i, version_[i], version_[i]});
+      }
     }
     near_.visit(i, [&](std::uint32_t j) {
       if (result_.gone[j] != 0 || (each_pair_once && j < i)) return;
@@ -83,10 +90,12 @@ class EventLoop {
     ExactDisk& first = result_.disks[e.i1];
     const Impact outcome =
         pair ? collide_at(rules_, e.time, disks_.mass_of(e.i1), disks_.mass_of(e.i2), first, result_.disks[e.i2])
-             : meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), e.id1, first);
+        : is_obstacle(e.id2) ? meet_obstacle_at(rules_, e.time, obstacle_of(e.id2), disks_.mass_of(e.i1), first)
+                             : meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), e.id1, first);
     result_.tally.add(e.id2, outcome);
     if (pair && outcome.happened) result_.collisions.emplace_back(e.id1, e.id2);
-    if (!pair && rules_.box.side(wall_side(e.id2)) == SideKind::sink) result_.gone[e.i1] = 1;
+    const bool at_side = !pair && !is_obstacle(e.id2);
+    if (at_side && rules_.box.side(wall_side(e.id2)) == SideKind::sink) result_.gone[e.i1] = 1;
     const bool inelastic = loses_energy(rules_, e.id2, outcome);
     begin_segment(e, e.i1, inelastic);
     if (pair) begin_segment(e, e.i2, inelastic);

@@ -37,6 +37,10 @@ void see_wall_overlap(const View& d, const Domain& box, std::uint32_t i, StepFig
     const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius(i), box);
     if (beyond > 0.0) figures.wall.see({beyond / d.radius(i), d.id[i], wall_partner(side)});
   }
+  if (box.obstacles == nullptr) return;
+  for_each_obstacle_touched(box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
+    if (gap.beyond > 0.0) figures.wall.see({gap.beyond / d.radius(i), d.id[i], obstacle_partner(k)});
+  });
 }
 
 // How deep the two disks of a contact lie in one another at the end of the step; a wall's contact has none to see.

@@ -2,6 +2,8 @@
 // shrinks.
 #pragma once
 
+#include <algorithm>
+
 #include "core/disks/domain.hpp"
 #include "core/scene/scene.hpp"
 
@@ -16,7 +18,8 @@ inline bool velocities_are_drawn(const Scene& scene) {
 // Does nothing in the scene give momentum to the disks or take it away?
 inline bool keeps_momentum(const Scene& scene) {
   return scene.box.periodic_x() && scene.box.periodic_y() && !(scene.physics.gravity > 0.0) &&
-         !(scene.physics.diffusion > 0.0) && scene.sources.empty();
+         !(scene.physics.diffusion > 0.0) && scene.sources.empty() &&
+         std::none_of(scene.groups.begin(), scene.groups.end(), [](const DiskGroup& g) { return g.fixed; });
 }
 
 }  // namespace carom

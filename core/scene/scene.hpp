@@ -75,7 +75,8 @@ struct DiskGroup {
   Vec2 drift;  // added to the velocities of the law; length / time
   SizeLaw radius;
   SizeLaw mass;
-  int line = 0;  // of the [[disks]] header in the scene file, for error messages
+  bool fixed = false;  // obstacles: they never move, and their mass, which is infinite, is not asked for
+  int line = 0;        // of the [[disks]] header in the scene file, for error messages
 };
 
 // Emits the k-th disk (k = 1, 2, ...) at time k / rate, as soon as a place drawn for it is free.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -286,6 +287,10 @@ SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_v
     return law;
   }
   if (!node.is_number()) owner.fail(name, fmt::format("is {}", type_name(node)), expected);
+  if (const auto mass = node.value<double>(); name == "mass" && mass && *mass == HUGE_VAL) {
+    owner.fail(name, "is inf",
+               "expected a number above 0; fixed = true in place of a mass makes disks that never move");
+  }
   law.value = owner.number(name).value();
   return law;
 }

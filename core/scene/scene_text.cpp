@@ -152,8 +152,9 @@ std::string group_text(const DiskGroup& group) {
   text += fmt::format("count = {}\npositions = {}\n{}{}", group.count, positions_text(group.positions),
                       region_line(group.positions), velocities_line(group.velocities));
   if (group.drift != Vec2{}) text += fmt::format("drift = {}\n", pair(group.drift));
-  return text + fmt::format("radius = {}\nmass = {}\n", size_text(group.radius, "from_mass"),
-                            size_text(group.mass, "from_radius"));
+  text += fmt::format("radius = {}\n", size_text(group.radius, "from_mass"));
+  if (group.fixed) return text + "fixed = true\n";
+  return text + fmt::format("mass = {}\n", size_text(group.mass, "from_radius"));
 }
 
 // Empty where nothing grows.

@@ -26,6 +26,14 @@ double side_slack(double radius, double length) {
   return 1e-12 * radius + 0x1p-50 * length;
 }
 
+// A column becomes one number where all have it.
+void share_where_equal(std::vector<double>& column, double& common) {
+  common = 0.0;
+  if (std::adjacent_find(column.begin(), column.end(), std::not_equal_to<>()) != column.end()) return;
+  common = column.front();
+  column = {};
+}
+
 // One radius and mass for all disks, if the laws say so; columns otherwise.
 void set_sizes(const Scene& scene, Disks& disks, std::size_t n) {
   const auto size_of_first = [&](const DiskGroup& g) {
@@ -54,14 +62,8 @@ void set_sizes(const Scene& scene, Disks& disks, std::size_t n) {
     disks.mass.insert(disks.mass.end(), masses.begin(), masses.end());
     first_id += static_cast<DiskId>(g.count);
   }
-  const auto share = [](std::vector<double>& column, double& common) {
-    common = 0.0;
-    if (std::adjacent_find(column.begin(), column.end(), std::not_equal_to<>()) != column.end()) return;
-    common = column.front();
-    column = {};
-  };
-  share(disks.radius, disks.common_radius);
-  share(disks.mass, disks.common_mass);
+  share_where_equal(disks.radius, disks.common_radius);
+  share_where_equal(disks.mass, disks.common_mass);
 }
 
 // Without disks the first source's sizes, if it has one for all, spare the columns that emission would need.
@@ -93,14 +95,18 @@ void place_listed(const Scene& scene, std::size_t group, DiskId first_id, Disks&
     const std::size_t i = first_id + k;
     const double radius = disks.radius_of(i);
     bool inside = true;
-    disks.x[i] = checked_coordinate(law.list[k].x, box.width, box.periodic_x(), radius, inside);
-    disks.y[i] = checked_coordinate(law.list[k].y, box.height, box.periodic_y(), radius, inside);
+    // A fixed disk may stick out of the box.
+    const double room = scene.groups[group].fixed ? 0.0 : radius;
+    disks.x[i] = checked_coordinate(law.list[k].x, box.width, box.periodic_x(), room, inside);
+    disks.y[i] = checked_coordinate(law.list[k].y, box.height, box.periodic_y(), room, inside);
     if (inside) continue;
     const std::string from = law.file.empty() ? "" : fmt::format(" (row {} of {})", k + 1, law.file);
     fail_input(place_in_group(scene, group, "positions"),
                fmt::format("disk {}{} of radius {} at ({}, {}) is not inside the box of {} x {}", i, from, radius,
                            law.list[k].x, law.list[k].y, box.width, box.height),
-               "expected its centre a radius or more from each wall or sink, and within periodic sides");
+               scene.groups[group].fixed
+                   ? "expected its centre in the box"
+                   : "expected its centre a radius or more from each wall or sink, and within periodic sides");
   }
 }
 
@@ -178,8 +184,9 @@ void place_on_lattice(const Scene& scene, std::size_t group, DiskId first_id, Di
              "expected centres r1 + r2 or more apart");
 }
 
-// Puts the disks that have their places into the grid, large ones first, and checks them against each other.
-void insert_fixed(const Scene& scene, const Disks& disks, std::vector<std::uint32_t> members, PlacementGrid& grid) {
+// Puts the disks that have their places into the grid, large ones first, and checks them against each other. Obstacles
+// are there before and are not checked: they may overlap each other.
+void insert_placed(const Scene& scene, const Disks& disks, std::vector<std::uint32_t> members, PlacementGrid& grid) {
   if (!disks.radius.empty()) {
     std::stable_sort(members.begin(), members.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return disks.radius[a] > disks.radius[b]; });
@@ -193,7 +200,8 @@ void insert_fixed(const Scene& scene, const Disks& disks, std::vector<std::uint3
 
 // Groups with a region go first, each by itself: the others find room elsewhere, too.
 void set_positions(const Scene& scene, Disks& disks, const PlaceAtRandom& place) {
-  std::vector<std::uint32_t> fixed;
+  std::vector<std::uint32_t> obstacles;
+  std::vector<std::uint32_t> placed;
   std::vector<std::uint32_t> anywhere;
   std::vector<std::vector<std::uint32_t>> in_regions;
   DiskId first_id = 0;
@@ -204,16 +212,39 @@ void set_positions(const Scene& scene, Disks& disks, const PlaceAtRandom& place)
     if (!at_random && g.positions.kind != PositionLaw::Kind::list) place_on_lattice(scene, group, first_id, disks);
     const bool regional = at_random && g.positions.region;
     if (regional) in_regions.emplace_back();
-    std::vector<std::uint32_t>& members = regional ? in_regions.back() : at_random ? anywhere : fixed;
+    std::vector<std::uint32_t>& members = regional    ? in_regions.back()
+                                          : at_random ? anywhere
+                                          : g.fixed   ? obstacles
+                                                      : placed;
     const std::size_t before = members.size();
     members.resize(before + g.count);
     std::iota(members.begin() + static_cast<std::ptrdiff_t>(before), members.end(), first_id);
     first_id += static_cast<DiskId>(g.count);
   }
   PlacementGrid grid(scene.box, disks);
-  insert_fixed(scene, disks, std::move(fixed), grid);
+  for (const std::uint32_t i : obstacles) grid.insert(i);
+  insert_placed(scene, disks, std::move(placed), grid);
   for (std::vector<std::uint32_t>& members : in_regions) place(scene, disks, grid, std::move(members));
   place(scene, disks, grid, std::move(anywhere));
+}
+
+// The fixed groups' disks go from state.disks to state.obstacles; the others keep their ids.
+void take_obstacles(const Scene& scene, State& state) {
+  Disks& disks = state.disks;
+  std::vector<unsigned char> fixed(disks.size(), 0);
+  std::size_t i = 0;
+  for (const DiskGroup& g : scene.groups) {
+    for (Count k = 0; k < g.count; ++k, ++i) {
+      if (!g.fixed) continue;
+      fixed[i] = 1;
+      state.obstacles.push_back({disks.x[i], disks.y[i], disks.radius_of(i), scene.physics.restitution, disks.id[i]});
+    }
+  }
+  if (state.obstacles.empty()) return;
+  remove_marked(disks, fixed);
+  if (!disks.radius.empty()) share_where_equal(disks.radius, disks.common_radius);
+  if (!disks.mass.empty()) share_where_equal(disks.mass, disks.common_mass);
+  if (disks.empty()) set_sizes_of_source(scene, disks);
 }
 
 }  // namespace
@@ -256,9 +287,15 @@ State initial_state(const Scene& scene, const PlaceAtRandom& place, const Growth
     set_positions(scene, disks, place);
   }
   set_velocities(scene, disks);
+  take_obstacles(scene, state);
   state.next_id = static_cast<DiskId>(n);
   state.sources.resize(scene.sources.size());
   return state;
+}
+
+std::vector<Obstacle> obstacles_of(const Scene& scene) {
+  const bool any = std::any_of(scene.groups.begin(), scene.groups.end(), [](const DiskGroup& g) { return g.fixed; });
+  return any ? initial_state(scene).obstacles : std::vector<Obstacle>();
 }
 
 }  // namespace carom

@@ -1,6 +1,8 @@
 // Making the disks that a scene describes.
 #pragma once
 
+#include <vector>
+
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
 #include "core/start/growth.hpp"
@@ -13,10 +15,13 @@ namespace carom {
 void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std::vector<double>& radii,
                 std::vector<double>& masses);
 
-// All groups in file order, ids from 0 on. Radius and mass columns exist only where disks differ. Throws InputError,
-// with file, line and key, when disks overlap (ids and overlap named), lie outside the box, or when "random" or
-// "growth" finds no room for a disk at the density asked for.
+// All groups in file order, ids from 0 on; those of fixed disks become obstacles and keep their ids. Radius and mass
+// columns exist only where disks differ. Throws InputError, with file, line and key, when disks overlap (ids and
+// overlap named), lie outside the box, or when "random" or "growth" finds no room for a disk at the density asked for.
 State initial_state(const Scene& scene, const PlaceAtRandom& place = place_at_random,
                     const GrowthTools& growth = plain_growth());
+
+// The obstacles alone, as initial_state has them: of a scene without fixed disks none, and no disk is placed for it.
+std::vector<Obstacle> obstacles_of(const Scene& scene);
 
 }  // namespace carom

@@ -40,7 +40,8 @@ bool is_at_a_distance(const StepRules& rules, const ContactEvent& event, double 
 void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally,
                 CollisionLog* log = nullptr);
 
-// One disk and the walls it reaches beyond: back to its contact, bounce, forward; what remains is pushed inside (F11).
+// One disk and the walls and obstacles it reaches beyond: back to its contact, bounce, forward; what remains is pushed
+// inside (F11).
 template <class View>
 void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTally& tally) {
   for (Side side : all_sides) {
@@ -48,6 +49,11 @@ void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTa
     tally.add(wall_partner(side), resolve_wall(d, rules, i, side));
     push_wall(d, rules.box, i, side, 0.0);
   }
+  if (rules.box.obstacles == nullptr) return;
+  for_each_obstacle_touched(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap&) {
+    tally.add(obstacle_partner(k), resolve_obstacle(d, rules, i, k));
+    push_from_obstacle(d, rules.box, i, (*rules.box.obstacles)[k], 0.0);
+  });
 }
 
 // Where the frame that starts at state.time must end: at t_end, or at the next draw of Brownian displacements.

@@ -9,6 +9,7 @@
 #include "core/base/random.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/physics/disk_pair.hpp"
+#include "core/physics/obstacle_contact.hpp"
 #include "core/scene/scene_ranges.hpp"
 #include "core/scene/size_law.hpp"
 
@@ -77,15 +78,15 @@ void draw_velocity(const Scene& scene, const Source& source, std::size_t index, 
   }
 }
 
-// Is the whole disk inside every side that is not periodic, and clear of every sink? A region may reach closer to a
-// side than a radius.
+// Is the whole disk inside every side that is not periodic, and clear of every sink and obstacle? A region may reach
+// closer to a side than a radius.
 bool inside(const Domain& box, const Disk& d) {
   for (const Side side : all_sides) {
     if (box.side(side) == SideKind::sink && reach_beyond(side, d.x, d.y, d.radius, box) >= 0.0) return false;
   }
   const bool x = box.periodic_x() || (d.x >= d.radius && d.x <= box.width - d.radius);
   const bool y = box.periodic_y() || (d.y >= d.radius && d.y <= box.height - d.radius);
-  return x && y;
+  return x && y && !touches_obstacle(box, d.x, d.y, d.radius);
 }
 
 }  // namespace

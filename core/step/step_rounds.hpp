@@ -36,7 +36,7 @@ bool is_displaced(const View& d, const Domain& box, std::size_t i, double x0, do
   return displacement2(d, box, i, x0, y0) > far * far;
 }
 
-// Is disk i pressed into a wall?
+// Is disk i pressed into a wall or an obstacle?
 template <class View>
 bool is_pressed_into_wall(const View& d, const Domain& box, std::size_t i) {
   const double r = d.radius(i);
@@ -44,7 +44,12 @@ bool is_pressed_into_wall(const View& d, const Domain& box, std::size_t i) {
     if (box.side(side) == SideKind::wall && reach_beyond(side, d.x[i], d.y[i], r, box) > pressed_overlap * r)
       return true;
   }
-  return false;
+  bool pressed = false;
+  if (box.obstacles == nullptr) return pressed;
+  for_each_obstacle_touched(box, d.x[i], d.y[i], r, [&](std::uint32_t, const ObstacleGap& gap) {
+    pressed = pressed || gap.beyond > pressed_overlap * r;
+  });
+  return pressed;
 }
 
 // Are disks i and j pressed into each other?

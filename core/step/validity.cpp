@@ -48,20 +48,21 @@ std::string inaccurate_text(const Scene& scene) {
       scene.run.dt, or_exact(scene));
 }
 
-std::string_view side_name(DiskId wall) {
-  return side_names[static_cast<std::size_t>(wall_side(wall))];
+std::string wall_name(const State& state, DiskId wall) {
+  if (is_obstacle(wall)) return fmt::format("edge of the fixed disk {}", state.obstacles[obstacle_of(wall)].id);
+  return fmt::format("{} wall", side_names[static_cast<std::size_t>(wall_side(wall))]);
 }
 
 // The deeper of the two, and what it says.
-std::string overlap_text(const Scene& scene, const WorstOverlap& disks, const WorstOverlap& wall) {
+std::string overlap_text(const Scene& scene, const State& state, const WorstOverlap& disks, const WorstOverlap& wall) {
   const bool of_disks = disks.overlap.size >= wall.overlap.size;
   const WorstOverlap& worst = of_disks ? disks : wall;
   const Overlap& o = worst.overlap;
   const std::string what = of_disks
                                ? fmt::format("two disks overlap by {:.2g} % of the sum of their radii (ids {} and {})",
                                              100.0 * o.size, o.id1, o.id2)
-                               : fmt::format("disk {} reaches {:.2g} % of its radius beyond the {} wall", o.id1,
-                                             100.0 * o.size, side_name(o.id2));
+                               : fmt::format("disk {} reaches {:.2g} % of its radius beyond the {}", o.id1,
+                                             100.0 * o.size, wall_name(state, o.id2));
   return fmt::format(
       "at time {:g} {}, more than {:g} %: dt = {:g} is too long where disks are pressed together; use a smaller dt{}",
       worst.time, what, 100.0 * largest_overlap, scene.run.dt, or_exact(scene));
@@ -105,7 +106,7 @@ void Validity::see_overlap(const Scene& scene, const StepFigures& figures, State
   const double next_step = std::max(figures.before.size, figures.wall.size);
   if (!(figures.left.size > largest_overlap) && !(next_step > largest_overlap_before)) return;
   if (std::exchange(seen.overlap_told, true)) return;
-  warnings_.push_back(overlap_text(scene, {deepest, state.time}, {figures.wall, state.time}));
+  warnings_.push_back(overlap_text(scene, state, {deepest, state.time}, {figures.wall, state.time}));
 }
 
 void Validity::see_inaccurate(const Scene& scene, Count count, State& state) {
@@ -145,7 +146,7 @@ std::vector<std::string> worst_moments(const Scene& scene, const State& state) {
   if (seen.split_told) {
     warnings.push_back(split_warning(seen.parts.time, scene.run.dt, static_cast<Count>(seen.parts.figure)));
   }
-  if (seen.overlap_told) warnings.push_back(overlap_text(scene, seen.disks, seen.wall));
+  if (seen.overlap_told) warnings.push_back(overlap_text(scene, state, seen.disks, seen.wall));
   if (seen.slow_told) warnings.push_back(slow_text(scene, seen.advance, state.disks.size()));
   return warnings;
 }

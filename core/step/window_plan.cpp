@@ -22,19 +22,20 @@ constexpr Count watched_windows = 128;
 constexpr double least_pace = 0x1p-30;
 constexpr double least_pace_tc = 0x1p-20;
 
-std::string partner_text(DiskId id) {
+std::string partner_text(const Domain& box, DiskId id) {
+  if (is_obstacle(id)) return fmt::format("the fixed disk {}", (*box.obstacles)[obstacle_of(id)].id);
   return is_wall(id) ? fmt::format("the {} wall", side_names[static_cast<std::size_t>(wall_side(id))])
                      : fmt::format("disk {}", id);
 }
 
 // Time does not get on past this event. Why that is follows from what kind of contact it is.
 [[noreturn]] void fail_standstill(const ExactRules& rules, const EventMark& event, double start) {
-  const double e = is_wall(event.id2) ? rules.box.restitution(wall_side(event.id2)) : rules.restitution;
+  const double e = is_wall(event.id2) ? restitution_of_wall(rules.box, event.id2) : rules.restitution;
   const bool rests = rules.gravity > 0.0 && dissipates(rules.box, rules.restitution);
-  if (!rules.tc() && (e < 1.0 || rests)) fail_collapse(event, start);
+  if (!rules.tc() && (e < 1.0 || rests)) fail_collapse(rules, event, start);
   throw PhysicsError(fmt::format(
       "exact: time stands still at t = {}: disk {} and {} meet again and again at one moment; {}", start + event.time,
-      event.id1, partner_text(event.id2),
+      event.id1, partner_text(rules.box, event.id2),
       rules.tc()
           ? "physics.collapse.contact_time is too short for a double to tell such times apart: use a larger one, "
             "or --method pairwise"
@@ -127,12 +128,12 @@ void check_pace(State& state, const WindowPlan& plan) {
               : "disks have hardly any room to move: use a larger box or smaller disks, or --method pairwise"));
 }
 
-void fail_collapse(const EventMark& event, double start) {
+void fail_collapse(const ExactRules& rules, const EventMark& event, double start) {
   throw PhysicsError(
       fmt::format("exact: inelastic collapse at t = {}: the collisions of disk {} pile up in vanishing time, the last "
                   "one with {}; set physics.collapse = {{ model = \"tc\", contact_time = ... }} (elastic where a disk "
                   "collided less than contact_time ago) or use --method pairwise",
-                  start + event.time, event.id1, partner_text(event.id2)));
+                  start + event.time, event.id1, partner_text(rules.box, event.id2)));
 }
 
 }  // namespace carom

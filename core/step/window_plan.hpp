@@ -39,6 +39,6 @@ void finish_window(State& state, const WindowPlan& plan, const ImpactTally& tall
 void check_pace(State& state, const WindowPlan& plan);
 
 // The one line about two disks (or a disk and a wall) whose collisions pile up. start: of the window. Status 3.
-[[noreturn]] void fail_collapse(const EventMark& event, double start);
+[[noreturn]] void fail_collapse(const ExactRules& rules, const EventMark& event, double start);
 
 }  // namespace carom

@@ -33,6 +33,12 @@ void fields(Stream& stream, T& value) {
   stream(id1, id2, force);
 }
 
+template <class Stream, Is<Obstacle> T>
+void fields(Stream& stream, T& value) {
+  auto& [x, y, radius, restitution, id] = value;
+  stream(x, y, radius, restitution, id);
+}
+
 template <class Stream, Is<StallWatch> T>
 void fields(Stream& stream, T& value) {
   auto& [frames, since] = value;
@@ -66,10 +72,10 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<State> T>
 void fields(Stream& stream, T& value) {
-  auto& [disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, validity, window, last_contact,
-         thermal_hits] = value;
-  stream(disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, validity, window, last_contact,
-         thermal_hits);
+  auto& [disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, validity, window, obstacles,
+         last_contact, thermal_hits] = value;
+  stream(disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, validity, window, obstacles,
+         last_contact, thermal_hits);
 }
 
 template <class Stream, Is<FileMark> T>

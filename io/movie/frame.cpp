@@ -52,6 +52,15 @@ constexpr double smallest_unit = 0.6;
 constexpr std::size_t few_disks = 5000;
 constexpr double smallest_of_few = 1.6;
 
+constexpr Colour obstacle_colour{150.0, 150.0, 150.0};
+
+// For drawing: what is drawn are disks.
+Disks as_disks(const std::vector<Obstacle>& obstacles) {
+  Disks disks;
+  for (const Obstacle& o : obstacles) append(disks, {o.x, o.y, 0.0, 0.0, o.radius, 1.0, o.id});
+  return disks;
+}
+
 int even(double pixels) {
   return 2 * static_cast<int>(std::ceil(0.5 * pixels));
 }
@@ -104,12 +113,28 @@ FramePainter::FramePainter(FrameStyle style) : style_(std::move(style)), layout_
   cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
   cairo_paint(context.get());
   draw_legends(context.get(), style_, layout_);
+  cairo_surface_flush(background_.get());
+  const PixelArea area = box_area(background_);
+  for_each_disk(as_disks(style_.obstacles), {}, [&area](double x, double y, double radius, const Colour&) {
+    fill_disk(area, x, y, radius, obstacle_colour);
+  });
+  cairo_surface_mark_dirty(background_.get());
 }
 
 FramePainter::~FramePainter() = default;
 
 FramePainter::Context FramePainter::context_of(const Surface& surface) const {
   return Context(cairo_create(surface.get()));
+}
+
+// The pixels within the box.
+PixelArea FramePainter::box_area(const Surface& surface) const {
+  return {reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface.get())),
+          cairo_image_surface_get_stride(surface.get()) / 4,
+          static_cast<int>(layout_.left),
+          static_cast<int>(std::lround(layout_.bottom - style_.box.height * layout_.scale)),
+          static_cast<int>(std::lround(layout_.left + style_.box.width * layout_.scale)),
+          static_cast<int>(layout_.bottom)};
 }
 
 const unsigned char* FramePainter::pixels() const {
@@ -171,12 +196,7 @@ void FramePainter::for_each_disk(const Disks& disks, const std::vector<DiskId>& 
 void FramePainter::paint(const Disks& disks, double time, const std::vector<DiskId>& group) {
   cairo_surface_flush(image_.get());
   std::memcpy(cairo_image_surface_get_data(image_.get()), cairo_image_surface_get_data(background_.get()), bytes());
-  const PixelArea area{reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(image_.get())),
-                       cairo_image_surface_get_stride(image_.get()) / 4,
-                       static_cast<int>(layout_.left),
-                       static_cast<int>(std::lround(layout_.bottom - style_.box.height * layout_.scale)),
-                       static_cast<int>(std::lround(layout_.left + style_.box.width * layout_.scale)),
-                       static_cast<int>(layout_.bottom)};
+  const PixelArea area = box_area(image_);
   for_each_disk(disks, group, [&area](double x, double y, double radius, const Colour& colour) {
     fill_disk(area, x, y, radius, colour);
   });
@@ -213,7 +233,7 @@ void FramePainter::write_svg(const std::string& path, const Disks& disks, double
     cairo_rectangle(c, layout_.left, layout_.bottom, style_.box.width * layout_.scale,
                     -style_.box.height * layout_.scale);
     cairo_clip(c);
-    for_each_disk(disks, group, [c](double x, double y, double radius, const Colour& colour) {
+    const auto draw = [c](double x, double y, double radius, const Colour& colour) {
       // A rim as in fill_disk, within the disk's radius.
       const double rim = radius >= smallest_rimmed ? rim_width : 0.0;
       const double shade = rim > 0.0 ? rim_shade : 1.0;
@@ -224,7 +244,10 @@ void FramePainter::write_svg(const std::string& path, const Disks& disks, double
       cairo_arc(c, x, y, radius - rim, 0.0, 2.0 * std::numbers::pi);
       cairo_set_source_rgb(c, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
       cairo_fill(c);
-    });
+    };
+    for_each_disk(as_disks(style_.obstacles), {},
+                  [&](double x, double y, double radius, const Colour&) { draw(x, y, radius, obstacle_colour); });
+    for_each_disk(disks, group, draw);
     cairo_restore(c);
     draw_sides(c, style_, layout_);
     draw_stamps(c, style_, layout_, disks.size(), time);

@@ -9,8 +9,10 @@
 
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/obstacle.hpp"
 #include "core/scene/scene.hpp"
 #include "io/movie/colour_scale.hpp"
+#include "io/movie/disk_raster.hpp"
 
 struct _cairo;
 struct _cairo_surface;
@@ -28,6 +30,7 @@ struct FrameStyle {
   std::vector<DiskId> group_ends{};        // see disk_group.hpp; only where groups are coloured
   DiskId groups = 0;                       // that the list of colours names
   std::vector<std::string> group_names{};  // by number, of those that have one
+  std::vector<Obstacle> obstacles{};
 };
 
 // What a run's disks will have, as far as its scene and its first disks show. Speeds to expect are those at the start
@@ -82,6 +85,7 @@ class FramePainter {
   using Context = std::unique_ptr<_cairo, Free>;
 
   Context context_of(const Surface& surface) const;
+  PixelArea box_area(const Surface& surface) const;
   Colour colour_of(const Disks& disks, std::size_t i, const std::vector<DiskId>& group) const;
   // draw(x, y, radius, colour), in pixels, for each disk, and again where it is seen across a periodic side.
   template <class Draw>

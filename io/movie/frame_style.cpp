@@ -5,6 +5,7 @@
 
 #include "core/scene/disk_group.hpp"
 #include "core/scene/size_law.hpp"
+#include "core/start/initial_state.hpp"
 #include "io/movie/frame.hpp"
 
 namespace carom {
@@ -93,6 +94,7 @@ FrameStyle frame_style(const Scene& scene, const PictureLook& look, const SeenVa
   style.groups = static_cast<DiskId>(scene.groups.size() + (scene.sources.empty() ? 0 : 1));
   for (const DiskGroup& group : scene.groups) style.group_names.push_back(group.name);
   if (!scene.sources.empty()) style.group_names.emplace_back(sources_name);
+  style.obstacles = obstacles_of(scene);
   return style;
 }
 

@@ -10,27 +10,31 @@
 namespace carom {
 
 // What a disk's next event is with: another disk, a side of the box (a wall, a sink, or a periodic side that it
-// crosses), its own neighbour list, which is due to be renewed, or nothing, so that its events are to be predicted
-// again. 32 bits.
+// crosses), an obstacle, its own neighbour list, which is due to be renewed, or nothing, so that its events are to be
+// predicted again. 32 bits.
 class Partner {
  public:
   constexpr Partner() = default;  // none
   static constexpr Partner none() { return {}; }
   static constexpr Partner relist() { return Partner(relist_bits); }
   static constexpr Partner wall(Side side) { return Partner(wall_partner(side)); }
-  // By storage index, below first_wall_partner.
+  // By its place in State::obstacles.
+  static constexpr Partner obstacle(std::uint32_t place) { return Partner(obstacle_partner(place)); }
+  // By storage index, below first_obstacle_partner.
   static constexpr Partner disk(std::uint32_t index) { return Partner(index); }
 
-  constexpr bool is_disk() const { return bits_ < first_wall_partner; }
+  constexpr bool is_disk() const { return bits_ < first_obstacle_partner; }
   constexpr bool is_wall() const { return bits_ - first_wall_partner < 4; }
+  constexpr bool is_obstacle() const { return carom::is_obstacle(bits_); }
   constexpr bool is_relist() const { return bits_ == relist_bits; }
   constexpr bool is_none() const { return bits_ == none_bits; }
-  constexpr bool is_contact() const { return bits_ < relist_bits; }  // with a disk or a wall
+  constexpr bool is_contact() const { return bits_ < relist_bits; }  // with a disk, a wall or an obstacle
 
   // Of a disk.
   constexpr std::uint32_t index() const { return bits_; }
-  // Of a wall: its side, and the id that stands for it in events.
+  // Of a wall: its side. Of an obstacle: its place. Of both: the id that stands for it in events.
   constexpr Side side() const { return wall_side(bits_); }
+  constexpr std::uint32_t place() const { return obstacle_of(bits_); }
   constexpr DiskId wall_id() const { return bits_; }
 
  private:
@@ -42,7 +46,9 @@ class Partner {
 static_assert(Partner().is_none() && !Partner::none().is_contact() && !Partner::none().is_wall());
 static_assert(Partner::relist().is_relist() && !Partner::relist().is_contact() && !Partner::relist().is_wall());
 static_assert(Partner::wall(Side::top).is_wall() && !Partner::wall(Side::top).is_disk());
-static_assert(Partner::disk(first_wall_partner - 1).is_disk());
+static_assert(Partner::disk(first_obstacle_partner - 1).is_disk());
+static_assert(Partner::obstacle(0).is_obstacle() && !Partner::obstacle(0).is_disk() && !Partner::obstacle(0).is_wall());
+static_assert(Partner::obstacle(0).is_contact() && !Partner::wall(Side::left).is_obstacle());
 
 // With regions: how far a disk's motion is known in the present slice. Active: as far as events have been processed. At
 // a border: up to the slice's start. Blocked: up to a safe time within the slice, that of its BlockedDisk (worker.hpp).

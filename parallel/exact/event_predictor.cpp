@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/physics/event_order.hpp"
+#include "core/physics/obstacle_contact.hpp"
+#include "core/physics/obstacle_path.hpp"
 
 namespace carom {
 
@@ -49,6 +51,7 @@ NextEvent EventPredictor::earliest_with_sides(std::uint32_t i) const {
   const FirstContact first = first_contact(i);
   if (first.ambiguous) return earliest_one_by_one(i);
   NextEvent best = earliest_at_sides(i);
+  if (window_->rules.box.obstacles != nullptr) see_obstacles(i, std::min(best.time, first.time), best);
   if (!(first.time <= window_->horizon)) return best;
   const NextEvent contact{first.time, Partner::disk(first.neighbour), best.lasting};
   return comes_first(i, contact, best) ? contact : best;
@@ -59,6 +62,7 @@ NextEvent EventPredictor::earliest_one_by_one(std::uint32_t i) const {
   const DiskRecord& own = window_->record[i];
   const ExactRules& rules = window_->rules;
   NextEvent best = earliest_at_sides(i);
+  if (window_->rules.box.obstacles != nullptr) see_obstacles(i, best.time, best);
   // far is rare, and its contacts are not examined.
   bool lasting = best.lasting || far_;
   lists_->for_each_neighbour(i, [&](std::uint32_t j) {
@@ -77,6 +81,29 @@ NextEvent EventPredictor::earliest_one_by_one(std::uint32_t i) const {
   });
   best.lasting = lasting;
   return best;
+}
+
+// The disk's first contact with an obstacle up to `end` or the horizon, where it comes before best.
+void EventPredictor::see_obstacles(std::uint32_t i, double end, NextEvent& best) const {
+  const DiskRecord& own = window_->record[i];
+  const Domain& box = window_->rules.box;
+  const ObstacleContact first =
+      first_obstacle_contact(own.path, own.radius, box, window_->rules.gravity, std::min(end, window_->horizon));
+  const bool lasting = best.lasting || touches_slowly(own.path, own.radius);
+  const NextEvent contact{first.time, Partner::obstacle(first.obstacle), false};
+  if (comes_first(i, contact, best)) best = contact;
+  best.lasting = lasting;
+}
+
+// Is the disk so close to an obstacle, and so slow against it, that rounding decides whether they touch?
+bool EventPredictor::touches_slowly(const PathSegment& path, double radius) const {
+  const double reach = radius + window_->close;
+  bool slowly = false;
+  for_each_obstacle_touched(window_->rules.box, path.x, path.y, reach, [&](std::uint32_t, const ObstacleGap& gap) {
+    const bool close = gap.beyond <= 2.0 * window_->close;
+    slowly = slowly || (close && std::abs(speed_towards(gap, path.vx, path.vy)) <= window_->slow);
+  });
+  return slowly;
 }
 
 PredictionConstants EventPredictor::constants_of(const WindowState& window) {

@@ -22,15 +22,16 @@ class EventPredictor {
         lists_(&lists),
         kernels_(choose_prediction_kernels(window.rules.gravity != 0.0, !window.disks->radius.empty())),
         constants_(constants_of(window)),
-        fastest2_(window.fastest2),
-        far_(!(fastest2_ <= window.safe_speed2)) {}
+        fastest2_(window.fastest2) {
+    see_far();
+  }
 
   // The earliest event of disk i with a side or a neighbour, up to the horizon, all on their present paths. newest: no
   // neighbour's segment starts later than the disk's own.
   template <bool newest>
   NextEvent earliest(std::uint32_t i) const {
     const ListRows::PlainList list = lists_->rows().plain_list(i);
-    if (far_ || !list.is_plain) return earliest_with_sides(i);
+    if (more_than_neighbours_ || !list.is_plain) return earliest_with_sides(i);
     const auto kernel = newest ? kernels_.near_newest : kernels_.near;
     const FirstContact first = kernel(constants_, &window_->record[i], list.offset, list.count);
     if (first.ambiguous) [[unlikely]]
@@ -44,15 +45,21 @@ class EventPredictor {
     if (v2 <= fastest2_) [[likely]]
       return;
     fastest2_ = v2;
-    far_ = !(fastest2_ <= window_->safe_speed2);
+    see_far();
   }
   double fastest2() const { return fastest2_; }
 
  private:
+  void see_far() {
+    far_ = !(fastest2_ <= window_->safe_speed2);
+    more_than_neighbours_ = far_ || window_->rules.box.obstacles != nullptr;
+  }
   FirstContact first_contact(std::uint32_t i) const;
   NextEvent earliest_with_sides(std::uint32_t i) const;
   NextEvent earliest_one_by_one(std::uint32_t i) const;
   NextEvent earliest_at_sides(std::uint32_t i) const;
+  void see_obstacles(std::uint32_t i, double end, NextEvent& best) const;
+  bool touches_slowly(const PathSegment& path, double radius) const;
   bool comes_first(std::uint32_t i, const NextEvent& a, const NextEvent& b) const;
   static PredictionConstants constants_of(const WindowState& window);
 
@@ -61,7 +68,9 @@ class EventPredictor {
   PredictionKernels kernels_;
   PredictionConstants constants_;
   double fastest2_;  // largest v^2 so far
-  bool far_;         // may a disk move so far that images beyond the nearest one, or crossing events, matter?
+  // Obstacles, or far_: then lists do not tell all.
+  bool more_than_neighbours_ = false;
+  bool far_ = false;  // may a disk move so far that images beyond the nearest one, or crossing events, matter?
 };
 
 }  // namespace carom

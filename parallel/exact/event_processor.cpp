@@ -174,6 +174,16 @@ void EventProcessor<scope>::process(std::uint32_t i, double time) {
   } else if (partner.is_relist()) {
     relist_and_predict(i, time);
   } else {
+    process_without_partner(i, time);
+  }
+}
+
+// The event of a disk with an obstacle, or none.
+template <Scope scope>
+void EventProcessor<scope>::process_without_partner(std::uint32_t i, double time) {
+  if (record_[i].partner.is_obstacle()) {
+    meet_obstacle(i, time);
+  } else {
     predict_next_event<false>(i, time);
   }
 }
@@ -323,6 +333,19 @@ void EventProcessor<scope>::meet_side(std::uint32_t i, double time) {
   } else {
     predict_after_event(i, time);
   }
+  if (!window_.burst.empty() && loses_energy(window_.rules, partner, impact)) count_burst(i, event);
+}
+
+template <Scope scope>
+void EventProcessor<scope>::meet_obstacle(std::uint32_t i, double time) {
+  const DiskId partner = record_[i].partner.wall_id();
+  ExactDisk now = disk(i);
+  const Impact impact =
+      meet_obstacle_at(window_.rules, time, record_[i].partner.place(), window_.disks->mass_of(i), now);
+  worker_.tally.add(partner, impact);
+  const EventMark event{time, record_[i].id, partner};
+  begin_segment(i, now, false, event);
+  predict_after_event(i, time);
   if (!window_.burst.empty() && loses_energy(window_.rules, partner, impact)) count_burst(i, event);
 }
 

@@ -59,6 +59,7 @@ class EventProcessor {
   [[gnu::always_inline]] inline bool find_first(std::uint32_t& i);
   bool comes_first(std::uint32_t a, std::uint32_t b) const;
   void process(std::uint32_t i, double time);
+  void process_without_partner(std::uint32_t i, double time);
   void process_pair(std::uint32_t i, std::uint32_t j, double time);
   void process_border(const QueuedEvent& e);
   void predict_after_event(std::uint32_t i, double time);
@@ -73,6 +74,7 @@ class EventProcessor {
   void put_off_relisting(std::uint32_t i);
   bool relist(std::uint32_t i, double time);
   void meet_side(std::uint32_t i, double time);
+  void meet_obstacle(std::uint32_t i, double time);
   void collide_pair(std::uint32_t i, std::uint32_t j, double time);
   void collide_plain_pair(std::uint32_t i, std::uint32_t j, double time);
   void collide_any_pair(std::uint32_t i, std::uint32_t j, double time);

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "core/disks/obstacle_cells.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/validity.hpp"
@@ -54,6 +56,7 @@ class ParallelExact final : public Engine {
   ParallelExact(const Scene& scene, State initial, const Threads& threads)
       : scene_(scene),
         state_(std::move(initial)),
+        obstacles_(place_obstacles(state_.obstacles, scene_.box)),
         executor_(threads.count, threads.block_divisor),
         scheduler_(window_, lists_, executor_) {}
 
@@ -98,6 +101,7 @@ class ParallelExact final : public Engine {
 
   Scene scene_;
   State state_;
+  std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box
   Executor executor_;
   Validity validity_;
   PhaseTimes times_;

@@ -90,7 +90,7 @@ SliceOutcome SliceScheduler::run(double start, double end, double per_disk, doub
   }
   const SliceOutcome reached = outcome();
   if (reached != SliceOutcome::done) return reached;
-  if (single_.collapse && !has_regions()) fail_collapse(*single_.collapse, window_start);
+  if (single_.collapse && !has_regions()) fail_collapse(window_.rules, *single_.collapse, window_start);
   for_each_worker([&](const Worker& worker) { window_.fastest2 = std::max(window_.fastest2, worker.fastest2); });
   return SliceOutcome::done;
 }

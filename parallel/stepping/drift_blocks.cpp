@@ -66,7 +66,7 @@ void note_coarse_positions(Disks& d, const Domain& box, const CellGrid& grid, co
 
 void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor,
                         std::vector<std::vector<ContactEvent>>& buffers) {
-  if (!rules.box.has(SideKind::wall)) return;
+  if (!has_walls(rules.box)) return;
   while (buffers.size() < executor.blocks(disks.size(), drift_block)) {
     buffers.emplace_back();
     buffers.back().reserve(drift_block / 16);

@@ -28,6 +28,9 @@ inline constexpr std::uint64_t id_key(DiskId id1, DiskId id2) {
 template <class View>
 ContactEvent timed_event(const View& d, const StepRules& rules, const IdPair& p) {
   if (!is_wall(p.id2())) return pair_event(d, rules, p.i1, p.i2);
+  if (is_obstacle(p.id2())) {
+    return obstacle_event(d, rules, p.i1, obstacle_of(p.id2()), gap_to(d, rules.box, p.i1, p.id2()));
+  }
   const Side side = wall_side(p.id2());
   return wall_event(d, rules, p.i1, side, reach_beyond(side, d.x[p.i1], d.y[p.i1], d.radius(p.i1), rules.box));
 }

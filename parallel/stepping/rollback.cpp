@@ -6,6 +6,7 @@
 #include "core/step/rollback_frame.hpp"
 #include "core/step/rollback_method.hpp"
 #include "parallel/stepping/time_stepping.hpp"
+#include "parallel/stepping/wall_reach.hpp"
 
 namespace carom {
 
@@ -48,7 +49,7 @@ class RollbackPhases : public TimeStepping {
   }
 
   void meet_all_walls(const StepRules& rules, ImpactTally& tally) {
-    if (!rules.box.has(SideKind::wall)) return;
+    if (!has_walls(rules.box)) return;
     const PhaseTimer timer(times_, "resolve");
     const std::size_t n = state_.disks.size();
     lists_.tallies.assign(executor_.blocks(n, wall_block), {});

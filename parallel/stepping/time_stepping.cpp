@@ -10,6 +10,7 @@
 #include "parallel/cells/nearby_runs.hpp"
 #include "parallel/stepping/brownian_kernel.hpp"
 #include "parallel/stepping/drift_blocks.hpp"
+#include "parallel/stepping/wall_reach.hpp"
 
 namespace carom {
 
@@ -29,7 +30,10 @@ constexpr double cell_margin = 2.0 * grid_margin;
 }  // namespace
 
 TimeStepping::TimeStepping(const Scene& scene, State initial, const Threads& threads)
-    : scene_(scene), state_(std::move(initial)), executor_(threads.count, threads.block_divisor) {}
+    : scene_(scene),
+      state_(std::move(initial)),
+      executor_(threads.count, threads.block_divisor),
+      obstacles_(place_obstacles(state_.obstacles, scene_.box)) {}
 
 double TimeStepping::disks_at(double /*t*/, Disks& out) const {
   out = state_.disks;
@@ -190,7 +194,7 @@ void TimeStepping::search(const StepRules& rules) {
       coarse_.current = false;  // what was found will be moved
     }
   }
-  if (!rules.box.has(SideKind::wall)) return;
+  if (!has_walls(rules.box)) return;
   const PhaseTimer timer(times_, "walls");
   find_wall_contacts(state_.disks, rules, executor_, walls_);
 }

@@ -1,6 +1,7 @@
 // What the two time-stepping methods share in parallel: disks in cells, and the phases of a step.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,7 @@ class TimeStepping : public Engine {
   double exact_travel2();
   void remove_gone();
 
+  std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box
   CellGrid grid_;
   SortedCells cells_;
   CoarsePositions coarse_;

@@ -11,6 +11,11 @@ namespace carom {
 
 // What reach_beyond (core/physics/boundary.hpp) must come to for a side to be a wall that is touched: 0, or infinity
 // for other sides.
+// Are there walls or obstacles?
+inline bool has_walls(const Domain& box) {
+  return box.has(SideKind::wall) || box.obstacles != nullptr;
+}
+
 class WallReach {
  public:
   explicit WallReach(const Domain& box) : width_(box.width), height_(box.height) {
@@ -18,9 +23,10 @@ class WallReach {
       least_[static_cast<std::size_t>(side)] =
           box.side(side) == SideKind::wall ? 0.0 : std::numeric_limits<double>::infinity();
     }
+    if (box.obstacles != nullptr) least_[0] = -std::numeric_limits<double>::infinity();
   }
 
-  // Does a disk of radius r at (x, y) touch a wall or reach beyond it?
+  // Does a disk of radius r at (x, y) touch a wall or reach beyond it? Where there are obstacles, it may always.
   bool touches(double x, double y, double r) const {
     return (r - x >= least_[0]) | ((x + r) - width_ >= least_[1]) | (r - y >= least_[2]) |
            ((y + r) - height_ >= least_[3]);

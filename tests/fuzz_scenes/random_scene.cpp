@@ -174,6 +174,18 @@ std::string disks_text(Dice& dice, const Draft& draft) {
   return text;
 }
 
+// Fixed disks, after the others; in a crowd whose places are listed they lie along the left side.
+std::string obstacles_text(Dice& dice, const Draft& draft) {
+  const bool room =
+      draft.cast == Cast::gas || draft.cast == Cast::few || draft.cast == Cast::pile || draft.cast == Cast::none;
+  if (!room || draft.crowd.packing_fraction > 0.4 || !dice.chance(0.25)) return "";
+  const double r = draft.crowd.disks > 0 ? draft.crowd.largest : 0.1 * std::min(draft.width, draft.height);
+  const std::size_t count = 1 + dice.below(5);
+  const double largest = rounded(0.25 * r * dice.pick({1e-3, 0.1, 1.0}));
+  return fmt::format("[[disks]]\nfixed = true\ncount = {}\npositions = \"random\"\nradius = {{ uniform = [{}, {}] }}\n",
+                     count, 0.5 * largest, largest);
+}
+
 std::string sources_text(Dice& dice, const Draft& draft) {
   const std::size_t sources = draft.cast == Cast::none ? 1 + dice.below(2) : dice.chance(0.2) ? 1 + dice.below(3) : 0;
   std::string text;
@@ -239,6 +251,7 @@ std::string random_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t
   text += box_text(dice, draft);
   text += physics_text(dice, draft);
   text += disks_text(dice, draft);
+  text += obstacles_text(dice, draft);
   text += sources_text(dice, draft);
   if (draft.cast == Cast::grown && dice.chance(0.3)) text += "[growth]\nslowness = 0.5\nsteps = 2000\n";
   return text + run_text(dice, draft);
@@ -264,6 +277,7 @@ std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::u
   text += box_text(dice, draft);
   text += fmt::format("[physics]\ngravity = {}\nrestitution = {}\n", draft.gravity, draft.restitution);
   text += disks_text(dice, draft);
+  text += obstacles_text(dice, draft);
   return text + run_text(dice, draft);
 }
 

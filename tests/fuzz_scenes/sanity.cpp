@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/disks/disks.hpp"
+#include "core/disks/obstacle_cells.hpp"
 #include "core/physics/boundary.hpp"
 
 namespace carom::fuzz {
@@ -100,14 +101,17 @@ void Sanity::look_at_counts(const State& state) {
 
 void Sanity::look_at_overlaps(const State& state) {
   const double overlap = max_overlap(state.disks, scene_.box);
-  const double beyond = wall_overlap(state.disks, scene_.box);
+  Domain box = scene_.box;
+  const auto obstacles = place_obstacles(state.obstacles, box);
+  const double beyond = wall_overlap(state.disks, box);
   if (scene_.run.method == Method::exact) {
     const double smallest = state.disks.empty() ? 1.0 : smallest_radius(state.disks);
     const double unit = std::max(scene_.box.width, scene_.box.height) / smallest * 0x1p-52;
     const double allowed = 1e-11 + 64.0 * unit;
     const bool through_sinks = scene_.box.has(SideKind::sink);  // a disk that leaves may stand beyond it
     if (overlap > allowed) blame(state, fmt::format("two disks overlap by {} of the sum of their radii", overlap));
-    if (beyond > allowed && !through_sinks) blame(state, fmt::format("a disk is beyond a wall by {} radii", beyond));
+    if (beyond > allowed && !through_sinks)
+      blame(state, fmt::format("a disk is beyond a wall or an obstacle by {} radii", beyond));
     return;
   }
   say_later(state, unsaid_overlap_, overlap > silent_overlap ? fmt::format("an overlap of {}", overlap) : "");
@@ -118,12 +122,13 @@ void Sanity::look_at_motion(const State& state) {
   const Physics& p = scene_.physics;
   const Domain& box = scene_.box;
   if (p.diffusion > 0.0 || !scene_.sources.empty() || box.has(SideKind::sink) || box.has_thermal_side()) return;
+  const bool stands = !state.obstacles.empty();  // what takes momentum, as walls do
   const Momentum now = momentum_of(state.disks);
   largest_momentum_ = std::max(largest_momentum_, now.magnitude);
-  if (box.periodic_x() && std::abs(now.x - momentum_.x) > rounding * largest_momentum_) {
+  if (!stands && box.periodic_x() && std::abs(now.x - momentum_.x) > rounding * largest_momentum_) {
     blame(state, fmt::format("momentum along x went from {} to {}", momentum_.x, now.x));
   }
-  if (box.periodic_y() && p.gravity == 0.0 && std::abs(now.y - momentum_.y) > rounding * largest_momentum_) {
+  if (!stands && box.periodic_y() && p.gravity == 0.0 && std::abs(now.y - momentum_.y) > rounding * largest_momentum_) {
     blame(state, fmt::format("momentum along y went from {} to {}", momentum_.y, now.y));
   }
   if (p.gravity > 0.0 && box.periodic_y()) return;                    // falls for ever

@@ -15,6 +15,7 @@
 
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/obstacle.hpp"
 
 namespace carom::oracle {
 
@@ -26,6 +27,7 @@ struct Ball {
 
 struct System {
   std::vector<Ball> balls;
+  std::vector<Obstacle> obstacles;
   Domain box;
   Real gravity = 0.0L;
   Real restitution = 1.0L;
@@ -36,8 +38,10 @@ struct System {
   Real shortest = HUGE_VALL;  // time between two events
 };
 
-inline System make_system(const Disks& disks, const Domain& box, double gravity, double restitution) {
+inline System make_system(const Disks& disks, const Domain& box, double gravity, double restitution,
+                          const std::vector<Obstacle>& obstacles = {}) {
   System s;
+  s.obstacles = obstacles;
   s.box = box;
   s.gravity = gravity;
   s.restitution = restitution;
@@ -75,14 +79,37 @@ inline Real side_time(Real d, Real u, Real a) {
   return u > 0.0L ? 2.0L * d / (u + root) : (-u + root) / a;
 }
 
+// Contact of a falling ball with an obstacle displaced by (ox, oy), up to `end`, by going on as far as the ball surely
+// does not touch yet.
+inline Real obstacle_time(const Ball& a, const Obstacle& o, Real ox, Real oy, Real g, Real end) {
+  const Real reach = a.r + static_cast<Real>(o.radius);
+  const Real nothing = 1e-17L * reach;
+  Real t = 0.0L;
+  for (bool first = true;; first = false) {
+    const Real x = a.x + a.vx * t - (o.x + ox);
+    const Real y = a.y + a.vy * t - 0.5L * g * t * t - (o.y + oy);
+    const Real vy = a.vy - g * t;
+    const Real gap = std::sqrt(x * x + y * y) - reach;
+    const bool nearer = x * a.vx + y * vy < 0.0L;
+    if (gap <= nothing && nearer) return t;
+    if (first && g == 0.0L && !nearer) return no_event;
+    if (t >= end) return no_event;
+    // Away from a contact that is over by a little, beyond the reach of rounding.
+    const Real room = std::max(gap, (nearer ? 1e-18L : 1e-13L) * reach);
+    const Real speed = std::sqrt(a.vx * a.vx + vy * vy);
+    t += 2.0L * room / (speed + std::sqrt(speed * speed + 2.0L * g * room));
+  }
+}
+
 struct Happening {
   Real time = no_event;
   std::size_t i = 0, j = 0;
   Real ox = 0.0L, oy = 0.0L;
   int side = -1;
+  int obstacle = -1;
 };
 
-inline Happening next_happening(const System& s) {
+inline Happening next_happening(const System& s, Real end) {
   Happening first;
   const bool px = s.box.periodic_x();
   const bool py = s.box.periodic_y();
@@ -107,6 +134,14 @@ inline Happening next_happening(const System& s) {
     for (int k = 0; k < 4; ++k) {
       if (t[k] < first.time) first = {t[k], i, i, 0.0L, 0.0L, k};
     }
+    for (std::size_t k = 0; k < s.obstacles.size(); ++k) {
+      for (int kx = px ? -1 : 0; kx <= (px ? 1 : 0); ++kx) {
+        for (int ky = py ? -1 : 0; ky <= (py ? 1 : 0); ++ky) {
+          const Real t_o = obstacle_time(a, s.obstacles[k], kx * w, ky * h, s.gravity, std::min(end, first.time));
+          if (t_o < first.time) first = {t_o, i, i, kx * w, ky * h, -1, static_cast<int>(k)};
+        }
+      }
+    }
   }
   return first;
 }
@@ -126,6 +161,18 @@ inline void resolve(System& s, const Happening& e) {
   Ball& a = s.balls[e.i];
   if (e.side >= 0) {
     (e.side < 2 ? a.vx : a.vy) *= -static_cast<Real>(s.box.restitutions[static_cast<std::size_t>(e.side)]);
+    ++s.wall_collisions;
+    return;
+  }
+  if (e.obstacle >= 0) {
+    const Obstacle& o = s.obstacles[static_cast<std::size_t>(e.obstacle)];
+    Real x = a.x - o.x;
+    Real y = a.y - o.y;
+    if (s.box.periodic_x()) x -= std::round(x / s.box.width) * static_cast<Real>(s.box.width);
+    if (s.box.periodic_y()) y -= std::round(y / s.box.height) * static_cast<Real>(s.box.height);
+    const Real along = (x * a.vx + y * a.vy) / (x * x + y * y);
+    a.vx -= (1.0L + static_cast<Real>(o.restitution)) * along * x;
+    a.vy -= (1.0L + static_cast<Real>(o.restitution)) * along * y;
     ++s.wall_collisions;
     return;
   }
@@ -157,8 +204,8 @@ inline bool run(System& s, Real t, std::size_t most_events = static_cast<std::si
       if (s.box.periodic_x()) longest = std::min(longest, 0.25L * s.box.width / (std::abs(b.vx) + 1e-300L));
       if (s.box.periodic_y()) longest = std::min(longest, 0.25L * s.box.height / (std::abs(b.vy) + 1e-300L));
     }
-    const Happening e = next_happening(s);
     const Real left = t - s.time;
+    const Happening e = next_happening(s, std::min(left, longest));
     if (e.time > left && left <= longest) {
       advance(s, left);
       return true;

@@ -20,11 +20,12 @@ struct Features {
   bool own_masses = false;
   bool source = false;
   int seed = 1;
+  bool obstacles = false;  // fixed disks of many sizes, some of them across the sides
 
   std::string name() const {
     return method + "_" + sides + (gravity ? "_g" : "") + (restitution < 1.0 ? "_e" : "") +
            (diffusion.empty() ? "" : "_" + diffusion) + "_" + radii + (own_masses ? "_m" : "") +
-           (source ? "_source" : "");
+           (source ? "_source" : "") + (obstacles ? "_fixed" : "");
   }
 };
 
@@ -63,12 +64,19 @@ inline std::string disks_text(const Features& f) {
   return "[[disks]]\ncount = 130\npositions = \"random\"\nradius = " + radius + "\nmass = " + mass + "\n" + velocity;
 }
 
+inline std::string obstacles_text(const Features& f) {
+  if (!f.obstacles) return "";
+  return "[[disks]]\nfixed = true\ncount = 9\npositions = \"random\"\nradius = { uniform = [0.05, 0.8] }\n"
+         "[[disks]]\nfixed = true\ncount = 4\npositions = [[0.1, 9.0], [24.0, 4.0], [12.0, 0.2], [12.5, 0.0]]\n"
+         "radius = [0.7, 0.4, 0.5, 0.6]\n";
+}
+
 // About 130 disks at a packing fraction near 0.3 to 0.5, moving up to a third of a radius a step: contacts in every
 // step, crowded ones among them.
 inline Scene feature_scene(const Features& f, int steps) {
   std::string text = "title = \"" + f.name() + "\"\nseed = " + std::to_string(f.seed) +
                      "\n[box]\nwidth = 24.0\nheight = 18.0\nwall_restitution = " + (f.gravity ? "0.8" : "1.0") + "\n" +
-                     sides_text(f.sides) + physics_text(f) + disks_text(f);
+                     sides_text(f.sides) + physics_text(f) + obstacles_text(f) + disks_text(f);
   if (f.source) {
     text +=
         "[[sources]]\nregion = [4.0, 4.0, 20.0, 14.0]\nrate = 80.0\nradius = 0.25\nmass = 1.5\n"

@@ -1,0 +1,103 @@
+// The obstacles of a run in cells, so that a disk is tested against those near it alone.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/disks/domain.hpp"
+#include "core/disks/obstacle.hpp"
+
+namespace carom {
+
+// Obstacles do not move, so that the cells are made once. About two cells an obstacle; each cell lists the obstacles
+// that reach into it.
+class ObstacleCells {
+ public:
+  ObstacleCells(const std::vector<Obstacle>& obstacles, const Domain& box);
+
+  const Obstacle& operator[](std::size_t k) const { return obstacles_[k]; }
+  std::size_t size() const { return obstacles_.size(); }
+  // The shorter side of a cell; length.
+  double cell() const { return std::min(1.0 / x_.cells_per_length, 1.0 / y_.cells_per_length); }
+  // Does any of them take energy from disks?
+  bool dissipates() const;
+
+  // Calls see(k, shift) once for every obstacle k, and every image of it across periodic sides, that may reach into the
+  // rectangle; the image is displaced by shift. The rectangle may lie beyond periodic sides by a few periods.
+  template <class See>
+  void visit(Vec2 low, Vec2 high, See&& see) const {
+    const Span rows = y_.span(low.y, high.y);
+    const Span columns = x_.span(low.x, high.x);
+    for (std::int64_t row = rows.first; row <= rows.last; ++row) {
+      for (std::int64_t column = columns.first; column <= columns.last; ++column) {
+        visit_cell(rows, columns, row, column, see);
+      }
+    }
+  }
+
+ private:
+  struct Span {
+    std::int64_t first, last;  // cells, counted on across periodic sides
+  };
+  struct Axis {
+    double length = 0.0;
+    bool periodic = false;
+    std::int64_t cells = 1;
+    double cells_per_length = 1.0;
+
+    std::int64_t cell_of(double c) const {
+      const double cell = std::floor(c * cells_per_length);
+      const double last = static_cast<double>(cells - 1);
+      return static_cast<std::int64_t>(periodic ? cell : std::clamp(cell, 0.0, last));
+    }
+    // A little further at both ends, as coordinates of images are rounded.
+    Span span(double low, double high) const {
+      const double slack = 1e-9 / cells_per_length;
+      return {cell_of(low - slack), cell_of(high + slack)};
+    }
+    // By how many periods a cell lies beyond the box, rounded down.
+    std::int64_t periods(std::int64_t cell) const {
+      return periodic ? (cell >= 0 ? cell / cells : -((cells - 1 - cell) / cells)) : 0;
+    }
+  };
+  struct Entry {
+    std::uint32_t obstacle;
+    std::int32_t period_x, period_y;  // in which the obstacle, where it stands, reaches into the cell
+  };
+  struct Reach {
+    Span columns, rows;
+  };
+
+  template <class See>
+  void visit_cell(const Span& rows, const Span& columns, std::int64_t row, std::int64_t column, See&& see) const {
+    const std::int64_t py = y_.periods(row);
+    const std::int64_t px = x_.periods(column);
+    const auto cell = static_cast<std::size_t>((row - py * y_.cells) * x_.cells + (column - px * x_.cells));
+    for (std::uint32_t e = start_[cell]; e < start_[cell + 1]; ++e) {
+      const Entry& entry = entries_[e];
+      const Reach& reach = reach_[entry.obstacle];
+      const std::int64_t kx = px - entry.period_x;
+      const std::int64_t ky = py - entry.period_y;
+      // Of the cells that the image and the rectangle share, the first one only.
+      if (column != std::max(columns.first, reach.columns.first + kx * x_.cells)) continue;
+      if (row != std::max(rows.first, reach.rows.first + ky * y_.cells)) continue;
+      see(entry.obstacle, Vec2{static_cast<double>(kx) * x_.length, static_cast<double>(ky) * y_.length});
+    }
+  }
+
+  std::vector<Obstacle> obstacles_;
+  Axis x_, y_;
+  std::vector<Reach> reach_;          // of each obstacle
+  std::vector<std::uint32_t> start_;  // of each cell in entries_, row by row; one more than cells
+  std::vector<Entry> entries_;
+};
+
+// The cells for a run's obstacles, and box.obstacles set to them; null where there are none.
+std::unique_ptr<const ObstacleCells> place_obstacles(const std::vector<Obstacle>& obstacles, Domain& box);
+
+}  // namespace carom
