@@ -30,6 +30,11 @@ Scene short_scene(const std::string& name, const std::string& method) {
   if (name == "analysis") changes.push_back({"disks.0.count", "400"});
   if (name == "gas_million") changes.push_back({"disks.0.count", "2000"});
   if (name == "dense_mixture") changes.push_back({"disks.0.count", "200"});  // grown anew for each method
+  if (name == "lorentz_gas" && method != "exact") {
+    changes.push_back({"disks.1.radius", "0.02"});
+    changes.push_back({"disks.1.count", "200"});
+    changes.push_back({"run.dt", "0.005"});
+  }
   if (method == "exact") changes.push_back({"physics.collapse", "{ model = \"tc\", contact_time = 1e-3 }"});
   return load_scene(CAROM_SOURCE_DIR "/scenes/" + name + ".toml", changes);
 }
