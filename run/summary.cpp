@@ -25,12 +25,14 @@ Json phase_seconds(const Summary& s) {
   return phases;
 }
 
-Json heat_of(const Summary& s) {
-  Json heat = Json::object();
+// What each side gave for which `gives` is true.
+template <class Gives>
+Json side_energy_of(const Summary& s, Gives&& gives) {
+  Json energy = Json::object();
   for (std::size_t k = 0; k < side_names.size(); ++k) {
-    if (s.box.is_thermal(all_sides[k])) heat[std::string(side_names[k])] = json_number(s.counters.heat[k]);
+    if (gives(all_sides[k])) energy[std::string(side_names[k])] = json_number(s.counters.side_energy[k]);
   }
-  return heat.empty() ? absent() : heat;
+  return energy.empty() ? absent() : energy;
 }
 
 // These ids, if there was an overlap.
@@ -79,7 +81,9 @@ const JsonKey<Summary> summary_keys[] = {
     {"version", "", "of Carom, with the commit that it was built from",
      [](const Summary&) -> Json { return build_version(); }},
     {"heat", "energy", "only with thermal sides: an object, what each of them gave to the disks",
-     [](const Summary& s) -> Json { return heat_of(s); }},
+     [](const Summary& s) -> Json { return side_energy_of(s, [&](Side side) { return s.box.is_thermal(side); }); }},
+    {"work", "energy", "only with sides that move: an object, the work that each of them did on the disks",
+     [](const Summary& s) -> Json { return side_energy_of(s, [&](Side side) { return s.box.moves(side); }); }},
     {"seed", "", "of the random numbers", [](const Summary& s) -> Json { return s.seed; }},
     {"waiting", "", "disks that are due from sources and find no room",
      [](const Summary& s) -> Json { return s.counters.waiting; }},
@@ -158,7 +162,7 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.energy_final = of_velocities(energy.total());
   s.momentum_drift = of_velocities(momentum_drift(start.momentum, momentum_of(state.disks)));
   const Overlap of_disks = deepest_overlap(state.disks, scene.box);
-  Domain box = scene.box;
+  Domain box = box_at(scene.box, state.time);
   const std::unique_ptr<const ObstacleCells> obstacles = place_obstacles(state.obstacles, box);
   const Overlap of_wall = deepest_wall_overlap(state.disks, box);
   s.max_overlap = of_disks.size;
@@ -166,7 +170,8 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.worst_disks = worst_of(state.validity.disks, of_disks, state.time);
   s.worst_wall = worst_of(state.validity.wall, of_wall, state.time);
   const Energy halfway{0.5 * (start.energy.kinetic + energy.kinetic), 0.0};
-  s.pressure = of_velocities(pressure(halfway, state.counters.virial, elapsed, scene.box));
+  s.pressure =
+      of_velocities(pressure(halfway, state.counters.virial, elapsed, box_at(scene.box, state.time - 0.5 * elapsed)));
   const double mean_disks = 0.5 * (static_cast<double>(start.particles) + static_cast<double>(s.particles));
   const double disk_time = mean_disks * elapsed;
   if (disk_time > 0.0) s.collision_rate = 2.0 * static_cast<double>(state.counters.collisions) / disk_time;

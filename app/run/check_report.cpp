@@ -44,7 +44,8 @@ std::string walls_text(const Domain& box) {
       text += fmt::format(", the {} wall at temperature {:g}", name, box.temperature(side));
       continue;
     }
-    equal = equal && box.restitution(side) == first.value_or(box.restitution(side));
+    if (box.moves(side)) text += fmt::format(", the {} wall moves", name);
+    equal = equal && !box.moves(side) && box.restitution(side) == first.value_or(box.restitution(side));
     if (!first) first = box.restitution(side);
     text += fmt::format(", {:g} at the {} wall", box.restitution(side), name);
   }

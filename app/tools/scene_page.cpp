@@ -121,6 +121,8 @@ std::string series_rows() {
       displacement_column);
   text += fmt::format("| `{}_left`, likewise `_right`, `_bottom`, `_top` | {} | {}; a column a thermal side |\n",
                       heat_column.name, heat_column.unit, heat_column.meaning);
+  text += fmt::format("| `{}_left`, likewise | {} | {}; a column a side that moves |\n", work_column.name,
+                      work_column.unit, work_column.meaning);
   text +=
       "\nThen, for each `[[disks]]` block with a `name`, and for `sources` if there are any, these with `_` and the "
       "name behind, as in `temperature_tracer`:\n\n| column | unit | what it is |\n| --- | --- | --- |\n";

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/base/types.hpp"
+#include "core/disks/side_motion.hpp"
 
 namespace carom {
 
@@ -21,6 +22,9 @@ struct Domain {
   std::array<SideKind, 4> sides{SideKind::wall, SideKind::wall, SideKind::wall, SideKind::wall};
   std::array<double, 4> restitutions{1.0, 1.0, 1.0, 1.0};  // in [0, 1]; only those of walls count
   std::array<double, 4> temperatures{0.0, 0.0, 0.0, 0.0};  // of thermal walls, energy; 0: not thermal
+  std::array<SideMotion, 4> motions{};                     // of walls
+  // Where they are, at the time that the box is used for; the edges themselves where nothing moves.
+  std::array<SidePlace, 4> places{};
   // What stands in the box (place_obstacles); null where nothing does. Outlives the box.
   const ObstacleCells* obstacles = nullptr;
 
@@ -32,6 +36,23 @@ struct Domain {
   bool is_thermal(Side s) const { return temperature(s) > 0.0; }
   bool has_thermal_side() const {
     return is_thermal(Side::left) || is_thermal(Side::right) || is_thermal(Side::bottom) || is_thermal(Side::top);
+  }
+  bool moves(Side s) const { return motions[static_cast<std::size_t>(s)].moves(); }
+  bool has_moving_side() const {
+    return moves(Side::left) || moves(Side::right) || moves(Side::bottom) || moves(Side::top);
+  }
+  const SidePlace& place(Side s) const { return places[static_cast<std::size_t>(s)]; }
+  // Sides that move go to where they are at time t.
+  void move_sides(double t) {
+    for (std::size_t s = 0; s < motions.size(); ++s) places[s] = motions[s].at(t);
+  }
+  // To where they are at time `to`, with the mean speed of the time since `from`: time stepping sees no other.
+  void step_sides(double from, double to) {
+    for (std::size_t s = 0; s < motions.size(); ++s) {
+      if (!motions[s].moves()) continue;
+      const double inset = motions[s].at(to).inset;
+      places[s] = {inset, (inset - motions[s].at(from).inset) / (to - from), 0.0};
+    }
   }
   // May a collision with a wall lose energy?
   bool walls_dissipate() const {
@@ -49,6 +70,12 @@ struct Domain {
     return false;
   }
 };
+
+// The box at time t, when its moving sides are where they are then.
+inline Domain box_at(Domain box, double t) {
+  if (box.has_moving_side()) box.move_sides(t);
+  return box;
+}
 
 // One component of the difference between two positions, taken to the nearest image.
 // Precondition: |d| < 1.5 period (both positions wrapped, or out by less than a quarter period).

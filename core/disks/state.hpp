@@ -21,7 +21,8 @@ struct Counters {
   double virial = 0.0;                    // sum over disk-disk collisions of |impulse| (r1 + r2); mass length^2 / time
   double emitted_energy = 0.0;            // that disks from sources came with, kinetic and potential
   double wall_impulse[4] = {0, 0, 0, 0};  // sum of |impulse| on each side (order of Side); mass length / time
-  double heat[4] = {0, 0, 0, 0};          // energy that each thermal side has given to the disks
+  // Energy that each side has given to the disks: heat of a thermal one, work of one that moves.
+  double side_energy[4] = {0, 0, 0, 0};
 };
 
 struct SourceState {

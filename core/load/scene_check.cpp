@@ -97,6 +97,23 @@ void check_sides(const Domain& box, const PlaceOfKey& place) {
   }
 }
 
+// What sides that move do not go with.
+void check_moving_sides(const Scene& scene, const PlaceOfKey& place) {
+  for (const Side side : all_sides) {
+    if (!scene.box.moves(side)) continue;
+    const std::string where = place(fmt::format("box.{}.motion", side_names[static_cast<std::size_t>(side)]));
+    if (scene.physics.diffusion > 0.0) {
+      fail_input(where, "given beside physics.diffusion: Brownian disks have no velocity", "expected one of the two");
+    }
+    if (!scene.sources.empty()) {
+      fail_input(where, "given beside [[sources]], which know no sides that move", "expected one of the two");
+    }
+    const bool fixed =
+        std::any_of(scene.groups.begin(), scene.groups.end(), [](const DiskGroup& g) { return g.fixed; });
+    if (fixed) fail_input(where, "given beside fixed disks, which a side may not run over", "expected one of the two");
+  }
+}
+
 // Brownian disks have no velocity that a thermal side could give them.
 void check_thermal_motion(const Scene& scene, const PlaceOfKey& place) {
   if (!(scene.physics.diffusion > 0.0)) return;
@@ -243,6 +260,7 @@ void check_drift(const Scene& scene, const DiskGroup& group, const std::string& 
 void check_parts(const Scene& scene, const PlaceOfKey& place) {
   check_sides(scene.box, place);
   check_thermal_motion(scene, place);
+  check_moving_sides(scene, place);
   Count total = 0;
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     const std::string path = fmt::format("disks.{}", g);

@@ -83,9 +83,9 @@ struct BoxSize {
   std::optional<double> width, height, packing_fraction, aspect;
 };
 
-BoxSize read_box(const SceneOrigin& origin, Domain& box) {
+BoxSize read_box(const SceneOrigin& origin, Scene& scene) {
   const TableReader reader(origin, "box", required_section(origin, "box", "width and height"));
-  read_sides(reader, box);
+  read_sides(reader, scene);
   const BoxSize size{reader.number("width"), reader.number("height"), reader.number("packing_fraction"),
                      reader.number("aspect")};
   if (size.packing_fraction) {
@@ -337,7 +337,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   scene.file = name;
   scene.title = read_title(root);
   scene.seed = read_seed(root);
-  const BoxSize size = read_box(origin, scene.box);
+  const BoxSize size = read_box(origin, scene);
   scene.physics = read_physics(origin);
   scene.groups = read_tables(origin, "disks", read_group);
   scene.sources = read_tables(origin, "sources", read_source);
@@ -351,7 +351,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   if (analysis != nullptr) scene.analysis = read_analysis(origin, *analysis, scene);
   check_parts(scene, place);
   settle_box(scene, size, place);
-  settle_analysis(scene, check_box(scene, place), place);
+  const double largest_radius = check_box(scene, place);
+  settle_sides(scene, largest_radius, place);
+  settle_analysis(scene, largest_radius, place);
   if (scene.run.automatic) {
     choose_run(scene, place);
     check_times(scene, place);  // of the step chosen

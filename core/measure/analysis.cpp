@@ -56,7 +56,8 @@ void add_means(AnalysisRecord& record, const Scene& scene, const Disks& disks, c
   if (scene.analysis.wants(Quantity::pressure)) {
     const double virial = now.counters.virial - record.before.virial;
     const bool known = elapsed > 0.0 && !velocities_are_drawn(scene);
-    record.series.pressure.push_back(known ? pressure(energy_of(disks, 0.0), virial, elapsed, scene.box) : nothing);
+    record.series.pressure.push_back(
+        known ? pressure(energy_of(disks, 0.0), virial, elapsed, box_at(scene.box, now.time)) : nothing);
   }
   if (scene.analysis.wants(Quantity::collision_rate)) {
     const auto collisions = static_cast<double>(now.counters.collisions - record.before.collisions);

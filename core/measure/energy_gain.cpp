@@ -14,7 +14,7 @@ std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& sta
   const bool exact = scene.run.method == Method::exact;
   double before = start.energy.total() + state.counters.emitted_energy;
   double moved = before;  // what rounding is to be held against
-  for (const double heat : state.counters.heat) {
+  for (const double heat : state.counters.side_energy) {
     before += heat;
     moved += std::abs(heat);
   }

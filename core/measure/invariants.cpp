@@ -84,7 +84,7 @@ Overlap deepest_wall_overlap(const Disks& d, const Domain& box) {
   for (std::size_t i = 0; i < d.size(); ++i) {
     for (Side side : all_sides) {
       if (box.side(side) != SideKind::wall) continue;
-      const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius_of(i), box) / d.radius_of(i);
+      const double beyond = reach_beyond_wall(side, d.x[i], d.y[i], d.radius_of(i), box) / d.radius_of(i);
       if (beyond > 0.0) deepest.see({beyond, d.id[i], wall_partner(side)});
     }
     if (box.obstacles == nullptr) continue;
@@ -102,7 +102,10 @@ double wall_overlap(const Disks& d, const Domain& box) {
 
 double pressure(const Energy& energy, double virial, double elapsed, const Domain& box) {
   if (!(elapsed > 0.0)) return 0.0;
-  return (energy.kinetic + virial / (2.0 * elapsed)) / (box.width * box.height);
+  const auto inset = [&](Side side) { return box.place(side).inset; };
+  const double width = box.width - (inset(Side::left) + inset(Side::right));
+  const double height = box.height - (inset(Side::bottom) + inset(Side::top));
+  return (energy.kinetic + virial / (2.0 * elapsed)) / (width * height);
 }
 
 }  // namespace carom

@@ -44,7 +44,8 @@ double wall_overlap(const Disks& disks, const Domain& box);
 Overlap deepest_overlap(const Disks& disks, const Domain& box, const BlockRunner& run = run_in_order);
 Overlap deepest_wall_overlap(const Disks& disks, const Domain& box);
 
-// P A = K + virial / (2 elapsed) (virial theorem in two dimensions; ideal part K = N kT). 0 if elapsed is 0.
+// P A = K + virial / (2 elapsed) (virial theorem in two dimensions; ideal part K = N kT). 0 if elapsed is 0. A is the
+// room between the sides where the box has them.
 double pressure(const Energy& energy, double virial, double elapsed, const Domain& box);
 
 }  // namespace carom

@@ -22,6 +22,11 @@ inline double reach_beyond(Side side, double x, double y, double r, const Domain
   }
 }
 
+// The same of a wall that may move: beyond where it is.
+inline double reach_beyond_wall(Side side, double x, double y, double r, const Domain& box) {
+  return reach_beyond(side, x, y, r, box) + box.place(side).inset;
+}
+
 // Speed towards the side; > 0: the disk moves into it.
 inline double outward_speed(Side side, double vx, double vy) {
   switch (side) {
@@ -67,14 +72,15 @@ inline void bounce(Side side, double restitution, double& vx, double& vy) {
 
 // Coordinate of a centre that just touches the side: the exact place after a correction, free of rounding drift.
 inline double touching_coordinate(Side side, double r, const Domain& box) {
+  const double inset = box.place(side).inset;
   switch (side) {
     case Side::left:
     case Side::bottom:
-      return r;
+      return r + inset;
     case Side::right:
-      return box.width - r;
+      return (box.width - r) - inset;
     default:
-      return box.height - r;
+      return (box.height - r) - inset;
   }
 }
 

@@ -81,9 +81,30 @@ inline Impact meet_thermal_side(const ExactRules& rules, double s, Side side, do
   const double before = outward_speed(side, p.vx, p.vy);
   Impact outcome{0.0, 0.0, true, false};
   if (before > 0.0) {
-    outcome.heat =
+    outcome.energy =
         reflect_thermally(side, rules.box.temperature(side), mass, {rules.seed, id}, a.thermal_hits, p.vx, p.vy);
     outcome.virial = mass * (before - outward_speed(side, p.vx, p.vy));
+  }
+  a.last_contact = s;
+  return outcome;
+}
+
+// Disk a is at a moving side at time s. Under the TC model it leaves a side that accelerates towards it with a hop, as
+// it does from the floor.
+inline Impact meet_moving_side(const ExactRules& rules, double s, Side side, double mass, ExactDisk& a) {
+  PathSegment& p = a.path;
+  const SidePlace place = rules.box.place(side).after(s);
+  const bool elastic = made_elastic(rules, s, a.last_contact);
+  const double e = elastic ? 1.0 : rules.box.restitution(side);
+  const double approach = approach_speed(side, p.vx, p.vy, place);
+  Impact outcome{0.0, 0.0, true, elastic && rules.box.restitution(side) < 1.0};
+  const double leaving = approach > 0.0 ? e * approach : -approach;
+  const double hop =
+      rules.tc() ? least_hop * approach_acceleration(side, rules.gravity, place) * rules.contact_time : 0.0;
+  const double away = std::max(leaving, hop);
+  if (approach > 0.0 || away > leaving) {
+    outcome.virial = mass * rebound(side, place, approach, away, p.vx, p.vy);
+    outcome.energy = outcome.virial * place.speed;
   }
   a.last_contact = s;
   return outcome;
@@ -97,6 +118,8 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
   Impact outcome;
   if (rules.box.is_thermal(side)) {
     outcome = meet_thermal_side(rules, s, side, mass, id, a);
+  } else if (rules.box.moves(side)) {
+    outcome = meet_moving_side(rules, s, side, mass, a);
   } else if (rules.box.side(side) == SideKind::wall) {
     const bool elastic = made_elastic(rules, s, a.last_contact);
     const double e = elastic ? 1.0 : rules.box.restitution(side);

@@ -10,6 +10,7 @@
 #include "core/physics/advance.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/physics/disk_pair.hpp"
+#include "core/physics/moving_side.hpp"
 
 namespace carom {
 
@@ -108,9 +109,30 @@ inline double time_to_crossing(Side side, const PathSegment& p, const Domain& bo
   return this_side ? 2.0 * flight / (fast + root) : never;
 }
 
+// A path and a moving side, at the start of the path. box.places: of the sides at the start of the window.
+struct SideApproach {
+  SidePlace place;  // of the side
+  double gap;       // length, < 0: beyond it by rounding
+  double speed;     // towards the side, in its frame
+};
+
+inline SideApproach approach_of(const PathSegment& p, Side side, double radius, const Domain& box) {
+  const SidePlace place = box.place(side).after(p.start);
+  return {place, -reach_beyond(side, p.x, p.y, radius, box) - place.inset, approach_speed(side, p.vx, p.vy, place)};
+}
+
+inline double time_to_moving_side(const PathSegment& p, Side side, double radius, const Domain& box, double g) {
+  const SideApproach a = approach_of(p, side, radius, box);
+  return time_to_approach(a.gap, a.speed, approach_acceleration(side, g, a.place));
+}
+
 // The time of a path's event at a side: contact with a wall or sink, or crossing a periodic side. A sink takes a disk
 // that touches it, wherever the disk moves. `never` if after `end`.
 inline double side_time(const PathSegment& p, Side side, double radius, const Domain& box, double g, double end) {
+  if (box.moves(side)) {
+    const double s = p.start + time_to_moving_side(p, side, radius, box, g);
+    return s <= end ? s : never;
+  }
   const SideKind kind = box.side(side);
   const double gap = -reach_beyond(side, p.x, p.y, radius, box);
   const double t = kind == SideKind::periodic           ? time_to_crossing(side, p, box, g)

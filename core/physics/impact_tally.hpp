@@ -20,7 +20,7 @@ struct ImpactTally {
   Count inaccurate = 0;             // of both collisions, see Impact
   ExactSum virial;
   std::array<ExactSum, 4> wall_impulse;
-  std::vector<ExactSum> heat;  // of each side; empty where no thermal side gave any
+  std::vector<ExactSum> side_energy;  // that each side gave; empty where none did
 
   // partner: the second disk's id, or a wall_partner.
   void add(DiskId partner, const Impact& impact) {
@@ -30,15 +30,15 @@ struct ImpactTally {
       ++wall_collisions;
       if (is_obstacle(partner)) return;
       wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.virial);
-      if (impact.heat != 0.0) add_heat(wall_side(partner), impact.heat);
+      if (impact.energy != 0.0) add_energy(wall_side(partner), impact.energy);
     } else {
       add_collision(impact.virial);
     }
   }
 
-  void add_heat(Side side, double given) {
-    heat.resize(all_sides.size());
-    heat[static_cast<std::size_t>(side)].add(given);
+  void add_energy(Side side, double given) {
+    side_energy.resize(all_sides.size());
+    side_energy[static_cast<std::size_t>(side)].add(given);
   }
 
   // A collision of two disks.
@@ -48,10 +48,14 @@ struct ImpactTally {
   }
 
   // What a support bore in this round of the step, |impulse| (r1 + r2) or, for a wall, |impulse|.
-  void add_load(DiskId partner, double borne) {
+  // A side that moves does work by it.
+  void add_load(DiskId partner, double borne, const Domain& box) {
     if (is_wall(partner)) {
       ++wall_loads;
-      if (!is_obstacle(partner)) wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(borne);
+      if (is_obstacle(partner)) return;
+      const Side side = wall_side(partner);
+      wall_impulse[static_cast<std::size_t>(side)].add(borne);
+      if (box.moves(side)) add_energy(side, borne * box.place(side).speed);
     } else {
       ++loads;
       virial.add(borne);
@@ -68,9 +72,9 @@ struct ImpactTally {
     if (other.wall_collisions + other.wall_loads > 0) {
       for (std::size_t k = 0; k < wall_impulse.size(); ++k) wall_impulse[k].add(other.wall_impulse[k]);
     }
-    if (other.heat.empty()) return;
-    heat.resize(all_sides.size());
-    for (std::size_t k = 0; k < heat.size(); ++k) heat[k].add(other.heat[k]);
+    if (other.side_energy.empty()) return;
+    side_energy.resize(all_sides.size());
+    for (std::size_t k = 0; k < side_energy.size(); ++k) side_energy[k].add(other.side_energy[k]);
   }
 
   // Rounds once a step.
@@ -80,7 +84,7 @@ struct ImpactTally {
     if (collisions + loads > 0) counters.virial += virial.value();
     if (wall_collisions + wall_loads == 0) return;
     for (std::size_t k = 0; k < wall_impulse.size(); ++k) counters.wall_impulse[k] += wall_impulse[k].value();
-    for (std::size_t k = 0; k < heat.size(); ++k) counters.heat[k] += heat[k].value();
+    for (std::size_t k = 0; k < side_energy.size(); ++k) counters.side_energy[k] += side_energy[k].value();
   }
 };
 

@@ -13,6 +13,7 @@
 #include "core/physics/boundary.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/disk_pair.hpp"
+#include "core/physics/moving_side.hpp"
 #include "core/physics/obstacle_contact.hpp"
 #include "core/physics/thermal_side.hpp"
 
@@ -33,7 +34,7 @@ struct StepRules {
 // What became of one contact event.
 struct Impact {
   double virial = 0.0;  // |impulse| x distance of a disk pair, |impulse| of a wall; mass length^2 / time or m l / t
-  double heat = 0.0;    // energy that a thermal side gave; mass length^2 / time^2
+  double energy = 0.0;  // that a thermal side or one that moves gave; mass length^2 / time^2
   bool happened = false;
   // Late, since the disks have overlapped since before the step; or made elastic by the TC model (exact).
   bool inaccurate = false;
@@ -66,7 +67,7 @@ ContactEvent pair_event(const View& d, const StepRules& rules, std::uint32_t i, 
 // Likewise for a disk that reaches `beyond` >= 0 past a wall.
 template <class View>
 ContactEvent wall_event(const View& d, const StepRules& rules, std::uint32_t i, Side side, double beyond) {
-  const double speed = outward_speed(side, d.vx[i], d.vy[i]);
+  const double speed = approach_speed(side, d.vx[i], d.vy[i], rules.box.place(side));
   double ago = rules.dt;
   if (speed > 0.0) ago = std::min(rules.dt, time_since_wall(side, beyond, speed, rules.gravity));
   return {ago, d.id[i], wall_partner(side), i, 0};
@@ -94,7 +95,7 @@ ObstacleGap gap_to(const View& d, const Domain& box, std::uint32_t i, DiskId par
 template <class View>
 double reach_beyond_wall(const View& d, const Domain& box, std::uint32_t i, DiskId partner) {
   if (is_obstacle(partner)) return gap_to(d, box, i, partner).beyond;
-  return reach_beyond(wall_side(partner), d.x[i], d.y[i], d.radius(i), box);
+  return reach_beyond_wall(wall_side(partner), d.x[i], d.y[i], d.radius(i), box);
 }
 
 // Restitution of a contact with a wall or an obstacle.
@@ -108,7 +109,7 @@ template <class View, class Found>
 void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t i, Found&& found) {
   for (Side side : all_sides) {
     if (rules.box.side(side) != SideKind::wall) continue;
-    const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius(i), rules.box);
+    const double beyond = reach_beyond_wall(side, d.x[i], d.y[i], d.radius(i), rules.box);
     if (beyond >= 0.0) found(wall_event(d, rules, i, side, beyond));
   }
   if (rules.box.obstacles == nullptr) return;
@@ -157,7 +158,7 @@ template <class View>
 double bounce_at_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
   const double r = d.radius(i);
   const double speed = outward_speed(side, d.vx[i], d.vy[i]);
-  const double beyond = reach_beyond(side, d.x[i], d.y[i], r, rules.box);
+  const double beyond = reach_beyond_wall(side, d.x[i], d.y[i], r, rules.box);
   const double away = rules.box.restitution(side) * speed_at_wall(side, beyond, speed, rules.gravity);
   if (side == Side::left || side == Side::right) {
     d.x[i] = touching_coordinate(side, r, rules.box);
@@ -191,10 +192,36 @@ Impact resolve_thermal_wall(const View& d, const StepRules& rules, std::uint32_t
   if (outward_speed(side, d.vx[i], d.vy[i]) > 0.0) impact = reflect_at_side(d, rules, i, side);
   if (inside_step) drift_one(d, i, ago, rules.gravity);
   const double r = d.radius(i);
-  if (reach_beyond(side, d.x[i], d.y[i], r, rules.box) >= 0.0) {
+  if (reach_beyond_wall(side, d.x[i], d.y[i], r, rules.box) >= 0.0) {
     (side == Side::left || side == Side::right ? d.x : d.y)[i] = touching_coordinate(side, r, rules.box);
   }
   return impact;
+}
+
+// Likewise for a side that moves, in its frame: back to the contact, and off the side.
+template <class View>
+Impact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
+  const SidePlace& place = rules.box.place(side);
+  const double r = d.radius(i);
+  const double restitution = rules.box.restitution(side);
+  const auto beyond = [&] { return reach_beyond_wall(side, d.x[i], d.y[i], r, rules.box); };
+  const auto speed = [&] { return approach_speed(side, d.vx[i], d.vy[i], place); };
+  if (!(beyond() >= 0.0) || !(speed() > 0.0)) return {};
+  const double ago = time_since_wall(side, beyond(), speed(), rules.gravity);
+  double change = 0.0;
+  if (ago <= rules.dt) {
+    drift_one(d, i, -ago, rules.gravity);
+    const double approach = speed();
+    if (approach > 0.0) change = rebound(side, place, approach, restitution * approach, d.vx[i], d.vy[i]);
+    drift_one(d, i, ago, rules.gravity);
+  }
+  if (beyond() >= 0.0 && speed() > 0.0) {
+    const double away = restitution * speed_at_wall(side, beyond(), speed(), rules.gravity);
+    (side == Side::left || side == Side::right ? d.x : d.y)[i] = touching_coordinate(side, r, rules.box);
+    change += rebound(side, place, speed(), away, d.vx[i], d.vy[i]);
+  }
+  const double impulse = d.mass(i) * change;
+  return {impulse, impulse * place.speed, change > 0.0};
 }
 
 // Likewise for a disk and a wall (F11: position and velocity are both put right). A disk that gravity brings back to
@@ -202,6 +229,7 @@ Impact resolve_thermal_wall(const View& d, const StepRules& rules, std::uint32_t
 // its energy allows: so a disk at rest on the floor stays at rest, and the lift gives it no energy.
 template <class View>
 Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
+  if (rules.box.moves(side)) return resolve_moving_wall(d, rules, i, side);
   const auto beyond = [&] { return reach_beyond(side, d.x[i], d.y[i], d.radius(i), rules.box); };
   const auto speed = [&] { return outward_speed(side, d.vx[i], d.vy[i]); };
   if (!(beyond() >= 0.0) || !(speed() > 0.0)) return {};
@@ -285,7 +313,7 @@ inline constexpr int most_impact_passes = 8;
 template <class View>
 void push_wall(const View& d, const Domain& box, std::uint32_t i, Side side, double slack) {
   const double r = d.radius(i);
-  const double push = reach_beyond(side, d.x[i], d.y[i], r, box) - slack;
+  const double push = reach_beyond_wall(side, d.x[i], d.y[i], r, box) - slack;
   if (!(push > 0.0)) return;
   if (side == Side::left || side == Side::right) {
     d.x[i] = touching_coordinate(side, r, box) + (side == Side::left ? -slack : slack);

@@ -38,7 +38,10 @@ inline double load_of(const std::vector<ContactLoad>& loads, const ContactEvent&
 template <class View>
 double normal_velocity(const View& d, const Domain& box, const ContactEvent& e) {
   if (is_obstacle(e.id2)) return -speed_towards(gap_to(d, box, e.i1, e.id2), d.vx[e.i1], d.vy[e.i1]);
-  if (is_wall(e.id2)) return -outward_speed(wall_side(e.id2), d.vx[e.i1], d.vy[e.i1]);
+  if (is_wall(e.id2)) {
+    const Side side = wall_side(e.id2);
+    return -approach_speed(side, d.vx[e.i1], d.vy[e.i1], box.place(side));
+  }
   const Relative r = relative(d, e.i1, e.i2, box);
   const double distance2 = r.distance2();
   return distance2 > 0.0 ? r.approach() / std::sqrt(distance2) : 0.0;
@@ -87,7 +90,7 @@ void hold_at_wall(const View& d, const Domain& box, const ContactEvent& e, doubl
   }
   const Side side = wall_side(e.id2);
   const double r = d.radius(e.i1);
-  const double beyond = reach_beyond(side, d.x[e.i1], d.y[e.i1], r, box);
+  const double beyond = reach_beyond_wall(side, d.x[e.i1], d.y[e.i1], r, box);
   if (beyond >= 0.0 || beyond < -slack) return;
   (side == Side::left || side == Side::right ? d.x : d.y)[e.i1] = touching_coordinate(side, r, box);
 }

@@ -47,6 +47,7 @@ struct Support {
   double counted = 0.0;     // of it, in an earlier round of the step
   double before = 0.0;      // impulse when the cycle began
   double direction = 0.0;   // of the conjugate gradient; mass length / time
+  double side_speed = 0.0;  // of a wall that moves, towards the disk; length / time
 };
 
 inline bool is_wall_support(const Support& s) {
@@ -73,6 +74,7 @@ Support make_support(const View& d, const StepRules& rules, const ContactEvent& 
     s.ny = side == Side::bottom ? -1.0 : side == Side::top ? 1.0 : 0.0;
     s.i2 = e.i1;
     s.effective = d.mass(e.i1);
+    s.side_speed = rules.box.place(side).speed;
     return s;
   }
   const Relative r = relative(d, e.i1, e.i2, rules.box);
@@ -123,7 +125,7 @@ inline double borne(const Support& s) {
 template <class View>
 double relax(const View& d, Support& s) {
   double u = -(d.vx[s.i1] * s.nx + d.vy[s.i1] * s.ny);
-  if (!is_wall_support(s)) u += d.vx[s.i2] * s.nx + d.vy[s.i2] * s.ny;
+  u += is_wall_support(s) ? -s.side_speed : d.vx[s.i2] * s.nx + d.vy[s.i2] * s.ny;
   const double total = std::max(0.0, s.impulse - s.effective * u);
   const double change = total - s.impulse;
   s.impulse = total;

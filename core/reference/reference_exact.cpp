@@ -31,7 +31,7 @@ class ReferenceExact final : public Engine {
     speeds.add(state_.disks, 0, state_.disks.size());
     WindowPlan plan = plan_window(scene_, state_, summarise_speeds(speeds, state_.disks.size()), scale_);
     const PhaseTimer timer(times_, "window");
-    const ExactRules rules = exact_rules(scene_, state_.disks);
+    const ExactRules rules = exact_rules(scene_, state_.disks, plan.start);
     has_paths_ = false;
     WindowResult result = run_reference_window(rules, state_, plan, go_on_);
     while (result.crowded && !result.given_up) {
@@ -111,7 +111,7 @@ class ReferenceExact final : public Engine {
     state_.counters.removed += remove_marked(d, result.gone);
     finish_window(state_, plan, result.tally, scale_);
     validity_.see_step(scene_, {{}, {}, {}, result.tally.inaccurate}, state_);
-    check_pace(state_, plan);
+    check_pace(scene_, state_, plan);
   }
 
   Scene scene_;

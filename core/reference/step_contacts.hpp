@@ -34,7 +34,7 @@ template <class View>
 void see_wall_overlap(const View& d, const Domain& box, std::uint32_t i, StepFigures& figures) {
   for (Side side : all_sides) {
     if (box.side(side) != SideKind::wall) continue;
-    const double beyond = reach_beyond(side, d.x[i], d.y[i], d.radius(i), box);
+    const double beyond = reach_beyond_wall(side, d.x[i], d.y[i], d.radius(i), box);
     if (beyond > 0.0) figures.wall.see({beyond / d.radius(i), d.id[i], wall_partner(side)});
   }
   if (box.obstacles == nullptr) return;

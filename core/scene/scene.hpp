@@ -187,6 +187,7 @@ struct Scene {
   std::string file;  // as given on the command line
   std::uint64_t seed = 1;
   Domain box;
+  std::array<std::optional<double>, 4> side_places{};  // coordinates of moving sides that the scene gives
   Physics physics;
   std::vector<DiskGroup> groups;
   std::vector<Source> sources;

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/input_message.hpp"
 #include "core/scene/scene_names.hpp"
 
 namespace carom {
@@ -9,6 +13,17 @@ namespace carom {
 namespace {
 
 constexpr std::string_view table_kind = "box.side";
+constexpr std::string_view motion_kind = "box.side.motion";
+constexpr std::string_view motion_expected = "expected { velocity = [vx, vy] } or { vibrate = [ax, ay], period = T }";
+
+bool is_vertical(std::size_t s) {
+  return s < 2;
+}
+
+// Of the rectangle, across this side.
+double length_across(const Domain& box, std::size_t s) {
+  return is_vertical(s) ? box.width : box.height;
+}
 
 // A key of a wall's table that another kind of side may not have.
 void require_wall(const TableReader& side, std::string_view name, SideKind kind) {
@@ -17,35 +32,142 @@ void require_wall(const TableReader& side, std::string_view name, SideKind kind)
   side.fail(name, fmt::format("given of a side of kind \"{}\"", kind_name), "expected kind = \"wall\"");
 }
 
-void read_side(const TableReader& side, std::size_t s, Domain& domain) {
+// One of velocity and vibrate: its component into the box.
+double read_inward(const TableReader& motion, std::string_view name, std::size_t s, Dimension dimension) {
+  const std::vector<double> v = as_numbers(motion.origin(), motion.key(name), *motion.find(name));
+  if (v.size() != 2) motion.fail(name, fmt::format("has {} numbers", v.size()), "expected a list of two, x and y");
+  const double across = is_vertical(s) ? v[0] : v[1];
+  const double along = is_vertical(s) ? v[1] : v[0];
+  if (along != 0.0) {
+    motion.fail(name, fmt::format("is {} along the side, which does nothing to disks without friction", along),
+                "expected 0 there");
+  }
+  if (!in_range(dimension, std::abs(across))) {
+    motion.fail(name, fmt::format("is {}", across), expected_range(dimension));
+  }
+  return s % 2 == 0 ? across : -across;
+}
+
+SideMotion read_motion(const TableReader& side, std::size_t s) {
+  const toml::node& node = *side.find("motion");
+  const toml::table* table = node.as_table();
+  if (table == nullptr) side.fail("motion", fmt::format("is {}", type_name(node)), motion_expected);
+  const TableReader reader(side.origin(), side.key("motion"), *table, motion_kind);
+  const bool steady = reader.find("velocity") != nullptr;
+  if (steady == (reader.find("vibrate") != nullptr)) {
+    side.fail("motion", steady ? "has both velocity and vibrate" : "has neither velocity nor vibrate", motion_expected);
+  }
+  SideMotion motion;
+  motion.kind = steady ? SideMotion::Kind::steady : SideMotion::Kind::vibrate;
+  reader.choice_or_initial("shape");
+  const std::optional<double> period = reader.number("period");
+  if (steady) {
+    if (period) reader.fail("period", "given of a constant velocity", "expected vibrate = [ax, ay] as well");
+    motion.speed = read_inward(reader, "velocity", s, Dimension::speed);
+  } else {
+    motion.amplitude = read_inward(reader, "vibrate", s, Dimension::length);
+    if (!period) reader.fail("period", "missing", "expected the time of one vibration");
+    motion.period = *period;
+  }
+  return motion;
+}
+
+void read_side(const TableReader& side, std::size_t s, Scene& scene) {
+  Domain& domain = scene.box;
   domain.sides[s] = static_cast<SideKind>(side.choice_or_initial("kind"));
-  require_wall(side, "restitution", domain.sides[s]);
-  require_wall(side, "temperature", domain.sides[s]);
+  for (const char* key : {"restitution", "temperature", "motion", "place"}) require_wall(side, key, domain.sides[s]);
   if (const auto temperature = side.number("temperature")) {
     if (side.find("restitution") != nullptr) {
       side.fail("restitution", "given beside temperature, which draws the velocity anew", "expected one of the two");
+    }
+    if (side.find("motion") != nullptr) {
+      side.fail("motion", "given beside temperature: thermal sides do not move", "expected one of the two");
     }
     domain.temperatures[s] = *temperature;
     domain.restitutions[s] = 1.0;
   }
   if (const auto restitution = side.number("restitution")) domain.restitutions[s] = *restitution;
+  scene.side_places[s] = side.number("place");
+  if (side.find("motion") != nullptr) {
+    domain.motions[s] = read_motion(side, s);
+  } else if (scene.side_places[s]) {
+    side.fail("place", "given of a side that does not move", "expected motion as well");
+  }
+}
+
+std::string key_of(std::size_t s, std::string_view key) {
+  return fmt::format("box.{}.{}", side_names[s], key);
+}
+
+// Its inset at time 0, or at the middle of its vibration.
+double first_inset(const Scene& scene, std::size_t s) {
+  const SideMotion& motion = scene.box.motions[s];
+  if (scene.side_places[s]) {
+    return s % 2 == 0 ? *scene.side_places[s] : length_across(scene.box, s) - *scene.side_places[s];
+  }
+  return motion.kind == SideMotion::Kind::vibrate ? std::abs(motion.amplitude) : 0.0;
+}
+
+void settle_side(Scene& scene, std::size_t s, const PlaceOfKey& place) {
+  SideMotion& motion = scene.box.motions[s];
+  motion.inset = first_inset(scene, s);
+  const double length = length_across(scene.box, s);
+  const double t_end = scene.run.t_end;
+  motion.furthest = motion.largest_inset(t_end);
+  if (motion.least_inset(t_end) >= 0.0 && motion.furthest <= length) return;
+  const std::string key = key_of(s, scene.side_places[s] ? "place" : "motion");
+  fail_input(place(key), fmt::format("brings the {} side out of the box before run.t_end = {}", side_names[s], t_end),
+             fmt::format("expected it to stay between 0 and {}", length));
+}
+
+// The least distance of two opposite sides until t_end, or less than that.
+double least_distance(const Domain& box, std::size_t s, double t_end) {
+  const SideMotion& a = box.motions[s];
+  const SideMotion& b = box.motions[s + 1];
+  const double length = length_across(box, s);
+  using Kind = SideMotion::Kind;
+  if (a.kind != Kind::vibrate && b.kind != Kind::vibrate) {  // straight lines: at one of the ends
+    return length - std::max(a.inset + b.inset, (a.inset + a.speed * t_end) + (b.inset + b.speed * t_end));
+  }
+  const bool together = a.kind == b.kind && a.period == b.period;
+  if (together) return length - (a.inset + b.inset) - std::abs(a.amplitude + b.amplitude);
+  return length - a.furthest - b.furthest;
 }
 
 }  // namespace
 
-void read_sides(const TableReader& box, Domain& domain) {
+void read_sides(const TableReader& box, Scene& scene) {
+  Domain& domain = scene.box;
   domain.restitutions.fill(box.number_or_initial("wall_restitution"));
   for (std::size_t s = 0; s < side_names.size(); ++s) {
     const std::string_view name = side_names[s];
     const toml::node* node = box.find(name);
     if (node != nullptr && node->is_table()) {
-      read_side(TableReader(box.origin(), box.key(name), *node->as_table(), table_kind), s, domain);
+      read_side(TableReader(box.origin(), box.key(name), *node->as_table(), table_kind), s, scene);
     } else if (node != nullptr && !node->is_string()) {
       box.fail(name, fmt::format("is {}", type_name(*node)), "expected a string, or a table { kind = ... }");
     } else {
       domain.sides[s] = static_cast<SideKind>(box.choice_or_initial(name));
     }
   }
+}
+
+void settle_sides(Scene& scene, double largest_radius, const PlaceOfKey& place) {
+  if (!scene.box.has_moving_side()) return;
+  for (std::size_t s = 0; s < side_names.size(); ++s) {
+    if (scene.box.motions[s].moves()) settle_side(scene, s, place);
+  }
+  for (const std::size_t s : {0U, 2U}) {
+    const std::size_t moving = scene.box.motions[s].moves() ? s : s + 1;
+    if (!scene.box.motions[moving].moves()) continue;
+    const double least = least_distance(scene.box, s, scene.run.t_end);
+    if (least >= 2.0 * largest_radius) continue;
+    fail_input(place(key_of(moving, "motion")),
+               fmt::format("brings the {} and {} sides to {:.6g} of each other before run.t_end = {}", side_names[s],
+                           side_names[s + 1], std::max(least, 0.0), scene.run.t_end),
+               fmt::format("expected at least {}, the diameter of the largest disk", 2.0 * largest_radius));
+  }
+  scene.box.move_sides(0.0);
 }
 
 }  // namespace carom

@@ -1,12 +1,17 @@
 // Reading what the four sides of the box do, the keys left to top of [box].
 #pragma once
 
-#include "core/disks/domain.hpp"
+#include "core/scene/place_of_key.hpp"
+#include "core/scene/scene.hpp"
 #include "core/scene/scene_reader.hpp"
 
 namespace carom {
 
 // Each is a name, or a table that says more of a wall. Throws InputError.
-void read_sides(const TableReader& box, Domain& domain);
+void read_sides(const TableReader& box, Scene& scene);
+
+// Where moving sides begin, once box and t_end are known, and whether they stay in the box and leave room for a disk of
+// the largest radius. Throws InputError.
+void settle_sides(Scene& scene, double largest_radius, const PlaceOfKey& place);
 
 }  // namespace carom

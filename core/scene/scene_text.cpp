@@ -115,8 +115,22 @@ double common_restitution(const Domain& box) {
   return box.restitution(Side::left);
 }
 
-std::string side_text(const Domain& box, std::size_t s, double common) {
+std::string motion_text(const SideMotion& motion, std::size_t s) {
+  const auto across = [&](double inward) {
+    const double v = s % 2 == 0 ? inward : -inward;
+    return s < 2 ? pair({v, 0.0}) : pair({0.0, v});
+  };
+  if (motion.kind == SideMotion::Kind::steady) return fmt::format("{{ velocity = {} }}", across(motion.speed));
+  return fmt::format("{{ vibrate = {}, period = {}, shape = \"parabola\" }}", across(motion.amplitude),
+                     decimal(motion.period));
+}
+
+std::string side_text(const Domain& box, std::size_t s, double common, const std::optional<double>& place) {
   const std::string kind = quoted_toml(side_kind_names[index(box.sides[s])]);
+  if (box.motions[s].moves()) {
+    return fmt::format("{{ kind = {}, restitution = {}{}, motion = {} }}", kind, decimal(box.restitutions[s]),
+                       place ? fmt::format(", place = {}", decimal(*place)) : "", motion_text(box.motions[s], s));
+  }
   if (box.temperatures[s] > 0.0) {
     return fmt::format("{{ kind = {}, temperature = {} }}", kind, decimal(box.temperatures[s]));
   }
@@ -124,11 +138,12 @@ std::string side_text(const Domain& box, std::size_t s, double common) {
   return fmt::format("{{ kind = {}, restitution = {} }}", kind, decimal(box.restitutions[s]));
 }
 
-std::string box_text(const Domain& box) {
+std::string box_text(const Scene& scene) {
+  const Domain& box = scene.box;
   std::string text = fmt::format("\n[box]\nwidth = {}\nheight = {}\n", decimal(box.width), decimal(box.height));
   const double common = common_restitution(box);
   for (std::size_t s = 0; s < side_names.size(); ++s) {
-    text += fmt::format("{} = {}\n", side_names[s], side_text(box, s, common));
+    text += fmt::format("{} = {}\n", side_names[s], side_text(box, s, common, scene.side_places[s]));
   }
   return text + fmt::format("wall_restitution = {}\n", decimal(common));
 }
@@ -260,7 +275,7 @@ std::string seed_text(std::uint64_t seed) {
 
 std::string resolved_toml(const Scene& scene) {
   std::string text = fmt::format("title = {}\nseed = {}\n", quoted_toml(scene.title), seed_text(scene.seed));
-  text += box_text(scene.box);
+  text += box_text(scene);
   text += physics_text(scene.physics);
   for (const DiskGroup& group : scene.groups) text += group_text(group);
   text += growth_text(scene);

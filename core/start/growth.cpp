@@ -42,6 +42,7 @@ Scene flight_scene(const Scene& scene) {
   flight.box = scene.box;
   flight.box.restitutions.fill(1.0);
   flight.box.temperatures.fill(0.0);
+  flight.box.motions = {};
   for (SideKind& side : flight.box.sides) side = side == SideKind::periodic ? side : SideKind::wall;
   flight.run.method = Method::exact;
   return flight;

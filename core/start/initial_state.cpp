@@ -269,7 +269,44 @@ void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std
   }
 }
 
+namespace {
+
+// Disks start between the sides where moving ones stand at time 0.
+Scene inside_moving_sides(const Scene& scene) {
+  Scene inner = scene;
+  const auto& place = scene.box.places;
+  inner.box.motions = {};
+  inner.box.places = {};
+  inner.box.width -= place[0].inset + place[1].inset;
+  inner.box.height -= place[2].inset + place[3].inset;
+  const auto moved = [&](Vec2 p) { return Vec2{p.x - place[0].inset, p.y - place[2].inset}; };
+  for (std::size_t g = 0; g < inner.groups.size(); ++g) {
+    PositionLaw& law = inner.groups[g].positions;
+    for (Vec2& p : law.list) p = moved(p);
+    if (!law.region) continue;
+    StartRegion& region = *law.region;
+    region.low = moved(region.low);
+    region.high = moved(region.high);
+    region.centre = moved(region.centre);
+    const double slack = side_slack(0.0, std::max(scene.box.width, scene.box.height));
+    const bool inside = region.low.x >= -slack && region.low.y >= -slack && region.high.x <= inner.box.width + slack &&
+                        region.high.y <= inner.box.height + slack;
+    if (inside) continue;
+    fail_input(place_in_group(scene, g, "region"), "reaches beyond a side that moves",
+               "expected a region between the sides where they are at time 0");
+  }
+  return inner;
+}
+
+}  // namespace
+
 State initial_state(const Scene& scene, const PlaceAtRandom& place, const GrowthTools& growth) {
+  if (scene.box.has_moving_side()) {
+    State state = initial_state(inside_moving_sides(scene), place, growth);
+    for (double& x : state.disks.x) x += scene.box.place(Side::left).inset;
+    for (double& y : state.disks.y) y += scene.box.place(Side::bottom).inset;
+    return state;
+  }
   State state;
   Count total = 0;
   for (const DiskGroup& g : scene.groups) total += g.count;

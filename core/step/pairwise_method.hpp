@@ -30,12 +30,19 @@ class PairwiseMethod final : public Phases {
     if (!std::exchange(state_.step_begun, true)) start_interval(clock_.start(k), dt, k);
     const Count n = parts(dt);
     StepFigures figures;
-    for (Count part = 0; part < n; ++part) figures.add(advance(rules_for(scene_, state_, dt / static_cast<double>(n))));
+    const double length = dt / static_cast<double>(n);
+    for (Count part = 0; part < n; ++part) {
+      const double begin = clock_.start(k) + length * static_cast<double>(part);
+      const double end = part + 1 < n ? clock_.start(k) + length * static_cast<double>(part + 1) : clock_.end(k);
+      if (scene_.box.has_moving_side()) scene_.box.step_sides(begin, end);
+      figures.add(advance(rules_for(scene_, state_, length)));
+    }
     remove_at_sinks();
     state_.step_begun = false;
     ++state_.counters.steps;
     state_.time = clock_.end(k);
     validity_.see_step(scene_, figures, state_);
+    check_crushed(scene_, figures, state_.time);
   }
 
  private:

@@ -32,11 +32,13 @@ class RollbackMethod final : public Phases {
     const double end = frame_limit(scene_, state_, clock_);
     const double length = std::min(scene_.run.dt / static_cast<double>(parts(scene_.run.dt)), end - state_.time);
     StepFigures figures;
+    if (scene_.box.has_moving_side()) scene_.box.step_sides(state_.time, state_.time + length);
     const double back = advance(rules_for(scene_, state_, length), figures);
     state_.time = back == 0.0 && state_.time + length >= end ? end : std::min(end, state_.time + (length - back));
     remove_at_sinks();
     ++state_.counters.steps;
     validity_.see_step(scene_, figures, state_);
+    check_crushed(scene_, figures, state_.time);
     check_stall(state_, scene_);
   }
 
@@ -79,9 +81,19 @@ class RollbackMethod final : public Phases {
     }
     ImpactTally tally;
     bounce(rules, tally);
-    meet_all_walls(rules, tally);
+    meet_all_walls(back > 0.0 && scene_.box.has_moving_side() ? gone_back(rules, back) : rules, tally);
     tally.count_into(state_.counters);
     return back;
+  }
+
+  // All has gone back by `back`, the sides that move with it.
+  StepRules gone_back(StepRules rules, double back) const {
+    if (back < rules.dt) {
+      rules.box.step_sides(state_.time, state_.time + (rules.dt - back));
+    } else {
+      rules.box.move_sides(state_.time);
+    }
+    return rules;
   }
 
   StepClock clock_;

@@ -41,7 +41,7 @@ template <class View>
 bool is_pressed_into_wall(const View& d, const Domain& box, std::size_t i) {
   const double r = d.radius(i);
   for (Side side : all_sides) {
-    if (box.side(side) == SideKind::wall && reach_beyond(side, d.x[i], d.y[i], r, box) > pressed_overlap * r)
+    if (box.side(side) == SideKind::wall && reach_beyond_wall(side, d.x[i], d.y[i], r, box) > pressed_overlap * r)
       return true;
   }
   bool pressed = false;

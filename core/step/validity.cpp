@@ -6,8 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/check.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/scene/drawn_velocities.hpp"
+#include "core/scene/moving_sides_text.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
@@ -149,6 +151,19 @@ std::vector<std::string> worst_moments(const Scene& scene, const State& state) {
   if (seen.overlap_told) warnings.push_back(overlap_text(scene, state, seen.disks, seen.wall));
   if (seen.slow_told) warnings.push_back(slow_text(scene, seen.advance, state.disks.size()));
   return warnings;
+}
+
+void check_crushed(const Scene& scene, const StepFigures& figures, double time) {
+  if (!scene.box.has_moving_side()) return;
+  const Overlap& deepest = figures.wall.size > figures.left.size ? figures.wall : figures.left;
+  if (!(deepest.size > crushed_overlap)) return;
+  throw PhysicsError(fmt::format(
+      "a side that moves leaves no room at t = {}: disk {} reaches {:.2g} % into {} ({}); move it less far, or take "
+      "fewer or smaller disks",
+      time, deepest.id1, 100.0 * deepest.size,
+      is_wall(deepest.id2) ? fmt::format("the {} wall", side_names[static_cast<std::size_t>(wall_side(deepest.id2))])
+                           : fmt::format("disk {}", deepest.id2),
+      moving_sides_text(scene.box, time)));
 }
 
 double fastest_speed(const Disks& disks) {

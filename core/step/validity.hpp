@@ -89,6 +89,11 @@ std::vector<std::string> validity_so_far(const Scene& scene, const State& state)
 // Those of them that tell of one moment, the worst; not of a share that goes on with every step.
 std::vector<std::string> worst_moments(const Scene& scene, const State& state);
 
+// Throws PhysicsError where a side that moves has pressed disks into each other by more than crushed_overlap, or into
+// itself: it goes on, and they cannot. time: the end of the step.
+inline constexpr double crushed_overlap = 0.25;
+void check_crushed(const Scene& scene, const StepFigures& figures, double time);
+
 // What can be said before the first step: places too coarse for the radii or for the way of a step, Brownian intervals
 // too long. One line each. smallest_radius, fastest speed: of the disks at the start, 0 if there are none or none
 // moves.

@@ -41,8 +41,10 @@ double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_
   if (disks == 0) return HUGE_VAL;
   const double n = static_cast<double>(disks);
   const double spacing = std::sqrt(scene.box.width * scene.box.height / n);
-  // Falling through the spacing adds 2 g spacing to v^2.
-  const double speed = std::sqrt(speeds.mean2 + 2.0 * scene.physics.gravity * spacing);
+  double side = 0.0;
+  for (const SideMotion& motion : scene.box.motions) side = std::max(side, motion.largest_speed());
+  // Falling through the spacing adds 2 g spacing to v^2; sides that move give their speed to disks at rest.
+  const double speed = std::sqrt(speeds.mean2 + 2.0 * scene.physics.gravity * spacing + side * side);
   if (!(speed > 0.0)) return HUGE_VAL;
   return longest_travel * spacing / speed * std::max(1.0, few_disks / n);
 }

@@ -22,7 +22,8 @@ struct WindowPlan {
 // Does the TC model make collisions elastic? Not where all are, whatever the scene says.
 bool has_tc(const Scene& scene);
 
-ExactRules exact_rules(const Scene& scene, const Disks& disks);
+// start: of the window, when moving sides are where the rules say.
+ExactRules exact_rules(const Scene& scene, const Disks& disks, double start);
 
 // The window that starts at state.time, from state.window and the disks' speeds. scale: 1, or what a test multiplies
 // windows by. Throws PhysicsError when time no longer advances.
@@ -36,7 +37,7 @@ WindowPlan shortened(const WindowPlan& plan, const ExactRules& rules, const Even
 void finish_window(State& state, const WindowPlan& plan, const ImpactTally& tally, double scale);
 
 // After finish_window: throws PhysicsError when a row of crowded windows has hardly advanced time.
-void check_pace(State& state, const WindowPlan& plan);
+void check_pace(const Scene& scene, State& state, const WindowPlan& plan);
 
 // The one line about two disks (or a disk and a wall) whose collisions pile up. start: of the window. Status 3.
 [[noreturn]] void fail_collapse(const ExactRules& rules, const EventMark& event, double start);

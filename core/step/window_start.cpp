@@ -37,7 +37,15 @@ double next_cut(const Scene& scene, const State& state) {
   if (scene.physics.diffusion > 0.0 && state.intervals > 0) {
     cut = std::min(cut, make_step_clock(scene.run.dt, scene.run.t_end).end(state.intervals - 1));
   }
+  for (const SideMotion& motion : scene.box.motions) cut = std::min(cut, motion.piece_end(state.time));
   return cut;
+}
+
+bool side_turns(const Scene& scene, double t) {
+  for (const SideMotion& motion : scene.box.motions) {
+    if (motion.kind == SideMotion::Kind::vibrate && motion.piece(t) * motion.half() == t) return true;
+  }
+  return false;
 }
 
 void emit_at_window_start(const Scene& scene, State& state, const std::function<bool(const Disk&)>& room) {

@@ -16,9 +16,10 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<Counters> T>
 void fields(Stream& stream, T& value) {
-  auto& [steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse, heat] =
-      value;
-  stream(steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse, heat);
+  auto& [steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse,
+         side_energy] = value;
+  stream(steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse,
+         side_energy);
 }
 
 template <class Stream, Is<SourceState> T>

@@ -202,7 +202,7 @@ void FramePainter::paint(const Disks& disks, double time, const std::vector<Disk
   });
   cairo_surface_mark_dirty(image_.get());
   const Context context = context_of(image_);
-  draw_sides(context.get(), style_, layout_);
+  draw_sides(context.get(), style_, layout_, time);
   draw_stamps(context.get(), style_, layout_, disks.size(), time);
   cairo_surface_flush(image_.get());
 }
@@ -249,7 +249,7 @@ void FramePainter::write_svg(const std::string& path, const Disks& disks, double
                   [&](double x, double y, double radius, const Colour&) { draw(x, y, radius, obstacle_colour); });
     for_each_disk(disks, group, draw);
     cairo_restore(c);
-    draw_sides(c, style_, layout_);
+    draw_sides(c, style_, layout_, time);
     draw_stamps(c, style_, layout_, disks.size(), time);
     check_written(cairo_status(c), path);
   }

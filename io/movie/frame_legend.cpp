@@ -192,12 +192,16 @@ void draw_legends(cairo_t* c, const FrameStyle& style, const FrameLayout& layout
   draw_kinds_of_side(c, style, layout);
 }
 
-void draw_sides(cairo_t* c, const FrameStyle& style, const FrameLayout& layout) {
+void draw_sides(cairo_t* c, const FrameStyle& style, const FrameLayout& layout, double time) {
   const double out = 0.5 * side_width * layout.unit;
-  const double left = layout.left - out, right = layout.left + style.box.width * layout.scale + out;
-  const double low = layout.bottom + out, high = layout.bottom - style.box.height * layout.scale - out;
+  const Domain box = box_at(style.box, time);
+  const auto inset = [&](Side side) { return box.place(side).inset; };
+  const double left = layout.left + inset(Side::left) * layout.scale - out;
+  const double right = layout.left + (box.width - inset(Side::right)) * layout.scale + out;
+  const double low = layout.bottom - inset(Side::bottom) * layout.scale + out;
+  const double high = layout.bottom - (box.height - inset(Side::top)) * layout.scale - out;
   for (const Side side : all_sides) {
-    set_stroke(c, style.box.side(side), layout.unit);
+    set_stroke(c, box.side(side), layout.unit);
     cairo_move_to(c, side == Side::right ? right : left, side == Side::top ? high : low);
     cairo_line_to(c, side == Side::left ? left : right, side == Side::bottom ? low : high);
     cairo_stroke(c);

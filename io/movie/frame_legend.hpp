@@ -12,7 +12,8 @@ inline constexpr double side_width = 4.0;  // of a wall's line; units
 void draw_legends(_cairo* context, const FrameStyle& style, const FrameLayout& layout);
 
 // The sides of the box, outside of it, so that a disk at the wall is seen whole.
-void draw_sides(_cairo* context, const FrameStyle& style, const FrameLayout& layout);
+// Sides that move are where they are at this time.
+void draw_sides(_cairo* context, const FrameStyle& style, const FrameLayout& layout, double time);
 
 void draw_stamps(_cairo* context, const FrameStyle& style, const FrameLayout& layout, std::size_t disks, double time);
 

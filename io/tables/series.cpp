@@ -28,7 +28,7 @@ SeriesRow SeriesMeter::row(const Disks& disks, const State& now, const BlockRunn
                       of_velocities(momentum.y),
                       static_cast<double>(c.collisions),
                       static_cast<double>(c.wall_collisions),
-                      of_velocities(pressure(energy, c.virial - done_.before.virial, elapsed, box_)),
+                      of_velocities(pressure(energy, c.virial - done_.before.virial, elapsed, box_at(box_, now.time))),
                       disk_time > 0.0 ? 2.0 * collisions / disk_time : 0.0,
                       with_overlap_ ? max_overlap(disks, box_, run) : 0.0,
                       static_cast<double>(c.removed),

@@ -6,11 +6,20 @@
 
 namespace carom {
 
+namespace {
+
+bool gives_energy(const Domain& box, Side side) {
+  return box.is_thermal(side) || box.moves(side);
+}
+
+}  // namespace
+
 std::vector<std::string> side_column_names(const Domain& box) {
   std::vector<std::string> names;
   for (const Side side : all_sides) {
-    if (!box.is_thermal(side)) continue;
-    names.push_back(fmt::format("{}_{}", heat_column.name, side_names[static_cast<std::size_t>(side)]));
+    if (!gives_energy(box, side)) continue;
+    const char* const name = box.moves(side) ? work_column.name : heat_column.name;
+    names.push_back(fmt::format("{}_{}", name, side_names[static_cast<std::size_t>(side)]));
   }
   return names;
 }
@@ -18,7 +27,7 @@ std::vector<std::string> side_column_names(const Domain& box) {
 std::vector<double> side_column_values(const Domain& box, const Counters& counters) {
   std::vector<double> values;
   for (const Side side : all_sides) {
-    if (box.is_thermal(side)) values.push_back(counters.heat[static_cast<std::size_t>(side)]);
+    if (gives_energy(box, side)) values.push_back(counters.side_energy[static_cast<std::size_t>(side)]);
   }
   return values;
 }

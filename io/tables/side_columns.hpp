@@ -18,7 +18,10 @@ struct SideColumn {
 inline constexpr SideColumn heat_column{
     "heat", "energy", "that a thermal side has given to the disks since the start; its slope is the flow of heat"};
 
-// The names of the columns of this box, none where no side is thermal; and their values, in the same order.
+inline constexpr SideColumn work_column{"work", "energy",
+                                        "that a side that moves has done on the disks since the start"};
+
+// The names of the columns of this box, none where no side is thermal or moves; and their values, in the same order.
 std::vector<std::string> side_column_names(const Domain& box);
 std::vector<double> side_column_values(const Domain& box, const Counters& counters);
 

@@ -140,6 +140,11 @@ NextEvent EventPredictor::earliest_at_sides(std::uint32_t i) const {
   for (const Side side : all_sides) {
     if ((near >> static_cast<unsigned>(side) & 1U) == 0) continue;
     see_side(side);
+    if (box.moves(side)) {
+      const SideApproach a = approach_of(path, side, own.radius, box);
+      lasting = lasting || (std::abs(a.gap) <= window_->close && std::abs(a.speed) <= window_->slow);
+      continue;
+    }
     const bool close = std::abs(reach_beyond(side, path.x, path.y, own.radius, box)) <= window_->close;
     lasting = lasting || (close && std::abs(outward_speed(side, path.vx, path.vy)) <= window_->slow);
   }

@@ -67,7 +67,7 @@ class ParallelExact final : public Engine {
     logged_.reset();
     if (!run_window_with_retry(plan)) return;
     store_paths(plan);
-    check_pace(state_, plan);
+    check_pace(scene_, state_, plan);
   }
 
   const State& state() const override { return state_; }
@@ -138,6 +138,7 @@ void ParallelExact::start_window() {
   if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
   count_thermal_hits(scene_, state_);
   if (brownian_interval_begins(scene_, state_)) begin_brownian();
+  if (side_turns(scene_, state_.time)) valid_ = std::min(valid_, Valid::lists);
 }
 
 void ParallelExact::release_memory() {
@@ -262,7 +263,7 @@ bool ParallelExact::rebuild_lists_if_due(bool regions_allowed) {
 void ParallelExact::load_paths(const WindowPlan& plan, bool rebuilt) {
   const PhaseTimer timer(times_, "load");
   const Disks& d = state_.disks;
-  window_.begin(exact_rules(scene_, d), d, plan, speeds_.largest2, largest_radius_);
+  window_.begin(exact_rules(scene_, d, plan.start), d, plan, speeds_.largest2, largest_radius_);
   window_.safe_speed2 = lists_.safe_speed2(plan.length, window_.rules.gravity);
   window_.last_contact.resize(state_.last_contact.empty() ? 0 : d.size());
   window_.thermal_hits.resize(state_.thermal_hits.empty() ? 0 : d.size());

@@ -245,7 +245,9 @@ unsigned NeighbourLists::find_sides(const Disks& d, std::uint32_t i) const {
   const Vec2 position = listed_position(i);
   for (const Side side : all_sides) {
     if (box_.side(side) == SideKind::periodic) continue;
-    const double gap = -reach_beyond(side, position.x, position.y, d.radius_of(i), box_);
+    // A side that moves may come as far as this.
+    const double furthest = box_.motions[static_cast<std::size_t>(side)].furthest;
+    const double gap = -reach_beyond(side, position.x, position.y, d.radius_of(i), box_) - furthest;
     if (mode_ == EngineMode::all_pairs || gap <= skin_) sides |= 1U << static_cast<unsigned>(side);
   }
   return sides;

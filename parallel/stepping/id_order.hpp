@@ -32,7 +32,7 @@ ContactEvent timed_event(const View& d, const StepRules& rules, const IdPair& p)
     return obstacle_event(d, rules, p.i1, obstacle_of(p.id2()), gap_to(d, rules.box, p.i1, p.id2()));
   }
   const Side side = wall_side(p.id2());
-  return wall_event(d, rules, p.i1, side, reach_beyond(side, d.x[p.i1], d.y[p.i1], d.radius(p.i1), rules.box));
+  return wall_event(d, rules, p.i1, side, reach_beyond_wall(side, d.x[p.i1], d.y[p.i1], d.radius(p.i1), rules.box));
 }
 
 struct IdOrder {

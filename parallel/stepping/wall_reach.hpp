@@ -9,19 +9,19 @@
 
 namespace carom {
 
-// What reach_beyond (core/physics/boundary.hpp) must come to for a side to be a wall that is touched: 0, or infinity
-// for other sides.
 // Are there walls or obstacles?
 inline bool has_walls(const Domain& box) {
   return box.has(SideKind::wall) || box.obstacles != nullptr;
 }
 
+// What reach_beyond (core/physics/boundary.hpp) must come to for a side to be a wall that is touched: 0, less for one
+// that has moved into the box, or infinity for other sides.
 class WallReach {
  public:
   explicit WallReach(const Domain& box) : width_(box.width), height_(box.height) {
     for (Side side : all_sides) {
       least_[static_cast<std::size_t>(side)] =
-          box.side(side) == SideKind::wall ? 0.0 : std::numeric_limits<double>::infinity();
+          box.side(side) == SideKind::wall ? -box.place(side).inset : std::numeric_limits<double>::infinity();
     }
     if (box.obstacles != nullptr) least_[0] = -std::numeric_limits<double>::infinity();
   }

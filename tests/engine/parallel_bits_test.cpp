@@ -53,7 +53,7 @@ void expect_same(const Trace& a, const Trace& b) {
   EXPECT_EQ(a.counters.virial, b.counters.virial);
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(a.counters.wall_impulse[k], b.counters.wall_impulse[k]);
-    EXPECT_EQ(a.counters.heat[k], b.counters.heat[k]);
+    EXPECT_EQ(a.counters.side_energy[k], b.counters.side_energy[k]);
   }
 }
 
@@ -80,7 +80,9 @@ TEST_P(ParallelBits, EqualTheReferenceAfterEveryStep) {
   }
   // The scenes must have had collisions, or the comparison shows nothing.
   EXPECT_GT(collisions, 35U * scenes.size());
-  EXPECT_GT(emitted, scenes.size() * 7 / 20);
+  if (std::string(std::get<1>(GetParam())) != "moving") {
+    EXPECT_GT(emitted, scenes.size() * 7 / 20);
+  }
   if (std::string(std::get<1>(GetParam())) == "sink") {
     EXPECT_GT(removed, 100U);
   }
@@ -88,7 +90,8 @@ TEST_P(ParallelBits, EqualTheReferenceAfterEveryStep) {
 
 INSTANTIATE_TEST_SUITE_P(AllScenes, ParallelBits,
                          ::testing::Combine(::testing::Values("pairwise", "rollback", "exact"),
-                                            ::testing::Values("wall", "periodic", "periodic_x", "sink", "soft", "hot")),
+                                            ::testing::Values("wall", "periodic", "periodic_x", "sink", "soft", "hot",
+                                                              "moving")),
                          [](const auto& p) { return std::string(std::get<0>(p.param)) + "_" + std::get<1>(p.param); });
 
 // Blocks of any size give the same state: nothing depends on where one block ends and the next begins.

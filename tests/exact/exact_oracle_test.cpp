@@ -68,6 +68,11 @@ const std::string few =
     "[[disks]]\ncount = 16\npositions = \"random\"\nvelocities = { uniform = 1.5 }\n"
     "radius = { uniform = [0.2, 0.5] }\nmass = 1.0\n";
 const std::string walls_of_salt = "wall_restitution = 0.9";
+const std::string pistons =
+    "left = { motion = { velocity = [0.5, 0] } }\nright = { place = 8, motion = { velocity = [0.3, 0] } }";
+const std::string shaken =
+    "bottom = { restitution = 0.9, motion = { vibrate = [0, 0.3], period = 0.7 } }\n"
+    "top = { motion = { vibrate = [0, -0.2], period = 0.3 } }";
 const std::string four_restitutions =
     "left = { restitution = 0.5 }\nright = { restitution = 0.8 }\ntop = { restitution = 0.3 }\nwall_restitution = 0.9";
 
@@ -90,6 +95,9 @@ INSTANTIATE_TEST_SUITE_P(
         OracleCase{"pegs_gravity", {8, 12, "wall", "gravity = 1.5", few + pegs, 4.0, ""}},
         OracleCase{"pegs_fall", {8, 12, "periodic", "gravity = 0.5", few + pegs, 4.0, ""}},
         OracleCase{"pegs_inelastic", {8, 12, walls_of_salt, "gravity = 0.8\nrestitution = 0.9", few + pegs, 4.0, ""}},
+        OracleCase{"pistons", {9, 9, pistons, "", gas, 2.0, ""}},
+        OracleCase{"shaken", {9, 9, shaken, "", gas, 0.7, ""}},
+        OracleCase{"shaken_in_gravity", {9, 12, shaken, "gravity = 0.8\nrestitution = 0.9", mixed, 1.0, ""}},
         OracleCase{"inelastic", {8, 8, walls_of_salt, "restitution = 0.8", gas, 5.0, ""}},
         OracleCase{"inelastic_gravity", {8, 12, walls_of_salt, "restitution = 0.7\ngravity = 0.5", mixed, 4.0, ""}}),
     [](const auto& p) { return std::string(p.param.name); });

@@ -31,7 +31,7 @@ std::string fingerprint(const State& s) {
       "{}",
       hash_text(state_hash(s.disks)), s.time, s.disks.size(), c.steps, c.collisions, c.wall_collisions, c.removed,
       c.emitted, c.waiting, c.virial, c.wall_impulse[0], c.wall_impulse[1], c.wall_impulse[2], c.wall_impulse[3],
-      fmt::join(c.heat, " "));
+      fmt::join(c.side_energy, " "));
 }
 
 // Regions and tiles so small that even these scenes have some; with 1 in place of 128 there are none, and one queue
@@ -75,6 +75,14 @@ const std::string sources =
     "[[sources]]\nregion = [2, 2, 10, 10]\nrate = 7.0\nradius = { uniform = [0.2, 0.4] }\nmass = 2.0\nlimit = 9\n";
 const std::string open_sides = "left = \"wall\"\nright = \"sink\"\nbottom = \"periodic\"\ntop = \"periodic\"";
 const std::string hot = "left = { temperature = 25.0 }\nright = { temperature = 0.3 }\nwall_restitution = 0.9";
+const std::string piston = "right = { motion = { velocity = [-1.0, 0.0] } }\nbottom = \"periodic\"\ntop = \"periodic\"";
+const std::string shaken =
+    "left = \"periodic\"\nright = \"periodic\"\nbottom = { restitution = 0.8, motion = { vibrate = [0, 0.4], period = "
+    "1.1 } }";
+const std::string shaken_fast =
+    "left = { motion = { vibrate = [0.05, 0], period = 0.013 } }\nright = { motion = { vibrate = [0.3, 0], period = "
+    "0.4 } }\n"
+    "top = { place = 18, motion = { velocity = [0, 0.5] } }";
 const std::string soft = "wall_restitution = 0.7";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -102,6 +110,14 @@ INSTANTIATE_TEST_SUITE_P(
         ParallelCase{"hot", {25, 25, hot, "restitution = 0.95", disks(300, equal), 6, ""}},
         ParallelCase{"hot_mixed", {30, 30, hot, "gravity = 0.4", disks(250, mixed), 12, ""}},
         ParallelCase{"hot_with_source", {20, 20, hot, "", sources, 10, ""}},
+        ParallelCase{"piston", {25, 25, piston, "", disks(250, equal), 6, ""}},
+        ParallelCase{"piston_of_resting_disks", {25, 25, piston, "", disks(150, "radius = 0.5\nmass = 1.0"), 12, ""}},
+        ParallelCase{"shaken", {20, 30, shaken, "gravity = 1.0\nrestitution = 0.9", disks(150, mixed), 6, ""}},
+        ParallelCase{
+            "shaken_tc",
+            {20, 30, shaken, "gravity = 1.0\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.01 }",
+             disks(120, mixed), 6, ""}},
+        ParallelCase{"shaken_fast", {20, 20, shaken_fast, "", disks(150, equal), 2, ""}},
         ParallelCase{"brownian", {20, 20, "periodic", "diffusion = 0.5", disks(200, equal), 1, "dt = 0.01"}},
         ParallelCase{"brownian_sinks", {20, 20, "sink", "diffusion = 0.5", disks(200, equal), 3, "dt = 0.01"}},
         ParallelCase{"brownian_accumulating",

@@ -126,6 +126,13 @@ std::string side_line(Dice& dice, const Draft& draft, std::string_view name, con
     const double energy = draft.units.mass * draft.units.speed * draft.units.speed;
     return fmt::format("{} = {{ kind = \"wall\", temperature = {} }}\n", name, rounded(energy * dice.decades(-1, 1)));
   }
+  if (kind == "wall" && draft.diffusion == 0.0 && dice.chance(0.05)) {
+    const bool across_x = name == "left" || name == "right";
+    const double amplitude = rounded((across_x ? draft.width : draft.height) * dice.decades(-4, -2));
+    const double period = rounded(amplitude / draft.units.speed * dice.decades(0, 2));
+    return fmt::format("{} = {{ motion = {{ vibrate = [{}, {}], period = {} }} }}\n", name, across_x ? amplitude : 0.0,
+                       across_x ? 0.0 : amplitude, period);
+  }
   if (kind != "wall" || !dice.chance(0.1)) return fmt::format("{} = \"{}\"\n", name, kind);
   return fmt::format("{} = {{ kind = \"wall\", restitution = {} }}\n", name, random_restitution(dice));
 }

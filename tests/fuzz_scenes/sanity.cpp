@@ -101,7 +101,7 @@ void Sanity::look_at_counts(const State& state) {
 
 void Sanity::look_at_overlaps(const State& state) {
   const double overlap = max_overlap(state.disks, scene_.box);
-  Domain box = scene_.box;
+  Domain box = box_at(scene_.box, state.time);
   const auto obstacles = place_obstacles(state.obstacles, box);
   const double beyond = wall_overlap(state.disks, box);
   if (scene_.run.method == Method::exact) {
@@ -121,7 +121,9 @@ void Sanity::look_at_overlaps(const State& state) {
 void Sanity::look_at_motion(const State& state) {
   const Physics& p = scene_.physics;
   const Domain& box = scene_.box;
-  if (p.diffusion > 0.0 || !scene_.sources.empty() || box.has(SideKind::sink) || box.has_thermal_side()) return;
+  if (p.diffusion > 0.0 || !scene_.sources.empty() || box.has(SideKind::sink) || box.has_thermal_side() ||
+      box.has_moving_side())
+    return;
   const bool stands = !state.obstacles.empty();  // what takes momentum, as walls do
   const Momentum now = momentum_of(state.disks);
   largest_momentum_ = std::max(largest_momentum_, now.magnitude);

@@ -20,7 +20,7 @@ namespace {
 const std::string folder = CAROM_SOURCE_DIR "/scenes/";
 
 double sum_of_heat(const State& state) {
-  return std::accumulate(std::begin(state.counters.heat), std::end(state.counters.heat), 0.0);
+  return std::accumulate(std::begin(state.counters.side_energy), std::end(state.counters.side_energy), 0.0);
 }
 
 // Runs by the engine on two threads; calls see(state) after every step.
@@ -143,8 +143,8 @@ TEST(ThermalSide, GivesTheHeatFlowOfAFreeMolecularGas) {
   const double t2 = scene.box.temperature(Side::right);
   const double trip = gap * std::sqrt(std::numbers::pi / 2.0) * (1.0 / std::sqrt(t1) + 1.0 / std::sqrt(t2));
   const double flow = static_cast<double>(end.disks.size()) * 1.5 * (t1 - t2) / trip;
-  EXPECT_NEAR(end.counters.heat[0] / end.time / flow, 1.0, 0.03);
-  EXPECT_NEAR(-end.counters.heat[1] / end.time / flow, 1.0, 0.03);
+  EXPECT_NEAR(end.counters.side_energy[0] / end.time / flow, 1.0, 0.03);
+  EXPECT_NEAR(-end.counters.side_energy[1] / end.time / flow, 1.0, 0.03);
   EXPECT_LT(end.counters.collisions * 50, end.counters.wall_collisions);
 }
 
@@ -184,14 +184,14 @@ TEST(ThermalSide, ConductsHeatAsEnskogsTheorySays) {
   double from = 0.0;
   const State end = run(scene, initial_state(scene), [&](const State& s) {
     if (s.time < begin) {
-      std::copy_n(s.counters.heat, 2, heat_before);
+      std::copy_n(s.counters.side_energy, 2, heat_before);
       from = s.time;
     } else {
       slabs.add(s.disks);
     }
   });
-  const double in = (end.counters.heat[0] - heat_before[0]) / (end.time - from);
-  const double out = (heat_before[1] - end.counters.heat[1]) / (end.time - from);
+  const double in = (end.counters.side_energy[0] - heat_before[0]) / (end.time - from);
+  const double out = (heat_before[1] - end.counters.side_energy[1]) / (end.time - from);
   EXPECT_NEAR(in / out, 1.0, 0.05);
   const double flow = 0.5 * (in + out) / scene.box.height;
   // Away from the walls by four mean free paths and more.

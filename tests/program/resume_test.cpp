@@ -10,13 +10,13 @@ namespace {
 class Resume : public ::testing::TestWithParam<std::tuple<const char*, int>> {};
 
 TEST_P(Resume, HasTheBitsOfARunThatWasNeverStopped) {
-  constexpr const char* sides[] = {"wall", "periodic", "periodic_x", "sink", "hot"};
+  constexpr const char* sides[] = {"wall", "periodic", "periodic_x", "sink", "hot", "moving"};
   const auto [method, k] = GetParam();
   test::expect_same_bits(method, sides[k], static_cast<std::size_t>(k), 7);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllScenes, Resume,
-                         ::testing::Combine(::testing::Values("pairwise", "rollback", "exact"), ::testing::Range(0, 5)),
+                         ::testing::Combine(::testing::Values("pairwise", "rollback", "exact"), ::testing::Range(0, 6)),
                          [](const auto& p) {
                            return std::string(std::get<0>(p.param)) + std::to_string(std::get<1>(p.param));
                          });

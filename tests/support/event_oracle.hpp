@@ -101,6 +101,31 @@ inline Real obstacle_time(const Ball& a, const Obstacle& o, Real ox, Real oy, Re
   }
 }
 
+// How far a side has come into the box, how fast it comes, and its acceleration, from the formulas of its motion.
+struct Wall {
+  Real inset = 0.0L, speed = 0.0L, acceleration = 0.0L;
+  Real lasts = HUGE_VALL;  // time until the next piece of the motion
+};
+
+inline Wall wall_at(const SideMotion& m, Real t) {
+  if (m.kind == SideMotion::Kind::none) return {};
+  const auto inset = static_cast<Real>(m.inset);
+  if (m.kind == SideMotion::Kind::steady) {
+    const auto u = static_cast<Real>(m.speed);
+    return {inset + u * t, u, 0.0L};
+  }
+  const Real half = 0.5L * static_cast<Real>(m.period);
+  Real k = std::floor(t / half);
+  Real since = t - k * half;
+  if (half - since < 1e-15L * half) {
+    k += 1.0L;
+    since = 0.0L;
+  }
+  const Real up = std::fmod(k, 2.0L) == 0.0L ? 1.0L : -1.0L;
+  const Real rate = up * 4.0L * static_cast<Real>(m.amplitude) / (half * half);
+  return {inset + rate * since * (half - since), rate * (half - 2.0L * since), -2.0L * rate, half - since};
+}
+
 struct Happening {
   Real time = no_event;
   std::size_t i = 0, j = 0;
@@ -127,10 +152,14 @@ inline Happening next_happening(const System& s, Real end) {
     }
     const Real w = s.box.width;
     const Real h = s.box.height;
-    const Real t[4] = {px ? no_event : side_time(a.x - a.r, -a.vx, 0.0L),
-                       px ? no_event : side_time(w - a.r - a.x, a.vx, 0.0L),
-                       py ? no_event : side_time(a.y - a.r, -a.vy, s.gravity),
-                       py ? no_event : side_time(h - a.r - a.y, a.vy, -s.gravity)};
+    Wall m[4];
+    for (std::size_t k = 0; k < 4; ++k) m[k] = wall_at(s.box.motions[k], s.time);
+    const auto time = [&](int k, Real gap, Real speed, Real g) {
+      return side_time(gap - m[k].inset, speed + m[k].speed, g + m[k].acceleration);
+    };
+    const Real t[4] = {
+        px ? no_event : time(0, a.x - a.r, -a.vx, 0.0L), px ? no_event : time(1, w - a.r - a.x, a.vx, 0.0L),
+        py ? no_event : time(2, a.y - a.r, -a.vy, s.gravity), py ? no_event : time(3, h - a.r - a.y, a.vy, -s.gravity)};
     for (int k = 0; k < 4; ++k) {
       if (t[k] < first.time) first = {t[k], i, i, 0.0L, 0.0L, k};
     }
@@ -160,7 +189,10 @@ inline void advance(System& s, Real t) {
 inline void resolve(System& s, const Happening& e) {
   Ball& a = s.balls[e.i];
   if (e.side >= 0) {
-    (e.side < 2 ? a.vx : a.vy) *= -static_cast<Real>(s.box.restitutions[static_cast<std::size_t>(e.side)]);
+    const auto k = static_cast<std::size_t>(e.side);
+    const Real u = (k % 2 == 0 ? 1.0L : -1.0L) * wall_at(s.box.motions[k], s.time).speed;  // along x or y
+    Real& v = e.side < 2 ? a.vx : a.vy;
+    v = u - static_cast<Real>(s.box.restitutions[k]) * (v - u);
     ++s.wall_collisions;
     return;
   }
@@ -204,6 +236,7 @@ inline bool run(System& s, Real t, std::size_t most_events = static_cast<std::si
       if (s.box.periodic_x()) longest = std::min(longest, 0.25L * s.box.width / (std::abs(b.vx) + 1e-300L));
       if (s.box.periodic_y()) longest = std::min(longest, 0.25L * s.box.height / (std::abs(b.vy) + 1e-300L));
     }
+    for (const SideMotion& motion : s.box.motions) longest = std::min(longest, wall_at(motion, s.time).lasts);
     const Real left = t - s.time;
     const Happening e = next_happening(s, std::min(left, longest));
     if (e.time > left && left <= longest) {

@@ -12,7 +12,7 @@ namespace carom::test {
 
 struct Features {
   std::string method = "pairwise";
-  std::string sides = "wall";  // wall | periodic | periodic_x | sink | soft | hot
+  std::string sides = "wall";  // wall | periodic | periodic_x | sink | soft | hot | moving
   bool gravity = false;
   double restitution = 1.0;
   std::string diffusion;        // empty | "replace" | "accumulate"
@@ -38,6 +38,12 @@ inline std::string sides_text(const std::string& sides) {
   }
   // Two thermal sides and two that are not.
   if (sides == "hot") return "left = { temperature = 9.0 }\nright = { temperature = 0.5 }\n";
+  // A piston that comes, one that goes, and a floor that vibrates several times.
+  if (sides == "moving") {
+    return "left = { motion = { velocity = [2.0, 0.0] } }\nright = { place = 23.5, motion = { velocity = [1.0, 0.0] } "
+           "}\n"
+           "bottom = { restitution = 0.9, motion = { vibrate = [0.0, 0.1], period = 0.17 } }\ntop = \"wall\"\n";
+  }
   std::string text;
   for (const char* side : {"left", "right", "bottom", "top"}) text += std::string(side) + " = \"" + sides + "\"\n";
   return text;
@@ -93,10 +99,11 @@ inline std::vector<Features> all_features(const std::string& method, const std::
   for (const bool gravity : {false, true}) {
     for (const double restitution : {1.0, 0.7}) {
       for (const char* diffusion : {"", "replace", "accumulate"}) {
-        if (sides == "hot" && *diffusion != '\0') continue;
+        if ((sides == "hot" || sides == "moving") && *diffusion != '\0') continue;
         for (const char* radii : {"equal", "mixed", "wide"}) {
           for (const bool own_masses : {false, true}) {
             for (const bool source : {false, true}) {
+              if (source && sides == "moving") continue;
               all.push_back({method, sides, gravity, restitution, diffusion, radii, own_masses, source, seed++});
             }
           }

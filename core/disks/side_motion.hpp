@@ -1,0 +1,76 @@
+// How a side of the box moves, as time goes on: by itself, whatever meets it.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace carom {
+
+// Where a side stands, how fast it moves and how its speed changes, all towards the inside of the box.
+struct SidePlace {
+  double inset = 0.0;         // from the edge of the box; length, >= 0
+  double speed = 0.0;         // length / time
+  double acceleration = 0.0;  // length / time^2
+  bool operator==(const SidePlace&) const = default;
+
+  // After so much more time.
+  SidePlace after(double t) const {
+    return {inset + (speed * t + 0.5 * acceleration * (t * t)), speed + acceleration * t, acceleration};
+  }
+};
+
+// All towards the inside of the box.
+struct SideMotion {
+  enum class Kind : std::uint8_t {
+    none,
+    steady,   // at constant speed
+    vibrate,  // up and down in pieces of parabolas, each half a period long: nearly a sine, its speed continuous
+  };
+  Kind kind = Kind::none;
+  double inset = 0.0;      // at time 0, or at the middle of the vibration; length, >= 0
+  double speed = 0.0;      // of a steady motion; length / time
+  double amplitude = 0.0;  // of a vibration, which begins in this direction; length, < 0: outwards
+  double period = 0.0;     // time
+  double furthest = 0.0;   // largest inset until the run's end; length
+  bool operator==(const SideMotion&) const = default;
+
+  bool moves() const { return kind != Kind::none; }
+  double half() const { return 0.5 * period; }
+
+  // The number of the piece of a vibration that time t >= 0 lies in; at the end of one, the next. A steady motion is
+  // one piece.
+  double piece(double t) const {
+    if (kind != Kind::vibrate) return 0.0;
+    double k = std::floor(t / half());
+    while (k > 0.0 && k * half() > t) k -= 1.0;
+    while ((k + 1.0) * half() <= t) k += 1.0;
+    return k;
+  }
+  // When the piece of time t ends.
+  double piece_end(double t) const { return kind == Kind::vibrate ? (piece(t) + 1.0) * half() : HUGE_VAL; }
+
+  SidePlace at(double t) const {
+    if (kind == Kind::none) return {};
+    if (kind == Kind::steady) return {inset + speed * t, speed, 0.0};
+    const double k = piece(t);
+    const double since = t - k * half();
+    // a t (h - t) 4 / h^2, which is the amplitude at the middle of the half period h; every other one is turned over.
+    const bool turned = k - 2.0 * std::floor(0.5 * k) != 0.0;
+    const double curvature = (turned ? -4.0 : 4.0) * amplitude / (half() * half());
+    return {inset + curvature * (since * (half() - since)), curvature * (half() - 2.0 * since), -2.0 * curvature};
+  }
+
+  // The furthest that the side comes into the box until t_end, and the least.
+  double largest_inset(double t_end) const {
+    return kind == Kind::vibrate ? inset + std::abs(amplitude) : std::fmax(inset, inset + speed * t_end);
+  }
+  double least_inset(double t_end) const {
+    return kind == Kind::vibrate ? inset - std::abs(amplitude) : std::fmin(inset, inset + speed * t_end);
+  }
+  double largest_speed() const {
+    if (kind == Kind::none) return 0.0;
+    return kind == Kind::vibrate ? 4.0 * std::abs(amplitude) / half() : std::abs(speed);
+  }
+};
+
+}  // namespace carom
