@@ -68,8 +68,8 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
   }
   if (from.series) series_ = std::make_unique<SeriesWriter>(folder.path(from.series->file.name), scene, *from.series);
   if (scene.analysis.any()) {
-    analysis_ = std::make_unique<RunningAnalysis>(scene, folder, count,
-                                                  from.analysis ? *from.analysis : empty_record(scene.analysis));
+    analysis_ =
+        std::make_unique<RunningAnalysis>(scene, folder, count, from.analysis ? *from.analysis : empty_record(scene));
   }
   if (!from.movie) {
     if (scene.output.movie && from.frames > 0) lost_movie_ = "the movie broke off before the checkpoint";

@@ -20,7 +20,7 @@ constexpr std::chrono::seconds write_interval{5};
 }  // namespace
 
 RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder, PairCounter count)
-    : scene_(scene), folder_(folder), count_(std::move(count)), record_(empty_record(scene.analysis)) {}
+    : scene_(scene), folder_(folder), count_(std::move(count)), record_(empty_record(scene)) {}
 
 RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder, PairCounter count, AnalysisRecord from)
     : scene_(scene),
@@ -28,7 +28,7 @@ RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder,
       count_(std::move(count)),
       record_(std::move(from)),
       warned_(record_.displacement.doubtful > 0) {
-  if (!goes_with(record_, scene.analysis)) {
+  if (!goes_with(record_, scene)) {
     throw InputError(
         "the checkpoint's analysis does not belong to its scene; expected the checkpoint that the run wrote");
   }

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/measure/bond_order.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/scene/drawn_velocities.hpp"
 
@@ -73,7 +74,8 @@ DistanceBins distance_bins(const AnalysisPlan& plan) {
   return {plan.r_max, static_cast<std::size_t>(plan.r_bins), plan.wall_margin};
 }
 
-AnalysisRecord empty_record(const AnalysisPlan& plan) {
+AnalysisRecord empty_record(const Scene& scene) {
+  const AnalysisPlan& plan = scene.analysis;
   AnalysisRecord record;
   if (plan.wants(Quantity::pair_correlation)) record.pairs.counts.assign(plan.r_bins, 0);
   if (plan.wants(Quantity::speeds)) record.speeds.counts.assign(plan.speed_bins, 0);
@@ -81,11 +83,22 @@ AnalysisRecord empty_record(const AnalysisPlan& plan) {
     record.density.centres.assign(plan.density_bins, 0);
     record.density.covered.assign(plan.density_bins, 0.0);
   }
+  if (plan.wants(Quantity::profile)) record.motion = empty_profile(plan.profile_bins);
+  if (plan.wants(Quantity::structure_factor)) {
+    if (scene.box.periodic_x()) record.structure.along_x.assign(plan.wave_numbers, 0.0);
+    if (scene.box.periodic_y()) record.structure.along_y.assign(plan.wave_numbers, 0.0);
+  }
   return record;
 }
 
-bool goes_with(const AnalysisRecord& record, const AnalysisPlan& plan) {
-  const AnalysisRecord fresh = empty_record(plan);
+bool same_shape(const MotionProfile& a, const MotionProfile& b) {
+  return a.disks.size() == b.disks.size() && a.mass.size() == b.mass.size() && a.px.size() == b.px.size() &&
+         a.py.size() == b.py.size() && a.twice_k.size() == b.twice_k.size();
+}
+
+bool goes_with(const AnalysisRecord& record, const Scene& scene) {
+  const AnalysisPlan& plan = scene.analysis;
+  const AnalysisRecord fresh = empty_record(scene);
   const std::size_t samples = record.series.time.size();
   const auto fits = [samples](const std::vector<double>& series, bool wanted) {
     return series.size() == (wanted ? samples : 0);
@@ -101,7 +114,12 @@ bool goes_with(const AnalysisRecord& record, const AnalysisPlan& plan) {
          fits(s.collision_rate, plan.wants(Quantity::collision_rate)) && fits(s.disks, true) &&
          fits(s.interval, true) &&
          fits(s.temperature, plan.wants(Quantity::pressure) || plan.wants(Quantity::speeds)) &&
-         tally.x.from.size() == tally.y.from.size() &&
+         fits(s.autocorrelation, plan.wants(Quantity::velocity_autocorrelation)) &&
+         fits(s.local_order, plan.wants(Quantity::bond_order)) &&
+         fits(s.global_order, plan.wants(Quantity::bond_order)) && same_shape(record.motion, fresh.motion) &&
+         record.structure.along_x.size() == fresh.structure.along_x.size() &&
+         record.structure.along_y.size() == fresh.structure.along_y.size() &&
+         record.velocities.vx.size() == record.velocities.vy.size() && tally.x.from.size() == tally.y.from.size() &&
          (tally.x.sixteenth.empty() || tally.x.sixteenth.size() == tally.x.from.size()) &&
          (tally.y.sixteenth.empty() || tally.y.sixteenth.size() == tally.y.from.size());
 }
@@ -125,6 +143,17 @@ void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& all, d
   if (plan.wants(Quantity::displacement)) add_displacement(record, scene, disks, t);
   if (plan.wants(Quantity::speeds)) add_speeds(record.speeds, disks, record.series.temperature.back(), plan.speed_max);
   if (plan.wants(Quantity::density)) add_density(record.density, disks, scene.box, plan.density_along_x);
+  if (plan.wants(Quantity::profile)) add_motion(record.motion, disks, scene.box, plan.profile_along_x);
+  if (plan.wants(Quantity::structure_factor)) add_structure(record.structure, disks, scene.box);
+  if (plan.wants(Quantity::velocity_autocorrelation)) {
+    if (!record.velocities.begun) begin_memory(record.velocities, disks);
+    record.series.autocorrelation.push_back(velocity_autocorrelation(record.velocities, disks));
+  }
+  if (plan.wants(Quantity::bond_order)) {
+    const BondOrder order = bond_order(disks, scene.box);
+    record.series.local_order.push_back(order.local);
+    record.series.global_order.push_back(order.global);
+  }
   add_means(record, scene, all, now);
 }
 

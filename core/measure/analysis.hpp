@@ -6,8 +6,11 @@
 #include "core/disks/state.hpp"
 #include "core/measure/density_profile.hpp"
 #include "core/measure/displacement.hpp"
+#include "core/measure/motion_profile.hpp"
 #include "core/measure/pair_distances.hpp"
 #include "core/measure/speed_histogram.hpp"
+#include "core/measure/structure_factor.hpp"
+#include "core/measure/velocity_memory.hpp"
 #include "core/scene/scene.hpp"
 
 namespace carom {
@@ -22,12 +25,14 @@ struct PairRecord {
 struct SampleSeries {
   std::vector<double> time;
   std::vector<double> disks;
-  std::vector<double> displacement;    // mean square; length^2
-  std::vector<double> followed;        // disks that it is a mean over
-  std::vector<double> temperature;     // mean kinetic energy a disk; with pressure or speeds
-  std::vector<double> interval;        // time over which the next two are means; see take_sample
-  std::vector<double> pressure;        // NaN where the interval is 0
-  std::vector<double> collision_rate;  // of one disk; likewise
+  std::vector<double> displacement;               // mean square; length^2
+  std::vector<double> followed;                   // disks that it is a mean over
+  std::vector<double> temperature;                // mean kinetic energy a disk; with pressure or speeds
+  std::vector<double> interval;                   // time over which the next two are means; see take_sample
+  std::vector<double> pressure;                   // NaN where the interval is 0
+  std::vector<double> collision_rate;             // of one disk; likewise
+  std::vector<double> autocorrelation;            // of velocities; length^2 / time^2
+  std::vector<double> local_order, global_order;  // psi6 (bond_order.hpp)
 };
 
 struct AnalysisRecord {
@@ -38,15 +43,18 @@ struct AnalysisRecord {
   SpeedHistogram speeds;
   DensityProfile density;
   DisplacementTally displacement;
+  MotionProfile motion;
+  StructureFactor structure;
+  VelocityMemory velocities;
 };
 
 DistanceBins distance_bins(const AnalysisPlan& plan);
 
 // An empty record with the bins that the scene asks for.
-AnalysisRecord empty_record(const AnalysisPlan& plan);
+AnalysisRecord empty_record(const Scene& scene);
 
-// Was the record made for this plan?
-bool goes_with(const AnalysisRecord& record, const AnalysisPlan& plan);
+// Was the record made for this scene?
+bool goes_with(const AnalysisRecord& record, const Scene& scene);
 
 // Adds the disks of time t; now: what has been counted, at the end of the step that t lies in, as in series.csv. Means
 // are over the steps that have ended since the sample before: no collision is lost or counted twice, but of several

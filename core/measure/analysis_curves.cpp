@@ -64,4 +64,39 @@ BinnedCurve number_density_curve(const AnalysisRecord& record, const Scene& scen
                   column_of(record.density.centres).cast<double>() / slab_area(record, scene));
 }
 
+ProfileCurves profile_curves(const AnalysisRecord& record, const Scene& scene) {
+  ProfileCurves curves;
+  const std::size_t slabs = record.motion.disks.size();
+  const double length = scene.analysis.profile_along_x ? scene.box.width : scene.box.height;
+  for (std::size_t k = 0; k < slabs; ++k) {
+    const SlabMotion motion = motion_of_slab(record.motion, k);
+    curves.position.push_back(length * (static_cast<double>(k) + 0.5) / static_cast<double>(slabs));
+    curves.vx.push_back(motion.velocity.x);
+    curves.vy.push_back(motion.velocity.y);
+    curves.temperature.push_back(motion.temperature);
+  }
+  return curves;
+}
+
+namespace {
+
+StructureCurve structure_of(const std::vector<double>& sums, Count samples, double period) {
+  StructureCurve curve;
+  for (std::size_t n = 0; n < sums.size(); ++n) {
+    curve.k.push_back(2.0 * std::numbers::pi * static_cast<double>(n + 1) / period);
+    curve.s.push_back(sums[n] / static_cast<double>(samples));
+  }
+  return curve;
+}
+
+}  // namespace
+
+StructureCurve structure_along_x(const AnalysisRecord& record, const Scene& scene) {
+  return structure_of(record.structure.along_x, record.structure.samples, scene.box.width);
+}
+
+StructureCurve structure_along_y(const AnalysisRecord& record, const Scene& scene) {
+  return structure_of(record.structure.along_y, record.structure.samples, scene.box.height);
+}
+
 }  // namespace carom

@@ -26,4 +26,17 @@ BinnedCurve maxwell_curve(const AnalysisPlan& plan);
 BinnedCurve packing_curve(const AnalysisRecord& record, const Scene& scene);
 BinnedCurve number_density_curve(const AnalysisRecord& record, const Scene& scene);
 
+// Of each slab; NaN where no disk was.
+struct ProfileCurves {
+  std::vector<double> position, vx, vy, temperature;
+};
+ProfileCurves profile_curves(const AnalysisRecord& record, const Scene& scene);
+
+// Wave numbers, 1 / length, and S(k); empty along an axis that is not periodic.
+struct StructureCurve {
+  std::vector<double> k, s;
+};
+StructureCurve structure_along_x(const AnalysisRecord& record, const Scene& scene);
+StructureCurve structure_along_y(const AnalysisRecord& record, const Scene& scene);
+
 }  // namespace carom

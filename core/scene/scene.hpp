@@ -160,16 +160,28 @@ struct OutputPlan {
 };
 
 // What can be measured while a run goes on.
-enum class Quantity : std::uint8_t { pair_correlation, displacement, speeds, density, pressure, collision_rate };
+enum class Quantity : std::uint8_t {
+  pair_correlation,
+  displacement,
+  speeds,
+  density,
+  pressure,
+  collision_rate,
+  profile,
+  velocity_autocorrelation,
+  structure_factor,
+  bond_order
+};
+inline constexpr std::size_t quantities = 10;
 
 // Measured at the times start + k every, and at t_end.
 struct AnalysisPlan {
-  std::array<bool, 6> wanted{};  // by Quantity
-  std::string group;             // that all but pressure and collision rate is measured of; empty: all disks
-  IdRange ids;                   // of the group
-  double every = 0.0;            // simulated time between samples; 0: only the first and the last
-  double start = 0.0;            // simulated time of the first
-  double r_max = 0.0;            // of the pair correlation; length
+  std::array<bool, quantities> wanted{};  // by Quantity
+  std::string group;                      // that all but pressure and collision rate is measured of; empty: all disks
+  IdRange ids;                            // of the group
+  double every = 0.0;                     // simulated time between samples; 0: only the first and the last
+  double start = 0.0;                     // simulated time of the first
+  double r_max = 0.0;                     // of the pair correlation; length
   Count r_bins = 0;
   double wall_margin =
       0.0;                 // least distance from a side that is not periodic, of disks whose surroundings count; length
@@ -177,9 +189,12 @@ struct AnalysisPlan {
   Count speed_bins = 0;
   bool density_along_x = false;  // else along y
   Count density_bins = 0;
+  bool profile_along_x = false;  // of velocity and temperature; else along y
+  Count profile_bins = 0;
+  Count wave_numbers = 0;  // of the structure factor, along each periodic axis
 
   bool wants(Quantity q) const { return wanted[static_cast<std::size_t>(q)]; }
-  bool any() const { return wanted != std::array<bool, 6>{}; }
+  bool any() const { return wanted != std::array<bool, quantities>{}; }
 };
 
 struct Scene {

@@ -19,7 +19,7 @@ constexpr Count most_bins = 100'000;
 // equal disks begins at contact; speeds up to six thermal ones, beyond which no disk in 10^7 is.
 constexpr double default_reach = 5.0, bins_per_diameter = 50.0;
 constexpr double default_speed_max = 6.0;
-constexpr Count default_speed_bins = 60, default_density_bins = 50;
+constexpr Count default_speed_bins = 60, default_density_bins = 50, default_wave_numbers = 100;
 // Samples of a run that says nothing of how often.
 constexpr double default_samples = 100.0;
 
@@ -131,6 +131,23 @@ AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, 
     plan.density_along_x = options.choice_or_initial("axis") == 0;
     plan.density_bins = read_bins(options);
   });
+  read_options(reader, plan, Quantity::profile, [&](const TableReader& options) {
+    plan.profile_along_x = options.choice_or_initial("axis") == 0;
+    plan.profile_bins = read_bins(options);
+  });
+  read_options(reader, plan, Quantity::structure_factor, [&](const TableReader& options) {
+    plan.wave_numbers = options.count("wave_numbers").value_or(0);
+    if (plan.wave_numbers > most_bins || (plan.wave_numbers == 0 && options.find("wave_numbers") != nullptr)) {
+      options.fail("wave_numbers", fmt::format("is {}", plan.wave_numbers),
+                   fmt::format("expected a whole number from 1 to {}", most_bins));
+    }
+  });
+  if (plan.wants(Quantity::structure_factor) && !scene.box.periodic_x() && !scene.box.periodic_y()) {
+    reader.fail("what", "structure_factor goes by waves along periodic sides, and no side is",
+                "expected a periodic box");
+  }
+  if (plan.profile_bins == 0) plan.profile_bins = default_density_bins;
+  if (plan.wave_numbers == 0) plan.wave_numbers = default_wave_numbers;
   if (plan.speed_max == 0.0) plan.speed_max = default_speed_max;
   if (plan.speed_bins == 0) plan.speed_bins = default_speed_bins;
   if (plan.density_bins == 0) plan.density_bins = default_density_bins;

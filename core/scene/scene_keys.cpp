@@ -11,47 +11,6 @@ namespace {
 using enum KeyKind;
 constexpr auto none = Dimension::none;
 
-constexpr SceneTable tables[] = {
-    {"", "The file itself", "Two keys of its own, then tables."},
-    {"box", "`[box]`",
-     "The rectangle from (0, 0) to (width, height): either `width` and `height`, or `packing_fraction`. Periodic sides "
-     "come in opposite pairs. A sink takes away what touches it."},
-    {"box.side", "`left = { ... }` in `[box]`, likewise `right`, `bottom` and `top`",
-     "A side of which there is more to say than its kind."},
-    {"box.side.motion", "`motion = { ... }` of a side", "Exactly one of `velocity` and `vibrate`."},
-    {"physics", "`[physics]`", "What acts on the disks. A scene states only what it has."},
-    {"physics.collapse", "`collapse = { ... }` in `[physics]`",
-     "The remedy for inelastic collapse under method `exact`: the TC model (Luding and McNamara 1998), in which a "
-     "collision is elastic where one of its disks collided less than `contact_time` ago."},
-    {"disks", "`[[disks]]`",
-     "A group of disks; a scene may have many, or none where it has sources. Ids run on from 0 in the order of the "
-     "file."},
-    {"disks.positions", "`positions = { ... }` in `[[disks]]`", "Places from elsewhere; exactly one of these keys."},
-    {"disks.region", "`region = { ... }` in `[[disks]]`", "A circle, in place of the four numbers of a rectangle."},
-    {"disks.velocities", "`velocities = { ... }` in `[[disks]]` and `[[sources]]`", "Exactly one of these keys."},
-    {"disks.radius", "`radius = { ... }` in `[[disks]]` and `[[sources]]`",
-     "Exactly one of these keys; `weights` goes with `choice`. Every disk draws its own by its id."},
-    {"disks.mass", "`mass = { ... }` in `[[disks]]` and `[[sources]]`",
-     "Exactly one of these keys; `weights` goes with `choice`. Every disk draws its own by its id."},
-    {"frame", "`{ frame = ... }` in `[[disks]]`",
-     "Starts from a frame of an earlier run: `positions`, `velocities`, `radius` and `mass` may each be taken from "
-     "one. The last frame, unless `index` or `time` says which."},
-    {"growth", "`[growth]`", "How `positions = \"growth\"` goes about it; only where some group grows."},
-    {"sources", "`[[sources]]`",
-     "Disks that come while the run goes on, the k-th at time k / `rate`, through a side or anywhere in a region. A "
-     "disk that would overlap another waits until there is room; how many wait is counted (`waiting`), and a run warns "
-     "at its end where more than a twentieth of them do."},
-    {"run", "`[run]`", "How the scene is run."},
-    {"output", "`[output]`", "What a run writes."},
-    {"output.movie", "`movie = { ... }` in `[output]`",
-     "How the movie looks, and what `carom render` makes of the trajectory; see "
-     "[output.md](output.md#movies-and-pictures)."},
-    {"analysis", "`[analysis]`", "What a run measures, see [output.md](output.md#measuring-during-a-run)."},
-    {"analysis.pair_correlation", "`pair_correlation = { ... }` in `[analysis]`", ""},
-    {"analysis.speeds", "`speeds = { ... }` in `[analysis]`", ""},
-    {"analysis.density", "`density = { ... }` in `[analysis]`", ""},
-};
-
 constexpr std::string_view side_says = "What this side does.";
 constexpr std::string_view side_allowed = "NAMES, or a table `{ kind = ... }`";
 constexpr std::string_view bins_allowed = "a whole number from 1 to 100000";
@@ -359,6 +318,10 @@ constexpr SceneKey keys[] = {
      "speeds = { max = 6.0, bins = 60 }", "a table"},
     {"analysis", "density", special, none, "its defaults", "Options, where `what` names it.",
      R"(density = { axis = "y", bins = 50 })", "a table"},
+    {"analysis", "profile", special, none, "its defaults", "Options, where `what` names it.",
+     R"(profile = { axis = "y", bins = 50 })", "a table"},
+    {"analysis", "structure_factor", special, none, "its defaults", "Options, where `what` names it.",
+     "structure_factor = { wave_numbers = 100 }", "a table"},
     {"analysis.pair_correlation", "r_max", positive, Dimension::length, "five diameters, if the box has room",
      "Distance up to which pairs are counted.", "pair_correlation = { r_max = 5.0 }"},
     {"analysis.pair_correlation", "bins", count, none, "fifty a diameter", "Bins from 0 to `r_max`.",
@@ -376,6 +339,19 @@ constexpr SceneKey keys[] = {
      {},
      axis_names},
     {"analysis.density", "bins", count, none, "50", "Slabs.", "density = { bins = 50 }", bins_allowed},
+    {"analysis.profile",
+     "axis",
+     choice,
+     none,
+     "\"y\"",
+     "The axis along which slabs follow each other.",
+     R"(profile = { axis = "x" })",
+     {},
+     axis_names},
+    {"analysis.profile", "bins", count, none, "50", "Slabs.", "profile = { bins = 50 }", bins_allowed},
+    {"analysis.structure_factor", "wave_numbers", count, none, "a hundred",
+     "k = 2 pi n / period for n from 1 to this, along each periodic axis.", "structure_factor = { wave_numbers = 100 }",
+     bins_allowed},
 };
 
 bool is_index(std::string_view segment) {
@@ -383,10 +359,6 @@ bool is_index(std::string_view segment) {
 }
 
 }  // namespace
-
-std::span<const SceneTable> scene_tables() {
-  return tables;
-}
 
 std::span<const SceneKey> scene_keys() {
   return keys;

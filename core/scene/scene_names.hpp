@@ -19,8 +19,9 @@ inline constexpr std::array<std::string_view, 3> trajectory_names{"none", "xyz",
 inline constexpr std::array<std::string_view, 4> position_names{"random", "square", "hexagonal", "growth"};
 inline constexpr std::array<std::string_view, 2> precision_names{"double", "single"};
 inline constexpr std::array<std::string_view, 5> colour_names{"speed", "group", "radius", "mass", "id"};  // ColourBy
-inline constexpr std::array<std::string_view, 6> quantity_names{
-    "pair_correlation", "displacement", "speeds", "density", "pressure", "collision_rate"};  // Quantity
+inline constexpr std::array<std::string_view, quantities> quantity_names{
+    "pair_correlation",         "displacement",     "speeds",    "density", "pressure", "collision_rate", "profile",
+    "velocity_autocorrelation", "structure_factor", "bond_order"};  // Quantity
 inline constexpr std::array<std::string_view, 2> axis_names{"x", "y"};
 inline constexpr std::array<std::string_view, 1> collapse_models{"tc"};
 inline constexpr std::array<std::string_view, 2> plot_names{"velocity", "energy"};

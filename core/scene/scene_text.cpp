@@ -260,6 +260,13 @@ std::string analysis_text(const AnalysisPlan& plan) {
     lines += fmt::format("density = {{ axis = \"{}\", bins = {} }}\n", axis_names[plan.density_along_x ? 0 : 1],
                          plan.density_bins);
   }
+  if (plan.wants(Quantity::profile)) {
+    lines += fmt::format("profile = {{ axis = \"{}\", bins = {} }}\n", axis_names[plan.profile_along_x ? 0 : 1],
+                         plan.profile_bins);
+  }
+  if (plan.wants(Quantity::structure_factor)) {
+    lines += fmt::format("structure_factor = {{ wave_numbers = {} }}\n", plan.wave_numbers);
+  }
   if (!plan.group.empty()) lines += fmt::format("select = \"{}\"\n", plan.group);
   return fmt::format("\n[analysis]\nwhat = {}\nevery = {}\nstart = {}\n{}", list_of(names, quoted_toml),
                      decimal(plan.every), decimal(plan.start), lines);

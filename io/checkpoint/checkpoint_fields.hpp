@@ -135,8 +135,10 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<SampleSeries> T>
 void fields(Stream& stream, T& value) {
-  auto& [time, disks, displacement, followed, temperature, interval, pressure, collision_rate] = value;
-  stream(time, disks, displacement, followed, temperature, interval, pressure, collision_rate);
+  auto& [time, disks, displacement, followed, temperature, interval, pressure, collision_rate, autocorrelation,
+         local_order, global_order] = value;
+  stream(time, disks, displacement, followed, temperature, interval, pressure, collision_rate, autocorrelation,
+         local_order, global_order);
 }
 
 template <class Stream, Is<SpeedHistogram> T>
@@ -163,10 +165,28 @@ void fields(Stream& stream, T& value) {
   stream(begun, x, y, looked_at, fastest, checked_at, doubtful);
 }
 
+template <class Stream, Is<MotionProfile> T>
+void fields(Stream& stream, T& value) {
+  auto& [disks, mass, px, py, twice_k, samples] = value;
+  stream(disks, mass, px, py, twice_k, samples);
+}
+
+template <class Stream, Is<StructureFactor> T>
+void fields(Stream& stream, T& value) {
+  auto& [along_x, along_y, samples] = value;
+  stream(along_x, along_y, samples);
+}
+
+template <class Stream, Is<VelocityMemory> T>
+void fields(Stream& stream, T& value) {
+  auto& [begun, vx, vy] = value;
+  stream(begun, vx, vy);
+}
+
 template <class Stream, Is<AnalysisRecord> T>
 void fields(Stream& stream, T& value) {
-  auto& [counted_until, before, series, pairs, speeds, density, displacement] = value;
-  stream(counted_until, before, series, pairs, speeds, density, displacement);
+  auto& [counted_until, before, series, pairs, speeds, density, displacement, motion, structure, velocities] = value;
+  stream(counted_until, before, series, pairs, speeds, density, displacement, motion, structure, velocities);
 }
 
 template <class Stream, Is<OutputMark> T>

@@ -80,6 +80,53 @@ Figure series_figure(const Scene& scene, const AnalysisRecord& record, const std
   return {heading(scene.title, subject), "time t", end, {panel}};
 }
 
+Figure profile_figure(const Scene& scene, const AnalysisRecord& record) {
+  const ProfileCurves curves = profile_curves(record, scene);
+  Panel velocity{"velocity", {}, false, false}, temperature{"temperature", {}, true, false};
+  velocity.lines.push_back(line_of("vx", curves.position, curves.vx));
+  velocity.lines.push_back(line_of("vy", curves.position, curves.vy));
+  temperature.lines.push_back(line_of("temperature", curves.position, curves.temperature));
+  const bool along_x = scene.analysis.profile_along_x;
+  return {heading(scene.title, "velocity and temperature"),
+          fmt::format("position {}", axis_names[along_x ? 0 : 1]),
+          curves.position.back(),
+          {velocity, temperature}};
+}
+
+Figure structure_figure(const Scene& scene, const AnalysisRecord& record) {
+  Panel panel{"S(k)", {}, true, false};
+  double end = 1.0;
+  const auto add = [&](const char* name, const StructureCurve& curve) {
+    if (curve.k.empty()) return;
+    panel.lines.push_back(line_of(name, curve.k, curve.s));
+    end = curve.k.back();
+  };
+  add("along x", structure_along_x(record, scene));
+  add("along y", structure_along_y(record, scene));
+  panel.lines.push_back(level("ideal gas", end, 1.0));
+  return {heading(scene.title, "structure factor"), "wave number k", end, {panel}};
+}
+
+Figure order_figure(const Scene& scene, const AnalysisRecord& record) {
+  const SampleSeries& series = record.series;
+  Panel panel{"psi6", {}, true, false};
+  panel.lines.push_back(line_of("around each disk", series.time, series.local_order));
+  panel.lines.push_back(line_of("of all", series.time, series.global_order));
+  return {heading(scene.title, "bond order"), "time t", series.time.empty() ? 1.0 : series.time.back(), {panel}};
+}
+
+Figure memory_figure(const Scene& scene, const AnalysisRecord& record) {
+  const SampleSeries& series = record.series;
+  Panel panel{"v(0) v(t)", {}, false, false};
+  std::vector<double> since;
+  for (const double t : series.time) since.push_back(t - series.time.front());
+  panel.lines.push_back(line_of("mean", since, series.autocorrelation));
+  return {heading(scene.title, "velocity autocorrelation"),
+          "time since the first sample",
+          since.empty() ? 1.0 : since.back(),
+          {panel}};
+}
+
 // A power law through a point of the curve, over as much of the picture as lies within its heights.
 Line slope(const char* name, const Line& curve, std::size_t through, double exponent) {
   const double x = curve.x[through], y = curve.y[through];
@@ -127,6 +174,14 @@ bool draw_analysis(const std::string& folder, const Scene& scene, const Analysis
         return density_figure(scene, record);
       case Quantity::pressure:
         return series_figure(scene, record, series.pressure, "pressure", "pressure");
+      case Quantity::profile:
+        return profile_figure(scene, record);
+      case Quantity::velocity_autocorrelation:
+        return memory_figure(scene, record);
+      case Quantity::structure_factor:
+        return structure_figure(scene, record);
+      case Quantity::bond_order:
+        return order_figure(scene, record);
       default:
         return series_figure(scene, record, series.collision_rate, "collision rate",
                              "collisions per disk and unit time");

@@ -122,6 +122,53 @@ void put_speeds(Hdf5Output& output, const AnalysisRecord& record, const Scene& s
             "u exp(-u^2 / 2); beyond: counted above the last bin");
 }
 
+void put_profile(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
+  const ProfileCurves curves = profile_curves(record, scene);
+  const Group group(output, "/profile");
+  group.numbers("position", curves.position, "length");
+  group.numbers("velocity_x", curves.vx, "length / time");
+  group.numbers("velocity_y", curves.vy, "length / time");
+  group.numbers("temperature", curves.temperature, "energy");
+  group.counts("disks", record.motion.disks);
+  group.say("samples", static_cast<double>(record.motion.samples));
+  group.say("axis", std::string(axis_names[scene.analysis.profile_along_x ? 0 : 1]));
+  group.say("meaning",
+            "mean velocity of the slab's disks, momentum over mass; mean kinetic energy of one, measured from it");
+}
+
+void put_structure(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
+  const Group group(output, "/structure_factor");
+  const auto put = [&](const StructureCurve& curve, const char* k, const char* s) {
+    if (curve.k.empty()) return;
+    group.numbers(k, curve.k, "1 / length");
+    group.numbers(s, curve.s, "1");
+  };
+  put(structure_along_x(record, scene), "kx", "along_x");
+  put(structure_along_y(record, scene), "ky", "along_y");
+  group.say("samples", static_cast<double>(record.structure.samples));
+  group.say("meaning", "|sum of exp(i k x)|^2 over the number of disks, mean over the samples");
+}
+
+void put_order(Hdf5Output& output, const AnalysisRecord& record) {
+  const Group group(output, "/bond_order");
+  const auto put = [&](const char* name, const std::vector<double>& series) {
+    group.numbers(name, series, "1");
+    group.say((std::string(name) + "_mean").c_str(), sample_mean(series).mean);
+    group.say((std::string(name) + "_standard_error").c_str(), blocking_error(series));
+  };
+  put("local", record.series.local_order);
+  put("global", record.series.global_order);
+  group.say("meaning",
+            "psi6 of a disk: mean of exp(6 i angle) over its six nearest neighbours; local: mean of |psi6|, "
+            "global: |mean of psi6|");
+}
+
+void put_memory(Hdf5Output& output, const AnalysisRecord& record) {
+  const Group group(output, "/velocity_autocorrelation");
+  group.numbers("value", record.series.autocorrelation, "length^2 / time^2");
+  group.say("meaning", "mean of v(0) v(t) over the disks of the first sample that are still there");
+}
+
 void put_density(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
   const BinnedCurve packing = packing_curve(record, scene);
   const Group group(output, "/density");
@@ -145,6 +192,10 @@ void write_analysis(const std::string& path, const Scene& scene, const AnalysisR
   if (plan.wants(Quantity::pair_correlation)) put_pairs(output, record, scene);
   if (plan.wants(Quantity::speeds)) put_speeds(output, record, scene);
   if (plan.wants(Quantity::density)) put_density(output, record, scene);
+  if (plan.wants(Quantity::profile)) put_profile(output, record, scene);
+  if (plan.wants(Quantity::velocity_autocorrelation)) put_memory(output, record);
+  if (plan.wants(Quantity::structure_factor)) put_structure(output, record, scene);
+  if (plan.wants(Quantity::bond_order)) put_order(output, record);
   replace_file(path, output.image());
 }
 

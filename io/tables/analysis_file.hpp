@@ -15,6 +15,9 @@ namespace carom {
 // /pair_correlation   r, g; pairs: ordered ones counted
 // /speeds             u = v sqrt(m / T), measured, maxwell (both densities, means over the bin); counts
 // /density            position, packing_fraction, number_density; centres counted
+// /profile            position, velocity_x, velocity_y, temperature; disks counted
+// /velocity_autocorrelation, /bond_order   value; local, global: an entry a sample
+// /structure_factor   kx, along_x; ky, along_y: along periodic axes
 // /parameters/scene   the scene with all defaults, as TOML
 // Whatever was not asked for is not there. r, u and position are the middles of the bins. Attributes say the units, how
 // many samples went in; of a series, its mean, how its samples scatter, and the standard error of the mean by blocking

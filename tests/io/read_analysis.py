@@ -31,6 +31,14 @@ def main(h5_path, csv_path):
             assert not known[0] and (known == (interval > 0.0)).all() and known.any(), name
             assert file[name].attrs["standard_error"] > 0.0
             assert numpy.isclose(file[name].attrs["mean"], numpy.average(value[known], weights=interval[known]))
+        profile = file["profile"]
+        assert profile["disks"][:].sum() == disks.sum()
+        seen = profile["disks"][:] > 0
+        assert numpy.isfinite(profile["temperature"][:][seen]).all() and profile["velocity_y"].attrs["unit"] == b"length / time"
+        assert file["velocity_autocorrelation/value"][0] > 0.0 and len(file["velocity_autocorrelation/value"]) == len(time)
+        order = file["bond_order"]
+        assert (order["global"][:] <= order["local"][:]).all() and (order["local"][:] < 1.0).all()
+        assert numpy.isclose(order.attrs["local_mean"], order["local"][:].mean())
         squares = file["displacement/mean_square"][:]
         assert squares[0] == 0.0 and (squares[1:] > 0.0).all()
         assert (numpy.diff(file["displacement/disks"][:]) <= 0).all()

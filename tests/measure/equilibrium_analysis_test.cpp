@@ -78,7 +78,7 @@ double at_contact(const BinnedCurve& g, std::size_t from, std::size_t points, do
 TEST(EquilibriumAnalysis, ContactValuePressureAndSpeedsAreThoseOfTheory) {
   const Scene scene = parse_scene(gas, "gas.toml", "");
   const auto engine = make_parallel_engine(scene, initial_state(scene), {2});
-  AnalysisRecord record = empty_record(scene.analysis), start = record, seldom = record;
+  AnalysisRecord record = empty_record(scene), start = record, seldom = record;
   const PairCounter count = parallel_pair_counter(2);
   take_sample(start, scene, engine->state().disks, 0.0, engine->state(), count);
   const ChiSquare before = chi_square(start.speeds, scene.analysis);

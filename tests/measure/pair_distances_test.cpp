@@ -88,7 +88,7 @@ TEST(PairDistances, NothingCorrelatedGivesOne) {
     scene.analysis.r_max = c.r_max;
     scene.analysis.r_bins = 12;
     scene.analysis.wall_margin = c.r_max + 0.1;
-    AnalysisRecord record = empty_record(scene.analysis);
+    AnalysisRecord record = empty_record(scene);
     for (int k = 0; k < 200; ++k) take_sample(record, scene, strewn(draws, scene.box, 200), k, {}, count_pairs);
     const BinnedCurve g = pair_correlation_curve(record, scene.analysis);
     for (std::size_t k = 0; k < 12; ++k) {

@@ -10,10 +10,13 @@ using test::Outcome;
 using test::text_of;
 
 const std::string analysis = R"([analysis]
-what = ["pair_correlation", "displacement", "speeds", "density", "pressure", "collision_rate"]
+what = ["pair_correlation", "displacement", "speeds", "density", "pressure", "collision_rate", "profile",
+        "velocity_autocorrelation", "bond_order"]
 )";
-const std::vector<std::string> plots{"pair_correlation.svg", "displacement.svg", "speeds.svg",
-                                     "density.svg",          "pressure.svg",     "collision_rate.svg"};
+const std::vector<std::string> plots{
+    "pair_correlation.svg", "displacement.svg",   "speeds.svg",  "density.svg",
+    "pressure.svg",         "collision_rate.svg", "profile.svg", "velocity_autocorrelation.svg",
+    "bond_order.svg"};
 
 class AnalysisRun : public test::ProgramTest {
  protected:
@@ -48,6 +51,7 @@ TEST_F(AnalysisRun, ResumedItGivesTheSameFiles) {
     write("scene.toml", test::replaced(test::replaced(test::busy_scene(method, analysis, "none"), "right = \"sink\"",
                                                       "left = \"periodic\"\nright = \"periodic\""),
                                        "side = \"left\"", "side = \"top\""));
+    shell("sed -i 's/\"bond_order\"/\"bond_order\", \"structure_factor\"/' scene.toml");
     const std::string run =
         "run scene.toml --quiet --force --t-end 6 --set analysis.start=1.05 --set analysis.every=0.15 ";
     ASSERT_EQ(carom(run + "-o whole").status, 0);
@@ -58,6 +62,7 @@ TEST_F(AnalysisRun, ResumedItGivesTheSameFiles) {
     EXPECT_TRUE(text_of(at("whole/analysis.h5")) == text_of(at("parts/analysis.h5"))) << method;
     for (const std::string& plot : plots)
       EXPECT_TRUE(text_of(at("whole") / plot) == text_of(at("parts") / plot)) << plot;
+    EXPECT_TRUE(fs::exists(at("parts/structure_factor.svg")));
     EXPECT_EQ(read("parts", "").out, "34\n") << "from 1.05 on, and the end";
   }
 }

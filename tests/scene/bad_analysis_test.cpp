@@ -55,9 +55,15 @@ TEST(AnalysisScene, OneLineForWhatItDoesNotTake) {
        "gas.toml:24: analysis.what: missing; expected a list of what to measure, as in "
        "[\"pair_correlation\"]"},
       {"what = \"speeds\"", "analysis.what: is a string; expected a list of what to measure"},
+      {"what = [\"structure_factor\"]", "analysis.what: structure_factor goes by waves along periodic sides, and no"},
+      {"what = [\"profile\"]\nprofile = { bins = 0 }",
+       "analysis.profile.bins: is 0; expected a whole number from 1 to"},
+      {"what = [\"speeds\"]\nprofile = { bins = 3 }", "analysis.profile: has options, but what does not name it"},
+      {"what = [\"profile\"]\nprofile = { axis = \"z\" }", "analysis.profile.axis: unknown name \"z\""},
       {"what = [\"speed\"]",
        "gas.toml:25: analysis.what.0: unknown quantity \"speed\"; expected one of "
-       "pair_correlation, displacement, speeds, density, pressure, collision_rate (nearest: "
+       "pair_correlation, displacement, speeds, density, pressure, collision_rate, profile, "
+       "velocity_autocorrelation, structure_factor, bond_order (nearest: "
        "speeds)"},
       {"what = []\nevry = 1.0", "analysis.evry: unknown key"},
       {"what = []\nevery = -1", "analysis.every: is -1"},

@@ -23,6 +23,8 @@ using testing::HasSubstr;
 constexpr std::string_view full_scene = R"([box]
 width = 100.0
 height = 100.0
+bottom = "periodic"
+top = "periodic"
 [physics]
 collapse = { model = "tc", contact_time = 1e-6 }
 [[disks]]
@@ -37,7 +39,7 @@ rate = 1.0
 radius = 1.0
 mass = 2.0
 [[sources]]
-side = "top"
+side = "right"
 rate = 1.0
 radius = 1.0
 mass = 2.0
@@ -48,7 +50,7 @@ t_end = 10.0
 [output]
 trajectory = "h5md"
 [analysis]
-what = ["pair_correlation", "speeds", "density"]
+what = ["pair_correlation", "speeds", "density", "profile", "structure_factor"]
 )";
 
 SceneFrame three_disks(const FrameAsked&) {
@@ -113,8 +115,12 @@ TEST(SceneKeys, EveryExampleIsAScenes) {
   folder.write("p.csv", "10,10\n20,20\n30,30\n");
   folder.write("v.csv", "1,0\n0,1\n1,1\n");
   const std::map<std::string_view, std::vector<Override>> companions{
-      {"left", {{"box.right", "periodic"}}},          {"right", {{"box.left", "periodic"}}},
-      {"accumulate", {{"physics.diffusion", "0.1"}}}, {"region", {{"disks.0.positions", "random"}}},
+      {"left", {{"box.right", "periodic"}, {"sources.1.side", "top"}, {"box.bottom", "wall"}, {"box.top", "wall"}}},
+      {"right", {{"box.left", "periodic"}, {"sources.1.side", "top"}, {"box.bottom", "wall"}, {"box.top", "wall"}}},
+      {"bottom", {{"box.top", "wall"}, {"box.left", "periodic"}, {"box.right", "periodic"}, {"sources.1.side", "top"}}},
+      {"top", {{"box.bottom", "wall"}, {"box.left", "periodic"}, {"box.right", "periodic"}, {"sources.1.side", "top"}}},
+      {"accumulate", {{"physics.diffusion", "0.1"}}},
+      {"region", {{"disks.0.positions", "random"}}},
       {"circle", {{"disks.0.positions", "random"}}},
   };
   for (const SceneKey& key : scene_keys()) {
@@ -160,7 +166,7 @@ mass = 2.0
 [run]
 t_end = 10.0
 [analysis]
-what = ["pair_correlation", "speeds", "density"]
+what = ["pair_correlation", "speeds", "density", "profile"]
 )";
   const std::string resolved = resolved_toml(parse_scene(bare, "bare.toml", ""));
   int seen = 0;

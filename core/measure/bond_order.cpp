@@ -1,0 +1,128 @@
+#include "core/measure/bond_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+#include "core/disks/cell_index.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t neighbours = 6;
+constexpr double disks_per_cell = 3.0;
+
+struct Neighbour {
+  double distance2;
+  DiskId id;
+  Vec2 apart;
+  bool operator<(const Neighbour& other) const { return std::tie(distance2, id) < std::tie(other.distance2, other.id); }
+};
+
+// Centres in cells of about three disks each.
+class Centres {
+ public:
+  Centres(const Disks& d, const Domain& box) : d_(d), box_(box) {
+    const double edge = std::sqrt(disks_per_cell * box.width * box.height / static_cast<double>(d.size()));
+    columns_ = static_cast<std::ptrdiff_t>(std::max(1.0, std::floor(box.width / edge)));
+    rows_ = static_cast<std::ptrdiff_t>(std::max(1.0, std::floor(box.height / edge)));
+    cells_.resize(static_cast<std::size_t>(columns_ * rows_));
+    for (std::size_t i = 0; i < d.size(); ++i) cell(column_of(d.x[i]), row_of(d.y[i])).push_back(i);
+  }
+
+  // The six nearest of disk i, and whatever else was looked at, nearest first: rings of cells until no disk further out
+  // can be nearer than the sixth.
+  void find(std::size_t i, std::vector<Neighbour>& found) const {
+    const double least = std::min(box_.width / static_cast<double>(columns_), box_.height / static_cast<double>(rows_));
+    for (std::ptrdiff_t reach = 1;; ++reach) {
+      collect(i, reach, found);
+      std::sort(found.begin(), found.end());
+      const double known = static_cast<double>(reach) * least;
+      const bool all = reach >= std::max(columns_, rows_);
+      if (all || (found.size() >= neighbours && found[neighbours - 1].distance2 <= known * known)) return;
+    }
+  }
+
+ private:
+  std::ptrdiff_t column_of(double x) const {
+    return cell_index(x / box_.width * static_cast<double>(columns_), columns_);
+  }
+  std::ptrdiff_t row_of(double y) const { return cell_index(y / box_.height * static_cast<double>(rows_), rows_); }
+  std::vector<std::size_t>& cell(std::ptrdiff_t column, std::ptrdiff_t row) {
+    return cells_[static_cast<std::size_t>(row * columns_ + column)];
+  }
+
+  // Cells within reach along an axis, each once.
+  struct Span {
+    std::ptrdiff_t first, count;
+  };
+  static Span span(std::ptrdiff_t middle, std::ptrdiff_t reach, std::ptrdiff_t cells, bool periodic) {
+    if (periodic) return 2 * reach + 1 >= cells ? Span{0, cells} : Span{middle - reach + cells, 2 * reach + 1};
+    const std::ptrdiff_t first = std::max<std::ptrdiff_t>(0, middle - reach);
+    return {first, std::min(cells - 1, middle + reach) - first + 1};
+  }
+
+  void collect(std::size_t i, std::ptrdiff_t reach, std::vector<Neighbour>& found) const {
+    found.clear();
+    const Span across = span(column_of(d_.x[i]), reach, columns_, box_.periodic_x());
+    const Span up = span(row_of(d_.y[i]), reach, rows_, box_.periodic_y());
+    for (std::ptrdiff_t r = 0; r < up.count; ++r) {
+      for (std::ptrdiff_t c = 0; c < across.count; ++c) {
+        const std::ptrdiff_t cell = (up.first + r) % rows_ * columns_ + (across.first + c) % columns_;
+        for (const std::size_t j : cells_[static_cast<std::size_t>(cell)]) {
+          if (j == i) continue;
+          const Vec2 apart = nearest_image(Vec2{d_.x[j] - d_.x[i], d_.y[j] - d_.y[i]}, box_);
+          found.push_back({apart.x * apart.x + apart.y * apart.y, d_.id[j], apart});
+        }
+      }
+    }
+  }
+
+  const Disks& d_;
+  const Domain& box_;
+  std::ptrdiff_t columns_ = 1, rows_ = 1;
+  std::vector<std::vector<std::size_t>> cells_;
+};
+
+Vec2 product(Vec2 a, Vec2 b) {
+  return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
+}
+
+// exp(6 i angle) by powers of exp(i angle), which is the direction itself.
+Vec2 sixfold(const Neighbour& n) {
+  const double r = std::sqrt(n.distance2);
+  if (r == 0.0) return {};
+  const Vec2 z{n.apart.x / r, n.apart.y / r};
+  const Vec2 cube = product(z, product(z, z));
+  return product(cube, cube);
+}
+
+}  // namespace
+
+BondOrder bond_order(const Disks& d, const Domain& box) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  if (d.size() <= neighbours) return {nothing, nothing};
+  const Centres centres(d, box);
+  std::vector<Neighbour> found;
+  Vec2 all;
+  double local = 0.0;
+  for (const std::size_t i : by_id(d)) {
+    centres.find(i, found);
+    Vec2 psi;
+    for (std::size_t k = 0; k < neighbours; ++k) {
+      const Vec2 bond = sixfold(found[k]);
+      psi.x += bond.x / neighbours;
+      psi.y += bond.y / neighbours;
+    }
+    local += std::sqrt(psi.x * psi.x + psi.y * psi.y);
+    all.x += psi.x;
+    all.y += psi.y;
+  }
+  const auto n = static_cast<double>(d.size());
+  return {local / n, std::sqrt(all.x * all.x + all.y * all.y) / n};
+}
+
+}  // namespace carom

@@ -1,0 +1,34 @@
+// How disks move along an axis: mean velocity and temperature, slab by slab.
+#pragma once
+
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+// Equal slabs across the box; sums over the disks with their centre in each, and over the samples.
+struct MotionProfile {
+  std::vector<Count> disks;
+  std::vector<double> mass;
+  std::vector<double> px, py;   // m v
+  std::vector<double> twice_k;  // m v^2
+  Count samples = 0;
+};
+
+MotionProfile empty_profile(std::size_t slabs);
+
+// In order of ids: the same bits in any storage order.
+void add_motion(MotionProfile& profile, const Disks& disks, const Domain& box, bool along_x);
+
+// Of slab k: the mean velocity V of all its disks and samples, and the temperature, (sum of m v^2 - M V^2) / 2 a disk.
+// NaN where no disk was.
+struct SlabMotion {
+  Vec2 velocity;
+  double temperature = 0.0;
+};
+SlabMotion motion_of_slab(const MotionProfile& profile, std::size_t k);
+
+}  // namespace carom

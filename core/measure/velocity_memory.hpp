@@ -1,0 +1,23 @@
+// The velocity autocorrelation: how much of their velocities disks keep.
+#pragma once
+
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/disks/disks.hpp"
+
+namespace carom {
+
+// Velocities of the first sample, by id; NaN: no such disk.
+struct VelocityMemory {
+  bool begun = false;
+  std::vector<double> vx, vy;
+};
+
+void begin_memory(VelocityMemory& memory, const Disks& disks);
+
+// Mean of v(0) v(t) over the disks of the first sample that are still there; length^2 / time^2, NaN without any. In
+// order of ids: the same bits in any storage order.
+double velocity_autocorrelation(const VelocityMemory& memory, const Disks& disks);
+
+}  // namespace carom

@@ -1,0 +1,56 @@
+#include "core/scene/scene_keys.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr SceneTable tables[] = {
+    {"", "The file itself", "Two keys of its own, then tables."},
+    {"box", "`[box]`",
+     "The rectangle from (0, 0) to (width, height): either `width` and `height`, or `packing_fraction`. Periodic sides "
+     "come in opposite pairs. A sink takes away what touches it."},
+    {"box.side", "`left = { ... }` in `[box]`, likewise `right`, `bottom` and `top`",
+     "A side of which there is more to say than its kind."},
+    {"box.side.motion", "`motion = { ... }` of a side", "Exactly one of `velocity` and `vibrate`."},
+    {"physics", "`[physics]`", "What acts on the disks. A scene states only what it has."},
+    {"physics.collapse", "`collapse = { ... }` in `[physics]`",
+     "The remedy for inelastic collapse under method `exact`: the TC model (Luding and McNamara 1998), in which a "
+     "collision is elastic where one of its disks collided less than `contact_time` ago."},
+    {"disks", "`[[disks]]`",
+     "A group of disks; a scene may have many, or none where it has sources. Ids run on from 0 in the order of the "
+     "file."},
+    {"disks.positions", "`positions = { ... }` in `[[disks]]`", "Places from elsewhere; exactly one of these keys."},
+    {"disks.region", "`region = { ... }` in `[[disks]]`", "A circle, in place of the four numbers of a rectangle."},
+    {"disks.velocities", "`velocities = { ... }` in `[[disks]]` and `[[sources]]`", "Exactly one of these keys."},
+    {"disks.radius", "`radius = { ... }` in `[[disks]]` and `[[sources]]`",
+     "Exactly one of these keys; `weights` goes with `choice`. Every disk draws its own by its id."},
+    {"disks.mass", "`mass = { ... }` in `[[disks]]` and `[[sources]]`",
+     "Exactly one of these keys; `weights` goes with `choice`. Every disk draws its own by its id."},
+    {"frame", "`{ frame = ... }` in `[[disks]]`",
+     "Starts from a frame of an earlier run: `positions`, `velocities`, `radius` and `mass` may each be taken from "
+     "one. The last frame, unless `index` or `time` says which."},
+    {"growth", "`[growth]`", "How `positions = \"growth\"` goes about it; only where some group grows."},
+    {"sources", "`[[sources]]`",
+     "Disks that come while the run goes on, the k-th at time k / `rate`, through a side or anywhere in a region. A "
+     "disk that would overlap another waits until there is room; how many wait is counted (`waiting`), and a run warns "
+     "at its end where more than a twentieth of them do."},
+    {"run", "`[run]`", "How the scene is run."},
+    {"output", "`[output]`", "What a run writes."},
+    {"output.movie", "`movie = { ... }` in `[output]`",
+     "How the movie looks, and what `carom render` makes of the trajectory; see "
+     "[output.md](output.md#movies-and-pictures)."},
+    {"analysis", "`[analysis]`", "What a run measures, see [output.md](output.md#measuring-during-a-run)."},
+    {"analysis.pair_correlation", "`pair_correlation = { ... }` in `[analysis]`", ""},
+    {"analysis.speeds", "`speeds = { ... }` in `[analysis]`", ""},
+    {"analysis.density", "`density = { ... }` in `[analysis]`", ""},
+    {"analysis.profile", "`profile = { ... }` in `[analysis]`", ""},
+    {"analysis.structure_factor", "`structure_factor = { ... }` in `[analysis]`", ""},
+};
+
+}  // namespace
+
+std::span<const SceneTable> scene_tables() {
+  return tables;
+}
+
+}  // namespace carom

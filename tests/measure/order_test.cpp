@@ -1,0 +1,200 @@
+// Structure factor, bond order, velocity autocorrelation and profiles of motion, against cases that are known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/base/random.hpp"
+#include "core/measure/bond_order.hpp"
+#include "core/measure/motion_profile.hpp"
+#include "core/measure/structure_factor.hpp"
+#include "core/measure/velocity_memory.hpp"
+#include "tests/support/disks_by_hand.hpp"
+
+namespace carom {
+namespace {
+
+constexpr Stream stream = Stream::position;
+
+// The same disks stored the other way round.
+Disks turned(const Disks& d) {
+  Disks other;
+  for (std::size_t i = d.size(); i-- > 0;) append(other, disk_at(d, i));
+  return other;
+}
+
+Disks ideal_gas(std::size_t n, const Domain& box, std::uint64_t seed) {
+  Disks d;
+  for (DiskId id = 0; id < n; ++id) {
+    const TwoUniforms u = uniforms(seed, stream, id, 0);
+    const Vec2 v = normals(seed, Stream::velocity, id, 0);
+    append(d, {box.width * u.a, box.height * u.b, v.x, v.y, 0.01, 1.0, id});
+  }
+  return d;
+}
+
+// A perfect triangular lattice of spacing 1, columns x rows, with its box.
+Disks triangles(int columns, int rows, Domain& box) {
+  const double h = std::sqrt(0.75);
+  box = test::box_of(columns, rows * h, true, true);
+  Disks d;
+  for (int k = 0; k < columns * rows; ++k) {
+    const int row = k / columns;
+    append(d, {k % columns + (row % 2 == 1 ? 0.75 : 0.25), h * (row + 0.5), 0, 0, 0.5, 1.0, static_cast<DiskId>(k)});
+  }
+  return d;
+}
+
+// |rho_k|^2 / N of an ideal gas is exponential with mean 1: the mean of `waves` has the error 1 / sqrt(waves).
+TEST(StructureFactor, OfAnIdealGasIsOne) {
+  const Domain box = test::box_of(30.0, 20.0, true, true);
+  StructureFactor s{std::vector<double>(100, 0.0), std::vector<double>(100, 0.0), 0};
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) add_structure(s, ideal_gas(500, box, seed), box);
+  EXPECT_EQ(s.samples, 40U);
+  double mean = 0.0;
+  for (const std::vector<double>* axis : {&s.along_x, &s.along_y}) {
+    for (const double sum : *axis) mean += sum / 40.0 / 200.0;
+  }
+  EXPECT_NEAR(mean, 1.0, 4.0 / std::sqrt(40.0 * 200.0));
+}
+
+// Rows lie sqrt(3)/2 apart, columns 1/2: Bragg peaks of height N at 2 pi over those, and nothing between them.
+TEST(StructureFactor, OfALatticeHasBraggPeaks) {
+  Domain box;
+  const Disks d = triangles(12, 14, box);
+  StructureFactor s{std::vector<double>(30, 0.0), std::vector<double>(30, 0.0), 0};
+  add_structure(s, d, box);
+  for (std::size_t n = 1; n <= 30; ++n) {
+    EXPECT_NEAR(s.along_x[n - 1], n == 24 ? 168.0 : 0.0, 1e-9) << n;
+    EXPECT_NEAR(s.along_y[n - 1], n == 14 || n == 28 ? 168.0 : 0.0, 1e-9) << n;
+  }
+}
+
+TEST(StructureFactor, ASideThatIsNoPeriodAndNoDisksGiveNothing) {
+  const Domain box = test::box_of(30.0, 20.0, true, false);
+  StructureFactor s{std::vector<double>(5, 0.0), {}, 0};
+  add_structure(s, {}, box);
+  EXPECT_EQ(s.samples, 0U);
+  add_structure(s, ideal_gas(10, box, 1), box);
+  EXPECT_TRUE(s.along_y.empty());
+}
+
+TEST(BondOrder, OfAHexagonalLatticeIsOne) {
+  for (const auto& [columns, rows] : {std::pair(12, 14), std::pair(3, 4), std::pair(40, 6)}) {
+    Domain box;
+    const Disks d = triangles(columns, rows, box);
+    const BondOrder order = bond_order(d, box);
+    EXPECT_NEAR(order.local, 1.0, 1e-12) << columns;
+    EXPECT_NEAR(order.global, 1.0, 1e-12) << columns;
+  }
+}
+
+// Two crystals, one turned by 30 degrees: order around each disk, none in common.
+TEST(BondOrder, TurnedCrystalsHaveNoOrderInCommon) {
+  const double h = std::sqrt(0.75);
+  Disks d;
+  DiskId id = 0;
+  for (int side = 0; side < 2; ++side) {
+    for (int k = 0; k < 900; ++k) {
+      const int row = k / 30;
+      const double a = k % 30 + (row % 2 == 1 ? 0.5 : 0.0) - 15.0, b = h * row - 15.0 * h;
+      const double c = side == 0 ? 1.0 : std::sqrt(0.75), s = side == 0 ? 0.0 : 0.5;
+      append(d, {50.0 + 100.0 * side + c * a - s * b, 50.0 + s * a + c * b, 0, 0, 0.4, 1.0, id++});
+    }
+  }
+  const BondOrder order = bond_order(d, test::box_of(200.0, 100.0));
+  EXPECT_GT(order.local, 0.9) << "all but those at the edges";
+  EXPECT_LT(order.global, 0.05);
+}
+
+// Against all pairs; and six independent angles would have a mean |psi6| of sqrt(pi) / 2 / sqrt(6) = 0.36, a gas a
+// little more.
+TEST(BondOrder, OfAGasIsThatOfAllPairs) {
+  for (const bool periodic : {false, true}) {
+    const Domain box = test::box_of(30.0, 20.0, periodic, false);
+    const Disks d = ideal_gas(400, box, 7);
+    double local = 0.0, x = 0.0, y = 0.0;
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      std::vector<std::pair<double, double>> all;  // distance, angle
+      for (std::size_t j = 0; j < d.size(); ++j) {
+        const Vec2 apart = nearest_image(Vec2{d.x[j] - d.x[i], d.y[j] - d.y[i]}, box);
+        if (j != i) all.emplace_back(std::hypot(apart.x, apart.y), std::atan2(apart.y, apart.x));
+      }
+      std::sort(all.begin(), all.end());
+      Vec2 psi;
+      for (std::size_t k = 0; k < 6; ++k) {
+        psi.x += std::cos(6.0 * all[k].second) / 6.0;
+        psi.y += std::sin(6.0 * all[k].second) / 6.0;
+      }
+      local += std::hypot(psi.x, psi.y) / 400.0;
+      x += psi.x / 400.0;
+      y += psi.y / 400.0;
+    }
+    const BondOrder order = bond_order(d, box);
+    EXPECT_NEAR(order.local, local, 1e-10);
+    EXPECT_NEAR(order.global, std::hypot(x, y), 1e-10);
+    EXPECT_EQ(bond_order(turned(d), box).local, order.local) << "storage does not matter";
+    EXPECT_GT(order.local, 0.3);
+    EXPECT_LT(order.local, 0.5);
+  }
+}
+
+TEST(BondOrder, NeedsSevenDisks) {
+  const Domain box = test::box_of(30.0, 20.0);
+  EXPECT_TRUE(std::isnan(bond_order(ideal_gas(6, box, 7), box).local));
+  EXPECT_FALSE(std::isnan(bond_order(ideal_gas(7, box, 7), box).local));
+  EXPECT_TRUE(std::isnan(bond_order({}, box).global));
+}
+
+TEST(VelocityMemory, FreeFlightForgetsNothingAndAWallTurnsItRound) {
+  const Domain box = test::box_of(30.0, 20.0);
+  Disks d = ideal_gas(100, box, 3);
+  VelocityMemory memory;
+  begin_memory(memory, d);
+  double mean = 0.0;
+  for (std::size_t i = 0; i < 100; ++i) mean += (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]) / 100.0;
+  EXPECT_NEAR(velocity_autocorrelation(memory, d), mean, 1e-12);
+  EXPECT_EQ(velocity_autocorrelation(memory, turned(d)), velocity_autocorrelation(memory, d));
+  append(d, {1, 1, 1e6, 1e6, 0.1, 1.0, 100});
+  EXPECT_NEAR(velocity_autocorrelation(memory, d), mean, 1e-12) << "one that came later is not among them";
+  for (std::size_t i = 0; i < 100; ++i) {
+    d.vx[i] = -d.vx[i];
+    d.vy[i] = -d.vy[i];
+  }
+  EXPECT_NEAR(velocity_autocorrelation(memory, d), -mean, 1e-12);
+  EXPECT_TRUE(std::isnan(velocity_autocorrelation(memory, {})));
+}
+
+// A shear flow vx = 0.2 y at temperature 1, masses of 1 and 4: the temperature leaves the flow out, all but what it
+// varies by within a slab.
+TEST(MotionProfile, TellsFlowAndTemperatureApart) {
+  const Domain box = test::box_of(30.0, 20.0);
+  MotionProfile profile = empty_profile(10);
+  Disks d = ideal_gas(40'000, box, 5);
+  d.mass.assign(d.size(), 1.0);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    if (i % 2 == 0) {
+      d.mass[i] = 4.0;
+      d.vx[i] *= 0.5;
+      d.vy[i] *= 0.5;
+    }
+    d.vx[i] += 0.2 * d.y[i];
+  }
+  add_motion(profile, d, box, false);
+  for (std::size_t k = 0; k < 10; ++k) {
+    const SlabMotion motion = motion_of_slab(profile, k);
+    const double n = static_cast<double>(profile.disks[k]);
+    const double within = 0.04 * 4.0 / 12.0 * 2.5 / 2.0;  // mean mass times the variance of 0.2 y in a slab, halved
+    EXPECT_NEAR(motion.velocity.x, 0.2 * (2.0 * static_cast<double>(k) + 1.0), 5.0 / std::sqrt(n));
+    EXPECT_NEAR(motion.velocity.y, 0.0, 5.0 / std::sqrt(n));
+    EXPECT_NEAR(motion.temperature, 1.0 + within, 5.0 / std::sqrt(n));
+  }
+  MotionProfile other = empty_profile(10);
+  add_motion(other, turned(d), box, false);
+  EXPECT_EQ(other.px, profile.px);
+  EXPECT_EQ(other.twice_k, profile.twice_k);
+  EXPECT_TRUE(std::isnan(motion_of_slab(empty_profile(1), 0).temperature));
+}
+
+}  // namespace
+}  // namespace carom
