@@ -20,7 +20,7 @@ std::vector<NamedGroup> named_groups(const Scene& scene) {
   const std::vector<DiskId> ends = ends_of_groups(scene);
   DiskId first = 0;
   for (std::size_t g = 0; g < ends.size(); first = ends[g++]) {
-    if (scene.groups[g].name.empty()) continue;
+    if (scene.groups[g].name.empty() || scene.groups[g].fixed) continue;
     named.push_back({scene.groups[g].name, static_cast<DiskId>(g), {first, ends[g]}});
   }
   if (!scene.sources.empty()) {
@@ -32,7 +32,7 @@ std::vector<NamedGroup> named_groups(const Scene& scene) {
 }
 
 std::vector<NamedGroup> reported_groups(const Scene& scene) {
-  const auto has_name = [](const DiskGroup& group) { return !group.name.empty(); };
+  const auto has_name = [](const DiskGroup& group) { return !group.name.empty() && !group.fixed; };
   if (std::none_of(scene.groups.begin(), scene.groups.end(), has_name)) return {};
   return named_groups(scene);
 }

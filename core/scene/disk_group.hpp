@@ -26,7 +26,8 @@ struct NamedGroup {
   IdRange ids;
 };
 
-// The blocks with a name, in the order of the scene, and "sources" where the scene has any.
+// The blocks with a name, in the order of the scene, and "sources" where the scene has any. Not those of fixed disks,
+// which have no motion and are measured nowhere.
 std::vector<NamedGroup> named_groups(const Scene& scene);
 
 // The same, but none where no block has a name: what a run tells of each group.
