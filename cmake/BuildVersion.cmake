@@ -8,6 +8,8 @@ foreach(folder IN LISTS version_folders)
     ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.hpp ${PROJECT_SOURCE_DIR}/${folder}/*.inl)
   list(APPEND version_depends ${files})
 endforeach()
+list(APPEND version_folders viewer)
+list(APPEND version_depends ${viewer_sources})
 
 # Only a repository of our own: a tarball may have been unpacked inside another one.
 find_program(GIT git)

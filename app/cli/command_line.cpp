@@ -43,10 +43,10 @@ constexpr std::size_t t_end_option = 2;  // its place among them
 // What CLI11 reads; checked and turned into a Command afterwards, so that all messages are ours.
 struct Words {
   std::string first, second, folder, engine, threads, frame, walltime, seeds, jobs, emit, accuracy, tolerance, fields,
-      times, at, colour, range, size, fps;
+      times, at, colour, range, size, fps, max_size;
   std::array<std::string, scene_options.size()> scene_values;
   std::vector<std::string> sets, over;
-  bool json = false, quiet = false, force = false, strict = false, quick = false, tiny = false;
+  bool json = false, quiet = false, force = false, strict = false, quick = false, tiny = false, open = false;
 };
 
 SceneChanges changes_of(const Words& words) {
@@ -146,6 +146,17 @@ void describe_render(CLI::App* render, Words& words) {
   add_value(render, "--fps", words.fps, "N", "frames a second; default 25");
   render->add_flag("--quiet", words.quiet, "print nothing but errors");
   render->add_flag("--force", words.force, "replace an existing file");
+}
+
+void describe_view(CLI::App* view, Words& words) {
+  view->add_option("DIR", words.first, "folder of a run with a trajectory, or a trajectory")->type_name("");
+  add_value(view, "-o,--output", words.folder, "FILE", "the page; default DIR/view.html");
+  add_value(view, "--max-size", words.max_size, "SIZE",
+            "leave out frames, then disks, until the page is no longer than this; default 64MB");
+  view->add_flag("--open", words.open, "open it in the browser");
+  view->add_flag("--quiet", words.quiet, "print nothing but errors");
+  view->add_flag("--force", words.force, "replace an existing file");
+  view->footer("One file that plays the run in any browser, and asks the network for nothing. See docs/viewer.md.");
 }
 
 void describe_sweep(CLI::App* sweep, Words& words) {
@@ -259,6 +270,13 @@ RenderOptions render_options(const Words& words) {
   return o;
 }
 
+ViewOptions view_options(const Words& words) {
+  require(words.first, "view", "no folder given", "expected carom view DIR");
+  ViewOptions o{words.first, file_option(words.folder), std::nullopt, words.open, words.quiet, words.force};
+  if (!words.max_size.empty()) o.max_size = size_of("--max-size", words.max_size);
+  return o;
+}
+
 SweepOptions sweep_options(const Words& words) {
   require(words.first, "sweep", "no scene file given", "expected carom sweep SCENE.toml --over KEY=FROM:TO:COUNT");
   SweepOptions o;
@@ -310,10 +328,13 @@ Command parse_command_line(int given, const char* const* given_words) {
   CLI::App* const compare =
       app.add_subcommand("compare", "two outputs: the same bits, or where and by how much they differ");
   CLI::App* const render = app.add_subcommand("render", "a movie or a picture from a trajectory");
+  CLI::App* const view = app.add_subcommand("view", "one page that plays a run in any browser");
   CLI::App* const sweep = app.add_subcommand("sweep", "run a scene for every combination of values and seeds");
   CLI::App* const chart = app.add_subcommand("chart", "the speed-accuracy chart of all methods, from runs made now");
   CLI::App* const docs = app.add_subcommand("docs", "print a page of the documentation that is made from the program");
-  for (CLI::App* const command : {run, check, resume, compare, render, sweep, chart, docs}) command->allow_extras();
+  for (CLI::App* const command : {run, check, resume, compare, render, view, sweep, chart, docs}) {
+    command->allow_extras();
+  }
   describe_run(run, words);
   add_scene_options(check, words);
   add_value(check, "--accuracy", words.accuracy, "X",
@@ -322,6 +343,7 @@ Command parse_command_line(int given, const char* const* given_words) {
   describe_resume(resume, words);
   describe_compare(compare, words);
   describe_render(render, words);
+  describe_view(view, words);
   describe_sweep(sweep, words);
   describe_chart(chart, words);
   docs->add_option("PAGE", words.first, "scene: every key of a scene, column of series.csv and key of --json")
@@ -341,6 +363,7 @@ Command parse_command_line(int given, const char* const* given_words) {
   if (check->parsed()) return check_options(words);
   if (resume->parsed()) return resume_options(words);
   if (compare->parsed()) return compare_options(words);
+  if (view->parsed()) return view_options(words);
   if (sweep->parsed()) return sweep_options(words);
   if (chart->parsed()) return chart_options(words);
   if (docs->parsed()) return docs_options(words);

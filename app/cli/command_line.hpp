@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -66,6 +67,15 @@ struct RenderOptions {
   bool force = false;
 };
 
+struct ViewOptions {
+  std::string source;                   // a folder with a trajectory, or such a file
+  std::optional<std::string> file;      // -o
+  std::optional<std::size_t> max_size;  // bytes
+  bool open = false;                    // in the browser, when it is made
+  bool quiet = false;
+  bool force = false;
+};
+
 struct SweepOptions {
   std::string scene;
   std::optional<std::string> folder;  // -o
@@ -96,8 +106,8 @@ struct TextRequest {
   std::string text;
 };
 
-using Command = std::variant<RunOptions, CheckOptions, ResumeOptions, CompareOptions, RenderOptions, SweepOptions,
-                             ChartOptions, DocsOptions, TextRequest>;
+using Command = std::variant<RunOptions, CheckOptions, ResumeOptions, CompareOptions, RenderOptions, ViewOptions,
+                             SweepOptions, ChartOptions, DocsOptions, TextRequest>;
 
 // Throws InputError with one line that names the option, and the nearest one for a misspelt name.
 Command parse_command_line(int argc, const char* const* argv);

@@ -15,8 +15,8 @@ namespace carom {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> command_names{"run",    "check", "resume", "compare",
-                                                        "render", "sweep", "chart",  "docs"};
+constexpr std::array<std::string_view, 9> command_names{"run",  "check", "resume", "compare", "render",
+                                                        "view", "sweep", "chart",  "docs"};
 
 void check_command_name(const std::vector<const char*>& words) {
   if (words.size() < 2)

@@ -14,6 +14,7 @@ int command_resume(const ResumeOptions& options);
 int command_check(const CheckOptions& options);
 int command_compare(const CompareOptions& options);
 int command_render(const RenderOptions& options);
+int command_view(const ViewOptions& options);
 int command_sweep(const SweepOptions& options);
 int command_chart(const ChartOptions& options);
 int command_docs(const DocsOptions& options);

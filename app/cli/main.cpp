@@ -21,6 +21,7 @@ struct Dispatch {
   int operator()(const CheckOptions& options) const { return command_check(options); }
   int operator()(const CompareOptions& options) const { return command_compare(options); }
   int operator()(const RenderOptions& options) const { return command_render(options); }
+  int operator()(const ViewOptions& options) const { return command_view(options); }
   int operator()(const SweepOptions& options) const { return command_sweep(options); }
   int operator()(const ChartOptions& options) const { return command_chart(options); }
   int operator()(const DocsOptions& options) const { return command_docs(options); }

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "core/base/duration.hpp"
 #include "core/base/input_message.hpp"
@@ -70,6 +72,20 @@ double walltime_of(const std::string& text) {
   const std::optional<double> seconds = parse_duration(text);
   if (!seconds) fail_input("--max-walltime", fmt::format("is {}", in_quotes(text)), expected_duration);
   return *seconds;
+}
+
+std::size_t size_of(const std::string& option, const std::string& text) {
+  constexpr std::array<std::pair<std::string_view, double>, 5> units{
+      {{"", 1.0}, {"B", 1.0}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}}};
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  while (unit.starts_with(' ')) unit.remove_prefix(1);
+  for (const auto& [name, factor] : units) {
+    if (error != std::errc() || unit != name || !(value * factor >= 1.0) || value * factor > 1e15) continue;
+    return static_cast<std::size_t>(value * factor);
+  }
+  fail_input(option, fmt::format("is {}", in_quotes(text)), "expected a size, as in 64MB, 500kB or 1GB");
 }
 
 std::string toml_value(const std::string& option, const std::string& text) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 
 namespace carom {
@@ -18,6 +19,9 @@ std::array<double, 2> pair_of(const std::string& option, const std::string& text
 
 // --max-walltime in seconds; infinity where the option was not given.
 double walltime_of(const std::string& text);
+
+// Bytes of a size such as 64MB, 500 kB or 1.5GB (powers of ten), or a bare number of bytes.
+std::size_t size_of(const std::string& option, const std::string& text);
 
 // The value of an option that changes the scene (--method, --seed, or a number), as TOML writes it.
 std::string toml_value(const std::string& option, const std::string& text);

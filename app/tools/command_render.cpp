@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "app/cli/commands.hpp"
+#include "app/tools/recording.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/scene/picture_look.hpp"
 #include "io/files/output_file.hpp"
-#include "io/files/output_folder.hpp"
 #include "io/movie/movie.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
 
@@ -20,31 +20,6 @@ namespace carom {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Recording {
-  fs::path folder;  // where files go
-  fs::path trajectory;
-  bool growing = false;  // a run is, or was, writing it
-};
-
-Recording open_recording(const std::string& name) {
-  const fs::path path = name;
-  if (!fs::exists(path)) fail_input(name, "does not exist", "expected a folder of a run, or a trajectory");
-  if (!fs::is_directory(path)) {
-    const fs::path parent = path.parent_path();
-    return {parent.empty() ? fs::path(".") : parent, path, parent.filename() == unfinished_name};
-  }
-  const fs::path trajectory = trajectory_in(path);
-  if (!trajectory.empty()) return {path, trajectory, path.filename() == unfinished_name};
-  const fs::path unfinished = trajectory_in(path / unfinished_name);
-  if (!unfinished.empty()) return {path, unfinished, true};
-  fail_input(name, "holds no trajectory.xyz or trajectory.h5",
-             "expected the folder of a run with [output] trajectory = \"xyz\" or \"h5md\"");
-}
-
-std::unique_ptr<TrajectoryReader> open_frames(const Recording& recording) {
-  return open_trajectory(recording.trajectory.string(), recording.growing);
-}
 
 // What all frames hold, and how many they are.
 struct Survey {
@@ -62,18 +37,6 @@ Survey survey_of(const Recording& recording) {
   }
   if (survey.frames == 0) fail_input(recording.trajectory.string(), "holds no frame");
   return survey;
-}
-
-// The run's own scene where it lies beside the trajectory.
-std::optional<Scene> scene_of(const Recording& recording) {
-  const fs::path file = recording.trajectory.parent_path() / "scene.toml";
-  if (!fs::exists(file)) return {};
-  try {
-    return load_scene(file.string());
-  } catch (const InputError& error) {
-    print_warning(fmt::format("title and sides come from the trajectory alone: {}", error.what()));
-    return {};
-  }
 }
 
 // The look of the run's movie, changed by the options.
@@ -102,14 +65,6 @@ FrameStyle style_of(const Recording& recording, const RenderOptions& options, co
   const PictureLook look = look_of(options, scene);
   if (scene) return frame_style(*scene, look, survey.seen);
   return frame_style(recording.trajectory.string(), survey.box, look, survey.seen);
-}
-
-// Throws InputError where a file is in the way.
-void check_free(const fs::path& file, bool force) {
-  if (fs::is_directory(file)) fail_input(file.string(), "is a folder", "expected a file (-o)");
-  if (fs::exists(file) && !force) {
-    fail_input(file.string(), "exists already", "choose another file with -o, or replace it with --force");
-  }
 }
 
 // A folder beside the file it is for, removed with whatever is left in it.

@@ -18,9 +18,9 @@ using CommandLine = test::CommandTest;
 
 TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "no command given; expected one of run, check, resume, compare, render, sweep, chart, docs"},
+      {"", "no command given; expected one of run, check, resume, compare, render, view, sweep, chart, docs"},
       {"rnu small.toml",
-       "there is no command \"rnu\"; expected one of run, check, resume, compare, render, sweep, chart, docs (nearest: "
+       "there is no command \"rnu\"; expected one of run, check, resume, compare, render, view, sweep, chart, docs (nearest: "
        "run)"},
       {"--jsn", "no option \"--jsn\" before the command"},
       {"run", "run: no scene file given"},
@@ -72,6 +72,15 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
       {"render .", ".: holds no trajectory.xyz"},
       {"render small.toml", "small.toml:1: "},
       {"render small.toml", "is no number of disks; expected trajectory.xyz or trajectory.h5 of a run, or its folder"},
+      {"view", "view: no folder given; expected carom view DIR"},
+      {"view .", ".: holds no trajectory.xyz"},
+      {"view missing", "missing: does not exist"},
+      {"view small.toml", "small.toml:1: "},
+      {"view small.toml -o page.txt", "-o: \"page.txt\" ends in \".txt\"; expected .html"},
+      {"view small.toml --max-size 64XB", "--max-size: is \"64XB\"; expected a size, as in 64MB"},
+      {"view small.toml --max-size 0", "--max-size: is \"0\""},
+      {"view small.toml --max-size -3MB", "--max-size: is \"-3MB\""},
+      {"view small.toml --maxsize 1MB", "view: there is no option \"--maxsize\""},
       {"run .", ".: is a directory; expected a scene file"},
       {"run small.toml --dt \"$UNSET\"", "--dt: what follows it is empty; expected a value; is a variable"},
       {"chart small.toml", "one argument too many, \"small.toml\"; expected carom chart --scene small.toml"},
@@ -84,7 +93,7 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
 TEST_F(CommandLine, HelpAndVersion) {
   // With the commit, where the sources came with git.
   EXPECT_THAT(carom("--version").out, MatchesRegex("carom [0-9]+[.][0-9]+[.][0-9]+([+]g[0-9a-f]+([.]dirty)?)?\n"));
-  for (const char* const command : {"", "run", "check", "resume", "compare", "render"}) {
+  for (const char* const command : {"", "run", "check", "resume", "compare", "render", "view"}) {
     const Outcome o = carom(std::string(command) + " --help");
     EXPECT_EQ(o.status, 0);
     EXPECT_THAT(o.out, HasSubstr("Usage: carom")) << command;

@@ -1,0 +1,52 @@
+#include "app/tools/recording.hpp"
+
+#include <fmt/format.h>
+
+#include "app/cli/messages.hpp"
+#include "core/base/check.hpp"
+#include "core/base/input_message.hpp"
+#include "core/load/scene_file.hpp"
+#include "io/files/output_folder.hpp"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+Recording open_recording(const std::string& name) {
+  const fs::path path = name;
+  if (!fs::exists(path)) fail_input(name, "does not exist", "expected a folder of a run, or a trajectory");
+  if (!fs::is_directory(path)) {
+    const fs::path parent = path.parent_path();
+    return {parent.empty() ? fs::path(".") : parent, path, parent.filename() == unfinished_name};
+  }
+  const fs::path trajectory = trajectory_in(path);
+  if (!trajectory.empty()) return {path, trajectory, path.filename() == unfinished_name};
+  const fs::path unfinished = trajectory_in(path / unfinished_name);
+  if (!unfinished.empty()) return {path, unfinished, true};
+  fail_input(name, "holds no trajectory.xyz or trajectory.h5",
+             "expected the folder of a run with [output] trajectory = \"xyz\" or \"h5md\"");
+}
+
+std::unique_ptr<TrajectoryReader> open_frames(const Recording& recording) {
+  return open_trajectory(recording.trajectory.string(), recording.growing);
+}
+
+std::optional<Scene> scene_of(const Recording& recording) {
+  const fs::path file = recording.trajectory.parent_path() / "scene.toml";
+  if (!fs::exists(file)) return {};
+  try {
+    return load_scene(file.string());
+  } catch (const InputError& error) {
+    print_warning(fmt::format("title and sides come from the trajectory alone: {}", error.what()));
+    return {};
+  }
+}
+
+void check_free(const fs::path& file, bool force) {
+  if (fs::is_directory(file)) fail_input(file.string(), "is a folder", "expected a file (-o)");
+  if (fs::exists(file) && !force) {
+    fail_input(file.string(), "exists already", "choose another file with -o, or replace it with --force");
+  }
+}
+
+}  // namespace carom

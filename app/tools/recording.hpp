@@ -1,0 +1,31 @@
+// The trajectory of a run, finished or not, as a command finds it, and what lies beside it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/scene/scene.hpp"
+#include "io/trajectory/trajectory_reader.hpp"
+
+namespace carom {
+
+struct Recording {
+  std::filesystem::path folder;  // where files go
+  std::filesystem::path trajectory;
+  bool growing = false;  // a run is, or was, writing it
+};
+
+// name: a folder of a run, or a trajectory. Throws InputError where there is none.
+Recording open_recording(const std::string& name);
+
+std::unique_ptr<TrajectoryReader> open_frames(const Recording& recording);
+
+// The run's own scene where it lies beside the trajectory; a warning, and none, where it cannot be read.
+std::optional<Scene> scene_of(const Recording& recording);
+
+// Throws InputError where a file is in the way.
+void check_free(const std::filesystem::path& file, bool force);
+
+}  // namespace carom

@@ -1,0 +1,301 @@
+#include "io/view/view_block.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <new>
+
+#include "core/base/input_message.hpp"
+
+namespace carom {
+
+namespace {
+
+using Places = std::vector<std::uint32_t>;
+
+void put_varint(std::string& to, std::uint32_t value) {
+  for (; value >= 0x80U; value >>= 7U) to += static_cast<char>(value | 0x80U);
+  to += static_cast<char>(value);
+}
+
+void put_word(std::string& to, std::uint32_t value) {
+  for (unsigned shift = 0; shift < 32; shift += 8) to += static_cast<char>(value >> shift);
+}
+
+// Ascending places as runs of neighbours.
+void put_runs(std::string& to, const Places& places) {
+  std::vector<std::array<std::uint32_t, 2>> runs;  // gap to the end of the run before, length
+  std::uint32_t end = 0;
+  for (const std::uint32_t place : places) {
+    if (runs.empty() || place != end) runs.push_back({place - end, 0});
+    ++runs.back()[1];
+    end = place + 1;
+  }
+  put_varint(to, static_cast<std::uint32_t>(runs.size()));
+  for (const auto& [gap, length] : runs) {
+    put_varint(to, gap);
+    put_varint(to, length);
+  }
+}
+
+// What a has and b has not, both ascending.
+Places difference(const Places& a, const Places& b) {
+  Places only;
+  if (a != b) std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
+  return only;
+}
+
+unsigned bytes_of(const ViewAxis& axis) {
+  return (axis.bits + 7) / 8;
+}
+
+// The sign goes to the lowest bit, so that small numbers of either sign have high bytes of 0.
+std::uint32_t folded(std::uint32_t residual, const ViewAxis& axis) {
+  const unsigned spare = 32 - axis.bits;
+  const auto value = static_cast<std::int32_t>(residual << spare) >> spare;
+  return ((static_cast<std::uint32_t>(value) << 1U) ^ static_cast<std::uint32_t>(value >> 31)) & axis.mask();
+}
+
+std::uint32_t unfolded(std::uint32_t folded_value) {
+  return (folded_value >> 1U) ^ (0U - (folded_value & 1U));
+}
+
+// One axis of a disk in the last two frames: last[0] is the later one.
+struct Track {
+  std::uint32_t last = 0, before = 0;
+  std::uint32_t expected(unsigned order) const { return order == 2 ? 2 * last - before : last; }
+};
+
+struct Changes {
+  Places removed, added;
+};
+
+std::vector<Changes> changes_of(const std::vector<ViewFrame>& frames) {
+  const Places none;
+  std::vector<Changes> changes;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Places& before = k == 0 ? none : frames[k - 1].place;
+    changes.push_back({difference(before, frames[k].place), difference(frames[k].place, before)});
+  }
+  return changes;
+}
+
+// The residuals of one axis over all frames, in the order of the block.
+void find_residuals(const std::vector<ViewFrame>& frames, const std::vector<Changes>& changes, std::size_t axis_number,
+                    const ViewAxis& axis, unsigned order, std::vector<Track>& tracks,
+                    std::vector<std::uint32_t>& residuals) {
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    for (const std::uint32_t p : changes[k].added) tracks[p] = {};
+    const std::vector<std::uint32_t>& at = frames[k].at[axis_number];
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      Track& track = tracks[frames[k].place[i]];
+      residuals[next++] = folded((at[i] - track.expected(order)) & axis.mask(), axis);
+      track = {at[i], track.last};
+    }
+    for (const std::uint32_t p : changes[k].added) tracks[p].before = tracks[p].last;
+  }
+}
+
+// How many bits the residuals of two orders take, on a sample of the disks: the sum of their lengths.
+unsigned better_order(const std::vector<ViewFrame>& frames, const std::vector<Changes>& changes, const ViewAxis& axis) {
+  std::array<std::uint64_t, 2> bits{};
+  for (std::size_t k = 2; k < frames.size(); ++k) {
+    if (!changes[k].added.empty() || !changes[k].removed.empty() || !changes[k - 1].added.empty() ||
+        !changes[k - 1].removed.empty()) {
+      continue;
+    }
+    const auto& now = frames[k].at[0];
+    const std::size_t stride = 1 + now.size() / 256;
+    for (std::size_t i = 0; i < now.size(); i += stride) {
+      const Track track{frames[k - 1].at[0][i], frames[k - 2].at[0][i]};
+      for (unsigned order = 1; order <= 2; ++order) {
+        const std::uint32_t r = folded((now[i] - track.expected(order)) & axis.mask(), axis);
+        for (std::uint32_t left = r; left != 0; left >>= 1U) ++bits[order - 1];
+      }
+    }
+  }
+  return bits[0] < bits[1] ? 1 : 2;
+}
+
+// Reads what a block holds once inflated.
+class Reading {
+ public:
+  explicit Reading(std::string_view bytes) : bytes_(bytes) {}
+  bool good() const { return good_; }
+  std::size_t left() const { return bytes_.size() - at_; }
+  std::uint32_t byte() {
+    if (at_ < bytes_.size()) return static_cast<unsigned char>(bytes_[at_++]);
+    good_ = false;
+    return 0;
+  }
+  std::uint32_t word() {
+    std::uint32_t value = 0;
+    for (unsigned shift = 0; shift < 32; shift += 8) value |= byte() << shift;
+    return value;
+  }
+  std::uint32_t varint() {
+    std::uint32_t value = 0;
+    for (unsigned shift = 0; shift < 35; shift += 7) {
+      const std::uint32_t b = byte();
+      value |= (b & 0x7fU) << (shift & 31U);
+      if (b < 0x80U) return value;
+    }
+    good_ = false;
+    return 0;
+  }
+  // Places below `places`.
+  Places runs(std::uint32_t places) {
+    Places all;
+    std::uint64_t end = 0;
+    for (std::uint32_t count = varint(); good_ && count > 0; --count) {
+      const std::uint64_t begin = end + varint();
+      end = begin + varint();
+      good_ = good_ && end <= places;
+      for (std::uint64_t p = begin; good_ && p < end; ++p) all.push_back(static_cast<std::uint32_t>(p));
+    }
+    return all;
+  }
+  std::string_view take(std::size_t count) {
+    good_ = good_ && count <= left();
+    const std::string_view taken = good_ ? bytes_.substr(at_, count) : std::string_view{};
+    at_ += taken.size();
+    return taken;
+  }
+
+ private:
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+  bool good_ = true;
+};
+
+// Inflates; a stream that ends early or has a fault gives what came before it, and false.
+bool inflated(std::string_view packed, std::string& to) {
+  z_stream z{};
+  if (inflateInit(&z) != Z_OK) throw std::bad_alloc();
+  std::vector<char> chunk(std::size_t{1} << 16U);
+  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));  // zlib does not write to it
+  z.avail_in = static_cast<uInt>(packed.size());
+  int status = Z_OK;
+  while (status == Z_OK) {
+    z.next_out = reinterpret_cast<Bytef*>(chunk.data());
+    z.avail_out = static_cast<uInt>(chunk.size());
+    status = inflate(&z, Z_NO_FLUSH);
+    to.append(chunk.data(), chunk.size() - z.avail_out);
+  }
+  inflateEnd(&z);
+  return status == Z_STREAM_END;
+}
+
+}  // namespace
+
+// Runs of one byte and Huffman codes: what lies in residuals is noise otherwise, in which a search for longer matches
+// finds nothing at many times the cost.
+std::string deflated(std::string_view bytes) {
+  z_stream z{};
+  if (deflateInit2(&z, 1, Z_DEFLATED, MAX_WBITS, 9, Z_RLE) != Z_OK) throw std::bad_alloc();
+  std::string packed(deflateBound(&z, static_cast<uLong>(bytes.size())), '\0');
+  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // zlib does not write to it
+  z.avail_in = static_cast<uInt>(bytes.size());
+  z.next_out = reinterpret_cast<Bytef*>(packed.data());
+  z.avail_out = static_cast<uInt>(packed.size());
+  deflate(&z, Z_FINISH);
+  packed.resize(z.total_out);
+  deflateEnd(&z);
+  return packed;
+}
+
+std::uint32_t crc_of(std::string_view bytes) {
+  return static_cast<std::uint32_t>(
+      crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
+}
+
+ViewBlock pack_view_block(const std::vector<ViewFrame>& frames, std::size_t first, std::uint32_t places,
+                          const ViewAxes& axes) {
+  const std::vector<Changes> changes = changes_of(frames);
+  ViewBlock block{first, frames.size(), 0, {}, 0};
+  for (const ViewFrame& frame : frames) block.residuals += frame.place.size();
+  const unsigned order = better_order(frames, changes, axes[0]);
+  std::string bytes;
+  for (const std::uint32_t word : {static_cast<std::uint32_t>(frames.size()), std::uint32_t{order}, places}) {
+    put_word(bytes, word);
+  }
+  for (const auto& [removed, added] : changes) {
+    put_runs(bytes, removed);
+    put_runs(bytes, added);
+  }
+  const std::size_t head = bytes.size();
+  const std::size_t count = block.residuals;
+  bytes.resize(head + count * (bytes_of(axes[0]) + bytes_of(axes[1])));
+  std::vector<Track> tracks(places);
+  std::vector<std::uint32_t> residuals(count);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    find_residuals(frames, changes, axis, axes[axis], order, tracks, residuals);
+    std::size_t to = head;
+    for (unsigned byte = 0; byte < bytes_of(axes[axis]); ++byte) {
+      if (axis == 1 && byte < bytes_of(axes[0])) to += count;
+      for (std::size_t i = 0; i < count; ++i) bytes[to + i] = static_cast<char>(residuals[i] >> (8 * byte));
+      to += count;
+      if (axis == 0 && byte < bytes_of(axes[1])) to += count;
+    }
+  }
+  block.packed = deflated(bytes);
+  block.check = crc_of(block.packed);
+  return block;
+}
+
+std::vector<ViewFrame> unpack_view_block(const ViewBlock& block, const ViewAxes& axes, const std::string& name) {
+  const auto damaged = [&](const char* what) {
+    fail_input(name, fmt::format("frames {} to {} are damaged: {}", block.first + 1, block.first + block.frames, what));
+  };
+  std::string bytes;
+  if (crc_of(block.packed) != block.check) damaged("their checksum is another");
+  if (!inflated(block.packed, bytes)) damaged("their stream breaks off");
+  Reading reading(bytes);
+  if (reading.word() != block.frames) damaged("their number is another");
+  const unsigned order = reading.word();
+  const std::uint32_t places = reading.word();
+  if (order < 1 || order > 2) damaged("there is no such order of differences");
+  std::vector<Changes> changes(block.frames);
+  std::vector<ViewFrame> frames(block.frames);
+  Places present;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    changes[k] = {reading.runs(places), reading.runs(places)};
+    Places kept = difference(present, changes[k].removed);
+    present.clear();
+    std::merge(kept.begin(), kept.end(), changes[k].added.begin(), changes[k].added.end(), std::back_inserter(present));
+    frames[k].place = present;
+  }
+  if (!reading.good()) damaged("their list of disks breaks off");
+  std::array<std::vector<std::uint32_t>, 2> residuals;
+  for (auto& column : residuals) column.assign(block.residuals, 0);
+  for (unsigned byte = 0; byte < std::max(bytes_of(axes[0]), bytes_of(axes[1])); ++byte) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      if (byte >= bytes_of(axes[axis])) continue;
+      const std::string_view plane = reading.take(block.residuals);
+      for (std::size_t i = 0; i < plane.size(); ++i) {
+        residuals[axis][i] |= std::uint32_t{static_cast<unsigned char>(plane[i])} << (8 * byte);
+      }
+    }
+  }
+  std::size_t count = 0;
+  for (const ViewFrame& frame : frames) count += frame.place.size();
+  if (!reading.good() || reading.left() != 0 || count != block.residuals) damaged("they are not as long as they say");
+  std::vector<Track> tracks(places);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      for (const std::uint32_t p : changes[k].added) tracks[p] = {};
+      for (const std::uint32_t p : frames[k].place) {
+        const std::uint32_t at = (tracks[p].expected(order) + unfolded(residuals[axis][next++])) & axes[axis].mask();
+        frames[k].at[axis].push_back(at);
+        tracks[p] = {at, tracks[p].last};
+      }
+      for (const std::uint32_t p : changes[k].added) tracks[p].before = tracks[p].last;
+    }
+  }
+  return frames;
+}
+
+}  // namespace carom

@@ -1,0 +1,102 @@
+#include "io/view/view_encoder.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+// A block ends with so many frames, or disks of all its frames, but it has the least number of frames: few enough for a
+// page to unpack while it plays, and so many that the first one, which has no other to start from, costs little.
+constexpr std::size_t most_frames = 64;
+constexpr std::size_t least_frames = 8;
+constexpr std::size_t most_disks = std::size_t{1} << 21U;
+
+}  // namespace
+
+ViewEncoder::ViewEncoder(const ViewAxes& axes, DiskId every, std::size_t at_once, BlockRunner run)
+    : axes_(axes), every_(every), at_once_(std::max<std::size_t>(1, at_once)), run_(std::move(run)), waiting_(1) {}
+
+// Where ids come in ascending order, as they do but for regions that disks enter and leave, places ascend with them.
+std::uint32_t ViewEncoder::place_of(const TrajectoryFrame& frame, std::size_t i) {
+  const DiskId id = frame.disks.id[i];
+  const auto [known, is_new] = places_.try_emplace(id, static_cast<std::uint32_t>(disks_.id.size()));
+  if (!is_new) return known->second;
+  disks_.id.push_back(id);
+  disks_.radius.push_back(frame.disks.radius_of(i));
+  disks_.mass.push_back(frame.disks.mass_of(i));
+  if (!frame.group.empty()) disks_.group.push_back(frame.group[i]);
+  return known->second;
+}
+
+void ViewEncoder::add(const TrajectoryFrame& frame) {
+  const Disks& disks = frame.disks;
+  ViewFrame view;
+  std::vector<std::size_t> shown;
+  if (every_ > 1) {
+    for (std::size_t i = 0; i < disks.size(); ++i) {
+      if (disks.id[i] % every_ == 0) shown.push_back(i);
+    }
+  }
+  const std::size_t count = every_ > 1 ? shown.size() : disks.size();
+  const ViewFrame* const last = waiting_.back().empty() ? nullptr : &waiting_.back().back();
+  view.place.resize(count);
+  for (auto& column : view.at) column.resize(count);
+  bool ascending = true;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = every_ > 1 ? shown[k] : k;
+    // Mostly the same disks follow each other in the same order as in the frame before.
+    const bool as_before = last != nullptr && k < last->place.size() && disks_.id[last->place[k]] == disks.id[i];
+    view.place[k] = as_before ? last->place[k] : place_of(frame, i);
+    view.at[0][k] = axes_[0].encode(disks.x[i]);
+    view.at[1][k] = axes_[1].encode(disks.y[i]);
+    ascending = ascending && (k == 0 || view.place[k] > view.place[k - 1]);
+  }
+  if (!ascending) {
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return view.place[a] < view.place[b]; });
+    ViewFrame sorted = view;
+    for (std::size_t k = 0; k < count; ++k) {
+      sorted.place[k] = view.place[order[k]];
+      for (std::size_t axis = 0; axis < 2; ++axis) sorted.at[axis][k] = view.at[axis][order[k]];
+    }
+    view = std::move(sorted);
+  }
+  times_.push_back(frame.time);
+  disk_frames_ += count;
+  in_last_ += count;
+  waiting_.back().push_back(std::move(view));
+  const std::size_t frames = waiting_.back().size();
+  if (frames < most_frames && (in_last_ + count <= most_disks || frames < least_frames)) return;
+  in_last_ = 0;
+  if (waiting_.size() >= at_once_) pack_waiting();
+  waiting_.emplace_back();
+}
+
+void ViewEncoder::pack_waiting() {
+  std::vector<std::size_t> first(waiting_.size());
+  for (std::size_t b = 0; b < waiting_.size(); ++b) {
+    first[b] = packed_frames_;
+    packed_frames_ += waiting_[b].size();
+  }
+  std::vector<ViewBlock> made(waiting_.size());
+  const auto places = static_cast<std::uint32_t>(disks_.id.size());
+  run_(waiting_.size(), [&](std::size_t b) { made[b] = pack_view_block(waiting_[b], first[b], places, axes_); });
+  for (ViewBlock& block : made) {
+    packed_bytes_ += block.packed.size();
+    blocks_.push_back(std::move(block));
+  }
+  waiting_.clear();
+}
+
+void ViewEncoder::finish() {
+  if (!waiting_.empty() && waiting_.back().empty()) waiting_.pop_back();
+  if (!waiting_.empty()) pack_waiting();
+  waiting_.assign(1, {});
+  in_last_ = 0;
+}
+
+}  // namespace carom

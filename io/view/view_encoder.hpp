@@ -1,0 +1,58 @@
+// The frames of a trajectory, packed for the browser as they come.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "core/base/block_runner.hpp"
+#include "io/trajectory/trajectory_reader.hpp"
+#include "io/view/view_block.hpp"
+
+namespace carom {
+
+// All disks that any frame shows, in the order in which they first appear.
+struct ViewDisks {
+  std::vector<DiskId> id;
+  std::vector<double> radius, mass;  // length, mass
+  std::vector<DiskId> group;         // empty where the trajectory does not have it
+};
+
+class ViewEncoder {
+ public:
+  // every: disks whose id is a multiple of it are shown, the others left out. at_once: blocks that run shares out
+  // together, as many as there are threads; neither changes a byte.
+  ViewEncoder(const ViewAxes& axes, DiskId every, std::size_t at_once = 1, BlockRunner run = run_in_order);
+
+  void add(const TrajectoryFrame& frame);
+
+  // Packs what is still waiting. Before it, blocks() and packed_bytes() lack the last frames.
+  void finish();
+
+  const ViewAxes& axes() const { return axes_; }
+  const std::vector<ViewBlock>& blocks() const { return blocks_; }
+  const ViewDisks& disks() const { return disks_; }
+  const std::vector<double>& times() const { return times_; }
+  std::size_t disk_frames() const { return disk_frames_; }      // disks of all frames
+  std::size_t packed_frames() const { return packed_frames_; }  // frames in blocks()
+  std::size_t packed_bytes() const { return packed_bytes_; }
+
+ private:
+  std::uint32_t place_of(const TrajectoryFrame& frame, std::size_t i);
+  void pack_waiting();
+
+  ViewAxes axes_;
+  DiskId every_;
+  std::size_t at_once_;
+  BlockRunner run_;
+  ViewDisks disks_;
+  std::unordered_map<DiskId, std::uint32_t> places_;  // of disks whose place is not their rank by id
+  std::vector<double> times_;
+  std::vector<std::vector<ViewFrame>> waiting_;  // frames of blocks to come; the last one grows
+  std::size_t in_last_ = 0;                      // disks of all its frames
+  std::vector<ViewBlock> blocks_;
+  std::size_t disk_frames_ = 0, packed_frames_ = 0, packed_bytes_ = 0;
+};
+
+}  // namespace carom

@@ -1,0 +1,179 @@
+#include "io/view/view_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+
+#include "core/base/check.hpp"
+#include "io/view/base64.hpp"
+
+namespace carom {
+
+namespace {
+
+// A JSON string that may stand in a script element: "<" could end it, the two line separators end a line for some.
+std::string json_string(std::string_view text) {
+  std::string json = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || std::strchr("<>&\"\\'", c) != nullptr || code == 0x7f) {
+      json += fmt::format("\\u{:04x}", code);
+    } else {
+      json += c;
+    }
+  }
+  return json + '"';
+}
+
+std::string html_text(std::string_view text) {
+  std::string html;
+  for (const char c : text) {
+    if (c == '<') {
+      html += "&lt;";
+    } else if (c == '>') {
+      html += "&gt;";
+    } else if (c == '&') {
+      html += "&amp;";
+    } else {
+      html += c;
+    }
+  }
+  return html;
+}
+
+template <class Items, class Write>
+std::string json_list(const Items& items, Write write) {
+  std::string json = "[";
+  for (const auto& item : items) {
+    if (json.size() > 1) json += ',';
+    json += write(item);
+  }
+  return json + ']';
+}
+
+// JSON has no word for what is no number.
+std::string json_number(double value, const char* form = "{}") {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "null";
+}
+
+std::string bytes_of_word(std::uint64_t word, unsigned bytes) {
+  std::string text;
+  for (unsigned k = 0; k < bytes; ++k) text += static_cast<char>(word >> (8 * k));
+  return text;
+}
+
+void put_numbers(std::string& to, const std::vector<double>& values) {
+  for (const double value : values) {
+    std::uint64_t bits = 0;
+    static_assert(sizeof bits == sizeof value);
+    std::memcpy(&bits, &value, sizeof bits);
+    to += bytes_of_word(bits, 8);
+  }
+}
+
+// The one value that all have, as JSON, or null.
+std::string common_value(const std::vector<double>& values) {
+  const auto differs = [&](double value) { return value != values.front(); };
+  if (values.empty() || std::any_of(values.begin(), values.end(), differs)) return "null";
+  return json_number(values.front());
+}
+
+// Times of frames, then of all disks the ids, radii and masses (where they differ) and groups: viewer/decode.js.
+std::string table_of(const ViewEncoder& encoder) {
+  const ViewDisks& disks = encoder.disks();
+  std::string table;
+  put_numbers(table, encoder.times());
+  if (common_value(disks.radius) == "null") put_numbers(table, disks.radius);
+  if (common_value(disks.mass) == "null") put_numbers(table, disks.mass);
+  for (const DiskId id : disks.id) table += bytes_of_word(id, 4);
+  for (const DiskId group : disks.group) table += bytes_of_word(group, 4);
+  return table;
+}
+
+const char* word_of(SideKind kind) {
+  constexpr std::array<const char*, 3> words{"wall", "periodic", "sink"};
+  return words[static_cast<std::size_t>(kind)];
+}
+
+const char* word_of(ColourBy colour) {
+  constexpr std::array<const char*, 5> words{"speed", "group", "radius", "mass", "id"};
+  return words[static_cast<std::size_t>(colour)];
+}
+
+std::string json_of_box(const Domain& box) {
+  return fmt::format(R"({{"width":{},"height":{},"sides":{},"thermal":{}}})", box.width, box.height,
+                     json_list(box.sides, [](SideKind kind) { return fmt::format("\"{}\"", word_of(kind)); }),
+                     json_list(all_sides, [&](Side side) { return box.is_thermal(side) ? "true" : "false"; }));
+}
+
+std::string json_of_source(const ViewSource& source) {
+  if (source.side) return fmt::format(R"({{"side":{}}})", static_cast<int>(*source.side));
+  return fmt::format(R"({{"region":[{},{},{},{}]}})", source.low.x, source.low.y, source.high.x, source.high.y);
+}
+
+std::string json_of_series(const ViewSeries& series) {
+  const auto column = [](const std::vector<double>& values) {
+    return json_list(values, [](double value) { return json_number(value, "{:.6g}"); });
+  };
+  return fmt::format(R"({{"names":{},"columns":{}}})", json_list(series.names, json_string),
+                     json_list(series.columns, column));
+}
+
+// What the page reads first: everything but the frames and the table, with the length and checksum of each.
+std::string head_of(const ViewStory& story, const ViewEncoder& encoder, std::string_view table,
+                    const std::vector<std::string>& left_out) {
+  const ViewDisks& disks = encoder.disks();
+  std::string json =
+      fmt::format(R"({{"form":1,"version":{},"title":{},"box":{},"colour":"{}")", json_string(CAROM_VERSION),
+                  json_string(story.title), json_of_box(story.box), word_of(story.colour));
+  json += fmt::format(R"(,"groups":{},"sources":{},"leftOut":{})", json_list(story.groups, json_string),
+                      json_list(story.sources, json_of_source), json_list(left_out, json_string));
+  json += fmt::format(R"(,"frames":{},"disks":{},"radius":{},"mass":{},"grouped":{})", encoder.times().size(),
+                      disks.id.size(), common_value(disks.radius), common_value(disks.mass),
+                      disks.group.empty() ? "false" : "true");
+  json += fmt::format(R"(,"axes":{})", json_list(encoder.axes(), [](const ViewAxis& axis) {
+                        return fmt::format(R"({{"bits":{},"periodic":{},"quantum":{}}})", axis.bits, axis.periodic,
+                                           axis.quantum());
+                      }));
+  json += fmt::format(R"(,"table":{{"bytes":{},"check":{}}})", table.size(), crc_of(table));
+  json += fmt::format(R"(,"blocks":{})", json_list(encoder.blocks(), [](const ViewBlock& block) {
+                        return fmt::format("[{},{},{},{},{}]", block.first, block.frames, block.residuals,
+                                           block.packed.size(), block.check);
+                      }));
+  return json + fmt::format(R"(,"series":{}}})", json_of_series(story.series));
+}
+
+// Writes the page up to the marker, which it leaves out, and returns the rest behind it.
+std::string_view put_until(std::string& to, std::string_view page, std::string_view marker) {
+  const std::size_t at = page.find(marker);
+  if (at == std::string_view::npos) throw RunError(fmt::format("the page of the viewer lacks {}", marker));
+  to += page.substr(0, at);
+  return page.substr(at + marker.size());
+}
+
+}  // namespace
+
+std::string view_page(const ViewStory& story, const ViewEncoder& encoder, const std::vector<std::string>& left_out) {
+  const std::string table = deflated(table_of(encoder));
+  std::string html;
+  html.reserve(encoder.packed_bytes() / 3 * 4 + table.size() / 3 * 4 + 200'000);
+  std::string_view rest = put_until(html, viewer_page, "<!--carom:title-->");
+  html += html_text(story.title.empty() ? "a run" : story.title);
+  rest = put_until(html, rest, "<!--carom:head-->");
+  html += head_of(story, encoder, table, left_out);
+  rest = put_until(html, rest, "<!--carom:blocks-->");
+  const auto put_block = [&](const std::string& id, std::string_view bytes) {
+    html += fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, base64(bytes));
+  };
+  put_block("table", table);
+  for (std::size_t b = 0; b < encoder.blocks().size(); ++b)
+    put_block(fmt::format("block{}", b), encoder.blocks()[b].packed);
+  html += rest;
+  return html;
+}
+
+}  // namespace carom

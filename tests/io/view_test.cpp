@@ -1,0 +1,285 @@
+// View files: what is packed comes back within half a step, whatever comes and goes; damage is named with its frames.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "core/base/check.hpp"
+#include "io/view/base64.hpp"
+#include "io/view/view_encoder.hpp"
+#include "io/view/view_maker.hpp"
+#include "io/view/view_page.hpp"
+
+namespace carom {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// Frames of disks that move, come, go and return, and now and then none at all.
+std::vector<TrajectoryFrame> random_frames(unsigned seed, std::size_t count, std::size_t disks, bool periodic) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  Domain box{20.0, 7.0};
+  if (periodic) box.sides = {SideKind::periodic, SideKind::periodic, SideKind::wall, SideKind::sink};
+  std::vector<Disk> all;
+  for (DiskId id = 0; id < disks; ++id) {
+    all.push_back({20.0 * unit(random), 7.0 * unit(random), unit(random) - 0.5, unit(random) - 0.5, 0.01 + unit(random),
+                   1.0 + unit(random), 3 * id});
+  }
+  std::vector<TrajectoryFrame> frames(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    frames[k].time = 0.25 * static_cast<double>(k);
+    frames[k].box = box;
+    for (Disk& d : all) {
+      if (unit(random) < 0.1) d.vx = 8.0 * (unit(random) - 0.5);
+      d.x += d.vx;
+      d.y = std::clamp(d.y + d.vy, 0.0, 7.0);
+      d.x = periodic ? d.x - 20.0 * std::floor(d.x / 20.0) : std::clamp(d.x, 0.0, 20.0);
+      if (k % 17 == 5 || unit(random) < 0.05) continue;
+      append(frames[k].disks, d);
+      frames[k].group.push_back(d.id % 2);
+    }
+  }
+  return frames;
+}
+
+ViewEncoder encoded(const std::vector<TrajectoryFrame>& frames, const ViewAxes& axes, DiskId every = 1) {
+  ViewEncoder encoder(axes, every);
+  for (const TrajectoryFrame& frame : frames) encoder.add(frame);
+  encoder.finish();
+  return encoder;
+}
+
+// How far apart at most, in quanta; by the nearest image on a periodic axis.
+double apart(const ViewAxis& axis, double x, std::uint32_t number) {
+  double d = std::abs(x - axis.decode(number));
+  if (axis.periodic) d = std::min(d, axis.length - d);
+  return d / axis.quantum();
+}
+
+void expect_round_trip(const std::vector<TrajectoryFrame>& frames, const ViewAxes& axes, DiskId every = 1) {
+  const ViewEncoder encoder = encoded(frames, axes, every);
+  const ViewDisks& table = encoder.disks();
+  std::size_t next = 0;
+  for (const ViewBlock& block : encoder.blocks()) {
+    ASSERT_EQ(block.first, next);
+    for (const ViewFrame& view : unpack_view_block(block, axes, "test")) {
+      const Disks& disks = frames[next].disks;
+      EXPECT_EQ(encoder.times()[next], frames[next].time);
+      std::map<DiskId, std::size_t> expected;
+      for (std::size_t i = 0; i < disks.size(); ++i) {
+        if (disks.id[i] % every == 0) expected[disks.id[i]] = i;
+      }
+      ASSERT_EQ(view.place.size(), expected.size()) << "frame " << next;
+      EXPECT_TRUE(std::is_sorted(view.place.begin(), view.place.end()));
+      for (std::size_t k = 0; k < view.place.size(); ++k) {
+        const std::uint32_t place = view.place[k];
+        ASSERT_EQ(expected.count(table.id[place]), 1U);
+        const std::size_t i = expected[table.id[place]];
+        EXPECT_LE(apart(axes[0], disks.x[i], view.at[0][k]), 0.5 + 1e-9);
+        EXPECT_LE(apart(axes[1], disks.y[i], view.at[1][k]), 0.5 + 1e-9);
+        EXPECT_EQ(table.radius[place], disks.radius_of(i));
+        EXPECT_EQ(table.mass[place], disks.mass_of(i));
+        EXPECT_EQ(table.group[place], frames[next].group[i]);
+      }
+      ++next;
+    }
+  }
+  EXPECT_EQ(next, frames.size());
+}
+
+TEST(ViewBlocks, DisksThatMoveComeAndGoComeBackWithinHalfAStep) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    for (const bool periodic : {false, true}) {
+      for (const double radius : {1.0, 1e-3, 1e-9}) {
+        const ViewAxes axes{view_axis(20.0, periodic, radius), view_axis(7.0, false, radius)};
+        expect_round_trip(random_frames(seed, 150, 1 + 13 * seed, periodic), axes);
+        expect_round_trip(random_frames(seed, 20, 40, periodic), axes, 4);
+      }
+    }
+  }
+}
+
+TEST(ViewBlocks, NoDisksAreFramesAsWell) {
+  expect_round_trip(random_frames(1, 70, 0, true), {view_axis(20.0, true, 1.0), view_axis(7.0, false, 1.0)});
+  expect_round_trip(random_frames(1, 1, 3, true), {view_axis(20.0, true, 1.0), view_axis(7.0, false, 1.0)});
+}
+
+TEST(ViewBlocks, ManyDisksMakeBlocksOfFewFrames) {
+  const auto frames = random_frames(3, 10, 300'000, true);
+  const ViewAxes axes{view_axis(20.0, true, 0.01), view_axis(7.0, false, 0.01)};
+  const ViewEncoder encoder = encoded(frames, axes);
+  ASSERT_EQ(encoder.blocks().size(), 2U);
+  EXPECT_EQ(encoder.blocks()[0].frames, 8U);
+  const std::vector<ViewFrame> last = unpack_view_block(encoder.blocks()[1], axes, "test");
+  EXPECT_EQ(last.back().place.size(), frames.back().disks.size());
+}
+
+// Blocks that are packed together are those that are packed one by one.
+TEST(ViewBlocks, HowManyAtOnceChangesNoByte) {
+  const auto frames = random_frames(5, 300, 30, true);
+  const ViewAxes axes{view_axis(20.0, true, 0.1), view_axis(7.0, false, 0.1)};
+  const ViewEncoder one = encoded(frames, axes);
+  ViewEncoder three(axes, 1, 3);
+  for (const TrajectoryFrame& frame : frames) three.add(frame);
+  three.finish();
+  ASSERT_EQ(one.blocks().size(), three.blocks().size());
+  for (std::size_t b = 0; b < one.blocks().size(); ++b) {
+    const auto a = unpack_view_block(one.blocks()[b], axes, "one");
+    const auto c = unpack_view_block(three.blocks()[b], axes, "three");
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].at, c[k].at);
+  }
+}
+
+TEST(ViewAxes, AStepIsASixtyFourthOfTheSmallestRadiusAtMost) {
+  EXPECT_EQ(view_axis(100.0, false, 1.0).bits, 16U);
+  EXPECT_EQ(view_axis(1772.0, true, 0.5).bits, 18U);
+  EXPECT_LE(64.0 * view_axis(1772.0, true, 0.5).quantum(), 0.5);
+  EXPECT_EQ(view_axis(100.0, false, 1e-12).bits, 24U);
+  const ViewAxis wall = view_axis(10.0, false, 1.0);
+  EXPECT_EQ(wall.decode(wall.encode(10.0)), 10.0);
+  EXPECT_EQ(wall.encode(11.0), wall.mask());
+  EXPECT_EQ(wall.encode(-1.0), 0U);
+  EXPECT_EQ(wall.encode(std::nan("")), 0U);
+  const ViewAxis around = view_axis(10.0, true, 1.0);
+  EXPECT_EQ(around.encode(10.0), 0U);
+  EXPECT_EQ(around.encode(12.5), around.encode(2.5));
+  EXPECT_EQ(around.encode(-2.5), around.encode(7.5));
+}
+
+// A disk in free flight costs far less than a byte an axis; a still one nearly nothing.
+TEST(ViewBlocks, FreeFlightIsShort) {
+  std::vector<TrajectoryFrame> frames = random_frames(9, 1, 2000, false);
+  std::vector<TrajectoryFrame> flight, still;
+  for (int k = 0; k < 64; ++k) {
+    still.push_back(frames[0]);
+    flight.push_back(frames[0]);
+    for (std::size_t i = 0; i < flight.back().disks.size(); ++i) {
+      flight.back().disks.x[i] = 5.0 + 0.5 * frames[0].disks.x[i] + 0.01 * k * frames[0].disks.vx[i];
+    }
+  }
+  const ViewAxes axes{view_axis(20.0, false, 1.0), view_axis(7.0, false, 1.0)};
+  const auto cost = [&](const std::vector<TrajectoryFrame>& f) {
+    const ViewEncoder e = encoded(f, axes);
+    return static_cast<double>(e.packed_bytes()) / static_cast<double>(e.disk_frames());
+  };
+  EXPECT_LT(cost(still), 0.15);
+  EXPECT_LT(cost(flight), 0.6);
+}
+
+TEST(ViewBlocks, DamageIsNamedWithItsFrames) {
+  const ViewAxes axes{view_axis(20.0, true, 0.1), view_axis(7.0, false, 0.1)};
+  const ViewEncoder encoder = encoded(random_frames(7, 100, 20, true), axes);
+  ASSERT_EQ(encoder.blocks().size(), 2U);
+  const ViewBlock& whole = encoder.blocks()[1];
+  const auto complaint = [&](const ViewBlock& block) -> std::string {
+    try {
+      unpack_view_block(block, axes, "view.html");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(complaint(whole), "none");
+  for (std::size_t at = 0; at < whole.packed.size(); at += 7) {
+    ViewBlock flipped = whole;
+    flipped.packed[at] = static_cast<char>(flipped.packed[at] ^ 0x10);
+    EXPECT_THAT(complaint(flipped), HasSubstr("view.html: frames 65 to 100 are damaged"));
+    flipped.check = crc_of(flipped.packed);  // and with a checksum that belongs to the damage
+    EXPECT_THAT(complaint(flipped), HasSubstr("frames 65 to 100 are damaged"));
+    ViewBlock cut = whole;
+    cut.packed.resize(at);
+    cut.check = crc_of(cut.packed);
+    EXPECT_THAT(complaint(cut), HasSubstr("frames 65 to 100 are damaged"));
+  }
+}
+
+TEST(ViewPage, TextOfTheSceneNeverBecomesMarkup) {
+  const std::string hostile = "</script><script>alert(1)</script><!--<img src=x onerror=alert(2)>\"'\x01";
+  ViewStory story;
+  story.title = hostile;
+  story.box = Domain{20.0, 7.0};
+  story.groups = {hostile};
+  story.series = {{hostile}, {{1.0, std::nan("")}}, 2};
+  const ViewAxes axes{view_axis(20.0, true, 0.1), view_axis(7.0, false, 0.1)};
+  const std::string page = view_page(story, encoded(random_frames(7, 3, 2, true), axes), {hostile});
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
+  EXPECT_THAT(page, Not(HasSubstr("<img")));
+  EXPECT_THAT(page, HasSubstr("<title>&lt;/script&gt;"));
+  EXPECT_THAT(page, HasSubstr("\\u003c/script\\u003e"));
+  EXPECT_THAT(page, Not(HasSubstr("<!--embed")));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+}
+
+TEST(ViewPage, Base64IsThatOfTheStandard) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+TEST(ViewSeries, ColumnsOfNumbersAndNoMoreRowsThanAskedFor) {
+  std::string csv = "t,kinetic,gone\n";
+  for (int k = 0; k < 100; ++k) csv += std::to_string(k) + ",0.5,\n";
+  const ViewSeries series = read_view_series(csv, 30, "series.csv");
+  EXPECT_EQ(series.names, (std::vector<std::string>{"t", "kinetic"}));
+  EXPECT_EQ(series.rows, 100U);
+  EXPECT_EQ(series.columns[0].size(), 25U);
+  EXPECT_EQ(series.columns[0][1], 4.0);
+  EXPECT_EQ(read_view_series("t,kinetic\n0,1\n1,2\n2", 30, "s").columns[1].size(), 2U) << "a row that breaks off";
+  EXPECT_THROW(read_view_series("t,kinetic\n0,1\n1\n2,3\n", 30, "s"), InputError);
+}
+
+// A trajectory in memory.
+class Replayed : public TrajectoryReader {
+ public:
+  explicit Replayed(const std::vector<TrajectoryFrame>& frames) : frames_(frames) {}
+  bool read(TrajectoryFrame& frame) override {
+    if (next_ == frames_.size()) return false;
+    frame = frames_[next_++];
+    return true;
+  }
+
+ private:
+  const std::vector<TrajectoryFrame>& frames_;
+  std::size_t next_ = 0;
+};
+
+TEST(ViewMaker, ThePageIsNoLongerThanAskedForAndSaysWhatItLacks) {
+  const auto frames = random_frames(11, 1000, 60, true);
+  const auto made_of = [&](std::size_t most) {
+    ViewWork work;
+    work.most_bytes = most;
+    return make_view([&] { return std::make_unique<Replayed>(frames); }, "test", {}, work);
+  };
+  const ViewMade all = made_of(64'000'000);
+  EXPECT_EQ(all.frames, 1000U);
+  EXPECT_TRUE(all.left_out.empty());
+  const std::size_t page_alone = all.page.size() - all.packed_bytes / 3 * 4;
+  std::size_t frames_before = all.frames;
+  for (const double part : {0.7, 0.4, 0.2}) {
+    const auto most = static_cast<std::size_t>(static_cast<double>(page_alone) +
+                                               part * static_cast<double>(all.packed_bytes) * 4 / 3);
+    const ViewMade some = made_of(most);
+    EXPECT_LE(some.page.size(), most);
+    EXPECT_LT(some.frames, frames_before);
+    EXPECT_EQ(some.disks, 60U) << "frames go first";
+    ASSERT_EQ(some.left_out.size(), 1U);
+    EXPECT_THAT(some.left_out[0], testing::AllOf(HasSubstr("frame of 1000"), HasSubstr("every")));
+    EXPECT_THAT(some.page, HasSubstr(some.left_out[0]));
+    frames_before = some.frames;
+  }
+  const ViewMade few = made_of(page_alone + all.packed_bytes / 30);
+  EXPECT_EQ(few.frames, 100U);
+  EXPECT_LT(few.disks, 60U);
+  EXPECT_EQ(few.left_out.size(), 2U);
+  EXPECT_THROW(made_of(1000), InputError);
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,43 @@
+// Which part of the plane the stage shows: lengths and pixels of the page.
+export class Camera {
+  constructor(box) {
+    this.box = box;
+    this.width = 1; // of the stage, in pixels of the page
+    this.height = 1;
+    this.fitted = true;
+  }
+  resize(width, height) {
+    this.width = width;
+    this.height = height;
+    if (this.fitted) this.fit();
+  }
+  fit() {
+    const margin = 28;
+    const { width, height } = this.box;
+    this.scale = Math.max(1e-12, Math.min((this.width - 2 * margin) / width, (this.height - 2 * margin) / height));
+    this.x = width / 2;
+    this.y = height / 2;
+    this.fitted = true;
+  }
+  toPage(x, y) {
+    return [this.width / 2 + (x - this.x) * this.scale, this.height / 2 - (y - this.y) * this.scale];
+  }
+  toPlane(px, py) {
+    return [this.x + (px - this.width / 2) / this.scale, this.y - (py - this.height / 2) / this.scale];
+  }
+  move(dx, dy) {
+    this.x -= dx / this.scale;
+    this.y += dy / this.scale;
+    this.fitted = false;
+  }
+  // Zooms by a factor; the point of the page stays where it is.
+  zoom(factor, px = this.width / 2, py = this.height / 2) {
+    const [x, y] = this.toPlane(px, py);
+    const fit = Math.min(this.width / this.box.width, this.height / this.box.height);
+    this.scale = Math.max(fit / 20, Math.min(this.scale * factor, fit * 1e5));
+    const [nx, ny] = this.toPlane(px, py);
+    this.x += x - nx;
+    this.y += y - ny;
+    this.fitted = false;
+  }
+}

@@ -1,0 +1,85 @@
+// What the colour of a disk stands for, and which colour that is.
+import { roundAbove } from "./format.js";
+
+export const colourNames = {
+  speed: "speed",
+  group: "group",
+  radius: "radius",
+  mass: "mass",
+  id: "id",
+  coordination: "coordination number",
+  fixed: "one colour",
+};
+
+// Viridis (Smith, van der Walt 2015), every sixteenth of its colours.
+const viridis = [
+  0x440154, 0x481a6c, 0x472f7d, 0x414487, 0x39568c, 0x31688e, 0x2a788e, 0x23888e, 0x1f988b, 0x22a884, 0x35b779,
+  0x54c568, 0x7ad151, 0xa5db36, 0xd2e21b, 0xfde725,
+];
+// Okabe and Ito: they stay apart for all common kinds of colour blindness.
+export const groupColours = [0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7, 0x56b4e9, 0xd55e00, 0xf0e442, 0x999999];
+
+export const parts = (colour) => [colour >> 16, (colour >> 8) & 255, colour & 255];
+export const cssColour = (colour) => `#${colour.toString(16).padStart(6, "0")}`;
+
+// 256 colours, four bytes each.
+export function palette(name) {
+  const bytes = new Uint8Array(1024);
+  for (let i = 0; i < 256; ++i) {
+    let rgb;
+    if (name === "group") rgb = parts(groupColours[(i >> 5) % 8]);
+    else if (name === "fixed") rgb = parts(groupColours[0]);
+    else {
+      const at = (i / 255) * (viridis.length - 1);
+      const low = Math.min(viridis.length - 2, Math.floor(at));
+      const a = parts(viridis[low]);
+      const b = parts(viridis[low + 1]);
+      rgb = a.map((value, k) => value + (b[k] - value) * (at - low));
+    }
+    bytes.set([...rgb.map(Math.round), 255], 4 * i);
+  }
+  return bytes;
+}
+
+// The value by place that stays the same in all frames; null where it does not.
+export function fixedValues(name, store) {
+  if (name === "radius") return store.radius;
+  if (name === "mass") return store.mass;
+  if (name === "id") return store.id;
+  if (name === "group") return store.group.map((g) => g % 8);
+  if (name === "fixed") return new Float32Array(store.head.disks);
+  return null;
+}
+
+// The ends of the scale as the run asks: speeds from 0 to 2.5 root mean squares of the present block or the fastest disk.
+export function rangeOf(name, store, k) {
+  if (name === "group" || name === "fixed") return [0, 8];
+  if (name === "coordination") return [0, 6];
+  if (name === "speed") return [0, roundAbove(fastSpeed(store, k))];
+  const values = fixedValues(name, store);
+  let low = Infinity;
+  let high = -Infinity;
+  for (const value of values) {
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  return low < high ? [low, high] : [Math.min(0, low || 0), Number.isFinite(high) && high > 0 ? high : 1];
+}
+
+function fastSpeed(store, k) {
+  const { first, frames } = store.blocks[store.blockOf(k)];
+  let square = 0;
+  let fastest = 0;
+  let count = 0;
+  for (let frame = first; frame < first + frames; frame += Math.max(1, frames >> 2)) {
+    const { d, over } = store.steps(frame);
+    const stride = 2 * (1 + Math.floor(d.length / 20000));
+    for (let i = 0; i < d.length; i += stride) {
+      const v2 = (d[i] * d[i] + d[i + 1] * d[i + 1]) / (over * over);
+      square += v2;
+      fastest = Math.max(fastest, v2);
+      ++count;
+    }
+  }
+  return Math.min(Math.sqrt(fastest), 2.5 * Math.sqrt(square / Math.max(1, count)));
+}

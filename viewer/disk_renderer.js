@@ -1,0 +1,262 @@
+// All disks of a frame in one call of WebGL2: a square each, of which the shader keeps the disk.
+import { parts } from "./colours.js";
+
+const head = `#version 300 es
+precision highp float;
+precision highp int;
+layout(location = 0) in int ix;
+layout(location = 1) in int iy;
+layout(location = 2) in vec2 d;
+layout(location = 3) in float radius;
+layout(location = 4) in float value;
+uniform vec2 quantum, shift, centre, size, range;
+uniform float scale, part, perTime, reach;
+uniform bool bySpeed;
+uniform sampler2D palette;
+out vec4 colour;
+vec2 place() { return (vec2(float(ix), float(iy)) * quantum + shift + part * d - centre) * scale; }
+vec4 colourOf() {
+  float v = bySpeed ? length(d) * perTime : value;
+  float at = clamp((v - range.x) / max(range.y - range.x, 1e-30), 0.0, 1.0);
+  return texture(palette, vec2((at * 255.0 + 0.5) / 256.0, 0.5));
+}
+`;
+const diskShader = `${head}
+out vec2 from;
+out float rim;
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  rim = max(radius * scale, 0.75);
+  from = corner * (rim + 1.0);
+  colour = colourOf();
+  gl_Position = vec4((place() + from) * 2.0 / size, 0.0, 1.0);
+}`;
+const diskPaint = `#version 300 es
+precision highp float;
+in vec4 colour;
+in vec2 from;
+in float rim;
+uniform float strength;
+out vec4 pixel;
+void main() {
+  float r = length(from);
+  float cover = clamp(rim - r + 0.5, 0.0, 1.0) * strength;
+  float edge = rim > 4.0 ? smoothstep(rim - 2.0, rim - 0.5, r) * 0.35 : 0.0;
+  pixel = vec4(colour.rgb * (1.0 - edge), 1.0) * cover;
+}`;
+const lineShader = `${head}
+uniform vec3 ink;
+uniform bool inked;
+void main() {
+  colour = inked ? vec4(ink, 1.0) : colourOf();
+  gl_Position = vec4((place() + (gl_VertexID == 1 ? d * reach * scale : vec2(0.0))) * 2.0 / size, 0.0, 1.0);
+}`;
+const linePaint = `#version 300 es
+precision highp float;
+in vec4 colour;
+uniform float strength;
+out vec4 pixel;
+void main() { pixel = vec4(colour.rgb, 1.0) * strength; }`;
+
+function program(gl, vertex, fragment) {
+  const made = gl.createProgram();
+  for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    gl.attachShader(made, shader);
+  }
+  gl.linkProgram(made);
+  if (!gl.getProgramParameter(made, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(made) || "shaders do not link");
+  const at = {};
+  for (let u = 0; u < gl.getProgramParameter(made, gl.ACTIVE_UNIFORMS); ++u) {
+    const { name } = gl.getActiveUniform(made, u);
+    at[name] = gl.getUniformLocation(made, name);
+  }
+  return { made, at };
+}
+
+// The columns of some disks on the graphics card.
+class DiskBuffers {
+  constructor(gl) {
+    this.gl = gl;
+    this.count = 0;
+    this.array = gl.createVertexArray();
+    gl.bindVertexArray(this.array);
+    this.buffers = [0, 1, 2, 3, 4].map((column) => {
+      const buffer = gl.createBuffer();
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.enableVertexAttribArray(column);
+      if (column < 2) gl.vertexAttribIPointer(column, 1, gl.INT, 0, 0);
+      else gl.vertexAttribPointer(column, column === 2 ? 2 : 1, gl.FLOAT, false, 0, 0);
+      gl.vertexAttribDivisor(column, 1);
+      return buffer;
+    });
+  }
+  fill(column, data) {
+    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.buffers[column]);
+    this.gl.bufferData(this.gl.ARRAY_BUFFER, data, this.gl.DYNAMIC_DRAW);
+    return data.byteLength;
+  }
+}
+
+export class DiskRenderer {
+  constructor(canvas, axes, box) {
+    const gl = canvas.getContext("webgl2", { antialias: false, premultipliedAlpha: true, alpha: false });
+    if (!gl) throw new Error("This browser has no WebGL2, which draws the disks.");
+    Object.assign(this, { gl, canvas, axes, box });
+    this.disks = program(gl, diskShader, diskPaint);
+    this.lines = program(gl, lineShader, linePaint);
+    this.slots = new Map(); // buffers by frame: the present one, and those of trails
+    this.images = new DiskBuffers(gl); // of disks that reach over a periodic side
+    this.colours = gl.createTexture();
+    this.uploaded = 0; // bytes for the last frame
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+  }
+
+  setPalette(bytes) {
+    const { gl } = this;
+    gl.bindTexture(gl.TEXTURE_2D, this.colours);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+    for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
+  }
+
+  // Brings a frame onto the card; radius and value are by disk of the frame. Keeps at most `keep` frames.
+  upload(k, frame, steps, radius, value, keep) {
+    let slot = this.slots.get(k);
+    if (!slot) {
+      const old = this.slots.size >= keep ? this.slots.keys().next().value : undefined;
+      slot = old === undefined ? new DiskBuffers(this.gl) : this.slots.get(old);
+      this.slots.delete(old);
+    }
+    this.slots.delete(k);
+    this.slots.set(k, slot);
+    slot.count = frame.place.length;
+    const columns = [frame.x, frame.y, steps.d, radius, value];
+    this.uploaded = columns.reduce((sum, data, column) => sum + slot.fill(column, data), 0);
+  }
+
+  // The images of disks that reach over a periodic side, as the other side shows them.
+  uploadImages(frame, steps, radius, value) {
+    const { axes } = this;
+    const found = [[], [], [], [], []];
+    const turns = axes.map((axis) => (axis.periodic ? 2 ** axis.bits : 0));
+    const over = (at, r, axis) => {
+      if (!turns[axis]) return 0;
+      const reach = r / axes[axis].quantum;
+      return at < reach ? turns[axis] : at > turns[axis] - reach ? -turns[axis] : 0;
+    };
+    const add = (i, sx, sy) => {
+      const row = [frame.x[i] + sx, frame.y[i] + sy, [steps.d[2 * i], steps.d[2 * i + 1]], radius[i], value[i]];
+      row.forEach((entry, column) => (column === 2 ? found[2].push(...entry) : found[column].push(entry)));
+    };
+    if (turns[0] || turns[1]) {
+      for (let i = 0; i < frame.place.length; ++i) {
+        const sx = over(frame.x[i], radius[i], 0);
+        const sy = over(frame.y[i], radius[i], 1);
+        if (sx) add(i, sx, 0);
+        if (sy) add(i, 0, sy);
+        if (sx && sy) add(i, sx, sy);
+      }
+    }
+    this.images.count = found[0].length;
+    found.forEach((data, column) => this.images.fill(column, column < 2 ? new Int32Array(data) : new Float32Array(data)));
+  }
+
+  forget() {
+    this.slots.clear();
+  }
+
+  use({ made, at }, look) {
+    const { gl, canvas, axes } = this;
+    gl.useProgram(made);
+    gl.bindTexture(gl.TEXTURE_2D, this.colours);
+    gl.uniform2f(at.quantum, axes[0].quantum, axes[1].quantum);
+    gl.uniform2f(at.centre, look.camera.x, look.camera.y);
+    gl.uniform2f(at.size, canvas.width, canvas.height);
+    gl.uniform2f(at.range, look.range[0], look.range[1]);
+    gl.uniform2f(at.shift, 0, 0);
+    gl.uniform1f(at.scale, look.camera.scale * look.density);
+    gl.uniform1f(at.part, look.part);
+    gl.uniform1f(at.perTime, look.perTime);
+    gl.uniform1f(at.strength, 1);
+    gl.uniform1i(at.bySpeed, look.bySpeed ? 1 : 0);
+    return at;
+  }
+
+  // Between periodic sides only what lies in the box is drawn, unless periodic images are asked for.
+  clip(look) {
+    const { gl, canvas, box } = this;
+    const [left, top] = look.camera.toPage(0, box.height);
+    const [right, bottom] = look.camera.toPage(box.width, 0);
+    const [px, py] = this.axes.map((axis) => axis.periodic);
+    const x0 = px ? Math.round(left * look.density) : 0;
+    const x1 = px ? Math.round(right * look.density) : canvas.width;
+    const y0 = py ? canvas.height - Math.round(bottom * look.density) : 0;
+    const y1 = py ? canvas.height - Math.round(top * look.density) : canvas.height;
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(x0, y0, Math.max(0, x1 - x0), Math.max(0, y1 - y0));
+  }
+
+  drawDisks(slot) {
+    this.gl.bindVertexArray(slot.array);
+    if (slot.count) this.gl.drawArraysInstanced(this.gl.TRIANGLE_STRIP, 0, 4, slot.count);
+  }
+
+  // look: camera, density (device pixels a page pixel), ground, ink, range, bySpeed, perTime, part (of the way to the
+  // next frame), images, arrows (times shown ahead, 0: none), trail (frames that are uploaded, oldest first).
+  draw(k, look) {
+    const { gl, canvas } = this;
+    const slot = this.slots.get(k);
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.disable(gl.SCISSOR_TEST);
+    gl.clearColor(...parts(look.ground).map((c) => c / 255), 1);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    if (!slot) return;
+    if (look.images) this.drawPeriodicImages(slot, look);
+    this.clip(look);
+    this.drawTrail(look);
+    this.use(this.disks, look);
+    this.drawDisks(slot);
+    this.drawDisks(this.images);
+    if (look.arrows) this.drawLines(slot, look, { reach: look.arrows * look.perTime, ink: look.ink });
+    gl.disable(gl.SCISSOR_TEST);
+  }
+
+  drawPeriodicImages(slot, look) {
+    const { gl, box } = this;
+    const at = this.use(this.disks, look);
+    gl.uniform1f(at.strength, 0.3);
+    const [xs, ys] = this.axes.map((axis) => (axis.periodic ? [-1, 0, 1] : [0]));
+    for (const i of xs) {
+      for (const j of ys) {
+        if (i === 0 && j === 0) continue;
+        gl.uniform2f(at.shift, i * box.width, j * box.height);
+        this.drawDisks(slot);
+      }
+    }
+    this.clip(look);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    gl.disable(gl.SCISSOR_TEST);
+  }
+
+  drawLines(slot, look, { reach, ink, strength = 1 }) {
+    const { gl } = this;
+    const at = this.use(this.lines, { ...look, part: strength < 1 ? 0 : look.part });
+    gl.uniform1f(at.reach, reach);
+    gl.uniform1f(at.strength, strength);
+    gl.uniform1i(at.inked, ink === undefined ? 0 : 1);
+    if (ink !== undefined) gl.uniform3f(at.ink, ...parts(ink).map((c) => c / 255));
+    gl.bindVertexArray(slot.array);
+    if (slot.count) gl.drawArraysInstanced(gl.LINES, 0, 2, slot.count);
+  }
+
+  drawTrail(look) {
+    look.trail.forEach((k, n) => {
+      const slot = this.slots.get(k);
+      if (slot) this.drawLines(slot, look, { reach: 1, strength: (0.9 * (n + 1)) / (look.trail.length + 1) });
+    });
+  }
+}

@@ -1,0 +1,513 @@
+// The page as a whole: reads the data, draws the present moment, and does what the controls ask for.
+import { Camera } from "./camera.js";
+import { fixedValues, palette, rangeOf } from "./colours.js";
+import { DiskRenderer } from "./disk_renderer.js";
+import { element, shortNumber } from "./format.js";
+import { drawOverlay, sideSentence } from "./overlay.js";
+import { colourChoices, factsOf, fillChoices, showFacts, showLegend } from "./panel.js";
+import { DiskPath, diskAt } from "./picking.js";
+import { Playback } from "./playback.js";
+import { Plots } from "./plots.js";
+import { Store } from "./store.js";
+
+const speeds = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
+const mostTrail = 24; // frames
+
+class Viewer {
+  constructor(store) {
+    this.store = store;
+    this.head = store.head;
+    this.playback = new Playback(store.times);
+    this.camera = new Camera(this.head.box);
+    this.canvas = element("disks");
+    this.renderer = new DiskRenderer(this.canvas, this.head.axes, this.head.box);
+    this.plots = new Plots(this.head.series, (time) => this.jumpToTime(time));
+    this.colour = this.head.colour === "group" && !this.head.grouped ? "speed" : this.head.colour;
+    this.range = null; // once a block is unpacked
+    this.picked = null; // { place, path }
+    this.drawn = -1; // the frame on the card
+    this.counts = new Map(); // coordination numbers by frame
+    this.dirty = true;
+    this.lastTick = 0;
+    this.message = "";
+  }
+
+  start() {
+    const { head } = this;
+    element("frame").max = this.playback.last;
+    fillChoices(element("colour"), colourChoices(head), this.colour);
+    fillChoices(element("speed"), speeds.map((s) => [s, `× ${s}`]), 1);
+    element("images-label").hidden = !head.axes.some((axis) => axis.periodic);
+    element("sides").textContent = sideSentence(head.box);
+    element("dark").checked = matchMedia("(prefers-color-scheme: dark)").matches;
+    this.setTheme();
+    this.listen();
+    this.followHash();
+    new ResizeObserver(() => this.resize()).observe(element("stage"));
+    this.resize();
+    requestAnimationFrame((now) => this.tick(now));
+  }
+
+  // --- What is shown
+
+  setTheme() {
+    document.documentElement.dataset.theme = element("dark").checked ? "dark" : "light";
+    const style = getComputedStyle(document.documentElement);
+    this.colours = {};
+    for (const name of ["ground", "ink", "faint", "line", "accent", "heat"]) {
+      this.colours[name] = style.getPropertyValue(`--${name}`).trim();
+    }
+    this.dirty = true;
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = element("stage");
+    this.density = window.devicePixelRatio || 1;
+    for (const canvas of [this.canvas, element("overlay")]) {
+      canvas.width = Math.max(1, Math.round(width * this.density));
+      canvas.height = Math.max(1, Math.round(height * this.density));
+    }
+    this.camera.resize(width, height);
+    this.dirty = true;
+  }
+
+  say(message) {
+    this.message = message;
+    element("message").textContent = message;
+    element("message").hidden = !message;
+  }
+
+  tick(now) {
+    const seconds = Math.min(0.25, (now - this.lastTick) / 1000);
+    this.lastTick = now;
+    if (this.playback.playing && this.ready(this.playback.frame)) {
+      this.playback.advance(seconds);
+      this.dirty = true;
+      this.showPlaying();
+    }
+    if (this.dirty) this.draw();
+    requestAnimationFrame((next) => this.tick(next));
+  }
+
+  // Are the blocks there that frame k needs (its own, and that of the next frame)? Asks for those that are not, and for
+  // the one to come. A damaged block counts as there: the page says so and goes on behind it.
+  ready(k) {
+    const { store } = this;
+    const own = store.blockOf(k);
+    const next = store.blockOf(Math.min(k + 1, this.playback.last));
+    const ahead = (next + 1) % store.blocks.length;
+    let ready = true;
+    for (const number of new Set([own, next, ahead])) {
+      if (store.unpacked.has(number) || store.damaged.has(number)) continue;
+      if (number !== ahead || number === own || number === next) ready = false;
+      store.load(number).then(
+        () => this.refresh(number),
+        (error) => {
+          this.say(error.message);
+          this.refresh(number);
+        },
+      );
+    }
+    element("waiting").hidden = ready;
+    return ready;
+  }
+
+  refresh(number) {
+    if (this.picked) this.picked.path.add(number, this.store.unpacked.get(number) ?? { frames: [] });
+    this.drawn = -1;
+    this.dirty = true;
+  }
+
+  valuesOf(k, frame) {
+    if (this.colour === "coordination") return this.coordination(k, frame);
+    const values = fixedValues(this.colour, this.store);
+    const own = new Float32Array(frame.place.length);
+    if (values) for (let i = 0; i < own.length; ++i) own[i] = values[frame.place[i]];
+    return own;
+  }
+
+  radiusOf(frame) {
+    const radius = new Float32Array(frame.place.length);
+    for (let i = 0; i < radius.length; ++i) radius[i] = this.store.radius[frame.place[i]];
+    return radius;
+  }
+
+  coordination(k, frame) {
+    const found = this.counts.get(k);
+    if (found) return found;
+    const { axes, box } = this.head;
+    const neighbours = {
+      x: frame.x.slice(),
+      y: frame.y.slice(),
+      radius: this.radiusOf(frame),
+      quantum: axes.map((axis) => axis.quantum),
+      size: [box.width, box.height],
+      periodic: axes.map((axis) => axis.periodic),
+    };
+    const zeros = new Float32Array(frame.place.length);
+    this.counts.set(k, zeros);
+    this.store.work({ neighbours }).then(({ count }) => {
+      if (this.counts.size > 64) this.counts.clear();
+      this.counts.set(k, count);
+      if (this.drawn === k) this.drawn = -1;
+      this.dirty = true;
+    });
+    return zeros;
+  }
+
+  upload(k, keep) {
+    const frame = this.store.frame(k);
+    if (!frame) return false;
+    const steps = this.store.steps(k);
+    const radius = this.radiusOf(frame);
+    const value = this.valuesOf(k, frame);
+    this.renderer.upload(k, frame, steps, radius, value, keep);
+    if (keep === 1 || k === this.playback.frame) {
+      this.renderer.uploadImages(frame, steps, radius, value);
+      this.perTime = 1 / steps.over;
+    }
+    return true;
+  }
+
+  trailFrames(k) {
+    if (!element("trails").checked) return [];
+    const length = Math.max(2, Math.min(mostTrail, Math.floor(4e6 / Math.max(1, this.head.disks))));
+    const frames = [];
+    for (let f = Math.max(0, k - length); f < k; ++f) if (this.store.frame(f)) frames.push(f);
+    return frames;
+  }
+
+  draw() {
+    const k = this.playback.frame;
+    this.showTime();
+    if (!this.ready(k)) return;
+    this.dirty = false;
+    const frame = this.store.frame(k);
+    if (!frame) {
+      this.say(this.store.damaged.get(this.store.blockOf(k)) ?? this.message);
+      this.renderer.draw(-1, { ...this.look([]), images: false });
+      this.drawn = -1;
+      return;
+    }
+    if (!this.range) this.resetRange();
+    const trail = this.trailFrames(k);
+    if (this.drawn !== k) {
+      this.upload(k, trail.length + 1);
+      for (const f of trail) if (!this.renderer.slots.has(f)) this.upload(f, trail.length + 1);
+      this.drawn = k;
+      this.showPicked();
+    }
+    this.renderer.draw(k, this.look(trail));
+    this.drawOver(frame);
+    this.plots.draw(this.playback.time, this.colours);
+  }
+
+  look(trail) {
+    const hex = (name) => parseInt(this.colours[name].slice(1), 16);
+    return {
+      camera: this.camera,
+      density: this.density,
+      ground: hex("ground"),
+      ink: hex("ink"),
+      range: this.range ?? [0, 1],
+      bySpeed: this.colour === "speed",
+      perTime: this.perTime ?? 1,
+      part: element("smooth").checked ? this.playback.part : 0,
+      images: element("images").checked,
+      // An arrow of the fastest speed of the scale is a fifteenth of the box long.
+      arrows: element("arrows").checked ? (Math.max(this.head.box.width, this.head.box.height) / 15) / this.arrowSpeed : 0,
+      trail,
+    };
+  }
+
+  drawOver(frame) {
+    let picked = null;
+    if (this.picked) {
+      const i = this.store.indexIn(frame, this.picked.place);
+      const { axes } = this.head;
+      picked = { path: this.picked.path.points.slice(0, this.playback.frame + 1), radius: this.store.radius[this.picked.place] };
+      if (i >= 0) Object.assign(picked, { x: frame.x[i] * axes[0].quantum, y: frame.y[i] * axes[1].quantum });
+    }
+    drawOverlay(element("overlay"), this.density, this.camera, this.head, shortNumber(this.playback.time), picked, this.colours);
+  }
+
+  showTime() {
+    const { frame, time, last } = this.playback;
+    element("frame").value = frame;
+    element("frame").setAttribute("aria-valuetext", `frame ${frame + 1} of ${last + 1}, t = ${shortNumber(time)}`);
+    element("time").textContent = `t = ${shortNumber(time)}, ${frame + 1} of ${last + 1}`;
+  }
+
+  showPlaying() {
+    element("play").textContent = this.playback.playing ? "Pause" : "Play";
+    element("play").setAttribute("aria-pressed", String(this.playback.playing));
+  }
+
+  resetRange() {
+    this.range = rangeOf(this.colour, this.store, this.playback.frame);
+    this.arrowSpeed = rangeOf("speed", this.store, this.playback.frame)[1];
+    this.renderer.setPalette(palette(this.colour));
+    showLegend(this.colour, this.range, this.store);
+  }
+
+  // --- What is asked for
+
+  jump(frame) {
+    this.playback.goTo(frame);
+    this.dirty = true;
+  }
+
+  jumpToTime(time) {
+    this.playback.goToTime(time);
+    this.dirty = true;
+  }
+
+  togglePlay() {
+    const { playback } = this;
+    playback.playing = !playback.playing;
+    if (playback.playing && playback.frame === playback.last) playback.goTo(0);
+    this.showPlaying();
+    this.dirty = true;
+  }
+
+  setColour(name) {
+    this.colour = name;
+    this.range = null;
+    this.drawn = -1;
+    this.renderer.forget();
+    this.dirty = true;
+  }
+
+  setRange() {
+    const [low, high] = ["low", "high"].map((id) => element(id).valueAsNumber);
+    if (Number.isFinite(low) && Number.isFinite(high) && low < high) this.range = [low, high];
+    this.dirty = true;
+  }
+
+  pickAt(px, py) {
+    const frame = this.store.frame(this.playback.frame);
+    if (!frame) return;
+    const i = diskAt(this.store, frame, ...this.camera.toPlane(px, py), 4 / this.camera.scale);
+    this.pick(i < 0 ? -1 : frame.place[i]);
+  }
+
+  pickId(id) {
+    this.pick(this.store.id.indexOf(id), id);
+  }
+
+  // place: in the table, -1 for none; id: what was asked for, if it is not in the table.
+  pick(place, id) {
+    this.dirty = true;
+    if (place < 0) {
+      this.picked = null;
+      showFacts(id === undefined || Number.isNaN(id) ? [] : [["disk", `there is no disk ${id} here`]]);
+      if (id === undefined) element("disk").value = "";
+      return;
+    }
+    const picked = { place, path: new DiskPath(this.store, place) };
+    this.picked = picked;
+    element("disk").value = this.store.id[place];
+    this.showPicked();
+    const show = () => (this.dirty = true);
+    picked.path.gather(this.playback.frame, () => this.picked === picked, show);
+  }
+
+  showPicked() {
+    const k = this.playback.frame;
+    const frame = this.store.frame(k);
+    if (!this.picked || !frame) return;
+    const { place, path } = this.picked;
+    path.add(this.store.blockOf(k), this.store.unpacked.get(this.store.blockOf(k)));
+    showFacts(factsOf(this.store, k, place, this.store.indexIn(frame, place)));
+  }
+
+  // #t=12.5&disk=7
+  followHash() {
+    const asked = new URLSearchParams(location.hash.slice(1));
+    const time = Number.parseFloat(asked.get("t"));
+    if (Number.isFinite(time)) this.jumpToTime(time);
+    const id = Number.parseInt(asked.get("disk"), 10);
+    if (Number.isFinite(id)) this.pickId(id);
+  }
+
+  takeLink() {
+    const id = this.picked ? `&disk=${this.store.id[this.picked.place]}` : "";
+    history.replaceState(null, "", `#t=${Number(this.playback.time.toPrecision(8))}${id}`);
+    navigator.clipboard?.writeText(location.href).catch(() => {});
+    element("taken").textContent = "The address of the page is the link.";
+  }
+
+  takePicture() {
+    this.draw();
+    this.renderer.draw(this.playback.frame, this.look(this.trailFrames(this.playback.frame)));
+    const both = document.createElement("canvas");
+    both.width = this.canvas.width;
+    both.height = this.canvas.height;
+    const context = both.getContext("2d");
+    context.drawImage(this.canvas, 0, 0);
+    context.drawImage(element("overlay"), 0, 0);
+    return new Promise((done) => both.toBlob(done, "image/png"));
+  }
+
+  async savePicture() {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(await this.takePicture());
+    link.download = `frame_${this.playback.frame + 1}.png`;
+    link.click();
+    element("taken").textContent = `${link.download} is saved.`;
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  }
+
+  // --- Controls
+
+  listen() {
+    const on = (id, kind, act) => element(id).addEventListener(kind, act);
+    on("play", "click", () => this.togglePlay());
+    on("back", "click", () => this.jump(this.playback.frame - 1));
+    on("on", "click", () => this.jump(this.playback.frame + 1));
+    on("frame", "input", () => this.jump(element("frame").valueAsNumber));
+    on("speed", "change", () => (this.playback.speed = Number(element("speed").value)));
+    on("loop", "change", () => (this.playback.loop = element("loop").checked));
+    on("colour", "change", () => this.setColour(element("colour").value));
+    for (const id of ["low", "high"]) on(id, "change", () => this.setRange());
+    for (const id of ["arrows", "images", "smooth"]) on(id, "change", () => (this.dirty = true));
+    on("trails", "change", () => this.setColour(this.colour));
+    on("dark", "change", () => this.setTheme());
+    on("disk", "change", () => this.pickId(element("disk").valueAsNumber));
+    on("link", "click", () => this.takeLink());
+    on("picture", "click", () => this.savePicture());
+    on("fit", "click", () => this.changeView((camera) => camera.fit()));
+    on("closer", "click", () => this.changeView((camera) => camera.zoom(1.5)));
+    on("farther", "click", () => this.changeView((camera) => camera.zoom(1 / 1.5)));
+    window.addEventListener("hashchange", () => this.followHash());
+    document.addEventListener("keydown", (event) => this.key(event));
+    this.listenToPointers();
+  }
+
+  changeView(change) {
+    change(this.camera);
+    this.dirty = true;
+  }
+
+  listenToPointers() {
+    const { canvas } = this;
+    const held = new Map();
+    let moved = 0;
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      held.set(event.pointerId, [event.offsetX, event.offsetY]);
+      moved = 0;
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      const from = held.get(event.pointerId);
+      if (!from) return;
+      const to = [event.offsetX, event.offsetY];
+      const other = [...held.entries()].find(([id]) => id !== event.pointerId)?.[1];
+      moved += Math.hypot(to[0] - from[0], to[1] - from[1]);
+      held.set(event.pointerId, to);
+      if (moved < 4) return;
+      this.changeView((camera) => {
+        const part = other ? 0.5 : 1;
+        camera.move(part * (to[0] - from[0]), part * (to[1] - from[1]));
+        if (!other) return;
+        const apart = (a) => Math.max(1, Math.hypot(a[0] - other[0], a[1] - other[1]));
+        camera.zoom(apart(to) / apart(from), (to[0] + other[0]) / 2, (to[1] + other[1]) / 2);
+      });
+    });
+    const release = (event) => {
+      if (held.delete(event.pointerId) && event.type === "pointerup" && moved < 4) this.pickAt(event.offsetX, event.offsetY);
+    };
+    canvas.addEventListener("pointerup", release);
+    canvas.addEventListener("pointercancel", release);
+    const wheel = (event) => {
+      event.preventDefault();
+      this.changeView((camera) => camera.zoom(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY));
+    };
+    canvas.addEventListener("wheel", wheel, { passive: false });
+  }
+
+  key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const { tagName, type } = event.target;
+    // What a control does with a key comes first.
+    if (tagName === "SELECT" || (tagName === "INPUT" && type === "number")) return;
+    const ticks = tagName === "BUTTON" || type === "checkbox" || tagName === "SUMMARY";
+    if (event.key === " " && ticks) return;
+    const slides = type === "range";
+    const step = event.shiftKey ? 10 : 1;
+    const tick = (id) => element(id).click();
+    const pan = (dx, dy) => document.activeElement === this.canvas && this.changeView((camera) => camera.move(dx, dy));
+    const faster = (by) => {
+      const at = speeds.indexOf(this.playback.speed) + by;
+      if (at < 0 || at >= speeds.length) return;
+      this.playback.speed = speeds[at];
+      element("speed").value = speeds[at];
+    };
+    const acts = {
+      " ": () => this.togglePlay(),
+      ArrowLeft: () => this.jump(this.playback.frame - step),
+      ArrowRight: () => this.jump(this.playback.frame + step),
+      Home: () => this.jump(0),
+      End: () => this.jump(this.playback.last),
+      "<": () => faster(-1),
+      ">": () => faster(1),
+      "+": () => this.changeView((camera) => camera.zoom(1.25)),
+      "-": () => this.changeView((camera) => camera.zoom(0.8)),
+      0: () => this.changeView((camera) => camera.fit()),
+      a: () => pan(40, 0),
+      d: () => pan(-40, 0),
+      w: () => pan(0, 40),
+      s: () => pan(0, -40),
+      l: () => tick("loop"),
+      t: () => tick("trails"),
+      v: () => tick("arrows"),
+      p: () => !element("images-label").hidden && tick("images"),
+      m: () => tick("smooth"),
+    };
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    if (!acts[key] || (slides && (key.startsWith("Arrow") || key === "Home" || key === "End"))) return;
+    event.preventDefault();
+    acts[key]();
+  }
+
+  // For scripts: where each disk of a frame is, as the page draws it.
+  async positions(k) {
+    await this.store.load(this.store.blockOf(k));
+    const { place, x, y } = this.store.frame(k);
+    const [ax, ay] = this.head.axes;
+    return { id: Array.from(place, (p) => this.store.id[p]), x: Array.from(x, (q) => q * ax.quantum), y: Array.from(y, (q) => q * ay.quantum) };
+  }
+}
+
+async function begin() {
+  const fail = (message) => {
+    element("message").textContent = message;
+    element("message").hidden = false;
+  };
+  let head;
+  try {
+    head = JSON.parse(element("head").textContent);
+  } catch {
+    return fail("This file is incomplete: it breaks off before its first frame.");
+  }
+  element("title").textContent = head.title || "a run";
+  element("story").textContent = `${head.disks} disks, ${head.frames} frames, carom ${head.version}`;
+  if (head.leftOut.length) {
+    element("left-out").textContent = `This page ${head.leftOut.join(", and ")}.`;
+    element("left-out").hidden = false;
+  }
+  try {
+    const store = new Store(head);
+    const missing = store.missing();
+    await store.readTable().catch((error) => {
+      throw new Error(missing || `The table of disks is damaged: ${error.message}.`);
+    });
+    const viewer = new Viewer(store);
+    viewer.start();
+    if (missing) viewer.say(missing);
+    window.carom = viewer;
+  } catch (error) {
+    fail(error.message);
+  }
+}
+document.addEventListener("DOMContentLoaded", begin);

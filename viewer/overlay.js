@@ -1,0 +1,103 @@
+// What is drawn over the disks: the sides of the box, sources, the picked disk and its path, the scale bar, the time.
+import { roundBelow, shortNumber } from "./format.js";
+
+const sideNames = ["left", "right", "bottom", "top"];
+
+// The ends of a side, in lengths.
+function sideEnds(side, { width, height }) {
+  return [
+    [0, 0, 0, height],
+    [width, 0, width, height],
+    [0, 0, width, 0],
+    [0, height, width, height],
+  ][side];
+}
+
+export function sideSentence({ sides, thermal }) {
+  const words = sides.map((kind, s) => `${sideNames[s]} ${thermal[s] ? "thermal wall" : kind}`);
+  return `Sides: ${words.join(", ")}. Walls are whole lines (thermal ones red), periodic sides dashed, sinks dotted, sources green.`;
+}
+
+function drawSides(context, camera, head, colours) {
+  const { box } = head;
+  for (let s = 0; s < 4; ++s) {
+    const [x0, y0, x1, y1] = sideEnds(s, box);
+    const kind = box.sides[s];
+    context.strokeStyle = box.thermal[s] ? colours.heat : colours.ink;
+    context.lineWidth = kind === "wall" ? 3 : 1.5;
+    context.setLineDash(kind === "periodic" ? [8, 6] : kind === "sink" ? [2, 5] : []);
+    context.beginPath();
+    context.moveTo(...camera.toPage(x0, y0));
+    context.lineTo(...camera.toPage(x1, y1));
+    context.stroke();
+  }
+  context.setLineDash([4, 3]);
+  context.strokeStyle = "#1a9850";
+  context.lineWidth = 2;
+  for (const source of head.sources) {
+    const [x0, y0, x1, y1] = source.region ?? sideEnds(source.side, box);
+    const [left, top] = camera.toPage(x0, y1);
+    const [right, bottom] = camera.toPage(x1, y0);
+    context.strokeRect(left - 4, top - 4, right - left + 8, bottom - top + 8);
+  }
+  context.setLineDash([]);
+}
+
+function drawScaleBar(context, camera, colours) {
+  const length = roundBelow(120 / camera.scale);
+  const pixels = length * camera.scale;
+  const y = camera.height - 14;
+  context.strokeStyle = colours.ink;
+  context.fillStyle = colours.ink;
+  context.lineWidth = 2;
+  context.beginPath();
+  context.moveTo(12, y - 4);
+  context.lineTo(12, y);
+  context.lineTo(12 + pixels, y);
+  context.lineTo(12 + pixels, y - 4);
+  context.stroke();
+  context.fillText(shortNumber(length), 18 + pixels, y);
+}
+
+// path: points in lengths, null where it is not known; a step of more than half the box crosses a periodic side.
+function drawPath(context, camera, { box, axes }, path, colours) {
+  context.strokeStyle = colours.accent;
+  context.lineWidth = 1.5;
+  context.beginPath();
+  let last = null;
+  for (const point of path) {
+    const jumps =
+      last &&
+      point &&
+      ((axes[0].periodic && Math.abs(point[0] - last[0]) > box.width / 2) ||
+        (axes[1].periodic && Math.abs(point[1] - last[1]) > box.height / 2));
+    if (point) {
+      if (last && !jumps) context.lineTo(...camera.toPage(...point));
+      else context.moveTo(...camera.toPage(...point));
+    }
+    last = point;
+  }
+  context.stroke();
+}
+
+// picked: { x, y, radius, path } or null.
+export function drawOverlay(canvas, density, camera, head, time, picked, colours) {
+  const context = canvas.getContext("2d");
+  context.setTransform(density, 0, 0, density, 0, 0);
+  context.clearRect(0, 0, camera.width, camera.height);
+  context.font = "13px system-ui, sans-serif";
+  drawSides(context, camera, head, colours);
+  drawScaleBar(context, camera, colours);
+  context.textAlign = "right";
+  context.fillStyle = colours.ink;
+  context.fillText(`t = ${time}`, camera.width - 12, camera.height - 12);
+  context.textAlign = "left";
+  if (!picked) return;
+  drawPath(context, camera, head, picked.path, colours);
+  if (picked.x === undefined) return;
+  context.strokeStyle = colours.accent;
+  context.lineWidth = 3;
+  context.beginPath();
+  context.arc(...camera.toPage(picked.x, picked.y), Math.max(picked.radius * camera.scale, 3) + 3, 0, 2 * Math.PI);
+  context.stroke();
+}

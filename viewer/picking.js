@@ -1,0 +1,53 @@
+// The disk that is picked: found by a point or by its id, and its path so far.
+
+// The index of the disk of a frame over a point, -1 if there is none; the nearest centre counts, by the nearest image.
+// slack: length by which a point may miss a small disk.
+export function diskAt(store, frame, x, y, slack) {
+  const { axes, box } = store.head;
+  let found = -1;
+  let best = Infinity;
+  for (let i = 0; i < frame.place.length; ++i) {
+    let dx = frame.x[i] * axes[0].quantum - x;
+    let dy = frame.y[i] * axes[1].quantum - y;
+    if (axes[0].periodic) dx -= box.width * Math.round(dx / box.width);
+    if (axes[1].periodic) dy -= box.height * Math.round(dy / box.height);
+    const distance = Math.hypot(dx, dy);
+    if (distance < best && distance <= Math.max(store.radius[frame.place[i]], slack)) {
+      best = distance;
+      found = i;
+    }
+  }
+  return found;
+}
+
+// Gathers the path block by block; null where the disk is not there.
+export class DiskPath {
+  constructor(store, place) {
+    this.store = store;
+    this.place = place;
+    this.points = new Array(store.head.frames).fill(null);
+    this.known = new Set();
+  }
+  add(number, { frames }) {
+    if (this.known.has(number)) return;
+    this.known.add(number);
+    const { axes } = this.store.head;
+    frames.forEach((frame, n) => {
+      const i = this.store.indexIn(frame, this.place);
+      if (i < 0) return;
+      this.points[this.store.blocks[number].first + n] = [frame.x[i] * axes[0].quantum, frame.y[i] * axes[1].quantum];
+    });
+  }
+  // Unpacks what is still needed up to frame k, and calls changed as it comes; stops when wanted() is no longer true.
+  async gather(k, wanted, changed) {
+    for (let number = this.store.blockOf(k); number >= 0 && wanted(); --number) {
+      if (this.known.has(number)) continue;
+      try {
+        this.add(number, await this.store.load(number));
+      } catch {
+        this.known.add(number);
+      }
+      if (wanted()) changed();
+    }
+  }
+}

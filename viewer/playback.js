@@ -1,0 +1,50 @@
+// Which moment is shown, and how it goes on.
+export class Playback {
+  constructor(times) {
+    this.times = times;
+    this.frame = 0;
+    this.time = times[0];
+    this.playing = false;
+    this.loop = true;
+    this.speed = 1;
+    const span = times[times.length - 1] - times[0];
+    // Twenty frames a second, but the run takes three seconds at least.
+    this.rate = span > 0 ? span / Math.max(3, (times.length - 1) / 20) : 1;
+  }
+  get last() {
+    return this.times.length - 1;
+  }
+  // The last frame at or before a time; its number.
+  frameAt(time) {
+    let low = 0;
+    let high = this.last;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.times[middle] <= time * (1 + 1e-12)) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+  goTo(frame) {
+    this.frame = Math.max(0, Math.min(this.last, frame));
+    this.time = this.times[this.frame];
+  }
+  goToTime(time) {
+    this.time = Math.max(this.times[0], Math.min(this.times[this.last], time));
+    this.frame = this.frameAt(this.time);
+  }
+  // Goes on by seconds of the clock on the wall; at the end begins anew or stops.
+  advance(seconds) {
+    const next = this.time + seconds * this.rate * this.speed;
+    if (next < this.times[this.last] || this.last === 0) return this.goToTime(next);
+    if (this.loop && this.frame === this.last) return this.goTo(0);
+    this.goTo(this.last);
+    if (!this.loop) this.playing = false;
+  }
+  // How far on the way to the next frame, 0 to 1.
+  get part() {
+    const from = this.times[this.frame];
+    const to = this.times[Math.min(this.last, this.frame + 1)];
+    return to > from ? Math.max(0, Math.min(1, (this.time - from) / (to - from))) : 0;
+  }
+}

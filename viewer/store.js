@@ -1,0 +1,177 @@
+// The run as the page holds it: the head, the table of disks, and those blocks of frames that were unpacked last.
+import { element } from "./format.js";
+
+const mostBytes = 320e6; // of unpacked blocks
+
+// The text of a data block, null where the file breaks off before it.
+const textOf = (id) => element(id)?.textContent ?? null;
+
+export class Store {
+  constructor(head) {
+    this.head = head;
+    this.blocks = head.blocks.map(([first, frames, residuals, length, check]) => ({ first, frames, residuals, length, check }));
+    this.unpacked = new Map(); // by number of the block, the one used last at the end
+    this.asked = new Map();
+    this.damaged = new Map(); // what is wrong with it
+    this.bytes = 0;
+    this.jobs = new Map();
+    this.url = URL.createObjectURL(new Blob([textOf("worker")], { type: "text/javascript" }));
+    this.worker = new Worker(this.url);
+    this.worker.onmessage = ({ data }) => {
+      const { done, failed } = this.jobs.get(data.job);
+      this.jobs.delete(data.job);
+      if (data.error) failed(new Error(data.error));
+      else done(data);
+    };
+    this.lastJob = 0;
+  }
+
+  work(message) {
+    const job = ++this.lastJob;
+    return new Promise((done, failed) => {
+      this.jobs.set(job, { done, failed });
+      this.worker.postMessage({ job, ...message });
+    });
+  }
+
+  // Times of frames; radius, mass, id and group by place. Throws where the table is damaged.
+  async readTable() {
+    const { head } = this;
+    const { bytes } = await this.work({ text: textOf("table"), length: head.table.bytes, check: head.table.check });
+    let at = 0;
+    const take = (Kind, count) => {
+      const part = new Kind(bytes.buffer.slice(at, at + count * Kind.BYTES_PER_ELEMENT));
+      at += part.byteLength;
+      return part;
+    };
+    this.times = take(Float64Array, head.frames);
+    this.radius = head.radius === null ? take(Float64Array, head.disks) : new Float64Array(head.disks).fill(head.radius);
+    this.mass = head.mass === null ? take(Float64Array, head.disks) : new Float64Array(head.disks).fill(head.mass);
+    this.id = take(Uint32Array, head.disks);
+    this.group = head.grouped ? take(Uint32Array, head.disks) : new Uint32Array(head.disks);
+    this.largest = this.radius.reduce((a, b) => Math.max(a, b), 0);
+  }
+
+  // The number of the block that has frame k.
+  blockOf(k) {
+    let low = 0;
+    let high = this.blocks.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.blocks[middle].first <= k) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+
+  frames(number) {
+    const { first, frames } = this.blocks[number];
+    return frames === 1 ? `frame ${first + 1} is` : `frames ${first + 1} to ${first + frames} are`;
+  }
+
+  // The first block that the file lacks, wholly or in part, as a sentence; empty if it is whole.
+  missing() {
+    for (let b = 0; b < this.blocks.length; ++b) {
+      const text = textOf(`block${b}`);
+      if (text === null || text.length < 4 * Math.ceil(this.blocks[b].length / 3)) {
+        return `This file is incomplete: ${this.frames(b)} missing, and all that follow.`;
+      }
+    }
+    return element("end") ? "" : "This file is incomplete.";
+  }
+
+  // Unpacks a block unless it is there. Rejects, with a sentence, where it is damaged.
+  load(number) {
+    if (this.unpacked.has(number)) {
+      const block = this.unpacked.get(number);
+      this.unpacked.delete(number);
+      this.unpacked.set(number, block);
+      return Promise.resolve(block);
+    }
+    if (!this.asked.has(number)) {
+      this.asked.set(number, this.unpack(number).finally(() => this.asked.delete(number)));
+    }
+    return this.asked.get(number);
+  }
+
+  async unpack(number) {
+    const block = this.blocks[number];
+    const { length, check, frames, residuals } = block;
+    const bits = this.head.axes.map((axis) => axis.bits);
+    let found;
+    try {
+      found = await this.work({ text: textOf(`block${number}`), length, check, frames, residuals, bits });
+    } catch (error) {
+      const sentence = `${this.frames(number)} damaged: ${error.message}.`;
+      this.damaged.set(number, sentence[0].toUpperCase() + sentence.slice(1));
+      throw new Error(this.damaged.get(number));
+    }
+    let at = 0;
+    const list = found.lists.map((place) => {
+      const frame = { place, x: found.x.subarray(at, at + place.length), y: found.y.subarray(at, at + place.length) };
+      at += place.length;
+      return frame;
+    });
+    const made = { frames: list, bytes: 8 * residuals };
+    this.unpacked.set(number, made);
+    this.bytes += made.bytes;
+    for (const [old, { bytes }] of this.unpacked) {
+      if (this.bytes <= mostBytes || this.unpacked.size <= 3) break;
+      this.unpacked.delete(old);
+      this.bytes -= bytes;
+    }
+    return made;
+  }
+
+  // Frame k where it is unpacked, else null.
+  frame(k) {
+    if (k < 0 || k >= this.head.frames) return null;
+    const b = this.blockOf(k);
+    return this.unpacked.get(b)?.frames[k - this.blocks[b].first] ?? null;
+  }
+
+  // Where in a frame the disk at this place of the table is, -1 if it is not there.
+  indexIn(frame, place) {
+    let low = 0;
+    let high = frame.place.length - 1;
+    while (low <= high) {
+      const middle = (low + high) >> 1;
+      if (frame.place[middle] === place) return middle;
+      if (frame.place[middle] < place) low = middle + 1;
+      else high = middle - 1;
+    }
+    return -1;
+  }
+
+  // How far disk i of frame a went to where disk j of frame b is, along an axis; in length, nearest image.
+  step(axis, a, i, b, j) {
+    const { bits, periodic, quantum } = this.head.axes[axis];
+    let d = axis === 0 ? b.x[j] - a.x[i] : b.y[j] - a.y[i];
+    if (periodic) d = (d << (32 - bits)) >> (32 - bits);
+    return d * quantum;
+  }
+
+  // The displacement of each disk of frame k to the next frame, x and y in turn; the mean velocity on the way is that
+  // over `over`. The last frame, and disks that are gone by the next, have the step before.
+  steps(k) {
+    const frame = this.frame(k);
+    const next = this.frame(k + 1);
+    const before = this.frame(k - 1);
+    const d = new Float32Array(2 * frame.place.length);
+    const over = next ? this.times[k + 1] - this.times[k] : before ? this.times[k] - this.times[k - 1] : 1;
+    const same = (other, i) => (other.place[i] === frame.place[i] ? i : this.indexIn(other, frame.place[i]));
+    for (let i = 0; i < frame.place.length; ++i) {
+      let other = next;
+      let j = next ? same(next, i) : -1;
+      if (j < 0 && before) {
+        other = before;
+        j = same(before, i);
+      }
+      if (j < 0) continue;
+      const sign = other === next ? 1 : -1;
+      d[2 * i] = sign * this.step(0, frame, i, other, j);
+      d[2 * i + 1] = sign * this.step(1, frame, i, other, j);
+    }
+    return { d, over: over > 0 ? over : 1 };
+  }
+}
