@@ -99,11 +99,12 @@ class Viewer {
     let ready = true;
     for (const number of new Set([own, next, ahead])) {
       if (store.unpacked.has(number) || store.damaged.has(number)) continue;
-      if (number !== ahead || number === own || number === next) ready = false;
+      const needed = number === own || number === next;
+      if (needed) ready = false;
       store.load(number).then(
         () => this.refresh(number),
         (error) => {
-          this.say(error.message);
+          if (needed) this.say(error.message);
           this.refresh(number);
         },
       );

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -20,17 +21,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_series_rows = 2000;
+// Of the series: about a tenth of a small page, and never so many that a plot could not show them.
+constexpr std::size_t most_series_values = 20'000;
+constexpr std::size_t bytes_a_value = 80;
 
 // What the page tells beside the disks, from the files of the run that lie beside the trajectory.
-ViewStory story_of(const Recording& recording) {
+ViewStory story_of(const Recording& recording, std::size_t most_bytes) {
   const std::optional<Scene> scene = scene_of(recording);
   ViewStory story = scene ? view_story(*scene) : ViewStory{};
   if (!scene) story.title = recording.trajectory.string();
   const fs::path series = recording.trajectory.parent_path() / "series.csv";
   if (!fs::exists(series)) return story;
   try {
-    story.series = read_view_series(read_text_file(series.string(), "view"), most_series_rows, series.string());
+    const std::size_t most_values = std::min(most_series_values, most_bytes / bytes_a_value);
+    story.series = read_view_series(read_text_file(series.string(), "view"), most_values, series.string());
   } catch (const InputError& error) {
     print_warning(fmt::format("the page has no plots: {}", error.what()));
   }
@@ -64,8 +68,8 @@ int command_view(const ViewOptions& options) {
   if (options.max_size) work.most_bytes = *options.max_size;
   work.threads = static_cast<std::size_t>(choice.threads);
   work.run = make_block_runner(choice);
-  const ViewMade made =
-      make_view([&] { return open_frames(recording); }, recording.trajectory.string(), story_of(recording), work);
+  const ViewMade made = make_view([&] { return open_frames(recording); }, recording.trajectory.string(),
+                                  story_of(recording, work.most_bytes), work);
   replace_file(file.string(), made.page);
   if (!options.quiet) {
     for (const std::string& sentence : made.left_out) print_note(fmt::format("the page {}", sentence));

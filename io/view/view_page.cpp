@@ -82,6 +82,11 @@ std::string common_value(const std::vector<double>& values) {
   return json_number(values.front());
 }
 
+bool several_groups(const ViewDisks& disks) {
+  const auto differs = [&](DiskId group) { return group != disks.group.front(); };
+  return std::any_of(disks.group.begin(), disks.group.end(), differs);
+}
+
 // Times of frames, then of all disks the ids, radii and masses (where they differ) and groups: viewer/decode.js.
 std::string table_of(const ViewEncoder& encoder) {
   const ViewDisks& disks = encoder.disks();
@@ -90,6 +95,7 @@ std::string table_of(const ViewEncoder& encoder) {
   if (common_value(disks.radius) == "null") put_numbers(table, disks.radius);
   if (common_value(disks.mass) == "null") put_numbers(table, disks.mass);
   for (const DiskId id : disks.id) table += bytes_of_word(id, 4);
+  if (!several_groups(disks)) return table;
   for (const DiskId group : disks.group) table += bytes_of_word(group, 4);
   return table;
 }
@@ -117,7 +123,7 @@ std::string json_of_source(const ViewSource& source) {
 
 std::string json_of_series(const ViewSeries& series) {
   const auto column = [](const std::vector<double>& values) {
-    return json_list(values, [](double value) { return json_number(value, "{:.6g}"); });
+    return json_list(values, [](double value) { return json_number(value, "{:.5g}"); });
   };
   return fmt::format(R"({{"names":{},"columns":{}}})", json_list(series.names, json_string),
                      json_list(series.columns, column));
@@ -134,7 +140,7 @@ std::string head_of(const ViewStory& story, const ViewEncoder& encoder, std::str
                       json_list(story.sources, json_of_source), json_list(left_out, json_string));
   json += fmt::format(R"(,"frames":{},"disks":{},"radius":{},"mass":{},"grouped":{})", encoder.times().size(),
                       disks.id.size(), common_value(disks.radius), common_value(disks.mass),
-                      disks.group.empty() ? "false" : "true");
+                      several_groups(disks) ? "true" : "false");
   json += fmt::format(R"(,"axes":{})", json_list(encoder.axes(), [](const ViewAxis& axis) {
                         return fmt::format(R"({{"bits":{},"periodic":{},"quantum":{}}})", axis.bits, axis.periodic,
                                            axis.quantum());

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -47,21 +48,22 @@ bool has_number(const std::vector<double>& column) {
 
 }  // namespace
 
-ViewSeries read_view_series(std::string_view csv, std::size_t most, const std::string& name) {
+ViewSeries read_view_series(std::string_view csv, std::size_t most_values, const std::string& name) {
   const std::vector<std::string_view> heads = cells_of(take_line(csv));
   std::vector<std::string_view> lines;
   while (!csv.empty()) {
     if (const std::string_view line = take_line(csv); !line.empty()) lines.push_back(line);
   }
+  // The last line of a run that was killed may break off.
+  if (!lines.empty() && cells_of(lines.back()).size() != heads.size()) lines.pop_back();
   ViewSeries series;
   series.rows = lines.size();
   std::vector<std::vector<double>> columns(heads.size());
+  const std::size_t most = std::max<std::size_t>(2, most_values / heads.size());
   const std::size_t stride = 1 + (lines.empty() ? 0 : (lines.size() - 1) / most);
   for (std::size_t row = 0; row < lines.size(); row += stride) {
     const std::vector<std::string_view> cells = cells_of(lines[row]);
     if (cells.size() != heads.size()) {
-      // The last line of a run that was killed may break off.
-      if (row + 1 == lines.size()) break;
       fail_input(fmt::format("{}:{}", name, row + 2), fmt::format("has {} columns", cells.size()),
                  fmt::format("expected {}", heads.size()));
     }

@@ -19,9 +19,9 @@ struct ViewSeries {
   std::size_t rows = 0;                      // in the file; columns may have fewer
 };
 
-// At most `most` rows, evenly chosen. Columns without any number are left out. Throws InputError where the text is no
-// table; name is the file's, for the message.
-ViewSeries read_view_series(std::string_view csv, std::size_t most, const std::string& name);
+// Rows evenly chosen, so that there are at most so many values, but two rows at least. Columns without any number are
+// left out. Throws InputError where the text is no table; name is the file's, for the message.
+ViewSeries read_view_series(std::string_view csv, std::size_t most_values, const std::string& name);
 
 struct ViewSource {
   std::optional<Side> side;

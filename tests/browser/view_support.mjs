@@ -1,0 +1,89 @@
+// What the tests of the page share: runs made by the program, and pages in Debian's Chromium with software rendering.
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { chromium } from "playwright-core";
+
+const program = process.env.CAROM;
+
+// A folder of its own for a test file, with the runs in it.
+export class Workshop {
+  constructor() {
+    this.folder = mkdtempSync(join(tmpdir(), "carom-browser-"));
+  }
+  async open() {
+    this.browser = await chromium.launch({
+      executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+      args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    });
+  }
+  async close() {
+    await this.browser?.close();
+    rmSync(this.folder, { recursive: true, force: true });
+  }
+  path(name) {
+    return join(this.folder, name);
+  }
+  // Runs a scene; returns the run's folder.
+  run(name, scene) {
+    writeFileSync(this.path(`${name}.toml`), scene);
+    execFileSync(program, ["run", `${name}.toml`, "-o", name, "--quiet", "--force"], { cwd: this.folder });
+    return this.path(name);
+  }
+  // carom view; returns what it printed and the file.
+  view(name, ...options) {
+    const file = `${name}_${options.join("_").replace(/[^a-z0-9]/gi, "")}.html`;
+    const done = spawnSync(program, ["view", name, "-o", file, "--force", ...options], { cwd: this.folder, encoding: "utf8" });
+    if (done.status !== 0) throw new Error(done.stderr);
+    return { file: this.path(file), err: done.stderr };
+  }
+  // Opens a page file and waits until it shows a frame, or says why not. Returns what it asked the network for, too.
+  async show(file, hash = "") {
+    const page = await this.browser.newPage({ viewport: { width: 1000, height: 700 } });
+    const requests = [];
+    const errors = [];
+    page.on("request", (request) => requests.push(request.url()));
+    page.on("pageerror", (error) => errors.push(error.message));
+    await page.goto(`file://${file}${hash}`);
+    const shown = () => window.carom?.drawn >= 0 || !document.getElementById("message").hidden;
+    await page.waitForFunction(shown, undefined, { timeout: 60000 });
+    return { page, requests, errors };
+  }
+}
+
+// Frames of a trajectory.xyz: time and, by id, x, y, radius, mass.
+export function framesOf(folder) {
+  const lines = readFileSync(join(folder, "trajectory.xyz"), "utf8").trimEnd().split("\n");
+  const frames = [];
+  for (let at = 0; at < lines.length; ) {
+    const count = Number(lines[at]);
+    const time = Number(/Time=(\S+)/.exec(lines[at + 1])[1]);
+    const disks = new Map();
+    for (const line of lines.slice(at + 2, at + 2 + count)) {
+      const [, x, y, , , , , radius, mass, id] = line.split(/\s+/).map(Number);
+      disks.set(id, { x, y, radius, mass });
+    }
+    frames.push({ time, disks });
+    at += 2 + count;
+  }
+  return frames;
+}
+
+// The colours of points of the present picture, given in lengths of the box: [red, green, blue] each.
+export function coloursAt(page, points) {
+  return page.evaluate(async (wanted) => {
+    const viewer = window.carom;
+    const image = await createImageBitmap(await viewer.takePicture());
+    const canvas = new OffscreenCanvas(image.width, image.height);
+    const context = canvas.getContext("2d");
+    context.drawImage(image, 0, 0);
+    return wanted.map(([x, y]) => {
+      const [px, py] = viewer.camera.toPage(x, y);
+      return [...context.getImageData(Math.round(px * viewer.density), Math.round(py * viewer.density), 1, 1).data.slice(0, 3)];
+    });
+  }, points);
+}
+
+// Waits until the page has drawn frame k.
+export const drawn = (page, k) => page.waitForFunction((frame) => window.carom.drawn === frame && !window.carom.dirty, k);

@@ -1,0 +1,139 @@
+// carom view: one page from a run, finished or not, of any format; bad input leaves nothing behind.
+#include "tests/support/program_support.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::text_of;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr const char* gas = R"(title = "a gas <of disks>"
+[box]
+packing_fraction = 0.5
+left = "periodic"
+right = "periodic"
+[[disks]]
+count = 1000
+positions = "random"
+velocities = { maxwell = 1.0 }
+radius = 0.5
+mass = 1.0
+[run]
+method = "exact"
+t_end = 5.0
+[output]
+every = 0.05
+trajectory = "xyz"
+series = true
+)";
+
+class View : public test::ProgramTest {
+ protected:
+  View() { write("gas.toml", gas); }
+  void run(const std::string& options = "") {
+    const Outcome o = carom("run gas.toml --quiet --force " + options);
+    ASSERT_EQ(o.status, 0) << o.err;
+  }
+};
+
+TEST_F(View, MakesOnePageThatCostsLittleMoreThanTwoBytesADiskAndFrame) {
+  run("-o out");
+  const Outcome o = carom("view out");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.out, "out/view.html\n");
+  EXPECT_THAT(o.err, HasSubstr("101 frames, 1000 disks, 0."));
+  const std::string page = text_of(at("out/view.html"));
+  EXPECT_THAT(page, StartsWith("<!doctype html>"));
+  EXPECT_THAT(page, HasSubstr("<title>a gas &lt;of disks&gt;</title>"));
+  const std::size_t program = 64'000;  // bytes of the page without a run
+  EXPECT_LT(page.size(), program + static_cast<std::size_t>(2.5 * 101 * 1000));
+  EXPECT_EQ(carom("view out --quiet --force").err, "");
+  EXPECT_EQ(text_of(at("out/view.html")), page) << "the same run, the same bytes";
+}
+
+TEST_F(View, BothFormatsOfATrajectoryMakeTheSamePage) {
+  run("-o xyz --t-end 1");
+  run("-o h5 --t-end 1 --set output.trajectory='\"h5md\"'");
+  ASSERT_EQ(carom("view xyz -o xyz.html").status, 0);
+  ASSERT_EQ(carom("view h5 -o h5.html").status, 0);
+  EXPECT_EQ(text_of(at("xyz.html")), text_of(at("h5.html")));
+}
+
+TEST_F(View, NothingIsReplacedUnlessTold) {
+  run("-o out --t-end 0.2");
+  write("there.html", "mine");
+  const Outcome o = carom("view out -o there.html");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_THAT(o.err, HasSubstr("there.html: exists already"));
+  EXPECT_EQ(text_of(at("there.html")), "mine");
+  EXPECT_EQ(carom("view out -o there.html --force").status, 0);
+  EXPECT_THAT(text_of(at("there.html")), StartsWith("<!doctype html>"));
+}
+
+TEST_F(View, ARunThatWasKilledIsShownUpToItsLastFrame) {
+  run("-o out --t-end 1");
+  fs::create_directories(at("broken/carom-unfinished"));
+  for (const char* const file : {"trajectory.xyz", "series.csv", "scene.toml"}) {
+    const std::string whole = text_of(at(std::string("out/") + file));
+    const bool cut = std::string(file) != "scene.toml";
+    write(std::string("broken/carom-unfinished/") + file, cut ? whole.substr(0, whole.size() * 2 / 3) : whole);
+  }
+  const Outcome o = carom("view broken -o part.html");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.err, HasSubstr("13 frames, 1000 disks"));
+}
+
+TEST_F(View, SizeIsKeptAndWhatIsLeftOutIsSaid) {
+  run("-o out");
+  const Outcome o = carom("view out -o small.html --max-size 100kB");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_LE(fs::file_size(at("small.html")), 100'000U);
+  EXPECT_THAT(o.err, HasSubstr("carom: the page shows every"));
+  EXPECT_THAT(text_of(at("small.html")), HasSubstr("shows every"));
+  const Outcome tiny = carom("view out -o tiny.html --max-size 10kB");
+  EXPECT_EQ(tiny.status, 2);
+  EXPECT_THAT(tiny.err, HasSubstr("--max-size: 10000 bytes are too few"));
+  EXPECT_FALSE(fs::exists(at("tiny.html")));
+}
+
+TEST_F(View, ADamagedTrajectoryIsNamedAndLeavesNothing) {
+  run("-o out --t-end 0.2");
+  std::string text = text_of(at("out/trajectory.xyz"));
+  text.replace(text.rfind("X "), 4, "X ?!");
+  write("out/trajectory.xyz", text);
+  const Outcome o = carom("view out");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_THAT(o.err, HasSubstr("out/trajectory.xyz:"));
+  EXPECT_FALSE(fs::exists(at("out/view.html")));
+  write("out/trajectory.xyz", "");
+  EXPECT_THAT(carom("view out").err, HasSubstr("out/trajectory.xyz: holds no frame"));
+}
+
+TEST_F(View, WithoutASceneTheTrajectoryIsEnough) {
+  run("-o out --t-end 0.2");
+  fs::remove(at("out/scene.toml"));
+  fs::remove(at("out/series.csv"));
+  const Outcome o = carom("view out/trajectory.xyz -o alone.html");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(text_of(at("alone.html")), HasSubstr("<title>out/trajectory.xyz</title>"));
+  EXPECT_THAT(text_of(at("alone.html")), HasSubstr("\"sides\":[\"periodic\",\"periodic\",\"wall\",\"wall\"]"));
+}
+
+TEST_F(View, OpensThePageWithTheDesktopsOpener) {
+  run("-o out --t-end 0.2");
+  fs::create_directories(at("bin"));
+  write("bin/xdg-open", "#!/bin/sh\necho \"$1\" >opened\n");
+  fs::permissions(at("bin/xdg-open"), fs::perms::owner_all);
+  const Outcome o = shell("PATH=bin:$PATH $C view out --open");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(text_of(at("opened")), fs::canonical(at("out/view.html")).string() + "\n");
+  const Outcome none = shell("PATH=/nowhere $C view out --open --force");
+  EXPECT_EQ(none.status, 0);
+  EXPECT_THAT(none.err, HasSubstr("warning: --open: there is no xdg-open"));
+}
+
+}  // namespace
+}  // namespace carom
