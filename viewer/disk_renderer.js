@@ -1,4 +1,5 @@
-// All disks of a frame in one call of WebGL2: a square each, of which the shader keeps the disk.
+// All disks of a frame in one call of WebGL2: a square each, of which the shader keeps the disk. Squares of small disks are
+// points, which cost a vertex each; points have a largest size, so those of large disks are instances of four vertices.
 import { parts } from "./colours.js";
 
 const head = `#version 300 es
@@ -21,6 +22,14 @@ vec4 colourOf() {
   return texture(palette, vec2((at * 255.0 + 0.5) / 256.0, 0.5));
 }
 `;
+const pointShader = `${head}
+out float rim;
+void main() {
+  rim = max(radius * scale, 0.75);
+  colour = colourOf();
+  gl_PointSize = 2.0 * (rim + 1.0);
+  gl_Position = vec4(place() * 2.0 / size, 0.0, 1.0);
+}`;
 const diskShader = `${head}
 out vec2 from;
 out float rim;
@@ -31,14 +40,15 @@ void main() {
   colour = colourOf();
   gl_Position = vec4((place() + from) * 2.0 / size, 0.0, 1.0);
 }`;
-const diskPaint = `#version 300 es
+const diskPaint = (points) => `#version 300 es
 precision highp float;
 in vec4 colour;
-in vec2 from;
+${points ? "" : "in vec2 from;"}
 in float rim;
 uniform float strength;
 out vec4 pixel;
 void main() {
+  ${points ? "vec2 from = (gl_PointCoord * 2.0 - 1.0) * (rim + 1.0);" : ""}
   float r = length(from);
   float cover = clamp(rim - r + 0.5, 0.0, 1.0) * strength;
   float edge = rim > 4.0 ? smoothstep(rim - 2.0, rim - 0.5, r) * 0.35 : 0.0;
@@ -81,17 +91,23 @@ class DiskBuffers {
   constructor(gl) {
     this.gl = gl;
     this.count = 0;
-    this.array = gl.createVertexArray();
-    gl.bindVertexArray(this.array);
-    this.buffers = [0, 1, 2, 3, 4].map((column) => {
-      const buffer = gl.createBuffer();
+    this.buffers = [0, 1, 2, 3, 4].map(() => gl.createBuffer());
+    this.array = this.arrayOf(1);
+    this.pointArray = this.arrayOf(0);
+  }
+  // Columns that go on with each instance (1) or with each vertex (0).
+  arrayOf(divisor) {
+    const { gl } = this;
+    const array = gl.createVertexArray();
+    gl.bindVertexArray(array);
+    this.buffers.forEach((buffer, column) => {
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.enableVertexAttribArray(column);
       if (column < 2) gl.vertexAttribIPointer(column, 1, gl.INT, 0, 0);
       else gl.vertexAttribPointer(column, column === 2 ? 2 : 1, gl.FLOAT, false, 0, 0);
-      gl.vertexAttribDivisor(column, 1);
-      return buffer;
+      gl.vertexAttribDivisor(column, divisor);
     });
+    return array;
   }
   fill(column, data) {
     this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.buffers[column]);
@@ -101,11 +117,13 @@ class DiskBuffers {
 }
 
 export class DiskRenderer {
-  constructor(canvas, axes, box) {
+  constructor(canvas, axes, box, largest) {
     const gl = canvas.getContext("webgl2", { antialias: false, premultipliedAlpha: true, alpha: false });
     if (!gl) throw new Error("This browser has no WebGL2, which draws the disks.");
-    Object.assign(this, { gl, canvas, axes, box });
-    this.disks = program(gl, diskShader, diskPaint);
+    Object.assign(this, { gl, canvas, axes, box, largest });
+    this.disks = program(gl, diskShader, diskPaint(false));
+    this.points = program(gl, pointShader, diskPaint(true));
+    this.largestPoint = Math.min(64, gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1]);
     this.lines = program(gl, lineShader, linePaint);
     this.slots = new Map(); // buffers by frame: the present one, and those of trails
     this.images = new DiskBuffers(gl); // of disks that reach over a periodic side
@@ -175,7 +193,9 @@ export class DiskRenderer {
     gl.bindTexture(gl.TEXTURE_2D, this.colours);
     gl.uniform2f(at.quantum, axes[0].quantum, axes[1].quantum);
     gl.uniform2f(at.centre, look.camera.x, look.camera.y);
-    gl.uniform2f(at.size, canvas.width, canvas.height);
+    const edge = made === this.points.made ? this.largestPoint : 0;
+    gl.viewport(-edge, -edge, canvas.width + 2 * edge, canvas.height + 2 * edge);
+    gl.uniform2f(at.size, canvas.width + 2 * edge, canvas.height + 2 * edge);
     gl.uniform2f(at.range, look.range[0], look.range[1]);
     gl.uniform2f(at.shift, 0, 0);
     gl.uniform1f(at.scale, look.camera.scale * look.density);
@@ -200,9 +220,18 @@ export class DiskRenderer {
     gl.scissor(x0, y0, Math.max(0, x1 - x0), Math.max(0, y1 - y0));
   }
 
+  // A point is dropped where its centre is out of view, so the view is wider by a point; see use().
+  useDisks(look) {
+    this.asPoints = 2 * (Math.max(0.75, this.largest * look.camera.scale * look.density) + 1) <= this.largestPoint;
+    return this.use(this.asPoints ? this.points : this.disks, look);
+  }
+
   drawDisks(slot) {
-    this.gl.bindVertexArray(slot.array);
-    if (slot.count) this.gl.drawArraysInstanced(this.gl.TRIANGLE_STRIP, 0, 4, slot.count);
+    const { gl } = this;
+    gl.bindVertexArray(this.asPoints ? slot.pointArray : slot.array);
+    if (!slot.count) return;
+    if (this.asPoints) gl.drawArrays(gl.POINTS, 0, slot.count);
+    else gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, slot.count);
   }
 
   // look: camera, density (device pixels a page pixel), ground, ink, range, bySpeed, perTime, part (of the way to the
@@ -210,7 +239,6 @@ export class DiskRenderer {
   draw(k, look) {
     const { gl, canvas } = this;
     const slot = this.slots.get(k);
-    gl.viewport(0, 0, canvas.width, canvas.height);
     gl.disable(gl.SCISSOR_TEST);
     gl.clearColor(...parts(look.ground).map((c) => c / 255), 1);
     gl.clear(gl.COLOR_BUFFER_BIT);
@@ -218,7 +246,7 @@ export class DiskRenderer {
     if (look.images) this.drawPeriodicImages(slot, look);
     this.clip(look);
     this.drawTrail(look);
-    this.use(this.disks, look);
+    this.useDisks(look);
     this.drawDisks(slot);
     this.drawDisks(this.images);
     if (look.arrows) this.drawLines(slot, look, { reach: look.arrows * look.perTime, ink: look.ink });
@@ -227,7 +255,7 @@ export class DiskRenderer {
 
   drawPeriodicImages(slot, look) {
     const { gl, box } = this;
-    const at = this.use(this.disks, look);
+    const at = this.useDisks(look);
     gl.uniform1f(at.strength, 0.3);
     const [xs, ys] = this.axes.map((axis) => (axis.periodic ? [-1, 0, 1] : [0]));
     for (const i of xs) {

@@ -20,7 +20,7 @@ class Viewer {
     this.playback = new Playback(store.times);
     this.camera = new Camera(this.head.box);
     this.canvas = element("disks");
-    this.renderer = new DiskRenderer(this.canvas, this.head.axes, this.head.box);
+    this.renderer = new DiskRenderer(this.canvas, this.head.axes, this.head.box, store.largest);
     this.plots = new Plots(this.head.series, (time) => this.jumpToTime(time));
     this.colour = this.head.colour === "group" && !this.head.grouped ? "speed" : this.head.colour;
     this.range = null; // once a block is unpacked

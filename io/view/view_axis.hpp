@@ -19,9 +19,11 @@ struct ViewAxis {
   // The number nearest to x. A centre outside the box is taken into it: across a periodic side to its image, else to
   // the edge. What is no number becomes 0.
   std::uint32_t encode(double x) const {
-    const double step = std::floor(x * (1.0 / quantum()) + 0.5);
-    if (step >= 0.0 && step <= static_cast<double>(mask())) return static_cast<std::uint32_t>(step);
-    return encode_outside(step);
+    const double step = x * (1.0 / quantum()) + 0.5;
+    if (step >= 0.0 && step < static_cast<double>(mask()) + 1.0) {
+      return static_cast<std::uint32_t>(static_cast<std::int64_t>(step));
+    }
+    return encode_outside(std::floor(step));
   }
   double decode(std::uint32_t number) const { return number * quantum(); }
 

@@ -69,6 +69,7 @@ struct Track {
 
 struct Changes {
   Places removed, added;
+  bool none() const { return removed.empty() && added.empty(); }
 };
 
 std::vector<Changes> changes_of(const std::vector<ViewFrame>& frames) {
@@ -81,14 +82,35 @@ std::vector<Changes> changes_of(const std::vector<ViewFrame>& frames) {
   return changes;
 }
 
+// The residuals of a frame whose two predecessors have the same disks.
+void find_plain_residuals(const std::uint32_t* now, const std::uint32_t* last, const std::uint32_t* before,
+                          std::size_t count, const ViewAxis& axis, unsigned order, std::uint32_t* residuals) {
+  const ViewAxis own = axis;
+  for (std::size_t i = 0; i < count; ++i) {
+    residuals[i] = folded((now[i] - Track{last[i], before[i]}.expected(order)) & own.mask(), own);
+  }
+}
+
 // The residuals of one axis over all frames, in the order of the block.
 void find_residuals(const std::vector<ViewFrame>& frames, const std::vector<Changes>& changes, std::size_t axis_number,
                     const ViewAxis& axis, unsigned order, std::vector<Track>& tracks,
                     std::vector<std::uint32_t>& residuals) {
   std::size_t next = 0;
+  bool stale = false;  // tracks are not kept while the disks stay the same
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    for (const std::uint32_t p : changes[k].added) tracks[p] = {};
     const std::vector<std::uint32_t>& at = frames[k].at[axis_number];
+    if (k >= 2 && changes[k].none() && changes[k - 1].none()) {
+      find_plain_residuals(at.data(), frames[k - 1].at[axis_number].data(), frames[k - 2].at[axis_number].data(),
+                           at.size(), axis, order, residuals.data() + next);
+      next += at.size();
+      stale = true;
+      continue;
+    }
+    for (std::size_t i = 0; stale && i < frames[k - 1].place.size(); ++i) {
+      tracks[frames[k - 1].place[i]] = {frames[k - 1].at[axis_number][i], frames[k - 2].at[axis_number][i]};
+    }
+    stale = false;
+    for (const std::uint32_t p : changes[k].added) tracks[p] = {};
     for (std::size_t i = 0; i < at.size(); ++i) {
       Track& track = tracks[frames[k].place[i]];
       residuals[next++] = folded((at[i] - track.expected(order)) & axis.mask(), axis);
@@ -98,14 +120,28 @@ void find_residuals(const std::vector<ViewFrame>& frames, const std::vector<Chan
   }
 }
 
+using Residuals = std::vector<std::uint32_t>;
+
+void put_residuals(std::string& bytes, const std::array<Residuals, 2>& residuals, const ViewAxes& axes) {
+  const std::size_t count = residuals[0].size();
+  std::size_t to = bytes.size();
+  bytes.resize(to + count * (bytes_of(axes[0]) + bytes_of(axes[1])));
+  for (unsigned byte = 0; byte < std::max(bytes_of(axes[0]), bytes_of(axes[1])); ++byte) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      if (byte >= bytes_of(axes[axis])) continue;
+      char* const plane = bytes.data() + to;
+      const std::uint32_t* const from = residuals[axis].data();
+      for (std::size_t i = 0; i < count; ++i) plane[i] = static_cast<char>(from[i] >> (8 * byte));
+      to += count;
+    }
+  }
+}
+
 // How many bits the residuals of two orders take, on a sample of the disks: the sum of their lengths.
 unsigned better_order(const std::vector<ViewFrame>& frames, const std::vector<Changes>& changes, const ViewAxis& axis) {
   std::array<std::uint64_t, 2> bits{};
   for (std::size_t k = 2; k < frames.size(); ++k) {
-    if (!changes[k].added.empty() || !changes[k].removed.empty() || !changes[k - 1].added.empty() ||
-        !changes[k - 1].removed.empty()) {
-      continue;
-    }
+    if (!changes[k].none() || !changes[k - 1].none()) continue;
     const auto& now = frames[k].at[0];
     const std::size_t stride = 1 + now.size() / 256;
     for (std::size_t i = 0; i < now.size(); i += stride) {
@@ -188,6 +224,53 @@ bool inflated(std::string_view packed, std::string& to) {
   return status == Z_STREAM_END;
 }
 
+// Fills in the places of all frames.
+std::vector<Changes> read_places(Reading& reading, std::uint32_t places, std::vector<ViewFrame>& frames) {
+  std::vector<Changes> changes;
+  Places present;
+  for (ViewFrame& frame : frames) {
+    Places removed = reading.runs(places);
+    changes.push_back({std::move(removed), reading.runs(places)});
+    const Places kept = difference(present, changes.back().removed);
+    const Places& added = changes.back().added;
+    present.clear();
+    std::merge(kept.begin(), kept.end(), added.begin(), added.end(), std::back_inserter(present));
+    frame.place = present;
+  }
+  return changes;
+}
+
+std::array<Residuals, 2> read_residuals(Reading& reading, const ViewAxes& axes, std::size_t count) {
+  std::array<Residuals, 2> residuals;
+  for (Residuals& column : residuals) column.assign(count, 0);
+  for (unsigned byte = 0; byte < std::max(bytes_of(axes[0]), bytes_of(axes[1])); ++byte) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      if (byte >= bytes_of(axes[axis])) continue;
+      const std::string_view plane = reading.take(count);
+      for (std::size_t i = 0; i < plane.size(); ++i) {
+        residuals[axis][i] |= std::uint32_t{static_cast<unsigned char>(plane[i])} << (8 * byte);
+      }
+    }
+  }
+  return residuals;
+}
+
+// Fills in one axis of all frames.
+void follow_residuals(const Residuals& residuals, const std::vector<Changes>& changes, std::size_t axis_number,
+                      const ViewAxis& axis, unsigned order, std::uint32_t places, std::vector<ViewFrame>& frames) {
+  std::vector<Track> tracks(places);
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    for (const std::uint32_t p : changes[k].added) tracks[p] = {};
+    for (const std::uint32_t p : frames[k].place) {
+      const std::uint32_t at = (tracks[p].expected(order) + unfolded(residuals[next++])) & axis.mask();
+      frames[k].at[axis_number].push_back(at);
+      tracks[p] = {at, tracks[p].last};
+    }
+    for (const std::uint32_t p : changes[k].added) tracks[p].before = tracks[p].last;
+  }
+}
+
 }  // namespace
 
 // Runs of one byte and Huffman codes: what lies in residuals is noise otherwise, in which a search for longer matches
@@ -225,21 +308,13 @@ ViewBlock pack_view_block(const std::vector<ViewFrame>& frames, std::size_t firs
     put_runs(bytes, removed);
     put_runs(bytes, added);
   }
-  const std::size_t head = bytes.size();
-  const std::size_t count = block.residuals;
-  bytes.resize(head + count * (bytes_of(axes[0]) + bytes_of(axes[1])));
   std::vector<Track> tracks(places);
-  std::vector<std::uint32_t> residuals(count);
+  std::array<Residuals, 2> residuals;
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    find_residuals(frames, changes, axis, axes[axis], order, tracks, residuals);
-    std::size_t to = head;
-    for (unsigned byte = 0; byte < bytes_of(axes[axis]); ++byte) {
-      if (axis == 1 && byte < bytes_of(axes[0])) to += count;
-      for (std::size_t i = 0; i < count; ++i) bytes[to + i] = static_cast<char>(residuals[i] >> (8 * byte));
-      to += count;
-      if (axis == 0 && byte < bytes_of(axes[1])) to += count;
-    }
+    residuals[axis].resize(block.residuals);
+    find_residuals(frames, changes, axis, axes[axis], order, tracks, residuals[axis]);
   }
+  put_residuals(bytes, residuals, axes);
   block.packed = deflated(bytes);
   block.check = crc_of(block.packed);
   return block;
@@ -257,43 +332,15 @@ std::vector<ViewFrame> unpack_view_block(const ViewBlock& block, const ViewAxes&
   const unsigned order = reading.word();
   const std::uint32_t places = reading.word();
   if (order < 1 || order > 2) damaged("there is no such order of differences");
-  std::vector<Changes> changes(block.frames);
   std::vector<ViewFrame> frames(block.frames);
-  Places present;
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    changes[k] = {reading.runs(places), reading.runs(places)};
-    Places kept = difference(present, changes[k].removed);
-    present.clear();
-    std::merge(kept.begin(), kept.end(), changes[k].added.begin(), changes[k].added.end(), std::back_inserter(present));
-    frames[k].place = present;
-  }
+  const std::vector<Changes> changes = read_places(reading, places, frames);
   if (!reading.good()) damaged("their list of disks breaks off");
-  std::array<std::vector<std::uint32_t>, 2> residuals;
-  for (auto& column : residuals) column.assign(block.residuals, 0);
-  for (unsigned byte = 0; byte < std::max(bytes_of(axes[0]), bytes_of(axes[1])); ++byte) {
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      if (byte >= bytes_of(axes[axis])) continue;
-      const std::string_view plane = reading.take(block.residuals);
-      for (std::size_t i = 0; i < plane.size(); ++i) {
-        residuals[axis][i] |= std::uint32_t{static_cast<unsigned char>(plane[i])} << (8 * byte);
-      }
-    }
-  }
   std::size_t count = 0;
   for (const ViewFrame& frame : frames) count += frame.place.size();
+  const auto residuals = read_residuals(reading, axes, block.residuals);
   if (!reading.good() || reading.left() != 0 || count != block.residuals) damaged("they are not as long as they say");
-  std::vector<Track> tracks(places);
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    std::size_t next = 0;
-    for (std::size_t k = 0; k < frames.size(); ++k) {
-      for (const std::uint32_t p : changes[k].added) tracks[p] = {};
-      for (const std::uint32_t p : frames[k].place) {
-        const std::uint32_t at = (tracks[p].expected(order) + unfolded(residuals[axis][next++])) & axes[axis].mask();
-        frames[k].at[axis].push_back(at);
-        tracks[p] = {at, tracks[p].last};
-      }
-      for (const std::uint32_t p : changes[k].added) tracks[p].before = tracks[p].last;
-    }
+    follow_residuals(residuals[axis], changes, axis, axes[axis], order, places, frames);
   }
   return frames;
 }

@@ -33,6 +33,7 @@ std::uint32_t ViewEncoder::place_of(const TrajectoryFrame& frame, std::size_t i)
 
 void ViewEncoder::add(const TrajectoryFrame& frame) {
   const Disks& disks = frame.disks;
+  const ViewAxes axes = axes_;  // nothing that is written below can be part of it
   ViewFrame view;
   std::vector<std::size_t> shown;
   if (every_ > 1) {
@@ -50,8 +51,8 @@ void ViewEncoder::add(const TrajectoryFrame& frame) {
     // Mostly the same disks follow each other in the same order as in the frame before.
     const bool as_before = last != nullptr && k < last->place.size() && disks_.id[last->place[k]] == disks.id[i];
     view.place[k] = as_before ? last->place[k] : place_of(frame, i);
-    view.at[0][k] = axes_[0].encode(disks.x[i]);
-    view.at[1][k] = axes_[1].encode(disks.y[i]);
+    view.at[0][k] = axes[0].encode(disks.x[i]);
+    view.at[1][k] = axes[1].encode(disks.y[i]);
     ascending = ascending && (k == 0 || view.place[k] > view.place[k - 1]);
   }
   if (!ascending) {

@@ -124,6 +124,33 @@ test("pixels are coloured where disks are, on both edges of a periodic side, and
   await page.close();
 });
 
+test("large disks and small ones are drawn alike, and disks that reach into view are not lost", async () => {
+  shop.run("small", restScene().replace("radius = 1.0", "radius = 0.4").replace("[0.2, 6]", "[0.6, 6]"));
+  const { page } = await shop.show(shop.view("small").file);
+  await page.selectOption("#colour", "fixed");
+  await drawn(page, 0);
+  const points = () => page.evaluate(() => window.carom.renderer.asPoints);
+  const blue = [0, 0x72, 0xb2];
+  assert.equal(await points(), true);
+  assert.deepEqual(await coloursAt(page, [[5, 3], [5.3, 3], [12, 9.3]]), [blue, blue, blue]);
+  // The centre of disk 1 is just out of view, to the left; then the same with larger disks.
+  for (const asPoints of [true, false]) {
+    await page.evaluate((small) => {
+      const { camera } = window.carom;
+      camera.scale = small ? camera.scale : 200;
+      camera.fitted = false;
+      camera.x = 12 + 0.15 + camera.width / 2 / camera.scale;
+      camera.y = 9;
+      window.carom.dirty = true;
+    }, asPoints);
+    await drawn(page, 0);
+    const [colour] = await coloursAt(page, [[12.22, 9]]);
+    assert.equal(await points(), asPoints);
+    assert.deepEqual(colour, blue);
+  }
+  await page.close();
+});
+
 test("a click picks the disk under it, also by its image across a periodic side", async () => {
   const { page } = await shop.show(shop.view("rest").file);
   for (const [x, y, id] of [[5, 3, "0"], [12.6, 9.5, "1"], [16, 4, "2"], [19.6, 6, "3"], [8, 6, ""]]) {
