@@ -38,7 +38,7 @@ class Viewer {
     fillChoices(element("colour"), colourChoices(head), this.colour);
     fillChoices(element("speed"), speeds.map((s) => [s, `× ${s}`]), 1);
     element("images-label").hidden = !head.axes.some((axis) => axis.periodic);
-    element("sides").textContent = sideSentence(head.box);
+    element("sides").textContent = sideSentence(head);
     element("dark").checked = matchMedia("(prefers-color-scheme: dark)").matches;
     this.setTheme();
     this.listen();
@@ -229,7 +229,7 @@ class Viewer {
       picked = { path: this.picked.path.points.slice(0, this.playback.frame + 1), radius: this.store.radius[this.picked.place] };
       if (i >= 0) Object.assign(picked, { x: frame.x[i] * axes[0].quantum, y: frame.y[i] * axes[1].quantum });
     }
-    drawOverlay(element("overlay"), this.density, this.camera, this.head, shortNumber(this.playback.time), picked, this.colours);
+    drawOverlay(element("overlay"), this.density, this.camera, this.head, this.playback.frame, shortNumber(this.playback.time), picked, this.colours);
   }
 
   showTime() {

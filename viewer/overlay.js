@@ -4,24 +4,42 @@ import { roundBelow, shortNumber } from "./format.js";
 const sideNames = ["left", "right", "bottom", "top"];
 
 // The ends of a side, in lengths.
-function sideEnds(side, { width, height }) {
+function sideEnds(side, { width, height }, inset = 0) {
   return [
-    [0, 0, 0, height],
-    [width, 0, width, height],
-    [0, 0, width, 0],
-    [0, height, width, height],
+    [inset, 0, inset, height],
+    [width - inset, 0, width - inset, height],
+    [0, inset, width, inset],
+    [0, height - inset, width, height - inset],
   ][side];
 }
 
-export function sideSentence({ sides, thermal }) {
-  const words = sides.map((kind, s) => `${sideNames[s]} ${thermal[s] ? "thermal wall" : kind}`);
-  return `Sides: ${words.join(", ")}. Walls are whole lines (thermal ones red), periodic sides dashed, sinks dotted, sources green.`;
+export function sideSentence({ box, insets, obstacles }) {
+  const word = (kind, s) => `${insets[s] ? "moving " : ""}${box.thermal[s] ? "thermal " : ""}${kind}`;
+  const words = box.sides.map((kind, s) => `${sideNames[s]} ${word(kind, s)}`);
+  return `Sides: ${words.join(", ")}. Walls are whole lines (thermal ones red), periodic sides dashed, sinks dotted, sources green, ${obstacles.length} obstacles grey.`;
 }
 
-function drawSides(context, camera, head, colours) {
+// The box with its obstacles; those that reach over a periodic side twice.
+function drawObstacles(context, camera, { box, axes, obstacles }, colours) {
+  context.fillStyle = colours.faint;
+  context.beginPath();
+  const turns = (axis, at, r, size) => (!axis.periodic ? [0] : at < r ? [0, size] : at > size - r ? [0, -size] : [0]);
+  for (const [x, y, r] of obstacles) {
+    for (const dx of turns(axes[0], x, r, box.width)) {
+      for (const dy of turns(axes[1], y, r, box.height)) {
+        const [px, py] = camera.toPage(x + dx, y + dy);
+        context.moveTo(px + r * camera.scale, py);
+        context.arc(px, py, r * camera.scale, 0, 2 * Math.PI);
+      }
+    }
+  }
+  context.fill();
+}
+
+function drawSides(context, camera, head, frame, colours) {
   const { box } = head;
   for (let s = 0; s < 4; ++s) {
-    const [x0, y0, x1, y1] = sideEnds(s, box);
+    const [x0, y0, x1, y1] = sideEnds(s, box, head.insets[s]?.[frame]);
     const kind = box.sides[s];
     context.strokeStyle = box.thermal[s] ? colours.heat : colours.ink;
     context.lineWidth = kind === "wall" ? 3 : 1.5;
@@ -80,13 +98,14 @@ function drawPath(context, camera, { box, axes }, path, colours) {
   context.stroke();
 }
 
-// picked: { x, y, radius, path } or null.
-export function drawOverlay(canvas, density, camera, head, time, picked, colours) {
+// frame: its number. picked: { x, y, radius, path } or null.
+export function drawOverlay(canvas, density, camera, head, frame, time, picked, colours) {
   const context = canvas.getContext("2d");
   context.setTransform(density, 0, 0, density, 0, 0);
   context.clearRect(0, 0, camera.width, camera.height);
   context.font = "13px system-ui, sans-serif";
-  drawSides(context, camera, head, colours);
+  drawObstacles(context, camera, head, colours);
+  drawSides(context, camera, head, frame, colours);
   drawScaleBar(context, camera, colours);
   context.textAlign = "right";
   context.fillStyle = colours.ink;

@@ -116,6 +116,18 @@ std::string json_of_box(const Domain& box) {
                      json_list(all_sides, [&](Side side) { return box.is_thermal(side) ? "true" : "false"; }));
 }
 
+// How far each side that moves stands from the edge of the box in each frame; null for those that do not.
+std::string json_of_insets(const Domain& box, const std::vector<double>& times) {
+  return json_list(box.motions, [&](const SideMotion& motion) {
+    const auto inset = [&](double t) { return json_number(motion.at(t).inset, "{:.6g}"); };
+    return motion.moves() ? json_list(times, inset) : std::string("null");
+  });
+}
+
+std::string json_of_obstacle(const Obstacle& o) {
+  return fmt::format("[{:.7g},{:.7g},{:.7g}]", o.x, o.y, o.radius);
+}
+
 std::string json_of_source(const ViewSource& source) {
   if (source.side) return fmt::format(R"({{"side":{}}})", static_cast<int>(*source.side));
   return fmt::format(R"({{"region":[{},{},{},{}]}})", source.low.x, source.low.y, source.high.x, source.high.y);
@@ -141,6 +153,8 @@ std::string head_of(const ViewStory& story, const ViewEncoder& encoder, std::str
   json += fmt::format(R"(,"frames":{},"disks":{},"radius":{},"mass":{},"grouped":{})", encoder.times().size(),
                       disks.id.size(), common_value(disks.radius), common_value(disks.mass),
                       several_groups(disks) ? "true" : "false");
+  json += fmt::format(R"(,"insets":{},"obstacles":{})", json_of_insets(story.box, encoder.times()),
+                      json_list(story.obstacles, json_of_obstacle));
   json += fmt::format(R"(,"axes":{})", json_list(encoder.axes(), [](const ViewAxis& axis) {
                         return fmt::format(R"({{"bits":{},"periodic":{},"quantum":{}}})", axis.bits, axis.periodic,
                                            axis.quantum());

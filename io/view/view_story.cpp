@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/base/input_message.hpp"
+#include "core/start/initial_state.hpp"
 
 namespace carom {
 
@@ -86,6 +87,7 @@ ViewStory view_story(const Scene& scene) {
   for (const Source& source : scene.sources) {
     story.sources.push_back({source.side, source.region_low, source.region_high});
   }
+  story.obstacles = obstacles_of(scene);
   story.colour = scene.output.look.colour;
   return story;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/disks/domain.hpp"
+#include "core/disks/obstacle.hpp"
 #include "core/scene/scene.hpp"
 
 namespace carom {
@@ -33,6 +34,7 @@ struct ViewStory {
   Domain box;
   std::vector<std::string> groups;  // by number; empty: no name
   std::vector<ViewSource> sources;
+  std::vector<Obstacle> obstacles;
   ColourBy colour = ColourBy::speed;
   ViewSeries series;
 };

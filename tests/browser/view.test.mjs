@@ -124,6 +124,26 @@ test("pixels are coloured where disks are, on both edges of a periodic side, and
   await page.close();
 });
 
+test("obstacles stand where they are, and a moving side where it is in each frame", async () => {
+  const moving = `${restScene().replace('left = "periodic"\nright = "periodic"\n', 'top = { motion = { velocity = [0.0, -0.8] } }\n').replace("[0.2, 6]", "[2, 6]")}
+[[disks]]
+fixed = true
+count = 1
+positions = [[9, 5]]
+radius = 0.5
+`;
+  shop.run("moving", moving);
+  const { page } = await shop.show(shop.view("moving").file, "#t=1.5");
+  await drawn(page, 3);
+  assert.match(await page.textContent("#sides"), /top moving wall.*1 obstacles/);
+  const [grey, wall, above] = await coloursAt(page, [[9.2, 5], [10, 10.8], [10, 11.5]]);
+  const hex = (name) => page.evaluate((n) => window.carom.colours[n].match(/\w\w/g).map((part) => parseInt(part, 16)), name);
+  assert.deepEqual(grey, await hex("faint"));
+  assert.deepEqual(wall, await hex("ink"));
+  assert.deepEqual(above, await hex("ground"));
+  await page.close();
+});
+
 test("large disks and small ones are drawn alike, and disks that reach into view are not lost", async () => {
   shop.run("small", restScene().replace("radius = 1.0", "radius = 0.4").replace("[0.2, 6]", "[0.6, 6]"));
   const { page } = await shop.show(shop.view("small").file);
