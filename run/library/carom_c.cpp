@@ -15,7 +15,7 @@
 #include "core/base/float_environment.hpp"
 #include "core/measure/invariants.hpp"
 #include "io/trajectory/scene_frame_reader.hpp"
-#include "library/scene_of_struct.hpp"
+#include "run/library/scene_of_struct.hpp"
 #include "run/simulation.hpp"
 
 // The text of an error is no part of the world, and a call that only looks may set it.

@@ -1,4 +1,4 @@
-#include "library/scene_of_struct.hpp"
+#include "run/library/scene_of_struct.hpp"
 
 #include <fmt/format.h>
 
