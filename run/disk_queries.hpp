@@ -1,4 +1,4 @@
-// Which disks are in a rectangle, which is nearest to a place, which one a ray meets first.
+// Which disks are in a rectangle, which is nearest to a place, which one a ray meets first. Fixed disks are not seen.
 #pragma once
 
 #include <cstddef>

@@ -10,6 +10,7 @@
 #include "core/base/float_environment.hpp"
 #include "core/base/input_message.hpp"
 #include "core/disks/state_hash.hpp"
+#include "core/physics/disk_pair.hpp"
 #include "core/scene/scene_ranges.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/step/source.hpp"
@@ -218,6 +219,10 @@ std::optional<DiskId> Simulation::add(Disk disk) {
   const double reach = disk.radius + largest_radius(present);
   visit_near()({disk.x, disk.y}, reach, reach,
                [&](std::size_t i) { met = met || meets(present, scene_.box, disk, i, i + 1); });
+  for (const Obstacle& fixed : state().obstacles) {
+    const double distance2 = nearest_distance2({disk.x - fixed.x, disk.y - fixed.y}, scene_.box);
+    met = met || touches(distance2, disk.radius + fixed.radius);
+  }
   if (met) return std::nullopt;
   disk.id = state().next_id;
   change({Edit::Kind::add, disk, 0});

@@ -186,6 +186,37 @@ TEST(Simulation, ManyChangesHaveTheReferencesBits) {
   }
 }
 
+TEST(Simulation, AddsNoDiskOnAFixedOne) {
+  const Scene scene = parse_scene(R"(
+    [box]
+    width = 20.0
+    height = 10.0
+    left = "periodic"
+    right = "periodic"
+    [[disks]]
+    count = 1
+    positions = [[0.5, 5.0]]
+    radius = 1.0
+    fixed = true
+    [[disks]]
+    count = 1
+    positions = [[10.0, 5.0]]
+    velocities = [[1.0, 0.0]]
+    radius = 1.0
+    mass = 1.0
+    [run]
+    method = "exact"
+    t_end = 10.0
+)",
+                                  "fixed.toml", "");
+  Simulation s(scene, choice());
+  EXPECT_FALSE(s.add({0.5, 6.5, 0.0, 0.0, 0.6, 1.0}));
+  EXPECT_FALSE(s.add({19.5, 5.0, 0.0, 0.0, 0.5, 1.0})) << "across the side";
+  EXPECT_TRUE(s.add({0.5, 7.0, 0.0, -1.0, 0.6, 1.0}));
+  s.run_until(5.0);
+  EXPECT_GT(s.state().counters.collisions + s.state().counters.wall_collisions, 0U);
+}
+
 TEST(Simulation, RefusesDisksThatCannotBe) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Simulation s(gas("exact"), choice());
