@@ -46,7 +46,8 @@ struct Words {
       times, at, colour, range, size, fps, max_size;
   std::array<std::string, scene_options.size()> scene_values;
   std::vector<std::string> sets, over;
-  bool json = false, quiet = false, force = false, strict = false, quick = false, tiny = false, open = false;
+  bool json = false, quiet = false, force = false, strict = false, quick = false, tiny = false, open = false,
+       view = false;
 };
 
 SceneChanges changes_of(const Words& words) {
@@ -102,6 +103,7 @@ void add_run_options(CLI::App* run, Words& words) {
   run->add_flag("--json", words.json, "print the summary as JSON, and nothing else, on standard output");
   run->add_flag("--quiet", words.quiet, "print nothing but errors");
   run->add_flag("--force", words.force, "replace the results of an earlier run in the folder");
+  run->add_flag("--view", words.view, "when done, make DIR/view.html, which plays the run, and open it in the browser");
   run->add_flag("--strict", words.strict, "end with status 3 at the first warning of a limit of the method");
 }
 
@@ -206,6 +208,7 @@ void read_carry_options(const Words& words, CarryOptions& o) {
   o.quiet = words.quiet;
   o.force = words.force;
   o.strict = words.strict;
+  o.view = words.view;
 }
 
 RunOptions run_options(const Words& words) {

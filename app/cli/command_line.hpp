@@ -31,6 +31,7 @@ struct CarryOptions {
   bool json = false;
   bool quiet = false;
   bool force = false;
+  bool view = false;    // a page that plays the run, opened when it is done
   bool strict = false;  // the first warning of the physics ends the run
 };
 

@@ -30,6 +30,7 @@ int command_resume(const ResumeOptions& options) {
   from.checkpoint = read_checkpoint_at(from.place);
   const RunRecord& record = from.checkpoint.record;
   const Scene scene = scene_of(record, options.changes);
+  check_view(options, scene);
   check_resumable(from, scene_of(record, {}), scene, options.checkpoint);
   settings.engine = choose_engine(options.engine.empty() ? record.engine : options.engine, options.threads);
   if (record.version != CAROM_VERSION && !options.quiet) {

@@ -46,6 +46,7 @@ int command_run(const RunOptions& options) {
   const auto watch = [&] { return std::make_unique<SetupWatch>(settings.start_time, options.max_walltime); };
   auto setup = watch();
   const Scene scene = load_scene_as_told(options.scene, options.changes);
+  check_view(options, scene);
   setup = nullptr;  // looking for a folder makes some
   settings.engine = choose_engine(options.engine, options.threads);
   if (!options.quiet) {

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <utility>
 
+#include "app/cli/commands.hpp"
 #include "app/cli/messages.hpp"
 #include "app/cli/progress.hpp"
 #include "app/run/growth_line.hpp"
+#include "core/base/input_message.hpp"
 
 namespace carom {
 
@@ -31,7 +34,23 @@ RunOutcome run_shown(const CarryOptions& options, const Scene& scene, RunSetting
   return from ? resume(scene, std::move(*from), std::move(settings)) : run(scene, std::move(settings));
 }
 
+// A page left from an earlier run is replaced: it is no result, and made again at any time.
+void view_results(const CarryOptions& options, const std::filesystem::path& folder) {
+  ViewOptions view;
+  view.source = folder.string();
+  view.open = true;
+  view.quiet = options.quiet || options.json;
+  view.force = true;
+  command_view(view);
+}
+
 }  // namespace
+
+void check_view(const CarryOptions& options, const Scene& scene) {
+  if (!options.view || scene.output.trajectory != TrajectoryFormat::none) return;
+  fail_input("--view", "the scene writes no trajectory",
+             "expected one, as with --set 'output.trajectory=\"h5md\"' --set output.every=0.1");
+}
 
 RunSettings settings_of(const CarryOptions& options) {
   RunSettings settings;
@@ -56,6 +75,7 @@ int run_and_report(const CarryOptions& options, const Scene& scene, RunSettings 
     print_out(table_text(summary, outcome.folder));
   }
   if (stopped) return 4;
+  if (options.view) view_results(options, outcome.folder);
   if (outcome.lost_pictures.empty()) return 0;
   print_note(fmt::format("error: {}", outcome.lost_pictures));
   return 1;

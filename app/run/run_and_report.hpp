@@ -10,6 +10,9 @@
 
 namespace carom {
 
+// Throws InputError where --view asks for what the scene does not write.
+void check_view(const CarryOptions& options, const Scene& scene);
+
 // What the options say of a run, but for its engine and its folder.
 RunSettings settings_of(const CarryOptions& options);
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "app/cli/commands.hpp"
-#include "app/tools/recording.hpp"
+#include "app/view/recording.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/scene/picture_look.hpp"

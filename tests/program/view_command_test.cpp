@@ -135,5 +135,24 @@ TEST_F(View, OpensThePageWithTheDesktopsOpener) {
   EXPECT_THAT(none.err, HasSubstr("warning: --open: there is no xdg-open"));
 }
 
+TEST_F(View, ARunCanEndWithIt) {
+  fs::create_directories(at("bin"));
+  write("bin/xdg-open", "#!/bin/sh\necho \"$1\" >opened\n");
+  fs::permissions(at("bin/xdg-open"), fs::perms::owner_all);
+  const Outcome o = shell("PATH=bin:$PATH $C run gas.toml -o out --t-end 0.2 --view --json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.out, StartsWith("{")) << "nothing but the summary";
+  EXPECT_THAT(o.out, testing::EndsWith("}\n"));
+  EXPECT_THAT(text_of(at("out/view.html")), StartsWith("<!doctype html>"));
+  EXPECT_EQ(text_of(at("opened")), fs::canonical(at("out/view.html")).string() + "\n");
+  std::string bare = gas;
+  bare.erase(bare.find("trajectory = "), std::string("trajectory = \"xyz\"\n").size());
+  write("bare.toml", bare);
+  const Outcome none = carom("run bare.toml -o none --view");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.err, HasSubstr("--view: the scene writes no trajectory; expected one"));
+  EXPECT_FALSE(fs::exists(at("none")));
+}
+
 }  // namespace
 }  // namespace carom

@@ -6,7 +6,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/messages.hpp"
-#include "app/tools/recording.hpp"
+#include "app/view/recording.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"

@@ -1,4 +1,4 @@
-#include "app/tools/recording.hpp"
+#include "app/view/recording.hpp"
 
 #include <fmt/format.h>
 
