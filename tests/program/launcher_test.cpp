@@ -18,7 +18,7 @@ using ::testing::Not;
 class Launcher : public test::ProgramTest {
  protected:
   Launcher() {
-    for (const char* const folder : {"core", "parallel", "io", "run", "app", "cmake"}) {
+    for (const char* const folder : {"core", "parallel", "io", "run", "app", "viewer", "cmake"}) {
       fs::create_directories(at("root") / folder);
     }
     write("root/CMakeLists.txt", "");
@@ -175,7 +175,7 @@ TEST_F(Launcher, BuildsAgainAfterAChangeInAnyFolderOfTheProgram) {
   };
   EXPECT_TRUE(builds());
   EXPECT_FALSE(builds());
-  for (const std::string folder : {"core", "parallel", "io", "run", "app", "cmake"}) {
+  for (const std::string folder : {"core", "parallel", "io", "run", "app", "viewer", "cmake"}) {
     write("root/" + folder + "/new.hpp", "");
     EXPECT_TRUE(builds()) << folder;
     EXPECT_FALSE(builds()) << folder;
