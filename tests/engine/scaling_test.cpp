@@ -37,7 +37,18 @@ void expect_equal(const State& a, const State& b) {
   EXPECT_EQ(a.counters.removed, b.counters.removed);
   EXPECT_EQ(a.counters.emitted, b.counters.emitted);
   EXPECT_EQ(a.counters.virial, b.counters.virial);
-  for (int side = 0; side < 4; ++side) EXPECT_EQ(a.counters.wall_impulse[side], b.counters.wall_impulse[side]);
+  EXPECT_EQ(a.counters.emitted_energy, b.counters.emitted_energy);
+  for (int side = 0; side < 4; ++side) {
+    EXPECT_EQ(a.counters.wall_impulse[side], b.counters.wall_impulse[side]);
+    EXPECT_EQ(a.counters.side_energy[side], b.counters.side_energy[side]);
+  }
+  EXPECT_EQ(a.thermal_hits, b.thermal_hits);
+  ASSERT_EQ(a.obstacles.size(), b.obstacles.size());
+  for (std::size_t k = 0; k < a.obstacles.size(); ++k) {
+    EXPECT_EQ(a.obstacles[k].x, b.obstacles[k].x);
+    EXPECT_EQ(a.obstacles[k].y, b.obstacles[k].y);
+    EXPECT_EQ(a.obstacles[k].radius, b.obstacles[k].radius);
+  }
   ASSERT_EQ(a.loads.size(), b.loads.size());
   for (std::size_t k = 0; k < a.loads.size(); ++k) EXPECT_EQ(a.loads[k].force, b.loads[k].force);
 }

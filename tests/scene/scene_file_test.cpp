@@ -311,11 +311,14 @@ TEST(SceneFile, OurOwnScenesAreSound) {
     if (entry.path().extension() != ".toml") continue;
     const Scene scene = load_scene(entry.path().string());
     Count count = 0;
-    for (const DiskGroup& group : scene.groups) count += group.count;
+    Count fixed = 0;
+    for (const DiskGroup& group : scene.groups) (group.fixed ? fixed : count) += group.count;
     EXPECT_GT(count + scene.sources.size(), 0U) << entry.path();
     // A million disks take seconds to place, and much longer under a sanitizer.
     if (count <= 100'000) {
-      EXPECT_EQ(initial_state(scene).disks.size(), count) << entry.path();
+      const State start = initial_state(scene);
+      EXPECT_EQ(start.disks.size(), count) << entry.path();
+      EXPECT_EQ(start.obstacles.size(), fixed) << entry.path();
     }
     ++scenes;
   }

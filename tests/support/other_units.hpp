@@ -29,6 +29,7 @@ inline void scale(SizeLaw& law, double unit, double density_unit) {
   law.low *= unit;
   law.high *= unit;
   law.density *= density_unit;
+  if (law.kind == SizeLaw::Kind::normal) law.deviation *= unit;  // a lognormal law has that of the logarithm
 }
 
 inline void scale(VelocityLaw& law, const Units& u) {
@@ -37,15 +38,36 @@ inline void scale(VelocityLaw& law, const Units& u) {
   for (Vec2& v : law.list) scale(v, u.speed());
 }
 
+inline void scale(PositionLaw& law, double unit) {
+  for (Vec2& p : law.list) scale(p, unit);
+  if (!law.region) return;
+  for (Vec2* corner : {&law.region->low, &law.region->high, &law.region->centre}) scale(*corner, unit);
+  law.region->radius *= unit;
+}
+
+inline void scale_sides(Domain& box, const Units& u) {
+  for (double& temperature : box.temperatures) temperature *= u.energy();
+  for (SideMotion& motion : box.motions) {
+    for (double* length : {&motion.inset, &motion.amplitude, &motion.furthest}) *length *= u.length;
+    motion.speed *= u.speed();
+    motion.period *= u.time;
+  }
+  for (SidePlace& place : box.places) {
+    place = {place.inset * u.length, place.speed * u.speed(), place.acceleration * u.speed() / u.time};
+  }
+}
+
 inline Scene scaled(Scene s, const Units& u) {
   const double density = u.mass / (u.length * u.length);
   s.box.width *= u.length;
   s.box.height *= u.length;
+  scale_sides(s.box, u);
   s.physics.gravity *= u.length / (u.time * u.time);
   s.physics.diffusion *= u.length * u.length / u.time;
   for (DiskGroup& g : s.groups) {
-    for (Vec2& p : g.positions.list) scale(p, u.length);
+    scale(g.positions, u.length);
     scale(g.velocities, u);
+    scale(g.drift, u.speed());
     scale(g.radius, u.length, density);
     scale(g.mass, u.mass, density);
   }
@@ -74,7 +96,14 @@ inline State scaled(State state, const Units& u) {
   d.common_mass *= u.mass;
   state.time *= u.time;
   state.counters.virial *= u.mass * u.speed() * u.length;
+  state.counters.emitted_energy *= u.energy();
   for (double& impulse : state.counters.wall_impulse) impulse *= u.mass * u.speed();
+  for (double& energy : state.counters.side_energy) energy *= u.energy();
+  for (Obstacle& obstacle : state.obstacles) {
+    obstacle.x *= u.length;
+    obstacle.y *= u.length;
+    obstacle.radius *= u.length;
+  }
   for (ContactLoad& load : state.loads) load.force *= u.mass * u.speed() / u.time;
   return state;
 }
