@@ -1,0 +1,165 @@
+// What contacts do to disks: the part of EventProcessor that begins segments. Included by event_processor.cpp alone, so
+// that it is inlined there.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/step/window_length.hpp"
+#include "parallel/exact/event_processor.hpp"
+
+namespace carom {
+
+template <Scope scope>
+ExactDisk EventProcessor<scope>::disk(std::uint32_t i) const {
+  ExactDisk now{record_[i].path};
+  if (!window_.last_contact.empty()) now.last_contact = window_.last_contact[i];
+  if (!window_.thermal_hits.empty()) now.thermal_hits = window_.thermal_hits[i];
+  return now;
+}
+
+template <Scope scope>
+void EventProcessor<scope>::meet_side(std::uint32_t i, double time) {
+  const Side side = record_[i].partner.side();
+  const DiskId partner = record_[i].partner.wall_id();
+  ExactDisk now = disk(i);
+  const Impact impact = meet_side_at(window_.rules, time, side, window_.disks->mass_of(i), record_[i].id, now);
+  worker_.tally.add(partner, impact);
+  const bool gone = window_.rules.box.side(side) == SideKind::sink;
+  const EventMark event{time, record_[i].id, partner};
+  begin_segment(i, now, gone, event);
+  if (gone) {
+    schedule(i, never, Partner::none());
+  } else {
+    predict_after_event(i, time);
+  }
+  if (!window_.burst.empty() && loses_energy(window_.rules, partner, impact)) count_burst(i, event);
+}
+
+template <Scope scope>
+void EventProcessor<scope>::meet_obstacle(std::uint32_t i, double time) {
+  const DiskId partner = record_[i].partner.wall_id();
+  ExactDisk now = disk(i);
+  const Impact impact =
+      meet_obstacle_at(window_.rules, time, record_[i].partner.place(), window_.disks->mass_of(i), now);
+  worker_.tally.add(partner, impact);
+  const EventMark event{time, record_[i].id, partner};
+  begin_segment(i, now, false, event);
+  predict_after_event(i, time);
+  if (!window_.burst.empty() && loses_energy(window_.rules, partner, impact)) count_burst(i, event);
+}
+
+template <Scope scope>
+void EventProcessor<scope>::collide_pair(std::uint32_t i, std::uint32_t j, double time) {
+  if (is_plain_) {
+    collide_plain_pair(i, j, time);
+  } else {
+    collide_any_pair(i, j, time);
+  }
+}
+
+// In a plain scene: the same as below without what such a scene does not have.
+template <Scope scope>
+void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j, double time) {
+  if (record_[i].id > record_[j].id) std::swap(i, j);
+  PathSegment p = record_[i].path;
+  PathSegment q = record_[j].path;
+  // The speed bound excluded this collision, so it does not hold.
+  if (!(std::max(p.start, q.start) <= time) || is_over(i) || is_over(j)) [[unlikely]] {
+    worker_.too_fast = worker_.ended = true;
+    return;
+  }
+  const Impact impact =
+      collide_paths<false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, window_.rules.restitution, p, q);
+  if (impact.happened) worker_.tally.add_collision(impact.virial);
+  begin_plain_segment(i, j, p);
+  begin_plain_segment(j, i, q);
+  predict_after_event(i, time);
+  predict_after_event(j, time);
+}
+
+template <Scope scope>
+void EventProcessor<scope>::begin_plain_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path) {
+  DiskRecord& f = record_[i];
+  if (window_.keeps_paths) log_segment(i, false, path);
+  f.path = path;
+  if (++f.version > most_paths_of_disk || ++worker_.segments > window_.most_paths) [[unlikely]] {
+    worker_.crowded = EventMark{path.start, std::min(f.id, record_[partner].id), std::max(f.id, record_[partner].id)};
+    worker_.ended = true;
+  }
+  const double v2 = path.vx * path.vx + path.vy * path.vy;
+  predictor_.note_speed(v2);
+  if (has_regions && v2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
+  if (scope == Scope::region && record_[i].progress.has(DiskProgress::has_unresolved_neighbour))
+    safe_times_.push(i, path.start);
+}
+
+template <Scope scope>
+void EventProcessor<scope>::log_segment(std::uint32_t i, bool gone, const PathSegment& path) {
+  if (record_[i].version == 0) worker_.log.push_back({i, false, record_[i].path});
+  worker_.log.push_back({i, gone, path});
+}
+
+template <Scope scope>
+void EventProcessor<scope>::collide_any_pair(std::uint32_t i, std::uint32_t j, double time) {
+  if (record_[i].id > record_[j].id) std::swap(i, j);
+  const Disks& d = *window_.disks;
+  const DiskId id1 = record_[i].id;
+  const DiskId id2 = record_[j].id;
+  ExactDisk a = disk(i);
+  ExactDisk b = disk(j);
+  // The speed bound excluded this collision, so it does not hold.
+  if (!(std::max(a.path.start, b.path.start) <= time) || is_over(i) || is_over(j)) {
+    worker_.too_fast = worker_.ended = true;
+    return;
+  }
+  const Impact impact = collide_at(window_.rules, time, d.mass_of(i), d.mass_of(j), a, b);
+  worker_.tally.add(id2, impact);
+  const EventMark event{time, id1, id2};
+  begin_segment(i, a, false, event);
+  begin_segment(j, b, false, event);
+  predict_after_event(i, time);
+  predict_after_event(j, time);
+  if (window_.burst.empty() || !loses_energy(window_.rules, id2, impact)) return;
+  count_burst(i, event);
+  count_burst(j, event);
+}
+
+template <Scope scope>
+void EventProcessor<scope>::begin_segment(std::uint32_t i, const ExactDisk& now, bool gone, const EventMark& event) {
+  DiskRecord& f = record_[i];
+  if (window_.keeps_paths) log_segment(i, gone, now.path);
+  f.path = now.path;
+  if (++f.version > most_paths_of_disk || ++worker_.segments > window_.most_paths) [[unlikely]] {
+    worker_.crowded = event;
+    worker_.ended = true;
+  }
+  const double v2 = f.path.vx * f.path.vx + f.path.vy * f.path.vy;
+  predictor_.note_speed(v2);
+  if (v2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
+  if (!window_.last_contact.empty()) window_.last_contact[i] = now.last_contact;
+  if (!window_.thermal_hits.empty()) window_.thermal_hits[i] = now.thermal_hits;
+  if (gone) {
+    // No path meets one that is not a number.
+    f.path.x = f.path.y = std::numeric_limits<double>::quiet_NaN();
+    worker_.any_gone = true;
+  } else if (scope == Scope::region && record_[i].progress.has(DiskProgress::has_unresolved_neighbour)) {
+    safe_times_.push(i, now.path.start);
+  }
+}
+
+// A disk of a region whose impacts pile up waits for the border pass; the window is then run again without regions.
+template <Scope scope>
+void EventProcessor<scope>::count_burst(std::uint32_t i, const EventMark& event) {
+  if (!window_.burst[i].add(event.time, window_.length)) return;
+  if (!worker_.collapse) worker_.collapse = event;
+  if constexpr (scope == Scope::region) {
+    if (record_[i].progress.is_active()) safe_times_.block(i, event.time);
+  } else {
+    worker_.ended = true;
+  }
+}
+
+}  // namespace carom
