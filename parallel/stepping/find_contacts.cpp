@@ -1,7 +1,6 @@
 #include "parallel/stepping/find_contacts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/physics/disk_pair.hpp"
@@ -42,21 +41,6 @@ void test_run(const SearchInput& in, std::size_t i, std::uint32_t first, std::ui
   }
 }
 
-// Cells beside a column across the sides: the column itself and its neighbours, round the corner where periodic.
-struct Columns {
-  std::array<std::uint32_t, 3> at{};
-  std::size_t count = 0;
-};
-
-Columns columns_around(std::uint32_t c, const GridLevel& level, bool periodic) {
-  Columns around;
-  around.at[around.count++] = c;
-  if (level.columns == 1) return around;
-  if (c > 0 || periodic) around.at[around.count++] = c > 0 ? c - 1 : level.columns - 1;
-  if (c + 1 < level.columns || periodic) around.at[around.count++] = c + 1 < level.columns ? c + 1 : 0;
-  return around;
-}
-
 // How far disk i has left its cell along either side; length, negative inside.
 double excursion(const SearchInput& in, const GridLevel& level, std::size_t i) {
   const std::uint32_t row = (in.key[i] - level.first_key) / level.stride;
@@ -67,26 +51,27 @@ double excursion(const SearchInput& in, const GridLevel& level, std::size_t i) {
   return std::max(std::abs(off.x) - 0.5 * level.cell_width, std::abs(off.y) - 0.5 * level.cell_height);
 }
 
-// Near periodic sides: cell by cell with nearest images. The cells to the right and in the row above, round the corner.
+// Near periodic sides, with nearest images: the cells to the right and in the row above, round the corner. Cells side
+// by side are one run (a row ends with an empty cell): where a run ends is hard to predict, however few disks are in
+// it.
 void search_border(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin, std::size_t end,
                    std::vector<Pair>& pairs) {
-  const bool px = in.box.periodic_x();
+  const bool across = in.box.periodic_x() && level.columns > 1;
+  const std::uint32_t last = level.columns - 1;
+  const auto test_cells = [&](std::size_t i, std::uint32_t from, std::uint32_t to) {
+    test_run(in, i, in.start[from], in.start[to + 1], pairs);
+  };
   const std::uint32_t row_key = level.first_key + row * level.stride;
   const bool has_above = level.rows > 1 && (row + 1 < level.rows || in.box.periodic_y());
   const std::uint32_t above_key = level.first_key + (row + 1 < level.rows ? row + 1 : 0) * level.stride;
   for (std::size_t i = begin; i < end; ++i) {
     const std::uint32_t column = in.key[i] - row_key;
-    test_run(in, i, static_cast<std::uint32_t>(i + 1), in.start[in.key[i] + 1], pairs);
-    if (level.columns > 1 && (column + 1 < level.columns || px)) {
-      const std::uint32_t right = row_key + (column + 1 < level.columns ? column + 1 : 0);
-      test_run(in, i, in.start[right], in.start[right + 1], pairs);
-    }
+    test_run(in, i, static_cast<std::uint32_t>(i + 1), in.start[in.key[i] + 2], pairs);
+    if (across && column == last) test_cells(i, row_key, row_key);
     if (!has_above) continue;
-    const Columns around = columns_around(column, level, px);
-    for (std::size_t k = 0; k < around.count; ++k) {
-      const std::uint32_t cell = above_key + around.at[k];
-      test_run(in, i, in.start[cell], in.start[cell + 1], pairs);
-    }
+    test_cells(i, above_key + column - (column > 0 ? 1 : 0), above_key + column + 1);
+    if (across && column == 0) test_cells(i, above_key + last, above_key + last);
+    if (across && column == last) test_cells(i, above_key, above_key);
   }
 }
 
