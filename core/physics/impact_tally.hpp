@@ -24,16 +24,20 @@ struct ImpactTally {
 
   // partner: the second disk's id, or a wall_partner.
   void add(DiskId partner, const Impact& impact) {
+    if (!is_wall(partner)) return add_pair(impact);
     if (!impact.happened) return;
     inaccurate += impact.inaccurate ? 1 : 0;
-    if (is_wall(partner)) {
-      ++wall_collisions;
-      if (is_obstacle(partner)) return;
-      wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.virial);
-      if (impact.energy != 0.0) add_energy(wall_side(partner), impact.energy);
-    } else {
-      add_collision(impact.virial);
-    }
+    ++wall_collisions;
+    if (is_obstacle(partner)) return;
+    wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.virial);
+    if (impact.energy != 0.0) add_energy(wall_side(partner), impact.energy);
+  }
+
+  // Of two disks.
+  void add_pair(const Impact& impact) {
+    if (!impact.happened) return;
+    inaccurate += impact.inaccurate ? 1 : 0;
+    add_collision(impact.virial);
   }
 
   void add_energy(Side side, double given) {

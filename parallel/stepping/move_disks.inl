@@ -126,7 +126,7 @@ void finish_one(const MoveInput& in, const LevelView& v, std::size_t i, std::vec
 
 // Few disks cross a periodic side or stray. Not inlined, so that the loop over all keeps its registers.
 template <bool periodic_x, bool periodic_y>
-[[gnu::noinline]] void finish_four(MoveInput in, const GridLevel& level, std::size_t i,
+[[gnu::noinline]] void finish_four(const MoveInput& in, const GridLevel& level, std::size_t i,
                                    std::vector<std::uint32_t>& strays) {
   const LevelView v = view_of(level);
   for (std::size_t k = i; k < i + lanes; ++k) finish_one<periodic_x, periodic_y>(in, v, k, strays);
@@ -195,7 +195,7 @@ double move_range(const MoveInput& input, const GridLevel& level, std::size_t be
     const FourWords position = __builtin_shufflevector(words, words, 0, 2, 4, 6);
     __builtin_memcpy(in.position + i, &position, sizeof position);
     if (any(special)) [[unlikely]]
-      finish_four<periodic_x, periodic_y>(in, level, i, strays);
+      finish_four<periodic_x, periodic_y>(input, level, i, strays);
   }
   return std::max(largest_of(speed2), move_rest<motion, periodic_x, periodic_y>(in, level, i, end, strays));
 }

@@ -86,7 +86,7 @@ template <class View>
       lists.crowded_blocks[b].push_back(pair_event(d, rules, i, j));
       continue;
     }
-    lists.tallies[b].add(d.id[j], resolve_pair(d, rules, i, j));
+    lists.tallies[b].add_pair(resolve_pair(d, rules, i, j));
     push_pair(d, rules.box, i, j, 0.0);
     see_overlap_left(d, rules.box, {0.0, d.id[i], d.id[j], i, j}, seen);
     const double v2 = std::max(finish_disk(d, rules.box, walls, i, seen), finish_disk(d, rules.box, walls, j, seen));
