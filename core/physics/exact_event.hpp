@@ -40,8 +40,8 @@ inline bool made_elastic(const ExactRules& rules, double s, double last_contact)
 // Two disks (smaller id first) collide at time s with restitution e; their new segments p and q start there. share and
 // reduced_mass: of their masses. gravity: is g not 0?
 template <bool gravity>
-inline Impact collide_paths(const Domain& box, double g, double s, Shares share, double reduced_mass, double e,
-                            PathSegment& p, PathSegment& q) {
+[[gnu::always_inline]] inline Impact collide_paths(const Domain& box, double g, double s, Shares share,
+                                                   double reduced_mass, double e, PathSegment& p, PathSegment& q) {
   drift<gravity>(p.x, p.y, p.vx, p.vy, s - p.start, g);
   drift<gravity>(q.x, q.y, q.vx, q.vy, s - q.start, g);
   p.start = q.start = s;
