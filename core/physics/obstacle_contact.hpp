@@ -26,13 +26,21 @@ inline ObstacleGap gap_to(const Obstacle& o, double x, double y, double r, const
   return {nx, ny, (r + o.radius) - distance};
 }
 
-// Calls found(k, gap) for each obstacle k that a disk of radius r at (x, y) overlaps or touches.
+// Of the images of an obstacle, is the one displaced by shift the nearest to (x, y)? Images lie whole periods apart.
+inline bool is_nearest_image(const Obstacle& o, double x, double y, Vec2 shift, const Domain& box) {
+  const Vec2 apart = nearest_image({x - o.x, y - o.y}, box);
+  return std::abs((x - o.x - shift.x) - apart.x) < 0.5 * box.width &&
+         std::abs((y - o.y - shift.y) - apart.y) < 0.5 * box.height;
+}
+
+// Calls found(k, gap) once for each obstacle k that a disk of radius r at (x, y) overlaps or touches.
 // Precondition: box.obstacles is not null.
 template <class Found>
 void for_each_obstacle_touched(const Domain& box, double x, double y, double r, Found&& found) {
-  box.obstacles->visit({x - r, y - r}, {x + r, y + r}, [&](std::uint32_t k, Vec2) {
-    const ObstacleGap gap = gap_to((*box.obstacles)[k], x, y, r, box);
-    if (gap.beyond >= 0.0) found(k, gap);
+  box.obstacles->visit({x - r, y - r}, {x + r, y + r}, [&](std::uint32_t k, Vec2 shift) {
+    const Obstacle& o = (*box.obstacles)[k];
+    const ObstacleGap gap = gap_to(o, x, y, r, box);
+    if (gap.beyond >= 0.0 && is_nearest_image(o, x, y, shift, box)) found(k, gap);
   });
 }
 

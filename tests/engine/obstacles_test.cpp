@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/disks/obstacle_cells.hpp"
 #include "core/measure/invariants.hpp"
+#include "core/physics/obstacle_contact.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/exact_support.hpp"
 #include "tests/support/feature_scenes.hpp"
@@ -155,6 +157,28 @@ TEST(FixedDisk, BearsAPile) {
 }
 
 // What comes from a source finds room beside obstacles only.
+// In few large cells a disk at a periodic side may see an obstacle twice, in the box and beyond the side.
+TEST(FixedDisk, IsTouchedOnceAtPeriodicSides) {
+  Domain box;
+  box.width = 15.0;
+  box.height = 27.0;
+  box.sides = {SideKind::periodic, SideKind::periodic, SideKind::periodic, SideKind::periodic};
+  const std::vector<Obstacle> obstacles{{1.3, 18.6, 0.2, 1.0, 0}, {14.8, 26.9, 0.3, 1.0, 1}};
+  const auto cells = place_obstacles(obstacles, box);
+  int touched = 0;
+  for (double x = 0.05; x < box.width; x += 0.1) {
+    for (double y = 0.05; y < box.height; y += 0.1) {
+      std::vector<int> found(obstacles.size(), 0);
+      for_each_obstacle_touched(box, x, y, 0.9, [&](std::uint32_t k, const ObstacleGap&) { ++found[k]; });
+      for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        ASSERT_EQ(found[k], gap_to(obstacles[k], x, y, 0.9, box).beyond >= 0.0 ? 1 : 0) << k << ": " << x << ", " << y;
+        touched += found[k];
+      }
+    }
+  }
+  EXPECT_GT(touched, 0);
+}
+
 TEST(FixedDisk, SourcesKeepClearOfIt) {
   const std::string source = "[[sources]]\nregion = [8.0, 8.0, 12.0, 12.0]\nrate = 50.0\nradius = 0.1\nmass = 1.0\n";
   for (const char* method : {"exact", "pairwise", "rollback"}) {
