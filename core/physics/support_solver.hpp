@@ -40,18 +40,17 @@ struct Support {
   std::uint32_t i1, i2;     // where the disks are stored; twice the same for a wall
   double nx, ny;            // from first to second, or into the wall
   double inverse1;          // 1 / mass of the first
-  double inverse2;          // 1 / mass of the second, 0 for a wall
+  double second;            // 1 / mass of the second; of a wall that moves, its speed towards the disk; else 0
   double effective;         // mass that the contact feels
   double contact_distance;  // sum of radii (the radius, at a wall); length
   double impulse;           // accumulated, >= 0; mass length / time
   double counted = 0.0;     // of it, in an earlier round of the step
   double before = 0.0;      // impulse when the cycle began
   double direction = 0.0;   // of the conjugate gradient; mass length / time
-  double side_speed = 0.0;  // of a wall that moves, towards the disk; length / time
 };
 
 inline bool is_wall_support(const Support& s) {
-  return s.inverse2 == 0.0;
+  return s.i1 == s.i2;
 }
 
 // force: what the contact bore in the step, or the round, before; mass length / time^2.
@@ -74,14 +73,14 @@ Support make_support(const View& d, const StepRules& rules, const ContactEvent& 
     s.ny = side == Side::bottom ? -1.0 : side == Side::top ? 1.0 : 0.0;
     s.i2 = e.i1;
     s.effective = d.mass(e.i1);
-    s.side_speed = rules.box.place(side).speed;
+    s.second = rules.box.place(side).speed;
     return s;
   }
   const Relative r = relative(d, e.i1, e.i2, rules.box);
   const double distance = std::sqrt(r.distance2());
   s.nx = distance > 0.0 ? r.dx / distance : 1.0;
   s.ny = distance > 0.0 ? r.dy / distance : 0.0;
-  s.inverse2 = 1.0 / d.mass(e.i2);
+  s.second = 1.0 / d.mass(e.i2);
   s.contact_distance += d.radius(e.i2);
   s.effective = reduced_mass(d.mass(e.i1), d.mass(e.i2));
   return s;
@@ -95,8 +94,8 @@ void apply_impulse(const View& d, const Support& s, double impulse) {
   d.vx[s.i1] -= jx * s.inverse1;
   d.vy[s.i1] -= jy * s.inverse1;
   if (!is_wall_support(s)) {
-    d.vx[s.i2] += jx * s.inverse2;
-    d.vy[s.i2] += jy * s.inverse2;
+    d.vx[s.i2] += jx * s.second;
+    d.vy[s.i2] += jy * s.second;
   }
 }
 
@@ -109,8 +108,8 @@ void shift_by_load(const View& d, const Support& s, double dt) {
   d.x[s.i1] -= jx * s.inverse1;
   d.y[s.i1] -= jy * s.inverse1;
   if (!is_wall_support(s)) {
-    d.x[s.i2] += jx * s.inverse2;
-    d.y[s.i2] += jy * s.inverse2;
+    d.x[s.i2] += jx * s.second;
+    d.y[s.i2] += jy * s.second;
   }
 }
 
@@ -125,7 +124,7 @@ inline double borne(const Support& s) {
 template <class View>
 double relax(const View& d, Support& s) {
   double u = -(d.vx[s.i1] * s.nx + d.vy[s.i1] * s.ny);
-  u += is_wall_support(s) ? -s.side_speed : d.vx[s.i2] * s.nx + d.vy[s.i2] * s.ny;
+  u += is_wall_support(s) ? -s.second : d.vx[s.i2] * s.nx + d.vy[s.i2] * s.ny;
   const double total = std::max(0.0, s.impulse - s.effective * u);
   const double change = total - s.impulse;
   s.impulse = total;
