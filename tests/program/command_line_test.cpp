@@ -20,7 +20,8 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"", "no command given; expected one of run, check, resume, compare, render, view, sweep, chart, docs"},
       {"rnu small.toml",
-       "there is no command \"rnu\"; expected one of run, check, resume, compare, render, view, sweep, chart, docs (nearest: "
+       "there is no command \"rnu\"; expected one of run, check, resume, compare, render, view, sweep, chart, docs "
+       "(nearest: "
        "run)"},
       {"--jsn", "no option \"--jsn\" before the command"},
       {"run", "run: no scene file given"},
