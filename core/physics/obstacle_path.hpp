@@ -19,11 +19,11 @@ namespace carom {
 template <class Value, class Slope>
 double bracketed_root(Value&& value, Slope&& slope, double a, double b) {
   constexpr int most_steps = 200;
-  const bool falls = value(a) > 0.0;
+  const bool starts_above = value(a) > 0.0;
   double t = 0.5 * (a + b);
   for (int step = 0; step < most_steps; ++step) {
     const double here = value(t);
-    ((here > 0.0) == falls ? a : b) = t;
+    ((here > 0.0) == starts_above ? a : b) = t;
     double next = t - here / slope(t);
     if (next == t) break;
     if (!(next > a && next < b)) next = 0.5 * (a + b);
