@@ -18,10 +18,10 @@ namespace carom {
 // always the same.
 template <class Value, class Slope>
 double bracketed_root(Value&& value, Slope&& slope, double a, double b) {
-  constexpr int most_steps = 200;
+  constexpr int most_halvings = 200;
   const bool starts_above = value(a) > 0.0;
   double t = 0.5 * (a + b);
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < most_halvings; ++step) {
     const double here = value(t);
     ((here > 0.0) == starts_above ? a : b) = t;
     double next = t - here / slope(t);
