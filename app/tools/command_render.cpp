@@ -7,13 +7,13 @@
 #include <optional>
 
 #include "app/cli/commands.hpp"
-#include "app/view/recording.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/scene/picture_look.hpp"
 #include "io/files/output_file.hpp"
 #include "io/movie/movie.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
+#include "run/recording.hpp"
 
 namespace carom {
 
@@ -61,7 +61,7 @@ PictureLook look_of(const RenderOptions& options, const std::optional<Scene>& sc
 
 // The colours reach over what all frames hold, so that every picture and movie of a run has the same.
 FrameStyle style_of(const Recording& recording, const RenderOptions& options, const Survey& survey) {
-  const std::optional<Scene> scene = scene_of(recording);
+  const std::optional<Scene> scene = scene_of(recording, print_warning);
   const PictureLook look = look_of(options, scene);
   if (scene) return frame_style(*scene, look, survey.seen);
   return frame_style(recording.trajectory.string(), survey.box, look, survey.seen);

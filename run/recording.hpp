@@ -1,10 +1,12 @@
-// The trajectory of a run, finished or not, as a command finds it, and what lies beside it.
+// The trajectory of a run, finished or not, found by the name of its folder, and what lies beside it.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/scene/scene.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
@@ -22,8 +24,11 @@ Recording open_recording(const std::string& name);
 
 std::unique_ptr<TrajectoryReader> open_frames(const Recording& recording);
 
+// Takes a warning, one line.
+using WarningSink = std::function<void(std::string_view)>;
+
 // The run's own scene where it lies beside the trajectory; a warning, and none, where it cannot be read.
-std::optional<Scene> scene_of(const Recording& recording);
+std::optional<Scene> scene_of(const Recording& recording, const WarningSink& warn);
 
 // Throws InputError where a file is in the way.
 void check_free(const std::filesystem::path& file, bool force);

@@ -1,8 +1,7 @@
-#include "app/view/recording.hpp"
+#include "run/recording.hpp"
 
 #include <fmt/format.h>
 
-#include "app/cli/messages.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/load/scene_file.hpp"
@@ -31,13 +30,13 @@ std::unique_ptr<TrajectoryReader> open_frames(const Recording& recording) {
   return open_trajectory(recording.trajectory.string(), recording.growing);
 }
 
-std::optional<Scene> scene_of(const Recording& recording) {
+std::optional<Scene> scene_of(const Recording& recording, const WarningSink& warn) {
   const fs::path file = recording.trajectory.parent_path() / "scene.toml";
   if (!fs::exists(file)) return {};
   try {
     return load_scene(file.string());
   } catch (const InputError& error) {
-    print_warning(fmt::format("title and sides come from the trajectory alone: {}", error.what()));
+    warn(fmt::format("title and sides come from the trajectory alone: {}", error.what()));
     return {};
   }
 }

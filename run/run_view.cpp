@@ -1,0 +1,56 @@
+#include "run/run_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "core/base/check.hpp"
+#include "core/base/input_file.hpp"
+#include "io/files/output_file.hpp"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of the series: about a tenth of a small page, and never so many that a plot could not show them.
+constexpr std::size_t most_series_values = 20'000;
+constexpr std::size_t bytes_a_value = 80;
+
+// What the page tells beside the disks, from the files of the run that lie beside the trajectory.
+ViewStory story_of(const Recording& recording, const ViewSettings& settings) {
+  const std::optional<Scene> scene = scene_of(recording, settings.warn);
+  ViewStory story = scene ? view_story(*scene) : ViewStory{};
+  if (!scene) story.title = recording.trajectory.string();
+  const fs::path series = recording.trajectory.parent_path() / "series.csv";
+  if (!fs::exists(series)) return story;
+  try {
+    const std::size_t most_values = std::min(most_series_values, settings.most_bytes / bytes_a_value);
+    story.series = read_view_series(read_text_file(series.string(), "view"), most_values, series.string());
+  } catch (const InputError& error) {
+    settings.warn(fmt::format("the page has no plots: {}", error.what()));
+  }
+  return story;
+}
+
+}  // namespace
+
+ViewMade view_of(const Recording& recording, const ViewSettings& settings) {
+  ViewWork work;
+  work.most_bytes = settings.most_bytes;
+  work.threads = static_cast<std::size_t>(settings.engine.threads);
+  work.run = make_block_runner(settings.engine);
+  const auto open = [&] { return open_frames(recording); };
+  return make_view(open, recording.trajectory.string(), story_of(recording, settings), work);
+}
+
+ViewMade write_view(const fs::path& file, const Recording& recording, const ViewSettings& settings) {
+  ViewMade made = view_of(recording, settings);
+  replace_file(file.string(), made.page);
+  return made;
+}
+
+}  // namespace carom

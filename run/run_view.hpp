@@ -1,0 +1,26 @@
+// The page that plays a run, from the files in its folder.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "io/view/view_maker.hpp"
+#include "run/make_engine.hpp"
+#include "run/recording.hpp"
+
+namespace carom {
+
+struct ViewSettings {
+  std::size_t most_bytes = ViewWork{}.most_bytes;         // of the page
+  EngineChoice engine = choose_engine("", std::nullopt);  // for its threads
+  WarningSink warn = [](std::string_view) {};
+};
+
+// The page of a recording, with the scene's title, sides and sources and the plots of series.csv where they lie beside
+// the trajectory. Throws as make_view() does.
+ViewMade view_of(const Recording& recording, const ViewSettings& settings);
+
+// The same, written to a file, which it replaces. Throws RunError where it cannot be written.
+ViewMade write_view(const std::filesystem::path& file, const Recording& recording, const ViewSettings& settings);
+
+}  // namespace carom
