@@ -47,7 +47,8 @@ class ViewEncoder {
   std::size_t at_once_;
   BlockRunner run_;
   ViewDisks disks_;
-  std::unordered_map<DiskId, std::uint32_t> places_;  // of disks whose place is not their rank by id
+  // Of disks whose place is not their rank by id. Only looked up: its order, which libraries choose, reaches no byte.
+  std::unordered_map<DiskId, std::uint32_t> places_;
   std::vector<double> times_;
   std::vector<std::vector<ViewFrame>> waiting_;  // frames of blocks to come; the last one grows
   std::size_t in_last_ = 0;                      // disks of all its frames

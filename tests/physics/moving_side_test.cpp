@@ -7,41 +7,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 #include "core/base/check.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/start/initial_state.hpp"
-#include "parallel/simulation.hpp"
+#include "tests/support/engine_run.hpp"
 
 namespace carom {
 namespace {
 
+using test::energy_from_sides;
+using test::run_by_engine;
 using testing::AllOf;
 using testing::HasSubstr;
 
 const std::string folder = CAROM_SOURCE_DIR "/scenes/";
-
-double sum_of_work(const State& state) {
-  return std::accumulate(std::begin(state.counters.side_energy), std::end(state.counters.side_energy), 0.0);
-}
-
-// Runs by the engine on two threads; calls see(state) after every step.
-template <class See>
-State run(const Scene& scene, const State& start, See&& see) {
-  const auto engine = make_parallel_engine(scene, start, {2, 1});
-  while (engine->state().time < scene.run.t_end) {
-    engine->step();
-    see(engine->state());
-  }
-  return engine->state();
-}
-
-State run(const Scene& scene, const State& start) {
-  return run(scene, start, [](const State&) {});
-}
 
 double total_energy(const Scene& scene, const State& state) {
   return energy_of(state.disks, scene.physics.gravity).total();
@@ -125,14 +107,14 @@ TEST(MovingSide, DoesTheWorkThatIsGained) {
       const bool exact = scene.run.method == Method::exact;
       const State start = initial_state(scene);
       double deepest = 0.0;
-      const State end = run(scene, start, [&](const State& s) {
+      const State end = run_by_engine(scene, start, [&](const State& s) {
         deepest = std::max(deepest, wall_overlap(s.disks, box_at(scene.box, s.time)));
       });
       const double before = total_energy(scene, start);
       const double after = total_energy(scene, end);
-      EXPECT_GT(sum_of_work(end), 0.05 * before);
+      EXPECT_GT(energy_from_sides(end), 0.05 * before);
       const double allowed = exact || physics.empty() ? 1e-12 : 1e-2;  // stepping under gravity is of first order
-      EXPECT_NEAR(before + sum_of_work(end), after, allowed * after);
+      EXPECT_NEAR(before + energy_from_sides(end), after, allowed * after);
       EXPECT_LE(deepest, exact ? 1e-12 : 0.1);
       EXPECT_GT(end.counters.wall_collisions, 200U);
     }
@@ -150,7 +132,7 @@ TEST(MovingSide, CompressesAGasAlongItsAdiabat) {
   const Scene scene =
       load_scene(folder + "piston.toml", {{"box.right.motion.velocity", "[-0.1, 0]"}, {"run.t_end", "392.7"}});
   const State start = initial_state(scene);
-  const State end = run(scene, start);
+  const State end = run_by_engine(scene, start);
   const double radius = start.disks.common_radius;
   const double area = static_cast<double>(start.disks.size()) * std::acos(-1.0) * radius * radius;
   const auto width = [&](double t) { return scene.box.width - scene.box.motions[1].at(t).inset - radius; };
@@ -182,7 +164,7 @@ TEST(MovingSide, MakesABallBounceInStep) {
         "ball", "");
     Count halfway = 0;
     double work = 0.0;
-    const State end = run(scene, initial_state(scene), [&](const State& s) {
+    const State end = run_by_engine(scene, initial_state(scene), [&](const State& s) {
       if (s.time > 200.0) return;
       halfway = s.counters.wall_collisions;
       work = s.counters.side_energy[2];
@@ -200,7 +182,7 @@ TEST(MovingSide, MakesABallBounceInStep) {
 TEST(MovingSide, BearsTheWeightOfAShakenBed) {
   const Scene scene = load_scene(folder + "shaken_bed.toml");
   State middle;
-  const State end = run(scene, initial_state(scene), [&](const State& s) {
+  const State end = run_by_engine(scene, initial_state(scene), [&](const State& s) {
     if (s.time <= 100.0) middle = s;
   });
   const auto gained = [&](const double(Counters::*what)[4], std::size_t side) {
@@ -253,7 +235,7 @@ TEST(MovingSide, StopsWhereItWouldCrushDisks) {
         "jam", "");
     std::string error;
     try {
-      run(scene, initial_state(scene));
+      run_by_engine(scene, initial_state(scene));
     } catch (const PhysicsError& e) {
       error = e.what();
     }

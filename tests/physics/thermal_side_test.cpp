@@ -6,37 +6,20 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 #include "core/load/scene_file.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/start/initial_state.hpp"
-#include "parallel/simulation.hpp"
+#include "tests/support/engine_run.hpp"
 
 namespace carom {
 namespace {
 
+using test::energy_from_sides;
+using test::run_by_engine;
+
 const std::string folder = CAROM_SOURCE_DIR "/scenes/";
-
-double sum_of_heat(const State& state) {
-  return std::accumulate(std::begin(state.counters.side_energy), std::end(state.counters.side_energy), 0.0);
-}
-
-// Runs by the engine on two threads; calls see(state) after every step.
-template <class See>
-State run(const Scene& scene, const State& start, See&& see) {
-  const auto engine = make_parallel_engine(scene, start, {2, 1});
-  while (engine->state().time < scene.run.t_end) {
-    engine->step();
-    see(engine->state());
-  }
-  return engine->state();
-}
-
-State run(const Scene& scene, const State& start) {
-  return run(scene, start, [](const State&) {});
-}
 
 // Kolmogorov and Smirnov, one sample in 10^5 deviates by more than 2.23 / sqrt(n).
 TEST(ThermalSide, DrawsMaxwellsFluxDistribution) {
@@ -96,7 +79,7 @@ TEST(ThermalSide, BringsAGasToItsTemperature) {
   double heavy = 0.0;
   std::size_t lights = 0;
   std::size_t heavies = 0;
-  const State end = run(scene, start, [&](const State& s) {
+  const State end = run_by_engine(scene, start, [&](const State& s) {
     if (s.time < 60.0) return;
     const Disks& d = s.disks;
     for (std::size_t i = 0; i < d.size(); ++i) {
@@ -109,7 +92,7 @@ TEST(ThermalSide, BringsAGasToItsTemperature) {
   EXPECT_NEAR(heavy / static_cast<double>(heavies), 2.0, 0.06);
   const double before = energy_of(start.disks, 0.0).total();
   const double after = energy_of(end.disks, 0.0).total();
-  EXPECT_NEAR(before + sum_of_heat(end), after, 1e-12 * (before + after));
+  EXPECT_NEAR(before + energy_from_sides(end), after, 1e-12 * (before + after));
   EXPECT_GT(end.counters.wall_collisions, 4000U);
 }
 
@@ -122,12 +105,12 @@ TEST(ThermalSide, GivesTheEnergyThatIsGained) {
       Scene scene = gas(method, 2.0, physics);
       scene.run.t_end = 20.0;
       const State start = initial_state(scene);
-      const State end = run(scene, start);
+      const State end = run_by_engine(scene, start);
       const double g = scene.physics.gravity;
       const double before = energy_of(start.disks, g).total();
       const double after = energy_of(end.disks, g).total();
-      EXPECT_LT(sum_of_heat(end), -0.1 * before);
-      EXPECT_NEAR(before + sum_of_heat(end), after, (g > 0.0 && method != "exact" ? 1e-2 : 1e-11) * before);
+      EXPECT_LT(energy_from_sides(end), -0.1 * before);
+      EXPECT_NEAR(before + energy_from_sides(end), after, (g > 0.0 && method != "exact" ? 1e-2 : 1e-11) * before);
       EXPECT_LE(wall_overlap(end.disks, scene.box), 1e-12);
     }
   }
@@ -137,7 +120,7 @@ TEST(ThermalSide, GivesTheEnergyThatIsGained) {
 // L sqrt(pi m / 2) (T1^-1/2 + T2^-1/2).
 TEST(ThermalSide, GivesTheHeatFlowOfAFreeMolecularGas) {
   const Scene scene = load_scene(folder + "knudsen_gap.toml", {{"run.t_end", "4000"}});
-  const State end = run(scene, initial_state(scene));
+  const State end = run_by_engine(scene, initial_state(scene));
   const double gap = scene.box.width - 2.0 * end.disks.common_radius;
   const double t1 = scene.box.temperature(Side::left);
   const double t2 = scene.box.temperature(Side::right);
@@ -182,7 +165,7 @@ TEST(ThermalSide, ConductsHeatAsEnskogsTheorySays) {
   Slabs slabs(12, scene.box.width);
   double heat_before[2] = {0.0, 0.0};
   double from = 0.0;
-  const State end = run(scene, initial_state(scene), [&](const State& s) {
+  const State end = run_by_engine(scene, initial_state(scene), [&](const State& s) {
     if (s.time < begin) {
       std::copy_n(s.counters.side_energy, 2, heat_before);
       from = s.time;
