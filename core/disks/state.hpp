@@ -53,7 +53,7 @@ struct WorstFigure {
 };
 
 // What the method was seen to do wrong, and what has been said of it (core/step/validity.hpp). No disk depends on
-// it.
+// it; a run ends where disks are crushed.
 struct ValidityCounts {
   Count inaccurate = 0;  // collisions
   Count frames = 0;      // of rollback, since `since`
@@ -61,6 +61,7 @@ struct ValidityCounts {
   bool split_told = false, overlap_told = false, inaccurate_told = false, slow_told = false;
   WorstOverlap disks, wall;    // of two disks, of a disk and a wall
   WorstFigure parts, advance;  // most parts that a step was split into; least advance of a frame in dt, if told
+  WorstOverlap crushed;        // by a side that moves, of a disk and what it is pressed into; the run ended there
 };
 
 struct State {

@@ -25,6 +25,7 @@ class PairwiseMethod final : public Phases {
   void step() override {
     const Count k = state_.counters.steps;
     if (k >= clock_.steps) return;
+    check_crushed(scene_, state_);
     const double dt = clock_.length(k);
     // Once only, even where parts() throws: the state that it leaves can be stepped again.
     if (!std::exchange(state_.step_begun, true)) start_interval(clock_.start(k), dt, k);
@@ -42,7 +43,7 @@ class PairwiseMethod final : public Phases {
     ++state_.counters.steps;
     state_.time = clock_.end(k);
     validity_.see_step(scene_, figures, state_);
-    check_crushed(scene_, figures, state_.time);
+    check_crushed(scene_, state_);
   }
 
  private:

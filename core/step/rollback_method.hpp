@@ -28,6 +28,7 @@ class RollbackMethod final : public Phases {
 
   void step() override {
     if (state_.time >= scene_.run.t_end) return;
+    check_crushed(scene_, state_);
     begin_frame();
     const double end = frame_limit(scene_, state_, clock_);
     const double length = std::min(scene_.run.dt / static_cast<double>(parts(scene_.run.dt)), end - state_.time);
@@ -38,7 +39,7 @@ class RollbackMethod final : public Phases {
     remove_at_sinks();
     ++state_.counters.steps;
     validity_.see_step(scene_, figures, state_);
-    check_crushed(scene_, figures, state_.time);
+    check_crushed(scene_, state_);
     check_stall(state_, scene_);
   }
 

@@ -97,6 +97,8 @@ void Validity::see_step(const Scene& scene, const StepFigures& figures, State& s
   const bool pile = scene.run.method == Method::pairwise && settles(scene);
   if (figures.inaccurate > 0 && !pile) see_inaccurate(scene, figures.inaccurate, state);
   if (rollback) see_advance(scene, state);
+  const Overlap& deepest = figures.wall.size > figures.left.size ? figures.wall : figures.left;
+  if (scene.box.has_moving_side() && deepest.size > crushed_overlap) state.validity.crushed = {deepest, state.time};
 }
 
 void Validity::see_overlap(const Scene& scene, const StepFigures& figures, State& state) {
@@ -153,9 +155,8 @@ std::vector<std::string> worst_moments(const Scene& scene, const State& state) {
   return warnings;
 }
 
-void check_crushed(const Scene& scene, const StepFigures& figures, double time) {
-  if (!scene.box.has_moving_side()) return;
-  const Overlap& deepest = figures.wall.size > figures.left.size ? figures.wall : figures.left;
+void check_crushed(const Scene& scene, const State& state) {
+  const auto& [deepest, time] = state.validity.crushed;
   if (!(deepest.size > crushed_overlap)) return;
   throw PhysicsError(fmt::format(
       "a side that moves leaves no room at t = {}: disk {} reaches {:.2g} % into {} ({}); move it less far, or take "

@@ -90,9 +90,10 @@ std::vector<std::string> validity_so_far(const Scene& scene, const State& state)
 std::vector<std::string> worst_moments(const Scene& scene, const State& state);
 
 // Throws PhysicsError where a side that moves has pressed disks into each other by more than crushed_overlap, or into
-// itself: it goes on, and they cannot. time: the end of the step.
+// itself: it goes on, and they cannot. Asked before and after a step, so that a state that was left so stays refused,
+// also by a run that is taken up again.
 inline constexpr double crushed_overlap = 0.25;
-void check_crushed(const Scene& scene, const StepFigures& figures, double time);
+void check_crushed(const Scene& scene, const State& state);
 
 // What can be said before the first step: places too coarse for the radii or for the way of a step, Brownian intervals
 // too long. One line each. smallest_radius, fastest speed: of the disks at the start, 0 if there are none or none

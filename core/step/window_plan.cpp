@@ -19,12 +19,13 @@ namespace {
 // Mean length of so many crowded windows in a row, over the longest window that pays, below which the run would not end
 // for years. An elastic burst gets there only where a double no longer resolves it. The TC model's bursts do not end by
 // themselves: disks that stay in contact have a dozen collisions in each contact_time, for ever.
-constexpr Count watched_windows = 128;
+constexpr Count enough_windows = 128;
 constexpr double least_pace = 0x1p-30;
 constexpr double least_pace_tc = 0x1p-20;
 // A side that comes on makes disks without room faster and faster; their gaps are a millionth of what they were by
-// then.
+// then, and each window takes longer to compute than the one before: fewer of them are waited for.
 constexpr double least_pace_moving = 0x1p-10;
+constexpr Count enough_windows_moving = 32;
 
 std::string partner_text(const Domain& box, DiskId id) {
   if (is_obstacle(id)) return fmt::format("the fixed disk {}", (*box.obstacles)[obstacle_of(id)].id);
@@ -126,6 +127,7 @@ void check_pace(const Scene& scene, State& state, const WindowPlan& plan) {
     state.stall = {};
     return;
   }
+  const Count watched_windows = scene.box.has_moving_side() ? enough_windows_moving : enough_windows;
   if (state.stall.frames == 0) state.stall.since = plan.start;
   if (++state.stall.frames < watched_windows) return;
   const double advanced = state.time - state.stall.since;

@@ -66,9 +66,10 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<ValidityCounts> T>
 void fields(Stream& stream, T& value) {
-  auto& [inaccurate, frames, since, split_told, overlap_told, inaccurate_told, slow_told, disks, wall, parts, advance] =
-      value;
-  stream(inaccurate, frames, since, split_told, overlap_told, inaccurate_told, slow_told, disks, wall, parts, advance);
+  auto& [inaccurate, frames, since, split_told, overlap_told, inaccurate_told, slow_told, disks, wall, parts, advance,
+         crushed] = value;
+  stream(inaccurate, frames, since, split_told, overlap_told, inaccurate_told, slow_told, disks, wall, parts, advance,
+         crushed);
 }
 
 template <class Stream, Is<State> T>
