@@ -1,4 +1,5 @@
-# CAROM_SANITIZE: empty, "address;undefined" or "thread"; set by the presets asan and tsan.
+# CAROM_SANITIZE: empty, "fuzzer-no-link;address;undefined" or "thread"; set by the presets asan and tsan. The first is
+# clang's: its build serves the fuzzers too.
 # Those build with -O1 -g1 (at -O2 one test that reads JSON takes g++ half a minute) and without NDEBUG, and let the
 # standard library check its bounds, which a sanitizer sees only where the memory beyond was not allocated.
 set(CAROM_SANITIZE "" CACHE STRING "sanitizers to build with")
