@@ -17,6 +17,7 @@
 #include "run/checkpoint_keeper.hpp"
 #include "run/run_files.hpp"
 #include "run/run_loop.hpp"
+#include "run/run_view.hpp"
 #include "run/strict_engine.hpp"
 
 namespace carom {
@@ -64,20 +65,22 @@ RunRecord record_of(const Scene& scene, const ResumeFrom* from, const RunSetting
   return record;
 }
 
-// Plots and a movie that could not be made, on one line, and how to make them.
-std::string lost_pictures(const Scene& scene, const RunFiles& files, bool resumable) {
+// Plots, a movie and a page that could not be made, on one line, and how to make them. lost_view: why there is no page.
+std::string lost_pictures(const Scene& scene, const RunFiles& files, const std::string& lost_view, bool resumable) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
   for (const std::string& plot : files.outputs.lost_plots()) add(plot);
   const std::string& folder = files.folder.name();
   const std::string& movie = files.outputs.lost_movie();
   if (!movie.empty()) add(movie);
+  if (!lost_view.empty()) add(lost_view);
   if (text.empty()) return text;
   add(fmt::format("all else of the run is in {}", folder));
   if (resumable && !files.outputs.lost_plots().empty()) add(fmt::format("carom resume {} draws the plots", folder));
   if (!movie.empty() && scene.output.trajectory != TrajectoryFormat::none) {
     add(fmt::format("carom render {} makes the movie", folder));
   }
+  if (!lost_view.empty()) add(fmt::format("carom view {} makes the page", folder));
   return text;
 }
 
@@ -109,6 +112,7 @@ class SceneRun {
   [[noreturn]] void keep_stopped(const PhysicsError& error);
   Summary summary() const;
   bool keep_last_checkpoint(const OutputMark& mark);
+  std::string make_page();
 
   const Scene& scene_;
   const RunSettings& settings_;
@@ -226,10 +230,33 @@ bool SceneRun::keep_last_checkpoint(const OutputMark& mark) {
   return true;
 }
 
+// The page of the run, where it is asked for. Returns why it could not be made; empty if it was.
+std::string SceneRun::make_page() {
+  if (!scene_.output.view) return "";
+  const fs::path page = files_->folder.path("view.html");
+  try {
+    ViewSettings settings;
+    settings.engine = settings_.engine;
+    settings.scene = &scene_;
+    settings.warn = [this](std::string_view warning) { tell(listener_.warning, warning); };
+    const Recording recording{files_->folder.name(), trajectory_in(files_->folder.unfinished()), false};
+    for (const std::string& sentence : write_view(page, recording, settings).left_out) {
+      tell(listener_.note, fmt::format("view.html {}", sentence));
+    }
+    return "";
+  } catch (const std::runtime_error& error) {
+    std::error_code ignored;
+    fs::remove(page, ignored);
+    return fmt::format("view.html could not be made: {}", error.what());
+  }
+}
+
 RunOutcome SceneRun::finished() {
   bool keeps_checkpoint = false;
+  std::string lost_view;
   if (files_ != nullptr) {
     const OutputMark mark = files_->outputs.finish(true);
+    lost_view = make_page();
     keeps_checkpoint = keep_last_checkpoint(mark);
     take_output_warnings();
   }
@@ -246,7 +273,7 @@ RunOutcome SceneRun::finished() {
   write_file(files_->folder.path("summary.json"), json_text(outcome.summary));
   files_->folder.finish(keeps_checkpoint);
   outcome.folder = files_->folder.name();
-  outcome.lost_pictures = lost_pictures(scene_, *files_, keeps_checkpoint);
+  outcome.lost_pictures = lost_pictures(scene_, *files_, lost_view, keeps_checkpoint);
   return outcome;
 }
 

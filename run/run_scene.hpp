@@ -43,7 +43,7 @@ struct RunOutcome {
   Summary summary;
   std::string folder;         // of the results, as it was named; empty if there are none
   std::string stopped_by;     // why it stopped early, such as "SIGTERM"; empty: it came to its end
-  std::string lost_pictures;  // plots and a movie that could not be made, and how to make them; empty if none
+  std::string lost_pictures;  // plots, a movie and a page that could not be made, and how to make them; empty if none
 };
 
 // Where a run goes on.

@@ -20,23 +20,28 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_series_values = 20'000;
 constexpr std::size_t bytes_a_value = 80;
 
-// What the page tells beside the disks, from the files of the run that lie beside the trajectory.
-ViewStory story_of(const Recording& recording, const ViewSettings& settings) {
-  const std::optional<Scene> scene = scene_of(recording, settings.warn);
-  ViewStory story = scene ? view_story(*scene) : ViewStory{};
-  if (!scene) story.title = recording.trajectory.string();
+}  // namespace
+
+ViewSeries series_of(const Recording& recording, const ViewSettings& settings) {
   const fs::path series = recording.trajectory.parent_path() / "series.csv";
-  if (!fs::exists(series)) return story;
+  if (!fs::exists(series)) return {};
   try {
     const std::size_t most_values = std::min(most_series_values, settings.most_bytes / bytes_a_value);
-    story.series = read_view_series(read_text_file(series.string(), "view"), most_values, series.string());
+    return read_view_series(read_text_file(series.string(), "view"), most_values, series.string());
   } catch (const InputError& error) {
     settings.warn(fmt::format("the page has no plots: {}", error.what()));
+    return {};
   }
-  return story;
 }
 
-}  // namespace
+ViewStory story_of(const Recording& recording, const ViewSettings& settings) {
+  const std::optional<Scene> found = settings.scene != nullptr ? std::nullopt : scene_of(recording, settings.warn);
+  const Scene* const scene = found ? &*found : settings.scene;
+  ViewStory story = scene != nullptr ? view_story(*scene) : ViewStory{};
+  if (scene == nullptr) story.title = recording.trajectory.string();
+  story.series = series_of(recording, settings);
+  return story;
+}
 
 ViewMade view_of(const Recording& recording, const ViewSettings& settings) {
   ViewWork work;

@@ -13,11 +13,18 @@ namespace carom {
 struct ViewSettings {
   std::size_t most_bytes = ViewWork{}.most_bytes;         // of the page
   EngineChoice engine = choose_engine("", std::nullopt);  // for its threads
+  const Scene* scene = nullptr;                           // of the recording; null: the one beside the trajectory
   WarningSink warn = [](std::string_view) {};
 };
 
-// The page of a recording, with the scene's title, sides and sources and the plots of series.csv where they lie beside
-// the trajectory. Throws as make_view() does.
+// What the page tells beside the disks, from the files of the run that lie beside the trajectory.
+ViewStory story_of(const Recording& recording, const ViewSettings& settings);
+
+// The plots of series.csv alone; none where it cannot be read.
+ViewSeries series_of(const Recording& recording, const ViewSettings& settings);
+
+// The page of a recording, with title, sides and sources as the scene says, and the plots of series.csv where it lies
+// beside the trajectory. Throws as make_view() does.
 ViewMade view_of(const Recording& recording, const ViewSettings& settings);
 
 // The same, written to a file, which it replaces. Throws RunError where it cannot be written.

@@ -18,6 +18,7 @@
 #include "io/files/checkpoint_names.hpp"
 #include "run/frame_schedule.hpp"
 #include "run/run_outputs.hpp"
+#include "run/run_view.hpp"
 
 namespace carom {
 
@@ -164,6 +165,15 @@ double plot_seconds(const fs::path& folder) {
   return plot_energy((folder / "energy.svg").string(), "", record) ? seconds_since(start) : 0.0;
 }
 
+// Bytes and time of view.html, which reads the trajectory twice; figures of docs/viewer.md.
+void add_page(const Scene& scene, double shown, OutputForesight& f) {
+  constexpr double page_bytes = 66e3, disk_bytes = 2.0, xyz_s = 1.7e-6, h5md_s = 0.4e-6;
+  const double disk_frames = shown * static_cast<double>(f.frames);
+  const auto most = static_cast<double>(ViewWork{}.most_bytes);
+  f.files.emplace_back("view.html", std::min(most, page_bytes + disk_bytes * disk_frames));
+  f.files_s += disk_frames * (scene.output.trajectory == TrajectoryFormat::xyz ? xyz_s : h5md_s);
+}
+
 // Points and names of the plots of frames.
 void add_plots(const Scene& scene, double disks, OutputForesight& f) {
   for (const std::string& plot : scene.output.plots) {
@@ -280,6 +290,9 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
     f.files.clear();
     f.not_tried = error.what();
     guess_files(scene, population.mean, f);
+  }
+  if (scene.output.view) {
+    add_page(scene, disks_shown(scene, population.mean) / static_cast<double>(scene.output.select.stride), f);
   }
   add_plots(scene, population.mean, f);
   if (scene.analysis.any()) {

@@ -9,6 +9,7 @@
 #include "app/cli/messages.hpp"
 #include "app/cli/progress.hpp"
 #include "app/run/growth_line.hpp"
+#include "app/view/open_page.hpp"
 #include "core/base/input_message.hpp"
 
 namespace carom {
@@ -34,8 +35,14 @@ RunOutcome run_shown(const CarryOptions& options, const Scene& scene, RunSetting
   return from ? resume(scene, std::move(*from), std::move(settings)) : run(scene, std::move(settings));
 }
 
-// A page left from an earlier run is replaced: it is no result, and made again at any time.
-void view_results(const CarryOptions& options, const std::filesystem::path& folder) {
+// Opens the page of the run, and makes it first unless the scene asked for it. One left from an earlier run is
+// replaced.
+void view_results(const CarryOptions& options, const Scene& scene, const std::filesystem::path& folder) {
+  if (scene.output.view) {
+    const std::filesystem::path page = std::filesystem::absolute(folder / "view.html");
+    if (std::filesystem::exists(page)) open_page(page.string());
+    return;
+  }
   ViewOptions view;
   view.source = folder.string();
   view.open = true;
@@ -75,7 +82,7 @@ int run_and_report(const CarryOptions& options, const Scene& scene, RunSettings 
     print_out(table_text(summary, outcome.folder));
   }
   if (stopped) return 4;
-  if (options.view) view_results(options, outcome.folder);
+  if (options.view) view_results(options, scene, outcome.folder);
   if (outcome.lost_pictures.empty()) return 0;
   print_note(fmt::format("error: {}", outcome.lost_pictures));
   return 1;

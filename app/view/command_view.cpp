@@ -4,30 +4,13 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/messages.hpp"
+#include "app/view/open_page.hpp"
 #include "core/base/input_message.hpp"
-#include "io/files/child_process.hpp"
 #include "run/run_view.hpp"
 
 namespace carom {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-// Where there is no program to open it with, a warning says so: the page is made all the same.
-void open_page(const fs::path& file) {
-  const std::string opener = find_program("xdg-open");
-  if (opener.empty()) {
-    print_warning("--open: there is no xdg-open; open the file in a browser by hand");
-    return;
-  }
-  ChildProcess browser({opener, fs::absolute(file).string()}, ".", "/dev/null");
-  if (const int status = browser.wait(); status != 0) {
-    print_warning(fmt::format("--open: xdg-open ended with status {}; open the file in a browser by hand", status));
-  }
-}
-
-}  // namespace
 
 int command_view(const ViewOptions& options) {
   const Recording recording = open_recording(options.source);
@@ -46,7 +29,7 @@ int command_view(const ViewOptions& options) {
                            static_cast<double>(made.page.size()) / 1e6));
     print_out(fmt::format("{}\n", file.string()));
   }
-  if (options.open) open_page(file);
+  if (options.open) open_page(fs::absolute(file).string());
   return 0;
 }
 

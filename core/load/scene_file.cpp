@@ -291,6 +291,7 @@ OutputPlan read_output(const SceneOrigin& origin, const Scene& scene) {
   output.series = reader.flag_or_initial("series");
   output.plots = read_plots(reader);
   read_movie(reader, output);
+  output.view = read_view(reader);
   output.checkpoint = read_checkpoint_interval(reader);
   const bool frames =
       output.trajectory != TrajectoryFormat::none || output.series || output.movie || !output.plots.empty();

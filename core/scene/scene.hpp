@@ -156,6 +156,7 @@ struct OutputPlan {
   int dimensions = 2;              // components of positions and velocities in trajectory.h5: z is 0 in a third
   bool movie = false;
   PictureLook look;
+  bool view = false;        // a page that plays the trajectory
   double checkpoint = 0.0;  // seconds of wall time between checkpoints; 0: none but on a signal
 };
 

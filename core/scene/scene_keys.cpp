@@ -300,6 +300,8 @@ constexpr SceneKey keys[] = {
      "The ends of the colour scale, in the unit of the coloured quantity; disks beyond them have the colour of the "
      "end.",
      "movie = { range = [0, 2] }", "[low, high] with low < high; not with `\"group\"`"},
+    {"output", "view", flag, none, "false",
+     "Writes view.html, a page that plays the trajectory in any browser, when the run is done.", "view = true"},
     {"output", "checkpoint", positive, none, "only when a run is stopped",
      "Wall time between checkpoints, in seconds or with a unit.", R"(checkpoint = "10 min")",
      "a number above 0, or text such as `\"90 s\"`, `\"10 min\"`, `\"2 h\"`"},

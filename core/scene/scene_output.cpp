@@ -84,6 +84,15 @@ bool read_third_dimension(const TableReader& output) {
   return dimensions == 3;
 }
 
+bool read_view(const TableReader& output) {
+  const bool view = output.flag_or_initial("view");
+  if (view && output.text("trajectory").value_or("none") == "none") {
+    output.fail("view", "is true, but there is no trajectory to play",
+                "expected trajectory = \"xyz\" or \"h5md\" as well");
+  }
+  return view;
+}
+
 namespace {
 
 // The two numbers of a key, if it is there.

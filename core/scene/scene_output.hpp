@@ -17,6 +17,9 @@ bool read_single_precision(const TableReader& output);
 // Whether "dimensions" is 3. Throws InputError for anything but 2 and 3, and unless trajectory is "h5md".
 bool read_third_dimension(const TableReader& output);
 
+// Whether "view" is true. Throws InputError where it is and no trajectory is written.
+bool read_view(const TableReader& output);
+
 // "movie": whether there is one, and how it looks.
 void read_movie(const TableReader& output, OutputPlan& plan);
 

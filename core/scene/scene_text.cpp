@@ -239,7 +239,7 @@ std::string output_text(const OutputPlan& output) {
                      decimal(output.every), trajectory_names[index(output.trajectory)], selection_lines(output),
                      output.series, list_of(output.plots, [](const std::string& name) { return quoted_toml(name); }),
                      movie_text(output)) +
-         checkpoint;
+         (output.view ? "view = true\n" : "") + checkpoint;
 }
 
 // Empty where nothing is measured.

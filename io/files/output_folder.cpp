@@ -39,6 +39,7 @@ constexpr std::array result_names{"scene.toml",
                                   "bond_order.svg",
                                   "movie.mp4",
                                   "frames",
+                                  "view.html",
                                   previous_checkpoint_name,
                                   checkpoint_name,
                                   "summary.json"};
@@ -153,6 +154,10 @@ fs::path present_path(const fs::path& folder, const std::string& file) {
   std::error_code error;
   const fs::path unfinished = unfinished_of(folder) / file;
   return fs::exists(unfinished, error) ? unfinished : folder / file;
+}
+
+bool is_being_written(const fs::path& folder) {
+  return locked_by_another(unfinished_of(normal(folder)));
 }
 
 void check_output_folder(const fs::path& name, const fs::path& input, bool force) {

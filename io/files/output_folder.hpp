@@ -64,6 +64,9 @@ class OutputFolder {
 // Where a file of a run lies: in folder/carom-unfinished, or in folder if the run finished.
 std::filesystem::path present_path(const std::filesystem::path& folder, const std::string& file);
 
+// Is a run writing into a folder now?
+bool is_being_written(const std::filesystem::path& folder);
+
 // Throws InputError if `folder` cannot take the results of a run on the scene file `input`; changes nothing. To be
 // asked early, before anything takes time.
 void check_output_folder(const std::filesystem::path& folder, const std::filesystem::path& input, bool force);

@@ -135,6 +135,60 @@ TEST_F(View, OpensThePageWithTheDesktopsOpener) {
   EXPECT_THAT(none.err, HasSubstr("warning: --open: there is no xdg-open"));
 }
 
+TEST_F(View, ASceneCanAskForIt) {
+  run("-o out --t-end 1 --set output.view=true");
+  const std::string page = text_of(at("out/view.html"));
+  ASSERT_EQ(carom("view out -o same.html").status, 0);
+  EXPECT_EQ(text_of(at("same.html")), page);
+  EXPECT_THAT(text_of(at("out/scene.toml")), HasSubstr("\nview = true\n"));
+  // A result as the others: not replaced, unless told; a run without it leaves no page of an earlier one.
+  fs::create_directories(at("old"));
+  write("old/view.html", "an older run");
+  const Outcome o = carom("run gas.toml -o old --t-end 0.1");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_THAT(o.err, HasSubstr("old: holds view.html of an earlier run"));
+  EXPECT_EQ(text_of(at("old/view.html")), "an older run");
+  run("-o old --t-end 0.1");
+  EXPECT_FALSE(fs::exists(at("old/view.html")));
+}
+
+TEST_F(View, ARunThatGoesOnMakesThePageOfAllItsFrames) {
+  run("-o out --t-end 0.5 --set output.view=true --set output.checkpoint=100");
+  EXPECT_THAT(text_of(at("out/view.html")), HasSubstr("\"frames\":11,"));
+  ASSERT_EQ(carom("resume out --t-end 1 --quiet").status, 0);
+  EXPECT_THAT(text_of(at("out/view.html")), HasSubstr("\"frames\":21,"));
+  ASSERT_EQ(carom("view out -o same.html").status, 0);
+  EXPECT_EQ(text_of(at("same.html")), text_of(at("out/view.html")));
+}
+
+TEST_F(View, APageThatFailsCostsTheRunNothingElse) {
+  const std::string small = "run gas.toml -o out --t-end 0.2 --set output.view=true --set disks.0.count=20";
+  const Outcome lost = shell("ulimit -f 100; $C " + small + " --quiet");  // blocks of 512 bytes: less than any page has
+  EXPECT_EQ(lost.status, 1);
+  EXPECT_THAT(lost.err, HasSubstr("carom: error: view.html could not be made: "));
+  EXPECT_THAT(lost.err, HasSubstr("; all else of the run is in out; carom view out makes the page\n"));
+  EXPECT_TRUE(fs::exists(at("out/summary.json")));
+  EXPECT_FALSE(fs::exists(at("out/view.html")));
+  EXPECT_EQ(carom("view out").status, 0);
+}
+
+TEST_F(View, WithoutATrajectoryASceneCannotAskForIt) {
+  const Outcome o = carom("run gas.toml -o out --set output.trajectory='\"none\"' --set output.view=true");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_THAT(o.err, HasSubstr("output.view: is true, but there is no trajectory to play; expected trajectory = "
+                               "\"xyz\" or \"h5md\" as well"));
+  EXPECT_FALSE(fs::exists(at("out")));
+}
+
+TEST_F(View, CheckSaysWhatItCosts) {
+  const Outcome o = carom("check gas.toml --json --set output.view=true");
+  ASSERT_EQ(o.status, 0) << o.err;
+  run("-o out --set output.view=true");
+  const auto size = static_cast<double>(fs::file_size(at("out/view.html")));
+  const nlohmann::json said = nlohmann::json::parse(o.out);
+  EXPECT_NEAR(said["files_bytes"].value("view.html", 0.0), size, 0.3 * size);
+}
+
 TEST_F(View, ARunCanEndWithIt) {
   fs::create_directories(at("bin"));
   write("bin/xdg-open", "#!/bin/sh\necho \"$1\" >opened\n");
