@@ -1,7 +1,7 @@
 # cmake -D FOLDER=viewer -D FILE=page.cpp -P EmbedViewer.cmake: one page from the sources in viewer/, as a string of C++
 # (io/view/view_page.hpp). Modules are joined in the order below; a name that one exports is then known to all that
 # follow, so their import lines go, and no two modules may define the same name at the top.
-set(page_modules format store colours camera disk_renderer overlay playback picking plots panel main)
+set(page_modules format store colours camera disk_renderer overlay playback picking plots panel controls viewer main)
 set(worker_modules decode worker)
 
 function(join_modules result)
@@ -13,6 +13,9 @@ function(join_modules result)
     # Comments stay with the sources, and so do the blanks that begin a line.
     string(REGEX REPLACE "\n *//[^\n]*" "" text "\n${text}")
     string(REGEX REPLACE "\n[ \n]*" "\n" text "${text}")
+    # Nor do blanks around operators that no text of the page has.
+    string(REGEX REPLACE " (=>|[!=]==|&&|[|][|]|[-+*/]=|[<>]=?|\\*) " "\\1" text "${text}")
+    string(REGEX REPLACE "\\) {\n" "){\n" text "${text}")
     string(APPEND joined "${text}")
   endforeach()
   set(${result} "\n\"use strict\";\n(() => {\n${joined}})();\n" PARENT_SCOPE)
@@ -39,10 +42,15 @@ endfunction()
 file(READ ${FOLDER}/page.html page)
 file(READ ${FOLDER}/style.css style)
 set(style "\n${style}")
+foreach(text page style)
+  string(REGEX REPLACE "\n[ \n]+" "\n" ${text} "${${text}}")
+endforeach()
 join_modules(script ${page_modules})
 join_modules(worker ${worker_modules})
+join_modules(live live)
 policy_hash(style_hash "${style}")
 policy_hash(script_hash "${script}")
+policy_hash(live_hash "${live}")
 foreach(name style_hash script_hash style script worker)
   string(REPLACE "<!--embed:${name}-->" "${${name}}" page "${page}")
 endforeach()
@@ -53,4 +61,10 @@ endif()
 if(page MATCHES "<!--embed:")
   message(FATAL_ERROR "viewer/page.html asks for something that cmake/EmbedViewer.cmake does not have")
 endif()
-file(WRITE ${FILE} "#include \"io/view/view_page.hpp\"\n\nnamespace carom {\n\nconst char* const viewer_page = R\"__page(${page})__page\";\n\n}  // namespace carom\n")
+# What the page of a run that goes on has besides: it may ask the server that it comes from, and nothing else.
+set(policy " ${live_hash}; connect-src 'self'")
+file(WRITE ${FILE} "#include \"io/view/view_page.hpp\"\n\nnamespace carom {\n
+const char* const viewer_page = R\"__page(${page})__page\";
+const char* const viewer_live_policy = R\"__page(${policy})__page\";
+const char* const viewer_live_script = R\"__page(<script>${live}</script>\n)__page\";\n
+}  // namespace carom\n")

@@ -25,7 +25,7 @@ vec4 colourOf() {
 const pointShader = `${head}
 out float rim;
 void main() {
-  rim = max(radius * scale, 0.75);
+  rim = max(abs(radius) * scale, 0.75);
   colour = colourOf();
   gl_PointSize = 2.0 * (rim + 1.0);
   gl_Position = vec4(place() * 2.0 / size, 0.0, 1.0);
@@ -35,7 +35,7 @@ out vec2 from;
 out float rim;
 void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-  rim = max(radius * scale, 0.75);
+  rim = max(abs(radius) * scale, 0.75);
   from = corner * (rim + 1.0);
   colour = colourOf();
   gl_Position = vec4((place() + from) * 2.0 / size, 0.0, 1.0);
@@ -59,7 +59,8 @@ uniform vec3 ink;
 uniform bool inked;
 void main() {
   colour = inked ? vec4(ink, 1.0) : colourOf();
-  gl_Position = vec4((place() + (gl_VertexID == 1 ? d * reach * scale : vec2(0.0))) * 2.0 / size, 0.0, 1.0);
+  bool on = gl_VertexID == 1 && (inked || radius > 0.0);
+  gl_Position = vec4((place() + (on ? d * reach * scale : vec2(0.0))) * 2.0 / size, 0.0, 1.0);
 }`;
 const linePaint = `#version 300 es
 precision highp float;

@@ -1,12 +1,15 @@
 // Which moment is shown, and how it goes on.
 export class Playback {
   constructor(times) {
-    this.times = times;
     this.frame = 0;
     this.time = times[0];
     this.playing = false;
     this.loop = true;
     this.speed = 1;
+    this.setTimes(times);
+  }
+  setTimes(times) {
+    this.times = times;
     const span = times[times.length - 1] - times[0];
     // Twenty frames a second, but the run takes three seconds at least.
     this.rate = span > 0 ? span / Math.max(3, (times.length - 1) / 20) : 1;

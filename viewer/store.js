@@ -3,13 +3,15 @@ import { element } from "./format.js";
 
 const mostBytes = 320e6; // of unpacked blocks
 
-// The text of a data block, null where the file breaks off before it.
-const textOf = (id) => element(id)?.textContent ?? null;
+// The text of a data block, null where the file breaks off before it. The page of a run that goes on asks for it
+// (live.js).
+const textOf = (id) => element(id)?.textContent ?? window.caromLive?.textOf(id) ?? null;
 
 export class Store {
   constructor(head) {
     this.head = head;
-    this.blocks = head.blocks.map(([first, frames, residuals, length, check]) => ({ first, frames, residuals, length, check }));
+    this.blocks = [];
+    this.addBlocks(head.blocks);
     this.unpacked = new Map(); // by number of the block, the one used last at the end
     this.asked = new Map();
     this.damaged = new Map(); // what is wrong with it
@@ -24,6 +26,10 @@ export class Store {
       else done(data);
     };
     this.lastJob = 0;
+  }
+
+  addBlocks(blocks) {
+    for (const [first, frames, residuals, length, check] of blocks) this.blocks.push({ first, frames, residuals, length, check });
   }
 
   work(message) {
@@ -71,6 +77,7 @@ export class Store {
 
   // The first block that the file lacks, wholly or in part, as a sentence; empty if it is whole.
   missing() {
+    if (window.caromLive) return "";
     for (let b = 0; b < this.blocks.length; ++b) {
       const text = textOf(`block${b}`);
       if (text === null || text.length < 4 * Math.ceil(this.blocks[b].length / 3)) {
@@ -100,7 +107,7 @@ export class Store {
     const bits = this.head.axes.map((axis) => axis.bits);
     let found;
     try {
-      found = await this.work({ text: textOf(`block${number}`), length, check, frames, residuals, bits });
+      found = await this.work({ text: await textOf(`block${number}`), length, check, frames, residuals, bits });
     } catch (error) {
       const sentence = `${this.frames(number)} damaged: ${error.message}.`;
       this.damaged.set(number, sentence[0].toUpperCase() + sentence.slice(1));
@@ -152,17 +159,19 @@ export class Store {
   }
 
   // The displacement of each disk of frame k to the next frame, x and y in turn; the mean velocity on the way is that
-  // over `over`. The last frame, and disks that are gone by the next, have the step before.
+  // over `over`. The last frame, and disks that are gone by the next (indices in `gone`), have the step before.
   steps(k) {
     const frame = this.frame(k);
     const next = this.frame(k + 1);
     const before = this.frame(k - 1);
     const d = new Float32Array(2 * frame.place.length);
+    const gone = [];
     const over = next ? this.times[k + 1] - this.times[k] : before ? this.times[k] - this.times[k - 1] : 1;
     const same = (other, i) => (other.place[i] === frame.place[i] ? i : this.indexIn(other, frame.place[i]));
     for (let i = 0; i < frame.place.length; ++i) {
       let other = next;
       let j = next ? same(next, i) : -1;
+      if (j < 0) gone.push(i);
       if (j < 0 && before) {
         other = before;
         j = same(before, i);
@@ -172,6 +181,6 @@ export class Store {
       d[2 * i] = sign * this.step(0, frame, i, other, j);
       d[2 * i + 1] = sign * this.step(1, frame, i, other, j);
     }
-    return { d, over: over > 0 ? over : 1 };
+    return { d, gone, over: over > 0 ? over : 1 };
   }
 }

@@ -1,6 +1,7 @@
-// The page as a whole: reads the data, draws the present moment, and does what the controls ask for.
+// The page as a whole: draws the present moment, and does what the controls ask for.
 import { Camera } from "./camera.js";
 import { fixedValues, palette, rangeOf } from "./colours.js";
+import { listenToControls, speeds } from "./controls.js";
 import { DiskRenderer } from "./disk_renderer.js";
 import { element, shortNumber } from "./format.js";
 import { drawOverlay, sideSentence } from "./overlay.js";
@@ -8,12 +9,10 @@ import { colourChoices, factsOf, fillChoices, showFacts, showLegend } from "./pa
 import { DiskPath, diskAt } from "./picking.js";
 import { Playback } from "./playback.js";
 import { Plots } from "./plots.js";
-import { Store } from "./store.js";
 
-const speeds = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 const mostTrail = 24; // frames
 
-class Viewer {
+export class Viewer {
   constructor(store) {
     this.store = store;
     this.head = store.head;
@@ -41,7 +40,7 @@ class Viewer {
     element("sides").textContent = sideSentence(head);
     element("dark").checked = matchMedia("(prefers-color-scheme: dark)").matches;
     this.setTheme();
-    this.listen();
+    listenToControls(this);
     this.followHash();
     new ResizeObserver(() => this.resize()).observe(element("stage"));
     this.resize();
@@ -162,11 +161,12 @@ class Viewer {
     const steps = this.store.steps(k);
     const radius = this.radiusOf(frame);
     const value = this.valuesOf(k, frame);
-    this.renderer.upload(k, frame, steps, radius, value, keep);
     if (keep === 1 || k === this.playback.frame) {
       this.renderer.uploadImages(frame, steps, radius, value);
       this.perTime = 1 / steps.over;
     }
+    for (const i of steps.gone) radius[i] = -radius[i]; // for the shaders: no trail leads on from there
+    this.renderer.upload(k, frame, steps, radius, value, keep);
     return true;
   }
 
@@ -253,6 +253,11 @@ class Viewer {
 
   // --- What is asked for
 
+  changeView(change) {
+    change(this.camera);
+    this.dirty = true;
+  }
+
   jump(frame) {
     this.playback.goTo(frame);
     this.dirty = true;
@@ -274,6 +279,7 @@ class Viewer {
   setColour(name) {
     this.colour = name;
     this.range = null;
+    this.rangeChosen = false;
     this.drawn = -1;
     this.renderer.forget();
     this.dirty = true;
@@ -281,7 +287,10 @@ class Viewer {
 
   setRange() {
     const [low, high] = ["low", "high"].map((id) => element(id).valueAsNumber);
-    if (Number.isFinite(low) && Number.isFinite(high) && low < high) this.range = [low, high];
+    if (Number.isFinite(low) && Number.isFinite(high) && low < high) {
+      this.range = [low, high];
+      this.rangeChosen = true;
+    }
     this.dirty = true;
   }
 
@@ -359,118 +368,6 @@ class Viewer {
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
   }
 
-  // --- Controls
-
-  listen() {
-    const on = (id, kind, act) => element(id).addEventListener(kind, act);
-    on("play", "click", () => this.togglePlay());
-    on("back", "click", () => this.jump(this.playback.frame - 1));
-    on("on", "click", () => this.jump(this.playback.frame + 1));
-    on("frame", "input", () => this.jump(element("frame").valueAsNumber));
-    on("speed", "change", () => (this.playback.speed = Number(element("speed").value)));
-    on("loop", "change", () => (this.playback.loop = element("loop").checked));
-    on("colour", "change", () => this.setColour(element("colour").value));
-    for (const id of ["low", "high"]) on(id, "change", () => this.setRange());
-    for (const id of ["arrows", "images", "smooth"]) on(id, "change", () => (this.dirty = true));
-    on("trails", "change", () => this.setColour(this.colour));
-    on("dark", "change", () => this.setTheme());
-    on("disk", "change", () => this.pickId(element("disk").valueAsNumber));
-    on("link", "click", () => this.takeLink());
-    on("picture", "click", () => this.savePicture());
-    on("fit", "click", () => this.changeView((camera) => camera.fit()));
-    on("closer", "click", () => this.changeView((camera) => camera.zoom(1.5)));
-    on("farther", "click", () => this.changeView((camera) => camera.zoom(1 / 1.5)));
-    window.addEventListener("hashchange", () => this.followHash());
-    document.addEventListener("keydown", (event) => this.key(event));
-    this.listenToPointers();
-  }
-
-  changeView(change) {
-    change(this.camera);
-    this.dirty = true;
-  }
-
-  listenToPointers() {
-    const { canvas } = this;
-    const held = new Map();
-    let moved = 0;
-    canvas.addEventListener("pointerdown", (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      held.set(event.pointerId, [event.offsetX, event.offsetY]);
-      moved = 0;
-    });
-    canvas.addEventListener("pointermove", (event) => {
-      const from = held.get(event.pointerId);
-      if (!from) return;
-      const to = [event.offsetX, event.offsetY];
-      const other = [...held.entries()].find(([id]) => id !== event.pointerId)?.[1];
-      moved += Math.hypot(to[0] - from[0], to[1] - from[1]);
-      held.set(event.pointerId, to);
-      if (moved < 4) return;
-      this.changeView((camera) => {
-        const part = other ? 0.5 : 1;
-        camera.move(part * (to[0] - from[0]), part * (to[1] - from[1]));
-        if (!other) return;
-        const apart = (a) => Math.max(1, Math.hypot(a[0] - other[0], a[1] - other[1]));
-        camera.zoom(apart(to) / apart(from), (to[0] + other[0]) / 2, (to[1] + other[1]) / 2);
-      });
-    });
-    const release = (event) => {
-      if (held.delete(event.pointerId) && event.type === "pointerup" && moved < 4) this.pickAt(event.offsetX, event.offsetY);
-    };
-    canvas.addEventListener("pointerup", release);
-    canvas.addEventListener("pointercancel", release);
-    const wheel = (event) => {
-      event.preventDefault();
-      this.changeView((camera) => camera.zoom(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY));
-    };
-    canvas.addEventListener("wheel", wheel, { passive: false });
-  }
-
-  key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const { tagName, type } = event.target;
-    // What a control does with a key comes first.
-    if (tagName === "SELECT" || (tagName === "INPUT" && type === "number")) return;
-    const ticks = tagName === "BUTTON" || type === "checkbox" || tagName === "SUMMARY";
-    if (event.key === " " && ticks) return;
-    const slides = type === "range";
-    const step = event.shiftKey ? 10 : 1;
-    const tick = (id) => element(id).click();
-    const pan = (dx, dy) => document.activeElement === this.canvas && this.changeView((camera) => camera.move(dx, dy));
-    const faster = (by) => {
-      const at = speeds.indexOf(this.playback.speed) + by;
-      if (at < 0 || at >= speeds.length) return;
-      this.playback.speed = speeds[at];
-      element("speed").value = speeds[at];
-    };
-    const acts = {
-      " ": () => this.togglePlay(),
-      ArrowLeft: () => this.jump(this.playback.frame - step),
-      ArrowRight: () => this.jump(this.playback.frame + step),
-      Home: () => this.jump(0),
-      End: () => this.jump(this.playback.last),
-      "<": () => faster(-1),
-      ">": () => faster(1),
-      "+": () => this.changeView((camera) => camera.zoom(1.25)),
-      "-": () => this.changeView((camera) => camera.zoom(0.8)),
-      0: () => this.changeView((camera) => camera.fit()),
-      a: () => pan(40, 0),
-      d: () => pan(-40, 0),
-      w: () => pan(0, 40),
-      s: () => pan(0, -40),
-      l: () => tick("loop"),
-      t: () => tick("trails"),
-      v: () => tick("arrows"),
-      p: () => !element("images-label").hidden && tick("images"),
-      m: () => tick("smooth"),
-    };
-    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-    if (!acts[key] || (slides && (key.startsWith("Arrow") || key === "Home" || key === "End"))) return;
-    event.preventDefault();
-    acts[key]();
-  }
-
   // For scripts: where each disk of a frame is, as the page draws it.
   async positions(k) {
     await this.store.load(this.store.blockOf(k));
@@ -479,36 +376,3 @@ class Viewer {
     return { id: Array.from(place, (p) => this.store.id[p]), x: Array.from(x, (q) => q * ax.quantum), y: Array.from(y, (q) => q * ay.quantum) };
   }
 }
-
-async function begin() {
-  const fail = (message) => {
-    element("message").textContent = message;
-    element("message").hidden = false;
-  };
-  let head;
-  try {
-    head = JSON.parse(element("head").textContent);
-  } catch {
-    return fail("This file is incomplete: it breaks off before its first frame.");
-  }
-  element("title").textContent = head.title || "a run";
-  element("story").textContent = `${head.disks} disks, ${head.frames} frames, carom ${head.version}`;
-  if (head.leftOut.length) {
-    element("left-out").textContent = `This page ${head.leftOut.join(", and ")}.`;
-    element("left-out").hidden = false;
-  }
-  try {
-    const store = new Store(head);
-    const missing = store.missing();
-    await store.readTable().catch((error) => {
-      throw new Error(missing || `The table of disks is damaged: ${error.message}.`);
-    });
-    const viewer = new Viewer(store);
-    viewer.start();
-    if (missing) viewer.say(missing);
-    window.carom = viewer;
-  } catch (error) {
-    fail(error.message);
-  }
-}
-document.addEventListener("DOMContentLoaded", begin);

@@ -47,7 +47,7 @@ struct Words {
   std::array<std::string, scene_options.size()> scene_values;
   std::vector<std::string> sets, over;
   bool json = false, quiet = false, force = false, strict = false, quick = false, tiny = false, open = false,
-       view = false;
+       live = false, view = false;
 };
 
 SceneChanges changes_of(const Words& words) {
@@ -156,6 +156,8 @@ void describe_view(CLI::App* view, Words& words) {
   add_value(view, "--max-size", words.max_size, "SIZE",
             "leave out frames, then disks, until the page is no longer than this; default 64MB");
   view->add_flag("--open", words.open, "open it in the browser");
+  view->add_flag("--live", words.live,
+                 "serve a run that is going on to this computer's own browsers, and write no file");
   view->add_flag("--quiet", words.quiet, "print nothing but errors");
   view->add_flag("--force", words.force, "replace an existing file");
   view->footer("One file that plays the run in any browser, and asks the network for nothing. See docs/viewer.md.");
@@ -275,7 +277,7 @@ RenderOptions render_options(const Words& words) {
 
 ViewOptions view_options(const Words& words) {
   require(words.first, "view", "no folder given", "expected carom view DIR");
-  ViewOptions o{words.first, file_option(words.folder), std::nullopt, words.open, words.quiet, words.force};
+  ViewOptions o{words.first, file_option(words.folder), std::nullopt, words.open, words.live, words.quiet, words.force};
   if (!words.max_size.empty()) o.max_size = size_of("--max-size", words.max_size);
   return o;
 }

@@ -73,6 +73,7 @@ struct ViewOptions {
   std::optional<std::string> file;      // -o
   std::optional<std::size_t> max_size;  // bytes
   bool open = false;                    // in the browser, when it is made
+  bool live = false;                    // served while the run goes on
   bool quiet = false;
   bool force = false;
 };

@@ -4,6 +4,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/messages.hpp"
+#include "app/view/live_view.hpp"
 #include "app/view/open_page.hpp"
 #include "core/base/input_message.hpp"
 #include "run/run_view.hpp"
@@ -13,6 +14,7 @@ namespace carom {
 namespace fs = std::filesystem;
 
 int command_view(const ViewOptions& options) {
+  if (options.live) return view_live(options);
   const Recording recording = open_recording(options.source);
   const fs::path file = options.file ? fs::path(*options.file) : recording.folder / "view.html";
   if (const std::string ending = file.extension().string(); ending != ".html" && ending != ".htm") {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "io/hdf5/hdf5_handle.hpp"
 #include "io/trajectory/h5md_layout.hpp"
@@ -34,13 +35,12 @@ struct H5mdReader::File {
   void read_box();
   template <class T>
   void read_row(const Hdf5Handle& set, hid_t type, Count frame, std::vector<T>& to) const;
-  void read_frame(TrajectoryFrame& frame);
+  void read_frame(Count next, TrajectoryFrame& frame);
 
   std::string path;
   Hdf5Handle file, position, velocity, id, radius, mass, species;
   Domain box;
   std::vector<double> times;
-  Count next = 0;
   std::size_t dimensions = 2;
   std::vector<double> xy, vxy, radii, masses;  // of all places in one frame
   std::vector<DiskId> ids, groups;
@@ -140,7 +140,7 @@ void H5mdReader::File::read_row(const Hdf5Handle& set, hid_t type, Count frame, 
   }
 }
 
-void H5mdReader::File::read_frame(TrajectoryFrame& frame) {
+void H5mdReader::File::read_frame(Count next, TrajectoryFrame& frame) {
   read_row(position, H5T_NATIVE_DOUBLE, next, xy);
   read_row(velocity, H5T_NATIVE_DOUBLE, next, vxy);
   read_row(radius, H5T_NATIVE_DOUBLE, next, radii);
@@ -174,16 +174,31 @@ void H5mdReader::File::read_frame(TrajectoryFrame& frame) {
       if (!std::isfinite(value)) fail(fmt::format("frame {}: disk {} has a value that is no number", next + 1, ids[p]));
     }
   }
-  ++next;
 }
 
-H5mdReader::H5mdReader(const std::string& path) : file_(std::make_unique<File>(path)) {}
+H5mdReader::H5mdReader(const std::string& path, bool growing)
+    : path_(path), growing_(growing), file_(std::make_unique<File>(path)) {}
 
 H5mdReader::~H5mdReader() = default;
 
+// HDF5 keeps what it knows of a file while that is open, so it is opened anew. Where it cannot be, as it is being
+// moved, there is no more for now.
+bool H5mdReader::has_more() {
+  if (file_ && next_ < file_->times.size()) return true;
+  if (!growing_) return false;
+  file_ = nullptr;
+  try {
+    file_ = std::make_unique<File>(path_);
+  } catch (const InputError&) {
+    return false;
+  }
+  return next_ < file_->times.size();
+}
+
 bool H5mdReader::read(TrajectoryFrame& frame) {
-  if (file_->next >= file_->times.size()) return false;
-  file_->read_frame(frame);
+  if (!has_more()) return false;
+  file_->read_frame(next_, frame);
+  ++next_;
   return true;
 }
 

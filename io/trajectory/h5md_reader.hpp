@@ -9,16 +9,23 @@ namespace carom {
 class H5mdReader : public TrajectoryReader {
  public:
   // Opens a finished file, one being written, and one whose writer was killed. Throws InputError for anything else.
-  explicit H5mdReader(const std::string& path);
+  // growing: a run is writing it, and read() looks anew for frames where there was none.
+  explicit H5mdReader(const std::string& path, bool growing = false);
   ~H5mdReader() override;
 
   // Single precision comes widened. Throws InputError where the file is damaged.
   bool read(TrajectoryFrame& frame) override;
+  void follow(const std::string& path) override { path_ = path; }
 
   Count frames() const;
 
  private:
   struct File;
+  bool has_more();
+
+  std::string path_;
+  bool growing_ = false;
+  Count next_ = 0;  // frame
   std::unique_ptr<File> file_;
 };
 

@@ -20,7 +20,7 @@ std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, bool 
   if (!std::filesystem::is_directory(path)) check_regular_file(path);  // a folder gets the reader's own words
   std::array<char, 4> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());
-  if (std::string_view(head.data(), head.size()) == "\x89HDF") return std::make_unique<H5mdReader>(path);
+  if (std::string_view(head.data(), head.size()) == "\x89HDF") return std::make_unique<H5mdReader>(path, growing);
   return std::make_unique<XyzReader>(path, growing);
 }
 

@@ -27,8 +27,12 @@ class TrajectoryReader {
   TrajectoryReader& operator=(const TrajectoryReader&) = delete;
   virtual ~TrajectoryReader() = default;
 
-  // The next frame, or false after the last. Throws InputError, naming the file and what is wrong with it.
+  // The next frame, or false after the last. Of a growing file, it may be asked for again. Throws InputError, naming
+  // the file and what is wrong with it.
   virtual bool read(TrajectoryFrame& frame) = 0;
+
+  // Where a growing file has been moved to.
+  virtual void follow([[maybe_unused]] const std::string& path) {}
 };
 
 // The trajectory of a run's folder, trajectory.xyz or trajectory.h5; empty if there is none.

@@ -310,6 +310,18 @@ void XyzReader::read_disk(XyzFrame& frame) const {
 }
 
 bool XyzReader::read(XyzFrame& frame) {
+  if (!growing_) return read_whole(frame);
+  const std::streampos begin = file_.tellg();
+  const std::size_t line = line_number_;
+  if (read_whole(frame)) return true;
+  // The rest of it may come.
+  file_.clear();
+  file_.seekg(begin);
+  line_number_ = line;
+  return false;
+}
+
+bool XyzReader::read_whole(XyzFrame& frame) {
   if (!next_line()) return false;
   std::size_t count = 0;
   const auto result = std::from_chars(line_.data(), line_.data() + line_.size(), count);

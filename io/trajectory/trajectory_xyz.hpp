@@ -74,6 +74,7 @@ class XyzReader : public TrajectoryReader {
   // order, positions and velocities may have two components or three, and unknown columns are skipped. Throws
   // InputError, "file:line: what is wrong, what was expected", for a file that lacks something.
   bool read(XyzFrame& frame) override;
+  void follow(const std::string& path) override { path_ = path; }  // it stays open
 
  private:
   // Where in a line the columns begin; of `all` columns.
@@ -85,6 +86,7 @@ class XyzReader : public TrajectoryReader {
 
   [[noreturn]] void fail(const std::string& what) const;
   bool next_line();
+  bool read_whole(XyzFrame& frame);
   void read_layout(std::string_view properties);
   void read_header(XyzFrame& frame);
   void read_disk(XyzFrame& frame) const;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <string_view>
 
 #include "core/base/check.hpp"
@@ -117,11 +118,15 @@ std::string json_of_box(const Domain& box) {
 }
 
 // How far each side that moves stands from the edge of the box in each frame; null for those that do not.
-std::string json_of_insets(const Domain& box, const std::vector<double>& times) {
+std::string json_of_insets(const Domain& box, std::span<const double> times) {
   return json_list(box.motions, [&](const SideMotion& motion) {
     const auto inset = [&](double t) { return json_number(motion.at(t).inset, "{:.6g}"); };
     return motion.moves() ? json_list(times, inset) : std::string("null");
   });
+}
+
+std::string json_of_block(const ViewBlock& block) {
+  return fmt::format("[{},{},{},{},{}]", block.first, block.frames, block.residuals, block.packed.size(), block.check);
 }
 
 std::string json_of_obstacle(const Obstacle& o) {
@@ -160,10 +165,7 @@ std::string head_of(const ViewStory& story, const ViewEncoder& encoder, std::str
                                            axis.quantum());
                       }));
   json += fmt::format(R"(,"table":{{"bytes":{},"check":{}}})", table.size(), crc_of(table));
-  json += fmt::format(R"(,"blocks":{})", json_list(encoder.blocks(), [](const ViewBlock& block) {
-                        return fmt::format("[{},{},{},{},{}]", block.first, block.frames, block.residuals,
-                                           block.packed.size(), block.check);
-                      }));
+  json += fmt::format(R"(,"blocks":{})", json_list(encoder.blocks(), json_of_block));
   return json + fmt::format(R"(,"series":{}}})", json_of_series(story.series));
 }
 
@@ -175,25 +177,71 @@ std::string_view put_until(std::string& to, std::string_view page, std::string_v
   return page.substr(at + marker.size());
 }
 
-}  // namespace
+// A value of each disk that is new, as JSON.
+template <class Values>
+std::string json_of_new(const Values& values, std::size_t known) {
+  const auto rest = std::span(values).subspan(std::min(known, values.size()));
+  return json_list(rest, [](auto value) { return fmt::format("{}", value); });
+}
 
-std::string view_page(const ViewStory& story, const ViewEncoder& encoder, const std::vector<std::string>& left_out) {
+std::string block_element(const std::string& id, std::string_view text) {
+  return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, text);
+}
+
+// The page with all but its blocks; the rest of it, which comes behind them, is left in `rest`.
+std::string begin_page(const ViewStory& story, const ViewEncoder& encoder, const std::vector<std::string>& left_out,
+                       bool live, std::string_view& rest) {
   const std::string table = deflated(table_of(encoder));
   std::string html;
-  html.reserve(encoder.packed_bytes() / 3 * 4 + table.size() / 3 * 4 + 200'000);
-  std::string_view rest = put_until(html, viewer_page, "<!--carom:title-->");
+  html.reserve((live ? 0 : encoder.packed_bytes() / 3 * 4) + table.size() / 3 * 4 + 200'000);
+  rest = put_until(html, viewer_page, "<!--carom:policy-->");
+  if (live) html += viewer_live_policy;
+  rest = put_until(html, rest, "<!--carom:title-->");
   html += html_text(story.title.empty() ? "a run" : story.title);
   rest = put_until(html, rest, "<!--carom:head-->");
   html += head_of(story, encoder, table, left_out);
+  rest = put_until(html, rest, "<!--carom:live-->");
+  if (live) html += viewer_live_script;
   rest = put_until(html, rest, "<!--carom:blocks-->");
-  const auto put_block = [&](const std::string& id, std::string_view bytes) {
-    html += fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, base64(bytes));
-  };
-  put_block("table", table);
-  for (std::size_t b = 0; b < encoder.blocks().size(); ++b)
-    put_block(fmt::format("block{}", b), encoder.blocks()[b].packed);
+  return html + block_element("table", base64(table));
+}
+
+}  // namespace
+
+std::string block_text(const ViewEncoder& encoder, std::size_t k) {
+  return base64(encoder.blocks()[k].packed);
+}
+
+std::string view_page(const ViewStory& story, const ViewEncoder& encoder, const std::vector<std::string>& left_out) {
+  std::string_view rest;
+  std::string html = begin_page(story, encoder, left_out, false, rest);
+  for (std::size_t k = 0; k < encoder.blocks().size(); ++k) {
+    html += block_element(fmt::format("block{}", k), block_text(encoder, k));
+  }
   html += rest;
   return html;
+}
+
+std::string live_page(const ViewStory& story, const ViewEncoder& encoder) {
+  std::string_view rest;
+  std::string html = begin_page(story, encoder, {"follows a run that goes on"}, true, rest);
+  html += rest;
+  return html;
+}
+
+std::string view_news(const ViewStory& story, const ViewEncoder& encoder, std::size_t blocks, std::size_t disks,
+                      std::string_view state, bool ended) {
+  const ViewDisks& all = encoder.disks();
+  const auto fresh = std::span(encoder.blocks()).subspan(blocks);
+  const std::size_t frames = fresh.empty() ? encoder.times().size() : fresh.front().first;
+  const auto times = std::span(encoder.times()).subspan(frames);
+  std::string json =
+      fmt::format(R"({{"state":{},"ended":{},"blocks":{},"times":{})", json_string(state), ended,
+                  json_list(fresh, json_of_block), json_list(times, [](double t) { return json_number(t); }));
+  json += fmt::format(R"(,"insets":{},"id":{},"radius":{},"mass":{},"group":{})", json_of_insets(story.box, times),
+                      json_of_new(all.id, disks), json_of_new(all.radius, disks), json_of_new(all.mass, disks),
+                      json_of_new(all.group, disks));
+  return json + fmt::format(R"(,"series":{}}})", json_of_series(story.series));
 }
 
 }  // namespace carom

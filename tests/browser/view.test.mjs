@@ -226,6 +226,23 @@ test("colours, trails, arrows, images and both themes draw something else, witho
   await page.close();
 });
 
+test("the trail of a disk that left through a sink ends where it was last", async () => {
+  const scene = restScene().replace('left = "periodic"\nright = "periodic"', 'left = "sink"').replace("count = 4", "count = 1");
+  shop.run("leaves", scene.replace(/positions = .*/, "positions = [[4.5, 6]]").replace(/velocities = .*/, "velocities = [[-2, 0]]"));
+  const { page } = await shop.show(shop.view("leaves").file, "#t=2");
+  await page.click("#trails");
+  await drawn(page, 4);
+  assert.equal((await page.evaluate(() => window.carom.positions(4))).id.length, 0, "it has left");
+  const ground = await page.evaluate(() => window.carom.colours.ground.match(/\w\w/g).map((hex) => parseInt(hex, 16)));
+  const inked = async (x) => {
+    const scale = await page.evaluate(() => window.carom.camera.scale);
+    const across = [-2, -1, 0, 1, 2].map((pixels) => [x, 6 + pixels / scale]);
+    return (await coloursAt(page, across)).some((colour) => colour.join() !== ground.join());
+  };
+  assert.deepEqual([await inked(4), await inked(2), await inked(1), await inked(0.5)], [true, true, false, false]);
+  await page.close();
+});
+
 test("the coordination number counts neighbours across periodic sides", async () => {
   const scene = restScene().replace("count = 4", "count = 3").replace(/positions = .*/, "positions = [[1.05, 6], [18.95, 6], [10, 6]]");
   shop.run("near", scene.replace(/velocities = .*/, ""));

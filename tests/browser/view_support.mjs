@@ -1,5 +1,5 @@
 // What the tests of the page share: runs made by the program, and pages in Debian's Chromium with software rendering.
-import { execFileSync, spawnSync } from "node:child_process";
+import { execFileSync, spawn, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -38,6 +38,13 @@ export class Workshop {
     if (done.status !== 0) throw new Error(done.stderr);
     return { file: this.path(file), err: done.stderr };
   }
+  // Starts carom in the background; resolves with its process and the first line that it prints, where it prints one.
+  async start(...words) {
+    const child = spawn(program, words, { cwd: this.folder, stdio: ["ignore", "pipe", "inherit"] });
+    const ended = new Promise((done) => child.on("exit", (status) => done(status)));
+    const line = new Promise((done) => child.stdout.once("data", (data) => done(String(data).split("\n")[0])));
+    return { child, ended, line };
+  }
   // Opens a page file and waits until it shows a frame, or says why not. Returns what it asked the network for, too.
   async show(file, hash = "") {
     const page = await this.browser.newPage({ viewport: { width: 1000, height: 700 } });
@@ -45,14 +52,14 @@ export class Workshop {
     const errors = [];
     page.on("request", (request) => requests.push(request.url()));
     page.on("pageerror", (error) => errors.push(error.message));
-    await page.goto(`file://${file}${hash}`);
+    await page.goto(file.startsWith("http:") ? file : `file://${file}${hash}`);
     const shown = () => window.carom?.drawn >= 0 || !document.getElementById("message").hidden;
     await page.waitForFunction(shown, undefined, { timeout: 60000 });
     return { page, requests, errors };
   }
 }
 
-// Frames of a trajectory.xyz: time and, by id, x, y, radius, mass.
+// Frames of the trajectory.xyz of a folder, but for one that is not whole: time and, by id, x, y, radius, mass.
 export function framesOf(folder) {
   const lines = readFileSync(join(folder, "trajectory.xyz"), "utf8").trimEnd().split("\n");
   const frames = [];
@@ -60,6 +67,7 @@ export function framesOf(folder) {
     const count = Number(lines[at]);
     const time = Number(/Time=(\S+)/.exec(lines[at + 1])[1]);
     const disks = new Map();
+    if (lines.length < at + 2 + count) break;
     for (const line of lines.slice(at + 2, at + 2 + count)) {
       const [, x, y, , , , , radius, mass, id] = line.split(/\s+/).map(Number);
       disks.set(id, { x, y, radius, mass });

@@ -1,0 +1,53 @@
+// A run that goes on, as the page that follows it asks for it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "app/view/loopback_server.hpp"
+#include "io/view/view_encoder.hpp"
+#include "run/run_view.hpp"
+
+namespace carom {
+
+class LiveRun {
+ public:
+  // folder: of a run that is going on; waits for its first frame. Throws InputError where no run is going on, or where
+  // it ends without a frame.
+  LiveRun(const std::filesystem::path& folder, const ViewSettings& settings);
+
+  // Packs the frames that came, for about so many seconds at most.
+  void read(double seconds);
+
+  // Whether the run has ended, and all its frames are here.
+  bool ended() const { return ended_; }
+  const std::string& state() const { return state_; }  // of the run, a sentence
+
+  // "" is the page, "blockN" a block of its frames, and "news/BLOCKS/DISKS" what it does not have yet.
+  HttpAnswer answer(std::string_view path) const;
+
+ private:
+  void begin(const TrajectoryFrame& frame);
+  void add(const TrajectoryFrame& frame);
+  void see_the_end();
+
+  std::filesystem::path folder_;
+  ViewSettings settings_;
+  Recording recording_;
+  std::unique_ptr<TrajectoryReader> reader_;
+  ViewStory story_;
+  std::optional<ViewEncoder> encoder_;
+  std::size_t frames_ = 0, stride_ = 1;  // read; one of `stride` is shown
+  std::size_t limit_ = 0;                // bytes of frames at which it doubles
+  double thinned_from_ = 0.0;            // simulated time
+  std::uintmax_t series_bytes_ = 0;
+  bool ended_ = false;
+  std::string state_;
+};
+
+}  // namespace carom

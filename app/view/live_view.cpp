@@ -1,0 +1,43 @@
+#include "app/view/live_view.hpp"
+
+#include <fmt/format.h>
+
+#include "app/cli/messages.hpp"
+#include "app/view/live_run.hpp"
+#include "app/view/open_page.hpp"
+#include "core/base/input_message.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double reading_s = 0.25;  // before requests are looked at again
+constexpr int serving_ms = 250;     // before the run is looked at again
+constexpr double farewell_s = 2.0;  // after the end: a page that has not asked for so long has all, or has gone
+
+}  // namespace
+
+int view_live(const ViewOptions& options) {
+  if (options.file) fail_input("-o", "is for a page that stays", "expected none with --live");
+  ViewSettings settings;
+  if (options.max_size) settings.most_bytes = *options.max_size;
+  settings.warn = print_warning;
+  LiveRun run(options.source, settings);
+  bool asked = false;
+  LoopbackServer server([&](std::string_view path) {
+    asked = true;
+    return run.answer(path);
+  });
+  print_out(fmt::format("{}\n", server.link()));
+  if (!options.quiet) print_note("the link is for this computer alone; Ctrl-C ends it, and so does the end of the run");
+  if (options.open) open_page(server.link());
+  while (!run.ended()) {
+    run.read(reading_s);
+    server.serve(serving_ms);
+  }
+  while (asked && server.quiet_seconds() < farewell_s) server.serve(serving_ms);
+  if (!options.quiet) print_note(run.state());
+  return 0;
+}
+
+}  // namespace carom

@@ -1,0 +1,91 @@
+// What the page of a run that goes on has besides (carom view --live): it asks its server for blocks and for news.
+window.caromLive = {
+  texts: new Map(), // of blocks, by id: what has come stays when the server is gone
+
+  textOf(id) {
+    if (id.startsWith("block") && !this.texts.has(id)) this.texts.set(id, this.get(id).catch(() => null));
+    return this.texts.get(id) ?? null;
+  },
+
+  async get(path) {
+    const answer = await fetch(path, { cache: "no-store" });
+    if (!answer.ok) throw new Error(`${path}: ${answer.status}`);
+    return answer.text();
+  },
+
+  async follow(viewer) {
+    document.getElementById("loop").click();
+    viewer.jump(viewer.playback.last);
+    viewer.store.blocks.forEach((_, k) => this.textOf(`block${k}`));
+    for (let ended = false; !ended; ) {
+      try {
+        const news = JSON.parse(await this.get(`news/${viewer.store.blocks.length}/${viewer.head.disks}`));
+        this.grow(viewer, news);
+        this.say(news.ended ? `${news.state} This page keeps what it has.` : news.state);
+        ended = news.ended;
+      } catch {
+        this.say("The run cannot be followed any longer. This page keeps what it has.");
+        return;
+      }
+      await new Promise((done) => setTimeout(done, 500));
+    }
+  },
+
+  say(sentence) {
+    const line = document.getElementById("left-out");
+    if (line.textContent !== sentence) line.textContent = sentence;
+  },
+
+  grow(viewer, news) {
+    const { head, store, playback } = viewer;
+    const first = store.blocks.length;
+    if (news.blocks.length) {
+      this.addDisks(head, store, news);
+      store.addBlocks(news.blocks);
+      for (let k = first; k < store.blocks.length; ++k) this.textOf(`block${k}`);
+      this.addFrames(viewer, news.times);
+      head.insets.forEach((inset, side) => inset?.push(...news.insets[side]));
+      document.getElementById("story").textContent = `${head.disks} disks, ${head.frames} frames, carom ${head.version}`;
+    }
+    if (news.series.names.join() === viewer.plots.names.join() && viewer.plots.canvas) {
+      viewer.plots.columns = news.series.columns;
+      viewer.plots.time = news.series.columns[0];
+    } else if (!viewer.plots.canvas) {
+      viewer.plots = new viewer.plots.constructor(news.series, (time) => viewer.jumpToTime(time));
+    }
+    playback.setTimes(store.times);
+    viewer.dirty = true;
+  },
+
+  join(old, fresh) {
+    const all = new old.constructor(old.length + fresh.length);
+    all.set(old);
+    all.set(fresh, old.length);
+    return all;
+  },
+
+  addDisks(head, store, news) {
+    store.id = this.join(store.id, news.id);
+    store.radius = this.join(store.radius, news.radius);
+    store.mass = this.join(store.mass, news.mass);
+    store.group = this.join(store.group, news.group.length ? news.group : news.id.map(() => 0));
+    store.largest = news.radius.reduce((a, b) => Math.max(a, b), store.largest);
+    head.disks = store.id.length;
+  },
+
+  // A page at its last frame goes on to what came, unless it is being played.
+  addFrames(viewer, times) {
+    const { head, store, playback } = viewer;
+    const last = playback.last;
+    const follows = playback.frame === last && !playback.playing;
+    store.times = this.join(store.times, times);
+    head.frames = store.times.length;
+    playback.setTimes(store.times);
+    document.getElementById("frame").max = playback.last;
+    // The last frame had the step before it, and the scale few frames to go by.
+    if (last < 100 && !viewer.rangeChosen) viewer.range = null;
+    viewer.renderer.forget();
+    viewer.drawn = -1;
+    if (follows) viewer.jump(playback.last);
+  },
+};
