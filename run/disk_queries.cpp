@@ -50,8 +50,22 @@ bool holds(double low, double high, double c, double period, bool periodic) {
   return shifted <= high;
 }
 
-Vec2 from_to(Vec2 from, const Disks& d, std::size_t i, const Domain& box) {
-  return nearest_image({d.x[i] - from.x, d.y[i] - from.y}, box);
+// Calls see(id, centre, radius) for every disk whose centre is within half_width and half_height of a
+// place in the box, nearest images included, and for every fixed one that reaches into there; perhaps for others too,
+// and for some twice. The centre is that in the box.
+template <class See>
+void see_near(const QueryScene& scene, Vec2 place, double half_width, double half_height, See&& see) {
+  const Disks& d = scene.disks;
+  scene.near(place, half_width, half_height, [&](std::size_t i) {
+    see(d.id[i], Vec2{d.x[i], d.y[i]}, d.radius_of(i));
+  });
+  if (scene.fixed == nullptr) return;
+  // More than the box in both directions has nothing new.
+  const double across = std::min(half_width, scene.box.width), up = std::min(half_height, scene.box.height);
+  scene.fixed->visit({place.x - across, place.y - up}, {place.x + across, place.y + up}, [&](std::uint32_t k, Vec2) {
+    const Obstacle& o = (*scene.fixed)[k];
+    see(o.id, Vec2{o.x, o.y}, o.radius);
+  });
 }
 
 // How far along a unit direction from the origin a line enters a disk around `centre`; 0 if it begins inside; infinite
@@ -78,28 +92,26 @@ double clipped(const Domain& box, Vec2 from, Vec2 direction, double length) {
 }
 
 // A ray is looked at piece by piece, so that the disks near a piece are few and nearest images are the right ones.
-double piece_length(const Disks& disks, const Domain& box) {
-  const double box_size = std::min(box.width, box.height);
-  if (disks.empty()) return box_size;
-  const double spacing = std::sqrt(box.width * box.height / static_cast<double>(disks.size()));
+double piece_length(const QueryScene& scene) {
+  const double box_size = std::min(scene.box.width, scene.box.height);
+  if (scene.count() == 0) return box_size;
+  const double spacing = std::sqrt(scene.box.width * scene.box.height / static_cast<double>(scene.count()));
   return std::min(0.25 * box_size, std::max(4.0 * spacing, 1e-3 * box_size));
 }
 
 // The first disk, the smaller id of two, that a piece of this length meets; its distance is from the piece's start.
-std::optional<RayHit> first_in_piece(const Disks& disks, const Domain& box, const VisitNear& near, Vec2 start,
-                                     Vec2 direction, double length, double largest) {
+std::optional<RayHit> first_in_piece(const QueryScene& scene, Vec2 start, Vec2 direction, double length,
+                                     double largest) {
   const double half = 0.5 * length;
-  const Vec2 centre = into_box({start.x + half * direction.x, start.y + half * direction.y}, box);
+  const Vec2 middle = into_box({start.x + half * direction.x, start.y + half * direction.y}, scene.box);
   std::optional<RayHit> first;
-  const auto look = [&](std::size_t i) {
-    const Vec2 to = from_to(centre, disks, i, box);
-    const double t = entry({to.x + half * direction.x, to.y + half * direction.y}, disks.radius_of(i), direction);
+  const auto look = [&](DiskId id, Vec2 centre, double radius) {
+    const Vec2 to = nearest_image({centre.x - middle.x, centre.y - middle.y}, scene.box);
+    const double t = entry({to.x + half * direction.x, to.y + half * direction.y}, radius, direction);
     if (t > length) return;
-    if (!first || t < first->distance || (t == first->distance && disks.id[i] < first->id)) {
-      first = RayHit{disks.id[i], t, {}};
-    }
+    if (!first || t < first->distance || (t == first->distance && id < first->id)) first = RayHit{id, t, {}};
   };
-  near(centre, half * std::abs(direction.x) + largest, half * std::abs(direction.y) + largest, look);
+  see_near(scene, middle, half * std::abs(direction.x) + largest, half * std::abs(direction.y) + largest, look);
   return first;
 }
 
@@ -111,12 +123,13 @@ VisitNear visit_all(const Disks& disks) {
   };
 }
 
-std::vector<DiskId> disks_in(const Disks& disks, const Domain& box, const VisitNear& near, Vec2 low, Vec2 high) {
+std::vector<DiskId> disks_in(const QueryScene& scene, Vec2 low, Vec2 high) {
   check_finite("rectangle", {low.x, low.y, high.x, high.y});
   if (!(low.x <= high.x && low.y <= high.y)) {
     fail_input("rectangle", fmt::format("({}, {}) to ({}, {})", low.x, low.y, high.x, high.y),
                "expected the lower corner first");
   }
+  const Domain& box = scene.box;
   // Without periodic sides nothing lies outside the box.
   const auto cut = [](double& from, double& to, double size, bool periodic) {
     if (periodic) return;
@@ -128,37 +141,38 @@ std::vector<DiskId> disks_in(const Disks& disks, const Domain& box, const VisitN
   cut(from.y, to.y, box.height, box.periodic_y());
   const Vec2 centre = into_box({0.5 * (from.x + to.x), 0.5 * (from.y + to.y)}, box);
   std::vector<DiskId> ids;
-  near(centre, std::min(0.5 * (to.x - from.x), box.width), std::min(0.5 * (to.y - from.y), box.height),
-       [&](std::size_t i) {
-         if (holds(low.x, high.x, disks.x[i], box.width, box.periodic_x()) &&
-             holds(low.y, high.y, disks.y[i], box.height, box.periodic_y())) {
-           ids.push_back(disks.id[i]);
-         }
-       });
+  see_near(scene, centre, std::min(0.5 * (to.x - from.x), box.width), std::min(0.5 * (to.y - from.y), box.height),
+           [&](DiskId id, Vec2 at, double) {
+             if (holds(low.x, high.x, at.x, box.width, box.periodic_x()) &&
+                 holds(low.y, high.y, at.y, box.height, box.periodic_y())) {
+               ids.push_back(id);
+             }
+           });
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
 }
 
-std::optional<NearDisk> nearest_disk(const Disks& disks, const Domain& box, const VisitNear& near, Vec2 place) {
+std::optional<NearDisk> nearest_disk(const QueryScene& scene, Vec2 place) {
+  const Domain& box = scene.box;
   check_inside("place", box, place);
-  if (disks.empty()) return std::nullopt;
+  if (scene.count() == 0) return std::nullopt;
   std::optional<NearDisk> best;
-  const auto look = [&](std::size_t i) {
-    const double distance = std::sqrt(nearest_distance2({disks.x[i] - place.x, disks.y[i] - place.y}, box));
-    if (best && (distance > best->distance || (distance == best->distance && disks.id[i] >= best->id))) return;
-    best = NearDisk{disks.id[i], distance};
+  const auto look = [&](DiskId id, Vec2 centre, double) {
+    const double distance = std::sqrt(nearest_distance2({centre.x - place.x, centre.y - place.y}, box));
+    if (best && (distance > best->distance || (distance == best->distance && id >= best->id))) return;
+    best = NearDisk{id, distance};
   };
   // What lies within the reach is all seen; so the search is over once the best is. A larger reach sees the whole box.
-  double reach = std::sqrt(box.width * box.height / static_cast<double>(disks.size()));
+  double reach = std::sqrt(box.width * box.height / static_cast<double>(scene.count()));
   for (;; reach *= 2.0) {
-    near(into_box(place, box), reach, reach, look);
+    see_near(scene, into_box(place, box), reach, reach, look);
     if ((best && best->distance <= reach) || (reach > box.width && reach > box.height)) return best;
   }
 }
 
-std::optional<RayHit> cast_ray(const Disks& disks, const Domain& box, const VisitNear& near, Vec2 from, Vec2 direction,
-                               double length) {
+std::optional<RayHit> cast_ray(const QueryScene& scene, Vec2 from, Vec2 direction, double length) {
+  const Domain& box = scene.box;
   check_inside("ray", box, from);
   check_finite("ray", {direction.x, direction.y, length});
   const double speed = std::hypot(direction.x, direction.y);
@@ -169,11 +183,11 @@ std::optional<RayHit> cast_ray(const Disks& disks, const Domain& box, const Visi
   if (whole > longest_ray * size) {
     fail_input("ray", fmt::format("is {} long", whole), fmt::format("expected at most {}", longest_ray * size));
   }
-  const double piece = piece_length(disks, box);
-  const double largest = largest_radius(disks);
+  const double piece = piece_length(scene);
+  const double largest = largest_radius(scene.disks);
   for (double done = 0.0; done <= whole; done += piece) {
     const Vec2 start{from.x + done * unit.x, from.y + done * unit.y};
-    auto hit = first_in_piece(disks, box, near, start, unit, std::min(piece, whole - done), largest);
+    auto hit = first_in_piece(scene, start, unit, std::min(piece, whole - done), largest);
     if (!hit) continue;
     hit->place = into_box({start.x + hit->distance * unit.x, start.y + hit->distance * unit.y}, box);
     hit->distance += done;

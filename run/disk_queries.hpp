@@ -1,4 +1,5 @@
-// Which disks are in a rectangle, which is nearest to a place, which one a ray meets first. Fixed disks are not seen.
+// Which disks are in a rectangle, which is nearest to a place, which one a ray meets first. Fixed disks are
+// seen as others are.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +9,7 @@
 
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/obstacle_cells.hpp"
 
 namespace carom {
 
@@ -18,6 +20,16 @@ using VisitNear = std::function<void(Vec2 centre, double half_width, double half
 
 // All disks, whatever the place.
 VisitNear visit_all(const Disks& disks);
+
+// What queries are about; all of it outlives them.
+struct QueryScene {
+  const Disks& disks;
+  const Domain& box;
+  VisitNear near;
+  const ObstacleCells* fixed = nullptr;  // null where there are none
+
+  std::size_t count() const { return disks.size() + (fixed != nullptr ? fixed->size() : 0); }
+};
 
 struct NearDisk {
   DiskId id = 0;
@@ -33,16 +45,15 @@ struct RayHit {
 // Ids, ascending, of the disks whose centres lie in the rectangle, its sides included. Across periodic sides it may
 // reach out of the box, and sees images; one that is as long as the box or longer sees all. Throws InputError where a
 // number is not finite or low is above high.
-std::vector<DiskId> disks_in(const Disks& disks, const Domain& box, const VisitNear& near, Vec2 low, Vec2 high);
+std::vector<DiskId> disks_in(const QueryScene& scene, Vec2 low, Vec2 high);
 
 // The disk with its centre nearest to a place, of two as near the one with the smaller id; absent without disks. Throws
 // InputError where the place is not finite or lies outside the box.
-std::optional<NearDisk> nearest_disk(const Disks& disks, const Domain& box, const VisitNear& near, Vec2 place);
+std::optional<NearDisk> nearest_disk(const QueryScene& scene, Vec2 place);
 
 // The first disk on a straight line of this length; it goes through periodic sides and ends at others. Throws
 // InputError where a number is not finite, the direction is 0, the line begins outside the box, or is longer than 10^6
 // times the box.
-std::optional<RayHit> cast_ray(const Disks& disks, const Domain& box, const VisitNear& near, Vec2 from, Vec2 direction,
-                               double length);
+std::optional<RayHit> cast_ray(const QueryScene& scene, Vec2 from, Vec2 direction, double length);
 
 }  // namespace carom

@@ -50,12 +50,17 @@ Scene scene_in(const Checkpoint& checkpoint, const std::string& name) {
   return scene;
 }
 
+std::unique_ptr<const ObstacleCells> cells_of(const std::vector<Obstacle>& fixed, const Domain& box) {
+  return fixed.empty() ? nullptr : std::make_unique<const ObstacleCells>(fixed, box);
+}
+
 }  // namespace
 
 Simulation::Simulation(Scene scene, EngineChoice engine)
     : scene_(std::move(scene)), scene_text_(resolved_toml(scene_)), choice_(std::move(engine)) {
   const FloatEnvironment environment;
   within_memory(scene_, [&] { engine_ = make_engine(choice_, scene_, make_initial_state(choice_, scene_)); });
+  fixed_ = cells_of(state().obstacles, scene_.box);
   start_ = run_start(state(), scene_);
   warnings_ = validity_of(scene_, smallest_radius(state().disks), fastest_speed(state().disks));
 }
@@ -67,6 +72,7 @@ Simulation::Simulation(Checkpoint checkpoint, const std::string& name, EngineCho
       start_(checkpoint.record.start) {
   const FloatEnvironment environment;
   within_memory(scene_, [&] { engine_ = make_engine(choice_, scene_, std::move(checkpoint.state)); });
+  fixed_ = cells_of(state().obstacles, scene_.box);
 }
 
 Simulation Simulation::resume(const std::string& name, EngineChoice engine) {
@@ -86,7 +92,7 @@ Engine& Simulation::engine() {
 }
 
 void Simulation::change(const Edit& edit) {
-  order_known_ = false;
+  order_known_ = stepped_ = false;
   if (!edited_ && engine_->edit(edit)) return;
   if (!edited_) {
     const std::vector<std::string> news = engine_->take_warnings();
@@ -96,11 +102,18 @@ void Simulation::change(const Edit& edit) {
   apply(edit, *edited_);
 }
 
+// A step that fails leaves no contacts.
+void Simulation::make_step(Engine& steps) {
+  stepped_ = false;
+  steps.step();
+  stepped_ = true;
+}
+
 void Simulation::step(Count n) {
   const FloatEnvironment environment;
   Engine& steps = engine();
   order_known_ = false;
-  for (Count k = 0; k < n && !done(); ++k) steps.step();
+  for (Count k = 0; k < n && !done(); ++k) make_step(steps);
 }
 
 void Simulation::run_until(double t, const std::function<bool()>& go_on) {
@@ -108,7 +121,7 @@ void Simulation::run_until(double t, const std::function<bool()>& go_on) {
   const FloatEnvironment environment;
   Engine& steps = engine();
   order_known_ = false;
-  while (time() < t && !done() && (!go_on || go_on())) steps.step();
+  while (time() < t && !done() && (!go_on || go_on())) make_step(steps);
 }
 
 const std::vector<std::size_t>& Simulation::order() const {
@@ -143,6 +156,19 @@ double Simulation::disks_at(double t, Disks& out) const {
   out.common_radius = stored.common_radius;
   out.common_mass = stored.common_mass;
   return at;
+}
+
+std::vector<DiskContact> Simulation::contacts() const {
+  if (!stepped_) return {};
+  std::vector<DiskContact> met = engine_->contacts();
+  if (scene_.box.has(SideKind::sink)) {
+    std::vector<DiskId> there = state().disks.id;
+    std::sort(there.begin(), there.end());
+    const auto is_there = [&](DiskId id) { return std::binary_search(there.begin(), there.end(), id); };
+    std::erase_if(met, [&](const DiskContact& c) { return !is_there(c.id1) || !is_there(c.id2); });
+  }
+  std::sort(met.begin(), met.end());
+  return met;
 }
 
 std::uint64_t Simulation::hash() const {
@@ -190,7 +216,7 @@ void Simulation::load(std::string_view bytes) {
   if (checkpoint.state.sources.size() != scene_.sources.size()) scene_in(checkpoint, "saved state");
   start_ = checkpoint.record.start;
   edited_ = std::move(checkpoint.state);
-  order_known_ = false;
+  order_known_ = stepped_ = false;
 }
 
 void Simulation::check_newcomer(const Disk& disk) const {
@@ -219,9 +245,14 @@ std::optional<DiskId> Simulation::add(Disk disk) {
   const double reach = disk.radius + largest_radius(present);
   visit_near()({disk.x, disk.y}, reach, reach,
                [&](std::size_t i) { met = met || meets(present, scene_.box, disk, i, i + 1); });
-  for (const Obstacle& fixed : state().obstacles) {
+  const auto meet_fixed = [&](std::uint32_t k, Vec2) {
+    const Obstacle& fixed = (*fixed_)[k];
     const double distance2 = nearest_distance2({disk.x - fixed.x, disk.y - fixed.y}, scene_.box);
     met = met || touches(distance2, disk.radius + fixed.radius);
+  };
+  if (fixed_) {
+    fixed_->visit({disk.x - disk.radius, disk.y - disk.radius}, {disk.x + disk.radius, disk.y + disk.radius},
+                  meet_fixed);
   }
   if (met) return std::nullopt;
   disk.id = state().next_id;
@@ -262,19 +293,23 @@ VisitNear Simulation::visit_near() const {
   };
 }
 
+QueryScene Simulation::query_scene() const {
+  return {state().disks, scene_.box, visit_near(), fixed_.get()};
+}
+
 std::vector<DiskId> Simulation::disks_in(Vec2 low, Vec2 high) const {
   const FloatEnvironment environment;
-  return carom::disks_in(state().disks, scene_.box, visit_near(), low, high);
+  return carom::disks_in(query_scene(), low, high);
 }
 
 std::optional<NearDisk> Simulation::nearest(Vec2 place) const {
   const FloatEnvironment environment;
-  return nearest_disk(state().disks, scene_.box, visit_near(), place);
+  return nearest_disk(query_scene(), place);
 }
 
 std::optional<RayHit> Simulation::cast_ray(Vec2 from, Vec2 direction, double length) const {
   const FloatEnvironment environment;
-  return carom::cast_ray(state().disks, scene_.box, visit_near(), from, direction, length);
+  return carom::cast_ray(query_scene(), from, direction, length);
 }
 
 }  // namespace carom

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/disks/disk_contact.hpp"
+#include "core/disks/obstacle_cells.hpp"
 #include "core/disks/state.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/step/edit.hpp"
@@ -57,6 +59,13 @@ class Simulation {
   Disks disks() const;
   double disks_at(double t, Disks& out) const;
 
+  // The pairs of disks that met in the last step, in order of time and ids: exact: those that collided in the window,
+  // once for each collision; pairwise: those that touched or overlapped when the disks had drifted, before they were
+  // pushed apart (of a step in parts, of its last part; in a pile, in the last round); rollback: those whose approach
+  // ended the frame. Both disks are still there. Collisions with walls and fixed disks are not among them. None before
+  // the first step, and after a change or load(). No step costs more for it.
+  std::vector<DiskContact> contacts() const;
+
   std::uint64_t hash() const;  // state_hash of carom run
   Summary summary();           // as of carom run, but for wall times and files
 
@@ -81,7 +90,7 @@ class Simulation {
   // Where a disk lies in storage now, if there is one of this id.
   std::optional<std::size_t> find(DiskId id) const;
 
-  // See disk_queries.hpp.
+  // See disk_queries.hpp. Fixed disks are seen too, with the ids that they have among the disks of the scene.
   std::vector<DiskId> disks_in(Vec2 low, Vec2 high) const;
   std::optional<NearDisk> nearest(Vec2 place) const;
   std::optional<RayHit> cast_ray(Vec2 from, Vec2 direction, double length) const;
@@ -91,14 +100,18 @@ class Simulation {
   RunRecord record() const;
   Engine& engine();
   void change(const Edit& edit);
+  void make_step(Engine& steps);
   VisitNear visit_near() const;
+  QueryScene query_scene() const;
   void check_newcomer(const Disk& disk) const;
 
   Scene scene_;
   std::string scene_text_;
   EngineChoice choice_;
   RunStart start_;
+  std::unique_ptr<const ObstacleCells> fixed_;  // for queries; null where nothing is fixed
   std::unique_ptr<Engine> engine_;
+  bool stepped_ = false;         // and nothing was changed or loaded since
   std::optional<State> edited_;  // of which the engine is made anew before the next step
   std::vector<std::string> warnings_;
   mutable std::vector<std::size_t> order_;

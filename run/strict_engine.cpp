@@ -27,6 +27,7 @@ class StrictEngine final : public Engine {
                   const std::function<void(std::size_t)>& visit) override {
     return engine_->visit_near(centre, half_width, half_height, visit);
   }
+  std::vector<DiskContact> contacts() const override { return engine_->contacts(); }
   const PhaseTimes& phase_times() const override { return engine_->phase_times(); }
   std::vector<std::string> take_warnings() override {
     std::vector<std::string> warnings = std::exchange(warnings_, {});

@@ -18,6 +18,14 @@ double ReferenceEngine::disks_at(double /*t*/, Disks& out) const {
   return state_.time;
 }
 
+std::vector<DiskContact> ReferenceEngine::contacts() const {
+  std::vector<DiskContact> met;
+  for (const ContactEvent& e : events_) {
+    if (!is_wall(e.id2)) met.push_back({e.id1, e.id2, state_.time});
+  }
+  return met;
+}
+
 std::vector<std::string> ReferenceEngine::take_warnings() {
   return validity_.take_warnings();
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/disks/obstacle_cells.hpp"
+#include "core/physics/contact_event.hpp"
 #include "core/step/engine.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/validity.hpp"
@@ -19,6 +20,7 @@ class ReferenceEngine : public Engine {
 
   const State& state() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
+  std::vector<DiskContact> contacts() const override;
   const PhaseTimes& phase_times() const override { return times_; }
   std::vector<std::string> take_warnings() override;
 
@@ -37,6 +39,7 @@ class ReferenceEngine : public Engine {
   State state_;
   PhaseTimes times_;
   Validity validity_;
+  std::vector<ContactEvent> events_;  // of the last search
 
  private:
   std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box

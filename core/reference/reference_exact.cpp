@@ -68,6 +68,16 @@ class ReferenceExact final : public Engine {
     return t;
   }
 
+  std::vector<DiskContact> contacts() const override {
+    std::vector<DiskContact> met;
+    if (!has_paths_) return met;
+    for (const WindowPaths::Piece& p : paths_.later) {
+      const DiskId id = at_start_.id[p.disk];
+      if (!is_wall(p.partner) && id < p.partner) met.push_back({id, p.partner, last_plan_.start + p.path.start});
+    }
+    return met;
+  }
+
   void set_watch(const std::function<bool()>& go_on) override { go_on_ = go_on; }
   const PhaseTimes& phase_times() const override { return times_; }
   std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }

@@ -61,8 +61,7 @@ class PairwisePhases : public ReferenceEngine {
 
  private:
   CollisionLog* log_;
-  std::vector<ContactEvent> events_;  // of the last search
-  std::vector<double> x_, y_;         // places kept
+  std::vector<double> x_, y_;  // places kept
 };
 
 }  // namespace

@@ -53,7 +53,6 @@ class RollbackPhases : public ReferenceEngine {
 
  private:
   CollisionLog* log_;
-  std::vector<ContactEvent> events_;     // of this frame
   std::vector<std::uint32_t> contacts_;  // of each disk in events_
 };
 

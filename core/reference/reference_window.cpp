@@ -105,7 +105,7 @@ class EventLoop {
 
   void begin_segment(const Event& e, std::uint32_t i, bool inelastic) {
     ++version_[i];
-    result_.paths.later.push_back({i, path(i), result_.gone[i] != 0});
+    result_.paths.later.push_back({i, path(i), result_.gone[i] != 0, i == e.i1 ? e.id2 : e.id1});
     const EventMark mark{e.time, e.id1, e.id2};
     const bool many = version_[i] > most_paths_of_disk || result_.paths.later.size() > most_paths(disks_.size());
     if (many) result_.crowded = mark;

@@ -19,7 +19,8 @@ struct WindowPaths {
   struct Piece {
     std::uint32_t disk;  // storage index at the window's start
     PathSegment path;
-    bool gone;  // left through a sink at path.start
+    bool gone;       // left through a sink at path.start
+    DiskId partner;  // that it met at path.start: a disk, or a wall (contact_event.hpp)
   };
   std::vector<PathSegment> first;  // one a disk
   std::vector<Piece> later;        // in order of their starts

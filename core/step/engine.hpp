@@ -8,6 +8,7 @@
 
 #include "core/base/collision_log.hpp"
 #include "core/base/phase_times.hpp"
+#include "core/disks/disk_contact.hpp"
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
 #include "core/step/edit.hpp"
@@ -56,6 +57,12 @@ class Engine {
                           const std::function<void(std::size_t)>& /*visit*/) {
     return false;
   }
+
+  // The pairs of disks that met in the last step, in any order. exact: those that collided, once for each collision,
+  // unless forget_paths was called. pairwise: those that touched or overlapped after the drift (of a step in parts, of
+  // its last part; in a pile, in the last round). rollback: those that touched and approached, which end a frame. A
+  // disk that has left through a sink may be among them. Precondition: a step was made, and no edit since.
+  virtual std::vector<DiskContact> contacts() const = 0;
 
   virtual const PhaseTimes& phase_times() const = 0;
 

@@ -69,6 +69,11 @@ typedef struct carom_hit {
   uint32_t id;
 } carom_hit;
 
+typedef struct carom_contact {
+  double time;       /* exact: of the collision; pairwise and rollback: the end of the step */
+  uint32_t id1, id2; /* id1 < id2 */
+} carom_contact;
+
 /* --- The library ---------------------------------------------------------------------------------------------------- */
 
 CAROM_API const char* carom_version(void);                        /* "0.1.0" */
@@ -132,6 +137,12 @@ CAROM_API carom_status carom_radii(const carom_world* world, double* radii, size
 /* Those at a time within the last step (with pairwise and rollback, at its end): how many, and their time. */
 CAROM_API carom_status carom_disks_at(const carom_world* world, double t, carom_disk* disks, size_t room, size_t* count,
                                       double* time);
+/* The pairs of disks that met in the last step, in order of time and ids. exact: those that collided in the window, once
+ * for each collision; pairwise: those that touched or overlapped when the disks had drifted, before they were pushed
+ * apart (of a step in parts, of its last part; in a pile, in the last round); rollback: those whose approach ended the
+ * frame. Walls and fixed disks are left out, and disks that a sink took. None before the first step, and after a change
+ * or carom_load_memory. *count is how many there are; CAROM_INPUT, and none given, where that is more than room. */
+CAROM_API carom_status carom_contacts(const carom_world* world, carom_contact* contacts, size_t room, size_t* count);
 CAROM_API carom_status carom_get(const carom_world* world, uint32_t id, carom_disk* disk);
 
 /* --- Changing it, between two steps --------------------------------------------------------------------------------- */
@@ -141,7 +152,8 @@ CAROM_API carom_status carom_add(carom_world* world, const carom_disk* disk, uin
 CAROM_API carom_status carom_remove(carom_world* world, uint32_t id);
 CAROM_API carom_status carom_set_velocity(carom_world* world, uint32_t id, double vx, double vy);
 
-/* --- Asking --------------------------------------------------------------------------------------------------------- */
+/* --- Asking ---------------------------------------------------------------------------------------------------------
+ * Fixed disks are seen too, with the ids that they have among the disks of the scene. */
 
 /* The disks whose centres lie in a rectangle, ids ascending; it may reach across periodic sides. *count is how many
  * there are; CAROM_INPUT, and no ids, where that is more than room. */

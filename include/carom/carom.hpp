@@ -104,6 +104,16 @@ class World {
     disks(all);
     return all;
   }
+  std::vector<carom_contact> contacts() const {
+    std::vector<carom_contact> met(size());  // mostly enough
+    std::size_t count = 0;
+    if (carom_contacts(world_, met.data(), met.size(), &count) != CAROM_OK) {
+      met.resize(count);
+      check(carom_contacts(world_, met.data(), met.size(), &count));
+    }
+    met.resize(count);
+    return met;
+  }
   std::optional<carom_disk> find(std::uint32_t id) const {
     carom_disk disk;
     return found(carom_get(world_, id, &disk)) ? std::optional(disk) : std::nullopt;

@@ -29,7 +29,7 @@ void EventProcessor<scope>::meet_side(std::uint32_t i, double time) {
   worker_.tally.add(partner, impact);
   const bool gone = window_.rules.box.side(side) == SideKind::sink;
   const EventMark event{time, record_[i].id, partner};
-  begin_segment(i, now, gone, event);
+  begin_segment(i, now, gone ? LoggedSegment::gone : LoggedSegment::no_disk, event);
   if (gone) {
     schedule(i, never, Partner::none());
   } else {
@@ -46,7 +46,7 @@ void EventProcessor<scope>::meet_obstacle(std::uint32_t i, double time) {
       meet_obstacle_at(window_.rules, time, record_[i].partner.place(), window_.disks->mass_of(i), now);
   worker_.tally.add(partner, impact);
   const EventMark event{time, record_[i].id, partner};
-  begin_segment(i, now, false, event);
+  begin_segment(i, now, LoggedSegment::no_disk, event);
   predict_after_event(i, time);
   if (!window_.burst.empty() && loses_energy(window_.rules, partner, impact)) count_burst(i, event);
 }
@@ -83,7 +83,7 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
 template <Scope scope>
 void EventProcessor<scope>::begin_plain_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path) {
   DiskRecord& f = record_[i];
-  if (window_.keeps_paths) log_segment(i, false, path);
+  if (window_.keeps_paths) log_segment(i, partner, path);
   f.path = path;
   if (++f.version > most_paths_of_disk || ++worker_.segments > window_.most_paths) [[unlikely]] {
     worker_.crowded = EventMark{path.start, std::min(f.id, record_[partner].id), std::max(f.id, record_[partner].id)};
@@ -97,9 +97,9 @@ void EventProcessor<scope>::begin_plain_segment(std::uint32_t i, std::uint32_t p
 }
 
 template <Scope scope>
-void EventProcessor<scope>::log_segment(std::uint32_t i, bool gone, const PathSegment& path) {
-  if (record_[i].version == 0) worker_.log.push_back({i, false, record_[i].path});
-  worker_.log.push_back({i, gone, path});
+void EventProcessor<scope>::log_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path) {
+  if (record_[i].version == 0) worker_.log.push_back({i, LoggedSegment::no_disk, record_[i].path});
+  worker_.log.push_back({i, partner, path});
 }
 
 template <Scope scope>
@@ -118,8 +118,8 @@ void EventProcessor<scope>::collide_any_pair(std::uint32_t i, std::uint32_t j, d
   const Impact impact = collide_at(window_.rules, time, d.mass_of(i), d.mass_of(j), a, b);
   worker_.tally.add(id2, impact);
   const EventMark event{time, id1, id2};
-  begin_segment(i, a, false, event);
-  begin_segment(j, b, false, event);
+  begin_segment(i, a, j, event);
+  begin_segment(j, b, i, event);
   predict_after_event(i, time);
   predict_after_event(j, time);
   if (window_.burst.empty() || !loses_energy(window_.rules, id2, impact)) return;
@@ -128,9 +128,10 @@ void EventProcessor<scope>::collide_any_pair(std::uint32_t i, std::uint32_t j, d
 }
 
 template <Scope scope>
-void EventProcessor<scope>::begin_segment(std::uint32_t i, const ExactDisk& now, bool gone, const EventMark& event) {
+void EventProcessor<scope>::begin_segment(std::uint32_t i, const ExactDisk& now, std::uint32_t partner,
+                                          const EventMark& event) {
   DiskRecord& f = record_[i];
-  if (window_.keeps_paths) log_segment(i, gone, now.path);
+  if (window_.keeps_paths) log_segment(i, partner, now.path);
   f.path = now.path;
   if (++f.version > most_paths_of_disk || ++worker_.segments > window_.most_paths) [[unlikely]] {
     worker_.crowded = event;
@@ -141,7 +142,7 @@ void EventProcessor<scope>::begin_segment(std::uint32_t i, const ExactDisk& now,
   if (v2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
   if (!window_.last_contact.empty()) window_.last_contact[i] = now.last_contact;
   if (!window_.thermal_hits.empty()) window_.thermal_hits[i] = now.thermal_hits;
-  if (gone) {
+  if (partner == LoggedSegment::gone) {
     // No path meets one that is not a number.
     f.path.x = f.path.y = std::numeric_limits<double>::quiet_NaN();
     worker_.any_gone = true;

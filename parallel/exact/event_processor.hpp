@@ -79,8 +79,9 @@ class EventProcessor {
   void collide_plain_pair(std::uint32_t i, std::uint32_t j, double time);
   void collide_any_pair(std::uint32_t i, std::uint32_t j, double time);
   void begin_plain_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path);
-  void log_segment(std::uint32_t i, bool gone, const PathSegment& path);
-  void begin_segment(std::uint32_t i, const ExactDisk& now, bool gone, const EventMark& event);
+  // partner: see LoggedSegment.
+  void log_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path);
+  void begin_segment(std::uint32_t i, const ExactDisk& now, std::uint32_t partner, const EventMark& event);
   void count_burst(std::uint32_t i, const EventMark& event);
   // Border: has the disk's motion been known to the end of the slice before?
   bool is_over(std::uint32_t i) const { return scope == Scope::border && record_[i].progress.is_active(); }

@@ -72,6 +72,7 @@ class ParallelExact final : public Engine {
 
   const State& state() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
+  std::vector<DiskContact> contacts() const override;
   void set_watch(const std::function<bool()>& go_on) override { window_.go_on = go_on; }
   void forget_paths() override { window_.keeps_paths = false; }
   void release_memory() override;
@@ -412,6 +413,20 @@ double ParallelExact::disks_at(double t, Disks& out) const {
   return t;
 }
 
+// Both disks of a collision have a segment that begins with it.
+std::vector<DiskContact> ParallelExact::contacts() const {
+  std::vector<DiskContact> met;
+  if (!window_.keeps_paths || !logged_) return met;
+  const std::vector<DiskId>& id = scheduler_.any_gone() ? at_start_.id : state_.disks.id;
+  scheduler_.read_logs([&](const std::vector<LoggedSegment>& log) {
+    for (const LoggedSegment& segment : log) {
+      if (!segment.with_disk() || id[segment.disk] > id[segment.partner]) continue;
+      met.push_back({id[segment.disk], id[segment.partner], logged_->start + segment.path.start});
+    }
+  });
+  return met;
+}
+
 // Of each disk the last segment that has begun by time s of the window; a worker's log has a disk's segments in order.
 std::vector<PathSegment> ParallelExact::paths_at(double s, std::vector<unsigned char>& gone) const {
   std::vector<PathSegment> path(window_.record.size());
@@ -423,7 +438,7 @@ std::vector<PathSegment> ParallelExact::paths_at(double s, std::vector<unsigned 
       const std::uint32_t i = segment.disk;
       if (segment.path.start > s || (logged[i] != 0 && segment.path.start < path[i].start)) continue;
       path[i] = segment.path;
-      gone[i] = segment.gone ? 1 : 0;
+      gone[i] = segment.partner == LoggedSegment::gone ? 1 : 0;
       logged[i] = 1;
     }
   });

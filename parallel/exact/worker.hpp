@@ -13,11 +13,17 @@
 
 namespace carom {
 
-// A segment of a disk's path in the last window; frames are read from these.
+// A segment of a disk's path in the last window; frames and contacts are read from these.
 struct LoggedSegment {
+  // In place of a partner: no other disk, and it left through a sink.
+  static constexpr std::uint32_t no_disk = 0xffffffffU;
+  static constexpr std::uint32_t gone = 0xfffffffeU;
+
   std::uint32_t disk;
-  bool gone;  // left through a sink at path.start
+  std::uint32_t partner;  // what it met at path.start: a disk, or one of these
   PathSegment path;
+
+  bool with_disk() const { return partner < gone; }
 };
 
 // A disk whose motion is known up to its safe time only, because that of a neighbour is not known.

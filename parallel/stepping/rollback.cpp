@@ -20,6 +20,14 @@ class RollbackPhases : public TimeStepping {
  public:
   using TimeStepping::TimeStepping;
 
+  std::vector<DiskContact> contacts() const override {
+    std::vector<DiskContact> met;
+    for (const ContactEvent& e : lists_.events) {
+      if (!is_wall(e.id2)) met.push_back({e.id1, e.id2, state_.time});
+    }
+    return met;
+  }
+
  protected:
   // The pairs that touch and approach, in storage order.
   const std::vector<ContactEvent>& find_approaching(const StepRules& rules, StepFigures& figures) {

@@ -40,6 +40,23 @@ double TimeStepping::disks_at(double /*t*/, Disks& out) const {
   return state_.time;
 }
 
+// The pairs found name disks in the order of storage before disks left.
+std::vector<DiskContact> TimeStepping::contacts() const {
+  std::vector<std::uint32_t> place;  // of each disk then, now
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; closed_up_ && i < gone_.size(); ++i) place.push_back(gone_[i] != 0 ? kept : kept++);
+  const std::vector<DiskId>& id = state_.disks.id;
+  std::vector<DiskContact> met;
+  for (std::size_t b = 0; b < pairs_.used; ++b) {
+    for (const auto& [i, j] : pairs_.buffers[b]) {
+      if (closed_up_ && (gone_[i] | gone_[j]) != 0) continue;
+      const auto [id1, id2] = std::minmax(id[closed_up_ ? place[i] : i], id[closed_up_ ? place[j] : j]);
+      met.push_back({id1, id2, state_.time});
+    }
+  }
+  return met;
+}
+
 std::vector<std::string> TimeStepping::take_warnings() {
   return validity_.take_warnings();
 }
@@ -121,6 +138,7 @@ void TimeStepping::remove_gone() {
   remove_in_parallel(state_.disks, gone_, executor_, cells_.column, cells_.pass);
   state_.counters.removed += static_cast<Count>(marked);
   cells_valid_ = false;
+  closed_up_ = true;
 }
 
 double TimeStepping::exact_travel2() {
@@ -187,6 +205,7 @@ void TimeStepping::search(const StepRules& rules) {
   {
     const PhaseTimer timer(times_, "search");
     pairs_.used = 0;
+    closed_up_ = false;
     strays_ = 0;
     if (!state_.disks.empty()) {
       if (!coarse_.current) note_coarse_positions(state_.disks, scene_.box, grid_, cells_, executor_, coarse_);

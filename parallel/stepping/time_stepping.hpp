@@ -24,6 +24,7 @@ class TimeStepping : public Engine {
 
   const State& state() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
+  std::vector<DiskContact> contacts() const override;
   bool edit(const Edit& edit) override;
   bool visit_near(Vec2 centre, double half_width, double half_height,
                   const std::function<void(std::size_t)>& visit) override;
@@ -69,6 +70,7 @@ class TimeStepping : public Engine {
   std::vector<std::vector<ContactEvent>> walls_;
   DisplacedDisks displaced_;
   std::vector<unsigned char> gone_;
+  bool closed_up_ = false;                 // since the last search disks have left storage, those marked in gone_
   std::vector<double> block_values_;       // scratch, one a block
   std::vector<std::size_t> class_counts_;  // disks of each size class
   double smallest_radius_ = 0.0;           // 0: not known

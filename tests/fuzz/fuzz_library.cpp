@@ -48,7 +48,8 @@ carom_status call(carom_world* world, Bytes& in, std::vector<char>& saved) {
   double time = 0.0;
   carom_disk disks[8];
   carom_hit hit;
-  switch (in.byte() % 14) {
+  carom_contact contacts[4];
+  switch (in.byte() % 15) {
     case 0:
     case 1: {
       const double x = in.number(), y = in.number(), vx = in.number(), vy = in.number();
@@ -87,6 +88,8 @@ carom_status call(carom_world* world, Bytes& in, std::vector<char>& saved) {
     case 10:
       if (!saved.empty() && in.byte() % 2 == 0) saved[in.byte() % saved.size()] ^= static_cast<char>(in.byte());
       return carom_load_memory(world, saved.data(), saved.size());
+    case 11:
+      return carom_contacts(world, contacts, in.byte() % 5, &size);
     default:
       return carom_step(world, in.byte() % 4);
   }

@@ -126,6 +126,33 @@ TEST(CaromC, SavesAndLoadsInMemoryAndInFiles) {
   EXPECT_EQ(world.hash(), hash);
 }
 
+TEST(CaromC, ContactsOfTheLastStep) {
+  World world = World::from_text(gas);
+  EXPECT_TRUE(world.contacts().empty());
+  std::size_t met = 0;
+  for (int k = 0; k < 50; ++k) {
+    world.step();
+    const std::vector<carom_contact> contacts = world.contacts();
+    met += contacts.size();
+    for (const carom_contact& c : contacts) {
+      EXPECT_LT(c.id1, c.id2);
+      EXPECT_EQ(c.time, world.time());
+    }
+    if (contacts.empty()) continue;
+    std::size_t count = 0;
+    std::vector<carom_contact> few(contacts.size());
+    EXPECT_EQ(carom_contacts(world.get(), few.data(), few.size() - 1, &count), CAROM_INPUT);
+    EXPECT_EQ(count, contacts.size());
+    EXPECT_EQ(carom_contacts(world.get(), nullptr, few.size(), &count), CAROM_INPUT);
+    EXPECT_EQ(carom_contacts(world.get(), few.data(), few.size(), nullptr), CAROM_INPUT);
+  }
+  EXPECT_GE(met, world.collisions());
+  EXPECT_GT(met, 0U);
+  world.set_velocity(0, 0.0, 0.0);
+  EXPECT_TRUE(world.contacts().empty());
+  EXPECT_EQ(carom_contacts(nullptr, nullptr, 0, nullptr), CAROM_INPUT);
+}
+
 TEST(CaromC, TwoWorldsInTwoThreads) {
   const auto hash = [](int threads) {
     carom_options options = carom::default_options();
@@ -320,6 +347,7 @@ TEST(CaromC, ExportsWhatTheHeaderDeclaresAndNothingElse) {
   const std::set<std::string> pinned{"carom_add",
                                      "carom_cast_ray",
                                      "carom_collisions",
+                                     "carom_contacts",
                                      "carom_count",
                                      "carom_destroy",
                                      "carom_disks",

@@ -1,0 +1,88 @@
+// What the functions of carom.h share: the world behind a handle, and exceptions that become a status and a text.
+#pragma once
+
+#include <carom/carom.h>
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/check.hpp"
+#include "run/simulation.hpp"
+
+// The text of an error is no part of the world, and a call that only looks may set it.
+struct carom_world {
+  std::optional<carom::Simulation> simulation;  // absent where it could not be made
+  mutable std::string error;
+  std::vector<std::string> warnings;  // that were not taken yet, the next one last
+  std::string warning;
+};
+
+namespace carom {
+
+inline constexpr const char* no_world = "the world is a null pointer";
+inline constexpr const char* never_made = "the world could not be made";
+inline constexpr const char* no_memory = "out of memory";
+
+inline carom_status fail(const carom_world* world, carom_status status, const char* what) {
+  try {
+    world->error = what;
+  } catch (const std::bad_alloc&) {
+    world->error.clear();
+  }
+  return status;
+}
+
+inline carom_status fail(const carom_world* world, const char* what) {
+  return fail(world, CAROM_INPUT, what);
+}
+
+// work() returns a status; what it throws becomes one.
+template <class Work>
+carom_status guarded(const carom_world* world, Work&& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    return fail(world, CAROM_INPUT, error.what());
+  } catch (const PhysicsError& error) {
+    return fail(world, CAROM_PHYSICS, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(world, CAROM_FAILED, no_memory);
+  } catch (const std::length_error&) {
+    return fail(world, CAROM_FAILED, no_memory);
+  } catch (const std::exception& error) {
+    return fail(world, CAROM_FAILED, error.what());
+  } catch (...) {
+    return fail(world, CAROM_FAILED, "failed");
+  }
+}
+
+// work(simulation), on a world that is there.
+template <class World, class Work>
+carom_status with(World* world, Work&& work) {
+  if (world == nullptr) return CAROM_INPUT;
+  if (!world->simulation) return fail(world, never_made);
+  return guarded(world, [&] { return work(*world->simulation); });
+}
+
+// value(simulation) of a world that is there, else 0.
+template <class Value>
+auto value_of(const carom_world* world, Value&& value) noexcept {
+  using Result = decltype(value(*world->simulation));
+  return world != nullptr && world->simulation ? value(*world->simulation) : Result{};
+}
+
+inline void check_pointer(const void* pointer, const char* name) {
+  if (pointer == nullptr) throw InputError(fmt::format("{} is a null pointer", name));
+}
+
+inline void check_room(std::size_t room, std::size_t count, const char* what = "disks") {
+  if (room < count) throw InputError(fmt::format("the array has room for {} {}, and there are {}", room, what, count));
+}
+
+}  // namespace carom
