@@ -19,9 +19,11 @@
 #include "core/load/scene_check.hpp"
 #include "core/scene/scene_text.hpp"
 #include "io/files/output_folder.hpp"
+#include "io/movie/frame.hpp"
 #include "io/trajectory/scene_frame_reader.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
 #include "run/run_scene.hpp"
+#include "run/run_view.hpp"
 #include "run/simulation.hpp"
 
 namespace py = pybind11;
@@ -138,6 +140,15 @@ class PySimulation {
   std::shared_ptr<int> views_ = std::make_shared<int>(0);
 };
 
+// A picture as `carom render` draws it, into a PNG file.
+void paint(const PySimulation& s, const std::string& file) {
+  const Simulation& look = s.look();
+  const PictureLook usual;
+  FramePainter painter(frame_style(look.scene(), usual, foreseen_values(look.scene(), look.state().disks)));
+  painter.paint(look.state().disks, look.time());
+  painter.write_png(file);
+}
+
 // What `carom run` does, with what it says handed to Python. Returns the summary as JSON, the folder, why it stopped,
 // and what pictures were lost.
 py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder, const std::string& engine,
@@ -171,6 +182,16 @@ py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder
   return py::make_tuple(json_text(outcome.summary), outcome.folder, outcome.stopped_by, outcome.lost_pictures);
 }
 
+// What `carom view` does. Returns what the page leaves out, sentences.
+std::vector<std::string> write_page(const std::string& source, const std::string& file,
+                                    std::optional<std::size_t> most_bytes) {
+  const py::gil_scoped_release free;
+  ViewSettings settings;
+  if (most_bytes) settings.most_bytes = *most_bytes;
+  settings.engine = engine_of("", 1);
+  return write_view(file, open_recording(source), settings).left_out;
+}
+
 // A reader's next frame, or None.
 py::object next_frame(TrajectoryReader& reader) {
   TrajectoryFrame frame;
@@ -192,6 +213,8 @@ void bind_scene(py::module_& m) {
       .def_property_readonly("file", [](const Scene& s) { return s.file; })
       .def_property_readonly("width", [](const Scene& s) { return s.box.width; })
       .def_property_readonly("height", [](const Scene& s) { return s.box.height; })
+      .def_property_readonly("periodic",
+                             [](const Scene& s) { return py::make_tuple(s.box.periodic_x(), s.box.periodic_y()); })
       .def_property_readonly("t_end", [](const Scene& s) { return s.run.t_end; })
       .def_property_readonly("seed", [](const Scene& s) { return s.seed; })
       .def("toml", [](const Scene& s) { return resolved_toml(s); })
@@ -229,6 +252,8 @@ void bind_simulation(py::module_& m) {
       .def("hash", [](const PySimulation& s) { return hash_text(s.look().hash()); })
       .def("summary", [](PySimulation& s) { return json_text(s.change().summary()); })
       .def("warnings", [](PySimulation& s) { return s.change().take_warnings(); })
+      .def("contacts", [](const PySimulation& s) { return copied(s.look().contacts()); })
+      .def("paint", &paint)
       .def("disks", [](const PySimulation& s) { return columns_of(s.look().disks()); })
       .def("disks_at",
            [](const PySimulation& s, double t) {
@@ -270,6 +295,7 @@ void bind_simulation(py::module_& m) {
 
 PYBIND11_MODULE(_carom, m) {
   using namespace carom;
+  PYBIND11_NUMPY_DTYPE(DiskContact, id1, id2, time);
   m.doc() = "The compiled part of carom.";
   // Later ones are asked first.
   py::register_exception<RunError>(m, "RunError", PyExc_OSError);
@@ -280,6 +306,7 @@ PYBIND11_MODULE(_carom, m) {
   bind_simulation(m);
   m.def("run", &run_scene);
   py::class_<TrajectoryReader>(m, "TrajectoryReader").def("next", &next_frame);
+  m.def("write_view", &write_page);
   m.def("open_trajectory", [](const std::string& path) { return open_trajectory(path, true); });
   m.def("trajectory_in", [](const std::string& folder) { return trajectory_in(folder).string(); });
 }

@@ -1,0 +1,86 @@
+"""Disks as numpy columns: copies, frames, and views of what the engine has in memory."""
+
+from __future__ import annotations
+
+from typing import Mapping, NamedTuple
+
+import numpy as np
+
+from . import _export
+
+
+class Disks:
+    """Disks as columns, numpy arrays of shape (n,): x, y (length), vx, vy (length / time), radius, mass, id."""
+
+    def __init__(self, columns: Mapping[str, np.ndarray], t: float):
+        self.__dict__.update(columns)
+        self.t = t  # simulated time
+        self.names = tuple(columns)
+
+    def __len__(self):
+        return len(self.x)
+
+    def positions3d(self) -> np.ndarray:
+        """Centres as float64 of shape (n, 3), z = 0: as freud, ASE and MDAnalysis want them."""
+        return np.column_stack([self.x, self.y, np.zeros(len(self))])
+
+    def __repr__(self):
+        return f"<{len(self)} disks at t = {self.t:g}: {', '.join(self.names)}>"
+
+
+class Frame(Disks):
+    """Disks in order of id, and the box; of a trajectory, with the column group where the file has it.
+
+    to_ase, to_freud and to_gsd make what these programs take.
+    """
+
+    def __init__(self, t, width, height, periodic_x, periodic_y, columns):
+        super().__init__(columns, t)
+        self.box = (width, height)  # length
+        self.periodic = (periodic_x, periodic_y)
+
+    def to_ase(self):
+        """ase.Atoms: positions (z = 0), masses, velocities, periodic sides; radius and id as arrays of these names."""
+        return _export.ase_atoms(self)
+
+    def to_freud(self) -> tuple:
+        """(box, points) for freud.*.compute: two lengths, and float32 of shape (n, 3) around the middle of the box. freud
+        takes all sides as periodic, unless its box is told otherwise."""
+        return _export.freud_system(self)
+
+    def to_gsd(self):
+        """A snapshot of gsd.hoomd, in two dimensions and around the middle of the box, with diameters and masses; HOOMD,
+        freud and OVITO take it. Its step is 0: GSD has no times."""
+        return _export.gsd_snapshot(self)
+
+
+class Hit(NamedTuple):
+    """What a ray meets: the disk's id, the distance along the ray to its edge, and the place there (length)."""
+
+    id: int
+    distance: float
+    x: float
+    y: float
+
+
+class View:
+    """The columns as they lie in memory: no copies, read-only, in an order that any step may change."""
+
+    def __init__(self, columns):
+        self._columns = columns
+
+    def __getattr__(self, name):
+        columns = self.__dict__["_columns"]
+        if columns is None:
+            raise RuntimeError("the view is closed")
+        if name not in columns:
+            raise AttributeError(f"the view has no column {name}: it has {', '.join(columns)}")
+        return columns[name]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._columns = None
+
+    close = __exit__

@@ -1,0 +1,54 @@
+"""What notebooks show."""
+
+from __future__ import annotations
+
+import base64
+import html
+import os
+import pathlib
+import sys
+import tempfile
+
+from . import _carom
+
+
+class Page:
+    """A page that a notebook shows by itself, apart from its own."""
+
+    def __init__(self, text: str):
+        self.text = text
+
+    def _repr_html_(self):
+        return ('<iframe style="width: 100%; height: 600px; border: 0" '
+                f'srcdoc="{html.escape(self.text)}"></iframe>')
+
+
+def _in_notebook() -> bool:
+    shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
+    return getattr(shell, "kernel", None) is not None
+
+
+def show(trajectory: str, file, most_bytes):
+    """The viewer's page: in a notebook a Page; else written and opened."""
+    if file is None and _in_notebook():
+        with tempfile.TemporaryDirectory() as folder:
+            page = os.path.join(folder, "view.html")
+            _carom.write_view(trajectory, page, most_bytes)
+            return Page(pathlib.Path(page).read_text(encoding="utf-8"))
+    page = os.fspath(pathlib.Path(trajectory).with_name("view.html") if file is None else file)
+    _carom.write_view(trajectory, page, most_bytes)
+    if file is None:
+        import webbrowser
+
+        webbrowser.open(pathlib.Path(page).absolute().as_uri())
+    return None
+
+
+def table(rows: dict) -> str:
+    cells = "".join(f"<tr><td>{html.escape(name)}</td><td>{html.escape(str(value))}</td></tr>" for name, value in rows.items())
+    return f"<table>{cells}</table>"
+
+
+def image(kind: str, content: bytes) -> str:
+    """kind: png or svg+xml. As an image an SVG runs no scripts, and its ids are its own."""
+    return f'<img style="max-width: 100%" src="data:image/{kind};base64,{base64.b64encode(content).decode()}"/>'

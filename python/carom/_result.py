@@ -1,0 +1,161 @@
+"""What a run leaves: its summary, columns, frames and plots."""
+
+from __future__ import annotations
+
+import os
+import pathlib
+from typing import Any, Iterator, Mapping, Optional
+
+import numpy as np
+
+from . import _carom, _export, _notebook
+from ._carom import SceneError
+from ._disks import Frame
+
+
+class Trajectory:
+    """The frames of trajectory.xyz or trajectory.h5, read one by one as they are asked for.
+
+    path: the file, or the folder of a run, also of one that goes on. len() and [k] read up to there. Raises SceneError where
+    there is none, or it is damaged.
+    """
+
+    def __init__(self, path):
+        path = os.fspath(path)
+        self.file = path
+        if os.path.isdir(path):
+            self.file = _carom.trajectory_in(path) or _carom.trajectory_in(os.path.join(path, "carom-unfinished"))
+            if not self.file:
+                raise SceneError(f"{path}: holds no trajectory; expected trajectory.xyz or trajectory.h5")
+        self._length = None
+        _carom.open_trajectory(self.file)
+
+    def __iter__(self) -> Iterator[Frame]:
+        reader = _carom.open_trajectory(self.file)
+        while (frame := reader.next()) is not None:
+            yield Frame(*frame)
+
+    def __len__(self):
+        if self._length is None:
+            self._length = sum(1 for _ in self)
+        return self._length
+
+    def __getitem__(self, k: int) -> Frame:
+        wanted = k + len(self) if k < 0 else k
+        for n, frame in enumerate(self):
+            if n == wanted:
+                return frame
+        raise IndexError(f"frame {k} of {len(self)}")
+
+    def show(self, file=None, max_size: Optional[int] = None):
+        """The viewer, as `carom view` makes it: one HTML page that plays the run, of at most max_size bytes.
+
+        In a notebook it is shown there. Elsewhere it is written to file (view.html in the run's folder, or where the
+        trajectory lies) and opened in a browser; with file given it is only written.
+        """
+        return _notebook.show(self.file, file, max_size)
+
+    def to_ase(self) -> list:
+        """An ase.Atoms a frame, as Frame.to_ase."""
+        return [frame.to_ase() for frame in self]
+
+    def to_mdanalysis(self):
+        """An MDAnalysis.Universe with all frames in memory: positions, velocities, times, box (its height in z is 1), masses,
+        radii. Raises ValueError where frames have different disks."""
+        return _export.mdanalysis_universe(self)
+
+    def to_gsd(self, path) -> None:
+        """Writes a GSD file, a snapshot a frame as Frame.to_gsd; the step is the frame's number."""
+        _export.write_gsd(path, self)
+
+    def __repr__(self):
+        return f"<carom.Trajectory {self.file!r}>"
+
+
+class Column(np.ndarray):
+    """A numpy column from a file, with what the file says of it: attributes (a dictionary), unit, and of a series its
+    standard_error, that of its mean by blocking, or None."""
+
+    def __new__(cls, values, attributes: Mapping[str, Any] = {}):
+        column = np.asarray(values).view(cls)
+        column.attributes = dict(attributes)
+        return column
+
+    def __array_finalize__(self, other):
+        self.attributes = {}  # what is computed from a column has others
+
+    unit = property(lambda self: self.attributes.get("unit"), doc="\"time\", \"length\", ..., or None")
+    standard_error = property(lambda self: self.attributes.get("standard_error"), doc="of the mean, or None")
+
+
+def _attributes(item) -> dict:
+    """Those of a data set and of its group; where a group has several series, NAME_mean is the mean of its NAME."""
+    name = item.name.rsplit("/", 1)[1]
+    own = {}
+    for holder in (item.parent, item):
+        own.update({key: v.decode() if isinstance(v, bytes) else v for key, v in holder.attrs.items()})
+    return own | {key[len(name) + 1:]: v for key, v in own.items() if key.startswith(name + "_")}
+
+
+class Result:
+    """What a run came to. summary: the keys of `carom run --json`; folder: of its files, or None."""
+
+    def __init__(self, summary: Mapping[str, Any], folder: Optional[str]):
+        self.summary = dict(summary)
+        self.folder = folder
+
+    hash = property(lambda self: self.summary["state_hash"], doc="16 hexadecimal digits")
+
+    def _file(self, name):
+        if self.folder is None:
+            raise SceneError("the run wrote no files; give carom.run a folder: out=\"out/gas\"")
+        return os.path.join(self.folder, name)
+
+    @property
+    def series(self) -> dict:
+        """Columns of series.csv by name, float64 of shape (frames,)."""
+        table = np.genfromtxt(self._file("series.csv"), delimiter=",", names=True, deletechars="", ndmin=1)
+        return {name: table[name] for name in table.dtype.names}
+
+    @property
+    def frames(self) -> Trajectory:
+        """The trajectory, frame by frame."""
+        return Trajectory(self._file(""))
+
+    @property
+    def analysis(self) -> dict:
+        """The data sets of analysis.h5 by their paths, a Column each (needs h5py). A column's attributes are its own and
+        those of its group: mean, standard_error, diffusion, diffusion_error, samples, ..., as docs/output.md lists them."""
+        import h5py
+
+        columns = {}
+
+        def take(path, item):
+            if isinstance(item, h5py.Dataset):
+                columns[path] = Column(item[()], _attributes(item)) if item.shape else item[()]
+
+        with h5py.File(self._file("analysis.h5")) as file:
+            file.visititems(take)
+        return columns
+
+    def __repr__(self):
+        s = self.summary
+        return f"<carom.Result, {s['particles']} disks, t = {s['time']:g}, hash {self.hash}, folder {self.folder!r}>"
+
+    def show(self, file=None, max_size: Optional[int] = None):
+        """The viewer of the trajectory, as Trajectory.show."""
+        return self.frames.show(file, max_size)
+
+    @property
+    def plots(self) -> dict:
+        """The plots that the scene asked for, by name: the text of an SVG file each."""
+        if self.folder is None:
+            return {}
+        files = sorted(pathlib.Path(self.folder).glob("*.svg"))
+        return {file.stem: file.read_text(encoding="utf-8") for file in files}
+
+    def _repr_html_(self):
+        s = self.summary
+        rows = {"disks": s["particles"], "time": f"{s['time']:g}", "collisions": s["collisions"], "state hash": self.hash,
+                "folder": self.folder}
+        return _notebook.table(rows) + "".join(_notebook.image("svg+xml", plot.encode()) for plot in self.plots.values())

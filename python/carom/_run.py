@@ -1,0 +1,63 @@
+"""Whole runs, one or many."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Callable, Iterable, Optional, Sequence
+
+from . import _carom
+from ._carom import RunError
+from ._result import Result
+from ._scene import Scene
+from ._simulation import engine as _engine
+
+
+def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "parallel", force: bool = False,
+        strict: bool = False, warn: Optional[Callable[[str], Any]] = None) -> Result:
+    """The whole of `carom run`: steps to t_end and writes what the scene asks for to the folder out; without out, no files.
+
+    force replaces earlier results there; strict raises PhysicsError at the first warning of the physics; warn gets each
+    warning as a line (default: warnings.warn). Raises SceneError (a folder that holds another run), PhysicsError,
+    RunError (the machine: a full disk, a plot that could not be drawn), KeyboardInterrupt (with a checkpoint in out).
+    """
+    if warn is None:
+        import warnings
+
+        def warn(text):
+            warnings.warn(text, RuntimeWarning, stacklevel=3)
+
+    folder = None if out is None else os.fspath(out)
+    text, folder, stopped, lost = _carom.run(scene._scene, folder, *_engine(engine, threads), force, strict, warn)
+    if stopped:
+        raise KeyboardInterrupt(stopped)
+    if lost:
+        raise RunError(lost)
+    return Result(json.loads(text), folder or None)
+
+
+def _run_one(scene, out):
+    import warnings
+
+    warnings.simplefilter("ignore", RuntimeWarning)  # they are in the summary
+    return run(scene, out, threads=1)
+
+
+def map(scenes: Iterable[Scene], outs: Optional[Sequence] = None, jobs: Optional[int] = None) -> list:
+    """Runs every scene by itself on one core, on all cores or on so many jobs at once; the results in the order of scenes.
+
+    outs: a folder for each, or None for no files. Processes are begun anew ("spawn"): a script that calls this needs
+    `if __name__ == "__main__":`. Raises what a run raises.
+    """
+    import multiprocessing
+    from concurrent.futures import ProcessPoolExecutor
+
+    scenes = list(scenes)
+    outs = [None] * len(scenes) if outs is None else list(outs)
+    if len(outs) != len(scenes):
+        raise ValueError(f"{len(outs)} folders for {len(scenes)} scenes")
+    if not scenes:
+        return []
+    jobs = min(jobs or os.cpu_count() or 1, len(scenes))
+    with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
+        return list(pool.map(_run_one, scenes, outs))

@@ -1,0 +1,68 @@
+"""Scenes, read and checked."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Mapping
+
+from . import _carom
+from ._text import overrides as _overrides, toml as _toml
+
+
+class Scene:
+    """A scene, read and checked.
+
+    Scene({...}) takes the tables and keys of a scene file as a dictionary; lists may be numpy arrays. changes are keys
+    and values that take the place of the scene's: {"run.t_end": 50.0}. Raises SceneError with one line that says what is
+    wrong and what was expected.
+    """
+
+    def __init__(self, tables: Mapping[str, Any], changes: Mapping[str, Any] = {}):
+        self._source = ("text", _toml(tables), "scene", "", _overrides(changes))
+        self._scene = self._read()
+
+    @classmethod
+    def load(cls, path, changes: Mapping[str, Any] = {}) -> "Scene":
+        """The scene of a TOML file. Raises SceneError (file, line, key, what was expected)."""
+        return cls._of("file", os.fspath(path), _overrides(changes))
+
+    @classmethod
+    def parse(cls, text: str, changes: Mapping[str, Any] = {}, folder: str = "") -> "Scene":
+        """The scene of TOML text; files that it names are looked for from folder on."""
+        return cls._of("text", text, "scene", folder, _overrides(changes))
+
+    @classmethod
+    def _of(cls, *source):
+        scene = cls.__new__(cls)
+        scene._source = source
+        scene._scene = scene._read()
+        return scene
+
+    def _read(self):
+        kind, *arguments = self._source
+        return _carom.load_scene(*arguments) if kind == "file" else _carom.parse_scene(*arguments)
+
+    def __getstate__(self):
+        return self._source
+
+    def __setstate__(self, source):
+        self._source = source
+        self._scene = self._read()
+
+    title = property(lambda self: self._scene.title, doc="str")
+    width = property(lambda self: self._scene.width, doc="of the box; length")
+    height = property(lambda self: self._scene.height, doc="of the box; length")
+    t_end = property(lambda self: self._scene.t_end, doc="simulated time at which a run ends")
+    seed = property(lambda self: self._scene.seed, doc="of the random numbers")
+
+    @property
+    def warnings(self) -> list:
+        """What is no error but may not be what was meant, one line each."""
+        return self._scene.warnings()
+
+    def toml(self) -> str:
+        """The scene as TOML with every default spelled out."""
+        return self._scene.toml()
+
+    def __repr__(self):
+        return f"<carom.Scene {self.title or self._scene.file!r}, {self.width:g} x {self.height:g}, t_end {self.t_end:g}>"

@@ -1,0 +1,182 @@
+"""A scene in the hands of a program."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import tempfile
+from typing import Any, Callable, Optional
+
+import numpy as np
+
+from . import _carom, _notebook
+from ._disks import Frame, Hit, View
+from ._scene import Scene
+
+_slice = 0.05  # seconds of steps between two looks at signals and callbacks
+_threads_began_in = None  # the process in which a run had several threads, which a fork does not copy
+
+
+def engine(name: str, threads: Optional[int]) -> tuple:
+    """The engine's name and threads, refused in a child of a process that had several."""
+    global _threads_began_in
+    several = name != "reference" and (threads or os.cpu_count() or 1) > 1
+    if several and _threads_began_in not in (None, os.getpid()):
+        raise RuntimeError("this process was forked from one that ran Carom on several threads, which are not in it: "
+                           "give threads=1, or start processes with multiprocessing's \"spawn\"")
+    if several:
+        _threads_began_in = os.getpid()
+    return name, threads
+
+
+_engine = engine  # where an argument has the name
+
+
+class Simulation:
+    """A scene that is stepped by a program: looked at, changed between steps, saved.
+
+    threads: of the engine; None: all cores. engine: "parallel" or "reference", which give the same bits. Raises
+    SceneError where the disks find no place. A simulation is used by one thread at a time; other threads run Python while it
+    steps.
+    """
+
+    def __init__(self, scene: Scene, threads: Optional[int] = None, engine: str = "parallel"):
+        self._begin(_carom.Simulation(scene._scene, *_engine(engine, threads)))
+
+    def _begin(self, simulation):
+        self._sim = simulation
+        self._pid = os.getpid()
+        self._callbacks = []
+
+    time = property(lambda self: self._sim.time, doc="end of the last step")
+    done = property(lambda self: self._sim.done, doc="has the scene's t_end been reached?")
+    steps = property(lambda self: self._sim.steps, doc="made; with exact, windows")
+    collisions = property(lambda self: self._sim.collisions, doc="of two disks")
+    wall_collisions = property(lambda self: self._sim.wall_collisions, doc="of a disk and a wall")
+    hash = property(lambda self: self._sim.hash(), doc="state_hash of the command line, 16 hexadecimal digits")
+
+    def __len__(self):
+        return self._sim.count
+
+    @property
+    def summary(self) -> dict:
+        """What `carom run --json` prints, of this moment; times of the machine are 0."""
+        return json.loads(self._sim.summary())
+
+    def take_warnings(self) -> list:
+        """Warnings of the physics since the last call, one line each."""
+        return self._sim.warnings()
+
+    def every(self, interval: float, call: Callable[["Simulation"], Any]) -> None:
+        """Calls call(self) during step and run, after the first step that ends at or beyond each multiple of interval
+        (simulated time, > 0) from now on. What it raises ends the run there, and the simulation can go on."""
+        if not interval > 0.0:
+            raise ValueError(f"interval is {interval}; expected a time above 0")
+        self._callbacks.append([interval, np.floor(self.time / interval) + 1, call])
+
+    def step(self, steps: int = 1) -> None:
+        """Makes so many steps (dt; with exact, windows), fewer where t_end is reached. Raises PhysicsError where the
+        method cannot go on, KeyboardInterrupt between steps."""
+        if steps < 0:
+            raise ValueError(f"steps is {steps}; expected 0 or more")
+        self._go(steps, np.inf)
+
+    def run(self, until: Optional[float] = None) -> None:
+        """Steps until time >= until, or to t_end. No step is cut short: disks(at=until) has the disks at that time
+        itself, with the method exact. Raises as step."""
+        if until is not None and np.isnan(until):
+            raise ValueError("until is not a number")
+        self._go(2**63, np.inf if until is None else until)
+
+    def _go(self, steps, until):
+        if os.getpid() != self._pid and self._sim.threads > 1:
+            raise RuntimeError("this simulation began in another process, and its threads are there")
+        while steps > 0 and self.time < until and not self.done:
+            due = min((interval * k for interval, k, _ in self._callbacks), default=np.inf)
+            steps -= self._sim.step_for(steps, min(until, due), _slice)
+            for entry in self._callbacks:
+                interval, k, call = entry
+                if self.time >= interval * k:
+                    entry[1] = np.floor(self.time / interval) + 1
+                    call(self)
+
+    def disks(self, at: Optional[float] = None) -> Frame:
+        """Copies of the columns in order of id: now, or at a time within the last step (method exact; otherwise now)."""
+        t, columns = (self.time, self._sim.disks()) if at is None else self._sim.disks_at(at)
+        scene = self._sim.scene
+        return Frame(t, scene.width, scene.height, *scene.periodic, columns)
+
+    def contacts(self) -> np.ndarray:
+        """The pairs of disks that met in the last step: fields id1, id2 (id1 < id2) and time, in order of time and ids.
+
+        exact: those that collided in the window, once for each collision; pairwise: those that touched or overlapped when
+        the disks had drifted, before they were pushed apart (of a step in parts, of its last part; in a pile, in the last
+        round); rollback: those whose approach ended the frame. Walls and fixed disks are left out, and disks that a sink
+        took. None before the first step, and after a change or from_bytes.
+        """
+        return self._sim.contacts()
+
+    def view(self) -> View:
+        """Columns without a copy, for `with sim.view() as v:`. v.x, v.y, v.vx, v.vy, v.id; v.radius and v.mass where disks
+        differ. step and every change raise RuntimeError while it, or an array of it, is in use."""
+        return View(self._sim.view())
+
+    def add(self, x, y, vx=0.0, vy=0.0, radius=1.0, mass=1.0) -> Optional[int]:
+        """A new disk; its id, or None where it would overlap another. Raises SceneError for numbers out of range."""
+        return self._sim.add(x, y, vx, vy, radius, mass)
+
+    def remove(self, id: int) -> bool:
+        """Takes a disk away; False where there is none of this id."""
+        return self._sim.remove(id)
+
+    def set_velocity(self, id: int, vx: float, vy: float) -> bool:
+        """False where there is no disk of this id."""
+        return self._sim.set_velocity(id, vx, vy)
+
+    def disks_in(self, x0, y0, x1, y1) -> np.ndarray:
+        """Ids, ascending, of the disks whose centres lie in a rectangle; it may reach across periodic sides."""
+        return self._sim.disks_in(x0, y0, x1, y1)
+
+    def nearest(self, x, y) -> Optional[tuple]:
+        """(id, distance) of the disk whose centre is nearest, over periodic sides; None without disks."""
+        return self._sim.nearest(x, y)
+
+    def cast_ray(self, x, y, dx, dy, length) -> Optional[Hit]:
+        """The first disk on a line of this length from (x, y) along (dx, dy); None where there is none."""
+        hit = self._sim.cast_ray(x, y, dx, dy, length)
+        return None if hit is None else Hit(*hit)
+
+    def save(self, path) -> None:
+        """Everything from which to go on, bit for bit, in a file that `carom resume` takes too."""
+        self._sim.save(os.fspath(path))
+
+    def to_bytes(self) -> bytes:
+        """The same in memory, for from_bytes."""
+        return self._sim.save_bytes()
+
+    def from_bytes(self, saved: bytes) -> None:
+        """Goes back, or on, to what to_bytes gave. Raises SceneError where it is damaged."""
+        self._sim.load_bytes(saved)
+
+    def __repr__(self):
+        return f"<carom.Simulation, {len(self)} disks, t = {self.time:g}, {self.collisions} collisions>"
+
+    def picture(self) -> bytes:
+        """A picture of the disks now, as `carom render` draws it: the bytes of a PNG file."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "picture.png"
+            self._sim.paint(str(file))
+            return file.read_bytes()
+
+    def _repr_html_(self):
+        rows = {"disks": len(self), "time": f"{self.time:g}", "steps": self.steps, "collisions": self.collisions,
+                "state hash": self.hash}
+        return _notebook.table(rows) + _notebook.image("png", self.picture())
+
+
+def resume(path, threads: Optional[int] = None, engine: str = "parallel") -> Simulation:
+    """The simulation of a checkpoint, or of the folder of a run that has one. Raises SceneError where it is none."""
+    simulation = Simulation.__new__(Simulation)
+    simulation._begin(_carom.Simulation.resume(os.fspath(path), *_engine(engine, threads)))
+    return simulation

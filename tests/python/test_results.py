@@ -1,0 +1,132 @@
+"""What a run leaves as Python sees it: columns with their errors, plots, the viewer, and what other programs take."""
+
+import os
+
+import carom
+import numpy as np
+import pytest
+
+
+@pytest.fixture(scope="module", params=["xyz", "h5md"])
+def result(request, tmp_path_factory):
+    scene = carom.Scene({
+        "title": "gas <b>",
+        "box": {"packing_fraction": 0.4, "left": "periodic", "right": "periodic"},
+        "disks": [{"count": 100, "positions": "random", "velocities": {"maxwell": 1.0}, "radius": 0.5, "mass": 2.0}],
+        "run": {"method": "exact", "t_end": 4.0},
+        "output": {"trajectory": request.param, "series": True, "every": 0.5},
+        "analysis": {"what": ["pair_correlation", "pressure"], "every": 0.25},
+    })
+    return carom.run(scene, out=tmp_path_factory.mktemp("results") / "run")
+
+
+def test_columns_have_what_the_file_says_of_them(result):
+    pressure = result.analysis["pressure/value"]
+    assert pressure.standard_error > 0.0
+    known = np.isfinite(pressure)
+    weights = result.analysis["pressure/interval"][known]
+    assert np.isclose(np.average(pressure[known], weights=weights), pressure.attributes["mean"])
+    assert abs(pressure.attributes["mean"] - pressure[known].mean()) < 10 * pressure.standard_error
+    g = result.analysis["pair_correlation/g"]
+    assert g.standard_error is None and g.attributes["samples"] == 17
+    assert result.analysis["samples/time"].unit == "time"
+    assert (2.0 * g).standard_error is None and (2.0 * pressure).attributes == {}
+    assert result.series["kinetic"].shape == (9,)
+
+
+def test_a_notebook_shows_the_plots_and_the_disks(result):
+    assert "pair_correlation" in result.plots and result.plots["pair_correlation"].lstrip().startswith("<?xml")
+    page = result._repr_html_()
+    assert page.count("data:image/svg+xml;base64,") == len(result.plots) and result.hash in page
+    sim = carom.Simulation(carom.Scene.parse(carom.Scene({
+        "box": {"width": 10.0, "height": 10.0}, "disks": [{"count": 5, "positions": "random", "radius": 0.5, "mass": 1.0}],
+        "run": {"t_end": 1.0}}).toml()), threads=1)
+    assert sim.picture().startswith(b"\x89PNG")
+    assert "data:image/png;base64," in sim._repr_html_() and "<td>5</td>" in sim._repr_html_()
+
+
+def test_the_viewer_is_one_page(result, tmp_path, monkeypatch):
+    page = tmp_path / "page.html"
+    assert result.show(page) is None
+    text = page.read_text()
+    assert "gas &lt;b&gt;" in text and "<canvas" in text
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    result.frames.show()
+    assert len(opened) == 1 and opened[0].startswith("file:///") and opened[0].endswith("/run/view.html")
+    assert os.path.getsize(os.path.join(result.folder, "view.html")) == len(text.encode())
+
+
+def test_ase_takes_frames(result):
+    ase = pytest.importorskip("ase")
+    frames = list(result.frames)
+    atoms = result.frames.to_ase()
+    assert len(atoms) == len(frames) == 9 and isinstance(atoms[0], ase.Atoms)
+    frame, last = frames[-1], atoms[-1]
+    assert np.array_equal(last.positions, frame.positions3d())
+    assert np.allclose(last.get_velocities()[:, 0], frame.vx) and (last.get_masses() == 2.0).all()
+    assert list(last.pbc) == [True, False, False] and np.allclose(last.cell.lengths(), [*frame.box, 0.0])
+    # Across the periodic side, as ASE computes it.
+    i, j = np.argmin(frame.x), np.argmax(frame.x)
+    dx = frame.x[i] + frame.box[0] - frame.x[j]
+    assert np.isclose(last.get_distance(i, j, mic=True), np.hypot(dx, frame.y[i] - frame.y[j]))
+
+
+def test_mdanalysis_takes_trajectories(result):
+    pytest.importorskip("MDAnalysis")
+    frames = list(result.frames)
+    universe = result.frames.to_mdanalysis()
+    assert len(universe.trajectory) == len(frames) and (universe.atoms.masses == 2.0).all()
+    assert (universe.atoms.radii == 0.5).all()
+    for frame, step in zip(frames, universe.trajectory):
+        assert np.array_equal(step.positions, frame.positions3d().astype(np.float32))
+        assert np.array_equal(step.velocities[:, 1], frame.vy.astype(np.float32))
+        assert np.isclose(step.time, frame.t)
+        assert np.allclose(step.dimensions, [*frame.box, 1.0, 90.0, 90.0, 90.0])
+
+
+def test_gsd_takes_frames(result, tmp_path):
+    hoomd = pytest.importorskip("gsd.hoomd")
+    frames = list(result.frames)
+    result.frames.to_gsd(tmp_path / "run.gsd")
+    with hoomd.open(str(tmp_path / "run.gsd"), "rb") as file:
+        assert len(file) == len(frames)
+        read = file[8]
+    frame = frames[8]
+    read.validate()
+    assert read.configuration.dimensions == 2 and read.configuration.step == 8
+    assert np.allclose(read.configuration.box[:2], frame.box)
+    half = np.array([*frame.box, 0.0]) / 2
+    assert np.allclose(read.particles.position + half, frame.positions3d(), atol=1e-5)
+    assert (np.abs(read.particles.position) <= half.astype(np.float32)).all()
+    assert (read.particles.diameter == 1.0).all() and (read.particles.mass == 2.0).all()
+    assert np.allclose(read.particles.velocity[:, 0], frame.vx)
+
+
+def test_freud_gets_a_box_and_points(result):
+    box, points = result.frames[3].to_freud()
+    assert points.dtype == np.float32 and points.shape == (100, 3) and (points[:, 2] == 0.0).all()
+    assert (np.abs(points[:, :2]) <= box / 2).all() and np.allclose(box, result.frames[3].box)
+    freud = pytest.importorskip("freud")
+    assert freud.density.LocalDensity(2.0, 1.0).compute((box, points)).density.shape == (100,)
+
+
+def test_an_edge_stays_inside_where_points_are_rounded():
+    n = 3
+    columns = {"x": np.array([0.0, np.nextafter(10.1, 0), 5.0]), "y": np.zeros(n), "vx": np.zeros(n), "vy": np.zeros(n),
+               "radius": np.ones(n), "mass": np.ones(n), "id": np.arange(n)}
+    _, points = carom.Frame(0.0, 10.1, 4.0, True, True, columns).to_freud()
+    assert points[0, 0] == -np.float32(5.05) and points[1, 0] < np.float32(5.05)
+
+
+def test_mdanalysis_needs_the_same_disks_in_all_frames(tmp_path):
+    pytest.importorskip("MDAnalysis")
+    scene = carom.Scene({
+        "box": {"width": 6.0, "height": 6.0, "right": "sink"},
+        "disks": [{"count": 2, "positions": [[1.0, 1.0], [4.0, 4.0]], "velocities": [[0.0, 0.0], [2.0, 0.0]], "radius": 0.5,
+                   "mass": 1.0}],
+        "run": {"t_end": 2.0}, "output": {"trajectory": "xyz", "every": 1.0}})
+    frames = carom.run(scene, out=tmp_path / "run").frames
+    assert len(frames[0]) == 2 and len(frames[-1]) == 1
+    with pytest.raises(ValueError, match="same disks"):
+        frames.to_mdanalysis()
