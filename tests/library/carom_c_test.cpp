@@ -5,6 +5,7 @@
 
 #include <array>
 #include <carom/carom.hpp>
+#include <carom/eigen.hpp>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -151,6 +152,27 @@ TEST(CaromC, ContactsOfTheLastStep) {
   world.set_velocity(0, 0.0, 0.0);
   EXPECT_TRUE(world.contacts().empty());
   EXPECT_EQ(carom_contacts(nullptr, nullptr, 0, nullptr), CAROM_INPUT);
+}
+
+TEST(CaromC, DisksAsEigenMatrices) {
+  World world = World::from_text(gas);
+  world.step(20);
+  const std::vector<carom_disk> disks = world.disks();
+  const Eigen::Matrix2Xd places = carom::positions(world), velocities = carom::velocities(world);
+  const Eigen::VectorXd radii = carom::radii(world);
+  const carom::DiskColumn vx = carom::column(disks, &carom_disk::vx);
+  ASSERT_EQ(places.cols(), 200);
+  EXPECT_EQ(vx.data(), &disks[0].vx);
+  for (Eigen::Index k = 0; k < places.cols(); ++k) {
+    const carom_disk& disk = disks[static_cast<std::size_t>(k)];
+    EXPECT_EQ(places.col(k), Eigen::Vector2d(disk.x, disk.y));
+    EXPECT_EQ(velocities.col(k), Eigen::Vector2d(disk.vx, disk.vy));
+    EXPECT_EQ(radii[k], disk.radius);
+    EXPECT_EQ(vx[k], disk.vx);
+  }
+  const Eigen::ArrayXd speed2 = vx.square() + carom::column(disks, &carom_disk::vy).square();
+  EXPECT_NEAR(0.5 * speed2.sum(), world.kinetic_energy(), 1e-9);
+  EXPECT_EQ(carom::column({}, &carom_disk::x).size(), 0);
 }
 
 TEST(CaromC, TwoWorldsInTwoThreads) {

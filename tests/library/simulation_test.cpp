@@ -12,6 +12,7 @@
 #include "core/base/check.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/measure/invariants.hpp"
+#include "run/disk_maps.hpp"
 #include "run/run_scene.hpp"
 #include "tests/support/draws.hpp"
 
@@ -229,6 +230,19 @@ TEST(Simulation, AddsNoDiskOnAFixedOne) {
   EXPECT_TRUE(s.add({0.5, 7.0, 0.0, -1.0, 0.6, 1.0}));
   s.run_until(5.0);
   EXPECT_GT(s.state().counters.collisions + s.state().counters.wall_collisions, 0U);
+}
+
+TEST(Simulation, ColumnsAsEigenMapsAreNoCopies) {
+  Simulation s(gas("pairwise"), choice());
+  s.step(10);
+  const Disks& d = s.state().disks;
+  const DiskMaps maps(d);
+  EXPECT_EQ(maps.x.data(), d.x.data());
+  EXPECT_EQ(maps.vy.data(), d.vy.data());
+  ASSERT_EQ(static_cast<std::size_t>(maps.id.size()), d.size());
+  EXPECT_EQ(maps.id[3], d.id[3]);
+  EXPECT_EQ(maps.y.maxCoeff(), *std::max_element(d.y.begin(), d.y.end()));
+  EXPECT_EQ(static_cast<std::size_t>(maps.radius.size()), d.radius.size());
 }
 
 TEST(Simulation, RefusesDisksThatCannotBe) {
