@@ -1,11 +1,11 @@
 // Any calls of the C library in any order, with any numbers: a status and a text, and never a crash.
 #include <carom/carom.h>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace {
@@ -25,7 +25,7 @@ class Bytes {
     const unsigned kind = byte();
     if (kind < 230) return (kind - 10.0) / 10.0;
     double any = 0.0;
-    if (left_ < sizeof any) return NAN;
+    if (left_ < sizeof any) return std::numeric_limits<double>::quiet_NaN();
     std::memcpy(&any, data_, sizeof any);
     data_ += sizeof any;
     left_ -= sizeof any;
