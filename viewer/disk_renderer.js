@@ -238,7 +238,7 @@ export class DiskRenderer {
   // look: camera, density (device pixels a page pixel), ground, ink, range, bySpeed, perTime, part (of the way to the
   // next frame), images, arrows (times shown ahead, 0: none), trail (frames that are uploaded, oldest first).
   draw(k, look) {
-    const { gl, canvas } = this;
+    const { gl } = this;
     const slot = this.slots.get(k);
     gl.disable(gl.SCISSOR_TEST);
     gl.clearColor(...parts(look.ground).map((c) => c / 255), 1);

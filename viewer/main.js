@@ -12,7 +12,8 @@ async function begin() {
   try {
     head = JSON.parse(element("head").textContent);
   } catch {
-    return fail("This file is incomplete: it breaks off before its first frame.");
+    fail("This file is incomplete: it breaks off before its first frame.");
+    return;
   }
   element("title").textContent = head.title || "a run";
   element("story").textContent = `${head.disks} disks, ${head.frames} frames, carom ${head.version}`;

@@ -39,10 +39,12 @@ export class Playback {
   // Goes on by seconds of the clock on the wall; at the end begins anew or stops.
   advance(seconds) {
     const next = this.time + seconds * this.rate * this.speed;
-    if (next < this.times[this.last] || this.last === 0) return this.goToTime(next);
-    if (this.loop && this.frame === this.last) return this.goTo(0);
-    this.goTo(this.last);
-    if (!this.loop) this.playing = false;
+    if (next < this.times[this.last] || this.last === 0) this.goToTime(next);
+    else if (this.loop && this.frame === this.last) this.goTo(0);
+    else {
+      this.goTo(this.last);
+      this.playing = this.loop;
+    }
   }
   // How far on the way to the next frame, 0 to 1.
   get part() {

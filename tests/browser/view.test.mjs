@@ -126,7 +126,7 @@ test("pixels are coloured where disks are, on both edges of a periodic side, and
 
 test("obstacles stand where they are, and a moving side where it is in each frame", async () => {
   const hex = (page, name) => page.evaluate((n) => window.carom.colours[n].match(/\w\w/g).map((part) => parseInt(part, 16)), name);
-  const open = async (name, scene, words) => {
+  const showAt = async (name, scene, words) => {
     shop.run(name, scene);
     const { page } = await shop.show(shop.view(name).file, "#t=1.5");
     await drawn(page, 3);
@@ -134,12 +134,12 @@ test("obstacles stand where they are, and a moving side where it is in each fram
     return page;
   };
   const obstacle = restScene().replace("[run]", "[[disks]]\nfixed = true\ncount = 1\npositions = [[19.8, 1]]\nradius = 0.5\n[run]");
-  let page = await open("fixed", obstacle, / 1 obstacles grey/);
+  let page = await showAt("fixed", obstacle, / 1 obstacles grey/);
   const grey = await hex(page, "faint");
   assert.deepEqual(await coloursAt(page, [[19.6, 1], [0.15, 1.1]]), [grey, grey], "on both edges of the periodic side");
   await page.close();
   const inside = restScene().replace('left = "periodic"\nright = "periodic"\n', "").replace("[0.2, 6]", "[2, 6]");
-  page = await open("moving", inside.replace("[[disks]]", "[box.top]\nmotion = { velocity = [0.0, -0.8] }\n[[disks]]"), /top moving wall/);
+  page = await showAt("moving", inside.replace("[[disks]]", "[box.top]\nmotion = { velocity = [0.0, -0.8] }\n[[disks]]"), /top moving wall/);
   assert.deepEqual(await coloursAt(page, [[10, 10.8], [10, 11.5]]), [await hex(page, "ink"), await hex(page, "ground")]);
   await page.close();
 });
