@@ -19,6 +19,20 @@ namespace fs = std::filesystem;
 // Of the series: about a tenth of a small page, and never so many that a plot could not show them.
 constexpr std::size_t most_series_values = 20'000;
 constexpr std::size_t bytes_a_value = 80;
+constexpr std::size_t most_curve_points = 500;
+
+// The curves of analysis.h5; none where there is no such file, or where it cannot be read.
+std::vector<AnalysisCurve> curves_of(const Recording& recording, const ViewSettings& settings) {
+  const fs::path file = recording.trajectory.parent_path() / "analysis.h5";
+  if (!fs::exists(file)) return {};
+  try {
+    const std::size_t most_points = std::min(most_curve_points, settings.most_bytes / bytes_a_value / 20);
+    return read_analysis_curves(file.string(), most_points);
+  } catch (const InputError& error) {
+    settings.warn(fmt::format("the page has no curves of the analysis: {}", error.what()));
+    return {};
+  }
+}
 
 }  // namespace
 
@@ -40,6 +54,7 @@ ViewStory story_of(const Recording& recording, const ViewSettings& settings) {
   ViewStory story = scene != nullptr ? view_story(*scene) : ViewStory{};
   if (scene == nullptr) story.title = recording.trajectory.string();
   story.series = series_of(recording, settings);
+  story.curves = curves_of(recording, settings);
   return story;
 }
 

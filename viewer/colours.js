@@ -51,11 +51,11 @@ export function fixedValues(name, store) {
   return null;
 }
 
-// The ends of the scale as the run asks: speeds from 0 to 2.5 root mean squares of the present block or the fastest disk.
-export function rangeOf(name, store, k) {
+// The ends of the scale as the run asks.
+export function rangeOf(name, store) {
   if (name === "group" || name === "fixed") return [0, 8];
   if (name === "coordination") return [0, 6];
-  if (name === "speed") return [0, roundAbove(fastSpeed(store, k))];
+  if (name === "speed") return [0, roundAbove(store.head.fast)];
   const values = fixedValues(name, store);
   let low = Infinity;
   let high = -Infinity;
@@ -64,22 +64,4 @@ export function rangeOf(name, store, k) {
     high = Math.max(high, value);
   }
   return low < high ? [low, high] : [Math.min(0, low || 0), Number.isFinite(high) && high > 0 ? high : 1];
-}
-
-function fastSpeed(store, k) {
-  const { first, frames } = store.blocks[store.blockOf(k)];
-  let square = 0;
-  let fastest = 0;
-  let count = 0;
-  for (let frame = first; frame < first + frames; frame += Math.max(1, frames >> 2)) {
-    const { d, over } = store.steps(frame);
-    const stride = 2 * (1 + Math.floor(d.length / 20000));
-    for (let i = 0; i < d.length; i += stride) {
-      const v2 = (d[i] * d[i] + d[i + 1] * d[i + 1]) / (over * over);
-      square += v2;
-      fastest = Math.max(fastest, v2);
-      ++count;
-    }
-  }
-  return Math.min(Math.sqrt(fastest), 2.5 * Math.sqrt(square / Math.max(1, count)));
 }

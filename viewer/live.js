@@ -44,15 +44,12 @@ window.caromLive = {
       store.addBlocks(news.blocks);
       for (let k = first; k < store.blocks.length; ++k) this.textOf(`block${k}`);
       this.addFrames(viewer, news.times);
+      if (head.fast !== news.fast && !viewer.rangeChosen) viewer.range = null;
+      head.fast = news.fast;
       head.insets.forEach((inset, side) => inset?.push(...news.insets[side]));
       document.getElementById("story").textContent = `${head.disks} disks, ${head.frames} frames, carom ${head.version}`;
     }
-    if (news.series.names.join() === viewer.plots.names.join() && viewer.plots.canvas) {
-      viewer.plots.columns = news.series.columns;
-      viewer.plots.time = news.series.columns[0];
-    } else if (!viewer.plots.canvas) {
-      viewer.plots = new viewer.plots.constructor(news.series, (time) => viewer.jumpToTime(time));
-    }
+    viewer.plots.setSeries(news.series);
     playback.setTimes(store.times);
     viewer.dirty = true;
   },
@@ -82,8 +79,7 @@ window.caromLive = {
     head.frames = store.times.length;
     playback.setTimes(store.times);
     document.getElementById("frame").max = playback.last;
-    // The last frame had the step before it, and the scale few frames to go by.
-    if (last < 100 && !viewer.rangeChosen) viewer.range = null;
+    // The last frame had the step before it.
     viewer.renderer.forget();
     viewer.drawn = -1;
     if (follows) viewer.jump(playback.last);

@@ -13,10 +13,18 @@ function sideEnds(side, { width, height }, inset = 0) {
   ][side];
 }
 
-export function sideSentence({ box, insets, obstacles }) {
+export function sideSentence({ box, insets, sources, obstacles }) {
   const word = (kind, s) => `${insets[s] ? "moving " : ""}${box.thermal[s] ? "thermal " : ""}${kind}`;
   const words = box.sides.map((kind, s) => `${sideNames[s]} ${word(kind, s)}`);
-  return `Sides: ${words.join(", ")}. Walls are whole lines (thermal ones red), periodic sides dashed, sinks dotted, sources green, ${obstacles.length} obstacles grey.`;
+  const keys = [
+    [box.sides.includes("wall"), "walls are whole lines"],
+    [box.thermal.includes(true), "thermal ones red"],
+    [box.sides.includes("periodic"), "periodic sides dashed"],
+    [box.sides.includes("sink"), "sinks dotted"],
+    [sources.length, "sources green"],
+    [obstacles.length, `${obstacles.length} obstacles grey`],
+  ];
+  return `Sides: ${words.join(", ")}. Drawn: ${keys.flatMap(([there, text]) => (there ? [text] : [])).join(", ")}.`;
 }
 
 // The box with its obstacles; those that reach over a periodic side twice.

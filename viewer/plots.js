@@ -1,42 +1,61 @@
-// Columns of series.csv against time, one below the other, under the cursor of the present moment.
+// Columns of series.csv and curves of analysis.h5, one below the other; those in time under the cursor of the present
+// moment.
 import { element, make, shortNumber } from "./format.js";
 
 const rowHeight = 92;
+const shownFirst = ["kinetic", "pressure", "g(r)"];
 
 export class Plots {
-  constructor({ names, columns }, jump) {
-    this.names = names;
-    this.columns = columns;
-    this.time = columns[0] ?? [];
+  // head: of the page. jump: called with the time of a point that is clicked.
+  constructor({ series, curves }, jump) {
+    this.curves = [];
     this.shown = new Set();
-    if (names.length < 2 || this.time.length < 2) return;
-    element("plots").hidden = false;
-    const first = ["kinetic", "pressure", "collisions"].filter((name) => names.includes(name)).slice(0, 2);
-    names.slice(1).forEach((name, n) => {
-      const label = make("label");
-      const box = make("input", undefined, { type: "checkbox" });
-      box.checked = first.length ? first.includes(name) : n === 0;
-      if (box.checked) this.shown.add(n + 1);
-      box.addEventListener("change", () => {
-        if (box.checked) this.shown.add(n + 1);
-        else this.shown.delete(n + 1);
-        this.draw(this.now, this.colours);
-      });
-      label.append(box, ` ${name}`);
-      element("columns").append(label);
-    });
     this.canvas = element("plot");
     this.canvas.addEventListener("pointerdown", (event) => {
-      const from = this.time[0];
-      const part = event.offsetX / this.canvas.clientWidth;
-      jump(from + part * (this.time[this.time.length - 1] - from));
+      const curve = this.rows()[Math.floor(event.offsetY / rowHeight)];
+      if (!curve?.inTime) return;
+      const [from, to] = [curve.x[0], curve.x[curve.x.length - 1]];
+      jump(from + (event.offsetX / this.canvas.clientWidth) * (to - from));
     });
+    this.setSeries(series);
+    curves.forEach((curve) => this.add(curve));
+  }
+
+  setSeries({ names, columns }) {
+    names.slice(1).forEach((name, n) => this.add({ name, x: columns[0], y: columns[n + 1], inTime: true }));
+  }
+
+  // Adds a curve, or renews the one of that name.
+  add(curve) {
+    if (curve.x.length < 2) return;
+    const old = this.curves.find(({ name }) => name === curve.name);
+    if (old) {
+      Object.assign(old, curve);
+      return;
+    }
+    element("plots").hidden = false;
+    this.curves.push(curve);
+    const box = make("input", undefined, { type: "checkbox" });
+    // Where velocities mean nothing, collisions are what there is.
+    box.checked = shownFirst.includes(curve.name) || (curve.name === "collisions" && !this.shown.size);
+    const show = () => this.shown[box.checked ? "add" : "delete"](curve);
+    show();
+    box.addEventListener("change", () => {
+      show();
+      this.draw(this.now, this.colours);
+    });
+    const label = make("label");
+    label.append(box, ` ${curve.name}`);
+    element("columns").append(label);
+  }
+
+  rows() {
+    return this.curves.filter((curve) => this.shown.has(curve));
   }
 
   draw(now, colours) {
     Object.assign(this, { now, colours });
-    if (!this.canvas) return;
-    const rows = [...this.shown].sort((a, b) => a - b);
+    const rows = this.rows();
     this.canvas.style.height = `${rows.length * rowHeight}px`;
     const density = window.devicePixelRatio || 1;
     const width = this.canvas.clientWidth;
@@ -45,40 +64,41 @@ export class Plots {
     const context = this.canvas.getContext("2d");
     context.scale(density, density);
     context.font = "11px system-ui, sans-serif";
-    rows.forEach((column, n) => this.drawRow(context, column, n * rowHeight, width));
-    const at = this.time.findLastIndex((t) => t <= now * (1 + 1e-12));
-    const texts = rows.map((column) => `${this.names[column]} ${shortNumber(this.columns[column][Math.max(0, at)] ?? NaN)}`);
+    rows.forEach((curve, n) => this.drawRow(context, curve, n * rowHeight, width));
+    const texts = rows.filter(({ inTime }) => inTime).map(({ name, x, y }) => {
+      const at = x.findLastIndex((t) => t <= now * (1 + 1e-12));
+      return `${name} ${shortNumber(y[Math.max(0, at)] ?? NaN)}`;
+    });
     element("plot-values").textContent = texts.join(", ");
   }
 
-  drawRow(context, column, top, width) {
-    const values = this.columns[column];
-    let low = Infinity;
-    let high = -Infinity;
-    for (const value of values) {
-      if (value === null) continue;
-      low = Math.min(low, value);
-      high = Math.max(high, value);
-    }
+  drawRow(context, curve, top, width) {
+    const values = curve.y.filter((value) => value !== null);
+    const low = Math.min(...values);
+    const high = Math.max(...values);
     const flat = !(high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high)));
     const bottom = top + rowHeight - 16;
-    const from = this.time[0];
-    const span = this.time[this.time.length - 1] - from || 1;
-    const x = (t) => ((t - from) / span) * (width - 2) + 1;
+    const from = curve.x[0];
+    const span = curve.x[curve.x.length - 1] - from || 1;
+    const x = (at) => ((at - from) / span) * (width - 2) + 1;
     const y = (value) => (flat ? (top + 16 + bottom) / 2 : bottom - ((value - low) / (high - low)) * (bottom - top - 16));
     context.strokeStyle = this.colours.line;
     context.strokeRect(0.5, top + 14.5, width - 1, bottom - top - 13);
     context.fillStyle = this.colours.ink;
-    context.fillText(`${this.names[column]}  ${flat ? shortNumber(high) : `${shortNumber(low)} to ${shortNumber(high)}`}`, 2, top + 11);
+    context.fillText(`${curve.name}  ${flat ? shortNumber(high) : `${shortNumber(low)} to ${shortNumber(high)}`}`, 2, top + 11);
+    if (!curve.inTime) {
+      const ends = `${shortNumber(from)} to ${shortNumber(from + span)}`;
+      context.fillText(ends, width - 2 - context.measureText(ends).width, top + 11);
+    }
     context.strokeStyle = this.colours.accent;
     context.beginPath();
     let pen = false;
-    values.forEach((value, n) => {
-      if (value === null) pen = false;
-      else if (pen) context.lineTo(x(this.time[n]), y(value));
-      else context.moveTo(x(this.time[n]), y(value)), (pen = true);
+    curve.y.forEach((value, n) => {
+      if (value !== null) context[pen ? "lineTo" : "moveTo"](x(curve.x[n]), y(value));
+      pen = value !== null;
     });
     context.stroke();
+    if (!curve.inTime) return;
     context.strokeStyle = this.colours.heat;
     context.beginPath();
     context.moveTo(x(this.now), top + 14);

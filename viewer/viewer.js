@@ -20,7 +20,7 @@ export class Viewer {
     this.camera = new Camera(this.head.box);
     this.canvas = element("disks");
     this.renderer = new DiskRenderer(this.canvas, this.head.axes, this.head.box, store.largest);
-    this.plots = new Plots(this.head.series, (time) => this.jumpToTime(time));
+    this.plots = new Plots(this.head, (time) => this.jumpToTime(time));
     this.colour = this.head.colour === "group" && !this.head.grouped ? "speed" : this.head.colour;
     this.range = null; // once a block is unpacked
     this.picked = null; // { place, path }
@@ -245,8 +245,8 @@ export class Viewer {
   }
 
   resetRange() {
-    this.range = rangeOf(this.colour, this.store, this.playback.frame);
-    this.arrowSpeed = rangeOf("speed", this.store, this.playback.frame)[1];
+    this.range = rangeOf(this.colour, this.store);
+    this.arrowSpeed = rangeOf("speed", this.store)[1];
     this.renderer.setPalette(palette(this.colour));
     showLegend(this.colour, this.range, this.store);
   }

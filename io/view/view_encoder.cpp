@@ -1,6 +1,7 @@
 #include "io/view/view_encoder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -13,6 +14,15 @@ namespace {
 constexpr std::size_t most_frames = 64;
 constexpr std::size_t least_frames = 8;
 constexpr std::size_t most_disks = std::size_t{1} << 21U;
+
+// How far a coordinate went, across the side where that is nearer.
+double step_along(const ViewAxis& axis, std::uint32_t from, std::uint32_t to) {
+  const double steps = static_cast<double>(axis.mask()) + 1.0;
+  double step = static_cast<double>(to) - static_cast<double>(from);
+  if (axis.periodic && step > 0.5 * steps) step -= steps;
+  if (axis.periodic && step < -0.5 * steps) step += steps;
+  return step * axis.quantum();
+}
 
 }  // namespace
 
@@ -29,6 +39,30 @@ std::uint32_t ViewEncoder::place_of(const TrajectoryFrame& frame, std::size_t i)
   disks_.mass.push_back(frame.disks.mass_of(i));
   if (!frame.group.empty()) disks_.group.push_back(frame.group[i]);
   return known->second;
+}
+
+// To be called before the frame's time is noted.
+void ViewEncoder::look_at_speeds(const ViewFrame& frame, double time) {
+  constexpr std::size_t most = 1000;
+  ViewFrame sample;
+  const double dt = times_.empty() ? 0.0 : time - times_.back();
+  for (std::size_t k = 0, j = 0; k < frame.place.size(); k += 1 + frame.place.size() / most) {
+    sample.place.push_back(frame.place[k]);
+    for (std::size_t axis = 0; axis < 2; ++axis) sample.at[axis].push_back(frame.at[axis][k]);
+    while (j < sampled_.place.size() && sampled_.place[j] < frame.place[k]) ++j;
+    if (!(dt > 0.0) || j == sampled_.place.size() || sampled_.place[j] != frame.place[k]) continue;
+    const double dx = step_along(axes_[0], sampled_.at[0][j], frame.at[0][k]);
+    const double dy = step_along(axes_[1], sampled_.at[1][j], frame.at[1][k]);
+    const double square = (dx * dx + dy * dy) / (dt * dt);
+    squares_ += square;
+    fastest_ = std::max(fastest_, square);
+    speeds_ += 1.0;
+  }
+  sampled_ = std::move(sample);
+}
+
+double ViewEncoder::fast_speed() const {
+  return speeds_ > 0.0 ? std::min(std::sqrt(fastest_), 2.5 * std::sqrt(squares_ / speeds_)) : 0.0;
 }
 
 void ViewEncoder::add(const TrajectoryFrame& frame) {
@@ -66,6 +100,7 @@ void ViewEncoder::add(const TrajectoryFrame& frame) {
     }
     view = std::move(sorted);
   }
+  look_at_speeds(view, frame.time);
   times_.push_back(frame.time);
   disk_frames_ += count;
   in_last_ += count;

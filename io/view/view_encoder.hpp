@@ -34,6 +34,9 @@ class ViewEncoder {
   const std::vector<ViewBlock>& blocks() const { return blocks_; }
   const ViewDisks& disks() const { return disks_; }
   const std::vector<double>& times() const { return times_; }
+  // The end of a scale of speeds: 2.5 root mean squares of the displacement between two frames over their time, or the
+  // fastest one, of up to a thousand disks a frame; 0 where none moved.
+  double fast_speed() const;
   std::size_t disk_frames() const { return disk_frames_; }      // disks of all frames
   std::size_t packed_frames() const { return packed_frames_; }  // frames in blocks()
   std::size_t packed_bytes() const { return packed_bytes_; }
@@ -41,6 +44,7 @@ class ViewEncoder {
  private:
   std::uint32_t place_of(const TrajectoryFrame& frame, std::size_t i);
   void pack_waiting();
+  void look_at_speeds(const ViewFrame& frame, double time);
 
   ViewAxes axes_;
   DiskId every_;
@@ -54,6 +58,8 @@ class ViewEncoder {
   std::size_t in_last_ = 0;                      // disks of all its frames
   std::vector<ViewBlock> blocks_;
   std::size_t disk_frames_ = 0, packed_frames_ = 0, packed_bytes_ = 0;
+  ViewFrame sampled_;                                    // some disks of the last frame, for their speeds
+  double squares_ = 0.0, fastest_ = 0.0, speeds_ = 0.0;  // of speeds that were looked at: sum, largest; how many
 };
 
 }  // namespace carom

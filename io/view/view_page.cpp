@@ -146,6 +146,14 @@ std::string json_of_series(const ViewSeries& series) {
                      json_list(series.columns, column));
 }
 
+std::string json_of_curve(const AnalysisCurve& curve) {
+  const auto numbers = [](const std::vector<double>& values) {
+    return json_list(values, [](double value) { return json_number(value, "{:.5g}"); });
+  };
+  return fmt::format(R"({{"name":{},"x":{},"y":{},"inTime":{}}})", json_string(curve.name), numbers(curve.x),
+                     numbers(curve.y), curve.in_time);
+}
+
 // What the page reads first: everything but the frames and the table, with the length and checksum of each.
 std::string head_of(const ViewStory& story, const ViewEncoder& encoder, std::string_view table,
                     const std::vector<std::string>& left_out) {
@@ -164,9 +172,11 @@ std::string head_of(const ViewStory& story, const ViewEncoder& encoder, std::str
                         return fmt::format(R"({{"bits":{},"periodic":{},"quantum":{}}})", axis.bits, axis.periodic,
                                            axis.quantum());
                       }));
+  json += fmt::format(R"(,"fast":{:.4g})", encoder.fast_speed());
   json += fmt::format(R"(,"table":{{"bytes":{},"check":{}}})", table.size(), crc_of(table));
   json += fmt::format(R"(,"blocks":{})", json_list(encoder.blocks(), json_of_block));
-  return json + fmt::format(R"(,"series":{}}})", json_of_series(story.series));
+  return json + fmt::format(R"(,"series":{},"curves":{}}})", json_of_series(story.series),
+                            json_list(story.curves, json_of_curve));
 }
 
 // Writes the page up to the marker, which it leaves out, and returns the rest behind it.
@@ -241,7 +251,7 @@ std::string view_news(const ViewStory& story, const ViewEncoder& encoder, std::s
   json += fmt::format(R"(,"insets":{},"id":{},"radius":{},"mass":{},"group":{})", json_of_insets(story.box, times),
                       json_of_new(all.id, disks), json_of_new(all.radius, disks), json_of_new(all.mass, disks),
                       json_of_new(all.group, disks));
-  return json + fmt::format(R"(,"series":{}}})", json_of_series(story.series));
+  return json + fmt::format(R"(,"fast":{:.4g},"series":{}}})", encoder.fast_speed(), json_of_series(story.series));
 }
 
 }  // namespace carom

@@ -10,6 +10,7 @@
 #include "core/disks/domain.hpp"
 #include "core/disks/obstacle.hpp"
 #include "core/scene/scene.hpp"
+#include "io/tables/analysis_curves.hpp"
 
 namespace carom {
 
@@ -37,6 +38,7 @@ struct ViewStory {
   std::vector<Obstacle> obstacles;
   ColourBy colour = ColourBy::speed;
   ViewSeries series;
+  std::vector<AnalysisCurve> curves;
 };
 
 // What the scene says; the series comes from elsewhere.

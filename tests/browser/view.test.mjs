@@ -293,6 +293,25 @@ test("the keyboard alone reaches every control and plays the run", async () => {
   await page.close();
 });
 
+test("plots in time have a cursor that a click moves, those of the whole run have none", async () => {
+  const scene = restScene().replace("[output]", '[analysis]\nwhat = ["pair_correlation"]\nevery = 0.5\n[output]\nseries = true');
+  shop.run("plotted", scene);
+  const { page, errors } = await shop.show(shop.view("plotted").file);
+  await drawn(page, 0);
+  assert.deepEqual(await page.evaluate(() => window.carom.plots.rows().map(({ name }) => name)), ["kinetic", "pressure", "g(r)"]);
+  const click = async (part, y) => {
+    const { width } = await page.locator("#plot").boundingBox();
+    await page.locator("#plot").click({ position: { x: part * width, y } });
+    return page.evaluate(() => window.carom.playback.time);
+  };
+  assert.ok(Math.abs((await click(0.5, 40)) - 1) < 0.05);
+  assert.ok(Math.abs((await click(0.25, 40 + 92)) - 0.5) < 0.05);
+  assert.ok(Math.abs((await click(0.75, 40 + 184)) - 0.5) < 0.05, "g(r) is not against time");
+  assert.match(await page.textContent("#plot-values"), /^kinetic 0\.5, pressure/);
+  assert.deepEqual(errors, []);
+  await page.close();
+});
+
 test("a link leads to its moment and its disk", async () => {
   const { page } = await shop.show(openPage, "#t=10.1&disk=41");
   await drawn(page, 40);

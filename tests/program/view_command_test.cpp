@@ -1,4 +1,6 @@
 // carom view: one page from a run, finished or not, of any format; bad input leaves nothing behind.
+#include <cmath>
+
 #include "tests/support/program_support.hpp"
 
 namespace carom {
@@ -30,6 +32,13 @@ trajectory = "xyz"
 series = true
 )";
 
+// What the page reads first.
+nlohmann::json head_of(const std::string& page) {
+  const std::string begin = "<script type=\"application/json\" id=\"head\">";
+  const std::size_t at = page.find(begin) + begin.size();
+  return nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
+}
+
 class View : public test::ProgramTest {
  protected:
   View() { write("gas.toml", gas); }
@@ -50,6 +59,8 @@ TEST_F(View, MakesOnePageThatCostsLittleMoreThanTwoBytesADiskAndFrame) {
   EXPECT_THAT(page, HasSubstr("<title>a gas &lt;of disks&gt;</title>"));
   const std::size_t program = 64'000;  // bytes of the page without a run
   EXPECT_LT(page.size(), program + static_cast<std::size_t>(2.5 * 101 * 1000));
+  EXPECT_NEAR(head_of(page)["fast"], 2.5 * std::sqrt(2.0), 0.6) << "2.5 root mean squares of the speeds, all but those "
+                                                                   "of disks that collided between two frames";
   EXPECT_EQ(carom("view out --quiet --force").err, "");
   EXPECT_EQ(text_of(at("out/view.html")), page) << "the same run, the same bytes";
 }
@@ -97,6 +108,35 @@ TEST_F(View, SizeIsKeptAndWhatIsLeftOutIsSaid) {
   EXPECT_EQ(tiny.status, 2);
   EXPECT_THAT(tiny.err, HasSubstr("--max-size: 10000 bytes are too few"));
   EXPECT_FALSE(fs::exists(at("tiny.html")));
+}
+
+TEST_F(View, CurvesOfTheAnalysisAreOnThePage) {
+  run("-o out --t-end 0.5 --set 'analysis.what=[\"pair_correlation\", \"displacement\", \"profile\"]'"
+      " --set 'analysis.pair_correlation={ r_max = 4.0, bins = 800 }' --set analysis.every=0.1");
+  ASSERT_EQ(carom("view out").status, 0);
+  const nlohmann::json curves = head_of(text_of(at("out/view.html")))["curves"];
+  std::vector<std::string> names;
+  for (const auto& curve : curves) names.push_back(curve["name"]);
+  EXPECT_THAT(names, testing::ElementsAre("g(r), 1 point of 2", "mean vx (position)", "mean vy (position)",
+                                          "temperature (position)", "mean square displacement"));
+  const auto r = curves[0]["x"].get<std::vector<double>>(), g = curves[0]["y"].get<std::vector<double>>();
+  ASSERT_EQ(r.size(), 400U);
+  double contact = 0.0;
+  for (std::size_t k = 0; k < r.size(); ++k) {
+    if (r[k] < 0.99) {
+      EXPECT_EQ(g[k], 0.0) << "disks do not overlap at r = " << r[k];
+    } else if (r[k] > 1.0 && r[k] < 1.1) {
+      contact = std::max(contact, g[k]);
+    }
+  }
+  EXPECT_NEAR(contact, 3.2, 0.8) << "g at contact is 3.1 at this packing fraction";
+  EXPECT_EQ(curves[0]["inTime"], false);
+  EXPECT_EQ(curves[4]["inTime"], true);
+  EXPECT_EQ(curves[4]["x"], (nlohmann::json{0.0, 0.1, 0.2, 0.3, 0.4, 0.5}));
+  write("out/analysis.h5", "no HDF5");
+  const Outcome o = carom("view out --force");
+  EXPECT_EQ(o.status, 0);
+  EXPECT_THAT(o.err, HasSubstr("warning: the page has no curves of the analysis: out/analysis.h5: cannot be read"));
 }
 
 TEST_F(View, ADamagedTrajectoryIsNamedAndLeavesNothing) {
