@@ -345,7 +345,7 @@ SliceOutcome ParallelExact::run_window(const WindowPlan& plan, double margin, bo
   for (double start = 0.0; start < plan.length;) {
     const double end = slice_end(plan, start);
     const double elapsed = std::min(end, plan.length) - start;
-    const double per_disk = rate_ / static_cast<double>(state_.disks.size());
+    const double per_disk = state_.disks.empty() ? 0.0 : rate_ / static_cast<double>(state_.disks.size());
     const SliceOutcome outcome = scheduler_.run(start, end, per_disk, plan.start);
     if (outcome != SliceOutcome::done) return outcome;
     rate_ = static_cast<double>(scheduler_.events() - before) / elapsed;
