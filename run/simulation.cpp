@@ -10,7 +10,7 @@
 #include "core/base/float_environment.hpp"
 #include "core/base/input_message.hpp"
 #include "core/disks/state_hash.hpp"
-#include "core/physics/disk_pair.hpp"
+#include "core/physics/obstacle_contact.hpp"
 #include "core/scene/scene_ranges.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/step/source.hpp"
@@ -50,7 +50,9 @@ Scene scene_in(const Checkpoint& checkpoint, const std::string& name) {
   return scene;
 }
 
-std::unique_ptr<const ObstacleCells> cells_of(const std::vector<Obstacle>& fixed, const Domain& box) {
+// Of the fixed disks: queries do not see inner walls.
+std::unique_ptr<const ObstacleCells> cells_of(std::vector<Obstacle> fixed, const Domain& box) {
+  std::erase_if(fixed, [](const Obstacle& o) { return o.is_segment(); });
   return fixed.empty() ? nullptr : std::make_unique<const ObstacleCells>(fixed, box);
 }
 
@@ -253,6 +255,9 @@ std::optional<DiskId> Simulation::add(Disk disk) {
   if (fixed_) {
     fixed_->visit({disk.x - disk.radius, disk.y - disk.radius}, {disk.x + disk.radius, disk.y + disk.radius},
                   meet_fixed);
+  }
+  for (const Obstacle& o : state().obstacles) {
+    met = met || (o.is_segment() && gap_to(o, disk.x, disk.y, disk.radius, scene_.box).beyond >= 0.0);
   }
   if (met) return std::nullopt;
   disk.id = state().next_id;

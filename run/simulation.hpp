@@ -81,8 +81,8 @@ class Simulation {
   void load(std::string_view bytes);
 
   // Changes between two steps. add: its id is given, which no disk has had before; absent where the disk would overlap
-  // another, or a fixed one. The others: false where there is no such disk. Throw InputError for numbers out of range,
-  // or a disk that reaches out of the box or touches a sink.
+  // another, a fixed one or an inner wall. The others: false where there is no such disk. Throw InputError for numbers
+  // out of range, or a disk that reaches out of the box or touches a sink.
   std::optional<DiskId> add(Disk disk);
   bool remove(DiskId id);
   bool set_velocity(DiskId id, Vec2 velocity);

@@ -202,7 +202,7 @@ std::vector<std::string> foreseen_troubles(const Scene& scene, const StepForesig
                     "dt <= {:.2g}",
                     100.0 * largest_overlap, steps.resting));
   }
-  if (population.end > population.start && !scene.box.has(SideKind::sink) && population.fill > source_fill) {
+  if (population.end > population.start && !has_sinks(scene) && population.fill > source_fill) {
     troubles.push_back(
         fmt::format("the sources would fill the box to a packing fraction of {:.2g}, and find no room beyond about "
                     "{:g}: give a limit "

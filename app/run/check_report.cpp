@@ -109,7 +109,7 @@ std::string outputs_text(const Scene& scene, const Findings& f) {
   if (o.samples > 0) text += fmt::format("{}{} samples", text.empty() ? "" : ", ", o.samples);
   text +=
       fmt::format("{}{}; about {}B in all", text.empty() ? "" : ": ", fmt::join(files, ", "), short_number(o.bytes()));
-  if (scene.box.has(SideKind::sink)) text += ", less as sinks take disks away";
+  if (has_sinks(scene)) text += ", less as sinks take disks away";
   return o.not_tried.empty() ? text : text + fmt::format(" (guessed: {})", o.not_tried);
 }
 

@@ -1,16 +1,29 @@
-// What stands in the box and never moves: disks of infinite mass.
+// What stands in the box and never moves: disks of infinite mass, and inner walls.
 #pragma once
+
+#include <cstdint>
+#include <string>
 
 #include "core/base/types.hpp"
 
 namespace carom {
 
-// A fixed disk. It is no entry of Disks: it has no velocity, no weight and no energy.
+enum class ObstacleKind : std::uint8_t { disk, wall, sink };
+
+// A fixed disk, or a straight piece of an inner wall: a segment without thickness and its two ends. It is no entry of
+// Disks: it has no velocity, no weight and no energy.
 struct Obstacle {
-  double x = 0.0, y = 0.0;   // centre; length
-  double radius = 0.0;       // length
-  double restitution = 1.0;  // of a disk that collides with it
-  DiskId id = 0;             // that it has among the disks of the scene
+  double x = 0.0, y = 0.0;    // centre, or where the segment begins; length
+  double dx = 0.0, dy = 0.0;  // from there to where the segment ends; 0 of a disk
+  double radius = 0.0;        // length; 0 of a segment
+  double restitution = 1.0;   // of a disk that collides with it
+  DiskId id = 0;              // that a disk has among the disks of the scene; number of a wall's [[walls]] table
+  ObstacleKind kind = ObstacleKind::disk;
+
+  bool is_segment() const { return kind != ObstacleKind::disk; }
 };
+
+// How messages call it: "fixed disk 7", "wall walls.2".
+std::string name_of(const Obstacle& obstacle);
 
 }  // namespace carom

@@ -2,6 +2,10 @@
 
 namespace carom {
 
+std::string name_of(const Obstacle& o) {
+  return (o.is_segment() ? "wall walls." : "fixed disk ") + std::to_string(o.id);
+}
+
 namespace {
 
 // Cells along a side whose cells are to be about so long.
@@ -21,7 +25,11 @@ ObstacleCells::ObstacleCells(const std::vector<Obstacle>& obstacles, const Domai
   x_ = axis(box.width, box.periodic_x());
   y_ = axis(box.height, box.periodic_y());
   for (const Obstacle& o : obstacles_) {
-    reach_.push_back({x_.span(o.x - o.radius, o.x + o.radius), y_.span(o.y - o.radius, o.y + o.radius)});
+    const auto span = [&](const Axis& along, double c, double d) {
+      return along.span(c + std::min(d, 0.0) - o.radius, c + std::max(d, 0.0) + o.radius);
+    };
+    reach_.push_back({span(x_, o.x, o.dx), span(y_, o.y, o.dy)});
+    has_sinks_ = has_sinks_ || o.kind == ObstacleKind::sink;
   }
   // Counted first, then entered.
   const auto for_each_entry = [&](auto&& enter) {
@@ -45,7 +53,8 @@ ObstacleCells::ObstacleCells(const std::vector<Obstacle>& obstacles, const Domai
 }
 
 bool ObstacleCells::dissipates() const {
-  return std::any_of(obstacles_.begin(), obstacles_.end(), [](const Obstacle& o) { return o.restitution < 1.0; });
+  return std::any_of(obstacles_.begin(), obstacles_.end(),
+                     [](const Obstacle& o) { return o.restitution < 1.0 && o.kind != ObstacleKind::sink; });
 }
 
 std::unique_ptr<const ObstacleCells> place_obstacles(const std::vector<Obstacle>& obstacles, Domain& box) {

@@ -26,6 +26,8 @@ class ObstacleCells {
   double cell() const { return std::min(1.0 / x_.cells_per_length, 1.0 / y_.cells_per_length); }
   // Does any of them take energy from disks?
   bool dissipates() const;
+  // Does any of them take disks away?
+  bool has_sinks() const { return has_sinks_; }
 
   // Calls see(k, shift) once for every obstacle k, and every image of it across periodic sides, that may reach into the
   // rectangle; the image is displaced by shift. The rectangle may lie beyond periodic sides by a few periods.
@@ -91,6 +93,7 @@ class ObstacleCells {
   }
 
   std::vector<Obstacle> obstacles_;
+  bool has_sinks_ = false;
   Axis x_, y_;
   std::vector<Reach> reach_;          // of each obstacle
   std::vector<std::uint32_t> start_;  // of each cell in entries_, row by row; one more than cells

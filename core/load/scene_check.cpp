@@ -63,6 +63,22 @@ void check_group(const DiskGroup& group, const std::string& path, const PlaceOfK
   }
 }
 
+// Walls lie within the box; across periodic sides too they end there.
+void check_wall(const Scene& scene, const InnerWall& wall, const std::string& path, const PlaceOfKey& place) {
+  const Domain& box = scene.box;
+  for (const Vec2& p : wall.points) {
+    if (p.x >= 0.0 && p.y >= 0.0 && p.x <= box.width && p.y <= box.height) continue;
+    fail_input(place(path),
+               fmt::format("the point [{}, {}] lies outside the box of {} x {}", p.x, p.y, box.width, box.height),
+               "expected walls within the box");
+  }
+  if (wall.sink && scene.physics.diffusion > 0.0) {
+    fail_input(place(path + ".kind"),
+               "a sink within the box beside Brownian motion, which may cross it between two steps",
+               "expected a side of the box as sink, or no diffusion");
+  }
+}
+
 void check_source(const Source& source, const Domain& box, const std::string& path, const PlaceOfKey& place) {
   const auto at = [&](std::string_view name) { return place(fmt::format("{}.{}", path, name)); };
   check_sizes_differ(source.radius, source.mass, at("radius"));
@@ -111,6 +127,9 @@ void check_moving_sides(const Scene& scene, const PlaceOfKey& place) {
     const bool fixed =
         std::any_of(scene.groups.begin(), scene.groups.end(), [](const DiskGroup& g) { return g.fixed; });
     if (fixed) fail_input(where, "given beside fixed disks, which a side may not run over", "expected one of the two");
+    if (!scene.walls.empty()) {
+      fail_input(where, "given beside [[walls]], which a side may not run over", "expected one of the two");
+    }
   }
 }
 
@@ -161,6 +180,11 @@ void check_growth(const Scene& scene, const PlaceOfKey& place) {
     fail_input(place(fmt::format("disks.{}.fixed", g)),
                fmt::format("beside \"growth\" of disks.{}: disks do not grow around fixed ones", group_with(true)),
                "expected \"random\" positions, or no fixed disks");
+  }
+  if (group_with(true) < scene.groups.size() && !scene.walls.empty()) {
+    fail_input(place("walls.0"),
+               fmt::format("beside \"growth\" of disks.{}: disks do not grow around walls", group_with(true)),
+               "expected \"random\" positions, or no walls");
   }
   const std::size_t other = group_with(false);
   if (group_with(true) == scene.groups.size() || other == scene.groups.size()) return;
@@ -351,6 +375,8 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
     add(low, high);
     if (!source.side) check_region(source, scene.box, high.radius, place(path + ".region"));
   }
+  for (std::size_t k = 0; k < scene.walls.size(); ++k)
+    check_wall(scene, scene.walls[k], fmt::format("walls.{}", k), place);
   check_axis(scene.box.width, scene.box.periodic_x(), largest, "width", place);
   check_axis(scene.box.height, scene.box.periodic_y(), largest, "height", place);
   check_resolution(scene, smallest, place);

@@ -24,6 +24,7 @@
 #include "core/scene/scene_reader.hpp"
 #include "core/scene/scene_sides.hpp"
 #include "core/scene/scene_tree.hpp"
+#include "core/scene/scene_walls.hpp"
 #include "core/scene/size_law.hpp"
 
 namespace carom {
@@ -345,6 +346,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   if (scene.groups.empty() && scene.sources.empty()) {
     origin.fail("disks", "missing", "expected one table [[disks]] or more");
   }
+  scene.walls = read_tables(origin, "walls", read_wall);
   scene.growth = read_growth(origin);
   scene.run = read_run(origin);
   scene.output = read_output(origin, scene);

@@ -89,7 +89,7 @@ Overlap deepest_wall_overlap(const Disks& d, const Domain& box) {
     }
     if (box.obstacles == nullptr) continue;
     const double r = d.radius_of(i);
-    for_each_obstacle_touched(box, d.x[i], d.y[i], r, [&](std::uint32_t k, const ObstacleGap& gap) {
+    for_each_solid_touched(box, d.x[i], d.y[i], r, [&](std::uint32_t k, const ObstacleGap& gap) {
       if (gap.beyond > 0.0) deepest.see({gap.beyond / r, d.id[i], obstacle_partner(k)});
     });
   }

@@ -134,14 +134,17 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
   return outcome;
 }
 
-// Disk a touches obstacle k (its place in State::obstacles) at time s: it bounces along the line of centres. Under the
+// Disk a touches obstacle k (its place in State::obstacles) at time s: it bounces along the shortest line to it; what a
+// sink takes, the caller removes. Under the
 // TC model it hops as from the floor, in proportion to the part of gravity that presses it against the obstacle.
 inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t k, double mass, ExactDisk& a) {
   PathSegment& p = a.path;
   p = carried_to(p, s, rules.gravity);
   const Obstacle& o = (*rules.box.obstacles)[k];
-  const Vec2 apart = nearest_image({p.x - o.x, p.y - o.y}, rules.box);
-  const double distance2 = apart.x * apart.x + apart.y * apart.y;
+  if (o.kind == ObstacleKind::sink) return {};
+  const ShortestLine shortest = shortest_line(o, p.x, p.y, rules.box);
+  const Vec2 apart = shortest.line;
+  const double distance2 = shortest.length2;
   const double approach = apart.x * p.vx + apart.y * p.vy;
   const double distance = std::sqrt(distance2);
   Impact outcome;

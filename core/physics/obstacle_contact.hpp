@@ -1,5 +1,5 @@
 // A disk and an obstacle, as time stepping sees them: how deep one lies in the other, since when, and what the obstacle
-// does. An obstacle is a wall that is curved: the formulas of boundary.hpp along the line of centres.
+// does. An obstacle is a wall that may be curved: the formulas of boundary.hpp along the shortest line to it.
 #pragma once
 
 #include <algorithm>
@@ -12,35 +12,93 @@
 
 namespace carom {
 
+// The shortest line from an obstacle's centre, or from a segment, to a point.
+struct ShortestLine {
+  Vec2 line;        // its direction: the line itself, or, from within a segment, a unit vector across
+  double length2;   // of `line`, squared
+  double distance;  // length of the line
+  bool flat;        // from within a segment
+  Vec2 shift{};     // of the image of the obstacle that it starts from
+};
+
+// apart: the point relative to (o.x, o.y).
+inline ShortestLine shortest_line(const Obstacle& o, Vec2 apart) {
+  if (o.is_segment()) {
+    const double length = std::sqrt(o.dx * o.dx + o.dy * o.dy);
+    const double ux = o.dx / length;
+    const double uy = o.dy / length;
+    const double along = apart.x * ux + apart.y * uy;
+    if (along >= 0.0 && along <= length) {
+      const double across = apart.y * ux - apart.x * uy;
+      return {across >= 0.0 ? Vec2{-uy, ux} : Vec2{uy, -ux}, 1.0, std::abs(across), true};
+    }
+    if (along > 0.0) apart = {apart.x - o.dx, apart.y - o.dy};
+  }
+  const double length2 = apart.x * apart.x + apart.y * apart.y;
+  return {apart, length2, std::sqrt(length2), false};
+}
+
+// Likewise from the nearest image of the obstacle. Precondition: (x, y) is out of the box by less than half a period.
+inline ShortestLine shortest_line(const Obstacle& o, double x, double y, const Domain& box) {
+  const Vec2 apart{x - o.x, y - o.y};
+  if (!o.is_segment()) {
+    const Vec2 nearest = nearest_image(apart, box);
+    ShortestLine line = shortest_line(o, nearest);
+    line.shift = {apart.x - nearest.x, apart.y - nearest.y};
+    return line;
+  }
+  ShortestLine nearest = shortest_line(o, apart);
+  const int images_x = box.periodic_x() ? 1 : 0;
+  const int images_y = box.periodic_y() ? 1 : 0;
+  for (int ky = -images_y; ky <= images_y; ++ky) {
+    for (int kx = -images_x; kx <= images_x; ++kx) {
+      const Vec2 shift{kx * box.width, ky * box.height};
+      const ShortestLine image = shortest_line(o, {apart.x - shift.x, apart.y - shift.y});
+      if (!(image.distance < nearest.distance)) continue;
+      nearest = image;
+      nearest.shift = shift;
+    }
+  }
+  return nearest;
+}
+
 struct ObstacleGap {
   double nx, ny;  // unit vector from the obstacle to the disk
   double beyond;  // how far the disk's edge reaches beyond the obstacle's; length, >= 0: they touch
+  bool flat;      // at the inside of a segment
+  Vec2 shift{};   // of the obstacle's image
 };
 
 // The nearest image. Coincident centres: upwards.
 inline ObstacleGap gap_to(const Obstacle& o, double x, double y, double r, const Domain& box) {
-  const Vec2 apart = nearest_image({x - o.x, y - o.y}, box);
-  const double distance = std::sqrt(apart.x * apart.x + apart.y * apart.y);
-  const double nx = distance > 0.0 ? apart.x / distance : 0.0;
-  const double ny = distance > 0.0 ? apart.y / distance : 1.0;
-  return {nx, ny, (r + o.radius) - distance};
+  const ShortestLine s = shortest_line(o, x, y, box);
+  if (s.flat) return {s.line.x, s.line.y, r - s.distance, true, s.shift};
+  const double nx = s.distance > 0.0 ? s.line.x / s.distance : 0.0;
+  const double ny = s.distance > 0.0 ? s.line.y / s.distance : 1.0;
+  return {nx, ny, (r + o.radius) - s.distance, false, s.shift};
 }
 
-// Of the images of an obstacle, is the one displaced by shift the nearest to (x, y)? Images lie whole periods apart.
-inline bool is_nearest_image(const Obstacle& o, double x, double y, Vec2 shift, const Domain& box) {
-  const Vec2 apart = nearest_image({x - o.x, y - o.y}, box);
-  return std::abs((x - o.x - shift.x) - apart.x) < 0.5 * box.width &&
-         std::abs((y - o.y - shift.y) - apart.y) < 0.5 * box.height;
-}
-
-// Calls found(k, gap) once for each obstacle k that a disk of radius r at (x, y) overlaps or touches.
+// Calls found(k, gap) once for each obstacle k that a disk of radius r at (x, y) overlaps or touches, sinks included.
 // Precondition: box.obstacles is not null.
 template <class Found>
 void for_each_obstacle_touched(const Domain& box, double x, double y, double r, Found&& found) {
   box.obstacles->visit({x - r, y - r}, {x + r, y + r}, [&](std::uint32_t k, Vec2 shift) {
     const Obstacle& o = (*box.obstacles)[k];
+    // This image alone, first: most are out of reach.
+    if (o.is_segment() && shortest_line(o, {(x - o.x) - shift.x, (y - o.y) - shift.y}).distance > r) return;
     const ObstacleGap gap = gap_to(o, x, y, r, box);
-    if (gap.beyond >= 0.0 && is_nearest_image(o, x, y, shift, box)) found(k, gap);
+    // Images lie whole periods apart: of all that are visited, the nearest one only.
+    const bool nearest =
+        std::abs(shift.x - gap.shift.x) < 0.5 * box.width && std::abs(shift.y - gap.shift.y) < 0.5 * box.height;
+    if (gap.beyond >= 0.0 && nearest) found(k, gap);
+  });
+}
+
+// The same without sinks: what disks bounce off.
+template <class Found>
+void for_each_solid_touched(const Domain& box, double x, double y, double r, Found&& found) {
+  for_each_obstacle_touched(box, x, y, r, [&](std::uint32_t k, const ObstacleGap& gap) {
+    if ((*box.obstacles)[k].kind != ObstacleKind::sink) found(k, gap);
   });
 }
 
@@ -53,9 +111,25 @@ inline bool touches_obstacle(const Domain& box, double x, double y, double r) {
   return touched;
 }
 
+// Does it touch one that takes disks away?
+inline bool touches_inner_sink(const Domain& box, double x, double y, double r) {
+  bool touched = false;
+  if (box.obstacles == nullptr || !box.obstacles->has_sinks()) return false;
+  for_each_obstacle_touched(box, x, y, r, [&](std::uint32_t k, const ObstacleGap&) {
+    touched = touched || (*box.obstacles)[k].kind == ObstacleKind::sink;
+  });
+  return touched;
+}
+
 // Speed towards the obstacle; > 0: the disk moves into it.
 inline double speed_towards(const ObstacleGap& gap, double vx, double vy) {
   return -(vx * gap.nx + vy * gap.ny);
+}
+
+// Time since the disk touched the inside of a segment: as time_since_wall, of a wall that is tilted.
+inline double time_since_flat(const ObstacleGap& gap, double speed, double g) {
+  const double discriminant = speed * speed - 2.0 * (g * gap.ny) * gap.beyond;
+  return discriminant < 0.0 ? HUGE_VAL : 2.0 * gap.beyond / (speed + std::sqrt(discriminant));
 }
 
 // Time since the disk touched the obstacle, on its present path; infinity when this path never did. Without gravity
@@ -63,6 +137,7 @@ inline double speed_towards(const ObstacleGap& gap, double vx, double vy) {
 // of g^2 dt^4: it shifts the place of the impact, not the energy, as the disk goes back and forth on its own parabola.
 // Preconditions: gap.beyond >= 0 and speed_towards > 0 at (x, y).
 inline double time_since_obstacle(const Obstacle& o, const ObstacleGap& gap, double r, double vx, double vy, double g) {
+  if (gap.flat) return time_since_flat(gap, speed_towards(gap, vx, vy), g);
   const double contact = r + o.radius;
   const double distance = contact - gap.beyond;
   const double dx = distance * gap.nx;

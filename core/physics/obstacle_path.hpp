@@ -10,6 +10,7 @@
 
 #include "core/disks/obstacle_cells.hpp"
 #include "core/physics/exact_path.hpp"
+#include "core/physics/obstacle_contact.hpp"
 
 namespace carom {
 
@@ -94,10 +95,66 @@ inline double time_to_contact_falling(const FallPast& fall, double span) {
   return never;
 }
 
-// Time from now until a disk touches an obstacle; apart: its place relative to the obstacle's centre.
-inline double time_to_obstacle(Vec2 apart, const PathSegment& p, double contact, double g, double span) {
+// Time from now until a disk touches a fixed disk, or an end of a segment; apart: its place relative to that.
+inline double time_to_round(Vec2 apart, const PathSegment& p, double contact, double g, double span) {
   if (g == 0.0) return time_to_contact({-apart.x, -apart.y, -p.vx, -p.vy}, contact);
   return time_to_contact_falling({apart.x, apart.y, p.vx, p.vy, g, contact}, span);
+}
+
+// Time until a disk at distance `gap` from touching a plane, moving towards it at `speed` with acceleration a, touches
+// it from outside. gap < 0: it is beyond. One that has been pressed beyond by rounding (is_touching) and moves away
+// touches again when it is as far beyond as now.
+inline double time_to_plane(double gap, double speed, double a, bool is_touching) {
+  if (speed > 0.0) {
+    if (is_touching) return 0.0;
+    const double discriminant = speed * speed + 2.0 * a * gap;
+    if (gap < 0.0 || discriminant < 0.0) return never;
+    return 2.0 * gap / (speed + std::sqrt(discriminant));
+  }
+  if (!(a > 0.0)) return never;
+  if (is_touching) return 2.0 * -speed / a;
+  const double discriminant = speed * speed + 2.0 * a * gap;
+  return discriminant < 0.0 ? never : (std::sqrt(discriminant) - speed) / a;
+}
+
+// Time until a disk of this radius touches the inside of a segment, on the side where n points.
+inline double time_to_flat(const Obstacle& o, Vec2 apart, Vec2 n, const PathSegment& p, double radius, double g) {
+  const double length = std::sqrt(o.dx * o.dx + o.dy * o.dy);
+  const double ux = o.dx / length;
+  const double uy = o.dy / length;
+  const auto is_inside = [&](double t) {
+    const double along = (apart.x + p.vx * t) * ux + (apart.y + (p.vy * t - 0.5 * g * (t * t))) * uy;
+    return along >= 0.0 && along <= length;
+  };
+  const double across = apart.x * n.x + apart.y * n.y;
+  const double gap = across - radius;
+  const bool is_touching = gap <= 0.0 && across >= 0.0 && is_inside(0.0);
+  const double t = time_to_plane(gap, -(p.vx * n.x + p.vy * n.y), g * n.y, is_touching);
+  return t < never && is_inside(t) ? t : never;
+}
+
+// Time until a disk of this radius touches an obstacle: round, or a segment, which is touched at either side or end,
+// whatever comes first. A sink takes a disk that touches it, wherever the disk moves.
+inline double time_to_obstacle(const Obstacle& o, Vec2 apart, const PathSegment& p, double radius, double g,
+                               double span) {
+  if (!o.is_segment()) return time_to_round(apart, p, radius + o.radius, g, span);
+  const ShortestLine now = shortest_line(o, apart);
+  if (o.kind == ObstacleKind::sink && now.distance <= radius) return 0.0;
+  const double length = std::sqrt(o.dx * o.dx + o.dy * o.dy);
+  const Vec2 n{-(o.dy / length), o.dx / length};
+  const double flat =
+      std::min(time_to_flat(o, apart, n, p, radius, g), time_to_flat(o, apart, {-n.x, -n.y}, p, radius, g));
+  const double ends = std::min(time_to_round(apart, p, radius, g, span),
+                               time_to_round({apart.x - o.dx, apart.y - o.dy}, p, radius, g, span));
+  return std::min(flat, ends);
+}
+
+// Does the rectangle around an obstacle's image overlap this one?
+inline bool may_reach(const Obstacle& o, Vec2 shift, Vec2 low, Vec2 high) {
+  const double x = o.x + shift.x;
+  const double y = o.y + shift.y;
+  return x + std::max(o.dx, 0.0) + o.radius >= low.x && x + std::min(o.dx, 0.0) - o.radius <= high.x &&
+         y + std::max(o.dy, 0.0) + o.radius >= low.y && y + std::min(o.dy, 0.0) - o.radius <= high.y;
 }
 
 struct ObstacleContact {
@@ -121,14 +178,15 @@ inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radiu
     const double to = step < span - from ? from + step : span;
     const PathSegment next = carried_to(p, p.start + to, g);
     // A parabola rises above its chord by no more than g t^2 / 8.
-    const double reach = radius * (1.0 + 1e-9);
+    const double reach = radius + 1e-9 * (radius + cell);
     const double rise = g * (to - from) * (to - from);
     const Vec2 low{std::min(at.x, next.x) - reach, std::min(at.y, next.y) - reach};
     const Vec2 high{std::max(at.x, next.x) + reach, std::max(at.y, next.y) + rise + reach};
     obstacles.visit(low, high, [&](std::uint32_t k, Vec2 shift) {
       const Obstacle& o = obstacles[k];
+      if (!may_reach(o, shift, low, high)) return;
       const Vec2 apart{(p.x - o.x) - shift.x, (p.y - o.y) - shift.y};
-      const double s = p.start + time_to_obstacle(apart, p, radius + o.radius, g, span);
+      const double s = p.start + time_to_obstacle(o, apart, p, radius, g, span);
       if (s <= end && (s < first.time || (s == first.time && k < first.obstacle))) first = {s, k};
     });
     if (first.time <= p.start + to || !(to < span) || !(to > from)) return first;

@@ -104,6 +104,12 @@ inline double restitution_of_wall(const Domain& box, DiskId partner) {
                               : box.restitution(wall_side(partner));
 }
 
+// Does what stands for a wall in a contact take disks away?
+inline bool is_sink(const Domain& box, DiskId partner) {
+  if (is_obstacle(partner)) return (*box.obstacles)[obstacle_of(partner)].kind == ObstacleKind::sink;
+  return box.side(wall_side(partner)) == SideKind::sink;
+}
+
 // Calls found(event) for each wall side and obstacle that disk i reaches beyond or touches.
 template <class View, class Found>
 void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t i, Found&& found) {
@@ -113,9 +119,8 @@ void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t 
     if (beyond >= 0.0) found(wall_event(d, rules, i, side, beyond));
   }
   if (rules.box.obstacles == nullptr) return;
-  for_each_obstacle_touched(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
-    found(obstacle_event(d, rules, i, k, gap));
-  });
+  for_each_solid_touched(rules.box, d.x[i], d.y[i], d.radius(i),
+                         [&](std::uint32_t k, const ObstacleGap& gap) { found(obstacle_event(d, rules, i, k, gap)); });
 }
 
 // Along the disk's own path, back where t < 0.
@@ -369,7 +374,7 @@ void keep_inside(const View& d, const Domain& box, std::uint32_t i) {
     if (box.side(side) == SideKind::wall) push_wall(d, box, i, side, shallow_overlap * d.radius(i));
   }
   if (box.obstacles == nullptr) return;
-  for_each_obstacle_touched(box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap&) {
+  for_each_solid_touched(box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap&) {
     push_from_obstacle(d, box, i, (*box.obstacles)[k], shallow_overlap * d.radius(i));
   });
 }

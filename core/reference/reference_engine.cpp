@@ -75,7 +75,7 @@ void ReferenceEngine::wrap_all() {
 }
 
 void ReferenceEngine::remove_at_sinks() {
-  if (!scene_.box.has(SideKind::sink)) return;
+  if (!has_sinks(scene_.box)) return;
   const PhaseTimer timer(times_, "sinks");
   std::vector<unsigned char> gone(state_.disks.size(), 0);
   with_view(state_.disks, [&](const auto& d) {

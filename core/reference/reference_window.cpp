@@ -94,8 +94,7 @@ class EventLoop {
                              : meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), e.id1, first);
     result_.tally.add(e.id2, outcome);
     if (pair && outcome.happened) result_.collisions.emplace_back(e.id1, e.id2);
-    const bool at_side = !pair && !is_obstacle(e.id2);
-    if (at_side && rules_.box.side(wall_side(e.id2)) == SideKind::sink) result_.gone[e.i1] = 1;
+    if (!pair && is_sink(rules_.box, e.id2)) result_.gone[e.i1] = 1;
     const bool inelastic = loses_energy(rules_, e.id2, outcome);
     begin_segment(e, e.i1, inelastic);
     if (pair) begin_segment(e, e.i2, inelastic);

@@ -38,7 +38,7 @@ void see_wall_overlap(const View& d, const Domain& box, std::uint32_t i, StepFig
     if (beyond > 0.0) figures.wall.see({beyond / d.radius(i), d.id[i], wall_partner(side)});
   }
   if (box.obstacles == nullptr) return;
-  for_each_obstacle_touched(box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
+  for_each_solid_touched(box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
     if (gap.beyond > 0.0) figures.wall.see({gap.beyond / d.radius(i), d.id[i], obstacle_partner(k)});
   });
 }

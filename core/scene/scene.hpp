@@ -90,6 +90,14 @@ struct Source {
   int line = 0;
 };
 
+// A line of segments within the box, without thickness: each segment is an obstacle.
+struct InnerWall {
+  std::vector<Vec2> points;  // two or more, no two in a row alike
+  bool sink = false;         // takes disks that touch it
+  double restitution = 1.0;
+  int line = 0;  // of the [[walls]] header
+};
+
 struct Physics {
   double gravity = 0.0;      // length / time^2, along -y
   double restitution = 1.0;  // in [0, 1]
@@ -207,10 +215,27 @@ struct Scene {
   Physics physics;
   std::vector<DiskGroup> groups;
   std::vector<Source> sources;
+  std::vector<InnerWall> walls;
   GrowthPlan growth;
   RunPlan run;
   OutputPlan output;
   AnalysisPlan analysis;
 };
+
+// Does a side of the box or an inner wall take disks away?
+inline bool has_sinks(const Scene& scene) {
+  for (const InnerWall& wall : scene.walls) {
+    if (wall.sink) return true;
+  }
+  return scene.box.has(SideKind::sink);
+}
+
+// May a collision with an inner wall lose energy?
+inline bool inner_walls_dissipate(const Scene& scene) {
+  for (const InnerWall& wall : scene.walls) {
+    if (wall.restitution < 1.0) return true;
+  }
+  return false;
+}
 
 }  // namespace carom

@@ -11,6 +11,7 @@ namespace carom {
 inline constexpr std::array<std::string_view, 4> side_names{"left", "right", "bottom", "top"};  // Side
 inline constexpr std::array<std::string_view, 3> side_kind_names{"wall", "periodic", "sink"};   // SideKind
 inline constexpr std::array<std::string_view, 1> vibration_shapes{"parabola"};
+inline constexpr std::array<std::string_view, 2> inner_wall_kind_names{"wall", "sink"};          // InnerWall::sink
 inline constexpr std::array<std::string_view, 3> method_names{"rollback", "pairwise", "exact"};  // Method
 // What run.method and --method may be: a method, or "auto" for the one that run.accuracy needs.
 inline constexpr std::array<std::string_view, 4> method_words{"rollback", "pairwise", "exact", "auto"};

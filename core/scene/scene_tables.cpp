@@ -34,6 +34,9 @@ constexpr SceneTable tables[] = {
      "Disks that come while the run goes on, the k-th at time k / `rate`, through a side or anywhere in a region. A "
      "disk that would overlap another waits until there is room; how many wait is counted (`waiting`), and a run warns "
      "at its end where more than a twentieth of them do."},
+    {"walls", "`[[walls]]`",
+     "Inner walls: segments without thickness, which disks touch from both sides and at their ends: funnels, shelves, "
+     "pockets (`kind = \"sink\"`), slits."},
     {"run", "`[run]`", "How the scene is run."},
     {"output", "`[output]`", "What a run writes."},
     {"output.movie", "`movie = { ... }` in `[output]`",

@@ -172,6 +172,11 @@ std::string group_text(const DiskGroup& group) {
   return text + fmt::format("mass = {}\n", size_text(group.mass, "from_radius"));
 }
 
+std::string wall_text(const InnerWall& wall) {
+  const std::string kind = wall.sink ? "kind = \"sink\"" : fmt::format("restitution = {}", decimal(wall.restitution));
+  return fmt::format("\n[[walls]]\npoints = {}\n{}\n", list_of(wall.points, pair), kind);
+}
+
 // Empty where nothing grows.
 std::string growth_text(const Scene& scene) {
   for (const DiskGroup& group : scene.groups) {
@@ -287,6 +292,7 @@ std::string resolved_toml(const Scene& scene) {
   for (const DiskGroup& group : scene.groups) text += group_text(group);
   text += growth_text(scene);
   for (const Source& source : scene.sources) text += source_text(source);
+  for (const InnerWall& wall : scene.walls) text += wall_text(wall);
   return text + run_text(scene.run) + output_text(scene.output) + analysis_text(scene.analysis);
 }
 

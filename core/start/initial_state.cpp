@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "core/base/input_message.hpp"
+#include "core/disks/obstacle_cells.hpp"
+#include "core/physics/obstacle_contact.hpp"
 #include "core/scene/size_law.hpp"
 #include "core/start/circle_lattice.hpp"
 #include "core/start/initial_velocities.hpp"
@@ -198,6 +200,33 @@ void insert_placed(const Scene& scene, const Disks& disks, std::vector<std::uint
   }
 }
 
+// The segments of all inner walls.
+std::vector<Obstacle> segments_of(const Scene& scene) {
+  std::vector<Obstacle> segments;
+  for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+    const InnerWall& wall = scene.walls[w];
+    const ObstacleKind kind = wall.sink ? ObstacleKind::sink : ObstacleKind::wall;
+    for (std::size_t k = 1; k < wall.points.size(); ++k) {
+      const Vec2 from = wall.points[k - 1];
+      const Vec2 to = wall.points[k];
+      segments.push_back(
+          {from.x, from.y, to.x - from.x, to.y - from.y, 0.0, wall.restitution, static_cast<DiskId>(w), kind});
+    }
+  }
+  return segments;
+}
+
+void check_clear_of_walls(const Scene& scene, const Domain& box, const Disks& disks, std::uint32_t i) {
+  if (box.obstacles == nullptr) return;
+  const double r = disks.radius_of(i);
+  for_each_solid_touched(box, disks.x[i], disks.y[i], r, [&](std::uint32_t k, const ObstacleGap& gap) {
+    if (!(gap.beyond > side_slack(r, std::max(box.width, box.height)))) return;
+    fail_input(place_in_group(scene, group_of(scene, i), "positions"),
+               fmt::format("disk {} overlaps the {} by {:.6g}", i, name_of((*box.obstacles)[k]), gap.beyond),
+               "expected disks clear of walls");
+  });
+}
+
 // Groups with a region go first, each by itself: the others find room elsewhere, too.
 void set_positions(const Scene& scene, Disks& disks, const PlaceAtRandom& place) {
   std::vector<std::uint32_t> obstacles;
@@ -221,14 +250,17 @@ void set_positions(const Scene& scene, Disks& disks, const PlaceAtRandom& place)
     std::iota(members.begin() + static_cast<std::ptrdiff_t>(before), members.end(), first_id);
     first_id += static_cast<DiskId>(g.count);
   }
-  PlacementGrid grid(scene.box, disks);
+  Domain box = scene.box;
+  const std::unique_ptr<const ObstacleCells> walls = place_obstacles(segments_of(scene), box);
+  for (const std::uint32_t i : placed) check_clear_of_walls(scene, box, disks, i);
+  PlacementGrid grid(box, disks);
   for (const std::uint32_t i : obstacles) grid.insert(i);
   insert_placed(scene, disks, std::move(placed), grid);
   for (std::vector<std::uint32_t>& members : in_regions) place(scene, disks, grid, std::move(members));
   place(scene, disks, grid, std::move(anywhere));
 }
 
-// The fixed groups' disks go from state.disks to state.obstacles; the others keep their ids.
+// The fixed groups' disks go from state.disks to state.obstacles, inner walls after them; other disks keep their ids.
 void take_obstacles(const Scene& scene, State& state) {
   Disks& disks = state.disks;
   std::vector<unsigned char> fixed(disks.size(), 0);
@@ -237,10 +269,14 @@ void take_obstacles(const Scene& scene, State& state) {
     for (Count k = 0; k < g.count; ++k, ++i) {
       if (!g.fixed) continue;
       fixed[i] = 1;
-      state.obstacles.push_back({disks.x[i], disks.y[i], disks.radius_of(i), scene.physics.restitution, disks.id[i]});
+      state.obstacles.push_back({disks.x[i], disks.y[i], 0.0, 0.0, disks.radius_of(i), scene.physics.restitution,
+                                 disks.id[i], ObstacleKind::disk});
     }
   }
-  if (state.obstacles.empty()) return;
+  const std::vector<Obstacle> segments = segments_of(scene);
+  const bool any_fixed = !state.obstacles.empty();
+  state.obstacles.insert(state.obstacles.end(), segments.begin(), segments.end());
+  if (!any_fixed) return;
   remove_marked(disks, fixed);
   if (!disks.radius.empty()) share_where_equal(disks.radius, disks.common_radius);
   if (!disks.mass.empty()) share_where_equal(disks.mass, disks.common_mass);
@@ -332,7 +368,7 @@ State initial_state(const Scene& scene, const PlaceAtRandom& place, const Growth
 
 std::vector<Obstacle> obstacles_of(const Scene& scene) {
   const bool any = std::any_of(scene.groups.begin(), scene.groups.end(), [](const DiskGroup& g) { return g.fixed; });
-  return any ? initial_state(scene).obstacles : std::vector<Obstacle>();
+  return any ? initial_state(scene).obstacles : segments_of(scene);
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 
 #include "core/base/huge_pages.hpp"
 #include "core/disks/cell_index.hpp"
+#include "core/physics/obstacle_contact.hpp"
 
 namespace carom {
 
@@ -153,6 +154,7 @@ bool PlacementGrid::any_around(const Level& level, double x, double y, double re
 }
 
 std::optional<std::size_t> PlacementGrid::overlapping(double x, double y, double radius, bool slack) const {
+  if (!slack && touches_obstacle(box_, x, y, radius)) return no_disk;
   std::size_t found = 0;
   for (const Level& level : levels_) {
     if (level.disks == 0) continue;

@@ -23,8 +23,11 @@ class PlacementGrid {
   void insert(std::size_t i);
 
   // A disk in the grid whose centre is nearer than the sum of the radii to a disk of this radius at (x, y), if any.
-  // With slack, overlaps that rounding of the input explains do not count.
+  // With slack, overlaps that rounding of the input explains do not count. Without it, what touches an inner wall
+  // (box.obstacles) overlaps too: the answer is no_disk.
   std::optional<std::size_t> overlapping(double x, double y, double radius, bool slack) const;
+
+  static constexpr std::size_t no_disk = static_cast<std::size_t>(-1);
 
   // A disk of the grid seen from a point: the nearest image of its centre, and the sum of the radii.
   struct Near {

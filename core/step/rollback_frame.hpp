@@ -50,7 +50,7 @@ void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTa
     push_wall(d, rules.box, i, side, 0.0);
   }
   if (rules.box.obstacles == nullptr) return;
-  for_each_obstacle_touched(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap&) {
+  for_each_solid_touched(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap&) {
     tally.add(obstacle_partner(k), resolve_obstacle(d, rules, i, k));
     push_from_obstacle(d, rules.box, i, (*rules.box.obstacles)[k], 0.0);
   });

@@ -46,7 +46,7 @@ bool is_pressed_into_wall(const View& d, const Domain& box, std::size_t i) {
   }
   bool pressed = false;
   if (box.obstacles == nullptr) return pressed;
-  for_each_obstacle_touched(box, d.x[i], d.y[i], r, [&](std::uint32_t, const ObstacleGap& gap) {
+  for_each_solid_touched(box, d.x[i], d.y[i], r, [&](std::uint32_t, const ObstacleGap& gap) {
     pressed = pressed || gap.beyond > pressed_overlap * r;
   });
   return pressed;

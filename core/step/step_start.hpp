@@ -19,7 +19,7 @@ namespace carom {
 inline bool settles(const Scene& scene) {
   const auto& walls = scene.box.restitutions;
   const bool dissipates = scene.physics.restitution < 1.0 || *std::min_element(walls.begin(), walls.end()) < 1.0;
-  return scene.physics.gravity > 0.0 && dissipates;
+  return scene.physics.gravity > 0.0 && (dissipates || inner_walls_dissipate(scene));
 }
 
 inline StepRules rules_for(const Scene& scene, double dt) {
@@ -81,13 +81,18 @@ bool crosses_sink(const View& d, const Scene& scene, Count step, double dt, std:
   return false;
 }
 
-// Does disk i touch a sink side?
+// Does disk i touch a sink, a side or an inner one?
 template <class View>
 bool touches_sink(const View& d, const Domain& box, std::size_t i) {
   for (Side side : all_sides) {
     if (box.side(side) == SideKind::sink && reach_beyond(side, d.x[i], d.y[i], d.radius(i), box) >= 0.0) return true;
   }
-  return false;
+  return touches_inner_sink(box, d.x[i], d.y[i], d.radius(i));
+}
+
+// Is there anything that takes disks away?
+inline bool has_sinks(const Domain& box) {
+  return box.has(SideKind::sink) || (box.obstacles != nullptr && box.obstacles->has_sinks());
 }
 
 inline bool has_brownian_sink(const Scene& scene) {

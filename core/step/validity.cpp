@@ -51,7 +51,7 @@ std::string inaccurate_text(const Scene& scene) {
 }
 
 std::string wall_name(const State& state, DiskId wall) {
-  if (is_obstacle(wall)) return fmt::format("edge of the fixed disk {}", state.obstacles[obstacle_of(wall)].id);
+  if (is_obstacle(wall)) return name_of(state.obstacles[obstacle_of(wall)]);
   return fmt::format("{} wall", side_names[static_cast<std::size_t>(wall_side(wall))]);
 }
 

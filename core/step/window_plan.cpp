@@ -28,7 +28,7 @@ constexpr double least_pace_moving = 0x1p-10;
 constexpr Count enough_windows_moving = 32;
 
 std::string partner_text(const Domain& box, DiskId id) {
-  if (is_obstacle(id)) return fmt::format("the fixed disk {}", (*box.obstacles)[obstacle_of(id)].id);
+  if (is_obstacle(id)) return "the " + name_of((*box.obstacles)[obstacle_of(id)]);
   return is_wall(id) ? fmt::format("the {} wall", side_names[static_cast<std::size_t>(wall_side(id))])
                      : fmt::format("disk {}", id);
 }
@@ -60,7 +60,8 @@ std::string partner_text(const Domain& box, DiskId id) {
 }  // namespace
 
 bool has_tc(const Scene& scene) {
-  return scene.physics.collapse_contact_time && dissipates(scene.box, scene.physics.restitution);
+  return scene.physics.collapse_contact_time &&
+         (dissipates(scene.box, scene.physics.restitution) || inner_walls_dissipate(scene));
 }
 
 ExactRules exact_rules(const Scene& scene, const Disks& disks, double start) {

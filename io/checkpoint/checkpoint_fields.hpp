@@ -36,8 +36,8 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<Obstacle> T>
 void fields(Stream& stream, T& value) {
-  auto& [x, y, radius, restitution, id] = value;
-  stream(x, y, radius, restitution, id);
+  auto& [x, y, dx, dy, radius, restitution, id, kind] = value;
+  stream(x, y, dx, dy, radius, restitution, id, kind);
 }
 
 template <class Stream, Is<StallWatch> T>

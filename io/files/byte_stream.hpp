@@ -17,7 +17,7 @@
 namespace carom {
 
 template <class T>
-concept Number = std::is_arithmetic_v<T> && !std::same_as<T, bool>;
+concept Number = (std::is_arithmetic_v<T> && !std::same_as<T, bool>) || std::is_enum_v<T>;
 
 // T is U, const or not: what one fields() for writing and reading is declared with.
 template <class T, class U>

@@ -57,7 +57,9 @@ constexpr Colour obstacle_colour{150.0, 150.0, 150.0};
 // For drawing: what is drawn are disks.
 Disks as_disks(const std::vector<Obstacle>& obstacles) {
   Disks disks;
-  for (const Obstacle& o : obstacles) append(disks, {o.x, o.y, 0.0, 0.0, o.radius, 1.0, o.id});
+  for (const Obstacle& o : obstacles) {
+    if (!o.is_segment()) append(disks, {o.x, o.y, 0.0, 0.0, o.radius, 1.0, o.id});
+  }
   return disks;
 }
 
@@ -203,6 +205,7 @@ void FramePainter::paint(const Disks& disks, double time, const std::vector<Disk
   cairo_surface_mark_dirty(image_.get());
   const Context context = context_of(image_);
   draw_sides(context.get(), style_, layout_, time);
+  draw_inner_walls(context.get(), style_, layout_);
   draw_stamps(context.get(), style_, layout_, disks.size(), time);
   cairo_surface_flush(image_.get());
 }
@@ -250,6 +253,7 @@ void FramePainter::write_svg(const std::string& path, const Disks& disks, double
     for_each_disk(disks, group, draw);
     cairo_restore(c);
     draw_sides(c, style_, layout_, time);
+    draw_inner_walls(c, style_, layout_);
     draw_stamps(c, style_, layout_, disks.size(), time);
     check_written(cairo_status(c), path);
   }

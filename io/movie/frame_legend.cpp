@@ -159,15 +159,24 @@ void draw_groups(cairo_t* c, const FrameStyle& style, const FrameLayout& layout)
     draw_text(c, fmt::format("and {} more", style.groups - listed), x, y + 13.0 * u, 14.0 * u, Align::left);
 }
 
+// Is there a side, or an inner wall, of this kind?
+bool shows(const FrameStyle& style, SideKind kind) {
+  const auto is_such = [&](const Obstacle& o) {
+    return (kind == SideKind::sink && o.kind == ObstacleKind::sink) ||
+           (kind == SideKind::wall && o.kind == ObstacleKind::wall);
+  };
+  return style.box.has(kind) || std::any_of(style.obstacles.begin(), style.obstacles.end(), is_such);
+}
+
 // Names the kinds of side, where there is anything but walls.
 void draw_kinds_of_side(cairo_t* c, const FrameStyle& style, const FrameLayout& layout) {
-  if (!style.box.has(SideKind::periodic) && !style.box.has(SideKind::sink)) return;
+  if (!shows(style, SideKind::periodic) && !shows(style, SideKind::sink)) return;
   const double u = layout.unit;
   double x = left_margin * u;
   const double y = layout.height - 18.0 * u;
   for (const auto& [kind, name] : {std::pair{SideKind::wall, "wall"}, std::pair{SideKind::periodic, "periodic"},
                                    std::pair{SideKind::sink, "sink"}}) {
-    if (!style.box.has(kind)) continue;
+    if (!shows(style, kind)) continue;
     set_stroke(c, kind, u);
     cairo_move_to(c, x, y - 5.0 * u);
     cairo_line_to(c, x + 34.0 * u, y - 5.0 * u);
@@ -204,6 +213,17 @@ void draw_sides(cairo_t* c, const FrameStyle& style, const FrameLayout& layout, 
     set_stroke(c, box.side(side), layout.unit);
     cairo_move_to(c, side == Side::right ? right : left, side == Side::top ? high : low);
     cairo_line_to(c, side == Side::left ? left : right, side == Side::bottom ? low : high);
+    cairo_stroke(c);
+  }
+  cairo_set_dash(c, nullptr, 0, 0.0);
+}
+
+void draw_inner_walls(cairo_t* c, const FrameStyle& style, const FrameLayout& layout) {
+  for (const Obstacle& o : style.obstacles) {
+    if (!o.is_segment()) continue;
+    set_stroke(c, o.kind == ObstacleKind::sink ? SideKind::sink : SideKind::wall, layout.unit);
+    cairo_move_to(c, layout.left + o.x * layout.scale, layout.bottom - o.y * layout.scale);
+    cairo_line_to(c, layout.left + (o.x + o.dx) * layout.scale, layout.bottom - (o.y + o.dy) * layout.scale);
     cairo_stroke(c);
   }
   cairo_set_dash(c, nullptr, 0, 0.0);

@@ -15,6 +15,9 @@ void draw_legends(_cairo* context, const FrameStyle& style, const FrameLayout& l
 // Sides that move are where they are at this time.
 void draw_sides(_cairo* context, const FrameStyle& style, const FrameLayout& layout, double time);
 
+// Inner walls, as the sides are drawn.
+void draw_inner_walls(_cairo* context, const FrameStyle& style, const FrameLayout& layout);
+
 void draw_stamps(_cairo* context, const FrameStyle& style, const FrameLayout& layout, std::size_t disks, double time);
 
 }  // namespace carom

@@ -46,7 +46,9 @@ void EventProcessor<scope>::meet_obstacle(std::uint32_t i, double time) {
       meet_obstacle_at(window_.rules, time, record_[i].partner.place(), window_.disks->mass_of(i), now);
   worker_.tally.add(partner, impact);
   const EventMark event{time, record_[i].id, partner};
-  begin_segment(i, now, LoggedSegment::no_disk, event);
+  const bool gone = is_sink(window_.rules.box, partner);
+  begin_segment(i, now, gone ? LoggedSegment::gone : LoggedSegment::no_disk, event);
+  if (gone) return schedule(i, never, Partner::none());
   predict_after_event(i, time);
   if (!window_.burst.empty() && loses_energy(window_.rules, partner, impact)) count_burst(i, event);
 }

@@ -160,7 +160,7 @@ Count TimeStepping::parts(double dt) {
   // and it is the reference's. Sinks may have taken the smallest disk: then too the true figure is taken.
   const double fall = scene_.physics.gravity * dt / smallest_radius_;
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
-  if (scene_.box.has(SideKind::sink) || smallest_may_be_gone_) smallest_radius_ = smallest_radius(state_.disks);
+  if (has_sinks(scene_.box) || smallest_may_be_gone_) smallest_radius_ = smallest_radius(state_.disks);
   const Count parts = parts_of_step(exact_travel2(), scene_.physics.gravity * dt / smallest_radius_, dt);
   if (parts > 1) validity_.see_split(state_, dt, parts);
   return parts;
@@ -245,7 +245,7 @@ void TimeStepping::finish_contacts() {
 }
 
 void TimeStepping::remove_at_sinks() {
-  if (!scene_.box.has(SideKind::sink)) return;
+  if (!has_sinks(scene_.box)) return;
   const PhaseTimer timer(times_, "sinks");
   const std::size_t n = state_.disks.size();
   gone_.resize(n);

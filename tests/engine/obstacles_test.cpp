@@ -53,7 +53,7 @@ TEST_P(Obstacles, BitsOfTheReferenceOnAnyThreads) {
     SCOPED_TRACE(f.name());
     const Scene scene = scene_of(f);
     const State start = initial_state(scene);
-    ASSERT_EQ(start.obstacles.size(), 13U);
+    ASSERT_EQ(start.obstacles.size(), f.diffusion.empty() ? 18U : 17U);
     const auto reference = make_reference_engine(scene, start);
     while (test::goes_on(reference->state(), scene, steps)) reference->step();
     const std::string expected = test::all_bits(reference->state());
@@ -156,14 +156,16 @@ TEST(FixedDisk, BearsAPile) {
   for (std::size_t i = 0; i < end.disks.size(); ++i) EXPECT_GT(end.disks.y[i], 1.9) << "disk " << end.disks.id[i];
 }
 
-// What comes from a source finds room beside obstacles only.
 // In few large cells a disk at a periodic side may see an obstacle twice, in the box and beyond the side.
 TEST(FixedDisk, IsTouchedOnceAtPeriodicSides) {
   Domain box;
   box.width = 15.0;
   box.height = 27.0;
   box.sides = {SideKind::periodic, SideKind::periodic, SideKind::periodic, SideKind::periodic};
-  const std::vector<Obstacle> obstacles{{1.3, 18.6, 0.2, 1.0, 0}, {14.8, 26.9, 0.3, 1.0, 1}};
+  const std::vector<Obstacle> obstacles{{1.3, 18.6, 0.0, 0.0, 0.2, 1.0, 0, ObstacleKind::disk},
+                                        {14.8, 26.9, 0.0, 0.0, 0.3, 1.0, 1, ObstacleKind::disk},
+                                        {0.2, 3.0, 12.0, 1.0, 0.0, 1.0, 0, ObstacleKind::wall},
+                                        {14.5, 1.0, -4.0, 25.8, 0.0, 1.0, 1, ObstacleKind::sink}};
   const auto cells = place_obstacles(obstacles, box);
   int touched = 0;
   for (double x = 0.05; x < box.width; x += 0.1) {
@@ -179,6 +181,7 @@ TEST(FixedDisk, IsTouchedOnceAtPeriodicSides) {
   EXPECT_GT(touched, 0);
 }
 
+// What comes from a source finds room beside obstacles only.
 TEST(FixedDisk, SourcesKeepClearOfIt) {
   const std::string source = "[[sources]]\nregion = [8.0, 8.0, 12.0, 12.0]\nrate = 50.0\nradius = 0.1\nmass = 1.0\n";
   for (const char* method : {"exact", "pairwise", "rollback"}) {

@@ -67,6 +67,9 @@ const std::string pegs =
 const std::string few =
     "[[disks]]\ncount = 16\npositions = \"random\"\nvelocities = { uniform = 1.5 }\n"
     "radius = { uniform = [0.2, 0.5] }\nmass = 1.0\n";
+const std::string shelves =
+    "[[walls]]\npoints = [[1.0, 2.0], [3.0, 2.5], [3.5, 5.0]]\n[[walls]]\nfrom = [8.0, 3.0]\nto = [6.0, 7.0]\n"
+    "[[walls]]\nfrom = [2.0, 7.0]\nto = [4.0, 6.5]\nrestitution = 0.7\n";
 const std::string walls_of_salt = "wall_restitution = 0.9";
 const std::string pistons =
     "left = { motion = { velocity = [0.5, 0] } }\nright = { place = 8, motion = { velocity = [0.3, 0] } }";
@@ -98,6 +101,10 @@ INSTANTIATE_TEST_SUITE_P(
         OracleCase{"pistons", {9, 9, pistons, "", gas, 2.0, ""}},
         OracleCase{"shaken", {9, 9, shaken, "", gas, 0.7, ""}},
         OracleCase{"shaken_in_gravity", {9, 12, shaken, "gravity = 0.8\nrestitution = 0.9", mixed, 1.0, ""}},
+        OracleCase{"shelves", {8, 8, "wall", "", few + shelves, 4.0, ""}},
+        OracleCase{"shelves_periodic", {8, 8, "periodic", "", few + shelves, 4.0, ""}},
+        OracleCase{"shelves_gravity", {8, 12, "wall", "gravity = 1.5", few + shelves, 4.0, ""}},
+        OracleCase{"shelves_fall", {8, 12, "periodic", "gravity = 0.5", few + shelves + pegs, 3.0, ""}},
         OracleCase{"inelastic", {8, 8, walls_of_salt, "restitution = 0.8", gas, 5.0, ""}},
         OracleCase{"inelastic_gravity", {8, 12, walls_of_salt, "restitution = 0.7\ngravity = 0.5", mixed, 4.0, ""}}),
     [](const auto& p) { return std::string(p.param.name); });

@@ -81,7 +81,7 @@ class Comparison {
         scales_{smallest_radius(start.disks), 0.0},
         second_(first_),
         engine_(make_parallel_engine(scene, start, {1 + static_cast<int>(disks_ % 3), disks_ % 2 == 0 ? 1U : 1024U})),
-        elastic_(scene.physics.restitution == 1.0 && !scene.box.walls_dissipate()) {}
+        elastic_(scene.physics.restitution == 1.0 && !scene.box.walls_dissipate() && !inner_walls_dissipate(scene)) {}
 
   void run() {
     displace(second_, scales_.radius, 0);
@@ -103,7 +103,9 @@ class Comparison {
  private:
   // Where rebounds die away it is rounding that decides how many there are, and whether they are a collapse.
   bool decided() const {
-    const bool bounces = scene_.physics.restitution > 0.0 && *std::ranges::min_element(scene_.box.restitutions) > 0.0;
+    const bool bounces =
+        scene_.physics.restitution > 0.0 && *std::ranges::min_element(scene_.box.restitutions) > 0.0 &&
+        std::ranges::none_of(scene_.walls, [](const InnerWall& wall) { return wall.restitution == 0.0; });
     return elastic_ || (bounces && first_.shortest > vanishing * static_cast<oracle::Real>(scene_.run.t_end));
   }
 

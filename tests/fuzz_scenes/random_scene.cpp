@@ -193,6 +193,27 @@ std::string obstacles_text(Dice& dice, const Draft& draft) {
                      count, 0.5 * largest, largest);
 }
 
+// Short inner walls; a sink among them where Brownian motion does not forbid it.
+std::string walls_text(Dice& dice, const Draft& draft) {
+  const bool room = draft.cast == Cast::gas || draft.cast == Cast::few || draft.cast == Cast::pile;
+  if (!room || draft.crowd.packing_fraction > 0.35 || !dice.chance(0.2)) return "";
+  std::string text;
+  for (std::size_t k = 1 + dice.below(3); k > 0; --k) {
+    const double length = draft.crowd.largest * dice.pick({0.01, 0.5, 2.0});
+    const auto near = [&](double c, double side) { return std::clamp(c + length * dice.in(-1.0, 1.0), 0.0, side); };
+    const double x = draft.width * dice.unit();
+    const double y = draft.height * dice.unit();
+    text += fmt::format("[[walls]]\npoints = [[{}, {}], [{}, {}], [{}, {}]]\n", x, y, near(x, draft.width),
+                        near(y, draft.height), near(x, draft.width), near(y, draft.height));
+    if (!draft.only_reflects && draft.diffusion == 0.0 && dice.chance(0.15)) {
+      text += "kind = \"sink\"\n";
+    } else if (dice.chance(0.5)) {
+      text += fmt::format("restitution = {}\n", random_restitution(dice));
+    }
+  }
+  return text;
+}
+
 std::string sources_text(Dice& dice, const Draft& draft) {
   const std::size_t sources = draft.cast == Cast::none ? 1 + dice.below(2) : dice.chance(0.2) ? 1 + dice.below(3) : 0;
   std::string text;
@@ -259,6 +280,7 @@ std::string random_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t
   text += physics_text(dice, draft);
   text += disks_text(dice, draft);
   text += obstacles_text(dice, draft);
+  text += walls_text(dice, draft);
   text += sources_text(dice, draft);
   if (draft.cast == Cast::grown && dice.chance(0.3)) text += "[growth]\nslowness = 0.5\nsteps = 2000\n";
   return text + run_text(dice, draft);
@@ -285,6 +307,7 @@ std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::u
   text += fmt::format("[physics]\ngravity = {}\nrestitution = {}\n", draft.gravity, draft.restitution);
   text += disks_text(dice, draft);
   text += obstacles_text(dice, draft);
+  text += walls_text(dice, draft);
   return text + run_text(dice, draft);
 }
 

@@ -108,7 +108,7 @@ void Sanity::look_at_overlaps(const State& state) {
     const double smallest = state.disks.empty() ? 1.0 : smallest_radius(state.disks);
     const double unit = std::max(scene_.box.width, scene_.box.height) / smallest * 0x1p-52;
     const double allowed = 1e-11 + 64.0 * unit;
-    const bool through_sinks = scene_.box.has(SideKind::sink);  // a disk that leaves may stand beyond it
+    const bool through_sinks = has_sinks(scene_);  // a disk that leaves may stand beyond it
     if (overlap > allowed) blame(state, fmt::format("two disks overlap by {} of the sum of their radii", overlap));
     if (beyond > allowed && !through_sinks)
       blame(state, fmt::format("a disk is beyond a wall or an obstacle by {} radii", beyond));
@@ -121,7 +121,7 @@ void Sanity::look_at_overlaps(const State& state) {
 void Sanity::look_at_motion(const State& state) {
   const Physics& p = scene_.physics;
   const Domain& box = scene_.box;
-  if (p.diffusion > 0.0 || !scene_.sources.empty() || box.has(SideKind::sink) || box.has_thermal_side() ||
+  if (p.diffusion > 0.0 || !scene_.sources.empty() || has_sinks(scene_) || box.has_thermal_side() ||
       box.has_moving_side())
     return;
   const bool stands = !state.obstacles.empty();  // what takes momentum, as walls do
@@ -137,7 +137,7 @@ void Sanity::look_at_motion(const State& state) {
   if (p.gravity > 0.0 && scene_.run.method != Method::exact) return;  // right to first order
   const double energy = energy_of(state.disks, p.gravity).total();
   largest_energy_ = std::max(largest_energy_, energy);
-  const bool elastic = p.restitution == 1.0 && !box.walls_dissipate();
+  const bool elastic = p.restitution == 1.0 && !box.walls_dissipate() && !inner_walls_dissipate(scene_);
   const double gain = energy - energy_.total();
   const bool heats = p.gravity > 0.0 && p.collapse_contact_time.has_value();
   const double allowed = (heats ? silent_heating : rounding) * largest_energy_;

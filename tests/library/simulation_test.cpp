@@ -219,6 +219,9 @@ TEST(Simulation, AddsNoDiskOnAFixedOne) {
     velocities = [[1.0, 0.0]]
     radius = 1.0
     mass = 1.0
+    [[walls]]
+    from = [14.0, 2.0]
+    to = [16.0, 4.0]
     [run]
     method = "exact"
     t_end = 10.0
@@ -227,7 +230,9 @@ TEST(Simulation, AddsNoDiskOnAFixedOne) {
   Simulation s(scene, choice());
   EXPECT_FALSE(s.add({0.5, 6.5, 0.0, 0.0, 0.6, 1.0}));
   EXPECT_FALSE(s.add({19.5, 5.0, 0.0, 0.0, 0.5, 1.0})) << "across the side";
+  EXPECT_FALSE(s.add({15.5, 2.5, 0.0, 0.0, 0.8, 1.0})) << "on a wall";
   EXPECT_TRUE(s.add({0.5, 7.0, 0.0, -1.0, 0.6, 1.0}));
+  EXPECT_TRUE(s.add({15.5, 2.5, 0.0, 0.0, 0.6, 1.0}));
   s.run_until(5.0);
   EXPECT_GT(s.state().counters.collisions + s.state().counters.wall_collisions, 0U);
 }

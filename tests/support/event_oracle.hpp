@@ -79,6 +79,20 @@ inline Real side_time(Real d, Real u, Real a) {
   return u > 0.0L ? 2.0L * d / (u + root) : (-u + root) / a;
 }
 
+// From the nearest point of an obstacle displaced by (ox, oy) to (x, y).
+struct Line {
+  Real x, y;
+};
+inline Line from_obstacle(const Obstacle& o, Real x, Real y) {
+  const Real dx = o.dx;
+  const Real dy = o.dy;
+  const Real length2 = dx * dx + dy * dy;
+  x -= static_cast<Real>(o.x);
+  y -= static_cast<Real>(o.y);
+  const Real share = length2 > 0.0L ? std::clamp((x * dx + y * dy) / length2, 0.0L, 1.0L) : 0.0L;
+  return {x - share * dx, y - share * dy};
+}
+
 // Contact of a falling ball with an obstacle displaced by (ox, oy), up to `end`, by going on as far as the ball surely
 // does not touch yet.
 inline Real obstacle_time(const Ball& a, const Obstacle& o, Real ox, Real oy, Real g, Real end) {
@@ -86,8 +100,7 @@ inline Real obstacle_time(const Ball& a, const Obstacle& o, Real ox, Real oy, Re
   const Real nothing = 1e-17L * reach;
   Real t = 0.0L;
   for (bool first = true;; first = false) {
-    const Real x = a.x + a.vx * t - (o.x + ox);
-    const Real y = a.y + a.vy * t - 0.5L * g * t * t - (o.y + oy);
+    const auto [x, y] = from_obstacle(o, a.x + a.vx * t - ox, a.y + a.vy * t - 0.5L * g * t * t - oy);
     const Real vy = a.vy - g * t;
     const Real gap = std::sqrt(x * x + y * y) - reach;
     const bool nearer = x * a.vx + y * vy < 0.0L;
@@ -198,10 +211,17 @@ inline void resolve(System& s, const Happening& e) {
   }
   if (e.obstacle >= 0) {
     const Obstacle& o = s.obstacles[static_cast<std::size_t>(e.obstacle)];
-    Real x = a.x - o.x;
-    Real y = a.y - o.y;
-    if (s.box.periodic_x()) x -= std::round(x / s.box.width) * static_cast<Real>(s.box.width);
-    if (s.box.periodic_y()) y -= std::round(y / s.box.height) * static_cast<Real>(s.box.height);
+    // The image may have wrapped meanwhile: the nearest one touches.
+    Line line{HUGE_VALL, HUGE_VALL};
+    for (int kx = -1; kx <= 1; ++kx) {
+      for (int ky = -1; ky <= 1; ++ky) {
+        if ((kx != 0 && !s.box.periodic_x()) || (ky != 0 && !s.box.periodic_y())) continue;
+        const Line image =
+            from_obstacle(o, a.x - kx * static_cast<Real>(s.box.width), a.y - ky * static_cast<Real>(s.box.height));
+        if (image.x * image.x + image.y * image.y < line.x * line.x + line.y * line.y) line = image;
+      }
+    }
+    const auto [x, y] = line;
     const Real along = (x * a.vx + y * a.vy) / (x * x + y * y);
     a.vx -= (1.0L + static_cast<Real>(o.restitution)) * along * x;
     a.vy -= (1.0L + static_cast<Real>(o.restitution)) * along * y;

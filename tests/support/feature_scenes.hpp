@@ -77,12 +77,23 @@ inline std::string obstacles_text(const Features& f) {
          "radius = [0.7, 0.4, 0.5, 0.6]\n";
 }
 
+// A line with a corner, a soft wall, one that touches both sides, and a sink where Brownian motion does not forbid it.
+inline std::string walls_text(const Features& f) {
+  if (!f.obstacles) return "";
+  std::string text =
+      "[[walls]]\npoints = [[3.0, 3.0], [6.0, 4.5], [5.5, 8.0]]\n"
+      "[[walls]]\nfrom = [20.0, 12.0]\nto = [15.0, 12.0]\nrestitution = 0.6\n"
+      "[[walls]]\nfrom = [0.0, 14.0]\nto = [4.0, 18.0]\n";
+  if (f.diffusion.empty()) text += "[[walls]]\nfrom = [10.0, 2.0]\nto = [11.0, 2.5]\nkind = \"sink\"\n";
+  return text;
+}
+
 // About 130 disks at a packing fraction near 0.3 to 0.5, moving up to a third of a radius a step: contacts in every
 // step, crowded ones among them.
 inline Scene feature_scene(const Features& f, int steps) {
   std::string text = "title = \"" + f.name() + "\"\nseed = " + std::to_string(f.seed) +
                      "\n[box]\nwidth = 24.0\nheight = 18.0\nwall_restitution = " + (f.gravity ? "0.8" : "1.0") + "\n" +
-                     sides_text(f.sides) + physics_text(f) + obstacles_text(f) + disks_text(f);
+                     sides_text(f.sides) + physics_text(f) + obstacles_text(f) + disks_text(f) + walls_text(f);
   if (f.source) {
     text +=
         "[[sources]]\nregion = [4.0, 4.0, 20.0, 14.0]\nrate = 80.0\nradius = 0.25\nmass = 1.5\n"

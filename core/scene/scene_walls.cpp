@@ -1,0 +1,53 @@
+#include "core/scene/scene_walls.hpp"
+
+#include <fmt/format.h>
+
+namespace carom {
+
+namespace {
+
+constexpr std::string_view expected_points =
+    "expected from = [x, y] and to = [x, y], or points = [[x, y], [x, y], ...]";
+
+Vec2 read_point(const TableReader& reader, std::string_view name) {
+  const toml::node& node = reader.require(name, expected_points);
+  const std::vector<double> numbers = as_numbers(reader.origin(), reader.key(name), node);
+  if (numbers.size() != 2) reader.fail(name, fmt::format("has {} numbers", numbers.size()), "expected [x, y]");
+  return {numbers[0], numbers[1]};
+}
+
+std::vector<Vec2> read_points(const TableReader& reader) {
+  const toml::node* node = reader.find("points");
+  if (node == nullptr) return {read_point(reader, "from"), read_point(reader, "to")};
+  for (const std::string_view other : {"from", "to"}) {
+    if (reader.find(other) != nullptr) reader.fail(other, "given beside points", expected_points);
+  }
+  const std::string key = reader.key("points");
+  as_list(reader.origin(), key, *node, expected_points);
+  std::vector<Vec2> points = as_pairs(reader.origin(), key, *node);
+  if (points.size() < 2) reader.fail("points", fmt::format("has {} of them", points.size()), "expected two or more");
+  return points;
+}
+
+}  // namespace
+
+InnerWall read_wall(const SceneOrigin& origin, const std::string& path, const toml::table& table) {
+  const TableReader reader(origin, path, table);
+  InnerWall wall;
+  wall.line = static_cast<int>(table.source().begin.line);
+  wall.points = read_points(reader);
+  for (std::size_t k = 1; k < wall.points.size(); ++k) {
+    const Vec2 p = wall.points[k];
+    if (p != wall.points[k - 1]) continue;
+    reader.fail(reader.find("points") != nullptr ? "points" : "to",
+                fmt::format("comes to [{}, {}] twice in a row", p.x, p.y), "expected segments with a length");
+  }
+  wall.sink = reader.choice_or_initial("kind") == 1;
+  const double common = (*origin.root)["box"]["wall_restitution"].value_or(1.0);
+  const std::optional<double> own = reader.number("restitution");
+  if (own && wall.sink) reader.fail("restitution", "given beside kind = \"sink\"", "expected a wall");
+  wall.restitution = wall.sink ? 1.0 : own.value_or(common);
+  return wall;
+}
+
+}  // namespace carom

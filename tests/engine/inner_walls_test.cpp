@@ -1,0 +1,237 @@
+// Inner walls: what a disk does at a segment and at its ends, sinks, funnels, and what is said of walls that are none.
+// That both engines agree on them, and resumed runs, is obstacles_test's.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/disks/obstacle_cells.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/measure/invariants.hpp"
+#include "core/start/initial_state.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/support/reference_run.hpp"
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+Scene scene_with(const std::string& method, const std::string& physics, const std::string& rest, double t_end) {
+  return parse_scene("[box]\nwidth = 20.0\nheight = 20.0\n[physics]\n" + physics + "\n" + rest + "[run]\nmethod = \"" +
+                         method + "\"\ndt = 0.001\nt_end = " + std::to_string(t_end) + "\n",
+                     "walls.toml", "");
+}
+
+State run_to_end(const Scene& scene) {
+  const auto engine = make_parallel_engine(scene, initial_state(scene), {2, 1});
+  while (engine->state().time < scene.run.t_end) engine->step();
+  return engine->state();
+}
+
+std::string one_disk(double x, double y, double vx, double vy, double radius) {
+  return fmt::format("[[disks]]\ncount = 1\npositions = [[{}, {}]]\nvelocities = [[{}, {}]]\nradius = {}\nmass = 2.0\n",
+                     x, y, vx, vy, radius);
+}
+
+constexpr const char* methods[] = {"exact", "pairwise", "rollback"};
+
+// At 45 degrees: what flies to the right then flies up; from the other side, what flies to the left flies down.
+TEST(InnerWall, ReflectsOnBothSides) {
+  const std::string wall = "[[walls]]\nfrom = [8.0, 8.0]\nto = [12.0, 12.0]\n";
+  for (const char* method : methods) {
+    const State up = run_to_end(scene_with(method, "", wall + one_disk(4.0, 10.0, 2.0, 0.0, 0.5), 4.0));
+    EXPECT_NEAR(up.disks.vx[0], 0.0, 1e-12) << method;
+    EXPECT_NEAR(up.disks.vy[0], 2.0, 1e-12) << method;
+    EXPECT_EQ(up.counters.wall_collisions, 1U);
+    const State down = run_to_end(scene_with(method, "", wall + one_disk(16.0, 10.0, -2.0, 0.0, 0.5), 4.0));
+    EXPECT_NEAR(down.disks.vx[0], 0.0, 1e-12) << method;
+    EXPECT_NEAR(down.disks.vy[0], -2.0, 1e-12) << method;
+    // The centre turns where it is a radius away from the line.
+    const double turn = 10.0 + 0.5 * std::numbers::sqrt2;
+    EXPECT_NEAR(down.disks.x[0], turn, 1e-9) << method;
+  }
+}
+
+TEST(InnerWall, HasARestitutionOfItsOwn) {
+  const std::string wall = "[[walls]]\nfrom = [10.0, 2.0]\nto = [10.0, 18.0]\nrestitution = 0.5\n";
+  for (const char* method : methods) {
+    const State state = run_to_end(scene_with(method, "", wall + one_disk(5.0, 10.0, 2.0, 1.0, 0.5), 3.0));
+    EXPECT_NEAR(state.disks.vx[0], -1.0, 1e-12) << method;
+    EXPECT_NEAR(state.disks.vy[0], 1.0, 1e-12) << method;
+  }
+}
+
+// The end of a wall is a disk of radius 0: half a radius off it, the normal makes 30 degrees with the path.
+TEST(InnerWall, EndsAreRound) {
+  const std::string wall = "[[walls]]\nfrom = [10.0, 10.0]\nto = [10.0, 2.0]\n";
+  for (const char* method : methods) {
+    const State state = run_to_end(scene_with(method, "", wall + one_disk(5.0, 10.5, 2.0, 0.0, 1.0), 3.5));
+    EXPECT_NEAR(state.disks.vx[0], -1.0, 1e-12) << method;
+    EXPECT_NEAR(state.disks.vy[0], std::sqrt(3.0), 1e-12) << method;
+  }
+}
+
+// A disk goes through a slit that is wider than it by a hundredth, and not through one that is narrower.
+TEST(InnerWall, SlitsLetThroughWhatFits) {
+  for (const double width : {2.01, 1.99}) {
+    const std::string walls = fmt::format(
+        "[[walls]]\nfrom = [10.0, 0.0]\nto = [10.0, {}]\n[[walls]]\nfrom = [10.0, {}]\nto = "
+        "[10.0, 20.0]\n",
+        10.0 - 0.5 * width, 10.0 + 0.5 * width);
+    for (const char* method : methods) {
+      const State state = run_to_end(scene_with(method, "", walls + one_disk(5.0, 10.0, 2.0, 0.0, 1.0), 4.0));
+      EXPECT_EQ(state.disks.x[0] > 10.0, width > 2.0) << method;
+    }
+  }
+}
+
+// Under gravity on a slope, from rest: after a bounce on a slope of 45 degrees it flies off horizontally, as fast as it
+// fell.
+TEST(InnerWall, SlopesTurnFallIntoFlight) {
+  const std::string slope = "[[walls]]\nfrom = [2.0, 14.0]\nto = [12.0, 4.0]\n";
+  const Scene scene = scene_with("exact", "gravity = 1.0", slope + one_disk(5.0, 15.0, 0.0, 0.0, 0.5), 3.0);
+  const double fall = 15.0 - (11.0 + 0.5 * std::numbers::sqrt2);
+  const State state = run_to_end(scene);
+  EXPECT_EQ(state.counters.wall_collisions, 1U);
+  EXPECT_NEAR(state.disks.vx[0], std::sqrt(2.0 * fall), 1e-12);
+  EXPECT_NEAR(energy_of(state.disks, 1.0).total(), 30.0, 1e-12);
+}
+
+// An acute wedge, elastic, under gravity: thousands of contacts, none of them with a gap or an overlap to speak of.
+TEST(InnerWall, AnAcuteWedgeHoldsADisk) {
+  const std::string wedge = "[[walls]]\npoints = [[9.0, 19.0], [10.0, 1.0], [11.0, 19.0]]\n";
+  const Scene scene = scene_with("exact", "gravity = 5.0", wedge + one_disk(10.1, 14.0, 0.3, 0.0, 0.2), 400.0);
+  const State start = initial_state(scene);
+  const State state = run_to_end(scene);
+  EXPECT_GT(state.counters.wall_collisions, 2000U);
+  Domain box = scene.box;
+  const auto cells = place_obstacles(state.obstacles, box);
+  EXPECT_LT(wall_overlap(state.disks, box), 1e-12);
+  EXPECT_NEAR(energy_of(state.disks, 5.0).total(), energy_of(start.disks, 5.0).total(), 1e-9);
+  EXPECT_GT(state.disks.y[0], 1.0);
+  EXPECT_LT(std::abs(state.disks.x[0] - 10.0), 1.0);
+}
+
+// Two bounces in a right angle, whatever its slope, take a path to its mirror image in the corner's point moved in by a
+// radius along both walls.
+TEST(InnerWall, ARightAngleTurnsAPathBack) {
+  for (const double angle : {0.1, 0.7, 1.3}) {
+    const Vec2 along{std::cos(angle), std::sin(angle)};
+    const Vec2 across{-along.y, along.x};
+    const auto at = [&](double s, double t) {
+      return Vec2{10.0 + s * along.x + t * across.x, 5.0 + s * along.y + t * across.y};
+    };
+    const Vec2 ends[2] = {at(8.0, 0.0), at(0.0, 8.0)};
+    const Vec2 start = at(4.0, 3.0);
+    const Vec2 centre = at(0.5, 0.5);
+    const Vec2 v{-1.7 * along.x - 1.0 * across.x, -1.7 * along.y - 1.0 * across.y};
+    const std::string corner = fmt::format("[[walls]]\npoints = [[{}, {}], [10.0, 5.0], [{}, {}]]\n", ends[0].x,
+                                           ends[0].y, ends[1].x, ends[1].y);
+    const Scene scene = scene_with("exact", "", corner + one_disk(start.x, start.y, v.x, v.y, 0.5), 4.0);
+    const State end = run_to_end(scene);
+    EXPECT_EQ(end.counters.wall_collisions, 2U) << angle;
+    EXPECT_NEAR(end.disks.x[0], 2.0 * centre.x - (start.x + 4.0 * v.x), 1e-12) << angle;
+    EXPECT_NEAR(end.disks.y[0], 2.0 * centre.y - (start.y + 4.0 * v.y), 1e-12) << angle;
+  }
+}
+
+// By the crossings of a ray.
+bool is_inside(const std::vector<Vec2>& polygon, double x, double y) {
+  bool inside = false;
+  for (std::size_t k = 1; k < polygon.size(); ++k) {
+    const Vec2 a = polygon[k - 1];
+    const Vec2 b = polygon[k];
+    if ((a.y > y) != (b.y > y) && x < a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y)) inside = !inside;
+  }
+  return inside;
+}
+
+// Billiards within and around a closed line with an acute and an obtuse corner.
+TEST(InnerWall, NoDiskCrossesAClosedLine) {
+  const std::string wall = "[[walls]]\npoints = [[3, 3], [17, 5], [12, 9], [16, 17], [5, 14], [3, 3]]\n";
+  const std::string gas =
+      "[[disks]]\ncount = 150\npositions = \"random\"\nvelocities = { maxwell = 4.0 }\n"
+      "radius = { uniform = [0.1, 0.5] }\nmass = 1.0\n";
+  for (const char* method : methods) {
+    const Scene scene = scene_with(method, "", wall + gas, method == methods[0] ? 20.0 : 2.0);
+    const State start = initial_state(scene);
+    const State end = run_to_end(scene);
+    const auto& polygon = scene.walls[0].points;
+    std::vector<bool> inside(start.next_id);
+    for (std::size_t i = 0; i < start.disks.size(); ++i) {
+      inside[start.disks.id[i]] = is_inside(polygon, start.disks.x[i], start.disks.y[i]);
+    }
+    EXPECT_THAT(inside, testing::AllOf(testing::Contains(true), testing::Contains(false)));
+    for (std::size_t i = 0; i < end.disks.size(); ++i) {
+      EXPECT_EQ(is_inside(polygon, end.disks.x[i], end.disks.y[i]), inside[end.disks.id[i]])
+          << method << ", disk " << end.disks.id[i];
+    }
+    const double before = energy_of(start.disks, 0.0).total();
+    EXPECT_NEAR(energy_of(end.disks, 0.0).total(), before, 1e-11 * before) << method;
+  }
+}
+
+TEST(BilliardsBreak, PocketsTakeDisks) {
+  const State end = run_to_end(load_scene(CAROM_SOURCE_DIR "/scenes/billiards_break.toml"));
+  EXPECT_GE(end.counters.removed, 3U);
+  EXPECT_EQ(end.disks.size() + end.counters.removed, 16U);
+}
+
+TEST(InnerSink, TakesADiskWhenItTouches) {
+  const std::string pocket = "[[walls]]\nfrom = [10.0, 5.0]\nto = [10.0, 15.0]\nkind = \"sink\"\n";
+  for (const char* method : methods) {
+    // Touches at t = 2.25.
+    const std::string rest = pocket + one_disk(5.0, 10.0, 2.0, 0.0, 0.5);
+    EXPECT_EQ(run_to_end(scene_with(method, "", rest, 2.24)).counters.removed, 0U) << method;
+    const State gone = run_to_end(scene_with(method, "", rest, 2.26));
+    EXPECT_EQ(gone.counters.removed, 1U) << method;
+    EXPECT_TRUE(gone.disks.empty()) << method;
+  }
+}
+
+// Disks come to rest in a funnel that is closed: its walls bear them.
+TEST(InnerWall, BearsAPile) {
+  const std::string funnel =
+      "[[walls]]\npoints = [[0.0, 10.0], [9.8, 4.0], [10.2, 4.0], [20.0, 10.0]]\nrestitution = 0.4\n";
+  const std::string disks =
+      "[[disks]]\ncount = 45\npositions = \"random\"\nregion = [0.0, 10.5, 20.0, 20.0]\nradius = { uniform = [0.4, "
+      "0.6] }\nmass = 1.0\n";
+  Scene scene = scene_with("pairwise", "gravity = 1.0\nrestitution = 0.4", funnel + disks, 40.0);
+  scene.run.dt = 0.01;
+  const State end = run_to_end(scene);
+  EXPECT_LT(energy_of(end.disks, 1.0).kinetic, 1e-8 * energy_of(initial_state(scene).disks, 1.0).total());
+  Domain box = scene.box;
+  const auto cells = place_obstacles(end.obstacles, box);
+  EXPECT_LT(wall_overlap(end.disks, box), 0.02);
+}
+
+std::string with_wall(std::string_view lines) {
+  return test::complaint(test::replaced(test::sound_scene, "[run]", "[[walls]]\n" + std::string(lines) + "\n[run]"));
+}
+
+TEST(BadWall, OneLineEach) {
+  using testing::HasSubstr;
+  using testing::StartsWith;
+  EXPECT_EQ(with_wall("from = [1, 8]\nto = [8, 8]"), "");
+  EXPECT_THAT(with_wall("from = [1, 8]"), HasSubstr("walls.0.to: missing; expected from = [x, y] and to = [x, y]"));
+  EXPECT_THAT(with_wall("from = [1, 8, 2]\nto = [8, 8]"), HasSubstr("walls.0.from: has 3 numbers; expected [x, y]"));
+  EXPECT_THAT(with_wall("points = [[1, 8]]"), HasSubstr("walls.0.points: has 1 of them; expected two or more"));
+  EXPECT_THAT(with_wall("points = [[1, 8], [2, 8]]\nto = [8, 8]"), HasSubstr("walls.0.to: given beside points"));
+  EXPECT_THAT(with_wall("from = [1, 8]\nto = [1, 8]"), HasSubstr("walls.0.to: comes to [1, 8] twice in a row"));
+  EXPECT_THAT(with_wall("from = [1, 8]\nto = [25, 8]"), HasSubstr("the point [25, 8] lies outside the box of 20 x 10"));
+  EXPECT_THAT(with_wall("from = [1, 8]\nto = [8, 8]\nkind = \"snik\""), HasSubstr("(nearest: sink)"));
+  EXPECT_THAT(with_wall("from = [1, 8]\nto = [8, 8]\nkind = \"sink\"\nrestitution = 0.5"),
+              HasSubstr("walls.0.restitution: given beside kind = \"sink\""));
+  EXPECT_THAT(with_wall("from = [1, 8]\nto = [8, 8]\nrestitution = 1.5"), HasSubstr("walls.0.restitution: is 1.5"));
+  EXPECT_THAT(with_wall("from = [2, 1.5]\nto = [8, 8]"), HasSubstr("disk 0 overlaps the wall walls.0 by"));
+  const std::string brownian = test::replaced(test::sound_scene, "restitution = 0.5", "diffusion = 0.1");
+  EXPECT_THAT(test::complaint(
+                  test::replaced(brownian, "[run]", "[[walls]]\nfrom = [1, 8]\nto = [8, 8]\nkind = \"sink\"\n[run]")),
+              HasSubstr("walls.0.kind: a sink within the box beside Brownian motion"));
+}
+
+}  // namespace
+}  // namespace carom
