@@ -34,6 +34,7 @@ std::vector<std::string> scene_files() {
 Scene short_scene(const std::string& name, const std::string& method) {
   std::vector<Override> changes{{"run.method", method}};
   if (name == "analysis") changes.push_back({"disks.0.count", "400"});
+  if (name == "hopper") changes.push_back({"disks.0.count", "150"});
   if (name == "gas_million") changes.push_back({"disks.0.count", "2000"});
   if (name == "dense_mixture") changes.push_back({"disks.0.count", "200"});  // grown anew for each method
   if (name == "lorentz_gas" && method != "exact") {
