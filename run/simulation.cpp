@@ -163,7 +163,7 @@ double Simulation::disks_at(double t, Disks& out) const {
 std::vector<DiskContact> Simulation::contacts() const {
   if (!stepped_) return {};
   std::vector<DiskContact> met = engine_->contacts();
-  if (scene_.box.has(SideKind::sink)) {
+  if (state().counters.removed > 0) {
     std::vector<DiskId> there = state().disks.id;
     std::sort(there.begin(), there.end());
     const auto is_there = [&](DiskId id) { return std::binary_search(there.begin(), there.end(), id); };
