@@ -92,6 +92,7 @@ class DiskBuffers {
   constructor(gl) {
     this.gl = gl;
     this.count = 0;
+    this.held = [];
     this.buffers = [0, 1, 2, 3, 4].map(() => gl.createBuffer());
     this.array = this.arrayOf(1);
     this.pointArray = this.arrayOf(0);
@@ -110,7 +111,10 @@ class DiskBuffers {
     });
     return array;
   }
+  // Returns how many bytes that took: none where the card has these data already.
   fill(column, data) {
+    if (this.held[column] === data) return 0;
+    this.held[column] = data;
     this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.buffers[column]);
     this.gl.bufferData(this.gl.ARRAY_BUFFER, data, this.gl.DYNAMIC_DRAW);
     return data.byteLength;

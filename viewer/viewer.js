@@ -132,6 +132,14 @@ export class Viewer {
     return radius;
   }
 
+  // Radius and value by disk; the same arrays for frames with the same disks, where nothing changes them.
+  columnsOf(k, frame) {
+    const { known, colour } = this;
+    if (known?.place === frame.place && known.colour === colour && colour !== "coordination") return known;
+    this.known = { place: frame.place, colour, radius: this.radiusOf(frame), value: this.valuesOf(k, frame) };
+    return this.known;
+  }
+
   coordination(k, frame) {
     const found = this.counts.get(k);
     if (found) return found;
@@ -159,14 +167,15 @@ export class Viewer {
     const frame = this.store.frame(k);
     if (!frame) return false;
     const steps = this.store.steps(k);
-    const radius = this.radiusOf(frame);
-    const value = this.valuesOf(k, frame);
+    const { radius, value } = this.columnsOf(k, frame);
     if (keep === 1 || k === this.playback.frame) {
       this.renderer.uploadImages(frame, steps, radius, value);
       this.perTime = 1 / steps.over;
     }
-    for (const i of steps.gone) radius[i] = -radius[i]; // for the shaders: no trail leads on from there
-    this.renderer.upload(k, frame, steps, radius, value, keep);
+    // For the shaders: no trail leads on from where a disk has gone.
+    const marked = steps.gone.length ? radius.slice() : radius;
+    for (const i of steps.gone) marked[i] = -marked[i];
+    this.renderer.upload(k, frame, steps, marked, value, keep);
     return true;
   }
 
