@@ -1,5 +1,6 @@
 // Inner walls: what a disk does at a segment and at its ends, sinks, funnels, and what is said of walls that are none.
 // That both engines agree on them, and resumed runs, is obstacles_test's.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
