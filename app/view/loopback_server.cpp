@@ -57,7 +57,7 @@ std::string text_of(const HttpAnswer& answer) {
 }
 
 bool will_come_again() {
-  return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
+  return errno == EAGAIN || errno == EINTR;
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ void LoopbackServer::read_from(Client& client) {
   client.request.append(bytes.data(), static_cast<std::size_t>(count));
   const std::size_t end = client.request.find("\r\n\r\n");
   if (end == std::string::npos && client.request.size() <= longest_request) return;
-  const bool too_long = end == std::string::npos || end > longest_request;
+  const bool too_long = end > longest_request;  // or it has no end yet
   client.answer = too_long ? text_of({431, "text/plain", ""}) : answer_to(client.request.substr(0, end + 4));
   client.since = WallClock::now();
   write_to(client);

@@ -34,7 +34,7 @@ TEST(HttpRequest, IsReadAsTheStandardSays) {
   EXPECT_EQ(read_request("POST / HTTP/1.1" + host, request), 405);
   EXPECT_EQ(read_request("GET / HTTP/2.0" + host, request), 505);
   for (const std::string first : {"GET / ", "GET /", "GET http://here/ HTTP/1.1", "GET /a\tb HTTP/1.1", " / HTTP/1.1x",
-                                   "GET /a b HTTP/1.1", "", "\r\n\r\n", "\x16\x03\x01"}) {
+                                  "GET /a b HTTP/1.1", "", "\r\n\r\n", "\x16\x03\x01"}) {
     EXPECT_NE(read_request(first + host, request), 200) << first;
   }
   EXPECT_EQ(read_request("GET / HTTP/1.1\r\n\r\n", request), 400) << "no host";
