@@ -142,7 +142,7 @@ inline double side_time(const PathSegment& p, Side side, double radius, const Do
   return s <= end ? s : never;
 }
 
-inline void wrap_into(PathSegment& p, const Domain& box) {
+[[gnu::always_inline]] inline void wrap_into(PathSegment& p, const Domain& box) {
   if (box.periodic_x()) p.x = wrap(p.x, box.width);
   if (box.periodic_y()) p.y = wrap(p.y, box.height);
 }
