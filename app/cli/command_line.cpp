@@ -3,69 +3,21 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 #include <filesystem>
 #include <system_error>
 
+#include "app/cli/command_options.hpp"
 #include "app/cli/command_words.hpp"
-#include "app/cli/compare_rule.hpp"
 #include "app/cli/option_complaints.hpp"
-#include "app/cli/option_values.hpp"
+#include "app/cli/option_words.hpp"
 #include "core/base/build_version.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
-#include "core/load/method_choice.hpp"
-#include "core/scene/picture_look.hpp"
-#include "core/scene/scene_names.hpp"
 #include "io/trajectory/scene_frame_reader.hpp"
 
 namespace carom {
 
 namespace {
-
-// Options that are changes to the scene, and the key that each changes.
-struct SceneOption {
-  const char* option;
-  const char* key;
-  const char* value;  // how --help calls it
-  const char* help;
-};
-constexpr std::array<SceneOption, 4> scene_options{{
-    {"--method", "run.method", "rollback|pairwise|exact|auto", "method, in place of the scene's"},
-    {"--dt", "run.dt", "X", "time step"},
-    {"--t-end", "run.t_end", "T", "simulated time at which the run ends"},
-    {"--seed", "seed", "S", "seed of all random numbers"},
-}};
-
-constexpr std::size_t t_end_option = 2;  // its place among them
-
-// What CLI11 reads; checked and turned into a Command afterwards, so that all messages are ours.
-struct Words {
-  std::string first, second, folder, engine, threads, frame, walltime, seeds, jobs, emit, accuracy, tolerance, fields,
-      times, at, colour, range, size, fps, max_size;
-  std::array<std::string, scene_options.size()> scene_values;
-  std::vector<std::string> sets, over;
-  bool json = false, quiet = false, force = false, strict = false, quick = false, tiny = false, open = false,
-       live = false, view = false;
-};
-
-SceneChanges changes_of(const Words& words) {
-  SceneChanges changes;
-  for (const std::string& set : words.sets) {
-    const std::size_t equals = set.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      fail_input("--set", fmt::format("is {}", in_quotes(set)), "expected KEY=VALUE, as in --set physics.gravity=0.1");
-    }
-    changes.overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
-  }
-  changes.sets = changes.overrides.size();
-  for (std::size_t k = 0; k < scene_options.size(); ++k) {
-    if (words.scene_values[k].empty()) continue;
-    changes.overrides.push_back({scene_options[k].key, toml_value(scene_options[k].option, words.scene_values[k])});
-  }
-  return changes;
-}
 
 // Adds an option with one value; given twice, the last one counts.
 void add_value(CLI::App* command, const std::string& names, std::string& value, const std::string& placeholder,
@@ -75,7 +27,7 @@ void add_value(CLI::App* command, const std::string& names, std::string& value, 
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
-void add_scene_changes(CLI::App* command, Words& words) {
+void add_scene_changes(CLI::App* command, OptionWords& words) {
   for (std::size_t k = 0; k < scene_options.size(); ++k) {
     const SceneOption& o = scene_options[k];
     add_value(command, o.option, words.scene_values[k], o.value, o.help);
@@ -85,7 +37,7 @@ void add_scene_changes(CLI::App* command, Words& words) {
       ->allow_extra_args(false);
 }
 
-void add_scene_options(CLI::App* command, Words& words) {
+void add_scene_options(CLI::App* command, OptionWords& words) {
   command->add_option("SCENE", words.first, "scene file (TOML)")->type_name("");
   add_scene_changes(command, words);
 }
@@ -95,7 +47,7 @@ constexpr const char* early_stop =
     "second Ctrl-C quits at once.";
 
 // What carrying a run out has, from its start or from a checkpoint.
-void add_run_options(CLI::App* run, Words& words) {
+void add_run_options(CLI::App* run, OptionWords& words) {
   add_value(run, "--engine", words.engine, "parallel|reference", "default parallel; both give the same bits");
   add_value(run, "--threads", words.threads, "N", "threads of the parallel engine; default all cores");
   add_value(run, "--max-walltime", words.walltime, "TIME",
@@ -107,14 +59,14 @@ void add_run_options(CLI::App* run, Words& words) {
   run->add_flag("--strict", words.strict, "end with status 3 at the first warning of a limit of the method");
 }
 
-void describe_run(CLI::App* run, Words& words) {
+void describe_run(CLI::App* run, OptionWords& words) {
   add_scene_options(run, words);
   add_value(run, "-o,--output", words.folder, "DIR", "folder for the results; default out/<name of the scene>");
   add_run_options(run, words);
   run->footer(early_stop);
 }
 
-void describe_resume(CLI::App* resume, Words& words) {
+void describe_resume(CLI::App* resume, OptionWords& words) {
   resume->add_option("CHECKPOINT", words.first, "checkpoint.carom, or the folder of the run that wrote it")
       ->type_name("");
   add_value(resume, "-o,--output", words.folder, "DIR", "another folder, which gets copies of the files so far");
@@ -123,7 +75,7 @@ void describe_resume(CLI::App* resume, Words& words) {
   resume->footer(early_stop);
 }
 
-void describe_compare(CLI::App* compare, Words& words) {
+void describe_compare(CLI::App* compare, OptionWords& words) {
   compare->add_option("A", words.first, "folder of a run, or a trajectory")->type_name("");
   compare->add_option("B", words.second, "the other one")->type_name("");
   add_value(compare, "--tolerance", words.tolerance, "X", "values that differ by at most X count as the same");
@@ -136,7 +88,7 @@ void describe_compare(CLI::App* compare, Words& words) {
       "the trajectories do.\nExit status: 0 the same, 1 different, 2 they cannot be compared.");
 }
 
-void describe_render(CLI::App* render, Words& words) {
+void describe_render(CLI::App* render, OptionWords& words) {
   render->add_option("DIR", words.first, "folder of a run with a trajectory, or a trajectory")->type_name("");
   add_value(
       render, "-o,--output", words.folder, "FILE",
@@ -150,7 +102,7 @@ void describe_render(CLI::App* render, Words& words) {
   render->add_flag("--force", words.force, "replace an existing file");
 }
 
-void describe_view(CLI::App* view, Words& words) {
+void describe_view(CLI::App* view, OptionWords& words) {
   view->add_option("DIR", words.first, "folder of a run with a trajectory, or a trajectory")->type_name("");
   add_value(view, "-o,--output", words.folder, "FILE", "the page; default DIR/view.html");
   add_value(view, "--max-size", words.max_size, "SIZE",
@@ -163,7 +115,7 @@ void describe_view(CLI::App* view, Words& words) {
   view->footer("One file that plays the run in any browser, and asks the network for nothing. See docs/viewer.md.");
 }
 
-void describe_sweep(CLI::App* sweep, Words& words) {
+void describe_sweep(CLI::App* sweep, OptionWords& words) {
   add_scene_options(sweep, words);
   sweep->add_option("--over", words.over, "values of one key of the scene; may be repeated, for a grid")
       ->type_name("KEY=FROM:TO:COUNT|KEY=A,B,...")
@@ -176,7 +128,7 @@ void describe_sweep(CLI::App* sweep, Words& words) {
   sweep->footer("Called again, it goes on where it stopped. sweep.csv has a row a run.");
 }
 
-void describe_chart(CLI::App* chart, Words& words) {
+void describe_chart(CLI::App* chart, OptionWords& words) {
   add_value(chart, "--scene", words.first, "SCENE.toml", "of this scene, in place of the seven built in");
   add_scene_changes(chart, words);
   add_value(chart, "-o,--output", words.folder, "DIR",
@@ -191,139 +143,13 @@ void describe_chart(CLI::App* chart, Words& words) {
       "docs/chart.md.");
 }
 
-void require(const std::string& value, const char* where, const char* what, const char* example) {
-  if (value.empty()) fail_input(where, what, example);
-}
-
-std::optional<std::string> file_option(const std::string& value) {
-  if (value.starts_with("-")) fail_input("-o", fmt::format("{} is an option", in_quotes(value)), "expected a path");
-  return value.empty() ? std::nullopt : std::optional(value);
-}
-
-void read_carry_options(const Words& words, CarryOptions& o) {
-  o.folder = file_option(words.folder);
-  o.changes = changes_of(words);
-  o.engine = words.engine;
-  if (!words.threads.empty()) o.threads = count_of("--threads", words.threads);
-  o.max_walltime = walltime_of(words.walltime);
-  o.json = words.json;
-  o.quiet = words.quiet;
-  o.force = words.force;
-  o.strict = words.strict;
-  o.view = words.view;
-}
-
-RunOptions run_options(const Words& words) {
-  require(words.first, "run", "no scene file given", "expected carom run SCENE.toml");
-  RunOptions o;
-  o.scene = words.first;
-  read_carry_options(words, o);
-  return o;
-}
-
-ResumeOptions resume_options(const Words& words) {
-  require(words.first, "resume", "no checkpoint given", "expected carom resume CHECKPOINT");
-  ResumeOptions o;
-  o.checkpoint = words.first;
-  read_carry_options(words, o);
-  return o;
-}
-
-CheckOptions check_options(const Words& words) {
-  require(words.first, "check", "no scene file given", "expected carom check SCENE.toml");
-  CheckOptions o{words.first, changes_of(words), std::nullopt, words.json};
-  if (words.accuracy.empty()) return o;
-  o.accuracy = number_of("--accuracy", words.accuracy);
-  if (*o.accuracy > 0.0 && *o.accuracy <= most_accuracy) return o;
-  fail_input("--accuracy", fmt::format("is {}", *o.accuracy),
-             fmt::format("expected a relative error above 0 and at most {}", most_accuracy));
-}
-
-CompareOptions compare_options(const Words& words) {
-  require(words.second, "compare", "two outputs are needed", "expected carom compare A B");
-  return {words.first, words.second, compare_rule(words.tolerance, words.fields, words.times, words.at), words.json};
-}
-
-RenderOptions render_options(const Words& words) {
-  require(words.first, "render", "no folder given", "expected carom render DIR");
-  RenderOptions o;
-  o.source = words.first;
-  o.file = file_option(words.folder);
-  o.quiet = words.quiet;
-  o.force = words.force;
-  if (!words.frame.empty()) o.frame = count_of("--frame", words.frame);
-  if (!words.colour.empty()) {
-    const auto* const name = std::find(colour_names.begin(), colour_names.end(), words.colour);
-    if (name == colour_names.end()) {
-      fail_input("--colour", fmt::format("there is no {}", in_quotes(words.colour)),
-                 expected_one_of(colour_names, words.colour));
-    }
-    o.colour = static_cast<ColourBy>(name - colour_names.begin());
-  }
-  if (!words.range.empty()) o.range = pair_of("--range", words.range, ':', "expected LOW:HIGH, as in 0:2");
-  if (!words.size.empty()) {
-    const auto size = pair_of("--size", words.size, 'x', "expected WIDTHxHEIGHT, as in 1280x720");
-    const std::string complaint = complaint_of_size(size[0], size[1]);
-    if (!complaint.empty()) fail_input("--size", fmt::format("is {}", in_quotes(words.size)), complaint);
-    o.size = {static_cast<int>(size[0]), static_cast<int>(size[1])};
-  }
-  if (!words.fps.empty()) {
-    o.fps = number_of("--fps", words.fps);
-    const std::string complaint = complaint_of_fps(*o.fps);
-    if (!complaint.empty()) fail_input("--fps", fmt::format("is {}", in_quotes(words.fps)), complaint);
-  }
-  return o;
-}
-
-ViewOptions view_options(const Words& words) {
-  require(words.first, "view", "no folder given", "expected carom view DIR");
-  ViewOptions o{words.first, file_option(words.folder), std::nullopt, words.open, words.live, words.quiet, words.force};
-  if (!words.max_size.empty()) o.max_size = size_of("--max-size", words.max_size);
-  return o;
-}
-
-SweepOptions sweep_options(const Words& words) {
-  require(words.first, "sweep", "no scene file given", "expected carom sweep SCENE.toml --over KEY=FROM:TO:COUNT");
-  SweepOptions o;
-  o.scene = words.first;
-  o.folder = file_option(words.folder);
-  o.changes = changes_of(words);
-  o.over = words.over;
-  if (!words.seeds.empty()) o.seeds = count_of("--seeds", words.seeds);
-  if (!words.jobs.empty()) o.jobs = count_of("--jobs", words.jobs);
-  constexpr std::array<std::string_view, 2> scripts{"slurm", "parallel"};
-  if (!words.emit.empty() && std::find(scripts.begin(), scripts.end(), words.emit) == scripts.end()) {
-    fail_input("--emit", fmt::format("is {}", in_quotes(words.emit)), expected_one_of(scripts, words.emit));
-  }
-  o.emit = words.emit;
-  o.force = words.force;
-  if (o.over.empty() && words.seeds.empty()) {
-    fail_input("sweep", "nothing to sweep over", "expected --over KEY=FROM:TO:COUNT, or --seeds N");
-  }
-  return o;
-}
-
-ChartOptions chart_options(const Words& words) {
-  ChartOptions o{
-      file_option(words.folder), words.first, changes_of(words), words.quick, words.tiny, words.quiet, words.force};
-  if (!o.scene.empty() || o.changes.overrides.empty()) return o;
-  fail_input("chart", "changes to a scene, and no scene", "expected --scene SCENE.toml with them");
-}
-
-DocsOptions docs_options(const Words& words) {
-  constexpr std::array<std::string_view, 1> pages{"scene"};
-  require(words.first, "docs", "no page given", "expected carom docs scene");
-  if (words.first == pages[0]) return DocsOptions{DocsOptions::Page::scene};
-  fail_input("docs", fmt::format("there is no page {}", in_quotes(words.first)), expected_one_of(pages, words.first));
-}
-
 }  // namespace
 
 Command parse_command_line(int given, const char* const* given_words) {
   const std::vector<const char*> checked = checked_words(given, given_words);
   const int argc = static_cast<int>(checked.size());
   const char* const* const argv = checked.data();
-  Words words;
+  OptionWords words;
   CLI::App app("Carom simulates hard disks in a rectangle.", "carom");
   app.set_version_flag("--version", std::string("carom ") + build_version());
   app.require_subcommand(1);
