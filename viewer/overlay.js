@@ -13,14 +13,14 @@ function sideEnds(side, { width, height }, inset = 0) {
   ][side];
 }
 
-export function sideSentence({ box, insets, sources, obstacles }) {
+export function sideSentence({ box, insets, sources, obstacles, walls }) {
   const word = (kind, s) => `${insets[s] ? "moving " : ""}${box.thermal[s] ? "thermal " : ""}${kind}`;
   const words = box.sides.map((kind, s) => `${sideNames[s]} ${word(kind, s)}`);
   const keys = [
-    [box.sides.includes("wall"), "walls are whole lines"],
+    [box.sides.includes("wall") || walls.some((wall) => !wall[4]), "walls are whole lines"],
     [box.thermal.includes(true), "thermal ones red"],
     [box.sides.includes("periodic"), "periodic sides dashed"],
-    [box.sides.includes("sink"), "sinks dotted"],
+    [box.sides.includes("sink") || walls.some((wall) => wall[4]), "sinks dotted"],
     [sources.length, "sources green"],
     [obstacles.length, `${obstacles.length} obstacles grey`],
   ];
@@ -44,19 +44,23 @@ function drawObstacles(context, camera, { box, axes, obstacles }, colours) {
   context.fill();
 }
 
+function drawWall(context, camera, [x0, y0, x1, y1], kind, colour) {
+  context.strokeStyle = colour;
+  context.lineWidth = kind === "wall" ? 3 : 1.5;
+  context.setLineDash(kind === "periodic" ? [8, 6] : kind === "sink" ? [2, 5] : []);
+  context.beginPath();
+  context.moveTo(...camera.toPage(x0, y0));
+  context.lineTo(...camera.toPage(x1, y1));
+  context.stroke();
+}
+
 function drawSides(context, camera, head, frame, colours) {
   const { box } = head;
   for (let s = 0; s < 4; ++s) {
-    const [x0, y0, x1, y1] = sideEnds(s, box, head.insets[s]?.[frame]);
-    const kind = box.sides[s];
-    context.strokeStyle = box.thermal[s] ? colours.heat : colours.ink;
-    context.lineWidth = kind === "wall" ? 3 : 1.5;
-    context.setLineDash(kind === "periodic" ? [8, 6] : kind === "sink" ? [2, 5] : []);
-    context.beginPath();
-    context.moveTo(...camera.toPage(x0, y0));
-    context.lineTo(...camera.toPage(x1, y1));
-    context.stroke();
+    const ends = sideEnds(s, box, head.insets[s]?.[frame]);
+    drawWall(context, camera, ends, box.sides[s], box.thermal[s] ? colours.heat : colours.ink);
   }
+  for (const wall of head.walls) drawWall(context, camera, wall, wall[4] ? "sink" : "wall", colours.ink);
   context.setLineDash([4, 3]);
   context.strokeStyle = "#1a9850";
   context.lineWidth = 2;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <span>
 #include <string_view>
 
@@ -129,8 +130,16 @@ std::string json_of_block(const ViewBlock& block) {
   return fmt::format("[{},{},{},{},{}]", block.first, block.frames, block.residuals, block.packed.size(), block.check);
 }
 
-std::string json_of_obstacle(const Obstacle& o) {
-  return fmt::format("[{:.7g},{:.7g},{:.7g}]", o.x, o.y, o.radius);
+// Fixed disks, or the segments of inner walls.
+std::string json_of_obstacles(const std::vector<Obstacle>& obstacles, bool segments) {
+  std::vector<Obstacle> chosen;
+  std::copy_if(obstacles.begin(), obstacles.end(), std::back_inserter(chosen),
+               [&](const Obstacle& o) { return o.is_segment() == segments; });
+  return json_list(chosen, [&](const Obstacle& o) {
+    return segments ? fmt::format("[{:.7g},{:.7g},{:.7g},{:.7g},{}]", o.x, o.y, o.x + o.dx, o.y + o.dy,
+                                  o.kind == ObstacleKind::sink ? 1 : 0)
+                    : fmt::format("[{:.7g},{:.7g},{:.7g}]", o.x, o.y, o.radius);
+  });
 }
 
 std::string json_of_source(const ViewSource& source) {
@@ -166,8 +175,8 @@ std::string head_of(const ViewStory& story, const ViewEncoder& encoder, std::str
   json += fmt::format(R"(,"frames":{},"disks":{},"radius":{},"mass":{},"grouped":{})", encoder.times().size(),
                       disks.id.size(), common_value(disks.radius), common_value(disks.mass),
                       several_groups(disks) ? "true" : "false");
-  json += fmt::format(R"(,"insets":{},"obstacles":{})", json_of_insets(story.box, encoder.times()),
-                      json_list(story.obstacles, json_of_obstacle));
+  json += fmt::format(R"(,"insets":{},"obstacles":{},"walls":{})", json_of_insets(story.box, encoder.times()),
+                      json_of_obstacles(story.obstacles, false), json_of_obstacles(story.obstacles, true));
   json += fmt::format(R"(,"axes":{})", json_list(encoder.axes(), [](const ViewAxis& axis) {
                         return fmt::format(R"({{"bits":{},"periodic":{},"quantum":{}}})", axis.bits, axis.periodic,
                                            axis.quantum());

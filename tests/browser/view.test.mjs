@@ -124,7 +124,7 @@ test("pixels are coloured where disks are, on both edges of a periodic side, and
   await page.close();
 });
 
-test("obstacles stand where they are, and a moving side where it is in each frame", async () => {
+test("obstacles and inner walls stand where they are, and a moving side where it is in each frame", async () => {
   const hex = (page, name) => page.evaluate((n) => window.carom.colours[n].match(/\w\w/g).map((part) => parseInt(part, 16)), name);
   const showAt = async (name, scene, words) => {
     shop.run(name, scene);
@@ -133,10 +133,11 @@ test("obstacles stand where they are, and a moving side where it is in each fram
     assert.match(await page.textContent("#sides"), words);
     return page;
   };
-  const obstacle = restScene().replace("[run]", "[[disks]]\nfixed = true\ncount = 1\npositions = [[19.8, 1]]\nradius = 0.5\n[run]");
-  let page = await showAt("fixed", obstacle, / 1 obstacles grey/);
+  const obstacle = restScene().replace("[run]", "[[disks]]\nfixed = true\ncount = 1\npositions = [[19.8, 1]]\nradius = 0.5\n[[walls]]\nfrom = [8, 5]\nto = [8, 7]\n[run]");
+  let page = await showAt("fixed", obstacle, /walls are whole lines.* 1 obstacles grey/);
   const grey = await hex(page, "faint");
   assert.deepEqual(await coloursAt(page, [[19.6, 1], [0.15, 1.1]]), [grey, grey], "on both edges of the periodic side");
+  assert.deepEqual(await coloursAt(page, [[8, 6]]), [await hex(page, "ink")], "an inner wall");
   await page.close();
   const inside = restScene().replace('left = "periodic"\nright = "periodic"\n', "").replace("[0.2, 6]", "[2, 6]");
   page = await showAt("moving", inside.replace("[[disks]]", "[box.top]\nmotion = { velocity = [0.0, -0.8] }\n[[disks]]"), /top moving wall/);
