@@ -1,78 +1,16 @@
-// The engine against the reference on every scene of scenes/, on 1, 2, 3, 5 and 8 threads, and twice the same run.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-
-#include "core/disks/state_hash.hpp"
-#include "core/load/scene_file.hpp"
-#include "core/start/initial_state.hpp"
-#include "core/step/engine.hpp"
-#include "parallel/simulation.hpp"
+// The engine against the reference on every scene of scenes/, after each of its first steps.
+#include "tests/support/scenes_on_threads.hpp"
 
 namespace carom {
 namespace {
 
-// A window of exact has about two collisions a disk, so that many disks need fewer.
-int steps_of(const Scene& scene, const State& start) {
-  constexpr int steps = 250;
-  constexpr int disk_windows = 100'000;
-  const int disks = static_cast<int>(start.disks.size());
-  return scene.run.method == Method::exact ? std::clamp(disk_windows / std::max(disks, 1), 40, steps) : steps;
-}
-
-std::vector<std::string> scene_files() {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(CAROM_SOURCE_DIR "/scenes")) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path().stem().string());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-// The scene as it stands, but with at most a few thousand disks and by the method given.
-Scene short_scene(const std::string& name, const std::string& method) {
-  std::vector<Override> changes{{"run.method", method}};
-  if (name == "analysis") changes.push_back({"disks.0.count", "400"});
-  if (name == "hopper") changes.push_back({"disks.0.count", "150"});
-  if (name == "gas_million") changes.push_back({"disks.0.count", "2000"});
-  if (name == "dense_mixture") changes.push_back({"disks.0.count", "200"});  // grown anew for each method
-  if (name == "lorentz_gas" && method != "exact") {
-    changes.push_back({"disks.1.radius", "0.02"});
-    changes.push_back({"disks.1.count", "200"});
-    changes.push_back({"run.dt", "0.005"});
-  }
-  if (method == "exact") changes.push_back({"physics.collapse", "{ model = \"tc\", contact_time = 1e-3 }"});
-  return load_scene(CAROM_SOURCE_DIR "/scenes/" + name + ".toml", changes);
-}
-
-std::vector<std::uint64_t> hashes(Engine& engine, int steps) {
-  std::vector<std::uint64_t> all;
-  for (int k = 0; k < steps; ++k) {
-    engine.step();
-    all.push_back(state_hash(engine.state().disks));
-  }
-  return all;
-}
-
 class ParallelScenes : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(ParallelScenes, EqualTheReferenceAfterEveryStep) {
-  for (const char* method : {"pairwise", "rollback", "exact"}) {
-    const Scene scene = short_scene(GetParam(), method);
-    const State start = initial_state(scene);
-    const int steps = steps_of(scene, start);
-    const std::vector<std::uint64_t> expected = hashes(*make_reference_engine(scene, start), steps);
-    for (const int threads : {1, 2, 3, 5, 8}) {
-      SCOPED_TRACE(std::string(method) + " on " + std::to_string(threads) + " threads");
-      ASSERT_EQ(expected, hashes(*make_parallel_engine(scene, start, {threads, 256}), steps));
-    }
-    EXPECT_EQ(expected, hashes(*make_parallel_engine(scene, start, {2, 1}), steps))
-        << "a repeated run, blocks as usual";
-  }
+TEST_P(ParallelScenes, EqualTheReferenceAtFirst) {
+  test::expect_engine_equals_reference(GetParam(), 40);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ParallelScenes, ::testing::ValuesIn(scene_files()),
+INSTANTIATE_TEST_SUITE_P(Scenes, ParallelScenes, ::testing::ValuesIn(test::scene_files()),
                          [](const auto& p) { return p.param; });
 
 }  // namespace
