@@ -71,6 +71,9 @@ inline Scene scaled(Scene s, const Units& u) {
     scale(g.radius, u.length, density);
     scale(g.mass, u.mass, density);
   }
+  for (InnerWall& wall : s.walls) {
+    for (Vec2& point : wall.points) scale(point, u.length);
+  }
   for (Source& source : s.sources) {
     scale(source.region_low, u.length);
     scale(source.region_high, u.length);
@@ -100,9 +103,7 @@ inline State scaled(State state, const Units& u) {
   for (double& impulse : state.counters.wall_impulse) impulse *= u.mass * u.speed();
   for (double& energy : state.counters.side_energy) energy *= u.energy();
   for (Obstacle& obstacle : state.obstacles) {
-    obstacle.x *= u.length;
-    obstacle.y *= u.length;
-    obstacle.radius *= u.length;
+    for (double* length : {&obstacle.x, &obstacle.y, &obstacle.dx, &obstacle.dy, &obstacle.radius}) *length *= u.length;
   }
   for (ContactLoad& load : state.loads) load.force *= u.mass * u.speed() / u.time;
   return state;

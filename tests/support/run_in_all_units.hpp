@@ -42,6 +42,8 @@ inline void expect_equal(const State& a, const State& b) {
   for (std::size_t k = 0; k < a.obstacles.size(); ++k) {
     EXPECT_EQ(a.obstacles[k].x, b.obstacles[k].x);
     EXPECT_EQ(a.obstacles[k].y, b.obstacles[k].y);
+    EXPECT_EQ(a.obstacles[k].dx, b.obstacles[k].dx);
+    EXPECT_EQ(a.obstacles[k].dy, b.obstacles[k].dy);
     EXPECT_EQ(a.obstacles[k].radius, b.obstacles[k].radius);
   }
   ASSERT_EQ(a.loads.size(), b.loads.size());
