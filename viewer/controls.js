@@ -53,7 +53,8 @@ function listenToPointers(viewer) {
     });
   });
   const release = (event) => {
-    if (held.delete(event.pointerId) && event.type === "pointerup" && moved < 4) viewer.pickAt(event.offsetX, event.offsetY);
+    if (held.delete(event.pointerId) && event.type === "pointerup" && moved < 4)
+      viewer.pickAt(event.offsetX, event.offsetY);
   };
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);
@@ -74,7 +75,8 @@ function followKey(viewer, event) {
   const slides = type === "range";
   const step = event.shiftKey ? 10 : 1;
   const tick = (id) => element(id).click();
-  const pan = (dx, dy) => document.activeElement === viewer.canvas && viewer.changeView((camera) => camera.move(dx, dy));
+  const pan = (dx, dy) =>
+    document.activeElement === viewer.canvas && viewer.changeView((camera) => camera.move(dx, dy));
   const faster = (by) => {
     const at = speeds.indexOf(viewer.playback.speed) + by;
     if (at < 0 || at >= speeds.length) return;

@@ -71,14 +71,18 @@ void main() { pixel = vec4(colour.rgb, 1.0) * strength; }`;
 
 function program(gl, vertex, fragment) {
   const made = gl.createProgram();
-  for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+  for (const [kind, text] of [
+    [gl.VERTEX_SHADER, vertex],
+    [gl.FRAGMENT_SHADER, fragment],
+  ]) {
     const shader = gl.createShader(kind);
     gl.shaderSource(shader, text);
     gl.compileShader(shader);
     gl.attachShader(made, shader);
   }
   gl.linkProgram(made);
-  if (!gl.getProgramParameter(made, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(made) || "shaders do not link");
+  if (!gl.getProgramParameter(made, gl.LINK_STATUS))
+    throw new Error(gl.getProgramInfoLog(made) || "shaders do not link");
   const at = {};
   for (let u = 0; u < gl.getProgramParameter(made, gl.ACTIVE_UNIFORMS); ++u) {
     const { name } = gl.getActiveUniform(made, u);
@@ -142,7 +146,8 @@ export class DiskRenderer {
     const { gl } = this;
     gl.bindTexture(gl.TEXTURE_2D, this.colours);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+      gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
     for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
   }
 
@@ -185,7 +190,9 @@ export class DiskRenderer {
       }
     }
     this.images.count = found[0].length;
-    found.forEach((data, column) => this.images.fill(column, column < 2 ? new Int32Array(data) : new Float32Array(data)));
+    found.forEach((data, column) =>
+      this.images.fill(column, column < 2 ? new Int32Array(data) : new Float32Array(data)),
+    );
   }
 
   forget() {

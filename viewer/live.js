@@ -3,7 +3,11 @@ window.caromLive = {
   texts: new Map(), // of blocks, by id: what has come stays when the server is gone
 
   textOf(id) {
-    if (id.startsWith("block") && !this.texts.has(id)) this.texts.set(id, this.get(id).catch(() => null));
+    if (id.startsWith("block") && !this.texts.has(id))
+      this.texts.set(
+        id,
+        this.get(id).catch(() => null),
+      );
     return this.texts.get(id) ?? null;
   },
 
@@ -17,7 +21,7 @@ window.caromLive = {
     document.getElementById("loop").click();
     viewer.jump(viewer.playback.last);
     viewer.store.blocks.forEach((_, k) => this.textOf(`block${k}`));
-    for (let ended = false; !ended; ) {
+    for (let ended = false; !ended;) {
       try {
         const news = JSON.parse(await this.get(`news/${viewer.store.blocks.length}/${viewer.head.disks}`));
         this.grow(viewer, news);
@@ -47,7 +51,8 @@ window.caromLive = {
       if (head.fast !== news.fast && !viewer.rangeChosen) viewer.range = null;
       head.fast = news.fast;
       head.insets.forEach((inset, side) => inset?.push(...news.insets[side]));
-      document.getElementById("story").textContent = `${head.disks} disks, ${head.frames} frames, carom ${head.version}`;
+      document.getElementById("story").textContent =
+        `${head.disks} disks, ${head.frames} frames, carom ${head.version}`;
     }
     viewer.plots.setSeries(news.series);
     playback.setTimes(store.times);

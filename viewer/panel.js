@@ -44,7 +44,10 @@ export function showFacts(facts) {
 
 // i: the disk's index in frame k, -1 if it is not there.
 export function factsOf(store, k, place, i) {
-  const facts = [["mass", shortNumber(store.mass[place])], ["radius", shortNumber(store.radius[place])]];
+  const facts = [
+    ["mass", shortNumber(store.mass[place])],
+    ["radius", shortNumber(store.radius[place])],
+  ];
   if (store.head.grouped) {
     const number = store.group[place];
     facts.push(["group", store.head.groups[number] || String(number + 1)]);

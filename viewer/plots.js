@@ -65,10 +65,12 @@ export class Plots {
     context.scale(density, density);
     context.font = "11px system-ui, sans-serif";
     rows.forEach((curve, n) => this.drawRow(context, curve, n * rowHeight, width));
-    const texts = rows.filter(({ inTime }) => inTime).map(({ name, x, y }) => {
-      const at = x.findLastIndex((t) => t <= now * (1 + 1e-12));
-      return `${name} ${shortNumber(y[Math.max(0, at)] ?? NaN)}`;
-    });
+    const texts = rows
+      .filter(({ inTime }) => inTime)
+      .map(({ name, x, y }) => {
+        const at = x.findLastIndex((t) => t <= now * (1 + 1e-12));
+        return `${name} ${shortNumber(y[Math.max(0, at)] ?? NaN)}`;
+      });
     element("plot-values").textContent = texts.join(", ");
   }
 
@@ -81,11 +83,16 @@ export class Plots {
     const from = curve.x[0];
     const span = curve.x[curve.x.length - 1] - from || 1;
     const x = (at) => ((at - from) / span) * (width - 2) + 1;
-    const y = (value) => (flat ? (top + 16 + bottom) / 2 : bottom - ((value - low) / (high - low)) * (bottom - top - 16));
+    const y = (value) =>
+      flat ? (top + 16 + bottom) / 2 : bottom - ((value - low) / (high - low)) * (bottom - top - 16);
     context.strokeStyle = this.colours.line;
     context.strokeRect(0.5, top + 14.5, width - 1, bottom - top - 13);
     context.fillStyle = this.colours.ink;
-    context.fillText(`${curve.name}  ${flat ? shortNumber(high) : `${shortNumber(low)} to ${shortNumber(high)}`}`, 2, top + 11);
+    context.fillText(
+      `${curve.name}  ${flat ? shortNumber(high) : `${shortNumber(low)} to ${shortNumber(high)}`}`,
+      2,
+      top + 11,
+    );
     if (!curve.inTime) {
       const ends = `${shortNumber(from)} to ${shortNumber(from + span)}`;
       context.fillText(ends, width - 2 - context.measureText(ends).width, top + 11);

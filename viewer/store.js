@@ -29,7 +29,8 @@ export class Store {
   }
 
   addBlocks(blocks) {
-    for (const [first, frames, residuals, length, check] of blocks) this.blocks.push({ first, frames, residuals, length, check });
+    for (const [first, frames, residuals, length, check] of blocks)
+      this.blocks.push({ first, frames, residuals, length, check });
   }
 
   work(message) {
@@ -51,7 +52,8 @@ export class Store {
       return part;
     };
     this.times = take(Float64Array, head.frames);
-    this.radius = head.radius === null ? take(Float64Array, head.disks) : new Float64Array(head.disks).fill(head.radius);
+    this.radius =
+      head.radius === null ? take(Float64Array, head.disks) : new Float64Array(head.disks).fill(head.radius);
     this.mass = head.mass === null ? take(Float64Array, head.disks) : new Float64Array(head.disks).fill(head.mass);
     this.id = take(Uint32Array, head.disks);
     this.group = head.grouped ? take(Uint32Array, head.disks) : new Uint32Array(head.disks);
@@ -96,7 +98,10 @@ export class Store {
       return Promise.resolve(block);
     }
     if (!this.asked.has(number)) {
-      this.asked.set(number, this.unpack(number).finally(() => this.asked.delete(number)));
+      this.asked.set(
+        number,
+        this.unpack(number).finally(() => this.asked.delete(number)),
+      );
     }
     return this.asked.get(number);
   }

@@ -7,6 +7,7 @@ import { element, shortNumber } from "./format.js";
 import { drawOverlay, sideSentence } from "./overlay.js";
 import { colourChoices, factsOf, fillChoices, showFacts, showLegend } from "./panel.js";
 import { DiskPath, diskAt } from "./picking.js";
+import { pictureOf, saveAs } from "./picture.js";
 import { Playback } from "./playback.js";
 import { Plots } from "./plots.js";
 
@@ -35,7 +36,11 @@ export class Viewer {
     const { head } = this;
     element("frame").max = this.playback.last;
     fillChoices(element("colour"), colourChoices(head), this.colour);
-    fillChoices(element("speed"), speeds.map((s) => [s, `× ${s}`]), 1);
+    fillChoices(
+      element("speed"),
+      speeds.map((s) => [s, `× ${s}`]),
+      1,
+    );
     element("images-label").hidden = !head.axes.some((axis) => axis.periodic);
     element("sides").textContent = sideSentence(head);
     element("dark").checked = matchMedia("(prefers-color-scheme: dark)").matches;
@@ -225,7 +230,9 @@ export class Viewer {
       part: element("smooth").checked ? this.playback.part : 0,
       images: element("images").checked,
       // An arrow of the fastest speed of the scale is a fifteenth of the box long.
-      arrows: element("arrows").checked ? (Math.max(this.head.box.width, this.head.box.height) / 15) / this.arrowSpeed : 0,
+      arrows: element("arrows").checked
+        ? Math.max(this.head.box.width, this.head.box.height) / 15 / this.arrowSpeed
+        : 0,
       trail,
     };
   }
@@ -235,10 +242,15 @@ export class Viewer {
     if (this.picked) {
       const i = this.store.indexIn(frame, this.picked.place);
       const { axes } = this.head;
-      picked = { path: this.picked.path.points.slice(0, this.playback.frame + 1), radius: this.store.radius[this.picked.place] };
+      picked = {
+        path: this.picked.path.points.slice(0, this.playback.frame + 1),
+        radius: this.store.radius[this.picked.place],
+      };
       if (i >= 0) Object.assign(picked, { x: frame.x[i] * axes[0].quantum, y: frame.y[i] * axes[1].quantum });
     }
-    drawOverlay(element("overlay"), this.density, this.camera, this.head, this.playback.frame, shortNumber(this.playback.time), picked, this.colours);
+    const { camera, head, density, colours, playback } = this;
+    const time = shortNumber(playback.time);
+    drawOverlay(element("overlay"), density, camera, head, playback.frame, time, picked, colours);
   }
 
   showTime() {
@@ -359,22 +371,13 @@ export class Viewer {
   takePicture() {
     this.draw();
     this.renderer.draw(this.playback.frame, this.look(this.trailFrames(this.playback.frame)));
-    const both = document.createElement("canvas");
-    both.width = this.canvas.width;
-    both.height = this.canvas.height;
-    const context = both.getContext("2d");
-    context.drawImage(this.canvas, 0, 0);
-    context.drawImage(element("overlay"), 0, 0);
-    return new Promise((done) => both.toBlob(done, "image/png"));
+    return pictureOf(this.canvas, element("overlay"));
   }
 
   async savePicture() {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(await this.takePicture());
-    link.download = `frame_${this.playback.frame + 1}.png`;
-    link.click();
-    element("taken").textContent = `${link.download} is saved.`;
-    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    const name = `frame_${this.playback.frame + 1}.png`;
+    saveAs(name, await this.takePicture());
+    element("taken").textContent = `${name} is saved.`;
   }
 
   // For scripts: where each disk of a frame is, as the page draws it.
@@ -382,6 +385,10 @@ export class Viewer {
     await this.store.load(this.store.blockOf(k));
     const { place, x, y } = this.store.frame(k);
     const [ax, ay] = this.head.axes;
-    return { id: Array.from(place, (p) => this.store.id[p]), x: Array.from(x, (q) => q * ax.quantum), y: Array.from(y, (q) => q * ay.quantum) };
+    return {
+      id: Array.from(place, (p) => this.store.id[p]),
+      x: Array.from(x, (q) => q * ax.quantum),
+      y: Array.from(y, (q) => q * ay.quantum),
+    };
   }
 }

@@ -1,9 +1,30 @@
 // How viewer/*.js and these tests are linted (stage browser of .ci/run), from the folder of the project.
 import js from "@eslint/js";
 
-const browser = ["window", "document", "location", "history", "navigator", "matchMedia", "getComputedStyle", "fetch", "atob",
-  "requestAnimationFrame", "setTimeout", "ResizeObserver", "URL", "URLSearchParams", "Blob", "Worker", "ImageData", "Response",
-  "DecompressionStream", "postMessage", "createImageBitmap", "OffscreenCanvas"];
+const browser = [
+  "window",
+  "document",
+  "location",
+  "history",
+  "navigator",
+  "matchMedia",
+  "getComputedStyle",
+  "fetch",
+  "atob",
+  "requestAnimationFrame",
+  "setTimeout",
+  "ResizeObserver",
+  "URL",
+  "URLSearchParams",
+  "Blob",
+  "Worker",
+  "ImageData",
+  "Response",
+  "DecompressionStream",
+  "postMessage",
+  "createImageBitmap",
+  "OffscreenCanvas",
+];
 const node = ["process", "URL"];
 const known = (names) => Object.fromEntries(names.map((name) => [name, "readonly"]));
 
@@ -34,12 +55,19 @@ const rules = {
   "prefer-template": "off",
   "require-atomic-updates": "off",
   // Markup that comes from a scene would run in the page.
-  "no-restricted-properties": ["error", ...["innerHTML", "outerHTML", "insertAdjacentHTML", "write"].map((property) => ({ property }))],
+  "no-restricted-properties": [
+    "error",
+    ...["innerHTML", "outerHTML", "insertAdjacentHTML", "write"].map((property) => ({ property })),
+  ],
 };
 
 export default [
   { linterOptions: { reportUnusedDisableDirectives: "error" } },
-  { files: ["viewer/*.js"], languageOptions: { sourceType: "module", globals: { ...known(browser), onmessage: "writable" } }, rules },
+  {
+    files: ["viewer/*.js"],
+    languageOptions: { sourceType: "module", globals: { ...known(browser), onmessage: "writable" } },
+    rules,
+  },
   {
     files: ["tests/browser/*.mjs"],
     languageOptions: { globals: known([...browser, ...node]) },

@@ -68,14 +68,22 @@ test("a run that goes on is followed to its end, and what has come stays", async
   });
   known.forEach(({ time, disks }, k) => {
     assert.equal(shown.times[k], time);
-    assert.deepEqual(shown.all[k].id.toSorted((a, b) => a - b), [...disks.keys()].sort((a, b) => a - b));
-    shown.all[k].id.forEach((id, i) => assert.ok(Math.abs(shown.all[k].x[i] - disks.get(id).x) <= shown.quantum * 0.5000001));
+    assert.deepEqual(
+      shown.all[k].id.toSorted((a, b) => a - b),
+      [...disks.keys()].sort((a, b) => a - b),
+    );
+    shown.all[k].id.forEach((id, i) =>
+      assert.ok(Math.abs(shown.all[k].x[i] - disks.get(id).x) <= shown.quantum * 0.5000001),
+    );
   });
   await page.keyboard.press("End");
   await drawn(page, known.length - 1);
   assert.deepEqual(errors, []);
   const origin = new URL(await server.line).origin;
-  assert.deepEqual(requests.filter((url) => !url.startsWith(origin) && !url.startsWith("blob:")), []);
+  assert.deepEqual(
+    requests.filter((url) => !url.startsWith(origin) && !url.startsWith("blob:")),
+    [],
+  );
   await page.close();
 });
 
@@ -85,7 +93,9 @@ test("the page of a server that is killed says so and keeps what it has", async 
   const server = await shop.start("view", "killed", "--live", "--quiet");
   const { page } = await shop.show(await server.line);
   server.child.kill("SIGKILL");
-  await page.waitForFunction(() => document.getElementById("left-out").textContent.startsWith("The run cannot be followed"));
+  await page.waitForFunction(() =>
+    document.getElementById("left-out").textContent.startsWith("The run cannot be followed"),
+  );
   await page.keyboard.press("Home");
   await drawn(page, 0);
   run.child.kill("SIGKILL");

@@ -34,7 +34,10 @@ export class Workshop {
   // carom view; returns what it printed and the file.
   view(name, ...options) {
     const file = `${name}_${options.join("_").replace(/[^a-z0-9]/gi, "")}.html`;
-    const done = spawnSync(program, ["view", name, "-o", file, "--force", ...options], { cwd: this.folder, encoding: "utf8" });
+    const done = spawnSync(program, ["view", name, "-o", file, "--force", ...options], {
+      cwd: this.folder,
+      encoding: "utf8",
+    });
     if (done.status !== 0) throw new Error(done.stderr);
     return { file: this.path(file), err: done.stderr };
   }
@@ -63,7 +66,7 @@ export class Workshop {
 export function framesOf(folder) {
   const lines = readFileSync(join(folder, "trajectory.xyz"), "utf8").trimEnd().split("\n");
   const frames = [];
-  for (let at = 0; at < lines.length; ) {
+  for (let at = 0; at < lines.length;) {
     const count = Number(lines[at]);
     const time = Number(/Time=(\S+)/.exec(lines[at + 1])[1]);
     const disks = new Map();
@@ -88,10 +91,36 @@ export function coloursAt(page, points) {
     context.drawImage(image, 0, 0);
     return wanted.map(([x, y]) => {
       const [px, py] = viewer.camera.toPage(x, y);
-      return [...context.getImageData(Math.round(px * viewer.density), Math.round(py * viewer.density), 1, 1).data.slice(0, 3)];
+      return [
+        ...context
+          .getImageData(Math.round(px * viewer.density), Math.round(py * viewer.density), 1, 1)
+          .data.slice(0, 3),
+      ];
     });
   }, points);
 }
 
 // Waits until the page has drawn frame k.
-export const drawn = (page, k) => page.waitForFunction((frame) => window.carom.drawn === frame && !window.carom.dirty, k);
+export const drawn = (page, k) =>
+  page.waitForFunction((frame) => window.carom.drawn === frame && !window.carom.dirty, k);
+
+// Disks at rest in known places, the last one on a periodic side.
+export const restScene = (title = "disks at rest") => `title = ${JSON.stringify(title)}
+[box]
+width = 20.0
+height = 12.0
+left = "periodic"
+right = "periodic"
+[[disks]]
+count = 4
+positions = [[5, 3], [12, 9], [16, 4], [0.2, 6]]
+velocities = [[0, 0], [0, 0], [0, 0], [1, 0]]
+radius = 1.0
+mass = 1.0
+[run]
+method = "exact"
+t_end = 2.0
+[output]
+every = 0.5
+trajectory = "xyz"
+`;

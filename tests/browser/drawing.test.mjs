@@ -1,0 +1,179 @@
+// What the page of carom view draws and where, in a real browser.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { coloursAt, drawn, restScene, Workshop } from "./view_support.mjs";
+
+const shop = new Workshop();
+before(async () => {
+  await shop.open();
+  shop.run("rest", restScene());
+});
+after(() => shop.close());
+
+test("pixels are coloured where disks are, on both edges of a periodic side, and nowhere else", async () => {
+  const { page } = await shop.show(shop.view("rest").file);
+  await page.selectOption("#colour", "fixed");
+  await drawn(page, 0);
+  const blue = [0, 0x72, 0xb2];
+  const places = [
+    [5, 3],
+    [12.5, 9],
+    [16, 4.6],
+    [0.6, 6],
+    [19.6, 6],
+  ]; // the last one: disk 3, across the side
+  for (const colour of await coloursAt(page, places)) assert.deepEqual(colour, blue);
+  const ground = await page.evaluate(() => window.carom.colours.ground);
+  const empty = ground.match(/\w\w/g).map((hex) => parseInt(hex, 16));
+  for (const colour of await coloursAt(page, [
+    [8, 6],
+    [5, 4.4],
+    [1.6, 6],
+    [18.6, 6],
+  ]))
+    assert.deepEqual(colour, empty);
+  await page.close();
+});
+
+test("obstacles and inner walls stand where they are, and a moving side where it is in each frame", async () => {
+  const hex = (page, name) =>
+    page.evaluate((n) => window.carom.colours[n].match(/\w\w/g).map((part) => parseInt(part, 16)), name);
+  const showAt = async (name, scene, words) => {
+    shop.run(name, scene);
+    const { page } = await shop.show(shop.view(name).file, "#t=1.5");
+    await drawn(page, 3);
+    assert.match(await page.textContent("#sides"), words);
+    return page;
+  };
+  const obstacle = restScene().replace(
+    "[run]",
+    "[[disks]]\nfixed = true\ncount = 1\npositions = [[19.8, 1]]\nradius = 0.5\n[[walls]]\nfrom = [8, 5]\nto = [8, 7]\n[run]",
+  );
+  let page = await showAt("fixed", obstacle, /walls are whole lines.* 1 obstacles grey/);
+  const grey = await hex(page, "faint");
+  assert.deepEqual(
+    await coloursAt(page, [
+      [19.6, 1],
+      [0.15, 1.1],
+    ]),
+    [grey, grey],
+    "on both edges of the periodic side",
+  );
+  assert.deepEqual(await coloursAt(page, [[8, 6]]), [await hex(page, "ink")], "an inner wall");
+  await page.close();
+  const inside = restScene().replace('left = "periodic"\nright = "periodic"\n', "").replace("[0.2, 6]", "[2, 6]");
+  page = await showAt(
+    "moving",
+    inside.replace("[[disks]]", "[box.top]\nmotion = { velocity = [0.0, -0.8] }\n[[disks]]"),
+    /top moving wall/,
+  );
+  assert.deepEqual(
+    await coloursAt(page, [
+      [10, 10.8],
+      [10, 11.5],
+    ]),
+    [await hex(page, "ink"), await hex(page, "ground")],
+  );
+  await page.close();
+});
+
+test("large disks and small ones are drawn alike, and disks that reach into view are not lost", async () => {
+  shop.run("small", restScene().replace("radius = 1.0", "radius = 0.4").replace("[0.2, 6]", "[0.6, 6]"));
+  const { page } = await shop.show(shop.view("small").file);
+  await page.selectOption("#colour", "fixed");
+  await drawn(page, 0);
+  const points = () => page.evaluate(() => window.carom.renderer.asPoints);
+  const blue = [0, 0x72, 0xb2];
+  assert.equal(await points(), true);
+  assert.deepEqual(
+    await coloursAt(page, [
+      [5, 3],
+      [5.3, 3],
+      [12, 9.3],
+    ]),
+    [blue, blue, blue],
+  );
+  // The centre of disk 1 is just out of view, to the left; then the same with larger disks.
+  for (const asPoints of [true, false]) {
+    await page.evaluate((small) => {
+      const { camera } = window.carom;
+      camera.scale = small ? camera.scale : 200;
+      camera.fitted = false;
+      camera.x = 12 + 0.15 + camera.width / 2 / camera.scale;
+      camera.y = 9;
+      window.carom.dirty = true;
+    }, asPoints);
+    await drawn(page, 0);
+    const [colour] = await coloursAt(page, [[12.22, 9]]);
+    assert.equal(await points(), asPoints);
+    assert.deepEqual(colour, blue);
+  }
+  await page.close();
+});
+
+test("a click picks the disk under it, also by its image across a periodic side", async () => {
+  const { page } = await shop.show(shop.view("rest").file);
+  for (const [x, y, id] of [
+    [5, 3, "0"],
+    [12.6, 9.5, "1"],
+    [16, 4, "2"],
+    [19.6, 6, "3"],
+    [8, 6, ""],
+  ]) {
+    const [px, py] = await page.evaluate(([a, b]) => window.carom.camera.toPage(a, b), [x, y]);
+    await page.locator("#disks").click({ position: { x: px, y: py } });
+    assert.equal(await page.inputValue("#disk"), id);
+  }
+  await page.fill("#disk", "2");
+  await page.press("#disk", "Enter");
+  assert.match(await page.textContent("#facts"), /mass1radius1place16, 4velocity0, 0speed0/);
+  await page.close();
+});
+
+test("a disk that crosses a periodic side goes on behind it, and its path does not cross the box", async () => {
+  shop.run("cross", restScene().replace("[0.2, 6]", "[19.2, 6]"));
+  const { page } = await shop.show(shop.view("cross").file, "#t=1.5&disk=3");
+  await drawn(page, 3);
+  const facts = await page.textContent("#facts");
+  assert.ok(Math.abs(Number(/velocity([\d.]+), 0/.exec(facts)?.[1]) - 1) < 1e-3, facts);
+  const { x } = await page.evaluate(() => window.carom.positions(3));
+  assert.ok(Math.abs(x[3] - 0.7) < 1e-3);
+  const steps = await page.evaluate(() => window.carom.store.steps(1).d[6]);
+  assert.ok(Math.abs(steps - 0.5) < 1e-3, "the step across the side is a short one");
+  await page.waitForFunction(() => window.carom.picked.path.points.slice(0, 4).every((point) => point));
+  await page.close();
+});
+
+test("the trail of a disk that left through a sink ends where it was last", async () => {
+  const scene = restScene()
+    .replace('left = "periodic"\nright = "periodic"', 'left = "sink"')
+    .replace("count = 4", "count = 1");
+  shop.run(
+    "leaves",
+    scene.replace(/positions = .*/, "positions = [[4.5, 6]]").replace(/velocities = .*/, "velocities = [[-2, 0]]"),
+  );
+  const { page } = await shop.show(shop.view("leaves").file, "#t=2");
+  await page.click("#trails");
+  await drawn(page, 4);
+  assert.equal((await page.evaluate(() => window.carom.positions(4))).id.length, 0, "it has left");
+  const ground = await page.evaluate(() => window.carom.colours.ground.match(/\w\w/g).map((hex) => parseInt(hex, 16)));
+  const inked = async (x) => {
+    const scale = await page.evaluate(() => window.carom.camera.scale);
+    const across = [-2, -1, 0, 1, 2].map((pixels) => [x, 6 + pixels / scale]);
+    return (await coloursAt(page, across)).some((colour) => colour.join() !== ground.join());
+  };
+  assert.deepEqual([await inked(4), await inked(2), await inked(1), await inked(0.5)], [true, true, false, false]);
+  await page.close();
+});
+
+test("the coordination number counts neighbours across periodic sides", async () => {
+  const scene = restScene()
+    .replace("count = 4", "count = 3")
+    .replace(/positions = .*/, "positions = [[1.05, 6], [18.95, 6], [10, 6]]");
+  shop.run("near", scene.replace(/velocities = .*/, ""));
+  const { page } = await shop.show(shop.view("near").file);
+  await page.selectOption("#colour", "coordination");
+  await page.waitForFunction(() => window.carom.counts.get(0)?.some((count) => count > 0));
+  assert.deepEqual(await page.evaluate(() => [...window.carom.counts.get(0)]), [1, 1, 0]);
+  await page.close();
+});
