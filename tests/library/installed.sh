@@ -6,7 +6,7 @@ build=$1 source=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 prefix=$work/prefix
-examples="hello hello_cpp billiards rollback"
+examples="hello hello_cpp billiards hopper rollback"
 
 say() { printf '%s\n' "$*"; }
 
@@ -64,7 +64,7 @@ same() { # WHAT HASHES
 
 wanted=$(with_pkg_config plain)
 say "$wanted"
-[[ $(grep -o '[0-9a-f]\{16\}' <<<"$wanted" | wc -l) == 5 ]] || { say "an example prints no hash" && exit 1; }
+[[ $(grep -o '[0-9a-f]\{16\}' <<<"$wanted" | wc -l) == 6 ]] || { say "an example prints no hash" && exit 1; }
 same "-ffast-math" "$(with_pkg_config fast -ffast-math)"
 same "find_package" "$(with_cmake installed -DCMAKE_PREFIX_PATH="$prefix")"
 [[ ${3-} != sources ]] || same "add_subdirectory" "$(with_cmake sources -DCAROM_SOURCE="$source")"
