@@ -76,8 +76,7 @@ std::vector<Override> overrides_of(const Changes& changes) {
 
 // Has the user pressed Ctrl-C? On the thread that holds the interpreter's lock.
 bool interrupted() {
-  if (PyErr_CheckSignals() == 0) return false;
-  return true;
+  return PyErr_CheckSignals() != 0;
 }
 
 // A simulation, and how many arrays show its columns as they lie in memory: while there is one, nothing may change.

@@ -34,11 +34,12 @@ void SliceScheduler::lay_out_regions() {
            (r + 1 == count || (first_disk(layer) + first_disk(layer + 1)) / 2 < n * (r + 1) / count)) {
       ++layer;
     }
+    const std::uint32_t first_tile = first * tiles_a_layer;
     const std::uint32_t last_tile = layer * tiles_a_layer;
     regions_[r].middle_tile = (first + (layer - first) / 2) * tiles_a_layer;
-    std::fill(window_.region_of_tile.begin() + first * tiles_a_layer, window_.region_of_tile.begin() + last_tile,
+    std::fill(window_.region_of_tile.begin() + first_tile, window_.region_of_tile.begin() + last_tile,
               static_cast<std::uint16_t>(r));
-    regions_[r].worker.region = lists_.region_of_tiles(first * tiles_a_layer, last_tile);
+    regions_[r].worker.region = lists_.region_of_tiles(first_tile, last_tile);
     regions_[r].worker.begin_window();
     regions_[r].worker.begin_slice();  // a void window leaves blocked disks behind
   }
