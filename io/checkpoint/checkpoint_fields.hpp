@@ -86,10 +86,16 @@ void fields(Stream& stream, T& value) {
   stream(name, frames, bytes);
 }
 
+template <class Stream, Is<IntervalMeans> T>
+void fields(Stream& stream, T& value) {
+  auto& [pressure, collision_rate, force] = value;
+  stream(pressure, collision_rate, force);
+}
+
 template <class Stream, Is<MeterMark> T>
 void fields(Stream& stream, T& value) {
-  auto& [counted_until, before] = value;
-  stream(counted_until, before);
+  auto& [counted_until, before, means] = value;
+  stream(counted_until, before, means);
 }
 
 template <class Stream, Is<SeriesMark> T>

@@ -16,10 +16,18 @@ struct FileMark {
   std::uint64_t bytes = 0;
 };
 
-// What the means of the next row start from.
+// Means over the time between two rows; 0 until some time has passed.
+struct IntervalMeans {
+  double pressure = 0.0;        // energy / area
+  double collision_rate = 0.0;  // a disk; 1 / time
+  double force[4] = {};         // outwards on each side
+};
+
+// What the means of the next row start from, and those of the last one.
 struct MeterMark {
   double counted_until = 0.0;
   Counters before;
+  IntervalMeans means;
 };
 
 struct SeriesMark {

@@ -8,17 +8,27 @@
 
 namespace carom {
 
+IntervalMeans SeriesMeter::means(const Disks& disks, const Energy& energy, const State& now) const {
+  const double elapsed = now.time - done_.counted_until;
+  if (!(elapsed > 0.0)) return done_.means;
+  const Counters& c = now.counters;
+  const double disk_time = elapsed * static_cast<double>(disks.size());
+  const auto collisions = static_cast<double>(c.collisions - done_.before.collisions);
+  IntervalMeans mean{pressure(energy, c.virial - done_.before.virial, elapsed, box_at(box_, now.time)),
+                     disk_time > 0.0 ? 2.0 * collisions / disk_time : 0.0,
+                     {}};
+  for (std::size_t side = 0; side < 4; ++side) {
+    mean.force[side] = (c.wall_impulse[side] - done_.before.wall_impulse[side]) / elapsed;
+  }
+  return mean;
+}
+
 SeriesRow SeriesMeter::row(const Disks& disks, const State& now, const BlockRunner& run) {
   const Counters& c = now.counters;
-  const double elapsed = now.time - done_.counted_until;
   const std::vector<std::size_t> order = by_id(disks);
   const Energy energy = energy_of(disks, order, gravity_, run);
   const Momentum momentum = momentum_of(disks, order, run);
-  const auto collisions = static_cast<double>(c.collisions - done_.before.collisions);
-  const double disk_time = elapsed * static_cast<double>(disks.size());
-  const auto force = [&](int side) {
-    return elapsed > 0.0 ? (c.wall_impulse[side] - done_.before.wall_impulse[side]) / elapsed : 0.0;
-  };
+  done_.means = means(disks, energy, now);
   const auto of_velocities = [&](double value) { return drawn_ ? std::numeric_limits<double>::quiet_NaN() : value; };
   const SeriesRow row{static_cast<double>(disks.size()),
                       of_velocities(energy.kinetic),
@@ -28,16 +38,16 @@ SeriesRow SeriesMeter::row(const Disks& disks, const State& now, const BlockRunn
                       of_velocities(momentum.y),
                       static_cast<double>(c.collisions),
                       static_cast<double>(c.wall_collisions),
-                      of_velocities(pressure(energy, c.virial - done_.before.virial, elapsed, box_at(box_, now.time))),
-                      disk_time > 0.0 ? 2.0 * collisions / disk_time : 0.0,
+                      of_velocities(done_.means.pressure),
+                      done_.means.collision_rate,
                       with_overlap_ ? max_overlap(disks, box_, run) : 0.0,
                       static_cast<double>(c.removed),
                       static_cast<double>(c.emitted),
                       static_cast<double>(c.waiting),
-                      of_velocities(force(0)),
-                      of_velocities(force(1)),
-                      of_velocities(force(2)),
-                      of_velocities(force(3))};
+                      of_velocities(done_.means.force[0]),
+                      of_velocities(done_.means.force[1]),
+                      of_velocities(done_.means.force[2]),
+                      of_velocities(done_.means.force[3])};
   done_.before = c;
   done_.counted_until = now.time;
   return row;

@@ -7,6 +7,7 @@
 #include "core/base/block_runner.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/state.hpp"
+#include "core/measure/invariants.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene.hpp"
 #include "io/files/file_mark.hpp"
@@ -33,14 +34,14 @@ inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"collisions", true, "", "of two disks, since the start"},
     {"wall_collisions", true, "", "of a disk and a wall, since the start"},
     {"pressure", false, "energy / area",
-     "mean since the row before, from kinetic energy and collisions; 0 in the first; nan likewise"},
-    {"collision_rate", false, "1 / time", "collisions a disk takes part in per unit time, mean since the row before"},
+     "mean since the row before, from kinetic energy and collisions; 0 in the first; nan likewise. A row in the same "
+     "window of exact repeats it"},
+    {"collision_rate", false, "1 / time", "collisions a disk takes part in per unit time, mean likewise"},
     {"max_overlap", false, "", "largest overlap of two disks in this frame, over the sum of their radii; 0 if none"},
     {"removed", true, "", "disks that sinks have taken, since the start"},
     {"emitted", true, "", "disks that came from sources, since the start"},
     {"waiting", true, "", "disks that are due from sources and find no room"},
-    {"force_left", false, "force",
-     "outwards on the left wall, mean since the row before; 0 in the first; nan likewise"},
+    {"force_left", false, "force", "outwards on the left wall, mean as that of the pressure; nan likewise"},
     {"force_right", false, "force", "likewise on the right wall"},
     {"force_bottom", false, "force", "likewise on the floor"},
     {"force_top", false, "force", "likewise on the ceiling"},
@@ -64,12 +65,15 @@ class SeriesMeter {
   // Disks at the time of a frame, and what `now` has counted. An exact run counts to the end of its window, which may
   // lie a little after the frame; intervals are taken between the states, so that no collision is lost or counted
   // twice. pressure, collision_rate (per disk) and the four wall forces are means over the time since the row before,
-  // and 0 in the first row. What is made of velocities is NaN for Brownian motion (core/scene/drawn_velocities.hpp).
+  // and 0 in the first row; a row whose state is the one of the row before (a frame of the same window) repeats them.
+  // What is made of velocities is NaN for Brownian motion (core/scene/drawn_velocities.hpp).
   SeriesRow row(const Disks& disks, const State& now, const BlockRunner& run = run_in_order);
 
   const MeterMark& mark() const { return done_; }
 
  private:
+  IntervalMeans means(const Disks& disks, const Energy& energy, const State& now) const;
+
   Domain box_;
   double gravity_;
   bool with_overlap_;

@@ -70,6 +70,7 @@ RunRecord full_record() {
   series.file = {"series.csv", 3, 99};
   series.meter.counted_until = 0.3;
   series.meter.before = full_state().counters;
+  series.meter.means = {1.5, 2.5, {0.5, 0.25, 0.125, 0.0625}};
   r.outputs.movie = MovieMark{3, false, {"a.mp4", "b.mp4"}, 0.5, 2.5, -1};
   r.outputs.velocities.curves = {{1, {0.0, 0.1}, {1.0, 2.0}, {3.0, 4.0}}};
   r.outputs.velocities.end = 0.1;

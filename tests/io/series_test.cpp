@@ -62,10 +62,12 @@ TEST(Series, RowsHoldStateAndIntervalMeans) {
   state.counters.collisions = 4;
   state.counters.removed = 7;
   series.write(d, 1.0, state);
+  series.write(d, 1.0, state);  // a frame of exact that lies in the window of the one before
   series.close();
 
   auto rows = read_csv(path);
-  ASSERT_EQ(rows.size(), 3U);
+  ASSERT_EQ(rows.size(), 4U);
+  for (const char* const mean : {"pressure", "collision_rate", "force_bottom"}) EXPECT_EQ(rows[3][mean], rows[2][mean]);
   EXPECT_EQ(rows[0]["disks"], 2.0);
   EXPECT_EQ(rows[0]["kinetic"], 11.0);
   EXPECT_EQ(rows[0]["potential"], 10.0);
