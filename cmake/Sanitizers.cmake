@@ -9,6 +9,9 @@ if(CAROM_SANITIZE)
   target_compile_options(carom_sanitizers INTERFACE -fsanitize=${joined} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_compile_definitions(carom_sanitizers INTERFACE _GLIBCXX_ASSERTIONS)
   target_link_options(carom_sanitizers INTERFACE -fsanitize=${joined})
+  if(CAROM_SANITIZE MATCHES "address")
+    target_compile_definitions(carom_sanitizers INTERFACE CAROM_ADDRESS_SANITIZER)
+  endif()
   if(CAROM_SANITIZE MATCHES "thread")
     # Debian's oneTBB is built without the thread sanitizer, which takes every block for a race with whoever gave it
     # work. The one file that knows TBB (with what its headers make there) is left out too, and tells the sanitizer.

@@ -16,14 +16,7 @@
 #include "io/movie/frame_legend.hpp"
 
 // fontconfig keeps what it has found until the program ends, and LeakSanitizer would fail every test that draws text.
-#if defined(__SANITIZE_ADDRESS__)
-#define CAROM_LEAKS_ARE_LOOKED_FOR
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define CAROM_LEAKS_ARE_LOOKED_FOR
-#endif
-#endif
-#ifdef CAROM_LEAKS_ARE_LOOKED_FOR
+#ifdef CAROM_ADDRESS_SANITIZER
 extern "C" {
 const char* __lsan_default_suppressions();
 const char* __lsan_default_suppressions() {

@@ -220,7 +220,7 @@ TEST(CheckpointContent, ChangedAtRandomItIsTakenOrRefused) {
     for (std::uint32_t change = 0; change <= k % 3; ++change) {
       const TwoUniforms u = uniforms(5, Stream::position, k, change);
       const auto at = static_cast<std::size_t>(u.a * static_cast<double>(bytes.size()));
-      bytes[at] = static_cast<char>(u.b * 256.0);
+      bytes[at] = static_cast<char>(static_cast<unsigned char>(u.b * 256.0));
     }
     try {
       decode_checkpoint(bytes, "c");

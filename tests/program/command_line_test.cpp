@@ -222,7 +222,7 @@ TEST_F(CommandLine, CheckSaysWhatItWouldModel) {
 // A scene that the machine could hold and this process may not: a fault of the scene, whether it is run or checked. The
 // address sanitizer takes more room for itself than the limit leaves.
 TEST_F(CommandLine, DisksThatFindNoMemory) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef CAROM_ADDRESS_SANITIZER
   GTEST_SKIP() << "the address sanitizer needs terabytes of address space";
 #endif
   for (const char* const command : {"run --quiet", "check"}) {
