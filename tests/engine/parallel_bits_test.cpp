@@ -11,6 +11,7 @@
 #include "core/step/engine.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/feature_scenes.hpp"
+#include "tests/support/thread_counts.hpp"
 
 namespace carom {
 namespace {
@@ -69,7 +70,7 @@ TEST_P(ParallelBits, EqualTheReferenceAfterEveryStep) {
     const Scene scene = test::feature_scene(f, steps);
     const State start = initial_state(scene);
     const Trace expected = trace_of(*make_reference_engine(scene, start), scene.run.t_end);
-    for (const int threads : {1, 2, 3, 5, 8}) {
+    for (const int threads : test::thread_counts) {
       SCOPED_TRACE(threads);
       expect_same(expected, trace_of(*make_parallel_engine(scene, start, {threads, 512}), scene.run.t_end));
       if (::testing::Test::HasFatalFailure()) return;

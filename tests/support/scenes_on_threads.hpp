@@ -14,6 +14,7 @@
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
 #include "parallel/simulation.hpp"
+#include "tests/support/thread_counts.hpp"
 
 namespace carom::test {
 
@@ -67,7 +68,7 @@ inline void expect_engine_equals_reference(const std::string& name, int most_ste
     const State start = initial_state(scene);
     const int steps = steps_of(scene, start, most_steps);
     const std::vector<std::uint64_t> expected = hashes(*make_reference_engine(scene, start), steps);
-    for (const int threads : {1, 2, 3, 5, 8}) {
+    for (const int threads : thread_counts) {
       SCOPED_TRACE(std::string(method) + " on " + std::to_string(threads) + " threads");
       ASSERT_EQ(expected, hashes(*make_parallel_engine(scene, start, {threads, 256}), steps));
     }
