@@ -20,6 +20,7 @@
 #include "core/step/window_plan.hpp"
 #include "core/step/window_start.hpp"
 #include "parallel/cells/compact.hpp"
+#include "parallel/exact/logged_paths.hpp"
 #include "parallel/exact/neighbour_lists.hpp"
 #include "parallel/exact/slice_scheduler.hpp"
 #include "parallel/threads/executor.hpp"
@@ -34,8 +35,6 @@ constexpr std::size_t pass_block = 8192;
 // they were predicted: disks are predicted again this share of a window early. That is enough where the approach is
 // faster than WindowState::slow; slower contacts that are close are predicted at every start.
 constexpr double early_share = 1e-3;
-// Events a disk in a slice, at most: fewer leave less to the border pass, more need fewer passes.
-constexpr double events_per_slice = 0.25;
 // The lists are rebuilt, and the disks sorted, when they have been relisted so many times each: by then neighbours are
 // no longer neighbours in storage.
 constexpr Count relistings_a_disk = 8;
@@ -96,9 +95,7 @@ class ParallelExact final : public Engine {
   void set_speed_bound(const WindowPlan& plan, double margin);
   bool run_window_with_retry(WindowPlan& plan);
   SliceOutcome run_window(const WindowPlan& plan, double margin, bool regions_allowed);
-  double slice_end(const WindowPlan& plan, double start) const;
   void store_paths(const WindowPlan& plan);
-  std::vector<PathSegment> paths_at(double s, std::vector<unsigned char>& gone) const;
 
   Scene scene_;
   State state_;
@@ -120,13 +117,6 @@ class ParallelExact final : public Engine {
   std::vector<double> column_scratch_;
   std::vector<DiskId> id_scratch_;
 };
-
-void put(const PathSegment& p, Disks& d, std::size_t i) {
-  d.x[i] = p.x;
-  d.y[i] = p.y;
-  d.vx[i] = p.vx;
-  d.vy[i] = p.vy;
-}
 
 // Sources emit, Brownian disks draw their velocities; those that cross a sink unseen in the interval leave.
 void ParallelExact::start_window() {
@@ -343,7 +333,7 @@ SliceOutcome ParallelExact::run_window(const WindowPlan& plan, double margin, bo
   set_speed_bound(plan, margin);
   Count before = 0;
   for (double start = 0.0; start < plan.length;) {
-    const double end = slice_end(plan, start);
+    const double end = scheduler_.slice_end(plan.length, start, rate_);
     const double elapsed = std::min(end, plan.length) - start;
     const double per_disk = state_.disks.empty() ? 0.0 : rate_ / static_cast<double>(state_.disks.size());
     const SliceOutcome outcome = scheduler_.run(start, end, per_disk, plan.start);
@@ -354,16 +344,6 @@ SliceOutcome ParallelExact::run_window(const WindowPlan& plan, double margin, bo
   }
   scheduler_.end_window();
   return SliceOutcome::done;
-}
-
-// Slices of a window are of nearly equal length.
-double ParallelExact::slice_end(const WindowPlan& plan, double start) const {
-  const double n = static_cast<double>(state_.disks.size());
-  double longest = scheduler_.longest_slice();
-  if (longest < never && rate_ > 0.0) longest = std::min(longest, events_per_slice * n / rate_);
-  const double left = plan.length - start;
-  const double parts = std::ceil(left / longest);
-  return parts > 1.0 ? start + left / parts : never;
 }
 
 void ParallelExact::store_paths(const WindowPlan& plan) {
@@ -400,49 +380,14 @@ double ParallelExact::disks_at(double t, Disks& out) const {
     out = state_.disks;
     return state_.time;
   }
-  const double s = t > logged_->start ? t - logged_->start : 0.0;
   out = scheduler_.any_gone() ? at_start_ : state_.disks;
-  std::vector<unsigned char> gone;
-  const std::vector<PathSegment> path = paths_at(s, gone);
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    PathSegment p = carried_to(path[i], s, scene_.physics.gravity);
-    wrap_into(p, scene_.box);
-    put(p, out, i);
-  }
-  remove_marked(out, gone);
+  move_along_paths(window_, scheduler_, t > logged_->start ? t - logged_->start : 0.0, scene_.box, out);
   return t;
 }
 
-// Both disks of a collision have a segment that begins with it.
 std::vector<DiskContact> ParallelExact::contacts() const {
-  std::vector<DiskContact> met;
-  if (!window_.keeps_paths || !logged_) return met;
-  const std::vector<DiskId>& id = scheduler_.any_gone() ? at_start_.id : state_.disks.id;
-  scheduler_.read_logs([&](const std::vector<LoggedSegment>& log) {
-    for (const LoggedSegment& segment : log) {
-      if (!segment.with_disk() || id[segment.disk] > id[segment.partner]) continue;
-      met.push_back({id[segment.disk], id[segment.partner], logged_->start + segment.path.start});
-    }
-  });
-  return met;
-}
-
-// Of each disk the last segment that has begun by time s of the window; a worker's log has a disk's segments in order.
-std::vector<PathSegment> ParallelExact::paths_at(double s, std::vector<unsigned char>& gone) const {
-  std::vector<PathSegment> path(window_.record.size());
-  for (std::size_t i = 0; i < path.size(); ++i) path[i] = window_.record[i].path;
-  gone.assign(path.size(), 0);
-  std::vector<unsigned char> logged(path.size(), 0);
-  scheduler_.read_logs([&](const std::vector<LoggedSegment>& log) {
-    for (const LoggedSegment& segment : log) {
-      const std::uint32_t i = segment.disk;
-      if (segment.path.start > s || (logged[i] != 0 && segment.path.start < path[i].start)) continue;
-      path[i] = segment.path;
-      gone[i] = segment.partner == LoggedSegment::gone ? 1 : 0;
-      logged[i] = 1;
-    }
-  });
-  return path;
+  if (!window_.keeps_paths || !logged_) return {};
+  return contacts_of_window(scheduler_, scheduler_.any_gone() ? at_start_.id : state_.disks.id, logged_->start);
 }
 
 }  // namespace

@@ -7,6 +7,13 @@
 
 namespace carom {
 
+namespace {
+
+// Events a disk in a slice, at most: fewer leave less to the border pass, more need fewer passes.
+constexpr double events_per_slice = 0.25;
+
+}  // namespace
+
 void SliceScheduler::begin_window(bool rebuilt) {
   for (Region& region : regions_) region.worker.begin_window();
   border_pass_.begin_window();
@@ -79,6 +86,15 @@ void SliceScheduler::find_near_border(Region& region) {
 // more than that and what it covers in the slice.
 double SliceScheduler::longest_slice() const {
   return has_regions() ? (lists_.skin() - lists_.relist_distance()) / window_.speed_bound : never;
+}
+
+double SliceScheduler::slice_end(double length, double start, double rate) const {
+  double longest = longest_slice();
+  const double n = static_cast<double>(window_.record.size());
+  if (longest < never && rate > 0.0) longest = std::min(longest, events_per_slice * n / rate);
+  const double left = length - start;
+  const double parts = std::ceil(left / longest);
+  return parts > 1.0 ? start + left / parts : never;
 }
 
 SliceOutcome SliceScheduler::run(double start, double end, double per_disk, double window_start) {

@@ -32,8 +32,9 @@ class SliceScheduler {
   // A window begins, in window.mode. rebuilt: so do the lists.
   void begin_window(bool rebuilt);
 
-  // The longest time that a slice may last; window.speed_bound has been set.
-  double longest_slice() const;
+  // The end of the slice that begins at this time of a window of this length; `never` for the last one. All are of
+  // nearly equal length. rate: events per time, 0 if not known; window.speed_bound has been set.
+  double slice_end(double length, double start, double rate) const;
 
   // Runs the slice, the window's first where it starts at 0; per_disk: events a disk and time, about. At inelastic
   // collapse the result is `crowded` with regions; otherwise it throws PhysicsError.
@@ -63,6 +64,7 @@ class SliceScheduler {
     border_pass_.for_each_worker(visit);
     visit(single_);
   }
+  double longest_slice() const;
   bool has_regions() const { return window_.mode == EngineMode::regions; }
   void lay_out_regions();
   void find_border(Region& region);

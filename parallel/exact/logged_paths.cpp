@@ -1,0 +1,57 @@
+#include "parallel/exact/logged_paths.hpp"
+
+#include <cstdint>
+
+#include "core/physics/exact_path.hpp"
+
+namespace carom {
+
+namespace {
+
+// Of each disk the last segment that has begun by time s of the window; a worker's log has a disk's segments in order.
+std::vector<PathSegment> paths_at(const WindowState& window, const SliceScheduler& scheduler, double s,
+                                  std::vector<unsigned char>& gone) {
+  std::vector<PathSegment> path(window.record.size());
+  for (std::size_t i = 0; i < path.size(); ++i) path[i] = window.record[i].path;
+  gone.assign(path.size(), 0);
+  std::vector<unsigned char> logged(path.size(), 0);
+  scheduler.read_logs([&](const std::vector<LoggedSegment>& log) {
+    for (const LoggedSegment& segment : log) {
+      const std::uint32_t i = segment.disk;
+      if (segment.path.start > s || (logged[i] != 0 && segment.path.start < path[i].start)) continue;
+      path[i] = segment.path;
+      gone[i] = segment.partner == LoggedSegment::gone ? 1 : 0;
+      logged[i] = 1;
+    }
+  });
+  return path;
+}
+
+}  // namespace
+
+void move_along_paths(const WindowState& window, const SliceScheduler& scheduler, double s, const Domain& box,
+                      Disks& disks) {
+  std::vector<unsigned char> gone;
+  const std::vector<PathSegment> path = paths_at(window, scheduler, s, gone);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    PathSegment p = carried_to(path[i], s, window.rules.gravity);
+    wrap_into(p, box);
+    put(p, disks, i);
+  }
+  remove_marked(disks, gone);
+}
+
+// Both disks of a collision have a segment that begins with it.
+std::vector<DiskContact> contacts_of_window(const SliceScheduler& scheduler, const std::vector<DiskId>& id,
+                                            double start) {
+  std::vector<DiskContact> met;
+  scheduler.read_logs([&](const std::vector<LoggedSegment>& log) {
+    for (const LoggedSegment& segment : log) {
+      if (!segment.with_disk() || id[segment.disk] > id[segment.partner]) continue;
+      met.push_back({id[segment.disk], id[segment.partner], start + segment.path.start});
+    }
+  });
+  return met;
+}
+
+}  // namespace carom

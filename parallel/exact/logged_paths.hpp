@@ -1,0 +1,32 @@
+// What the workers' logs say of the last window: where disks were at a time within it, and which of them collided.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/disks/disk_contact.hpp"
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+#include "parallel/exact/slice_scheduler.hpp"
+#include "parallel/exact/window_state.hpp"
+
+namespace carom {
+
+// Makes the position and velocity of disk i those of the path's start.
+inline void put(const PathSegment& p, Disks& d, std::size_t i) {
+  d.x[i] = p.x;
+  d.y[i] = p.y;
+  d.vx[i] = p.vx;
+  d.vy[i] = p.vy;
+}
+
+// Carries the disks, stored as the window has them, along their logged paths to time s of the window; those that had
+// left through a sink by then are removed.
+void move_along_paths(const WindowState& window, const SliceScheduler& scheduler, double s, const Domain& box,
+                      Disks& disks);
+
+// The collisions of two disks in the window, which began at time `start`. id: of the disks as the window has them.
+std::vector<DiskContact> contacts_of_window(const SliceScheduler& scheduler, const std::vector<DiskId>& id,
+                                            double start);
+
+}  // namespace carom
