@@ -1,5 +1,5 @@
 // Measures the figures that speed is promised in, prints them as a table and writes them, with the machine they were
-// measured on, into a folder.
+// measured on, into a folder; the rows of parts that are not measured stay as they are.
 //   carom_figures FOLDER [gas|scaling|special|features|exact|exact_growth|memory]...   all, if none is named
 #include "bench/figures/figures.hpp"
 
@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <fstream>
 
@@ -36,11 +37,36 @@ const char* verdict(const Figure& f) {
   return kept ? "kept" : "MISSED";
 }
 
+const char* commit() {
+  const char* const given = std::getenv("CAROM_COMMIT");
+  return given != nullptr ? given : "";
+}
+
+std::string quoted(const std::string& name) {
+  return '"' + name + '"';
+}
+
+// The rows of figures that are not measured this time.
+std::vector<std::string> other_rows(const std::string& file, const std::vector<Figure>& figures) {
+  std::vector<std::string> rows;
+  std::ifstream before(file);
+  std::string row;
+  std::getline(before, row);  // names of columns
+  while (std::getline(before, row)) {
+    const auto is_row_of = [&](const Figure& f) { return row.starts_with(quoted(f.name) + ','); };
+    if (std::none_of(figures.begin(), figures.end(), is_row_of)) rows.push_back(row);
+  }
+  return rows;
+}
+
 void write_figures(const std::string& folder, const std::vector<Figure>& figures) {
-  auto file = fmt::output_file(folder + "/figures.csv");
-  file.print("figure,value,unit,promise,verdict\n");
+  const std::string name = folder + "/figures.csv";
+  const std::vector<std::string> kept = other_rows(name, figures);
+  auto file = fmt::output_file(name);
+  file.print("figure,value,unit,promise,verdict,commit\n");
+  for (const std::string& row : kept) file.print("{}\n", row);
   for (const Figure& f : figures) {
-    file.print("\"{}\",{:.4g},{},{},{}\n", f.name, f.value, f.unit, promise(f), verdict(f));
+    file.print("{},{:.4g},{},{},{},{}\n", quoted(f.name), f.value, f.unit, promise(f), verdict(f), commit());
     fmt::print("{:<62} {:>8.3g} {:<15} {:<13} {}\n", f.name, f.value, f.unit, promise(f), verdict(f));
   }
 }
@@ -48,8 +74,7 @@ void write_figures(const std::string& folder, const std::vector<Figure>& figures
 void write_machine(const std::string& folder) {
   auto file = fmt::output_file(folder + "/machine.csv");
   file.print("what,value\nprocessor,{}\ncores,{}\ncompiler,{}\ncommit,{}\nshielded,{}\n", processor(),
-             sysconf(_SC_NPROCESSORS_ONLN), CAROM_COMPILER,
-             std::getenv("CAROM_COMMIT") ? std::getenv("CAROM_COMMIT") : "", Shield::wanted() ? "yes" : "no");
+             sysconf(_SC_NPROCESSORS_ONLN), CAROM_COMPILER, commit(), Shield::wanted() ? "yes" : "no");
 }
 
 int run(const std::vector<std::string>& words) {
