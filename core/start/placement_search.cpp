@@ -99,6 +99,11 @@ void PlacementSearch::refine(std::vector<Voxel> survivors) {
   in_vain = 0;
 }
 
+void PlacementSearch::refine_to(std::size_t size) {
+  list->end_at(size);
+  in_vain = 0;
+}
+
 // With a list, points are uniform over its voxels: an accepted one has the same distribution, as the rest would have
 // been refused.
 void PlacementSearch::place_one(std::size_t k) {

@@ -74,6 +74,8 @@ struct PlacementSearch {
   // The last part of learn() in pieces, for many threads: learn() does without if there is no list to refine.
   bool refine_due() const { return list && in_vain > list->patience(); }
   void refine(std::vector<Voxel> survivors);
+  // The survivors are in place already (VoxelList::put), and there are so many of them.
+  void refine_to(std::size_t size);
 
   // Tries points for member k until one is free. Throws InputError when there is no room, or the trials run out.
   void place_one(std::size_t k);

@@ -97,6 +97,11 @@ std::vector<Voxel> VoxelList::survivors(const PlacementGrid& grid, std::size_t b
   return left;
 }
 
+std::size_t VoxelList::put(std::size_t first, const std::vector<Voxel>& survivors) {
+  std::copy(survivors.begin(), survivors.end(), list_.begin() + static_cast<std::ptrdiff_t>(first));
+  return first + survivors.size();
+}
+
 void VoxelList::replace(std::vector<Voxel> survivors) {
   const std::uint32_t parts = halved() ? 2 : 1;
   tile_ *= parts;

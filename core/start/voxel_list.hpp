@@ -54,8 +54,15 @@ class VoxelList {
   // The new list: all survivors, in order.
   void replace(std::vector<Voxel> survivors);
 
- private:
+  // Do the survivors of this list have half the size? If not, they are no more than the voxels that they are made from.
   bool halved() const;
+  // The same as replace, part by part and without a second list, of a list that is not to be halved: puts survivors of
+  // voxels up to some k >= first + their number in place of those from `first` on, and returns where they end;
+  // afterwards the list ends there.
+  std::size_t put(std::size_t first, const std::vector<Voxel>& survivors);
+  void end_at(std::size_t size) { list_.resize(size); }
+
+ private:
   bool outside(double x, double y, double half_x, double half_y) const;
   std::size_t entry_of(double which) const {
     return std::min(static_cast<std::size_t>(which * static_cast<double>(list_.size())), list_.size() - 1);

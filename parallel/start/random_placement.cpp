@@ -23,6 +23,7 @@ constexpr std::size_t range_of_members = 512;  // a task of the parallel search
 constexpr std::size_t lanes = 32;
 
 constexpr std::size_t range_of_voxels = 16384;
+constexpr std::size_t voxels_at_once = 16 * range_of_voxels;
 constexpr std::size_t voxels_per_member = 256;
 
 // Trials after which a disk is left to the plain search, which may learn more for it, and knows when to give up.
@@ -70,14 +71,27 @@ class BatchSearch {
 
   void learn() {
     if (!search_.refine_due()) return search_.learn();
-    const VoxelList& list = *search_.list;
-    std::vector<std::vector<Voxel>> parts(executor_.blocks(list.size(), range_of_voxels));
-    executor_.for_ranges(list.size(), range_of_voxels, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      parts[part] = list.survivors(search_.grid, begin, end);
+    VoxelList& list = *search_.list;
+    if (list.halved()) {
+      std::vector<Voxel> survivors;
+      for (const auto& part : survivors_of(0, list.size())) survivors.insert(survivors.end(), part.begin(), part.end());
+      return search_.refine(std::move(survivors));
+    }
+    // In place, as two lists at a time would be the most memory that a run ever needs.
+    std::size_t kept = 0;
+    for (std::size_t first = 0; first < list.size(); first += voxels_at_once) {
+      const std::size_t count = std::min(voxels_at_once, list.size() - first);
+      for (const auto& part : survivors_of(first, count)) kept = list.put(kept, part);
+    }
+    search_.refine_to(kept);
+  }
+
+  std::vector<std::vector<Voxel>> survivors_of(std::size_t first, std::size_t count) {
+    std::vector<std::vector<Voxel>> parts(executor_.blocks(count, range_of_voxels));
+    executor_.for_ranges(count, range_of_voxels, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      parts[part] = search_.list->survivors(search_.grid, first + begin, first + end);
     });
-    std::vector<Voxel> survivors;
-    for (const auto& part : parts) survivors.insert(survivors.end(), part.begin(), part.end());
-    search_.refine(std::move(survivors));
+    return parts;
   }
 
   // Where few places are left, a large batch would only get into its own way.
