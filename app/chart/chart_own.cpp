@@ -120,8 +120,8 @@ void plan_flight(const Scene& scene, const Trial& trial, ChartScene& chart) {
   chart.length = std::min(trial.length, scene.run.t_end);
   chart.longest_step = std::min(0.98 * safe_travel / std::sqrt(trial.travel2), 0.5 * chart.flight);
   const bool walls = scene.box.has(SideKind::wall);
-  const bool elastic = scene.physics.restitution == 1.0 && !scene.box.walls_dissipate() &&
-                       !scene.box.has_thermal_side() && !scene.box.has_moving_side();
+  const bool elastic = !disks_dissipate(scene) && !scene.box.walls_dissipate() && !scene.box.has_thermal_side() &&
+                       !scene.box.has_moving_side();
   chart.keeps_energy = elastic;
   chart.keeps_momentum = !walls && scene.physics.gravity == 0.0;
   chart.figure = !elastic && chart.keeps_momentum ? Figure::cooling : Figure::pressure;

@@ -30,6 +30,7 @@ double cpu_seconds() {
 State start_state(const ChartScene& scene, std::uint64_t seed) {
   Scene melting = scene_of(scene, seed, Method::exact, 0.0, scene.melting);
   melting.physics.restitution = 1.0;
+  melting.physics.law = {};
   melting.physics.diffusion = 0.0;
   const auto engine = make_parallel_engine(melting, initial_state(melting), {1});
   engine->forget_paths();

@@ -10,6 +10,7 @@
 #include "app/cli/progress.hpp"
 #include "core/base/short_number.hpp"
 #include "core/load/method_choice.hpp"
+#include "core/scene/disk_group.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/step/step_clock.hpp"
 
@@ -52,10 +53,26 @@ std::string walls_text(const Domain& box) {
   return equal && first ? fmt::format(", {:g} at walls", *first) : text;
 }
 
+std::string restitution_text(const Restitution& r) {
+  if (r.viscosity == 0.0) return fmt::format("{:g}", r.least);
+  return fmt::format("max({:g}, 1 - {:g} v^(1/5))", r.least, r.viscosity);
+}
+
+// "0.9 of disks, 0.5 of light with heavy".
+std::string restitutions_text(const Scene& scene) {
+  const Physics& p = scene.physics;
+  std::string text = restitution_text({p.restitution, p.law.viscosity}) + " of disks";
+  for (const GroupPair& pair : p.law.pairs) {
+    text += fmt::format(", {} of {} with {}", restitution_text(pair.restitution), name_of_group(scene, pair.first),
+                        name_of_group(scene, pair.second));
+  }
+  return text;
+}
+
 std::string physics_text(const Scene& scene) {
   const Physics& p = scene.physics;
   std::string text = p.gravity > 0.0 ? fmt::format("gravity {:g} downwards; ", p.gravity) : "no gravity; ";
-  text += p.restitution == 1.0 ? "elastic collisions" : fmt::format("restitution {:g} of disks", p.restitution);
+  text += disks_dissipate(scene) ? fmt::format("restitution {}", restitutions_text(scene)) : "elastic collisions";
   text += walls_text(scene.box);
   if (p.diffusion > 0.0) {
     text += fmt::format("; Brownian motion, D = {:g}{}", p.diffusion, p.accumulate ? ", accumulating velocity" : "");
@@ -142,7 +159,7 @@ const char* averages_of(const Scene& scene, const MethodChoice& choice) {
   if (scene.physics.diffusion > 0.0) return "mean square displacement";
   // Where disks come to rest, how often they still hit each other depends on the step: soft hits become load.
   if (choice.scales.settles) return "energy lost; not collisions, of which a pile has as many as steps show";
-  return scene.physics.restitution < 1.0 ? "collision rate, pressure, cooling rate" : "collision rate, pressure";
+  return disks_dissipate(scene) ? "collision rate, pressure, cooling rate" : "collision rate, pressure";
 }
 
 // Which method and step an accuracy needs. Costs are those of the machine that core/load/method_rates.hpp was measured

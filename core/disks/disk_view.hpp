@@ -6,9 +6,11 @@
 
 namespace carom {
 
-template <bool own_radius, bool own_mass>
+// under_law: collisions ask a RestitutionLaw, where others take one number.
+template <bool own_radius, bool own_mass, bool under_law = false>
 struct DiskView {
   static constexpr bool has_mass = own_mass;
+  static constexpr bool has_law = under_law;
   double* x;
   double* y;
   double* vx;
@@ -35,19 +37,19 @@ struct DiskView {
   }
 };
 
-template <bool own_radius, bool own_mass>
-DiskView<own_radius, own_mass> view_of(Disks& d) {
+template <bool own_radius, bool own_mass, bool under_law = false>
+DiskView<own_radius, own_mass, under_law> view_of(Disks& d) {
   return {d.x.data(),      d.y.data(),    d.vx.data(),     d.vy.data(),  d.id.data(),
           d.radius.data(), d.mass.data(), d.common_radius, d.common_mass};
 }
 
 // Calls kernel(view) with the view type that fits the columns present.
-template <class Kernel>
+template <bool under_law = false, class Kernel>
 decltype(auto) with_view(Disks& d, Kernel&& kernel) {
   if (d.radius.empty()) {
-    return d.mass.empty() ? kernel(view_of<false, false>(d)) : kernel(view_of<false, true>(d));
+    return d.mass.empty() ? kernel(view_of<false, false, under_law>(d)) : kernel(view_of<false, true, under_law>(d));
   }
-  return d.mass.empty() ? kernel(view_of<true, false>(d)) : kernel(view_of<true, true>(d));
+  return d.mass.empty() ? kernel(view_of<true, false, under_law>(d)) : kernel(view_of<true, true, under_law>(d));
 }
 
 }  // namespace carom

@@ -22,6 +22,7 @@
 #include "core/scene/scene_override.hpp"
 #include "core/scene/scene_range_check.hpp"
 #include "core/scene/scene_reader.hpp"
+#include "core/scene/scene_restitution.hpp"
 #include "core/scene/scene_sides.hpp"
 #include "core/scene/scene_tree.hpp"
 #include "core/scene/scene_walls.hpp"
@@ -112,7 +113,6 @@ Physics read_physics(const SceneOrigin& origin) {
   if (table == nullptr) return physics;
   const TableReader reader(origin, "physics", *table);
   physics.gravity = reader.number_or_initial("gravity");
-  physics.restitution = reader.number_or_initial("restitution");
   physics.diffusion = reader.number("diffusion").value_or(0.0);
   physics.accumulate = reader.flag_or_initial("accumulate");
   const toml::node* node = reader.find("collapse");
@@ -346,6 +346,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   if (scene.groups.empty() && scene.sources.empty()) {
     origin.fail("disks", "missing", "expected one table [[disks]] or more");
   }
+  read_restitutions(origin, scene);
   scene.walls = read_tables(origin, "walls", read_wall);
   scene.growth = read_growth(origin);
   scene.run = read_run(origin);

@@ -16,11 +16,13 @@ namespace carom {
 // The constants of a run.
 struct ExactRules {
   Domain box;
-  double gravity = 0.0;        // length / time^2
-  double restitution = 1.0;    // of disk pairs
-  double contact_time = -1.0;  // TC model; time, < 0: off
-  std::uint64_t seed = 0;      // with thermal sides
-  bool common_mass = true;     // pairs share impulses half and half
+  double gravity = 0.0;                 // length / time^2
+  double restitution = 1.0;             // of disk pairs
+  double contact_time = -1.0;           // TC model; time, < 0: off
+  std::uint64_t seed = 0;               // with thermal sides
+  bool common_mass = true;              // pairs share impulses half and half
+  const RestitutionLaw* law = nullptr;  // of disks, where `restitution` is not all
+  bool constant = true;  // neither a law nor the TC model: a contact's restitution is a number that is known before
 
   bool tc() const { return contact_time >= 0.0; }
 };
@@ -37,33 +39,44 @@ inline bool made_elastic(const ExactRules& rules, double s, double last_contact)
   return rules.tc() && s - last_contact < rules.contact_time;
 }
 
-// Two disks (smaller id first) collide at time s with restitution e; their new segments p and q start there. share and
-// reduced_mass: of their masses. gravity: is g not 0?
-template <bool gravity>
+// Two disks (smaller id first) collide at time s; their new segments p and q start there. share and reduced_mass: of
+// their masses. restitution(r): of disks that approach as r says. gravity: is g not 0?
+template <bool gravity, class RestitutionOf>
 [[gnu::always_inline]] inline Impact collide_paths(const Domain& box, double g, double s, Shares share,
-                                                   double reduced_mass, double e, PathSegment& p, PathSegment& q) {
+                                                   double reduced_mass, const RestitutionOf& restitution,
+                                                   PathSegment& p, PathSegment& q) {
   drift<gravity>(p.x, p.y, p.vx, p.vy, s - p.start, g);
   drift<gravity>(q.x, q.y, q.vx, q.vy, s - q.start, g);
   p.start = q.start = s;
   const Relative r = relative(p, q, box);
   Impact outcome;
   if (r.approach() < 0.0 && r.distance2() > 0.0) {
-    outcome = {reduced_mass * collide(r, share, e, p.vx, p.vy, q.vx, q.vy), 0.0, true, false};
+    const double e = restitution(r);
+    outcome = {reduced_mass * collide(r, share, e, p.vx, p.vy, q.vx, q.vy), 0.0, true, false, e < 1.0};
   }
   wrap_into(p, box);
   wrap_into(q, box);
   return outcome;
 }
 
-// Disks a and b (smaller id first) collide at time s; their new segments start there.
-inline Impact collide_at(const ExactRules& rules, double s, double mass_a, double mass_b, ExactDisk& a, ExactDisk& b) {
+// Disks a and b, which have these ids (the smaller one first), collide at time s; their new segments start there.
+inline Impact collide_at(const ExactRules& rules, double s, DiskId id_a, DiskId id_b, double mass_a, double mass_b,
+                         ExactDisk& a, ExactDisk& b) {
   const Shares share = rules.common_mass ? equal_shares : shares(mass_a, mass_b);
-  const bool elastic = made_elastic(rules, s, std::max(a.last_contact, b.last_contact));
-  const double e = elastic ? 1.0 : rules.restitution;
-  Impact outcome =
-      collide_paths<true>(rules.box, rules.gravity, s, share, reduced_mass(mass_a, mass_b), e, a.path, b.path);
+  bool held_elastic = false;  // by the TC model
+  const auto restitution = [&](const Relative& r) {
+    if (rules.constant) return rules.restitution;
+    const double e = rules.law == nullptr
+                         ? rules.restitution
+                         : restitution_at(rules.law->of(rules.restitution, id_a, id_b), speed_of_approach(r));
+    const bool elastic = made_elastic(rules, s, std::max(a.last_contact, b.last_contact));
+    held_elastic = elastic && e < 1.0;
+    return elastic ? 1.0 : e;
+  };
+  Impact outcome = collide_paths<true>(rules.box, rules.gravity, s, share, reduced_mass(mass_a, mass_b), restitution,
+                                       a.path, b.path);
   if (outcome.happened) {
-    outcome.inaccurate = elastic && rules.restitution < 1.0;
+    outcome.inaccurate = held_elastic;
     a.last_contact = b.last_contact = s;
   }
   return outcome;
@@ -97,7 +110,7 @@ inline Impact meet_moving_side(const ExactRules& rules, double s, Side side, dou
   const bool elastic = made_elastic(rules, s, a.last_contact);
   const double e = elastic ? 1.0 : rules.box.restitution(side);
   const double approach = approach_speed(side, p.vx, p.vy, place);
-  Impact outcome{0.0, 0.0, true, elastic && rules.box.restitution(side) < 1.0};
+  Impact outcome{0.0, 0.0, true, elastic && rules.box.restitution(side) < 1.0, e < 1.0};
   const double leaving = approach > 0.0 ? e * approach : -approach;
   const double hop =
       rules.tc() ? least_hop * approach_acceleration(side, rules.gravity, place) * rules.contact_time : 0.0;
@@ -127,17 +140,18 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
     if (before > 0.0) bounce(side, e, p.vx, p.vy);
     if (side == Side::bottom && rules.tc()) p.vy = std::max(p.vy, least_hop * rules.gravity * rules.contact_time);
     outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), 0.0, true,
-               elastic && rules.box.restitution(side) < 1.0};
+               elastic && rules.box.restitution(side) < 1.0, e < 1.0};
     a.last_contact = s;
   }
   if (rules.box.side(side) != SideKind::sink) wrap_into(p, rules.box);
   return outcome;
 }
 
-// Disk a touches obstacle k (its place in State::obstacles) at time s: it bounces along the shortest line to it; what a
-// sink takes, the caller removes. Under the
-// TC model it hops as from the floor, in proportion to the part of gravity that presses it against the obstacle.
-inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t k, double mass, ExactDisk& a) {
+// Disk a, which has this id, touches obstacle k (its place in State::obstacles) at time s: it bounces along the
+// shortest line to it; what a sink takes, the caller removes. Under the TC model it hops as from the floor, in
+// proportion to the part of gravity that presses it against the obstacle.
+inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t k, double mass, DiskId id,
+                               ExactDisk& a) {
   PathSegment& p = a.path;
   p = carried_to(p, s, rules.gravity);
   const Obstacle& o = (*rules.box.obstacles)[k];
@@ -149,8 +163,13 @@ inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t 
   const double distance = std::sqrt(distance2);
   Impact outcome;
   if (distance > 0.0) {
-    const bool elastic = made_elastic(rules, s, a.last_contact);
-    const double e = elastic ? 1.0 : o.restitution;
+    double own = o.restitution;
+    bool elastic = false;
+    if (!rules.constant) {
+      elastic = made_elastic(rules, s, a.last_contact);
+      if (rules.law != nullptr) own = restitution_under_law(rules, id, o, std::max(0.0, -approach) / distance);
+    }
+    const double e = elastic ? 1.0 : own;
     double change = approach < 0.0 ? -(1.0 + e) * approach : 0.0;  // of the approach
     if (rules.tc()) {
       const double least = least_hop * rules.contact_time * (rules.gravity * apart.y);
@@ -158,8 +177,9 @@ inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t 
     }
     p.vx += change / distance2 * apart.x;
     p.vy += change / distance2 * apart.y;
-    outcome = {mass * (change / distance), 0.0, change > 0.0, elastic && o.restitution < 1.0};
-    if (outcome.happened) a.last_contact = s;
+    const bool bounced = change > 0.0;
+    outcome = {mass * (change / distance), 0.0, bounced, elastic && own < 1.0, bounced && e < 1.0};
+    if (bounced) a.last_contact = s;
   }
   wrap_into(p, rules.box);
   return outcome;
@@ -171,15 +191,11 @@ struct EventMark {
   DiskId id1 = 0, id2 = 0;  // id2 may be a wall_partner
 };
 
-// May any of the scene's contacts lose energy?
-inline bool dissipates(const Domain& box, double restitution) {
-  return restitution < 1.0 || box.walls_dissipate() || (box.obstacles != nullptr && box.obstacles->dissipates());
-}
-
-// Is this an impact that loses energy? partner: the second disk's id, or a wall_partner.
-inline bool loses_energy(const ExactRules& rules, DiskId partner, const Impact& impact) {
-  const double e = is_wall(partner) ? restitution_of_wall(rules.box, partner) : rules.restitution;
-  return e < 1.0 && impact.happened && !impact.inaccurate;
+// May any of the run's contacts lose energy?
+inline bool dissipates(const ExactRules& rules) {
+  const Domain& box = rules.box;
+  return rules.restitution < 1.0 || (rules.law != nullptr && rules.law->dissipates()) || box.walls_dissipate() ||
+         (box.obstacles != nullptr && box.obstacles->dissipates());
 }
 
 // Inelastic collapse: more than this many impacts of one disk that lose energy, within this share of the window's

@@ -15,6 +15,7 @@
 #include "core/physics/disk_pair.hpp"
 #include "core/physics/moving_side.hpp"
 #include "core/physics/obstacle_contact.hpp"
+#include "core/physics/restitution.hpp"
 #include "core/physics/thermal_side.hpp"
 
 namespace carom {
@@ -29,6 +30,7 @@ struct StepRules {
   std::uint64_t seed = 0;                 // with thermal sides
   std::uint32_t* thermal_hits = nullptr;  // State::thermal_hits; a disk in contact changes its own
   int round = 0;  // of resolving within the step; later ones find what the one before pressed together
+  const RestitutionLaw* law = nullptr;  // of disks, where `restitution` is not all
 };
 
 // What became of one contact event.
@@ -38,6 +40,7 @@ struct Impact {
   bool happened = false;
   // Late, since the disks have overlapped since before the step; or made elastic by the TC model (exact).
   bool inaccurate = false;
+  bool lost_energy = false;  // exact only
 };
 
 template <class View>
@@ -98,12 +101,6 @@ double reach_beyond_wall(const View& d, const Domain& box, std::uint32_t i, Disk
   return reach_beyond_wall(wall_side(partner), d.x[i], d.y[i], d.radius(i), box);
 }
 
-// Restitution of a contact with a wall or an obstacle.
-inline double restitution_of_wall(const Domain& box, DiskId partner) {
-  return is_obstacle(partner) ? (*box.obstacles)[obstacle_of(partner)].restitution
-                              : box.restitution(wall_side(partner));
-}
-
 // Does what stands for a wall in a contact take disks away?
 inline bool is_sink(const Domain& box, DiskId partner) {
   if (is_obstacle(partner)) return (*box.obstacles)[obstacle_of(partner)].kind == ObstacleKind::sink;
@@ -148,7 +145,8 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
   Impact impact;
   if (r.distance2() > 0.0 && r.approach() < 0.0) {
     const Shares share = shares_of(d, i, j);
-    const double change = collide(r, share, rules.restitution, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
+    const double e = pair_restitution(d, rules, i, j, r);
+    const double change = collide(r, share, e, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
     impact = {reduced_mass(d.mass(i), d.mass(j)) * change, 0.0, true, !inside_step};
   }
   if (inside_step) {
@@ -268,7 +266,8 @@ double bounce_at_obstacle(const View& d, const StepRules& rules, std::uint32_t i
   const double speed = speed_towards(gap, d.vx[i], d.vy[i]);
   // What lifting it by gap.beyond along the normal costs is taken from its motion along the normal.
   const double left = speed * speed - 2.0 * (rules.gravity * gap.ny) * gap.beyond;
-  const double away = o.restitution * std::sqrt(std::max(0.0, left));
+  const double there = std::sqrt(std::max(0.0, left));
+  const double away = obstacle_restitution(d, rules, i, o, there) * there;
   d.x[i] += gap.beyond * gap.nx;
   d.y[i] += gap.beyond * gap.ny;
   kick_away(d, i, gap, speed + away);
@@ -290,7 +289,7 @@ Impact resolve_obstacle(const View& d, const StepRules& rules, std::uint32_t i, 
     gap = gap_now();
     const double impact_speed = speed(gap);
     if (impact_speed > 0.0) {
-      change = impact_speed * (1.0 + o.restitution);
+      change = impact_speed * (1.0 + obstacle_restitution(d, rules, i, o, impact_speed));
       kick_away(d, i, gap, change);
     }
     drift_one(d, i, ago, rules.gravity);

@@ -54,20 +54,15 @@ bool is_support(const View& d, const StepRules& rules, const ContactEvent& e, bo
   if (loaded && squeezed) return true;
   const double speed = std::abs(normal_velocity(d, rules.box, e));
   if (squeezed) return speed <= squeezed_rest * rules.gravity * rules.dt;
-  const bool lies = is_wall(e.id2) && restitution_of_wall(rules.box, e.id2) < 1.0;
+  const bool lies = is_wall(e.id2) && may_lose_energy(d, rules, e);
   return lies && speed <= lying_rest * rules.gravity * rules.dt;
-}
-
-// Does what is left of the approach, after the impacts, dissipate at this contact?
-inline bool dissipates(const StepRules& rules, const ContactEvent& e) {
-  return (is_wall(e.id2) ? restitution_of_wall(rules.box, e.id2) : rules.restitution) < 1.0;
 }
 
 // Is this contact solved together with the others? Supports are; so are all crowded contacts that dissipate, since what
 // the others bear may press them together, and since impacts one after another cannot end in a crowd.
 template <class View>
 bool is_solved(const View& d, const StepRules& rules, const ContactEvent& e, bool loaded, bool squeezed) {
-  return (squeezed && dissipates(rules, e)) || is_support(d, rules, e, loaded, squeezed);
+  return (squeezed && may_lose_energy(d, rules, e)) || is_support(d, rules, e, loaded, squeezed);
 }
 
 // Length that a loaded contact may overlap by.

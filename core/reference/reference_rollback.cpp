@@ -43,7 +43,7 @@ class RollbackPhases : public ReferenceEngine {
 
   void meet_all_walls(const StepRules& rules, ImpactTally& tally) {
     const PhaseTimer timer(times_, "resolve");
-    with_view(state_.disks, [&](const auto& d) {
+    with_view(state_.disks, rules, [&](const auto& d) {
       for (std::size_t i = 0; i < state_.disks.size(); ++i) {
         meet_walls(d, rules, static_cast<std::uint32_t>(i), tally);
       }

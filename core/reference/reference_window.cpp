@@ -89,26 +89,26 @@ class EventLoop {
     if (pair) add_travel(e.i2, e.time);
     ExactDisk& first = result_.disks[e.i1];
     const Impact outcome =
-        pair ? collide_at(rules_, e.time, disks_.mass_of(e.i1), disks_.mass_of(e.i2), first, result_.disks[e.i2])
-        : is_obstacle(e.id2) ? meet_obstacle_at(rules_, e.time, obstacle_of(e.id2), disks_.mass_of(e.i1), first)
+        pair ? collide_at(rules_, e.time, e.id1, e.id2, disks_.mass_of(e.i1), disks_.mass_of(e.i2), first,
+                          result_.disks[e.i2])
+        : is_obstacle(e.id2) ? meet_obstacle_at(rules_, e.time, obstacle_of(e.id2), disks_.mass_of(e.i1), e.id1, first)
                              : meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), e.id1, first);
     result_.tally.add(e.id2, outcome);
     if (pair && outcome.happened) result_.collisions.emplace_back(e.id1, e.id2);
     if (!pair && is_sink(rules_.box, e.id2)) result_.gone[e.i1] = 1;
-    const bool inelastic = loses_energy(rules_, e.id2, outcome);
-    begin_segment(e, e.i1, inelastic);
-    if (pair) begin_segment(e, e.i2, inelastic);
+    begin_segment(e, e.i1, outcome.lost_energy);
+    if (pair) begin_segment(e, e.i2, outcome.lost_energy);
     if (pair) predict(e.i2, false);
     if (result_.gone[e.i1] == 0) predict(e.i1, false);
   }
 
-  void begin_segment(const Event& e, std::uint32_t i, bool inelastic) {
+  void begin_segment(const Event& e, std::uint32_t i, bool lost_energy) {
     ++version_[i];
     result_.paths.later.push_back({i, path(i), result_.gone[i] != 0, i == e.i1 ? e.id2 : e.id1});
     const EventMark mark{e.time, e.id1, e.id2};
     const bool many = version_[i] > most_paths_of_disk || result_.paths.later.size() > most_paths(disks_.size());
     if (many) result_.crowded = mark;
-    if (inelastic && burst_[i].add(e.time, plan_.length)) collapse_ = mark;
+    if (lost_energy && burst_[i].add(e.time, plan_.length)) collapse_ = mark;
   }
 
   // Adds the path length along the present segment up to time s; under gravity an upper bound.

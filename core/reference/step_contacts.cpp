@@ -121,7 +121,7 @@ StepFigures resolve_serially(State& state, const StepRules& rules, std::vector<C
                              CollisionLog* log) {
   std::sort(events.begin(), events.end(), event_order);
   StepFigures figures;
-  with_view(state.disks, [&](const auto& d) {
+  with_view(state.disks, rules, [&](const auto& d) {
     const std::vector<std::uint32_t> contacts = contacts_per_disk(state.disks.size(), events);
     for (const ContactEvent& e : events) {
       const bool bore = load_of(state.loads, e) > 0.0 && is_crowded(contacts, e);  // seen at the end of that step

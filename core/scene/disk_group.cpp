@@ -31,6 +31,10 @@ std::vector<NamedGroup> named_groups(const Scene& scene) {
   return named;
 }
 
+std::string_view name_of_group(const Scene& scene, DiskId number) {
+  return number < scene.groups.size() ? std::string_view(scene.groups[number].name) : sources_name;
+}
+
 std::vector<NamedGroup> reported_groups(const Scene& scene) {
   const auto has_name = [](const DiskGroup& group) { return !group.name.empty() && !group.fixed; };
   if (std::none_of(scene.groups.begin(), scene.groups.end(), has_name)) return {};

@@ -30,6 +30,9 @@ struct NamedGroup {
 // which have no motion and are measured nowhere.
 std::vector<NamedGroup> named_groups(const Scene& scene);
 
+// What the scene calls the group with this number, as group_of says; empty: it has no name.
+std::string_view name_of_group(const Scene& scene, DiskId number);
+
 // The same, but none where no block has a name: what a run tells of each group.
 std::vector<NamedGroup> reported_groups(const Scene& scene);
 

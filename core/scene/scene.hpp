@@ -11,6 +11,7 @@
 
 #include "core/base/types.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/restitution_law.hpp"
 
 namespace carom {
 
@@ -100,7 +101,8 @@ struct InnerWall {
 
 struct Physics {
   double gravity = 0.0;      // length / time^2, along -y
-  double restitution = 1.0;  // in [0, 1]
+  double restitution = 1.0;  // of two disks, in [0, 1]; the least one where it depends on their speed
+  RestitutionLaw law;        // what there is beside that number
   double diffusion = 0.0;    // length^2 / time; > 0: Brownian motion, (24) of docs/original.md
   bool accumulate = false;   // docs/original.md: u / dt is added to the velocity instead of replacing it
   std::optional<double> collapse_contact_time;  // TC model, exact only
@@ -228,6 +230,16 @@ inline bool has_sinks(const Scene& scene) {
     if (wall.sink) return true;
   }
   return scene.box.has(SideKind::sink);
+}
+
+// May a collision of two disks, fixed ones included, lose energy?
+inline bool disks_dissipate(const Scene& scene) {
+  return scene.physics.restitution < 1.0 || scene.physics.law.dissipates();
+}
+
+// Null where the number says it all. Lives as long as the scene.
+inline const RestitutionLaw* law_of(const Scene& scene) {
+  return scene.physics.law.is_empty() ? nullptr : &scene.physics.law;
 }
 
 // May a collision with an inner wall lose energy?

@@ -24,6 +24,7 @@ constexpr std::string_view mass_allowed =
     "}`, `{ from_radius = ... }`, or `{ frame = ... }`";
 constexpr std::string_view velocities_allowed =
     "`{ maxwell = ... }`, `{ uniform = ... }`, a list of [vx, vy], `{ file = ... }`, or `{ frame = ... }`";
+constexpr std::string_view restitution_allowed = "a number from 0 to 1, or `{ viscoelastic = ... }`";
 constexpr std::string_view range_allowed = "[low, high] with 0 < low <= high";
 
 constexpr SceneKey keys[] = {
@@ -103,8 +104,23 @@ constexpr SceneKey keys[] = {
     {"physics", "gravity", non_negative, Dimension::acceleration, "0", "Acceleration downwards, along -y.",
      "gravity = 0.5"},
     {"physics", "restitution", unit_interval, none, "1",
-     "Speed of separation over speed of approach, along the line of centres, in a collision of two disks.",
-     "restitution = 0.8"},
+     "Speed of separation over speed of approach, along the line of centres, in a collision of two disks, fixed ones "
+     "included.",
+     "restitution = 0.8", restitution_allowed},
+    {"physics", "pairs", special, none, "none", "The restitution of two groups.", "[[physics.pairs]]",
+     "one or more tables"},
+    {"physics.restitution", "viscoelastic", positive, none, "required",
+     "a of e(v) = max(`least`, 1 - a v^(1/5)), v the speed of approach along the line of centres: slow disks lose a "
+     "smaller part of their energy. In (time / length)^(1/5).",
+     "restitution = { viscoelastic = 0.1 }"},
+    {"physics.restitution", "least", unit_interval, none, "0", "What e does not fall below, however fast.",
+     "restitution = { viscoelastic = 0.1, least = 0.4 }", "a number from 0 to below 1"},
+    {"physics.pairs", "groups", special, none, "required",
+     "Names of two groups, or one name twice; `sources` for the disks of all sources.",
+     R"(groups = ["tracer", "sources"])", "a list of two names"},
+    {"physics.pairs", "restitution", unit_interval, none, "required",
+     "Takes the place of that of `[physics]` where a disk of one group meets one of the other.", "restitution = 0.5",
+     restitution_allowed},
     {"physics", "diffusion", positive, Dimension::diffusion, "no Brownian motion",
      "D of a single disk in Brownian motion: each step draws a displacement of variance 2 D dt in x and in y.",
      "diffusion = 0.1"},

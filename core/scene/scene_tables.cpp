@@ -13,6 +13,12 @@ constexpr SceneTable tables[] = {
      "A side of which there is more to say than its kind."},
     {"box.side.motion", "`motion = { ... }` of a side", "Exactly one of `velocity` and `vibrate`."},
     {"physics", "`[physics]`", "What acts on the disks. A scene states only what it has."},
+    {"physics.restitution", "`restitution = { ... }` in `[physics]` and `[[physics.pairs]]`",
+     "A restitution that depends on the speed of approach (Schwager and Poeschel 1998); see "
+     "[methods.md](methods.md#what-they-share)."},
+    {"physics.pairs", "`[[physics.pairs]]`",
+     "The restitution of collisions between two groups, or within one; each pair once, in either order. Pairs that are "
+     "not stated have the restitution of `[physics]`."},
     {"physics.collapse", "`collapse = { ... }` in `[physics]`",
      "The remedy for inelastic collapse under method `exact`: the TC model (Luding and McNamara 1998), in which a "
      "collision is elastic where one of its disks collided less than `contact_time` ago."},

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "core/scene/disk_group.hpp"
 #include "core/scene/scene_names.hpp"
 
 namespace carom {
@@ -148,15 +149,26 @@ std::string box_text(const Scene& scene) {
   return text + fmt::format("wall_restitution = {}\n", decimal(common));
 }
 
-std::string physics_text(const Physics& physics) {
+std::string restitution_text(const Restitution& r) {
+  if (r.viscosity == 0.0) return decimal(r.least);
+  return fmt::format("{{ viscoelastic = {}, least = {} }}", decimal(r.viscosity), decimal(r.least));
+}
+
+std::string physics_text(const Scene& scene) {
+  const Physics& physics = scene.physics;
   std::string text = fmt::format("\n[physics]\ngravity = {}\nrestitution = {}\n", decimal(physics.gravity),
-                                 decimal(physics.restitution));
+                                 restitution_text({physics.restitution, physics.law.viscosity}));
   if (physics.diffusion > 0.0) {
     text += fmt::format("diffusion = {}\naccumulate = {}\n", decimal(physics.diffusion), physics.accumulate);
   }
   if (physics.collapse_contact_time) {
     text +=
         fmt::format("collapse = {{ model = \"tc\", contact_time = {} }}\n", decimal(*physics.collapse_contact_time));
+  }
+  for (const GroupPair& pair : physics.law.pairs) {
+    text += fmt::format("\n[[physics.pairs]]\ngroups = [\"{}\", \"{}\"]\nrestitution = {}\n",
+                        name_of_group(scene, pair.first), name_of_group(scene, pair.second),
+                        restitution_text(pair.restitution));
   }
   return text;
 }
@@ -288,7 +300,7 @@ std::string seed_text(std::uint64_t seed) {
 std::string resolved_toml(const Scene& scene) {
   std::string text = fmt::format("title = {}\nseed = {}\n", quoted_toml(scene.title), seed_text(scene.seed));
   text += box_text(scene);
-  text += physics_text(scene.physics);
+  text += physics_text(scene);
   for (const DiskGroup& group : scene.groups) text += group_text(group);
   text += growth_text(scene);
   for (const Source& source : scene.sources) text += source_text(source);

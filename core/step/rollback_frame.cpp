@@ -31,7 +31,7 @@ bool is_at_a_distance(const StepRules& rules, const ContactEvent& e, double back
 
 void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally,
                 CollisionLog* log) {
-  with_view(disks, [&](const auto& d) {
+  with_view(disks, rules, [&](const auto& d) {
     for (const ContactEvent& e : events) {
       const Impact impact = bounce_pair(d, rules, e.i1, e.i2);
       tally.add(e.id2, impact);

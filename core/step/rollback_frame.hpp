@@ -25,7 +25,8 @@ template <class View>
 Impact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
   const Relative r = relative(d, i, j, rules.box);
   if (!(r.approach() < 0.0)) return {};
-  const double change = collide(r, shares_of(d, i, j), rules.restitution, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
+  const double e = pair_restitution(d, rules, i, j, r);
+  const double change = collide(r, shares_of(d, i, j), e, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
   return {reduced_mass(d.mass(i), d.mass(j)) * change, 0.0, true};
 }
 

@@ -18,12 +18,14 @@ namespace carom {
 // Contacts may bear load where gravity presses and something dissipates. Without dissipation no pile ever rests.
 inline bool settles(const Scene& scene) {
   const auto& walls = scene.box.restitutions;
-  const bool dissipates = scene.physics.restitution < 1.0 || *std::min_element(walls.begin(), walls.end()) < 1.0;
+  const bool dissipates = disks_dissipate(scene) || *std::min_element(walls.begin(), walls.end()) < 1.0;
   return scene.physics.gravity > 0.0 && (dissipates || inner_walls_dissipate(scene));
 }
 
 inline StepRules rules_for(const Scene& scene, double dt) {
-  return {scene.box, scene.physics.gravity, scene.physics.restitution, dt, settles(scene)};
+  StepRules rules{scene.box, scene.physics.gravity, scene.physics.restitution, dt, settles(scene)};
+  rules.law = law_of(scene);
+  return rules;
 }
 
 // With thermal sides: every disk that has an id has a count of its reflections.

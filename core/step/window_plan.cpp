@@ -35,9 +35,8 @@ std::string partner_text(const Domain& box, DiskId id) {
 
 // Time does not get on past this event. Why that is follows from what kind of contact it is.
 [[noreturn]] void fail_standstill(const ExactRules& rules, const EventMark& event, double start) {
-  const double e = is_wall(event.id2) ? restitution_of_wall(rules.box, event.id2) : rules.restitution;
-  const bool rests = rules.gravity > 0.0 && dissipates(rules.box, rules.restitution);
-  if (!rules.tc() && (e < 1.0 || rests)) fail_collapse(rules, event, start);
+  const bool rests = rules.gravity > 0.0 && dissipates(rules);
+  if (!rules.tc() && (rests || may_lose_energy(rules, event.id1, event.id2))) fail_collapse(rules, event, start);
   if (rules.box.has_moving_side()) {
     throw PhysicsError(fmt::format(
         "exact: time stands still at t = {}: disk {} and {} meet again and again at one moment; a side that moves may "
@@ -61,7 +60,7 @@ std::string partner_text(const Domain& box, DiskId id) {
 
 bool has_tc(const Scene& scene) {
   return scene.physics.collapse_contact_time &&
-         (dissipates(scene.box, scene.physics.restitution) || inner_walls_dissipate(scene));
+         (disks_dissipate(scene) || scene.box.walls_dissipate() || inner_walls_dissipate(scene));
 }
 
 ExactRules exact_rules(const Scene& scene, const Disks& disks, double start) {
@@ -72,6 +71,8 @@ ExactRules exact_rules(const Scene& scene, const Disks& disks, double start) {
   if (has_tc(scene)) rules.contact_time = *scene.physics.collapse_contact_time;
   rules.seed = scene.seed;
   rules.common_mass = disks.mass.empty();
+  rules.law = law_of(scene);
+  rules.constant = !rules.tc() && rules.law == nullptr;
   return rules;
 }
 

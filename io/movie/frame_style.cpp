@@ -103,7 +103,7 @@ SeenValues foreseen_values(const Scene& scene, const Disks& first) {
   SeenValues seen;
   seen.add(first, {});
   double square = seen.speed_square;
-  if (physics.restitution == 1.0) square = std::max(square, tail * shared_square(first));
+  if (!disks_dissipate(scene)) square = std::max(square, tail * shared_square(first));
   if (physics.gravity > 0.0) square += falling_square(first, physics.gravity);
   for (const Source& source : scene.sources) square = std::max(square, source_square(source));
   if (physics.diffusion > 0.0 && scene.run.dt > 0.0) {

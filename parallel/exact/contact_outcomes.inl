@@ -35,22 +35,22 @@ void EventProcessor<scope>::meet_side(std::uint32_t i, double time) {
   } else {
     predict_after_event(i, time);
   }
-  if (!window_.burst.empty() && loses_energy(window_.rules, partner, impact)) count_burst(i, event);
+  if (!window_.burst.empty() && impact.lost_energy) count_burst(i, event);
 }
 
 template <Scope scope>
 void EventProcessor<scope>::meet_obstacle(std::uint32_t i, double time) {
   const DiskId partner = record_[i].partner.wall_id();
   ExactDisk now = disk(i);
-  const Impact impact =
-      meet_obstacle_at(window_.rules, time, record_[i].partner.place(), window_.disks->mass_of(i), now);
+  const Impact impact = meet_obstacle_at(window_.rules, time, record_[i].partner.place(), window_.disks->mass_of(i),
+                                         record_[i].id, now);
   worker_.tally.add(partner, impact);
   const EventMark event{time, record_[i].id, partner};
   const bool gone = is_sink(window_.rules.box, partner);
   begin_segment(i, now, gone ? LoggedSegment::gone : LoggedSegment::no_disk, event);
   if (gone) return schedule(i, never, Partner::none());
   predict_after_event(i, time);
-  if (!window_.burst.empty() && loses_energy(window_.rules, partner, impact)) count_burst(i, event);
+  if (!window_.burst.empty() && impact.lost_energy) count_burst(i, event);
 }
 
 template <Scope scope>
@@ -73,8 +73,9 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
     worker_.too_fast = worker_.ended = true;
     return;
   }
+  const auto restitution = [this](const Relative&) { return window_.rules.restitution; };
   const Impact impact =
-      collide_paths<false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, window_.rules.restitution, p, q);
+      collide_paths<false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, restitution, p, q);
   if (impact.happened) worker_.tally.add_collision(impact.virial);
   begin_plain_segment(i, j, p);
   begin_plain_segment(j, i, q);
@@ -117,14 +118,14 @@ void EventProcessor<scope>::collide_any_pair(std::uint32_t i, std::uint32_t j, d
     worker_.too_fast = worker_.ended = true;
     return;
   }
-  const Impact impact = collide_at(window_.rules, time, d.mass_of(i), d.mass_of(j), a, b);
+  const Impact impact = collide_at(window_.rules, time, id1, id2, d.mass_of(i), d.mass_of(j), a, b);
   worker_.tally.add(id2, impact);
   const EventMark event{time, id1, id2};
   begin_segment(i, a, j, event);
   begin_segment(j, b, i, event);
   predict_after_event(i, time);
   predict_after_event(j, time);
-  if (window_.burst.empty() || !loses_energy(window_.rules, id2, impact)) return;
+  if (window_.burst.empty() || !impact.lost_energy) return;
   count_burst(i, event);
   count_burst(j, event);
 }

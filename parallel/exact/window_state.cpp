@@ -36,7 +36,7 @@ void WindowState::begin(const ExactRules& window_rules, const Disks& all, const 
   set_tolerances();
   resize_column(record, all.size());
   resize_column(next_event_time, all.size());
-  burst.resize(dissipates(rules.box, rules.restitution) ? all.size() : 0);
+  burst.resize(dissipates(rules) ? all.size() : 0);
 }
 
 void WindowState::set_tolerances() {

@@ -280,7 +280,7 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
   if (rules.settles) {
     speed2 = settle_contacts(state, rules, found, walls, executor, lists, tally);
   } else {
-    with_view(state.disks, [&](const auto& d) {
+    with_view(state.disks, rules, [&](const auto& d) {
       speed2 = resolve_alone(d, rules, found, walls, state.disks.size(), executor, lists, tally);
       resolve_crowded(d, rules, state.disks, executor, lists, tally);
       speed2 = std::max(speed2, finish_crowded(d, rules.box, executor, lists));

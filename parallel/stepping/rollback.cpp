@@ -47,7 +47,7 @@ class RollbackPhases : public TimeStepping {
   // All pairs found bounce in canonical order; those that share no disk with another commute.
   void bounce(const StepRules& rules, ImpactTally& tally) {
     const PhaseTimer timer(times_, "resolve");
-    with_view(state_.disks, [&](const auto& d) {
+    with_view(state_.disks, rules, [&](const auto& d) {
       split_crowded(executor_, lists_, tally, [&](const ContactEvent& e, ImpactTally& block) {
         block.add(e.id2, bounce_pair(d, rules, e.i1, e.i2));
       });
@@ -61,7 +61,7 @@ class RollbackPhases : public TimeStepping {
     const PhaseTimer timer(times_, "resolve");
     const std::size_t n = state_.disks.size();
     lists_.tallies.assign(executor_.blocks(n, wall_block), {});
-    with_view(state_.disks, [&](const auto& d) {
+    with_view(state_.disks, rules, [&](const auto& d) {
       executor_.for_ranges(n, wall_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           meet_walls(d, rules, static_cast<std::uint32_t>(i), lists_.tallies[b]);

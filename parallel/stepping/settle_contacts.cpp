@@ -163,7 +163,7 @@ double settle_contacts(State& state, const StepRules& rules, const FoundPairs& f
                        ContactLists& lists, ImpactTally& tally) {
   gather_pairs(state.disks, found, walls, executor, lists);
   sort_by_ids(lists.settle.pairs, state.next_id, executor);
-  return with_view(state.disks, [&](const auto& d) {
+  return with_view(state.disks, rules, [&](const auto& d) {
     if (look_up_loads(d, state, rules, executor, lists)) {
       resolve_impacts(d, state.disks, rules, executor, lists, tally);
     }

@@ -1,6 +1,7 @@
 // No hidden unit, no absolute tolerance: lengths, masses or times scaled by 2^20 or 2^-20 give the same bits, scaled.
 #include <gtest/gtest.h>
 
+#include "core/scene/disk_group.hpp"
 #include "core/start/growth.hpp"
 #include "core/start/initial_state.hpp"
 #include "tests/support/disks_by_hand.hpp"
@@ -44,6 +45,18 @@ DiskGroup random_group(test::Draws& draws, Count count) {
   return group;
 }
 
+// In half of the scenes a restitution that depends on the speed, or one of their own for two groups, or both.
+void add_restitution_law(test::Draws& draws, Scene& s) {
+  RestitutionLaw& law = s.physics.law;
+  if (draws.bits() % 4 == 0) {
+    s.physics.restitution = 0.3;
+    law.viscosity = draws.in(0.01, 0.3);
+  }
+  if (draws.bits() % 3 != 0) return;
+  law.ends = ends_of_groups(s);
+  law.pairs = {{0, 0, {draws.in(0.2, 1.0), 0.0}}, {0, 1, {0.4, draws.in(0.1, 0.4)}}};
+}
+
 // Gravity, restitution of disks and walls, Brownian motion both ways, each kind of side, sources of both kinds.
 Scene random_scene(std::uint64_t seed, Method method) {
   test::Draws draws(seed);
@@ -74,6 +87,7 @@ Scene random_scene(std::uint64_t seed, Method method) {
     source.velocities = sizes.velocities;
     s.sources.push_back(source);
   }
+  add_restitution_law(draws, s);
   return s;
 }
 

@@ -31,8 +31,7 @@ double distance(const Domain& box, double ax, double ay, double bx, double by) {
 TEST_P(ExactOracle, SamePlacesAndCounts) {
   const Scene scene = make_scene(GetParam().scene);
   const State initial = initial_state(scene);
-  oracle::System system = oracle::make_system(initial.disks, scene.box, scene.physics.gravity,
-                                              scene.physics.restitution, initial.obstacles);
+  oracle::System system = oracle::make_system(scene, initial);
   oracle::run(system, scene.run.t_end);
   const State state = run_reference(scene, initial);
 
@@ -70,6 +69,18 @@ const std::string few =
 const std::string shelves =
     "[[walls]]\npoints = [[1.0, 2.0], [3.0, 2.5], [3.5, 5.0]]\n[[walls]]\nfrom = [8.0, 3.0]\nto = [6.0, 7.0]\n"
     "[[walls]]\nfrom = [2.0, 7.0]\nto = [4.0, 6.5]\nrestitution = 0.7\n";
+// Two groups and pegs, each pair with its own restitution but for light with light.
+const std::string named =
+    "[[disks]]\nname = \"light\"\ncount = 14\npositions = \"random\"\nvelocities = { uniform = 1.5 }\n"
+    "radius = { uniform = [0.2, 0.5] }\nmass = 1.0\n"
+    "[[disks]]\nname = \"heavy\"\ncount = 14\npositions = \"random\"\nvelocities = { uniform = 1.0 }\nradius = 0.5\n"
+    "mass = 4.0\n"
+    "[[disks]]\nname = \"pegs\"\nfixed = true\ncount = 6\npositions = \"random\"\nradius = 0.3\n";
+const std::string pairs =
+    "[[physics.pairs]]\ngroups = [\"heavy\", \"light\"]\nrestitution = 0.7\n"
+    "[[physics.pairs]]\ngroups = [\"heavy\", \"heavy\"]\nrestitution = { viscoelastic = 0.2, least = 0.3 }\n"
+    "[[physics.pairs]]\ngroups = [\"pegs\", \"light\"]\nrestitution = 0.5\n";
+const std::string viscoelastic = "restitution = { viscoelastic = 0.15, least = 0.4 }";
 const std::string walls_of_salt = "wall_restitution = 0.9";
 const std::string pistons =
     "left = { motion = { velocity = [0.5, 0] } }\nright = { place = 8, motion = { velocity = [0.3, 0] } }";
@@ -105,6 +116,10 @@ INSTANTIATE_TEST_SUITE_P(
         OracleCase{"shelves_periodic", {8, 8, "periodic", "", few + shelves, 4.0, ""}},
         OracleCase{"shelves_gravity", {8, 12, "wall", "gravity = 1.5", few + shelves, 4.0, ""}},
         OracleCase{"shelves_fall", {8, 12, "periodic", "gravity = 0.5", few + shelves + pegs, 3.0, ""}},
+        OracleCase{"viscoelastic", {8, 8, walls_of_salt, viscoelastic, gas, 5.0, ""}},
+        OracleCase{"viscoelastic_pegs", {8, 12, "wall", viscoelastic + "\ngravity = 0.8", few + pegs, 4.0, ""}},
+        OracleCase{"pairs", {9, 9, "periodic", "restitution = 0.95", named + pairs, 4.0, ""}},
+        OracleCase{"pairs_gravity", {9, 12, "wall", "gravity = 0.5", named + pairs + shelves, 3.0, ""}},
         OracleCase{"inelastic", {8, 8, walls_of_salt, "restitution = 0.8", gas, 5.0, ""}},
         OracleCase{"inelastic_gravity", {8, 12, walls_of_salt, "restitution = 0.7\ngravity = 0.5", mixed, 4.0, ""}}),
     [](const auto& p) { return std::string(p.param.name); });

@@ -105,6 +105,55 @@ TEST(ExactHaff, CoolsAsItShould) {
   }
 }
 
+// dT/dt of the viscoelastic gas at temperature T, m = 1, diameter 1: half the collision rate of a disk, gamma0 sqrt(T),
+// times (1 - e^2) v^2 / 4 with 1 - e^2 = 2 a v^(1/5) - a^2 v^(2/5), where v of colliding disks has v exp(-v^2 / 4 T).
+double viscoelastic_cooling(double gamma0, double a, double t) {
+  const auto mean_power = [&](double power) { return std::pow(4.0 * t, 0.5 * power) * std::tgamma(0.5 * power + 1.0); };
+  return -gamma0 * std::sqrt(t) / 8.0 * (2.0 * a * mean_power(2.2) - a * a * mean_power(2.4));
+}
+
+// Its temperature at `time` from 1 on, by steps of Runge and Kutta.
+double viscoelastic_temperature(double gamma0, double a, double time) {
+  constexpr int steps = 10'000;
+  const double dt = time / steps;
+  double t = 1.0;
+  for (int k = 0; k < steps; ++k) {
+    const double half = t + 0.5 * dt * viscoelastic_cooling(gamma0, a, t);
+    t += dt * viscoelastic_cooling(gamma0, a, half);
+  }
+  return t;
+}
+
+// Disks whose e tends to 1 as they become slow cool as T ~ t^(-5/3), (1 + t / tau)^(-5/3) in leading order (Schwager
+// and Poeschel 1998), not as Haff's t^-2: mean of eight runs against the equation of uniform cooling.
+TEST(ExactViscoelasticGas, CoolsSlowerThanHaffsLaw) {
+  const double gamma0 = 4.0 * 0.236144 / std::sqrt(std::numbers::pi);
+  const double a = 0.02;
+  const double rate = gamma0 * a * std::pow(4.0, 0.1) * std::tgamma(2.1);  // dT/dt = -rate T^1.6 in leading order
+  const double tau = 1.0 / (0.6 * rate);
+  const double times[] = {1.0, 2.0, 4.0, 7.0};
+  std::vector<double> ratios[4];
+  Scene scene = gas(1024, 0.1, 7.0 * tau, fmt::format("restitution = {{ viscoelastic = {} }}", a));
+  for (scene.seed = 1; scene.seed <= 8; ++scene.seed) {
+    const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
+    const double before = energy_of(engine->state().disks, 0.0).kinetic;
+    Disks disks;
+    for (int k = 0; k < 4; ++k) {
+      run_until(*engine, times[k] * tau);
+      const double t = engine->disks_at(times[k] * tau, disks);
+      ratios[k].push_back(energy_of(disks, 0.0).kinetic / before / viscoelastic_temperature(gamma0, a, t));
+    }
+  }
+  for (int k = 0; k < 4; ++k) {
+    const SampleMean ratio = sample_mean(ratios[k]);
+    const double haff = std::pow(1.0 + 0.5 * rate * times[k] * tau, -2.0) / std::pow(1.0 + times[k], -5.0 / 3.0);
+    fmt::print("viscoelastic, t / tau = {}: T over the law's {:.4f} +- {:.4f}; Haff's law would have {:.3f}\n",
+               times[k], ratio.mean, ratio.standard_error(), haff);
+    EXPECT_NEAR(ratio.mean, 1.0, 0.02) << "t / tau = " << times[k];
+    EXPECT_LT(ratio.standard_error(), 0.007) << "too few runs to say anything";
+  }
+}
+
 // Share of the disks in each of `bins` equal layers between floor and ceiling, added up over samples.
 class Layers {
  public:

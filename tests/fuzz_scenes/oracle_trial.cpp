@@ -78,12 +78,11 @@ class Comparison {
       : scene_(scene),
         trial_(trial),
         disks_(start.disks.size()),
-        first_(oracle::make_system(start.disks, scene.box, scene.physics.gravity, scene.physics.restitution,
-                                   start.obstacles)),
+        first_(oracle::make_system(scene, start)),
         scales_{smallest_radius(start.disks), 0.0},
         others_{first_, first_},
         engine_(make_parallel_engine(scene, start, {1 + static_cast<int>(disks_ % 3), disks_ % 2 == 0 ? 1U : 1024U})),
-        elastic_(scene.physics.restitution == 1.0 && !scene.box.walls_dissipate() && !inner_walls_dissipate(scene)) {}
+        elastic_(!disks_dissipate(scene) && !scene.box.walls_dissipate() && !inner_walls_dissipate(scene)) {}
 
   void run() {
     displace_others(0);
@@ -111,7 +110,9 @@ class Comparison {
   bool decided() const {
     const bool bounces =
         scene_.physics.restitution > 0.0 && *std::ranges::min_element(scene_.box.restitutions) > 0.0 &&
-        std::ranges::none_of(scene_.walls, [](const InnerWall& wall) { return wall.restitution == 0.0; });
+        std::ranges::none_of(scene_.walls, [](const InnerWall& wall) { return wall.restitution == 0.0; }) &&
+        std::ranges::none_of(scene_.physics.law.pairs,
+                             [](const GroupPair& pair) { return pair.restitution.least == 0.0; });
     return elastic_ || (bounces && first_.shortest > vanishing * static_cast<oracle::Real>(scene_.run.t_end));
   }
 

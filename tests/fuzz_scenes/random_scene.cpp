@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/fuzz_scenes/random_disks.hpp"
 
@@ -245,6 +248,60 @@ std::string sources_text(Dice& dice, const Draft& draft) {
   return text;
 }
 
+// In a few scenes the restitution of [physics] depends on the speed.
+std::string with_viscosity(Dice& dice, const Draft& draft, std::string text) {
+  const std::string number = fmt::format("restitution = {}\n", draft.restitution);
+  if (draft.diffusion > 0.0 || draft.restitution == 1.0 || !dice.chance(0.2)) return text;
+  const std::size_t at = text.find(number, text.find("[physics]"));
+  const double a = rounded(dice.in(0.01, 0.6) / std::pow(draft.units.speed, 0.2));
+  return text.replace(at, number.size(),
+                      fmt::format("restitution = {{ viscoelastic = {}, least = {} }}\n", a, draft.restitution));
+}
+
+// Gives a name to the [[disks]] blocks that have none. Returns the names of all, and of those that move.
+std::string name_groups(std::string text, std::vector<std::string>& all, std::vector<std::string>& moving) {
+  constexpr std::string_view head = "[[disks]]\n", fixed = "fixed = true\n", name = "name = \"";
+  for (std::size_t at = 0; (at = text.find(head, at)) != std::string::npos;) {
+    at += head.size();
+    if (text.compare(at, name.size(), name) == 0) {
+      const std::size_t begin = at + name.size();
+      all.push_back(text.substr(begin, text.find('"', begin) - begin));
+    } else {
+      all.push_back(fmt::format("g{}", all.size()));
+      text.insert(at, fmt::format("name = \"{}\"\n", all.back()));
+    }
+    const std::size_t second_line = text.find('\n', at) + 1;
+    if (text.compare(second_line, fixed.size(), fixed) != 0) moving.push_back(all.back());
+  }
+  return text;
+}
+
+// In a few scenes pairs of groups have a restitution of their own.
+std::string with_pairs(Dice& dice, const Draft& draft, std::string text) {
+  if (!dice.chance(0.2)) return text;
+  std::vector<std::string> all, moving;
+  text = name_groups(std::move(text), all, moving);
+  for (std::vector<std::string>* names : {&moving, &all}) {
+    if (text.find("[[sources]]") != std::string::npos) names->emplace_back("sources");
+  }
+  if (moving.empty()) return text;
+  const std::string& one = moving[dice.below(moving.size())];  // in all of the pairs, so that each is stated once
+  for (const std::string& other : all) {
+    if (!dice.chance(0.6)) continue;
+    text += fmt::format("[[physics.pairs]]\ngroups = [\"{}\", \"{}\"]\nrestitution = ", one, other);
+    if (draft.diffusion == 0.0 && dice.chance(0.3)) {
+      text += fmt::format("{{ viscoelastic = {} }}\n", rounded(dice.in(0.01, 0.6) / std::pow(draft.units.speed, 0.2)));
+    } else {
+      text += fmt::format("{}\n", random_restitution(dice));
+    }
+  }
+  return text;
+}
+
+std::string with_restitution_laws(Dice& dice, const Draft& draft, std::string text) {
+  return with_pairs(dice, draft, with_viscosity(dice, draft, std::move(text)));
+}
+
 std::string seed_text(Dice& dice) {
   return dice.chance(0.02) ? "seed = \"18446744073709551615\"\n" : fmt::format("seed = {}\n", dice.below(1'000'000));
 }
@@ -285,7 +342,8 @@ std::string random_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t
   }
   text += sources_text(dice, draft);
   if (draft.cast == Cast::grown && dice.chance(0.3)) text += "[growth]\nslowness = 0.5\nsteps = 2000\n";
-  return text + run_text(dice, draft);
+  text += run_text(dice, draft);
+  return with_restitution_laws(dice, draft, std::move(text));
 }
 
 std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t attempt) {
@@ -312,7 +370,8 @@ std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::u
     text += obstacles_text(dice, draft);
     text += walls_text(dice, draft);
   }
-  return text + run_text(dice, draft);
+  text += run_text(dice, draft);
+  return with_restitution_laws(dice, draft, std::move(text));
 }
 
 }  // namespace carom::fuzz

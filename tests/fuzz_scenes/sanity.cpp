@@ -137,7 +137,7 @@ void Sanity::look_at_motion(const State& state) {
   if (p.gravity > 0.0 && scene_.run.method != Method::exact) return;  // right to first order
   const double energy = energy_of(state.disks, p.gravity).total();
   largest_energy_ = std::max(largest_energy_, energy);
-  const bool elastic = p.restitution == 1.0 && !box.walls_dissipate() && !inner_walls_dissipate(scene_);
+  const bool elastic = !disks_dissipate(scene_) && !box.walls_dissipate() && !inner_walls_dissipate(scene_);
   const double gain = energy - energy_.total();
   const bool heats = p.gravity > 0.0 && p.collapse_contact_time.has_value();
   const double allowed = (heats ? silent_heating : rounding) * largest_energy_;

@@ -16,6 +16,8 @@
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/obstacle.hpp"
+#include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
 
 namespace carom::oracle {
 
@@ -23,6 +25,13 @@ using Real = long double;
 
 struct Ball {
   Real x, y, vx, vy, r, m;
+  std::size_t group = 0;  // its [[disks]] block
+};
+
+// e(v) = max(least, 1 - viscosity v^(1/5)) of two groups; least itself where the viscosity is 0.
+struct GroupLaw {
+  std::size_t first = 0, second = 0;
+  Real least = 1.0L, viscosity = 0.0L;
 };
 
 struct System {
@@ -30,7 +39,9 @@ struct System {
   std::vector<Obstacle> obstacles;
   Domain box;
   Real gravity = 0.0L;
-  Real restitution = 1.0L;
+  Real restitution = 1.0L, viscosity = 0.0L;
+  std::vector<GroupLaw> laws;
+  std::vector<std::size_t> obstacle_groups;  // of those that are disks
   Real time = 0.0L;
   std::size_t collisions = 0;
   std::size_t wall_collisions = 0;
@@ -49,6 +60,36 @@ inline System make_system(const Disks& disks, const Domain& box, double gravity,
     s.balls.push_back({disks.x[i], disks.y[i], disks.vx[i], disks.vy[i], disks.radius_of(i), disks.mass_of(i)});
   }
   return s;
+}
+
+// The same with all that the scene says of restitutions.
+inline System make_system(const Scene& scene, const State& start) {
+  System s = make_system(start.disks, scene.box, scene.physics.gravity, scene.physics.restitution, start.obstacles);
+  s.viscosity = scene.physics.law.viscosity;
+  for (const GroupPair& pair : scene.physics.law.pairs) {
+    s.laws.push_back({pair.first, pair.second, pair.restitution.least, pair.restitution.viscosity});
+  }
+  std::vector<std::size_t> group_of_id;
+  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
+    group_of_id.insert(group_of_id.end(), scene.groups[g].count, g);
+  }
+  const std::vector<std::size_t> order = by_id(start.disks);
+  for (std::size_t k = 0; k < order.size(); ++k) s.balls[k].group = group_of_id.at(start.disks.id[order[k]]);
+  for (const Obstacle& o : start.obstacles) {
+    s.obstacle_groups.push_back(o.is_segment() ? 0 : group_of_id.at(o.id));
+  }
+  return s;
+}
+
+inline Real restitution_of(const System& s, std::size_t g, std::size_t h, Real speed) {
+  Real least = s.restitution;
+  Real viscosity = s.viscosity;
+  for (const GroupLaw& law : s.laws) {
+    if ((law.first != g || law.second != h) && (law.first != h || law.second != g)) continue;
+    least = law.least;
+    viscosity = law.viscosity;
+  }
+  return viscosity == 0.0L ? least : std::max(least, 1.0L - viscosity * std::pow(speed, 0.2L));
 }
 
 inline constexpr Real no_event = HUGE_VALL;
@@ -223,8 +264,13 @@ inline void resolve(System& s, const Happening& e) {
     }
     const auto [x, y] = line;
     const Real along = (x * a.vx + y * a.vy) / (x * x + y * y);
-    a.vx -= (1.0L + static_cast<Real>(o.restitution)) * along * x;
-    a.vy -= (1.0L + static_cast<Real>(o.restitution)) * along * y;
+    const bool by_groups = !o.is_segment() && !s.obstacle_groups.empty();
+    const Real restitution = by_groups
+                                 ? restitution_of(s, a.group, s.obstacle_groups[static_cast<std::size_t>(e.obstacle)],
+                                                  std::abs(along) * std::sqrt(x * x + y * y))
+                                 : static_cast<Real>(o.restitution);
+    a.vx -= (1.0L + restitution) * along * x;
+    a.vy -= (1.0L + restitution) * along * y;
     ++s.wall_collisions;
     return;
   }
@@ -238,7 +284,8 @@ inline void resolve(System& s, const Happening& e) {
   const Real nx = dx / d;
   const Real ny = dy / d;
   const Real closing = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny;
-  const Real impulse = -(1.0L + s.restitution) * closing * a.m * b.m / (a.m + b.m);
+  const Real restitution = restitution_of(s, a.group, b.group, std::abs(closing));
+  const Real impulse = -(1.0L + restitution) * closing * a.m * b.m / (a.m + b.m);
   a.vx -= impulse / a.m * nx;
   a.vy -= impulse / a.m * ny;
   b.vx += impulse / b.m * nx;

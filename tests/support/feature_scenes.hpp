@@ -21,11 +21,12 @@ struct Features {
   bool source = false;
   int seed = 1;
   bool obstacles = false;  // fixed disks of many sizes, some of them across the sides
+  std::string law{};       // empty | "viscoelastic" | "pairs": of groups, with restitutions of both kinds
 
   std::string name() const {
     return method + "_" + sides + (gravity ? "_g" : "") + (restitution < 1.0 ? "_e" : "") +
            (diffusion.empty() ? "" : "_" + diffusion) + "_" + radii + (own_masses ? "_m" : "") +
-           (source ? "_source" : "") + (obstacles ? "_fixed" : "");
+           (source ? "_source" : "") + (obstacles ? "_fixed" : "") + (law.empty() ? "" : "_" + law);
   }
 };
 
@@ -49,30 +50,50 @@ inline std::string sides_text(const std::string& sides) {
   return text;
 }
 
+// Of the groups in disks_text and obstacles_text.
+inline std::string pairs_text(const Features& f) {
+  if (f.law != "pairs") return "";
+  const auto pair = [](const std::string& a, const std::string& b, const std::string& restitution) {
+    return "[[physics.pairs]]\ngroups = [\"" + a + "\", \"" + b + "\"]\nrestitution = " + restitution + "\n";
+  };
+  const std::string slow_ones_bounce = f.diffusion == "replace" ? "0.9" : "{ viscoelastic = 0.1 }";
+  return pair("first", "first", "0.8") + pair("second", "first", slow_ones_bounce) +
+         (f.obstacles ? pair("pegs", "second", "0.6") : "") + (f.source ? pair("sources", "second", "0.5") : "");
+}
+
 inline std::string physics_text(const Features& f) {
   std::string text = "[physics]\n";
   if (f.gravity) text += "gravity = 3.0\n";
-  if (f.restitution < 1.0) text += "restitution = " + std::to_string(f.restitution) + "\n";
+  if (f.law == "viscoelastic") {
+    text += "restitution = { viscoelastic = 0.15, least = 0.3 }\n";
+  } else if (f.restitution < 1.0) {
+    text += "restitution = " + std::to_string(f.restitution) + "\n";
+  }
   if (!f.diffusion.empty()) text += "diffusion = 0.3\n";
   if (f.diffusion == "accumulate") text += "accumulate = true\n";
-  return text;
+  return text + pairs_text(f);
 }
 
 inline std::string disks_text(const Features& f) {
   const std::string mass = f.own_masses ? "{ uniform = [1, 20] }" : "1.5";
   const std::string velocity = "velocities = { uniform = 4.0 }\n";
+  const std::string first = f.law == "pairs" ? "[[disks]]\nname = \"first\"\n" : "[[disks]]\n";
+  const std::string second = f.law == "pairs" ? "[[disks]]\nname = \"second\"\n" : "[[disks]]\n";
   if (f.radii == "wide") {
-    return "[[disks]]\ncount = 2\npositions = \"random\"\nradius = 4.0\nmass = " + mass + "\n" + velocity +
-           "[[disks]]\ncount = 120\npositions = \"random\"\nradius = { uniform = [0.08, 0.5] }\nmass = " + mass + "\n" +
-           velocity;
+    return first + "count = 2\npositions = \"random\"\nradius = 4.0\nmass = " + mass + "\n" + velocity + second +
+           "count = 120\npositions = \"random\"\nradius = { uniform = [0.08, 0.5] }\nmass = " + mass + "\n" + velocity;
   }
   const std::string radius = f.radii == "equal" ? "0.6" : "{ uniform = [0.3, 1.1] }";
-  return "[[disks]]\ncount = 130\npositions = \"random\"\nradius = " + radius + "\nmass = " + mass + "\n" + velocity;
+  const std::string rest = "positions = \"random\"\nradius = " + radius + "\nmass = " + mass + "\n" + velocity;
+  if (f.law == "pairs") return first + "count = 50\n" + rest + second + "count = 80\n" + rest;
+  return first + "count = 130\n" + rest;
 }
 
 inline std::string obstacles_text(const Features& f) {
   if (!f.obstacles) return "";
-  return "[[disks]]\nfixed = true\ncount = 9\npositions = \"random\"\nradius = { uniform = [0.05, 0.8] }\n"
+  const std::string name = f.law == "pairs" ? "name = \"pegs\"\n" : "";
+  return "[[disks]]\n" + name +
+         "fixed = true\ncount = 9\npositions = \"random\"\nradius = { uniform = [0.05, 0.8] }\n"
          "[[disks]]\nfixed = true\ncount = 4\npositions = [[0.1, 9.0], [24.0, 4.0], [12.0, 0.2], [12.5, 0.0]]\n"
          "radius = [0.7, 0.4, 0.5, 0.6]\n";
 }

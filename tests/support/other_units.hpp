@@ -1,6 +1,7 @@
 // A scene or a state in other units of length, mass and time.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "core/disks/state.hpp"
@@ -14,6 +15,11 @@ struct Units {
   double speed() const { return length / time; }
   double energy() const { return mass * speed() * speed(); }
 };
+
+// Of a power of 2^5, exactly.
+inline double fifth_root_of(double unit) {
+  return std::ldexp(1.0, std::ilogb(unit) / 5);
+}
 
 inline void scale(std::vector<double>& values, double unit) {
   for (double& v : values) v *= unit;
@@ -64,6 +70,9 @@ inline Scene scaled(Scene s, const Units& u) {
   scale_sides(s.box, u);
   s.physics.gravity *= u.length / (u.time * u.time);
   s.physics.diffusion *= u.length * u.length / u.time;
+  const double viscosity = 1.0 / fifth_root_of(u.speed());
+  s.physics.law.viscosity *= viscosity;
+  for (GroupPair& pair : s.physics.law.pairs) pair.restitution.viscosity *= viscosity;
   for (DiskGroup& g : s.groups) {
     scale(g.positions, u.length);
     scale(g.velocities, u);
