@@ -13,7 +13,7 @@ namespace {
 
 // Disks a block of the search: small enough to spread over threads, large enough that a block's buffer is worth having.
 constexpr std::size_t search_block = 8192;
-// Large disks a block of the search between size classes: one may have thousands of small ones around it.
+// Disks a block of the search between size classes: a large one may have thousands of small ones around it.
 constexpr std::size_t cross_block = 64;
 // Strays a block.
 constexpr std::size_t stray_block = 256;
@@ -105,11 +105,14 @@ void search_level(const SearchInput& in, const GridLevel& level, InteriorKernel 
   }
 }
 
-// A large disk against the cells of a class of smaller ones.
-void search_across(const SearchInput& in, const GridLevel& small, std::size_t i, std::vector<Pair>& pairs) {
-  const double reach = in.radius[i] + small.largest_radius + small.margin;
-  for_each_run_near(small, in.start, in.box, in.x[i], in.y[i], reach,
-                    [&](std::uint32_t first, std::uint32_t last) { test_run(in, i, first, last, pairs); });
+// Pairs of a disk with the disks in the cells of another size class, which all come after it in storage, or all before.
+void search_across(const SearchInput& in, const GridLevel& other, bool after, std::size_t i, std::vector<Pair>& pairs) {
+  const double reach = in.radius[i] + other.largest_radius + other.margin;
+  for_each_run_near(other, in.start, in.box, in.x[i], in.y[i], reach, [&](std::uint32_t first, std::uint32_t last) {
+    if (after) return test_run(in, i, first, last, pairs);
+    const auto own = static_cast<std::uint32_t>(i);
+    for (std::uint32_t j = first; j < last; ++j) test_run(in, j, own, own + 1, pairs);
+  });
 }
 
 // The buffers of the next `blocks` blocks, emptied.
@@ -123,6 +126,23 @@ std::size_t more_buffers(FoundPairs& found, std::size_t blocks) {
   }
   for (std::size_t b = first; b < found.used; ++b) found.buffers[b].clear();
   return first;
+}
+
+// Pairs between two size classes, found by the disks of the one that has fewer.
+void search_between(const SearchInput& in, const GridLevel& large, const GridLevel& small, const Executor& executor,
+                    FoundPairs& found) {
+  const auto disks_of = [&](const GridLevel& level) {
+    return in.start[level.first_key + level.keys()] - in.start[level.first_key];
+  };
+  const bool by_large = disks_of(large) <= disks_of(small);
+  const GridLevel& from = by_large ? large : small;
+  const GridLevel& to = by_large ? small : large;
+  const std::size_t begin = in.start[from.first_key];
+  const std::size_t first = more_buffers(found, executor.blocks(disks_of(from), cross_block));
+  executor.for_ranges(disks_of(from), cross_block, [&](std::size_t b, std::size_t low, std::size_t high) {
+    std::vector<Pair>& pairs = found.buffers[first + b];
+    for (std::size_t i = begin + low; i < begin + high; ++i) search_across(in, to, by_large, i, pairs);
+  });
 }
 
 const GridLevel& level_of(const SearchInput& in, const CellGrid& grid, std::size_t i) {
@@ -235,13 +255,7 @@ std::size_t find_contacts(const Disks& d, const Domain& box, const CellGrid& gri
     executor.for_ranges(n, search_block, [&](std::size_t b, std::size_t from, std::size_t to) {
       search_level(in, level, interior, begin + from, begin + to, found.buffers[first + b]);
     });
-    if (k + 1 == levels) break;
-    const std::size_t across = more_buffers(found, executor.blocks(n, cross_block));
-    executor.for_ranges(n, cross_block, [&](std::size_t b, std::size_t from, std::size_t to) {
-      for (std::size_t i = begin + from; i < begin + to; ++i) {
-        for (std::size_t s = k + 1; s < levels; ++s) search_across(in, grid.levels[s], i, found.buffers[across + b]);
-      }
-    });
+    for (std::size_t s = k + 1; s < levels; ++s) search_between(in, level, grid.levels[s], executor, found);
   }
   search_strays(in, grid, coarse, executor, found);
   return found.strays.size();
