@@ -123,7 +123,7 @@ void plan_flight(const Scene& scene, const Trial& trial, ChartScene& chart) {
   const bool elastic = !disks_dissipate(scene) && !scene.box.walls_dissipate() && !scene.box.has_thermal_side() &&
                        !scene.box.has_moving_side();
   chart.keeps_energy = elastic;
-  chart.keeps_momentum = !walls && scene.physics.gravity == 0.0;
+  chart.keeps_momentum = !walls && !scene.physics.gravity.acts();
   chart.figure = !elastic && chart.keeps_momentum ? Figure::cooling : Figure::pressure;
 }
 

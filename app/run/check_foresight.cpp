@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/load/method_choice.hpp"
+#include "core/physics/boundary.hpp"
 #include "core/scene/size_law.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
@@ -30,11 +31,25 @@ double step_for(double fastest, double fall) {
   return 2.0 * safe_travel / (fastest + std::sqrt(fastest * fastest + 4.0 * fall * safe_travel));
 }
 
-// The speed of a disk of this speed when it has fallen so far; where there is no floor it falls to the end.
-double fallen_speed(const Scene& scene, double speed, double height) {
-  const double g = scene.physics.gravity;
-  if (scene.box.periodic_y()) return speed + g * scene.run.t_end;
-  return std::sqrt(speed * speed + 2.0 * g * std::max(height, 0.0));
+// How far a disk whose edge has this place may fall towards the side.
+double way_to(Side side, const Domain& box, Vec2 centre, double radius) {
+  return std::max(-reach_beyond(side, centre.x, centre.y, radius, box), 0.0);
+}
+
+// The speed of a disk of this speed when it has fallen from its place to the sides that gravity presses it against;
+// where there is none it falls to the end.
+double fallen_speed(const Scene& scene, double speed, Vec2 centre, double radius) {
+  double square = speed * speed, endless = 0.0;
+  for (const Side side : all_sides) {
+    const double g = outward_acceleration(side, scene.physics.gravity);
+    if (!(g > 0.0)) continue;
+    if (scene.box.side(side) == SideKind::periodic) {
+      endless += g * scene.run.t_end;
+    } else {
+      square += 2.0 * g * way_to(side, scene.box, centre, radius);
+    }
+  }
+  return std::sqrt(square) + endless;
 }
 
 // What a source will have emitted, as far as it finds room.
@@ -46,9 +61,35 @@ double emitted_by(const Source& source, double t_end) {
 struct SourceDisks {
   double smallest_radius = infinity;
   double mean_area = 0.0;
-  double speed = 0.0;   // of the fastest of all that it emits
-  double height = 0.0;  // from which they fall at most
+  double speed = 0.0;  // of the fastest of all that it emits
+  Vec2 centre;         // from which they fall furthest
 };
+
+// The corner, of a rectangle, from which a disk falls furthest.
+Vec2 highest_corner(const Gravity& g, Vec2 low, Vec2 high) {
+  return {g.left < 0.0 ? low.x : high.x, g.down < 0.0 ? low.y : high.y};
+}
+
+// Where the disks of a source may begin.
+Vec2 highest_place(const Scene& scene, const Source& source) {
+  const Gravity& g = scene.physics.gravity;
+  if (!source.side) return highest_corner(g, source.region_low, source.region_high);
+  Vec2 low, high{scene.box.width, scene.box.height};
+  switch (*source.side) {
+    case Side::left:
+      high.x = 0.0;
+      break;
+    case Side::right:
+      low.x = high.x;
+      break;
+    case Side::bottom:
+      high.y = 0.0;
+      break;
+    case Side::top:
+      low.y = high.y;
+  }
+  return highest_corner(g, low, high);
+}
 
 SourceDisks disks_of(const Scene& scene, const Source& source) {
   SourceDisks d;
@@ -68,8 +109,7 @@ SourceDisks disks_of(const Scene& scene, const Source& source) {
   if (law.kind == VelocityLaw::Kind::maxwell) {
     d.speed = std::sqrt(2.0 * law.temperature / mass * std::log(std::max(2.0, count)));
   }
-  const bool by_side = source.side.has_value();
-  d.height = by_side ? (*source.side == Side::bottom ? 0.0 : scene.box.height) : source.region_high.y;
+  d.centre = highest_place(scene, source);
   return d;
 }
 
@@ -88,23 +128,25 @@ double brownian_step(const Scene& scene, double radius) {
   return share * share / (2.0 * scene.physics.diffusion);
 }
 
-// When a disk that falls from this height, moving up at vy, has bounced its last on the floor, if nothing else meets
-// it: the flights become shorter by the wall's restitution each time.
-double rest_time(const Scene& scene, double height, double vy) {
-  const double g = scene.physics.gravity, e = scene.box.restitution(Side::bottom);
-  const double landing = std::sqrt(vy * vy + 2.0 * g * std::max(height, 0.0));
-  return (vy + landing) / g + 2.0 * landing * e / (g * (1.0 - e));
+// When a disk that falls so far towards this side, moving away from it at `rising`, has bounced its last there, if
+// nothing else meets it: the flights become shorter by the wall's restitution each time.
+double rest_time(const Scene& scene, Side side, double way, double rising) {
+  const double g = outward_acceleration(side, scene.physics.gravity), e = scene.box.restitution(side);
+  const double landing = std::sqrt(rising * rising + 2.0 * g * way);
+  return (rising + landing) / g + 2.0 * landing * e / (g * (1.0 - e));
 }
 
-// The first disk to come to rest on the floor.
-double first_rest(const Scene& scene, const Disks& start) {
+// The first disk to come to rest on this side.
+double first_rest(const Scene& scene, Side side, const Disks& start) {
   double first = infinity;
   for (std::size_t i = 0; i < start.size(); ++i) {
-    first = std::min(first, rest_time(scene, start.y[i] - start.radius_of(i), start.vy[i]));
+    const double way = way_to(side, scene.box, {start.x[i], start.y[i]}, start.radius_of(i));
+    first = std::min(first, rest_time(scene, side, way, -outward_speed(side, start.vx[i], start.vy[i])));
   }
   for (const Source& source : scene.sources) {
     if (!emits(scene, source)) continue;
-    first = std::min(first, 1.0 / source.rate + rest_time(scene, disks_of(scene, source).height, 0.0));
+    const double way = way_to(side, scene.box, highest_place(scene, source), 0.0);
+    first = std::min(first, 1.0 / source.rate + rest_time(scene, side, way, 0.0));
   }
   return first;
 }
@@ -120,19 +162,19 @@ double StepForesight::safe() const {
 }
 
 StepForesight foresee_steps(const Scene& scene, const Disks& start) {
-  const double g = scene.physics.gravity;
+  const double g = scene.physics.gravity.size;
   double radius = start.empty() ? infinity : smallest_radius(start);
   double fastest = 0.0, later = 0.0;  // radii per unit time
   StepForesight f;
-  const auto see = [&](double speed, double height, double r) {
-    const double landing = g > 0.0 ? fallen_speed(scene, speed, height) : speed;
+  const auto see = [&](double speed, Vec2 centre, double r) {
+    const double landing = g > 0.0 ? fallen_speed(scene, speed, centre, r) : speed;
     later = std::max(later, landing / r);
     if (g > 0.0) f.landing_speed = std::max(f.landing_speed, landing);
   };
   for (std::size_t i = 0; i < start.size(); ++i) {
     const double r = start.radius_of(i);
     fastest = std::max(fastest, speed_of(start, i) / r);
-    see(speed_of(start, i), start.y[i] - r, r);
+    see(speed_of(start, i), {start.x[i], start.y[i]}, r);
   }
   const double fall_at_start = radius < infinity ? g / radius : 0.0;
   f.at_start = std::min(step_for(fastest, fall_at_start), brownian_step(scene, radius));
@@ -140,7 +182,7 @@ StepForesight foresee_steps(const Scene& scene, const Disks& start) {
     if (!emits(scene, source)) continue;
     const SourceDisks d = disks_of(scene, source);
     radius = std::min(radius, d.smallest_radius);
-    see(d.speed, d.height - d.smallest_radius, d.smallest_radius);
+    see(d.speed, d.centre, d.smallest_radius);
   }
   const double fall = radius < infinity ? g / radius : 0.0;
   f.later = std::min(step_for(later, fall), brownian_step(scene, radius));
@@ -172,9 +214,17 @@ CollapseForesight foresee_collapse(const Scene& scene, const Disks& start) {
   if (scene.run.method != Method::exact || p.collapse_contact_time || p.diffusion > 0.0) return {};
   const SceneScales scales = scales_of(scene);
   if (!scales.may_collapse) return {};
-  const bool floor = p.gravity > 0.0 && scene.box.side(Side::bottom) == SideKind::wall;
-  if (!floor || scene.box.restitution(Side::bottom) >= 1.0) return {p.gravity == 0.0 || floor, std::nullopt};
-  const double first = first_rest(scene, start);
+  bool floor = false, soft = false;
+  double first = infinity;
+  for (const Side side : all_sides) {
+    const bool presses = outward_acceleration(side, p.gravity) > 0.0;
+    if (!presses || scene.box.side(side) != SideKind::wall) continue;
+    floor = true;
+    if (scene.box.restitution(side) >= 1.0) continue;
+    soft = true;
+    first = std::min(first, first_rest(scene, side, start));
+  }
+  if (!soft) return {!p.gravity.acts() || floor, std::nullopt};
   return first < scene.run.t_end ? CollapseForesight{true, first} : CollapseForesight{};
 }
 

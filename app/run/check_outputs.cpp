@@ -90,9 +90,12 @@ Disks moved(const Disks& disks, const Scene& scene, double time) {
   const double spread = std::sqrt(2.0 * scene.physics.diffusion * time);
   for (std::size_t i = 0; i < later.size(); ++i) {
     const double r = later.radius_of(i);
-    const double fall = 0.5 * scene.physics.gravity * time * time;
-    const double dx = spread > 0.0 ? spread * std::sin(7.0 * static_cast<double>(i)) : later.vx[i] * time;
-    const double dy = spread > 0.0 ? spread * std::cos(5.0 * static_cast<double>(i)) : later.vy[i] * time - fall;
+    const Gravity& g = scene.physics.gravity;
+    const double fall = 0.5 * time * time;
+    const double dx =
+        spread > 0.0 ? spread * std::sin(7.0 * static_cast<double>(i)) : later.vx[i] * time - fall * g.left;
+    const double dy =
+        spread > 0.0 ? spread * std::cos(5.0 * static_cast<double>(i)) : later.vy[i] * time - fall * g.down;
     const bool x = scene.box.periodic_x(), y = scene.box.periodic_y();
     later.x[i] = folded(later.x[i] + dx, x ? 0.0 : r, scene.box.width - (x ? 0.0 : r), x);
     later.y[i] = folded(later.y[i] + dy, y ? 0.0 : r, scene.box.height - (y ? 0.0 : r), y);

@@ -53,6 +53,12 @@ std::string walls_text(const Domain& box) {
   return equal && first ? fmt::format(", {:g} at walls", *first) : text;
 }
 
+std::string gravity_text(const Gravity& g) {
+  if (!g.acts()) return "no gravity; ";
+  if (!g.is_tilted() && g.down > 0.0) return fmt::format("gravity {:g} downwards; ", g.down);
+  return fmt::format("gravity [{:g}, {:g}]; ", 0.0 - g.left, 0.0 - g.down);
+}
+
 std::string restitution_text(const Restitution& r) {
   if (r.viscosity == 0.0) return fmt::format("{:g}", r.least);
   return fmt::format("max({:g}, 1 - {:g} v^(1/5))", r.least, r.viscosity);
@@ -71,7 +77,7 @@ std::string restitutions_text(const Scene& scene) {
 
 std::string physics_text(const Scene& scene) {
   const Physics& p = scene.physics;
-  std::string text = p.gravity > 0.0 ? fmt::format("gravity {:g} downwards; ", p.gravity) : "no gravity; ";
+  std::string text = gravity_text(p.gravity);
   text += disks_dissipate(scene) ? fmt::format("restitution {}", restitutions_text(scene)) : "elastic collisions";
   text += walls_text(scene.box);
   if (p.diffusion > 0.0) {

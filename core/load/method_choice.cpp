@@ -114,7 +114,10 @@ bool may_collapse(const Scene& scene, double disks, bool settles) {
   }
   constexpr double two_dimensions = 0.6;
   if (!settles) return e <= two_dimensions && disks > 2.0;
-  if (scene.box.side(Side::bottom) == SideKind::wall && scene.box.restitution(Side::bottom) < 1.0) return true;
+  for (const Side side : all_sides) {
+    const bool presses = outward_acceleration(side, scene.physics.gravity) > 0.0;
+    if (presses && scene.box.side(side) == SideKind::wall && scene.box.restitution(side) < 1.0) return true;
+  }
   return e < 1.0 && disks > std::log(4.0 / (1.0 - e)) / (1.0 - e);
 }
 
@@ -261,9 +264,10 @@ SceneScales scales_of(const Scene& scene) {
   s.smallest_radius = tally.smallest;
   s.diameter = 2.0 * std::sqrt(tally.radius2 / tally.disks);
   s.packing_fraction = std::min(0.9, std::numbers::pi * tally.radius2 / (scene.box.width * scene.box.height));
-  // A disk falls through half the box in the mean: v_y^2 = g H, of which half for each component.
+  // A disk falls through half the box in the mean: v^2 = g H, of which half for each component.
   const double speed2 = std::max(tally.speed2 / tally.disks, hottest_side(scene) / tally.lightest);
-  s.speed = std::sqrt(speed2 + 0.5 * scene.physics.gravity * scene.box.height);
+  const Gravity& g = scene.physics.gravity;
+  s.speed = std::sqrt(speed2 + 0.5 * (std::abs(g.down) * scene.box.height + std::abs(g.left) * scene.box.width));
   const double eta = s.settles ? std::max(settled_fraction, s.packing_fraction) : s.packing_fraction;
   s.collision_rate =
       s.disks > 1.0 ? 4.0 * (compressibility(eta) - 1.0) * s.speed / (std::sqrt(std::numbers::pi) * s.diameter) : 0.0;

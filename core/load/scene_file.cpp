@@ -21,6 +21,7 @@
 #include "core/scene/scene_output.hpp"
 #include "core/scene/scene_override.hpp"
 #include "core/scene/scene_range_check.hpp"
+#include "core/scene/scene_ranges.hpp"
 #include "core/scene/scene_reader.hpp"
 #include "core/scene/scene_restitution.hpp"
 #include "core/scene/scene_sides.hpp"
@@ -107,12 +108,28 @@ BoxSize read_box(const SceneOrigin& origin, Scene& scene) {
   return size;
 }
 
+// A number is gravity downwards, a list the vector.
+Gravity read_gravity(const TableReader& physics) {
+  const toml::node* node = physics.find("gravity");
+  if (node == nullptr || !node->is_array()) return physics.number_or_initial("gravity");
+  const std::vector<double> g = as_numbers(physics.origin(), physics.key("gravity"), *node);
+  if (g.size() != 2) {
+    physics.fail("gravity", fmt::format("has {} numbers", g.size()), "expected a number, or [gx, gy]");
+  }
+  for (const double part : g) {
+    if (!in_range(Dimension::acceleration, part)) {
+      physics.fail("gravity", fmt::format("is [{}, {}]", g[0], g[1]), expected_range(Dimension::acceleration));
+    }
+  }
+  return {0.0 - g[0], 0.0 - g[1]};  // no zero with a sign
+}
+
 Physics read_physics(const SceneOrigin& origin) {
   Physics physics;
   const toml::table* table = section(origin, "physics");
   if (table == nullptr) return physics;
   const TableReader reader(origin, "physics", *table);
-  physics.gravity = reader.number_or_initial("gravity");
+  physics.gravity = read_gravity(reader);
   physics.diffusion = reader.number("diffusion").value_or(0.0);
   physics.accumulate = reader.flag_or_initial("accumulate");
   const toml::node* node = reader.find("collapse");

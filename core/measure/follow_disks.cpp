@@ -25,7 +25,7 @@ bool follow_disks(DisplacementTally& tally, const Engine& engine, const Scene& s
   const double period = shortest_period(scene.box);
   if (!tally.begun || period == HUGE_VAL) return false;
   const State& now = engine.state();
-  const double g = scene.physics.gravity;
+  const double g = scene.physics.gravity.size;
   // No disk can come further in a time, if none is faster at both its ends.
   const auto reach = [g](double speed, double time) { return (speed + g * time) * time; };
   double speed = tally.fastest;

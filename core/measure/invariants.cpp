@@ -31,17 +31,20 @@ double blocked_sum(const std::vector<std::size_t>& order, const BlockRunner& run
 
 }  // namespace
 
-Energy energy_of(const Disks& d, const std::vector<std::size_t>& order, double gravity, const BlockRunner& run) {
+Energy energy_of(const Disks& d, const std::vector<std::size_t>& order, const Gravity& gravity,
+                 const BlockRunner& run) {
   Energy energy;
   energy.kinetic = blocked_sum(
       order, run, [&](std::size_t i) { return 0.5 * d.mass_of(i) * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]); });
-  if (gravity != 0.0) {
-    energy.potential = blocked_sum(order, run, [&](std::size_t i) { return d.mass_of(i) * gravity * d.y[i]; });
+  if (gravity.acts()) {
+    energy.potential = blocked_sum(order, run, [&](std::size_t i) {
+      return d.mass_of(i) * gravity.down * d.y[i] + d.mass_of(i) * gravity.left * d.x[i];
+    });
   }
   return energy;
 }
 
-Energy energy_of(const Disks& d, double gravity) {
+Energy energy_of(const Disks& d, const Gravity& gravity) {
   return energy_of(d, by_id(d), gravity, run_in_order);
 }
 

@@ -14,7 +14,7 @@ namespace carom {
 
 struct Energy {
   double kinetic = 0.0;    // sum of m v^2 / 2
-  double potential = 0.0;  // sum of m g y
+  double potential = 0.0;  // sum of -m g r, 0 at the lower left corner
   double total() const { return kinetic + potential; }
 };
 
@@ -24,11 +24,12 @@ struct Momentum {
 };
 
 // Sums in id order within blocks of fixed size: the same bits for any storage order and thread count.
-Energy energy_of(const Disks& disks, double gravity);
+Energy energy_of(const Disks& disks, const Gravity& gravity);
 Momentum momentum_of(const Disks& disks);
 
 // The same, where by_id(disks) is known already and work can be shared.
-Energy energy_of(const Disks& disks, const std::vector<std::size_t>& order, double gravity, const BlockRunner& run);
+Energy energy_of(const Disks& disks, const std::vector<std::size_t>& order, const Gravity& gravity,
+                 const BlockRunner& run);
 Momentum momentum_of(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run);
 
 // |end - start| over the larger of the two sums of m |v|; 0 where nothing moves.

@@ -6,17 +6,20 @@
 
 #include "core/base/random.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/gravity.hpp"
 
 namespace carom {
 
 // (14), (15); with gravity (20), (21). Exact for any t, negative too: drift by t and by -t cancel to rounding.
 template <bool gravity>
-inline void drift(double& x, double& y, double& vx, double& vy, double t, double g) {
-  x += vx * t;
+inline void drift(double& x, double& y, double& vx, double& vy, double t, const Gravity& g) {
   if constexpr (gravity) {
-    y += vy * t - 0.5 * g * (t * t);
-    vy -= g * t;
+    x += vx * t - 0.5 * g.left * (t * t);
+    y += vy * t - 0.5 * g.down * (t * t);
+    vx -= g.left * t;
+    vy -= g.down * t;
   } else {
+    x += vx * t;
     y += vy * t;
   }
 }

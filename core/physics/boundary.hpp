@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/disks/domain.hpp"
+#include "core/disks/gravity.hpp"
 
 namespace carom {
 
@@ -41,24 +42,38 @@ inline double outward_speed(Side side, double vx, double vy) {
   }
 }
 
-// Time since the disk touched the wall it now reaches beyond, on its present path; under gravity floor and ceiling are
-// the smaller root of a quadratic of their own, beyond = speed t -+ g t^2 / 2, in the form that does not cancel.
+// Acceleration towards the side; length / time^2. > 0: gravity presses disks against it, as against a floor.
+inline double outward_acceleration(Side side, const Gravity& g) {
+  switch (side) {
+    case Side::left:
+      return g.left;
+    case Side::right:
+      return -g.left;
+    case Side::bottom:
+      return g.down;
+    default:
+      return -g.down;
+  }
+}
+
+// Time since the disk touched the wall it now reaches beyond, on its present path; where gravity accelerates it across
+// the wall, the smaller root of a quadratic, beyond = speed t - a t^2 / 2, in the form that does not cancel.
 // Infinity when this path never was inside (a disk pressed into the floor by others).
-// Preconditions: beyond >= 0, speed > 0, g >= 0.
-inline double time_since_wall(Side side, double beyond, double speed, double g) {
-  if (side == Side::left || side == Side::right || g == 0.0) return beyond / speed;
-  const double sign = side == Side::bottom ? -2.0 : 2.0;
-  const double discriminant = speed * speed + sign * g * beyond;
+// Preconditions: beyond >= 0, speed > 0.
+inline double time_since_wall(Side side, double beyond, double speed, const Gravity& g) {
+  const double acceleration = outward_acceleration(side, g);
+  if (acceleration == 0.0) return beyond / speed;
+  const double discriminant = speed * speed - 2.0 * acceleration * beyond;
   if (discriminant < 0.0) return HUGE_VAL;
   return 2.0 * beyond / (speed + std::sqrt(discriminant));
 }
 
 // Speed towards the side that the disk had, or by its energy would have, at the wall itself: what lifting it back from
 // `beyond` costs under gravity is taken from its motion. 0 where its energy does not reach that far.
-inline double speed_at_wall(Side side, double beyond, double speed, double g) {
-  if (side == Side::left || side == Side::right || g == 0.0) return speed;
-  const double sign = side == Side::bottom ? -2.0 : 2.0;
-  return std::sqrt(std::max(0.0, speed * speed + sign * g * beyond));
+inline double speed_at_wall(Side side, double beyond, double speed, const Gravity& g) {
+  const double acceleration = outward_acceleration(side, g);
+  if (acceleration == 0.0) return speed;
+  return std::sqrt(std::max(0.0, speed * speed - 2.0 * acceleration * beyond));
 }
 
 // The wall's collision rule: the velocity into it is multiplied by -restitution, the other component stays.

@@ -16,7 +16,7 @@ namespace carom {
 // The constants of a run.
 struct ExactRules {
   Domain box;
-  double gravity = 0.0;                 // length / time^2
+  Gravity gravity;                      // length / time^2
   double restitution = 1.0;             // of disk pairs
   double contact_time = -1.0;           // TC model; time, < 0: off
   std::uint64_t seed = 0;               // with thermal sides
@@ -40,9 +40,9 @@ inline bool made_elastic(const ExactRules& rules, double s, double last_contact)
 }
 
 // Two disks (smaller id first) collide at time s; their new segments p and q start there. share and reduced_mass: of
-// their masses. restitution(r): of disks that approach as r says. gravity: is g not 0?
+// their masses. restitution(r): of disks that approach as r says. gravity: may g be other than 0?
 template <bool gravity, class RestitutionOf>
-[[gnu::always_inline]] inline Impact collide_paths(const Domain& box, double g, double s, Shares share,
+[[gnu::always_inline]] inline Impact collide_paths(const Domain& box, const Gravity& g, double s, Shares share,
                                                    double reduced_mass, const RestitutionOf& restitution,
                                                    PathSegment& p, PathSegment& q) {
   drift<gravity>(p.x, p.y, p.vx, p.vy, s - p.start, g);
@@ -123,6 +123,11 @@ inline Impact meet_moving_side(const ExactRules& rules, double s, Side side, dou
   return outcome;
 }
 
+// The disk leaves the side with at least this speed; no operation where that is not above 0.
+inline void hop_off(Side side, double least, PathSegment& p) {
+  if (least > 0.0 && -outward_speed(side, p.vx, p.vy) < least) set_outward_speed(side, -least, p.vx, p.vy);
+}
+
 // Disk a, which has this id, reaches a side at time s: it bounces off a wall or crosses a periodic side. What a sink
 // takes, the caller removes.
 inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double mass, DiskId id, ExactDisk& a) {
@@ -138,7 +143,7 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
     const double e = elastic ? 1.0 : rules.box.restitution(side);
     const double before = outward_speed(side, p.vx, p.vy);
     if (before > 0.0) bounce(side, e, p.vx, p.vy);
-    if (side == Side::bottom && rules.tc()) p.vy = std::max(p.vy, least_hop * rules.gravity * rules.contact_time);
+    if (rules.tc()) hop_off(side, least_hop * outward_acceleration(side, rules.gravity) * rules.contact_time, p);
     outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), 0.0, true,
                elastic && rules.box.restitution(side) < 1.0, e < 1.0};
     a.last_contact = s;
@@ -172,7 +177,7 @@ inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t 
     const double e = elastic ? 1.0 : own;
     double change = approach < 0.0 ? -(1.0 + e) * approach : 0.0;  // of the approach
     if (rules.tc()) {
-      const double least = least_hop * rules.contact_time * (rules.gravity * apart.y);
+      const double least = least_hop * rules.contact_time * rules.gravity.against(apart.x, apart.y);
       change = std::max(change, least - approach);
     }
     p.vx += change / distance2 * apart.x;

@@ -24,7 +24,7 @@ struct PathSegment {
 };
 
 // The same path with its start moved to time s; no operation when it starts there.
-inline PathSegment carried_to(PathSegment p, double s, double g) {
+inline PathSegment carried_to(PathSegment p, double s, const Gravity& g) {
   if (s == p.start) return p;
   drift<true>(p.x, p.y, p.vx, p.vy, s - p.start, g);
   p.start = s;
@@ -72,7 +72,7 @@ inline double time_to_far_contact(const Relative& r, double contact_distance, co
 // smaller id. contact_distance = r1 + r2. Gravity cancels in relative motion, so that the quadratic is that of straight
 // paths.
 inline double collision_time(const PathSegment& first, const PathSegment& second, double contact_distance,
-                             const Domain& box, double g, double end) {
+                             const Domain& box, const Gravity& g, double end) {
   const double both = std::max(first.start, second.start);
   const Relative r = relative(carried_to(first, both, g), carried_to(second, both, g), box);
   double t = time_to_contact(r, contact_distance);
@@ -81,31 +81,24 @@ inline double collision_time(const PathSegment& first, const PathSegment& second
   return s <= end ? s : never;
 }
 
-// Time until a disk `gap` away from a wall or sink touches it, moving towards it at `speed`; under gravity floor and
-// ceiling are quadratics of their own, speed t +- g t^2 / 2 = gap, in forms that do not cancel. A disk that overlaps
-// by rounding counts as touching; a disk at rest on the floor touches now.
-inline double time_to_side(Side side, double gap, double speed, double g) {
-  const double distance = gap > 0.0 ? gap : 0.0;
-  if (g == 0.0 || side == Side::left || side == Side::right) return speed > 0.0 ? distance / speed : never;
-  if (side == Side::bottom) {
-    const double root = std::sqrt(speed * speed + 2.0 * g * distance);
-    return speed > 0.0 ? 2.0 * distance / (speed + root) : (root - speed) / g;
-  }
-  if (!(speed > 0.0)) return never;
-  const double discriminant = speed * speed - 2.0 * g * distance;
-  return discriminant < 0.0 ? never : 2.0 * distance / (speed + std::sqrt(discriminant));
+// Time until a disk `gap` away from a wall or sink touches it, moving towards it at `speed`. A disk that overlaps by
+// rounding counts as touching; a disk at rest on the floor touches now.
+inline double time_to_side(Side side, double gap, double speed, const Gravity& g) {
+  return time_to_approach(gap, speed, outward_acceleration(side, g));
 }
 
-// Time until a segment has covered longest_flight of the period across this periodic side, moving towards it; along y
-// a bound that gravity cannot beat.
-inline double time_to_crossing(Side side, const PathSegment& p, const Domain& box, double g) {
+// Time until a segment has covered longest_flight of the period across this periodic side, moving towards it; along
+// gravity a bound that it cannot beat.
+inline double time_to_crossing(Side side, const PathSegment& p, const Domain& box, const Gravity& g) {
   const double speed = outward_speed(side, p.vx, p.vy);
-  if (side == Side::left || side == Side::right) return speed > 0.0 ? longest_flight * box.width / speed : never;
-  const double flight = longest_flight * box.height;
+  const double acceleration = outward_acceleration(side, g);
+  const bool along_x = side == Side::left || side == Side::right;
+  const double flight = longest_flight * (along_x ? box.width : box.height);
+  if (along_x && acceleration == 0.0) return speed > 0.0 ? flight / speed : never;
   const double fast = std::abs(speed);
-  const double root = std::sqrt(fast * fast + 2.0 * g * flight);
-  // One event for the axis: at the side that the disk moves towards, the bottom one if it only falls.
-  const bool this_side = speed > 0.0 || (speed == 0.0 && g > 0.0 && side == Side::bottom);
+  const double root = std::sqrt(fast * fast + 2.0 * std::abs(acceleration) * flight);
+  // One event for the axis: at the side that the disk moves towards, at that which it falls to if it only falls.
+  const bool this_side = speed > 0.0 || (speed == 0.0 && acceleration > 0.0);
   return this_side ? 2.0 * flight / (fast + root) : never;
 }
 
@@ -121,14 +114,15 @@ inline SideApproach approach_of(const PathSegment& p, Side side, double radius, 
   return {place, -reach_beyond(side, p.x, p.y, radius, box) - place.inset, approach_speed(side, p.vx, p.vy, place)};
 }
 
-inline double time_to_moving_side(const PathSegment& p, Side side, double radius, const Domain& box, double g) {
+inline double time_to_moving_side(const PathSegment& p, Side side, double radius, const Domain& box, const Gravity& g) {
   const SideApproach a = approach_of(p, side, radius, box);
   return time_to_approach(a.gap, a.speed, approach_acceleration(side, g, a.place));
 }
 
 // The time of a path's event at a side: contact with a wall or sink, or crossing a periodic side. A sink takes a disk
 // that touches it, wherever the disk moves. `never` if after `end`.
-inline double side_time(const PathSegment& p, Side side, double radius, const Domain& box, double g, double end) {
+inline double side_time(const PathSegment& p, Side side, double radius, const Domain& box, const Gravity& g,
+                        double end) {
   if (box.moves(side)) {
     const double s = p.start + time_to_moving_side(p, side, radius, box, g);
     return s <= end ? s : never;

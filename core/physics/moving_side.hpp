@@ -26,10 +26,8 @@ inline double rebound(Side side, const SidePlace& place, double approach, double
 }
 
 // Acceleration towards the side, in its frame; length / time^2.
-inline double approach_acceleration(Side side, double g, const SidePlace& place) {
-  return side == Side::bottom ? g + place.acceleration
-         : side == Side::top  ? place.acceleration - g
-                              : place.acceleration;
+inline double approach_acceleration(Side side, const Gravity& g, const SidePlace& place) {
+  return outward_acceleration(side, g) + place.acceleration;
 }
 
 // Time until a disk `gap` away from a side touches it, approaching at `speed` with this acceleration: the smaller root

@@ -127,8 +127,8 @@ inline double speed_towards(const ObstacleGap& gap, double vx, double vy) {
 }
 
 // Time since the disk touched the inside of a segment: as time_since_wall, of a wall that is tilted.
-inline double time_since_flat(const ObstacleGap& gap, double speed, double g) {
-  const double discriminant = speed * speed - 2.0 * (g * gap.ny) * gap.beyond;
+inline double time_since_flat(const ObstacleGap& gap, double speed, const Gravity& g) {
+  const double discriminant = speed * speed - 2.0 * g.against(gap.nx, gap.ny) * gap.beyond;
   return discriminant < 0.0 ? HUGE_VAL : 2.0 * gap.beyond / (speed + std::sqrt(discriminant));
 }
 
@@ -136,14 +136,15 @@ inline double time_since_flat(const ObstacleGap& gap, double speed, double g) {
 // the root of a quadratic (touching_time); with it, two steps by Newton from there, which leave an error of the order
 // of g^2 dt^4: it shifts the place of the impact, not the energy, as the disk goes back and forth on its own parabola.
 // Preconditions: gap.beyond >= 0 and speed_towards > 0 at (x, y).
-inline double time_since_obstacle(const Obstacle& o, const ObstacleGap& gap, double r, double vx, double vy, double g) {
+inline double time_since_obstacle(const Obstacle& o, const ObstacleGap& gap, double r, double vx, double vy,
+                                  const Gravity& g) {
   if (gap.flat) return time_since_flat(gap, speed_towards(gap, vx, vy), g);
   const double contact = r + o.radius;
   const double distance = contact - gap.beyond;
   const double dx = distance * gap.nx;
   const double dy = distance * gap.ny;
   double ago = std::max(0.0, -touching_time({-dx, -dy, -vx, -vy}, contact));
-  if (g == 0.0 || ago == HUGE_VAL) return ago;
+  if (!g.acts() || ago == HUGE_VAL) return ago;
   for (int step = 0; step < 2; ++step) {
     double x = dx;
     double y = dy;

@@ -37,23 +37,55 @@ double bracketed_root(Value&& value, Slope&& slope, double a, double b) {
 // A disk in free fall past an obstacle, the obstacle's centre the origin.
 struct FallPast {
   double x, y, vx, vy;  // of the disk now
-  double g;             // > 0
+  Gravity g;            // not 0
   double contact;       // sum of the radii
 
-  double height(double t) const { return y + (vy * t - 0.5 * g * (t * t)); }
+  double across(double t) const { return x + (vx * t - 0.5 * g.left * (t * t)); }
+  double height(double t) const { return y + (vy * t - 0.5 * g.down * (t * t)); }
   // Distance squared less contact squared.
   double gap2(double t) const {
-    const double dx = x + vx * t;
+    const double dx = across(t);
     const double dy = height(t);
     return (dx * dx + dy * dy) - contact * contact;
   }
   // Half the derivative of gap2, a cubic; < 0: the disk comes nearer.
-  double approach(double t) const { return (x + vx * t) * vx + height(t) * (vy - g * t); }
+  double approach(double t) const { return across(t) * (vx - g.left * t) + height(t) * (vy - g.down * t); }
   double approach_slope(double t) const {
-    const double u = vy - g * t;
-    return vx * vx + u * u - g * height(t);
+    const double ux = vx - g.left * t;
+    const double uy = vy - g.down * t;
+    return ux * ux + uy * uy - g.against(across(t), height(t));
   }
 };
+
+// Two times at which the approach turns; none where `real` is false.
+struct ApproachTurns {
+  bool real;
+  double time[2];
+};
+
+// The roots of approach_slope, a quadratic: (u -+ sqrt((u^2 - 2 v^2 + 2 g h) / 3)) / g, where against gravity the speed
+// is u and the height h, and across it the speed is v.
+inline ApproachTurns turns_of(const FallPast& fall) {
+  const double size = fall.g.size;
+  const double up_x = fall.g.left / size;
+  const double up_y = fall.g.down / size;
+  const double rising = up_y * fall.vy + up_x * fall.vx;
+  const double passing = up_y * fall.vx - up_x * fall.vy;
+  const double height = up_y * fall.y + up_x * fall.x;
+  const double turns = (rising * rising - 2.0 * (passing * passing)) + 2.0 * size * height;
+  const double half = turns > 0.0 ? std::sqrt(turns / 3.0) : 0.0;
+  return {turns > 0.0, {(rising - half) / size, (rising + half) / size}};
+}
+
+// A time by which the disk falls away for ever, not before `after`.
+inline double falls_away_by(const FallPast& fall, double after) {
+  const double size = fall.g.size;
+  const double far = std::abs(fall.g.down / size * fall.y + fall.g.left / size * fall.x) + fall.contact;
+  const double speed = std::sqrt(fall.vx * fall.vx + fall.vy * fall.vy + size * far);
+  double last = after > 0.0 ? after : 0.0;
+  for (double step = speed / size; !(fall.approach(last) > 0.0) && step < never; step *= 2.0) last += step;
+  return last;
+}
 
 // Time from now, >= 0, until the disk touches the obstacle; `never` if not, or if it comes nearer only after `span`
 // (time). A disk that comes nearer and overlaps (by rounding) collides now; one that overlaps and recedes, when it has
@@ -67,19 +99,14 @@ inline double time_to_contact_falling(const FallPast& fall, double span) {
   const auto approach_slope = [&](double t) { return fall.approach_slope(t); };
   double here = fall.approach(0.0);
   if (gap2 <= 0.0 && here < 0.0) return 0.0;
-  // Where the approach turns, and a time by which the disk falls away for ever.
-  const double turns = (fall.vy * fall.vy - 2.0 * (fall.vx * fall.vx)) + 2.0 * fall.g * fall.y;
-  const double half = turns > 0.0 ? std::sqrt(turns / 3.0) : 0.0;
-  const double turn[2] = {(fall.vy - half) / fall.g, (fall.vy + half) / fall.g};
-  double last = turn[1] > 0.0 ? turn[1] : 0.0;
-  const double speed = std::sqrt(fall.vx * fall.vx + fall.vy * fall.vy + fall.g * (std::abs(fall.y) + fall.contact));
-  for (double step = speed / fall.g; !(fall.approach(last) > 0.0) && step < never; step *= 2.0) last += step;
+  const ApproachTurns turns = turns_of(fall);
+  const double last = falls_away_by(fall, turns.time[1]);
 
   double from = 0.0;    // start of the present stretch between two turns
   double nearer = 0.0;  // since when the disk comes nearer, where it does
   for (int k = 0; k < 3; ++k) {
-    const double to = k < 2 ? turn[k] : last;
-    if (k < 2 && !(turns > 0.0)) continue;
+    const double to = k < 2 ? turns.time[k] : last;
+    if (k < 2 && !turns.real) continue;
     if (!(to > from)) continue;
     const double there = fall.approach(to);
     if (here < 0.0 && !(there < 0.0)) {
@@ -96,8 +123,8 @@ inline double time_to_contact_falling(const FallPast& fall, double span) {
 }
 
 // Time from now until a disk touches a fixed disk, or an end of a segment; apart: its place relative to that.
-inline double time_to_round(Vec2 apart, const PathSegment& p, double contact, double g, double span) {
-  if (g == 0.0) return time_to_contact({-apart.x, -apart.y, -p.vx, -p.vy}, contact);
+inline double time_to_round(Vec2 apart, const PathSegment& p, double contact, const Gravity& g, double span) {
+  if (!g.acts()) return time_to_contact({-apart.x, -apart.y, -p.vx, -p.vy}, contact);
   return time_to_contact_falling({apart.x, apart.y, p.vx, p.vy, g, contact}, span);
 }
 
@@ -118,24 +145,26 @@ inline double time_to_plane(double gap, double speed, double a, bool is_touching
 }
 
 // Time until a disk of this radius touches the inside of a segment, on the side where n points.
-inline double time_to_flat(const Obstacle& o, Vec2 apart, Vec2 n, const PathSegment& p, double radius, double g) {
+inline double time_to_flat(const Obstacle& o, Vec2 apart, Vec2 n, const PathSegment& p, double radius,
+                           const Gravity& g) {
   const double length = std::sqrt(o.dx * o.dx + o.dy * o.dy);
   const double ux = o.dx / length;
   const double uy = o.dy / length;
   const auto is_inside = [&](double t) {
-    const double along = (apart.x + p.vx * t) * ux + (apart.y + (p.vy * t - 0.5 * g * (t * t))) * uy;
+    const double along =
+        (apart.x + (p.vx * t - 0.5 * g.left * (t * t))) * ux + (apart.y + (p.vy * t - 0.5 * g.down * (t * t))) * uy;
     return along >= 0.0 && along <= length;
   };
   const double across = apart.x * n.x + apart.y * n.y;
   const double gap = across - radius;
   const bool is_touching = gap <= 0.0 && across >= 0.0 && is_inside(0.0);
-  const double t = time_to_plane(gap, -(p.vx * n.x + p.vy * n.y), g * n.y, is_touching);
+  const double t = time_to_plane(gap, -(p.vx * n.x + p.vy * n.y), g.against(n.x, n.y), is_touching);
   return t < never && is_inside(t) ? t : never;
 }
 
 // Time until a disk of this radius touches an obstacle: round, or a segment, which is touched at either side or end,
 // whatever comes first. A sink takes a disk that touches it, wherever the disk moves.
-inline double time_to_obstacle(const Obstacle& o, Vec2 apart, const PathSegment& p, double radius, double g,
+inline double time_to_obstacle(const Obstacle& o, Vec2 apart, const PathSegment& p, double radius, const Gravity& g,
                                double span) {
   if (!o.is_segment()) return time_to_round(apart, p, radius + o.radius, g, span);
   const ShortestLine now = shortest_line(o, apart);
@@ -165,7 +194,7 @@ struct ObstacleContact {
 // The first contact of a path with an obstacle, the one earlier in the list of two at the same time; `never` if after
 // `end`. The path is followed a cell at a time, so that only obstacles near it cost anything; the time is that of the
 // whole segment and the obstacle, whatever the cells are. Preconditions: box.obstacles is not null; end is finite.
-inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radius, const Domain& box, double g,
+inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radius, const Domain& box, const Gravity& g,
                                               double end) {
   const ObstacleCells& obstacles = *box.obstacles;
   const double span = end - p.start;
@@ -174,14 +203,17 @@ inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radiu
   for (double from = 0.0;;) {
     const double speed = std::sqrt(at.vx * at.vx + at.vy * at.vy);
     const double cell = obstacles.cell();
-    const double step = 2.0 * cell / (speed + std::sqrt(speed * speed + 2.0 * g * cell));
+    const double step = 2.0 * cell / (speed + std::sqrt(speed * speed + 2.0 * g.size * cell));
     const double to = step < span - from ? from + step : span;
     const PathSegment next = carried_to(p, p.start + to, g);
-    // A parabola rises above its chord by no more than g t^2 / 8.
+    // A parabola lies off its chord, on the side that gravity points away from, by no more than g t^2 / 8.
     const double reach = radius + 1e-9 * (radius + cell);
-    const double rise = g * (to - from) * (to - from);
-    const Vec2 low{std::min(at.x, next.x) - reach, std::min(at.y, next.y) - reach};
-    const Vec2 high{std::max(at.x, next.x) + reach, std::max(at.y, next.y) + rise + reach};
+    const double rise_x = g.left * (to - from) * (to - from);
+    const double rise_y = g.down * (to - from) * (to - from);
+    const Vec2 low{std::min(at.x, next.x) + std::min(rise_x, 0.0) - reach,
+                   std::min(at.y, next.y) + std::min(rise_y, 0.0) - reach};
+    const Vec2 high{std::max(at.x, next.x) + std::max(rise_x, 0.0) + reach,
+                    std::max(at.y, next.y) + std::max(rise_y, 0.0) + reach};
     obstacles.visit(low, high, [&](std::uint32_t k, Vec2 shift) {
       const Obstacle& o = obstacles[k];
       if (!may_reach(o, shift, low, high)) return;

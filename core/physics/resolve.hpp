@@ -23,10 +23,10 @@ namespace carom {
 // The constants of one step (or part of a step) that resolving needs.
 struct StepRules {
   Domain box;
-  double gravity = 0.0;
+  Gravity gravity;
   double restitution = 1.0;
   double dt = 0.0;                        // length of the step just drifted
-  bool settles = false;                   // gravity > 0 and a contact dissipates: contacts may bear load (resting.hpp)
+  bool settles = false;                   // gravity acts and a contact dissipates: contacts may bear load (resting.hpp)
   std::uint64_t seed = 0;                 // with thermal sides
   std::uint32_t* thermal_hits = nullptr;  // State::thermal_hits; a disk in contact changes its own
   int round = 0;  // of resolving within the step; later ones find what the one before pressed together
@@ -122,7 +122,7 @@ void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t 
 
 // Along the disk's own path, back where t < 0.
 template <class View>
-void drift_one(const View& d, std::uint32_t i, double t, double g) {
+void drift_one(const View& d, std::uint32_t i, double t, const Gravity& g) {
   drift<true>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
 }
 
@@ -265,7 +265,7 @@ double bounce_at_obstacle(const View& d, const StepRules& rules, std::uint32_t i
   const ObstacleGap gap = gap_to(o, d.x[i], d.y[i], d.radius(i), rules.box);
   const double speed = speed_towards(gap, d.vx[i], d.vy[i]);
   // What lifting it by gap.beyond along the normal costs is taken from its motion along the normal.
-  const double left = speed * speed - 2.0 * (rules.gravity * gap.ny) * gap.beyond;
+  const double left = speed * speed - 2.0 * rules.gravity.against(gap.nx, gap.ny) * gap.beyond;
   const double there = std::sqrt(std::max(0.0, left));
   const double away = obstacle_restitution(d, rules, i, o, there) * there;
   d.x[i] += gap.beyond * gap.nx;

@@ -53,9 +53,9 @@ bool is_support(const View& d, const StepRules& rules, const ContactEvent& e, bo
   if (is_wall(e.id2) && !is_obstacle(e.id2) && rules.box.is_thermal(wall_side(e.id2))) return false;
   if (loaded && squeezed) return true;
   const double speed = std::abs(normal_velocity(d, rules.box, e));
-  if (squeezed) return speed <= squeezed_rest * rules.gravity * rules.dt;
+  if (squeezed) return speed <= squeezed_rest * rules.gravity.size * rules.dt;
   const bool lies = is_wall(e.id2) && may_lose_energy(d, rules, e);
-  return lies && speed <= lying_rest * rules.gravity * rules.dt;
+  return lies && speed <= lying_rest * rules.gravity.size * rules.dt;
 }
 
 // Is this contact solved together with the others? Supports are; so are all crowded contacts that dissipate, since what
@@ -69,7 +69,7 @@ bool is_solved(const View& d, const StepRules& rules, const ContactEvent& e, boo
 template <class View>
 double slack_of(const View& d, const StepRules& rules, const ContactEvent& e) {
   const double contact_distance = is_wall(e.id2) ? d.radius(e.i1) : d.radius(e.i1) + d.radius(e.i2);
-  return std::min(contact_slop * rules.gravity * rules.dt * rules.dt, largest_slop * contact_distance);
+  return std::min(contact_slop * rules.gravity.size * rules.dt * rules.dt, largest_slop * contact_distance);
 }
 
 // A disk that bears on a wall stays on it: where its loads have lifted it off by less than slack (length), it is laid

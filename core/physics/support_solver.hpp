@@ -201,7 +201,7 @@ inline CalmingCycles calming_cycles(const SupportTotals& totals, double fall, do
 // extrapolate on all, in order; sweeps.totals() adds them all up. The loads of the step before have been applied.
 template <class Sweeps>
 void solve_supports(const StepRules& rules, Sweeps&& sweeps) {
-  const double fall = rules.gravity * rules.dt;
+  const double fall = rules.gravity.size * rules.dt;
   double settled = settled_change * fall;
   int usual_cycles = resting_cycles;
   const double pressing = pressing_share / rules.dt;

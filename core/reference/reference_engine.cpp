@@ -48,7 +48,7 @@ Count ReferenceEngine::parts(double dt) {
   const double travel2 =
       with_view(state_.disks, [&](const auto& d) { return largest_travel2(d, 0, state_.disks.size()); });
   const double smallest = smallest_radius(state_.disks);
-  const double fall = smallest > 0.0 ? scene_.physics.gravity * dt / smallest : 0.0;
+  const double fall = smallest > 0.0 ? scene_.physics.gravity.size * dt / smallest : 0.0;
   const Count parts = parts_of_step(travel2, fall, dt);
   if (parts > 1) validity_.see_split(state_, dt, parts);
   return parts;
@@ -56,10 +56,10 @@ Count ReferenceEngine::parts(double dt) {
 
 void ReferenceEngine::drift(double t) {
   const PhaseTimer timer(times_, "drift");
-  const double g = scene_.physics.gravity;
+  const Gravity& g = scene_.physics.gravity;
   with_view(state_.disks, [&](const auto& d) {
     for (std::size_t i = 0; i < state_.disks.size(); ++i) {
-      if (g > 0.0) {
+      if (g.acts()) {
         carom::drift<true>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
       } else {
         carom::drift<false>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);

@@ -115,7 +115,7 @@ class EventLoop {
   void add_travel(std::uint32_t i, double s) {
     const PathSegment& p = path(i);
     const double t = s - p.start;
-    travelled_[i] += (std::sqrt(p.vx * p.vx + p.vy * p.vy) + rules_.gravity * t) * t;
+    travelled_[i] += (std::sqrt(p.vx * p.vx + p.vy * p.vy) + rules_.gravity.size * t) * t;
     farthest_ = std::max(farthest_, travelled_[i]);
   }
 
@@ -154,7 +154,7 @@ WindowResult fresh_result(const State& state) {
 double guess_travel(const ExactRules& rules, const Disks& d, double length) {
   double fastest2 = 0.0;
   for (std::size_t i = 0; i < d.size(); ++i) fastest2 = std::max(fastest2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
-  return 1.25 * (std::sqrt(fastest2) + rules.gravity * length) * length;
+  return 1.25 * (std::sqrt(fastest2) + rules.gravity.size * length) * length;
 }
 
 }  // namespace

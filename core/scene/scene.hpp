@@ -11,6 +11,7 @@
 
 #include "core/base/types.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/gravity.hpp"
 #include "core/disks/restitution_law.hpp"
 
 namespace carom {
@@ -100,7 +101,7 @@ struct InnerWall {
 };
 
 struct Physics {
-  double gravity = 0.0;      // length / time^2, along -y
+  Gravity gravity;           // length / time^2
   double restitution = 1.0;  // of two disks, in [0, 1]; the least one where it depends on their speed
   RestitutionLaw law;        // what there is beside that number
   double diffusion = 0.0;    // length^2 / time; > 0: Brownian motion, (24) of docs/original.md

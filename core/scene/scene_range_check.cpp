@@ -50,12 +50,18 @@ bool steps_in_time(const Scene& scene) {
 }
 
 void check_gravity(const Scene& scene, const PlaceOfKey& place) {
-  const double g = scene.physics.gravity;
-  if (g == 0.0) return;
+  const Gravity& g = scene.physics.gravity;
+  const bool number = !g.is_tilted() && g.down >= 0.0;
+  const std::string given = number ? fmt::format("{}", g.down) : fmt::format("[{}, {}]", 0.0 - g.left, 0.0 - g.down);
   const double t = scene.run.t_end;
-  // Between floor and ceiling no fall is longer than the box; through periodic sides it goes on.
-  const double speed = scene.box.periodic_y() ? 0.5 * g * t : std::sqrt(2.0 * g * scene.box.height);
-  check_flight(scene, speed * t, place("physics.gravity"), fmt::format("is {}: a disk that falls", g));
+  const auto check = [&](double part, double length, bool periodic) {
+    if (part == 0.0) return;
+    // Between floor and ceiling no fall is longer than the box; through periodic sides it goes on.
+    const double speed = periodic ? 0.5 * part * t : std::sqrt(2.0 * part * length);
+    check_flight(scene, speed * t, place("physics.gravity"), fmt::format("is {}: a disk that falls", given));
+  };
+  check(std::abs(g.left), scene.box.width, scene.box.periodic_x());
+  check(std::abs(g.down), scene.box.height, scene.box.periodic_y());
 }
 
 void check_diffusion(const Scene& scene, const PlaceOfKey& place) {

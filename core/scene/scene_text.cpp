@@ -149,6 +149,10 @@ std::string box_text(const Scene& scene) {
   return text + fmt::format("wall_restitution = {}\n", decimal(common));
 }
 
+std::string gravity_text(const Gravity& g) {
+  return g.is_tilted() || g.down < 0.0 ? pair({0.0 - g.left, 0.0 - g.down}) : decimal(g.down);
+}
+
 std::string restitution_text(const Restitution& r) {
   if (r.viscosity == 0.0) return decimal(r.least);
   return fmt::format("{{ viscoelastic = {}, least = {} }}", decimal(r.viscosity), decimal(r.least));
@@ -156,7 +160,7 @@ std::string restitution_text(const Restitution& r) {
 
 std::string physics_text(const Scene& scene) {
   const Physics& physics = scene.physics;
-  std::string text = fmt::format("\n[physics]\ngravity = {}\nrestitution = {}\n", decimal(physics.gravity),
+  std::string text = fmt::format("\n[physics]\ngravity = {}\nrestitution = {}\n", gravity_text(physics.gravity),
                                  restitution_text({physics.restitution, physics.law.viscosity}));
   if (physics.diffusion > 0.0) {
     text += fmt::format("diffusion = {}\naccumulate = {}\n", decimal(physics.diffusion), physics.accumulate);

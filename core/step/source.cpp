@@ -134,7 +134,7 @@ void emit_from_source(const Scene& scene, State& state, std::size_t index, Count
     ++emitted;
     ++state.counters.emitted;
     state.counters.emitted_energy +=
-        disk.mass * (0.5 * (disk.vx * disk.vx + disk.vy * disk.vy) + scene.physics.gravity * disk.y);
+        disk.mass * (0.5 * (disk.vx * disk.vx + disk.vy * disk.vy) + scene.physics.gravity.against(disk.x, disk.y));
   }
   state.counters.waiting += due - emitted;
 }

@@ -19,7 +19,7 @@ namespace carom {
 inline bool settles(const Scene& scene) {
   const auto& walls = scene.box.restitutions;
   const bool dissipates = disks_dissipate(scene) || *std::min_element(walls.begin(), walls.end()) < 1.0;
-  return scene.physics.gravity > 0.0 && (dissipates || inner_walls_dissipate(scene));
+  return scene.physics.gravity.acts() && (dissipates || inner_walls_dissipate(scene));
 }
 
 inline StepRules rules_for(const Scene& scene, double dt) {

@@ -187,7 +187,7 @@ std::vector<std::string> validity_of(const Scene& scene, double smallest_radius,
   }
   // Gravity and Brownian motion bring their own speeds.
   const bool steps =
-      scene.run.method != Method::exact && scene.physics.diffusion == 0.0 && scene.physics.gravity == 0.0;
+      scene.run.method != Method::exact && scene.physics.diffusion == 0.0 && !scene.physics.gravity.acts();
   const double way = steps ? fastest * scene.run.dt : 0.0;
   const double rounding = side * 0x1p-53;
   if (way > 0.0 && way < least_step_roundings * rounding) {

@@ -44,7 +44,7 @@ double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_
   double side = 0.0;
   for (const SideMotion& motion : scene.box.motions) side = std::max(side, motion.largest_speed());
   // Falling through the spacing adds 2 g spacing to v^2; sides that move give their speed to disks at rest.
-  const double speed = std::sqrt(speeds.mean2 + 2.0 * scene.physics.gravity * spacing + side * side);
+  const double speed = std::sqrt(speeds.mean2 + 2.0 * scene.physics.gravity.size * spacing + side * side);
   if (!(speed > 0.0)) return HUGE_VAL;
   return longest_travel * spacing / speed * std::max(1.0, few_disks / n);
 }

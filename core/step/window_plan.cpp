@@ -35,7 +35,7 @@ std::string partner_text(const Domain& box, DiskId id) {
 
 // Time does not get on past this event. Why that is follows from what kind of contact it is.
 [[noreturn]] void fail_standstill(const ExactRules& rules, const EventMark& event, double start) {
-  const bool rests = rules.gravity > 0.0 && dissipates(rules);
+  const bool rests = rules.gravity.acts() && dissipates(rules);
   if (!rules.tc() && (rests || may_lose_energy(rules, event.id1, event.id2))) fail_collapse(rules, event, start);
   if (rules.box.has_moving_side()) {
     throw PhysicsError(fmt::format(
@@ -50,7 +50,7 @@ std::string partner_text(const Domain& box, DiskId id) {
       rules.tc()
           ? "physics.collapse.contact_time is too short for a double to tell such times apart: use a larger one, "
             "or --method pairwise"
-      : rules.gravity > 0.0
+      : rules.gravity.acts()
           ? "they rest on each other, or have no room to move: use --method pairwise, a larger box or smaller disks"
           : "they have no room to move, or masses differ too much: use a larger box, smaller disks or --method "
             "pairwise"));

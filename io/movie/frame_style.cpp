@@ -34,11 +34,21 @@ double shared_square(const Disks& disks) {
   return least == greatest ? 0.0 : 2.0 * (kinetic / n) * (inverse_mass / n);
 }
 
-// What falling to the floor adds, on average.
-double falling_square(const Disks& disks, double gravity) {
-  double height = 0.0;
-  for (std::size_t i = 0; i < disks.size(); ++i) height += std::max(disks.y[i] - disks.radius_of(i), 0.0);
-  return disks.empty() ? 0.0 : 2.0 * gravity * height / static_cast<double>(disks.size());
+// The way of a disk along an axis of the box to the wall that it falls to. part: of gravity, towards low coordinates.
+double way_down(double part, double coordinate, double radius, double length) {
+  return std::max((part < 0.0 ? length - coordinate : coordinate) - radius, 0.0);
+}
+
+// What falling to the floor, and to a side wall, adds, on average.
+double falling_square(const Disks& disks, const Gravity& gravity, const Domain& box) {
+  double across = 0.0, height = 0.0;
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    const double r = disks.radius_of(i);
+    across += way_down(gravity.left, disks.x[i], r, box.width);
+    height += way_down(gravity.down, disks.y[i], r, box.height);
+  }
+  const double work = std::abs(gravity.down) * height + std::abs(gravity.left) * across;
+  return disks.empty() ? 0.0 : 2.0 * work / static_cast<double>(disks.size());
 }
 
 // What the radii and masses of a source may be.
@@ -104,7 +114,7 @@ SeenValues foreseen_values(const Scene& scene, const Disks& first) {
   seen.add(first, {});
   double square = seen.speed_square;
   if (!disks_dissipate(scene)) square = std::max(square, tail * shared_square(first));
-  if (physics.gravity > 0.0) square += falling_square(first, physics.gravity);
+  if (physics.gravity.acts()) square += falling_square(first, physics.gravity, scene.box);
   for (const Source& source : scene.sources) square = std::max(square, source_square(source));
   if (physics.diffusion > 0.0 && scene.run.dt > 0.0) {
     const double brownian = 4.0 * physics.diffusion / scene.run.dt;  // mean of (u / dt)^2, both components

@@ -27,7 +27,7 @@ struct SeriesColumn {
 inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"disks", true, "", "disks in the box"},
     {"kinetic", false, "energy", "sum of m v^2 / 2; nan for Brownian motion, whose u / dt is no velocity"},
-    {"potential", false, "energy", "sum of m g y, from the bottom"},
+    {"potential", false, "energy", "sum of -m g.r, 0 at the lower left corner"},
     {"total", false, "energy", "kinetic + potential; likewise"},
     {"px", false, "momentum", "sum of m vx; likewise"},
     {"py", false, "momentum", "sum of m vy; likewise"},
@@ -75,7 +75,7 @@ class SeriesMeter {
   IntervalMeans means(const Disks& disks, const Energy& energy, const State& now) const;
 
   Domain box_;
-  double gravity_;
+  Gravity gravity_;
   bool with_overlap_;
   bool drawn_;  // what is made of velocities means nothing, and is NaN
   MeterMark done_;

@@ -109,8 +109,10 @@ bool EventPredictor::touches_slowly(const PathSegment& path, double radius) cons
 PredictionConstants EventPredictor::constants_of(const WindowState& window) {
   const ExactRules& rules = window.rules;
   PredictionConstants f;
-  f.gravity = in_all_lanes(rules.gravity);
-  f.half_gravity = in_all_lanes(0.5 * rules.gravity);
+  f.down = in_all_lanes(rules.gravity.down);
+  f.half_down = in_all_lanes(0.5 * rules.gravity.down);
+  f.left = in_all_lanes(rules.gravity.left);
+  f.half_left = in_all_lanes(0.5 * rules.gravity.left);
   const double contact_distance = window.disks->common_radius + window.disks->common_radius;
   f.contact2 = in_all_lanes(contact_distance * contact_distance);
   f.slow_approach = std::sqrt(window.slow2()) * slow_margin;
@@ -129,7 +131,7 @@ NextEvent EventPredictor::earliest_at_sides(std::uint32_t i) const {
   const DiskRecord& own = window_->record[i];
   const PathSegment& path = own.path;
   const Domain& box = window_->rules.box;
-  const double g = window_->rules.gravity;
+  const Gravity& g = window_->rules.gravity;
   NextEvent best;
   bool lasting = false;
   const auto see_side = [&](Side side) {
@@ -152,11 +154,11 @@ NextEvent EventPredictor::earliest_at_sides(std::uint32_t i) const {
   if (!far_) return best;
   // Only a disk that moves far within the window has crossing events.
   const double span = (window_->horizon - path.start) * (1.0 + 1e-9);
-  if (box.periodic_x() && std::abs(path.vx) * span >= longest_flight * box.width) {
-    see_side(path.vx > 0.0 ? Side::right : Side::left);
+  if (box.periodic_x() && (std::abs(path.vx) + std::abs(g.left) * span) * span >= longest_flight * box.width) {
+    see_side(path.vx > 0.0 || (path.vx == 0.0 && g.left < 0.0) ? Side::right : Side::left);
   }
-  if (box.periodic_y() && (std::abs(path.vy) + g * span) * span >= longest_flight * box.height) {
-    see_side(path.vy > 0.0 ? Side::top : Side::bottom);
+  if (box.periodic_y() && (std::abs(path.vy) + std::abs(g.down) * span) * span >= longest_flight * box.height) {
+    see_side(path.vy > 0.0 || (path.vy == 0.0 && g.down < 0.0) ? Side::top : Side::bottom);
   }
   best.lasting = lasting;
   return best;

@@ -20,7 +20,7 @@ class EventPredictor {
   EventPredictor(const WindowState& window, const NeighbourLists& lists)
       : window_(&window),
         lists_(&lists),
-        kernels_(choose_prediction_kernels(window.rules.gravity != 0.0, !window.disks->radius.empty())),
+        kernels_(choose_prediction_kernels(kind_of(window.rules.gravity), !window.disks->radius.empty())),
         constants_(constants_of(window)),
         fastest2_(window.fastest2) {
     see_far();

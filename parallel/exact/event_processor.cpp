@@ -14,7 +14,8 @@ namespace {
 
 // Is there nothing but straight paths and collisions of disks of one mass?
 bool is_plain(const WindowState& window) {
-  return window.rules.gravity == 0.0 && window.rules.common_mass && window.last_contact.empty() && window.burst.empty();
+  return !window.rules.gravity.acts() && window.rules.common_mass && window.last_contact.empty() &&
+         window.burst.empty();
 }
 
 constexpr Count events_between_polls = 4096;

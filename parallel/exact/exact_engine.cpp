@@ -255,7 +255,7 @@ void ParallelExact::load_paths(const WindowPlan& plan, bool rebuilt) {
   const PhaseTimer timer(times_, "load");
   const Disks& d = state_.disks;
   window_.begin(exact_rules(scene_, d, plan.start), d, plan, speeds_.largest2, largest_radius_);
-  window_.safe_speed2 = lists_.safe_speed2(plan.length, window_.rules.gravity);
+  window_.safe_speed2 = lists_.safe_speed2(plan.length, window_.rules.gravity.size);
   window_.last_contact.resize(state_.last_contact.empty() ? 0 : d.size());
   window_.thermal_hits.resize(state_.thermal_hits.empty() ? 0 : d.size());
   executor_.for_ranges(d.size(), pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -290,7 +290,7 @@ double ParallelExact::carried_event_time(std::size_t i, const WindowPlan& plan, 
 
 // margin: a factor on the largest speed at the window's start.
 void ParallelExact::set_speed_bound(const WindowPlan& plan, double margin) {
-  const double fall = window_.rules.gravity * plan.length;
+  const double fall = window_.rules.gravity.size * plan.length;
   const double fastest = margin * std::sqrt(window_.fastest2) + fall;
   window_.speed_limit2 = window_.mode == EngineMode::regions ? fastest * fastest : HUGE_VAL;
   window_.speed_bound = fastest + fall;

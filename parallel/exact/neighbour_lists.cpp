@@ -267,9 +267,10 @@ void NeighbourLists::release_scratch() {
 }
 
 double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& path, double from, double until,
-                                            double g) const {
+                                            const Gravity& gravity) const {
   if (mode_ == EngineMode::all_pairs) return never;
-  const PathSegment p = carried_to(path, from, g);
+  const PathSegment p = carried_to(path, from, gravity);
+  const double g = gravity.size;
   const Vec2 position = listed_position(i);
   const auto [dx, dy] = nearest_image({p.x - position.x, p.y - position.y}, box_);
   double room = relist_distance_ * (1.0 - 1e-9);
@@ -293,12 +294,13 @@ double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& 
 // A straight path whose ends are in a circle is in it; gravity bends it by g t^2 / 8 at most, so that it has to begin
 // and end further inside.
 bool NeighbourLists::stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until,
-                                          double g) const {
+                                          const Gravity& g) const {
   if (mode_ == EngineMode::all_pairs) return true;
-  const double room = relist_distance_ * (1.0 - 1e-9) - 0.125 * g * (until - from) * (until - from);
+  const double room = relist_distance_ * (1.0 - 1e-9) - 0.125 * g.size * (until - from) * (until - from);
   const auto inside = [&](double t) {
     const double s = t - path.start;
-    return is_within(i, path.x + path.vx * s, path.y + (path.vy - 0.5 * g * s) * s, room * room);
+    return is_within(i, path.x + (path.vx - 0.5 * g.left * s) * s, path.y + (path.vy - 0.5 * g.down * s) * s,
+                     room * room);
   };
   return room > 0.0 && inside(until) && inside(from);
 }

@@ -106,12 +106,13 @@ class NeighbourLists {
   // A time up to which the disk, now (at time `from`) on this path, stays within the relist distance of its listed
   // position; `from` itself when it does not. Extrapolates no further than `until`, or as far as gravity bends the path
   // little.
-  double earliest_relist_time(std::uint32_t i, const PathSegment& path, double from, double until, double g) const;
+  double earliest_relist_time(std::uint32_t i, const PathSegment& path, double from, double until,
+                              const Gravity& gravity) const;
 
   // Does the disk, within the relist distance of its listed position at time `from`, stay so until `until`? May say no
   // where earliest_relist_time would say yes, never the other way round; much faster.
-  bool stays_listed(std::uint32_t i, const PathSegment& path, double from, double until, double g) const {
-    if (g != 0.0) return stays_listed_falling(i, path, from, until, g);
+  bool stays_listed(std::uint32_t i, const PathSegment& path, double from, double until, const Gravity& g) const {
+    if (g.acts()) return stays_listed_falling(i, path, from, until, g);
     const double s = until - path.start;
     return is_within(i, path.x + path.vx * s, path.y + path.vy * s, stay2_);
   }
@@ -194,7 +195,8 @@ class NeighbourLists {
     dy -= period_y_ * ((dy * periods_per_y_ + shift) - shift);
     return dx * dx + dy * dy < distance2;
   }
-  bool stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until, double g) const;
+  bool stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until,
+                            const Gravity& g) const;
   void choose_skin(const Disks& disks, double relist_share);
   void sort(Disks& disks, const ListLayout& layout, const Executor& executor);
   void list_all(const Disks& disks, const Executor& executor);

@@ -23,7 +23,8 @@ constexpr LaneConstant in_all_lanes(double a) {
 struct PredictionConstants {
   LaneConstant period_x = in_all_lanes(0.0), period_y = in_all_lanes(0.0);            // length; 0: none
   LaneConstant periods_per_x = in_all_lanes(0.0), periods_per_y = in_all_lanes(0.0);  // 1 / period; 0: none
-  LaneConstant gravity = in_all_lanes(0.0), half_gravity = in_all_lanes(0.0);         // length / time^2
+  LaneConstant down = in_all_lanes(0.0), half_down = in_all_lanes(0.0);               // gravity; length / time^2
+  LaneConstant left = in_all_lanes(0.0), half_left = in_all_lanes(0.0);
   LaneConstant contact2 = in_all_lanes(0.0);  // of equal disks: contact distance, squared
   // |dr.dv| of a pair that approaches so slowly that its contact may last (WindowState::close).
   double slow_approach = 0.0;
@@ -51,10 +52,16 @@ struct PredictionKernels {
   PredictionKernel<std::int32_t> far;
 };
 
-// For a scene with gravity or without, with radii that differ or not.
-PredictionKernels prediction_kernels_baseline(bool gravity, bool unequal_radii);
-PredictionKernels prediction_kernels_avx2(bool gravity, bool unequal_radii);
+// What a scene's gravity is: none, along y alone, or any.
+enum class GravityKind { none, down, tilted };
+inline GravityKind kind_of(const Gravity& g) {
+  return g.is_tilted() ? GravityKind::tilted : g.acts() ? GravityKind::down : GravityKind::none;
+}
+
+// For a scene with such gravity, with radii that differ or not.
+PredictionKernels prediction_kernels_baseline(GravityKind gravity, bool unequal_radii);
+PredictionKernels prediction_kernels_avx2(GravityKind gravity, bool unequal_radii);
 // The best version for the processor at hand.
-PredictionKernels choose_prediction_kernels(bool gravity, bool unequal_radii);
+PredictionKernels choose_prediction_kernels(GravityKind gravity, bool unequal_radii);
 
 }  // namespace carom

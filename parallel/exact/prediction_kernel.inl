@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
 
 #include "parallel/exact/prediction_kernel.hpp"
 
@@ -122,7 +121,7 @@ struct Own {
 // core's collision_time(), operation by operation: carried_to, relative, time_to_contact, touching_time. Differences
 // may have the other sign, which changes no bit of the time. Not a number where there is no contact. slowest: the
 // least |dr.dv| so far.
-template <bool gravity, bool unequal_radii, bool newest>
+template <GravityKind gravity, bool unequal_radii, bool newest>
 inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const DiskRecord& f0, const DiskRecord& f1,
                              const DiskRecord& f2, const DiskRecord& f3, Doubles& slowest) {
   const Doubles m0 = load_motion(f0.path);
@@ -133,34 +132,45 @@ inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const
   const Doubles ys01 = __builtin_shufflevector(m0, m1, 1, 5, 3, 7);
   const Doubles xs23 = __builtin_shufflevector(m2, m3, 0, 4, 2, 6);
   const Doubles ys23 = __builtin_shufflevector(m2, m3, 1, 5, 3, 7);
-  const Doubles vx = __builtin_shufflevector(xs01, xs23, 2, 3, 6, 7);
+  Doubles vx = __builtin_shufflevector(xs01, xs23, 2, 3, 6, 7);
   Doubles vy = __builtin_shufflevector(ys01, ys23, 2, 3, 6, 7);
   const Doubles start = Doubles{f0.path.start, f1.path.start, f2.path.start, f3.path.start};
   const Doubles both = newest ? own.start : larger(start, own.start);
   const Doubles s = both - start;
-  const Doubles x = __builtin_shufflevector(xs01, xs23, 0, 1, 4, 5) + vx * s;
+  Doubles shift = vx * s;
   Doubles rise = vy * s;
   Doubles own_x = own.x;
   Doubles own_y = own.y;
+  Doubles own_vx = own.vx;
   Doubles own_vy = own.vy;
-  if constexpr (gravity) {
-    rise = rise - load(f.half_gravity) * (s * s);
-    vy = vy - load(f.gravity) * s;
+  if constexpr (gravity != GravityKind::none) {
+    rise = rise - load(f.half_down) * (s * s);
+    vy = vy - load(f.down) * s;
+  }
+  if constexpr (gravity == GravityKind::tilted) {
+    shift = shift - load(f.half_left) * (s * s);
+    vx = vx - load(f.left) * s;
   }
   if constexpr (!newest) {
     const Doubles t = both - own.start;
-    own_x = own.x + own.vx * t;
+    Doubles own_shift = own.vx * t;
     Doubles own_rise = own.vy * t;
-    if constexpr (gravity) {
-      own_rise = own_rise - load(f.half_gravity) * (t * t);
-      own_vy = own.vy - load(f.gravity) * t;
+    if constexpr (gravity != GravityKind::none) {
+      own_rise = own_rise - load(f.half_down) * (t * t);
+      own_vy = own.vy - load(f.down) * t;
     }
+    if constexpr (gravity == GravityKind::tilted) {
+      own_shift = own_shift - load(f.half_left) * (t * t);
+      own_vx = own.vx - load(f.left) * t;
+    }
+    own_x = own.x + own_shift;
     own_y = own.y + own_rise;
   }
+  const Doubles x = __builtin_shufflevector(xs01, xs23, 0, 1, 4, 5) + shift;
   const Doubles y = __builtin_shufflevector(ys01, ys23, 0, 1, 4, 5) + rise;
   const Doubles dx = nearest(x - own_x, f.period_x, f.periods_per_x);
   const Doubles dy = nearest(y - own_y, f.period_y, f.periods_per_y);
-  const Doubles dvx = vx - own.vx;
+  const Doubles dvx = vx - own_vx;
   const Doubles dvy = vy - own_vy;
   const Doubles approach = dx * dvx + dy * dvy;
   const Doubles cross = dx * dvy - dy * dvx;
@@ -177,7 +187,7 @@ inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const
   return both + larger(all(0.0), number(bits(until_contact) | recedes));
 }
 
-template <bool gravity, bool unequal_radii, bool newest, class Offset>
+template <GravityKind gravity, bool unequal_radii, bool newest, class Offset>
 FirstContact first_contact(const PredictionConstants& f, const DiskRecord* record, const Offset* offset,
                            std::uint32_t count) {
   const PathSegment& p = record->path;
@@ -212,19 +222,24 @@ FirstContact first_contact(const PredictionConstants& f, const DiskRecord* recor
   return found;
 }
 
+template <GravityKind gravity, bool unequal_radii>
+PredictionKernels kernels_for() {
+  return {first_contact<gravity, unequal_radii, false, std::int16_t>,
+          first_contact<gravity, unequal_radii, true, std::int16_t>,
+          first_contact<gravity, unequal_radii, false, std::int32_t>};
+}
+
+template <GravityKind gravity>
+PredictionKernels kernels_for(bool unequal_radii) {
+  return unequal_radii ? kernels_for<gravity, true>() : kernels_for<gravity, false>();
+}
+
 }  // namespace
 
-PredictionKernels CAROM_PREDICTION_KERNELS(bool gravity, bool unequal_radii) {
-  const auto both = [](auto has_gravity, auto has_radii) {
-    constexpr bool g = decltype(has_gravity)::value;
-    constexpr bool r = decltype(has_radii)::value;
-    return PredictionKernels{first_contact<g, r, false, std::int16_t>, first_contact<g, r, true, std::int16_t>,
-                             first_contact<g, r, false, std::int32_t>};
-  };
-  if (gravity && unequal_radii) return both(std::true_type{}, std::true_type{});
-  if (gravity) return both(std::true_type{}, std::false_type{});
-  if (unequal_radii) return both(std::false_type{}, std::true_type{});
-  return both(std::false_type{}, std::false_type{});
+PredictionKernels CAROM_PREDICTION_KERNELS(GravityKind gravity, bool unequal_radii) {
+  if (gravity == GravityKind::tilted) return kernels_for<GravityKind::tilted>(unequal_radii);
+  if (gravity == GravityKind::down) return kernels_for<GravityKind::down>(unequal_radii);
+  return kernels_for<GravityKind::none>(unequal_radii);
 }
 
 }  // namespace carom

@@ -4,7 +4,7 @@
 
 namespace carom {
 
-PredictionKernels choose_prediction_kernels(bool gravity, bool unequal_radii) {
+PredictionKernels choose_prediction_kernels(GravityKind gravity, bool unequal_radii) {
   if (kernel_set() == KernelSet::avx2) return prediction_kernels_avx2(gravity, unequal_radii);
   return prediction_kernels_baseline(gravity, unequal_radii);
 }

@@ -27,7 +27,7 @@ double SafeTimes::known_until(std::uint32_t unresolved) const {
 double SafeTimes::safe_time_from(std::uint32_t i, double time, std::uint32_t unresolved) const {
   const DiskRecord& f = window_.record[i];
   const DiskRecord& u = window_.record[unresolved];
-  const double g = window_.rules.gravity;
+  const Gravity& g = window_.rules.gravity;
   const double until = known_until(unresolved);
   const double from = std::max(time, until);
   const PathSegment p = carried_to(f.path, from, g);
@@ -35,7 +35,7 @@ double SafeTimes::safe_time_from(std::uint32_t i, double time, std::uint32_t unr
   const Relative r = relative(p, q, window_.rules.box);
   // Both towards each other, since the motion of the unresolved one is unknown.
   const double speed =
-      std::sqrt(f.path.vx * f.path.vx + f.path.vy * f.path.vy) + g * window_.length + window_.speed_bound;
+      std::sqrt(f.path.vx * f.path.vx + f.path.vy * f.path.vy) + g.size * window_.length + window_.speed_bound;
   const double contact_distance = f.radius + u.radius + window_.slack + window_.speed_bound * (from - until);
   const double most = contact_distance + speed * (window_.slice_stop() - from);
   const double distance2 = r.distance2();

@@ -43,7 +43,7 @@ void WindowState::set_tolerances() {
   const double side = std::max(rules.box.width, rules.box.height);
   slack = 1e-9 * 2.0 * largest_radius + 1e-14 * side;
   // Coordinates, and distances that velocities make in the windows ahead, are rounded to this.
-  const double fastest = std::sqrt(fastest2) + rules.gravity * length;
+  const double fastest = std::sqrt(fastest2) + rules.gravity.size * length;
   const double rounding = 0x1p-51 * (side + fastest * horizon);
   close = 4.0 * rounding_ratio * rounding;
   slow = rounding_ratio * rounding / length;

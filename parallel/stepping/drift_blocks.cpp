@@ -51,9 +51,11 @@ double move_all(MoveInput in, std::size_t disks, const CellGrid& grid, const Sor
 
 }  // namespace
 
-double drift_blocks(Disks& d, const Domain& box, double gravity, double t, const CellGrid& grid,
+double drift_blocks(Disks& d, const Domain& box, const Gravity& gravity, double t, const CellGrid& grid,
                     const SortedCells& cells, const Executor& executor, CoarsePositions& coarse) {
-  const Motion motion = gravity > 0.0 ? Motion::parabola : Motion::straight;
+  const Motion motion = gravity.is_tilted() ? Motion::tilted_parabola
+                        : gravity.acts()    ? Motion::parabola
+                                            : Motion::straight;
   return move_all({d.x.data(), d.y.data(), d.vx.data(), d.vy.data(), nullptr, nullptr, box, motion, t, gravity},
                   d.size(), grid, cells, executor, coarse);
 }

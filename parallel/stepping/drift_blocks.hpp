@@ -16,7 +16,7 @@ namespace carom {
 // Drifts every disk by t (negative: back) and wraps centres across periodic sides; takes down coarse positions and
 // strays. Returns the largest squared speed after it. Each disk by itself: no order can matter.
 // Preconditions: the disks are stored in the order of cells, and begin_coarse_positions was called since.
-double drift_blocks(Disks& disks, const Domain& box, double gravity, double t, const CellGrid& grid,
+double drift_blocks(Disks& disks, const Domain& box, const Gravity& gravity, double t, const CellGrid& grid,
                     const SortedCells& cells, const Executor& executor, CoarsePositions& coarse);
 
 // Takes down coarse positions and strays of disks that have been moved otherwise; changes none. Same preconditions.

@@ -139,11 +139,10 @@ double move_rest(MoveInput in, const GridLevel& level, std::size_t begin, std::s
   const LevelView v = view_of(level);
   double speed2 = 0.0;
   for (std::size_t i = begin; i < end; ++i) {
-    double vx = in.vx[i];
     if constexpr (motion != Motion::none)
-      drift<motion == Motion::parabola>(in.x[i], in.y[i], vx, in.vy[i], in.t, in.gravity);
+      drift<motion != Motion::straight>(in.x[i], in.y[i], in.vx[i], in.vy[i], in.t, in.gravity);
     finish_one<periodic_x, periodic_y>(in, v, i, strays);
-    speed2 = std::max(speed2, vx * vx + in.vy[i] * in.vy[i]);
+    speed2 = std::max(speed2, in.vx[i] * in.vx[i] + in.vy[i] * in.vy[i]);
   }
   return speed2;
 }
@@ -157,8 +156,10 @@ double move_range(const MoveInput& input, const GridLevel& level, std::size_t be
                   std::vector<std::uint32_t>& strays) {
   const MoveInput in = input;  // by itself, so that no store can change it
   const LevelView v = view_of(level);
-  const double fall = 0.5 * in.gravity * (in.t * in.t);
-  const double slowing = in.gravity * in.t;
+  const double fall = 0.5 * in.gravity.down * (in.t * in.t);
+  const double slowing = in.gravity.down * in.t;
+  const double fall_x = 0.5 * in.gravity.left * (in.t * in.t);
+  const double slowing_x = in.gravity.left * in.t;
   Doubles speed2 = all(0.0);
   std::size_t i = begin;
   for (; i + lanes <= end; i += lanes) {
@@ -166,10 +167,16 @@ double move_range(const MoveInput& input, const GridLevel& level, std::size_t be
     Doubles y = load(in.y + i);
     // drift of core/physics/advance.hpp.
     if constexpr (motion != Motion::none) {
-      const Doubles vx = load(in.vx + i);
+      Doubles vx = load(in.vx + i);
       Doubles vy = load(in.vy + i);
-      x += vx * all(in.t);
-      if constexpr (motion == Motion::parabola) {
+      if constexpr (motion == Motion::tilted_parabola) {
+        x += vx * all(in.t) - all(fall_x);
+        vx -= all(slowing_x);
+        store(in.vx + i, vx);
+      } else {
+        x += vx * all(in.t);
+      }
+      if constexpr (motion == Motion::parabola || motion == Motion::tilted_parabola) {
         y += vy * all(in.t) - all(fall);
         vy -= all(slowing);
         store(in.vy + i, vy);
@@ -219,9 +226,11 @@ double CAROM_MOVE_DISKS(const MoveInput& in, const GridLevel& level, std::size_t
     case Motion::straight:
       return move_in_box<Motion::straight>(in, level, begin, end, strays);
     case Motion::parabola:
+      return move_in_box<Motion::parabola>(in, level, begin, end, strays);
+    case Motion::tilted_parabola:
       break;
   }
-  return move_in_box<Motion::parabola>(in, level, begin, end, strays);
+  return move_in_box<Motion::tilted_parabola>(in, level, begin, end, strays);
 }
 
 }  // namespace carom

@@ -7,22 +7,25 @@
 #include <vector>
 
 #include "core/disks/domain.hpp"
+#include "core/disks/gravity.hpp"
 #include "parallel/cells/cell_grid.hpp"
 
 namespace carom {
 
-enum class Motion { none, straight, parabola };
+// A parabola has its axis along y, a tilted one any.
+enum class Motion { none, straight, parabola, tilted_parabola };
 
 struct MoveInput {
   double* x;
   double* y;
-  const double* vx;
+  double* vx;
   double* vy;
   const std::uint32_t* key;  // cell that the disk was sorted into
   std::uint32_t* position;   // coarse (coarse_positions.hpp)
   Domain box;
   Motion motion;
-  double t, gravity;
+  double t;
+  Gravity gravity;
 };
 
 // Moves disks [begin, end) of a level as drift and wrap do (core/physics/advance.hpp), with the same operations; writes

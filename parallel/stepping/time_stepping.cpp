@@ -158,10 +158,10 @@ Count TimeStepping::parts(double dt) {
   if (smallest_radius_ == 0.0 || !scene_.sources.empty()) smallest_radius_ = smallest_radius(state_.disks);
   // The bound from the phases before is mostly enough to see that the step is safe; if not, the true figure decides,
   // and it is the reference's. Sinks may have taken the smallest disk: then too the true figure is taken.
-  const double fall = scene_.physics.gravity * dt / smallest_radius_;
+  const double fall = scene_.physics.gravity.size * dt / smallest_radius_;
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
   if (has_sinks(scene_.box) || smallest_may_be_gone_) smallest_radius_ = smallest_radius(state_.disks);
-  const Count parts = parts_of_step(exact_travel2(), scene_.physics.gravity * dt / smallest_radius_, dt);
+  const Count parts = parts_of_step(exact_travel2(), scene_.physics.gravity.size * dt / smallest_radius_, dt);
   if (parts > 1) validity_.see_split(state_, dt, parts);
   return parts;
 }

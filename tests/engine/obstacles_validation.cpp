@@ -34,7 +34,7 @@ void expect_no_overlap(const Scene& scene, Count contacts) {
     deepest = std::max({deepest, wall_overlap(engine->state().disks, box), max_overlap(engine->state().disks, box)});
   }
   EXPECT_LT(deepest, 1e-12);
-  const double gravity = scene.physics.gravity;
+  const double gravity = scene.physics.gravity.down;
   const double before = energy_of(start.disks, gravity).total();
   EXPECT_NEAR(energy_of(engine->state().disks, gravity).total(), before, 1e-9 * before);
 }

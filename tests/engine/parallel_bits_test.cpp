@@ -95,6 +95,36 @@ INSTANTIATE_TEST_SUITE_P(AllScenes, ParallelBits,
                                                               "moving")),
                          [](const auto& p) { return std::string(std::get<0>(p.param)) + "_" + std::get<1>(p.param); });
 
+class TiltedBits : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {};
+
+// Gravity as a vector, among obstacles and without, with the other features in turn.
+TEST_P(TiltedBits, EqualTheReferenceAfterEveryStep) {
+  Count collisions = 0;
+  std::size_t scenes = 0;
+  for (Features f : test::all_features(std::get<0>(GetParam()), std::get<1>(GetParam()))) {
+    if (!f.gravity || f.seed % 5 != 0) continue;
+    f.tilted = true;
+    f.obstacles = ++scenes % 2 == 0 && f.sides != "moving" && f.radii != "wide";
+    SCOPED_TRACE(f.name());
+    const Scene scene = test::feature_scene(f, steps);
+    const State start = initial_state(scene);
+    const Trace expected = trace_of(*make_reference_engine(scene, start), scene.run.t_end);
+    for (const int threads : {1, 3}) {
+      expect_same(expected, trace_of(*make_parallel_engine(scene, start, {threads, 512}), scene.run.t_end));
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+    collisions += expected.counters.collisions;
+  }
+  EXPECT_GT(scenes, 1U);
+  EXPECT_GT(collisions, 25U * scenes);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllScenes, TiltedBits,
+                         ::testing::Combine(::testing::Values("pairwise", "rollback", "exact"),
+                                            ::testing::Values("wall", "periodic", "periodic_x", "sink", "soft", "hot",
+                                                              "moving")),
+                         [](const auto& p) { return std::string(std::get<0>(p.param)) + "_" + std::get<1>(p.param); });
+
 // Blocks of any size give the same state: nothing depends on where one block ends and the next begins.
 TEST(ParallelBlocks, OfAnySizeGiveTheSameBits) {
   Features f;

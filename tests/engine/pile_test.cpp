@@ -26,7 +26,7 @@ struct Seen {
 
 Seen watch(const Scene& scene, const State& start) {
   Seen seen;
-  const double g = scene.physics.gravity;
+  const double g = scene.physics.gravity.down;
   const double energy = energy_of(start.disks, g).total();
   seen.end = test::run(scene, start, [&](const Engine& engine) {
     const Disks& d = engine.state().disks;

@@ -23,7 +23,7 @@ struct Worst {
 void expect_to_settle(const char* file) {
   const Scene scene = load_scene(std::string(CAROM_SOURCE_DIR "/scenes/") + file);
   const State start = initial_state(scene);
-  const double g = scene.physics.gravity;
+  const double g = scene.physics.gravity.down;
   const double energy = energy_of(start.disks, g).total();
   Worst worst;
   const State end = test::run(scene, start, [&](const Engine& engine) {

@@ -66,6 +66,7 @@ Scene random_scene(std::uint64_t seed, Method method) {
   const SideKind kinds[] = {SideKind::wall, SideKind::periodic, SideKind::sink};
   test::set_sides(s.box, kinds[draws.bits() % 3], kinds[draws.bits() % 3]);
   if (draws.bits() % 2 == 0) s.physics.gravity = draws.in(0.0, 1.0);
+  if (seed % 4 == 1) s.physics.gravity = {draws.in(-1.0, 1.0), draws.in(-1.0, 1.0)};
   if (draws.bits() % 2 == 0) s.physics.restitution = draws.in(0.3, 1.0);
   if (draws.bits() % 2 == 0) s.box.restitutions.fill(draws.in(0.3, 1.0));
   if (draws.bits() % 3 == 0) {

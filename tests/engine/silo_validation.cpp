@@ -43,7 +43,7 @@ double largest_speed(const State& state, double gravity) {
 void expect_to_rest(const test::Silo& silo) {
   const Scene scene = test::silo_scene(silo);
   const State start = initial_state(scene);
-  const double g = scene.physics.gravity;
+  const double g = scene.physics.gravity.down;
   const double energy = energy_of(start.disks, g).total();
   const double measure_from = 0.9 * scene.run.t_end;
   const auto engine = make_parallel_engine(scene, start, {2, 1});

@@ -22,7 +22,8 @@ struct Units {
 Scene in_units(Scene s, const Units& u) {
   s.box.width *= u.length;
   s.box.height *= u.length;
-  s.physics.gravity *= u.length / (u.time * u.time);
+  const double acceleration = u.length / (u.time * u.time);
+  s.physics.gravity = {s.physics.gravity.left * acceleration, s.physics.gravity.down * acceleration};
   s.physics.diffusion *= u.length * u.length / u.time;
   if (s.physics.collapse_contact_time) *s.physics.collapse_contact_time *= u.time;
   s.run.t_end *= u.time;

@@ -26,9 +26,9 @@ void expect_to_settle(const char* file) {
       load_scene(std::string(CAROM_SOURCE_DIR "/scenes/") + file,
                  {{"run.method", "exact"}, {"physics.collapse", "{ model = \"tc\", contact_time = 1e-2 }"}});
   const State start = initial_state(scene);
-  const double g = scene.physics.gravity;
+  const double g = scene.physics.gravity.down;
   const double energy = energy_of(start.disks, g).total();
-  const double weight = test::weight_of(start.disks, scene.physics.gravity);
+  const double weight = test::weight_of(start.disks, g);
   const auto engine = make_parallel_engine(scene, start, {1, 1});
   double overlap = 0.0;
   double wall = 0.0;

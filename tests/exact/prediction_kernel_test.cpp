@@ -15,7 +15,8 @@ namespace carom {
 namespace {
 
 struct KernelCase {
-  bool gravity, unequal_radii, periodic;
+  Gravity gravity;
+  bool unequal_radii, periodic;
 };
 
 constexpr std::size_t disks = 40;
@@ -37,7 +38,7 @@ std::vector<DiskRecord> random_records(test::Draws& draws, const KernelCase& c, 
 
 // The first contact by the formula of core, one neighbour after the other.
 FirstContact expected_contact(const std::vector<DiskRecord>& record, std::uint32_t own, const std::vector<int>& offset,
-                              const Domain& box, double g, double slow_approach) {
+                              const Domain& box, const Gravity& g, double slow_approach) {
   FirstContact first;
   bool tie = false;
   for (std::size_t k = 0; k < offset.size(); ++k) {
@@ -85,7 +86,7 @@ class PredictionKernelVersions : public testing::TestWithParam<KernelCase> {};
 TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
   const KernelCase& c = GetParam();
   test::Draws draws(17);
-  const double g = c.gravity ? 0.7 : 0.0;
+  const Gravity& g = c.gravity;
   constexpr double slow_approach = 0.02;
   int met = 0;
   int ambiguous = 0;
@@ -111,8 +112,10 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
       record[own + static_cast<std::uint32_t>(offset[0])] = record[own + static_cast<std::uint32_t>(offset[count - 1])];
     }
     PredictionConstants constants;
-    constants.gravity = in_all_lanes(g);
-    constants.half_gravity = in_all_lanes(0.5 * g);
+    constants.down = in_all_lanes(g.down);
+    constants.half_down = in_all_lanes(0.5 * g.down);
+    constants.left = in_all_lanes(g.left);
+    constants.half_left = in_all_lanes(0.5 * g.left);
     constants.contact2 = in_all_lanes(4.0 * 0.3 * 0.3);
     constants.slow_approach = slow_approach;
     if (c.periodic) {
@@ -124,8 +127,8 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
     const FirstContact expected = expected_contact(record, own, offset, box, g, slow_approach);
     met += expected.time < never && !expected.ambiguous ? 1 : 0;
     ambiguous += expected.ambiguous ? 1 : 0;
-    for (const PredictionKernels& kernels : {choose_prediction_kernels(c.gravity, c.unequal_radii),
-                                             prediction_kernels_baseline(c.gravity, c.unequal_radii)}) {
+    for (const PredictionKernels& kernels : {choose_prediction_kernels(kind_of(g), c.unequal_radii),
+                                             prediction_kernels_baseline(kind_of(g), c.unequal_radii)}) {
       expect_contact(kernels.near, constants, record, own, offset, expected, false_alarms);
       expect_contact(kernels.far, constants, record, own, offset, expected, false_alarms);
       if (newest) expect_contact(kernels.near_newest, constants, record, own, offset, expected, false_alarms);
@@ -139,9 +142,11 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PredictionKernelVersions,
-                         testing::Values(KernelCase{false, false, true}, KernelCase{false, false, false},
-                                         KernelCase{false, true, true}, KernelCase{true, false, true},
-                                         KernelCase{true, true, false}, KernelCase{true, true, true}));
+                         testing::Values(KernelCase{0.0, false, true}, KernelCase{0.0, false, false},
+                                         KernelCase{0.0, true, true}, KernelCase{0.7, false, true},
+                                         KernelCase{0.7, true, false}, KernelCase{0.7, true, true},
+                                         KernelCase{{0.5, -0.4}, false, true}, KernelCase{{-0.6, 0.0}, true, true},
+                                         KernelCase{{0.3, 0.6}, true, false}));
 
 }  // namespace
 }  // namespace carom

@@ -154,9 +154,16 @@ std::string box_text(Dice& dice, const Draft& draft) {
   return text;
 }
 
+// Mostly downwards, else along another axis or in any direction.
+std::string gravity_text(Dice& dice, double g) {
+  if (dice.chance(0.6)) return fmt::format("{}", g);
+  if (dice.chance(0.3)) return dice.pick({0.0, 1.0}) > 0.0 ? fmt::format("[{}, 0]", g) : fmt::format("[{}, 0]", -g);
+  return fmt::format("[{}, {}]", rounded(g * dice.in(-1.0, 1.0)), rounded(g * dice.in(-1.0, 0.2)));
+}
+
 std::string physics_text(Dice& dice, const Draft& draft) {
   std::string text = "[physics]\n";
-  if (draft.gravity > 0.0) text += fmt::format("gravity = {}\n", draft.gravity);
+  if (draft.gravity > 0.0) text += fmt::format("gravity = {}\n", gravity_text(dice, draft.gravity));
   if (draft.restitution < 1.0) text += fmt::format("restitution = {}\n", draft.restitution);
   if (draft.diffusion > 0.0) text += fmt::format("diffusion = {}\n", draft.diffusion);
   if (draft.diffusion > 0.0 && dice.chance(0.3)) text += "accumulate = true\n";
@@ -364,7 +371,8 @@ std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::u
   std::string text = fmt::format("title = \"oracle scene {}.{} of seed {}\"\n", number, attempt, seed);
   text += seed_text(dice);
   text += box_text(dice, draft);
-  text += fmt::format("[physics]\ngravity = {}\nrestitution = {}\n", draft.gravity, draft.restitution);
+  text +=
+      fmt::format("[physics]\ngravity = {}\nrestitution = {}\n", gravity_text(dice, draft.gravity), draft.restitution);
   text += disks_text(dice, draft);
   if (text.find("motion") == std::string::npos) {  // beside sides that move nothing may be fixed
     text += obstacles_text(dice, draft);

@@ -127,19 +127,23 @@ void Sanity::look_at_motion(const State& state) {
   const bool stands = !state.obstacles.empty();  // what takes momentum, as walls do
   const Momentum now = momentum_of(state.disks);
   largest_momentum_ = std::max(largest_momentum_, now.magnitude);
-  if (!stands && box.periodic_x() && std::abs(now.x - momentum_.x) > rounding * largest_momentum_) {
+  if (!stands && box.periodic_x() && p.gravity.left == 0.0 &&
+      std::abs(now.x - momentum_.x) > rounding * largest_momentum_) {
     blame(state, fmt::format("momentum along x went from {} to {}", momentum_.x, now.x));
   }
-  if (!stands && box.periodic_y() && p.gravity == 0.0 && std::abs(now.y - momentum_.y) > rounding * largest_momentum_) {
+  if (!stands && box.periodic_y() && p.gravity.down == 0.0 &&
+      std::abs(now.y - momentum_.y) > rounding * largest_momentum_) {
     blame(state, fmt::format("momentum along y went from {} to {}", momentum_.y, now.y));
   }
-  if (p.gravity > 0.0 && box.periodic_y()) return;                    // falls for ever
-  if (p.gravity > 0.0 && scene_.run.method != Method::exact) return;  // right to first order
+  const bool falls_for_ever =
+      (p.gravity.down != 0.0 && box.periodic_y()) || (p.gravity.left != 0.0 && box.periodic_x());
+  if (falls_for_ever) return;
+  if (p.gravity.acts() && scene_.run.method != Method::exact) return;  // right to first order
   const double energy = energy_of(state.disks, p.gravity).total();
   largest_energy_ = std::max(largest_energy_, energy);
   const bool elastic = !disks_dissipate(scene_) && !box.walls_dissipate() && !inner_walls_dissipate(scene_);
   const double gain = energy - energy_.total();
-  const bool heats = p.gravity > 0.0 && p.collapse_contact_time.has_value();
+  const bool heats = p.gravity.acts() && p.collapse_contact_time.has_value();
   const double allowed = (heats ? silent_heating : rounding) * largest_energy_;
   if (gain > allowed && warnings_.empty())
     blame(state, fmt::format("energy went from {} to {}", energy_.total(), energy));

@@ -108,7 +108,7 @@ Bounces drop(const Scene& scene, double height) {
   const State start = test::state_of(scene, {{5.0, 1.0 + height, 0.0, 0.0, 1.0, 1.0}});
   Bounces b;
   double y = start.disks.y[0];
-  const double slow = 2.0 * scene.physics.gravity * scene.run.dt;
+  const double slow = 2.0 * scene.physics.gravity.down * scene.run.dt;
   test::run(scene, start, [&](const Engine& engine) {
     const Disks& d = engine.state().disks;
     b.path += std::abs(d.y[0] - y);
@@ -174,7 +174,7 @@ TEST_P(Golden, TwoDisksSceneCollidesByRule23) {
   using test::Wide;
   Scene s = load_scene(CAROM_SOURCE_DIR "/scenes/two_disks.toml");
   s.run.method = GetParam();
-  const Wide g = wide(s.physics.gravity);
+  const Wide g = wide(s.physics.gravity.down);
   const Wide e = wide(s.physics.restitution);
   State before = initial_state(s);
   const Wide m1 = wide(before.disks.mass_of(0)), m2 = wide(before.disks.mass_of(1));

@@ -131,7 +131,7 @@ TEST(MovingSide, BearsTheWeightOfAShakenBed) {
   const auto gained = [&](const double(Counters::*what)[4], std::size_t side) {
     return (end.counters.*what)[side] - (middle.counters.*what)[side];
   };
-  const double weight = static_cast<double>(end.disks.size()) * scene.physics.gravity;
+  const double weight = static_cast<double>(end.disks.size()) * scene.physics.gravity.down;
   const double force =
       (gained(&Counters::wall_impulse, 2) - gained(&Counters::wall_impulse, 3)) / (end.time - middle.time);
   EXPECT_NEAR(force / weight, 1.0, 0.03);

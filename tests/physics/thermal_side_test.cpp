@@ -103,7 +103,7 @@ TEST(ThermalSide, GivesTheEnergyThatIsGained) {
       scene.run.t_end = 20.0;
       const State start = initial_state(scene);
       const State end = run_by_engine(scene, start);
-      const double g = scene.physics.gravity;
+      const double g = scene.physics.gravity.down;
       const double before = energy_of(start.disks, g).total();
       const double after = energy_of(end.disks, g).total();
       EXPECT_LT(energy_from_sides(end), -0.1 * before);

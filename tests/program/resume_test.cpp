@@ -21,6 +21,19 @@ INSTANTIATE_TEST_SUITE_P(AllScenes, Resume,
                            return std::string(std::get<0>(p.param)) + std::to_string(std::get<1>(p.param));
                          });
 
+TEST(ResumeTilted, WithGravityAsAVector) {
+  for (const char* method : {"pairwise", "rollback", "exact"}) {
+    test::Features f;
+    f.method = method;
+    f.gravity = f.tilted = f.obstacles = true;
+    f.radii = "mixed";
+    const Scene scene = test::feature_scene(f, 20);
+    const State start = initial_state(scene);
+    const Scene longer = test::feature_scene(f, 40);
+    test::expect_same_bits(longer, start, 12, 0);
+  }
+}
+
 // A pile that rests on its loads; the loads of a step's contacts are what the next one starts from.
 TEST(ResumePile, GoesOnWithItsLoads) {
   test::Features f;

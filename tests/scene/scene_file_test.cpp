@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <numbers>
 
 #include "core/disks/state_hash.hpp"
@@ -72,6 +73,21 @@ TEST(SceneFile, FramesDefaultToAHundredthOfTheRun) {
   }
   EXPECT_EQ(scene_from(fmt::format("{}[output]\nseries = true\nevery = 0.5", least_scene)).output.every, 0.5);
   EXPECT_EQ(scene_from(fmt::format("{}[output]\nseries = false", least_scene)).output.every, 0.0);
+}
+
+TEST(SceneFile, ReadsGravityAsANumberOrAVector) {
+  const auto gravity = [](const std::string& value) {
+    return scene_from("[box]\nwidth = 9\nheight = 9\n[physics]\ngravity = " + value + "\n[run]\nt_end = 1\n" +
+                      "[[disks]]\ncount = 1\npositions = [[3, 4]]\nradius = 1\nmass = 1\n")
+        .physics.gravity;
+  };
+  EXPECT_EQ(gravity("0.5"), Gravity(0.0, 0.5));
+  EXPECT_EQ(gravity("[0, -0.5]"), gravity("0.5"));
+  EXPECT_FALSE(std::signbit(gravity("[0, -0.5]").left)) << "a zero with a sign could be seen in velocities";
+  EXPECT_EQ(gravity("[0.0, 0]"), gravity("0"));
+  EXPECT_EQ(gravity("[3, -4]"), Gravity(-3.0, 4.0));
+  EXPECT_EQ(gravity("[3, -4]").size, 5.0);
+  EXPECT_EQ(gravity("[0, 2]").size, 2.0);
 }
 
 TEST(SceneFile, ReadsEveryKey) {
@@ -253,8 +269,11 @@ std::string random_scene(Draws& draws) {
   const char* periodic = draws.bits() % 2 == 0 ? "wall" : "periodic";
   std::string text = fmt::format("seed = {}\n[box]\npacking_fraction = {:.17g}\naspect = {:.17g}\nleft = \"{}\"\n",
                                  draws.bits(), draws.in(0.01, 0.1), draws.in(0.5, 2), periodic);
-  text += fmt::format("right = \"{}\"\ntop = \"sink\"\n[physics]\ngravity = {:.17g}\nrestitution = {:.17g}\n", periodic,
-                      draws.in(0, 1), draws.in(0, 1));
+  const std::string gravity = draws.bits() % 2 == 0
+                                  ? fmt::format("{:.17g}", draws.in(0, 1))
+                                  : fmt::format("[{:.17g}, {:.17g}]", draws.in(-1, 1), draws.in(-1, 1));
+  text += fmt::format("right = \"{}\"\ntop = \"sink\"\n[physics]\ngravity = {}\nrestitution = {:.17g}\n", periodic,
+                      gravity, draws.in(0, 1));
   for (std::uint64_t g = 0; g < 1 + draws.bits() % 3; ++g) {
     const Count count = 5 + draws.bits() % 30;
     text += fmt::format("[[disks]]\ncount = {}\npositions = \"random\"\n{}", count, random_velocities(draws, count));
@@ -276,6 +295,7 @@ TEST(ResolvedScene, GivesTheSameSceneAndTheSameStart) {
     EXPECT_EQ(resolved_toml(again), resolved);
     const State a = initial_state(scene);
     const State b = initial_state(again);
+    EXPECT_EQ(scene.physics.gravity, again.physics.gravity);
     EXPECT_EQ(state_hash(a.disks), state_hash(b.disks));
     EXPECT_EQ(a.disks.radius, b.disks.radius);
     EXPECT_EQ(a.disks.mass, b.disks.mass);

@@ -81,7 +81,7 @@ std::optional<double> coordinate(const std::string& what, const Disks& d) {
 }  // namespace
 
 void Worst::look(const Scene& scene, const State& start, const State& now) {
-  const double g = scene.physics.gravity;
+  const double g = scene.physics.gravity.down;
   const Energy before = energy_of(start.disks, g);
   const Energy after = energy_of(now.disks, g);
   overlap = std::max(overlap, max_overlap(now.disks, scene.box));
@@ -99,7 +99,7 @@ double measure(const std::string& what, const Measured& run) {
   using Figure = std::function<double()>;
   const Disks& d = run.end.disks;
   const Counters& c = run.end.counters;
-  const double g = run.scene.physics.gravity;
+  const double g = run.scene.physics.gravity.down;
   const std::map<std::string, Figure> figures{
       {"time", [&] { return run.end.time; }},
       {"advance", [&] { return run.end.time / (static_cast<double>(c.steps) * run.scene.run.dt); }},

@@ -15,6 +15,7 @@
 
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/gravity.hpp"
 #include "core/disks/obstacle.hpp"
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
@@ -38,7 +39,7 @@ struct System {
   std::vector<Ball> balls;
   std::vector<Obstacle> obstacles;
   Domain box;
-  Real gravity = 0.0L;
+  Real left = 0.0L, down = 0.0L;  // gravity
   Real restitution = 1.0L, viscosity = 0.0L;
   std::vector<GroupLaw> laws;
   std::vector<std::size_t> obstacle_groups;  // of those that are disks
@@ -49,12 +50,13 @@ struct System {
   Real shortest = HUGE_VALL;  // time between two events
 };
 
-inline System make_system(const Disks& disks, const Domain& box, double gravity, double restitution,
+inline System make_system(const Disks& disks, const Domain& box, const Gravity& gravity, double restitution,
                           const std::vector<Obstacle>& obstacles = {}) {
   System s;
   s.obstacles = obstacles;
   s.box = box;
-  s.gravity = gravity;
+  s.left = gravity.left;
+  s.down = gravity.down;
   s.restitution = restitution;
   for (const std::size_t i : by_id(disks)) {
     s.balls.push_back({disks.x[i], disks.y[i], disks.vx[i], disks.vy[i], disks.radius_of(i), disks.mass_of(i)});
@@ -136,21 +138,24 @@ inline Line from_obstacle(const Obstacle& o, Real x, Real y) {
 
 // Contact of a falling ball with an obstacle displaced by (ox, oy), up to `end`, by going on as far as the ball surely
 // does not touch yet.
-inline Real obstacle_time(const Ball& a, const Obstacle& o, Real ox, Real oy, Real g, Real end) {
+inline Real obstacle_time(const Ball& a, const Obstacle& o, Real ox, Real oy, Real left, Real down, Real end) {
+  const Real g = std::sqrt(left * left + down * down);
   const Real reach = a.r + static_cast<Real>(o.radius);
   const Real nothing = 1e-17L * reach;
   Real t = 0.0L;
   for (bool first = true;; first = false) {
-    const auto [x, y] = from_obstacle(o, a.x + a.vx * t - ox, a.y + a.vy * t - 0.5L * g * t * t - oy);
-    const Real vy = a.vy - g * t;
+    const auto [x, y] =
+        from_obstacle(o, a.x + a.vx * t - 0.5L * left * t * t - ox, a.y + a.vy * t - 0.5L * down * t * t - oy);
+    const Real vx = a.vx - left * t;
+    const Real vy = a.vy - down * t;
     const Real gap = std::sqrt(x * x + y * y) - reach;
-    const bool nearer = x * a.vx + y * vy < 0.0L;
+    const bool nearer = x * vx + y * vy < 0.0L;
     if (gap <= nothing && nearer) return t;
     if (first && g == 0.0L && !nearer) return no_event;
     if (t >= end) return no_event;
     // Away from a contact that is over by a little, beyond the reach of rounding.
     const Real room = std::max(gap, (nearer ? 1e-18L : 1e-13L) * reach);
-    const Real speed = std::sqrt(a.vx * a.vx + vy * vy);
+    const Real speed = std::sqrt(vx * vx + vy * vy);
     t += 2.0L * room / (speed + std::sqrt(speed * speed + 2.0L * g * room));
   }
 }
@@ -212,15 +217,15 @@ inline Happening next_happening(const System& s, Real end) {
       return side_time(gap - m[k].inset, speed + m[k].speed, g + m[k].acceleration);
     };
     const Real t[4] = {
-        px ? no_event : time(0, a.x - a.r, -a.vx, 0.0L), px ? no_event : time(1, w - a.r - a.x, a.vx, 0.0L),
-        py ? no_event : time(2, a.y - a.r, -a.vy, s.gravity), py ? no_event : time(3, h - a.r - a.y, a.vy, -s.gravity)};
+        px ? no_event : time(0, a.x - a.r, -a.vx, s.left), px ? no_event : time(1, w - a.r - a.x, a.vx, -s.left),
+        py ? no_event : time(2, a.y - a.r, -a.vy, s.down), py ? no_event : time(3, h - a.r - a.y, a.vy, -s.down)};
     for (int k = 0; k < 4; ++k) {
       if (t[k] < first.time) first = {t[k], i, i, 0.0L, 0.0L, k};
     }
     for (std::size_t k = 0; k < s.obstacles.size(); ++k) {
       for (int kx = px ? -1 : 0; kx <= (px ? 1 : 0); ++kx) {
         for (int ky = py ? -1 : 0; ky <= (py ? 1 : 0); ++ky) {
-          const Real t_o = obstacle_time(a, s.obstacles[k], kx * w, ky * h, s.gravity, std::min(end, first.time));
+          const Real t_o = obstacle_time(a, s.obstacles[k], kx * w, ky * h, s.left, s.down, std::min(end, first.time));
           if (t_o < first.time) first = {t_o, i, i, kx * w, ky * h, -1, static_cast<int>(k)};
         }
       }
@@ -231,9 +236,10 @@ inline Happening next_happening(const System& s, Real end) {
 
 inline void advance(System& s, Real t) {
   for (Ball& b : s.balls) {
-    b.x += b.vx * t;
-    b.y += b.vy * t - 0.5L * s.gravity * t * t;
-    b.vy -= s.gravity * t;
+    b.x += b.vx * t - 0.5L * s.left * t * t;
+    b.y += b.vy * t - 0.5L * s.down * t * t;
+    b.vx -= s.left * t;
+    b.vy -= s.down * t;
     if (s.box.periodic_x()) b.x -= std::floor(b.x / s.box.width) * static_cast<Real>(s.box.width);
     if (s.box.periodic_y()) b.y -= std::floor(b.y / s.box.height) * static_cast<Real>(s.box.height);
   }

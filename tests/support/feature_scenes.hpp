@@ -22,11 +22,13 @@ struct Features {
   int seed = 1;
   bool obstacles = false;  // fixed disks of many sizes, some of them across the sides
   std::string law{};       // empty | "viscoelastic" | "pairs": of groups, with restitutions of both kinds
+  bool tilted = false;     // gravity is a vector
 
   std::string name() const {
     return method + "_" + sides + (gravity ? "_g" : "") + (restitution < 1.0 ? "_e" : "") +
            (diffusion.empty() ? "" : "_" + diffusion) + "_" + radii + (own_masses ? "_m" : "") +
-           (source ? "_source" : "") + (obstacles ? "_fixed" : "") + (law.empty() ? "" : "_" + law);
+           (source ? "_source" : "") + (obstacles ? "_fixed" : "") + (tilted ? "_tilted" : "") +
+           (law.empty() ? "" : "_" + law);
   }
 };
 
@@ -63,7 +65,7 @@ inline std::string pairs_text(const Features& f) {
 
 inline std::string physics_text(const Features& f) {
   std::string text = "[physics]\n";
-  if (f.gravity) text += "gravity = 3.0\n";
+  if (f.gravity) text += f.tilted ? "gravity = [2.0, -1.5]\n" : "gravity = 3.0\n";
   if (f.law == "viscoelastic") {
     text += "restitution = { viscoelastic = 0.15, least = 0.3 }\n";
   } else if (f.restitution < 1.0) {

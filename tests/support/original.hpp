@@ -81,7 +81,7 @@ inline void reverse(const Disks& from, Disks& d, std::size_t i, std::size_t j, d
   d.vx[j] = w2 * nx - t2 * ny, d.vy[j] = w2 * ny + t2 * nx;
 }
 
-inline void move(Disks& d, double t, double g) {
+inline void move(Disks& d, double t, const Gravity& g) {
   for (std::size_t i = 0; i < d.size(); ++i) drift<true>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
 }
 

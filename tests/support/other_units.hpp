@@ -68,7 +68,8 @@ inline Scene scaled(Scene s, const Units& u) {
   s.box.width *= u.length;
   s.box.height *= u.length;
   scale_sides(s.box, u);
-  s.physics.gravity *= u.length / (u.time * u.time);
+  const double acceleration = u.speed() / u.time;
+  s.physics.gravity = {s.physics.gravity.left * acceleration, s.physics.gravity.down * acceleration};
   s.physics.diffusion *= u.length * u.length / u.time;
   const double viscosity = 1.0 / fifth_root_of(u.speed());
   s.physics.law.viscosity *= viscosity;
