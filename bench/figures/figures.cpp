@@ -1,6 +1,6 @@
 // Measures the figures that speed is promised in, prints them as a table and writes them, with the machine they were
 // measured on, into a folder; the rows of parts that are not measured stay as they are.
-//   carom_figures FOLDER [gas|scaling|special|features|exact|exact_growth|memory]...   all, if none is named
+//   carom_figures FOLDER [gas|scaling|special|features|exact|exact_growth|borders|memory]...   all, if none is named
 #include "bench/figures/figures.hpp"
 
 #include <fmt/format.h>
@@ -90,6 +90,7 @@ int run(const std::vector<std::string>& words) {
   if (wanted("features")) add(measure_features(folder));
   if (wanted("exact")) add(measure_exact(folder));
   if (wanted("exact_growth")) add(measure_exact_growth(folder));
+  if (wanted("borders")) add(measure_borders(folder));
   if (wanted("memory")) add(measure_memory(CAROM_PROGRAM, CAROM_SOURCE_DIR "/scenes/gas_million.toml"));
   write_figures(folder, all);
   write_machine(folder);
@@ -101,7 +102,8 @@ int run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    fmt::print(stderr, "usage: {} FOLDER [gas|scaling|special|features|exact|exact_growth|memory]...\n", argv[0]);
+    fmt::print(stderr, "usage: {} FOLDER [gas|scaling|special|features|exact|exact_growth|borders|memory]...\n",
+               argv[0]);
     return 2;
   }
   try {

@@ -21,6 +21,7 @@ std::vector<Figure> measure_features(const std::string& folder);  // features.cs
 std::vector<Figure> measure_special();                            // wide radii, the pile
 std::vector<Figure> measure_exact(const std::string& folder);     // exact.csv: collisions a second, and the yardstick's
 std::vector<Figure> measure_exact_growth(const std::string& folder);  // exact_growth.csv: up to 10^7 disks; minutes
+std::vector<Figure> measure_borders(const std::string& folder);  // borders.csv: what regions leave to their borders
 std::vector<Figure> measure_memory(const std::string& program, const std::string& scene);
 
 }  // namespace carom::bench

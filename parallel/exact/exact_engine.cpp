@@ -52,12 +52,14 @@ enum class Valid : std::uint8_t {
 
 class ParallelExact final : public Engine {
  public:
-  ParallelExact(const Scene& scene, State initial, const Threads& threads)
+  ParallelExact(const Scene& scene, State initial, const Threads& threads, const BorderWatch& watch)
       : scene_(scene),
         state_(std::move(initial)),
         obstacles_(place_obstacles(state_.obstacles, scene_.box)),
         executor_(threads.count, threads.block_divisor),
-        scheduler_(window_, lists_, executor_) {}
+        scheduler_(window_, lists_, executor_) {
+    scheduler_.set_border_watch(watch);
+  }
 
   void step() override {
     if (!(state_.time < scene_.run.t_end)) return;
@@ -392,8 +394,9 @@ std::vector<DiskContact> ParallelExact::contacts() const {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_parallel_exact(const Scene& scene, State initial, const Threads& threads) {
-  return std::make_unique<ParallelExact>(scene, std::move(initial), threads);
+std::unique_ptr<Engine> make_parallel_exact(const Scene& scene, State initial, const Threads& threads,
+                                            const BorderWatch& watch) {
+  return std::make_unique<ParallelExact>(scene, std::move(initial), threads, watch);
 }
 
 }  // namespace carom

@@ -4,11 +4,14 @@
 #include <memory>
 
 #include "core/step/engine.hpp"
+#include "parallel/exact/border_watch.hpp"
 #include "parallel/threads/threads.hpp"
 
 namespace carom {
 
-// Preconditions as for make_reference_exact.
-std::unique_ptr<Engine> make_parallel_exact(const Scene& scene, State initial, const Threads& threads);
+// Preconditions as for make_reference_exact. With regions, watch is called at the end of each slice, if it is not
+// empty; it changes no bit.
+std::unique_ptr<Engine> make_parallel_exact(const Scene& scene, State initial, const Threads& threads,
+                                            const BorderWatch& watch = {});
 
 }  // namespace carom

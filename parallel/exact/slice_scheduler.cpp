@@ -161,6 +161,7 @@ void SliceScheduler::run_regions(double per_disk) {
   border_pass_.run(regions_, per_disk);
   if (border_pass_.ended()) return;
   relisted_ += border_pass_.relisted();
+  if (watch_) show_borders();
   executor_.run(regions_.size(), [&](std::size_t r) { finish_slice(regions_[r]); });
   take_in_new_border();
 }
@@ -203,6 +204,13 @@ void SliceScheduler::take_in_new_border() {
     region.border.push_back(i);
   }
   for (const std::uint32_t i : border_pass_.new_near_border()) region_of(i).near_border.push_back(i);
+}
+
+void SliceScheduler::show_borders() const {
+  const auto events_of = [](const Worker& worker) { return worker.tally.collisions + worker.tally.wall_collisions; };
+  Count at_borders = 0;
+  border_pass_.for_each_worker([&](const Worker& worker) { at_borders += events_of(worker); });
+  watch_({window_, lists_, regions_, events(), at_borders});
 }
 
 ImpactTally SliceScheduler::tally() const {

@@ -6,6 +6,7 @@
 
 #include "core/physics/impact_tally.hpp"
 #include "parallel/exact/border_pass.hpp"
+#include "parallel/exact/border_watch.hpp"
 #include "parallel/exact/event_processor.hpp"
 #include "parallel/exact/neighbour_lists.hpp"
 #include "parallel/exact/region.hpp"
@@ -54,6 +55,8 @@ class SliceScheduler {
   }
   // Between windows: gives back the memory of the calendars.
   void release_calendars();
+  // With regions: called at the end of each slice, before blocked disks go on.
+  void set_border_watch(const BorderWatch& watch) { watch_ = watch; }
   // Disks relisted since the lists were built.
   Count relisted() const { return relisted_; }
 
@@ -75,6 +78,7 @@ class SliceScheduler {
   void begin_slice(Region& region);
   void finish_slice(Region& region);
   void take_in_new_border();
+  void show_borders() const;
   Region& region_of(std::uint32_t i) { return regions_[window_.region_of_tile[lists_.tile_of(i)]]; }
   SliceOutcome outcome() const;
 
@@ -85,6 +89,7 @@ class SliceScheduler {
   BorderPass border_pass_;  // with regions
   Worker single_;           // with a single queue: all disks
   Count relisted_ = 0;
+  BorderWatch watch_;
 };
 
 }  // namespace carom
