@@ -18,3 +18,5 @@ pkg_search_module(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)  # Debian's na
 find_package(ZLIB REQUIRED)
 find_path(RANDOM123_INCLUDE Random123/philox.h REQUIRED)
 find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)
+# Optional: several ranks over MPI (packages.txt, [mpi]).
+find_package(MPI QUIET COMPONENTS CXX)

@@ -1,0 +1,70 @@
+// Numbers and records packed into the bytes of a message, and taken out again in the same order. All ranks run on the
+// same kind of machine, so records travel as they lie in memory.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include "parallel/ranks/ranks.hpp"
+
+namespace carom {
+
+template <class T>
+void put(Bytes& message, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  const std::size_t end = message.size();
+  message.resize(end + sizeof(T));
+  std::memcpy(message.data() + end, &value, sizeof(T));
+}
+
+// Their number first.
+template <class T>
+void put_all(Bytes& message, const std::vector<T>& values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  put(message, values.size());
+  const std::size_t end = message.size();
+  message.resize(end + values.size() * sizeof(T));
+  if (!values.empty()) std::memcpy(message.data() + end, values.data(), values.size() * sizeof(T));
+}
+
+// Reads a message that put and put_all have made; throws std::out_of_range where it is shorter. The message outlives
+// it.
+class MessageReader {
+ public:
+  explicit MessageReader(const Bytes& message) : message_(message) {}
+
+  bool at_end() const { return at_ == message_.size(); }
+
+  template <class T>
+  T get() {
+    static_assert(std::is_trivially_copyable_v<T>);
+    T value{};
+    std::memcpy(&value, take(1, sizeof(T)), sizeof(T));
+    return value;
+  }
+
+  template <class T>
+  std::vector<T> get_all() {
+    const auto count = get<std::size_t>();
+    const std::byte* const from = take(count, sizeof(T));
+    std::vector<T> values(count);
+    if (count > 0) std::memcpy(values.data(), from, count * sizeof(T));
+    return values;
+  }
+
+ private:
+  const std::byte* take(std::size_t count, std::size_t size) {
+    if (count > (message_.size() - at_) / size) throw std::out_of_range("a message between ranks is too short");
+    const std::byte* const from = message_.data() + at_;
+    at_ += count * size;
+    return from;
+  }
+
+  const Bytes& message_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace carom

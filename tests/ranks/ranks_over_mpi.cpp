@@ -1,0 +1,39 @@
+// Ranks over MPI: started by mpiexec, on several ranks at once (CMakeLists.txt). Every rank runs all tests, in the same
+// order; what fails on one fails the run.
+#include <gtest/gtest.h>
+
+#include "parallel/ranks/mpi_ranks.hpp"
+#include "tests/support/ranks_support.hpp"
+
+namespace carom {
+namespace {
+
+const MpiSession* session = nullptr;
+
+TEST(MpiRanks, HaveNumbersFromBottomToTop) {
+  const auto ranks = session->ranks();
+  test::expect_numbered(*ranks);
+  EXPECT_GE(ranks->count(), 2);
+}
+
+TEST(MpiRanks, ExchangeMessagesWithTheirNeighbours) {
+  test::expect_exchanges(*session->ranks());
+}
+
+TEST(MpiRanks, AgreeOnSumsAndMaxima) {
+  test::expect_sums_and_maxima(*session->ranks());
+}
+
+TEST(MpiRanks, Gather) {
+  test::expect_gathers(*session->ranks());
+}
+
+}  // namespace
+}  // namespace carom
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  const carom::MpiSession session;
+  carom::session = &session;
+  return RUN_ALL_TESTS();
+}
