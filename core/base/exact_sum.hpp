@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace carom {
 
@@ -34,6 +35,9 @@ class ExactSum {
   void add(const ExactSum& other) {
     for (std::size_t k = 0; k < limbs_.size(); ++k) limbs_[k] += other.limbs_[k];
   }
+
+  // The digits: those of several sums, added up one by one, are the digits of their sum.
+  std::span<std::int64_t> digits() { return limbs_; }
 
   // The sum, correctly rounded: so it scales exactly with powers of two.
   double value() const {

@@ -15,8 +15,8 @@ std::uint64_t mix(std::uint64_t z) {
 
 }  // namespace
 
-std::uint64_t state_hash(const Disks& d) {
-  std::uint64_t sum = mix(d.size() + 0x9e3779b97f4a7c15ULL);
+std::uint64_t sum_of_hashes(const Disks& d) {
+  std::uint64_t sum = 0;
   for (std::size_t i = 0; i < d.size(); ++i) {
     std::uint64_t h = mix(d.id[i] + 0x9e3779b97f4a7c15ULL);
     h = mix(h ^ std::bit_cast<std::uint64_t>(d.x[i]));
@@ -26,6 +26,14 @@ std::uint64_t state_hash(const Disks& d) {
     sum += h;
   }
   return sum;
+}
+
+std::uint64_t state_hash(std::size_t disks, std::uint64_t sum) {
+  return mix(disks + 0x9e3779b97f4a7c15ULL) + sum;
+}
+
+std::uint64_t state_hash(const Disks& d) {
+  return state_hash(d.size(), sum_of_hashes(d));
 }
 
 std::string hash_text(std::uint64_t hash) {

@@ -1,6 +1,7 @@
 // The fingerprint of a state, in every summary and in the golden tests.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -11,6 +12,10 @@ namespace carom {
 // 64-bit hash of (id, x, y, vx, vy) bit patterns; -0.0 and 0.0 differ. A sum over disks of a mixed hash of
 // each, so it does not depend on storage order and can be taken in parallel.
 std::uint64_t state_hash(const Disks& disks);
+
+// The same in two steps, where the disks lie apart: the hashes of each part's disks, added up, then all parts' sums.
+std::uint64_t sum_of_hashes(const Disks& part);
+std::uint64_t state_hash(std::size_t disks, std::uint64_t sum);
 
 // 16 lower-case hexadecimal digits.
 std::string hash_text(std::uint64_t hash);

@@ -9,6 +9,7 @@
 #include "core/reference/step_contacts.hpp"
 #include "parallel/stepping/contact_count.hpp"
 #include "parallel/stepping/finish_disk.hpp"
+#include "parallel/stepping/resolve_crowded.hpp"
 #include "parallel/stepping/wall_reach.hpp"
 #include "parallel/threads/resize_amply.hpp"
 
@@ -148,36 +149,6 @@ double finish_each(const std::vector<ContactEvent>& events, const Executor& exec
   return lists.largest.empty() ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
 }
 
-// Impacts of the crowded contacts in order of time, then the sweeps of pushing in order of ids.
-template <class View>
-void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, const Executor& executor,
-                     ContactLists& lists, ImpactTally& tally) {
-  if (lists.crowded.empty()) return;
-  place_crowded(disks, executor, lists);
-  assign_amply(lists.tallies, lists.patches.count(), {});
-  Count before = 0;
-  for (int pass = 0; pass < most_impact_passes; ++pass) {
-    run_crowded(executor, lists,
-                [&](const ContactEvent& e, std::size_t q) { lists.tallies[q].add(e.id2, resolve_event(d, rules, e)); });
-    if (!any_impact_since(before, lists.tallies)) break;
-  }
-  for (const ImpactTally& t : lists.tallies) tally.add(t);
-  executor.sort(lists.crowded.begin(), lists.crowded.end(), ids_order);
-  place_crowded(disks, executor, lists);
-  run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t) { push_apart(d, rules.box, e, 0.0); });
-  for (int sweep = 1; sweep < most_push_sweeps; ++sweep) {
-    assign_amply(lists.largest, lists.patches.count(), 0.0);
-    run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
-      if (!is_deep(d, rules.box, e, shallow_overlap)) return;
-      push_apart(d, rules.box, e, 0.0);
-      lists.largest[q] = 1.0;
-    });
-    if (!any_deep(lists)) break;
-  }
-  see_overlaps_left(d, rules.box, lists.crowded.size(), executor, lists,
-                    [&](std::size_t k) { return lists.crowded[k]; });
-}
-
 // Finishes the disks of the crowded contacts. Returns the largest squared speed among them.
 template <class View>
 double finish_crowded(const View& d, const Domain& box, const Executor& executor, ContactLists& lists) {
@@ -282,13 +253,26 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
   } else {
     with_view(state.disks, rules, [&](const auto& d) {
       speed2 = resolve_alone(d, rules, found, walls, state.disks.size(), executor, lists, tally);
-      resolve_crowded(d, rules, state.disks, executor, lists, tally);
+      resolve_crowded(d, rules, state.disks, executor, lists, tally, NoOtherRanks{});
       speed2 = std::max(speed2, finish_crowded(d, rules.box, executor, lists));
     });
   }
   lists.figures.inaccurate += tally.inaccurate;
   tally.count_into(state.counters);
   return speed2;
+}
+
+double resolve_alone_contacts(Disks& disks, const StepRules& rules, const FoundPairs& found,
+                              const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
+                              ContactLists& lists, ImpactTally& tally) {
+  lists.figures = {};
+  return with_view(disks, rules, [&](const auto& d) {
+    return resolve_alone(d, rules, found, walls, disks.size(), executor, lists, tally);
+  });
+}
+
+double finish_crowded_contacts(Disks& disks, const Domain& box, const Executor& executor, ContactLists& lists) {
+  return with_view(disks, [&](const auto& d) { return finish_crowded(d, box, executor, lists); });
 }
 
 double finish_contacts(Disks& disks, const Domain& box, const Executor& executor,

@@ -46,6 +46,13 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
                         const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
                         ContactLists& lists);
 
+// The first and the last part of it by themselves, where nothing settles; resolve_crowded.hpp has the one between.
+// The first resolves what is alone, and leaves the others in lists.crowded, in canonical order of time.
+double resolve_alone_contacts(Disks& disks, const StepRules& rules, const FoundPairs& found,
+                              const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
+                              ContactLists& lists, ImpactTally& tally);
+double finish_crowded_contacts(Disks& disks, const Domain& box, const Executor& executor, ContactLists& lists);
+
 // Wraps the disks in events, clears their counts, returns the largest squared speed among them.
 double finish_contacts(Disks& disks, const Domain& box, const Executor& executor,
                        const std::vector<ContactEvent>& events, ContactLists& lists);

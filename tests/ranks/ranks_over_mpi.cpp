@@ -4,6 +4,7 @@
 
 #include "parallel/ranks/mpi_ranks.hpp"
 #include "tests/support/ranks_support.hpp"
+#include "tests/support/slab_support.hpp"
 
 namespace carom {
 namespace {
@@ -26,6 +27,19 @@ TEST(MpiRanks, AgreeOnSumsAndMaxima) {
 
 TEST(MpiRanks, Gather) {
   test::expect_gathers(*session->ranks());
+}
+
+TEST(MpiRanks, RunPairwiseWithTheBitsOfOneMachine) {
+  // Ranks that wait keep busy: where there are more than cores, steps take long. LocalRanks run all scenes.
+  for (const char* sides : {"wall", "periodic"}) {
+    const std::vector<Scene> scenes = test::slab_scenes(sides, 8);
+    for (std::size_t k = 0; k < scenes.size(); k += 4) {
+      SCOPED_TRACE(scenes[k].title);
+      const State start = initial_state(scenes[k]);
+      test::expect_same(test::one_machine_trace(scenes[k], start),
+                        test::slab_trace(scenes[k], start, {2, 512}, *session->ranks()));
+    }
+  }
 }
 
 }  // namespace

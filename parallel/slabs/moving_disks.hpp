@@ -1,0 +1,38 @@
+// Disks that come to a rank's columns from another one, and go again.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+
+namespace carom {
+
+// Which columns the run's disks have; a rank without disks has empty ones all the same.
+struct DiskColumns {
+  bool radius = false, mass = false;
+};
+
+inline DiskColumns columns_of(const Disks& d) {
+  return {!d.radius.empty(), !d.mass.empty()};
+}
+
+inline void push_back(Disks& d, const Disk& disk, DiskColumns columns) {
+  d.x.push_back(disk.x);
+  d.y.push_back(disk.y);
+  d.vx.push_back(disk.vx);
+  d.vy.push_back(disk.vy);
+  d.id.push_back(disk.id);
+  if (columns.radius) d.radius.push_back(disk.radius);
+  if (columns.mass) d.mass.push_back(disk.mass);
+}
+
+// Only the first n disks stay.
+inline void truncate(Disks& d, std::size_t n) {
+  for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass}) {
+    if (!column->empty()) column->resize(n);
+  }
+  d.id.resize(n);
+}
+
+}  // namespace carom

@@ -1,0 +1,68 @@
+#include "parallel/slabs/rank_sums.hpp"
+
+#include <vector>
+
+#include "core/disks/state_hash.hpp"
+#include "parallel/ranks/message.hpp"
+
+namespace carom {
+
+namespace {
+
+// Calls visit(number) for all whole numbers that a tally consists of.
+template <class Visit>
+void for_each_number(const Domain& box, ImpactTally& tally, Visit&& visit) {
+  for (Count* count : {&tally.collisions, &tally.wall_collisions, &tally.loads, &tally.wall_loads, &tally.inaccurate}) {
+    auto number = static_cast<std::int64_t>(*count);
+    visit(number);
+    *count = static_cast<Count>(number);
+  }
+  for (std::int64_t& digit : tally.virial.digits()) visit(digit);
+  if (!box.has(SideKind::wall)) return;
+  for (ExactSum& impulse : tally.wall_impulse) {
+    for (std::int64_t& digit : impulse.digits()) visit(digit);
+  }
+}
+
+struct DeepestOverlaps {
+  Overlap left, before, wall;
+};
+
+struct HashPart {
+  std::uint64_t disks, sum;
+};
+
+}  // namespace
+
+void sum_over_ranks(Ranks& ranks, const Domain& box, ImpactTally& tally) {
+  std::vector<std::int64_t> numbers;
+  for_each_number(box, tally, [&](std::int64_t& number) { numbers.push_back(number); });
+  ranks.sum(numbers);
+  auto next = numbers.begin();
+  for_each_number(box, tally, [&](std::int64_t& number) { number = *next++; });
+}
+
+void join_over_ranks(Ranks& ranks, StepFigures& figures) {
+  Bytes here;
+  put(here, DeepestOverlaps{figures.left, figures.before, figures.wall});
+  for (const Bytes& there : ranks.gather(here)) {
+    const auto seen = MessageReader(there).get<DeepestOverlaps>();
+    figures.left.see(seen.left);
+    figures.before.see(seen.before);
+    figures.wall.see(seen.wall);
+  }
+}
+
+std::uint64_t state_hash_over_ranks(Ranks& ranks, const Disks& own) {
+  Bytes here;
+  put(here, HashPart{own.size(), sum_of_hashes(own)});
+  HashPart all{0, 0};
+  for (const Bytes& there : ranks.gather(here)) {
+    const auto part = MessageReader(there).get<HashPart>();
+    all.disks += part.disks;
+    all.sum += part.sum;
+  }
+  return state_hash(all.disks, all.sum);
+}
+
+}  // namespace carom

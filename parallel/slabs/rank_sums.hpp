@@ -1,0 +1,24 @@
+// Figures of a step, or of a state, that all ranks together make.
+#pragma once
+
+#include <cstdint>
+
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+#include "core/physics/impact_tally.hpp"
+#include "core/step/validity.hpp"
+#include "parallel/ranks/ranks.hpp"
+
+namespace carom {
+
+// The tally becomes that of all ranks: exact, thus the same in whatever order they are added. Precondition: no side
+// moves or is thermal.
+void sum_over_ranks(Ranks& ranks, const Domain& box, ImpactTally& tally);
+
+// The overlaps become the deepest of all ranks'; counts stay.
+void join_over_ranks(Ranks& ranks, StepFigures& figures);
+
+// state_hash of all ranks' disks together.
+std::uint64_t state_hash_over_ranks(Ranks& ranks, const Disks& own);
+
+}  // namespace carom

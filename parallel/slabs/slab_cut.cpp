@@ -1,0 +1,33 @@
+#include "parallel/slabs/slab_cut.hpp"
+
+#include <algorithm>
+
+namespace carom {
+
+double SlabCut::thinnest() const {
+  double least = bounds.back() - bounds.front();
+  for (int r = 0; r < ranks(); ++r) least = std::min(least, high(r) - low(r));
+  return least;
+}
+
+int SlabCut::rank_at(double y) const {
+  const auto inner = std::upper_bound(bounds.begin() + 1, bounds.end() - 1, y);
+  return static_cast<int>(inner - bounds.begin()) - 1;
+}
+
+SlabCut cut_into_slabs(const Domain& box, const Disks& disks, int ranks, double least) {
+  std::vector<double> y = disks.y;
+  std::sort(y.begin(), y.end());
+  const auto slabs = static_cast<std::size_t>(ranks);
+  SlabCut cut;
+  for (std::size_t r = 0; r < slabs; ++r) {
+    const double even = box.height * static_cast<double>(r) / static_cast<double>(slabs);
+    cut.bounds.push_back(r == 0 ? 0.0 : y.empty() ? even : y[y.size() * r / slabs]);
+  }
+  cut.bounds.push_back(box.height);
+  for (std::size_t r = 1; r < slabs; ++r) cut.bounds[r] = std::max(cut.bounds[r], cut.bounds[r - 1] + least);
+  for (std::size_t r = slabs - 1; r > 0; --r) cut.bounds[r] = std::min(cut.bounds[r], cut.bounds[r + 1] - least);
+  return cut;
+}
+
+}  // namespace carom

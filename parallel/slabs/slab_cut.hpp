@@ -1,0 +1,37 @@
+// Slabs of the box, one above the other, one for each rank.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+// bounds[r] to bounds[r + 1] is the slab of rank r; bounds.front() is 0, bounds.back() the box's height.
+struct SlabCut {
+  std::vector<double> bounds;  // length
+
+  int ranks() const { return static_cast<int>(bounds.size()) - 1; }
+  double low(int rank) const { return bounds[static_cast<std::size_t>(rank)]; }
+  double high(int rank) const { return bounds[static_cast<std::size_t>(rank) + 1]; }
+  double thinnest() const;
+  // The rank that has a centre at this height; below the box the first one, above it the last.
+  int rank_at(double y) const;
+};
+
+// A slab has to be so much thicker than the largest radius: disks of the slabs on either side of it never touch, as far
+// as any may leave its own slab before it goes to the next rank.
+inline constexpr double least_thickness = 4.0;  // radii
+
+// Slabs with about as many disks each, no thinner than least (length). Precondition: ranks >= 1, ranks * least <=
+// height.
+SlabCut cut_into_slabs(const Domain& box, const Disks& disks, int ranks, double least);
+
+// How far a disk may leave its slab, and others still find all that touch it one slab further; length.
+inline double room_beyond(const SlabCut& cut, double largest_radius) {
+  return 0.5 * (cut.thinnest() - 2.0 * largest_radius);
+}
+
+}  // namespace carom

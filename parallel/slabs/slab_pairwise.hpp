@@ -1,0 +1,21 @@
+// The method `pairwise` on several ranks, each with a slab of the box.
+#pragma once
+
+#include <memory>
+
+#include "core/step/engine.hpp"
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/threads/threads.hpp"
+
+namespace carom {
+
+// This rank's part of an engine that has the bits of make_parallel_pairwise on any number of ranks with any number of
+// threads each. All ranks make it of the same scene and the same initial state, with all disks; of those each keeps the
+// ones in its slab. step() is collective: all ranks call it, or none. Of state(), the disks are the rank's own, and all
+// else is that of the whole run. ranks outlives the engine. Throws InputError, on all ranks alike, for what it cannot
+// do yet: piles, sources, sinks, Brownian motion, sides that are thermal or move, fixed disks and inner walls, and
+// slabs thinner than two diameters of the largest disk. Preconditions: scene.run.method is pairwise, scene.run.dt > 0,
+// threads.count >= 1.
+std::unique_ptr<Engine> make_slab_pairwise(const Scene& scene, State initial, const Threads& threads, Ranks& ranks);
+
+}  // namespace carom

@@ -1,0 +1,267 @@
+#include "parallel/slabs/slab_stepping.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/base/check.hpp"
+#include "core/step/step_clock.hpp"
+#include "parallel/cells/compact.hpp"
+#include "parallel/ranks/message.hpp"
+#include "parallel/slabs/rank_sums.hpp"
+#include "parallel/stepping/drift_blocks.hpp"
+#include "parallel/stepping/finish_disk.hpp"
+#include "parallel/stepping/resolve_crowded.hpp"
+#include "parallel/stepping/wall_reach.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks a block in passes that look at each disk once.
+constexpr std::size_t look_block = 8192;
+// The disks are sorted anew when on a rank one in so many has left its cell too far, as TimeStepping does.
+constexpr std::size_t stray_share = 200;
+constexpr double cell_margin = 2.0 * grid_margin;
+// And all go to the rank whose slab they are in, when one has used up this share of the room that it has beyond its
+// own.
+constexpr double excursion_share = 0.5;
+// But not before it is so far beyond it, in largest radii.
+constexpr double usual_excursion = 2.0;
+
+// Of a contact that two ranks resolve, that of the disk with the smaller id counts the impact.
+struct OtherRanks {
+  Ranks& ranks;
+  const GhostDisks& ghosts;
+  static constexpr bool alone = false;
+  bool any(bool here) const { return ranks.any(here); }
+  bool counts(const ContactEvent& e) const { return !ghosts.is_ghost(e.i1); }
+};
+
+}  // namespace
+
+SlabStepping::SlabStepping(const Scene& scene, State initial, const Threads& threads, Ranks& ranks)
+    : scene_(scene),
+      state_(std::move(initial)),
+      ranks_(ranks),
+      executor_(threads.count, threads.block_divisor),
+      columns_(columns_of(state_.disks)),
+      smallest_radius_(smallest_radius(state_.disks)),
+      largest_radius_(largest_radius(state_.disks)),
+      border_contacts_(ranks) {
+  make_cells();
+  cut_ = cut_into_slabs(scene_.box, state_.disks, ranks.count(), least_thickness * largest_radius_);
+  const bool seam = scene_.box.periodic_y();
+  const int last = ranks.count() - 1;
+  slab_ = {cut_.low(ranks.rank()), cut_.high(ranks.rank()), last > 0 && (seam || ranks.rank() > 0),
+           last > 0 && (seam || ranks.rank() < last)};
+  keep_own_disks();
+}
+
+// The same on every rank: of the whole box, for all disks.
+void SlabStepping::make_cells() {
+  const Disks& d = state_.disks;
+  if (d.empty()) return;
+  std::vector<std::size_t> count(class_of_radius(smallest_radius_, largest_radius_) + 1, 0);
+  if (count.size() == 1) {
+    count[0] = d.size();
+  } else {
+    for (const double r : d.radius) ++count[class_of_radius(r, largest_radius_)];
+  }
+  make_grid(scene_.box, largest_radius_, count, grid_, cell_margin);
+}
+
+void SlabStepping::keep_own_disks() {
+  Disks& d = state_.disks;
+  gone_.resize(d.size());
+  for (std::size_t i = 0; i < d.size(); ++i) gone_[i] = cut_.rank_at(d.y[i]) == ranks_.rank() ? 0 : 1;
+  remove_marked(d, gone_);
+}
+
+double SlabStepping::disks_at(double /*t*/, Disks& out) const {
+  out = state_.disks;
+  return state_.time;
+}
+
+// Those across a border on the rank of the disk with the smaller id.
+std::vector<DiskContact> SlabStepping::contacts() const {
+  std::vector<DiskContact> met;
+  const std::vector<DiskId>& id = state_.disks.id;
+  for (std::size_t b = 0; b + 1 < pairs_.used; ++b) {
+    for (const auto& [i, j] : pairs_.buffers[b]) {
+      const auto [id1, id2] = std::minmax(id[i], id[j]);
+      met.push_back({id1, id2, state_.time});
+    }
+  }
+  for (const auto& [own, ghost] : crossing_ids_) {
+    if (own < ghost) met.push_back({own, ghost, state_.time});
+  }
+  return met;
+}
+
+Count SlabStepping::parts(double dt) {
+  if (grid_.levels.empty()) return 1;  // no disks
+  // As in TimeStepping: a bound is mostly enough to see that the step is safe.
+  const double fall = scene_.physics.gravity * dt / smallest_radius_;
+  if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
+  double travel2 = with_view(state_.disks, [&](const auto& d) { return largest_travel2(d, 0, state_.disks.size()); });
+  ranks_.maximum({&travel2, 1});
+  const Count parts = parts_of_step(travel2, fall, dt);
+  if (parts > 1) validity_.see_split(state_, dt, parts);
+  return parts;
+}
+
+void SlabStepping::sort_if_due() {
+  if (grid_.levels.empty() || !std::exchange(sort_due_, false)) return;
+  const PhaseTimer timer(times_, "sort");
+  migrate();
+  sort_into_cells(state_.disks, grid_, executor_, cells_);
+  if (!state_.disks.empty()) begin_coarse_positions(state_.disks, grid_, cells_, executor_, coarse_);
+}
+
+// Each disk to the rank whose slab it is in. None has left its own by so much as a slab.
+void SlabStepping::migrate() {
+  Disks& d = state_.disks;
+  std::vector<Disk> down;
+  std::vector<Disk> up;
+  gone_.assign(d.size(), 0);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const int to = cut_.rank_at(d.y[i]);
+    if (to == ranks_.rank()) continue;
+    (to == ranks_.above() ? up : down).push_back(disk_at(d, i));
+    gone_[i] = 1;
+  }
+  remove_in_parallel(d, gone_, executor_, cells_.column, cells_.pass);
+  Bytes to_below;
+  Bytes to_above;
+  put_all(to_below, down);
+  put_all(to_above, up);
+  const auto [below, above] = ranks_.exchange(to_below, to_above);
+  for (const Bytes& message : {below, above}) {
+    for (const Disk& disk : MessageReader(message).get_all<Disk>()) push_back(d, disk, columns_);
+  }
+}
+
+void SlabStepping::drift(double t) {
+  const PhaseTimer timer(times_, "drift");
+  coarse_.blocks = 0;
+  speed2_ = 0.0;
+  if (!state_.disks.empty())
+    speed2_ = drift_blocks(state_.disks, scene_.box, scene_.physics.gravity, t, grid_, cells_, executor_, coarse_);
+}
+
+void SlabStepping::search(const StepRules& rules) {
+  const Disks& d = state_.disks;
+  pairs_.used = 0;
+  strays_ = 0;
+  pairs_.furthest = 0.0;
+  {
+    const PhaseTimer timer(times_, "search");
+    // The strays, which see_neighbours asks for, are of this drift.
+    if (!d.empty()) strays_ = find_contacts(d, scene_.box, grid_, cells_, coarse_, executor_, pairs_);
+  }
+  if (has_walls(rules.box)) {
+    const PhaseTimer timer(times_, "walls");
+    find_wall_contacts(state_.disks, rules, executor_, walls_);
+  }
+  see_neighbours();
+}
+
+// Ghosts, and the pairs across the borders, in a buffer behind those of the search.
+void SlabStepping::see_neighbours() {
+  const PhaseTimer timer(times_, "exchange");
+  Disks& d = state_.disks;
+  ghosts_.begin(d.size());
+  if (ranks_.count() > 1 && !grid_.levels.empty()) {
+    const double room = room_beyond(cut_, largest_radius_);
+    find_near_borders(slab_, d, grid_, cells_, coarse_, 2.0 * largest_radius_ + room, near_);
+    excursion_ = excursion_of(slab_, scene_.box, d, near_);
+    ranks_.maximum({&excursion_, 1});
+    if (excursion_ > room) {
+      throw PhysicsError("slabs of the box are too thin for what disks move in a step; use fewer ranks");
+    }
+    find_seen_beyond(slab_, scene_.box, d, near_, largest_radius_, excursion_, seen_);
+    Bytes to_below;
+    Bytes to_above;
+    put_all(to_below, seen_.below);
+    put_all(to_above, seen_.above);
+    const auto [below, above] = ranks_.exchange(to_below, to_above);
+    ghosts_.add(MessageReader(below).get_all<Disk>(), lower_border, columns_, d);
+    ghosts_.add(MessageReader(above).get_all<Disk>(), upper_border, columns_, d);
+  }
+  if (pairs_.buffers.size() <= pairs_.used) pairs_.buffers.resize(pairs_.used + 1);
+  std::vector<Pair>& crossing = pairs_.buffers[pairs_.used++];
+  crossing.clear();
+  find_crossing_pairs(d, scene_.box, ghosts_, grid_, cells_, pairs_.furthest, crossing);
+  crossing_ids_.clear();
+  for (const auto& [i, g] : crossing) crossing_ids_.emplace_back(d.id[i], d.id[g]);
+}
+
+StepFigures SlabStepping::resolve(const StepRules& rules) {
+  const PhaseTimer timer(times_, "resolve");
+  ImpactTally tally;
+  const double speed2 = resolve_here(rules, tally);
+  drop_ghosts();
+  agree(tally, speed2);
+  tally.count_into(state_.counters);
+  return lists_.figures;
+}
+
+// Returns the largest squared speed of disks that had contacts.
+double SlabStepping::resolve_here(const StepRules& rules, ImpactTally& tally) {
+  Disks& d = state_.disks;
+  // A ghost may have contacts that this rank does not see: none of its contacts is alone here.
+  lists_.contacts.resize(ghosts_.own(), 0);
+  lists_.contacts.resize(d.size(), 1);
+  double speed2 = resolve_alone_contacts(d, rules, pairs_, walls_, executor_, lists_, tally);
+  if (ranks_.count() > 1) {
+    border_contacts_.share(d, columns_, ghosts_, executor_, lists_);
+    speed2 = std::max(speed2, resolve_alone_at_border(rules, tally));
+  }
+  with_view(d, rules, [&](const auto& view) {
+    resolve_crowded(view, rules, d, executor_, lists_, tally, OtherRanks{ranks_, ghosts_});
+  });
+  return std::max(speed2, finish_crowded_contacts(d, scene_.box, executor_, lists_));
+}
+
+double SlabStepping::resolve_alone_at_border(const StepRules& rules, ImpactTally& tally) {
+  const WallReach walls(rules.box);
+  double speed2 = 0.0;
+  with_view(state_.disks, rules, [&](const auto& d) {
+    for (const ContactEvent& e : border_contacts_.alone()) {
+      const Impact impact = resolve_pair(d, rules, e.i1, e.i2);
+      if (!ghosts_.is_ghost(e.i1)) tally.add_pair(impact);
+      push_pair(d, rules.box, e.i1, e.i2, 0.0);
+      see_overlap_left(d, rules.box, e, lists_.figures);
+      for (const std::uint32_t i : {e.i1, e.i2}) {
+        speed2 = std::max(speed2, finish_disk(d, rules.box, walls, i, lists_.figures));
+        lists_.contacts[i] = 0;
+      }
+    }
+  });
+  return speed2;
+}
+
+void SlabStepping::drop_ghosts() {
+  truncate(state_.disks, ghosts_.own());
+  lists_.contacts.resize(ghosts_.own());
+}
+
+// What all ranks have to know of the step: its sums and figures, the largest speed, and whether to sort before the
+// next.
+void SlabStepping::agree(ImpactTally& tally, double speed2) {
+  sum_over_ranks(ranks_, scene_.box, tally);
+  join_over_ranks(ranks_, lists_.figures);
+  lists_.figures.inaccurate = tally.inaccurate;
+  const double room = room_beyond(cut_, largest_radius_);
+  const bool far = excursion_ > std::min(usual_excursion * largest_radius_, excursion_share * room);
+  const bool sort = far || strays_ * stray_share > state_.disks.size();
+  std::array<double, 2> largest{std::max(speed2_, speed2), sort ? 1.0 : 0.0};
+  ranks_.maximum(largest);
+  speed2_ = largest[0];
+  speed2_known_ = true;
+  sort_due_ = largest[1] > 0.0;
+}
+
+}  // namespace carom

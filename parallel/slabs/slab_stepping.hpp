@@ -1,0 +1,95 @@
+// The phases of a step of `pairwise` on one of several ranks, each with a slab of the box.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/physics/impact_tally.hpp"
+#include "core/step/engine.hpp"
+#include "core/step/step_start.hpp"
+#include "core/step/validity.hpp"
+#include "parallel/cells/cell_grid.hpp"
+#include "parallel/cells/counting_sort.hpp"
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/border_contacts.hpp"
+#include "parallel/slabs/border_search.hpp"
+#include "parallel/slabs/ghost_disks.hpp"
+#include "parallel/slabs/slab_cut.hpp"
+#include "parallel/stepping/coarse_positions.hpp"
+#include "parallel/stepping/find_contacts.hpp"
+#include "parallel/stepping/resolve_contacts.hpp"
+#include "parallel/threads/executor.hpp"
+#include "parallel/threads/threads.hpp"
+
+namespace carom {
+
+// state().disks are the rank's own disks; all else in state() is the same on all ranks. step() is collective. For
+// PairwiseMethod.
+class SlabStepping : public Engine {
+ public:
+  // initial: with all disks, of which those in the rank's slab stay.
+  SlabStepping(const Scene& scene, State initial, const Threads& threads, Ranks& ranks);
+
+  const State& state() const override { return state_; }
+  double disks_at(double t, Disks& out) const override;
+  std::vector<DiskContact> contacts() const override;
+  const PhaseTimes& phase_times() const override { return times_; }
+  std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }
+
+ protected:
+  // As in TimeStepping, for scenes that slabs can have (slab_pairwise.hpp).
+  void start_interval(double /*t*/, double /*dt*/, Count /*step*/) {}
+  Count parts(double dt);
+  void sort_if_due();
+  void drift(double t);
+  void search(const StepRules& rules);
+  StepFigures resolve(const StepRules& rules);
+  void keep_places() {}
+  bool presses_others() { return false; }
+  void remove_at_sinks() {}
+
+  Scene scene_;
+  State state_;
+  Validity validity_;
+
+ private:
+  void keep_own_disks();
+  void make_cells();
+  void migrate();
+  void see_neighbours();
+  double resolve_here(const StepRules& rules, ImpactTally& tally);
+  double resolve_alone_at_border(const StepRules& rules, ImpactTally& tally);
+  void drop_ghosts();
+  void agree(ImpactTally& tally, double speed2);
+
+  Ranks& ranks_;
+  Executor executor_;
+  PhaseTimes times_;
+  SlabCut cut_;
+  Slab slab_;
+  DiskColumns columns_;
+  double smallest_radius_ = 0.0, largest_radius_ = 0.0;  // of all disks
+  CellGrid grid_;                                        // of the whole box
+  SortedCells cells_;
+  CoarsePositions coarse_;
+  FoundPairs pairs_;
+  std::vector<std::vector<ContactEvent>> walls_;
+  ContactLists lists_;
+  GhostDisks ghosts_;
+  BorderContacts border_contacts_;
+  std::vector<std::pair<DiskId, DiskId>> crossing_ids_;  // of the last search: own disk, ghost
+  // The same on all ranks between two steps.
+  double excursion_ = 0.0;  // how far a disk of any rank has left its slab; length
+  double speed2_ = 0.0;     // no disk's squared speed is larger
+  bool speed2_known_ = false;
+  bool sort_due_ = true;
+  std::size_t strays_ = 0;  // of the last search, on this rank
+  // Scratch.
+  std::vector<std::uint32_t> near_;
+  SeenBeyond seen_;
+  std::vector<unsigned char> gone_;
+};
+
+}  // namespace carom

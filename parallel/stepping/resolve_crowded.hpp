@@ -1,0 +1,51 @@
+// The contacts of a step that are not alone, where nothing settles: impacts in order of time, then the sweeps of
+// pushing in order of ids.
+#pragma once
+
+#include "core/physics/impact_tally.hpp"
+#include "core/physics/resolve.hpp"
+#include "parallel/stepping/resolve_contacts.hpp"
+
+namespace carom {
+
+// How many passes there are depends on all contacts of the step. Where other ranks resolve some of them
+// (parallel/slabs/slab_stepping.cpp), any() asks them too; of a contact that two ranks resolve, one counts the impact.
+struct NoOtherRanks {
+  static constexpr bool alone = true;
+  bool any(bool here) const { return here; }
+  bool counts(const ContactEvent& /*e*/) const { return true; }
+};
+
+// lists.crowded in canonical order of time; afterwards it is in order of ids.
+template <class View, class Others>
+void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, const Executor& executor,
+                     ContactLists& lists, ImpactTally& tally, Others&& others) {
+  if (others.alone && lists.crowded.empty()) return;
+  place_crowded(disks, executor, lists);
+  assign_amply(lists.tallies, lists.patches.count(), {});
+  Count before = 0;
+  for (int pass = 0; pass < most_impact_passes; ++pass) {
+    run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
+      const Impact impact = resolve_event(d, rules, e);
+      if (others.counts(e)) lists.tallies[q].add(e.id2, impact);
+    });
+    if (!others.any(any_impact_since(before, lists.tallies))) break;
+  }
+  for (const ImpactTally& t : lists.tallies) tally.add(t);
+  executor.sort(lists.crowded.begin(), lists.crowded.end(), ids_order);
+  place_crowded(disks, executor, lists);
+  run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t) { push_apart(d, rules.box, e, 0.0); });
+  for (int sweep = 1; sweep < most_push_sweeps; ++sweep) {
+    assign_amply(lists.largest, lists.patches.count(), 0.0);
+    run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
+      if (!is_deep(d, rules.box, e, shallow_overlap)) return;
+      push_apart(d, rules.box, e, 0.0);
+      lists.largest[q] = 1.0;
+    });
+    if (!others.any(any_deep(lists))) break;
+  }
+  see_overlaps_left(d, rules.box, lists.crowded.size(), executor, lists,
+                    [&](std::size_t k) { return lists.crowded[k]; });
+}
+
+}  // namespace carom

@@ -1,0 +1,241 @@
+// `pairwise` on several ranks: the bits of one machine after every step, on any number of ranks and threads.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/check.hpp"
+#include "parallel/ranks/local_ranks.hpp"
+#include "parallel/slabs/slab_cut.hpp"
+#include "tests/support/slab_support.hpp"
+
+namespace carom {
+namespace {
+
+using test::Features;
+using test::SlabTrace;
+
+constexpr int steps = 20;
+
+// That of rank 0; all others are held against it.
+SlabTrace local_trace(const Scene& scene, const State& start, const Threads& threads, int count) {
+  std::mutex mutex;
+  std::vector<SlabTrace> traces(static_cast<std::size_t>(count));
+  run_on_local_ranks(count, [&](Ranks& ranks) {
+    SlabTrace trace = test::slab_trace(scene, start, threads, ranks);
+    const std::lock_guard lock(mutex);
+    traces[static_cast<std::size_t>(ranks.rank())] = std::move(trace);
+  });
+  for (const SlabTrace& trace : traces) test::expect_same(traces[0], trace);
+  return traces[0];
+}
+
+// The traces of one machine, and that slabs have it.
+SlabTrace expect_bits(const Scene& scene, const std::vector<int>& counts) {
+  const State start = initial_state(scene);
+  const SlabTrace expected = test::one_machine_trace(scene, start);
+  for (const int ranks : counts) {
+    for (const int threads : {1, 2}) {
+      SCOPED_TRACE(fmt::format("{} ranks, {} threads", ranks, threads));
+      test::expect_same(expected, local_trace(scene, start, {threads, 512}, ranks));
+    }
+  }
+  return expected;
+}
+
+class SlabPairwise : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SlabPairwise, HasTheBitsOfOneMachineAfterEveryStep) {
+  Count collisions = 0;
+  const std::vector<Scene> scenes = test::slab_scenes(GetParam(), steps);
+  ASSERT_GE(scenes.size(), 4U);
+  for (const Scene& scene : scenes) {
+    SCOPED_TRACE(scene.title);
+    collisions += expect_bits(scene, {1, 2, 3, 4}).counters.collisions;
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(collisions, 50U * scenes.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Sides, SlabPairwise, ::testing::Values("wall", "periodic", "soft"),
+                         [](const auto& p) { return std::string(p.param); });
+
+Scene scene_of(const std::string& sides, const std::string& box, const std::string& disks, double dt, int count) {
+  return parse_scene("[box]\n" + test::sides_text(sides) + box + "[[disks]]\n" + disks +
+                         fmt::format("[run]\nmethod = \"pairwise\"\ndt = {}\nt_end = {}\n", dt, dt * count),
+                     "scene", "");
+}
+
+// Long enough for cells to be sorted many times and for disks to go through all slabs.
+TEST(SlabPairwiseRun, HasTheBitsWhileDisksMoveFromSlabToSlab) {
+  const Scene scene = scene_of("periodic", "width = 30.0\nheight = 40.0\n",
+                               "count = 400\npositions = \"random\"\nradius = 0.5\nmass = 1.0\n"
+                               "velocities = { maxwell = 4.0 }\n",
+                               0.05, 400);
+  EXPECT_GT(expect_bits(scene, {2, 3, 4}).counters.collisions, 10'000U);
+  const State start = initial_state(scene);
+  EXPECT_GT(local_trace(scene, start, {1, 1}, 4).most_moved, 0U);
+}
+
+// Nearly all disks are in contact after each step, so that clusters reach through whole slabs.
+TEST(SlabPairwiseRun, HasTheBitsWhereClustersReachThroughSlabs) {
+  const Scene scene = scene_of("periodic", "packing_fraction = 0.82\n",
+                               "count = 600\npositions = \"hexagonal\"\nradius = 0.5\nmass = 1.0\n"
+                               "velocities = { maxwell = 1.0 }\n",
+                               0.06, 60);
+  EXPECT_GT(expect_bits(scene, {2, 3, 4}).counters.collisions, 5'000U);
+}
+
+// A column of touching disks from floor to ceiling is one cluster of all slabs; what one end is given, the other
+// returns.
+TEST(SlabPairwiseRun, HasTheBitsWhereOneClusterIsAllSlabs) {
+  std::string places;
+  std::string velocities;
+  for (int k = 0; k < 24; ++k) {
+    places += fmt::format("[3.0, {}], ", 0.5 + k);
+    velocities += fmt::format("[{}, {}], ", 0.01 * (k % 5), k == 0 ? 3.0 : -0.1);
+  }
+  const Scene scene = scene_of(
+      "wall", "width = 6.0\nheight = 24.0\n",
+      "count = 24\npositions = [" + places + "]\nvelocities = [" + velocities + "]\nradius = 0.5\nmass = 1.0\n", 0.05,
+      100);
+  EXPECT_GT(expect_bits(scene, {2, 3, 4}).counters.collisions, 50U);
+}
+
+// Disks that stick together after meeting head on: a contact that is alone is resolved once, though by rounding it may
+// seem to approach still. All meet across the border of two slabs.
+TEST(SlabPairwiseRun, ResolvesAContactThatIsAloneOnce) {
+  std::string places;
+  std::string velocities;
+  for (int k = 0; k < 60; ++k) {
+    places += fmt::format("[{0}, 9.3], [{1}, 10.7], ", 1.0 + 2 * k, 1.0 + 2 * k + 0.01 * (k % 7));
+    velocities += fmt::format("[0.0, {}], [0.0, {}], ", 0.9 + 0.037 * k, -0.3 - 0.011 * k);
+  }
+  const Scene scene = scene_of(
+      "wall", "width = 121.0\nheight = 20.0\n[physics]\nrestitution = 0.0\n",
+      "count = 120\npositions = [" + places + "]\nvelocities = [" + velocities + "]\nradius = 0.5\nmass = 1.0\n", 0.03,
+      20);
+  EXPECT_GE(expect_bits(scene, {2, 3}).counters.collisions, 60U);
+}
+
+// Elastic disks fall: slabs run empty and fill again.
+TEST(SlabPairwiseRun, HasTheBitsWhereSlabsRunEmpty) {
+  const Scene scene = scene_of("wall", "width = 30.0\nheight = 30.0\n[physics]\ngravity = 8.0\n",
+                               "count = 60\npositions = \"random\"\nradius = { uniform = [0.2, 0.6] }\n"
+                               "mass = { uniform = [1, 20] }\nvelocities = { uniform = 1.0 }\n",
+                               0.01, 700);
+  std::size_t least = 60;
+  const State start = initial_state(scene);
+  std::mutex mutex;
+  run_on_local_ranks(4, [&](Ranks& ranks) {
+    const auto engine = make_slab_pairwise(scene, start, {1}, ranks);
+    while (engine->state().time < scene.run.t_end) {
+      engine->step();
+      const std::lock_guard lock(mutex);
+      least = std::min(least, engine->state().disks.size());
+    }
+  });
+  EXPECT_EQ(least, 0U);
+  EXPECT_GT(expect_bits(scene, {4}).counters.wall_collisions, 100U);
+}
+
+TEST(SlabPairwiseRun, HasTheBitsOfASceneWithoutDisks) {
+  expect_bits(scene_of("wall", "width = 3.0\nheight = 3.0\n",
+                       "count = 0\npositions = \"random\"\nradius = 0.5\nmass = 1.0\n", 0.1, 3),
+              {1, 3});
+}
+
+// A step that one machine refuses is refused with the same words on all ranks.
+TEST(SlabPairwiseRun, EndsAsOneMachineWhereAStepIsFarTooLong) {
+  const Scene scene = scene_of("wall", "width = 30.0\nheight = 30.0\n",
+                               "count = 9\npositions = \"square\"\nradius = 0.5\nmass = 1.0\n"
+                               "velocities = { uniform = 1e6 }\n",
+                               1.0, 3);
+  const State start = initial_state(scene);
+  std::string expected;
+  try {
+    make_parallel_engine(scene, start, {1})->step();
+  } catch (const PhysicsError& error) {
+    expected = error.what();
+  }
+  ASSERT_NE(expected, "");
+  run_on_local_ranks(3, [&](Ranks& ranks) {
+    const auto engine = make_slab_pairwise(scene, start, {1}, ranks);
+    try {
+      engine->step();
+      ADD_FAILURE() << "no exception";
+    } catch (const PhysicsError& error) {
+      EXPECT_EQ(error.what(), expected);
+    }
+  });
+}
+
+std::string refusal(const Scene& scene, int count) {
+  std::string text;
+  try {
+    const State start = initial_state(scene);
+    run_on_local_ranks(count, [&](Ranks& ranks) { make_slab_pairwise(scene, start, {1}, ranks); });
+  } catch (const InputError& error) {
+    text = error.what();
+  }
+  return text;
+}
+
+TEST(SlabPairwiseRefuses, WhatItCannotDoYetInOneLine) {
+  const auto with = [](const char* sides, auto&& change) {
+    Features f;
+    f.sides = sides;
+    change(f);
+    return refusal(test::feature_scene(f, 5), 2);
+  };
+  const auto plain = [](Features&) {};
+  EXPECT_EQ(with("wall", plain), "");
+  EXPECT_EQ(with("sink", plain), "several ranks do not know sinks yet: use one");
+  EXPECT_EQ(with("hot", plain), "several ranks do not know thermal sides yet: use one");
+  EXPECT_EQ(with("moving", plain), "several ranks do not know sides that move yet: use one");
+  EXPECT_EQ(with("wall", [](Features& f) { f.diffusion = "replace"; }),
+            "several ranks do not know diffusion yet: use one");
+  EXPECT_EQ(with("wall", [](Features& f) { f.source = true; }), "several ranks do not know sources yet: use one");
+  EXPECT_EQ(with("wall", [](Features& f) { f.gravity = true, f.restitution = 0.7; }),
+            "several ranks do not know gravity with restitution below 1 yet: use one");
+  EXPECT_EQ(with("periodic", [](Features& f) { f.obstacles = true, f.diffusion = "replace"; }).find("several ranks"),
+            0U);
+}
+
+TEST(SlabPairwiseRefuses, SlabsThinnerThanTwoDiametersOfTheLargestDisk) {
+  Features f;
+  f.radii = "wide";  // the largest radius is 4, the box 18 high
+  const Scene scene = test::feature_scene(f, steps);
+  EXPECT_EQ(refusal(scene, 1), "");
+  EXPECT_EQ(
+      refusal(scene, 2),
+      "2 ranks: slabs of a box 18 high would be thinner than two diameters of the largest disk, whose radius is 4; "
+      "use 1 at most");
+}
+
+TEST(SlabCut, HasAsManyDisksInEachSlab) {
+  Disks disks;
+  for (int k = 0; k < 1000; ++k) append(disks, {0.0, 0.03 * k, 0.0, 0.0, 0.1, 1.0, static_cast<DiskId>(k)});
+  Domain box;
+  box.width = 10.0;
+  box.height = 100.0;
+  const SlabCut cut = cut_into_slabs(box, disks, 4, 1.0);
+  ASSERT_EQ(cut.ranks(), 4);
+  EXPECT_EQ(cut.bounds, (std::vector<double>{0.0, 7.5, 15.0, 22.5, 100.0}));
+  EXPECT_EQ(cut.rank_at(-1.0), 0);
+  EXPECT_EQ(cut.rank_at(7.49), 0);
+  EXPECT_EQ(cut.rank_at(7.5), 1);
+  EXPECT_EQ(cut.rank_at(99.0), 3);
+  EXPECT_EQ(cut.rank_at(101.0), 3);
+  // No slab is thinner than it must be.
+  const SlabCut thick = cut_into_slabs(box, disks, 4, 25.0);
+  EXPECT_EQ(thick.bounds, (std::vector<double>{0.0, 25.0, 50.0, 75.0, 100.0}));
+  EXPECT_EQ(thick.thinnest(), 25.0);
+}
+
+}  // namespace
+}  // namespace carom
