@@ -103,7 +103,7 @@ std::vector<DiskContact> SlabStepping::contacts() const {
 Count SlabStepping::parts(double dt) {
   if (grid_.levels.empty()) return 1;  // no disks
   // As in TimeStepping: a bound is mostly enough to see that the step is safe.
-  const double fall = scene_.physics.gravity * dt / smallest_radius_;
+  const double fall = scene_.physics.gravity.size * dt / smallest_radius_;
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
   double travel2 = with_view(state_.disks, [&](const auto& d) { return largest_travel2(d, 0, state_.disks.size()); });
   ranks_.maximum({&travel2, 1});
