@@ -82,6 +82,8 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary&) -> Json { return build_version(); }},
     {"heat", "energy", "only with thermal sides: an object, what each of them gave to the disks",
      [](const Summary& s) -> Json { return side_energy_of(s, [&](Side side) { return s.box.is_thermal(side); }); }},
+    {"thermostat_heat", "energy", "only with a thermostat: what it gave to the disks",
+     [](const Summary& s) -> Json { return s.thermostat ? json_number(s.counters.thermostat_heat) : absent(); }},
     {"work", "energy", "only with sides that move: an object, the work that each of them did on the disks",
      [](const Summary& s) -> Json { return side_energy_of(s, [&](Side side) { return s.box.moves(side); }); }},
     {"seed", "", "of the random numbers", [](const Summary& s) -> Json { return s.seed; }},
@@ -178,6 +180,7 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.state_hash = hash_text(state_hash(state.disks));
   s.seed = scene.seed;
   s.box = scene.box;
+  s.thermostat = scene.physics.thermostat.acts();
   s.phases = engine.phase_times();
   return s;
 }

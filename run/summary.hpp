@@ -30,6 +30,7 @@ struct Summary {
   std::string state_hash;
   std::uint64_t seed = 1;
   Domain box;
+  bool thermostat = false;
   Count frames = 0;
   std::vector<std::string> warnings;  // of the physics, in order
   Count resumed = 0;                  // how often it went on from a checkpoint; the times are those of all parts

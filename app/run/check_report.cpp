@@ -13,6 +13,7 @@
 #include "core/scene/disk_group.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/step/step_clock.hpp"
+#include "core/step/thermostat.hpp"
 
 namespace carom {
 
@@ -82,6 +83,11 @@ std::string physics_text(const Scene& scene) {
   text += walls_text(scene.box);
   if (p.diffusion > 0.0) {
     text += fmt::format("; Brownian motion, D = {:g}{}", p.diffusion, p.accumulate ? ", accumulating velocity" : "");
+  }
+  if (const Thermostat& bath = p.thermostat; bath.acts()) {
+    text += fmt::format("; a thermostat ({}) at temperature {:g}, rate {:g}, kicks every {:g}",
+                        thermostat_names[static_cast<std::size_t>(bath.kind)], bath.temperature, bath.rate,
+                        kick_interval(scene));
   }
   for (const Source& source : scene.sources) text += fmt::format("; a source of {:g} disks per unit time", source.rate);
   return text;

@@ -123,6 +123,8 @@ std::string series_rows() {
                       heat_column.name, heat_column.unit, heat_column.meaning);
   text += fmt::format("| `{}_left`, likewise | {} | {}; a column a side that moves |\n", work_column.name,
                       work_column.unit, work_column.meaning);
+  text += fmt::format("| `{}` | {} | {}; only with one |\n", thermostat_column.name, thermostat_column.unit,
+                      thermostat_column.meaning);
   text +=
       "\nThen, for each `[[disks]]` block with a `name`, and for `sources` if there are any, these with `_` and the "
       "name behind, as in `temperature_tracer`:\n\n| column | unit | what it is |\n| --- | --- | --- |\n";

@@ -22,6 +22,8 @@ enum class Stream : std::uint32_t {
   source_mass,
   growth_velocity,
   thermal_side,
+  thermostat,
+  thermostat_choice,
 };
 
 struct TwoUniforms {

@@ -23,6 +23,7 @@ struct Counters {
   double wall_impulse[4] = {0, 0, 0, 0};  // sum of |impulse| on each side (order of Side); mass length / time
   // Energy that each side has given to the disks: heat of a thermal one, work of one that moves.
   double side_energy[4] = {0, 0, 0, 0};
+  double thermostat_heat = 0.0;  // that a thermostat has given to the disks; energy
 };
 
 struct SourceState {
@@ -69,7 +70,8 @@ struct State {
   double time = 0.0;
   Counters counters;
   DiskId next_id = 0;
-  Count intervals = 0;               // Brownian intervals of dt begun (rollback, whose frames are shorter than dt)
+  Count intervals = 0;               // Brownian intervals of dt begun (rollback, whose frames are shorter than dt),
+                                     // or kicks of a thermostat
   bool step_begun = false;           // pairwise: the coming step failed after its sources and Brownian draws
   std::vector<SourceState> sources;  // one per scene source
   std::vector<ContactLoad> loads;    // in order of (id1, id2); empty unless the scene settles

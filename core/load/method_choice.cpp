@@ -91,9 +91,11 @@ Tally tally_of(const Scene& scene) {
   return tally;
 }
 
-// The gas comes to have the temperature of its sides, or one between them; 0 where none is thermal.
-double hottest_side(const Scene& scene) {
-  return *std::max_element(scene.box.temperatures.begin(), scene.box.temperatures.end());
+// The gas comes to have the temperature of its thermostat or of its sides, or one between them; 0 where none is
+// thermal.
+double hottest_bath(const Scene& scene) {
+  const double hottest = *std::max_element(scene.box.temperatures.begin(), scene.box.temperatures.end());
+  return std::max(hottest, scene.physics.thermostat.temperature);
 }
 
 // Compressibility of hard disks, good to 0.1 % up to packing fraction 0.65 (virial series resummed; docs/methods.md).
@@ -165,7 +167,8 @@ MethodOffer offer_pairwise(const Scene& scene, const SceneScales& s, double accu
   offer.method = Method::pairwise;
   const ErrorLaw law = pairwise_law(s);
   const double wanted = step_for(accuracy, law.linear, law.square);
-  const double safe = safe_step(s);
+  const double kicks = scene.physics.thermostat.acts() ? scene.physics.thermostat.dt : HUGE_VAL;
+  const double safe = std::min(safe_step(s), kicks);
   offer.dt = tidy(std::min({wanted, safe, scene.run.t_end > 0.0 ? scene.run.t_end : 1.0}));
   offer.error = law.at(offer.dt);
   const double steps = std::max(1.0, scene.run.t_end / offer.dt);
@@ -173,8 +176,10 @@ MethodOffer offer_pairwise(const Scene& scene, const SceneScales& s, double accu
   offer.seconds = rates::pairwise_step * s.disks * steps + rates::pairwise_collision * collisions;
   offer.possible = steps <= most_steps_offered;
   offer.why = !offer.possible ? steps_text(scene.run.t_end, offer.dt)
-              : safe < wanted ? fmt::format("dt is the longest in which no disk moves half its radius")
-                              : fmt::format("{:.2g} collisions of a disk in a step", s.collision_rate * offer.dt);
+              : safe < wanted
+                  ? (safe == kicks ? std::string("dt is the time between two kicks of the thermostat")
+                                   : std::string("dt is the longest in which no disk moves half its radius"))
+                  : fmt::format("{:.2g} collisions of a disk in a step", s.collision_rate * offer.dt);
   return offer;
 }
 
@@ -265,7 +270,7 @@ SceneScales scales_of(const Scene& scene) {
   s.diameter = 2.0 * std::sqrt(tally.radius2 / tally.disks);
   s.packing_fraction = std::min(0.9, std::numbers::pi * tally.radius2 / (scene.box.width * scene.box.height));
   // A disk falls through half the box in the mean: v^2 = g H, of which half for each component.
-  const double speed2 = std::max(tally.speed2 / tally.disks, hottest_side(scene) / tally.lightest);
+  const double speed2 = std::max(tally.speed2 / tally.disks, hottest_bath(scene) / tally.lightest);
   const Gravity& g = scene.physics.gravity;
   s.speed = std::sqrt(speed2 + 0.5 * (std::abs(g.down) * scene.box.height + std::abs(g.left) * scene.box.width));
   const double eta = s.settles ? std::max(settled_fraction, s.packing_fraction) : s.packing_fraction;

@@ -11,6 +11,7 @@
 #include "core/scene/scene_names.hpp"
 #include "core/scene/scene_range_check.hpp"
 #include "core/scene/scene_ranges.hpp"
+#include "core/scene/scene_thermostat.hpp"
 #include "core/scene/size_law.hpp"
 #include "core/step/window_plan.hpp"
 
@@ -308,6 +309,7 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
   check_names(scene, place);
   check_growth(scene, place);
   check_run(scene, place);
+  check_thermostat(scene, place);
 }
 
 std::vector<std::string> scene_warnings(const Scene& scene) {

@@ -25,6 +25,7 @@
 #include "core/scene/scene_reader.hpp"
 #include "core/scene/scene_restitution.hpp"
 #include "core/scene/scene_sides.hpp"
+#include "core/scene/scene_thermostat.hpp"
 #include "core/scene/scene_tree.hpp"
 #include "core/scene/scene_walls.hpp"
 #include "core/scene/size_law.hpp"
@@ -132,6 +133,7 @@ Physics read_physics(const SceneOrigin& origin) {
   physics.gravity = read_gravity(reader);
   physics.diffusion = reader.number("diffusion").value_or(0.0);
   physics.accumulate = reader.flag_or_initial("accumulate");
+  physics.thermostat = read_thermostat(reader);
   const toml::node* node = reader.find("collapse");
   if (node == nullptr) return physics;
   constexpr std::string_view expected = "expected { model = \"tc\", contact_time = t }";

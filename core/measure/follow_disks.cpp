@@ -29,9 +29,9 @@ bool follow_disks(DisplacementTally& tally, const Engine& engine, const Scene& s
   // No disk can come further in a time, if none is faster at both its ends.
   const auto reach = [g](double speed, double time) { return (speed + g * time) * time; };
   double speed = tally.fastest;
-  // Brownian motion draws speeds anew, and sources bring in new ones.
-  const bool ask = scene.physics.diffusion > 0.0 || !scene.sources.empty() || now.disks.size() < few_disks ||
-                   !(reach(speed, t - tally.checked_at) < check_share * period);
+  // Brownian motion and thermostats draw speeds anew, and sources bring in new ones.
+  const bool ask = scene.physics.diffusion > 0.0 || scene.physics.thermostat.acts() || !scene.sources.empty() ||
+                   now.disks.size() < few_disks || !(reach(speed, t - tally.checked_at) < check_share * period);
   if (ask) {
     tally.fastest = largest_speed(now.disks);
     tally.checked_at = t;

@@ -7,6 +7,7 @@
 #include "core/reference/reference_rollback.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
+#include "core/step/thermostat.hpp"
 
 namespace carom {
 
@@ -42,6 +43,10 @@ void ReferenceEngine::start_interval(double t, double dt, Count step) {
     for (std::size_t i = 0; i < gone.size(); ++i) gone[i] = crosses_sink(d, scene_, step, dt, i) ? 1 : 0;
   });
   remove(gone);
+}
+
+void ReferenceEngine::kick_if_due() {
+  carom::kick_if_due(scene_, state_);
 }
 
 Count ReferenceEngine::parts(double dt) {

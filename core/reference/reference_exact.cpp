@@ -7,6 +7,7 @@
 #include "core/reference/reference_window.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_start.hpp"
+#include "core/step/thermostat.hpp"
 #include "core/step/validity.hpp"
 #include "core/step/window_plan.hpp"
 #include "core/step/window_start.hpp"
@@ -89,6 +90,7 @@ class ReferenceExact final : public Engine {
     emit_at_window_start(scene_, state_, [&](const Disk& d) { return has_room(state_.disks, scene_.box, d); });
     if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
     count_thermal_hits(scene_, state_);
+    kick_if_due(scene_, state_);
     if (!brownian_interval_begins(scene_, state_)) return;
     const BrownianInterval interval = begin_brownian_interval(scene_, state_);
     std::vector<unsigned char> gone(state_.disks.size(), 0);

@@ -100,6 +100,22 @@ struct InnerWall {
   int line = 0;  // of the [[walls]] header
 };
 
+// What keeps the disks at a temperature (core/step/thermostat.hpp).
+struct Thermostat {
+  enum class Kind : std::uint8_t {
+    langevin,  // friction and noise on every disk
+    andersen,  // some disks get new velocities
+    none
+  };
+  Kind kind = Kind::none;
+  double temperature = 0.0;  // k_B = 1
+  double rate = 0.0;         // of friction, or at which a disk gets a new velocity; 1 / time
+  double dt = 0.0;           // between two kicks; 0: that of the run
+  bool acts() const { return kind != Kind::none; }
+  // Time between two kicks; step: of the run.
+  double interval(double step) const { return dt > 0.0 ? dt : step; }
+};
+
 struct Physics {
   Gravity gravity;           // length / time^2
   double restitution = 1.0;  // of two disks, in [0, 1]; the least one where it depends on their speed
@@ -107,6 +123,7 @@ struct Physics {
   double diffusion = 0.0;    // length^2 / time; > 0: Brownian motion, (24) of docs/original.md
   bool accumulate = false;   // docs/original.md: u / dt is added to the velocity instead of replacing it
   std::optional<double> collapse_contact_time;  // TC model, exact only
+  Thermostat thermostat;
 };
 
 // How positions = "growth" goes about it (growth.hpp).

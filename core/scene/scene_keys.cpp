@@ -144,6 +144,30 @@ constexpr SceneKey keys[] = {
      "How long a disk's collisions stay elastic after one. Small against the time between collisions of a gas.",
      "contact_time = 1e-6"},
 
+    {"physics", "thermostat", special, none, "none", "Friction and noise, or velocities drawn anew.",
+     R"(thermostat = { kind = "langevin", temperature = 1.0, rate = 0.5, dt = 0.1 })",
+     "`{ kind = ..., temperature = ..., rate = ..., dt = ... }`"},
+    {"physics.thermostat",
+     "kind",
+     choice,
+     none,
+     "required",
+     "`langevin`: every disk keeps the share c of its velocity, (1 - q) / (1 + q) with q = `rate` `dt` / 2, and gets "
+     "sqrt((1 - c^2) T / m) times a normal deviate. `andersen`: a disk gets a velocity of Maxwell's with probability "
+     "`rate` `dt`.",
+     R"(kind = "langevin")",
+     {},
+     thermostat_names},
+    {"physics.thermostat", "temperature", positive, Dimension::energy, "required",
+     "T (k_B = 1); Maxwell's distribution stays as it is, whatever `dt` is.", "temperature = 1.0"},
+    {"physics.thermostat", "rate", positive, Dimension::frequency, "required",
+     "Of friction, or at which a disk gets a new velocity. `rate` times `dt` is 1 at most.", "rate = 0.5"},
+    {"physics.thermostat", "dt", positive, Dimension::time, "`run.dt`",
+     "Between two kicks, the first at 0. In the stepping methods no less than `run.dt`: there a kick is at the start "
+     "of "
+     "a step.",
+     "dt = 0.1"},
+
     {"disks", "count", count, none, "required", "How many disks the group has; 4 10^9 in all at most.", "count = 1000"},
     {"disks", "positions", special, none, "required",
      "Centres. Random without overlap; spread over the box on a lattice; grown into each other's gaps, which is "

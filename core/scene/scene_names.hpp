@@ -25,6 +25,7 @@ inline constexpr std::array<std::string_view, quantities> quantity_names{
     "velocity_autocorrelation", "structure_factor", "bond_order"};  // Quantity
 inline constexpr std::array<std::string_view, 2> axis_names{"x", "y"};
 inline constexpr std::array<std::string_view, 1> collapse_models{"tc"};
+inline constexpr std::array<std::string_view, 2> thermostat_names{"langevin", "andersen"};  // Thermostat::Kind
 inline constexpr std::array<std::string_view, 2> plot_names{"velocity", "energy"};
 
 constexpr std::string_view name_of(Method method) {

@@ -117,6 +117,11 @@ void check_velocities(const Scene& scene, const VelocityLaw& law, double mass, c
 
 void check_thermal_sides(const Scene& scene, double smallest_mass, const PlaceOfKey& place) {
   if (!(smallest_mass > 0.0)) return;
+  if (const Thermostat& bath = scene.physics.thermostat; bath.acts()) {
+    check_speed(scene, largest_deviate * std::sqrt(bath.temperature / smallest_mass),
+                place("physics.thermostat.temperature"),
+                fmt::format("is {}: a disk of mass {}", bath.temperature, smallest_mass));
+  }
   for (const Side side : all_sides) {
     if (!scene.box.is_thermal(side)) continue;
     const double temperature = scene.box.temperature(side);
@@ -137,6 +142,9 @@ void check_emissions(const Scene& scene, const Source& source, const std::string
 void check_times(const Scene& scene, const PlaceOfKey& place) {
   const double t_end = scene.run.t_end;
   if (steps_in_time(scene) && scene.run.dt > 0.0) check_count(t_end, scene.run.dt, "run.dt", "steps", place);
+  if (scene.physics.thermostat.dt > 0.0) {
+    check_count(t_end, scene.physics.thermostat.dt, "physics.thermostat.dt", "kicks", place);
+  }
   if (scene.output.every > 0.0) check_count(t_end, scene.output.every, "output.every", "frames", place);
   if (scene.analysis.every > 0.0) check_count(t_end, scene.analysis.every, "analysis.every", "samples", place);
   check_gravity(scene, place);

@@ -22,6 +22,9 @@ constexpr SceneTable tables[] = {
     {"physics.collapse", "`collapse = { ... }` in `[physics]`",
      "The remedy for inelastic collapse under method `exact`: the TC model (Luding and McNamara 1998), in which a "
      "collision is elastic where one of its disks collided less than `contact_time` ago."},
+    {"physics.thermostat", "`thermostat = { ... }` in `[physics]`",
+     "Keeps the disks at a temperature by kicks at times k `dt`, between which they fly and collide as without it. Not "
+     "with Brownian motion."},
     {"disks", "`[[disks]]`",
      "A group of disks; a scene may have many, or none where it has sources. Ids run on from 0 in the order of the "
      "file."},

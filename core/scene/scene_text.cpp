@@ -169,6 +169,11 @@ std::string physics_text(const Scene& scene) {
     text +=
         fmt::format("collapse = {{ model = \"tc\", contact_time = {} }}\n", decimal(*physics.collapse_contact_time));
   }
+  if (const Thermostat& bath = physics.thermostat; bath.acts()) {
+    text += fmt::format("thermostat = {{ kind = \"{}\", temperature = {}, rate = {}{} }}\n",
+                        thermostat_names[static_cast<std::size_t>(bath.kind)], decimal(bath.temperature),
+                        decimal(bath.rate), bath.dt > 0.0 ? fmt::format(", dt = {}", decimal(bath.dt)) : "");
+  }
   for (const GroupPair& pair : physics.law.pairs) {
     text += fmt::format("\n[[physics.pairs]]\ngroups = [\"{}\", \"{}\"]\nrestitution = {}\n",
                         name_of_group(scene, pair.first), name_of_group(scene, pair.second),

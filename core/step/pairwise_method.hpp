@@ -28,7 +28,10 @@ class PairwiseMethod final : public Phases {
     check_crushed(scene_, state_);
     const double dt = clock_.length(k);
     // Once only, even where parts() throws: the state that it leaves can be stepped again.
-    if (!std::exchange(state_.step_begun, true)) start_interval(clock_.start(k), dt, k);
+    if (!std::exchange(state_.step_begun, true)) {
+      start_interval(clock_.start(k), dt, k);
+      kick_if_due();
+    }
     const Count n = parts(dt);
     StepFigures figures;
     const double length = dt / static_cast<double>(n);
@@ -53,6 +56,7 @@ class PairwiseMethod final : public Phases {
 
   using Phases::drift;
   using Phases::keep_places;
+  using Phases::kick_if_due;
   using Phases::parts;
   using Phases::presses_others;
   using Phases::remove_at_sinks;

@@ -52,6 +52,7 @@ class RollbackMethod final : public Phases {
   using Phases::drift;
   using Phases::find_approaching;
   using Phases::is_alone;
+  using Phases::kick_if_due;
   using Phases::meet_all_walls;
   using Phases::parts;
   using Phases::remove_at_sinks;
@@ -66,6 +67,7 @@ class RollbackMethod final : public Phases {
       start_interval(state_.time, clock_.length(k), k);
     } else {
       start_interval(state_.time, scene_.run.dt, state_.counters.steps);
+      kick_if_due();
     }
   }
 

@@ -17,9 +17,9 @@ void fields(Stream& stream, T& value) {
 template <class Stream, Is<Counters> T>
 void fields(Stream& stream, T& value) {
   auto& [steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse,
-         side_energy] = value;
+         side_energy, thermostat_heat] = value;
   stream(steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse,
-         side_energy);
+         side_energy, thermostat_heat);
 }
 
 template <class Stream, Is<SourceState> T>

@@ -55,21 +55,21 @@ SeriesRow SeriesMeter::row(const Disks& disks, const State& now, const BlockRunn
 
 SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
     : file_(path),
-      box_(scene.box),
+      sources_(scene),
       meter_(scene, true),
       groups_(scene),
       with_displacement_(scene.analysis.wants(Quantity::displacement)) {
   std::string heading = "t";
   for (const SeriesColumn& column : series_columns) heading += fmt::format(",{}", column.name);
   if (with_displacement_) heading += fmt::format(",{}", displacement_column);
-  for (const std::string& name : side_column_names(box_)) heading += "," + name;
+  for (const std::string& name : side_column_names(sources_)) heading += "," + name;
   for (const GroupColumn& column : groups_.columns()) heading += fmt::format(",{}", column.name);
   file_.write(heading + "\n");
 }
 
 SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from)
     : file_(path, from.file.bytes),
-      box_(scene.box),
+      sources_(scene),
       meter_(scene, true, from.meter),
       groups_(scene),
       with_displacement_(scene.analysis.wants(Quantity::displacement)),
@@ -93,7 +93,7 @@ SeriesRow SeriesWriter::write(const Disks& disks, double time, const State& now,
     }
   }
   if (with_displacement_) fmt::format_to(std::back_inserter(line), ",{}", displacement);
-  for (const double value : side_column_values(box_, now.counters)) {
+  for (const double value : side_column_values(sources_, now.counters)) {
     fmt::format_to(std::back_inserter(line), ",{}", value);
   }
   for (const double value : groups_.row(disks)) fmt::format_to(std::back_inserter(line), ",{}", value);

@@ -102,7 +102,7 @@ class SeriesWriter {
 
  private:
   OutputFile file_;
-  Domain box_;
+  EnergySources sources_;
   SeriesMeter meter_;
   GroupMeter groups_;
   bool with_displacement_;

@@ -1,11 +1,11 @@
-// What series.csv tells of sides that give energy.
+// What series.csv tells of sides, and of a thermostat, that give energy.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "core/disks/domain.hpp"
 #include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
 
 namespace carom {
 
@@ -21,8 +21,20 @@ inline constexpr SideColumn heat_column{
 inline constexpr SideColumn work_column{"work", "energy",
                                         "that a side that moves has done on the disks since the start"};
 
-// The names of the columns of this box, none where no side is thermal or moves; and their values, in the same order.
-std::vector<std::string> side_column_names(const Domain& box);
-std::vector<double> side_column_values(const Domain& box, const Counters& counters);
+// A column of its own name.
+inline constexpr SideColumn thermostat_column{"thermostat_heat", "energy",
+                                              "that the thermostat has given to the disks since the start"};
+
+// What a scene has of them.
+struct EnergySources {
+  Domain box;
+  bool thermostat = false;
+  explicit EnergySources(const Scene& scene) : box(scene.box), thermostat(scene.physics.thermostat.acts()) {}
+};
+
+// The names of the scene's columns, none where no side is thermal or moves and there is no thermostat; and their
+// values, in the same order.
+std::vector<std::string> side_column_names(const EnergySources& sources);
+std::vector<double> side_column_values(const EnergySources& sources, const Counters& counters);
 
 }  // namespace carom

@@ -20,6 +20,7 @@
 #include "core/step/window_plan.hpp"
 #include "core/step/window_start.hpp"
 #include "parallel/cells/compact.hpp"
+#include "parallel/cells/kick_all.hpp"
 #include "parallel/exact/logged_paths.hpp"
 #include "parallel/exact/neighbour_lists.hpp"
 #include "parallel/exact/slice_scheduler.hpp"
@@ -90,11 +91,11 @@ class ParallelExact final : public Engine {
   bool has_room(const Disk& newcomer) const;
   void remove(const std::vector<unsigned char>& gone);
   SpeedSummary summarise();
-  bool rebuild_lists_if_due(bool regions_allowed);
+  bool rebuild_lists_if_due(bool regions_allowed);  // returns whether it did
   void load_paths(const WindowPlan& plan, bool rebuilt);
   void load_disk(std::size_t i, const WindowPlan& plan, bool rebuilt);
   double carried_event_time(std::size_t i, const WindowPlan& plan, bool rebuilt) const;
-  void set_speed_bound(const WindowPlan& plan, double margin);
+  void set_speed_bound(const WindowPlan& plan, double margin);  // margin: over the largest speed at its start
   bool run_window_with_retry(WindowPlan& plan);
   SliceOutcome run_window(const WindowPlan& plan, double margin, bool regions_allowed);
   void store_paths(const WindowPlan& plan);
@@ -131,6 +132,7 @@ void ParallelExact::start_window() {
   if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
   count_thermal_hits(scene_, state_);
   if (brownian_interval_begins(scene_, state_)) begin_brownian();
+  if (kick_if_due(scene_, state_, executor_)) valid_ = std::min(valid_, Valid::lists);
   if (side_turns(scene_, state_.time)) valid_ = std::min(valid_, Valid::lists);
 }
 
@@ -233,7 +235,6 @@ SpeedSummary ParallelExact::summarise() {
   return speeds_;
 }
 
-// Returns whether it did.
 bool ParallelExact::rebuild_lists_if_due(bool regions_allowed) {
   if (valid_ != Valid::nothing && scheduler_.relisted() <= relistings_a_disk * state_.disks.size()) return false;
   const PhaseTimer timer(times_, "list");
@@ -290,7 +291,6 @@ double ParallelExact::carried_event_time(std::size_t i, const WindowPlan& plan, 
   return std::min(carried, relist_at);
 }
 
-// margin: a factor on the largest speed at the window's start.
 void ParallelExact::set_speed_bound(const WindowPlan& plan, double margin) {
   const double fall = window_.rules.gravity.size * plan.length;
   const double fastest = margin * std::sqrt(window_.fastest2) + fall;

@@ -23,6 +23,7 @@ std::string unsupported(const Scene& scene, const State& state) {
   if (!scene.sources.empty()) return "sources";
   if (has_sinks(scene.box)) return "sinks";
   if (scene.physics.diffusion > 0.0) return "diffusion";
+  if (scene.physics.thermostat.acts()) return "thermostats";
   if (scene.box.has_thermal_side()) return "thermal sides";
   if (scene.box.has_moving_side()) return "sides that move";
   if (!state.obstacles.empty()) return "fixed disks or inner walls";

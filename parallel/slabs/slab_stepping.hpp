@@ -41,6 +41,7 @@ class SlabStepping : public Engine {
  protected:
   // As in TimeStepping, for scenes that slabs can have (slab_pairwise.hpp).
   void start_interval(double /*t*/, double /*dt*/, Count /*step*/) {}
+  void kick_if_due() {}
   Count parts(double dt);
   void sort_if_due();
   void drift(double t);

@@ -7,6 +7,7 @@
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
 #include "parallel/cells/compact.hpp"
+#include "parallel/cells/kick_all.hpp"
 #include "parallel/cells/nearby_runs.hpp"
 #include "parallel/stepping/brownian_kernel.hpp"
 #include "parallel/stepping/drift_blocks.hpp"
@@ -113,6 +114,10 @@ void TimeStepping::draw_velocities(double dt, Count step) {
   for (const double v2 : block_values_) speed2_ = std::max(speed2_, v2);
   speed2_known_ = true;
   if (has_brownian_sink(scene_)) remove_crossing(dt, step);
+}
+
+void TimeStepping::kick_if_due() {
+  if (carom::kick_if_due(scene_, state_, executor_)) speed2_known_ = false;
 }
 
 void TimeStepping::remove_crossing(double dt, Count step) {

@@ -34,6 +34,7 @@ class TimeStepping : public Engine {
  protected:
   // The phases of a step, in its order. Reads -> writes are listed in docs/architecture.md.
   void start_interval(double t, double dt, Count step);  // touching sinks at 0; sources, Brownian velocities
+  void kick_if_due();                                    // by the thermostat
   Count parts(double dt);                                // of a step that is too long to be safe
   void sort_if_due();                                    // disks into cells, when they have left them too far
   void drift(double t);                                  // all disks

@@ -52,6 +52,7 @@ void expect_same(const Trace& a, const Trace& b) {
   EXPECT_EQ(a.counters.emitted, b.counters.emitted);
   EXPECT_EQ(a.counters.waiting, b.counters.waiting);
   EXPECT_EQ(a.counters.virial, b.counters.virial);
+  EXPECT_EQ(a.counters.thermostat_heat, b.counters.thermostat_heat);
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(a.counters.wall_impulse[k], b.counters.wall_impulse[k]);
     EXPECT_EQ(a.counters.side_energy[k], b.counters.side_energy[k]);
@@ -124,6 +125,29 @@ INSTANTIATE_TEST_SUITE_P(AllScenes, TiltedBits,
                                             ::testing::Values("wall", "periodic", "periodic_x", "sink", "soft", "hot",
                                                               "moving")),
                          [](const auto& p) { return std::string(std::get<0>(p.param)) + "_" + std::get<1>(p.param); });
+
+// Thermostats, whose kicks fall between the steps, with the other features in turn.
+TEST(ThermostatBits, EqualTheReferenceAfterEveryStep) {
+  for (const char* method : {"pairwise", "rollback", "exact"}) {
+    for (const char* sides : {"wall", "periodic", "sink", "hot", "moving"}) {
+      std::size_t scenes = 0;
+      for (Features f : test::all_features(method, sides)) {
+        if (!f.diffusion.empty() || f.seed % 4 != 0) continue;
+        f.thermostat = ++scenes % 2 == 0 ? "langevin" : "andersen";
+        SCOPED_TRACE(f.name());
+        const Scene scene = test::feature_scene(f, steps);
+        const State start = initial_state(scene);
+        const Trace expected = trace_of(*make_reference_engine(scene, start), scene.run.t_end);
+        EXPECT_NE(expected.counters.thermostat_heat, 0.0);
+        for (const int threads : {1, 3}) {
+          expect_same(expected, trace_of(*make_parallel_engine(scene, start, {threads, 512}), scene.run.t_end));
+          if (::testing::Test::HasFatalFailure()) return;
+        }
+      }
+      EXPECT_GT(scenes, 2U);
+    }
+  }
+}
 
 // Blocks of any size give the same state: nothing depends on where one block ends and the next begins.
 TEST(ParallelBlocks, OfAnySizeGiveTheSameBits) {

@@ -74,6 +74,9 @@ Scene random_scene(std::uint64_t seed, Method method) {
     s.physics.diffusion = draws.in(0.01, 0.2);
     s.physics.accumulate = draws.bits() % 3 == 0;
   }
+  if (s.physics.diffusion == 0.0 && seed % 4 == 2) {
+    s.physics.thermostat = {seed % 8 == 2 ? Thermostat::Kind::langevin : Thermostat::Kind::andersen, 0.7, 3.0, 0.05};
+  }
   s.groups.push_back(random_group(draws, 20));
   s.groups.push_back(random_group(draws, 10));
   if (draws.bits() % 2 == 0) {

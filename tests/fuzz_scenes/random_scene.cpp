@@ -161,12 +161,24 @@ std::string gravity_text(Dice& dice, double g) {
   return fmt::format("[{}, {}]", rounded(g * dice.in(-1.0, 1.0)), rounded(g * dice.in(-1.0, 0.2)));
 }
 
+// Here and there, where velocities are velocities.
+std::string thermostat_text(Dice& dice, const Draft& draft) {
+  if (draft.diffusion > 0.0 || !dice.chance(0.08)) return "";
+  const double energy = draft.units.mass * draft.units.speed * draft.units.speed;
+  const double least = draft.dt > 0.0 ? draft.dt : 0.01 * draft.crowd.smallest / draft.speed;
+  const double dt = dice.chance(0.3) ? least : least * dice.in(1.0, 30.0);
+  return fmt::format("thermostat = {{ kind = \"{}\", temperature = {}, rate = {}, dt = {} }}\n",
+                     dice.chance(0.5) ? "langevin" : "andersen", rounded(energy * dice.in(0.05, 1.0)),
+                     rounded(dice.in(0.01, 0.9) / dt), dt);
+}
+
 std::string physics_text(Dice& dice, const Draft& draft) {
   std::string text = "[physics]\n";
   if (draft.gravity > 0.0) text += fmt::format("gravity = {}\n", gravity_text(dice, draft.gravity));
   if (draft.restitution < 1.0) text += fmt::format("restitution = {}\n", draft.restitution);
   if (draft.diffusion > 0.0) text += fmt::format("diffusion = {}\n", draft.diffusion);
   if (draft.diffusion > 0.0 && dice.chance(0.3)) text += "accumulate = true\n";
+  text += thermostat_text(dice, draft);
   const bool dissipates = draft.restitution < 1.0 || draft.wall_restitution < 1.0;
   if (!dice.chance(draft.method != "exact" ? 0.04 : dissipates ? 0.85 : 0.1)) return text;
   // A heap at rest has some events a contact and contact time.

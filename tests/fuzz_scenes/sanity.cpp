@@ -122,7 +122,7 @@ void Sanity::look_at_motion(const State& state) {
   const Physics& p = scene_.physics;
   const Domain& box = scene_.box;
   if (p.diffusion > 0.0 || !scene_.sources.empty() || has_sinks(scene_) || box.has_thermal_side() ||
-      box.has_moving_side())
+      box.has_moving_side() || p.thermostat.acts())
     return;
   const bool stands = !state.obstacles.empty();  // what takes momentum, as walls do
   const Momentum now = momentum_of(state.disks);

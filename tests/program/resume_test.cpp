@@ -34,6 +34,18 @@ TEST(ResumeTilted, WithGravityAsAVector) {
   }
 }
 
+TEST(ResumeThermostat, GoesOnWithItsKicks) {
+  for (const char* method : {"pairwise", "rollback", "exact"}) {
+    for (const char* kind : {"langevin", "andersen"}) {
+      test::Features f;
+      f.method = method;
+      f.thermostat = kind;
+      const Scene scene = test::feature_scene(f, 40);
+      test::expect_same_bits(scene, initial_state(scene), 12, 0);
+    }
+  }
+}
+
 // A pile that rests on its loads; the loads of a step's contacts are what the next one starts from.
 TEST(ResumePile, GoesOnWithItsLoads) {
   test::Features f;

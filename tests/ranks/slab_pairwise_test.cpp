@@ -199,6 +199,8 @@ TEST(SlabPairwiseRefuses, WhatItCannotDoYetInOneLine) {
   EXPECT_EQ(with("moving", plain), "several ranks do not know sides that move yet: use one");
   EXPECT_EQ(with("wall", [](Features& f) { f.diffusion = "replace"; }),
             "several ranks do not know diffusion yet: use one");
+  EXPECT_EQ(with("wall", [](Features& f) { f.thermostat = "langevin"; }),
+            "several ranks do not know thermostats yet: use one");
   EXPECT_EQ(with("wall", [](Features& f) { f.source = true; }), "several ranks do not know sources yet: use one");
   EXPECT_EQ(with("wall", [](Features& f) { f.gravity = true, f.restitution = 0.7; }),
             "several ranks do not know gravity with restitution below 1 yet: use one");

@@ -87,6 +87,19 @@ std::string with_walls(std::string_view scene) {
                         "[[walls]]\nfrom = [50, 50]\nto = [60, 60]\n[[walls]]\npoints = [[70, 80], [75, 80]]\n[run]");
 }
 
+// Beside a thermostat there is no Brownian motion.
+std::string with_thermostat(std::string_view scene) {
+  return test::replaced(scene, "[physics]",
+                        "[physics]\nthermostat = { kind = \"andersen\", temperature = 1, rate = 0.1, dt = 0.1 }");
+}
+
+// The scene in which this table is.
+std::string scene_for(const SceneKey& key) {
+  if (key.table == "walls") return with_walls(full_scene);
+  if (key.table == "physics.thermostat") return with_thermostat(full_scene);
+  return std::string(full_scene);
+}
+
 bool lies_in_a_value(const SceneKey& key) {
   return key.table == "frame" || key.table.starts_with("disks.");
 }
@@ -115,7 +128,7 @@ TEST(SceneKeys, EveryRowIsRead) {
       const std::string owner(key.table.substr(key.table.find('.') + 1));
       change = {"disks.0." + owner, fmt::format("{{ {} = 1979-05-27 }}", key.name)};
     }
-    const std::string text(key.table == "walls" ? with_walls(full_scene) : full_scene);
+    const std::string text = scene_for(key);
     const std::string message = message_of(text, {change});
     EXPECT_THAT(message, HasSubstr(std::string(key.name) + ":")) << label(key);
     EXPECT_THAT(message, HasSubstr("is a date or time")) << label(key);
@@ -146,7 +159,7 @@ TEST(SceneKeys, EveryExampleIsAScenes) {
     if (owner == "physics.collapse" && key.example.starts_with("collapse")) owner = "physics";
     std::vector<Override> changes{{owner_of(owner, key.name) + std::string(key.example.substr(0, equals)),
                                    std::string(key.example.substr(equals + 3))}};
-    std::string text(key.table == "walls" ? with_walls(full_scene) : full_scene);
+    std::string text = scene_for(key);
     if (key.example.find("motion") != std::string_view::npos) {
       const std::size_t sources = text.find("[[sources]]");
       text.erase(sources, text.find("[run]") - sources);

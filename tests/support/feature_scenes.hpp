@@ -20,15 +20,16 @@ struct Features {
   bool own_masses = false;
   bool source = false;
   int seed = 1;
-  bool obstacles = false;  // fixed disks of many sizes, some of them across the sides
-  std::string law{};       // empty | "viscoelastic" | "pairs": of groups, with restitutions of both kinds
-  bool tilted = false;     // gravity is a vector
+  bool obstacles = false;    // fixed disks of many sizes, some of them across the sides
+  std::string law{};         // empty | "viscoelastic" | "pairs": of groups, with restitutions of both kinds
+  bool tilted = false;       // gravity is a vector
+  std::string thermostat{};  // empty | "langevin" | "andersen"
 
   std::string name() const {
     return method + "_" + sides + (gravity ? "_g" : "") + (restitution < 1.0 ? "_e" : "") +
            (diffusion.empty() ? "" : "_" + diffusion) + "_" + radii + (own_masses ? "_m" : "") +
            (source ? "_source" : "") + (obstacles ? "_fixed" : "") + (tilted ? "_tilted" : "") +
-           (law.empty() ? "" : "_" + law);
+           (law.empty() ? "" : "_" + law) + (thermostat.empty() ? "" : "_" + thermostat);
   }
 };
 
@@ -72,6 +73,9 @@ inline std::string physics_text(const Features& f) {
     text += "restitution = " + std::to_string(f.restitution) + "\n";
   }
   if (!f.diffusion.empty()) text += "diffusion = 0.3\n";
+  if (!f.thermostat.empty()) {
+    text += "thermostat = { kind = \"" + f.thermostat + "\", temperature = 4.0, rate = 4.0, dt = 0.07 }\n";
+  }
   if (f.diffusion == "accumulate") text += "accumulate = true\n";
   return text + pairs_text(f);
 }

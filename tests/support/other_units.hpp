@@ -74,6 +74,9 @@ inline Scene scaled(Scene s, const Units& u) {
   const double viscosity = 1.0 / fifth_root_of(u.speed());
   s.physics.law.viscosity *= viscosity;
   for (GroupPair& pair : s.physics.law.pairs) pair.restitution.viscosity *= viscosity;
+  s.physics.thermostat.temperature *= u.energy();
+  s.physics.thermostat.rate /= u.time;
+  s.physics.thermostat.dt *= u.time;
   for (DiskGroup& g : s.groups) {
     scale(g.positions, u.length);
     scale(g.velocities, u);
@@ -112,6 +115,7 @@ inline State scaled(State state, const Units& u) {
   state.counters.emitted_energy *= u.energy();
   for (double& impulse : state.counters.wall_impulse) impulse *= u.mass * u.speed();
   for (double& energy : state.counters.side_energy) energy *= u.energy();
+  state.counters.thermostat_heat *= u.energy();
   for (Obstacle& obstacle : state.obstacles) {
     for (double* length : {&obstacle.x, &obstacle.y, &obstacle.dx, &obstacle.dy, &obstacle.radius}) *length *= u.length;
   }

@@ -1,0 +1,72 @@
+// Thermostats: what keeps disks at a temperature by kicks at times k dt, between which they fly and collide freely.
+// Range kernels: the reference calls them on all disks, the engine on blocks.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "core/base/exact_sum.hpp"
+#include "core/base/random.hpp"
+#include "core/disks/disk_view.hpp"
+#include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+// Time between two kicks: the thermostat's own, or that of the run's steps.
+inline double kick_interval(const Scene& scene) {
+  return scene.physics.thermostat.interval(scene.run.dt);
+}
+
+// When the next kick is due; the first at 0. Precondition: the scene has a thermostat.
+inline double next_kick(const Scene& scene, const State& state) {
+  return static_cast<double>(state.intervals) * kick_interval(scene);
+}
+
+// Is a kick due where a window, a step or a frame begins? Steps need not end at kicks: a kick is at the first step from
+// its time on, but for rounding.
+inline bool is_kick_due(const Scene& scene, const State& state) {
+  constexpr double rounding = 1e-12;
+  return scene.physics.thermostat.acts() && state.time >= (1.0 - rounding) * next_kick(scene, state);
+}
+
+// What a kick does: v becomes kept v + sqrt(T / m) drawn r, r standard normal, where kept^2 + drawn^2 = 1, so that
+// Maxwell's distribution stays whatever dt is. Langevin's: kept = (1 - q) / (1 + q) with q = rate dt / 2, which is
+// e^(-rate dt) to second order and needs no exponential. Andersen's: (0, 1) for the share rate dt of the disks.
+struct Kick {
+  double kept = 1.0, drawn = 0.0;
+};
+
+inline Kick langevin_kick(double rate, double dt) {
+  const double q = 0.5 * rate * dt;
+  return {(1.0 - q) / (1.0 + q), 2.0 * std::sqrt(q) / (1.0 + q)};
+}
+
+// Kick number k for disks [begin, end) of the scene; heat: the energy that it gives them is added.
+template <class View>
+void kick_disks(const View& d, const Scene& scene, Count k, std::size_t begin, std::size_t end, ExactSum& heat) {
+  const Thermostat& bath = scene.physics.thermostat;
+  const double dt = kick_interval(scene);
+  const bool andersen = bath.kind == Thermostat::Kind::andersen;
+  const Kick kick = andersen ? Kick{0.0, 1.0} : langevin_kick(bath.rate, dt);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (andersen && !(uniforms(scene.seed, Stream::thermostat_choice, d.id[i], k).a < bath.rate * dt)) continue;
+    const Vec2 r = normals(scene.seed, Stream::thermostat, d.id[i], k);
+    const double scale = kick.drawn * std::sqrt(bath.temperature / d.mass(i));
+    const double before = d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
+    d.vx[i] = kick.kept * d.vx[i] + scale * r.x;
+    d.vy[i] = kick.kept * d.vy[i] + scale * r.y;
+    heat.add(0.5 * d.mass(i) * ((d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]) - before));
+  }
+}
+
+// All of them one after another, if a kick is due.
+inline void kick_if_due(const Scene& scene, State& state) {
+  if (!is_kick_due(scene, state)) return;
+  const Count number = state.intervals++;
+  ExactSum heat;
+  with_view(state.disks, [&](const auto& d) { kick_disks(d, scene, number, 0, state.disks.size(), heat); });
+  state.counters.thermostat_heat += heat.value();
+}
+
+}  // namespace carom

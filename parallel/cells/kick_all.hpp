@@ -1,0 +1,14 @@
+// The kicks of a thermostat, shared out among threads.
+#pragma once
+
+#include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
+#include "parallel/threads/executor.hpp"
+
+namespace carom {
+
+// Does what kick_disks of core/step/thermostat.hpp does to all disks if a kick is due, with the same bits. Returns
+// whether it was.
+bool kick_if_due(const Scene& scene, State& state, const Executor& executor);
+
+}  // namespace carom

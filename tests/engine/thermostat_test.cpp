@@ -1,0 +1,144 @@
+// Thermostats: that disks come to the canonical ensemble of the temperature, and that the energy account is kept.
+#include "core/step/thermostat.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "core/load/scene_file.hpp"
+#include "core/measure/energy_gain.hpp"
+#include "core/measure/invariants.hpp"
+#include "core/measure/run_start.hpp"
+#include "core/start/initial_state.hpp"
+#include "parallel/simulation.hpp"
+
+namespace carom {
+namespace {
+
+constexpr const char* kinds[] = {"langevin", "andersen"};
+constexpr const char* methods[] = {"exact", "pairwise", "rollback"};
+
+struct Bath {
+  std::string method = "exact", kind = "langevin";
+  double temperature = 2.0, rate = 1.0, restitution = 1.0, side = 16.0, t_end = 10.0;
+  int disks = 64;
+};
+
+Scene scene_of(const Bath& b) {
+  return parse_scene(
+      fmt::format("[box]\nwidth = {0}\nheight = {0}\nleft = \"periodic\"\nright = \"periodic\"\n[physics]\n"
+                  "restitution = {1}\nthermostat = {{ kind = \"{2}\", temperature = {3}, rate = {4}, dt = 0.2 }}\n"
+                  "[[disks]]\ncount = {5}\npositions = \"random\"\nvelocities = {{ maxwell = 10.0 }}\nradius = 0.4\n"
+                  "mass = {{ uniform = [1, 3] }}\n[run]\nmethod = \"{6}\"\ndt = 0.01\nt_end = {7}\n",
+                  b.side, b.restitution, b.kind, b.temperature, b.rate, b.disks, b.method, b.t_end),
+      "bath.toml", "");
+}
+
+struct Sampled {
+  double mean = 0.0, variance = 0.0;  // of the kinetic energy
+  double x_share = 0.0;               // of the motion along x, the walls' direction
+};
+
+// The kinetic energy once in so long a time, from `from` on.
+Sampled sample(Engine& engine, const Scene& scene, double from, double every) {
+  std::vector<double> kinetic;
+  double along_x = 0.0, total = 0.0;
+  for (double t = from; t < scene.run.t_end; t += every) {
+    while (engine.state().time < t) engine.step();
+    const Disks& d = engine.state().disks;
+    kinetic.push_back(energy_of(d, 0.0).kinetic);
+    total += kinetic.back();
+    for (std::size_t i = 0; i < d.size(); ++i) along_x += 0.5 * d.mass_of(i) * d.vx[i] * d.vx[i];
+  }
+  Sampled s;
+  const auto n = static_cast<double>(kinetic.size());
+  s.mean = total / n;
+  for (const double k : kinetic) s.variance += (k - s.mean) * (k - s.mean) / (n - 1.0);
+  s.x_share = along_x / total;
+  return s;
+}
+
+TEST(Kick, KeepsMaxwellsDistribution) {
+  for (const double x : {1e-6, 0.1, 0.5, 1.0}) {
+    const Kick kick = langevin_kick(x, 1.0);
+    EXPECT_NEAR(kick.kept * kick.kept + kick.drawn * kick.drawn, 1.0, 1e-15);
+    EXPECT_NEAR(kick.kept, std::exp(-x), x * x * x / 12.0 + 1e-15);
+  }
+}
+
+// N disks have 2 N degrees of freedom: the mean of the kinetic energy is N T, its variance N T^2. An isolated gas has
+// none.
+TEST(Thermostat, GivesTheCanonicalEnsemble) {
+  for (const char* method : {"exact", "pairwise"}) {
+    for (const char* kind : kinds) {
+      Bath b;
+      b.method = method;
+      b.kind = kind;
+      b.t_end = std::string(method) == "exact" ? 1500.0 : 400.0;
+      const Scene scene = scene_of(b);
+      const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
+      const Sampled s = sample(*engine, scene, 30.0, 2.0);
+      const double samples = (b.t_end - 30.0) / 2.0;
+      const double n = b.disks, t = b.temperature;
+      SCOPED_TRACE(fmt::format("{} {}", method, kind));
+      EXPECT_NEAR(s.mean / (n * t), 1.0, 5.0 / std::sqrt(n * samples));
+      EXPECT_NEAR(s.variance / (n * t * t), 1.0, 5.0 * std::sqrt(2.0 / samples));
+      EXPECT_NEAR(s.x_share, 0.5, 5.0 / std::sqrt(4.0 * n * samples));
+    }
+  }
+}
+
+// Elastic: what the disks have more is what the thermostat gave.
+TEST(Thermostat, BooksItsHeat) {
+  for (const char* method : methods) {
+    for (const char* kind : kinds) {
+      Bath b;
+      b.method = method;
+      b.kind = kind;
+      b.t_end = 20.0;
+      const Scene scene = scene_of(b);
+      const State start = initial_state(scene);
+      const auto engine = make_parallel_engine(scene, start, {2, 1});
+      while (engine->state().time < scene.run.t_end) engine->step();
+      const double before = energy_of(start.disks, 0.0).kinetic, after = energy_of(engine->state().disks, 0.0).kinetic;
+      const double heat = engine->state().counters.thermostat_heat;
+      EXPECT_LT(heat, -0.5 * before) << "it cools";
+      EXPECT_NEAR((before + heat) / after, 1.0, 1e-11) << method << " " << kind;
+      EXPECT_TRUE(energy_warnings(scene, run_start(start, scene), engine->state()).empty());
+    }
+  }
+}
+
+// Inelastic disks, driven: colder than the bath, at the temperature at which a collision loses (1 - e^2) T on average
+// (of Maxwell's distribution) and all collisions what the thermostat gives. Equal masses.
+TEST(Thermostat, BalancesWhatCollisionsLose) {
+  Bath b;
+  b.restitution = 0.9;
+  b.disks = 200;
+  b.t_end = 330.0;
+  Scene scene = scene_of(b);
+  scene.groups[0].mass = SizeLaw{};
+  scene.groups[0].mass.value = 1.0;
+  const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
+  while (engine->state().time < 30.0) engine->step();
+  const Counters before = engine->state().counters;
+  const Sampled s = sample(*engine, scene, 30.0, 0.4);
+  const Counters& after = engine->state().counters;
+  // Sampled where it is lowest, just before a kick; half a kick more is the mean.
+  const double heat = after.thermostat_heat - before.thermostat_heat;
+  const double kicks = (b.t_end - 30.0) / 0.2;
+  const double temperature = (s.mean + 0.5 * heat / kicks) / b.disks;
+  EXPECT_LT(temperature, 0.9 * b.temperature);
+  const double lost =
+      static_cast<double>(after.collisions - before.collisions) * (1.0 - b.restitution * b.restitution) * temperature;
+  std::printf("temperature %.3f of the bath's, heat over what collisions lose %.4f\n", temperature / b.temperature,
+              heat / lost);
+  EXPECT_NEAR(heat / lost, 1.0, 0.05);  // velocities before collisions are correlated a little
+}
+
+}  // namespace
+}  // namespace carom
