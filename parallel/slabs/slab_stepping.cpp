@@ -132,7 +132,7 @@ void SlabStepping::migrate() {
     (to == ranks_.above() ? up : down).push_back(disk_at(d, i));
     gone_[i] = 1;
   }
-  remove_in_parallel(d, gone_, executor_, cells_.column, cells_.pass);
+  if (!down.empty() || !up.empty()) remove_in_parallel(d, gone_, executor_, cells_.column, cells_.pass);
   Bytes to_below;
   Bytes to_above;
   put_all(to_below, down);
@@ -168,19 +168,28 @@ void SlabStepping::search(const StepRules& rules) {
   see_neighbours();
 }
 
+// Agrees on how far disks have left their slabs, and finds those that may touch one of another slab: about as deep as
+// in the step before.
+void SlabStepping::find_near_borders() {
+  const Disks& d = state_.disks;
+  const double depth = excursion_ + 3.0 * largest_radius_;
+  carom::find_near_borders(slab_, d, grid_, cells_, coarse_, depth, near_);
+  excursion_ = excursion_of(slab_, scene_.box, d, near_);
+  ranks_.maximum({&excursion_, 1});
+  if (excursion_ > room_beyond(cut_, largest_radius_)) {
+    throw PhysicsError("slabs of the box are too thin for what disks move in a step; use fewer ranks");
+  }
+  const double needed = excursion_ + 2.0 * largest_radius_;
+  if (needed > depth) carom::find_near_borders(slab_, d, grid_, cells_, coarse_, needed, near_);
+}
+
 // Ghosts, and the pairs across the borders, in a buffer behind those of the search.
 void SlabStepping::see_neighbours() {
   const PhaseTimer timer(times_, "exchange");
   Disks& d = state_.disks;
   ghosts_.begin(d.size());
   if (ranks_.count() > 1 && !grid_.levels.empty()) {
-    const double room = room_beyond(cut_, largest_radius_);
-    find_near_borders(slab_, d, grid_, cells_, coarse_, 2.0 * largest_radius_ + room, near_);
-    excursion_ = excursion_of(slab_, scene_.box, d, near_);
-    ranks_.maximum({&excursion_, 1});
-    if (excursion_ > room) {
-      throw PhysicsError("slabs of the box are too thin for what disks move in a step; use fewer ranks");
-    }
+    find_near_borders();
     find_seen_beyond(slab_, scene_.box, d, near_, largest_radius_, excursion_, seen_);
     Bytes to_below;
     Bytes to_above;

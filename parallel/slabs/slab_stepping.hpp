@@ -59,6 +59,7 @@ class SlabStepping : public Engine {
   void keep_own_disks();
   void make_cells();
   void migrate();
+  void find_near_borders();
   void see_neighbours();
   double resolve_here(const StepRules& rules, ImpactTally& tally);
   double resolve_alone_at_border(const StepRules& rules, ImpactTally& tally);

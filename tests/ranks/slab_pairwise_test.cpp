@@ -11,6 +11,7 @@
 #include "core/base/check.hpp"
 #include "parallel/ranks/local_ranks.hpp"
 #include "parallel/slabs/slab_cut.hpp"
+#include "parallel/threads/executor.hpp"
 #include "tests/support/slab_support.hpp"
 
 namespace carom {
@@ -40,6 +41,8 @@ SlabTrace expect_bits(const Scene& scene, const std::vector<int>& counts) {
   const SlabTrace expected = test::one_machine_trace(scene, start);
   for (const int ranks : counts) {
     for (const int threads : {1, 2}) {
+      // Which makes everything ten times as long, and sees races with the most ranks and threads best.
+      if (under_thread_sanitizer && (threads == 1 || ranks != counts.back())) continue;
       SCOPED_TRACE(fmt::format("{} ranks, {} threads", ranks, threads));
       test::expect_same(expected, local_trace(scene, start, {threads, 512}, ranks));
     }

@@ -78,6 +78,12 @@ inline std::vector<Scene> slab_scenes(const std::string& sides, int steps) {
     all.push_back(feature_scene(f, steps));
     if (f.gravity) all.back().box.restitutions = {1.0, 1.0, 1.0, 1.0};
   }
+  Features tilted;
+  tilted.sides = sides;
+  tilted.radii = "mixed";
+  tilted.own_masses = tilted.gravity = tilted.tilted = true;
+  all.push_back(feature_scene(tilted, steps));
+  all.back().box.restitutions = {1.0, 1.0, 1.0, 1.0};
   for (const char* law : {"viscoelastic", "pairs"}) {
     Features f;
     f.sides = sides;
