@@ -9,6 +9,7 @@
 
 #include "core/disks/state.hpp"
 #include "core/physics/contact_event.hpp"
+#include "core/physics/push_apart.hpp"
 #include "core/physics/resolve.hpp"
 
 namespace carom {

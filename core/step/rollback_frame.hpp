@@ -9,6 +9,7 @@
 #include "core/disks/state.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/impact_tally.hpp"
+#include "core/physics/push_apart.hpp"
 #include "core/physics/resolve.hpp"
 #include "core/scene/scene.hpp"
 #include "core/step/step_clock.hpp"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/check.hpp"
+#include "core/physics/push_apart.hpp"
 #include "core/step/step_clock.hpp"
 #include "parallel/cells/compact.hpp"
 #include "parallel/ranks/message.hpp"

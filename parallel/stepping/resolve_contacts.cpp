@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/physics/push_apart.hpp"
 #include "core/physics/resting.hpp"
 #include "core/reference/step_contacts.hpp"
 #include "parallel/stepping/contact_count.hpp"

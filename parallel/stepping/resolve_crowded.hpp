@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/physics/impact_tally.hpp"
+#include "core/physics/push_apart.hpp"
 #include "core/physics/resolve.hpp"
 #include "parallel/stepping/resolve_contacts.hpp"
 
