@@ -88,7 +88,7 @@ inline double nearest_image(double d, double period) {
 }
 
 // The difference of two positions, taken to the nearest image across periodic sides. Precondition as above.
-inline Vec2 nearest_image(Vec2 d, const Domain& box) {
+[[gnu::always_inline]] inline Vec2 nearest_image(Vec2 d, const Domain& box) {
   if (box.periodic_x()) d.x = nearest_image(d.x, box.width);
   if (box.periodic_y()) d.y = nearest_image(d.y, box.height);
   return d;
