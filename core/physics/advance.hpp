@@ -10,14 +10,15 @@
 
 namespace carom {
 
-// (14), (15); with gravity (20), (21). Exact for any t, negative too: drift by t and by -t cancel to rounding.
+// (14), (15); with gravity (20), (21). Exact for any t, negative too: drift by t and by -t cancel to rounding. + 0.0: 0
+// t is -0 where t < 0, and to take that away would make +0 of a velocity of -0.
 template <bool gravity>
 inline void drift(double& x, double& y, double& vx, double& vy, double t, const Gravity& g) {
   if constexpr (gravity) {
     x += vx * t - 0.5 * g.left * (t * t);
     y += vy * t - 0.5 * g.down * (t * t);
-    vx -= g.left * t;
-    vy -= g.down * t;
+    vx -= g.left * t + 0.0;
+    vy -= g.down * t + 0.0;
   } else {
     x += vx * t;
     y += vy * t;

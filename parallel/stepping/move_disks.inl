@@ -157,9 +157,9 @@ double move_range(const MoveInput& input, const GridLevel& level, std::size_t be
   const MoveInput in = input;  // by itself, so that no store can change it
   const LevelView v = view_of(level);
   const double fall = 0.5 * in.gravity.down * (in.t * in.t);
-  const double slowing = in.gravity.down * in.t;
+  const double slowing = in.gravity.down * in.t + 0.0;  // as drift does, for the sign of a zero
   const double fall_x = 0.5 * in.gravity.left * (in.t * in.t);
-  const double slowing_x = in.gravity.left * in.t;
+  const double slowing_x = in.gravity.left * in.t + 0.0;
   Doubles speed2 = all(0.0);
   std::size_t i = begin;
   for (; i + lanes <= end; i += lanes) {

@@ -10,6 +10,7 @@
 #include "core/disks/state_hash.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/measure/invariants.hpp"
+#include "core/physics/advance.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/start/initial_state.hpp"
 #include "parallel/simulation.hpp"
@@ -301,6 +302,27 @@ TEST(GravityVector, StraightDownHasTheBitsOfTheNumber) {
     p.physics = "gravity = [0.0, -0.7]";
     const State vector = run_to_end(scene_of(method, p));
     EXPECT_EQ(state_hash(number.disks), state_hash(vector.disks)) << method;
+  }
+}
+
+// Side walls that take all speed leave velocities of -0; drifting back, as rollback does, must not make +0 of them.
+TEST(GravityVector, KeepsTheSignOfAZero) {
+  double x = 1.0, y = 1.0, vx = -0.0, vy = 1.0;
+  drift<true>(x, y, vx, vy, -0.5, Gravity(2.0));
+  EXPECT_TRUE(std::signbit(vx));
+  drift<true>(x, y, vx, vy, 0.5, Gravity(2.0));
+  EXPECT_TRUE(std::signbit(vx));
+  SceneParts p;
+  p.sides = "wall_restitution = 0\n";
+  p.rest = gas;
+  p.dt = 0.02;
+  p.t_end = 8.0;
+  for (const char* gravity : {"gravity = 0.7", "gravity = [-0.7, 0.0]"}) {
+    p.physics = gravity;
+    const Scene scene = scene_of("rollback", p);
+    const State end = run_to_end(scene);
+    EXPECT_GT(end.counters.wall_collisions, 30U);
+    EXPECT_EQ(state_hash(end.disks), state_hash(test::run(scene, initial_state(scene)).disks)) << gravity;
   }
 }
 
