@@ -53,12 +53,12 @@ Range widened(const Range& range) {
   return {range.low / 1.8, range.high * 1.8};
 }
 
-// Name and order; exact is named where its point is.
+// Name and order.
 std::string order_text(const SceneResult& result, const Curve& curve, Measure measure) {
   const std::string name(name_of(curve.method));
   const auto& fit = curve.fit(measure);
   const auto predicted = chart::predicted_order(result.scene, curve.method, measure);
-  if (!fit) return curve.method == Method::exact ? "" : name;
+  if (!fit) return name;
   std::string text = fmt::format("{}  p = {:.2f} ± {:.2f}", name, fit->order, fit->order_error);
   if (predicted) text += fmt::format(" ({:g})", *predicted);
   return text;
@@ -77,13 +77,6 @@ LogPoint point_of(const Point& p, Measure measure, double floor) {
   return {p.cost, std::max({size, rates ? chart::seen_errors * m.error : size, floor}), 0.0, true};
 }
 
-void note_exact(LogPanel& panel) {
-  for (const LogCurve& curve : panel.curves) {
-    if (curve.style != static_cast<int>(Method::exact) || curve.faint || !curve.name.empty()) continue;
-    panel.notes.push_back({curve.points.front().x, curve.points.front().y, "exact", curve.style, false});
-  }
-}
-
 // One error of one scene; a second measure is drawn faint.
 LogPanel error_panel(const SceneResult& result, std::vector<Measure> measures, const std::string& title) {
   const bool brownian = result.scene.figure == Figure::spread;
@@ -93,7 +86,11 @@ LogPanel error_panel(const SceneResult& result, std::vector<Measure> measures, c
   Range y;
   for (const Curve& curve : result.curves) {
     for (std::size_t k = 0; k < measures.size(); ++k) {
-      LogCurve drawn{static_cast<int>(curve.method), k == 0 ? order_text(result, curve, measures[k]) : "", {}, k > 0};
+      LogCurve drawn{static_cast<int>(curve.method),
+                     k == 0 ? order_text(result, curve, measures[k]) : "",
+                     {},
+                     k > 0,
+                     curve.method == Method::exact && !curve.fit(measures[k])};
       for (const Point& p : curve.points) {
         if (!std::isfinite(p[measures[k]].value)) continue;
         drawn.points.push_back(point_of(p, measures[k], no_error));
@@ -104,12 +101,8 @@ LogPanel error_panel(const SceneResult& result, std::vector<Measure> measures, c
     }
   }
   if (y.high == 0.0) y = {1e-4, 1.0};
-  // Room for the names, where there is none between the curves and rounding.
-  const bool wide = y.high > 1e6 * y.low;
-  panel.names_below = wide && y.high > 1e-4;
   panel.y_low = std::pow(10.0, std::floor(std::log10(y.low / 1.5)));
-  panel.y_high = std::pow(10.0, std::ceil(std::log10(y.high * (wide ? 1.5 : 8.0))));
-  note_exact(panel);
+  panel.y_high = std::pow(10.0, std::ceil(std::log10(y.high * 1.5)));
   return panel;
 }
 
@@ -160,7 +153,7 @@ LogPanel crowd_panel(const ChartResult& result) {
     for (const double dt : {0.032, 0.008}) {
       const bool rollback = method == Method::rollback;
       if (!rollback && dt != 0.032) continue;
-      LogCurve curve{static_cast<int>(method), "", {}, dt != 0.032};
+      LogCurve curve{static_cast<int>(method), "", {}, dt != 0.032, false};
       for (const chart::CrowdPoint& p : result.crowd) {
         if (p.method != method || p.dt != dt) continue;
         // Pairwise is split where a disk moves too far, whatever the number of disks; a step is a step.
@@ -203,11 +196,7 @@ void note_steps(const SceneResult& result, LogPanel& panel) {
     if (curve.style != static_cast<int>(Method::pairwise) || curve.points.size() < 2) continue;
     const Curve& own = *std::find_if(result.curves.begin(), result.curves.end(),
                                      [](const Curve& c) { return c.method == Method::pairwise; });
-    const auto lowest = std::min_element(curve.points.begin(), curve.points.end(),
-                                         [](const LogPoint& a, const LogPoint& b) { return a.y < b.y; });
-    panel.notes.push_back({curve.points.front().x / 1.3, std::max(lowest->y / 30.0, 1e-7),
-                           fmt::format("dt = {:.3g} to {:.2g}", own.points.front().dt, own.points.back().dt),
-                           curve.style, false});
+    panel.remark = fmt::format("dt = {:.3g} to {:.2g}", own.points.front().dt, own.points.back().dt);
     return;
   }
 }

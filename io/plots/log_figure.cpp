@@ -20,9 +20,10 @@ constexpr std::array<int, 4> open{4, 6, 12, 8};
 constexpr const char* note_grey = "#666666";
 
 // Pixels of the SVG.
-constexpr double panel_width = 262.0, panel_height = 236.0;
-constexpr double left_margin = 58.0, right_margin = 10.0, top_margin = 34.0, bottom_margin = 44.0;
-constexpr double title_height = 40.0, heading_height = 34.0, caption_height = 44.0;
+constexpr double panel_width = 262.0, panel_height = 270.0;
+constexpr double left_margin = 58.0, right_margin = 10.0, top_margin = 68.0, bottom_margin = 44.0;
+constexpr double title_below = 14.0, names_below = 31.0, line_height = 14.0, title_height = 40.0, heading_height = 34.0,
+                 caption_height = 44.0;
 
 std::size_t rows_of(const LogSection& section, std::size_t columns) {
   return (section.panels.size() + columns - 1) / columns;
@@ -69,19 +70,28 @@ std::string plot_commands(const LogCurve& curve, std::size_t block) {
   return text;
 }
 
-std::string corner_names(const LogPanel& panel) {
-  constexpr double line_height = 0.078;
-  std::string text;
-  std::size_t names = 0;
-  for (const LogCurve& curve : panel.curves) names += curve.name.empty() ? 0U : 1U;
-  double y = panel.names_below ? 0.17 + line_height * static_cast<double>(names - 1) : 0.945;
+// Title, names and remark of a panel whose upper left corner is there, from top to bottom.
+std::string head_commands(const LogPanel& panel, const Page& page, double left, double top) {
+  const double from = (left + left_margin) / page.width;
+  const double to = (left + panel_width - right_margin) / page.width;
+  const auto label = [&](const std::string& words, double x, double down, const char* side, const std::string& look) {
+    return fmt::format("set label {} at screen {}, screen {} {} {} front\n", gnuplot_quoted(words), x,
+                       1.0 - (top + down) / page.height, side, look);
+  };
+  std::string text = label(panel.title, from, title_below, "left", "font ',12' noenhanced textcolor rgb '#000000'");
+  double down = names_below;
   for (const LogCurve& curve : panel.curves) {
     if (curve.name.empty()) continue;
-    text += fmt::format("set label {} at graph 0.98, graph {} right textcolor rgb '{}' font ',10.5' front\n",
-                        gnuplot_quoted(curve.name), y, series_colours[style_of(curve.style)]);
-    y -= line_height;
+    const std::string look = fmt::format("font ',10' textcolor rgb '{}'", series_colours[style_of(curve.style)]);
+    if (curve.name_left) {
+      text += label(curve.name, from, names_below, "left", look);
+    } else {
+      text += label(curve.name, to, down, "right", look);
+      down += line_height;
+    }
   }
-  return text;
+  if (panel.remark.empty()) return text;
+  return text + label(panel.remark, to, down, "right", fmt::format("font ',10' textcolor rgb '{}'", note_grey));
 }
 
 // Ticks at every decade, at every third or so where there are many.
@@ -114,14 +124,7 @@ std::string panel_commands(const LogPanel& panel, const Page& page, double left,
   text += ticks("x", panel.x_low, panel.x_high) + ticks("y", panel.y_low, panel.y_high);
   text += fmt::format("set xlabel {} offset 0,0.5\nset ylabel {} offset 1.2,0\n", gnuplot_quoted(panel.x_label),
                       gnuplot_quoted(panel.y_label));
-  text += fmt::format("set label {} at graph 0, graph 1.06 left font ',12' noenhanced textcolor rgb '#000000'\n",
-                      gnuplot_quoted(panel.title));
-  text += corner_names(panel);
-  for (const LogNote& note : panel.notes) {
-    text += fmt::format("set label {} at first {}, first {} {} offset {},0 textcolor rgb '{}' font ',10' front\n",
-                        gnuplot_quoted(note.text), note.x, note.y, note.left ? "right" : "left", note.left ? -0.8 : 0.8,
-                        note.style ? series_colours[style_of(*note.style)] : note_grey);
-  }
+  text += head_commands(panel, page, left, top);
   std::string plot;
   for (const LogCurve& curve : panel.curves) {
     plot += (plot.empty() ? "plot " : ", ") + plot_commands(curve, block);

@@ -1,7 +1,7 @@
-// A page of small panels with logarithmic axes, as gnuplot draws it: curves of errors, each named where it is.
+// A page of small panels with logarithmic axes, as gnuplot draws it: curves of errors, whose names stand above the
+// panel, where no curve runs.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,17 +16,10 @@ struct LogPoint {
 // Colour and symbol of a curve are those of its style, the same in every panel.
 struct LogCurve {
   int style = 0;                 // 0, 1, 2, ...
-  std::string name;              // written in the panel's upper right corner, in the curve's colour; empty: nowhere
+  std::string name;              // written above the panel, in the curve's colour; empty: nowhere
   std::vector<LogPoint> points;  // in the order in which they are joined
   bool faint = false;            // thin and dashed: a second quantity of the same method
-};
-
-// A word at a point of a panel.
-struct LogNote {
-  double x = 0.0, y = 0.0;
-  std::string text;
-  std::optional<int> style;  // colour of that style; none: grey
-  bool left = false;         // of the point; otherwise right of it
+  bool name_left = false;        // at the left end of the first line of names; the others have a line each at the right
 };
 
 struct LogPanel {
@@ -34,8 +27,7 @@ struct LogPanel {
   std::string x_label, y_label;  // empty: none
   double x_low = 0.0, x_high = 0.0, y_low = 0.0, y_high = 0.0;
   std::vector<LogCurve> curves;
-  std::vector<LogNote> notes;
-  bool names_below = false;  // names to the lower right instead, a little above the axis
+  std::string remark;  // below the names, grey
 };
 
 // Rows of panels under a heading.
