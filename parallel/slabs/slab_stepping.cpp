@@ -31,6 +31,12 @@ constexpr double excursion_share = 0.5;
 // But not before it is so far beyond it, in largest radii.
 constexpr double usual_excursion = 2.0;
 
+// A disk on its way to another rank.
+struct Migrant {
+  Disk disk;
+  int to;
+};
+
 // Of a contact that two ranks resolve, that of the disk with the smaller id counts the impact.
 struct OtherRanks {
   Ranks& ranks;
@@ -114,23 +120,28 @@ Count SlabStepping::parts(double dt) {
 }
 
 void SlabStepping::sort_if_due() {
-  if (grid_.levels.empty() || !std::exchange(sort_due_, false)) return;
+  if (!grid_.levels.empty() && std::exchange(sort_due_, false)) sort_now();
+}
+
+void SlabStepping::sort_now() {
   const PhaseTimer timer(times_, "sort");
   migrate();
   sort_into_cells(state_.disks, grid_, executor_, cells_);
   if (!state_.disks.empty()) begin_coarse_positions(state_.disks, grid_, cells_, executor_, coarse_);
 }
 
-// Each disk to the rank whose slab it is in. None has left its own by so much as a slab.
+// Each disk to the rank whose slab it is in: a neighbour, but for what another disk has sent far.
 void SlabStepping::migrate() {
   Disks& d = state_.disks;
-  std::vector<Disk> down;
-  std::vector<Disk> up;
+  std::vector<Migrant> down;
+  std::vector<Migrant> up;
+  bool far = false;
   gone_.assign(d.size(), 0);
   for (std::size_t i = 0; i < d.size(); ++i) {
     const int to = cut_.rank_at(d.y[i]);
     if (to == ranks_.rank()) continue;
-    (to == ranks_.above() ? up : down).push_back(disk_at(d, i));
+    (to == ranks_.above() ? up : down).push_back({disk_at(d, i), to});
+    far = far || (to != ranks_.above() && to != ranks_.below());
     gone_[i] = 1;
   }
   if (!down.empty() || !up.empty()) remove_in_parallel(d, gone_, executor_, cells_.column, cells_.pass);
@@ -138,9 +149,19 @@ void SlabStepping::migrate() {
   Bytes to_above;
   put_all(to_below, down);
   put_all(to_above, up);
-  const auto [below, above] = ranks_.exchange(to_below, to_above);
-  for (const Bytes& message : {below, above}) {
-    for (const Disk& disk : MessageReader(message).get_all<Disk>()) push_back(d, disk, columns_);
+  if (ranks_.any(far)) {
+    for (const Bytes& message : ranks_.gather(to_below)) take_in(message);
+    for (const Bytes& message : ranks_.gather(to_above)) take_in(message);
+  } else {
+    const auto [below, above] = ranks_.exchange(to_below, to_above);
+    take_in(below);
+    take_in(above);
+  }
+}
+
+void SlabStepping::take_in(const Bytes& migrants) {
+  for (const auto& [disk, to] : MessageReader(migrants).get_all<Migrant>()) {
+    if (to == ranks_.rank()) push_back(state_.disks, disk, columns_);
   }
 }
 
@@ -153,14 +174,13 @@ void SlabStepping::drift(double t) {
 }
 
 void SlabStepping::search(const StepRules& rules) {
-  const Disks& d = state_.disks;
+  find_near_borders();
   pairs_.used = 0;
   strays_ = 0;
   pairs_.furthest = 0.0;
-  {
+  if (!state_.disks.empty()) {
     const PhaseTimer timer(times_, "search");
-    // The strays, which see_neighbours asks for, are of this drift.
-    if (!d.empty()) strays_ = find_contacts(d, scene_.box, grid_, cells_, coarse_, executor_, pairs_);
+    strays_ = find_contacts(state_.disks, scene_.box, grid_, cells_, coarse_, executor_, pairs_);
   }
   if (has_walls(rules.box)) {
     const PhaseTimer timer(times_, "walls");
@@ -170,18 +190,25 @@ void SlabStepping::search(const StepRules& rules) {
 }
 
 // Agrees on how far disks have left their slabs, and finds those that may touch one of another slab: about as deep as
-// in the step before.
+// in the step before. Where one has gone too far in the drift, all go to the rank whose slab they are in now.
 void SlabStepping::find_near_borders() {
-  const Disks& d = state_.disks;
+  if (ranks_.count() == 1 || grid_.levels.empty()) return;
+  const PhaseTimer timer(times_, "exchange");
+  Disks& d = state_.disks;
   const double depth = excursion_ + 3.0 * largest_radius_;
   carom::find_near_borders(slab_, d, grid_, cells_, coarse_, depth, near_);
   excursion_ = excursion_of(slab_, scene_.box, d, near_);
   ranks_.maximum({&excursion_, 1});
-  if (excursion_ > room_beyond(cut_, largest_radius_)) {
-    throw PhysicsError("slabs of the box are too thin for what disks move in a step; use fewer ranks");
-  }
   const double needed = excursion_ + 2.0 * largest_radius_;
-  if (needed > depth) carom::find_near_borders(slab_, d, grid_, cells_, coarse_, needed, near_);
+  if (excursion_ > room_beyond(cut_, largest_radius_)) {
+    sort_now();
+    coarse_.blocks = 0;
+    if (!d.empty()) note_coarse_positions(d, scene_.box, grid_, cells_, executor_, coarse_);
+    excursion_ = 0.0;
+    carom::find_near_borders(slab_, d, grid_, cells_, coarse_, 2.0 * largest_radius_, near_);
+  } else if (needed > depth) {
+    carom::find_near_borders(slab_, d, grid_, cells_, coarse_, needed, near_);
+  }
 }
 
 // Ghosts, and the pairs across the borders, in a buffer behind those of the search.
@@ -190,7 +217,6 @@ void SlabStepping::see_neighbours() {
   Disks& d = state_.disks;
   ghosts_.begin(d.size());
   if (ranks_.count() > 1 && !grid_.levels.empty()) {
-    find_near_borders();
     find_seen_beyond(slab_, scene_.box, d, near_, largest_radius_, excursion_, seen_);
     Bytes to_below;
     Bytes to_above;

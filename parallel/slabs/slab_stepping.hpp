@@ -58,7 +58,9 @@ class SlabStepping : public Engine {
  private:
   void keep_own_disks();
   void make_cells();
+  void sort_now();
   void migrate();
+  void take_in(const Bytes& migrants);
   void find_near_borders();
   void see_neighbours();
   double resolve_here(const StepRules& rules, ImpactTally& tally);

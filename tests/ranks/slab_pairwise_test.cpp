@@ -125,6 +125,25 @@ TEST(SlabPairwiseRun, ResolvesAContactThatIsAloneOnce) {
   EXPECT_GE(expect_bits(scene, {2, 3}).counters.collisions, 60U);
 }
 
+// Light disks between heavy ones that close in are sent through whole slabs within a step.
+TEST(SlabPairwiseRun, HasTheBitsWhereDisksGoFarInAStep) {
+  std::string places;
+  std::string velocities;
+  std::string masses;
+  for (int k = 0; k < 30; ++k) {
+    const double x = 1.0 + 2.0 * (k % 10) + 0.3 * (k / 10);
+    const double y = 2.0 + 4.0 * (k / 10) + 0.3 * (k % 3);
+    places += fmt::format("[{0}, {1}], [{0}, {2}], [{0}, {3}], ", x, y, y + 1.01, y + 2.02);
+    velocities += fmt::format("[0.0, 2.4], [0.0{}, 0.1], [0.0, -2.4], ", k);
+    masses += "1.0, 1e-6, 1.0, ";
+  }
+  const Scene scene = scene_of("periodic", "width = 24.0\nheight = 16.0\n",
+                               "count = 90\npositions = [" + places + "]\nvelocities = [" + velocities +
+                                   "]\nradius = 0.5\nmass = [" + masses + "]\n",
+                               0.2, 40);
+  EXPECT_GT(expect_bits(scene, {2, 3, 8}).counters.collisions, 200U);
+}
+
 // Elastic disks fall: slabs run empty and fill again.
 TEST(SlabPairwiseRun, HasTheBitsWhereSlabsRunEmpty) {
   const Scene scene = scene_of("wall", "width = 30.0\nheight = 30.0\n[physics]\ngravity = 8.0\n",

@@ -1,0 +1,107 @@
+// Random scenes of all features on several ranks: the bits of one machine after every step, or a refusal. So a new
+// feature that slabs do not know yet cannot be passed over by them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/check.hpp"
+#include "core/disks/state_hash.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/start/initial_state.hpp"
+#include "parallel/ranks/local_ranks.hpp"
+#include "parallel/simulation.hpp"
+#include "parallel/slabs/rank_sums.hpp"
+#include "parallel/slabs/slab_pairwise.hpp"
+#include "tests/fuzz_scenes/random_scene.hpp"
+
+namespace carom {
+namespace {
+
+constexpr std::uint32_t shards = 4, scenes_a_shard = 500;
+constexpr std::uint64_t seed = 19;
+constexpr int steps = 15;
+
+struct Start {
+  Scene scene;
+  State state;
+};
+
+// Nothing where the scene cannot be made, or is for another method.
+std::optional<Start> pairwise_start(const std::string& text) {
+  try {
+    Scene scene = parse_scene(text, "scene", "");
+    if (scene.run.method != Method::pairwise) return {};
+    State state = initial_state(scene);
+    return Start{std::move(scene), std::move(state)};
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+struct Trace {
+  std::vector<std::uint64_t> hashes;
+  std::vector<std::string> said;  // warnings, and the error that ended it
+};
+
+template <class Hash>
+Trace trace_of(Engine& engine, double t_end, Hash&& hash) {
+  Trace trace;
+  std::string error;
+  try {
+    for (int k = 0; k < steps && engine.state().time < t_end; ++k) {
+      engine.step();
+      trace.hashes.push_back(hash(engine.state().disks));
+    }
+  } catch (const PhysicsError& physics) {
+    error = physics.what();
+  }
+  trace.said = engine.take_warnings();
+  trace.said.push_back(error);
+  return trace;
+}
+
+class SlabScenes : public ::testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(SlabScenes, HaveTheBitsOfOneMachineOrAreRefused) {
+  std::size_t held = 0;
+  std::size_t refused = 0;
+  for (std::uint32_t k = 0; k < scenes_a_shard; ++k) {
+    const std::string text = fuzz::random_scene(seed, GetParam() * scenes_a_shard + k, 0);
+    const std::optional<Start> start = pairwise_start(text);
+    if (!start) continue;
+    SCOPED_TRACE(text);
+    std::optional<Trace> expected;
+    for (const int count : {2, 3}) {
+      try {
+        std::vector<Trace> traces(static_cast<std::size_t>(count));
+        run_on_local_ranks(count, [&](Ranks& ranks) {
+          const auto engine = make_slab_pairwise(start->scene, start->state, {2, 512}, ranks);
+          traces[static_cast<std::size_t>(ranks.rank())] = trace_of(
+              *engine, start->scene.run.t_end, [&](const Disks& own) { return state_hash_over_ranks(ranks, own); });
+        });
+        if (!expected) {
+          const auto engine = make_parallel_engine(start->scene, start->state, {1});
+          expected = trace_of(*engine, start->scene.run.t_end, [](const Disks& all) { return state_hash(all); });
+        }
+        for (const Trace& trace : traces) {
+          SCOPED_TRACE(count);
+          EXPECT_EQ(trace.hashes, expected->hashes);
+          EXPECT_EQ(trace.said, expected->said);
+        }
+        ++held;
+      } catch (const InputError&) {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GE(held, 5U);
+  EXPECT_GE(refused, 5U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shards, SlabScenes, ::testing::Range(0U, shards));
+
+}  // namespace
+}  // namespace carom
