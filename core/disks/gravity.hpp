@@ -11,16 +11,20 @@ struct Gravity {
   double left = 0.0;
   double down = 0.0;
   double size = 0.0;  // of the vector
+  bool tilted = false;
 
   // A number is gravity downwards, as in a scene.
   constexpr Gravity(double g = 0.0) : down(g), size(g < 0.0 ? -g : g) {}  // NOLINT(google-explicit-constructor)
   Gravity(double to_the_left, double downwards)
-      : left(to_the_left), down(downwards), size(size_of(std::abs(to_the_left), std::abs(downwards))) {}
+      : left(to_the_left),
+        down(downwards),
+        size(size_of(std::abs(to_the_left), std::abs(downwards))),
+        tilted(to_the_left != 0.0) {}
   bool operator==(const Gravity&) const = default;
 
   constexpr bool acts() const { return size > 0.0; }
   // Does it change velocities along x?
-  constexpr bool is_tilted() const { return left != 0.0; }
+  constexpr bool is_tilted() const { return tilted; }
   // Its part against the unit vector (nx, ny): what holds a disk down on a wall whose normal, towards the disk, that
   // is. Times a mass and a distance, the work of a lift.
   constexpr double against(double nx, double ny) const { return down * ny + left * nx; }

@@ -15,9 +15,13 @@ namespace carom {
 template <bool gravity>
 inline void drift(double& x, double& y, double& vx, double& vy, double t, const Gravity& g) {
   if constexpr (gravity) {
-    x += vx * t - 0.5 * g.left * (t * t);
+    if (g.is_tilted()) [[unlikely]] {
+      x += vx * t - 0.5 * g.left * (t * t);
+      vx -= g.left * t;
+    } else {
+      x += vx * t;
+    }
     y += vy * t - 0.5 * g.down * (t * t);
-    vx -= g.left * t + 0.0;
     vy -= g.down * t + 0.0;
   } else {
     x += vx * t;

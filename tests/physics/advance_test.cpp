@@ -13,6 +13,16 @@
 namespace carom {
 namespace {
 
+// Whatever moves them, disks keep the sign of a velocity of 0 across gravity: the engine's kernels leave it alone too.
+TEST(Drift, GravityDownwardsLeavesTheVelocityAlongXAlone) {
+  for (const double t : {-0.5, 0.5}) {
+    double x = 1.0, y = 2.0, vx = -0.0, vy = 3.0;
+    drift<true>(x, y, vx, vy, t, 8.0);
+    EXPECT_TRUE(std::signbit(vx)) << t;
+    EXPECT_EQ(x, 1.0);
+  }
+}
+
 // (14), (15), (20), (21) with numbers whose products are exact in binary.
 TEST(Drift, IsTheFormula) {
   double x = 1.0, y = 2.0, vx = 0.5, vy = -0.25;
