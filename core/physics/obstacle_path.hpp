@@ -111,9 +111,11 @@ inline double time_to_contact_falling(const FallPast& fall, double span) {
     const double there = fall.approach(to);
     if (here < 0.0 && !(there < 0.0)) {
       const double nearest = bracketed_root(approach, approach_slope, from, to);
+      // A disk that gravity presses on the obstacle has no further to come: its gap is 0 from `nearer` on.
+      if (!(gap(nearer) > 0.0)) return nearer;
       if (!(gap(nearest) > 0.0)) return bracketed_root(gap, gap_slope, nearer, nearest);
     } else if (!(here < 0.0) && there < 0.0) {
-      nearer = bracketed_root(approach, approach_slope, from, to);
+      nearer = here > 0.0 ? bracketed_root(approach, approach_slope, from, to) : from;
       if (nearer > span) return never;
     }
     from = to;
