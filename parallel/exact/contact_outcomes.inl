@@ -42,8 +42,8 @@ template <Scope scope>
 void EventProcessor<scope>::meet_obstacle(std::uint32_t i, double time) {
   const DiskId partner = record_[i].partner.wall_id();
   ExactDisk now = disk(i);
-  const Impact impact = meet_obstacle_at(window_.rules, time, record_[i].partner.place(), window_.disks->mass_of(i),
-                                         record_[i].id, now);
+  const Impact impact =
+      meet_obstacle_at(window_.rules, time, record_[i].partner.place(), window_.disks->mass_of(i), record_[i].id, now);
   worker_.tally.add(partner, impact);
   const EventMark event{time, record_[i].id, partner};
   const bool gone = is_sink(window_.rules.box, partner);

@@ -118,6 +118,28 @@ struct Own {
   Doubles start, x, y, vx, vy, radius;
 };
 
+// Places and velocities of four disks.
+struct Motions {
+  Doubles x, y, vx, vy;
+};
+
+// The motions after a time s in free flight.
+template <GravityKind gravity>
+[[gnu::always_inline]] inline void carry(const PredictionConstants& f, Doubles s, Motions& m) {
+  Doubles shift = m.vx * s;
+  Doubles rise = m.vy * s;
+  if constexpr (gravity != GravityKind::none) {
+    rise = rise - load(f.half_down) * (s * s);
+    m.vy = m.vy - load(f.down) * s;
+  }
+  if constexpr (gravity == GravityKind::tilted) {
+    shift = shift - load(f.half_left) * (s * s);
+    m.vx = m.vx - load(f.left) * s;
+  }
+  m.x = m.x + shift;
+  m.y = m.y + rise;
+}
+
 // core's collision_time(), operation by operation: carried_to, relative, time_to_contact, touching_time. Differences
 // may have the other sign, which changes no bit of the time. Not a number where there is no contact. slowest: the
 // least |dr.dv| so far.
@@ -132,46 +154,17 @@ inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const
   const Doubles ys01 = __builtin_shufflevector(m0, m1, 1, 5, 3, 7);
   const Doubles xs23 = __builtin_shufflevector(m2, m3, 0, 4, 2, 6);
   const Doubles ys23 = __builtin_shufflevector(m2, m3, 1, 5, 3, 7);
-  Doubles vx = __builtin_shufflevector(xs01, xs23, 2, 3, 6, 7);
-  Doubles vy = __builtin_shufflevector(ys01, ys23, 2, 3, 6, 7);
+  Motions others{__builtin_shufflevector(xs01, xs23, 0, 1, 4, 5), __builtin_shufflevector(ys01, ys23, 0, 1, 4, 5),
+                 __builtin_shufflevector(xs01, xs23, 2, 3, 6, 7), __builtin_shufflevector(ys01, ys23, 2, 3, 6, 7)};
   const Doubles start = Doubles{f0.path.start, f1.path.start, f2.path.start, f3.path.start};
   const Doubles both = newest ? own.start : larger(start, own.start);
-  const Doubles s = both - start;
-  Doubles shift = vx * s;
-  Doubles rise = vy * s;
-  Doubles own_x = own.x;
-  Doubles own_y = own.y;
-  Doubles own_vx = own.vx;
-  Doubles own_vy = own.vy;
-  if constexpr (gravity != GravityKind::none) {
-    rise = rise - load(f.half_down) * (s * s);
-    vy = vy - load(f.down) * s;
-  }
-  if constexpr (gravity == GravityKind::tilted) {
-    shift = shift - load(f.half_left) * (s * s);
-    vx = vx - load(f.left) * s;
-  }
-  if constexpr (!newest) {
-    const Doubles t = both - own.start;
-    Doubles own_shift = own.vx * t;
-    Doubles own_rise = own.vy * t;
-    if constexpr (gravity != GravityKind::none) {
-      own_rise = own_rise - load(f.half_down) * (t * t);
-      own_vy = own.vy - load(f.down) * t;
-    }
-    if constexpr (gravity == GravityKind::tilted) {
-      own_shift = own_shift - load(f.half_left) * (t * t);
-      own_vx = own.vx - load(f.left) * t;
-    }
-    own_x = own.x + own_shift;
-    own_y = own.y + own_rise;
-  }
-  const Doubles x = __builtin_shufflevector(xs01, xs23, 0, 1, 4, 5) + shift;
-  const Doubles y = __builtin_shufflevector(ys01, ys23, 0, 1, 4, 5) + rise;
-  const Doubles dx = nearest(x - own_x, f.period_x, f.periods_per_x);
-  const Doubles dy = nearest(y - own_y, f.period_y, f.periods_per_y);
-  const Doubles dvx = vx - own_vx;
-  const Doubles dvy = vy - own_vy;
+  carry<gravity>(f, both - start, others);
+  Motions mine{own.x, own.y, own.vx, own.vy};
+  if constexpr (!newest) carry<gravity>(f, both - own.start, mine);
+  const Doubles dx = nearest(others.x - mine.x, f.period_x, f.periods_per_x);
+  const Doubles dy = nearest(others.y - mine.y, f.period_y, f.periods_per_y);
+  const Doubles dvx = others.vx - mine.vx;
+  const Doubles dvy = others.vy - mine.vy;
   const Doubles approach = dx * dvx + dy * dvy;
   const Doubles cross = dx * dvy - dy * dvx;
   Doubles contact2 = load(f.contact2);

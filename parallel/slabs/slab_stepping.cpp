@@ -20,8 +20,6 @@ namespace carom {
 
 namespace {
 
-// Disks a block in passes that look at each disk once.
-constexpr std::size_t look_block = 8192;
 // The disks are sorted anew when on a rank one in so many has left its cell too far, as TimeStepping does.
 constexpr std::size_t stray_share = 200;
 constexpr double cell_margin = 2.0 * grid_margin;
