@@ -1,5 +1,5 @@
 // Every table and every key that a scene may have: what the reader knows and checks, and what docs/scene.md says.
-// A new key is one row in scene_keys.cpp, and the line that reads it; a new table a row in scene_tables.cpp.
+// A new key is one row in a keys_of_ file, and the line that reads it; a new table a row in scene_tables.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,160 @@
+// Keys of the file itself, its box and its physics. A part of scene_keys().
+#pragma once
+
+#include <string_view>
+
+#include "core/scene/scene_keys.hpp"
+#include "core/scene/scene_names.hpp"
+
+namespace carom::keys_of_physics {
+
+using enum KeyKind;
+inline constexpr auto none = Dimension::none;
+
+inline constexpr std::string_view side_says = "What this side does.";
+inline constexpr std::string_view side_allowed = "NAMES, or a table `{ kind = ... }`";
+inline constexpr std::string_view restitution_allowed = "a number from 0 to 1, or `{ viscoelastic = ... }`";
+
+inline constexpr SceneKey keys[] = {
+    {"", "title", text, none, "\"\"", "Shown in messages, movies and files.", R"(title = "gas")",
+     "text of at most 1000 characters"},
+    {"", "seed", special, none, "1", "Of all random numbers: the same seed, the same run.", "seed = 7",
+     "a whole number from 0 to 18446744073709551615"},
+    {"", "box", special, none, "required", "The rectangle.", "[box]", "a table"},
+    {"", "physics", special, none, "no forces, elastic", "What acts on the disks.", "[physics]", "a table"},
+    {"", "disks", special, none, "required, or sources", "A group of disks.", "[[disks]]", "one or more tables"},
+    {"", "growth", special, none, "its defaults", "How disks grow into their places.", "[growth]", "a table"},
+    {"", "sources", special, none, "none", "Disks that come later.", "[[sources]]", "one or more tables"},
+    {"", "walls", special, none, "none", "Walls within the box.", "[[walls]]", "one or more tables"},
+    {"", "run", special, none, "required", "Method, step, end.", "[run]", "a table"},
+    {"", "output", special, none, "nothing is written", "What a run writes.", "[output]", "a table"},
+    {"", "analysis", special, none, "nothing is measured", "What a run measures.", "[analysis]", "a table"},
+
+    {"box", "width", positive, Dimension::length, "required without packing_fraction", "From left to right.",
+     "width = 100.0"},
+    {"box", "height", positive, Dimension::length, "required without packing_fraction", "From bottom to top.",
+     "height = 100.0"},
+    {"box", "packing_fraction", positive, none, "from width and height",
+     "Area of the disks at the start over that of the box, which is made to fit.", "packing_fraction = 0.5",
+     "a number above 0 and below pi / sqrt(12) = 0.9069"},
+    {"box", "aspect", positive, none, "1", "Width over height; only beside `packing_fraction`.", "aspect = 2.0"},
+    {"box", "left", special, none, "\"wall\"", side_says, R"(left = "periodic")", side_allowed, side_kind_names},
+    {"box", "right", special, none, "\"wall\"", side_says, R"(right = "periodic")", side_allowed, side_kind_names},
+    {"box", "bottom", special, none, "\"wall\"", side_says, R"(bottom = "sink")", side_allowed, side_kind_names},
+    {"box", "top", special, none, "\"wall\"", side_says, R"(top = { kind = "wall", restitution = 0.5 })", side_allowed,
+     side_kind_names},
+    {"box", "wall_restitution", unit_interval, none, "1",
+     "Speed away from a wall over speed towards it, in a collision of disk and wall, where the side has no "
+     "`restitution` of its own.",
+     "wall_restitution = 0.9"},
+    {"box.side",
+     "kind",
+     choice,
+     none,
+     "\"wall\"",
+     "What the side does.",
+     R"(left = { kind = "wall" })",
+     {},
+     side_kind_names},
+    {"box.side", "restitution", unit_interval, none, "wall_restitution",
+     "Of a wall: speed away from it over speed towards it.", "left = { restitution = 0.5 }"},
+    {"box.side", "temperature", positive, Dimension::energy, "not thermal",
+     "T of a thermal wall (k_B = 1): whatever the velocity with which a disk reaches it, the disk leaves with one "
+     "drawn "
+     "from Maxwell's flux distribution. Takes the place of `restitution`. Not with Brownian motion.",
+     "left = { temperature = 2.0 }"},
+    {"box.side", "motion", special, none, "at rest",
+     "How a wall moves, whatever meets it: it reflects disks in its own frame. Not with sources, Brownian motion or "
+     "`temperature`.",
+     "right = { motion = { velocity = [-0.1, 0.0] } }", "`{ velocity = ... }` or `{ vibrate = ... }`"},
+    {"box.side", "place", non_negative, Dimension::length, "as near to the edge as its motion allows",
+     "Of a wall that moves: its x or y at time 0, or at the middle of its vibration. The box stays the rectangle that "
+     "it is; a side moves within it.",
+     "right = { place = 50.0, motion = { velocity = [0.1, 0.0] } }"},
+    {"box.side.motion", "velocity", special, Dimension::speed, "",
+     "Constant, across the side: along it, motion would do nothing to disks without friction.",
+     "right = { motion = { velocity = [-0.1, 0.0] } }", "[vx, vy]"},
+    {"box.side.motion", "vibrate", special, Dimension::length, "",
+     "Amplitude of a vibration across the side, which begins at the middle in this direction.",
+     "bottom = { motion = { vibrate = [0.0, 0.5], period = 2.0 } }", "[ax, ay]"},
+    {"box.side.motion", "period", positive, Dimension::time, "required by vibrate", "Of the vibration.",
+     "bottom = { motion = { vibrate = [0.0, 0.5], period = 2.0 } }"},
+    {"box.side.motion",
+     "shape",
+     choice,
+     none,
+     "\"parabola\"",
+     "Of the vibration: a parabola for each half period, nearly a sine, so that `exact` has quadratics to solve.",
+     R"(bottom = { motion = { vibrate = [0.0, 0.5], period = 2.0, shape = "parabola" } })",
+     {},
+     vibration_shapes},
+
+    {"physics", "gravity", non_negative, Dimension::acceleration, "0",
+     "Acceleration of all disks: a number is downwards, along -y; a list is a vector.", "gravity = [0.1, -0.5]",
+     "a number, 0 or more, or [gx, gy]"},
+    {"physics", "restitution", unit_interval, none, "1",
+     "Speed of separation over speed of approach, along the line of centres, in a collision of two disks, fixed ones "
+     "included.",
+     "restitution = 0.8", restitution_allowed},
+    {"physics", "pairs", special, none, "none", "The restitution of two groups.", "[[physics.pairs]]",
+     "one or more tables"},
+    {"physics.restitution", "viscoelastic", positive, none, "required",
+     "a of e(v) = max(`least`, 1 - a v^(1/5)), v the speed of approach along the line of centres: slow disks lose a "
+     "smaller part of their energy. In (time / length)^(1/5).",
+     "restitution = { viscoelastic = 0.1 }"},
+    {"physics.restitution", "least", unit_interval, none, "0", "What e does not fall below, however fast.",
+     "restitution = { viscoelastic = 0.1, least = 0.4 }", "a number from 0 to below 1"},
+    {"physics.pairs", "groups", special, none, "required",
+     "Names of two groups, or one name twice; `sources` for the disks of all sources.",
+     R"(groups = ["tracer", "sources"])", "a list of two names"},
+    {"physics.pairs", "restitution", unit_interval, none, "required",
+     "Takes the place of that of `[physics]` where a disk of one group meets one of the other.", "restitution = 0.5",
+     restitution_allowed},
+    {"physics", "diffusion", positive, Dimension::diffusion, "no Brownian motion",
+     "D of a single disk in Brownian motion: each step draws a displacement of variance 2 D dt in x and in y.",
+     "diffusion = 0.1"},
+    {"physics", "accumulate", flag, none, "false",
+     "With `diffusion`: the displacement over dt is added to the velocity instead of taking its place.",
+     "accumulate = true"},
+    {"physics", "collapse", special, none, "collapse ends the run, with status 3",
+     "Method `exact` only: what to do about inelastic collapse.", R"(collapse = { model = "tc", contact_time = 1e-6 })",
+     "`{ model = \"tc\", contact_time = ... }`"},
+    {"physics.collapse",
+     "model",
+     choice,
+     none,
+     "required",
+     "The TC model, the only one.",
+     R"(model = "tc")",
+     {},
+     collapse_models},
+    {"physics.collapse", "contact_time", positive, Dimension::time, "required",
+     "How long a disk's collisions stay elastic after one. Small against the time between collisions of a gas.",
+     "contact_time = 1e-6"},
+
+    {"physics", "thermostat", special, none, "none", "Friction and noise, or velocities drawn anew.",
+     R"(thermostat = { kind = "langevin", temperature = 1.0, rate = 0.5, dt = 0.1 })",
+     "`{ kind = ..., temperature = ..., rate = ..., dt = ... }`"},
+    {"physics.thermostat",
+     "kind",
+     choice,
+     none,
+     "required",
+     "`langevin`: every disk keeps the share c of its velocity, (1 - q) / (1 + q) with q = `rate` `dt` / 2, and gets "
+     "sqrt((1 - c^2) T / m) times a normal deviate. `andersen`: a disk gets a velocity of Maxwell's with probability "
+     "`rate` `dt`.",
+     R"(kind = "langevin")",
+     {},
+     thermostat_names},
+    {"physics.thermostat", "temperature", positive, Dimension::energy, "required",
+     "T (k_B = 1); Maxwell's distribution stays as it is, whatever `dt` is.", "temperature = 1.0"},
+    {"physics.thermostat", "rate", positive, Dimension::frequency, "required",
+     "Of friction, or at which a disk gets a new velocity. `rate` times `dt` is 1 at most.", "rate = 0.5"},
+    {"physics.thermostat", "dt", positive, Dimension::time, "`run.dt`",
+     "Between two kicks, the first at 0. In the stepping methods no less than `run.dt`: there a kick is at the start "
+     "of "
+     "a step.",
+     "dt = 0.1"},
+};
+
+}  // namespace carom::keys_of_physics

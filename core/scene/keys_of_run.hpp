@@ -1,0 +1,131 @@
+// Keys of the run, its output and its analysis. A part of scene_keys().
+#pragma once
+
+#include <string_view>
+
+#include "core/scene/scene_keys.hpp"
+#include "core/scene/scene_names.hpp"
+
+namespace carom::keys_of_run {
+
+using enum KeyKind;
+inline constexpr auto none = Dimension::none;
+
+inline constexpr std::string_view bins_allowed = "a whole number from 1 to 100000";
+inline constexpr std::string_view fps_allowed = "a number from 0.1 to 1000";
+inline constexpr std::string_view size_allowed = "two even whole numbers from 320 to 8192";
+
+inline constexpr SceneKey keys[] = {
+    {"run", "dt", positive, Dimension::time, "required by rollback, pairwise and Brownian motion", "The time step.",
+     "dt = 0.01"},
+    {"run", "t_end", non_negative, Dimension::time, "required", "The time at which the run ends; it starts at 0.",
+     "t_end = 10.0"},
+    {"run", "accuracy", positive, none, "required by auto", "Relative error that averages may have, for `auto`.",
+     "accuracy = 1e-3", "a number above 0, at most 0.1"},
+
+    {"output", "every", non_negative, Dimension::time, "t_end / 100",
+     "Simulated time between two frames; 0: only the first and the last.", "every = 0.1"},
+    {"output",
+     "trajectory",
+     choice,
+     none,
+     "\"none\"",
+     "All frames, as trajectory.xyz (text) or trajectory.h5 (H5MD).",
+     R"(trajectory = "xyz")",
+     {},
+     trajectory_names},
+    {"output", "select", special, Dimension::length, "all disks",
+     "Which disks the trajectory shows: every so many by id, those of a group, or those with their centre in a "
+     "rectangle.",
+     R"(select = "every 100th")", "`\"every 100th\"`, the name of a group, or [x0, y0, x1, y1]"},
+    {"output",
+     "precision",
+     choice,
+     none,
+     "\"double\"",
+     "Of positions and velocities in trajectory.h5.",
+     R"(precision = "single")",
+     {},
+     precision_names},
+    {"output", "dimensions", count, none, "2",
+     "Components of positions and velocities in trajectory.h5; with 3, z is 0 and MDAnalysis reads the file.",
+     "dimensions = 3", "2 or 3"},
+    {"output", "series", flag, none, "false", "Writes series.csv, a row a frame.", "series = true"},
+    {"output", "plots", special, none, "[]",
+     "velocity.svg: velocities of up to ten disks, or the distribution of more, against time; energy.svg: energies.",
+     R"(plots = ["velocity", "energy"])", "a list of NAMES", plot_names},
+    {"output", "movie", special, none, "false", "Writes movie.mp4; a table says how it looks.", "movie = true",
+     "`true`, `false` or a table"},
+    {"output.movie",
+     "colour",
+     choice,
+     none,
+     "\"speed\"",
+     "What the colour of a disk stands for; groups are those of `[[disks]]`.",
+     R"(movie = { colour = "radius" })",
+     {},
+     colour_names},
+    {"output.movie", "fps", positive, none, "25", "Frames a second.", "movie = { fps = 30 }", fps_allowed},
+    {"output.movie", "size", special, none, "as the box's shape asks", "Width and height of the picture in pixels.",
+     "movie = { size = [1280, 720] }", size_allowed},
+    {"output.movie", "range", special, none, "as the run asks",
+     "The ends of the colour scale, in the unit of the coloured quantity; disks beyond them have the colour of the "
+     "end.",
+     "movie = { range = [0, 2] }", "[low, high] with low < high; not with `\"group\"`"},
+    {"output", "view", flag, none, "false",
+     "Writes view.html, a page that plays the trajectory in any browser, when the run is done.", "view = true"},
+    {"output", "checkpoint", positive, none, "only when a run is stopped",
+     "Wall time between checkpoints, in seconds or with a unit.", R"(checkpoint = "10 min")",
+     "a number above 0, or text such as `\"90 s\"`, `\"10 min\"`, `\"2 h\"`"},
+
+    {"analysis", "what", special, none, "required", "What to measure.", R"(what = ["pair_correlation", "speeds"])",
+     "a list of NAMES", quantity_names},
+    {"analysis", "select", text, none, "all disks",
+     "The group whose disks are measured, as if there were no others; pressure and collision rate stay those of all.",
+     R"(select = "tracer")", "the name of a group"},
+    {"analysis", "every", non_negative, Dimension::time, "as frames, or t_end / 100",
+     "Simulated time between two samples; 0: only the first and the last.", "every = 0.05"},
+    {"analysis", "start", non_negative, Dimension::time, "0", "Time of the first sample.", "start = 5.0"},
+    {"analysis", "pair_correlation", special, none, "its defaults", "Options, where `what` names it.",
+     "pair_correlation = { r_max = 5.0, bins = 250 }", "a table"},
+    {"analysis", "speeds", special, none, "its defaults", "Options, where `what` names them.",
+     "speeds = { max = 6.0, bins = 60 }", "a table"},
+    {"analysis", "density", special, none, "its defaults", "Options, where `what` names it.",
+     R"(density = { axis = "y", bins = 50 })", "a table"},
+    {"analysis", "profile", special, none, "its defaults", "Options, where `what` names it.",
+     R"(profile = { axis = "y", bins = 50 })", "a table"},
+    {"analysis", "structure_factor", special, none, "its defaults", "Options, where `what` names it.",
+     "structure_factor = { wave_numbers = 100 }", "a table"},
+    {"analysis.pair_correlation", "r_max", positive, Dimension::length, "five diameters, if the box has room",
+     "Distance up to which pairs are counted.", "pair_correlation = { r_max = 5.0 }"},
+    {"analysis.pair_correlation", "bins", count, none, "fifty a diameter", "Bins from 0 to `r_max`.",
+     "pair_correlation = { bins = 250 }", bins_allowed},
+    {"analysis.speeds", "max", positive, none, "6", "Largest speed, in units of sqrt(T / m).",
+     "speeds = { max = 6.0 }"},
+    {"analysis.speeds", "bins", count, none, "60", "Bins from 0 to `max`.", "speeds = { bins = 60 }", bins_allowed},
+    {"analysis.density",
+     "axis",
+     choice,
+     none,
+     "\"y\"",
+     "The axis along which slabs follow each other.",
+     R"(density = { axis = "x" })",
+     {},
+     axis_names},
+    {"analysis.density", "bins", count, none, "50", "Slabs.", "density = { bins = 50 }", bins_allowed},
+    {"analysis.profile",
+     "axis",
+     choice,
+     none,
+     "\"y\"",
+     "The axis along which slabs follow each other.",
+     R"(profile = { axis = "x" })",
+     {},
+     axis_names},
+    {"analysis.profile", "bins", count, none, "50", "Slabs.", "profile = { bins = 50 }", bins_allowed},
+    {"analysis.structure_factor", "wave_numbers", count, none, "a hundred",
+     "k = 2 pi n / period for n from 1 to this, along each periodic axis.", "structure_factor = { wave_numbers = 100 }",
+     bins_allowed},
+};
+
+}  // namespace carom::keys_of_run
