@@ -1,6 +1,7 @@
 // The scenes of obstacles against what is known of them: the Galton board and the periodic Lorentz gas.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -47,6 +48,31 @@ TEST(GaltonBoard, SpreadsAsThrowsOfACoin) {
   const double binomial = std::sqrt(12.0) / 2.0;
   EXPECT_NEAR(sum / n, 0.0, 4.0 * binomial / std::sqrt(n));
   EXPECT_NEAR(std::sqrt(squares / n), binomial, 0.1 * binomial);
+}
+
+// Whatever the collapse model does to a disk that rests on a peg: it stays outside.
+TEST(GaltonBoard, NoDiskEntersAPeg) {
+  for (const char* restitution : {"0", "0.5", "0.75", "1"}) {
+    const Scene scene = load_scene(folder + "galton_board.toml", {{"physics.restitution", restitution}});
+    const auto engine = make_parallel_engine(scene, initial_state(scene), {1});
+    Disks disks;
+    double least = 1.0;
+    double t = 0.0;
+    while (engine->state().time < scene.run.t_end) {
+      engine->step();
+      for (; t <= engine->state().time; t += 0.02) {
+        engine->disks_at(t, disks);
+        for (const Obstacle& peg : engine->state().obstacles) {
+          for (std::size_t i = 0; i < disks.size(); ++i) {
+            const double contact = disks.radius_of(i) + peg.radius;
+            least = std::min(least, std::hypot(disks.x[i] - peg.x, disks.y[i] - peg.y) / contact);
+          }
+        }
+      }
+    }
+    EXPECT_GT(least, 1.0 - 1e-9) << "restitution " << restitution;
+    EXPECT_LT(least, 1.1) << "no disk came near a peg";
+  }
 }
 
 // Mean square displacement over 4 t between two times long after the first collisions.
