@@ -40,7 +40,7 @@ TEST_P(LocalRanksOf, Gather) {
 
 INSTANTIATE_TEST_SUITE_P(Counts, LocalRanksOf, ::testing::Values(1, 2, 3, 4, 7));
 
-// One that fails ends them all: nobody waits for it, and its own exception is what the caller sees.
+// One that fails ends them all: no rank waits for it, and its own exception is what the caller sees.
 TEST(LocalRanks, EndWithTheExceptionOfTheOneThatFails) {
   for (const bool in_exchange : {false, true}) {
     try {
