@@ -5,11 +5,12 @@
 #   counts.sh PROGRAM FILE            writes the CSV file
 #   counts.sh PROGRAM FILE --check    fails, with a line for each, where a count is above the file's by more than 3 %
 #                                   (mispredictions: 6 %)
+#   counts.sh PROGRAM FILE --features   the same of scene G with one feature each, for docs/benchmarks.md
 set -euo pipefail
 file=$(readlink -f -- "$2")
 mode=${3-}
 here=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
-[[ ! $mode || $mode == --check ]] || { echo "usage: ./carom bench counts [--check]" >&2 && exit 2; }
+[[ ! $mode || $mode == --check || $mode == --features ]] || { echo "usage: ./carom bench counts [--check | --features]" >&2 && exit 2; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 # Known by one name wherever it lies: the length of the command line moves the stack.
@@ -67,13 +68,13 @@ table() {
     done <scenes.txt
 }
 
-./carom_counts scenes >scenes.txt
+./carom_counts scenes "${mode#--}" >scenes.txt
 cut -d' ' -f1 scenes.txt | tac | xargs -P "$(nproc)" -I% bash -c 'prepare %'
 cut -d' ' -f1 scenes.txt | sed 's/.*/&.long\n&.short/' | sort -t. -k2 | xargs -P "$(nproc)" -I% bash -c 'count %'
 table >counts.csv
 column -s, -t <counts.csv
 
-if [[ ! $mode ]]; then
+if [[ $mode != --check ]]; then
     cp counts.csv "$file"
     exit
 fi

@@ -60,6 +60,7 @@ py::dict columns_of(const Disks& d) {
   columns["radius"] = size_column(d.radius, d.size(), d.common_radius);
   columns["mass"] = size_column(d.mass, d.size(), d.common_mass);
   columns["id"] = copied(d.id);
+  if (!d.spin.empty()) columns["spin"] = copied(d.spin);
   return columns;
 }
 
@@ -131,6 +132,7 @@ class PySimulation {
     columns["id"] = shown(d.id);
     if (!d.radius.empty()) columns["radius"] = shown(d.radius);
     if (!d.mass.empty()) columns["mass"] = shown(d.mass);
+    if (!d.spin.empty()) columns["spin"] = shown(d.spin);
     return columns;
   }
 

@@ -47,8 +47,9 @@ OutputFolder& CheckpointKeeper::folder() {
   return *folder_;
 }
 
-bool CheckpointKeeper::look(const State& state, double t_end, double step_s) {
-  if (state.time >= t_end) return true;  // the run is over, there is nothing to go on with
+bool CheckpointKeeper::look(const Engine& engine, double t_end, double step_s) {
+  const double time = engine.progress().time;
+  if (time >= t_end) return true;  // the run is over, there is nothing to go on with
   const Wish wish = take_wish();
   const double now = seconds();
   if (wish == Wish::stop) {
@@ -61,8 +62,8 @@ bool CheckpointKeeper::look(const State& state, double t_end, double step_s) {
   }
   const bool stop = !stopped_by_.empty();
   if (!stop && wish == Wish::nothing && now < due_) return true;
-  write(state, step_s);
-  if (wish == Wish::checkpoint) note_ = fmt::format("checkpoint at t = {:g}; {}", state.time, resume_command());
+  write(engine.state(), step_s);
+  if (wish == Wish::checkpoint) note_ = fmt::format("checkpoint at t = {:g}; {}", time, resume_command());
   return !stop;
 }
 

@@ -26,7 +26,7 @@ class CheckpointKeeper {
 
   // To be called between steps: writes a checkpoint if one is due or requested. Returns false when the run is to stop.
   // Throws RunError where it cannot be written; the ones before stay.
-  bool look(const State& state, double t_end, double step_s);
+  bool look(const Engine& engine, double t_end, double step_s);
 
   // The next look() is to stop the run for this reason, such as "Ctrl-C"; an empty one changes nothing. It then writes
   // a checkpoint only if the run has a folder.

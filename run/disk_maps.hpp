@@ -21,11 +21,13 @@ struct DiskMaps {
         vy(map(d.vy)),
         radius(map(d.radius)),
         mass(map(d.mass)),
+        spin(map(d.spin)),
         id(d.id.data(), static_cast<Eigen::Index>(d.id.size())) {}
 
   Column x, y;    // length
   Column vx, vy;  // length / time
   Column radius, mass;
+  Column spin;  // angular velocity, counter-clockwise; 1 / time; empty where disks are smooth
   Ids id;
 
  private:

@@ -9,22 +9,31 @@
 #include <utility>
 
 #include "core/base/input_message.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"
+#include "io/checkpoint/checkpoint.hpp"
 #include "parallel/pair_counting.hpp"
 #include "parallel/simulation.hpp"
+#include "parallel/slabs/leading_engine.hpp"
 #include "parallel/start/random_placement.hpp"
 
 namespace carom {
 
-EngineChoice choose_engine(const std::string& engine, std::optional<int> threads) {
+int threads_of_rank(int ranks) {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks);
+}
+
+EngineChoice choose_engine(const std::string& engine, std::optional<int> threads, RankLead* lead) {
   constexpr std::array<std::string_view, 2> engines{"parallel", "reference"};
   if (engine.empty() || engine == "parallel") {
-    const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    return {"parallel", threads.value_or(cores)};
+    const int ranks = lead != nullptr ? lead->count() : 1;
+    return {"parallel", threads.value_or(threads_of_rank(ranks)), ranks, lead};
   }
   if (engine != "reference") {
     fail_input("--engine", fmt::format("there is no engine {}", in_quotes(engine)), expected_one_of(engines, engine));
   }
+  if (lead != nullptr) fail_input("--ranks", "the reference runs on one", "expected --engine parallel");
   return {"reference", 1};
 }
 
@@ -44,6 +53,11 @@ State make_initial_state(const EngineChoice& choice, const Scene& scene,
   return initial_state(scene, place_at_random, growth);
 }
 
+std::pair<Scene, State> read_rank_start(const std::string& start) {
+  Checkpoint checkpoint = checkpoint_from_bytes(start, "the state of rank 0");
+  return {parse_scene(checkpoint.record.scene_text, "the scene of rank 0", ""), std::move(checkpoint.state)};
+}
+
 BlockRunner make_block_runner(const EngineChoice& choice) {
   const auto executor = std::make_shared<Executor>(choice.threads);
   return
@@ -51,6 +65,12 @@ BlockRunner make_block_runner(const EngineChoice& choice) {
 }
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial) {
+  if (choice.lead != nullptr) {
+    RunRecord record;
+    record.scene_text = resolved_toml(scene);
+    const std::string start = checkpoint_bytes(record, initial);
+    return choice.lead->make_engine(scene, std::move(initial), {choice.threads}, start);
+  }
   if (choice.name == "reference") return make_reference_engine(scene, std::move(initial));
   return make_parallel_engine(scene, std::move(initial), {choice.threads});
 }

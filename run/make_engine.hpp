@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "core/base/block_runner.hpp"
 #include "core/measure/pair_distances.hpp"
@@ -15,14 +16,21 @@
 
 namespace carom {
 
+class RankLead;
+
 struct EngineChoice {
   std::string name;  // "reference" or "parallel"
-  int threads = 1;   // that it will use
+  int threads = 1;   // that it will use, on each rank
+  int ranks = 1;
+  RankLead* lead = nullptr;  // of several ranks; outlives what is made
 };
 
 // What --engine and --threads ask for; empty and absent mean the default: parallel, on all cores. The reference has one
 // thread whatever is asked for. Throws InputError for an engine that does not exist.
-EngineChoice choose_engine(const std::string& engine, std::optional<int> threads);
+EngineChoice choose_engine(const std::string& engine, std::optional<int> threads, RankLead* lead = nullptr);
+
+// Threads of each of so many ranks, where nothing is said: all cores of this machine among them.
+int threads_of_rank(int ranks);
 
 // The disks of a scene; either engine's way gives the same bits. watch is called after each step of a growth, and may
 // be empty.
@@ -30,6 +38,9 @@ State make_initial_state(const EngineChoice& choice, const Scene& scene,
                          const std::function<void(const GrowthProgress&)>& watch = {});
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial);
+
+// What the ranks above 0 make a part of: the scene and state with which rank 0 made an engine.
+std::pair<Scene, State> read_rank_start(const std::string& start);
 
 // The threads that it chooses, for other work between its steps.
 BlockRunner make_block_runner(const EngineChoice& choice);

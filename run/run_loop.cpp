@@ -80,12 +80,12 @@ class FrameMaker {
                   watcher(observer.frame, scene, scene.output.every, 0.0, observer.last_frame)} {}
 
   bool due() const {
-    const double now = engine_.state().time;
+    const double now = engine_.progress().time;
     return watchers_[0].due(now) || watchers_[1].due(now);
   }
 
   void make_due() {
-    const double now = engine_.state().time;
+    const double now = engine_.progress().time;
     std::optional<double> shown;  // the time asked for that disks_ are of
     while (due()) {
       const std::optional<double> times[] = {watchers_[0].due(now), watchers_[1].due(now)};
@@ -115,9 +115,9 @@ double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observe
   // on the machine's speed, but nothing that they compute does.
   Count batch = 1;
   StepWatch watch(engine, observer);
-  while (engine.state().time < scene.run.t_end) {
+  while (engine.progress().time < scene.run.t_end) {
     watch.begin_batch();
-    for (Count k = 0; k < batch && engine.state().time < scene.run.t_end && !frames.due(); ++k) {
+    for (Count k = 0; k < batch && engine.progress().time < scene.run.t_end && !frames.due(); ++k) {
       if (watch.ends_batch()) break;
       if (observer.stepped && k > 0) observer.stepped();
       engine.step();

@@ -83,12 +83,15 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
 }
 
 bool RunOutputs::shows_rounds() const {
-  return scene_.output.trajectory != TrajectoryFormat::none && (scene_.box.periodic_x() || scene_.box.periodic_y());
+  // In a shear flow a disk that goes up and down has not come back.
+  return scene_.output.trajectory != TrajectoryFormat::none && !scene_.box.shear.acts() &&
+         (scene_.box.periodic_x() || scene_.box.periodic_y());
 }
 
 // Groups have numbers where there are several, sources included.
 XyzPlan RunOutputs::xyz_plan() const {
   XyzPlan plan{scene_.box, scene_.output.select};
+  plan.spins = scene_.physics.surfaces.are_rough();
   if (scene_.groups.size() + (scene_.sources.empty() ? 0 : 1) > 1) plan.group_ends = ends_of_groups(scene_);
   if (shows_rounds()) plan.rounds = &rounds_;
   return plan;
@@ -137,7 +140,7 @@ void RunOutputs::frame(const Disks& disks, double time, const State& now) {
     const bool displacement = scene_.analysis.wants(Quantity::displacement);
     row = series_->write(disks, time, now, displacement ? analysis_->displacement(disks, time) : 0.0, run_);
   }
-  if (!series_ && h5md_) row = meter_.row(disks, now, run_);
+  if (!series_ && h5md_) row = meter_.row(disks, time, now, run_);
   if (h5md_) h5md_->write(disks, time, now.counters.steps, row, run_);
   if (plot_velocity_) record(velocities_, disks, time);
   if (plot_energy_) {

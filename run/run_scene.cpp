@@ -134,9 +134,9 @@ void SceneRun::take_news(bool silent) {
 bool SceneRun::pulse(double seconds) {
   step_s_ = seconds;
   take_news(false);
-  tell(listener_.progress, engine_.state());
+  tell(listener_.progress, engine_.progress());
   if (listener_.stop) keeper_.ask_to_stop(listener_.stop());
-  const bool go_on = keeper_.look(engine_.state(), scene_.run.t_end, seconds);
+  const bool go_on = keeper_.look(engine_, scene_.run.t_end, seconds);
   const std::string note = keeper_.take_note();
   if (!note.empty()) tell(listener_.note, note);
   return go_on;
@@ -164,7 +164,7 @@ RunObserver SceneRun::observer() {
     };
     if (!analysis->record().series.time.empty()) observer.last_sample = analysis->last_time();
   }
-  if (outputs.follows()) observer.stepped = [this, &outputs] { outputs.follow(engine_, engine_.state().time); };
+  if (outputs.follows()) observer.stepped = [this, &outputs] { outputs.follow(engine_, engine_.progress().time); };
   return observer;
 }
 

@@ -155,6 +155,8 @@ double Simulation::disks_at(double t, Disks& out) const {
   sort(out.id, stored.id);
   sort(out.radius, stored.radius);
   sort(out.mass, stored.mass);
+  sort(out.spin, stored.spin);
+  out.inertia = stored.inertia;
   out.common_radius = stored.common_radius;
   out.common_mass = stored.common_mass;
   return at;
@@ -243,10 +245,11 @@ std::optional<DiskId> Simulation::add(Disk disk) {
   const FloatEnvironment environment;
   check_newcomer(disk);
   const Disks& present = state().disks;
+  const Domain box = box_at(scene_.box, state().time);
   bool met = false;
   const double reach = disk.radius + largest_radius(present);
   visit_near()({disk.x, disk.y}, reach, reach,
-               [&](std::size_t i) { met = met || meets(present, scene_.box, disk, i, i + 1); });
+               [&](std::size_t i) { met = met || meets(present, box, disk, i, i + 1); });
   const auto meet_fixed = [&](std::uint32_t k, Vec2) {
     const Obstacle& fixed = (*fixed_)[k];
     const double distance2 = nearest_distance2({disk.x - fixed.x, disk.y - fixed.y}, scene_.box);
@@ -299,6 +302,7 @@ VisitNear Simulation::visit_near() const {
 }
 
 QueryScene Simulation::query_scene() const {
+  if (scene_.box.shear.acts()) fail_input("box.shear_rate", "moves the images", "expected queries of other scenes");
   return {state().disks, scene_.box, visit_near(), fixed_.get()};
 }
 

@@ -12,6 +12,7 @@
 #include "core/base/short_number.hpp"
 #include "core/disks/obstacle_cells.hpp"
 #include "core/disks/state_hash.hpp"
+#include "core/measure/shear_flow.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene_names.hpp"
 
@@ -45,7 +46,9 @@ const JsonKey<Summary> summary_keys[] = {
     {"scene", "", "the scene's file", [](const Summary& s) -> Json { return s.scene; }},
     {"method", "", "`rollback`, `pairwise` or `exact`", [](const Summary& s) -> Json { return s.method; }},
     {"engine", "", "`parallel` or `reference`", [](const Summary& s) -> Json { return s.engine.name; }},
-    {"threads", "", "threads of the engine", [](const Summary& s) -> Json { return s.engine.threads; }},
+    {"threads", "", "threads of the engine, on each rank", [](const Summary& s) -> Json { return s.engine.threads; }},
+    {"ranks", "", "processes that shared the box; 1 without `--ranks`",
+     [](const Summary& s) -> Json { return s.engine.ranks; }},
     {"particles", "", "disks in the box at the end", [](const Summary& s) -> Json { return s.particles; }},
     {"steps", "", "steps done; with `exact`, windows", [](const Summary& s) -> Json { return s.counters.steps; }},
     {"time", "time", "simulated time at the end", [](const Summary& s) -> Json { return json_number(s.time); }},
@@ -57,7 +60,7 @@ const JsonKey<Summary> summary_keys[] = {
     {"step_s", "s", "wall time of the steps alone, without set-up and output",
      [](const Summary& s) -> Json { return json_number(s.step_s); }},
     {"energy_initial", "energy",
-     "kinetic and potential energy at the start; null for Brownian motion, whose u / dt is no velocity",
+     "energy of motion, rotation and position at the start; null for Brownian motion, whose u / dt is no velocity",
      [](const Summary& s) -> Json { return json_number(s.energy_initial); }},
     {"energy_final", "energy", "the same at the end; null likewise",
      [](const Summary& s) -> Json { return json_number(s.energy_final); }},
@@ -70,13 +73,14 @@ const JsonKey<Summary> summary_keys[] = {
     {"wall_overlap", "", "likewise of a disk and a wall, over its radius",
      [](const Summary& s) -> Json { return json_number(s.wall_overlap); }},
     {"pressure", "energy / area",
-     "mean over the run, from collisions and the kinetic energy halfway between start and end; null likewise",
+     "mean over the run, from collisions and the kinetic energy halfway between start and end (in a shear flow that "
+     "relative to it at the end); null likewise",
      [](const Summary& s) -> Json { return json_number(s.pressure); }},
     {"collision_rate", "1 / time", "collisions that a disk takes part in per unit time",
      [](const Summary& s) -> Json { return json_number(s.collision_rate); }},
     {"removed", "", "disks that sinks have taken", [](const Summary& s) -> Json { return s.counters.removed; }},
     {"emitted", "", "disks that came from sources", [](const Summary& s) -> Json { return s.counters.emitted; }},
-    {"state_hash", "", "64-bit hash of (id, x, y, vx, vy) of all disks at the end",
+    {"state_hash", "", "64-bit hash of (id, x, y, vx, vy), and the spin of rough disks, of all disks at the end",
      [](const Summary& s) -> Json { return s.state_hash; }},
     {"version", "", "of Carom, with the commit that it was built from",
      [](const Summary&) -> Json { return build_version(); }},
@@ -86,6 +90,8 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return s.thermostat ? json_number(s.counters.thermostat_heat) : absent(); }},
     {"work", "energy", "only with sides that move: an object, the work that each of them did on the disks",
      [](const Summary& s) -> Json { return side_energy_of(s, [&](Side side) { return s.box.moves(side); }); }},
+    {"shear_work", "energy", "only with shear_rate: what the moving images did on the disks",
+     [](const Summary& s) -> Json { return s.box.shear.acts() ? json_number(s.counters.shear_work) : absent(); }},
     {"seed", "", "of the random numbers", [](const Summary& s) -> Json { return s.seed; }},
     {"waiting", "", "disks that are due from sources and find no room",
      [](const Summary& s) -> Json { return s.counters.waiting; }},
@@ -133,6 +139,12 @@ std::string worst_line(const WorstOverlap& disks, const WorstOverlap& wall) {
                      wall.overlap.size, when(wall));
 }
 
+// "2 threads", "1 thread on each of 4 ranks".
+std::string threads_text(const EngineChoice& engine) {
+  const std::string threads = counted(static_cast<Count>(engine.threads), "thread");
+  return engine.ranks == 1 ? threads : fmt::format("{} on each of {} ranks", threads, engine.ranks);
+}
+
 std::string disks_line(const Summary& s) {
   std::string text = fmt::format("{}", s.particles);
   if (s.counters.removed > 0) text += fmt::format(", {} left through sinks", s.counters.removed);
@@ -163,15 +175,16 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.energy_initial = of_velocities(start.energy.total());
   s.energy_final = of_velocities(energy.total());
   s.momentum_drift = of_velocities(momentum_drift(start.momentum, momentum_of(state.disks)));
-  const Overlap of_disks = deepest_overlap(state.disks, scene.box);
   Domain box = box_at(scene.box, state.time);
+  const Overlap of_disks = deepest_overlap(state.disks, box);
   const std::unique_ptr<const ObstacleCells> obstacles = place_obstacles(state.obstacles, box);
   const Overlap of_wall = deepest_wall_overlap(state.disks, box);
   s.max_overlap = of_disks.size;
   s.wall_overlap = of_wall.size;
   s.worst_disks = worst_of(state.validity.disks, of_disks, state.time);
   s.worst_wall = worst_of(state.validity.wall, of_wall, state.time);
-  const Energy halfway{0.5 * (start.energy.kinetic + energy.kinetic), 0.0};
+  Energy halfway{0.5 * (start.energy.kinetic + energy.kinetic), 0.0};
+  if (box.shear.acts()) halfway = energy_of(relative_to_flow(state.disks, box), 0.0);
   s.pressure =
       of_velocities(pressure(halfway, state.counters.virial, elapsed, box_at(scene.box, state.time - 0.5 * elapsed)));
   const double mean_disks = 0.5 * (static_cast<double>(start.particles) + static_cast<double>(s.particles));
@@ -195,7 +208,7 @@ std::vector<KeyText> summary_key_texts() {
 
 std::string table_text(const Summary& s, const std::string& folder) {
   std::string text = fmt::format("{}: {}, {} engine, {}, seed {}\n", s.title.empty() ? s.scene : s.title, s.method,
-                                 s.engine.name, counted(static_cast<Count>(s.engine.threads), "thread"), s.seed);
+                                 s.engine.name, threads_text(s.engine), s.seed);
   const auto line = [&text](const char* name, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", name, value);
   };

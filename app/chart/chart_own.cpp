@@ -35,6 +35,7 @@ void check_kind(const Scene& scene) {
   for (const DiskGroup& group : scene.groups) disks += group.count;
   if (!scene.sources.empty()) refuse(scene, "sources add disks", "expected the same disks from start to end");
   if (has_sinks(scene)) refuse(scene, "sinks take disks away", "expected the same disks from start to end");
+  if (scene.box.shear.acts()) refuse(scene, "box.shear_rate moves the images", "expected a box without it");
   if (disks < 2) refuse(scene, "nothing collides", "expected two disks or more");
   if (disks > most_own_disks) {
     refuse(scene, fmt::format("{} disks are too many to compare path by path", disks),

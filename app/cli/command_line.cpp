@@ -50,6 +50,8 @@ constexpr const char* early_stop =
 void add_run_options(CLI::App* run, OptionWords& words) {
   add_value(run, "--engine", words.engine, "parallel|reference", "default parallel; both give the same bits");
   add_value(run, "--threads", words.threads, "N", "threads of the parallel engine; default all cores");
+  add_value(run, "--ranks", words.ranks, "N",
+            "processes that share the box, over MPI; method pairwise, no piles so far");
   add_value(run, "--max-walltime", words.walltime, "TIME",
             "stop with a checkpoint after so long, such as 90 s, 30 min or 2h");
   run->add_flag("--json", words.json, "print the summary as JSON, and nothing else, on standard output");
@@ -79,7 +81,7 @@ void describe_compare(CLI::App* compare, OptionWords& words) {
   compare->add_option("A", words.first, "folder of a run, or a trajectory")->type_name("");
   compare->add_option("B", words.second, "the other one")->type_name("");
   add_value(compare, "--tolerance", words.tolerance, "X", "values that differ by at most X count as the same");
-  add_value(compare, "--fields", words.fields, "x,y,...", "only these of x, y, vx, vy, radius, mass");
+  add_value(compare, "--fields", words.fields, "x,y,...", "only these of x, y, vx, vy, radius, mass, spin");
   add_value(compare, "--times", words.times, "T0:T1", "only frames of these times; either may be left out");
   add_value(compare, "--at", words.at, "T", "only the frame of each that is nearest to this time");
   compare->add_flag("--json", words.json, "print the result as JSON");

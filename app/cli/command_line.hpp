@@ -15,6 +15,8 @@
 
 namespace carom {
 
+class RankLead;
+
 // What the command line changes in the scene: first every --set, then --method, --dt, --t-end and --seed.
 struct SceneChanges {
   std::vector<Override> overrides;
@@ -26,7 +28,9 @@ struct CarryOptions {
   std::optional<std::string> folder;                              // -o
   SceneChanges changes;                                           // of a run that goes on: --t-end only
   std::string engine;                                             // empty: the default, or that of the run so far
-  std::optional<int> threads;                                     // >= 1
+  std::optional<int> threads;                                     // >= 1; of each rank
+  std::optional<int> ranks;                                       // >= 1; processes
+  RankLead* lead = nullptr;                                       // where they are running
   double max_walltime = std::numeric_limits<double>::infinity();  // seconds
   bool json = false;
   bool quiet = false;

@@ -50,6 +50,7 @@ void read_carry_options(const OptionWords& words, CarryOptions& o) {
   o.changes = changes_of(words);
   o.engine = words.engine;
   if (!words.threads.empty()) o.threads = count_of("--threads", words.threads);
+  if (!words.ranks.empty()) o.ranks = count_of("--ranks", words.ranks);
   o.max_walltime = walltime_of(words.walltime);
   o.json = words.json;
   o.quiet = words.quiet;

@@ -19,7 +19,8 @@ double tolerance_of(const std::string& text) {
 }
 
 void read_fields(const std::string& text, CompareRule& rule) {
-  constexpr std::array<std::string_view, compared_quantities.size()> names{"x", "y", "vx", "vy", "radius", "mass"};
+  constexpr std::array<std::string_view, compared_quantities.size()> names{"x",      "y",    "vx",  "vy",
+                                                                           "radius", "mass", "spin"};
   rule.fields.fill(false);
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');) {

@@ -26,8 +26,8 @@ inline constexpr std::size_t t_end_option = 2;  // its place among them
 
 // What CLI11 reads; checked and turned into a Command afterwards, so that all messages are ours.
 struct OptionWords {
-  std::string first, second, folder, engine, threads, frame, walltime, seeds, jobs, emit, accuracy, tolerance, fields,
-      times, at, colour, range, size, fps, max_size;
+  std::string first, second, folder, engine, threads, ranks, frame, walltime, seeds, jobs, emit, accuracy, tolerance,
+      fields, times, at, colour, range, size, fps, max_size;
   std::array<std::string, scene_options.size()> scene_values;
   std::vector<std::string> sets, over;
   bool json = false, quiet = false, force = false, strict = false, quick = false, tiny = false, open = false,

@@ -15,6 +15,11 @@ namespace {
 
 constexpr double rate_seconds = 2.0;  // rates are means over once to twice this time
 
+// Disks without those that came and with those that left: what a later count goes by, which may see a part of them.
+Count state_disks(const State& start) {
+  return start.disks.size() + start.counters.removed - start.counters.emitted;
+}
+
 }  // namespace
 
 std::string progress_text(const ProgressPoint& then, const ProgressPoint& now, std::size_t disks, double t_end) {
@@ -31,6 +36,7 @@ std::string progress_text(const ProgressPoint& then, const ProgressPoint& now, s
 Progress::Progress(bool wanted, double t_end, const State& start, StatusPlace place)
     : line_(wanted, std::move(place)),
       t_end_(t_end),
+      disks_(state_disks(start)),
       start_(line_.seconds()),
       older_{0.0, start.time, start.counters.steps},
       newer_(older_) {}
@@ -38,7 +44,8 @@ Progress::Progress(bool wanted, double t_end, const State& start, StatusPlace pl
 void Progress::update(const State& state) {
   if (!line_.due()) return;
   const ProgressPoint point{line_.seconds() - start_, state.time, state.counters.steps};
-  line_.show(progress_text(older_, point, state.disks.size(), t_end_));
+  const Count disks = disks_ + state.counters.emitted - state.counters.removed;
+  line_.show(progress_text(older_, point, disks, t_end_));
   if (point.elapsed - newer_.elapsed > rate_seconds) older_ = std::exchange(newer_, point);
 }
 

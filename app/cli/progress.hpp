@@ -35,6 +35,7 @@ class Progress {
  private:
   StatusLine line_;
   double t_end_;
+  Count disks_;                  // see progress.cpp
   double start_;                 // by the line's clock
   ProgressPoint older_, newer_;  // rates are taken since older_, which follows newer_ at some distance
 };

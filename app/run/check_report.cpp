@@ -76,11 +76,26 @@ std::string restitutions_text(const Scene& scene) {
   return text;
 }
 
+// "0.5 along surfaces, friction 0.3".
+std::string roughness_text(const Roughness& r) {
+  const std::string friction = r.friction < HUGE_VAL ? fmt::format(", friction {:g}", r.friction) : "";
+  return fmt::format("{:g} along surfaces{}", r.restitution, friction);
+}
+
+// Empty where disks are smooth.
+std::string surfaces_text(const Surfaces& surfaces) {
+  if (!surfaces.are_rough()) return "";
+  const std::string walls = surfaces.walls.acts() ? fmt::format(" (walls: {})", roughness_text(surfaces.walls)) : "";
+  return fmt::format("; rough disks: restitution {}{}", roughness_text(surfaces.disks), walls);
+}
+
 std::string physics_text(const Scene& scene) {
   const Physics& p = scene.physics;
   std::string text = gravity_text(p.gravity);
-  text += disks_dissipate(scene) ? fmt::format("restitution {}", restitutions_text(scene)) : "elastic collisions";
+  const bool elastic = p.restitution == 1.0 && !p.law.dissipates();
+  text += !elastic ? fmt::format("restitution {}", restitutions_text(scene)) : "elastic collisions";
   text += walls_text(scene.box);
+  text += surfaces_text(p.surfaces);
   if (p.diffusion > 0.0) {
     text += fmt::format("; Brownian motion, D = {:g}{}", p.diffusion, p.accumulate ? ", accumulating velocity" : "");
   }

@@ -32,7 +32,8 @@ int command_resume(const ResumeOptions& options) {
   const Scene scene = scene_of(record, options.changes);
   check_view(options, scene);
   check_resumable(from, scene_of(record, {}), scene, options.checkpoint);
-  settings.engine = choose_engine(options.engine.empty() ? record.engine : options.engine, options.threads);
+  settings.engine =
+      choose_engine(options.engine.empty() ? record.engine : options.engine, options.threads, options.lead);
   if (record.version != CAROM_VERSION && !options.quiet) {
     print_warning(fmt::format("{} was written by Carom {}; {} may differ from it in the last bits", options.checkpoint,
                               record.version, CAROM_VERSION));

@@ -48,7 +48,7 @@ int command_run(const RunOptions& options) {
   const Scene scene = load_scene_as_told(options.scene, options.changes);
   check_view(options, scene);
   setup = nullptr;  // looking for a folder makes some
-  settings.engine = choose_engine(options.engine, options.threads);
+  settings.engine = choose_engine(options.engine, options.threads, options.lead);
   if (!options.quiet) {
     for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
     if (scene.run.automatic) print_note(choice_text(scene));

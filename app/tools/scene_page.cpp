@@ -125,6 +125,12 @@ std::string series_rows() {
                       work_column.unit, work_column.meaning);
   text += fmt::format("| `{}` | {} | {}; only with one |\n", thermostat_column.name, thermostat_column.unit,
                       thermostat_column.meaning);
+  for (const RotationColumn& column : rotation_columns) {
+    text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
+  }
+  for (const ShearColumn& column : shear_columns) {
+    text += fmt::format("| `{}` | {} | {}; only with `shear_rate` |\n", column.name, column.unit, column.meaning);
+  }
   text +=
       "\nThen, for each `[[disks]]` block with a `name`, and for `sources` if there are any, these with `_` and the "
       "name behind, as in `temperature_tracer`:\n\n| column | unit | what it is |\n| --- | --- | --- |\n";

@@ -1,6 +1,6 @@
 // The scenes whose instructions and cache misses are counted (bench/counts.sh): started in a state made beforehand and
 // run for two lengths, so that the difference of the two counts is of the steady part alone.
-//   carom_counts scenes                       a line each: name, disks, what the work is counted in
+//   carom_counts scenes [features]            a line each: name, disks, what the work is counted in
 //   carom_counts compiler                     that built it: counts of another are other counts
 //   carom_counts prepare SCENE FILE           writes the state it starts from, a checkpoint
 //   carom_counts run SCENE FILE short|long    runs it on one thread and prints the work done
@@ -8,11 +8,13 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bench/support/bench_scenes.hpp"
+#include "bench/support/gas_features.hpp"
 #include "core/base/kernel_set.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/scene/scene_text.hpp"
@@ -29,7 +31,7 @@ struct Counted {
   const char* work;  // that counts are divided by
   int short_run;     // steps, or windows of exact; enough for queues and lists to take their shape
   int long_run;
-  Start (*make)();
+  std::function<Start()> make;
   std::size_t block_divisor = 1;  // more: work is cut into smaller parts
 };
 
@@ -47,8 +49,23 @@ const std::vector<Counted>& all_counted() {
   return all;
 }
 
+// Scene G with one feature each, by both methods.
+const std::vector<Counted>& features_counted() {
+  static const std::vector<Counted> all = [] {
+    std::vector<Counted> list;
+    for (const GasFeature& f : gas_features()) {
+      const std::string name = f.name;
+      list.push_back({"pairwise:" + name, 40'000, "disk and step", 12, 60, [name] { return gas(40'000, name); }});
+      if (name == "brownian") continue;
+      list.push_back({"exact:" + name, 10'000, "collision", 2, 10, [name] { return exact_gas_with(10'000, name); }});
+    }
+    return list;
+  }();
+  return all;
+}
+
 const Counted& counted(const std::string& name) {
-  const auto& all = all_counted();
+  const auto& all = name.find(':') == std::string::npos ? all_counted() : features_counted();
   const auto it = std::find_if(all.begin(), all.end(), [&](const Counted& c) { return c.name == name; });
   if (it == all.end()) throw std::invalid_argument("no scene " + name);
   return *it;
@@ -76,7 +93,9 @@ void run(const Counted& counted, const std::string& path, int steps) {
 int act(const std::vector<std::string>& words) {
   const std::string& command = words.at(0);
   if (command == "scenes") {
-    for (const Counted& c : all_counted()) fmt::print("{} {} {}\n", c.name, c.disks, c.work);
+    const bool features = words.size() > 1 && words[1] == "features";
+    for (const Counted& c : features ? features_counted() : all_counted())
+      fmt::print("{} {} {}\n", c.name, c.disks, c.work);
     return 0;
   }
   if (command == "compiler") {

@@ -5,6 +5,7 @@
 
 #include "bench/figures/figures.hpp"
 #include "bench/support/bench_scenes.hpp"
+#include "bench/support/gas_features.hpp"
 #include "bench/support/interleave.hpp"
 #include "core/step/engine.hpp"
 #include "parallel/simulation.hpp"
@@ -32,10 +33,10 @@ Contender stepping(const std::string& name, const Start& start, int threads) {
 std::vector<Figure> measure_features(const std::string& folder) {
   constexpr int rounds = 5;
   std::vector<Contender> turns;
-  for (const std::string& feature : gas_features) {
-    const Start start = gas(million, feature);
-    turns.push_back(stepping(feature, start, 1));
-    turns.push_back(stepping(feature, start, 2));
+  for (const GasFeature& feature : gas_features()) {
+    const Start start = gas(million, feature.name);
+    turns.push_back(stepping(feature.name, start, 1));
+    turns.push_back(stepping(feature.name, start, 2));
   }
   interleave(turns, rounds);
   auto file = fmt::output_file(folder + "/features.csv");

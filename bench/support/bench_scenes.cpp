@@ -6,6 +6,7 @@
 #include <random>
 #include <utility>
 
+#include "bench/support/gas_features.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/physics/event_order.hpp"
 #include "core/start/initial_state.hpp"
@@ -85,24 +86,27 @@ void permute(std::vector<T>& column, const std::vector<std::size_t>& order) {
 
 }  // namespace
 
-const std::vector<std::string> gas_features{"plain", "gravity", "radii", "masses", "walls", "inelastic", "brownian"};
-
 Start gas(std::size_t count, const std::string& feature) {
-  // What a feature changes is small, so that the gas stays the same gas and only the cost of modelling it differs.
-  std::string physics;
-  if (feature == "gravity") physics = "[physics]\ngravity = 0.001\n";
-  if (feature == "inelastic") physics = "[physics]\nrestitution = 0.99\n";
-  // The speed of a step, sqrt(2 D / dt), is 1 as in the plain gas.
-  if (feature == "brownian") physics = "[physics]\ndiffusion = 0.0025\n";
-  const std::string text = fmt::format(
-      "[box]\npacking_fraction = 0.5\n{}{}[[disks]]\ncount = {}\npositions = \"hexagonal\"\n{}radius = {}\n"
-      "mass = {}\n",
-      sides(feature == "walls" ? "wall" : "periodic"), physics, count,
-      feature == "brownian" ? "" : "velocities = { maxwell = 1.0 }\n",
-      feature == "radii" ? "{ uniform = [0.45, 0.55] }" : "0.5",
-      feature == "masses" ? "{ uniform = [0.5, 1.5] }" : "1.0");
-  return prepared(text, "gas", 0.02, 50, 0.005);
+  return prepared(gas_text(count, feature), "gas", 0.02, 50, 0.005);
 }
+
+namespace {
+
+// Run for four collisions a disk.
+Start melted(Scene scene) {
+  constexpr double collisions_a_disk = 4.0;
+  const double count = static_cast<double>(scene.groups.back().count);
+  const auto engine = make_parallel_engine(scene, initial_state(scene), {2});
+  while (static_cast<double>(engine->state().counters.collisions) < 0.5 * collisions_a_disk * count) {
+    engine->step();
+  }
+  State state = engine->state();
+  state.time = 0.0;
+  state.counters = {};
+  return {std::move(scene), std::move(state)};
+}
+
+}  // namespace
 
 Start exact_gas(std::size_t count, double packing_fraction) {
   // Two disks cover more than a million units of time in a turn.
@@ -110,17 +114,11 @@ Start exact_gas(std::size_t count, double packing_fraction) {
       "[box]\npacking_fraction = {}\n{}[[disks]]\ncount = {}\npositions = \"hexagonal\"\n"
       "velocities = {{ maxwell = 1.0 }}\nradius = 0.5\nmass = 1.0\n[run]\nmethod = \"exact\"\nt_end = 1e12\n",
       packing_fraction, sides("periodic"), count);
-  Scene scene = parse_scene(text, "gas", "");
-  constexpr double collisions_a_disk = 4.0;
-  const auto engine = make_parallel_engine(scene, initial_state(scene), {2});
-  while (static_cast<double>(engine->state().counters.collisions) <
-         0.5 * collisions_a_disk * static_cast<double>(count)) {
-    engine->step();
-  }
-  State state = engine->state();
-  state.time = 0.0;
-  state.counters = {};
-  return {std::move(scene), std::move(state)};
+  return melted(parse_scene(text, "gas", ""));
+}
+
+Start exact_gas_with(std::size_t count, const std::string& feature) {
+  return melted(parse_scene(gas_text(count, feature) + "[run]\nmethod = \"exact\"\nt_end = 1e6\n", "gas", ""));
 }
 
 Start wide_radii() {

@@ -16,11 +16,13 @@ struct Start {
   State state;  // at time 0
 };
 
-// Scene G (scenes/gas_million.toml) with count disks, or the same with one feature more: "plain", "gravity", "radii",
-// "masses", "walls", "inelastic", "brownian". Begins on a hexagonal lattice, which is made in a moment even for 10^7
-// disks, and runs for one unit of time with steps of 0.02: seven collisions a disk, after which nothing is left of it.
+// Scene G (scenes/gas_million.toml) with count disks, or the same with one of gas_features(). Begins on a hexagonal
+// lattice, which is made in a moment even for 10^7 disks, and runs for one unit of time with steps of 0.02: seven
+// collisions a disk, after which nothing is left of it.
 Start gas(std::size_t count, const std::string& feature = "plain");
-extern const std::vector<std::string> gas_features;
+
+// The same run exactly, for some collisions a disk.
+Start exact_gas_with(std::size_t count, const std::string& feature);
 
 // The gas of the exact method's figures: scene G with count disks at a packing fraction, run exactly from a lattice for
 // four collisions a disk, after which neither speeds nor neighbours remember it (a crystal, above 0.72, stays one).

@@ -24,6 +24,8 @@ enum class Stream : std::uint32_t {
   thermal_side,
   thermostat,
   thermostat_choice,
+  spin,
+  source_spin,
 };
 
 struct TwoUniforms {

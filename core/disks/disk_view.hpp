@@ -2,15 +2,28 @@
 // type, never per disk.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
 #include "core/disks/disks.hpp"
 
 namespace carom {
 
-// under_law: collisions ask a RestitutionLaw, where others take one number.
-template <bool own_radius, bool own_mass, bool under_law = false>
+// In place of the spin of disks that have none.
+struct NoSpin {};
+
+// What collisions ask for besides one number for the restitution: a RestitutionLaw; or, of rough disks, what their
+// surfaces do and a law if there is one; or, in a sheared box, where images are and how they move, and likewise a law.
+enum class ContactKind : std::uint8_t { plain, under_law, rough, sheared };
+
+template <bool own_radius, bool own_mass, ContactKind kind = ContactKind::plain>
 struct DiskView {
   static constexpr bool has_mass = own_mass;
-  static constexpr bool has_law = under_law;
+  static constexpr bool may_have_law = kind != ContactKind::plain;
+  static constexpr bool has_law = kind == ContactKind::under_law;
+  static constexpr bool is_rough = kind == ContactKind::rough;
+  static constexpr bool is_sheared = kind == ContactKind::sheared;
   double* x;
   double* y;
   double* vx;
@@ -20,6 +33,7 @@ struct DiskView {
   const double* mass_column;
   double common_radius;
   double common_mass;
+  [[no_unique_address]] std::conditional_t<is_rough, double*, NoSpin> spin{};
 
   double radius(std::size_t i) const {
     if constexpr (own_radius) {
@@ -37,19 +51,21 @@ struct DiskView {
   }
 };
 
-template <bool own_radius, bool own_mass, bool under_law = false>
-DiskView<own_radius, own_mass, under_law> view_of(Disks& d) {
-  return {d.x.data(),      d.y.data(),    d.vx.data(),     d.vy.data(),  d.id.data(),
-          d.radius.data(), d.mass.data(), d.common_radius, d.common_mass};
+template <bool own_radius, bool own_mass, ContactKind kind = ContactKind::plain>
+DiskView<own_radius, own_mass, kind> view_of(Disks& d) {
+  DiskView<own_radius, own_mass, kind> view{d.x.data(),      d.y.data(),    d.vx.data(),     d.vy.data(),  d.id.data(),
+                                            d.radius.data(), d.mass.data(), d.common_radius, d.common_mass};
+  if constexpr (kind == ContactKind::rough) view.spin = d.spin.data();
+  return view;
 }
 
 // Calls kernel(view) with the view type that fits the columns present.
-template <bool under_law = false, class Kernel>
+template <ContactKind kind = ContactKind::plain, class Kernel>
 decltype(auto) with_view(Disks& d, Kernel&& kernel) {
   if (d.radius.empty()) {
-    return d.mass.empty() ? kernel(view_of<false, false, under_law>(d)) : kernel(view_of<false, true, under_law>(d));
+    return d.mass.empty() ? kernel(view_of<false, false, kind>(d)) : kernel(view_of<false, true, kind>(d));
   }
-  return d.mass.empty() ? kernel(view_of<true, false, under_law>(d)) : kernel(view_of<true, true, under_law>(d));
+  return d.mass.empty() ? kernel(view_of<true, false, kind>(d)) : kernel(view_of<true, true, kind>(d));
 }
 
 }  // namespace carom

@@ -22,6 +22,7 @@ void append(Disks& d, const Disk& disk) {
   d.id.push_back(disk.id);
   if (own_radius) d.radius.push_back(disk.radius);
   if (own_mass) d.mass.push_back(disk.mass);
+  if (d.spins()) d.spin.push_back(disk.spin);
 }
 
 namespace {
@@ -46,6 +47,7 @@ std::size_t remove_marked(Disks& d, const std::vector<unsigned char>& gone) {
   close_up(d.id, gone);
   close_up(d.radius, gone);
   close_up(d.mass, gone);
+  close_up(d.spin, gone);
   return before - d.size();
 }
 

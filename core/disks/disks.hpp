@@ -18,11 +18,15 @@ struct Disks {
   std::vector<double> mass;    // mass, > 0
   double common_radius = 0.0;  // used when radius is empty
   double common_mass = 0.0;    // used when mass is empty
+  std::vector<double> spin;    // angular velocity, counter-clockwise; 1 / time; n entries where disks are rough
+  double inertia = 0.0;        // I / (m r^2) of rough disks; 0: smooth ones, which do not spin
 
   std::size_t size() const { return x.size(); }
   bool empty() const { return x.empty(); }
   double radius_of(std::size_t i) const { return radius.empty() ? common_radius : radius[i]; }
   double mass_of(std::size_t i) const { return mass.empty() ? common_mass : mass[i]; }
+  bool spins() const { return inertia > 0.0; }
+  double spin_of(std::size_t i) const { return spin.empty() ? 0.0 : spin[i]; }
 };
 
 // One disk on its own, as sources emit it and tests write it down.
@@ -30,10 +34,11 @@ struct Disk {
   double x = 0.0, y = 0.0, vx = 0.0, vy = 0.0;
   double radius = 0.0, mass = 0.0;
   DiskId id = 0;
+  double spin = 0.0;
 };
 
 inline Disk disk_at(const Disks& d, std::size_t i) {
-  return {d.x[i], d.y[i], d.vx[i], d.vy[i], d.radius_of(i), d.mass_of(i), d.id[i]};
+  return {d.x[i], d.y[i], d.vx[i], d.vy[i], d.radius_of(i), d.mass_of(i), d.id[i], d.spin_of(i)};
 }
 
 // Appends a disk. A common radius or mass that the newcomer does not share becomes a column.

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "core/base/types.hpp"
+#include "core/disks/shear.hpp"
 #include "core/disks/side_motion.hpp"
 
 namespace carom {
@@ -25,6 +27,7 @@ struct Domain {
   std::array<SideMotion, 4> motions{};                     // of walls
   // Where they are, at the time that the box is used for; the edges themselves where nothing moves.
   std::array<SidePlace, 4> places{};
+  Shear shear{};  // of a box that is periodic both ways, at the time that the box is used for
   // What stands in the box (place_obstacles); null where nothing does. Outlives the box.
   const ObstacleCells* obstacles = nullptr;
 
@@ -42,6 +45,17 @@ struct Domain {
     return moves(Side::left) || moves(Side::right) || moves(Side::bottom) || moves(Side::top);
   }
   const SidePlace& place(Side s) const { return places[static_cast<std::size_t>(s)]; }
+  // The same after time t >= 0 more.
+  SidePlace place_after(Side s, double t) const {
+    const SideMotion& motion = motions[static_cast<std::size_t>(s)];
+    return motion.kind == SideMotion::Kind::sine ? motion.swung(place(s), t) : place(s).after(t);
+  }
+  bool has_sine_side() const {
+    for (const SideMotion& motion : motions) {
+      if (motion.kind == SideMotion::Kind::sine) return true;
+    }
+    return false;
+  }
   // Sides that move go to where they are at time t.
   void move_sides(double t) {
     for (std::size_t s = 0; s < motions.size(); ++s) places[s] = motions[s].at(t);
@@ -54,6 +68,8 @@ struct Domain {
       places[s] = {inset, (inset - motions[s].at(from).inset) / (to - from), 0.0};
     }
   }
+  // The images above go to where they are at time t.
+  void move_images(double t) { shear.offset = shear.offset_at(t, width); }
   // May a collision with a wall lose energy?
   bool walls_dissipate() const {
     for (Side s : all_sides) {
@@ -71,9 +87,10 @@ struct Domain {
   }
 };
 
-// The box at time t, when its moving sides are where they are then.
+// The box at time t, when its moving sides, or the images of a sheared one, are where they are then.
 inline Domain box_at(Domain box, double t) {
   if (box.has_moving_side()) box.move_sides(t);
+  if (box.shear.acts()) box.move_images(t);
   return box;
 }
 
@@ -87,11 +104,43 @@ inline double nearest_image(double d, double period) {
   return d;
 }
 
-// The difference of two positions, taken to the nearest image across periodic sides. Precondition as above.
-[[gnu::always_inline]] inline Vec2 nearest_image(Vec2 d, const Domain& box) {
+// How many boxes above the nearest image is, in a sheared box: -1, 0 or 1. dy: as in nearest_image.
+inline int rows_to_nearest(double dy, const Domain& box) {
+  const double half = 0.5 * box.height;
+  return dy > half ? -1 : dy < -half ? 1 : 0;
+}
+
+// The difference of two positions in a sheared box, taken to the image so many boxes above (-1, 0 or 1) that is nearest
+// along x. offset: of the images above. Antisymmetric in d and rows together.
+inline Vec2 image_in_row(Vec2 d, int rows, double offset, const Domain& box) {
+  if (rows != 0) {
+    d.y = rows > 0 ? d.y + box.height : d.y - box.height;
+    // The offset may add half a period: one more than nearest_image can take.
+    d.x = nearest_image(rows > 0 ? d.x + offset : d.x - offset, box.width);
+  }
+  d.x = nearest_image(d.x, box.width);
+  return d;
+}
+
+// Not inlined: a sheared box is rare, and loops keep their registers.
+[[gnu::noinline, gnu::cold]] inline Vec2 nearest_sheared_image(Vec2 d, const Domain& box) {
+  return image_in_row(d, rows_to_nearest(d.y, box), box.shear.offset, box);
+}
+
+// The difference of two positions, taken to the nearest image across periodic sides of a box that is not sheared.
+// Precondition as above.
+[[gnu::always_inline]] inline Vec2 nearest_image_at_rest(Vec2 d, const Domain& box) {
   if (box.periodic_x()) d.x = nearest_image(d.x, box.width);
   if (box.periodic_y()) d.y = nearest_image(d.y, box.height);
   return d;
+}
+
+// The difference of two positions, taken to the nearest image across periodic sides. Precondition as above; in a
+// sheared box distances are the least ones where they are below half the height.
+[[gnu::always_inline]] inline Vec2 nearest_image(Vec2 d, const Domain& box) {
+  if (box.shear.acts()) [[unlikely]]
+    return nearest_sheared_image(d, box);
+  return nearest_image_at_rest(d, box);
 }
 
 // Squared distance of two positions whose difference is d, nearest image; length^2. Precondition as above.
@@ -100,14 +149,44 @@ inline double nearest_distance2(Vec2 d, const Domain& box) {
   return d.x * d.x + d.y * d.y;
 }
 
-// A coordinate brought back into [0, period). Precondition: -period <= c < 2 period.
+// For wrap(), where a disk has been sent further than a period in a step far too long: exact, whatever the distance.
+[[gnu::noinline]] inline double wrap_far(double c, double period) {
+  c = std::fmod(c, period);
+  if (c < 0.0) c += period;
+  return c < period ? c : 0.0;
+}
+
+// A coordinate brought back into [0, period).
 // A tiny negative c gives c + period == period in floating point; that is the same place as 0.
-inline double wrap(double c, double period) {
+[[gnu::always_inline]] inline double wrap(double c, double period) {
   if (c < 0.0) {
     c += period;
+    if (c < 0.0) return wrap_far(c, period);
     return c < period ? c : 0.0;
   }
-  return c < period ? c : c - period;
+  if (c < period) return c;
+  c -= period;
+  return c < period ? c : wrap_far(c, period);
+}
+
+// A place brought back into a sheared box whose images above are displaced by offset; it has left by less than a
+// quarter of a period. Returns how many boxes further up it is now, -1, 0 or 1: its velocity along x changes by so many
+// jumps of the shear.
+inline int wrap_sheared(double& x, double& y, double offset, const Domain& box) {
+  int rows = 0;
+  if (y < 0.0 && y + box.height < box.height) {
+    rows = 1;
+    y += box.height;
+    x += offset;
+  } else if (y < 0.0) {
+    y = 0.0;  // closer to the side than y can tell
+  } else if (y >= box.height) {
+    rows = -1;
+    y -= box.height;
+    x -= offset;
+  }
+  x = wrap(x, box.width);
+  return rows;
 }
 
 }  // namespace carom

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/sine.hpp"
+
 namespace carom {
 
 // Where a side stands, how fast it moves and how its speed changes, all towards the inside of the box.
@@ -23,8 +25,9 @@ struct SidePlace {
 struct SideMotion {
   enum class Kind : std::uint8_t {
     none,
-    steady,   // at constant speed
-    vibrate,  // up and down in pieces of parabolas, each half a period long: nearly a sine, its speed continuous
+    steady,     // at constant speed
+    parabolas,  // up and down in pieces, each half a period long: nearly a sine, its speed continuous
+    sine,
   };
   Kind kind = Kind::none;
   double inset = 0.0;      // at time 0, or at the middle of the vibration; length, >= 0
@@ -35,23 +38,26 @@ struct SideMotion {
   bool operator==(const SideMotion&) const = default;
 
   bool moves() const { return kind != Kind::none; }
+  bool vibrates() const { return kind == Kind::parabolas || kind == Kind::sine; }
   double half() const { return 0.5 * period; }
 
-  // The number of the piece of a vibration that time t >= 0 lies in; at the end of one, the next. A steady motion is
-  // one piece.
+  double angular_frequency() const { return 6.28318530717958647693 / period; }
+
+  // The number of the parabola that time t >= 0 lies in; at the end of one, the next. Other motions are one piece.
   double piece(double t) const {
-    if (kind != Kind::vibrate) return 0.0;
+    if (kind != Kind::parabolas) return 0.0;
     double k = std::floor(t / half());
     while (k > 0.0 && k * half() > t) k -= 1.0;
     while ((k + 1.0) * half() <= t) k += 1.0;
     return k;
   }
   // When the piece of time t ends.
-  double piece_end(double t) const { return kind == Kind::vibrate ? (piece(t) + 1.0) * half() : HUGE_VAL; }
+  double piece_end(double t) const { return kind == Kind::parabolas ? (piece(t) + 1.0) * half() : HUGE_VAL; }
 
   SidePlace at(double t) const {
     if (kind == Kind::none) return {};
     if (kind == Kind::steady) return {inset + speed * t, speed, 0.0};
+    if (kind == Kind::sine) return swung(sine_in_period(t, period), 0.0, amplitude * angular_frequency());
     const double k = piece(t);
     const double since = t - k * half();
     // a t (h - t) 4 / h^2, which is the amplitude at the middle of the half period h; every other one is turned over.
@@ -60,16 +66,44 @@ struct SideMotion {
     return {inset + curvature * (since * (half() - since)), curvature * (half() - 2.0 * since), -2.0 * curvature};
   }
 
+  // Where a sine that is at `from` has come to after time t >= 0.
+  SidePlace swung(const SidePlace& from, double t) const {
+    return swung(sine_in_period(t, period), from.inset - inset, from.speed);
+  }
+
   // The furthest that the side comes into the box until t_end, and the least.
   double largest_inset(double t_end) const {
-    return kind == Kind::vibrate ? inset + std::abs(amplitude) : std::fmax(inset, inset + speed * t_end);
+    return vibrates() ? inset + std::abs(amplitude) : std::fmax(inset, inset + speed * t_end);
   }
   double least_inset(double t_end) const {
-    return kind == Kind::vibrate ? inset - std::abs(amplitude) : std::fmin(inset, inset + speed * t_end);
+    return vibrates() ? inset - std::abs(amplitude) : std::fmin(inset, inset + speed * t_end);
   }
   double largest_speed() const {
     if (kind == Kind::none) return 0.0;
-    return kind == Kind::vibrate ? 4.0 * std::abs(amplitude) / half() : std::abs(speed);
+    if (kind == Kind::sine) return std::abs(amplitude) * angular_frequency();
+    return kind == Kind::parabolas ? 4.0 * std::abs(amplitude) / half() : std::abs(speed);
+  }
+
+  // The first time until t_end at which the side is further in than `limit` (length), to rounding; HUGE_VAL: none.
+  double first_time_beyond(double limit, double t_end) const {
+    if (kind == Kind::none) return HUGE_VAL;
+    if (at(0.0).inset > limit) return 0.0;
+    // It comes nearer all the time from `before` to `after`, and a vibration is not as far in again before.
+    double before = vibrates() && amplitude < 0.0 ? half() : 0.0;
+    double after = vibrates() ? before + 0.5 * half() : t_end;
+    if (!(at(after).inset > limit)) return HUGE_VAL;
+    for (double middle = 0.5 * (before + after); middle > before && middle < after; middle = 0.5 * (before + after)) {
+      (at(middle).inset > limit ? after : before) = middle;
+    }
+    return after <= t_end ? after : HUGE_VAL;
+  }
+
+ private:
+  // A sine that was `away` from its middle, at speed `v`, after an angle.
+  SidePlace swung(const SineCosine& angle, double away, double v) const {
+    const double w = angular_frequency();
+    const double there = away * angle.cosine + v / w * angle.sine;
+    return {inset + there, v * angle.cosine - away * w * angle.sine, -(w * w) * there};
   }
 };
 

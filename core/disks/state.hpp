@@ -24,6 +24,8 @@ struct Counters {
   // Energy that each side has given to the disks: heat of a thermal one, work of one that moves.
   double side_energy[4] = {0, 0, 0, 0};
   double thermostat_heat = 0.0;  // that a thermostat has given to the disks; energy
+  // In a sheared box: as virial, times nx ny, n from one centre to the other; and the work that the shear has done.
+  double shear_virial = 0.0, shear_work = 0.0;
 };
 
 struct SourceState {
@@ -56,10 +58,12 @@ struct WorstFigure {
 // What the method was seen to do wrong, and what has been said of it (core/step/validity.hpp). No disk depends on
 // it; a run ends where disks are crushed.
 struct ValidityCounts {
-  Count inaccurate = 0;  // collisions
-  Count frames = 0;      // of rollback, since `since`
-  double since = 0.0;    // simulated time at which the frames that are watched begin
+  Count inaccurate = 0;           // collisions
+  Count inaccurate_at_walls = 0;  // time stepping: those with walls and obstacles, which are not in `inaccurate`
+  Count frames = 0;               // of rollback, since `since`
+  double since = 0.0;             // simulated time at which the frames that are watched begin
   bool split_told = false, overlap_told = false, inaccurate_told = false, slow_told = false;
+  bool late_at_walls_told = false;
   WorstOverlap disks, wall;    // of two disks, of a disk and a wall
   WorstFigure parts, advance;  // most parts that a step was split into; least advance of a frame in dt, if told
   WorstOverlap crushed;        // by a side that moves, of a disk and what it is pressed into; the run ended there

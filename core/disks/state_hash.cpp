@@ -23,6 +23,7 @@ std::uint64_t sum_of_hashes(const Disks& d) {
     h = mix(h ^ std::bit_cast<std::uint64_t>(d.y[i]));
     h = mix(h ^ std::bit_cast<std::uint64_t>(d.vx[i]));
     h = mix(h ^ std::bit_cast<std::uint64_t>(d.vy[i]));
+    if (d.spins()) h = mix(h ^ std::bit_cast<std::uint64_t>(d.spin[i]));
     sum += h;
   }
   return sum;

@@ -9,8 +9,8 @@
 
 namespace carom {
 
-// 64-bit hash of (id, x, y, vx, vy) bit patterns; -0.0 and 0.0 differ. A sum over disks of a mixed hash of
-// each, so it does not depend on storage order and can be taken in parallel.
+// 64-bit hash of (id, x, y, vx, vy), and the spin of rough disks, as bit patterns; -0.0 and 0.0 differ. A sum over
+// disks of a mixed hash of each, so it does not depend on storage order and can be taken in parallel.
 std::uint64_t state_hash(const Disks& disks);
 
 // The same in two steps, where the disks lie apart: the hashes of each part's disks, added up, then all parts' sums.

@@ -11,6 +11,7 @@
 #include "core/scene/scene_names.hpp"
 #include "core/scene/scene_range_check.hpp"
 #include "core/scene/scene_ranges.hpp"
+#include "core/scene/scene_roughness.hpp"
 #include "core/scene/scene_thermostat.hpp"
 #include "core/scene/size_law.hpp"
 #include "core/step/window_plan.hpp"
@@ -56,6 +57,7 @@ void check_group(const DiskGroup& group, const std::string& path, const PlaceOfK
   if (group.velocities.kind == VelocityLaw::Kind::list) {
     check_length(group.velocities.list.size(), group.count, at("velocities"));
   }
+  if (!group.spins.list.empty()) check_length(group.spins.list.size(), group.count, at("spin"));
   if (group.radius.kind == SizeLaw::Kind::list) check_length(group.radius.values.size(), group.count, at("radius"));
   if (group.mass.kind == SizeLaw::Kind::list) check_length(group.mass.values.size(), group.count, at("mass"));
   if (group.velocities.kind == VelocityLaw::Kind::maxwell && group.velocities.temperature > 0.0 && group.count == 1) {
@@ -87,6 +89,7 @@ void check_source(const Source& source, const Domain& box, const std::string& pa
   if (source.radius.kind == SizeLaw::Kind::list) fail_input(at("radius"), "is a list", no_list);
   if (source.mass.kind == SizeLaw::Kind::list) fail_input(at("mass"), "is a list", no_list);
   if (source.velocities.kind == VelocityLaw::Kind::list) fail_input(at("velocities"), "is a list", no_list);
+  if (!source.spins.list.empty()) fail_input(at("spin"), "is a list", "expected a number");
   if (source.side && box.side(*source.side) == SideKind::periodic) {
     fail_input(at("side"), fmt::format("{} is periodic", side_names[static_cast<std::size_t>(*source.side)]),
                "expected a wall or sink side");
@@ -122,15 +125,6 @@ void check_moving_sides(const Scene& scene, const PlaceOfKey& place) {
     if (scene.physics.diffusion > 0.0) {
       fail_input(where, "given beside physics.diffusion: Brownian disks have no velocity", "expected one of the two");
     }
-    if (!scene.sources.empty()) {
-      fail_input(where, "given beside [[sources]], which know no sides that move", "expected one of the two");
-    }
-    const bool fixed =
-        std::any_of(scene.groups.begin(), scene.groups.end(), [](const DiskGroup& g) { return g.fixed; });
-    if (fixed) fail_input(where, "given beside fixed disks, which a side may not run over", "expected one of the two");
-    if (!scene.walls.empty()) {
-      fail_input(where, "given beside [[walls]], which a side may not run over", "expected one of the two");
-    }
   }
 }
 
@@ -165,34 +159,30 @@ void check_names(const Scene& scene, const PlaceOfKey& place) {
   }
 }
 
-// Disks that stand already would need to be walls for those that grow between them.
+// Of fixed disks, which stand already, those that grow keep clear; of others they would not.
 void check_growth(const Scene& scene, const PlaceOfKey& place) {
-  const auto fixed = std::find_if(scene.groups.begin(), scene.groups.end(), [](const DiskGroup& g) { return g.fixed; });
   const auto group_with = [&](bool growth) {
     std::size_t g = 0;
-    while (g < scene.groups.size() && (scene.groups[g].positions.kind == PositionLaw::Kind::growth) != growth) ++g;
+    const auto is_it = [&](const DiskGroup& d) {
+      return !d.fixed && (d.positions.kind == PositionLaw::Kind::growth) == growth;
+    };
+    while (g < scene.groups.size() && !is_it(scene.groups[g])) ++g;
     return g;
   };
   if (scene.growth.given && group_with(true) == scene.groups.size()) {
     fail_input(place("growth"), "nothing grows", "expected positions = \"growth\" in [[disks]] as well");
   }
-  if (group_with(true) < scene.groups.size() && fixed != scene.groups.end()) {
-    const auto g = static_cast<std::size_t>(fixed - scene.groups.begin());
-    fail_input(place(fmt::format("disks.{}.fixed", g)),
-               fmt::format("beside \"growth\" of disks.{}: disks do not grow around fixed ones", group_with(true)),
-               "expected \"random\" positions, or no fixed disks");
-  }
-  if (group_with(true) < scene.groups.size() && !scene.walls.empty()) {
-    fail_input(place("walls.0"),
-               fmt::format("beside \"growth\" of disks.{}: disks do not grow around walls", group_with(true)),
-               "expected \"random\" positions, or no walls");
+  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
+    if (!scene.groups[g].fixed || scene.groups[g].positions.kind != PositionLaw::Kind::growth) continue;
+    fail_input(place(fmt::format("disks.{}.positions", g)),
+               "is \"growth\" of fixed disks, which stand while others grow", "expected other positions");
   }
   const std::size_t other = group_with(false);
   if (group_with(true) == scene.groups.size() || other == scene.groups.size()) return;
-  fail_input(
-      place(fmt::format("disks.{}.positions", other)),
-      fmt::format("beside \"growth\" of disks.{}: all disks of a scene grow together, or none", group_with(true)),
-      "expected \"growth\" for every group, or for none");
+  fail_input(place(fmt::format("disks.{}.positions", other)),
+             fmt::format("beside \"growth\" of disks.{}: all disks of a scene but fixed ones grow together, or none",
+                         group_with(true)),
+             "expected \"growth\" for every group, or for none");
 }
 
 // Sizes out of range: drawn, from a list or an earlier run, or derived from each other.
@@ -214,22 +204,6 @@ void check_axis(double length, bool periodic, double radius, std::string_view na
   fail_input(place(fmt::format("box.{}", name)), fmt::format("{} is too small for a disk of radius {}", length, radius),
              fmt::format("expected at least {}, {} of the largest disk", least,
                          periodic ? "two diameters (periodic sides)" : "the diameter"));
-}
-
-// The least and the largest that a source's law can give; each law is monotonic.
-std::pair<DiskSize, DiskSize> source_sizes(const Source& source) {
-  const auto end_of = [](SizeLaw law, bool high) {
-    if (law.kind == SizeLaw::Kind::from_other) return law;
-    const SizeRange range = size_range(law);
-    law.kind = SizeLaw::Kind::constant;
-    law.value = high ? range.high : range.low;
-    return law;
-  };
-  const auto size = [&](bool high) {
-    return draw_size(end_of(source.radius, high), end_of(source.mass, high), 0, Stream::source_radius,
-                     Stream::source_mass, 0, 0);
-  };
-  return {size(false), size(true)};
 }
 
 // Is there a place in [low, high] for the centre of a disk of this radius?
@@ -306,10 +280,27 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
   if (scene.physics.accumulate && scene.physics.diffusion == 0.0) {
     fail_input(place("physics.accumulate"), "needs Brownian motion", "expected diffusion as well");
   }
+  check_surfaces(scene, place);
   check_names(scene, place);
   check_growth(scene, place);
   check_run(scene, place);
   check_thermostat(scene, place);
+}
+
+// Each law is monotonic.
+std::pair<DiskSize, DiskSize> source_sizes(const Source& source) {
+  const auto end_of = [](SizeLaw law, bool high) {
+    if (law.kind == SizeLaw::Kind::from_other) return law;
+    const SizeRange range = size_range(law);
+    law.kind = SizeLaw::Kind::constant;
+    law.value = high ? range.high : range.low;
+    return law;
+  };
+  const auto size = [&](bool high) {
+    return draw_size(end_of(source.radius, high), end_of(source.mass, high), 0, Stream::source_radius,
+                     Stream::source_mass, 0, 0);
+  };
+  return {size(false), size(true)};
 }
 
 std::vector<std::string> scene_warnings(const Scene& scene) {
@@ -361,6 +352,7 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
     check_sizes(sizes.smallest, sizes.largest, path, place);
     check_velocities(scene, group.velocities, sizes.smallest.mass, path, place);
     check_drift(scene, group, path, place);
+    check_spins(scene, group.spins, sizes.smallest.mass, sizes.largest.radius, path, place);
     if (group.positions.region) {
       check_start_region(*group.positions.region, scene.box, sizes.largest.radius, place(path + ".region"));
     }
@@ -373,6 +365,7 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
     const auto [low, high] = source_sizes(source);
     check_sizes(low, high, path, place);
     check_velocities(scene, source.velocities, low.mass, path, place);
+    check_spins(scene, source.spins, low.mass, high.radius, path, place);
     check_emissions(scene, source, path, place);
     add(low, high);
     if (!source.side) check_region(source, scene.box, high.radius, place(path + ".region"));

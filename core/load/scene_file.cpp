@@ -13,6 +13,7 @@
 #include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
 #include "core/load/method_choice.hpp"
+#include "core/load/moving_side_check.hpp"
 #include "core/load/scene_check.hpp"
 #include "core/scene/scene_analysis.hpp"
 #include "core/scene/scene_group_name.hpp"
@@ -24,6 +25,7 @@
 #include "core/scene/scene_ranges.hpp"
 #include "core/scene/scene_reader.hpp"
 #include "core/scene/scene_restitution.hpp"
+#include "core/scene/scene_roughness.hpp"
 #include "core/scene/scene_sides.hpp"
 #include "core/scene/scene_thermostat.hpp"
 #include "core/scene/scene_tree.hpp"
@@ -150,7 +152,7 @@ Physics read_physics(const SceneOrigin& origin) {
 void read_fixed(const TableReader& reader, DiskGroup& group) {
   constexpr std::string_view expected = "expected fixed disks without this key";
   if (reader.find("mass") != nullptr) reader.fail("mass", "given beside fixed = true, an infinite mass", expected);
-  for (const std::string_view key : {"velocities", "drift"}) {
+  for (const std::string_view key : {"velocities", "drift", "spin", "spin_temperature"}) {
     if (reader.find(key) != nullptr) reader.fail(key, "given beside fixed = true", expected);
   }
   if (group.radius.kind == SizeLaw::Kind::from_other) {
@@ -169,6 +171,7 @@ DiskGroup read_group(const SceneOrigin& origin, const std::string& path, const t
   group.positions = read_positions(reader);
   group.velocities = read_velocities(reader);
   group.drift = read_drift(reader);
+  group.spins = read_spins(reader);
   group.radius = read_size(reader, "radius", "from_mass");
   group.fixed = reader.flag_or_initial("fixed");
   if (group.fixed) {
@@ -214,6 +217,7 @@ Source read_source(const SceneOrigin& origin, const std::string& path, const tom
   source.radius = read_size(reader, "radius", "from_mass");
   source.mass = read_size(reader, "mass", "from_radius");
   source.velocities = read_velocities(reader);
+  source.spins = read_spins(reader);
   source.limit = reader.count("limit");
   return source;
 }
@@ -366,6 +370,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
     origin.fail("disks", "missing", "expected one table [[disks]] or more");
   }
   read_restitutions(origin, scene);
+  scene.physics.surfaces = read_surfaces(origin);
   scene.walls = read_tables(origin, "walls", read_wall);
   scene.growth = read_growth(origin);
   scene.run = read_run(origin);
@@ -376,6 +381,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   settle_box(scene, size, place);
   const double largest_radius = check_box(scene, place);
   settle_sides(scene, largest_radius, place);
+  check_sweeps(scene, place);
   settle_analysis(scene, largest_radius, place);
   if (scene.run.automatic) {
     choose_run(scene, place);

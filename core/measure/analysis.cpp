@@ -1,9 +1,12 @@
 #include "core/measure/analysis.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/measure/bond_order.hpp"
 #include "core/measure/invariants.hpp"
+#include "core/measure/shear_flow.hpp"
 #include "core/scene/drawn_velocities.hpp"
 
 namespace carom {
@@ -29,11 +32,60 @@ Disks disks_of(const Disks& all, const IdRange& ids) {
   return some;
 }
 
-void add_pairs(PairRecord& pairs, const PairCounts& found, double area) {
-  const auto n = static_cast<double>(found.centres);
+void add_counts(PairRecord& pairs, const PairCounts& found) {
   for (std::size_t k = 0; k < pairs.counts.size(); ++k) pairs.counts[k] += found.counts[k];
   pairs.centres += found.centres;
+}
+
+void add_pairs(PairRecord& pairs, const PairCounts& found, double area) {
+  const auto n = static_cast<double>(found.centres);
+  add_counts(pairs, found);
   if (found.centres > 0) pairs.expected += n * (n - 1.0) / area;
+}
+
+// Pairs of two groups are those of both together without those of each.
+PairCounts between(const PairCounts& both, const PairCounts& one, const PairCounts& other) {
+  PairCounts pairs{both.centres, both.counts};
+  for (std::size_t k = 0; k < pairs.counts.size(); ++k) pairs.counts[k] -= one.counts[k] + other.counts[k];
+  return pairs;
+}
+
+Disks joined(const Disks& all, const IdRange& one, const IdRange& other) {
+  Disks both = disks_of(all, one);
+  const Disks more = disks_of(all, other);
+  for (std::size_t i = 0; i < more.size(); ++i) append(both, disk_at(more, i));
+  return both;
+}
+
+void add_partial(std::vector<PairRecord>& partial, const Scene& scene, const Disks& disks, const PairCounter& count) {
+  const std::vector<NamedIds>& groups = scene.analysis.pair_groups;
+  const DistanceBins bins = distance_bins(scene.analysis.pairs);
+  const double area = area_of_centres(scene.box, bins);
+  std::vector<PairCounts> own;
+  for (const NamedIds& group : groups) own.push_back(count(disks_of(disks, group.ids), scene.box, bins));
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    add_pairs(partial[next++], own[k], area);
+    for (std::size_t l = k + 1; l < groups.size(); ++l) {
+      PairRecord& pairs = partial[next++];
+      const PairCounts both = count(joined(disks, groups[k].ids, groups[l].ids), scene.box, bins);
+      add_counts(pairs, between(both, own[k], own[l]));
+      pairs.expected += 2.0 * static_cast<double>(own[k].centres) * static_cast<double>(own[l].centres) / area;
+    }
+  }
+}
+
+// The row of the profile that a sample at time t belongs to: at the edge of two, to the later one; the last moment, to
+// the last one.
+template <class Profile>
+Profile& row_at(std::vector<Profile>& rows, const Scene& scene, double every, double t, const Profile& empty) {
+  constexpr double edge = 1e-9;  // sample times are rounded
+  const double start = scene.analysis.start;
+  const double all = std::max(1.0, std::ceil((scene.run.t_end - start) / every - edge));
+  const double row = std::min(std::floor((t - start) / every + edge), all - 1.0);
+  const auto k = static_cast<std::size_t>(std::max(0.0, row));
+  if (rows.size() <= k) rows.resize(k + 1, empty);
+  return rows[k];
 }
 
 void add_displacement(AnalysisRecord& record, const Scene& scene, const Disks& disks, double t) {
@@ -57,8 +109,9 @@ void add_means(AnalysisRecord& record, const Scene& scene, const Disks& disks, c
   if (scene.analysis.wants(Quantity::pressure)) {
     const double virial = now.counters.virial - record.before.virial;
     const bool known = elapsed > 0.0 && !velocities_are_drawn(scene);
-    record.series.pressure.push_back(
-        known ? pressure(energy_of(disks, 0.0), virial, elapsed, box_at(scene.box, now.time)) : nothing);
+    record.series.pressure.push_back(known ? pressure(energy_of(relative_to_flow(disks, scene.box), 0.0), virial,
+                                                      elapsed, box_at(scene.box, now.time))
+                                           : nothing);
   }
   if (scene.analysis.wants(Quantity::collision_rate)) {
     const auto collisions = static_cast<double>(now.counters.collisions - record.before.collisions);
@@ -70,23 +123,27 @@ void add_means(AnalysisRecord& record, const Scene& scene, const Disks& disks, c
 
 }  // namespace
 
-DistanceBins distance_bins(const AnalysisPlan& plan) {
-  return {plan.r_max, static_cast<std::size_t>(plan.r_bins), plan.wall_margin};
+DistanceBins distance_bins(const DistancePlan& plan) {
+  return {plan.r_max, static_cast<std::size_t>(plan.bins), plan.wall_margin};
 }
 
 AnalysisRecord empty_record(const Scene& scene) {
   const AnalysisPlan& plan = scene.analysis;
   AnalysisRecord record;
-  if (plan.wants(Quantity::pair_correlation)) record.pairs.counts.assign(plan.r_bins, 0);
-  if (plan.wants(Quantity::speeds)) record.speeds.counts.assign(plan.speed_bins, 0);
-  if (plan.wants(Quantity::density)) {
-    record.density.centres.assign(plan.density_bins, 0);
-    record.density.covered.assign(plan.density_bins, 0.0);
+  if (plan.wants(Quantity::pair_correlation)) {
+    const std::size_t groups = plan.pair_groups.size();
+    record.pairs.counts.assign(plan.pairs.bins, 0);
+    record.partial.assign(groups * (groups + 1) / 2, record.pairs);
   }
+  if (plan.wants(Quantity::speeds)) record.speeds.counts.assign(plan.speed_bins, 0);
+  if (plan.wants(Quantity::density)) record.density = empty_density(plan.density_bins);
   if (plan.wants(Quantity::profile)) record.motion = empty_profile(plan.profile_bins);
   if (plan.wants(Quantity::structure_factor)) {
     if (scene.box.periodic_x()) record.structure.along_x.assign(plan.wave_numbers, 0.0);
     if (scene.box.periodic_y()) record.structure.along_y.assign(plan.wave_numbers, 0.0);
+  }
+  if (plan.wants(Quantity::bond_correlation)) {
+    record.bonds = {std::vector<double>(plan.bonds.bins, 0.0), std::vector<Count>(plan.bonds.bins, 0), 0};
   }
   return record;
 }
@@ -94,6 +151,20 @@ AnalysisRecord empty_record(const Scene& scene) {
 bool same_shape(const MotionProfile& a, const MotionProfile& b) {
   return a.disks.size() == b.disks.size() && a.mass.size() == b.mass.size() && a.px.size() == b.px.size() &&
          a.py.size() == b.py.size() && a.twice_k.size() == b.twice_k.size();
+}
+
+bool same_shape(const DensityProfile& a, const DensityProfile& b) {
+  return a.centres.size() == b.centres.size() && a.covered.size() == b.covered.size();
+}
+
+bool same_shape(const PairRecord& a, const PairRecord& b) {
+  return a.counts.size() == b.counts.size();
+}
+
+// Have all the shape of one?
+template <class Part>
+bool all_like(const std::vector<Part>& parts, const Part& one) {
+  return std::all_of(parts.begin(), parts.end(), [&](const Part& part) { return same_shape(part, one); });
 }
 
 bool goes_with(const AnalysisRecord& record, const Scene& scene) {
@@ -105,10 +176,11 @@ bool goes_with(const AnalysisRecord& record, const Scene& scene) {
   };
   const SampleSeries& s = record.series;
   const DisplacementTally& tally = record.displacement;
-  return record.pairs.counts.size() == fresh.pairs.counts.size() &&
-         record.speeds.counts.size() == fresh.speeds.counts.size() &&
-         record.density.centres.size() == fresh.density.centres.size() &&
-         record.density.covered.size() == fresh.density.covered.size() &&
+  return same_shape(record.pairs, fresh.pairs) && record.partial.size() == fresh.partial.size() &&
+         all_like(record.partial, fresh.pairs) && all_like(record.density_rows, fresh.density) &&
+         all_like(record.motion_rows, fresh.motion) && record.bonds.product.size() == fresh.bonds.product.size() &&
+         record.bonds.pairs.size() == fresh.bonds.pairs.size() &&
+         record.speeds.counts.size() == fresh.speeds.counts.size() && same_shape(record.density, fresh.density) &&
          fits(s.displacement, plan.wants(Quantity::displacement)) &&
          fits(s.followed, plan.wants(Quantity::displacement)) && fits(s.pressure, plan.wants(Quantity::pressure)) &&
          fits(s.collision_rate, plan.wants(Quantity::collision_rate)) && fits(s.disks, true) &&
@@ -133,17 +205,30 @@ void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& all, d
   record.series.time.push_back(t);
   record.series.disks.push_back(static_cast<double>(disks.size()));
   if (plan.wants(Quantity::speeds) || plan.wants(Quantity::pressure)) {
-    const double kinetic = energy_of(disks, 0.0).kinetic;
+    const double kinetic = energy_of(relative_to_flow(disks, scene.box), 0.0).kinetic;
     record.series.temperature.push_back(disks.empty() ? nothing : kinetic / static_cast<double>(disks.size()));
   }
   if (plan.wants(Quantity::pair_correlation)) {
-    const DistanceBins bins = distance_bins(plan);
+    const DistanceBins bins = distance_bins(plan.pairs);
     add_pairs(record.pairs, count(disks, scene.box, bins), area_of_centres(scene.box, bins));
+    add_partial(record.partial, scene, disks, count);
   }
   if (plan.wants(Quantity::displacement)) add_displacement(record, scene, disks, t);
   if (plan.wants(Quantity::speeds)) add_speeds(record.speeds, disks, record.series.temperature.back(), plan.speed_max);
-  if (plan.wants(Quantity::density)) add_density(record.density, disks, scene.box, plan.density_along_x);
-  if (plan.wants(Quantity::profile)) add_motion(record.motion, disks, scene.box, plan.profile_along_x);
+  if (plan.wants(Quantity::density)) {
+    add_density(record.density, disks, scene.box, plan.density_along_x);
+    if (plan.density_every > 0.0) {
+      DensityProfile& row = row_at(record.density_rows, scene, plan.density_every, t, empty_density(plan.density_bins));
+      add_density(row, disks, scene.box, plan.density_along_x);
+    }
+  }
+  if (plan.wants(Quantity::profile)) {
+    add_motion(record.motion, disks, scene.box, plan.profile_along_x);
+    if (plan.profile_every > 0.0) {
+      MotionProfile& row = row_at(record.motion_rows, scene, plan.profile_every, t, empty_profile(plan.profile_bins));
+      add_motion(row, disks, scene.box, plan.profile_along_x);
+    }
+  }
   if (plan.wants(Quantity::structure_factor)) add_structure(record.structure, disks, scene.box);
   if (plan.wants(Quantity::velocity_autocorrelation)) {
     if (!record.velocities.begun) begin_memory(record.velocities, disks);
@@ -153,6 +238,9 @@ void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& all, d
     const BondOrder order = bond_order(disks, scene.box);
     record.series.local_order.push_back(order.local);
     record.series.global_order.push_back(order.global);
+  }
+  if (plan.wants(Quantity::bond_correlation)) {
+    add_bond_correlation(record.bonds, disks, scene.box, distance_bins(plan.bonds));
   }
   add_means(record, scene, all, now);
 }

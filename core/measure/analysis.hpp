@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/disks/state.hpp"
+#include "core/measure/bond_correlation.hpp"
 #include "core/measure/density_profile.hpp"
 #include "core/measure/displacement.hpp"
 #include "core/measure/motion_profile.hpp"
@@ -40,15 +41,19 @@ struct AnalysisRecord {
   Counters before;
   SampleSeries series;
   PairRecord pairs;
+  std::vector<PairRecord> partial;  // of the groups (k, l), k <= l, in order of k, then l: k k, and k l with l k
   SpeedHistogram speeds;
   DensityProfile density;
+  std::vector<DensityProfile> density_rows;  // of the times that a scene divides the run into
   DisplacementTally displacement;
   MotionProfile motion;
+  std::vector<MotionProfile> motion_rows;  // likewise
   StructureFactor structure;
   VelocityMemory velocities;
+  BondCorrelation bonds;
 };
 
-DistanceBins distance_bins(const AnalysisPlan& plan);
+DistanceBins distance_bins(const DistancePlan& plan);
 
 // An empty record with the bins that the scene asks for.
 AnalysisRecord empty_record(const Scene& scene);

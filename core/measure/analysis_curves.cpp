@@ -21,9 +21,9 @@ double length_of_profile(const Scene& scene) {
 }
 
 // Area of all slabs of all samples, by the number of slabs.
-double slab_area(const AnalysisRecord& record, const Scene& scene) {
-  return scene.box.width * scene.box.height / static_cast<double>(record.density.centres.size()) *
-         static_cast<double>(record.density.samples);
+double slab_area(const DensityProfile& density, const Scene& scene) {
+  return scene.box.width * scene.box.height / static_cast<double>(density.centres.size()) *
+         static_cast<double>(density.samples);
 }
 
 // Areas of the rings between r and r + width, pi (outer^2 - inner^2), where (k + 1)^2 - k^2 = 2 k + 1; length^2.
@@ -35,10 +35,26 @@ Column ring_areas(const DistanceBins& bins) {
 
 }  // namespace
 
-BinnedCurve pair_correlation_curve(const AnalysisRecord& record, const AnalysisPlan& plan) {
-  const PairRecord& pairs = record.pairs;
+BinnedCurve pair_correlation_curve(const PairRecord& pairs, const AnalysisPlan& plan) {
   const double expected = pairs.expected > 0.0 ? pairs.expected : std::numeric_limits<double>::quiet_NaN();
-  return curve_of(plan.r_max, column_of(pairs.counts).cast<double>() / (expected * ring_areas(distance_bins(plan))));
+  return curve_of(plan.pairs.r_max,
+                  column_of(pairs.counts).cast<double>() / (expected * ring_areas(distance_bins(plan.pairs))));
+}
+
+std::vector<PartialCurve> partial_curves(const AnalysisRecord& record, const AnalysisPlan& plan) {
+  std::vector<PartialCurve> curves;
+  for (std::size_t k = 0; k < plan.pair_groups.size(); ++k) {
+    for (std::size_t l = k; l < plan.pair_groups.size(); ++l) {
+      const PairRecord& pairs = record.partial[curves.size()];
+      curves.push_back({plan.pair_groups[k].name, plan.pair_groups[l].name, pair_correlation_curve(pairs, plan).value});
+    }
+  }
+  return curves;
+}
+
+BinnedCurve bond_correlation_curve(const AnalysisRecord& record, const AnalysisPlan& plan) {
+  const Column pairs = column_of(record.bonds.pairs).cast<double>();
+  return curve_of(plan.bonds.r_max, column_of(record.bonds.product) / pairs);
 }
 
 BinnedCurve speed_curve(const AnalysisRecord& record, const AnalysisPlan& plan) {
@@ -55,21 +71,26 @@ BinnedCurve maxwell_curve(const AnalysisPlan& plan) {
   return curve_of(plan.speed_max, Column::NullaryExpr(static_cast<Eigen::Index>(bins), share) / width);
 }
 
-BinnedCurve packing_curve(const AnalysisRecord& record, const Scene& scene) {
-  return curve_of(length_of_profile(scene), column_of(record.density.covered) / slab_area(record, scene));
+BinnedCurve packing_curve(const DensityProfile& density, const Scene& scene) {
+  return curve_of(length_of_profile(scene), column_of(density.covered) / slab_area(density, scene));
 }
 
-BinnedCurve number_density_curve(const AnalysisRecord& record, const Scene& scene) {
-  return curve_of(length_of_profile(scene),
-                  column_of(record.density.centres).cast<double>() / slab_area(record, scene));
+BinnedCurve number_density_curve(const DensityProfile& density, const Scene& scene) {
+  return curve_of(length_of_profile(scene), column_of(density.centres).cast<double>() / slab_area(density, scene));
 }
 
-ProfileCurves profile_curves(const AnalysisRecord& record, const Scene& scene) {
+std::vector<double> row_times(std::size_t rows, double every, const Scene& scene) {
+  std::vector<double> times;
+  for (std::size_t k = 0; k < rows; ++k) times.push_back(scene.analysis.start + static_cast<double>(k) * every);
+  return times;
+}
+
+ProfileCurves profile_curves(const MotionProfile& profile, const Scene& scene) {
   ProfileCurves curves;
-  const std::size_t slabs = record.motion.disks.size();
+  const std::size_t slabs = profile.disks.size();
   const double length = scene.analysis.profile_along_x ? scene.box.width : scene.box.height;
   for (std::size_t k = 0; k < slabs; ++k) {
-    const SlabMotion motion = motion_of_slab(record.motion, k);
+    const SlabMotion motion = motion_of_slab(profile, k);
     curves.position.push_back(length * (static_cast<double>(k) + 0.5) / static_cast<double>(slabs));
     curves.vx.push_back(motion.velocity.x);
     curves.vy.push_back(motion.velocity.y);

@@ -1,6 +1,7 @@
 // The curves that an analysis comes to, from its counts: what the file holds and the plots show.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/measure/analysis.hpp"
@@ -15,7 +16,17 @@ struct BinnedCurve {
 
 // g(r): pairs found over those expected of disks strewn at random, which have sum of n (n - 1) / A times the area of a
 // bin's ring. NaN before there is anything to expect.
-BinnedCurve pair_correlation_curve(const AnalysisRecord& record, const AnalysisPlan& plan);
+BinnedCurve pair_correlation_curve(const PairRecord& pairs, const AnalysisPlan& plan);
+
+// The same of the pairs of two groups, which expect 2 n1 n2 / A; of a group with itself n (n - 1) / A.
+struct PartialCurve {
+  std::string group, other;
+  std::vector<double> g;
+};
+std::vector<PartialCurve> partial_curves(const AnalysisRecord& record, const AnalysisPlan& plan);
+
+// g6(r): mean of Re(psi6* psi6') over the pairs in a bin; NaN where there is none.
+BinnedCurve bond_correlation_curve(const AnalysisRecord& record, const AnalysisPlan& plan);
 
 // Probability densities of the reduced speed: measured, and that of equilibrium; means over each bin. The measured one
 // counts what is faster than the last bin, too, so that it need not have the area 1. NaN where nothing was measured.
@@ -23,14 +34,17 @@ BinnedCurve speed_curve(const AnalysisRecord& record, const AnalysisPlan& plan);
 BinnedCurve maxwell_curve(const AnalysisPlan& plan);
 
 // Share of each slab that disks cover, and disks per area; means over the samples.
-BinnedCurve packing_curve(const AnalysisRecord& record, const Scene& scene);
-BinnedCurve number_density_curve(const AnalysisRecord& record, const Scene& scene);
+BinnedCurve packing_curve(const DensityProfile& density, const Scene& scene);
+BinnedCurve number_density_curve(const DensityProfile& density, const Scene& scene);
 
 // Of each slab; NaN where no disk was.
 struct ProfileCurves {
   std::vector<double> position, vx, vy, temperature;
 };
-ProfileCurves profile_curves(const AnalysisRecord& record, const Scene& scene);
+ProfileCurves profile_curves(const MotionProfile& profile, const Scene& scene);
+
+// Times at which the first `rows` rows of a profile begin that has one for each `every`.
+std::vector<double> row_times(std::size_t rows, double every, const Scene& scene);
 
 // Wave numbers, 1 / length, and S(k); empty along an axis that is not periodic.
 struct StructureCurve {

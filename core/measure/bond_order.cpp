@@ -102,21 +102,30 @@ Vec2 sixfold(const Neighbour& n) {
 
 }  // namespace
 
-BondOrder bond_order(const Disks& d, const Domain& box) {
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  if (d.size() <= neighbours) return {nothing, nothing};
+std::vector<Vec2> bond_orders(const Disks& d, const Domain& box) {
+  if (d.size() <= neighbours) return {};
   const Centres centres(d, box);
   std::vector<Neighbour> found;
+  std::vector<Vec2> orders(d.size());
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    centres.find(i, found);
+    for (std::size_t k = 0; k < neighbours; ++k) {
+      const Vec2 bond = sixfold(found[k]);
+      orders[i].x += bond.x / neighbours;
+      orders[i].y += bond.y / neighbours;
+    }
+  }
+  return orders;
+}
+
+BondOrder bond_order(const Disks& d, const Domain& box) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Vec2> orders = bond_orders(d, box);
+  if (orders.empty()) return {nothing, nothing};
   Vec2 all;
   double local = 0.0;
   for (const std::size_t i : by_id(d)) {
-    centres.find(i, found);
-    Vec2 psi;
-    for (std::size_t k = 0; k < neighbours; ++k) {
-      const Vec2 bond = sixfold(found[k]);
-      psi.x += bond.x / neighbours;
-      psi.y += bond.y / neighbours;
-    }
+    const Vec2 psi = orders[i];
     local += std::sqrt(psi.x * psi.x + psi.y * psi.y);
     all.x += psi.x;
     all.y += psi.y;

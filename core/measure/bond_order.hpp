@@ -1,12 +1,17 @@
 // The bond-orientational order psi6: how near the six nearest neighbours of each disk come to a hexagon.
 #pragma once
 
+#include <vector>
+
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 
 namespace carom {
 
-// psi6 of a disk is the mean of exp(6 i angle) over the directions to its six nearest neighbours (nearest images).
+// psi6 of each disk, real and imaginary part: the mean of exp(6 i angle) over the directions to its six nearest
+// neighbours (nearest images). In order of storage; empty with fewer than seven disks. O(N).
+std::vector<Vec2> bond_orders(const Disks& disks, const Domain& box);
+
 struct BondOrder {
   double local = 0.0;   // mean of |psi6| over the disks: order around each; 1 on a hexagonal lattice
   double global = 0.0;  // |mean of psi6|: one orientation for all; likewise

@@ -49,6 +49,10 @@ double share_below(double h) {
   return (std::acos(-h) + h * std::sqrt(1.0 - h * h)) / std::numbers::pi;
 }
 
+DensityProfile empty_density(std::size_t slabs) {
+  return {std::vector<Count>(slabs, 0), std::vector<double>(slabs, 0.0), 0};
+}
+
 void add_density(DensityProfile& profile, const Disks& d, const Domain& box, bool along_x) {
   const double length = along_x ? box.width : box.height;
   const auto count = static_cast<std::ptrdiff_t>(profile.centres.size());

@@ -17,6 +17,8 @@ struct DensityProfile {
   Count samples = 0;
 };
 
+DensityProfile empty_density(std::size_t slabs);
+
 void add_density(DensityProfile& profile, const Disks& disks, const Domain& box, bool along_x);
 
 // Part of a disk of radius 1 that lies below the line y = h: 0 for h <= -1, 1 for h >= 1.

@@ -18,8 +18,10 @@ std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& sta
     before += heat;
     moved += std::abs(heat);
   }
-  before += state.counters.thermostat_heat;
-  moved += std::abs(state.counters.thermostat_heat);
+  for (const double given : {state.counters.thermostat_heat, state.counters.shear_work}) {
+    before += given;
+    moved += std::abs(given);
+  }
   const double after = energy_of(state.disks, scene.physics.gravity).total();
   if (!(after - before > (exact ? most_gain_exact : most_gain_stepping) * moved)) return {};
   std::string why = "speeds or sizes differ too much for double precision";

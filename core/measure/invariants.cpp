@@ -3,33 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/physics/boundary.hpp"
-#include "core/physics/contact_event.hpp"
-#include "core/physics/obstacle_contact.hpp"
+#include "core/physics/roughness.hpp"
+#include "core/physics/wall_overlap.hpp"
 #include "core/reference/pair_search.hpp"
 
 namespace carom {
-
-namespace {
-
-// Disks a block: sums run within blocks, then over the blocks' sums, in id order.
-constexpr std::size_t sum_block = 4096;
-
-template <class Term>
-double blocked_sum(const std::vector<std::size_t>& order, const BlockRunner& run, Term&& term) {
-  std::vector<double> sums((order.size() + sum_block - 1) / sum_block);
-  run(sums.size(), [&](std::size_t b) {
-    const std::size_t end = std::min(order.size(), (b + 1) * sum_block);
-    double block = 0.0;
-    for (std::size_t k = b * sum_block; k < end; ++k) block += term(order[k]);
-    sums[b] = block;
-  });
-  double total = 0.0;
-  for (const double sum : sums) total += sum;
-  return total;
-}
-
-}  // namespace
 
 Energy energy_of(const Disks& d, const std::vector<std::size_t>& order, const Gravity& gravity,
                  const BlockRunner& run) {
@@ -39,6 +17,11 @@ Energy energy_of(const Disks& d, const std::vector<std::size_t>& order, const Gr
   if (gravity.acts()) {
     energy.potential = blocked_sum(order, run, [&](std::size_t i) {
       return d.mass_of(i) * gravity.down * d.y[i] + d.mass_of(i) * gravity.left * d.x[i];
+    });
+  }
+  if (d.spins()) {
+    energy.rotational = blocked_sum(order, run, [&](std::size_t i) {
+      return rotational_energy(d.inertia, d.mass_of(i), d.radius_of(i), d.spin[i]);
     });
   }
   return energy;
@@ -83,20 +66,7 @@ double max_overlap(const Disks& d, const Domain& box, const BlockRunner& run) {
 }
 
 Overlap deepest_wall_overlap(const Disks& d, const Domain& box) {
-  Overlap deepest;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    for (Side side : all_sides) {
-      if (box.side(side) != SideKind::wall) continue;
-      const double beyond = reach_beyond_wall(side, d.x[i], d.y[i], d.radius_of(i), box) / d.radius_of(i);
-      if (beyond > 0.0) deepest.see({beyond, d.id[i], wall_partner(side)});
-    }
-    if (box.obstacles == nullptr) continue;
-    const double r = d.radius_of(i);
-    for_each_solid_touched(box, d.x[i], d.y[i], r, [&](std::uint32_t k, const ObstacleGap& gap) {
-      if (gap.beyond > 0.0) deepest.see({gap.beyond / r, d.id[i], obstacle_partner(k)});
-    });
-  }
-  return deepest;
+  return deepest_wall_overlap(d, box, 0, d.size());
 }
 
 double wall_overlap(const Disks& d, const Domain& box) {

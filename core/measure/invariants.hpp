@@ -1,6 +1,8 @@
 // What is conserved, and how far a state is from being one of hard disks.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "core/base/block_runner.hpp"
@@ -13,15 +15,33 @@
 namespace carom {
 
 struct Energy {
-  double kinetic = 0.0;    // sum of m v^2 / 2
-  double potential = 0.0;  // sum of -m g r, 0 at the lower left corner
-  double total() const { return kinetic + potential; }
+  double kinetic = 0.0;     // sum of m v^2 / 2
+  double potential = 0.0;   // sum of -m g r, 0 at the lower left corner
+  double rotational = 0.0;  // of rough disks: sum of I w^2 / 2
+  double total() const { return kinetic + potential + rotational; }
 };
 
 struct Momentum {
   double x = 0.0, y = 0.0;
   double magnitude = 0.0;  // sum of m |v|, the scale for a relative drift
 };
+
+// Disks a block: sums run within blocks, then over the blocks' sums, in id order.
+inline constexpr std::size_t sum_block = 4096;
+
+template <class Term>
+double blocked_sum(const std::vector<std::size_t>& order, const BlockRunner& run, Term&& term) {
+  std::vector<double> sums((order.size() + sum_block - 1) / sum_block);
+  run(sums.size(), [&](std::size_t b) {
+    const std::size_t end = std::min(order.size(), (b + 1) * sum_block);
+    double block = 0.0;
+    for (std::size_t k = b * sum_block; k < end; ++k) block += term(order[k]);
+    sums[b] = block;
+  });
+  double total = 0.0;
+  for (const double sum : sums) total += sum;
+  return total;
+}
 
 // Sums in id order within blocks of fixed size: the same bits for any storage order and thread count.
 Energy energy_of(const Disks& disks, const Gravity& gravity);

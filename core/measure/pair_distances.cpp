@@ -48,7 +48,7 @@ DistanceCells::DistanceCells(const Disks& d, const Domain& box, const DistanceBi
   for (std::size_t i = 0; i < d.size(); ++i) {
     const bool centre = is_inside(d.x[i], x_.length, x_.periodic, bins_.wall_margin) &&
                         is_inside(d.y[i], y_.length, y_.periodic, bins_.wall_margin);
-    places_[next[cell[i]]++] = {d.x[i], d.y[i], centre ? 1U : 0U};
+    places_[next[cell[i]]++] = {d.x[i], d.y[i], centre ? 1U : 0U, static_cast<std::uint32_t>(i)};
     centres_ += centre ? 1U : 0U;
   }
 }
@@ -70,44 +70,8 @@ std::size_t DistanceCells::neighbours(std::size_t row, std::size_t column, std::
   return count;
 }
 
-// round_corner: the cells may be neighbours across a periodic side. Elsewhere the nearest image is the disk itself, or
-// it is further than r_max.
-template <bool round_corner>
-void DistanceCells::count_between(std::size_t cell, std::size_t other, std::vector<Count>& counts) const {
-  const double r_max2 = bins_.r_max * bins_.r_max;
-  const double bins_per_length = static_cast<double>(bins_.bins) / bins_.r_max;
-  for (std::size_t a = start_[cell]; a < start_[cell + 1]; ++a) {
-    const Place p = places_[a];
-    for (std::size_t b = cell == other ? a + 1 : start_[other]; b < start_[other + 1]; ++b) {
-      const Place& q = places_[b];
-      double dx = q.x - p.x;
-      double dy = q.y - p.y;
-      if constexpr (round_corner) {
-        if (x_.periodic) dx = nearest_image(dx, x_.length);
-        if (y_.periodic) dy = nearest_image(dy, y_.length);
-      }
-      const double r2 = dx * dx + dy * dy;
-      if (!(r2 < r_max2)) continue;
-      const auto bin = static_cast<std::size_t>(std::sqrt(r2) * bins_per_length);
-      if (bin < bins_.bins) counts[bin] += p.centre + q.centre;
-    }
-  }
-}
-
 void DistanceCells::count(std::size_t begin, std::size_t end, std::vector<Count>& counts) const {
-  std::array<std::size_t, 4> around{};
-  for (std::size_t row = begin; row < end; ++row) {
-    for (std::size_t column = 0; column < x_.cells; ++column) {
-      const std::size_t home = row * x_.cells + column;
-      const bool at_side = row + 1 == y_.cells || column == 0 || column + 1 == x_.cells;
-      const auto count_with = [&](std::size_t other) {
-        at_side ? count_between<true>(home, other, counts) : count_between<false>(home, other, counts);
-      };
-      count_with(home);
-      const std::size_t n = neighbours(row, column, around);
-      for (std::size_t k = 0; k < n; ++k) count_with(around[k]);
-    }
-  }
+  visit(begin, end, [&](std::size_t bin, const Place& p, const Place& q) { counts[bin] += p.centre + q.centre; });
 }
 
 PairCounts count_pairs(const Disks& disks, const Domain& box, const DistanceBins& bins) {

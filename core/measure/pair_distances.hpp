@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -18,13 +19,19 @@ namespace carom {
 struct DistanceBins {
   double r_max = 0.0;  // length
   std::size_t bins = 0;
-  double wall_margin = 0.0;  // see AnalysisPlan
+  double wall_margin = 0.0;  // see DistancePlan
 };
 
 // The centres, sorted into cells no smaller than r_max, so that all partners are in the 3 x 3 cells around. A side with
 // room for fewer than three cells has one.
 class DistanceCells {
  public:
+  struct Place {
+    double x, y;         // length
+    unsigned centre;     // 1: its surroundings count
+    std::uint32_t disk;  // where it is stored
+  };
+
   DistanceCells(const Disks& disks, const Domain& box, const DistanceBins& bins);
 
   std::size_t rows() const { return rows_; }
@@ -34,11 +41,12 @@ class DistanceCells {
   // cell lies in rows [begin, end). Integers: rows may be counted apart, in any order, and added.
   void count(std::size_t begin, std::size_t end, std::vector<Count>& counts) const;
 
+  // Calls add(k, p, q) once for each pair of Places in bin k of which the one in the lower cell lies in rows [begin,
+  // end), in an order that depends on the order of storage alone.
+  template <class Add>
+  void visit(std::size_t begin, std::size_t end, const Add& add) const;
+
  private:
-  struct Place {
-    double x, y;      // length
-    unsigned centre;  // 1: its surroundings count
-  };
   struct Axis {
     double length = 0.0;
     bool periodic = false;
@@ -46,8 +54,8 @@ class DistanceCells {
   };
   Axis axis(double length, bool periodic, std::size_t disks) const;
   std::size_t neighbours(std::size_t row, std::size_t column, std::array<std::size_t, 4>& cells) const;
-  template <bool round_corner>
-  void count_between(std::size_t cell, std::size_t other, std::vector<Count>& counts) const;
+  template <bool round_corner, class Add>
+  void visit_between(std::size_t cell, std::size_t other, const Add& add) const;
 
   DistanceBins bins_;
   Axis x_, y_;
@@ -56,6 +64,47 @@ class DistanceCells {
   std::vector<std::uint32_t> start_;  // of each cell in places_, one more than cells
   std::vector<Place> places_;
 };
+
+// round_corner: the cells may be neighbours across a periodic side. Elsewhere the nearest image is the disk itself, or
+// it is further than r_max.
+template <bool round_corner, class Add>
+void DistanceCells::visit_between(std::size_t cell, std::size_t other, const Add& add) const {
+  const double r_max2 = bins_.r_max * bins_.r_max;
+  const double bins_per_length = static_cast<double>(bins_.bins) / bins_.r_max;
+  for (std::size_t a = start_[cell]; a < start_[cell + 1]; ++a) {
+    const Place p = places_[a];
+    for (std::size_t b = cell == other ? a + 1 : start_[other]; b < start_[other + 1]; ++b) {
+      const Place& q = places_[b];
+      double dx = q.x - p.x;
+      double dy = q.y - p.y;
+      if constexpr (round_corner) {
+        if (x_.periodic) dx = nearest_image(dx, x_.length);
+        if (y_.periodic) dy = nearest_image(dy, y_.length);
+      }
+      const double r2 = dx * dx + dy * dy;
+      if (!(r2 < r_max2)) continue;
+      const auto bin = static_cast<std::size_t>(std::sqrt(r2) * bins_per_length);
+      if (bin < bins_.bins) add(bin, p, q);
+    }
+  }
+}
+
+template <class Add>
+void DistanceCells::visit(std::size_t begin, std::size_t end, const Add& add) const {
+  std::array<std::size_t, 4> around{};
+  for (std::size_t row = begin; row < end; ++row) {
+    for (std::size_t column = 0; column < x_.cells; ++column) {
+      const std::size_t home = row * x_.cells + column;
+      const bool at_side = row + 1 == y_.cells || column == 0 || column + 1 == x_.cells;
+      const auto visit_with = [&](std::size_t other) {
+        at_side ? visit_between<true>(home, other, add) : visit_between<false>(home, other, add);
+      };
+      visit_with(home);
+      const std::size_t n = neighbours(row, column, around);
+      for (std::size_t k = 0; k < n; ++k) visit_with(around[k]);
+    }
+  }
+}
 
 // Pairs of one moment.
 struct PairCounts {

@@ -68,12 +68,33 @@ inline double time_since_wall(Side side, double beyond, double speed, const Grav
   return 2.0 * beyond / (speed + std::sqrt(discriminant));
 }
 
+// Was a disk that reaches `beyond` past a wall, or an obstacle, beyond it before the step began, so that it is met
+// late? Not where gravity presses it there (ago is infinite), nor by rounding of a disk that just touched.
+inline bool is_met_late(double ago, double beyond, double speed, double dt) {
+  constexpr double more_than_rounding = 1.01;
+  return ago > dt && beyond > more_than_rounding * speed * dt;
+}
+
 // Speed towards the side that the disk had, or by its energy would have, at the wall itself: what lifting it back from
 // `beyond` costs under gravity is taken from its motion. 0 where its energy does not reach that far.
 inline double speed_at_wall(Side side, double beyond, double speed, const Gravity& g) {
   const double acceleration = outward_acceleration(side, g);
   if (acceleration == 0.0) return speed;
   return std::sqrt(std::max(0.0, speed * speed - 2.0 * acceleration * beyond));
+}
+
+// Unit vector away from the side, into the box.
+inline Vec2 inward_normal(Side side) {
+  switch (side) {
+    case Side::left:
+      return {1.0, 0.0};
+    case Side::right:
+      return {-1.0, 0.0};
+    case Side::bottom:
+      return {0.0, 1.0};
+    default:
+      return {0.0, -1.0};
+  }
 }
 
 // The wall's collision rule: the velocity into it is multiplied by -restitution, the other component stays.

@@ -16,13 +16,14 @@ namespace carom {
 // The constants of a run.
 struct ExactRules {
   Domain box;
-  Gravity gravity;                      // length / time^2
-  double restitution = 1.0;             // of disk pairs
-  double contact_time = -1.0;           // TC model; time, < 0: off
-  std::uint64_t seed = 0;               // with thermal sides
-  bool common_mass = true;              // pairs share impulses half and half
-  const RestitutionLaw* law = nullptr;  // of disks, where `restitution` is not all
+  Gravity gravity;             // length / time^2
+  double restitution = 1.0;    // of disk pairs
+  double contact_time = -1.0;  // TC model; time, < 0: off
+  std::uint64_t seed = 0;      // with thermal sides
+  bool common_mass = true;     // pairs share impulses half and half
   bool constant = true;  // neither a law nor the TC model: a contact's restitution is a number that is known before
+  const RestitutionLaw* law = nullptr;  // of disks, where `restitution` is not all
+  const Surfaces* surfaces = nullptr;   // where disks are rough
 
   bool tc() const { return contact_time >= 0.0; }
 };
@@ -32,6 +33,8 @@ struct ExactDisk {
   PathSegment path;
   double last_contact = -never;    // TC model: when it last collided, disk or wall; time in the window, may be < 0
   std::uint32_t thermal_hits = 0;  // reflections by thermal sides so far
+  double spin = 0.0;               // angular velocity of a rough disk, counter-clockwise; 1 / time
+  double radius = 0.0;             // of a rough disk
 };
 
 // TC model (Luding and McNamara 1998): e = 1 where one of the disks collided less than contact_time ago.
@@ -39,12 +42,30 @@ inline bool made_elastic(const ExactRules& rules, double s, double last_contact)
   return rules.tc() && s - last_contact < rules.contact_time;
 }
 
+// May a contact lose energy along the surfaces? disk: of two disks, fixed ones included; else of a disk and a wall.
+inline bool rubs_away(const ExactRules& rules, bool disk) {
+  return rules.surfaces != nullptr && (disk ? rules.surfaces->disks : rules.surfaces->walls).dissipates();
+}
+
+// A disk has just bounced off a wall or a fixed disk, which changed its velocity by `pressed` along this normal.
+inline void rub_against(const ExactRules& rules, Vec2 normal, bool disk, double pressed, ExactDisk& a) {
+  if (rules.surfaces == nullptr) return;
+  rub_wall(disk ? rules.surfaces->disks : rules.surfaces->walls, rules.surfaces->inertia, normal.x, normal.y, a.radius,
+           pressed, a.path.vx, a.path.vy, a.spin);
+}
+
+// Of smooth disks: nothing happens along their surfaces.
+struct NoRubbing {
+  void operator()(const Relative& /*met*/, double /*change*/) const {}
+};
+
 // Two disks (smaller id first) collide at time s; their new segments p and q start there. share and reduced_mass: of
-// their masses. restitution(r): of disks that approach as r says. gravity: may g be other than 0?
-template <bool gravity, class RestitutionOf>
+// their masses. restitution(r): of disks that approach as r says. rub(r, change): what follows along their surfaces,
+// with the change that collide() returned. gravity: may g be other than 0?
+template <bool gravity, class RestitutionOf, class Rub = NoRubbing>
 [[gnu::always_inline]] inline Impact collide_paths(const Domain& box, const Gravity& g, double s, Shares share,
                                                    double reduced_mass, const RestitutionOf& restitution,
-                                                   PathSegment& p, PathSegment& q) {
+                                                   PathSegment& p, PathSegment& q, const Rub& rub = {}) {
   drift<gravity>(p.x, p.y, p.vx, p.vy, s - p.start, g);
   drift<gravity>(q.x, q.y, q.vx, q.vy, s - q.start, g);
   p.start = q.start = s;
@@ -52,10 +73,32 @@ template <bool gravity, class RestitutionOf>
   Impact outcome;
   if (r.approach() < 0.0 && r.distance2() > 0.0) {
     const double e = restitution(r);
-    outcome = {reduced_mass * collide(r, share, e, p.vx, p.vy, q.vx, q.vy), 0.0, true, false, e < 1.0};
+    const double change = collide(r, share, e, p.vx, p.vy, q.vx, q.vy);
+    rub(r, change);
+    outcome = {reduced_mass * change, 0.0, true, false, e < 1.0};
   }
   wrap_into(p, box);
   wrap_into(q, box);
+  return outcome;
+}
+
+// The same in a sheared box, of disks with these masses.
+template <class RestitutionOf>
+[[gnu::noinline, gnu::cold]] Impact collide_sheared(const Domain& box, double s, double mass_p, double mass_q,
+                                                    const RestitutionOf& restitution, PathSegment& p, PathSegment& q) {
+  p = carried_to(p, s, 0.0);
+  q = carried_to(q, s, 0.0);
+  const Relative r = relative_in_shear(p, q, box);
+  Impact outcome;
+  if (r.approach() < 0.0 && r.distance2() > 0.0) {
+    const double e = restitution(r);
+    const double before = q.vx;
+    const double change = collide(r, shares(mass_p, mass_q), e, p.vx, p.vy, q.vx, q.vy);
+    outcome = {reduced_mass(mass_p, mass_q) * change, 0.0, true, false, e < 1.0};
+    see_shear(outcome, r, rows_to_nearest(q.y - p.y, box), mass_q * (q.vx - before), box.shear);
+  }
+  outcome.energy += wrap_with_work(p, mass_p, box);
+  outcome.energy += wrap_with_work(q, mass_q, box);
   return outcome;
 }
 
@@ -63,20 +106,29 @@ template <bool gravity, class RestitutionOf>
 inline Impact collide_at(const ExactRules& rules, double s, DiskId id_a, DiskId id_b, double mass_a, double mass_b,
                          ExactDisk& a, ExactDisk& b) {
   const Shares share = rules.common_mass ? equal_shares : shares(mass_a, mass_b);
-  bool held_elastic = false;  // by the TC model
+  bool elastic = false;       // by the TC model, and smooth
+  bool held_elastic = false;  // where that makes a difference
   const auto restitution = [&](const Relative& r) {
     if (rules.constant) return rules.restitution;
     const double e = rules.law == nullptr
                          ? rules.restitution
                          : restitution_at(rules.law->of(rules.restitution, id_a, id_b), speed_of_approach(r));
-    const bool elastic = made_elastic(rules, s, std::max(a.last_contact, b.last_contact));
-    held_elastic = elastic && e < 1.0;
+    elastic = made_elastic(rules, s, std::max(a.last_contact, b.last_contact));
+    held_elastic = elastic && (e < 1.0 || rubs_away(rules, true));
     return elastic ? 1.0 : e;
   };
-  Impact outcome = collide_paths<true>(rules.box, rules.gravity, s, share, reduced_mass(mass_a, mass_b), restitution,
-                                       a.path, b.path);
+  const auto rub = [&](const Relative& r, double change) {
+    if (rules.surfaces == nullptr || elastic) return;
+    rub_disks(*rules.surfaces, r, share, change, a.radius, b.radius, a.path.vx, a.path.vy, b.path.vx, b.path.vy, a.spin,
+              b.spin);
+  };
+  Impact outcome = rules.box.shear.acts()
+                       ? collide_sheared(rules.box, s, mass_a, mass_b, restitution, a.path, b.path)
+                       : collide_paths<true>(rules.box, rules.gravity, s, share, reduced_mass(mass_a, mass_b),
+                                             restitution, a.path, b.path, rub);
   if (outcome.happened) {
     outcome.inaccurate = held_elastic;
+    outcome.lost_energy = outcome.lost_energy || (!elastic && rubs_away(rules, true));
     a.last_contact = b.last_contact = s;
   }
   return outcome;
@@ -94,8 +146,12 @@ inline Impact meet_thermal_side(const ExactRules& rules, double s, Side side, do
   const double before = outward_speed(side, p.vx, p.vy);
   Impact outcome{0.0, 0.0, true, false};
   if (before > 0.0) {
-    outcome.energy =
-        reflect_thermally(side, rules.box.temperature(side), mass, {rules.seed, id}, a.thermal_hits, p.vx, p.vy);
+    const double temperature = rules.box.temperature(side);
+    double normal = 0.0;
+    outcome.energy = reflect_thermally(side, temperature, mass, {rules.seed, id}, a.thermal_hits, p.vx, p.vy, &normal);
+    if (rules.surfaces != nullptr && rules.surfaces->walls.acts()) {
+      outcome.energy += spin_thermally(rules.surfaces->inertia, temperature, mass, a.radius, normal, a.spin);
+    }
     outcome.virial = mass * (before - outward_speed(side, p.vx, p.vy));
   }
   a.last_contact = s;
@@ -106,17 +162,20 @@ inline Impact meet_thermal_side(const ExactRules& rules, double s, Side side, do
 // it does from the floor.
 inline Impact meet_moving_side(const ExactRules& rules, double s, Side side, double mass, ExactDisk& a) {
   PathSegment& p = a.path;
-  const SidePlace place = rules.box.place(side).after(s);
+  const SidePlace place = rules.box.place_after(side, s);
   const bool elastic = made_elastic(rules, s, a.last_contact);
   const double e = elastic ? 1.0 : rules.box.restitution(side);
   const double approach = approach_speed(side, p.vx, p.vy, place);
-  Impact outcome{0.0, 0.0, true, elastic && rules.box.restitution(side) < 1.0, e < 1.0};
+  const bool loses = rules.box.restitution(side) < 1.0 || rubs_away(rules, false);
+  Impact outcome{0.0, 0.0, true, elastic && loses, !elastic && loses};
   const double leaving = approach > 0.0 ? e * approach : -approach;
   const double hop =
       rules.tc() ? least_hop * approach_acceleration(side, rules.gravity, place) * rules.contact_time : 0.0;
   const double away = std::max(leaving, hop);
   if (approach > 0.0 || away > leaving) {
-    outcome.virial = mass * rebound(side, place, approach, away, p.vx, p.vy);
+    const double kick = rebound(side, place, approach, away, p.vx, p.vy);
+    if (!elastic && approach > 0.0) rub_against(rules, inward_normal(side), false, kick, a);
+    outcome.virial = mass * kick;
     outcome.energy = outcome.virial * place.speed;
   }
   a.last_contact = s;
@@ -143,12 +202,20 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
     const double e = elastic ? 1.0 : rules.box.restitution(side);
     const double before = outward_speed(side, p.vx, p.vy);
     if (before > 0.0) bounce(side, e, p.vx, p.vy);
+    if (!elastic && before > 0.0) {
+      rub_against(rules, inward_normal(side), false, before - outward_speed(side, p.vx, p.vy), a);
+    }
     if (rules.tc()) hop_off(side, least_hop * outward_acceleration(side, rules.gravity) * rules.contact_time, p);
-    outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), 0.0, true,
-               elastic && rules.box.restitution(side) < 1.0, e < 1.0};
+    const bool loses = rules.box.restitution(side) < 1.0 || rubs_away(rules, false);
+    outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), 0.0, true, elastic && loses,
+               !elastic && loses};
     a.last_contact = s;
   }
-  if (rules.box.side(side) != SideKind::sink) wrap_into(p, rules.box);
+  if (rules.box.shear.acts()) {
+    outcome.energy = wrap_with_work(p, mass, rules.box);
+  } else if (rules.box.side(side) != SideKind::sink) {
+    wrap_into(p, rules.box);
+  }
   return outcome;
 }
 
@@ -183,7 +250,11 @@ inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t 
     p.vx += change / distance2 * apart.x;
     p.vy += change / distance2 * apart.y;
     const bool bounced = change > 0.0;
-    outcome = {mass * (change / distance), 0.0, bounced, elastic && own < 1.0, bounced && e < 1.0};
+    const bool loses = own < 1.0 || rubs_away(rules, !o.is_segment());
+    if (!elastic && approach < 0.0) {
+      rub_against(rules, {apart.x / distance, apart.y / distance}, !o.is_segment(), change / distance, a);
+    }
+    outcome = {mass * (change / distance), 0.0, bounced, elastic && loses, bounced && !elastic && loses};
     if (bounced) a.last_contact = s;
   }
   wrap_into(p, rules.box);
@@ -199,6 +270,7 @@ struct EventMark {
 // May any of the run's contacts lose energy?
 inline bool dissipates(const ExactRules& rules) {
   const Domain& box = rules.box;
+  if (rules.surfaces != nullptr && rules.surfaces->dissipate()) return true;
   return rules.restitution < 1.0 || (rules.law != nullptr && rules.law->dissipates()) || box.walls_dissipate() ||
          (box.obstacles != nullptr && box.obstacles->dissipates());
 }

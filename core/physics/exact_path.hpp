@@ -11,6 +11,7 @@
 #include "core/physics/boundary.hpp"
 #include "core/physics/disk_pair.hpp"
 #include "core/physics/moving_side.hpp"
+#include "core/physics/swinging_side.hpp"
 
 namespace carom {
 
@@ -31,8 +32,21 @@ inline PathSegment carried_to(PathSegment p, double s, const Gravity& g) {
   return p;
 }
 
+// Of the images above a sheared box, at time s of the window; box: at its start.
+inline double offset_in_window(const Domain& box, double s) {
+  return box.shear.offset + box.shear.jump * s;
+}
+
+// Of paths that begin at the same time in a sheared box. Not inlined, as what else a sheared box asks for.
+[[gnu::noinline, gnu::cold]] inline Relative relative_in_shear(const PathSegment& a, const PathSegment& b,
+                                                               const Domain& box) {
+  const Relative raw{b.x - a.x, b.y - a.y, b.vx - a.vx, b.vy - a.vy};
+  return to_row(raw, rows_to_nearest(raw.dy, box), offset_in_window(box, a.start), box);
+}
+
+// In any other box.
 inline Relative relative(const PathSegment& a, const PathSegment& b, const Domain& box) {
-  const Vec2 apart = nearest_image({b.x - a.x, b.y - a.y}, box);
+  const Vec2 apart = nearest_image_at_rest({b.x - a.x, b.y - a.y}, box);
   return {apart.x, apart.y, b.vx - a.vx, b.vy - a.vy};
 }
 
@@ -68,12 +82,33 @@ inline double time_to_far_contact(const Relative& r, double contact_distance, co
   return t;
 }
 
+// As the time to contact with the nearest image and time_to_far_contact, in a sheared box: the images above and below
+// move. offset: now. Windows are so short that no image passes another one.
+[[gnu::noinline, gnu::cold]] inline double time_to_sheared_contact(const Relative& nearest, double contact_distance,
+                                                                   const Domain& box, double offset, double span) {
+  constexpr double margin = 1.0 + 1e-9;
+  const auto in_row = [&](Relative image) {
+    const double t = time_to_contact(image, contact_distance);
+    if (std::abs(image.dvx) * span * margin + contact_distance * margin < box.width - std::abs(image.dx)) return t;
+    image.dx = image.dx > 0.0 ? image.dx - box.width : image.dx + box.width;
+    return std::min(t, time_to_contact(image, contact_distance));
+  };
+  const double t = in_row(nearest);
+  if (std::abs(nearest.dvy) * span * margin + contact_distance * margin < box.height - std::abs(nearest.dy)) return t;
+  return std::min(t, in_row(to_row(nearest, nearest.dy > 0.0 ? -1 : 1, offset, box)));
+}
+
 // The time at which two paths come into contact, `never` if that is after `end`. The first disk is the one with the
 // smaller id. contact_distance = r1 + r2. Gravity cancels in relative motion, so that the quadratic is that of straight
 // paths.
 inline double collision_time(const PathSegment& first, const PathSegment& second, double contact_distance,
                              const Domain& box, const Gravity& g, double end) {
   const double both = std::max(first.start, second.start);
+  if (box.shear.acts()) [[unlikely]] {
+    const Relative r = relative_in_shear(carried_to(first, both, g), carried_to(second, both, g), box);
+    const double s = both + time_to_sheared_contact(r, contact_distance, box, offset_in_window(box, both), end - both);
+    return s <= end ? s : never;
+  }
   const Relative r = relative(carried_to(first, both, g), carried_to(second, both, g), box);
   double t = time_to_contact(r, contact_distance);
   if (box.periodic_x() || box.periodic_y()) t = std::min(t, time_to_far_contact(r, contact_distance, box, end - both));
@@ -110,11 +145,19 @@ struct SideApproach {
 };
 
 inline SideApproach approach_of(const PathSegment& p, Side side, double radius, const Domain& box) {
-  const SidePlace place = box.place(side).after(p.start);
+  const SidePlace place = box.place_after(side, p.start);
   return {place, -reach_beyond(side, p.x, p.y, radius, box) - place.inset, approach_speed(side, p.vx, p.vy, place)};
 }
 
-inline double time_to_moving_side(const PathSegment& p, Side side, double radius, const Domain& box, const Gravity& g) {
+// Time until the path touches the side; of a sine, `never` if after `span`.
+inline double time_to_moving_side(const PathSegment& p, Side side, double radius, const Domain& box, const Gravity& g,
+                                  double span) {
+  const SideMotion& motion = box.motions[static_cast<std::size_t>(side)];
+  if (motion.kind == SideMotion::Kind::sine) {
+    const SwingingSide swinging{motion, box.place_after(side, p.start)};
+    const double gap = -reach_beyond(side, p.x, p.y, radius, box);
+    return time_to_swinging_side(swinging, gap, outward_speed(side, p.vx, p.vy), outward_acceleration(side, g), span);
+  }
   const SideApproach a = approach_of(p, side, radius, box);
   return time_to_approach(a.gap, a.speed, approach_acceleration(side, g, a.place));
 }
@@ -124,7 +167,7 @@ inline double time_to_moving_side(const PathSegment& p, Side side, double radius
 inline double side_time(const PathSegment& p, Side side, double radius, const Domain& box, const Gravity& g,
                         double end) {
   if (box.moves(side)) {
-    const double s = p.start + time_to_moving_side(p, side, radius, box, g);
+    const double s = p.start + time_to_moving_side(p, side, radius, box, g, end - p.start);
     return s <= end ? s : never;
   }
   const SideKind kind = box.side(side);
@@ -139,6 +182,15 @@ inline double side_time(const PathSegment& p, Side side, double radius, const Do
 [[gnu::always_inline]] inline void wrap_into(PathSegment& p, const Domain& box) {
   if (box.periodic_x()) p.x = wrap(p.x, box.width);
   if (box.periodic_y()) p.y = wrap(p.y, box.height);
+}
+
+// The same in any box. Returns the energy that a disk of this mass gains where it crosses the sides of a sheared one.
+inline double wrap_with_work(PathSegment& p, double mass, const Domain& box) {
+  if (!box.shear.acts()) {
+    wrap_into(p, box);
+    return 0.0;
+  }
+  return box.shear.jump_rows(mass, p.vx, wrap_sheared(p.x, p.y, offset_in_window(box, p.start), box));
 }
 
 }  // namespace carom

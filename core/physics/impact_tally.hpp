@@ -17,27 +17,49 @@ struct ImpactTally {
   Count collisions = 0;
   Count wall_collisions = 0;        // with obstacles too; their impulses are no force on a side
   Count loads = 0, wall_loads = 0;  // supports that bore (resting.hpp): their impulses count, as collisions they do not
-  Count inaccurate = 0;             // of both collisions, see Impact
+  Count inaccurate = 0;             // of `collisions`, see Impact
+  Count inaccurate_at_walls = 0;    // of `wall_collisions`
   ExactSum virial;
   std::array<ExactSum, 4> wall_impulse;
   std::vector<ExactSum> side_energy;  // that each side gave; empty where none did
+  std::vector<ExactSum> shear;        // in a sheared box: of Impact::shear, and the work done; else empty
 
   // partner: the second disk's id, or a wall_partner.
   void add(DiskId partner, const Impact& impact) {
     if (!is_wall(partner)) return add_pair(impact);
-    if (!impact.happened) return;
-    inaccurate += impact.inaccurate ? 1 : 0;
+    if (!impact.happened) return add_crossing(impact);
+    inaccurate_at_walls += impact.inaccurate ? 1 : 0;
     ++wall_collisions;
     if (is_obstacle(partner)) return;
     wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.virial);
     if (impact.energy != 0.0) add_energy(wall_side(partner), impact.energy);
   }
 
-  // Of two disks.
+  // Of two disks. may_shear: may the box be sheared?
+  template <bool may_shear = true>
   void add_pair(const Impact& impact) {
-    if (!impact.happened) return;
+    if constexpr (!may_shear) {
+      if (!impact.happened) return;
+    } else if (!impact.happened) {
+      return add_crossing(impact);
+    }
     inaccurate += impact.inaccurate ? 1 : 0;
     add_collision(impact.virial);
+    if constexpr (may_shear) {
+      if (impact.sheared) add_shear(impact.shear, impact.energy);
+    }
+  }
+
+  // No collision, but disks may have crossed the bottom or the top of a sheared box.
+  void add_crossing(const Impact& impact) {
+    if (impact.energy != 0.0) [[unlikely]]
+      add_shear(0.0, impact.energy);
+  }
+
+  void add_shear(double its_virial, double work) {
+    shear.resize(2);
+    shear[0].add(its_virial);
+    shear[1].add(work);
   }
 
   void add_energy(Side side, double given) {
@@ -69,8 +91,13 @@ struct ImpactTally {
   void add(const ImpactTally& other) {
     collisions += other.collisions;
     inaccurate += other.inaccurate;
+    inaccurate_at_walls += other.inaccurate_at_walls;
     wall_collisions += other.wall_collisions;
     loads += other.loads;
+    if (!other.shear.empty()) {
+      shear.resize(2);
+      for (std::size_t k = 0; k < shear.size(); ++k) shear[k].add(other.shear[k]);
+    }
     wall_loads += other.wall_loads;
     if (other.collisions + other.loads > 0) virial.add(other.virial);
     if (other.wall_collisions + other.wall_loads > 0) {
@@ -81,10 +108,16 @@ struct ImpactTally {
     for (std::size_t k = 0; k < side_energy.size(); ++k) side_energy[k].add(other.side_energy[k]);
   }
 
+  Count all_inaccurate() const { return inaccurate + inaccurate_at_walls; }
+
   // Rounds once a step.
   void count_into(Counters& counters) const {
     counters.collisions += collisions;
     counters.wall_collisions += wall_collisions;
+    if (!shear.empty()) {
+      counters.shear_virial += shear[0].value();
+      counters.shear_work += shear[1].value();
+    }
     if (collisions + loads > 0) counters.virial += virial.value();
     if (wall_collisions + wall_loads == 0) return;
     for (std::size_t k = 0; k < wall_impulse.size(); ++k) counters.wall_impulse[k] += wall_impulse[k].value();

@@ -60,7 +60,7 @@ bool is_deep(const View& d, const Domain& box, const ContactEvent& e, double sha
   const double r = d.radius(e.i1);
   if (is_wall(e.id2)) return reach_beyond_wall(d, box, e.i1, e.id2) > share * r + slack;
   const double reach = (r + d.radius(e.i2)) * (1.0 - share) - slack;
-  return nearest_distance2({d.x[e.i2] - d.x[e.i1], d.y[e.i2] - d.y[e.i1]}, box) < reach * reach;
+  return distance2_of(d, e.i1, e.i2, box) < reach * reach;
 }
 
 // Walls do not give way: a disk that others pushed into a wall deeper than shallow_overlap of its radius comes back,

@@ -17,6 +17,7 @@
 #include "core/physics/moving_side.hpp"
 #include "core/physics/obstacle_contact.hpp"
 #include "core/physics/restitution.hpp"
+#include "core/physics/roughness.hpp"
 #include "core/physics/thermal_side.hpp"
 
 namespace carom {
@@ -32,22 +33,63 @@ struct StepRules {
   std::uint32_t* thermal_hits = nullptr;  // State::thermal_hits; a disk in contact changes its own
   int round = 0;  // of resolving within the step; later ones find what the one before pressed together
   const RestitutionLaw* law = nullptr;  // of disks, where `restitution` is not all
+  const Surfaces* surfaces = nullptr;   // where disks are rough
 };
 
 // What became of one contact event.
 struct Impact {
   double virial = 0.0;  // |impulse| x distance of a disk pair, |impulse| of a wall; mass length^2 / time or m l / t
-  double energy = 0.0;  // that a thermal side or one that moves gave; mass length^2 / time^2
+  double energy = 0.0;  // that a thermal side, one that moves or a shear gave; mass length^2 / time^2
   bool happened = false;
-  // Late, since the disks have overlapped since before the step; or made elastic by the TC model (exact).
+  // Late, since the contact is older than the step; or made elastic by the TC model (exact).
   bool inaccurate = false;
   bool lost_energy = false;  // exact only
+  bool sheared = false;      // two disks in a sheared box: there is `shear`
+  double shear = 0.0;        // in a sheared box: virial nx ny of two disks, n from one centre to the other
 };
 
+// ago: time before the one that the box is used for; what a sheared one needs to know. Precondition, as of all below
+// that take a view: it is a sheared one if the box is.
 template <class View>
-Relative relative(const View& d, std::uint32_t i, std::uint32_t j, const Domain& box) {
-  const Vec2 apart = nearest_image({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box);
-  return {apart.x, apart.y, d.vx[j] - d.vx[i], d.vy[j] - d.vy[i]};
+Relative relative(const View& d, std::uint32_t i, std::uint32_t j, const Domain& box,
+                  [[maybe_unused]] double ago = 0.0) {
+  const Relative raw{d.x[j] - d.x[i], d.y[j] - d.y[i], d.vx[j] - d.vx[i], d.vy[j] - d.vy[i]};
+  if constexpr (View::is_sheared) {
+    return to_row(raw, rows_to_nearest(raw.dy, box), box.shear.offset - ago * box.shear.jump, box);
+  } else {
+    const Vec2 apart = nearest_image_at_rest({raw.dx, raw.dy}, box);
+    return {apart.x, apart.y, raw.dvx, raw.dvy};
+  }
+}
+
+// Squared distance of the centres of disks i and j, nearest image; length^2.
+template <class View>
+double distance2_of(const View& d, std::uint32_t i, std::uint32_t j, const Domain& box) {
+  const Vec2 apart{d.x[j] - d.x[i], d.y[j] - d.y[i]};
+  if constexpr (View::is_sheared) {
+    return nearest_distance2(apart, box);
+  } else {
+    const Vec2 nearest = nearest_image_at_rest(apart, box);
+    return nearest.x * nearest.x + nearest.y * nearest.y;
+  }
+}
+
+// Adds to an impact, which two disks had as r says, what a sheared box wants to know. rows: boxes above the second disk
+// of the image that collided. momentum: along x, what the second disk gained. The image has that much more energy than
+// the disk itself.
+inline void see_shear(Impact& impact, const Relative& r, int rows, double momentum, const Shear& shear) {
+  impact.sheared = true;
+  impact.shear = impact.virial * (r.dx * r.dy / r.distance2());
+  if (rows != 0) impact.energy -= (rows > 0 ? shear.jump : -shear.jump) * momentum;
+}
+
+// Disks i and j have just collided as r says; before: velocity along x of disk j until then.
+template <class View>
+void see_shear_of(const View& d, const Domain& box, std::uint32_t i, std::uint32_t j, const Relative& r, double before,
+                  Impact& impact) {
+  if constexpr (View::is_sheared) {
+    see_shear(impact, r, rows_to_nearest(d.y[j] - d.y[i], box), d.mass(j) * (d.vx[j] - before), box.shear);
+  }
 }
 
 template <class View>
@@ -121,6 +163,27 @@ void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t 
                          [&](std::uint32_t k, const ObstacleGap& gap) { found(obstacle_event(d, rules, i, k, gap)); });
 }
 
+// What rough disks do along their surfaces in the collision by which i and j, as r says before it, have just changed
+// the squared-distance rate by `change` (collide).
+template <class View>
+void rub_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j, const Relative& r, Shares share,
+              double change) {
+  if constexpr (View::is_rough) {
+    rub_disks(*rules.surfaces, r, share, change, d.radius(i), d.radius(j), d.vx[i], d.vy[i], d.vx[j], d.vy[j],
+              d.spin[i], d.spin[j]);
+  }
+}
+
+// Likewise of disk i and a wall, or an obstacle, that has just changed its velocity by `pressed` along this normal.
+template <class View>
+void rub_against(const View& d, const StepRules& rules, std::uint32_t i, Vec2 normal, bool disk, double pressed) {
+  if constexpr (View::is_rough) {
+    const Surfaces& surfaces = *rules.surfaces;
+    rub_wall(disk ? surfaces.disks : surfaces.walls, surfaces.inertia, normal.x, normal.y, d.radius(i), pressed,
+             d.vx[i], d.vy[i], d.spin[i]);
+  }
+}
+
 // Along the disk's own path, back where t < 0.
 template <class View>
 void drift_one(const View& d, std::uint32_t i, double t, const Gravity& g) {
@@ -141,14 +204,17 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
   if (inside_step) {
     drift_one(d, i, -ago, rules.gravity);
     drift_one(d, j, -ago, rules.gravity);
-    r = relative(d, i, j, rules.box);
+    r = relative(d, i, j, rules.box, ago);
   }
   Impact impact;
   if (r.distance2() > 0.0 && r.approach() < 0.0) {
     const Shares share = shares_of(d, i, j);
     const double e = pair_restitution(d, rules, i, j, r);
+    const double before = d.vx[j];
     const double change = collide(r, share, e, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
+    rub_pair(d, rules, i, j, r, share, change);
     impact = {reduced_mass(d.mass(i), d.mass(j)) * change, 0.0, true, !inside_step};
+    see_shear_of(d, rules.box, i, j, r, before, impact);
   }
   if (inside_step) {
     drift_one(d, i, ago, rules.gravity);
@@ -171,6 +237,7 @@ double bounce_at_wall(const View& d, const StepRules& rules, std::uint32_t i, Si
     d.y[i] = touching_coordinate(side, r, rules.box);
     d.vy[i] = side == Side::bottom ? away : -away;
   }
+  rub_against(d, rules, i, inward_normal(side), false, speed + away);
   return speed + away;
 }
 
@@ -179,8 +246,15 @@ template <class View>
 Impact reflect_at_side(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
   const double before = outward_speed(side, d.vx[i], d.vy[i]);
   const DiskId id = d.id[i];
-  const double heat = reflect_thermally(side, rules.box.temperature(side), d.mass(i), {rules.seed, id},
-                                        rules.thermal_hits[id], d.vx[i], d.vy[i]);
+  double normal = 0.0;
+  double heat = reflect_thermally(side, rules.box.temperature(side), d.mass(i), {rules.seed, id},
+                                  rules.thermal_hits[id], d.vx[i], d.vy[i], &normal);
+  if constexpr (View::is_rough) {
+    if (rules.surfaces->walls.acts()) {
+      heat += spin_thermally(rules.surfaces->inertia, rules.box.temperature(side), d.mass(i), d.radius(i), normal,
+                             d.spin[i]);
+    }
+  }
   return {d.mass(i) * (before - outward_speed(side, d.vx[i], d.vy[i])), heat, true};
 }
 
@@ -194,6 +268,7 @@ Impact resolve_thermal_wall(const View& d, const StepRules& rules, std::uint32_t
   Impact impact;
   if (inside_step) drift_one(d, i, -ago, rules.gravity);
   if (outward_speed(side, d.vx[i], d.vy[i]) > 0.0) impact = reflect_at_side(d, rules, i, side);
+  impact.inaccurate = is_met_late(ago, beyond, speed, rules.dt);
   if (inside_step) drift_one(d, i, ago, rules.gravity);
   const double r = d.radius(i);
   if (reach_beyond_wall(side, d.x[i], d.y[i], r, rules.box) >= 0.0) {
@@ -212,20 +287,26 @@ Impact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t 
   const auto speed = [&] { return approach_speed(side, d.vx[i], d.vy[i], place); };
   if (!(beyond() >= 0.0) || !(speed() > 0.0)) return {};
   const double ago = time_since_wall(side, beyond(), speed(), rules.gravity);
+  const bool late = is_met_late(ago, beyond(), speed(), rules.dt);
   double change = 0.0;
+  const auto bounce_off = [&](double approach, double away) {
+    const double kick = rebound(side, place, approach, away, d.vx[i], d.vy[i]);
+    rub_against(d, rules, i, inward_normal(side), false, kick);
+    change += kick;
+  };
   if (ago <= rules.dt) {
     drift_one(d, i, -ago, rules.gravity);
     const double approach = speed();
-    if (approach > 0.0) change = rebound(side, place, approach, restitution * approach, d.vx[i], d.vy[i]);
+    if (approach > 0.0) bounce_off(approach, restitution * approach);
     drift_one(d, i, ago, rules.gravity);
   }
   if (beyond() >= 0.0 && speed() > 0.0) {
     const double away = restitution * speed_at_wall(side, beyond(), speed(), rules.gravity);
     (side == Side::left || side == Side::right ? d.x : d.y)[i] = touching_coordinate(side, r, rules.box);
-    change += rebound(side, place, speed(), away, d.vx[i], d.vy[i]);
+    bounce_off(speed(), away);
   }
   const double impulse = d.mass(i) * change;
-  return {impulse, impulse * place.speed, change > 0.0};
+  return {impulse, impulse * place.speed, change > 0.0, late};
 }
 
 // Likewise for a disk and a wall (F11: position and velocity are both put right). A disk that gravity brings back to
@@ -239,6 +320,7 @@ Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side
   if (!(beyond() >= 0.0) || !(speed() > 0.0)) return {};
   if (rules.box.is_thermal(side)) return resolve_thermal_wall(d, rules, i, side, beyond(), speed());
   const double ago = time_since_wall(side, beyond(), speed(), rules.gravity);
+  const bool late = is_met_late(ago, beyond(), speed(), rules.dt);
   double change = 0.0;
   if (ago <= rules.dt) {
     drift_one(d, i, -ago, rules.gravity);
@@ -246,11 +328,12 @@ Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side
     if (impact_speed > 0.0) {
       change = impact_speed * (1.0 + rules.box.restitution(side));
       bounce(side, rules.box.restitution(side), d.vx[i], d.vy[i]);
+      rub_against(d, rules, i, inward_normal(side), false, change);
     }
     drift_one(d, i, ago, rules.gravity);
   }
   if (beyond() >= 0.0 && speed() > 0.0) change += bounce_at_wall(d, rules, i, side);
-  return {d.mass(i) * change, 0.0, change > 0.0};
+  return {d.mass(i) * change, 0.0, change > 0.0, late};
 }
 
 // Gives disk i the speed `change` more away from an obstacle.
@@ -272,6 +355,7 @@ double bounce_at_obstacle(const View& d, const StepRules& rules, std::uint32_t i
   d.x[i] += gap.beyond * gap.nx;
   d.y[i] += gap.beyond * gap.ny;
   kick_away(d, i, gap, speed + away);
+  rub_against(d, rules, i, {gap.nx, gap.ny}, !o.is_segment(), speed + away);
   return speed + away;
 }
 
@@ -284,6 +368,7 @@ Impact resolve_obstacle(const View& d, const StepRules& rules, std::uint32_t i, 
   ObstacleGap gap = gap_now();
   if (!(gap.beyond >= 0.0) || !(speed(gap) > 0.0)) return {};
   const double ago = time_since_obstacle(o, gap, d.radius(i), d.vx[i], d.vy[i], rules.gravity);
+  const bool late = is_met_late(ago, gap.beyond, speed(gap), rules.dt);
   double change = 0.0;
   if (ago <= rules.dt) {
     drift_one(d, i, -ago, rules.gravity);
@@ -292,12 +377,13 @@ Impact resolve_obstacle(const View& d, const StepRules& rules, std::uint32_t i, 
     if (impact_speed > 0.0) {
       change = impact_speed * (1.0 + obstacle_restitution(d, rules, i, o, impact_speed));
       kick_away(d, i, gap, change);
+      rub_against(d, rules, i, {gap.nx, gap.ny}, !o.is_segment(), change);
     }
     drift_one(d, i, ago, rules.gravity);
     gap = gap_now();
   }
   if (gap.beyond >= 0.0 && speed(gap) > 0.0) change += bounce_at_obstacle(d, rules, i, o);
-  return {d.mass(i) * change, 0.0, change > 0.0};
+  return {d.mass(i) * change, 0.0, change > 0.0, late};
 }
 
 template <class View>

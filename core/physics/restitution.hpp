@@ -11,6 +11,7 @@
 #include "core/disks/domain.hpp"
 #include "core/disks/obstacle_cells.hpp"
 #include "core/disks/restitution_law.hpp"
+#include "core/disks/roughness.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/disk_pair.hpp"
 
@@ -55,22 +56,27 @@ inline double speed_of_approach(const Relative& r) {
   return -r.approach() / std::sqrt(r.distance2());
 }
 
-// Rules: StepRules or ExactRules, which have the number `restitution`, `law` (null where the number is all) and `box`.
+// Rules: StepRules or ExactRules, which have the number `restitution`, `law` (null where the number is all), `surfaces`
+// (null where all are smooth) and `box`.
 
-// Calls kernel(view) with a view whose type says whether there is a law.
+// Calls kernel(view) with a view whose type says whether disks are rough or the box is sheared, and whether there is a
+// law. No box with rough disks is sheared.
 template <class Rules, class Kernel>
 decltype(auto) with_view(Disks& d, const Rules& rules, Kernel&& kernel) {
-  return rules.law == nullptr ? with_view<false>(d, kernel) : with_view<true>(d, kernel);
+  if (rules.surfaces != nullptr) return with_view<ContactKind::rough>(d, kernel);
+  if (rules.box.shear.acts()) return with_view<ContactKind::sheared>(d, kernel);
+  return rules.law == nullptr ? with_view(d, kernel) : with_view<ContactKind::under_law>(d, kernel);
 }
 
 // Of disks i and j, which approach as r says.
 template <class View, class Rules>
 double pair_restitution(const View& d, const Rules& rules, std::uint32_t i, std::uint32_t j, const Relative& r) {
-  if constexpr (View::has_law) {
-    return restitution_at(rules.law->of(rules.restitution, d.id[i], d.id[j]), speed_of_approach(r));
-  } else {
-    return rules.restitution;
+  if constexpr (View::may_have_law) {
+    if (View::has_law || rules.law != nullptr) {
+      return restitution_at(rules.law->of(rules.restitution, d.id[i], d.id[j]), speed_of_approach(r));
+    }
   }
+  return rules.restitution;
 }
 
 // Under a law, which holds for fixed disks as for others: of the disk with this id and an obstacle that it approaches
@@ -84,11 +90,10 @@ double restitution_under_law(const Rules& rules, DiskId id, const Obstacle& o, d
 // Of disk i and an obstacle that it approaches at this speed; length / time.
 template <class View, class Rules>
 double obstacle_restitution(const View& d, const Rules& rules, std::uint32_t i, const Obstacle& o, double speed) {
-  if constexpr (View::has_law) {
-    return restitution_under_law(rules, d.id[i], o, speed);
-  } else {
-    return o.restitution;
+  if constexpr (View::may_have_law) {
+    if (View::has_law || rules.law != nullptr) return restitution_under_law(rules, d.id[i], o, speed);
   }
+  return o.restitution;
 }
 
 // Of a contact with a wall or an obstacle, without a law.
@@ -108,6 +113,11 @@ inline std::optional<DiskId> other_disk(const Domain& box, DiskId partner) {
 template <class Rules>
 bool may_lose_energy(const Rules& rules, DiskId id, DiskId partner) {
   const std::optional<DiskId> other = other_disk(rules.box, partner);
+  if (rules.surfaces != nullptr) {
+    const bool thermal =
+        is_wall(partner) && !is_obstacle(partner) && rules.box.is_thermal(wall_side(partner));  // draws, rubs nothing
+    if (!thermal && (other ? rules.surfaces->disks : rules.surfaces->walls).dissipates()) return true;
+  }
   if (rules.law != nullptr && other) return rules.law->of(rules.restitution, id, *other).least < 1.0;
   return (is_wall(partner) ? restitution_of_wall(rules.box, partner) : rules.restitution) < 1.0;
 }
@@ -115,7 +125,7 @@ bool may_lose_energy(const Rules& rules, DiskId id, DiskId partner) {
 // The same of a contact found, in a step.
 template <class View, class Rules>
 bool may_lose_energy(const View&, const Rules& rules, const ContactEvent& e) {
-  if constexpr (View::has_law) {
+  if constexpr (View::may_have_law) {
     return may_lose_energy(rules, e.id1, e.id2);
   } else {
     return (is_wall(e.id2) ? restitution_of_wall(rules.box, e.id2) : rules.restitution) < 1.0;

@@ -6,6 +6,7 @@
 
 #include "core/base/random.hpp"
 #include "core/physics/boundary.hpp"
+#include "core/physics/roughness.hpp"
 
 namespace carom {
 
@@ -13,6 +14,7 @@ namespace carom {
 struct FluxVelocity {
   double away = 0.0;   // from the wall, > 0; length / time
   double along = 0.0;  // the wall
+  double more = 0.0;   // a standard normal deviate besides
 };
 
 // Maxwell's flux distribution: away from the wall the density is v exp(-v^2 / (2 s^2)) / s^2 (the root of the sum of
@@ -21,7 +23,7 @@ struct FluxVelocity {
 inline FluxVelocity flux_velocity(std::uint64_t seed, Stream stream, DiskId id, std::uint64_t number, double scale) {
   const Vec2 a = normals(seed, stream, id, 2 * number);
   const Vec2 b = normals(seed, stream, id, 2 * number + 1);
-  return {scale * std::sqrt(a.x * a.x + a.y * a.y), scale * b.x};
+  return {scale * std::sqrt(a.x * a.x + a.y * a.y), scale * b.x, b.y};
 }
 
 // Disk `id` leaves a side with this velocity.
@@ -40,13 +42,25 @@ struct ThermalDraw {
 };
 
 // A disk of this mass that moves towards the side is reflected with a velocity drawn at temperature T. hits: how often
-// that has happened to it. Returns the energy that the side gave it, mass length^2 / time^2.
+// that has happened to it. Returns the energy that the side gave it, mass length^2 / time^2. more: gets a standard
+// normal deviate that goes with the draw.
 inline double reflect_thermally(Side side, double temperature, double mass, const ThermalDraw& draw,
-                                std::uint32_t& hits, double& vx, double& vy) {
+                                std::uint32_t& hits, double& vx, double& vy, double* more = nullptr) {
   const double before = vx * vx + vy * vy;
   const double scale = std::sqrt(temperature / mass);
-  leave_side(side, flux_velocity(draw.seed, Stream::thermal_side, draw.id, hits++, scale), vx, vy);
+  const FluxVelocity drawn = flux_velocity(draw.seed, Stream::thermal_side, draw.id, hits++, scale);
+  leave_side(side, drawn, vx, vy);
+  if (more != nullptr) *more = drawn.more;
   return 0.5 * mass * ((vx * vx + vy * vy) - before);
+}
+
+// A thermal side whose surface is rough draws the spin anew, too: normal is a standard normal deviate. Returns the
+// energy that it gave to the rotation.
+inline double spin_thermally(double inertia, double temperature, double mass, double radius, double normal,
+                             double& spin) {
+  const double before = rotational_energy(inertia, mass, radius, spin);
+  spin = normal * (std::sqrt(temperature / (inertia * mass)) / radius);
+  return rotational_energy(inertia, mass, radius, spin) - before;
 }
 
 }  // namespace carom

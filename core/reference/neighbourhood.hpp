@@ -33,6 +33,12 @@ class Neighbourhood {
   template <class See>
   void visit(std::uint32_t i, See&& see) const {
     for (const std::size_t row : CellNeighbours(home_[i].row, rows_, box_.periodic_y())) {
+      // Across the bottom or the top of a sheared box disks of any column may be near.
+      const bool across = rows_ <= 3 || (row != home_[i].row && row + 1 != home_[i].row && row != home_[i].row + 1);
+      if (across && box_.shear.acts()) {
+        visit_row(row, i, see);
+        continue;
+      }
       for (const std::size_t column : CellNeighbours(home_[i].column, columns_, box_.periodic_x())) {
         for (const std::uint32_t j : cells_[row * columns_ + column]) {
           if (j != i) see(j);
@@ -42,6 +48,15 @@ class Neighbourhood {
   }
 
  private:
+  template <class See>
+  void visit_row(std::size_t row, std::uint32_t i, See& see) const {
+    for (std::size_t column = 0; column < columns_; ++column) {
+      for (const std::uint32_t j : cells_[row * columns_ + column]) {
+        if (j != i) see(j);
+      }
+    }
+  }
+
   struct Home {
     std::size_t column, row;
   };

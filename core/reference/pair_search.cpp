@@ -76,6 +76,12 @@ void for_pairs_of_row(const UniformGrid& grid, std::size_t row, const Disks& d, 
     if (grid.start[home] == grid.start[home + 1]) continue;
     const CellNeighbours columns(column, grid.columns, box.periodic_x());
     for (const std::size_t r : rows) {
+      // Across the bottom or the top of a sheared box disks of any column may be near.
+      const bool across = grid.rows <= 3 || (r != row && r + 1 != row && r != row + 1);
+      if (across && box.shear.acts()) {
+        for (std::size_t c = 0; c < grid.columns; ++c) use_pairs_between(home, r * grid.columns + c);
+        continue;
+      }
       for (const std::size_t c : columns) use_pairs_between(home, r * grid.columns + c);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/physics/sheared_crossing.hpp"
 #include "core/reference/reference_exact.hpp"
 #include "core/reference/reference_pairwise.hpp"
 #include "core/reference/reference_rollback.hpp"
@@ -76,6 +77,12 @@ void ReferenceEngine::drift(double t) {
 
 void ReferenceEngine::wrap_all() {
   Disks& d = state_.disks;
+  if (scene_.box.shear.acts()) {
+    ImpactTally tally;
+    for (std::size_t i = 0; i < d.size(); ++i) cross_sheared(d, i, scene_.box, tally);
+    tally.count_into(state_.counters);
+    return;
+  }
   for (std::size_t i = 0; i < d.size(); ++i) wrap(d.x[i], d.y[i], scene_.box);
 }
 

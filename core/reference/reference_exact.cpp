@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/physics/wall_overlap.hpp"
 #include "core/reference/reference_window.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_start.hpp"
@@ -58,13 +59,15 @@ class ReferenceExact final : public Engine {
     const double s = t > last_plan_.start ? t - last_plan_.start : 0.0;
     std::vector<PathSegment> path = paths_.first;
     std::vector<unsigned char> gone(path.size(), 0);
+    out = at_start_;
     for (const WindowPaths::Piece& p : paths_.later) {
       if (p.path.start > s) break;
       path[p.disk] = p.path;
       gone[p.disk] = p.gone ? 1 : 0;
+      if (out.spins()) out.spin[p.disk] = p.spin;
     }
-    out = at_start_;
-    for (std::size_t i = 0; i < path.size(); ++i) place(path[i], s, out, i);
+    const Domain box = box_at(scene_.box, last_plan_.start);
+    for (std::size_t i = 0; i < path.size(); ++i) place(path[i], s, box, out, i);
     remove_marked(out, gone);
     return t;
   }
@@ -104,25 +107,32 @@ class ReferenceExact final : public Engine {
     state_.counters.removed += remove_marked(state_.disks, gone);
   }
 
-  void place(const PathSegment& path, double s, Disks& d, std::size_t i) const {
+  // box: at the start of the window. Returns the work of the shear where the disk has left a sheared box.
+  double place(const PathSegment& path, double s, const Domain& box, Disks& d, std::size_t i) const {
     PathSegment p = carried_to(path, s, scene_.physics.gravity);
-    wrap_into(p, scene_.box);
+    const double work = wrap_with_work(p, d.mass_of(i), box);
     d.x[i] = p.x;
     d.y[i] = p.y;
     d.vx[i] = p.vx;
     d.vy[i] = p.vy;
+    return work;
   }
 
-  void finish(const WindowPlan& plan, const WindowResult& result) {
+  void finish(const WindowPlan& plan, WindowResult& result) {
     Disks& d = state_.disks;
+    const Domain box = box_at(scene_.box, plan.start);
     for (std::size_t i = 0; i < d.size(); ++i) {
-      place(result.disks[i].path, plan.length, d, i);
+      const double work = place(result.disks[i].path, plan.length, box, d, i);
+      if (work != 0.0) result.tally.add_shear(0.0, work);
+      if (d.spins()) d.spin[i] = result.disks[i].spin;
       if (!state_.last_contact.empty()) state_.last_contact[d.id[i]] = plan.start + result.disks[i].last_contact;
       if (!state_.thermal_hits.empty()) state_.thermal_hits[d.id[i]] = result.disks[i].thermal_hits;
     }
     state_.counters.removed += remove_marked(d, result.gone);
     finish_window(state_, plan, result.tally, scale_);
-    validity_.see_step(scene_, {{}, {}, {}, result.tally.inaccurate}, state_);
+    Overlap wall;
+    if (walls_are_watched(scene_)) wall = deepest_wall_overlap(d, box_at(scene_.box, state_.time), 0, d.size());
+    validity_.see_step(scene_, {{}, {}, wall, result.tally.all_inaccurate()}, state_);
     check_pace(scene_, state_, plan);
   }
 

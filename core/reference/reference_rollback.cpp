@@ -41,11 +41,11 @@ class RollbackPhases : public ReferenceEngine {
     bounce_all(state_.disks, rules, events_, tally, log_);
   }
 
-  void meet_all_walls(const StepRules& rules, ImpactTally& tally) {
+  void meet_all_walls(const StepRules& rules, ImpactTally& tally, StepFigures& figures) {
     const PhaseTimer timer(times_, "resolve");
     with_view(state_.disks, rules, [&](const auto& d) {
       for (std::size_t i = 0; i < state_.disks.size(); ++i) {
-        meet_walls(d, rules, static_cast<std::uint32_t>(i), tally);
+        meet_walls(d, rules, static_cast<std::uint32_t>(i), tally, figures.wall);
       }
     });
     wrap_all();

@@ -104,18 +104,20 @@ class EventLoop {
 
   void begin_segment(const Event& e, std::uint32_t i, bool lost_energy) {
     ++version_[i];
-    result_.paths.later.push_back({i, path(i), result_.gone[i] != 0, i == e.i1 ? e.id2 : e.id1});
+    result_.paths.later.push_back({i, path(i), result_.gone[i] != 0, i == e.i1 ? e.id2 : e.id1, result_.disks[i].spin});
     const EventMark mark{e.time, e.id1, e.id2};
     const bool many = version_[i] > most_paths_of_disk || result_.paths.later.size() > most_paths(disks_.size());
     if (many) result_.crowded = mark;
     if (lost_energy && burst_[i].add(e.time, plan_.length)) collapse_ = mark;
   }
 
-  // Adds the path length along the present segment up to time s; under gravity an upper bound.
+  // Adds the path length along the present segment up to time s; under gravity an upper bound. In a sheared box disks
+  // that crossed its sides go on in their images, which move.
   void add_travel(std::uint32_t i, double s) {
     const PathSegment& p = path(i);
     const double t = s - p.start;
     travelled_[i] += (std::sqrt(p.vx * p.vx + p.vy * p.vy) + rules_.gravity.size * t) * t;
+    if (rules_.box.shear.acts()) travelled_[i] += std::abs(rules_.box.shear.jump) * t;
     farthest_ = std::max(farthest_, travelled_[i]);
   }
 
@@ -143,6 +145,10 @@ WindowResult fresh_result(const State& state) {
   for (std::size_t i = 0; i < d.size(); ++i) {
     ExactDisk& disk = result.disks[i];
     disk.path = {0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]};
+    if (d.spins()) {
+      disk.spin = d.spin[i];
+      disk.radius = d.radius_of(i);
+    }
     if (!state.last_contact.empty()) disk.last_contact = state.last_contact[d.id[i]] - state.time;
     if (!state.thermal_hits.empty()) disk.thermal_hits = state.thermal_hits[d.id[i]];
     result.paths.first[i] = disk.path;
@@ -154,7 +160,7 @@ WindowResult fresh_result(const State& state) {
 double guess_travel(const ExactRules& rules, const Disks& d, double length) {
   double fastest2 = 0.0;
   for (std::size_t i = 0; i < d.size(); ++i) fastest2 = std::max(fastest2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
-  return 1.25 * (std::sqrt(fastest2) + rules.gravity.size * length) * length;
+  return 1.25 * (std::sqrt(fastest2) + rules.gravity.size * length + std::abs(rules.box.shear.jump)) * length;
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ struct WindowPaths {
     PathSegment path;
     bool gone;       // left through a sink at path.start
     DiskId partner;  // that it met at path.start: a disk, or a wall (contact_event.hpp)
+    double spin;     // of a rough disk
   };
   std::vector<PathSegment> first;  // one a disk
   std::vector<Piece> later;        // in order of their starts

@@ -107,7 +107,7 @@ std::vector<std::uint32_t> contacts_per_disk(std::size_t disks, const std::vecto
 std::vector<ContactEvent> contacts_after_drift(Disks& disks, const StepRules& rules) {
   std::vector<ContactEvent> events;
   const std::vector<Pair> pairs = find_touching_pairs(disks, rules.box);
-  with_view(disks, [&](const auto& d) {
+  with_view(disks, rules, [&](const auto& d) {
     for (const Pair& p : pairs) events.push_back(pair_event(d, rules, p.i1, p.i2));
     for (std::size_t i = 0; i < disks.size(); ++i) {
       for_each_wall_contact(d, rules, static_cast<std::uint32_t>(i),
@@ -133,6 +133,7 @@ StepFigures resolve_serially(State& state, const StepRules& rules, std::vector<C
     if (rules.settles) bear_loads(d, state, rules, events, contacts, tally);
     tally.count_into(state.counters);
     figures.inaccurate = tally.inaccurate;
+    figures.inaccurate_at_walls = tally.inaccurate_at_walls;
     push_all(d, state, rules, events, contacts);
     for (const ContactEvent& e : events) see_overlap_left(d, rules.box, e, figures);
     for (std::uint32_t i = 0; i < contacts.size(); ++i) {

@@ -11,6 +11,7 @@
 #include "core/disks/state.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/resolve.hpp"
+#include "core/physics/wall_overlap.hpp"
 #include "core/step/validity.hpp"
 
 namespace carom {
@@ -32,15 +33,7 @@ void see_overlap_before(const View& d, const StepRules& rules, std::uint32_t i, 
 // How deep a disk lies in walls at the end of the step. Only disks in contact can: to be asked once for each of them.
 template <class View>
 void see_wall_overlap(const View& d, const Domain& box, std::uint32_t i, StepFigures& figures) {
-  for (Side side : all_sides) {
-    if (box.side(side) != SideKind::wall) continue;
-    const double beyond = reach_beyond_wall(side, d.x[i], d.y[i], d.radius(i), box);
-    if (beyond > 0.0) figures.wall.see({beyond / d.radius(i), d.id[i], wall_partner(side)});
-  }
-  if (box.obstacles == nullptr) return;
-  for_each_solid_touched(box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
-    if (gap.beyond > 0.0) figures.wall.see({gap.beyond / d.radius(i), d.id[i], obstacle_partner(k)});
-  });
+  see_wall_overlap(d.x[i], d.y[i], d.radius(i), d.id[i], box, figures.wall);
 }
 
 // How deep the two disks of a contact lie in one another at the end of the step; a wall's contact has none to see.
@@ -48,7 +41,7 @@ template <class View>
 void see_overlap_left(const View& d, const Domain& box, const ContactEvent& e, StepFigures& figures) {
   if (is_wall(e.id2)) return;
   const double contact_distance = d.radius(e.i1) + d.radius(e.i2);
-  const double distance2 = nearest_distance2({d.x[e.i2] - d.x[e.i1], d.y[e.i2] - d.y[e.i1]}, box);
+  const double distance2 = distance2_of(d, e.i1, e.i2, box);
   // No square root for what is surely shallower than what was seen: in a pile every contact overlaps a little.
   constexpr double deep = 0.5, above_rounding = 1.0 + 1e-14;
   const double seen = figures.left.size < deep ? contact_distance * (1.0 - figures.left.size) : contact_distance;

@@ -17,7 +17,7 @@ inline bool velocities_are_drawn(const Scene& scene) {
 
 // Does nothing in the scene give momentum to the disks or take it away?
 inline bool keeps_momentum(const Scene& scene) {
-  return scene.box.periodic_x() && scene.box.periodic_y() && !scene.physics.gravity.acts() &&
+  return scene.box.periodic_x() && scene.box.periodic_y() && !scene.box.shear.acts() && !scene.physics.gravity.acts() &&
          !(scene.physics.diffusion > 0.0) && !scene.physics.thermostat.acts() && scene.sources.empty() &&
          scene.walls.empty() &&
          std::none_of(scene.groups.begin(), scene.groups.end(), [](const DiskGroup& g) { return g.fixed; });

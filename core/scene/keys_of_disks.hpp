@@ -44,6 +44,13 @@ inline constexpr SceneKey keys[] = {
      "region = [0.0, 0.0, 50.0, 100.0]", "[x0, y0, x1, y1], or `{ circle = ... }`"},
     {"disks", "drift", special, Dimension::speed, "[0, 0]", "A velocity that all disks of the group get on top.",
      "drift = [1.0, 0.0]", "[vx, vy]"},
+    {"disks", "spin", number, Dimension::frequency, "0",
+     "Angular velocity of rough disks at the start, counter-clockwise.", "spin = 2.0",
+     "a number, a list of them, or `{ frame = ... }`"},
+    {"disks", "spin_temperature", non_negative, Dimension::energy, "not drawn",
+     "T: spins of rough disks are normal deviates, scaled so that the mean of I w^2 is T exactly (k_B = 1). Takes the "
+     "place of `spin`.",
+     "spin_temperature = 1.0"},
     {"disks", "name", text, none, "none",
      "What the group is called, for `select`, columns of series.csv, and the legend of pictures. `sources` names the "
      "disks of all sources together.",
@@ -129,6 +136,10 @@ inline constexpr SceneKey keys[] = {
     {"sources", "velocities", special, none, "at rest",
      "Velocities; no list. Through a side the component across it always points inward.",
      "velocities = { maxwell = 1.0 }", velocities_allowed},
+    {"sources", "spin", number, Dimension::frequency, "no spin", "Of rough disks, as in `[[disks]]`; no list.",
+     "spin = 2.0", "a number"},
+    {"sources", "spin_temperature", non_negative, Dimension::energy, "not drawn",
+     "Likewise; the mean square is T / I on average.", "spin_temperature = 1.0"},
     {"sources", "limit", count, none, "none", "So many disks come at most.", "limit = 500"},
 
     {"walls", "from", special, Dimension::length, "required, or points", "One end.", "from = [2.0, 8.0]", "[x, y]"},

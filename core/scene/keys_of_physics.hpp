@@ -43,10 +43,23 @@ inline constexpr SceneKey keys[] = {
     {"box", "bottom", special, none, "\"wall\"", side_says, R"(bottom = "sink")", side_allowed, side_kind_names},
     {"box", "top", special, none, "\"wall\"", side_says, R"(top = { kind = "wall", restitution = 0.5 })", side_allowed,
      side_kind_names},
+    {"box", "shear_rate", special, Dimension::frequency, "0",
+     "g of the flow vx = g (y - height / 2) in a box that is periodic both ways: the images above the box move at g "
+     "height (Lees and Edwards). Velocities of `[[disks]]` are relative to this flow; all that is written is not.",
+     "shear_rate = 0.1", "a number, 0 or of either sign"},
     {"box", "wall_restitution", unit_interval, none, "1",
      "Speed away from a wall over speed towards it, in a collision of disk and wall, where the side has no "
      "`restitution` of its own.",
      "wall_restitution = 0.9"},
+    {"box", "wall_roughness", special, none, "smooth",
+     "Of the sides and inner walls, where disks are rough. A thermal side with it draws the spin anew, too; without it "
+     "the spin stays as it is.",
+     "wall_roughness = { tangential_restitution = 0.5 }", "`{ tangential_restitution = ... }`"},
+    {"box.wall_roughness", "tangential_restitution", number, none, "required",
+     "As in `roughness` of `[physics]`, of a disk's surface against the wall's.",
+     "wall_roughness = { tangential_restitution = 0.5 }", "a number from -1 to 1"},
+    {"box.wall_roughness", "friction", non_negative, none, "no limit", "Likewise.",
+     "wall_roughness = { tangential_restitution = 0.5, friction = 0.3 }"},
     {"box.side",
      "kind",
      choice,
@@ -64,7 +77,7 @@ inline constexpr SceneKey keys[] = {
      "from Maxwell's flux distribution. Takes the place of `restitution`. Not with Brownian motion.",
      "left = { temperature = 2.0 }"},
     {"box.side", "motion", special, none, "at rest",
-     "How a wall moves, whatever meets it: it reflects disks in its own frame. Not with sources, Brownian motion or "
+     "How a wall moves, whatever meets it: it reflects disks in its own frame. Not with Brownian motion or "
      "`temperature`.",
      "right = { motion = { velocity = [-0.1, 0.0] } }", "`{ velocity = ... }` or `{ vibrate = ... }`"},
     {"box.side", "place", non_negative, Dimension::length, "as near to the edge as its motion allows",
@@ -84,7 +97,8 @@ inline constexpr SceneKey keys[] = {
      choice,
      none,
      "\"parabola\"",
-     "Of the vibration: a parabola for each half period, nearly a sine, so that `exact` has quadratics to solve.",
+     "Of the vibration: a parabola for each half period, nearly a sine, so that `exact` has quadratics to solve; or a "
+     "sine, whose contacts it finds step by step.",
      R"(bottom = { motion = { vibrate = [0.0, 0.5], period = 2.0, shape = "parabola" } })",
      {},
      vibration_shapes},
@@ -110,6 +124,22 @@ inline constexpr SceneKey keys[] = {
     {"physics.pairs", "restitution", unit_interval, none, "required",
      "Takes the place of that of `[physics]` where a disk of one group meets one of the other.", "restitution = 0.5",
      restitution_allowed},
+    {"physics", "roughness", special, none, "smooth",
+     "Disks have rough surfaces and spin; fixed disks are as rough as others. Not with Brownian motion. Supports in a "
+     "pile (method `pairwise`) bear without friction.",
+     "roughness = { tangential_restitution = 0.5, friction = 0.3 }",
+     "`{ tangential_restitution = ..., friction = ..., inertia = ... }`"},
+    {"physics.roughness", "tangential_restitution", number, none, "required",
+     "b: a sticking contact multiplies the velocity of one surface along the other by -b. -1: smooth; 0: it stops; 1: "
+     "it turns around, and no energy is lost.",
+     "roughness = { tangential_restitution = 0.5 }", "a number from -1 to 1"},
+    {"physics.roughness", "friction", non_negative, none, "no limit",
+     "mu of Coulomb: where sticking would take more than mu times the normal impulse, the contact slides and the "
+     "tangential impulse is that.",
+     "roughness = { tangential_restitution = 0.5, friction = 0.3 }"},
+    {"physics.roughness", "inertia", positive, none, "0.5",
+     "Moment of inertia of a disk over m r^2: 1/2 for a uniform disk, 2/5 for a sphere, 1 for a ring.",
+     "roughness = { tangential_restitution = 0.5, inertia = 0.4 }", "a number from 1e-6 to 1"},
     {"physics", "diffusion", positive, Dimension::diffusion, "no Brownian motion",
      "D of a single disk in Brownian motion: each step draws a displacement of variance 2 D dt in x and in y.",
      "diffusion = 0.1"},

@@ -13,6 +13,7 @@
 #include "core/disks/domain.hpp"
 #include "core/disks/gravity.hpp"
 #include "core/disks/restitution_law.hpp"
+#include "core/disks/roughness.hpp"
 
 namespace carom {
 
@@ -69,12 +70,21 @@ struct VelocityLaw {
   std::string file;
 };
 
+// How rough disks spin at first.
+struct SpinLaw {
+  double value = 0.0;        // 1 / time, counter-clockwise
+  std::vector<double> list;  // one a disk, in place of value
+  double temperature = 0.0;  // > 0: normal deviates in place of both, of mean square T / I
+  std::string file;          // where the list came from, empty if the scene
+};
+
 struct DiskGroup {
   std::string name;  // that columns, options and messages call it by; empty: none
   Count count = 0;
   PositionLaw positions;
   VelocityLaw velocities;
   Vec2 drift;  // added to the velocities of the law; length / time
+  SpinLaw spins;
   SizeLaw radius;
   SizeLaw mass;
   bool fixed = false;  // obstacles: they never move, and their mass, which is infinite, is not asked for
@@ -88,6 +98,7 @@ struct Source {
   double rate = 0.0;             // disks / time
   SizeLaw radius, mass;
   VelocityLaw velocities;  // rest, maxwell or uniform
+  SpinLaw spins;           // no list
   std::optional<Count> limit;
   int line = 0;
 };
@@ -124,6 +135,7 @@ struct Physics {
   bool accumulate = false;   // docs/original.md: u / dt is added to the velocity instead of replacing it
   std::optional<double> collapse_contact_time;  // TC model, exact only
   Thermostat thermostat;
+  Surfaces surfaces;  // rough or smooth
 };
 
 // How positions = "growth" goes about it (growth.hpp).
@@ -199,9 +211,23 @@ enum class Quantity : std::uint8_t {
   profile,
   velocity_autocorrelation,
   structure_factor,
-  bond_order
+  bond_order,
+  bond_correlation
 };
-inline constexpr std::size_t quantities = 10;
+inline constexpr std::size_t quantities = 11;
+
+// Distances of pairs, in equal bins.
+struct DistancePlan {
+  double r_max = 0.0;  // length
+  Count bins = 0;
+  double wall_margin =
+      0.0;  // least distance from a side that is not periodic, of disks whose surroundings count; length
+};
+
+struct NamedIds {
+  std::string name;  // of a group
+  IdRange ids;
+};
 
 // Measured at the times start + k every, and at t_end.
 struct AnalysisPlan {
@@ -210,17 +236,18 @@ struct AnalysisPlan {
   IdRange ids;                            // of the group
   double every = 0.0;                     // simulated time between samples; 0: only the first and the last
   double start = 0.0;                     // simulated time of the first
-  double r_max = 0.0;                     // of the pair correlation; length
-  Count r_bins = 0;
-  double wall_margin =
-      0.0;                 // least distance from a side that is not periodic, of disks whose surroundings count; length
-  double speed_max = 0.0;  // of the speed histogram, in units of sqrt(T / m)
+  DistancePlan pairs;                     // of the pair correlation
+  std::vector<NamedIds> pair_groups;      // each of which has a g(r) with each
+  DistancePlan bonds;                     // of the bond correlation
+  double speed_max = 0.0;                 // of the speed histogram, in units of sqrt(T / m)
   Count speed_bins = 0;
   bool density_along_x = false;  // else along y
   Count density_bins = 0;
+  double density_every = 0.0;    // simulated time that a row of the profile takes in; 0: no rows, but the whole run
   bool profile_along_x = false;  // of velocity and temperature; else along y
   Count profile_bins = 0;
-  Count wave_numbers = 0;  // of the structure factor, along each periodic axis
+  double profile_every = 0.0;  // likewise
+  Count wave_numbers = 0;      // of the structure factor, along each periodic axis
 
   bool wants(Quantity q) const { return wanted[static_cast<std::size_t>(q)]; }
   bool any() const { return wanted != std::array<bool, quantities>{}; }
@@ -252,7 +279,19 @@ inline bool has_sinks(const Scene& scene) {
 
 // May a collision of two disks, fixed ones included, lose energy?
 inline bool disks_dissipate(const Scene& scene) {
-  return scene.physics.restitution < 1.0 || scene.physics.law.dissipates();
+  const Surfaces& surfaces = scene.physics.surfaces;
+  return scene.physics.restitution < 1.0 || scene.physics.law.dissipates() ||
+         (surfaces.are_rough() && surfaces.disks.dissipates());
+}
+
+// May a contact with a wall lose energy along its surface?
+inline bool walls_rub(const Scene& scene) {
+  return scene.physics.surfaces.are_rough() && scene.physics.surfaces.walls.dissipates();
+}
+
+// Null where all is smooth. Lives as long as the scene.
+inline const Surfaces* surfaces_of(const Scene& scene) {
+  return scene.physics.surfaces.are_rough() ? &scene.physics.surfaces : nullptr;
 }
 
 // Null where the number says it all. Lives as long as the scene.

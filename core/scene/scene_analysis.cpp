@@ -15,9 +15,15 @@ namespace {
 
 // More would be noise, and a file too long to read.
 constexpr Count most_bins = 100'000;
+struct DefaultDistances {
+  std::string_view name;
+  double reach, bins_per_diameter;  // diameters, 1
+};
 // Where nothing is said: pairs up to five diameters in bins of a fiftieth, so that the first bin beyond contact of
 // equal disks begins at contact; speeds up to six thermal ones, beyond which no disk in 10^7 is.
-constexpr double default_reach = 5.0, bins_per_diameter = 50.0;
+constexpr DefaultDistances pair_defaults{"pair_correlation", 5.0, 50.0};
+// Order reaches further, and has no step at contact.
+constexpr DefaultDistances bond_defaults{"bond_correlation", 20.0, 10.0};
 constexpr double default_speed_max = 6.0;
 constexpr Count default_speed_bins = 60, default_density_bins = 50, default_wave_numbers = 100;
 // Samples of a run that says nothing of how often.
@@ -45,6 +51,45 @@ Count read_bins(const TableReader& reader) {
     reader.fail("bins", fmt::format("is {}", bins), fmt::format("expected a whole number from 1 to {}", most_bins));
   }
   return bins;
+}
+
+DistancePlan read_distances(const TableReader& options) {
+  DistancePlan distances;
+  distances.r_max = options.number("r_max").value_or(0.0);
+  distances.bins = read_bins(options);
+  return distances;
+}
+
+std::vector<NamedIds> read_pair_groups(const TableReader& options, const AnalysisPlan& plan, const Scene& scene) {
+  const toml::node* const node = options.find("groups");
+  if (node == nullptr) return {};
+  if (!plan.group.empty()) {
+    options.fail("groups", "given beside analysis.select", "expected one of the two: a selection has no other group");
+  }
+  const std::string key = options.key("groups");
+  const toml::array& list = as_list(options.origin(), key, *node, "expected a list of the names of groups");
+  std::vector<NamedIds> groups;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const std::string entry = fmt::format("{}.{}", key, k);
+    const std::string name = as_text(options.origin(), entry, list[k]);
+    if (std::any_of(groups.begin(), groups.end(), [&](const NamedIds& group) { return group.name == name; })) {
+      options.origin().fail(entry, fmt::format("names {} again", in_quotes(name)), "expected each group once");
+    }
+    groups.push_back({name, find_group(options, "groups", name, scene)});
+  }
+  return groups;
+}
+
+// Simulated time of a row of a profile; 0: no rows.
+double read_rows(const TableReader& options, const AnalysisPlan& plan, const Scene& scene) {
+  const double every = options.number("every").value_or(0.0);
+  const double rows = every > 0.0 ? (scene.run.t_end - plan.start) / every : 0.0;
+  if (rows > static_cast<double>(most_bins)) {
+    options.fail(
+        "every", fmt::format("is {}, which makes {:.3g} rows", every, rows),
+        fmt::format("expected at least {:g}, for {} rows", (scene.run.t_end - plan.start) / most_bins, most_bins));
+  }
+  return every;
 }
 
 // read(table) of the table with the options of one quantity, if there is one.
@@ -77,29 +122,30 @@ Reach reach_along(double length, bool periodic, double radius) {
   return {room * (1.0 - 1e-9), 0.5 * room};
 }
 
-void settle_pairs(Scene& scene, double largest_radius, const PlaceOfKey& place) {
-  AnalysisPlan& plan = scene.analysis;
+void settle_distances(const Scene& scene, DistancePlan& plan, const DefaultDistances& usual, double largest_radius,
+                      const PlaceOfKey& place) {
   const Reach x = reach_along(scene.box.width, scene.box.periodic_x(), largest_radius);
   const Reach y = reach_along(scene.box.height, scene.box.periodic_y(), largest_radius);
   const double most = std::min(x.most, y.most);
   const double diameter = 2.0 * largest_radius;
   if (!(most > 0.0)) {
-    fail_input(place("analysis.what"), "pair_correlation finds no room: a disk fills the box from wall to wall",
+    fail_input(place("analysis.what"),
+               fmt::format("{} finds no room: a disk fills the box from wall to wall", usual.name),
                "expected a larger box");
   }
   // A scene may have no disk at all.
-  if (plan.r_max == 0.0) plan.r_max = std::min({x.usual, y.usual, diameter > 0.0 ? default_reach * diameter : x.usual});
+  if (plan.r_max == 0.0) plan.r_max = std::min({x.usual, y.usual, diameter > 0.0 ? usual.reach * diameter : x.usual});
   const bool periodic = scene.box.periodic_x() && scene.box.periodic_y();
   if (plan.r_max > most) {
-    fail_input(place("analysis.pair_correlation.r_max"), fmt::format("{} is too large for the box", plan.r_max),
+    fail_input(place(fmt::format("analysis.{}.r_max", usual.name)),
+               fmt::format("{} is too large for the box", plan.r_max),
                fmt::format("expected at most {}, {}", most,
                            periodic ? "half the shorter side"
                                     : "half a periodic side, and what leaves disks that far from all walls"));
   }
-  if (plan.r_bins == 0) {
-    plan.r_bins = static_cast<Count>(diameter > 0.0 ? std::clamp(std::round(bins_per_diameter * plan.r_max / diameter),
-                                                                 10.0, static_cast<double>(most_bins))
-                                                    : bins_per_diameter);
+  if (plan.bins == 0) {
+    const double bins = diameter > 0.0 ? usual.bins_per_diameter * plan.r_max / diameter : usual.bins_per_diameter;
+    plan.bins = static_cast<Count>(std::clamp(std::round(bins), 10.0, static_cast<double>(most_bins)));
   }
   plan.wall_margin = plan.r_max + largest_radius;
 }
@@ -120,9 +166,11 @@ AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, 
                 fmt::format("expected at most run.t_end = {}", scene.run.t_end));
   }
   read_options(reader, plan, Quantity::pair_correlation, [&](const TableReader& options) {
-    plan.r_max = options.number("r_max").value_or(0.0);
-    plan.r_bins = read_bins(options);
+    plan.pairs = read_distances(options);
+    plan.pair_groups = read_pair_groups(options, plan, scene);
   });
+  read_options(reader, plan, Quantity::bond_correlation,
+               [&](const TableReader& options) { plan.bonds = read_distances(options); });
   read_options(reader, plan, Quantity::speeds, [&](const TableReader& options) {
     plan.speed_max = options.number("max").value_or(0.0);
     plan.speed_bins = read_bins(options);
@@ -130,10 +178,12 @@ AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, 
   read_options(reader, plan, Quantity::density, [&](const TableReader& options) {
     plan.density_along_x = options.choice_or_initial("axis") == 0;
     plan.density_bins = read_bins(options);
+    plan.density_every = read_rows(options, plan, scene);
   });
   read_options(reader, plan, Quantity::profile, [&](const TableReader& options) {
     plan.profile_along_x = options.choice_or_initial("axis") == 0;
     plan.profile_bins = read_bins(options);
+    plan.profile_every = read_rows(options, plan, scene);
   });
   read_options(reader, plan, Quantity::structure_factor, [&](const TableReader& options) {
     plan.wave_numbers = options.count("wave_numbers").value_or(0);
@@ -155,7 +205,9 @@ AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, 
 }
 
 void settle_analysis(Scene& scene, double largest_radius, const PlaceOfKey& place) {
-  if (scene.analysis.wants(Quantity::pair_correlation)) settle_pairs(scene, largest_radius, place);
+  AnalysisPlan& plan = scene.analysis;
+  if (plan.wants(Quantity::pair_correlation)) settle_distances(scene, plan.pairs, pair_defaults, largest_radius, place);
+  if (plan.wants(Quantity::bond_correlation)) settle_distances(scene, plan.bonds, bond_defaults, largest_radius, place);
 }
 
 }  // namespace carom

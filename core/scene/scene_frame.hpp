@@ -20,6 +20,7 @@ struct FrameAsked {
 struct SceneFrame {
   std::vector<Vec2> positions, velocities;  // in order of id
   std::vector<double> radius, mass;
+  std::vector<double> spin{};  // of rough disks; else empty
 };
 
 // Throws InputError, naming the file, where there is no such frame.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
@@ -215,6 +216,12 @@ PositionLaw read_positions(const TableReader& group) {
   }
   law.region = read_start_region(group);
   return law;
+}
+
+std::vector<double> read_spins_of_frame(const TableReader& owner, const toml::table& table, std::string& file) {
+  SceneFrame frame = read_frame(owner, "spin", table, file);
+  frame.spin.resize(frame.positions.size(), 0.0);
+  return std::move(frame.spin);
 }
 
 Vec2 read_drift(const TableReader& group) {

@@ -1,6 +1,9 @@
 // Reading how disks and sources get positions, velocities, radii and masses.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_reader.hpp"
 
@@ -13,6 +16,9 @@ PositionLaw read_positions(const TableReader& group);
 
 // The value of "velocities": { maxwell = T }, { uniform = v }, a list, { file = ... }; at rest when absent.
 VelocityLaw read_velocities(const TableReader& owner);
+
+// The spins of the disks in { frame = ... }; 0 where disks were smooth. file: gets what messages call it.
+std::vector<double> read_spins_of_frame(const TableReader& owner, const toml::table& table, std::string& file);
 
 // The value of "drift", [vx, vy]; 0 when absent.
 Vec2 read_drift(const TableReader& group);

@@ -10,7 +10,7 @@ namespace carom {
 
 inline constexpr std::array<std::string_view, 4> side_names{"left", "right", "bottom", "top"};  // Side
 inline constexpr std::array<std::string_view, 3> side_kind_names{"wall", "periodic", "sink"};   // SideKind
-inline constexpr std::array<std::string_view, 1> vibration_shapes{"parabola"};
+inline constexpr std::array<std::string_view, 2> vibration_shapes{"parabola", "sine"};
 inline constexpr std::array<std::string_view, 2> inner_wall_kind_names{"wall", "sink"};          // InnerWall::sink
 inline constexpr std::array<std::string_view, 3> method_names{"rollback", "pairwise", "exact"};  // Method
 // What run.method and --method may be: a method, or "auto" for the one that run.accuracy needs.
@@ -21,8 +21,9 @@ inline constexpr std::array<std::string_view, 4> position_names{"random", "squar
 inline constexpr std::array<std::string_view, 2> precision_names{"double", "single"};
 inline constexpr std::array<std::string_view, 5> colour_names{"speed", "group", "radius", "mass", "id"};  // ColourBy
 inline constexpr std::array<std::string_view, quantities> quantity_names{
-    "pair_correlation",         "displacement",     "speeds",    "density", "pressure", "collision_rate", "profile",
-    "velocity_autocorrelation", "structure_factor", "bond_order"};  // Quantity
+    "pair_correlation", "displacement",   "speeds",          "density",
+    "pressure",         "collision_rate", "profile",         "velocity_autocorrelation",
+    "structure_factor", "bond_order",     "bond_correlation"};  // Quantity
 inline constexpr std::array<std::string_view, 2> axis_names{"x", "y"};
 inline constexpr std::array<std::string_view, 1> collapse_models{"tc"};
 inline constexpr std::array<std::string_view, 2> thermostat_names{"langevin", "andersen"};  // Thermostat::Kind

@@ -7,6 +7,7 @@
 
 #include "core/base/input_message.hpp"
 #include "core/scene/scene_names.hpp"
+#include "core/scene/scene_shear.hpp"
 
 namespace carom {
 
@@ -58,8 +59,8 @@ SideMotion read_motion(const TableReader& side, std::size_t s) {
     side.fail("motion", steady ? "has both velocity and vibrate" : "has neither velocity nor vibrate", motion_expected);
   }
   SideMotion motion;
-  motion.kind = steady ? SideMotion::Kind::steady : SideMotion::Kind::vibrate;
-  reader.choice_or_initial("shape");
+  const bool sine = reader.choice_or_initial("shape") == 1;
+  motion.kind = steady ? SideMotion::Kind::steady : sine ? SideMotion::Kind::sine : SideMotion::Kind::parabolas;
   const std::optional<double> period = reader.number("period");
   if (steady) {
     if (period) reader.fail("period", "given of a constant velocity", "expected vibrate = [ax, ay] as well");
@@ -105,7 +106,7 @@ double first_inset(const Scene& scene, std::size_t s) {
   if (scene.side_places[s]) {
     return s % 2 == 0 ? *scene.side_places[s] : length_across(scene.box, s) - *scene.side_places[s];
   }
-  return motion.kind == SideMotion::Kind::vibrate ? std::abs(motion.amplitude) : 0.0;
+  return motion.vibrates() ? std::abs(motion.amplitude) : 0.0;
 }
 
 void settle_side(Scene& scene, std::size_t s, const PlaceOfKey& place) {
@@ -125,8 +126,7 @@ double least_distance(const Domain& box, std::size_t s, double t_end) {
   const SideMotion& a = box.motions[s];
   const SideMotion& b = box.motions[s + 1];
   const double length = length_across(box, s);
-  using Kind = SideMotion::Kind;
-  if (a.kind != Kind::vibrate && b.kind != Kind::vibrate) {  // straight lines: at one of the ends
+  if (!a.vibrates() && !b.vibrates()) {  // straight lines: at one of the ends
     return length - std::max(a.inset + b.inset, (a.inset + a.speed * t_end) + (b.inset + b.speed * t_end));
   }
   const bool together = a.kind == b.kind && a.period == b.period;
@@ -139,6 +139,7 @@ double least_distance(const Domain& box, std::size_t s, double t_end) {
 void read_sides(const TableReader& box, Scene& scene) {
   Domain& domain = scene.box;
   domain.restitutions.fill(box.number_or_initial("wall_restitution"));
+  domain.shear.rate = read_shear_rate(box);
   for (std::size_t s = 0; s < side_names.size(); ++s) {
     const std::string_view name = side_names[s];
     const toml::node* node = box.find(name);
@@ -153,6 +154,7 @@ void read_sides(const TableReader& box, Scene& scene) {
 }
 
 void settle_sides(Scene& scene, double largest_radius, const PlaceOfKey& place) {
+  settle_shear(scene, largest_radius, place);
   if (!scene.box.has_moving_side()) return;
   for (std::size_t s = 0; s < side_names.size(); ++s) {
     if (scene.box.motions[s].moves()) settle_side(scene, s, place);

@@ -7,11 +7,11 @@
 
 namespace carom {
 
-// Each is a name, or a table that says more of a wall. Throws InputError.
+// Each is a name, or a table that says more of a wall; with them the rate of a shear. Throws InputError.
 void read_sides(const TableReader& box, Scene& scene);
 
-// Where moving sides begin, once box and t_end are known, and whether they stay in the box and leave room for a disk of
-// the largest radius. Throws InputError.
+// What is left of a shear, and where moving sides begin, once box and t_end are known, and whether they stay in the box
+// and leave room for a disk of the largest radius. Throws InputError.
 void settle_sides(Scene& scene, double largest_radius, const PlaceOfKey& place);
 
 }  // namespace carom

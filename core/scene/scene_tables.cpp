@@ -12,6 +12,7 @@ constexpr SceneTable tables[] = {
     {"box.side", "`left = { ... }` in `[box]`, likewise `right`, `bottom` and `top`",
      "A side of which there is more to say than its kind."},
     {"box.side.motion", "`motion = { ... }` of a side", "Exactly one of `velocity` and `vibrate`."},
+    {"box.wall_roughness", "`wall_roughness = { ... }` in `[box]`", "Rough sides and inner walls."},
     {"physics", "`[physics]`", "What acts on the disks. A scene states only what it has."},
     {"physics.restitution", "`restitution = { ... }` in `[physics]` and `[[physics.pairs]]`",
      "A restitution that depends on the speed of approach (Schwager and Poeschel 1998); see "
@@ -19,6 +20,9 @@ constexpr SceneTable tables[] = {
     {"physics.pairs", "`[[physics.pairs]]`",
      "The restitution of collisions between two groups, or within one; each pair once, in either order. Pairs that are "
      "not stated have the restitution of `[physics]`."},
+    {"physics.roughness", "`roughness = { ... }` in `[physics]`",
+     "Rough disks: Walton's rule with three parameters, `restitution` along the line of centres and these two along "
+     "the surfaces; see [methods.md](methods.md#rough-disks)."},
     {"physics.collapse", "`collapse = { ... }` in `[physics]`",
      "The remedy for inelastic collapse under method `exact`: the TC model (Luding and McNamara 1998), in which a "
      "collision is elastic where one of its disks collided less than `contact_time` ago."},
@@ -36,8 +40,8 @@ constexpr SceneTable tables[] = {
     {"disks.mass", "`mass = { ... }` in `[[disks]]` and `[[sources]]`",
      "Exactly one of these keys; `weights` goes with `choice`. Every disk draws its own by its id."},
     {"frame", "`{ frame = ... }` in `[[disks]]`",
-     "Starts from a frame of an earlier run: `positions`, `velocities`, `radius` and `mass` may each be taken from "
-     "one. The last frame, unless `index` or `time` says which."},
+     "Starts from a frame of an earlier run: `positions`, `velocities`, `radius`, `mass` and `spin` may each be taken "
+     "from one. The last frame, unless `index` or `time` says which."},
     {"growth", "`[growth]`", "How `positions = \"growth\"` goes about it; only where some group grows."},
     {"sources", "`[[sources]]`",
      "Disks that come while the run goes on, the k-th at time k / `rate`, through a side or anywhere in a region. A "
@@ -53,6 +57,7 @@ constexpr SceneTable tables[] = {
      "[output.md](output.md#movies-and-pictures)."},
     {"analysis", "`[analysis]`", "What a run measures, see [output.md](output.md#measuring-during-a-run)."},
     {"analysis.pair_correlation", "`pair_correlation = { ... }` in `[analysis]`", ""},
+    {"analysis.bond_correlation", "`bond_correlation = { ... }` in `[analysis]`", ""},
     {"analysis.speeds", "`speeds = { ... }` in `[analysis]`", ""},
     {"analysis.density", "`density = { ... }` in `[analysis]`", ""},
     {"analysis.profile", "`profile = { ... }` in `[analysis]`", ""},

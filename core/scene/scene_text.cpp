@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 #include "core/scene/disk_group.hpp"
@@ -108,6 +109,19 @@ std::string velocities_line(const VelocityLaw& law) {
   return fmt::format("velocities = {}\n", list_of(law.list, pair));
 }
 
+// Empty where disks do not spin at first.
+std::string spin_line(const SpinLaw& law) {
+  if (law.temperature > 0.0) return fmt::format("spin_temperature = {}\n", decimal(law.temperature));
+  if (!law.list.empty()) return fmt::format("spin = {}\n", list_of(law.list, decimal));
+  return law.value == 0.0 ? "" : fmt::format("spin = {}\n", decimal(law.value));
+}
+
+// The keys of a roughness that do not stand at their defaults, without braces.
+std::string roughness_text(const Roughness& r) {
+  const std::string friction = r.friction < HUGE_VAL ? fmt::format(", friction = {}", decimal(r.friction)) : "";
+  return fmt::format("tangential_restitution = {}{}", decimal(r.restitution), friction);
+}
+
 // wall_restitution: what sides without a restitution of their own have. A side that is no wall has no other.
 double common_restitution(const Domain& box) {
   for (const Side side : all_sides) {
@@ -122,8 +136,8 @@ std::string motion_text(const SideMotion& motion, std::size_t s) {
     return s < 2 ? pair({v, 0.0}) : pair({0.0, v});
   };
   if (motion.kind == SideMotion::Kind::steady) return fmt::format("{{ velocity = {} }}", across(motion.speed));
-  return fmt::format("{{ vibrate = {}, period = {}, shape = \"parabola\" }}", across(motion.amplitude),
-                     decimal(motion.period));
+  return fmt::format("{{ vibrate = {}, period = {}, shape = \"{}\" }}", across(motion.amplitude),
+                     decimal(motion.period), motion.kind == SideMotion::Kind::sine ? "sine" : "parabola");
 }
 
 std::string side_text(const Domain& box, std::size_t s, double common, const std::optional<double>& place) {
@@ -142,11 +156,15 @@ std::string side_text(const Domain& box, std::size_t s, double common, const std
 std::string box_text(const Scene& scene) {
   const Domain& box = scene.box;
   std::string text = fmt::format("\n[box]\nwidth = {}\nheight = {}\n", decimal(box.width), decimal(box.height));
+  if (box.shear.acts()) text += fmt::format("shear_rate = {}\n", decimal(box.shear.rate));
   const double common = common_restitution(box);
   for (std::size_t s = 0; s < side_names.size(); ++s) {
     text += fmt::format("{} = {}\n", side_names[s], side_text(box, s, common, scene.side_places[s]));
   }
-  return text + fmt::format("wall_restitution = {}\n", decimal(common));
+  text += fmt::format("wall_restitution = {}\n", decimal(common));
+  const Surfaces& surfaces = scene.physics.surfaces;
+  if (!surfaces.are_rough() || surfaces.walls == Roughness{}) return text;
+  return text + fmt::format("wall_roughness = {{ {} }}\n", roughness_text(surfaces.walls));
 }
 
 std::string gravity_text(const Gravity& g) {
@@ -162,6 +180,10 @@ std::string physics_text(const Scene& scene) {
   const Physics& physics = scene.physics;
   std::string text = fmt::format("\n[physics]\ngravity = {}\nrestitution = {}\n", gravity_text(physics.gravity),
                                  restitution_text({physics.restitution, physics.law.viscosity}));
+  if (const Surfaces& surfaces = physics.surfaces; surfaces.are_rough()) {
+    text +=
+        fmt::format("roughness = {{ {}, inertia = {} }}\n", roughness_text(surfaces.disks), decimal(surfaces.inertia));
+  }
   if (physics.diffusion > 0.0) {
     text += fmt::format("diffusion = {}\naccumulate = {}\n", decimal(physics.diffusion), physics.accumulate);
   }
@@ -188,6 +210,7 @@ std::string group_text(const DiskGroup& group) {
   text += fmt::format("count = {}\npositions = {}\n{}{}", group.count, positions_text(group.positions),
                       region_line(group.positions), velocities_line(group.velocities));
   if (group.drift != Vec2{}) text += fmt::format("drift = {}\n", pair(group.drift));
+  text += spin_line(group.spins);
   text += fmt::format("radius = {}\n", size_text(group.radius, "from_mass"));
   if (group.fixed) return text + "fixed = true\n";
   return text + fmt::format("mass = {}\n", size_text(group.mass, "from_radius"));
@@ -218,6 +241,7 @@ std::string source_text(const Source& source) {
   text +=
       fmt::format("rate = {}\nradius = {}\nmass = {}\n{}", decimal(source.rate), size_text(source.radius, "from_mass"),
                   size_text(source.mass, "from_radius"), velocities_line(source.velocities));
+  text += spin_line(source.spins);
   if (source.limit) text += fmt::format("limit = {}\n", *source.limit);
   return text;
 }
@@ -276,22 +300,31 @@ std::string analysis_text(const AnalysisPlan& plan) {
   for (std::size_t k = 0; k < quantity_names.size(); ++k) {
     if (plan.wanted[k]) names.emplace_back(quantity_names[k]);
   }
+  const auto rows = [](double every) { return every > 0.0 ? fmt::format(", every = {}", decimal(every)) : ""; };
   if (plan.wants(Quantity::pair_correlation)) {
-    lines += fmt::format("pair_correlation = {{ r_max = {}, bins = {} }}\n", decimal(plan.r_max), plan.r_bins);
+    const auto name = [](const NamedIds& group) { return quoted_toml(group.name); };
+    const std::string groups =
+        plan.pair_groups.empty() ? "" : fmt::format(", groups = {}", list_of(plan.pair_groups, name));
+    lines += fmt::format("pair_correlation = {{ r_max = {}, bins = {}{} }}\n", decimal(plan.pairs.r_max),
+                         plan.pairs.bins, groups);
   }
   if (plan.wants(Quantity::speeds)) {
     lines += fmt::format("speeds = {{ max = {}, bins = {} }}\n", decimal(plan.speed_max), plan.speed_bins);
   }
   if (plan.wants(Quantity::density)) {
-    lines += fmt::format("density = {{ axis = \"{}\", bins = {} }}\n", axis_names[plan.density_along_x ? 0 : 1],
-                         plan.density_bins);
+    lines += fmt::format("density = {{ axis = \"{}\", bins = {}{} }}\n", axis_names[plan.density_along_x ? 0 : 1],
+                         plan.density_bins, rows(plan.density_every));
   }
   if (plan.wants(Quantity::profile)) {
-    lines += fmt::format("profile = {{ axis = \"{}\", bins = {} }}\n", axis_names[plan.profile_along_x ? 0 : 1],
-                         plan.profile_bins);
+    lines += fmt::format("profile = {{ axis = \"{}\", bins = {}{} }}\n", axis_names[plan.profile_along_x ? 0 : 1],
+                         plan.profile_bins, rows(plan.profile_every));
   }
   if (plan.wants(Quantity::structure_factor)) {
     lines += fmt::format("structure_factor = {{ wave_numbers = {} }}\n", plan.wave_numbers);
+  }
+  if (plan.wants(Quantity::bond_correlation)) {
+    lines +=
+        fmt::format("bond_correlation = {{ r_max = {}, bins = {} }}\n", decimal(plan.bonds.r_max), plan.bonds.bins);
   }
   if (!plan.group.empty()) lines += fmt::format("select = \"{}\"\n", plan.group);
   return fmt::format("\n[analysis]\nwhat = {}\nevery = {}\nstart = {}\n{}", list_of(names, quoted_toml),

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "core/base/input_message.hpp"
 #include "core/base/random.hpp"
+#include "core/disks/obstacle_cells.hpp"
 #include "core/reference/reference_exact.hpp"
 #include "core/start/placement_grid.hpp"
 
@@ -48,32 +51,62 @@ Scene flight_scene(const Scene& scene) {
   return flight;
 }
 
+// What disks grow around: all of it solid and elastic.
+std::vector<Obstacle> hard(std::vector<Obstacle> obstacles) {
+  for (Obstacle& o : obstacles) {
+    o.restitution = 1.0;
+    if (o.kind == ObstacleKind::sink) o.kind = ObstacleKind::wall;
+  }
+  return obstacles;
+}
+
+// The share of the box that fixed disks leave, about; a tenth where they overlap each other or stick out a lot.
+double share_left(const Domain& box, const std::vector<Obstacle>& obstacles) {
+  double squares = 0.0;
+  for (const Obstacle& o : obstacles) squares += o.radius * o.radius;
+  return std::max(0.1, 1.0 - std::numbers::pi * squares / (box.width * box.height));
+}
+
 class Growth {
  public:
-  Growth(const Scene& scene, const Disks& disks, const GrowthTools& tools)
-      : scene_(scene), tools_(tools), flight_(flight_scene(scene)), target_(disks.size()) {
+  Growth(const Scene& scene, const Disks& disks, const std::vector<Obstacle>& obstacles, const GrowthTools& tools)
+      : scene_(scene),
+        tools_(tools),
+        flight_(flight_scene(scene)),
+        box_(scene.box),
+        given_(disks),
+        target_(disks.size()),
+        fixed_(disks.size(), 0) {
+    state_.obstacles = hard(obstacles);
+    obstacles_ = place_obstacles(state_.obstacles, box_);
+    for (const Obstacle& o : obstacles) {
+      if (!o.is_segment()) fixed_[o.id] = 1;
+    }
     for (std::size_t i = 0; i < target_.size(); ++i) target_[i] = disks.radius_of(i);
     ExactSum squares;
-    for (const double r : target_) squares.add(r * r);
+    for (std::size_t i = 0; i < target_.size(); ++i) {
+      if (fixed_[i] == 0) squares.add(target_[i] * target_[i]);
+    }
+    disks_ = target_.size() - static_cast<std::size_t>(std::count(fixed_.begin(), fixed_.end(), 1));
     progress_.final_packing_fraction = packing(squares);
     longest_flight_ = flight_travel * scene.growth.slowness;
-    most_events_ = std::max(1.0, 0.5 * most_collisions * scene.growth.slowness * static_cast<double>(target_.size()));
+    most_events_ = std::max(1.0, 0.5 * most_collisions * scene.growth.slowness * static_cast<double>(disks_));
   }
 
   void place_small(const PlaceAtRandom& place) {
-    const double scale = std::min(1.0, std::sqrt(start_packing / progress_.final_packing_fraction));
+    const double start = start_packing * share_left(box_, state_.obstacles);
+    const double scale = std::min(1.0, std::sqrt(start / progress_.final_packing_fraction));
     Disks& d = state_.disks;
     const std::size_t n = target_.size();
     d.common_mass = 1.0;
-    for (const double r : target_) d.radius.push_back(scale * r);
+    for (std::size_t i = 0; i < n; ++i) d.radius.push_back(fixed_[i] != 0 ? target_[i] : scale * target_[i]);
     for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy}) column->resize(n);
     d.id.resize(n);
     std::iota(d.id.begin(), d.id.end(), DiskId{0});
-    PlacementGrid grid(scene_.box, d);
-    place(scene_, d, grid, d.id);
+    put_small(place);
     // In units of the mean distance, so that one serves as the unit of time.
-    const double speed = std::sqrt(scene_.box.width * scene_.box.height / static_cast<double>(n));
-    for (std::size_t i = 0; i < n; ++i) {
+    const double speed = std::sqrt(scene_.box.width * scene_.box.height / static_cast<double>(d.size()));
+    for (std::size_t i = 0; i < d.size(); ++i) {
       const Vec2 v = normals(scene_.seed, Stream::growth_velocity, d.id[i], 0);
       d.vx[i] = speed * v.x;
       d.vy[i] = speed * v.y;
@@ -86,7 +119,7 @@ class Growth {
     double length = longest_flight_;
     double lack_then = HUGE_VAL;
     for (Count& step = progress_.steps;; ++step) {
-      const GrowthTally tally = tools_.step(state_.disks, scene_.box, target_);
+      const GrowthTally tally = tools_.step(state_.disks, box_, target_);
       progress_.packing_fraction = packing(tally.area);
       if (tools_.watch) tools_.watch(progress_);
       if (tally.lacking == 0 && !tally.overlap) return;
@@ -105,6 +138,24 @@ class Growth {
   const Disks& disks() const { return state_.disks; }
 
  private:
+  // Fixed disks have their places, and leave when the others have found theirs among them.
+  void put_small(const PlaceAtRandom& place) {
+    Disks& d = state_.disks;
+    PlacementGrid grid(box_, d);
+    std::vector<std::uint32_t> members;
+    for (const DiskId i : d.id) {
+      if (fixed_[i] == 0) {
+        members.push_back(i);
+        continue;
+      }
+      d.x[i] = given_.x[i];
+      d.y[i] = given_.y[i];
+      grid.insert(i);
+    }
+    place(scene_, d, grid, std::move(members));
+    if (disks_ < target_.size()) remove_marked(d, fixed_);
+  }
+
   double packing(const ExactSum& squares) const {
     return std::numbers::pi * squares.value() / (scene_.box.width * scene_.box.height);
   }
@@ -121,13 +172,13 @@ class Growth {
   }
 
   [[noreturn]] void fail(std::string_view how, const GrowthTally& tally) const {
-    const double each = 2.0 * static_cast<double>(progress_.collisions) / static_cast<double>(target_.size());
+    const double each = 2.0 * static_cast<double>(progress_.collisions) / static_cast<double>(disks_);
     fail_input(
         place_in_group(scene_, 0, "positions"),
         fmt::format("\"growth\" {} at packing fraction {:.4f} of {:.4f}: after {} steps and {:.0f} collisions a "
                     "disk, {} of {} disks lack some of their radius",
                     how, progress_.packing_fraction, progress_.final_packing_fraction, progress_.steps, each,
-                    tally.lacking, target_.size()),
+                    tally.lacking, disks_),
         fmt::format("expected fewer disks or a larger box, a wider range of radii, or slower growth, as in "
                     "[growth] slowness = {:g}{}",
                     10.0 * scene_.growth.slowness, progress_.steps == scene_.growth.steps ? ", or more steps" : ""));
@@ -136,7 +187,12 @@ class Growth {
   const Scene& scene_;
   const GrowthTools& tools_;
   Scene flight_;
-  std::vector<double> target_;  // by id
+  Domain box_;  // with the obstacles
+  std::unique_ptr<const ObstacleCells> obstacles_;
+  const Disks& given_;
+  std::vector<double> target_;  // by id; of fixed disks their radius, which they have
+  std::vector<unsigned char> fixed_;
+  std::size_t disks_ = 0;  // that grow
   State state_;
   GrowthProgress progress_;
   double longest_flight_ = 0.0;  // mean distances of the disks, at thermal speed
@@ -154,8 +210,9 @@ bool grows(const Scene& scene) {
                      [](const DiskGroup& g) { return g.positions.kind == PositionLaw::Kind::growth; });
 }
 
-void place_by_growth(const Scene& scene, Disks& disks, const PlaceAtRandom& place, const GrowthTools& tools) {
-  Growth growth(scene, disks, tools);
+void place_by_growth(const Scene& scene, Disks& disks, const std::vector<Obstacle>& obstacles,
+                     const PlaceAtRandom& place, const GrowthTools& tools) {
+  Growth growth(scene, disks, obstacles, tools);
   growth.place_small(place);
   growth.grow();
   const Disks& grown = growth.disks();

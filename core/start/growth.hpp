@@ -31,15 +31,17 @@ struct GrowthTools {
 };
 GrowthTools plain_growth();
 
-// Is any group of the scene to be grown? Then all are (scene_check.hpp).
+// Is any group of the scene to be grown? Then all are but fixed ones (scene_check.hpp).
 bool grows(const Scene& scene);
 
 // Gives all disks of the scene places where they do not overlap, to the last bit, by growth: place puts them there with
 // radii scaled down to packing fraction 0.25; then, in turn, they fly a little with their radii fixed, elastic, of
-// equal mass, between walls in place of sinks, and grow by grow_step. Velocities come from (seed,
+// equal mass, between walls in place of sinks, and grow by grow_step. obstacles: fixed disks, which have their places
+// in disks already, and inner walls; they stay as they are, and disks bounce off them. Velocities come from (seed,
 // Stream::growth_velocity, id) and are thrown away. Everything follows from counts and lengths, nothing from clocks.
 // Preconditions: entry i of disks has id i, radii are final. Throws InputError with the packing fraction reached when
 // growth stalls (jams), or after scene.growth.steps steps.
-void place_by_growth(const Scene& scene, Disks& disks, const PlaceAtRandom& place, const GrowthTools& tools);
+void place_by_growth(const Scene& scene, Disks& disks, const std::vector<Obstacle>& obstacles,
+                     const PlaceAtRandom& place, const GrowthTools& tools);
 
 }  // namespace carom

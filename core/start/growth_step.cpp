@@ -13,6 +13,9 @@ GrowthTally grow_step(Disks& d, const Domain& box, const std::vector<double>& ta
     after[i] = std::min(target[d.id[i]], radius_within_sides(box, d.x[i], d.y[i], before[i]));
     tally.overlap = tally.overlap || !within_sides(box, d.x[i], d.y[i], before[i]);
     d.radius[i] = growth_reach(before[i], target[d.id[i]]);
+    const RoomAtObstacles room = radius_within_obstacles(box, d.x[i], d.y[i], before[i], d.radius[i]);
+    after[i] = std::min(after[i], room.radius);
+    tally.overlap = tally.overlap || room.overlap;
   }
   for (const Pair& p : find_touching_pairs(d, box)) {
     const double distance2 = nearest_distance2({d.x[p.i2] - d.x[p.i1], d.y[p.i2] - d.y[p.i1]}, box);

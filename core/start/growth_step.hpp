@@ -10,6 +10,7 @@
 #include "core/base/exact_sum.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
+#include "core/physics/obstacle_contact.hpp"
 
 namespace carom {
 
@@ -49,10 +50,28 @@ inline bool within_sides(const Domain& box, double x, double y, double radius) {
          (box.periodic_y() || (y >= radius && y <= box.height - radius));
 }
 
+// The radius that the obstacles within reach allow, and whether the disk overlaps one as it is; they take nothing of a
+// gap. reach: growth_reach.
+struct RoomAtObstacles {
+  double radius = HUGE_VAL;
+  bool overlap = false;
+};
+inline RoomAtObstacles radius_within_obstacles(const Domain& box, double x, double y, double radius, double reach) {
+  RoomAtObstacles room;
+  if (box.obstacles == nullptr) return room;
+  const double length = std::max(box.width, box.height);
+  for_each_obstacle_touched(box, x, y, reach, [&](std::uint32_t k, const ObstacleGap&) {
+    const double beyond = gap_to((*box.obstacles)[k], x, y, radius, box).beyond;
+    room.overlap = room.overlap || beyond > 0.0;
+    room.radius = std::min(room.radius, radius + usable_gap(-beyond, length));
+  });
+  return room;
+}
+
 // What a step found and did. Sums have no rounding, so the order of the disks does not matter.
 struct GrowthTally {
   std::size_t lacking = 0;  // disks that lacked something before the step
-  bool overlap = false;     // two disks, or a disk and a side, overlapped before the step, by rounding
+  bool overlap = false;     // two disks, or a disk and a side or an obstacle, overlapped before the step, by rounding
   ExactSum area;            // of radius^2 after the step; length^2
   ExactSum lack;            // of target^2 - radius^2 after the step; length^2
 

@@ -11,12 +11,14 @@
 #include "core/disks/obstacle_cells.hpp"
 #include "core/physics/obstacle_contact.hpp"
 #include "core/scene/size_law.hpp"
+#include "core/start/between_sides.hpp"
 #include "core/start/circle_lattice.hpp"
 #include "core/start/initial_velocities.hpp"
 #include "core/start/lattice.hpp"
 #include "core/start/placement.hpp"
 #include "core/start/placement_grid.hpp"
 #include "core/start/start_region.hpp"
+#include "core/start/wall_segments.hpp"
 
 namespace carom {
 
@@ -200,22 +202,6 @@ void insert_placed(const Scene& scene, const Disks& disks, std::vector<std::uint
   }
 }
 
-// The segments of all inner walls.
-std::vector<Obstacle> segments_of(const Scene& scene) {
-  std::vector<Obstacle> segments;
-  for (std::size_t w = 0; w < scene.walls.size(); ++w) {
-    const InnerWall& wall = scene.walls[w];
-    const ObstacleKind kind = wall.sink ? ObstacleKind::sink : ObstacleKind::wall;
-    for (std::size_t k = 1; k < wall.points.size(); ++k) {
-      const Vec2 from = wall.points[k - 1];
-      const Vec2 to = wall.points[k];
-      segments.push_back(
-          {from.x, from.y, to.x - from.x, to.y - from.y, 0.0, wall.restitution, static_cast<DiskId>(w), kind});
-    }
-  }
-  return segments;
-}
-
 void check_clear_of_walls(const Scene& scene, const Domain& box, const Disks& disks, std::uint32_t i) {
   if (box.obstacles == nullptr) return;
   const double r = disks.radius_of(i);
@@ -227,7 +213,8 @@ void check_clear_of_walls(const Scene& scene, const Domain& box, const Disks& di
   });
 }
 
-// Groups with a region go first, each by itself: the others find room elsewhere, too.
+// Groups with a region go first, each by itself: the others find room elsewhere, too. Where disks grow, fixed ones
+// only.
 void set_positions(const Scene& scene, Disks& disks, const PlaceAtRandom& place) {
   std::vector<std::uint32_t> obstacles;
   std::vector<std::uint32_t> placed;
@@ -236,6 +223,10 @@ void set_positions(const Scene& scene, Disks& disks, const PlaceAtRandom& place)
   DiskId first_id = 0;
   for (std::size_t group = 0; group < scene.groups.size(); ++group) {
     const DiskGroup& g = scene.groups[group];
+    if (g.positions.kind == PositionLaw::Kind::growth) {
+      first_id += static_cast<DiskId>(g.count);
+      continue;
+    }
     const bool at_random = g.positions.kind == PositionLaw::Kind::random;
     if (g.positions.kind == PositionLaw::Kind::list) place_listed(scene, group, first_id, disks);
     if (!at_random && g.positions.kind != PositionLaw::Kind::list) place_on_lattice(scene, group, first_id, disks);
@@ -260,23 +251,30 @@ void set_positions(const Scene& scene, Disks& disks, const PlaceAtRandom& place)
   place(scene, disks, grid, std::move(anywhere));
 }
 
-// The fixed groups' disks go from state.disks to state.obstacles, inner walls after them; other disks keep their ids.
-void take_obstacles(const Scene& scene, State& state) {
-  Disks& disks = state.disks;
-  std::vector<unsigned char> fixed(disks.size(), 0);
+// Fixed disks, which have their places, and inner walls after them.
+std::vector<Obstacle> standing_obstacles(const Scene& scene, const Disks& disks) {
+  std::vector<Obstacle> obstacles;
   std::size_t i = 0;
   for (const DiskGroup& g : scene.groups) {
     for (Count k = 0; k < g.count; ++k, ++i) {
       if (!g.fixed) continue;
-      fixed[i] = 1;
-      state.obstacles.push_back({disks.x[i], disks.y[i], 0.0, 0.0, disks.radius_of(i), scene.physics.restitution,
-                                 disks.id[i], ObstacleKind::disk});
+      obstacles.push_back({disks.x[i], disks.y[i], 0.0, 0.0, disks.radius_of(i), scene.physics.restitution, disks.id[i],
+                           ObstacleKind::disk});
     }
   }
   const std::vector<Obstacle> segments = segments_of(scene);
-  const bool any_fixed = !state.obstacles.empty();
-  state.obstacles.insert(state.obstacles.end(), segments.begin(), segments.end());
-  if (!any_fixed) return;
+  obstacles.insert(obstacles.end(), segments.begin(), segments.end());
+  return obstacles;
+}
+
+// The disks of state.obstacles leave state.disks, whose others keep their ids.
+void take_obstacles(const Scene& scene, State& state) {
+  Disks& disks = state.disks;
+  std::vector<unsigned char> fixed(disks.size(), 0);
+  for (const Obstacle& o : state.obstacles) {
+    if (!o.is_segment()) fixed[o.id] = 1;
+  }
+  if (std::find(fixed.begin(), fixed.end(), 1) == fixed.end()) return;
   remove_marked(disks, fixed);
   if (!disks.radius.empty()) share_where_equal(disks.radius, disks.common_radius);
   if (!disks.mass.empty()) share_where_equal(disks.mass, disks.common_mass);
@@ -305,42 +303,16 @@ void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std
   }
 }
 
-namespace {
-
-// Disks start between the sides where moving ones stand at time 0.
-Scene inside_moving_sides(const Scene& scene) {
-  Scene inner = scene;
-  const auto& place = scene.box.places;
-  inner.box.motions = {};
-  inner.box.places = {};
-  inner.box.width -= place[0].inset + place[1].inset;
-  inner.box.height -= place[2].inset + place[3].inset;
-  const auto moved = [&](Vec2 p) { return Vec2{p.x - place[0].inset, p.y - place[2].inset}; };
-  for (std::size_t g = 0; g < inner.groups.size(); ++g) {
-    PositionLaw& law = inner.groups[g].positions;
-    for (Vec2& p : law.list) p = moved(p);
-    if (!law.region) continue;
-    StartRegion& region = *law.region;
-    region.low = moved(region.low);
-    region.high = moved(region.high);
-    region.centre = moved(region.centre);
-    const double slack = side_slack(0.0, std::max(scene.box.width, scene.box.height));
-    const bool inside = region.low.x >= -slack && region.low.y >= -slack && region.high.x <= inner.box.width + slack &&
-                        region.high.y <= inner.box.height + slack;
-    if (inside) continue;
-    fail_input(place_in_group(scene, g, "region"), "reaches beyond a side that moves",
-               "expected a region between the sides where they are at time 0");
-  }
-  return inner;
-}
-
-}  // namespace
-
 State initial_state(const Scene& scene, const PlaceAtRandom& place, const GrowthTools& growth) {
   if (scene.box.has_moving_side()) {
-    State state = initial_state(inside_moving_sides(scene), place, growth);
-    for (double& x : state.disks.x) x += scene.box.place(Side::left).inset;
-    for (double& y : state.disks.y) y += scene.box.place(Side::bottom).inset;
+    return moved_back(scene, initial_state(inside_moving_sides(scene), place, growth));
+  }
+  if (scene.box.shear.acts()) {
+    Scene at_rest = scene;  // the images above too, which are not displaced at time 0
+    at_rest.box.shear = {};
+    State state = initial_state(at_rest, place, growth);
+    Disks& d = state.disks;
+    for (std::size_t i = 0; i < d.size(); ++i) d.vx[i] += scene.box.shear.flow(d.y[i], scene.box.height);
     return state;
   }
   State state;
@@ -354,12 +326,13 @@ State initial_state(const Scene& scene, const PlaceAtRandom& place, const Growth
   disks.y.resize(n);
   disks.id.resize(n);
   std::iota(disks.id.begin(), disks.id.end(), DiskId{0});
-  if (n > 0 && grows(scene)) {
-    place_by_growth(scene, disks, place, growth);
-  } else if (n > 0) {
-    set_positions(scene, disks, place);
-  }
+  const bool all_grow = std::all_of(scene.groups.begin(), scene.groups.end(),
+                                    [](const DiskGroup& g) { return g.positions.kind == PositionLaw::Kind::growth; });
+  if (n > 0 && !all_grow) set_positions(scene, disks, place);
+  state.obstacles = standing_obstacles(scene, disks);
+  if (n > 0 && grows(scene)) place_by_growth(scene, disks, state.obstacles, place, growth);
   set_velocities(scene, disks);
+  set_spins(scene, disks);
   take_obstacles(scene, state);
   state.next_id = static_cast<DiskId>(n);
   state.sources.resize(scene.sources.size());

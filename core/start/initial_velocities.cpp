@@ -6,6 +6,7 @@
 
 #include "core/base/input_message.hpp"
 #include "core/base/random.hpp"
+#include "core/physics/roughness.hpp"
 #include "core/start/placement.hpp"
 
 namespace carom {
@@ -73,6 +74,25 @@ void add_drift(Vec2 drift, Disks& d, Range range) {
   }
 }
 
+// w^2 scaled so that the mean of I w^2 is T.
+void set_thermal_spins(const Scene& scene, double temperature, Disks& d, Range range) {
+  double twice_energy = 0.0;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    const double scale = std::sqrt(temperature / (d.inertia * d.mass_of(i))) / d.radius_of(i);
+    d.spin[i] = scale * normals(scene.seed, Stream::spin, d.id[i], 0).x;
+    twice_energy += 2.0 * rotational_energy(d.inertia, d.mass_of(i), d.radius_of(i), d.spin[i]);
+  }
+  const double factor = std::sqrt(static_cast<double>(range.last - range.first) * temperature / twice_energy);
+  for (std::size_t i = range.first; i < range.last; ++i) d.spin[i] *= factor;
+}
+
+void set_spins_of_group(const Scene& scene, const SpinLaw& law, Disks& d, Range range) {
+  if (law.temperature > 0.0) return set_thermal_spins(scene, law.temperature, d, range);
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    d.spin[i] = law.list.empty() ? law.value : law.list[i - range.first];
+  }
+}
+
 void check_finite(const Scene& scene, std::size_t group, const Disks& d, Range range) {
   for (std::size_t i = range.first; i < range.last; ++i) {
     if (std::isfinite(d.vx[i]) && std::isfinite(d.vy[i])) continue;
@@ -101,6 +121,18 @@ void set_velocities(const Scene& scene, Disks& d) {
     }
     add_drift(scene.groups[g].drift, d, range);
     check_finite(scene, g, d, range);
+  }
+}
+
+void set_spins(const Scene& scene, Disks& d) {
+  d.inertia = scene.physics.surfaces.inertia;
+  if (!d.spins()) return;
+  d.spin.assign(d.size(), 0.0);
+  Range range;
+  for (const DiskGroup& group : scene.groups) {
+    range.last = range.first + static_cast<std::size_t>(group.count);
+    if (range.first < range.last) set_spins_of_group(scene, group.spins, d, range);
+    range.first = range.last;
   }
 }
 

@@ -13,4 +13,7 @@ namespace carom {
 // Precondition: radius and mass are known. Throws InputError for velocities that are not finite.
 void set_velocities(const Scene& scene, Disks& disks);
 
+// Where disks are rough: gives them their moments of inertia and first spins, likewise by the law of the group of each.
+void set_spins(const Scene& scene, Disks& disks);
+
 }  // namespace carom

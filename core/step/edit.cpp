@@ -20,6 +20,7 @@ void take_out(Disks& d, std::size_t i) {
   close(d.id);
   close(d.radius);
   close(d.mass);
+  close(d.spin);
 }
 
 }  // namespace

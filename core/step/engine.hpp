@@ -29,6 +29,9 @@ class Engine {
   // The state at the end of the last step. Disks may be stored in any order.
   virtual const State& state() const = 0;
 
+  // The same for all that asks for no disk: they may be a part only, that of one rank of several.
+  virtual const State& progress() const { return state(); }
+
   // The disks at time t, start of the last step <= t <= state().time, written to out; no bit of the state changes.
   // Time stepping knows step ends only and gives state() whatever t is; the return value is the time of what it gave.
   virtual double disks_at(double t, Disks& out) const = 0;

@@ -39,6 +39,7 @@ class PairwiseMethod final : public Phases {
       const double begin = clock_.start(k) + length * static_cast<double>(part);
       const double end = part + 1 < n ? clock_.start(k) + length * static_cast<double>(part + 1) : clock_.end(k);
       if (scene_.box.has_moving_side()) scene_.box.step_sides(begin, end);
+      if (scene_.box.shear.acts()) scene_.box.move_images(end);
       figures.add(advance(rules_for(scene_, state_, length)));
     }
     remove_at_sinks();

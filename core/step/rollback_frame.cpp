@@ -11,12 +11,12 @@ namespace carom {
 
 bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& e) {
   if (is_wall(e.id2)) return false;
-  return with_view(disks, [&](const auto& d) { return relative(d, e.i1, e.i2, rules.box).approach() < 0.0; });
+  return with_view(disks, rules, [&](const auto& d) { return relative(d, e.i1, e.i2, rules.box).approach() < 0.0; });
 }
 
 Overlap parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& e) {
   if (is_wall(e.id2)) return {};
-  return with_view(disks, [&](const auto& d) {
+  return with_view(disks, rules, [&](const auto& d) {
     const double contact_distance = d.radius(e.i1) + d.radius(e.i2);
     return Overlap{(contact_distance - std::sqrt(relative(d, e.i1, e.i2, rules.box).distance2())) / contact_distance,
                    e.id1, e.id2};

@@ -11,6 +11,7 @@
 #include "core/physics/impact_tally.hpp"
 #include "core/physics/push_apart.hpp"
 #include "core/physics/resolve.hpp"
+#include "core/physics/wall_overlap.hpp"
 #include "core/scene/scene.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/validity.hpp"
@@ -27,8 +28,13 @@ Impact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::
   const Relative r = relative(d, i, j, rules.box);
   if (!(r.approach() < 0.0)) return {};
   const double e = pair_restitution(d, rules, i, j, r);
-  const double change = collide(r, shares_of(d, i, j), e, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
-  return {reduced_mass(d.mass(i), d.mass(j)) * change, 0.0, true};
+  const Shares share = shares_of(d, i, j);
+  const double before = d.vx[j];
+  const double change = collide(r, share, e, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
+  Impact impact{reduced_mass(d.mass(i), d.mass(j)) * change, 0.0, true};
+  see_shear_of(d, rules.box, i, j, r, before, impact);
+  rub_pair(d, rules, i, j, r, share, change);
+  return impact;
 }
 
 // How far a pair that is not met overlaps; 0 for a wall. Nothing in the frame will see to it.
@@ -43,19 +49,22 @@ void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactE
                 CollisionLog* log = nullptr);
 
 // One disk and the walls and obstacles it reaches beyond: back to its contact, bounce, forward; what remains is pushed
-// inside (F11).
+// inside (F11). An obstacle may hold a disk in another, or in a side: `seen` is told.
 template <class View>
-void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTally& tally) {
+void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTally& tally, Overlap& seen) {
   for (Side side : all_sides) {
     if (rules.box.side(side) != SideKind::wall) continue;
     tally.add(wall_partner(side), resolve_wall(d, rules, i, side));
     push_wall(d, rules.box, i, side, 0.0);
   }
   if (rules.box.obstacles == nullptr) return;
+  bool touched = false;
   for_each_solid_touched(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap&) {
+    touched = true;
     tally.add(obstacle_partner(k), resolve_obstacle(d, rules, i, k));
     push_from_obstacle(d, rules.box, i, (*rules.box.obstacles)[k], 0.0);
   });
+  if (touched) see_wall_overlap(d.x[i], d.y[i], d.radius(i), d.id[i], rules.box, seen);
 }
 
 // Where the frame that starts at state.time must end: at t_end, or at the next draw of Brownian displacements.

@@ -34,6 +34,7 @@ class RollbackMethod final : public Phases {
     const double length = std::min(scene_.run.dt / static_cast<double>(parts(scene_.run.dt)), end - state_.time);
     StepFigures figures;
     if (scene_.box.has_moving_side()) scene_.box.step_sides(state_.time, state_.time + length);
+    if (scene_.box.shear.acts()) scene_.box.move_images(state_.time + length);
     const double back = advance(rules_for(scene_, state_, length), figures);
     state_.time = back == 0.0 && state_.time + length >= end ? end : std::min(end, state_.time + (length - back));
     remove_at_sinks();
@@ -72,19 +73,24 @@ class RollbackMethod final : public Phases {
   }
 
   // Steps 1 to 5 of the original's frame. Returns the time by which everything went back.
-  double advance(const StepRules& rules, StepFigures& figures) {
+  double advance(StepRules rules, StepFigures& figures) {
     sort_if_due();
     drift(rules.dt);
     const std::vector<ContactEvent>& pairs = find_approaching(rules, figures);
     double back = 0.0;
     for (const ContactEvent& e : pairs) back = std::max(back, e.ago);
+    if (back > 0.0 && scene_.box.shear.acts()) {
+      scene_.box.move_images(state_.time + (rules.dt - back));
+      rules.box = scene_.box;
+    }
     if (back > 0.0) drift(-back);
     for (const ContactEvent& e : pairs) {
       if (!is_alone(e) && is_at_a_distance(rules, e, back)) ++figures.inaccurate;
     }
     ImpactTally tally;
     bounce(rules, tally);
-    meet_all_walls(back > 0.0 && scene_.box.has_moving_side() ? gone_back(rules, back) : rules, tally);
+    meet_all_walls(back > 0.0 && scene_.box.has_moving_side() ? gone_back(rules, back) : rules, tally, figures);
+    figures.inaccurate_at_walls = tally.inaccurate_at_walls;
     tally.count_into(state_.counters);
     return back;
   }

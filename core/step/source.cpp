@@ -10,6 +10,7 @@
 #include "core/physics/boundary.hpp"
 #include "core/physics/disk_pair.hpp"
 #include "core/physics/obstacle_contact.hpp"
+#include "core/physics/roughness.hpp"
 #include "core/scene/scene_ranges.hpp"
 #include "core/scene/size_law.hpp"
 
@@ -25,27 +26,29 @@ Stream stream_of(Stream base, std::size_t source) {
 // A sink takes what touches it: through one, a disk enters this share of its radius away from it.
 constexpr double clear_of_sink = 0x1p-20;
 
-void draw_place(const Scene& scene, const Source& source, const TwoUniforms& u, Disk& disk) {
-  const Domain& box = scene.box;
+// box: with its sides where they are.
+void draw_place(const Domain& box, const Source& source, const TwoUniforms& u, Disk& disk) {
   if (!source.side) {
     disk.x = source.region_low.x + (source.region_high.x - source.region_low.x) * u.a;
     disk.y = source.region_low.y + (source.region_high.y - source.region_low.y) * u.b;
     return;
   }
   const bool vertical = *source.side == Side::left || *source.side == Side::right;
-  const double length = vertical ? box.height : box.width;
   const bool periodic = vertical ? box.periodic_y() : box.periodic_x();
-  const double along = periodic ? length * u.a : disk.radius + (length - 2.0 * disk.radius) * u.a;
-  const double out = box.side(*source.side) == SideKind::sink ? (1.0 + clear_of_sink) * disk.radius : disk.radius;
-  double across = out;
-  if (*source.side == Side::right) across = box.width - out;
-  if (*source.side == Side::top) across = box.height - out;
+  const double first = box.place(vertical ? Side::bottom : Side::left).inset;
+  const double length =
+      (vertical ? box.height : box.width) - first - box.place(vertical ? Side::top : Side::right).inset;
+  const double along = periodic ? length * u.a : (disk.radius + first) + (length - 2.0 * disk.radius) * u.a;
+  const bool sink = box.side(*source.side) == SideKind::sink;
+  const double out = sink ? (1.0 + clear_of_sink) * disk.radius : disk.radius;
+  const double across = touching_coordinate(*source.side, out, box);
   disk.x = vertical ? across : along;
   disk.y = vertical ? along : across;
 }
 
-// Velocity in terms of the inward normal and the tangent of the side; a region has no inward direction.
-void draw_velocity(const Scene& scene, const Source& source, std::size_t index, Count step, Disk& disk) {
+// Velocity in terms of the inward normal and the tangent of the side; a region has no inward direction. speed: of the
+// side, towards the inside; the disk comes in in its frame.
+void draw_velocity(const Scene& scene, const Source& source, std::size_t index, Count step, double speed, Disk& disk) {
   const Stream stream = stream_of(Stream::source_velocity, index);
   Vec2 v;
   double inward = 0.0;
@@ -63,6 +66,7 @@ void draw_velocity(const Scene& scene, const Source& source, std::size_t index, 
   disk.vx = v.x;
   disk.vy = v.y;
   if (!source.side) return;
+  inward += speed;
   switch (*source.side) {
     case Side::left:
       disk.vx = inward, disk.vy = v.x;
@@ -78,20 +82,30 @@ void draw_velocity(const Scene& scene, const Source& source, std::size_t index, 
   }
 }
 
+// Precondition: the disk has its size.
+void draw_spin(const Scene& scene, const Source& source, std::size_t index, Count step, Disk& disk) {
+  const SpinLaw& law = source.spins;
+  disk.spin = law.value;
+  if (!(law.temperature > 0.0)) return;
+  const double scale = std::sqrt(law.temperature / (scene.physics.surfaces.inertia * disk.mass)) / disk.radius;
+  disk.spin = scale * normals(scene.seed, stream_of(Stream::source_spin, index), disk.id, step).x;
+}
+
 // Is the whole disk inside every side that is not periodic, and clear of every sink and obstacle? A region may reach
 // closer to a side than a radius.
 bool inside(const Domain& box, const Disk& d) {
   for (const Side side : all_sides) {
     if (box.side(side) == SideKind::sink && reach_beyond(side, d.x, d.y, d.radius, box) >= 0.0) return false;
   }
-  const bool x = box.periodic_x() || (d.x >= d.radius && d.x <= box.width - d.radius);
-  const bool y = box.periodic_y() || (d.y >= d.radius && d.y <= box.height - d.radius);
+  const auto touching = [&](Side side) { return touching_coordinate(side, d.radius, box); };
+  const bool x = box.periodic_x() || (d.x >= touching(Side::left) && d.x <= touching(Side::right));
+  const bool y = box.periodic_y() || (d.y >= touching(Side::bottom) && d.y <= touching(Side::top));
   return x && y && !touches_obstacle(box, d.x, d.y, d.radius);
 }
 
 }  // namespace
 
-Disk draw_emission(const Scene& scene, std::size_t index, DiskId id, Count emitted, Count step) {
+Disk draw_emission(const Scene& scene, const Domain& box, std::size_t index, DiskId id, Count emitted, Count step) {
   const Source& source = scene.sources[index];
   Disk disk;
   disk.id = id;
@@ -99,8 +113,9 @@ Disk draw_emission(const Scene& scene, std::size_t index, DiskId id, Count emitt
                                   stream_of(Stream::source_mass, index), id, emitted);
   disk.radius = size.radius;
   disk.mass = size.mass;
-  draw_place(scene, source, uniforms(scene.seed, stream_of(Stream::source_place, index), id, step), disk);
-  draw_velocity(scene, source, index, step, disk);
+  draw_place(box, source, uniforms(scene.seed, stream_of(Stream::source_place, index), id, step), disk);
+  draw_velocity(scene, source, index, step, source.side ? box.place(*source.side).speed : 0.0, disk);
+  draw_spin(scene, source, index, step, disk);
   return disk;
 }
 
@@ -116,7 +131,7 @@ bool has_room(const Disks& d, const Domain& box, const Disk& newcomer) {
   return !meets(d, box, newcomer, 0, d.size());
 }
 
-void emit_from_source(const Scene& scene, State& state, std::size_t index, Count due, Count step,
+void emit_from_source(const Scene& scene, const Domain& box, State& state, std::size_t index, Count due, Count step,
                       const std::function<bool(const Disk&)>& room) {
   if (scene.sources[index].limit) due = std::min(due, *scene.sources[index].limit);
   Count& emitted = state.sources[index].emitted;
@@ -127,23 +142,28 @@ void emit_from_source(const Scene& scene, State& state, std::size_t index, Count
                       "lower rate, or a limit",
                       state.next_id));
     }
-    const Disk disk = draw_emission(scene, index, state.next_id, emitted, step);
-    if (!inside(scene.box, disk) || !room(disk)) break;
+    const Disk disk = draw_emission(scene, box, index, state.next_id, emitted, step);
+    if (!inside(box, disk) || !room(disk)) break;
     append(state.disks, disk);
     ++state.next_id;
     ++emitted;
     ++state.counters.emitted;
     state.counters.emitted_energy +=
         disk.mass * (0.5 * (disk.vx * disk.vx + disk.vy * disk.vy) + scene.physics.gravity.against(disk.x, disk.y));
+    if (state.disks.spins()) {
+      state.counters.emitted_energy += rotational_energy(state.disks.inertia, disk.mass, disk.radius, disk.spin);
+    }
   }
   state.counters.waiting += due - emitted;
 }
 
 void emit_due(const Scene& scene, State& state, double t, Count step, const std::function<bool(const Disk&)>& room) {
   state.counters.waiting = 0;
+  if (scene.sources.empty()) return;
+  const Domain box = box_at(scene.box, t);
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     const Count due = static_cast<Count>(std::floor(scene.sources[s].rate * t));
-    emit_from_source(scene, state, s, due, step, room);
+    emit_from_source(scene, box, state, s, due, step, room);
   }
 }
 

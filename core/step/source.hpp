@@ -12,8 +12,9 @@ namespace carom {
 // The disk that source number `index` tries to emit in step `step` under identity id, after `emitted` others: place,
 // size and velocity drawn by (seed, stream of the source, id, step). Through a side it touches the side (a sink: all
 // but touches it) and moves inward; maxwell speeds along the normal are those of a gas behind a hole (flux-weighted,
-// v^2 = a^2 + b^2 of two normals), across it plain normal.
-Disk draw_emission(const Scene& scene, std::size_t index, DiskId id, Count emitted, Count step);
+// v^2 = a^2 + b^2 of two normals), across it plain normal. box: scene.box with its sides where they are; of a side that
+// moves, the velocity is that in its frame.
+Disk draw_emission(const Scene& scene, const Domain& box, std::size_t index, DiskId id, Count emitted, Count step);
 
 // Does newcomer overlap or touch one of disks first to last - 1 (nearest image)?
 bool meets(const Disks& disks, const Domain& box, const Disk& newcomer, std::size_t first, std::size_t last);
@@ -22,8 +23,8 @@ bool meets(const Disks& disks, const Domain& box, const Disk& newcomer, std::siz
 bool has_room(const Disks& disks, const Domain& box, const Disk& newcomer);
 
 // Source number `index` emits until it has emitted `due` disks (its limit at most) or one finds no room; adds what
-// waits to the waiting count.
-void emit_from_source(const Scene& scene, State& state, std::size_t index, Count due, Count step,
+// waits to the waiting count. box: as above.
+void emit_from_source(const Scene& scene, const Domain& box, State& state, std::size_t index, Count due, Count step,
                       const std::function<bool(const Disk&)>& room);
 
 // Emits what is due at time t (the k-th disk of a source at k / rate), source by source; a source stops at the first

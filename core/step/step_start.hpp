@@ -19,12 +19,13 @@ namespace carom {
 inline bool settles(const Scene& scene) {
   const auto& walls = scene.box.restitutions;
   const bool dissipates = disks_dissipate(scene) || *std::min_element(walls.begin(), walls.end()) < 1.0;
-  return scene.physics.gravity.acts() && (dissipates || inner_walls_dissipate(scene));
+  return scene.physics.gravity.acts() && (dissipates || inner_walls_dissipate(scene) || walls_rub(scene));
 }
 
 inline StepRules rules_for(const Scene& scene, double dt) {
   StepRules rules{scene.box, scene.physics.gravity, scene.physics.restitution, dt, settles(scene)};
   rules.law = law_of(scene);
+  rules.surfaces = surfaces_of(scene);
   return rules;
 }
 

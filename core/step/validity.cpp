@@ -20,6 +20,11 @@ namespace carom {
 
 namespace {
 
+// Is it more of them than the share allows, and enough for a share to mean anything?
+bool are_many(Count inaccurate, Count all, double share) {
+  return inaccurate > least_inaccurate && static_cast<double>(inaccurate) > share * static_cast<double>(all);
+}
+
 // The collisions of which some may be inaccurate.
 Count collisions_watched(const Scene& scene, const State& state) {
   return state.counters.collisions + (scene.run.method == Method::exact ? state.counters.wall_collisions : Count{0});
@@ -70,9 +75,25 @@ std::string overlap_text(const Scene& scene, const State& state, const WorstOver
       worst.time, what, 100.0 * largest_overlap, scene.run.dt, or_exact(scene));
 }
 
+// No overlap that an exact method may leave.
+std::string missed_text(const State& state, const WorstOverlap& wall) {
+  return fmt::format(
+      "at time {:g} disk {} reaches {:.2g} % of its radius beyond the {}: a contact was missed, and what comes after "
+      "is "
+      "wrong; please report this scene",
+      wall.time, wall.overlap.id1, 100.0 * wall.overlap.size, wall_name(state, wall.overlap.id2));
+}
+
 std::string inaccurate_text(const Scene& scene, const State& state) {
   return fmt::format("by time {:g} {} of {} collisions {}", state.time, state.validity.inaccurate,
                      collisions_watched(scene, state), inaccurate_text(scene));
+}
+
+std::string late_at_walls_text(const Scene& scene, const State& state) {
+  return fmt::format(
+      "by time {:g} {} of {} bounces off walls and obstacles were seen a step late: dt = {:g} is long against the time "
+      "between them, and others are lost; use a smaller dt{}",
+      state.time, state.validity.inaccurate_at_walls, state.counters.wall_collisions, scene.run.dt, or_exact(scene));
 }
 
 std::string slow_text(const Scene& scene, const WorstFigure& advance, std::size_t disks) {
@@ -96,6 +117,7 @@ void Validity::see_step(const Scene& scene, const StepFigures& figures, State& s
   // Supports keep a little overlap, so that a pile's impacts are often late without harm: its overlaps tell.
   const bool pile = scene.run.method == Method::pairwise && settles(scene);
   if (figures.inaccurate > 0 && !pile) see_inaccurate(scene, figures.inaccurate, state);
+  if (figures.inaccurate_at_walls > 0 && !pile) see_late_at_walls(scene, figures.inaccurate_at_walls, state);
   if (rollback) see_advance(scene, state);
   const Overlap& deepest = figures.wall.size > figures.left.size ? figures.wall : figures.left;
   if (scene.box.has_moving_side() && deepest.size > crushed_overlap) state.validity.crushed = {deepest, state.time};
@@ -107,6 +129,11 @@ void Validity::see_overlap(const Scene& scene, const StepFigures& figures, State
   deepest.see(figures.before);
   if (deepest.size > seen.disks.overlap.size) seen.disks = {deepest, state.time};
   if (figures.wall.size > seen.wall.overlap.size) seen.wall = {figures.wall, state.time};
+  if (scene.run.method == Method::exact) {
+    if (!(figures.wall.size > largest_exact_overlap) || std::exchange(seen.overlap_told, true)) return;
+    warnings_.push_back(missed_text(state, {figures.wall, state.time}));
+    return;
+  }
   const double next_step = std::max(figures.before.size, figures.wall.size);
   if (!(figures.left.size > largest_overlap) && !(next_step > largest_overlap_before)) return;
   if (std::exchange(seen.overlap_told, true)) return;
@@ -115,11 +142,16 @@ void Validity::see_overlap(const Scene& scene, const StepFigures& figures, State
 
 void Validity::see_inaccurate(const Scene& scene, Count count, State& state) {
   const Count inaccurate = state.validity.inaccurate += count;
-  const Count all = collisions_watched(scene, state);
-  const double bound = largest_inaccurate_share * static_cast<double>(all);
-  if (inaccurate <= least_inaccurate || static_cast<double>(inaccurate) <= bound) return;
+  if (!are_many(inaccurate, collisions_watched(scene, state), largest_inaccurate_share)) return;
   if (std::exchange(state.validity.inaccurate_told, true)) return;
   warnings_.push_back(inaccurate_text(scene, state));
+}
+
+void Validity::see_late_at_walls(const Scene& scene, Count count, State& state) {
+  const Count late = state.validity.inaccurate_at_walls += count;
+  if (!are_many(late, state.counters.wall_collisions, largest_late_share_at_walls)) return;
+  if (std::exchange(state.validity.late_at_walls_told, true)) return;
+  warnings_.push_back(late_at_walls_text(scene, state));
 }
 
 void Validity::see_advance(const Scene& scene, State& state) {
@@ -134,6 +166,10 @@ void Validity::see_advance(const Scene& scene, State& state) {
   seen.since = state.time;
 }
 
+bool walls_are_watched(const Scene& scene) {
+  return scene.physics.gravity.acts() || scene.box.has_moving_side() || scene.box.obstacles != nullptr;
+}
+
 std::vector<std::string> Validity::take_warnings() {
   return std::exchange(warnings_, {});
 }
@@ -141,6 +177,7 @@ std::vector<std::string> Validity::take_warnings() {
 std::vector<std::string> validity_so_far(const Scene& scene, const State& state) {
   std::vector<std::string> warnings = worst_moments(scene, state);
   if (state.validity.inaccurate_told) warnings.push_back(inaccurate_text(scene, state));
+  if (state.validity.late_at_walls_told) warnings.push_back(late_at_walls_text(scene, state));
   return warnings;
 }
 
@@ -150,7 +187,10 @@ std::vector<std::string> worst_moments(const Scene& scene, const State& state) {
   if (seen.split_told) {
     warnings.push_back(split_warning(seen.parts.time, scene.run.dt, static_cast<Count>(seen.parts.figure)));
   }
-  if (seen.overlap_told) warnings.push_back(overlap_text(scene, state, seen.disks, seen.wall));
+  if (seen.overlap_told) {
+    const bool exact = scene.run.method == Method::exact;
+    warnings.push_back(exact ? missed_text(state, seen.wall) : overlap_text(scene, state, seen.disks, seen.wall));
+  }
   if (seen.slow_told) warnings.push_back(slow_text(scene, seen.advance, state.disks.size()));
   return warnings;
 }
@@ -162,8 +202,7 @@ void check_crushed(const Scene& scene, const State& state) {
       "a side that moves leaves no room at t = {}: disk {} reaches {:.2g} % into {} ({}); move it less far, or take "
       "fewer or smaller disks",
       time, deepest.id1, 100.0 * deepest.size,
-      is_wall(deepest.id2) ? fmt::format("the {} wall", side_names[static_cast<std::size_t>(wall_side(deepest.id2))])
-                           : fmt::format("disk {}", deepest.id2),
+      is_wall(deepest.id2) ? "the " + wall_name(state, deepest.id2) : fmt::format("disk {}", deepest.id2),
       moving_sides_text(scene.box, time)));
 }
 

@@ -43,10 +43,12 @@ double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_
   const double spacing = std::sqrt(scene.box.width * scene.box.height / n);
   double side = 0.0;
   for (const SideMotion& motion : scene.box.motions) side = std::max(side, motion.largest_speed());
+  // The images above slide past by an eighth of the width at most (time_to_sheared_contact).
+  const double slide = scene.box.shear.acts() ? 0.125 * scene.box.width / std::abs(scene.box.shear.jump) : HUGE_VAL;
   // Falling through the spacing adds 2 g spacing to v^2; sides that move give their speed to disks at rest.
   const double speed = std::sqrt(speeds.mean2 + 2.0 * scene.physics.gravity.size * spacing + side * side);
-  if (!(speed > 0.0)) return HUGE_VAL;
-  return longest_travel * spacing / speed * std::max(1.0, few_disks / n);
+  if (!(speed > 0.0)) return slide;
+  return std::min(slide, longest_travel * spacing / speed * std::max(1.0, few_disks / n));
 }
 
 double next_window(double window, double elapsed, Count events, std::size_t disks) {

@@ -60,7 +60,7 @@ std::string partner_text(const Domain& box, DiskId id) {
 
 bool has_tc(const Scene& scene) {
   return scene.physics.collapse_contact_time &&
-         (disks_dissipate(scene) || scene.box.walls_dissipate() || inner_walls_dissipate(scene));
+         (disks_dissipate(scene) || scene.box.walls_dissipate() || inner_walls_dissipate(scene) || walls_rub(scene));
 }
 
 ExactRules exact_rules(const Scene& scene, const Disks& disks, double start) {
@@ -72,6 +72,7 @@ ExactRules exact_rules(const Scene& scene, const Disks& disks, double start) {
   rules.seed = scene.seed;
   rules.common_mass = disks.mass.empty();
   rules.law = law_of(scene);
+  rules.surfaces = surfaces_of(scene);
   rules.constant = !rules.tc() && rules.law == nullptr;
   return rules;
 }

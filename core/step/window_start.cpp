@@ -47,19 +47,20 @@ double next_cut(const Scene& scene, const State& state) {
 
 bool side_turns(const Scene& scene, double t) {
   for (const SideMotion& motion : scene.box.motions) {
-    if (motion.kind == SideMotion::Kind::vibrate && motion.piece(t) * motion.half() == t) return true;
+    if (motion.kind == SideMotion::Kind::parabolas && motion.piece(t) * motion.half() == t) return true;
   }
   return false;
 }
 
 void emit_at_window_start(const Scene& scene, State& state, const std::function<bool(const Disk&)>& room) {
+  if (scene.sources.empty()) return;
+  const Domain box = box_at(scene.box, state.time);
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     const Source& source = scene.sources[s];
     const Count k = emissions_due(source.rate, state.time);
     if (k == 0 || emission_time(source.rate, k) != state.time || !has_more(source, state.sources[s])) continue;
-    emit_from_source(scene, state, s, k, k, room);
+    emit_from_source(scene, box, state, s, k, k, room);
   }
-  if (scene.sources.empty()) return;
   state.counters.waiting = 0;
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     Count due = emissions_due(scene.sources[s].rate, state.time);

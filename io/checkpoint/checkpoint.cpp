@@ -23,7 +23,7 @@ namespace {
 struct Header {
   std::array<char, 8> magic{'c', 'a', 'r', 'o', 'm', 'c', 'k', 'p'};
   std::uint64_t byte_order = 0x0102030405060708ULL;
-  std::uint64_t format = 13;  // goes up with every change of what is written
+  std::uint64_t format = 16;  // goes up with every change of what is written
 };
 struct Tail {
   std::uint64_t bytes = 0;     // of the content, without the zeros
@@ -138,6 +138,7 @@ void check_state(const State& state) {
   const auto fits = [n](const std::vector<double>& column) { return column.empty() || column.size() == n; };
   const bool whole =
       d.y.size() == n && d.vx.size() == n && d.vy.size() == n && d.id.size() == n && fits(d.radius) && fits(d.mass);
+  if (d.spin.size() != (d.spins() ? n : 0)) throw BadBytes("has spins of other disks");
   if (!whole) throw BadBytes("has columns of different lengths");
   const auto born = [&](DiskId id) { return id < state.next_id; };
   if (!std::all_of(d.id.begin(), d.id.end(), born)) throw BadBytes("has a disk that was never made");

@@ -10,16 +10,16 @@ namespace carom {
 
 template <class Stream, Is<Disks> T>
 void fields(Stream& stream, T& value) {
-  auto& [x, y, vx, vy, id, radius, mass, common_radius, common_mass] = value;
-  stream(x, y, vx, vy, id, radius, mass, common_radius, common_mass);
+  auto& [x, y, vx, vy, id, radius, mass, common_radius, common_mass, spin, inertia] = value;
+  stream(x, y, vx, vy, id, radius, mass, common_radius, common_mass, spin, inertia);
 }
 
 template <class Stream, Is<Counters> T>
 void fields(Stream& stream, T& value) {
   auto& [steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse,
-         side_energy, thermostat_heat] = value;
+         side_energy, thermostat_heat, shear_virial, shear_work] = value;
   stream(steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse,
-         side_energy, thermostat_heat);
+         side_energy, thermostat_heat, shear_virial, shear_work);
 }
 
 template <class Stream, Is<SourceState> T>
@@ -66,10 +66,10 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<ValidityCounts> T>
 void fields(Stream& stream, T& value) {
-  auto& [inaccurate, frames, since, split_told, overlap_told, inaccurate_told, slow_told, disks, wall, parts, advance,
-         crushed] = value;
-  stream(inaccurate, frames, since, split_told, overlap_told, inaccurate_told, slow_told, disks, wall, parts, advance,
-         crushed);
+  auto& [inaccurate, inaccurate_at_walls, frames, since, split_told, overlap_told, inaccurate_told, slow_told,
+         late_at_walls_told, disks, wall, parts, advance, crushed] = value;
+  stream(inaccurate, inaccurate_at_walls, frames, since, split_told, overlap_told, inaccurate_told, slow_told,
+         late_at_walls_told, disks, wall, parts, advance, crushed);
 }
 
 template <class Stream, Is<State> T>
@@ -88,8 +88,8 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<IntervalMeans> T>
 void fields(Stream& stream, T& value) {
-  auto& [pressure, collision_rate, force] = value;
-  stream(pressure, collision_rate, force);
+  auto& [pressure, collision_rate, force, shear_stress] = value;
+  stream(pressure, collision_rate, force, shear_stress);
 }
 
 template <class Stream, Is<MeterMark> T>
@@ -190,10 +190,18 @@ void fields(Stream& stream, T& value) {
   stream(begun, vx, vy);
 }
 
+template <class Stream, Is<BondCorrelation> T>
+void fields(Stream& stream, T& value) {
+  auto& [product, pairs, samples] = value;
+  stream(product, pairs, samples);
+}
+
 template <class Stream, Is<AnalysisRecord> T>
 void fields(Stream& stream, T& value) {
-  auto& [counted_until, before, series, pairs, speeds, density, displacement, motion, structure, velocities] = value;
-  stream(counted_until, before, series, pairs, speeds, density, displacement, motion, structure, velocities);
+  auto& [counted_until, before, series, pairs, partial, speeds, density, density_rows, displacement, motion,
+         motion_rows, structure, velocities, bonds] = value;
+  stream(counted_until, before, series, pairs, partial, speeds, density, density_rows, displacement, motion,
+         motion_rows, structure, velocities, bonds);
 }
 
 template <class Stream, Is<OutputMark> T>
@@ -204,8 +212,8 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<Energy> T>
 void fields(Stream& stream, T& value) {
-  auto& [kinetic, potential] = value;
-  stream(kinetic, potential);
+  auto& [kinetic, potential, rotational] = value;
+  stream(kinetic, potential, rotational);
 }
 
 template <class Stream, Is<Momentum> T>

@@ -21,6 +21,7 @@ struct IntervalMeans {
   double pressure = 0.0;        // energy / area
   double collision_rate = 0.0;  // a disk; 1 / time
   double force[4] = {};         // outwards on each side
+  double shear_stress = 0.0;    // energy / area
 };
 
 // What the means of the next row start from, and those of the last one.

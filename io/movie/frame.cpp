@@ -110,7 +110,7 @@ FramePainter::FramePainter(FrameStyle style) : style_(std::move(style)), layout_
   draw_legends(context.get(), style_, layout_);
   cairo_surface_flush(background_.get());
   const PixelArea area = box_area(background_);
-  for_each_disk(as_disks(style_.obstacles), {}, [&area](double x, double y, double radius, const Colour&) {
+  for_each_disk(as_disks(style_.obstacles), 0.0, {}, [&area](double x, double y, double radius, const Colour&) {
     fill_disk(area, x, y, radius, obstacle_colour);
   });
   cairo_surface_mark_dirty(background_.get());
@@ -162,8 +162,9 @@ Colour FramePainter::colour_of(const Disks& disks, std::size_t i, const std::vec
 }
 
 template <class Draw>
-void FramePainter::for_each_disk(const Disks& disks, const std::vector<DiskId>& group, Draw draw_at) const {
-  const Domain& box = style_.box;
+void FramePainter::for_each_disk(const Disks& disks, double time, const std::vector<DiskId>& group,
+                                 Draw draw_at) const {
+  const Domain box = box_at(style_.box, time);
   const double smallest = disks.size() <= few_disks ? smallest_of_few : 0.0;
   for (std::size_t i = 0; i < disks.size(); ++i) {
     const Colour colour = colour_of(disks, i, group);
@@ -183,6 +184,11 @@ void FramePainter::for_each_disk(const Disks& disks, const std::vector<DiskId>& 
     };
     draw(disks.x[i], disks.y[i]);
     if (across != 0.0) draw(disks.x[i] + across, disks.y[i]);
+    if (along != 0.0 && box.shear.acts()) {
+      const double x = wrap(disks.x[i] + (along > 0.0 ? box.shear.offset : -box.shear.offset), box.width);
+      for (const double image : {x, x - box.width, x + box.width}) draw(image, disks.y[i] + along);
+      continue;
+    }
     if (along != 0.0) draw(disks.x[i], disks.y[i] + along);
     if (across != 0.0 && along != 0.0) draw(disks.x[i] + across, disks.y[i] + along);
   }
@@ -192,7 +198,7 @@ void FramePainter::paint(const Disks& disks, double time, const std::vector<Disk
   cairo_surface_flush(image_.get());
   std::memcpy(cairo_image_surface_get_data(image_.get()), cairo_image_surface_get_data(background_.get()), bytes());
   const PixelArea area = box_area(image_);
-  for_each_disk(disks, group, [&area](double x, double y, double radius, const Colour& colour) {
+  for_each_disk(disks, time, group, [&area](double x, double y, double radius, const Colour& colour) {
     fill_disk(area, x, y, radius, colour);
   });
   cairo_surface_mark_dirty(image_.get());
@@ -241,9 +247,9 @@ void FramePainter::write_svg(const std::string& path, const Disks& disks, double
       cairo_set_source_rgb(c, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
       cairo_fill(c);
     };
-    for_each_disk(as_disks(style_.obstacles), {},
+    for_each_disk(as_disks(style_.obstacles), 0.0, {},
                   [&](double x, double y, double radius, const Colour&) { draw(x, y, radius, obstacle_colour); });
-    for_each_disk(disks, group, draw);
+    for_each_disk(disks, time, group, draw);
     cairo_restore(c);
     draw_sides(c, style_, layout_, time);
     draw_inner_walls(c, style_, layout_);

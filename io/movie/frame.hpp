@@ -89,7 +89,7 @@ class FramePainter {
   Colour colour_of(const Disks& disks, std::size_t i, const std::vector<DiskId>& group) const;
   // draw(x, y, radius, colour), in pixels, for each disk, and again where it is seen across a periodic side.
   template <class Draw>
-  void for_each_disk(const Disks& disks, const std::vector<DiskId>& group, Draw draw) const;
+  void for_each_disk(const Disks& disks, double time, const std::vector<DiskId>& group, Draw draw) const;
 
   FrameStyle style_;
   FrameLayout layout_;

@@ -31,12 +31,14 @@ Line level(std::string name, double end, double value) {
 }
 
 Figure pair_figure(const Scene& scene, const AnalysisRecord& record) {
-  const BinnedCurve g = pair_correlation_curve(record, scene.analysis);
+  const BinnedCurve g = pair_correlation_curve(record.pairs, scene.analysis);
   Panel panel{"g(r)", {}, true, false};
-  panel.lines.push_back(line_of("g(r)", g.middle, g.value));
-  panel.lines.push_back(level("random", scene.analysis.r_max, 1.0));
-  const double end = panel.lines[0].x.empty() ? scene.analysis.r_max : panel.lines[0].x.back();
-  panel.lines[1].x.back() = end;
+  panel.lines.push_back(line_of(record.partial.empty() ? "g(r)" : "all disks", g.middle, g.value));
+  for (const PartialCurve& part : partial_curves(record, scene.analysis)) {
+    panel.lines.push_back(line_of(fmt::format("{}, {}", part.group, part.other), g.middle, part.g));
+  }
+  const double end = panel.lines[0].x.empty() ? scene.analysis.pairs.r_max : panel.lines[0].x.back();
+  panel.lines.push_back(level("random", end, 1.0));
   return {heading(scene.title, "pair correlation"), "distance r", end, {panel}};
 }
 
@@ -59,7 +61,7 @@ Figure speed_figure(const Scene& scene, const AnalysisRecord& record) {
 
 Figure density_figure(const Scene& scene, const AnalysisRecord& record) {
   const bool along_x = scene.analysis.density_along_x;
-  const BinnedCurve packing = packing_curve(record, scene);
+  const BinnedCurve packing = packing_curve(record.density, scene);
   Panel panel{"packing fraction", {}, true, false};
   panel.lines.push_back(line_of("local", packing.middle, packing.value));
   const SampleMean mean = sample_mean(packing.value);
@@ -81,7 +83,7 @@ Figure series_figure(const Scene& scene, const AnalysisRecord& record, const std
 }
 
 Figure profile_figure(const Scene& scene, const AnalysisRecord& record) {
-  const ProfileCurves curves = profile_curves(record, scene);
+  const ProfileCurves curves = profile_curves(record.motion, scene);
   Panel velocity{"velocity", {}, false, false}, temperature{"temperature", {}, true, false};
   velocity.lines.push_back(line_of("vx", curves.position, curves.vx));
   velocity.lines.push_back(line_of("vy", curves.position, curves.vy));
@@ -113,6 +115,14 @@ Figure order_figure(const Scene& scene, const AnalysisRecord& record) {
   panel.lines.push_back(line_of("around each disk", series.time, series.local_order));
   panel.lines.push_back(line_of("of all", series.time, series.global_order));
   return {heading(scene.title, "bond order"), "time t", series.time.empty() ? 1.0 : series.time.back(), {panel}};
+}
+
+Figure bond_figure(const Scene& scene, const AnalysisRecord& record) {
+  const BinnedCurve curve = bond_correlation_curve(record, scene.analysis);
+  Panel panel{"g6(r)", {}, false, false};
+  panel.lines.push_back(line_of("g6(r)", curve.middle, curve.value));
+  const double end = panel.lines[0].x.empty() ? scene.analysis.bonds.r_max : panel.lines[0].x.back();
+  return {heading(scene.title, "bond correlation"), "distance r", end, {panel}};
 }
 
 Figure memory_figure(const Scene& scene, const AnalysisRecord& record) {
@@ -182,6 +192,8 @@ bool draw_analysis(const std::string& folder, const Scene& scene, const Analysis
         return structure_figure(scene, record);
       case Quantity::bond_order:
         return order_figure(scene, record);
+      case Quantity::bond_correlation:
+        return bond_figure(scene, record);
       default:
         return series_figure(scene, record, series.collision_rate, "collision rate",
                              "collisions per disk and unit time");

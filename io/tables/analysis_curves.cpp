@@ -19,6 +19,7 @@ struct KnownCurve {
 };
 
 constexpr std::array known_curves{KnownCurve{"g(r)", "/pair_correlation", "r", "g"},
+                                  KnownCurve{"g6(r)", "/bond_correlation", "r", "g6"},
                                   KnownCurve{"S(kx)", "/structure_factor", "kx", "along_x"},
                                   KnownCurve{"S(ky)", "/structure_factor", "ky", "along_y"},
                                   KnownCurve{"speeds (u)", "/speeds", "u", "measured"},

@@ -27,24 +27,40 @@ class Group {
   Group(Hdf5Output& output, std::string name) : output_(output), name_(std::move(name)) { output_.make_group(name_); }
 
   void numbers(const char* name, const std::vector<double>& values, const char* unit) const {
-    put(name, double_kind(), values.size(), values.data());
+    put(name, double_kind(), Extent{values.size()}, values.data());
+    output_.attribute(name_ + "/" + name, "unit", {unit}, false);
+  }
+  // Rows of equal length; their values one after the other.
+  void table(const char* name, const std::vector<double>& values, std::size_t rows, const char* unit) const {
+    put(name, double_kind(), rows_of(values.size(), rows), values.data());
     output_.attribute(name_ + "/" + name, "unit", {unit}, false);
   }
   // Whole numbers, which may be kept as double.
   template <class Number>
   void counts(const char* name, const std::vector<Number>& values) const {
     const std::vector<std::int64_t> signed_values(values.begin(), values.end());
-    put(name, count_kind(), values.size(), signed_values.data());
+    put(name, count_kind(), Extent{values.size()}, signed_values.data());
+  }
+  template <class Number>
+  void table_of_counts(const char* name, const std::vector<Number>& values, std::size_t rows) const {
+    const std::vector<std::int64_t> signed_values(values.begin(), values.end());
+    put(name, count_kind(), rows_of(values.size(), rows), signed_values.data());
   }
   void say(const char* name, double number) const { output_.attribute(name_, name, number); }
   void say(const char* name, const std::string& text) const { output_.attribute(name_, name, {text}, false); }
 
  private:
-  void put(const char* name, const Hdf5Kind& kind, std::size_t size, const void* data) const {
-    const Extent extent{size};
-    const Hdf5Handle set = output_.make_dataset(name_ + "/" + name, kind, extent, extent,
-                                                {std::max<hsize_t>(1, std::min<hsize_t>(size, chunk))}, Packing::plain);
-    if (size > 0) output_.write_block(set, kind, {0}, extent, data);
+  static Extent rows_of(std::size_t values, std::size_t rows) { return {rows, rows > 0 ? values / rows : 0}; }
+
+  void put(const char* name, const Hdf5Kind& kind, const Extent& extent, const void* data) const {
+    Extent chunks;
+    bool empty = false;
+    for (const hsize_t size : extent) {
+      chunks.push_back(std::max<hsize_t>(1, std::min<hsize_t>(size, chunk)));
+      empty = empty || size == 0;
+    }
+    const Hdf5Handle set = output_.make_dataset(name_ + "/" + name, kind, extent, extent, chunks, Packing::plain);
+    if (!empty) output_.write_block(set, kind, Extent(extent.size(), 0), extent, data);
   }
 
   Hdf5Output& output_;
@@ -91,19 +107,33 @@ void put_series(Hdf5Output& output, const AnalysisRecord& record, const Analysis
   }
 }
 
+void put_partial(Hdf5Output& output, const AnalysisRecord& record, const AnalysisPlan& plan) {
+  if (plan.pair_groups.empty()) return;
+  const Group group(output, "/pair_correlation/partial");
+  const std::vector<PartialCurve> curves = partial_curves(record, plan);
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    const PartialCurve& curve = curves[k];
+    const std::string between = curve.group + ":" + curve.other;
+    group.numbers(("g:" + between).c_str(), curve.g, "1");
+    group.counts(("pairs:" + between).c_str(), record.partial[k].counts);
+  }
+  group.say("meaning", "over r of /pair_correlation: g of two groups, pairs over those expected, 2 n1 n2 / A");
+}
+
 void put_pairs(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
-  const BinnedCurve curve = pair_correlation_curve(record, scene.analysis);
+  const BinnedCurve curve = pair_correlation_curve(record.pairs, scene.analysis);
   const auto samples = static_cast<double>(record.series.time.size());
   const Group group(output, "/pair_correlation");
   group.numbers("r", curve.middle, "length");
   group.numbers("g", curve.value, "1");
   group.counts("pairs", record.pairs.counts);
   group.say("samples", samples);
-  group.say("bin_width", scene.analysis.r_max / static_cast<double>(scene.analysis.r_bins));
+  group.say("bin_width", scene.analysis.pairs.r_max / static_cast<double>(scene.analysis.pairs.bins));
   group.say("centres", static_cast<double>(record.pairs.centres) / samples);
   group.say("meaning",
             "pairs over those of as many disks placed at random; centres: disks, on average, whose "
             "surroundings were counted, all but those near sides that are not periodic");
+  put_partial(output, record, scene.analysis);
 }
 
 void put_speeds(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
@@ -122,8 +152,54 @@ void put_speeds(Hdf5Output& output, const AnalysisRecord& record, const Scene& s
             "u exp(-u^2 / 2); beyond: counted above the last bin");
 }
 
+void append_to(std::vector<double>& all, const std::vector<double>& row) {
+  all.insert(all.end(), row.begin(), row.end());
+}
+
+// The profile of each part of the run.
+void put_profile_rows(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
+  const std::size_t rows = record.motion_rows.size();
+  if (!(scene.analysis.profile_every > 0.0)) return;
+  ProfileCurves all;
+  std::vector<Count> disks, samples;
+  for (const MotionProfile& row : record.motion_rows) {
+    const ProfileCurves curves = profile_curves(row, scene);
+    append_to(all.vx, curves.vx);
+    append_to(all.vy, curves.vy);
+    append_to(all.temperature, curves.temperature);
+    disks.insert(disks.end(), row.disks.begin(), row.disks.end());
+    samples.push_back(row.samples);
+  }
+  const Group group(output, "/profile/rows");
+  group.numbers("time", row_times(rows, scene.analysis.profile_every, scene), "time");
+  group.table("velocity_x", all.vx, rows, "length / time");
+  group.table("velocity_y", all.vy, rows, "length / time");
+  group.table("temperature", all.temperature, rows, "energy");
+  group.table_of_counts("disks", disks, rows);
+  group.counts("samples", samples);
+  group.say("meaning", "a row for each part of the run, which begins at its time and ends at the next one's");
+}
+
+void put_density_rows(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
+  const std::size_t rows = record.density_rows.size();
+  if (!(scene.analysis.density_every > 0.0)) return;
+  std::vector<double> packing, number;
+  std::vector<Count> samples;
+  for (const DensityProfile& row : record.density_rows) {
+    append_to(packing, packing_curve(row, scene).value);
+    append_to(number, number_density_curve(row, scene).value);
+    samples.push_back(row.samples);
+  }
+  const Group group(output, "/density/rows");
+  group.numbers("time", row_times(rows, scene.analysis.density_every, scene), "time");
+  group.table("packing_fraction", packing, rows, "1");
+  group.table("number_density", number, rows, "1 / length^2");
+  group.counts("samples", samples);
+  group.say("meaning", "a row for each part of the run, which begins at its time and ends at the next one's");
+}
+
 void put_profile(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
-  const ProfileCurves curves = profile_curves(record, scene);
+  const ProfileCurves curves = profile_curves(record.motion, scene);
   const Group group(output, "/profile");
   group.numbers("position", curves.position, "length");
   group.numbers("velocity_x", curves.vx, "length / time");
@@ -134,6 +210,7 @@ void put_profile(Hdf5Output& output, const AnalysisRecord& record, const Scene& 
   group.say("axis", std::string(axis_names[scene.analysis.profile_along_x ? 0 : 1]));
   group.say("meaning",
             "mean velocity of the slab's disks, momentum over mass; mean kinetic energy of one, measured from it");
+  put_profile_rows(output, record, scene);
 }
 
 void put_structure(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
@@ -170,14 +247,25 @@ void put_memory(Hdf5Output& output, const AnalysisRecord& record) {
 }
 
 void put_density(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
-  const BinnedCurve packing = packing_curve(record, scene);
+  const BinnedCurve packing = packing_curve(record.density, scene);
   const Group group(output, "/density");
   group.numbers("position", packing.middle, "length");
   group.numbers("packing_fraction", packing.value, "1");
-  group.numbers("number_density", number_density_curve(record, scene).value, "1 / length^2");
+  group.numbers("number_density", number_density_curve(record.density, scene).value, "1 / length^2");
   group.counts("centres", record.density.centres);
   group.say("samples", static_cast<double>(record.density.samples));
   group.say("axis", std::string(axis_names[scene.analysis.density_along_x ? 0 : 1]));
+  put_density_rows(output, record, scene);
+}
+
+void put_bonds(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
+  const BinnedCurve curve = bond_correlation_curve(record, scene.analysis);
+  const Group group(output, "/bond_correlation");
+  group.numbers("r", curve.middle, "length");
+  group.numbers("g6", curve.value, "1");
+  group.counts("pairs", record.bonds.pairs);
+  group.say("samples", static_cast<double>(record.bonds.samples));
+  group.say("meaning", "mean of Re(psi6* psi6') over pairs of disks that far apart, psi6 as in bond_order");
 }
 
 }  // namespace
@@ -196,6 +284,7 @@ void write_analysis(const std::string& path, const Scene& scene, const AnalysisR
   if (plan.wants(Quantity::velocity_autocorrelation)) put_memory(output, record);
   if (plan.wants(Quantity::structure_factor)) put_structure(output, record, scene);
   if (plan.wants(Quantity::bond_order)) put_order(output, record);
+  if (plan.wants(Quantity::bond_correlation)) put_bonds(output, record, scene);
   replace_file(path, output.image());
 }
 

@@ -5,10 +5,13 @@
 #include <limits>
 
 #include "core/measure/invariants.hpp"
+#include "core/measure/shear_flow.hpp"
 
 namespace carom {
 
-IntervalMeans SeriesMeter::means(const Disks& disks, const Energy& energy, const State& now) const {
+// order, energy: of the disks, whose velocities are relative to a shear flow.
+IntervalMeans SeriesMeter::means(const Disks& disks, const std::vector<std::size_t>& order, const Energy& energy,
+                                 const State& now, const BlockRunner& run) const {
   const double elapsed = now.time - done_.counted_until;
   if (!(elapsed > 0.0)) return done_.means;
   const Counters& c = now.counters;
@@ -20,15 +23,28 @@ IntervalMeans SeriesMeter::means(const Disks& disks, const Energy& energy, const
   for (std::size_t side = 0; side < 4; ++side) {
     mean.force[side] = (c.wall_impulse[side] - done_.before.wall_impulse[side]) / elapsed;
   }
+  if (box_.shear.acts()) {
+    const double virial = c.shear_virial - done_.before.shear_virial;
+    mean.shear_stress = shear_stress(momentum_flow(disks, order, run), virial, elapsed, box_);
+  }
   return mean;
 }
 
-SeriesRow SeriesMeter::row(const Disks& disks, const State& now, const BlockRunner& run) {
+SeriesRow SeriesMeter::row(const Disks& disks, double time, const State& now, const BlockRunner& run) {
   const Counters& c = now.counters;
   const std::vector<std::size_t> order = by_id(disks);
   const Energy energy = energy_of(disks, order, gravity_, run);
   const Momentum momentum = momentum_of(disks, order, run);
-  done_.means = means(disks, energy, now);
+  if (box_.shear.acts()) {
+    const Disks relative = relative_to_flow(disks, box_);
+    const Energy thermal = energy_of(relative, order, gravity_, run);
+    done_.means = means(relative, order, thermal, now, run);
+    const double temperature = disks.empty() ? 0.0 : thermal.kinetic / static_cast<double>(disks.size());
+    const double stress = done_.means.shear_stress;
+    shear_row_ = {stress, stress / box_.shear.rate, temperature, c.shear_work};
+  } else {
+    done_.means = means(disks, order, energy, now, run);
+  }
   const auto of_velocities = [&](double value) { return drawn_ ? std::numeric_limits<double>::quiet_NaN() : value; };
   const SeriesRow row{static_cast<double>(disks.size()),
                       of_velocities(energy.kinetic),
@@ -40,7 +56,7 @@ SeriesRow SeriesMeter::row(const Disks& disks, const State& now, const BlockRunn
                       static_cast<double>(c.wall_collisions),
                       of_velocities(done_.means.pressure),
                       done_.means.collision_rate,
-                      with_overlap_ ? max_overlap(disks, box_, run) : 0.0,
+                      with_overlap_ ? max_overlap(disks, box_at(box_, time), run) : 0.0,
                       static_cast<double>(c.removed),
                       static_cast<double>(c.emitted),
                       static_cast<double>(c.waiting),
@@ -63,6 +79,10 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
   for (const SeriesColumn& column : series_columns) heading += fmt::format(",{}", column.name);
   if (with_displacement_) heading += fmt::format(",{}", displacement_column);
   for (const std::string& name : side_column_names(sources_)) heading += "," + name;
+  for (const std::string& name : rotation_column_names(scene)) heading += "," + name;
+  if (scene.box.shear.acts()) {
+    for (const ShearColumn& column : shear_columns) heading += fmt::format(",{}", column.name);
+  }
   for (const GroupColumn& column : groups_.columns()) heading += fmt::format(",{}", column.name);
   file_.write(heading + "\n");
 }
@@ -82,7 +102,7 @@ SeriesMark SeriesWriter::mark() {
 
 SeriesRow SeriesWriter::write(const Disks& disks, double time, const State& now, double displacement,
                               const BlockRunner& run) {
-  const SeriesRow row = meter_.row(disks, now, run);
+  const SeriesRow row = meter_.row(disks, time, now, run);
   // {} writes the shortest text that reads back as the same double.
   std::string line = fmt::format("{}", time);
   for (std::size_t k = 0; k < row.size(); ++k) {
@@ -96,7 +116,12 @@ SeriesRow SeriesWriter::write(const Disks& disks, double time, const State& now,
   for (const double value : side_column_values(sources_, now.counters)) {
     fmt::format_to(std::back_inserter(line), ",{}", value);
   }
-  for (const double value : groups_.row(disks)) fmt::format_to(std::back_inserter(line), ",{}", value);
+  for (const double value : rotation_column_values(disks, run)) fmt::format_to(std::back_inserter(line), ",{}", value);
+  if (sources_.box.shear.acts()) {
+    for (const double value : meter_.shear_row()) fmt::format_to(std::back_inserter(line), ",{}", value);
+  }
+  for (const double value : groups_.row(relative_to_flow(disks, sources_.box)))
+    fmt::format_to(std::back_inserter(line), ",{}", value);
   file_.write(line + "\n");
   file_.flush();
   ++rows_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "core/base/block_runner.hpp"
 #include "core/disks/disks.hpp"
@@ -13,6 +14,8 @@
 #include "io/files/file_mark.hpp"
 #include "io/files/output_file.hpp"
 #include "io/tables/group_columns.hpp"
+#include "io/tables/rotation_columns.hpp"
+#include "io/tables/shear_columns.hpp"
 #include "io/tables/side_columns.hpp"
 
 namespace carom {
@@ -26,15 +29,17 @@ struct SeriesColumn {
 };
 inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"disks", true, "", "disks in the box"},
-    {"kinetic", false, "energy", "sum of m v^2 / 2; nan for Brownian motion, whose u / dt is no velocity"},
+    {"kinetic", false, "energy",
+     "sum of m v^2 / 2, with the flow of a sheared box; nan for Brownian motion, whose u / dt is no velocity"},
     {"potential", false, "energy", "sum of -m g.r, 0 at the lower left corner"},
-    {"total", false, "energy", "kinetic + potential; likewise"},
+    {"total", false, "energy", "kinetic + potential + `rotational`; likewise"},
     {"px", false, "momentum", "sum of m vx; likewise"},
     {"py", false, "momentum", "sum of m vy; likewise"},
     {"collisions", true, "", "of two disks, since the start"},
     {"wall_collisions", true, "", "of a disk and a wall, since the start"},
     {"pressure", false, "energy / area",
-     "mean since the row before, from kinetic energy and collisions; 0 in the first; nan likewise. A row in the same "
+     "mean since the row before, from kinetic energy (relative to a shear flow) and collisions; 0 in the first; nan "
+     "likewise. A row in the same "
      "window of exact repeats it"},
     {"collision_rate", false, "1 / time", "collisions a disk takes part in per unit time, mean likewise"},
     {"max_overlap", false, "", "largest overlap of two disks in this frame, over the sum of their radii; 0 if none"},
@@ -62,23 +67,28 @@ class SeriesMeter {
         drawn_(velocities_are_drawn(scene)),
         done_(from) {}
 
-  // Disks at the time of a frame, and what `now` has counted. An exact run counts to the end of its window, which may
-  // lie a little after the frame; intervals are taken between the states, so that no collision is lost or counted
-  // twice. pressure, collision_rate (per disk) and the four wall forces are means over the time since the row before,
-  // and 0 in the first row; a row whose state is the one of the row before (a frame of the same window) repeats them.
-  // What is made of velocities is NaN for Brownian motion (core/scene/drawn_velocities.hpp).
-  SeriesRow row(const Disks& disks, const State& now, const BlockRunner& run = run_in_order);
+  // Disks at the time of a frame, that time, and what `now` has counted. An exact run counts to the end of its window,
+  // which may lie a little after the frame; intervals are taken between the states, so that no collision is lost or
+  // counted twice. pressure, collision_rate (per disk) and the four wall forces are means over the time since the row
+  // before, and 0 in the first row; a row whose state is the one of the row before (a frame of the same window) repeats
+  // them. What is made of velocities is NaN for Brownian motion (core/scene/drawn_velocities.hpp).
+  SeriesRow row(const Disks& disks, double time, const State& now, const BlockRunner& run = run_in_order);
+
+  // Of the last row, as shear_columns; only of a sheared box.
+  const std::array<double, shear_columns.size()>& shear_row() const { return shear_row_; }
 
   const MeterMark& mark() const { return done_; }
 
  private:
-  IntervalMeans means(const Disks& disks, const Energy& energy, const State& now) const;
+  IntervalMeans means(const Disks& disks, const std::vector<std::size_t>& order, const Energy& energy, const State& now,
+                      const BlockRunner& run) const;
 
   Domain box_;
   Gravity gravity_;
   bool with_overlap_;
   bool drawn_;  // what is made of velocities means nothing, and is NaN
   MeterMark done_;
+  std::array<double, shear_columns.size()> shear_row_{};
 };
 
 class SeriesWriter {

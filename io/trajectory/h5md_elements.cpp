@@ -4,6 +4,7 @@
 
 #include "io/hdf5/hdf5_kinds.hpp"
 #include "io/tables/group_columns.hpp"
+#include "io/tables/rotation_columns.hpp"
 #include "io/tables/series.hpp"
 #include "io/trajectory/h5md_layout.hpp"
 
@@ -49,6 +50,7 @@ std::vector<H5mdElement> h5md_elements(const Scene& scene, bool images) {
   add_once(H5mdQuantity::radius, "radius", double_kind());
   add_once(H5mdQuantity::species, "species", id_kind());
   if (images) add(H5mdQuantity::image, "image", image_kind(), components);
+  if (scene.physics.surfaces.are_rough()) add(H5mdQuantity::spin, "angular_velocity", place_kind, 1);
   return elements;
 }
 
@@ -65,6 +67,9 @@ std::vector<H5mdColumn> h5md_columns(const Scene& scene) {
   columns.push_back(column(of_disks("position/step"), true));
   for (const std::size_t k : observables_of(scene)) {
     columns.push_back(column(fmt::format("/observables/{}/value", series_columns[k].name), series_columns[k].whole));
+  }
+  for (const std::string& name : rotation_column_names(scene)) {
+    columns.push_back(column(fmt::format("/observables/{}/value", name), false));
   }
   for (const GroupColumn& c : GroupMeter(scene).columns()) {
     columns.push_back(column(fmt::format("/observables/{}/value", c.name), c.whole));

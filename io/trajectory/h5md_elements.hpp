@@ -39,7 +39,7 @@ std::vector<H5mdElement> h5md_elements(const Scene& scene, bool images);
 // Which of series_columns the file has.
 std::vector<std::size_t> observables_of(const Scene& scene);
 
-// The step first, then observables_of(scene), and the time last.
+// The step first, then observables_of(scene), those of the rotation, those of groups, and the time last.
 std::vector<H5mdColumn> h5md_columns(const Scene& scene);
 
 // The group that a dataset lies in.

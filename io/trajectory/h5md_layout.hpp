@@ -14,9 +14,11 @@ namespace carom {
 //                                       third edge of length 1
 // /particles/disks/{position,velocity}  value [frame][place][D], with step and time; D is output.dimensions
 // /particles/disks/image                likewise: rounds across the periodic sides, where there are any
+// /particles/disks/angular_velocity     value [frame][place], of rough disks
 // /particles/disks/id                   value [frame][place]
 // /particles/disks/{mass,radius,species} [place]; [frame][place] under value where places change hands (a region)
-// /observables/<column of series.csv>   value [frame], with step and time; max_overlap only where series = true
+// /observables/<column of series.csv>   value [frame], with step and time; max_overlap only where series = true; none
+//                                       of sides and thermostats
 //
 // step and time are the same two datasets everywhere. A place without a disk has the id below, and NaN elsewhere.
 // species is the disk's group in the scene, counted from 0; disks from sources have the number after the last group's.

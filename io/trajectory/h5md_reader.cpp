@@ -39,10 +39,12 @@ struct H5mdReader::File {
 
   std::string path;
   Hdf5Handle file, position, velocity, id, radius, mass, species;
+  Hdf5Handle spin;  // of rough disks
+  bool has_spin = false;
   Domain box;
   std::vector<double> times;
   std::size_t dimensions = 2;
-  std::vector<double> xy, vxy, radii, masses;  // of all places in one frame
+  std::vector<double> xy, vxy, radii, masses, spins;  // of all places in one frame
   std::vector<DiskId> ids, groups;
 };
 
@@ -68,6 +70,8 @@ H5mdReader::File::File(const std::string& file_path) : path(file_path) {
   mass = open_set(each_frame ? "mass/value" : "mass");
   radius = open_set(each_frame ? "radius/value" : "radius");
   species = open_set(each_frame ? "species/value" : "species");
+  has_spin = H5Lexists(file.get(), (std::string(h5md_disks) + "/angular_velocity").c_str(), H5P_DEFAULT) > 0;
+  if (has_spin) spin = open_set("angular_velocity/value");
   const Hdf5Handle time = open_set("position/time");
   const std::vector<hsize_t> length = size_of(time);
   const std::vector<hsize_t> places = size_of(position);
@@ -147,8 +151,10 @@ void H5mdReader::File::read_frame(Count next, TrajectoryFrame& frame) {
   read_row(mass, H5T_NATIVE_DOUBLE, next, masses);
   read_row(id, H5T_NATIVE_UINT32, next, ids);
   read_row(species, H5T_NATIVE_UINT32, next, groups);
+  if (has_spin) read_row(spin, H5T_NATIVE_DOUBLE, next, spins);
   // A writer killed while places were added has lengthened some datasets and not the others, for frames to come.
-  const std::size_t places = std::min({ids.size(), xy.size() / dimensions, vxy.size() / dimensions});
+  std::size_t places = std::min({ids.size(), xy.size() / dimensions, vxy.size() / dimensions});
+  if (has_spin) places = std::min(places, spins.size());
   frame = {};
   frame.box = box;
   frame.time = times[next];
@@ -170,7 +176,9 @@ void H5mdReader::File::read_frame(Count next, TrajectoryFrame& frame) {
     d.radius.push_back(radii[p]);
     d.mass.push_back(masses[p]);
     d.id.push_back(ids[p]);
-    for (const double value : {d.x.back(), d.y.back(), d.vx.back(), d.vy.back(), radii[p], masses[p]}) {
+    if (has_spin) d.spin.push_back(spins[p]);
+    for (const double value :
+         {d.x.back(), d.y.back(), d.vx.back(), d.vy.back(), radii[p], masses[p], has_spin ? spins[p] : 0.0}) {
       if (!std::isfinite(value)) fail(fmt::format("frame {}: disk {} has a value that is no number", next + 1, ids[p]));
     }
   }

@@ -69,6 +69,12 @@ void fill_with_values(H5mdQuantity quantity, const H5mdForm& form, const Disks& 
           buffer, places, form.dimensions, h5md_no_image,
           [&](std::uint32_t i) { return rounds_of(form.rounds->x, disks.id[i]); },
           [&](std::uint32_t i) { return rounds_of(form.rounds->y, disks.id[i]); });
+    case H5mdQuantity::spin:
+      if (form.single) {
+        return fill_with(buffer, places, h5md_single_nothing,
+                         [&](std::uint32_t i) { return static_cast<float>(disks.spin_of(i)); });
+      }
+      return fill_with(buffer, places, h5md_nothing, [&](std::uint32_t i) { return disks.spin_of(i); });
     case H5mdQuantity::species:
       fill_with(buffer, places, h5md_no_species,
                 [&](std::uint32_t i) { return group_of(form.group_ends, disks.id[i]); });

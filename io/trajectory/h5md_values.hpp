@@ -10,7 +10,7 @@
 
 namespace carom {
 
-enum class H5mdQuantity : std::uint8_t { position, velocity, id, mass, radius, species, image };
+enum class H5mdQuantity : std::uint8_t { position, velocity, id, mass, radius, species, image, spin };
 
 // Places [begin, end) of a file; disk_at has the storage index of the disk at each, or no_disk (disk_selection.hpp),
 // and may be shorter than the file.
@@ -21,7 +21,7 @@ struct H5mdPlaces {
 
 // How a file writes them.
 struct H5mdForm {
-  bool single = false;                        // position and velocity in single precision
+  bool single = false;                        // positions, velocities and spins in single precision
   int dimensions = 2;                         // their components, and those of the image
   std::vector<DiskId> group_ends;             // for the species, see disk_group.hpp
   const DisplacementTally* rounds = nullptr;  // for the image

@@ -45,6 +45,7 @@ SceneFrame read_scene_frame(const FrameAsked& asked) {
   }
   result.radius = std::move(chosen.disks.radius);
   result.mass = std::move(chosen.disks.mass);
+  result.spin = std::move(chosen.disks.spin);
   return result;
 }
 

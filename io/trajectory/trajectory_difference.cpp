@@ -28,7 +28,7 @@ bool counts(const CompareRule& rule, double by) {
 }
 
 std::array<double, compared_quantities.size()> quantities_of(const Disks& d, std::size_t i) {
-  return {d.x[i], d.y[i], d.vx[i], d.vy[i], d.radius_of(i), d.mass_of(i)};
+  return {d.x[i], d.y[i], d.vx[i], d.vy[i], d.radius_of(i), d.mass_of(i), d.spin_of(i)};
 }
 
 double distance(const Domain& box, std::size_t quantity, double a, double b) {

@@ -10,12 +10,12 @@
 
 namespace carom {
 
-inline constexpr std::array<const char*, 6> compared_quantities{"x", "y", "vx", "vy", "radius", "mass"};
+inline constexpr std::array<const char*, 7> compared_quantities{"x", "y", "vx", "vy", "radius", "mass", "spin"};
 
 // What counts as a difference.
 struct CompareRule {
   std::optional<double> tolerance;  // values (and times) differ by more than this; absent: in any bit
-  std::array<bool, compared_quantities.size()> fields{true, true, true, true, true, true};
+  std::array<bool, compared_quantities.size()> fields{true, true, true, true, true, true, true};
   double from = -std::numeric_limits<double>::infinity();  // frames of these times only
   double to = std::numeric_limits<double>::infinity();
   std::optional<double> at;  // or only the frame of each that is nearest to this time

@@ -14,6 +14,7 @@
 #include "io/hdf5/hdf5_output.hpp"
 #include "io/hdf5/shuffled_deflate.hpp"
 #include "io/tables/group_columns.hpp"
+#include "io/tables/rotation_columns.hpp"
 #include "io/trajectory/disk_selection.hpp"
 #include "io/trajectory/h5md_elements.hpp"
 #include "io/trajectory/h5md_layout.hpp"
@@ -331,6 +332,7 @@ void H5mdWriter::write(const Disks& disks, double time, Count step, const Series
   f.columns.front().values.push_back(static_cast<double>(shown));
   std::size_t column = 0;
   for (const std::size_t k : f.shown_columns) f.columns[++column].values.push_back(row[k]);
+  for (const double value : rotation_column_values(disks, run)) f.columns[++column].values.push_back(value);
   for (const double value : f.groups.row(disks)) f.columns[++column].values.push_back(value);
   f.columns.back().values.push_back(time);
   const auto count = static_cast<double>(disks.size());

@@ -11,7 +11,8 @@
 
 namespace carom {
 
-// One frame as read back, disks in order of id; radius and mass always come as columns. Of the box, files have size and
+// One frame as read back, disks in order of id; radius and mass always come as columns, spin where disks are rough, of
+// which the moment of inertia is not known. Of the box, files have size and
 // periodic sides; all others appear as walls.
 struct TrajectoryFrame {
   Disks disks;

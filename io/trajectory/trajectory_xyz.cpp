@@ -34,8 +34,8 @@ class LineText {
   }
 
  private:
-  // Six doubles of up to 24 characters, six whole numbers of up to 11, and what stands between them.
-  std::array<char, 256> buffer_;
+  // Seven doubles of up to 24 characters, six whole numbers of up to 11, and what stands between them.
+  std::array<char, 288> buffer_;
   char* end_ = buffer_.data();
 };
 
@@ -79,10 +79,10 @@ struct RepeatedNumber {
 std::string lattice_text(const XyzPlan& plan) {
   const std::string width = number_text(plan.box.width);
   const std::string height = number_text(plan.box.height);
-  return fmt::format(
-      "Lattice=\"{} 0 0 0{} 0 0 0 1\" Origin=\"0 0 0\" pbc=\"{} {} F\" Properties={}{}{} Time=", width.substr(1),
-      height, plan.box.periodic_x() ? 'T' : 'F', plan.box.periodic_y() ? 'T' : 'F', xyz_properties,
-      plan.group_ends.empty() ? "" : ":group:I:1", plan.rounds == nullptr ? "" : ":map_shift:I:3");
+  return fmt::format("Lattice=\"{} 0 0 0{} 0 0 0 1\" Origin=\"0 0 0\" pbc=\"{} {} F\" Properties={}{}{}{} Time=",
+                     width.substr(1), height, plan.box.periodic_x() ? 'T' : 'F', plan.box.periodic_y() ? 'T' : 'F',
+                     xyz_properties, plan.group_ends.empty() ? "" : ":group:I:1",
+                     plan.rounds == nullptr ? "" : ":map_shift:I:3", plan.spins ? ":spin:R:1" : "");
 }
 
 }  // namespace
@@ -123,6 +123,7 @@ void XyzWriter::write_lines(const Disks& disks, const std::vector<std::size_t>& 
       line.add_number(rounds_of(plan_.rounds->y, id));
       line.add(" 0");
     }
+    if (plan_.spins) line.add_number(disks.spin_of(i));
     line.add("\n");
     text += line.text();
   }
@@ -222,14 +223,15 @@ void XyzReader::read_layout(std::string_view properties) {
     fail(fmt::format("expected Properties={}, or more columns; {}", xyz_properties, what));
   };
   Layout layout;
-  std::size_t radius_width = 0, mass_width = 0, id_width = 0, group_width = 0;
-  std::array<std::tuple<std::string_view, std::size_t*, std::size_t*>, 6> known{
+  std::size_t radius_width = 0, mass_width = 0, id_width = 0, group_width = 0, spin_width = 0;
+  std::array<std::tuple<std::string_view, std::size_t*, std::size_t*>, 7> known{
       {{"pos", &layout.position, &layout.position_width},
        {"velo", &layout.velocity, &layout.velocity_width},
        {"radius", &layout.radius, &radius_width},
        {"mass", &layout.mass, &mass_width},
        {"id", &layout.id, &id_width},
-       {"group", &layout.group, &group_width}}};
+       {"group", &layout.group, &group_width},
+       {"spin", &layout.spin, &spin_width}}};
   std::string_view rest = properties;
   const auto next_word = [&rest] {
     const std::size_t end = std::min(rest.find(':'), rest.size());
@@ -256,10 +258,11 @@ void XyzReader::read_layout(std::string_view properties) {
   }
   for (const auto& [name, begin, width] : known) {
     const bool vector = name == "pos" || name == "velo";
-    if (name == "group" && *width == 0) continue;
+    if ((name == "group" || name == "spin") && *width == 0) continue;
     if (vector ? *width != 2 && *width != 3 : *width != 1) refuse(fmt::format("'{}' has {} columns", name, *width));
   }
   layout.has_group = group_width > 0;
+  layout.has_spin = spin_width > 0;
   layout_ = layout;
   properties_ = properties;
 }
@@ -306,6 +309,7 @@ void XyzReader::read_disk(XyzFrame& frame) const {
   disks.vy.push_back(number(columns[at.velocity + 1]));
   disks.radius.push_back(number(columns[at.radius]));
   disks.mass.push_back(number(columns[at.mass]));
+  if (at.has_spin) disks.spin.push_back(number(columns[at.spin]));
   if (at.has_group) frame.group.push_back(whole_number(columns[at.group], "group"));
 }
 

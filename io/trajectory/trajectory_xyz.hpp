@@ -30,6 +30,7 @@ struct XyzPlan {
   // How often each disk has gone round the periodic sides: a column map_shift:I:3 is added, which OVITO takes for the
   // periodic image. Kept by the caller; null: not known.
   const DisplacementTally* rounds = nullptr;
+  bool spins = false;  // disks are rough: a column spin:R:1 is added, the angular velocity
 };
 
 class XyzWriter {
@@ -79,9 +80,9 @@ class XyzReader : public TrajectoryReader {
  private:
   // Where in a line the columns begin; of `all` columns.
   struct Layout {
-    std::size_t position = 0, velocity = 0, radius = 0, mass = 0, id = 0, group = 0, all = 0;
+    std::size_t position = 0, velocity = 0, radius = 0, mass = 0, id = 0, group = 0, spin = 0, all = 0;
     std::size_t position_width = 0, velocity_width = 0;
-    bool has_group = false;
+    bool has_group = false, has_spin = false;
   };
 
   [[noreturn]] void fail(const std::string& what) const;

@@ -35,7 +35,7 @@ void remove_in_parallel(Disks& d, const std::vector<unsigned char>& gone, const 
     first[b + 1] = kept;
   });
   for (std::size_t b = 0; b < blocks; ++b) first[b + 1] += first[b];
-  for (std::vector<double>* c : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass}) {
+  for (std::vector<double>* c : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass, &d.spin}) {
     close_up(*c, column, gone, first, executor);
   }
   close_up(d.id, ids, gone, first, executor);

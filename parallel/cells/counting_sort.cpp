@@ -107,7 +107,7 @@ void sort_into_cells(Disks& d, const CellGrid& grid, const Executor& executor, S
   const Buckets buckets = buckets_for(grid.keys);
   scatter_to_buckets(d, grid, executor, buckets, cells);
   sort_buckets(executor, buckets, grid.keys, n, cells);
-  for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass}) {
+  for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass, &d.spin}) {
     if (!column->empty()) move_column(*column, cells.column, cells.order, executor);
   }
   move_column(d.id, cells.pass, cells.order, executor);

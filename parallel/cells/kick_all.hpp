@@ -1,6 +1,7 @@
 // The kicks of a thermostat, shared out among threads.
 #pragma once
 
+#include "core/base/exact_sum.hpp"
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
 #include "parallel/threads/executor.hpp"
@@ -10,5 +11,8 @@ namespace carom {
 // Does what kick_disks of core/step/thermostat.hpp does to all disks if a kick is due, with the same bits. Returns
 // whether it was.
 bool kick_if_due(const Scene& scene, State& state, const Executor& executor);
+
+// Kick number `number` for all these disks; returns the energy that it gave them.
+ExactSum kick_all(Disks& disks, const Scene& scene, Count number, const Executor& executor);
 
 }  // namespace carom

@@ -32,7 +32,10 @@ template <class Visit>
 void for_each_run_near(const GridLevel& level, const std::uint32_t* start, const Domain& box, double x, double y,
                        double reach, Visit&& visit) {
   const Span rows = span_around(y, reach, box.height, level.rows_per_length, level.rows, box.periodic_y());
-  const Span columns = span_around(x, reach, box.width, level.columns_per_length, level.columns, box.periodic_x());
+  Span columns = span_around(x, reach, box.width, level.columns_per_length, level.columns, box.periodic_x());
+  // Across the bottom or the top of a sheared box disks of any column may be near.
+  if (box.shear.acts() && (y < reach || y >= box.height - reach || rows.count == level.rows)) [[unlikely]]
+    columns = {0, level.columns};
   const std::uint32_t straight = std::min(columns.count, level.columns - columns.first);
   for (std::uint32_t k = 0; k < rows.count; ++k) {
     const std::uint32_t row = rows.first + k < level.rows ? rows.first + k : rows.first + k - level.rows;

@@ -17,6 +17,10 @@ ExactDisk EventProcessor<scope>::disk(std::uint32_t i) const {
   ExactDisk now{record_[i].path};
   if (!window_.last_contact.empty()) now.last_contact = window_.last_contact[i];
   if (!window_.thermal_hits.empty()) now.thermal_hits = window_.thermal_hits[i];
+  if (!window_.spin.empty()) {
+    now.spin = window_.spin[i];
+    now.radius = record_[i].radius;
+  }
   return now;
 }
 
@@ -105,6 +109,13 @@ void EventProcessor<scope>::log_segment(std::uint32_t i, std::uint32_t partner, 
   worker_.log.push_back({i, partner, path});
 }
 
+// After log_segment, of a rough disk whose spin is `now` from here on.
+template <Scope scope>
+void EventProcessor<scope>::log_spin(std::uint32_t i, double now) {
+  if (record_[i].version == 0) worker_.spin_log.push_back(window_.spin[i]);
+  worker_.spin_log.push_back(now);
+}
+
 template <Scope scope>
 void EventProcessor<scope>::collide_any_pair(std::uint32_t i, std::uint32_t j, double time) {
   if (record_[i].id > record_[j].id) std::swap(i, j);
@@ -135,6 +146,10 @@ void EventProcessor<scope>::begin_segment(std::uint32_t i, const ExactDisk& now,
                                           const EventMark& event) {
   DiskRecord& f = record_[i];
   if (window_.keeps_paths) log_segment(i, partner, now.path);
+  if (!window_.spin.empty()) {
+    if (window_.keeps_paths) log_spin(i, now.spin);
+    window_.spin[i] = now.spin;
+  }
   f.path = now.path;
   if (++f.version > most_paths_of_disk || ++worker_.segments > window_.most_paths) [[unlikely]] {
     worker_.crowded = event;

@@ -64,7 +64,8 @@ inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regio
                                                        : single_queue_up_to;
   const std::size_t wanted = std::max<std::size_t>(static_cast<std::size_t>(executor.threads()), 2);
   const std::size_t regions = is_cut ? wanted : std::min(wanted, most_regions(disks, box));
-  if (!regions_allowed || disks <= single || regions < 2) {
+  // Regions know no images that move.
+  if (!regions_allowed || box.shear.acts() || disks <= single || regions < 2) {
     return {EngineMode::single_queue, 0, 0, 1.0, disks > executor.grain(disks_in_cache)};
   }
   const std::size_t disks_a_tile = std::min(executor.grain(most_disks_a_tile), disks / (tiles_a_region * regions) + 1);

@@ -47,7 +47,7 @@ FirstContact EventPredictor::first_contact(std::uint32_t i) const {
 }
 
 NextEvent EventPredictor::earliest_with_sides(std::uint32_t i) const {
-  if (far_) return earliest_one_by_one(i);
+  if (far_ || (window_->rules.box.shear.acts() && lists_images(i))) return earliest_one_by_one(i);
   const FirstContact first = first_contact(i);
   if (first.ambiguous) return earliest_one_by_one(i);
   NextEvent best = earliest_at_sides(i);
@@ -55,6 +55,16 @@ NextEvent EventPredictor::earliest_with_sides(std::uint32_t i) const {
   if (!(first.time <= window_->horizon)) return best;
   const NextEvent contact{first.time, Partner::disk(first.neighbour), best.lasting};
   return comes_first(i, contact, best) ? contact : best;
+}
+
+// Does the disk list any across the bottom or the top of a sheared box? The kernel knows no images that move. No
+// neighbour is as far as half a period, so that the places from which paths begin tell.
+bool EventPredictor::lists_images(std::uint32_t i) const {
+  const double y = window_->record[i].path.y;
+  const double half = 0.5 * window_->rules.box.height;
+  bool any = false;
+  lists_->for_each_neighbour(i, [&](std::uint32_t j) { any = any || std::abs(window_->record[j].path.y - y) > half; });
+  return any;
 }
 
 // By core's formulas: any images, any ties.
@@ -72,7 +82,8 @@ NextEvent EventPredictor::earliest_one_by_one(std::uint32_t i) const {
     const PathSegment& b = in_order ? other.path : own.path;
     const double contact_distance = own.radius + other.radius;
     const double both = std::max(a.start, b.start);
-    const Relative r = relative(carried_to(a, both, rules.gravity), carried_to(b, both, rules.gravity), rules.box);
+    const PathSegment p = carried_to(a, both, rules.gravity), q = carried_to(b, both, rules.gravity);
+    const Relative r = rules.box.shear.acts() ? relative_in_shear(p, q, rules.box) : relative(p, q, rules.box);
     const double gap = r.distance2() - contact_distance * contact_distance;
     lasting = lasting || (gap * gap <= window_->close2() && r.approach() * r.approach() <= window_->slow2());
     const double time = collision_time(a, b, contact_distance, rules.box, rules.gravity, window_->horizon);

@@ -52,13 +52,14 @@ class EventPredictor {
  private:
   void see_far() {
     far_ = !(fastest2_ <= window_->safe_speed2);
-    more_than_neighbours_ = far_ || window_->rules.box.obstacles != nullptr;
+    more_than_neighbours_ = far_ || window_->rules.box.obstacles != nullptr || window_->rules.box.shear.acts();
   }
   FirstContact first_contact(std::uint32_t i) const;
   NextEvent earliest_with_sides(std::uint32_t i) const;
   NextEvent earliest_one_by_one(std::uint32_t i) const;
   NextEvent earliest_at_sides(std::uint32_t i) const;
   void see_obstacles(std::uint32_t i, double end, NextEvent& best) const;
+  bool lists_images(std::uint32_t i) const;
   bool touches_slowly(const PathSegment& path, double radius) const;
   bool comes_first(std::uint32_t i, const NextEvent& a, const NextEvent& b) const;
   static PredictionConstants constants_of(const WindowState& window);
@@ -68,7 +69,7 @@ class EventPredictor {
   PredictionKernels kernels_;
   PredictionConstants constants_;
   double fastest2_;  // largest v^2 so far
-  // Obstacles, or far_: then lists do not tell all.
+  // Obstacles, a shear, or far_: then the kernel does not tell all.
   bool more_than_neighbours_ = false;
   bool far_ = false;  // may a disk move so far that images beyond the nearest one, or crossing events, matter?
 };

@@ -15,7 +15,7 @@ namespace {
 // Is there nothing but straight paths and collisions of disks of one mass?
 bool is_plain(const WindowState& window) {
   return !window.rules.gravity.acts() && window.rules.common_mass && window.last_contact.empty() &&
-         window.burst.empty();
+         window.burst.empty() && window.spin.empty() && !window.rules.box.shear.acts();
 }
 
 constexpr Count events_between_polls = 4096;
@@ -34,6 +34,7 @@ EventProcessor<scope>::EventProcessor(WindowState& window, NeighbourLists& lists
       record_(window.record.data()),
       first_(worker.region.first_disk),
       is_plain_(is_plain(window)),
+      is_straight_(!window.rules.gravity.acts() && !window.rules.box.shear.acts()),
       reduced_mass_(reduced_mass(window.disks->common_mass, window.disks->common_mass)) {}
 
 template <Scope scope>
@@ -259,7 +260,9 @@ inline ScheduledEvent EventProcessor<scope>::next_event(std::uint32_t i, double 
   } else if (!next.lasting) {
     event.time = window_.last_look(i);
   }
-  if (lists_.stays_listed(i, record.path, from, event.time, window_.rules.gravity)) return event;
+  if (is_straight_ ? lists_.stays_listed(i, record.path, event.time)
+                   : lists_.stays_listed_bent(i, record.path, from, event.time, window_.rules.gravity))
+    return event;
   const double relist_at = lists_.earliest_relist_time(i, record.path, from, from, window_.rules.gravity);
   if (scope == Scope::border && from < window_.slice_stop() && window_.in_slice(relist_at)) {
     put_off_relisting(i);
@@ -300,8 +303,8 @@ inline void EventProcessor<scope>::schedule(std::uint32_t i, double time, Partne
 template <Scope scope>
 bool EventProcessor<scope>::relist(std::uint32_t i, double time) {
   PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
-  wrap_into(p, window_.rules.box);
-  if (!lists_.relist(i, {p.x, p.y}, *window_.disks, worker_.region, worker_.found)) return false;
+  const Vec2 at = lists_.listing_place(p, window_.rules.box);
+  if (!lists_.relist(i, at, *window_.disks, worker_.region, worker_.found)) return false;
   ++worker_.relisted;
   if constexpr (scope == Scope::region) {
     safe_times_.mark_relisted(i);

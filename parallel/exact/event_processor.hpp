@@ -81,6 +81,7 @@ class EventProcessor {
   void begin_plain_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path);
   // partner: see LoggedSegment.
   void log_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path);
+  void log_spin(std::uint32_t i, double now);
   void begin_segment(std::uint32_t i, const ExactDisk& now, std::uint32_t partner, const EventMark& event);
   void count_burst(std::uint32_t i, const EventMark& event);
   // Border: has the disk's motion been known to the end of the slice before?
@@ -95,6 +96,7 @@ class EventProcessor {
   DiskRecord* record_;
   std::uint32_t first_;  // disk of the calendar; entry k is of disk first_ + k
   bool is_plain_;
+  bool is_straight_;     // neither gravity nor a shear bends paths from where lists take disks to go
   double reduced_mass_;  // of two disks of a plain scene
 };
 

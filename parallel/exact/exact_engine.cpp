@@ -24,6 +24,7 @@
 #include "parallel/exact/logged_paths.hpp"
 #include "parallel/exact/neighbour_lists.hpp"
 #include "parallel/exact/slice_scheduler.hpp"
+#include "parallel/exact/window_passes.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
@@ -57,6 +58,7 @@ class ParallelExact final : public Engine {
       : scene_(scene),
         state_(std::move(initial)),
         obstacles_(place_obstacles(state_.obstacles, scene_.box)),
+        predicts_anew_(obstacles_ != nullptr || scene_.box.has_sine_side()),
         executor_(threads.count, threads.block_divisor),
         scheduler_(window_, lists_, executor_) {
     scheduler_.set_border_watch(watch);
@@ -65,7 +67,8 @@ class ParallelExact final : public Engine {
   void step() override {
     if (!(state_.time < scene_.run.t_end)) return;
     start_window();
-    WindowPlan plan = plan_window(scene_, state_, summarise(), 1.0);
+    speeds_ = summarise_speeds(state_.disks, executor_);
+    WindowPlan plan = plan_window(scene_, state_, speeds_, 1.0);
     logged_.reset();
     if (!run_window_with_retry(plan)) return;
     store_paths(plan);
@@ -90,8 +93,7 @@ class ParallelExact final : public Engine {
   void begin_brownian();
   bool has_room(const Disk& newcomer) const;
   void remove(const std::vector<unsigned char>& gone);
-  SpeedSummary summarise();
-  bool rebuild_lists_if_due(bool regions_allowed);  // returns whether it did
+  bool rebuild_lists_if_due(const WindowPlan& plan, bool regions_allowed);  // returns whether it did
   void load_paths(const WindowPlan& plan, bool rebuilt);
   void load_disk(std::size_t i, const WindowPlan& plan, bool rebuilt);
   double carried_event_time(std::size_t i, const WindowPlan& plan, bool rebuilt) const;
@@ -103,6 +105,9 @@ class ParallelExact final : public Engine {
   Scene scene_;
   State state_;
   std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box
+  // How much rounding shifts a contact with an obstacle, or with a side that is a sine, depends on how it is touched:
+  // all is predicted again at every window's start.
+  const bool predicts_anew_;
   Executor executor_;
   Validity validity_;
   PhaseTimes times_;
@@ -148,7 +153,7 @@ bool ParallelExact::edit(const Edit& edit) {
   // The paths of the last window no longer go with the disks.
   logged_.reset();
   at_start_ = Disks{};
-  const bool known = valid_ != Valid::nothing && lists_take(edit);
+  const bool known = valid_ != Valid::nothing && !scene_.box.shear.acts() && lists_take(edit);
   apply(edit, state_);
   if (!known) {
     valid_ = Valid::nothing;
@@ -185,7 +190,7 @@ bool ParallelExact::lists_take(const Edit& edit) {
 
 bool ParallelExact::visit_near(Vec2 centre, double half_width, double half_height,
                                const std::function<void(std::size_t)>& visit) {
-  if (valid_ == Valid::nothing || window_.mode == EngineMode::all_pairs) return false;
+  if (valid_ == Valid::nothing || window_.mode == EngineMode::all_pairs || scene_.box.shear.acts()) return false;
   lists_.visit_near(centre, half_width, half_height, [&](std::uint32_t i) { visit(i); });
   return true;
 }
@@ -203,19 +208,9 @@ bool ParallelExact::has_room(const Disk& newcomer) const {
 
 void ParallelExact::begin_brownian() {
   const BrownianInterval interval = begin_brownian_interval(scene_, state_);
-  const std::size_t n = state_.disks.size();
-  const bool sinks = has_brownian_sink(scene_);
-  gone_.assign(sinks ? n : 0, 0);
-  with_view(state_.disks, [&](const auto& d) {
-    executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-      draw_brownian(d, scene_, interval.number, interval.length, begin, end);
-      for (std::size_t i = begin; sinks && i < end; ++i) {
-        gone_[i] = crosses_sink(d, scene_, interval.number, interval.length, i) ? 1 : 0;
-      }
-    });
-  });
+  draw_brownian_interval(state_.disks, scene_, interval, executor_, gone_);
   valid_ = std::min(valid_, Valid::lists);
-  if (sinks) remove(gone_);
+  if (!gone_.empty()) remove(gone_);
 }
 
 void ParallelExact::remove(const std::vector<unsigned char>& gone) {
@@ -225,22 +220,15 @@ void ParallelExact::remove(const std::vector<unsigned char>& gone) {
   if (state_.disks.size() != before) valid_ = Valid::nothing;
 }
 
-SpeedSummary ParallelExact::summarise() {
-  const Disks& d = state_.disks;
-  std::vector<SpeedTally> tally(std::max<std::size_t>(executor_.blocks(d.size(), pass_block), 1));
-  executor_.for_ranges(d.size(), pass_block,
-                       [&](std::size_t b, std::size_t begin, std::size_t end) { tally[b].add(d, begin, end); });
-  for (std::size_t b = 1; b < tally.size(); ++b) tally[0].add(tally[b]);
-  speeds_ = summarise_speeds(tally[0], d.size());
-  return speeds_;
-}
-
-bool ParallelExact::rebuild_lists_if_due(bool regions_allowed) {
-  if (valid_ != Valid::nothing && scheduler_.relisted() <= relistings_a_disk * state_.disks.size()) return false;
+bool ParallelExact::rebuild_lists_if_due(const WindowPlan& plan, bool regions_allowed) {
+  const bool strained = scene_.box.shear.acts() && lists_.is_strained(plan.end);
+  if (valid_ != Valid::nothing && !strained && scheduler_.relisted() <= relistings_a_disk * state_.disks.size())
+    return false;
   const PhaseTimer timer(times_, "list");
   // Sorting takes about as much.
   if (state_.disks.size() > disks_of_much_memory) scheduler_.release_calendars();
   const ListLayout layout = choose_layout(state_.disks.size(), scene_.box, regions_allowed, executor_);
+  lists_.follow_flow(box_at(scene_.box, plan.start), plan.start, plan.length);
   lists_.build(state_.disks, scene_.box, layout, executor_);
   window_.mode = layout.mode;
   window_.regions = layout.regions;
@@ -282,8 +270,7 @@ void ParallelExact::load_disk(std::size_t i, const WindowPlan& plan, bool rebuil
 
 // The time of an event that was predicted in the window before, a little early.
 double ParallelExact::carried_event_time(std::size_t i, const WindowPlan& plan, bool rebuilt) const {
-  // How much rounding shifts a contact with an obstacle depends on how it is touched: predicted again at every start.
-  if (window_.rules.box.obstacles != nullptr) return 0.0;
+  if (predicts_anew_) return 0.0;
   const double carried = (window_.next_event_time[i] - last_length_) - early_share * last_length_;
   if (!rebuilt) return carried;
   const double relist_at = lists_.earliest_relist_time(static_cast<std::uint32_t>(i), window_.record[i].path, 0.0,
@@ -328,7 +315,8 @@ bool ParallelExact::run_window_with_retry(WindowPlan& plan) {
 
 // Unless the outcome is `done`, the state is as it was.
 SliceOutcome ParallelExact::run_window(const WindowPlan& plan, double margin, bool regions_allowed) {
-  const bool rebuilt = rebuild_lists_if_due(regions_allowed);
+  const bool rebuilt = rebuild_lists_if_due(plan, regions_allowed);
+  if (scene_.box.shear.acts()) lists_.carry_flow(box_at(scene_.box, plan.start), plan.start);
   load_paths(plan, rebuilt);
   const PhaseTimer timer(times_, "events");
   scheduler_.begin_window(rebuilt);
@@ -354,27 +342,43 @@ void ParallelExact::store_paths(const WindowPlan& plan) {
   const std::size_t n = d.size();
   const bool any_gone = scheduler_.any_gone();
   gone_.assign(any_gone ? n : 0, 0);
-  executor_.for_ranges(n, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      PathSegment p = carried_to(window_.record[i].path, plan.length, window_.rules.gravity);
-      if (any_gone && std::isnan(p.x)) {
-        gone_[i] = 1;
-      } else {
-        wrap_into(p, scene_.box);
+  const Domain& box = window_.rules.box;
+  std::vector<ImpactTally> crossings(box.shear.acts() ? executor_.blocks(n, pass_block) : 0);
+  const auto store = [&](const auto& wrap_path) {
+    executor_.for_ranges(n, pass_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        PathSegment p = carried_to(window_.record[i].path, plan.length, window_.rules.gravity);
+        if (any_gone && std::isnan(p.x)) {
+          gone_[i] = 1;
+        } else {
+          wrap_path(p, i, b);
+        }
+        put(p, d, i);
+        if (!state_.last_contact.empty()) state_.last_contact[d.id[i]] = plan.start + window_.last_contact[i];
+        if (!state_.thermal_hits.empty()) state_.thermal_hits[d.id[i]] = window_.thermal_hits[i];
       }
-      put(p, d, i);
-      if (!state_.last_contact.empty()) state_.last_contact[d.id[i]] = plan.start + window_.last_contact[i];
-      if (!state_.thermal_hits.empty()) state_.thermal_hits[d.id[i]] = window_.thermal_hits[i];
-    }
-  });
+    });
+  };
+  if (box.shear.acts()) {
+    store([&](PathSegment& p, std::size_t i, std::size_t b) {
+      const double work = wrap_with_work(p, d.mass_of(i), box);
+      if (work != 0.0) crossings[b].add_shear(0.0, work);
+    });
+  } else {
+    store([&](PathSegment& p, std::size_t, std::size_t) { wrap_into(p, box); });
+  }
+  if (d.spins()) d.spin = window_.spin;
   at_start_ = any_gone ? d : Disks{};
   if (valid_ == Valid::lists) valid_ = Valid::lists_and_times;
   last_length_ = plan.length;
   logged_ = plan;
   if (any_gone) remove(gone_);
-  const ImpactTally tally = scheduler_.tally();
+  ImpactTally tally = scheduler_.tally();
+  for (const ImpactTally& block : crossings) tally.add(block);
   finish_window(state_, plan, tally, 1.0);
-  validity_.see_step(scene_, {{}, {}, {}, tally.inaccurate}, state_);
+  Overlap wall;
+  if (walls_are_watched(scene_)) wall = deepest_wall_overlap(state_.disks, box_at(scene_.box, state_.time), executor_);
+  validity_.see_step(scene_, {{}, {}, wall, tally.all_inaccurate()}, state_);
 }
 
 double ParallelExact::disks_at(double t, Disks& out) const {
@@ -383,7 +387,7 @@ double ParallelExact::disks_at(double t, Disks& out) const {
     return state_.time;
   }
   out = scheduler_.any_gone() ? at_start_ : state_.disks;
-  move_along_paths(window_, scheduler_, t > logged_->start ? t - logged_->start : 0.0, scene_.box, out);
+  move_along_paths(window_, scheduler_, t > logged_->start ? t - logged_->start : 0.0, window_.rules.box, out);
   return t;
 }
 

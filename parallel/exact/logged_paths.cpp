@@ -9,17 +9,20 @@ namespace carom {
 namespace {
 
 // Of each disk the last segment that has begun by time s of the window; a worker's log has a disk's segments in order.
+// spin: gets that of rough disks whose segments are logged.
 std::vector<PathSegment> paths_at(const WindowState& window, const SliceScheduler& scheduler, double s,
-                                  std::vector<unsigned char>& gone) {
+                                  std::vector<unsigned char>& gone, std::vector<double>& spin) {
   std::vector<PathSegment> path(window.record.size());
   for (std::size_t i = 0; i < path.size(); ++i) path[i] = window.record[i].path;
   gone.assign(path.size(), 0);
   std::vector<unsigned char> logged(path.size(), 0);
-  scheduler.read_logs([&](const std::vector<LoggedSegment>& log) {
-    for (const LoggedSegment& segment : log) {
+  scheduler.read_logs([&](const std::vector<LoggedSegment>& log, const std::vector<double>& spins) {
+    for (std::size_t k = 0; k < log.size(); ++k) {
+      const LoggedSegment& segment = log[k];
       const std::uint32_t i = segment.disk;
       if (segment.path.start > s || (logged[i] != 0 && segment.path.start < path[i].start)) continue;
       path[i] = segment.path;
+      if (!spins.empty()) spin[i] = spins[k];
       gone[i] = segment.partner == LoggedSegment::gone ? 1 : 0;
       logged[i] = 1;
     }
@@ -32,10 +35,10 @@ std::vector<PathSegment> paths_at(const WindowState& window, const SliceSchedule
 void move_along_paths(const WindowState& window, const SliceScheduler& scheduler, double s, const Domain& box,
                       Disks& disks) {
   std::vector<unsigned char> gone;
-  const std::vector<PathSegment> path = paths_at(window, scheduler, s, gone);
+  const std::vector<PathSegment> path = paths_at(window, scheduler, s, gone, disks.spin);
   for (std::size_t i = 0; i < path.size(); ++i) {
     PathSegment p = carried_to(path[i], s, window.rules.gravity);
-    wrap_into(p, box);
+    wrap_with_work(p, 0.0, box);
     put(p, disks, i);
   }
   remove_marked(disks, gone);
@@ -45,7 +48,7 @@ void move_along_paths(const WindowState& window, const SliceScheduler& scheduler
 std::vector<DiskContact> contacts_of_window(const SliceScheduler& scheduler, const std::vector<DiskId>& id,
                                             double start) {
   std::vector<DiskContact> met;
-  scheduler.read_logs([&](const std::vector<LoggedSegment>& log) {
+  scheduler.read_logs([&](const std::vector<LoggedSegment>& log, const std::vector<double>& /*spins*/) {
     for (const LoggedSegment& segment : log) {
       if (!segment.with_disk() || id[segment.disk] > id[segment.partner]) continue;
       met.push_back({id[segment.disk], id[segment.partner], start + segment.path.start});

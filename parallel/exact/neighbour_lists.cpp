@@ -144,7 +144,10 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   if (listed_at_.capacity() < n) resize_in_huge_pages(listed_at_, n);
   listed_at_.resize(n);
   executor.for_ranges(n, disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) listed_at_[i] = fixed_point(d.x[i], d.y[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec2 at = flow_.acts ? into_flow(d.x[i], d.y[i], 0.0) : Vec2{d.x[i], d.y[i]};
+      listed_at_[i] = fixed_point(at.x, at.y);
+    }
   });
   list_all(d, executor);
 }
@@ -190,7 +193,8 @@ void NeighbourLists::list_block(const Disks& d, std::size_t block, std::size_t b
 void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::uint32_t last_key) {
   for (std::uint32_t key = first_key; key < last_key; ++key) {
     for (std::uint32_t i = cells_.start[key]; i < cells_.start[key + 1]; ++i) {
-      slots_.insert(key, i, listed_at_[i], radius_in_units(d.radius_of(i)));
+      const std::uint32_t cell = flow_.acts ? cell_of(d, i, listed_at_[i]) : key;
+      slots_.insert(cell, i, listed_at_[i], radius_in_units(d.radius_of(i)));
     }
   }
 }
@@ -206,18 +210,18 @@ FixedPointPosition NeighbourLists::fixed_point(double x, double y) const {
 
 // In units of the skin, a little more.
 float NeighbourLists::radius_in_units(double radius) const {
-  return static_cast<float>(radius * (1.0 / skin_ * single_margin));
+  return static_cast<float>(flow_.stretch * radius * (1.0 / skin_ * single_margin));
 }
 
 ListQuery NeighbourLists::query_at(const Disks& d, std::uint32_t i, FixedPointPosition position) const {
   const double per_length = 1.0 / skin_;
-  const double distance = d.radius_of(i) + 2.0 * skin_;
+  const double distance = flow_.stretch * d.radius_of(i) + 2.0 * skin_;
   const auto single = [&](double length) { return static_cast<float>(length * per_length); };
   return {position,
           single(unit_x_),
           single(unit_y_),
           single(distance * single_margin),
-          single(d.common_radius * single_margin),
+          single(flow_.stretch * d.common_radius * single_margin),
           i};
 }
 
@@ -226,7 +230,8 @@ bool NeighbourLists::find_neighbours(const Disks& d, std::uint32_t i, FixedPoint
   const ListQuery query = query_at(d, i, position);
   NeighbourCollector collector(kernel_, query, slots_.columns(), found);
   const bool inside = visit_runs_near(
-      position_of(position), d.radius_of(i) + 2.0 * skin_, region, [&](SlotRun run) { collector.add(run); },
+      position_of(position), flow_.stretch * d.radius_of(i) + 2.0 * skin_, region,
+      [&](SlotRun run) { collector.add(run); },
       [&](std::uint32_t j) { collector.add(j, listed_at_[j], radius_in_units(d.radius_of(j))); });
   collector.search();
   return inside;
@@ -269,10 +274,11 @@ void NeighbourLists::release_scratch() {
 double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& path, double from, double until,
                                             const Gravity& gravity) const {
   if (mode_ == EngineMode::all_pairs) return never;
+  if (flow_.acts) return earliest_relist_in_flow(i, path, from, until);
   const PathSegment p = carried_to(path, from, gravity);
   const double g = gravity.size;
   const Vec2 position = listed_position(i);
-  const auto [dx, dy] = nearest_image({p.x - position.x, p.y - position.y}, box_);
+  const auto [dx, dy] = nearest_image_at_rest({p.x - position.x, p.y - position.y}, box_);
   double room = relist_distance_ * (1.0 - 1e-9);
   double ahead = never;
   if (g > 0.0) {
@@ -281,14 +287,7 @@ double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& 
     room -= 0.5 * g * ahead * ahead;
     if (!(room > 0.0)) return from;
   }
-  const double c = room * room - (dx * dx + dy * dy);
-  if (!(c > 0.0)) return from;
-  const double a = p.vx * p.vx + p.vy * p.vy;
-  if (a == 0.0) return from + ahead;
-  const double b = dx * p.vx + dy * p.vy;
-  const double root = std::sqrt(b * b + a * c);
-  const double t = b > 0.0 ? c / (b + root) : (root - b) / a;
-  return from + std::min(t, ahead);
+  return from + std::min(time_within(room, {dx, dy}, {p.vx, p.vy}), ahead);
 }
 
 // A straight path whose ends are in a circle is in it; gravity bends it by g t^2 / 8 at most, so that it has to begin
@@ -313,7 +312,8 @@ double NeighbourLists::safe_speed2(double length, double g) const {
   if (box_.periodic_y()) period = std::min(period, box_.height);
   if (period == HUGE_VAL) return HUGE_VAL;
   if (mode_ == EngineMode::all_pairs) return -1.0;
-  const double flight = 0.5 * (0.49 * period - 2.0 * largest_radius_ - 4.0 * skin_) - g * length * length;
+  const double listed = flow_.stretch * (2.0 * flow_.stretch * largest_radius_ + 4.0 * skin_);
+  const double flight = 0.5 * (0.49 * period - listed) - g * length * length;
   return flight > 0.0 ? (flight / length) * (flight / length) : -1.0;
 }
 

@@ -47,6 +47,20 @@ void for_each_cell_run_near(const GridLevel& level, const Domain& box, double x,
   }
 }
 
+// In a sheared box disks are listed by places that go with the flow: x less tilt times y, with a tilt that grows at the
+// shear rate. There the images above are at rest, and two disks that touch are at most `stretch` times as far from each
+// other, until the tilt has grown by the strain that the stretch allows for. Not in effect elsewhere.
+struct FlowFrame {
+  bool acts = false;
+  double rate = 0.0;
+  double tilt = 0.0;  // at the start of the window
+  double stretch = 1.0;
+  double built_tilt = 0.0, built_at = 0.0;  // when the lists were built; tilt, absolute time
+  double strain = 0.0;
+
+  double tilt_at(double s) const { return tilt + rate * s; }  // s: time in the window
+};
+
 // Buffer of a search for neighbours, and the neighbours that it found.
 struct FoundNeighbours {
   std::vector<std::uint32_t> buffer;
@@ -54,6 +68,17 @@ struct FoundNeighbours {
   std::span<const std::uint32_t> disks() const { return {buffer.data(), count}; }
   void grow(std::size_t disks);
 };
+
+// Time for which a point that is now at d and goes at v stays within `room` (length) of the origin; 0 if it is not.
+inline double time_within(double room, Vec2 d, Vec2 v) {
+  const double c = room * room - (d.x * d.x + d.y * d.y);
+  if (!(c > 0.0)) return 0.0;
+  const double a = v.x * v.x + v.y * v.y;
+  if (a == 0.0) return never;
+  const double b = d.x * v.x + d.y * v.y;
+  const double root = std::sqrt(b * b + a * c);
+  return b > 0.0 ? c / (b + root) : (root - b) / a;
+}
 
 // Each disk has a listed position, where it was when it was listed, and may move by the skin from it. Disks i and j are
 // in each other's lists whenever their listed positions are within r_i + r_j + 2 skin (nearest image); so while both
@@ -65,6 +90,20 @@ class NeighbourLists {
   // Sorts the disks into cells (their storage order changes) and lists all of them where they are; in all-pairs mode
   // they are not sorted.
   void build(Disks& disks, const Domain& box, const ListLayout& layout, const Executor& executor);
+
+  // In a sheared box, before lists are built for a window that starts then and is so long, and at the start of each
+  // window; box: at that time. No operation elsewhere.
+  void follow_flow(const Domain& box, double start, double length);
+  void carry_flow(const Domain& box, double start);
+  // Has the flow carried disks so far by time t that the lists are to be built anew?
+  bool is_strained(double t) const { return std::abs(flow_.rate) * (t - flow_.built_at) > flow_.strain; }
+  // Where a disk is listed whose path begins here.
+  Vec2 listing_place(PathSegment p, const Domain& box) const {
+    if (flow_.acts) [[unlikely]]
+      return into_flow(p.x, p.y, p.start);
+    wrap_into(p, box);
+    return {p.x, p.y};
+  }
 
   EngineMode mode() const { return mode_; }
   // Lengths; not in all-pairs mode.
@@ -110,11 +149,15 @@ class NeighbourLists {
                               const Gravity& gravity) const;
 
   // Does the disk, within the relist distance of its listed position at time `from`, stay so until `until`? May say no
-  // where earliest_relist_time would say yes, never the other way round; much faster.
-  bool stays_listed(std::uint32_t i, const PathSegment& path, double from, double until, const Gravity& g) const {
-    if (g.acts()) return stays_listed_falling(i, path, from, until, g);
+  // where earliest_relist_time would say yes, never the other way round; much faster. Precondition: neither gravity nor
+  // a shear acts.
+  bool stays_listed(std::uint32_t i, const PathSegment& path, double until) const {
     const double s = until - path.start;
     return is_within(i, path.x + path.vx * s, path.y + path.vy * s, stay2_);
+  }
+  // Likewise where one of them does.
+  bool stays_listed_bent(std::uint32_t i, const PathSegment& path, double from, double until, const Gravity& g) const {
+    return flow_.acts ? stays_listed_in_flow(i, path, from, until) : stays_listed_falling(i, path, from, until, g);
   }
 
   // Gives back memory that only building needs, where that is much.
@@ -173,7 +216,8 @@ class NeighbourLists {
     bool inside = true;
     for (const GridLevel& level : grid_.levels) {
       // Cells were chosen by coordinates before they were rounded to fixed point.
-      const double cutoff = (distance + level.largest_radius) * (1.0 + 1e-9) + std::max(unit_x_, unit_y_);
+      const double cutoff =
+          (distance + flow_.stretch * level.largest_radius) * (1.0 + 1e-9) + std::max(unit_x_, unit_y_);
       for_each_cell_run_near(level, box_, position.x, position.y, cutoff, [&](std::uint32_t first, std::uint32_t last) {
         inside = inside && first >= region.first_key && last <= region.last_key;
         if (!inside) return;
@@ -195,6 +239,9 @@ class NeighbourLists {
     dy -= period_y_ * ((dy * periods_per_y_ + shift) - shift);
     return dx * dx + dy * dy < distance2;
   }
+  bool stays_listed_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const;
+  double earliest_relist_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const;
+  Vec2 into_flow(double x, double y, double s) const;
   bool stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until,
                             const Gravity& g) const;
   void choose_skin(const Disks& disks, double relist_share);
@@ -219,6 +266,7 @@ class NeighbourLists {
   SortedCells cells_;
   double skin_ = 0.0;
   double relist_distance_ = 0.0;
+  FlowFrame flow_;
   bool all_periodic_ = false;
   double stay2_ = 0.0;                                // relist distance squared, a little less
   double period_x_ = 0.0, period_y_ = 0.0;            // length; 0: none

@@ -49,9 +49,10 @@ class SliceScheduler {
   ImpactTally tally() const;
   Count events() const;
   bool any_gone() const;
+  // read(segments, spins) for each worker; of smooth disks spins is empty.
   template <class Read>
   void read_logs(Read&& read) const {
-    for_each_worker([&](const Worker& worker) { read(worker.log); });
+    for_each_worker([&](const Worker& worker) { read(worker.log, worker.spin_log); });
   }
   // Between windows: gives back the memory of the calendars.
   void release_calendars();

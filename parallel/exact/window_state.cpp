@@ -37,6 +37,7 @@ void WindowState::begin(const ExactRules& window_rules, const Disks& all, const 
   resize_column(record, all.size());
   resize_column(next_event_time, all.size());
   burst.resize(dissipates(rules) ? all.size() : 0);
+  spin = all.spin;
 }
 
 void WindowState::set_tolerances() {

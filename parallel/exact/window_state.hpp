@@ -55,6 +55,7 @@ struct WindowState {
   bool keeps_paths = true;
   Count most_paths = 0;         // of all disks, beyond which the window is crowded (core/step/window_length.hpp)
   std::function<bool()> go_on;  // as in Engine::set_watch
+  std::vector<double> spin;     // of rough disks, by storage index
 
   // When a disk without an event up to the horizon is predicted again: within the window before that, at another time
   // for each disk, so that not all come at once.

@@ -65,10 +65,12 @@ struct Worker {
   std::vector<std::uint32_t> near_border;  // disks marked lists_border in the slice
   std::vector<std::uint32_t> late;         // disks marked relists_late in the slice, and relisted at its end
   FoundNeighbours found;                   // scratch
+  std::vector<double> spin_log;            // of rough disks: the spin on each segment of `log`
 
   void begin_window() {
     tally = {};
     log.clear();
+    spin_log.clear();
     any_gone = false;
     fastest2 = 0.0;
     segments = 0;

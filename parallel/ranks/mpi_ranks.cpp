@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/base/check.hpp"
 
@@ -102,6 +103,11 @@ MpiSession::MpiSession() {
 
 MpiSession::~MpiSession() {
   MPI_Finalize();
+}
+
+void MpiSession::abort(int status) const {
+  MPI_Abort(MPI_COMM_WORLD, status);
+  std::abort();
 }
 
 std::unique_ptr<Ranks> MpiSession::ranks() const {

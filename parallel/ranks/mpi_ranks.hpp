@@ -17,6 +17,9 @@ class MpiSession {
   MpiSession& operator=(const MpiSession&) = delete;
   ~MpiSession();
 
+  // Ends all processes at once, with this status: some of them can go on, others cannot.
+  [[noreturn]] void abort(int status) const;
+
   // All processes that were started together. The session outlives them.
   std::unique_ptr<Ranks> ranks() const;
 };

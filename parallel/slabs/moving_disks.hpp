@@ -10,11 +10,11 @@ namespace carom {
 
 // Which columns the run's disks have; a rank without disks has empty ones all the same.
 struct DiskColumns {
-  bool radius = false, mass = false;
+  bool radius = false, mass = false, spin = false;
 };
 
 inline DiskColumns columns_of(const Disks& d) {
-  return {!d.radius.empty(), !d.mass.empty()};
+  return {!d.radius.empty(), !d.mass.empty(), !d.spin.empty()};
 }
 
 inline void push_back(Disks& d, const Disk& disk, DiskColumns columns) {
@@ -25,11 +25,12 @@ inline void push_back(Disks& d, const Disk& disk, DiskColumns columns) {
   d.id.push_back(disk.id);
   if (columns.radius) d.radius.push_back(disk.radius);
   if (columns.mass) d.mass.push_back(disk.mass);
+  if (columns.spin) d.spin.push_back(disk.spin);
 }
 
 // Only the first n disks stay.
 inline void truncate(Disks& d, std::size_t n) {
-  for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass}) {
+  for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass, &d.spin}) {
     if (!column->empty()) column->resize(n);
   }
   d.id.resize(n);

@@ -12,7 +12,8 @@ namespace {
 // Calls visit(number) for all whole numbers that a tally consists of.
 template <class Visit>
 void for_each_number(const Domain& box, ImpactTally& tally, Visit&& visit) {
-  for (Count* count : {&tally.collisions, &tally.wall_collisions, &tally.loads, &tally.wall_loads, &tally.inaccurate}) {
+  for (Count* count : {&tally.collisions, &tally.wall_collisions, &tally.loads, &tally.wall_loads, &tally.inaccurate,
+                       &tally.inaccurate_at_walls}) {
     auto number = static_cast<std::int64_t>(*count);
     visit(number);
     *count = static_cast<Count>(number);
@@ -21,6 +22,11 @@ void for_each_number(const Domain& box, ImpactTally& tally, Visit&& visit) {
   if (!box.has(SideKind::wall)) return;
   for (ExactSum& impulse : tally.wall_impulse) {
     for (std::int64_t& digit : impulse.digits()) visit(digit);
+  }
+  if (!box.has_moving_side()) return;
+  tally.side_energy.resize(all_sides.size());
+  for (ExactSum& energy : tally.side_energy) {
+    for (std::int64_t& digit : energy.digits()) visit(digit);
   }
 }
 

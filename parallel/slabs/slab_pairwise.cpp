@@ -18,20 +18,16 @@ namespace carom {
 namespace {
 
 // What of the scene slabs cannot do yet; empty: they can do all of it.
-std::string unsupported(const Scene& scene, const State& state) {
+std::string unsupported(const Scene& scene) {
   if (settles(scene)) return "gravity with restitution below 1";
   if (!scene.sources.empty()) return "sources";
-  if (has_sinks(scene.box)) return "sinks";
-  if (scene.physics.diffusion > 0.0) return "diffusion";
-  if (scene.physics.thermostat.acts()) return "thermostats";
   if (scene.box.has_thermal_side()) return "thermal sides";
-  if (scene.box.has_moving_side()) return "sides that move";
-  if (!state.obstacles.empty()) return "fixed disks or inner walls";
+  if (scene.box.shear.acts()) return "box.shear_rate";
   return "";
 }
 
 void check(const Scene& scene, const State& state, int ranks) {
-  const std::string what = unsupported(scene, state);
+  const std::string what = unsupported(scene);
   if (!what.empty()) throw InputError(fmt::format("several ranks do not know {} yet: use one", what));
   const double radius = largest_radius(state.disks);
   const double least = least_thickness * radius;

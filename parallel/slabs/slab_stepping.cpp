@@ -8,11 +8,15 @@
 #include "core/base/check.hpp"
 #include "core/physics/push_apart.hpp"
 #include "core/step/step_clock.hpp"
+#include "core/step/thermostat.hpp"
 #include "parallel/cells/compact.hpp"
+#include "parallel/cells/kick_all.hpp"
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/rank_sums.hpp"
+#include "parallel/stepping/draw_velocities.hpp"
 #include "parallel/stepping/drift_blocks.hpp"
 #include "parallel/stepping/finish_disk.hpp"
+#include "parallel/stepping/mark_gone.hpp"
 #include "parallel/stepping/resolve_crowded.hpp"
 #include "parallel/stepping/wall_reach.hpp"
 
@@ -54,7 +58,9 @@ SlabStepping::SlabStepping(const Scene& scene, State initial, const Threads& thr
       columns_(columns_of(state_.disks)),
       smallest_radius_(smallest_radius(state_.disks)),
       largest_radius_(largest_radius(state_.disks)),
-      border_contacts_(ranks) {
+      obstacles_(place_obstacles(state_.obstacles, scene_.box)),
+      border_contacts_(ranks),
+      disks_(state_.disks.size()) {
   make_cells();
   cut_ = cut_into_slabs(scene_.box, state_.disks, ranks.count(), least_thickness * largest_radius_);
   const bool seam = scene_.box.periodic_y();
@@ -91,6 +97,7 @@ double SlabStepping::disks_at(double /*t*/, Disks& out) const {
 
 // Those across a border on the rank of the disk with the smaller id.
 std::vector<DiskContact> SlabStepping::contacts() const {
+  if (closed_up_) return contacts_kept_;
   std::vector<DiskContact> met;
   const std::vector<DiskId>& id = state_.disks.id;
   for (std::size_t b = 0; b + 1 < pairs_.used; ++b) {
@@ -105,14 +112,82 @@ std::vector<DiskContact> SlabStepping::contacts() const {
   return met;
 }
 
+void SlabStepping::start_interval(double t, double dt, Count step) {
+  if (t == 0.0) remove_at_sinks();
+  if (!(scene_.physics.diffusion > 0.0)) return;
+  const PhaseTimer timer(times_, "start");
+  speed2_ = draw_velocities(state_.disks, scene_, dt, step, executor_, block_values_);
+  ranks_.maximum({&speed2_, 1});
+  speed2_known_ = true;
+  if (!has_brownian_sink(scene_)) return;
+  mark_crossing(state_.disks, scene_, dt, step, executor_, gone_, block_values_);
+  remove_gone();
+}
+
+void SlabStepping::kick_if_due() {
+  if (!is_kick_due(scene_, state_)) return;
+  ExactSum heat = kick_all(state_.disks, scene_, state_.intervals++, executor_);
+  ranks_.sum(heat.digits());
+  state_.counters.thermostat_heat += heat.value();
+  speed2_known_ = false;
+}
+
+void SlabStepping::remove_at_sinks() {
+  if (!has_sinks(scene_.box)) return;
+  const PhaseTimer timer(times_, "sinks");
+  mark_at_sinks(state_.disks, scene_.box, executor_, gone_, block_values_);
+  remove_gone();
+}
+
+// The marked disks of all ranks.
+void SlabStepping::remove_gone() {
+  auto marked = static_cast<std::int64_t>(std::count(gone_.begin(), gone_.end(), 1));
+  const bool here = marked > 0;
+  ranks_.sum({&marked, 1});
+  if (marked == 0) return;
+  keep_contacts_of_those_that_stay();
+  if (here) remove_in_parallel(state_.disks, gone_, executor_, cells_.column, cells_.pass);
+  disks_ -= static_cast<Count>(marked);
+  state_.counters.removed += static_cast<Count>(marked);
+  sort_due_ = true;
+}
+
+// The pairs found name disks in the order of storage before disks left, and ghosts may have left on their own ranks.
+void SlabStepping::keep_contacts_of_those_that_stay() {
+  std::vector<DiskId> leaving;
+  for (std::size_t i = 0; i < gone_.size(); ++i) {
+    if (gone_[i] != 0) leaving.push_back(state_.disks.id[i]);
+  }
+  Bytes here;
+  put_all(here, leaving);
+  leaving.clear();
+  for (const Bytes& there : ranks_.gather(here)) {
+    const auto more = MessageReader(there).get_all<DiskId>();
+    leaving.insert(leaving.end(), more.begin(), more.end());
+  }
+  std::sort(leaving.begin(), leaving.end());
+  const auto leaves = [&](DiskId id) { return std::binary_search(leaving.begin(), leaving.end(), id); };
+  std::vector<DiskContact> kept = contacts();
+  std::erase_if(kept, [&](const DiskContact& c) { return leaves(c.id1) || leaves(c.id2); });
+  contacts_kept_ = std::move(kept);
+  closed_up_ = true;
+}
+
+double SlabStepping::smallest_of_all() const {
+  double least = state_.disks.empty() ? -HUGE_VAL : -smallest_radius(state_.disks);
+  ranks_.maximum({&least, 1});
+  return -least;
+}
+
 Count SlabStepping::parts(double dt) {
-  if (grid_.levels.empty()) return 1;  // no disks
+  if (disks_ == 0) return 1;
   // As in TimeStepping: a bound is mostly enough to see that the step is safe.
   const double fall = scene_.physics.gravity.size * dt / smallest_radius_;
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
+  if (has_sinks(scene_.box)) smallest_radius_ = smallest_of_all();
   double travel2 = with_view(state_.disks, [&](const auto& d) { return largest_travel2(d, 0, state_.disks.size()); });
   ranks_.maximum({&travel2, 1});
-  const Count parts = parts_of_step(travel2, fall, dt);
+  const Count parts = parts_of_step(travel2, scene_.physics.gravity.size * dt / smallest_radius_, dt);
   if (parts > 1) validity_.see_split(state_, dt, parts);
   return parts;
 }
@@ -172,6 +247,7 @@ void SlabStepping::drift(double t) {
 }
 
 void SlabStepping::search(const StepRules& rules) {
+  closed_up_ = false;
   find_near_borders();
   pairs_.used = 0;
   strays_ = 0;
@@ -288,6 +364,7 @@ void SlabStepping::agree(ImpactTally& tally, double speed2) {
   sum_over_ranks(ranks_, scene_.box, tally);
   join_over_ranks(ranks_, lists_.figures);
   lists_.figures.inaccurate = tally.inaccurate;
+  lists_.figures.inaccurate_at_walls = tally.inaccurate_at_walls;
   const double room = room_beyond(cut_, largest_radius_);
   const bool far = excursion_ > std::min(usual_excursion * largest_radius_, excursion_share * room);
   const bool sort = far || strays_ * stray_share > state_.disks.size();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,8 +41,8 @@ class SlabStepping : public Engine {
 
  protected:
   // As in TimeStepping, for scenes that slabs can have (slab_pairwise.hpp).
-  void start_interval(double /*t*/, double /*dt*/, Count /*step*/) {}
-  void kick_if_due() {}
+  void start_interval(double t, double dt, Count step);
+  void kick_if_due();
   Count parts(double dt);
   void sort_if_due();
   void drift(double t);
@@ -49,7 +50,7 @@ class SlabStepping : public Engine {
   StepFigures resolve(const StepRules& rules);
   void keep_places() {}
   bool presses_others() { return false; }
-  void remove_at_sinks() {}
+  void remove_at_sinks();
 
   Scene scene_;
   State state_;
@@ -66,6 +67,9 @@ class SlabStepping : public Engine {
   double resolve_here(const StepRules& rules, ImpactTally& tally);
   double resolve_alone_at_border(const StepRules& rules, ImpactTally& tally);
   void drop_ghosts();
+  double smallest_of_all() const;
+  void remove_gone();
+  void keep_contacts_of_those_that_stay();
   void agree(ImpactTally& tally, double speed2);
 
   Ranks& ranks_;
@@ -78,13 +82,17 @@ class SlabStepping : public Engine {
   CellGrid grid_;                                        // of the whole box
   SortedCells cells_;
   CoarsePositions coarse_;
+  std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box
   FoundPairs pairs_;
   std::vector<std::vector<ContactEvent>> walls_;
   ContactLists lists_;
   GhostDisks ghosts_;
   BorderContacts border_contacts_;
   std::vector<std::pair<DiskId, DiskId>> crossing_ids_;  // of the last search: own disk, ghost
+  std::vector<DiskContact> contacts_kept_;               // of that search, where disks have left since
+  bool closed_up_ = false;                               // have they?
   // The same on all ranks between two steps.
+  Count disks_ = 0;         // of all ranks
   double excursion_ = 0.0;  // how far a disk of any rank has left its slab; length
   double speed2_ = 0.0;     // no disk's squared speed is larger
   bool speed2_known_ = false;
@@ -94,6 +102,7 @@ class SlabStepping : public Engine {
   std::vector<std::uint32_t> near_;
   SeenBeyond seen_;
   std::vector<unsigned char> gone_;
+  std::vector<double> block_values_;
 };
 
 }  // namespace carom

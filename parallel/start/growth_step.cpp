@@ -56,7 +56,9 @@ double grown_radius(const Disks& d, const Domain& box, double target, const Cell
   const double radius = columns.before[i];
   const double lack = columns.lack[i];
   double after = std::min(target, radius_within_sides(box, d.x[i], d.y[i], radius));
-  overlap = overlap || !within_sides(box, d.x[i], d.y[i], radius);
+  const RoomAtObstacles room = radius_within_obstacles(box, d.x[i], d.y[i], radius, d.radius[i]);
+  after = std::min(after, room.radius);
+  overlap = overlap || room.overlap || !within_sides(box, d.x[i], d.y[i], radius);
   const auto look = [&](std::size_t j) {
     const double distance2 = nearest_distance2({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box);
     if (!touches(distance2, d.radius[i] + d.radius[j])) return;

@@ -28,15 +28,22 @@ double contact_distance(const SearchInput& in, std::size_t i, std::size_t j) {
   return in.radius == nullptr ? in.common_radius + in.common_radius : in.radius[j] + in.radius[i];
 }
 
+// sheared, here and below: is the box? Chosen once, by find_contacts.
+template <bool sheared>
 bool touch(const SearchInput& in, std::size_t i, std::size_t j) {
-  const double dx = nearest_magnitude(in.x[j] - in.x[i], in.period_x);
-  const double dy = nearest_magnitude(in.y[j] - in.y[i], in.period_y);
-  return touches(dx * dx + dy * dy, contact_distance(in, i, j));
+  if constexpr (sheared) {
+    return touches(nearest_distance2({in.x[j] - in.x[i], in.y[j] - in.y[i]}, in.box), contact_distance(in, i, j));
+  } else {
+    const double dx = nearest_magnitude(in.x[j] - in.x[i], in.period_x);
+    const double dy = nearest_magnitude(in.y[j] - in.y[i], in.period_y);
+    return touches(dx * dx + dy * dy, contact_distance(in, i, j));
+  }
 }
 
+template <bool sheared>
 void test_run(const SearchInput& in, std::size_t i, std::uint32_t first, std::uint32_t last, std::vector<Pair>& pairs) {
   for (std::uint32_t j = first; j < last; ++j) {
-    if (touch(in, i, j)) [[unlikely]]
+    if (touch<sheared>(in, i, j)) [[unlikely]]
       pairs.push_back({static_cast<std::uint32_t>(i), j});
   }
 }
@@ -51,24 +58,45 @@ double excursion(const SearchInput& in, const GridLevel& level, std::size_t i) {
   return std::max(std::abs(off.x) - 0.5 * level.cell_width, std::abs(off.y) - 0.5 * level.cell_height);
 }
 
+// A disk of the uppermost row of a sheared box, and the lowest row, whose images above are displaced.
+void search_above_top(const SearchInput& in, const GridLevel& level, std::size_t i, std::vector<Pair>& pairs) {
+  const double reach = 2.0 * level.largest_radius + 2.0 * level.margin;
+  double x = in.x[i] - in.box.shear.offset;
+  while (x < 0.0) x += in.box.width;
+  while (x >= in.box.width) x -= in.box.width;
+  const Span span = span_around(x, reach, in.box.width, level.columns_per_length, level.columns, true);
+  const std::uint32_t straight = std::min(span.count, level.columns - span.first);
+  const std::uint32_t key = level.first_key;
+  test_run<true>(in, i, in.start[key + span.first], in.start[key + span.first + straight], pairs);
+  if (straight < span.count) test_run<true>(in, i, in.start[key], in.start[key + span.count - straight], pairs);
+}
+
 // Near periodic sides, with nearest images: the cells to the right and in the row above, round the corner. Cells side
 // by side are one run (a row ends with an empty cell): where a run ends is hard to predict, however few disks are in
 // it.
+template <bool sheared>
 void search_border(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin, std::size_t end,
                    std::vector<Pair>& pairs) {
   const bool across = in.box.periodic_x() && level.columns > 1;
   const std::uint32_t last = level.columns - 1;
   const auto test_cells = [&](std::size_t i, std::uint32_t from, std::uint32_t to) {
-    test_run(in, i, in.start[from], in.start[to + 1], pairs);
+    test_run<sheared>(in, i, in.start[from], in.start[to + 1], pairs);
   };
   const std::uint32_t row_key = level.first_key + row * level.stride;
   const bool has_above = level.rows > 1 && (row + 1 < level.rows || in.box.periodic_y());
   const std::uint32_t above_key = level.first_key + (row + 1 < level.rows ? row + 1 : 0) * level.stride;
+  const bool displaced_above = sheared && row + 1 == level.rows;
   for (std::size_t i = begin; i < end; ++i) {
     const std::uint32_t column = in.key[i] - row_key;
-    test_run(in, i, static_cast<std::uint32_t>(i + 1), in.start[in.key[i] + 2], pairs);
+    const std::uint32_t next = displaced_above && level.rows == 1 ? row_key + level.columns : in.key[i] + 2;
+    test_run<sheared>(in, i, static_cast<std::uint32_t>(i + 1), in.start[next], pairs);
+    if (displaced_above && level.rows == 1) continue;  // that was all of them
     if (across && column == last) test_cells(i, row_key, row_key);
     if (!has_above) continue;
+    if (displaced_above) {
+      search_above_top(in, level, i, pairs);
+      continue;
+    }
     test_cells(i, above_key + column - (column > 0 ? 1 : 0), above_key + column + 1);
     if (across && column == 0) test_cells(i, above_key + last, above_key + last);
     if (across && column == last) test_cells(i, above_key, above_key);
@@ -78,6 +106,7 @@ void search_border(const SearchInput& in, const GridLevel& level, std::uint32_t 
 // One row's part of a block. The outermost rows and columns at periodic sides go cell by cell, all others through the
 // interior kernel: what touches a disk there lies on the same side of every periodic border. For it is within the
 // margin of its cell, thus further from the border than a contact distance, a cell being that and two margins wide.
+template <bool sheared>
 void search_row(const SearchInput& in, const GridLevel& level, InteriorKernel interior, std::uint32_t row,
                 std::size_t begin, std::size_t end, std::vector<Pair>& pairs) {
   const bool border_row = in.box.periodic_y() && (row == 0 || row + 1 == level.rows);
@@ -90,28 +119,30 @@ void search_row(const SearchInput& in, const GridLevel& level, InteriorKernel in
     low = std::clamp<std::size_t>(in.start[row_key + 1], begin, end);
     high = std::clamp<std::size_t>(in.start[row_key + level.columns - 1], low, end);
   }
-  search_border(in, level, row, begin, low, pairs);
+  search_border<sheared>(in, level, row, begin, low, pairs);
   interior(in, level, low, high, pairs);
-  search_border(in, level, row, high, end, pairs);
+  search_border<sheared>(in, level, row, high, end, pairs);
 }
 
+template <bool sheared>
 void search_level(const SearchInput& in, const GridLevel& level, InteriorKernel interior, std::size_t begin,
                   std::size_t end, std::vector<Pair>& pairs) {
   while (begin < end) {
     const std::uint32_t row = (in.key[begin] - level.first_key) / level.stride;
     const std::size_t row_end = std::min<std::size_t>(end, in.start[level.first_key + (row + 1) * level.stride]);
-    search_row(in, level, interior, row, begin, row_end, pairs);
+    search_row<sheared>(in, level, interior, row, begin, row_end, pairs);
     begin = row_end;
   }
 }
 
 // Pairs of a disk with the disks in the cells of another size class, which all come after it in storage, or all before.
+template <bool sheared>
 void search_across(const SearchInput& in, const GridLevel& other, bool after, std::size_t i, std::vector<Pair>& pairs) {
   const double reach = in.radius[i] + other.largest_radius + other.margin;
   for_each_run_near(other, in.start, in.box, in.x[i], in.y[i], reach, [&](std::uint32_t first, std::uint32_t last) {
-    if (after) return test_run(in, i, first, last, pairs);
+    if (after) return test_run<sheared>(in, i, first, last, pairs);
     const auto own = static_cast<std::uint32_t>(i);
-    for (std::uint32_t j = first; j < last; ++j) test_run(in, j, own, own + 1, pairs);
+    for (std::uint32_t j = first; j < last; ++j) test_run<sheared>(in, j, own, own + 1, pairs);
   });
 }
 
@@ -129,6 +160,7 @@ std::size_t more_buffers(FoundPairs& found, std::size_t blocks) {
 }
 
 // Pairs between two size classes, found by the disks of the one that has fewer.
+template <bool sheared>
 void search_between(const SearchInput& in, const GridLevel& large, const GridLevel& small, const Executor& executor,
                     FoundPairs& found) {
   const auto disks_of = [&](const GridLevel& level) {
@@ -141,7 +173,7 @@ void search_between(const SearchInput& in, const GridLevel& large, const GridLev
   const std::size_t first = more_buffers(found, executor.blocks(disks_of(from), cross_block));
   executor.for_ranges(disks_of(from), cross_block, [&](std::size_t b, std::size_t low, std::size_t high) {
     std::vector<Pair>& pairs = found.buffers[first + b];
-    for (std::size_t i = begin + low; i < begin + high; ++i) search_across(in, to, by_large, i, pairs);
+    for (std::size_t i = begin + low; i < begin + high; ++i) search_across<sheared>(in, to, by_large, i, pairs);
   });
 }
 
@@ -155,6 +187,7 @@ constexpr unsigned char is_loose = 2;
 
 // Pairs of one stray or loose disk with all disks in cells; of two strays, the one stored first reports the pair, of a
 // stray and a loose disk the loose one.
+template <bool sheared>
 void search_stray(const SearchInput& in, const CellGrid& grid, double furthest, std::size_t i,
                   const std::vector<unsigned char>& strayed, std::vector<Pair>& pairs) {
   const double r = in.radius == nullptr ? in.common_radius : in.radius[i];
@@ -162,7 +195,8 @@ void search_stray(const SearchInput& in, const CellGrid& grid, double furthest, 
     const double reach = r + level.largest_radius + std::max(level.margin, furthest);
     for_each_run_near(level, in.start, in.box, in.x[i], in.y[i], reach, [&](std::uint32_t first, std::uint32_t last) {
       for (std::uint32_t j = first; j < last; ++j) {
-        if (j == i || strayed[j] == is_loose || (strayed[j] == strayed[i] && j < i) || !touch(in, i, j)) continue;
+        if (j == i || strayed[j] == is_loose || (strayed[j] == strayed[i] && j < i) || !touch<sheared>(in, i, j))
+          continue;
         const auto a = static_cast<std::uint32_t>(i);
         pairs.push_back(a < j ? Pair{a, j} : Pair{j, a});
       }
@@ -171,15 +205,17 @@ void search_stray(const SearchInput& in, const CellGrid& grid, double furthest, 
 }
 
 // Loose disks with each other.
+template <bool sheared>
 void search_loose(const SearchInput& in, const std::vector<std::uint32_t>& loose, std::vector<Pair>& pairs) {
   for (std::size_t k = 1; k < loose.size(); ++k) {
     for (std::size_t m = 0; m < k; ++m) {
-      if (touch(in, loose[m], loose[k])) pairs.push_back({loose[m], loose[k]});
+      if (touch<sheared>(in, loose[m], loose[k])) pairs.push_back({loose[m], loose[k]});
     }
   }
 }
 
 // What the rows found with strays is neither complete nor needed: it goes, and each stray is searched for by itself.
+template <bool sheared>
 void search_strays(const SearchInput& in, const CellGrid& grid, const CoarsePositions& coarse, const Executor& executor,
                    FoundPairs& found) {
   found.strays.clear();
@@ -203,11 +239,30 @@ void search_strays(const SearchInput& in, const CellGrid& grid, const CoarsePosi
   const std::size_t first = more_buffers(found, executor.blocks(found.strays.size(), stray_block));
   executor.for_ranges(found.strays.size(), stray_block, [&](std::size_t b, std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k) {
-      search_stray(in, grid, furthest, found.strays[k], found.strayed, found.buffers[first + b]);
+      search_stray<sheared>(in, grid, furthest, found.strays[k], found.strayed, found.buffers[first + b]);
     }
   });
-  if (!coarse.loose.empty()) search_loose(in, coarse.loose, found.buffers[more_buffers(found, 1)]);
+  if (!coarse.loose.empty()) search_loose<sheared>(in, coarse.loose, found.buffers[more_buffers(found, 1)]);
   for (const std::uint32_t i : found.strays) found.strayed[i] = 0;
+}
+
+template <bool sheared>
+void find_pairs(const SearchInput& in, const CellGrid& grid, const CoarsePositions& coarse, const Executor& executor,
+                FoundPairs& found) {
+  const InteriorKernel interior = choose_interior_kernel();
+  const std::size_t levels = grid.levels.size();
+  found.used = 0;
+  for (std::size_t k = 0; k < levels; ++k) {
+    const GridLevel& level = grid.levels[k];
+    const std::size_t begin = in.start[level.first_key];
+    const std::size_t n = in.start[level.first_key + level.keys()] - begin;
+    const std::size_t first = more_buffers(found, executor.blocks(n, search_block));
+    executor.for_ranges(n, search_block, [&](std::size_t b, std::size_t from, std::size_t to) {
+      search_level<sheared>(in, level, interior, begin + from, begin + to, found.buffers[first + b]);
+    });
+    for (std::size_t s = k + 1; s < levels; ++s) search_between<sheared>(in, level, grid.levels[s], executor, found);
+  }
+  search_strays<sheared>(in, grid, coarse, executor, found);
 }
 
 }  // namespace
@@ -244,20 +299,11 @@ std::size_t find_contacts(const Disks& d, const Domain& box, const CellGrid& gri
                        box,
                        box.periodic_x() ? box.width : HUGE_VAL,
                        box.periodic_y() ? box.height : HUGE_VAL};
-  const InteriorKernel interior = choose_interior_kernel();
-  const std::size_t levels = grid.levels.size();
-  found.used = 0;
-  for (std::size_t k = 0; k < levels; ++k) {
-    const GridLevel& level = grid.levels[k];
-    const std::size_t begin = cells.start[level.first_key];
-    const std::size_t n = cells.start[level.first_key + level.keys()] - begin;
-    const std::size_t first = more_buffers(found, executor.blocks(n, search_block));
-    executor.for_ranges(n, search_block, [&](std::size_t b, std::size_t from, std::size_t to) {
-      search_level(in, level, interior, begin + from, begin + to, found.buffers[first + b]);
-    });
-    for (std::size_t s = k + 1; s < levels; ++s) search_between(in, level, grid.levels[s], executor, found);
+  if (box.shear.acts()) {
+    find_pairs<true>(in, grid, coarse, executor, found);
+  } else {
+    find_pairs<false>(in, grid, coarse, executor, found);
   }
-  search_strays(in, grid, coarse, executor, found);
   return found.strays.size();
 }
 

@@ -17,19 +17,30 @@ template <class View>
   see_wall_overlap(d, box, i, seen);
 }
 
-// Wraps disk i, which contacts may have moved across a periodic side. Returns its squared speed. Columns: Disks, or a
-// view of them.
+// Columns: Disks, or a view of them.
 template <class Columns>
-double wrap_moved(Columns& d, const Domain& box, std::size_t i) {
-  wrap(d.x[i], d.y[i], box);
+double speed2_of(const Columns& d, std::size_t i) {
   return d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
 }
 
-// Likewise, and what it is left to reach beyond a wall goes to `seen`.
+// Wraps disk i, which contacts may have moved across a periodic side of a box that is not sheared. Returns its squared
+// speed.
+template <class Columns>
+double wrap_moved(Columns& d, const Domain& box, std::size_t i) {
+  wrap(d.x[i], d.y[i], box);
+  return speed2_of(d, i);
+}
+
+// Likewise, and what it is left to reach beyond a wall goes to `seen`. A sheared box is left to TimeStepping to wrap
+// in.
 template <class View>
 double finish_disk(const View& d, const Domain& box, const WallReach& walls, std::uint32_t i, StepFigures& seen) {
   if (walls.touches(d.x[i], d.y[i], d.radius(i))) see_wall_overlap_apart(d, box, i, seen);
-  return wrap_moved(d, box, i);
+  if constexpr (View::is_sheared) {
+    return speed2_of(d, i);
+  } else {
+    return wrap_moved(d, box, i);
+  }
 }
 
 }  // namespace carom

@@ -75,9 +75,11 @@ struct LevelView {
   double far_x, far_y;  // from its cell's centre, in cells: beyond it a disk is a stray
   double columns, rows;
   double first_key, stride, per_stride;
+  bool corner_x, corner_y;  // may a disk be round the corner from its cell?
 };
 
-LevelView view_of(const GridLevel& level) {
+// In a sheared box a disk that is round the corner along y is displaced along x as well: it is a stray.
+LevelView view_of(const GridLevel& level, const Domain& box) {
   return {1.0 / coarse_unit(level),
           level.columns_per_length,
           level.rows_per_length,
@@ -87,7 +89,9 @@ LevelView view_of(const GridLevel& level) {
           static_cast<double>(level.rows),
           static_cast<double>(level.first_key),
           static_cast<double>(level.stride),
-          1.0 / level.stride};
+          1.0 / level.stride,
+          box.periodic_x(),
+          box.periodic_y() && !box.shear.acts()};
 }
 
 // The row of a key that is given from the level's first: the quotient by the stride is at least half a column away from
@@ -107,8 +111,8 @@ bool is_stray(const MoveInput& in, const LevelView& v, std::size_t i) {
   const double key = in.key[i] - v.first_key;
   const double row = row_of(key, v.per_stride, 0.5, rounding);
   const double column = key - row * v.stride;
-  return is_far(in.x[i] * v.columns_per_length - (column + 0.5), v.far_x, v.columns, in.box.periodic_x()) ||
-         is_far(in.y[i] * v.rows_per_length - (row + 0.5), v.far_y, v.rows, in.box.periodic_y());
+  return is_far(in.x[i] * v.columns_per_length - (column + 0.5), v.far_x, v.columns, v.corner_x) ||
+         is_far(in.y[i] * v.rows_per_length - (row + 0.5), v.far_y, v.rows, v.corner_y);
 }
 
 inline std::uint32_t coarse(double x, double y, double per_unit) {
@@ -128,7 +132,7 @@ void finish_one(const MoveInput& in, const LevelView& v, std::size_t i, std::vec
 template <bool periodic_x, bool periodic_y>
 [[gnu::noinline]] void finish_four(const MoveInput& in, const GridLevel& level, std::size_t i,
                                    std::vector<std::uint32_t>& strays) {
-  const LevelView v = view_of(level);
+  const LevelView v = view_of(level, in.box);
   for (std::size_t k = i; k < i + lanes; ++k) finish_one<periodic_x, periodic_y>(in, v, k, strays);
 }
 
@@ -136,7 +140,7 @@ template <bool periodic_x, bool periodic_y>
 template <Motion motion, bool periodic_x, bool periodic_y>
 double move_rest(MoveInput in, const GridLevel& level, std::size_t begin, std::size_t end,
                  std::vector<std::uint32_t>& strays) {
-  const LevelView v = view_of(level);
+  const LevelView v = view_of(level, in.box);
   double speed2 = 0.0;
   for (std::size_t i = begin; i < end; ++i) {
     if constexpr (motion != Motion::none)
@@ -155,7 +159,7 @@ template <Motion motion, bool periodic_x, bool periodic_y>
 double move_range(const MoveInput& input, const GridLevel& level, std::size_t begin, std::size_t end,
                   std::vector<std::uint32_t>& strays) {
   const MoveInput in = input;  // by itself, so that no store can change it
-  const LevelView v = view_of(level);
+  const LevelView v = view_of(level, in.box);
   const double fall = 0.5 * in.gravity.down * (in.t * in.t);
   const double slowing = in.gravity.down * in.t + 0.0;  // as drift does, for the sign of a zero
   const double fall_x = 0.5 * in.gravity.left * (in.t * in.t);

@@ -88,7 +88,7 @@ template <class View>
       lists.crowded_blocks[b].push_back(pair_event(d, rules, i, j));
       continue;
     }
-    lists.tallies[b].add_pair(resolve_pair(d, rules, i, j));
+    lists.tallies[b].template add_pair<View::is_sheared>(resolve_pair(d, rules, i, j));
     push_pair(d, rules.box, i, j, 0.0);
     see_overlap_left(d, rules.box, {0.0, d.id[i], d.id[j], i, j}, seen);
     const double v2 = std::max(finish_disk(d, rules.box, walls, i, seen), finish_disk(d, rules.box, walls, j, seen));
@@ -215,7 +215,7 @@ void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found
     lists.offsets.push_back(place);
     place += found.buffers[b].size();
   }
-  with_view(disks, [&](const auto& d) {
+  with_view(disks, rules, [&](const auto& d) {
     executor.run(found.used, [&](std::size_t b) {
       std::size_t at = lists.offsets[b];
       for (const Pair& found_pair : found.buffers[b]) {
@@ -259,6 +259,7 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
     });
   }
   lists.figures.inaccurate += tally.inaccurate;
+  lists.figures.inaccurate_at_walls += tally.inaccurate_at_walls;
   tally.count_into(state.counters);
   return speed2;
 }
@@ -278,6 +279,9 @@ double finish_crowded_contacts(Disks& disks, const Domain& box, const Executor& 
 
 double finish_contacts(Disks& disks, const Domain& box, const Executor& executor,
                        const std::vector<ContactEvent>& events, ContactLists& lists) {
+  if (box.shear.acts()) {
+    return finish_each(events, executor, lists, [&](std::uint32_t i, std::size_t) { return speed2_of(disks, i); });
+  }
   return finish_each(events, executor, lists, [&](std::uint32_t i, std::size_t) { return wrap_moved(disks, box, i); });
 }
 

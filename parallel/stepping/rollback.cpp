@@ -56,23 +56,28 @@ class RollbackPhases : public TimeStepping {
     finish_contacts();
   }
 
-  void meet_all_walls(const StepRules& rules, ImpactTally& tally) {
+  void meet_all_walls(const StepRules& rules, ImpactTally& tally, StepFigures& figures) {
     if (!has_walls(rules.box)) return;
     const PhaseTimer timer(times_, "resolve");
     const std::size_t n = state_.disks.size();
     lists_.tallies.assign(executor_.blocks(n, wall_block), {});
+    deepest_.assign(executor_.blocks(n, wall_block), {});
     with_view(state_.disks, rules, [&](const auto& d) {
       executor_.for_ranges(n, wall_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-          meet_walls(d, rules, static_cast<std::uint32_t>(i), lists_.tallies[b]);
+          meet_walls(d, rules, static_cast<std::uint32_t>(i), lists_.tallies[b], deepest_[b]);
           wrap(d.x[i], d.y[i], rules.box);
         }
       });
     });
     for (const ImpactTally& t : lists_.tallies) tally.add(t);
+    for (const Overlap& deepest : deepest_) figures.wall.see(deepest);
     // A ceiling sends a disk down faster than it came, and a hot side, or one that moves, may send any.
     if (rules.gravity.acts() || rules.box.has_thermal_side() || rules.box.has_moving_side()) forget_speeds();
   }
+
+ private:
+  std::vector<Overlap> deepest_;  // in walls, of each block
 };
 
 }  // namespace

@@ -4,13 +4,15 @@
 #include <cmath>
 #include <utility>
 
+#include "core/physics/sheared_crossing.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
 #include "parallel/cells/compact.hpp"
 #include "parallel/cells/kick_all.hpp"
 #include "parallel/cells/nearby_runs.hpp"
-#include "parallel/stepping/brownian_kernel.hpp"
+#include "parallel/stepping/draw_velocities.hpp"
 #include "parallel/stepping/drift_blocks.hpp"
+#include "parallel/stepping/mark_gone.hpp"
 #include "parallel/stepping/wall_reach.hpp"
 
 namespace carom {
@@ -97,51 +99,21 @@ void TimeStepping::emit_from_sources(double t, Count step) {
 }
 
 void TimeStepping::draw_velocities(double dt, Count step) {
-  Disks& d = state_.disks;
-  const BrownianKernel kernel = choose_brownian_kernel();
-  const BrownianInput in{d.vx.data(),
-                         d.vy.data(),
-                         d.id.data(),
-                         scene_.seed,
-                         step,
-                         brownian_speed(scene_.physics.diffusion, dt),
-                         scene_.physics.accumulate};
-  block_values_.assign(executor_.blocks(d.size(), look_block), 0.0);
-  executor_.for_ranges(d.size(), look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    block_values_[b] = kernel(in, begin, end);
-  });
-  speed2_ = 0.0;
-  for (const double v2 : block_values_) speed2_ = std::max(speed2_, v2);
+  speed2_ = carom::draw_velocities(state_.disks, scene_, dt, step, executor_, block_values_);
   speed2_known_ = true;
-  if (has_brownian_sink(scene_)) remove_crossing(dt, step);
+  if (has_brownian_sink(scene_)) {
+    remove_gone(mark_crossing(state_.disks, scene_, dt, step, executor_, gone_, block_values_));
+  }
 }
 
 void TimeStepping::kick_if_due() {
   if (carom::kick_if_due(scene_, state_, executor_)) speed2_known_ = false;
 }
 
-void TimeStepping::remove_crossing(double dt, Count step) {
-  const std::size_t n = state_.disks.size();
-  gone_.resize(n);
-  block_values_.assign(executor_.blocks(n, look_block), 0.0);
-  with_view(state_.disks, [&](const auto& d) {
-    executor_.for_ranges(n, look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        gone_[i] = crosses_sink(d, scene_, step, dt, i) ? 1 : 0;
-        block_values_[b] += gone_[i];
-      }
-    });
-  });
-  remove_gone();
-}
-
-// Blocks' counts are whole numbers below 2^53: their sum is exact.
-void TimeStepping::remove_gone() {
-  double marked = 0.0;
-  for (const double count : block_values_) marked += count;
-  if (marked == 0.0) return;
+void TimeStepping::remove_gone(Count marked) {
+  if (marked == 0) return;
   remove_in_parallel(state_.disks, gone_, executor_, cells_.column, cells_.pass);
-  state_.counters.removed += static_cast<Count>(marked);
+  state_.counters.removed += marked;
   cells_valid_ = false;
   closed_up_ = true;
 }
@@ -201,8 +173,32 @@ void TimeStepping::drift(double t) {
   const PhaseTimer timer(times_, "drift");
   excursion_ = -1.0;
   speed2_ = 0.0;
+  if (scene_.box.shear.acts()) return move_sheared(t);
   if (!state_.disks.empty())
     speed2_ = drift_blocks(state_.disks, scene_.box, scene_.physics.gravity, t, grid_, cells_, executor_, coarse_);
+  speed2_known_ = true;
+}
+
+// In a sheared box all disks drift and cross its sides here, before the search takes down where they are; without a
+// time, those that contacts have moved cross.
+void TimeStepping::move_sheared(double t) {
+  Disks& d = state_.disks;
+  block_values_.assign(executor_.blocks(d.size(), look_block), 0.0);
+  std::vector<ImpactTally> tallies(block_values_.size());
+  executor_.for_ranges(d.size(), look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    double speed2 = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (t != 0.0) carom::drift<false>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, 0.0);
+      cross_sheared(d, i, scene_.box, tallies[b]);
+      speed2 = std::max(speed2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+    }
+    block_values_[b] = speed2;
+  });
+  ImpactTally tally;
+  for (const ImpactTally& block : tallies) tally.add(block);
+  tally.count_into(state_.counters);
+  speed2_ = 0.0;
+  for (const double v2 : block_values_) speed2_ = std::max(speed2_, v2);
   speed2_known_ = true;
 }
 
@@ -226,6 +222,7 @@ void TimeStepping::search(const StepRules& rules) {
 StepFigures TimeStepping::resolve(const StepRules& rules) {
   const PhaseTimer timer(times_, "resolve");
   speed2_ = std::max(speed2_, resolve_contacts(state_, rules, pairs_, walls_, executor_, lists_));
+  if (scene_.box.shear.acts()) move_sheared(0.0);
   return lists_.figures;
 }
 
@@ -252,18 +249,7 @@ void TimeStepping::finish_contacts() {
 void TimeStepping::remove_at_sinks() {
   if (!has_sinks(scene_.box)) return;
   const PhaseTimer timer(times_, "sinks");
-  const std::size_t n = state_.disks.size();
-  gone_.resize(n);
-  block_values_.assign(executor_.blocks(n, look_block), 0.0);
-  with_view(state_.disks, [&](const auto& d) {
-    executor_.for_ranges(n, look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        gone_[i] = touches_sink(d, scene_.box, i) ? 1 : 0;
-        block_values_[b] += gone_[i];
-      }
-    });
-  });
-  remove_gone();
+  remove_gone(mark_at_sinks(state_.disks, scene_.box, executor_, gone_, block_values_));
 }
 
 }  // namespace carom

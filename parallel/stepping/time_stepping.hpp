@@ -56,12 +56,12 @@ class TimeStepping : public Engine {
 
  private:
   void sort_now();
+  void move_sheared(double t);
   bool may_be_loose(const Edit& edit) const;
   void emit_from_sources(double t, Count step);
   void draw_velocities(double dt, Count step);
-  void remove_crossing(double dt, Count step);  // sinks, between two steps
   double exact_travel2();
-  void remove_gone();
+  void remove_gone(Count marked);  // those of gone_
 
   std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box
   CellGrid grid_;

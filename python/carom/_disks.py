@@ -10,7 +10,8 @@ from . import _export
 
 
 class Disks:
-    """Disks as columns, numpy arrays of shape (n,): x, y (length), vx, vy (length / time), radius, mass, id."""
+    """Disks as columns, numpy arrays of shape (n,): x, y (length), vx, vy (length / time), radius, mass, id; spin
+    (1 / time, counter-clockwise) where they are rough."""
 
     def __init__(self, columns: Mapping[str, np.ndarray], t: float):
         self.__dict__.update(columns)

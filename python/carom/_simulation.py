@@ -119,7 +119,7 @@ class Simulation:
 
     def view(self) -> View:
         """Columns without a copy, for `with sim.view() as v:`. v.x, v.y, v.vx, v.vy, v.id; v.radius and v.mass where disks
-        differ. step and every change raise RuntimeError while it, or an array of it, is in use."""
+        differ, v.spin where they are rough. step and every change raise RuntimeError while it, or an array of it, is in use."""
         return View(self._sim.view())
 
     def add(self, x, y, vx=0.0, vy=0.0, radius=1.0, mass=1.0) -> Optional[int]:

@@ -277,9 +277,10 @@ class RestitutionLaws : public ::testing::TestWithParam<std::tuple<const char*, 
     std::vector<test::Features> some;
     const std::vector<test::Features> all = test::all_features(method, sides);
     for (std::size_t k = std::string(sides).size() % 5; k < all.size(); k += 5) {
+      if (std::string(sides) == "moving" && all[k].radii == "wide") continue;  // no room for large disks
       some.push_back(all[k]);
       some.back().law = k % 2 == 0 || all[k].diffusion == "replace" ? "pairs" : "viscoelastic";
-      some.back().obstacles = std::string(sides) != "moving" && k % 3 != 0;  // beside those that move nothing is fixed
+      some.back().obstacles = k % 3 != 0;
     }
     return some;
   }
@@ -296,14 +297,7 @@ TEST_P(RestitutionLaws, BitsOfTheReferenceOnAnyThreads) {
     const Scene scene = scene_of(f);
     ASSERT_NE(law_of(scene), nullptr);
     const State start = initial_state(scene);
-    const auto reference = make_reference_engine(scene, start);
-    while (test::goes_on(reference->state(), scene, steps)) reference->step();
-    const std::string expected = test::all_bits(reference->state());
-    for (const int threads : {1, 2, 3, 5, 8}) {
-      const auto engine = make_parallel_engine(scene, start, {threads, 512});
-      while (test::goes_on(engine->state(), scene, steps)) engine->step();
-      ASSERT_EQ(test::all_bits(engine->state()), expected) << threads << " threads";
-    }
+    test::expect_bits_of_reference(scene, start, steps);
   }
 }
 

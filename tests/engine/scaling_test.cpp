@@ -57,6 +57,16 @@ void add_restitution_law(test::Draws& draws, Scene& s) {
   law.pairs = {{0, 0, {draws.in(0.2, 1.0), 0.0}}, {0, 1, {0.4, draws.in(0.1, 0.4)}}};
 }
 
+// A third of the scenes without Brownian motion have rough disks, some of them rough walls.
+void add_roughness(std::uint64_t seed, Scene& s) {
+  if (seed % 3 != 0 || s.physics.diffusion > 0.0) return;
+  s.physics.surfaces = {0.5, {0.3, seed % 2 == 0 ? 0.4 : HUGE_VAL}, {}};
+  if (seed % 2 == 0) s.physics.surfaces.walls = {0.7, 0.6};
+  s.groups[0].spins.value = 2.5;
+  s.groups[1].spins.temperature = 3.0;
+  for (Source& source : s.sources) source.spins.temperature = 1.5;
+}
+
 // Gravity, restitution of disks and walls, Brownian motion both ways, each kind of side, sources of both kinds.
 Scene random_scene(std::uint64_t seed, Method method) {
   test::Draws draws(seed);
@@ -92,6 +102,7 @@ Scene random_scene(std::uint64_t seed, Method method) {
     s.sources.push_back(source);
   }
   add_restitution_law(draws, s);
+  add_roughness(seed, s);
   return s;
 }
 

@@ -75,7 +75,7 @@ TEST_P(SinkContact, ASourceOnASinkSideLetsDisksIn) {
     const State end = test::run(scene, start);
     EXPECT_GE(end.counters.emitted, 15U);
     EXPECT_GE(end.disks.size(), 10U) << side;
-    const Disk d = draw_emission(scene, 0, 3, 3, 3);
+    const Disk d = draw_emission(scene, scene.box, 0, 3, 3, 3);
     EXPECT_LT(reach_beyond(*scene.sources[0].side, d.x, d.y, d.radius, scene.box), 0.0);
   }
 }

@@ -146,7 +146,7 @@ TEST(Emission, ThroughASideTouchesItAndMovesInward) {
     source.velocities.limit = 3.0;
     s.sources = {source};
     for (DiskId id = 0; id < 200; ++id) {
-      const Disk d = draw_emission(s, 0, id, id, id);
+      const Disk d = draw_emission(s, s.box, 0, id, id, id);
       EXPECT_EQ(reach_beyond(side, d.x, d.y, d.radius, s.box), 0.0);
       EXPECT_LT(outward_speed(side, d.vx, d.vy), 0.0);
       for (Side other : all_sides) EXPECT_LE(reach_beyond(other, d.x, d.y, d.radius, s.box), 1e-14);
@@ -168,7 +168,7 @@ TEST(Emission, MaxwellIsThatOfAGasBehindAHole) {
   double inward = 0.0;
   double across = 0.0;
   for (DiskId id = 0; id < n; ++id) {
-    const Disk d = draw_emission(s, 0, id, id, 3);
+    const Disk d = draw_emission(s, s.box, 0, id, id, 3);
     inward += d.vx / n;
     across += d.vy * d.vy / n;
   }
@@ -184,9 +184,9 @@ TEST(Emission, SourcesDiffer) {
   source.region_low = {1.0, 1.0};
   source.region_high = {29.0, 19.0};
   s.sources = {source, source};
-  EXPECT_NE(draw_emission(s, 0, 5, 0, 0).x, draw_emission(s, 1, 5, 0, 0).x);
-  EXPECT_NE(draw_emission(s, 0, 5, 0, 0).x, draw_emission(s, 0, 5, 0, 1).x);
-  EXPECT_EQ(draw_emission(s, 0, 5, 0, 0).x, draw_emission(s, 0, 5, 0, 0).x);
+  EXPECT_NE(draw_emission(s, s.box, 0, 5, 0, 0).x, draw_emission(s, s.box, 1, 5, 0, 0).x);
+  EXPECT_NE(draw_emission(s, s.box, 0, 5, 0, 0).x, draw_emission(s, s.box, 0, 5, 0, 1).x);
+  EXPECT_EQ(draw_emission(s, s.box, 0, 5, 0, 0).x, draw_emission(s, s.box, 0, 5, 0, 0).x);
 }
 
 }  // namespace

@@ -82,11 +82,17 @@ const std::string pairs =
     "[[physics.pairs]]\ngroups = [\"pegs\", \"light\"]\nrestitution = 0.5\n";
 const std::string viscoelastic = "restitution = { viscoelastic = 0.15, least = 0.4 }";
 const std::string walls_of_salt = "wall_restitution = 0.9";
+const std::string all_periodic =
+    "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
 const std::string pistons =
     "left = { motion = { velocity = [0.5, 0] } }\nright = { place = 8, motion = { velocity = [0.3, 0] } }";
 const std::string shaken =
     "bottom = { restitution = 0.9, motion = { vibrate = [0, 0.3], period = 0.7 } }\n"
     "top = { motion = { vibrate = [0, -0.2], period = 0.3 } }";
+const std::string swinging =
+    "left = { motion = { vibrate = [0.2, 0], period = 0.9, shape = \"sine\" } }\n"
+    "bottom = { restitution = 0.9, motion = { vibrate = [0, 0.3], period = 0.7, shape = \"sine\" } }\n"
+    "top = { motion = { vibrate = [0, -0.2], period = 0.3, shape = \"sine\" } }";
 const std::string four_restitutions =
     "left = { restitution = 0.5 }\nright = { restitution = 0.8 }\ntop = { restitution = 0.3 }\nwall_restitution = 0.9";
 
@@ -115,10 +121,16 @@ INSTANTIATE_TEST_SUITE_P(
         OracleCase{"pegs_tilted", {8, 12, "wall", "gravity = [-1.2, -0.9]", few + pegs, 4.0, ""}},
         OracleCase{"pegs_upwards", {8, 12, "wall", "gravity = [0.0, 1.5]", few + pegs, 3.0, ""}},
         OracleCase{"pegs_inelastic", {8, 12, walls_of_salt, "gravity = 0.8\nrestitution = 0.9", few + pegs, 4.0, ""}},
+        OracleCase{"shear", {8, 8, all_periodic + "shear_rate = 0.3", "", gas, 1.5, ""}},
+        OracleCase{"shear_backwards", {12, 6, all_periodic + "shear_rate = -1.0", "", gas, 1.2, ""}},
+        OracleCase{"shear_unequal", {7, 14, all_periodic + "shear_rate = 0.4", "restitution = 0.8", mixed, 2.0, ""}},
         OracleCase{"pistons", {9, 9, pistons, "", gas, 2.0, ""}},
         OracleCase{"shaken", {9, 9, shaken, "", gas, 0.7, ""}},
         OracleCase{"shaken_in_gravity", {9, 12, shaken, "gravity = 0.8\nrestitution = 0.9", mixed, 1.0, ""}},
         OracleCase{"shaken_tilted", {9, 12, shaken, "gravity = [0.5, -0.6]\nrestitution = 0.9", mixed, 1.0, ""}},
+        OracleCase{"swinging", {9, 9, swinging, "", gas, 0.7, ""}},
+        OracleCase{"swinging_in_gravity", {9, 12, swinging, "gravity = 0.8\nrestitution = 0.9", mixed, 1.0, ""}},
+        OracleCase{"swinging_tilted", {9, 12, swinging, "gravity = [0.5, -0.6]\nrestitution = 0.9", mixed, 1.0, ""}},
         OracleCase{"shelves", {8, 8, "wall", "", few + shelves, 4.0, ""}},
         OracleCase{"shelves_periodic", {8, 8, "periodic", "", few + shelves, 4.0, ""}},
         OracleCase{"shelves_gravity", {8, 12, "wall", "gravity = 1.5", few + shelves, 4.0, ""}},

@@ -28,10 +28,10 @@ std::string fingerprint(const State& s) {
   const Counters& c = s.counters;
   return fmt::format(
       "{} t {} n {} steps {} collisions {} walls {} removed {} emitted {} waiting {} virial {} sides {} {} {} {} heat "
-      "{}",
+      "{} shear {} {}",
       hash_text(state_hash(s.disks)), s.time, s.disks.size(), c.steps, c.collisions, c.wall_collisions, c.removed,
       c.emitted, c.waiting, c.virial, c.wall_impulse[0], c.wall_impulse[1], c.wall_impulse[2], c.wall_impulse[3],
-      fmt::join(c.side_energy, " "));
+      fmt::join(c.side_energy, " "), c.shear_virial, c.shear_work);
 }
 
 // Regions and tiles so small that even these scenes have some; with 1 in place of 128 there are none, and one queue
@@ -83,6 +83,13 @@ const std::string shaken_fast =
     "left = { motion = { vibrate = [0.05, 0], period = 0.013 } }\nright = { motion = { vibrate = [0.3, 0], period = "
     "0.4 } }\n"
     "top = { place = 18, motion = { velocity = [0, 0.5] } }";
+const std::string swinging =
+    "left = { motion = { vibrate = [0.05, 0], period = 0.013, shape = \"sine\" } }\n"
+    "bottom = { restitution = 0.8, motion = { vibrate = [0, 0.4], period = 1.1, shape = \"sine\" } }";
+const std::string sheared =
+    "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = 0.1";
+const std::string sheared_fast =
+    "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = -1.0";
 const std::string soft = "wall_restitution = 0.7";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -94,6 +101,11 @@ INSTANTIATE_TEST_SUITE_P(
             {10, 10, "wall", "gravity = 0.3", disks(1, "velocities = [[1.0, 0.3]]\nradius = 1\nmass = 1"), 50, ""}},
         ParallelCase{"few", {9, 9, "periodic", "", disks(30, equal), 20, ""}},
         ParallelCase{"fluid", {25, 25, "periodic", "", disks(350, equal), 6, ""}},
+        ParallelCase{"sheared_few", {9, 11, sheared, "", disks(30, equal), 20, ""}},
+        ParallelCase{"sheared", {25, 25, sheared, "", disks(350, equal), 8, ""}},
+        ParallelCase{"sheared_fast", {25, 30, sheared_fast, "restitution = 0.9", disks(350, equal), 6, ""}},
+        ParallelCase{"sheared_mixed", {40, 24, sheared, "restitution = 0.8", disks(250, mixed), 12, ""}},
+        ParallelCase{"sheared_dilute", {80, 80, sheared, "", disks(150, equal), 60, ""}},
         ParallelCase{"walls", {25, 25, "wall", "", disks(300, equal), 6, ""}},
         ParallelCase{"dilute", {80, 80, "periodic", "", disks(150, equal), 60, ""}},
         ParallelCase{"crystal", {21, 21, "periodic", "", lattice, 3, ""}},
@@ -126,6 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
             {20, 30, shaken, "gravity = 1.0\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.01 }",
              disks(120, mixed), 6, ""}},
         ParallelCase{"shaken_fast", {20, 20, shaken_fast, "", disks(150, equal), 2, ""}},
+        ParallelCase{"swinging", {20, 20, swinging, "", disks(150, equal), 2, ""}},
         ParallelCase{"brownian", {20, 20, "periodic", "diffusion = 0.5", disks(200, equal), 1, "dt = 0.01"}},
         ParallelCase{"brownian_sinks", {20, 20, "sink", "diffusion = 0.5", disks(200, equal), 3, "dt = 0.01"}},
         ParallelCase{"brownian_accumulating",

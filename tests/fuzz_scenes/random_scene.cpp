@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "tests/fuzz_scenes/random_disks.hpp"
+#include "tests/fuzz_scenes/random_restitution.hpp"
+#include "tests/fuzz_scenes/random_roughness.hpp"
 
 namespace carom::fuzz {
 
@@ -22,6 +24,7 @@ struct Draft {
   Crowd crowd;
   double width = 0.0, height = 0.0;
   std::array<std::string, 4> sides;
+  double shear = 0.0;  // of a box that is periodic both ways: nothing else acts there
   double gravity = 0.0, restitution = 1.0, wall_restitution = 1.0, diffusion = 0.0;
   bool only_reflects = false;  // walls: no thermal ones
   double speed = 0.0;          // that disks have, about
@@ -69,6 +72,17 @@ void choose_sides(Dice& dice, Draft& draft) {
   }
 }
 
+// Strains of up to some units while disks go as far as they are apart.
+void choose_shear(Dice& dice, Draft& draft) {
+  const bool periodic =
+      std::all_of(draft.sides.begin(), draft.sides.end(), [](const std::string& s) { return s == "periodic"; });
+  const bool some = draft.cast == Cast::gas || draft.cast == Cast::few || draft.cast == Cast::touching;
+  if (!periodic || !some || draft.crowd.width > 0.0 || !dice.chance(0.5)) return;
+  const double rate = draft.units.speed / draft.crowd.largest * dice.decades(-3, 0);
+  draft.shear = rounded(dice.chance(0.5) ? rate : -rate);
+  if (draft.method == "auto") draft.method = "pairwise";
+}
+
 void choose_box(Dice& dice, Draft& draft) {
   const double r = draft.crowd.largest;
   if (draft.crowd.width > 0.0) {
@@ -79,14 +93,11 @@ void choose_box(Dice& dice, Draft& draft) {
   const double area =
       draft.crowd.disks == 0 ? r * r * dice.in(20.0, 1000.0) : draft.crowd.area / draft.crowd.packing_fraction;
   const double aspect = dice.chance(0.7) ? dice.in(0.5, 2.0) : dice.decades(-2, 2);
-  const double narrowest = dice.chance(0.1) ? 4.0 * r : 4.01 * r;  // two diameters: as narrow as a periodic box may be
+  double narrowest = dice.chance(0.1) ? 4.0 * r : 4.01 * r;  // two diameters: as narrow as a periodic box may be
+  if (draft.shear != 0.0) narrowest *= 2.0;
   draft.height = std::max(narrowest, std::sqrt(area / aspect));
   draft.width = std::max(narrowest, area / draft.height);
   draft.height = std::max(narrowest, area / draft.width);
-}
-
-double random_restitution(Dice& dice) {
-  return dice.chance(0.5) ? 1.0 : dice.pick({0.0, 0.2, 0.5, 0.8, 0.9, 0.99, rounded(dice.unit())});
 }
 
 void choose_physics(Dice& dice, Draft& draft) {
@@ -99,6 +110,7 @@ void choose_physics(Dice& dice, Draft& draft) {
   }
   draft.restitution = pile ? dice.pick({0.0, 0.2, 0.5, 0.8}) : random_restitution(dice);
   draft.wall_restitution = random_restitution(dice);
+  if (draft.shear != 0.0) draft.gravity = 0.0;
   draft.speed = units.speed;
   if (draft.crowd.at_rest) draft.speed = std::max(1e-3 * units.speed, std::sqrt(draft.gravity * units.length));
 }
@@ -112,7 +124,7 @@ void choose_times(Dice& dice, Draft& draft) {
   const double dt = rounded(share * draft.crowd.smallest / draft.speed);
   const auto steps = static_cast<double>(crowd ? 3 + dice.below(6) : pile ? 20 + dice.below(300) : 10 + dice.below(70));
   const double part = dice.chance(0.7) ? 0.0 : dice.unit();  // of a step, left over at the end
-  const bool brownian = dice.chance(0.18);
+  const bool brownian = dice.chance(0.18) && draft.shear == 0.0;
   if (!exact || brownian) draft.dt = dt;
   if (brownian) draft.diffusion = rounded(0.5 * draft.speed * draft.speed * dt);
   draft.t_end = (steps + part) * dt;
@@ -133,8 +145,9 @@ std::string side_line(Dice& dice, const Draft& draft, std::string_view name, con
     const bool across_x = name == "left" || name == "right";
     const double amplitude = rounded((across_x ? draft.width : draft.height) * dice.decades(-4, -2));
     const double period = rounded(amplitude / draft.units.speed * dice.decades(0, 2));
-    return fmt::format("{} = {{ motion = {{ vibrate = [{}, {}], period = {} }} }}\n", name, across_x ? amplitude : 0.0,
-                       across_x ? 0.0 : amplitude, period);
+    return fmt::format("{} = {{ motion = {{ vibrate = [{}, {}], period = {}, shape = \"{}\" }} }}\n", name,
+                       across_x ? amplitude : 0.0, across_x ? 0.0 : amplitude, period,
+                       dice.chance(0.5) ? "sine" : "parabola");
   }
   if (kind != "wall" || !dice.chance(0.1)) return fmt::format("{} = \"{}\"\n", name, kind);
   return fmt::format("{} = {{ kind = \"wall\", restitution = {} }}\n", name, random_restitution(dice));
@@ -148,6 +161,7 @@ std::string box_text(Dice& dice, const Draft& draft) {
   } else {
     text += fmt::format("width = {}\nheight = {}\n", draft.width, draft.height);
   }
+  if (draft.shear != 0.0) text += fmt::format("shear_rate = {}\n", draft.shear);
   constexpr std::array<const char*, 4> names{"left", "right", "bottom", "top"};
   for (std::size_t s = 0; s < names.size(); ++s) text += side_line(dice, draft, names[s], draft.sides[s]);
   if (draft.wall_restitution < 1.0) text += fmt::format("wall_restitution = {}\n", draft.wall_restitution);
@@ -163,7 +177,7 @@ std::string gravity_text(Dice& dice, double g) {
 
 // Here and there, where velocities are velocities.
 std::string thermostat_text(Dice& dice, const Draft& draft) {
-  if (draft.diffusion > 0.0 || !dice.chance(0.08)) return "";
+  if (draft.diffusion > 0.0 || draft.shear != 0.0 || !dice.chance(0.08)) return "";
   const double energy = draft.units.mass * draft.units.speed * draft.units.speed;
   const double least = draft.dt > 0.0 ? draft.dt : 0.01 * draft.crowd.smallest / draft.speed;
   const double dt = dice.chance(0.3) ? least : least * dice.in(1.0, 30.0);
@@ -179,6 +193,7 @@ std::string physics_text(Dice& dice, const Draft& draft) {
   if (draft.diffusion > 0.0) text += fmt::format("diffusion = {}\n", draft.diffusion);
   if (draft.diffusion > 0.0 && dice.chance(0.3)) text += "accumulate = true\n";
   text += thermostat_text(dice, draft);
+  if (draft.shear != 0.0) return text;
   const bool dissipates = draft.restitution < 1.0 || draft.wall_restitution < 1.0;
   if (!dice.chance(draft.method != "exact" ? 0.04 : dissipates ? 0.85 : 0.1)) return text;
   // A heap at rest has some events a contact and contact time.
@@ -205,9 +220,9 @@ std::string disks_text(Dice& dice, const Draft& draft) {
 
 // Fixed disks, after the others; in a crowd whose places are listed they lie along the left side.
 std::string obstacles_text(Dice& dice, const Draft& draft) {
-  const bool room =
-      draft.cast == Cast::gas || draft.cast == Cast::few || draft.cast == Cast::pile || draft.cast == Cast::none;
-  if (!room || draft.crowd.packing_fraction > 0.4 || !dice.chance(0.25)) return "";
+  const bool room = draft.cast == Cast::gas || draft.cast == Cast::few || draft.cast == Cast::pile ||
+                    draft.cast == Cast::none || draft.cast == Cast::grown;
+  if (!room || draft.crowd.packing_fraction > (draft.cast == Cast::grown ? 0.6 : 0.4) || !dice.chance(0.25)) return "";
   const double r = draft.crowd.disks > 0 ? draft.crowd.largest : 0.1 * std::min(draft.width, draft.height);
   const std::size_t count = 1 + dice.below(5);
   const double largest = rounded(0.25 * r * dice.pick({1e-3, 0.1, 1.0}));
@@ -217,8 +232,9 @@ std::string obstacles_text(Dice& dice, const Draft& draft) {
 
 // Short inner walls; a sink among them where Brownian motion does not forbid it.
 std::string walls_text(Dice& dice, const Draft& draft) {
-  const bool room = draft.cast == Cast::gas || draft.cast == Cast::few || draft.cast == Cast::pile;
-  if (!room || draft.crowd.packing_fraction > 0.35 || !dice.chance(0.2)) return "";
+  const bool room =
+      draft.cast == Cast::gas || draft.cast == Cast::few || draft.cast == Cast::pile || draft.cast == Cast::grown;
+  if (!room || draft.crowd.packing_fraction > (draft.cast == Cast::grown ? 0.55 : 0.35) || !dice.chance(0.2)) return "";
   std::string text;
   for (std::size_t k = 1 + dice.below(3); k > 0; --k) {
     const double length = draft.crowd.largest * dice.pick({0.01, 0.5, 2.0});
@@ -237,6 +253,7 @@ std::string walls_text(Dice& dice, const Draft& draft) {
 }
 
 std::string sources_text(Dice& dice, const Draft& draft) {
+  if (draft.shear != 0.0) return "";
   const std::size_t sources = draft.cast == Cast::none ? 1 + dice.below(2) : dice.chance(0.2) ? 1 + dice.below(3) : 0;
   std::string text;
   for (std::size_t k = 0; k < sources; ++k) {
@@ -267,60 +284,6 @@ std::string sources_text(Dice& dice, const Draft& draft) {
   return text;
 }
 
-// In a few scenes the restitution of [physics] depends on the speed.
-std::string with_viscosity(Dice& dice, const Draft& draft, std::string text) {
-  const std::string number = fmt::format("restitution = {}\n", draft.restitution);
-  if (draft.diffusion > 0.0 || draft.restitution == 1.0 || !dice.chance(0.2)) return text;
-  const std::size_t at = text.find(number, text.find("[physics]"));
-  const double a = rounded(dice.in(0.01, 0.6) / std::pow(draft.units.speed, 0.2));
-  return text.replace(at, number.size(),
-                      fmt::format("restitution = {{ viscoelastic = {}, least = {} }}\n", a, draft.restitution));
-}
-
-// Gives a name to the [[disks]] blocks that have none. Returns the names of all, and of those that move.
-std::string name_groups(std::string text, std::vector<std::string>& all, std::vector<std::string>& moving) {
-  constexpr std::string_view head = "[[disks]]\n", fixed = "fixed = true\n", name = "name = \"";
-  for (std::size_t at = 0; (at = text.find(head, at)) != std::string::npos;) {
-    at += head.size();
-    if (text.compare(at, name.size(), name) == 0) {
-      const std::size_t begin = at + name.size();
-      all.push_back(text.substr(begin, text.find('"', begin) - begin));
-    } else {
-      all.push_back(fmt::format("g{}", all.size()));
-      text.insert(at, fmt::format("name = \"{}\"\n", all.back()));
-    }
-    const std::size_t second_line = text.find('\n', at) + 1;
-    if (text.compare(second_line, fixed.size(), fixed) != 0) moving.push_back(all.back());
-  }
-  return text;
-}
-
-// In a few scenes pairs of groups have a restitution of their own.
-std::string with_pairs(Dice& dice, const Draft& draft, std::string text) {
-  if (!dice.chance(0.2)) return text;
-  std::vector<std::string> all, moving;
-  text = name_groups(std::move(text), all, moving);
-  for (std::vector<std::string>* names : {&moving, &all}) {
-    if (text.find("[[sources]]") != std::string::npos) names->emplace_back("sources");
-  }
-  if (moving.empty()) return text;
-  const std::string& one = moving[dice.below(moving.size())];  // in all of the pairs, so that each is stated once
-  for (const std::string& other : all) {
-    if (!dice.chance(0.6)) continue;
-    text += fmt::format("[[physics.pairs]]\ngroups = [\"{}\", \"{}\"]\nrestitution = ", one, other);
-    if (draft.diffusion == 0.0 && dice.chance(0.3)) {
-      text += fmt::format("{{ viscoelastic = {} }}\n", rounded(dice.in(0.01, 0.6) / std::pow(draft.units.speed, 0.2)));
-    } else {
-      text += fmt::format("{}\n", random_restitution(dice));
-    }
-  }
-  return text;
-}
-
-std::string with_restitution_laws(Dice& dice, const Draft& draft, std::string text) {
-  return with_pairs(dice, draft, with_viscosity(dice, draft, std::move(text)));
-}
-
 std::string seed_text(Dice& dice) {
   return dice.chance(0.02) ? "seed = \"18446744073709551615\"\n" : fmt::format("seed = {}\n", dice.below(1'000'000));
 }
@@ -332,8 +295,8 @@ std::string run_text(Dice& dice, const Draft& draft) {
   text += fmt::format("t_end = {}\n[output]\nseries = true\n", draft.t_end);
   if (dice.chance(0.8)) text += fmt::format("every = {}\n", rounded(draft.t_end / dice.in(1.0, 40.0)));
   if (!dice.chance(0.1)) return text;
-  text += fmt::format("[analysis]\nwhat = [\"speeds\", \"density\", \"pressure\"]\nevery = {}\n",
-                      rounded(draft.t_end / 7.0));
+  text += fmt::format("[analysis]\nwhat = [{}\"density\", \"pressure\"]\nevery = {}\n",
+                      draft.shear != 0.0 ? "" : "\"speeds\", ", rounded(draft.t_end / 7.0));
   return text;
 }
 
@@ -347,6 +310,7 @@ std::string random_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t
   draft.cast = random_cast(dice);
   draft.crowd = random_crowd(dice, draft.cast, draft.units);
   choose_sides(dice, draft);
+  choose_shear(dice, draft);
   choose_box(dice, draft);
   choose_physics(dice, draft);
   choose_times(dice, draft);
@@ -355,14 +319,17 @@ std::string random_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t
   text += box_text(dice, draft);
   text += physics_text(dice, draft);
   text += disks_text(dice, draft);
-  if (text.find("motion") == std::string::npos) {  // beside sides that move nothing may be fixed
+  if (draft.shear == 0.0) {  // where a side that moves runs into one, the scene is drawn anew
     text += obstacles_text(dice, draft);
     text += walls_text(dice, draft);
   }
   text += sources_text(dice, draft);
   if (draft.cast == Cast::grown && dice.chance(0.3)) text += "[growth]\nslowness = 0.5\nsteps = 2000\n";
   text += run_text(dice, draft);
-  return with_restitution_laws(dice, draft, std::move(text));
+  text = with_restitution_laws(dice, draft.units, draft.restitution, draft.diffusion > 0.0, std::move(text));
+  if (draft.diffusion > 0.0 || !dice.chance(0.15)) return text;
+  if (draft.shear != 0.0) return text;
+  return with_rough_disks(dice, draft.units, draft.crowd.largest, draft.method == "exact" && draft.gravity > 0.0, text);
 }
 
 std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t attempt) {
@@ -377,6 +344,7 @@ std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::u
   draft.sides.fill("wall");
   if (dice.chance(0.5)) draft.sides[left] = draft.sides[right] = "periodic";
   if (dice.chance(0.4)) draft.sides[bottom] = draft.sides[top] = "periodic";
+  choose_shear(dice, draft);
   choose_box(dice, draft);
   choose_physics(dice, draft);
   draft.t_end = draft.spacing() / draft.speed * dice.in(1.0, 15.0);
@@ -386,12 +354,12 @@ std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::u
   text +=
       fmt::format("[physics]\ngravity = {}\nrestitution = {}\n", gravity_text(dice, draft.gravity), draft.restitution);
   text += disks_text(dice, draft);
-  if (text.find("motion") == std::string::npos) {  // beside sides that move nothing may be fixed
+  if (draft.shear == 0.0) {  // where a side that moves runs into one, the scene is drawn anew
     text += obstacles_text(dice, draft);
     text += walls_text(dice, draft);
   }
   text += run_text(dice, draft);
-  return with_restitution_laws(dice, draft, std::move(text));
+  return with_restitution_laws(dice, draft.units, draft.restitution, draft.diffusion > 0.0, std::move(text));
 }
 
 }  // namespace carom::fuzz

@@ -39,6 +39,17 @@ def main(h5_path, csv_path):
         order = file["bond_order"]
         assert (order["global"][:] <= order["local"][:]).all() and (order["local"][:] < 1.0).all()
         assert numpy.isclose(order.attrs["local_mean"], order["local"][:].mean())
+        for name, columns in (("profile", ("disks",)), ("density", ())):
+            rows = file[name]["rows"]
+            assert rows["samples"][:].sum() == file[name].attrs["samples"] and len(rows["time"]) > 1, name
+            for column in columns:
+                assert (rows[column][:].sum(axis=0) == file[name][column][:]).all(), column
+        weights = file["density/rows/samples"][:] / file["density"].attrs["samples"]
+        mean = weights @ file["density/rows/packing_fraction"][:]
+        assert numpy.allclose(mean, file["density/packing_fraction"][:])
+        bonds = file["bond_correlation"]
+        some = bonds["pairs"][:] > 0
+        assert some.any() and (abs(bonds["g6"][:][some]) <= 1.0).all() and not numpy.isfinite(bonds["g6"][:][~some]).any()
         squares = file["displacement/mean_square"][:]
         assert squares[0] == 0.0 and (squares[1:] > 0.0).all()
         assert (numpy.diff(file["displacement/disks"][:]) <= 0).all()

@@ -97,7 +97,7 @@ TEST(EquilibriumAnalysis, ContactValuePressureAndSpeedsAreThoseOfTheory) {
   const double temperature = sample_mean(record.series.temperature).mean;
   EXPECT_NEAR(sample_mean(record.series.pressure).mean * area / (2048.0 * temperature), z, 0.01 * z);
   // Z = 1 + 2 phi g(2 r) for equal disks. Contact is at 1, the end of bin 49.
-  const BinnedCurve g = pair_correlation_curve(record, scene.analysis);
+  const BinnedCurve g = pair_correlation_curve(record.pairs, scene.analysis);
   EXPECT_EQ(record.pairs.counts[48], 0U) << "no pair overlaps";
   const double contact = (z - 1.0) / (2.0 * 0.3);
   EXPECT_NEAR(at_contact(g, 50, 15, 1.0), contact, 0.02 * contact);

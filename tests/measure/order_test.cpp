@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/base/random.hpp"
+#include "core/measure/bond_correlation.hpp"
 #include "core/measure/bond_order.hpp"
 #include "core/measure/motion_profile.hpp"
 #include "core/measure/structure_factor.hpp"
@@ -105,6 +106,47 @@ TEST(BondOrder, TurnedCrystalsHaveNoOrderInCommon) {
   const BondOrder order = bond_order(d, test::box_of(200.0, 100.0));
   EXPECT_GT(order.local, 0.9) << "all but those at the edges";
   EXPECT_LT(order.global, 0.05);
+}
+
+// On a hexagonal lattice every psi6 is the same: g6 is 1 wherever there are pairs, which are at distances of
+// neighbours.
+TEST(BondCorrelation, OfAHexagonalLatticeIsOne) {
+  Domain box;
+  const Disks d = triangles(12, 14, box);
+  const DistanceBins bins{5.0, 50, 0.0};
+  BondCorrelation sums{std::vector<double>(50, 0.0), std::vector<Count>(50, 0), 0};
+  add_bond_correlation(sums, d, box, bins);
+  EXPECT_EQ(sums.samples, 1U);
+  EXPECT_EQ(sums.pairs[10] + sums.pairs[9], 168U * 6U) << "at the lattice spacing, give or take rounding";
+  for (std::size_t k = 0; k < 50; ++k) {
+    EXPECT_NEAR(sums.product[k], static_cast<double>(sums.pairs[k]), 1e-9) << k;
+  }
+}
+
+// Against all pairs, with walls, whose neighbourhood is left out; and in any order of storage.
+TEST(BondCorrelation, OfAGasIsThatOfAllPairs) {
+  const Domain box = test::box_of(30.0, 20.0, true, false);
+  const Disks d = ideal_gas(300, box, 3);
+  const std::vector<Vec2> psi = bond_orders(d, box);
+  constexpr std::size_t n = 12;
+  const DistanceBins bins{6.0, n, 6.1};
+  std::vector<double> product(n, 0.0);
+  std::vector<Count> pairs(n, 0);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    if (d.y[i] < 6.1 || d.y[i] > 20.0 - 6.1) continue;
+    for (std::size_t j = 0; j < d.size(); ++j) {
+      const double r = std::sqrt(nearest_distance2({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box));
+      if (j == i || r >= 6.0) continue;
+      product[static_cast<std::size_t>(2.0 * r)] += psi[i].x * psi[j].x + psi[i].y * psi[j].y;
+      ++pairs[static_cast<std::size_t>(2.0 * r)];
+    }
+  }
+  BondCorrelation sums{std::vector<double>(n, 0.0), std::vector<Count>(n, 0), 0}, other = sums;
+  add_bond_correlation(sums, d, box, bins);
+  add_bond_correlation(other, turned(d), box, bins);
+  EXPECT_EQ(sums.pairs, pairs);
+  EXPECT_EQ(sums.product, other.product) << "storage does not matter";
+  for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(sums.product[k], product[k], 1e-9) << k;
 }
 
 // Against all pairs; and six independent angles would have a mean |psi6| of sqrt(pi) / 2 / sqrt(6) = 0.36, a gas a

@@ -85,18 +85,63 @@ TEST(PairDistances, NothingCorrelatedGivesOne) {
     scene.box = {c.width, c.height};
     test::set_sides(scene.box, c.left_right, c.bottom_top);
     scene.analysis.wanted[0] = true;
-    scene.analysis.r_max = c.r_max;
-    scene.analysis.r_bins = 12;
-    scene.analysis.wall_margin = c.r_max + 0.1;
+    scene.analysis.pairs.r_max = c.r_max;
+    scene.analysis.pairs.bins = 12;
+    scene.analysis.pairs.wall_margin = c.r_max + 0.1;
     AnalysisRecord record = empty_record(scene);
     for (int k = 0; k < 200; ++k) take_sample(record, scene, strewn(draws, scene.box, 200), k, {}, count_pairs);
-    const BinnedCurve g = pair_correlation_curve(record, scene.analysis);
+    const BinnedCurve g = pair_correlation_curve(record.pairs, scene.analysis);
     for (std::size_t k = 0; k < 12; ++k) {
       const auto pairs = static_cast<double>(record.pairs.counts[k]);
       ASSERT_GT(pairs, 100.0);
       // Each pair is counted twice where both are centres.
       const double error = std::sqrt(2.0 / pairs);
       EXPECT_NEAR(g.value[k], 1.0, 4.0 * error) << c.width << " x " << c.height << ", bin " << k;
+    }
+  }
+}
+
+// g(r) of three groups: the pairs of each with each are those that a search over all finds, whatever else is there.
+TEST(PairDistances, GroupsHavePairsOfTheirOwn) {
+  test::Draws draws(13);
+  Scene scene;
+  scene.box = {20.0, 16.0};
+  test::set_sides(scene.box, around, wall);
+  scene.analysis.wanted[0] = true;
+  scene.analysis.pairs = {3.0, 10, 3.1};
+  scene.analysis.pair_groups = {{"a", {0, 100}}, {"b", {250, 400}}, {"c", {400, 401}}};
+  AnalysisRecord record = empty_record(scene);
+  const Disks disks = strewn(draws, scene.box, 500);
+  take_sample(record, scene, disks, 0.0, {}, count_pairs);
+  take_sample(record, scene, disks, 1.0, {}, count_pairs);
+  const std::vector<PartialCurve> curves = partial_curves(record, scene.analysis);
+  ASSERT_EQ(curves.size(), 6U);
+  const auto centres = [&](const IdRange& ids) {
+    Count n = 0;
+    for (std::size_t i = 0; i < disks.size(); ++i)
+      n += ids.holds(disks.id[i]) && far_from_walls(disks, i, scene.box, 3.1);
+    return n;
+  };
+  std::size_t next = 0;
+  for (const NamedIds& one : scene.analysis.pair_groups) {
+    for (const NamedIds& other : scene.analysis.pair_groups) {
+      if (other.ids.first < one.ids.first) continue;
+      std::vector<Count> expected(10, 0);
+      for (std::size_t i = 0; i < disks.size(); ++i) {
+        if (!far_from_walls(disks, i, scene.box, 3.1)) continue;
+        for (std::size_t j = 0; j < disks.size(); ++j) {
+          const bool pair = (one.ids.holds(disks.id[i]) && other.ids.holds(disks.id[j])) ||
+                            (other.ids.holds(disks.id[i]) && one.ids.holds(disks.id[j]));
+          const double r = std::sqrt(nearest_distance2({disks.x[j] - disks.x[i], disks.y[j] - disks.y[i]}, scene.box));
+          if (pair && j != i && r < 3.0) expected[static_cast<std::size_t>(r / 0.3)] += 2;  // of two samples
+        }
+      }
+      EXPECT_EQ(curves[next].group + curves[next].other, one.name + other.name);
+      EXPECT_EQ(record.partial[next].counts, expected) << one.name << other.name;
+      const double n1 = static_cast<double>(centres(one.ids)), n2 = static_cast<double>(centres(other.ids));
+      const double ideal = 2.0 * (one.name == other.name ? n1 * (n1 - 1.0) : 2.0 * n1 * n2) / (20.0 * (16.0 - 6.2));
+      EXPECT_NEAR(record.partial[next].expected, ideal, 1e-9);
+      ++next;
     }
   }
 }

@@ -47,6 +47,40 @@ TEST(DensityProfile, AreaIsSharedOutAndNoneIsLost) {
   }
 }
 
+// Rows of a run from 1 to 6: [1, 3), [3, 5), [5, 6]; a sample at an edge belongs to the later row, the last one to the
+// last, and the rows add up to the whole.
+TEST(Profiles, RowsDivideTheRun) {
+  Scene scene;
+  scene.box = {8.0, 8.0};
+  scene.run.t_end = 6.0;
+  AnalysisPlan& plan = scene.analysis;
+  plan.wanted[static_cast<std::size_t>(Quantity::density)] = plan.wanted[static_cast<std::size_t>(Quantity::profile)] =
+      true;
+  plan.start = 1.0;
+  plan.density_bins = plan.profile_bins = 4;
+  plan.density_every = plan.profile_every = 2.0;
+  AnalysisRecord record = empty_record(scene);
+  for (int k = 0; k <= 5; ++k) {
+    const Disks disks = test::disks_of({{4.0, 1.0 + k, 2.0 * k, 0.0, 0.5, 1.0}});
+    take_sample(record, scene, disks, 1.0 + k, {}, {});
+  }
+  ASSERT_EQ(record.motion_rows.size(), 3U);
+  ASSERT_EQ(record.density_rows.size(), 3U);
+  const std::vector<Count> samples{2, 2, 2};
+  for (std::size_t row = 0; row < 3; ++row) {
+    EXPECT_EQ(record.motion_rows[row].samples, samples[row]);
+    EXPECT_EQ(record.density_rows[row].samples, samples[row]);
+  }
+  EXPECT_EQ(record.motion_rows[1].disks, (std::vector<Count>{0, 1, 1, 0})) << "at y = 3 and 4";
+  EXPECT_EQ(profile_curves(record.motion_rows[1], scene).vx[1], 4.0);
+  EXPECT_EQ(row_times(3, 2.0, scene), (std::vector<double>{1.0, 3.0, 5.0}));
+  for (std::size_t slab = 0; slab < 4; ++slab) {
+    Count disks = 0;
+    for (const DensityProfile& row : record.density_rows) disks += row.centres[slab];
+    EXPECT_EQ(record.density.centres[slab], disks);
+  }
+}
+
 // The same sums in whatever order disks are stored.
 TEST(DensityProfile, StorageOrderChangesNoBit) {
   test::Draws draws(3);

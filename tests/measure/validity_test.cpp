@@ -75,6 +75,20 @@ TEST(Validity, RollbackSaysThatTimeStallsBeforeItStops) {
   EXPECT_THAT(warnings.back(), HasSubstr("rollback: time stands still at t = "));
 }
 
+// The piston leaves the disk less room than it moves in dt: it bounces twice and more often in a step.
+TEST(Validity, TimeSteppingSaysThatWallsAreMetLate) {
+  for (const char* method : {"pairwise", "rollback"}) {
+    const auto closing = [&](const char* end) {
+      return stability_scene("closing_walls", {{"run.method", method}, {"run.dt", "0.001"}, {"run.t_end", end}});
+    };
+    EXPECT_THAT(warnings_of(closing("69")), IsEmpty()) << method;
+    EXPECT_THAT(warnings_of(closing("69.6")),
+                ElementsAre(AllOf(HasSubstr("bounces off walls and obstacles were seen a step late: dt = 0.001 is"),
+                                  HasSubstr("use a smaller dt or --method exact"))))
+        << method;
+  }
+}
+
 TEST(Validity, BrownianMotionIsNotSentToExact) {
   Scene gas = stability_scene("f02_bounce_at_a_distance", {{"disks.0.count", "300"},
                                                            {"box.packing_fraction", "0.5"},
@@ -167,6 +181,61 @@ TEST(Validity, ExactSaysThatTheCollapseModelTakesOver) {
   EXPECT_THAT(warnings_of(cooling("1e-6")), IsEmpty());
   EXPECT_THAT(warnings_of(cooling("0.1")), ElementsAre(AllOf(HasSubstr("were made elastic by the TC model"),
                                                              HasSubstr("contact_time = 0.1 is long"))));
+}
+
+// A disk is put into a peg, as if a contact had been missed, and leaves it; above the peg, nothing is said.
+TEST(Validity, ExactSaysWhereADiskIsInAPeg) {
+  const Scene scene = test::scene_from(R"(
+[box]
+width = 10
+height = 10
+[physics]
+gravity = 1
+[[disks]]
+fixed = true
+count = 1
+positions = [[5, 5]]
+radius = 1
+[[disks]]
+count = 2
+positions = [[5, 6.5], [2, 2]]
+velocities = [[0, 1], [0, 0]]
+radius = 0.5
+mass = 1
+[run]
+method = "exact"
+t_end = 0.01
+[output]
+every = 0.01
+)");
+  State start = initial_state(scene);
+  const auto said = [&](const State& state) {
+    const auto reference = make_reference_engine(scene, state);
+    const auto parallel = make_parallel_engine(scene, state, {3, 512});
+    const std::vector<std::string> warnings = warnings_of(*reference, scene);
+    EXPECT_EQ(warnings_of(*parallel, scene), warnings);
+    expect_same(parallel->state().validity.wall, reference->state().validity.wall);
+    EXPECT_EQ(validity_so_far(scene, parallel->state()).size(), warnings.size());
+    return warnings;
+  };
+  for (std::size_t i = 0; i < start.disks.size(); ++i) {
+    if (start.disks.y[i] > 5.0) start.disks.y[i] += 0.05;
+  }
+  EXPECT_THAT(said(start), IsEmpty());
+  for (std::size_t i = 0; i < start.disks.size(); ++i) {
+    if (start.disks.y[i] > 5.0) start.disks.y[i] -= 0.1;
+  }
+  EXPECT_THAT(said(start), ElementsAre(AllOf(HasSubstr("reaches 8 % of its radius beyond"),
+                                             HasSubstr("a contact was missed"), HasSubstr("please report"))));
+}
+
+TEST(Validity, ExactKeepsTheDeepestOfWallsThatMove) {
+  const Scene scene =
+      load_scene(CAROM_SOURCE_DIR "/scenes/shaken_bed.toml", {{"run.method", "exact"}, {"run.t_end", "0.2"}});
+  const State start = initial_state(scene);
+  const auto engine = make_reference_engine(scene, start);
+  while (engine->state().time < scene.run.t_end) engine->step();
+  EXPECT_LT(kept_by_both(scene, start, *engine).wall.overlap.size, 1e-9);
 }
 
 TEST(Validity, ScenesThatNoMethodServesWarnBeforeTheFirstStep) {

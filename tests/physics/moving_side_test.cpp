@@ -10,8 +10,10 @@
 #include <string>
 
 #include "core/base/check.hpp"
+#include "core/base/sine.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/measure/invariants.hpp"
+#include "core/physics/swinging_side.hpp"
 #include "core/start/initial_state.hpp"
 #include "tests/support/engine_run.hpp"
 
@@ -32,7 +34,7 @@ double total_energy(const Scene& scene, const State& state) {
 // Nearly a sine: amplitude, period and phase; place and speed are continuous where pieces meet.
 TEST(SideMotion, VibratesInPiecesOfParabolas) {
   SideMotion m;
-  m.kind = SideMotion::Kind::vibrate;
+  m.kind = SideMotion::Kind::parabolas;
   m.inset = 3.0;
   m.amplitude = 0.5;
   m.period = 1.6;
@@ -60,6 +62,84 @@ TEST(SideMotion, VibratesInPiecesOfParabolas) {
     EXPECT_NEAR(m.at(joint).speed, m.at(std::nextafter(joint, 0.0)).speed, 1e-12);
     EXPECT_NEAR(m.at(joint).inset, 3.0, 1e-13);
   }
+}
+
+// Against the C library's, in long double, over many periods and scales.
+TEST(SineInPeriod, IsRightToALastBitOrTwo) {
+  constexpr auto pi = 3.141592653589793238462643383279502884L;
+  double largest = 0.0;
+  for (int k = 0; k < 20000; ++k) {
+    const double period = std::ldexp(1.0 + 0.37 * std::fmod(0.618 * k, 1.0), k % 60 - 30);
+    const double t = period * std::fmod(0.7548776662 * k, 1.0) * (k % 3 == 0 ? 1.0 : 1e4);
+    const auto angle = 2.0L * pi * std::fmod(static_cast<long double>(t), static_cast<long double>(period)) /
+                       static_cast<long double>(period);
+    const SineCosine found = sine_in_period(t, period);
+    largest = std::max(largest, std::abs(static_cast<double>(static_cast<long double>(found.sine) - std::sin(angle))));
+    largest =
+        std::max(largest, std::abs(static_cast<double>(static_cast<long double>(found.cosine) - std::cos(angle))));
+  }
+  EXPECT_LT(largest, 4e-16);
+  EXPECT_GT(largest, 0.0);
+  for (const double period : {1.0, 0.3, 1e-80, 1e80}) {
+    for (int quarter = 0; quarter < 5; ++quarter) {
+      constexpr double sines[] = {0.0, 1.0, 0.0, -1.0};
+      if (quarter % 4 == 3) continue;  // three quarters of a period may be no double
+      const double t = 0.25 * quarter * period;
+      EXPECT_EQ(sine_in_period(t, period).sine, sines[quarter % 4]) << period << ", " << quarter;
+      EXPECT_EQ(sine_in_period(t, period).cosine, sines[(quarter + 1) % 4]) << period << ", " << quarter;
+    }
+  }
+}
+
+TEST(SideMotion, VibratesAsASine) {
+  SideMotion m;
+  m.kind = SideMotion::Kind::sine;
+  m.inset = 3.0;
+  m.amplitude = -0.5;
+  m.period = 1.6;
+  const double w = 2.0 * std::acos(-1.0) / m.period;
+  EXPECT_EQ(m.at(0.4).inset, 2.5);
+  EXPECT_NEAR(m.at(1.2).inset, 3.5, 1e-15);
+  EXPECT_NEAR(m.at(0.0).speed, -0.5 * w, 1e-15);
+  EXPECT_EQ(m.largest_inset(9.0), 3.5);
+  EXPECT_NEAR(m.largest_speed(), 0.5 * w, 1e-15);
+  for (int k = 0; k < 100; ++k) {
+    const double t = 0.0373 * k;
+    EXPECT_NEAR(m.at(t).inset, 3.0 - 0.5 * std::sin(w * t), 2e-15);
+    EXPECT_NEAR(m.at(t).speed, -0.5 * w * std::cos(w * t), 1e-14);
+    EXPECT_NEAR(m.at(t).acceleration, 0.5 * w * w * std::sin(w * t), 4e-14);
+    const SidePlace later = m.swung(m.at(t), 0.77);
+    EXPECT_NEAR(later.inset, m.at(t + 0.77).inset, 4e-15);
+    EXPECT_NEAR(later.speed, m.at(t + 0.77).speed, 1e-14);
+  }
+  EXPECT_NEAR(m.first_time_beyond(3.25, 9.0), 0.8 + 1.6 / 12.0, 1e-14);
+  EXPECT_EQ(m.first_time_beyond(3.25, 0.9), HUGE_VAL);
+}
+
+// No gap that is below 0 before the contact, and none at it, for many paths, grazing ones among them.
+TEST(SwingingSide, IsMetAtTheFirstContact) {
+  SideMotion m;
+  m.kind = SideMotion::Kind::sine;
+  m.inset = 2.0;
+  int contacts = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const auto u = [&](double ratio) { return std::fmod(ratio * (k + 1), 1.0); };
+    m.amplitude = 2.0 * u(0.6180339887) - 1.0;
+    m.period = 0.3 + 3.0 * u(0.7548776662);
+    const SidePlace now = m.at(10.0 * u(0.5698402910));
+    const double gap = now.inset + (k % 3 == 0 ? 0.0 : 3.0 * u(0.8191725134));
+    const double outward = 3.0 * (u(0.6710436067) - 0.3);
+    const double g = k % 2 == 0 ? 0.0 : 2.0 * u(0.5497004779) - 0.8;
+    const double found = time_to_swinging_side({m, now}, gap, outward, g, 20.0);
+    const auto gap_at = [&](double t) { return gap - (outward * t + 0.5 * g * t * t) - m.swung(now, t).inset; };
+    const double until = found < HUGE_VAL ? found : 20.0;
+    for (int j = 1; j < 500; ++j) ASSERT_GT(gap_at(until * j / 500.0), -1e-12) << k << ", " << j;
+    if (found == HUGE_VAL) continue;
+    ++contacts;
+    EXPECT_NEAR(gap_at(found), 0.0, 2e-13) << k;
+    EXPECT_GE(outward + g * found + m.swung(now, found).speed, 0.0) << k;
+  }
+  EXPECT_GT(contacts, 2000);
 }
 
 // The disk meets a side that goes, comes, and accelerates: closed forms.
@@ -96,7 +176,8 @@ TEST(MovingSide, DoesTheWorkThatIsGained) {
       const Scene scene = parse_scene(
           "[box]\nwidth = 20.0\nheight = 16.0\nleft = { motion = { velocity = [0.2, 0] } }\n"
           "right = { place = 19.0, motion = { vibrate = [0.6, 0], period = 1.3 } }\n"
-          "bottom = { motion = { vibrate = [0, 0.3], period = 0.7 } }\ntop = { place = 15, motion = { velocity = [0, "
+          "bottom = { motion = { vibrate = [0, 0.3], period = 0.7 } }\ntop = { place = 15, motion = "
+          "{ velocity = [0, "
           "0.05] } }\n"
           "[physics]\n" +
               physics +

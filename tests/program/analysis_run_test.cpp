@@ -11,12 +11,14 @@ using test::text_of;
 
 const std::string analysis = R"([analysis]
 what = ["pair_correlation", "displacement", "speeds", "density", "pressure", "collision_rate", "profile",
-        "velocity_autocorrelation", "bond_order"]
+        "velocity_autocorrelation", "bond_correlation", "bond_order"]
+density = { every = 0.5 }
+profile = { every = 0.7 }
 )";
 const std::vector<std::string> plots{
-    "pair_correlation.svg", "displacement.svg",   "speeds.svg",  "density.svg",
-    "pressure.svg",         "collision_rate.svg", "profile.svg", "velocity_autocorrelation.svg",
-    "bond_order.svg"};
+    "pair_correlation.svg", "displacement.svg",    "speeds.svg",  "density.svg",
+    "pressure.svg",         "collision_rate.svg",  "profile.svg", "velocity_autocorrelation.svg",
+    "bond_order.svg",       "bond_correlation.svg"};
 
 class AnalysisRun : public test::ProgramTest {
  protected:
@@ -69,8 +71,12 @@ TEST_F(AnalysisRun, ResumedItGivesTheSameFiles) {
 
 TEST_F(AnalysisRun, AKilledRunLeavesAFileThatOpens) {
   write("long.toml", test::busy_scene("pairwise", analysis, "none"));
-  const pid_t run = start({"run", "long.toml", "--t-end", "1e6", "--set", "analysis.every=0.1", "-o", "out"});
-  while (!fs::exists(at("out/carom-unfinished/analysis.h5"))) usleep(1000);
+  const pid_t run = start({"run", "long.toml", "--t-end", "1e6", "--set", "analysis.every=0.1", "--set",
+                           "analysis.density.every=1e3", "--set", "analysis.profile.every=1e3", "-o", "out"});
+  while (!fs::exists(at("out/carom-unfinished/analysis.h5"))) {
+    ASSERT_EQ(waitpid(run, nullptr, WNOHANG), 0) << "the run ended before it measured";
+    usleep(1000);
+  }
   kill(run, SIGKILL);
   EXPECT_EQ(wait_for(run), -SIGKILL);
   const Outcome o = shell(

@@ -162,6 +162,23 @@ def test_a_view_copies_nothing_and_is_never_stale():
     sim.step()
 
 
+def test_rough_disks_have_spins():
+    group = {"count": 20, "positions": "random", "spin_temperature": 2.0, "radius": 0.5, "mass": 1.0}
+    sim = carom.Simulation(carom.Scene({
+        "box": {"packing_fraction": 0.3},
+        "physics": {"roughness": {"tangential_restitution": 0.5}},
+        "disks": [group],
+        "run": {"method": "pairwise", "dt": 0.01, "t_end": 1.0},
+    }), threads=1)
+    disks = sim.disks()
+    assert "spin" in disks.names and len(disks.spin) == len(disks)
+    inertia = 0.5 * disks.mass * disks.radius**2
+    assert np.isclose(np.mean(inertia * disks.spin**2), 2.0)
+    with sim.view() as v:
+        assert np.array_equal(np.sort(v.spin), np.sort(disks.spin))
+    assert "spin" not in carom.Simulation(gas(), threads=1).disks().names
+
+
 def test_changes_and_questions():
     sim = carom.Simulation(gas(50), threads=1)
     sim.step(10)

@@ -21,9 +21,9 @@ TEST(AnalysisScene, FillsInWhatIsNotSaidAndWritesItDown) {
   const AnalysisPlan& plan = scene.analysis;
   EXPECT_EQ(plan.every, 0.1) << "a hundredth of the run";
   EXPECT_EQ(plan.start, 0.0);
-  EXPECT_EQ(plan.r_max, 2.0) << "half of what walls 10 apart leave the centres";
-  EXPECT_EQ(plan.wall_margin, 3.0);
-  EXPECT_EQ(plan.r_bins, 50U);
+  EXPECT_EQ(plan.pairs.r_max, 2.0) << "half of what walls 10 apart leave the centres";
+  EXPECT_EQ(plan.pairs.wall_margin, 3.0);
+  EXPECT_EQ(plan.pairs.bins, 50U);
   EXPECT_FALSE(plan.density_along_x);
   EXPECT_TRUE(plan.wants(Quantity::displacement));
   EXPECT_FALSE(plan.wants(Quantity::pressure));
@@ -41,7 +41,7 @@ TEST(AnalysisScene, TakesWhatIsSaid) {
   EXPECT_EQ(scene.analysis.start, 2.0);
   EXPECT_TRUE(scene.analysis.density_along_x);
   EXPECT_EQ(scene.analysis.density_bins, 8U);
-  EXPECT_EQ(scene.analysis.r_max, 1.5);
+  EXPECT_EQ(scene.analysis.pairs.r_max, 1.5);
   EXPECT_EQ(resolved_toml(scene_from(test::sound_scene)).find("analysis"), std::string::npos);
 }
 
@@ -63,7 +63,7 @@ TEST(AnalysisScene, OneLineForWhatItDoesNotTake) {
       {"what = [\"speed\"]",
        "gas.toml:25: analysis.what.0: unknown quantity \"speed\"; expected one of "
        "pair_correlation, displacement, speeds, density, pressure, collision_rate, profile, "
-       "velocity_autocorrelation, structure_factor, bond_order (nearest: "
+       "velocity_autocorrelation, structure_factor, bond_order, bond_correlation (nearest: "
        "speeds)"},
       {"what = []\nevry = 1.0", "analysis.evry: unknown key"},
       {"what = []\nevery = -1", "analysis.every: is -1"},
@@ -75,7 +75,17 @@ TEST(AnalysisScene, OneLineForWhatItDoesNotTake) {
        "analysis.density.bins: is 0; expected a whole number from 1 to "
        "100000"},
       {"what = [\"density\"]\ndensity = { axis = \"z\" }", "analysis.density.axis: "},
-      {"what = [\"density\"]\ndensity = \"x\"", "analysis.density: is a string; expected a table with axis, bins"},
+      {"what = [\"density\"]\ndensity = { every = 0 }", "analysis.density.every: is 0"},
+      {"what = [\"profile\"]\nprofile = { every = 1e-6 }",
+       "analysis.profile.every: is 1e-06, which makes 1e+07 rows; expected at least 0.0001, for 100000 rows"},
+      {"what = [\"pair_correlation\"]\npair_correlation = { groups = [\"heavy\"] }",
+       "analysis.pair_correlation.groups: "},
+      {"what = [\"pair_correlation\"]\npair_correlation = { groups = 3 }",
+       "analysis.pair_correlation.groups: is an integer; expected a list of the names of groups"},
+      {"what = [\"bond_correlation\"]\nbond_correlation = { r_max = 4.5 }",
+       "gas.toml:26: analysis.bond_correlation.r_max: 4.5 is too large for the box; expected at most 3.99"},
+      {"what = [\"density\"]\ndensity = \"x\"",
+       "analysis.density: is a string; expected a table with axis, bins, every"},
       {"what = [\"speeds\"]\nspeeds = { max = 0 }", "analysis.speeds.max: is 0"},
       {"what = [\"pair_correlation\"]\npair_correlation = { r_max = 4.5 }",
        "gas.toml:26: analysis.pair_correlation.r_max: 4.5 is too large for the box; expected at most 3.99"},

@@ -53,7 +53,7 @@ t_end = 10.0
 [output]
 trajectory = "h5md"
 [analysis]
-what = ["pair_correlation", "speeds", "density", "profile", "structure_factor"]
+what = ["pair_correlation", "speeds", "density", "profile", "bond_correlation", "structure_factor"]
 )";
 
 SceneFrame three_disks(const FrameAsked&) {
@@ -93,8 +93,19 @@ std::string with_thermostat(std::string_view scene) {
                         "[physics]\nthermostat = { kind = \"andersen\", temperature = 1, rate = 0.1, dt = 0.1 }");
 }
 
+// Is the key one that only scenes with rough disks have?
+bool wants_rough_disks(const SceneKey& key) {
+  return key.table == "physics.roughness" || key.table == "box.wall_roughness" || key.name == "wall_roughness" ||
+         key.name.starts_with("spin");
+}
+
+std::string with_rough_disks(std::string_view scene) {
+  return test::replaced(scene, "[physics]", "[physics]\nroughness = { tangential_restitution = 0.5 }");
+}
+
 // The scene in which this table is.
 std::string scene_for(const SceneKey& key) {
+  if (wants_rough_disks(key)) return with_rough_disks(full_scene);
   if (key.table == "walls") return with_walls(full_scene);
   if (key.table == "physics.thermostat") return with_thermostat(full_scene);
   return std::string(full_scene);
@@ -155,7 +166,8 @@ TEST(SceneKeys, EveryExampleIsAScenes) {
     if (owner.starts_with("analysis.")) owner = "analysis";
     if (owner == "output.movie") owner = "output";
     if (owner == "box.side" || owner == "box.side.motion") owner = "box";
-    if (owner == "physics.restitution") owner = "physics";
+    if (owner == "physics.restitution" || owner == "physics.roughness") owner = "physics";
+    if (owner == "box.wall_roughness") owner = "box";
     if (owner == "physics.collapse" && key.example.starts_with("collapse")) owner = "physics";
     std::vector<Override> changes{{owner_of(owner, key.name) + std::string(key.example.substr(0, equals)),
                                    std::string(key.example.substr(equals + 3))}};
@@ -170,6 +182,12 @@ TEST(SceneKeys, EveryExampleIsAScenes) {
     if (key.name == "packing_fraction" || key.name == "aspect") {
       text = test::replaced(text, "width = 100.0\nheight = 100.0", "packing_fraction = 0.1");
       changes.push_back({"sources.0.region", "[1, 1, 2, 2]"});
+    }
+    if (key.name == "shear_rate") {  // goes with little else
+      text =
+          "[box]\nwidth = 100.0\nheight = 100.0\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\n"
+          "top = \"periodic\"\n[[disks]]\ncount = 3\npositions = \"random\"\nradius = 1.0\nmass = 2.0\n"
+          "[run]\nt_end = 10.0\n";
     }
     if (key.name == "fixed") {
       text = test::replaced(text, "positions = \"growth\"\nradius = 1.0\nmass = 2.0",
@@ -217,6 +235,13 @@ what = ["pair_correlation", "speeds", "density", "profile"]
       const Override law{"physics.restitution", "{ viscoelastic = 0.1 }"};
       EXPECT_EQ(resolved_toml(parse_scene(bare, "bare.toml", "", {law, change})),
                 resolved_toml(parse_scene(bare, "bare.toml", "", {law})))
+          << label(key);
+      continue;
+    }
+    if (key.table == "physics.roughness") {
+      const Override rough{"physics.roughness", "{ tangential_restitution = 0.5 }"};
+      EXPECT_EQ(resolved_toml(parse_scene(bare, "bare.toml", "", {rough, change})),
+                resolved_toml(parse_scene(bare, "bare.toml", "", {rough})))
           << label(key);
       continue;
     }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "core/disks/obstacle_cells.hpp"
 
 namespace carom::stability {
 
@@ -85,8 +86,13 @@ void Worst::look(const Scene& scene, const State& start, const State& now) {
   const Energy before = energy_of(start.disks, g);
   const Energy after = energy_of(now.disks, g);
   overlap = std::max(overlap, max_overlap(now.disks, scene.box));
-  wall_overlap = std::max(wall_overlap, carom::wall_overlap(now.disks, scene.box));
-  const double drift = ratio(after.total(), before.total()) - (before.total() != 0.0 ? 1.0 : 0.0);
+  Domain box = box_at(scene.box, now.time);
+  const auto obstacles = place_obstacles(now.obstacles, box);
+  wall_overlap = std::max(wall_overlap, carom::wall_overlap(now.disks, box));
+  double work = 0.0;  // by sides that move
+  for (const double of_side : now.counters.side_energy) work += of_side;
+  const double kept = ratio(after.total() - work, before.total()) - (before.total() != 0.0 ? 1.0 : 0.0);
+  const double drift = work == 0.0 ? kept : kept * before.total() / after.total();  // of what it has grown to
   energy_drift = std::max(energy_drift, std::abs(drift));
   energy_gain = std::max(energy_gain, drift);
   momentum = std::max(momentum, momentum_drift(momentum_of(start.disks), momentum_of(now.disks)));

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "core/disks/obstacle_cells.hpp"
+#include "core/physics/obstacle_contact.hpp"
 #include "core/reference/pair_search.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"
@@ -111,6 +113,78 @@ TEST(Growth, SameBitsPlainAndParallel) {
   }
 }
 
+// Fixed disks that overlap each other and stick out, one that is drawn, a line with a corner, a sink; denser than
+// random addition gets anywhere.
+std::vector<Case> obstructed_cases() {
+  const std::string pegs =
+      "[[disks]]\nfixed = true\ncount = 5\npositions = [[0.5, 9.0], [20.0, 20.0], [22.0, 21.0], [12.0, 30.0], [33.0, "
+      "8.0]]\nradius = [2.0, 3.0, 2.5, 1.0, 4.0]\n"
+      "[[disks]]\nfixed = true\ncount = 1\npositions = \"random\"\nradius = 1.5\n";
+  const std::string walls =
+      "[[walls]]\npoints = [[5.0, 5.0], [14.0, 9.0], [11.0, 16.0]]\n"
+      "[[walls]]\nfrom = [24.0, 30.0]\nto = [38.0, 30.0]\nkind = \"sink\"\n";
+  const std::string box = "width = 40\nheight = 36";
+  return {{"pegs", std::string(periodic) + box, group(118, "{ uniform = [1, 2] }") + pegs},
+          {"pegs_first", box, pegs + group(340, "{ uniform = [0.5, 1.2] }")},
+          {"walls", box, group(115, "{ uniform = [1, 2] }") + walls},
+          {"both", std::string(periodic) + box, pegs + group(50, "1.7") + group(98, "1.0") + walls},
+          {"beside_a_piston", "left = { place = 3, motion = { velocity = [-1, 0] } }\n" + box,
+           group(103, "{ uniform = [1, 2] }") + test::replaced(pegs, "[0.5, 9.0]", "[7.5, 9.0]") + walls}};
+}
+
+TEST(Growth, KeepsClearOfObstaclesToTheLastBit) {
+  for (const Case& c : obstructed_cases()) {
+    SCOPED_TRACE(c.name);
+    const Scene scene = scene_from(text_of(c.box, c.disks));
+    const State state = initial_state(scene);
+    expect_free(state, scene.box);
+    Domain box = scene.box;
+    const auto cells = place_obstacles(state.obstacles, box);
+    const Disks& d = state.disks;
+    double area = 0.0;
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      area += 3.14159 * d.radius_of(i) * d.radius_of(i);
+      for (const Obstacle& o : state.obstacles) {
+        if (!scene.box.has_moving_side()) {
+          EXPECT_LE(gap_to(o, d.x[i], d.y[i], d.radius_of(i), box).beyond, 0.0) << i;
+        } else {  // whose coordinates are moved by the side's place
+          EXPECT_LE(gap_to(o, d.x[i], d.y[i], d.radius_of(i), box).beyond, 1e-12) << i;
+        }
+      }
+    }
+    EXPECT_GT(area / (box.width * box.height), 0.5);
+    for (const int threads : {1, 2, 5}) {
+      const State other = grown(scene, threads, 300);
+      EXPECT_EQ(other.disks.x, d.x) << threads;
+      EXPECT_EQ(other.disks.y, d.y) << threads;
+      EXPECT_EQ(other.disks.id, d.id) << threads;
+      EXPECT_EQ(other.obstacles.size(), state.obstacles.size());
+    }
+  }
+}
+
+// A disk beside a peg gets three quarters of the gap, all of it, as the peg does not grow; of that to a wall likewise.
+TEST(Growth, StepTakesTheGapsToObstacles) {
+  Domain box;
+  box.width = box.height = 40.0;
+  const std::vector<Obstacle> obstacles{{10.0, 10.0, 0.0, 0.0, 2.0, 1.0, 7, ObstacleKind::disk},
+                                        {30.0, 0.0, 0.0, 40.0, 0.0, 1.0, 0, ObstacleKind::wall}};
+  const auto cells = place_obstacles(obstacles, box);
+  Disks d;
+  d.x = {15.0, 27.0, 5.0};
+  d.y = {10.0, 25.0, 34.0};
+  d.vx = d.vy = {0.0, 0.0, 0.0};
+  d.radius = {1.0, 2.0, 1.0};
+  d.id = {0, 1, 2};
+  const GrowthTally tally = grow_step(d, box, {9.0, 9.0, 1.5});
+  EXPECT_DOUBLE_EQ(d.radius[0], 1.0 + 0.75 * 2.0);
+  EXPECT_DOUBLE_EQ(d.radius[1], 2.0 + 0.75 * 1.0);
+  EXPECT_EQ(d.radius[2], 1.5);
+  EXPECT_FALSE(tally.overlap);
+  d.x[0] = 13.0;
+  EXPECT_TRUE(grow_step(d, box, {9.0, 9.0, 1.5}).overlap);
+}
+
 // The plain step against all pairs: by its definition, each gap shared by what both ends lack.
 TEST(Growth, StepTakesTheLeastOfAllGaps) {
   test::Draws draws(5);
@@ -181,6 +255,11 @@ TEST(Growth, RefusesWhatItCannotDo) {
   const std::string other = "[[disks]]\ncount = 3\npositions = \"random\"\nradius = 1\nmass = 1\n";
   EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1") + other)),
               HasSubstr("disks.1.positions: beside \"growth\" of disks.0"));
+  const std::string fixed = "[[disks]]\nfixed = true\ncount = 3\npositions = \"growth\"\nradius = 1\n";
+  EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1") + fixed)),
+              HasSubstr("disks.1.positions: is \"growth\" of fixed disks"));
+  EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", fixed + other)),
+              HasSubstr("disks.0.positions: is \"growth\" of fixed disks"));
   EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", other, "[growth]\nslowness = 2\n")),
               HasSubstr("growth: nothing grows"));
   EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1"), "[growth]\nslowness = 0\n")),

@@ -173,6 +173,11 @@ inline Wall wall_at(const SideMotion& m, Real t) {
     const auto u = static_cast<Real>(m.speed);
     return {inset + u * t, u, 0.0L};
   }
+  if (m.kind == SideMotion::Kind::sine) {
+    const Real w = 2.0L * std::acos(-1.0L) / static_cast<Real>(m.period);
+    const auto a = static_cast<Real>(m.amplitude);
+    return {inset + a * std::sin(w * t), a * w * std::cos(w * t), -a * w * w * std::sin(w * t)};
+  }
   const Real half = 0.5L * static_cast<Real>(m.period);
   Real k = std::floor(t / half);
   Real since = t - k * half;
@@ -183,6 +188,29 @@ inline Wall wall_at(const SideMotion& m, Real t) {
   const Real up = std::fmod(k, 2.0L) == 0.0L ? 1.0L : -1.0L;
   const Real rate = up * 4.0L * static_cast<Real>(m.amplitude) / (half * half);
   return {inset + rate * since * (half - since), rate * (half - 2.0L * since), -2.0L * rate, half - since};
+}
+
+// Likewise with a side that is a sine, up to `end`, by going on as far as no acceleration could bring the two together.
+inline Real sine_time(const SideMotion& m, Real now, Real d, Real u, Real g, Real end) {
+  const Real w = 2.0L * std::acos(-1.0L) / static_cast<Real>(m.period);
+  const Real most = std::abs(static_cast<Real>(m.amplitude)) * w * w + std::abs(g);
+  const Real nothing = 1e-18L * (std::abs(d) + std::abs(static_cast<Real>(m.inset)));
+  Real t = 0.0L;
+  while (t <= end) {
+    const Wall wall = wall_at(m, now + t);
+    const Real gap = d - u * t - 0.5L * g * t * t - wall.inset;
+    const Real closing = u + g * t + wall.speed;
+    if (gap <= nothing && closing > 0.0L) return t;
+    const Real room = std::max(gap, 1e-17L * std::abs(static_cast<Real>(m.amplitude)));
+    t += std::max(side_time(room, closing, most), 1e-15L * static_cast<Real>(m.period));
+  }
+  return no_event;
+}
+
+// Of the images above a sheared box: how far they are displaced at time t.
+inline Real shear_offset(const Domain& box, Real t) {
+  const Real jump = static_cast<Real>(box.shear.rate) * static_cast<Real>(box.height);
+  return jump == 0.0L ? 0.0L : std::remainder(jump * t, static_cast<Real>(box.width));
 }
 
 struct Happening {
@@ -197,14 +225,18 @@ inline Happening next_happening(const System& s, Real end) {
   Happening first;
   const bool px = s.box.periodic_x();
   const bool py = s.box.periodic_y();
+  const Real offset = shear_offset(s.box, s.time);
+  const int most_x = !px ? 0 : s.box.shear.acts() ? 2 : 1;
   for (std::size_t i = 0; i < s.balls.size(); ++i) {
     const Ball& a = s.balls[i];
     for (std::size_t j = i + 1; j < s.balls.size(); ++j) {
-      for (int kx = px ? -1 : 0; kx <= (px ? 1 : 0); ++kx) {
+      for (int kx = -most_x; kx <= most_x; ++kx) {
         for (int ky = py ? -1 : 0; ky <= (py ? 1 : 0); ++ky) {
-          const Real ox = kx * static_cast<Real>(s.box.width);
+          const Real ox = kx * static_cast<Real>(s.box.width) + ky * offset;
           const Real oy = ky * static_cast<Real>(s.box.height);
-          const Real t = pair_time(a, s.balls[j], ox, oy);
+          Ball b = s.balls[j];
+          b.vx += ky * static_cast<Real>(s.box.shear.rate) * static_cast<Real>(s.box.height);
+          const Real t = pair_time(a, b, ox, oy);
           if (t < first.time) first = {t, i, j, ox, oy, -1};
         }
       }
@@ -214,6 +246,8 @@ inline Happening next_happening(const System& s, Real end) {
     Wall m[4];
     for (std::size_t k = 0; k < 4; ++k) m[k] = wall_at(s.box.motions[k], s.time);
     const auto time = [&](int k, Real gap, Real speed, Real g) {
+      const SideMotion& motion = s.box.motions[static_cast<std::size_t>(k)];
+      if (motion.kind == SideMotion::Kind::sine) return sine_time(motion, s.time, gap, speed, g, end);
       return side_time(gap - m[k].inset, speed + m[k].speed, g + m[k].acceleration);
     };
     const Real t[4] = {
@@ -234,14 +268,25 @@ inline Happening next_happening(const System& s, Real end) {
   return first;
 }
 
+// Back into a box at this time: across the sides of a sheared one as the image that is there.
+inline void wrap_ball(Ball& b, const Domain& box, Real offset) {
+  if (box.periodic_y()) {
+    const Real rows = std::floor(b.y / box.height);
+    b.y -= rows * static_cast<Real>(box.height);
+    b.x -= rows * offset;
+    b.vx -= rows * static_cast<Real>(box.shear.rate) * static_cast<Real>(box.height);
+  }
+  if (box.periodic_x()) b.x -= std::floor(b.x / box.width) * static_cast<Real>(box.width);
+}
+
 inline void advance(System& s, Real t) {
+  const Real offset = shear_offset(s.box, s.time + t);
   for (Ball& b : s.balls) {
     b.x += b.vx * t - 0.5L * s.left * t * t;
     b.y += b.vy * t - 0.5L * s.down * t * t;
     b.vx -= s.left * t;
     b.vy -= s.down * t;
-    if (s.box.periodic_x()) b.x -= std::floor(b.x / s.box.width) * static_cast<Real>(s.box.width);
-    if (s.box.periodic_y()) b.y -= std::floor(b.y / s.box.height) * static_cast<Real>(s.box.height);
+    wrap_ball(b, s.box, offset);
   }
   s.time += t;
 }
@@ -284,12 +329,18 @@ inline void resolve(System& s, const Happening& e) {
   // The image may have wrapped meanwhile: the nearest one touches.
   Real dx = b.x - a.x;
   Real dy = b.y - a.y;
+  Real jump = 0.0L;  // of the second one's image
+  if (s.box.periodic_y()) {
+    const Real rows = std::round(dy / s.box.height);
+    dy -= rows * static_cast<Real>(s.box.height);
+    dx -= rows * shear_offset(s.box, s.time);
+    jump = -rows * static_cast<Real>(s.box.shear.rate) * static_cast<Real>(s.box.height);
+  }
   if (s.box.periodic_x()) dx -= std::round(dx / s.box.width) * static_cast<Real>(s.box.width);
-  if (s.box.periodic_y()) dy -= std::round(dy / s.box.height) * static_cast<Real>(s.box.height);
   const Real d = std::sqrt(dx * dx + dy * dy);
   const Real nx = dx / d;
   const Real ny = dy / d;
-  const Real closing = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny;
+  const Real closing = (b.vx + jump - a.vx) * nx + (b.vy - a.vy) * ny;
   const Real restitution = restitution_of(s, a.group, b.group, std::abs(closing));
   const Real impulse = -(1.0L + restitution) * closing * a.m * b.m / (a.m + b.m);
   a.vx -= impulse / a.m * nx;
@@ -308,6 +359,10 @@ inline bool run(System& s, Real t, std::size_t most_events = static_cast<std::si
     for (const Ball& b : s.balls) {
       if (s.box.periodic_x()) longest = std::min(longest, 0.25L * s.box.width / (std::abs(b.vx) + 1e-300L));
       if (s.box.periodic_y()) longest = std::min(longest, 0.25L * s.box.height / (std::abs(b.vy) + 1e-300L));
+    }
+    if (s.box.shear.acts()) {
+      const Real speed = std::abs(static_cast<Real>(s.box.shear.rate) * static_cast<Real>(s.box.height));
+      longest = std::min(longest, 0.25L * static_cast<Real>(s.box.width) / speed);
     }
     for (const SideMotion& motion : s.box.motions) longest = std::min(longest, wall_at(motion, s.time).lasts);
     const Real left = t - s.time;

@@ -24,16 +24,18 @@ struct Features {
   std::string law{};         // empty | "viscoelastic" | "pairs": of groups, with restitutions of both kinds
   bool tilted = false;       // gravity is a vector
   std::string thermostat{};  // empty | "langevin" | "andersen"
+  std::string rough{};       // empty | "sticking", smooth walls | "sliding", walls that are rough likewise
 
   std::string name() const {
     return method + "_" + sides + (gravity ? "_g" : "") + (restitution < 1.0 ? "_e" : "") +
            (diffusion.empty() ? "" : "_" + diffusion) + "_" + radii + (own_masses ? "_m" : "") +
            (source ? "_source" : "") + (obstacles ? "_fixed" : "") + (tilted ? "_tilted" : "") +
-           (law.empty() ? "" : "_" + law) + (thermostat.empty() ? "" : "_" + thermostat);
+           (law.empty() ? "" : "_" + law) + (thermostat.empty() ? "" : "_" + thermostat) +
+           (rough.empty() ? "" : "_" + rough);
   }
 };
 
-inline std::string sides_text(const std::string& sides) {
+inline std::string sides_text(const std::string& sides, int seed) {
   if (sides == "periodic_x") return "left = \"periodic\"\nright = \"periodic\"\nbottom = \"wall\"\ntop = \"sink\"\n";
   // A restitution of its own for each side.
   if (sides == "soft") {
@@ -46,7 +48,8 @@ inline std::string sides_text(const std::string& sides) {
   if (sides == "moving") {
     return "left = { motion = { velocity = [2.0, 0.0] } }\nright = { place = 23.5, motion = { velocity = [1.0, 0.0] } "
            "}\n"
-           "bottom = { restitution = 0.9, motion = { vibrate = [0.0, 0.1], period = 0.17 } }\ntop = \"wall\"\n";
+           "bottom = { restitution = 0.9, motion = { vibrate = [0.0, 0.1], period = 0.17, shape = \"" +
+           std::string(seed % 2 == 0 ? "parabola" : "sine") + "\" } }\ntop = \"wall\"\n";
   }
   std::string text;
   for (const char* side : {"left", "right", "bottom", "top"}) text += std::string(side) + " = \"" + sides + "\"\n";
@@ -76,13 +79,16 @@ inline std::string physics_text(const Features& f) {
   if (!f.thermostat.empty()) {
     text += "thermostat = { kind = \"" + f.thermostat + "\", temperature = 4.0, rate = 4.0, dt = 0.07 }\n";
   }
+  if (f.rough == "sticking") text += "roughness = { tangential_restitution = 0.6 }\n";
+  if (f.rough == "sliding") text += "roughness = { tangential_restitution = 0.4, friction = 0.3, inertia = 0.4 }\n";
   if (f.diffusion == "accumulate") text += "accumulate = true\n";
   return text + pairs_text(f);
 }
 
 inline std::string disks_text(const Features& f) {
   const std::string mass = f.own_masses ? "{ uniform = [1, 20] }" : "1.5";
-  const std::string velocity = "velocities = { uniform = 4.0 }\n";
+  const std::string spin = f.rough.empty() ? "" : f.seed % 2 == 0 ? "spin = 3.0\n" : "spin_temperature = 5.0\n";
+  const std::string velocity = "velocities = { uniform = 4.0 }\n" + spin;
   const std::string first = f.law == "pairs" ? "[[disks]]\nname = \"first\"\n" : "[[disks]]\n";
   const std::string second = f.law == "pairs" ? "[[disks]]\nname = \"second\"\n" : "[[disks]]\n";
   if (f.radii == "wide") {
@@ -98,6 +104,12 @@ inline std::string disks_text(const Features& f) {
 inline std::string obstacles_text(const Features& f) {
   if (!f.obstacles) return "";
   const std::string name = f.law == "pairs" ? "name = \"pegs\"\n" : "";
+  if (f.sides == "moving") {  // where none of them comes
+    return "[[disks]]\n" + name +
+           "fixed = true\ncount = 9\npositions = \"random\"\nregion = [17.0, 1.0, 22.0, 11.0]\nradius = { uniform = "
+           "[0.05, 0.4] }\n[[disks]]\nfixed = true\ncount = 2\npositions = [[12.0, 17.9], [12.5, 18.0]]\n"
+           "radius = [0.5, 0.6]\n";
+  }
   return "[[disks]]\n" + name +
          "fixed = true\ncount = 9\npositions = \"random\"\nradius = { uniform = [0.05, 0.8] }\n"
          "[[disks]]\nfixed = true\ncount = 4\npositions = [[0.1, 9.0], [24.0, 4.0], [12.0, 0.2], [12.5, 0.0]]\n"
@@ -107,10 +119,11 @@ inline std::string obstacles_text(const Features& f) {
 // A line with a corner, a soft wall, one that touches both sides, and a sink where Brownian motion does not forbid it.
 inline std::string walls_text(const Features& f) {
   if (!f.obstacles) return "";
-  std::string text =
-      "[[walls]]\npoints = [[3.0, 3.0], [6.0, 4.5], [5.5, 8.0]]\n"
-      "[[walls]]\nfrom = [20.0, 12.0]\nto = [15.0, 12.0]\nrestitution = 0.6\n"
-      "[[walls]]\nfrom = [0.0, 14.0]\nto = [4.0, 18.0]\n";
+  const bool moving = f.sides == "moving";
+  std::string text = std::string("[[walls]]\npoints = [[") + (moving ? "7.0" : "3.0") +
+                     ", 3.0], [6.0, 4.5], [5.5, 8.0]]\n"
+                     "[[walls]]\nfrom = [20.0, 12.0]\nto = [15.0, 12.0]\nrestitution = 0.6\n" +
+                     (moving ? "" : "[[walls]]\nfrom = [0.0, 14.0]\nto = [4.0, 18.0]\n");
   if (f.diffusion.empty()) text += "[[walls]]\nfrom = [10.0, 2.0]\nto = [11.0, 2.5]\nkind = \"sink\"\n";
   return text;
 }
@@ -118,13 +131,16 @@ inline std::string walls_text(const Features& f) {
 // About 130 disks at a packing fraction near 0.3 to 0.5, moving up to a third of a radius a step: contacts in every
 // step, crowded ones among them.
 inline Scene feature_scene(const Features& f, int steps) {
-  std::string text = "title = \"" + f.name() + "\"\nseed = " + std::to_string(f.seed) +
-                     "\n[box]\nwidth = 24.0\nheight = 18.0\nwall_restitution = " + (f.gravity ? "0.8" : "1.0") + "\n" +
-                     sides_text(f.sides) + physics_text(f) + obstacles_text(f) + disks_text(f) + walls_text(f);
+  std::string text =
+      "title = \"" + f.name() + "\"\nseed = " + std::to_string(f.seed) +
+      "\n[box]\nwidth = 24.0\nheight = 18.0\nwall_restitution = " + (f.gravity ? "0.8" : "1.0") + "\n" +
+      (f.rough == "sliding" ? "wall_roughness = { tangential_restitution = 0.8, friction = 0.5 }\n" : "") +
+      sides_text(f.sides, f.seed) + physics_text(f) + obstacles_text(f) + disks_text(f) + walls_text(f);
   if (f.source) {
     text +=
         "[[sources]]\nregion = [4.0, 4.0, 20.0, 14.0]\nrate = 80.0\nradius = 0.25\nmass = 1.5\n"
         "velocities = { maxwell = 2.0 }\n";
+    if (!f.rough.empty()) text += f.seed % 3 == 0 ? "spin = -2.0\n" : "spin_temperature = 1.0\n";
   }
   text += "[run]\nmethod = \"" + f.method + "\"\ndt = 0.03\nt_end = " + std::to_string(0.03 * steps) + "\n";
   return parse_scene(text, f.name(), "", {});
@@ -141,7 +157,6 @@ inline std::vector<Features> all_features(const std::string& method, const std::
         for (const char* radii : {"equal", "mixed", "wide"}) {
           for (const bool own_masses : {false, true}) {
             for (const bool source : {false, true}) {
-              if (source && sides == "moving") continue;
               all.push_back({method, sides, gravity, restitution, diffusion, radii, own_masses, source, seed++});
             }
           }

@@ -44,6 +44,12 @@ inline void scale(VelocityLaw& law, const Units& u) {
   for (Vec2& v : law.list) scale(v, u.speed());
 }
 
+inline void scale(SpinLaw& law, const Units& u) {
+  law.value /= u.time;
+  scale(law.list, 1.0 / u.time);
+  law.temperature *= u.energy();
+}
+
 inline void scale(PositionLaw& law, double unit) {
   for (Vec2& p : law.list) scale(p, unit);
   if (!law.region) return;
@@ -68,6 +74,7 @@ inline Scene scaled(Scene s, const Units& u) {
   s.box.width *= u.length;
   s.box.height *= u.length;
   scale_sides(s.box, u);
+  s.box.shear = {s.box.shear.rate / u.time, s.box.shear.jump * u.speed(), s.box.shear.offset * u.length};
   const double acceleration = u.speed() / u.time;
   s.physics.gravity = {s.physics.gravity.left * acceleration, s.physics.gravity.down * acceleration};
   s.physics.diffusion *= u.length * u.length / u.time;
@@ -81,6 +88,7 @@ inline Scene scaled(Scene s, const Units& u) {
     scale(g.positions, u.length);
     scale(g.velocities, u);
     scale(g.drift, u.speed());
+    scale(g.spins, u);
     scale(g.radius, u.length, density);
     scale(g.mass, u.mass, density);
   }
@@ -94,6 +102,7 @@ inline Scene scaled(Scene s, const Units& u) {
     scale(source.radius, u.length, density);
     scale(source.mass, u.mass, density);
     scale(source.velocities, u);
+    scale(source.spins, u);
   }
   s.run.dt *= u.time;
   s.run.t_end *= u.time;
@@ -108,6 +117,7 @@ inline State scaled(State state, const Units& u) {
   scale(d.vy, u.speed());
   scale(d.radius, u.length);
   scale(d.mass, u.mass);
+  scale(d.spin, 1.0 / u.time);
   d.common_radius *= u.length;
   d.common_mass *= u.mass;
   state.time *= u.time;
@@ -116,6 +126,8 @@ inline State scaled(State state, const Units& u) {
   for (double& impulse : state.counters.wall_impulse) impulse *= u.mass * u.speed();
   for (double& energy : state.counters.side_energy) energy *= u.energy();
   state.counters.thermostat_heat *= u.energy();
+  state.counters.shear_virial *= u.mass * u.speed() * u.length;
+  state.counters.shear_work *= u.energy();
   for (Obstacle& obstacle : state.obstacles) {
     for (double* length : {&obstacle.x, &obstacle.y, &obstacle.dx, &obstacle.dy, &obstacle.radius}) *length *= u.length;
   }

@@ -62,4 +62,17 @@ inline void expect_same_bits(const std::string& method, const std::string& sides
   }
 }
 
+// So many steps of the reference, and that the engine has its bits on any number of threads. Returns its state.
+inline State expect_bits_of_reference(const Scene& scene, const State& start, Count steps) {
+  const auto reference = make_reference_engine(scene, start);
+  while (goes_on(reference->state(), scene, steps)) reference->step();
+  const std::string expected = all_bits(reference->state());
+  for (const int threads : {1, 2, 3, 5, 8}) {
+    const auto engine = make_parallel_engine(scene, start, {threads, 512});
+    while (goes_on(engine->state(), scene, steps)) engine->step();
+    EXPECT_EQ(all_bits(engine->state()), expected) << threads << " threads";
+  }
+  return reference->state();
+}
+
 }  // namespace carom::test

@@ -23,6 +23,7 @@ inline void expect_equal(const State& a, const State& b) {
   EXPECT_EQ(a.disks.vy, b.disks.vy);
   EXPECT_EQ(a.disks.radius, b.disks.radius);
   EXPECT_EQ(a.disks.mass, b.disks.mass);
+  EXPECT_EQ(a.disks.spin, b.disks.spin);
   EXPECT_EQ(a.disks.common_radius, b.disks.common_radius);
   EXPECT_EQ(a.disks.common_mass, b.disks.common_mass);
   EXPECT_EQ(a.time, b.time);

@@ -1,19 +1,23 @@
 // Runs of `pairwise` on ranks of any kind, held against one machine.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "core/disks/state_hash.hpp"
 #include "core/step/engine.hpp"
+#include "parallel/ranks/local_ranks.hpp"
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/simulation.hpp"
 #include "parallel/slabs/rank_sums.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
+#include "parallel/threads/executor.hpp"
 #include "tests/support/feature_scenes.hpp"
 
 namespace carom::test {
@@ -66,32 +70,93 @@ inline void expect_same(const SlabTrace& expected, const SlabTrace& trace) {
   EXPECT_EQ(expected.counters.collisions, trace.counters.collisions);
   EXPECT_EQ(expected.counters.wall_collisions, trace.counters.wall_collisions);
   EXPECT_EQ(expected.counters.virial, trace.counters.virial);
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(expected.counters.wall_impulse[k], trace.counters.wall_impulse[k]);
+  EXPECT_EQ(expected.counters.removed, trace.counters.removed);
+  EXPECT_EQ(expected.counters.thermostat_heat, trace.counters.thermostat_heat);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(expected.counters.wall_impulse[k], trace.counters.wall_impulse[k]);
+    EXPECT_EQ(expected.counters.side_energy[k], trace.counters.side_energy[k]);
+  }
 }
 
 // The scenes with all combinations of what slabs can have, for one kind of sides. Under gravity nothing dissipates.
 inline std::vector<Scene> slab_scenes(const std::string& sides, int steps) {
   std::vector<Scene> all;
-  for (const Features& f : all_features("pairwise", sides)) {
-    const bool dissipates = f.restitution < 1.0 || sides == "soft";
-    if ((f.gravity && dissipates) || !f.diffusion.empty() || f.source || f.radii == "wide") continue;
+  const auto add = [&](const Features& f) {
     all.push_back(feature_scene(f, steps));
     if (f.gravity) all.back().box.restitutions = {1.0, 1.0, 1.0, 1.0};
+  };
+  for (const Features& f : all_features("pairwise", sides)) {
+    const bool dissipates = f.restitution < 1.0 || sides == "soft";
+    // Every other combination of radii and masses of Brownian disks: they take as long as all else.
+    const bool brownian = !f.diffusion.empty();
+    if ((f.gravity && dissipates) || f.source || f.radii == "wide" || (brownian && f.own_masses)) continue;
+    add(f);
   }
   Features tilted;
   tilted.sides = sides;
   tilted.radii = "mixed";
   tilted.own_masses = tilted.gravity = tilted.tilted = true;
-  all.push_back(feature_scene(tilted, steps));
-  all.back().box.restitutions = {1.0, 1.0, 1.0, 1.0};
+  add(tilted);
   for (const char* law : {"viscoelastic", "pairs"}) {
     Features f;
     f.sides = sides;
     f.radii = "mixed";
     f.law = law;
-    all.push_back(feature_scene(f, steps));
+    add(f);
+  }
+  // Obstacles, sinks among them, and what else is not in all_features.
+  for (const char* rough : {"", "sticking", "sliding"}) {
+    for (const char* thermostat : {"", "langevin", "andersen"}) {
+      Features f;
+      f.sides = sides;
+      f.radii = "mixed";
+      f.rough = rough;
+      f.thermostat = thermostat;
+      f.obstacles = f.rough != "sticking";
+      f.restitution = 0.7;
+      add(f);
+    }
   }
   return all;
+}
+
+// That of rank 0; all others are held against it.
+inline SlabTrace local_trace(const Scene& scene, const State& start, const Threads& threads, int count) {
+  std::mutex mutex;
+  std::vector<SlabTrace> traces(static_cast<std::size_t>(count));
+  run_on_local_ranks(count, [&](Ranks& ranks) {
+    SlabTrace trace = slab_trace(scene, start, threads, ranks);
+    const std::lock_guard lock(mutex);
+    traces[static_cast<std::size_t>(ranks.rank())] = std::move(trace);
+  });
+  for (const SlabTrace& trace : traces) expect_same(traces[0], trace);
+  return traces[0];
+}
+
+// The trace of one machine, and that slabs have it, on so many ranks with 1 and 2 threads each; or, where they
+// alternate, with two threads on odd numbers of ranks.
+enum class RankThreads : std::uint8_t { both, alternate };
+inline SlabTrace expect_bits(const Scene& scene, const std::vector<int>& counts,
+                             RankThreads choice = RankThreads::both) {
+  const State start = initial_state(scene);
+  const SlabTrace expected = one_machine_trace(scene, start);
+  for (const int ranks : counts) {
+    for (const int threads : {1, 2}) {
+      if (choice == RankThreads::alternate && threads != 1 + ranks % 2) continue;
+      // Which makes everything ten times as long, and sees races with the most ranks and threads best.
+      if (under_thread_sanitizer && (threads == 1 || ranks != counts.back())) continue;
+      SCOPED_TRACE(fmt::format("{} ranks, {} threads", ranks, threads));
+      expect_same(expected, local_trace(scene, start, {threads, 512}, ranks));
+    }
+  }
+  return expected;
+}
+
+inline Scene slab_scene(const std::string& sides, const std::string& box, const std::string& disks, double dt,
+                        int count) {
+  return parse_scene("[box]\n" + sides_text(sides, 1) + box + "[[disks]]\n" + disks +
+                         fmt::format("[run]\nmethod = \"pairwise\"\ndt = {}\nt_end = {}\n", dt, dt * count),
+                     "scene", "");
 }
 
 }  // namespace carom::test

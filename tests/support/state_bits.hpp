@@ -24,6 +24,7 @@ inline std::string all_bits(const State& state) {
   sort(d.id, state.disks.id);
   sort(d.radius, state.disks.radius);
   sort(d.mass, state.disks.mass);
+  sort(d.spin, state.disks.spin);
   return encode_checkpoint({}, sorted);
 }
 

@@ -1,0 +1,84 @@
+#include "app/cli/program.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <new>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/start_ranks.hpp"
+#include "core/base/check.hpp"
+#include "core/base/kernel_set.hpp"
+#include "io/files/child_process.hpp"
+
+namespace carom {
+
+namespace {
+
+// A run on several ranks is started anew by MPI, unless it was already.
+struct Dispatch {
+  int argc;
+  char** argv;
+  RankLead* lead;
+
+  int operator()(RunOptions options) const {
+    if (options.ranks && lead == nullptr) return start_ranks(*options.ranks, argc, argv);
+    options.lead = lead;
+    return command_run(options);
+  }
+  int operator()(ResumeOptions options) const {
+    if (options.ranks && lead == nullptr) return start_ranks(*options.ranks, argc, argv);
+    options.lead = lead;
+    return command_resume(options);
+  }
+  int operator()(const CheckOptions& options) const { return command_check(options); }
+  int operator()(const CompareOptions& options) const { return command_compare(options); }
+  int operator()(const RenderOptions& options) const { return command_render(options); }
+  int operator()(const ViewOptions& options) const { return command_view(options); }
+  int operator()(const SweepOptions& options) const { return command_sweep(options); }
+  int operator()(const ChartOptions& options) const { return command_chart(options); }
+  int operator()(const DocsOptions& options) const { return command_docs(options); }
+  int operator()(const TextRequest& request) const {
+    print_out(request.text);
+    return 0;
+  }
+};
+
+// Where the caller closed a standard stream, the next file to be opened would get its number, and messages would land
+// in a trajectory. /dev/null takes the place: silently for errors, read-only for the output, whose loss is an error.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) == -1) open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+int fail(int status, const char* what) {
+  print_note(fmt::format("error: {}", what));
+  return status;
+}
+
+}  // namespace
+
+int program(int argc, char** argv, RankLead* lead) {
+  occupy_standard_streams();
+  end_with_parent();
+  // A write that cannot be done shall return an error, which we report, rather than end the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    kernel_set();  // a wrong CAROM_KERNELS is said before anything is done
+    return std::visit(Dispatch{argc, argv, lead}, parse_command_line(argc, argv));
+  } catch (const InputError& error) {
+    return fail(2, error.what());
+  } catch (const PhysicsError& error) {
+    return fail(3, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(1, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(1, error.what());
+  }
+}
+
+}  // namespace carom

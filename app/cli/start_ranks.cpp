@@ -1,0 +1,118 @@
+#include "app/cli/start_ranks.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/check.hpp"
+#include "core/base/input_message.hpp"
+#include "io/files/child_process.hpp"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Setting {
+  const char *name, *value;
+};
+// More ranks than cores take turns, and wait asleep; containers forbid reading the memory of another process; when a
+// rank has died, the others have so many seconds to end. What the user has set stays.
+constexpr std::array<Setting, 4> mpi_settings{{{"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+                                               {"OMPI_MCA_mpi_yield_when_idle", "1"},
+                                               {"OMPI_MCA_btl_vader_single_copy_mechanism", "none"},
+                                               {"OMPI_MCA_odls_base_sigkill_timeout", "1"}}};
+
+// The path of carom-mpi, or that of mpiexec.
+std::string require(const std::string& path) {
+  if (!path.empty() && fs::exists(path)) return path;
+  fail_input("--ranks", "this build of Carom knows one rank only",
+             "expected Open MPI, Debian's packages openmpi-bin and libopenmpi-dev, and a build made with it");
+}
+
+// What a handler may touch has to be static: it is called with a number and nothing else.
+std::atomic<int> starter = 0;  // mpiexec's process
+std::atomic<int> stop_asked = 0;
+static_assert(std::atomic<int>::is_always_lock_free);  // as a handler needs
+
+// mpiexec passes SIGUSR1 and SIGUSR2 on to the ranks, and would end them for any other: rank 0 takes SIGUSR2 as a wish
+// to stop. A second one quits at once.
+extern "C" void pass_on(int signal) {
+  if (signal == SIGUSR1) {
+    kill(starter, SIGUSR1);
+  } else {
+    kill(starter, stop_asked.exchange(1) == 0 ? SIGUSR2 : SIGTERM);
+  }
+}
+
+void pass_signals_on() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
+    struct sigaction before {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler == SIG_IGN) continue;
+    struct sigaction action {};
+    action.sa_handler = pass_on;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+// In the child: a process group of its own, so that Ctrl-C reaches us alone; nothing to read; and it ends with us.
+[[noreturn]] void become(const std::vector<char*>& words) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO);
+  execv(words[0], words.data());
+  constexpr int cannot_be_started = 127;
+  _exit(cannot_be_started);
+}
+
+// The status of mpiexec as that of the run: that of rank 0, which has said why; or a rank did not live to its end.
+int status_of(int wait_status) {
+  const int status = WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
+  if (status < 127) return status;
+  const std::string why =
+      status > 128 ? fmt::format("was killed by signal {}", status - 128) : std::string("could not be started");
+  throw RunError(fmt::format(
+      "one of the ranks {}; the last checkpoint, if the run has written any, is whole: carom resume with its folder",
+      why));
+}
+
+}  // namespace
+
+int start_ranks(int ranks, int argc, const char* const* argv) {
+  const std::string program = require((fs::read_symlink("/proc/self/exe").parent_path() / "carom-mpi").string());
+  for (const auto& [name, value] : mpi_settings) setenv(name, value, 0);
+  std::vector<std::string> words{require(find_program("mpiexec")), "-q", "-n", fmt::format("{}", ranks)};
+  if (geteuid() == 0) words.emplace_back("--allow-run-as-root");
+  words.push_back(program);
+  words.insert(words.end(), argv + 1, argv + argc);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const pid_t child = fork();
+  if (child < 0) throw RunError(fmt::format("cannot start {}: {}", words[0], std::strerror(errno)));
+  if (child == 0) become(pointers);
+  starter = child;
+  pass_signals_on();
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  return status_of(status);
+}
+
+}  // namespace carom

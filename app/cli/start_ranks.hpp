@@ -1,0 +1,12 @@
+// Starting a run on several ranks of this machine.
+#pragma once
+
+namespace carom {
+
+// Runs mpiexec with so many processes of carom-mpi, which lies beside this program, and the same command line; returns
+// its status, that of rank 0. Signals that ask for a checkpoint or the end go to rank 0. Throws InputError with the
+// packages that are missing, where MPI is not installed or the build was made without it; RunError where it cannot be
+// started, or a rank did not live to the end.
+int start_ranks(int ranks, int argc, const char* const* argv);
+
+}  // namespace carom

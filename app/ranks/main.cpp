@@ -1,0 +1,56 @@
+// carom-mpi: the program on several ranks, as mpiexec starts them. Rank 0 is the program; the others do what it does.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <thread>
+
+#include "app/cli/messages.hpp"
+#include "app/cli/program.hpp"
+#include "core/base/float_environment.hpp"
+#include "parallel/ranks/mpi_ranks.hpp"
+#include "parallel/slabs/leading_engine.hpp"
+#include "run/make_engine.hpp"
+
+namespace carom {
+
+namespace {
+
+// mpiexec passes SIGUSR2 on where it would end the ranks for SIGTERM: to rank 0 it means the same.
+extern "C" void take_as_sigterm(int /*signal*/) {
+  std::raise(SIGTERM);
+}
+
+// Signals that ask for a checkpoint or the end are rank 0's, which tells the others.
+void leave_signals_to_rank_0() {
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2}) std::signal(signal, SIG_IGN);
+}
+
+int lead(const MpiSession& session, Ranks& ranks, int argc, char** argv) {
+  std::signal(SIGUSR2, take_as_sigterm);
+  RankLead lead(ranks);
+  const int status = program(argc, argv, &lead);
+  if (lead.lost()) session.abort(status);
+  lead.end();
+  return status;
+}
+
+}  // namespace
+}  // namespace carom
+
+int main(int argc, char** argv) {
+  using namespace carom;
+  const MpiSession session;
+  const std::unique_ptr<Ranks> ranks = session.ranks();
+  if (ranks->rank() == 0) return lead(session, *ranks, argc, argv);
+  leave_signals_to_rank_0();
+  const FloatEnvironment environment;
+  try {
+    follow_lead(*ranks, {threads_of_rank(ranks->count())}, read_rank_start);
+    return 0;
+  } catch (const std::exception& error) {
+    print_note(fmt::format("error: rank {}: {}", ranks->rank(), error.what()));
+    session.abort(1);
+  }
+}

@@ -1,0 +1,47 @@
+// The sine of a time that goes round in a period, with the same bits on every IEEE machine: from + - * / and exact
+// remainders alone.
+#pragma once
+
+#include <cmath>
+
+namespace carom {
+
+struct SineCosine {
+  double sine = 0.0;
+  double cosine = 1.0;
+};
+
+namespace sine_detail {
+
+// Of an angle in [0, pi / 4], by their series, which end where a term is below 1e-17 of the sum.
+inline SineCosine of_small_angle(double angle) {
+  const double square = angle * angle;
+  double sine = 1.0;
+  double cosine = 1.0;
+  // From the last term, angle^19 / 19! and angle^18 / 18!.
+  for (double k = 18.0; k > 0.0; k -= 2.0) {
+    sine = 1.0 - square / (k * (k + 1.0)) * sine;
+    cosine = 1.0 - square / (k * (k - 1.0)) * cosine;
+  }
+  return {angle * sine, cosine};
+}
+
+}  // namespace sine_detail
+
+// sin and cos of 2 pi t / period; each within 4e-16 of the true value, and exact at multiples of a quarter period. The
+// time is reduced without error, however many periods it is. Preconditions: t >= 0, finite; period > 0, normal.
+inline SineCosine sine_in_period(double t, double period) {
+  constexpr double half_pi = 1.57079632679489661923;
+  const double quarters = 4.0 * std::fmod(t, period);  // fmod is exact by its definition, as floor is
+  const double rest = std::fmod(quarters, period);
+  const double quarter = std::round((quarters - rest) / period);  // 0 to 3
+  const bool late = rest > 0.5 * period;                          // nearer to the end of the quarter
+  const SineCosine small = sine_detail::of_small_angle(half_pi * ((late ? period - rest : rest) / period));
+  const SineCosine first = late ? SineCosine{small.cosine, small.sine} : small;  // of the first quarter
+  if (quarter == 0.0) return first;
+  if (quarter == 1.0) return {first.cosine, -first.sine};
+  if (quarter == 2.0) return {-first.sine, -first.cosine};
+  return {-first.cosine, first.sine};
+}
+
+}  // namespace carom

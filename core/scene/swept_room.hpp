@@ -1,0 +1,47 @@
+// What sides that move come upon: obstacles and places of sources that stand still.
+#pragma once
+
+#include <cmath>
+
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+// A side that moves, and when it comes upon something; time HUGE_VAL: never.
+struct Sweep {
+  Side side = Side::left;
+  double time = HUGE_VAL;
+  bool happens() const { return time < HUGE_VAL; }
+};
+
+// How far a side must come into the box to reach the rectangle from low to high; length.
+inline double inset_to_reach(const Domain& box, Side side, Vec2 low, Vec2 high) {
+  switch (side) {
+    case Side::left:
+      return low.x;
+    case Side::right:
+      return box.width - high.x;
+    case Side::bottom:
+      return low.y;
+    default:
+      return box.height - high.y;
+  }
+}
+
+// The first side that moves into the rectangle until t_end, by more than `slack` (length).
+inline Sweep first_sweep(const Domain& box, Vec2 low, Vec2 high, double slack, double t_end) {
+  Sweep first;
+  for (const Side side : all_sides) {
+    const double limit = inset_to_reach(box, side, low, high) + slack;
+    const double time = box.motions[static_cast<std::size_t>(side)].first_time_beyond(limit, t_end);
+    if (time < first.time) first = {side, time};
+  }
+  return first;
+}
+
+// Rounding of decimals may put what touches a side this far beyond it; length.
+inline double slack_of_sides(const Domain& box, double radius) {
+  return 1e-12 * radius + 0x1p-50 * std::fmax(box.width, box.height);
+}
+
+}  // namespace carom

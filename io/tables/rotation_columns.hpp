@@ -1,0 +1,30 @@
+// What series.csv and trajectory.h5 tell of the rotation of rough disks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/block_runner.hpp"
+#include "core/disks/disks.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+// docs/scene.md has them from here.
+struct RotationColumn {
+  const char* name;
+  const char* unit;
+  const char* meaning;
+};
+inline constexpr RotationColumn rotation_columns[] = {
+    {"rotational", "energy", "sum of I w^2 / 2; `total` has it too; only where disks are rough, as the next"},
+    {"rotational_temperature", "energy",
+     "mean of I w^2 of a disk, 0 without disks; that of the motion of the centres is "
+     "`kinetic` over `disks`"},
+};
+
+// Names of the scene's columns, none where disks are smooth; and their values, in the same order.
+std::vector<std::string> rotation_column_names(const Scene& scene);
+std::vector<double> rotation_column_values(const Disks& disks, const BlockRunner& run);
+
+}  // namespace carom

@@ -1,0 +1,82 @@
+// Neighbour lists in a sheared box: places that go with the flow, and how long disks stay near them.
+#include <algorithm>
+#include <cmath>
+
+#include "parallel/exact/neighbour_lists.hpp"
+
+namespace carom {
+
+namespace {
+
+// Strain after which the lists are built anew: longer ones cost more the further disks are carried.
+constexpr double most_strain = 0.25;
+// Share of the relist distance that the flow may bend a path by before earliest_relist_time is asked again.
+constexpr double bend_share = 0.1;
+
+}  // namespace
+
+void NeighbourLists::follow_flow(const Domain& box, double start, double length) {
+  flow_ = {};
+  if (!box.shear.acts()) return;
+  flow_.acts = true;
+  flow_.rate = box.shear.rate;
+  flow_.tilt = flow_.built_tilt = box.shear.offset / box.height;
+  flow_.built_at = start;
+  flow_.strain = std::max(most_strain, std::abs(flow_.rate) * length) * (1.0 + 1e-9);
+  // The largest singular value of a shear by the largest tilt.
+  const double tilt = std::abs(flow_.tilt) + flow_.strain;
+  flow_.stretch = (0.5 * tilt + std::sqrt(1.0 + 0.25 * tilt * tilt)) * (1.0 + 1e-9);
+}
+
+// The tilt is known up to whole widths over the height; it is the one that has grown since the lists were built.
+void NeighbourLists::carry_flow(const Domain& box, double start) {
+  const double tilt = box.shear.offset / box.height;
+  const double period = box.width / box.height;
+  const double grown = flow_.built_tilt + flow_.rate * (start - flow_.built_at);
+  flow_.tilt = tilt + period * std::round((grown - tilt) / period);
+}
+
+// At time s of the window; inside the box. Whatever image of the disk is given, it is the same place.
+Vec2 NeighbourLists::into_flow(double x, double y, double s) const {
+  const auto inside = [](double c, double period) {
+    c -= period * std::floor(c / period);
+    return c >= 0.0 && c < period ? c : 0.0;
+  };
+  return {inside(x - flow_.tilt_at(s) * y, box_.width), inside(y, box_.height)};
+}
+
+// A path is bent in the frame that goes with the flow: x less (tilt + rate s) (y + vy s) has an acceleration of
+// 2 rate vy.
+bool NeighbourLists::stays_listed_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const {
+  if (mode_ == EngineMode::all_pairs) return true;
+  const double bend = 0.25 * std::abs(flow_.rate * path.vy) * (until - from) * (until - from);
+  const double room = relist_distance_ * (1.0 - 1e-9) - bend;
+  const auto inside = [&](double t) {
+    const double s = t - path.start;
+    const double y = path.y + path.vy * s;
+    return is_within(i, path.x + path.vx * s - flow_.tilt_at(t) * y, y, room * room);
+  };
+  return room > 0.0 && inside(until) && inside(from);
+}
+
+double NeighbourLists::earliest_relist_in_flow(std::uint32_t i, const PathSegment& path, double from,
+                                               double until) const {
+  const PathSegment p = carried_to(path, from, 0.0);
+  const double tilt = flow_.tilt_at(from);
+  const Vec2 listed = listed_position(i);
+  const auto nearest = [](double d, double period) { return d - period * std::round(d / period); };
+  const Vec2 off{nearest(p.x - tilt * p.y - listed.x, box_.width), nearest(p.y - listed.y, box_.height)};
+  const Vec2 speed{p.vx - flow_.rate * p.y - tilt * p.vy, p.vy};
+  double room = relist_distance_ * (1.0 - 1e-9);
+  double ahead = never;
+  // The straight path, less what the flow can bend it by in that time.
+  const double half_bend = std::abs(flow_.rate * p.vy);
+  if (half_bend > 0.0) {
+    ahead = std::max(std::sqrt(bend_share * relist_distance_ / half_bend), until - from);
+    room -= half_bend * ahead * ahead;
+    if (!(room > 0.0)) return from;
+  }
+  return from + std::min(time_within(room, off, speed), ahead);
+}
+
+}  // namespace carom

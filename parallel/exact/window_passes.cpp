@@ -1,0 +1,50 @@
+#include "parallel/exact/window_passes.hpp"
+
+#include <algorithm>
+
+#include "core/disks/disk_view.hpp"
+#include "core/physics/wall_overlap.hpp"
+#include "core/step/step_start.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks a block.
+constexpr std::size_t pass_disks = 8192;
+
+}  // namespace
+
+SpeedSummary summarise_speeds(const Disks& d, const Executor& executor) {
+  std::vector<SpeedTally> tally(std::max<std::size_t>(executor.blocks(d.size(), pass_disks), 1));
+  executor.for_ranges(d.size(), pass_disks,
+                      [&](std::size_t b, std::size_t begin, std::size_t end) { tally[b].add(d, begin, end); });
+  for (std::size_t b = 1; b < tally.size(); ++b) tally[0].add(tally[b]);
+  return summarise_speeds(tally[0], d.size());
+}
+
+Overlap deepest_wall_overlap(const Disks& d, const Domain& box, const Executor& executor) {
+  std::vector<Overlap> deepest(std::max<std::size_t>(executor.blocks(d.size(), pass_disks), 1));
+  executor.for_ranges(d.size(), pass_disks, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    deepest[b] = deepest_wall_overlap(d, box, begin, end);
+  });
+  for (std::size_t b = 1; b < deepest.size(); ++b) deepest[0].see(deepest[b]);
+  return deepest[0];
+}
+
+void draw_brownian_interval(Disks& disks, const Scene& scene, const BrownianInterval& interval,
+                            const Executor& executor, std::vector<unsigned char>& gone) {
+  const std::size_t n = disks.size();
+  const bool sinks = has_brownian_sink(scene);
+  gone.assign(sinks ? n : 0, 0);
+  with_view(disks, [&](const auto& d) {
+    executor.for_ranges(n, pass_disks, [&](std::size_t, std::size_t begin, std::size_t end) {
+      draw_brownian(d, scene, interval.number, interval.length, begin, end);
+      for (std::size_t i = begin; sinks && i < end; ++i) {
+        gone[i] = crosses_sink(d, scene, interval.number, interval.length, i) ? 1 : 0;
+      }
+    });
+  });
+}
+
+}  // namespace carom

@@ -1,0 +1,26 @@
+// What is asked of all disks, or done to them, between two windows: on threads, each disk by itself.
+#pragma once
+
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+#include "core/disks/overlap.hpp"
+#include "core/scene/scene.hpp"
+#include "core/step/window_length.hpp"
+#include "core/step/window_start.hpp"
+#include "parallel/threads/executor.hpp"
+
+namespace carom {
+
+SpeedSummary summarise_speeds(const Disks& disks, const Executor& executor);
+
+// The deepest reach of any disk beyond a wall or into an obstacle (core/physics/wall_overlap.hpp); size 0 if none.
+Overlap deepest_wall_overlap(const Disks& disks, const Domain& box, const Executor& executor);
+
+// Draws the velocities of a Brownian interval. Where a sink takes disks that cross it unseen, gone has an entry for
+// each disk, 1 for those; else it is left empty.
+void draw_brownian_interval(Disks& disks, const Scene& scene, const BrownianInterval& interval,
+                            const Executor& executor, std::vector<unsigned char>& gone);
+
+}  // namespace carom

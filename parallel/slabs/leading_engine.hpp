@@ -1,0 +1,47 @@
+// A run on several ranks as one program sees it: rank 0 has the engine that the program steps, looks at and saves, and
+// the other ranks do what it does, each with its slab.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/step/engine.hpp"
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/threads/threads.hpp"
+
+namespace carom {
+
+// Rank 0 of a program on several ranks. end() lets the others go; until then they wait for what it does.
+class RankLead {
+ public:
+  // Precondition: ranks.rank() == 0; it outlives the lead.
+  explicit RankLead(Ranks& ranks) : ranks_(ranks) {}
+
+  int count() const { return ranks_.count(); }
+
+  // The engine of all ranks, with the bits of one machine. start: what the other ranks make scene and state of, by the
+  // function that they gave follow_lead. state() has all disks, which costs a message from every rank in each step
+  // after which it is asked for; progress() has those of rank 0. Throws as make_slab_pairwise does, and InputError for
+  // a method other than pairwise. The lead outlives the engine.
+  std::unique_ptr<Engine> make_engine(const Scene& scene, State initial, const Threads& threads,
+                                      const std::string& start);
+
+  // To be called once, when no engine is left. Does nothing after lost().
+  void end();
+
+  // Has a rank failed in the middle of what all ranks do? Then they can agree on nothing any more.
+  bool lost() const { return lost_; }
+  void lose() { lost_ = true; }
+
+ private:
+  Ranks& ranks_;
+  bool lost_ = false;
+};
+
+// Of the ranks above 0: follows the lead until it ends. read: what it was given for make_engine, read back.
+void follow_lead(Ranks& ranks, const Threads& threads,
+                 const std::function<std::pair<Scene, State>(const std::string& start)>& read);
+
+}  // namespace carom

@@ -1,0 +1,46 @@
+#include "parallel/stepping/mark_gone.hpp"
+
+#include "core/disks/disk_view.hpp"
+#include "core/step/step_start.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks a block.
+constexpr std::size_t mark_block = 8192;
+
+// takes(view, i): is disk i to go? Blocks' counts are whole numbers below 2^53: their sum is exact.
+template <class Takes>
+Count mark(Disks& disks, const Executor& executor, std::vector<unsigned char>& gone, std::vector<double>& scratch,
+           Takes&& takes) {
+  const std::size_t n = disks.size();
+  gone.resize(n);
+  scratch.assign(executor.blocks(n, mark_block), 0.0);
+  with_view(disks, [&](const auto& d) {
+    executor.for_ranges(n, mark_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        gone[i] = takes(d, i) ? 1 : 0;
+        scratch[b] += gone[i];
+      }
+    });
+  });
+  double marked = 0.0;
+  for (const double count : scratch) marked += count;
+  return static_cast<Count>(marked);
+}
+
+}  // namespace
+
+Count mark_at_sinks(Disks& disks, const Domain& box, const Executor& executor, std::vector<unsigned char>& gone,
+                    std::vector<double>& scratch) {
+  return mark(disks, executor, gone, scratch, [&](const auto& d, std::size_t i) { return touches_sink(d, box, i); });
+}
+
+Count mark_crossing(Disks& disks, const Scene& scene, double dt, Count step, const Executor& executor,
+                    std::vector<unsigned char>& gone, std::vector<double>& scratch) {
+  return mark(disks, executor, gone, scratch,
+              [&](const auto& d, std::size_t i) { return crosses_sink(d, scene, step, dt, i); });
+}
+
+}  // namespace carom

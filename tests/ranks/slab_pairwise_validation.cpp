@@ -1,0 +1,90 @@
+// `pairwise` on several ranks, at length: all combinations of features on every number of ranks and threads, and long
+// runs. The same and more in little: slab_pairwise_test.cpp.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <mutex>
+#include <string>
+
+#include "tests/support/slab_support.hpp"
+
+namespace carom {
+namespace {
+
+using test::expect_bits;
+using test::local_trace;
+using test::slab_scene;
+
+class SlabFeatures : public ::testing::TestWithParam<const char*> {};
+
+// 15 steps: the sides that move would leave the box in 20.
+TEST_P(SlabFeatures, HaveTheBitsOfOneMachineAfterEveryStep) {
+  Count collisions = 0;
+  const std::vector<Scene> scenes = test::slab_scenes(GetParam(), 15);
+  ASSERT_GE(scenes.size(), 12U);
+  for (const Scene& scene : scenes) {
+    SCOPED_TRACE(scene.title);
+    collisions += expect_bits(scene, {1, 2, 3, 4}).counters.collisions;
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(collisions, 30U * scenes.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Sides, SlabFeatures,
+                         ::testing::Values("wall", "periodic", "periodic_x", "soft", "sink", "moving"),
+                         [](const auto& p) { return std::string(p.param); });
+
+// Long enough for cells to be sorted many times and for disks to go through all slabs.
+TEST(SlabRun, HasTheBitsWhileDisksMoveFromSlabToSlab) {
+  const Scene scene = slab_scene("periodic", "width = 30.0\nheight = 40.0\n",
+                                 "count = 400\npositions = \"random\"\nradius = 0.5\nmass = 1.0\n"
+                                 "velocities = { maxwell = 4.0 }\n",
+                                 0.05, 400);
+  EXPECT_GT(expect_bits(scene, {2, 3, 4}).counters.collisions, 10'000U);
+  const State start = initial_state(scene);
+  EXPECT_GT(local_trace(scene, start, {1, 1}, 4).most_moved, 0U);
+}
+
+// Light disks between heavy ones that close in are sent through whole slabs within a step.
+TEST(SlabRun, HasTheBitsWhereDisksGoFarInAStep) {
+  std::string places;
+  std::string velocities;
+  std::string masses;
+  for (int k = 0; k < 30; ++k) {
+    const double x = 1.0 + 2.0 * (k % 10) + 0.3 * (k / 10);
+    const double y = 2.0 + 4.0 * (k / 10) + 0.3 * (k % 3);
+    places += fmt::format("[{0}, {1}], [{0}, {2}], [{0}, {3}], ", x, y, y + 1.01, y + 2.02);
+    velocities += fmt::format("[0.0, 2.4], [0.0{}, 0.1], [0.0, -2.4], ", k);
+    masses += "1.0, 1e-6, 1.0, ";
+  }
+  const Scene scene = slab_scene("periodic", "width = 24.0\nheight = 16.0\n",
+                                 "count = 90\npositions = [" + places + "]\nvelocities = [" + velocities +
+                                     "]\nradius = 0.5\nmass = [" + masses + "]\n",
+                                 0.2, 40);
+  EXPECT_GT(expect_bits(scene, {2, 3, 8}).counters.collisions, 200U);
+}
+
+// Elastic disks fall: slabs run empty and fill again.
+TEST(SlabRun, HasTheBitsWhereSlabsRunEmpty) {
+  const Scene scene = slab_scene("wall", "width = 30.0\nheight = 30.0\n[physics]\ngravity = 8.0\n",
+                                 "count = 60\npositions = \"random\"\nradius = { uniform = [0.2, 0.6] }\n"
+                                 "mass = { uniform = [1, 20] }\nvelocities = { uniform = 1.0 }\n",
+                                 0.01, 700);
+  std::size_t least = 60;
+  const State start = initial_state(scene);
+  std::mutex mutex;
+  run_on_local_ranks(4, [&](Ranks& ranks) {
+    const auto engine = make_slab_pairwise(scene, start, {1}, ranks);
+    while (engine->state().time < scene.run.t_end) {
+      engine->step();
+      const std::lock_guard lock(mutex);
+      least = std::min(least, engine->state().disks.size());
+    }
+  });
+  EXPECT_EQ(least, 0U);
+  EXPECT_GT(expect_bits(scene, {4}).counters.wall_collisions, 100U);
+}
+
+}  // namespace
+}  // namespace carom
