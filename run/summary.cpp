@@ -15,6 +15,7 @@
 #include "core/measure/shear_flow.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene_names.hpp"
+#include "parallel/slabs/leading_engine.hpp"
 
 namespace carom {
 
@@ -39,6 +40,33 @@ Json side_energy_of(const Summary& s, Gives&& gives) {
 // These ids, if there was an overlap.
 Json ids_of(const WorstOverlap& worst, const std::vector<DiskId>& ids) {
   return worst.overlap.size > 0.0 ? Json(ids) : Json::array();
+}
+
+// What a rank said in a step, in the mean.
+double a_step_and_rank(const RankReport& report, Count all) {
+  const double steps = static_cast<double>(std::max<Count>(1, report.steps));
+  return static_cast<double>(all) / (steps * static_cast<double>(report.ranks.size()));
+}
+
+Json messages_of(const RankReport& report, const Messages& all) {
+  return {{"messages", a_step_and_rank(report, all.messages)}, {"bytes", a_step_and_rank(report, all.bytes)}};
+}
+
+Json traffic_of(const Summary& s) {
+  if (!s.ranks) return absent();
+  Json disks = Json::array();
+  Json seconds = Json::array();
+  for (const RankLoad& rank : s.ranks->ranks) {
+    disks.push_back(rank.disks);
+    seconds.push_back(rank.in_steps.seconds);
+  }
+  const Traffic all = s.ranks->traffic();
+  return {{"disks", disks},
+          {"imbalance", s.ranks->imbalance()},
+          {"exchange", messages_of(*s.ranks, all.exchange)},
+          {"all_reduce", messages_of(*s.ranks, all.all_reduce)},
+          {"gather", messages_of(*s.ranks, all.gather)},
+          {"seconds", seconds}};
 }
 
 // A new key is a row here.
@@ -116,8 +144,17 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return ids_of(s.worst_wall, {s.worst_wall.overlap.id1}); }},
     {"warnings", "", "what the physics warned of, with the worst that was seen",
      [](const Summary& s) -> Json { return s.warnings; }},
-    {"phase_s", "s", "an object: wall time of each phase of a step, in this part of the run",
+    {"phase_s", "s",
+     "an object: wall time of each phase of a step, in this part of the run; of several ranks that of the first, with "
+     "`communication`, what of the others went into messages and waiting for them",
      [](const Summary& s) -> Json { return phase_seconds(s); }},
+    {"traffic", "",
+     "only of several ranks, an object: `disks` of each at the end; `imbalance`, the most of them over their mean; "
+     "what "
+     "a rank said in a step, in the mean of this part of the run, `messages` and `bytes` of `exchange` (to its two "
+     "neighbours), `all_reduce` and `gather` (calls of all ranks, with what the rank gave to them); and the `seconds` "
+     "that each rank took for that",
+     [](const Summary& s) -> Json { return traffic_of(s); }},
 };
 
 // "1 disk", "2 disks".
@@ -143,6 +180,18 @@ std::string worst_line(const WorstOverlap& disks, const WorstOverlap& wall) {
 std::string threads_text(const EngineChoice& engine) {
   const std::string threads = counted(static_cast<Count>(engine.threads), "thread");
   return engine.ranks == 1 ? threads : fmt::format("{} on each of {} ranks", threads, engine.ranks);
+}
+
+// "4950 to 5050 disks each; 14.0 messages with 2.1 kB a step and rank; 3 s in communication".
+std::string traffic_line(const Summary& s) {
+  const RankReport& report = *s.ranks;
+  const auto fewer = [](const RankLoad& a, const RankLoad& b) { return a.disks < b.disks; };
+  const auto [least, most] = std::minmax_element(report.ranks.begin(), report.ranks.end(), fewer);
+  const Messages all = report.traffic().all();
+  const double seconds = report.traffic().seconds / static_cast<double>(report.ranks.size());
+  return fmt::format("{} to {} disks each; {:.1f} messages with {}B a step and rank; {} in communication", least->disks,
+                     most->disks, a_step_and_rank(report, all.messages),
+                     short_number(a_step_and_rank(report, all.bytes)), duration_text(seconds));
 }
 
 std::string disks_line(const Summary& s) {
@@ -195,6 +244,10 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.box = scene.box;
   s.thermostat = scene.physics.thermostat.acts();
   s.phases = engine.phase_times();
+  if (choice.lead != nullptr && choice.ranks > 1) {
+    s.ranks = choice.lead->report();
+    s.phases.add("communication", s.ranks->ranks[0].in_steps.seconds);
+  }
   return s;
 }
 
@@ -226,6 +279,7 @@ std::string table_text(const Summary& s, const std::string& folder) {
   line("state hash", s.state_hash);
   line("speed", fmt::format("{} steps/s, {} disk-steps/s; {} in all", short_number(rate),
                             short_number(rate * static_cast<double>(s.particles)), duration_text(s.wall_s)));
+  if (s.ranks) line("ranks", traffic_line(s));
   if (s.resumed > 0) line("resumed", s.resumed == 1 ? "once" : fmt::format("{} times", s.resumed));
   if (!folder.empty()) line("results", folder);
   return text;

@@ -1,10 +1,12 @@
 // What a run came to: the JSON object that other programs read, and a short table for people.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/measure/run_start.hpp"
+#include "parallel/slabs/rank_report.hpp"
 #include "run/json_keys.hpp"
 #include "run/make_engine.hpp"
 
@@ -36,6 +38,7 @@ struct Summary {
   Count resumed = 0;                  // how often it went on from a checkpoint; the times are those of all parts
   std::string resume_with;            // of a run that stopped early: the command that goes on
   PhaseTimes phases;
+  std::optional<RankReport> ranks;  // of several
 };
 
 // Everything but the times, the number of frames and the warnings, which the caller adds.

@@ -103,7 +103,8 @@ class LocalRanks final : public Ranks {
   int rank() const override { return rank_; }
   int count() const override { return meeting_.count(); }
 
-  FromNeighbours exchange(const Bytes& to_below, const Bytes& to_above) override {
+ private:
+  FromNeighbours send_and_receive(const Bytes& to_below, const Bytes& to_above) override {
     meeting_.send(below(), false, to_below);
     meeting_.send(above(), true, to_above);
     FromNeighbours from;
@@ -112,18 +113,17 @@ class LocalRanks final : public Ranks {
     return from;
   }
 
-  void sum(std::span<std::int64_t> values) override {
+  void reduce_to_sum(std::span<std::int64_t> values) override {
     reduce(values, [](std::int64_t a, std::int64_t b) { return a + b; });
   }
-  void maximum(std::span<double> values) override {
+  void reduce_to_maximum(std::span<double> values) override {
     reduce(values, [](double a, double b) { return std::max(a, b); });
   }
-  std::vector<Bytes> gather(const Bytes& here) override { return meeting_.share(rank_, ++turn_, here); }
+  std::vector<Bytes> gather_from_all(const Bytes& here) override { return meeting_.share(rank_, ++turn_, here); }
 
- private:
   template <class T, class Join>
   void reduce(std::span<T> values, Join&& join) {
-    const std::vector<Bytes> all = gather(bytes_of<T>(values));
+    const std::vector<Bytes> all = gather_from_all(bytes_of<T>(values));
     for (std::size_t r = 0; r < all.size(); ++r) {
       if (all[r].size() != values.size_bytes()) throw std::logic_error("ranks reduce different numbers of values");
       for (std::size_t k = 0; k < values.size(); ++k) {

@@ -31,7 +31,8 @@ class MpiRanks final : public Ranks {
   int rank() const override { return rank_; }
   int count() const override { return count_; }
 
-  FromNeighbours exchange(const Bytes& to_below, const Bytes& to_above) override {
+ private:
+  FromNeighbours send_and_receive(const Bytes& to_below, const Bytes& to_above) override {
     std::vector<MPI_Request> sends;
     const std::uint64_t length_below = to_below.size();
     const std::uint64_t length_above = to_above.size();
@@ -44,14 +45,14 @@ class MpiRanks final : public Ranks {
     return from;
   }
 
-  void sum(std::span<std::int64_t> values) override {
+  void reduce_to_sum(std::span<std::int64_t> values) override {
     MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
   }
-  void maximum(std::span<double> values) override {
+  void reduce_to_maximum(std::span<double> values) override {
     MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
   }
 
-  std::vector<Bytes> gather(const Bytes& here) override {
+  std::vector<Bytes> gather_from_all(const Bytes& here) override {
     const auto ranks = static_cast<std::size_t>(count_);
     std::vector<std::uint64_t> length(ranks);
     const std::uint64_t own = here.size();
@@ -67,7 +68,6 @@ class MpiRanks final : public Ranks {
     return all;
   }
 
- private:
   // The length, then the parts; messages between two ranks with one tag keep their order. Both outlive the requests.
   static void send(const std::uint64_t& length, const Bytes& message, int to, int tag,
                    std::vector<MPI_Request>& sends) {

@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "parallel/ranks/traffic.hpp"
+
 namespace carom {
 
 using Bytes = std::vector<std::byte>;
@@ -32,12 +34,21 @@ class Ranks {
   };
   // Sends a message of any length to each neighbour and returns theirs. Of two ranks each is both neighbours of the
   // other; one rank is its own: what it sends up arrives from below.
-  virtual FromNeighbours exchange(const Bytes& to_below, const Bytes& to_above) = 0;
+  FromNeighbours exchange(const Bytes& to_below, const Bytes& to_above) {
+    const auto counted = count_in(traffic_.exchange, 2, to_below.size() + to_above.size());
+    return send_and_receive(to_below, to_above);
+  }
 
   // values[k] becomes the sum of all ranks' values[k]; all give as many. Precondition: no sum overflows.
-  virtual void sum(std::span<std::int64_t> values) = 0;
+  void sum(std::span<std::int64_t> values) {
+    const auto counted = count_in(traffic_.all_reduce, 1, values.size_bytes());
+    reduce_to_sum(values);
+  }
   // values[k] becomes the largest of all ranks' values[k]; all give as many. Precondition: none is NaN.
-  virtual void maximum(std::span<double> values) = 0;
+  void maximum(std::span<double> values) {
+    const auto counted = count_in(traffic_.all_reduce, 1, values.size_bytes());
+    reduce_to_maximum(values);
+  }
   // Does it hold on any rank?
   bool any(bool here) {
     std::int64_t ranks = here ? 1 : 0;
@@ -45,7 +56,28 @@ class Ranks {
     return ranks > 0;
   }
   // What each rank gave, in order of ranks, on all of them.
-  virtual std::vector<Bytes> gather(const Bytes& here) = 0;
+  std::vector<Bytes> gather(const Bytes& here) {
+    const auto counted = count_in(traffic_.gather, 1, here.size());
+    return gather_from_all(here);
+  }
+
+  // What this rank has given to others since it began.
+  const Traffic& traffic() const { return traffic_; }
+
+ private:
+  // What the functions above are for one kind of rank.
+  virtual FromNeighbours send_and_receive(const Bytes& to_below, const Bytes& to_above) = 0;
+  virtual void reduce_to_sum(std::span<std::int64_t> values) = 0;
+  virtual void reduce_to_maximum(std::span<double> values) = 0;
+  virtual std::vector<Bytes> gather_from_all(const Bytes& here) = 0;
+
+  // One rank alone gives nothing to others.
+  [[nodiscard]] TrafficTimer count_in(Messages& kind, Count messages, std::size_t bytes) {
+    if (count() > 1) kind.add({messages, bytes});
+    return TrafficTimer(traffic_.seconds);
+  }
+
+  Traffic traffic_;
 };
 
 }  // namespace carom

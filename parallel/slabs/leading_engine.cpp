@@ -1,6 +1,7 @@
 #include "parallel/slabs/leading_engine.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/base/check.hpp"
@@ -14,7 +15,7 @@ namespace carom {
 namespace {
 
 // What rank 0 says that comes next.
-enum class Call : std::int64_t { end, make, step, collect, contacts, drop };
+enum class Call : std::int64_t { end, make, step, collect, contacts, report, drop };
 
 // The same on all ranks; only what rank 0 gives counts.
 Call agree_on(Ranks& ranks, Call call) {
@@ -48,10 +49,43 @@ Bytes message_of(const Disks& disks) {
   return message;
 }
 
+// A rank's part of the engine, and what its steps took. All calls are collective.
+class Part {
+ public:
+  Part(Ranks& ranks, std::unique_ptr<Engine> engine) : ranks_(ranks), engine_(std::move(engine)) {}
+
+  Engine& engine() const { return *engine_; }
+
+  // before: what the ranks had said to each other when they began to agree on this step.
+  void step(const Traffic& before) {
+    ++steps_;
+    engine_->step();
+    const Traffic more = traffic_since(before, ranks_.traffic());
+    in_steps_.exchange.add(more.exchange);
+    in_steps_.all_reduce.add(more.all_reduce);
+    in_steps_.gather.add(more.gather);
+    in_steps_.seconds += more.seconds;
+  }
+
+  RankReport report() const {
+    Bytes here;
+    put(here, RankLoad{engine_->state().disks.size(), in_steps_});
+    RankReport all{steps_, {}};
+    for (const Bytes& there : ranks_.gather(here)) all.ranks.push_back(MessageReader(there).get<RankLoad>());
+    return all;
+  }
+
+ private:
+  Ranks& ranks_;
+  std::unique_ptr<Engine> engine_;
+  Count steps_ = 0;
+  Traffic in_steps_;
+};
+
 class LeadingEngine final : public Engine {
  public:
   LeadingEngine(Ranks& ranks, RankLead& lead, std::unique_ptr<Engine> part)
-      : ranks_(ranks), lead_(lead), part_(std::move(part)), columns_(columns_of(part_->state().disks)) {}
+      : ranks_(ranks), lead_(lead), part_(ranks, std::move(part)), columns_(columns_of(part_.engine().state().disks)) {}
   LeadingEngine(const LeadingEngine&) = delete;
   LeadingEngine& operator=(const LeadingEngine&) = delete;
   ~LeadingEngine() override {
@@ -60,13 +94,14 @@ class LeadingEngine final : public Engine {
 
   void step() override {
     whole_.reset();
-    together(Call::step, [&] { part_->step(); });
+    const Traffic before = ranks_.traffic();
+    together(Call::step, [&] { part_.step(before); });
   }
 
   const State& state() const override {
     if (whole_) return *whole_;
     together(Call::collect, [&] {
-      State all = part_->state();
+      State all = part_.engine().state();
       const Bytes own = message_of(all.disks);
       truncate(all.disks, 0);
       for (const Bytes& message : ranks_.gather(own)) {
@@ -77,7 +112,7 @@ class LeadingEngine final : public Engine {
     return *whole_;
   }
 
-  const State& progress() const override { return part_->state(); }
+  const State& progress() const override { return part_.engine().state(); }
 
   double disks_at(double /*t*/, Disks& out) const override {
     out = state().disks;
@@ -88,7 +123,7 @@ class LeadingEngine final : public Engine {
     std::vector<DiskContact> met;
     together(Call::contacts, [&] {
       Bytes own;
-      put_all(own, part_->contacts());
+      put_all(own, part_.engine().contacts());
       for (const Bytes& message : ranks_.gather(own)) {
         const auto more = MessageReader(message).get_all<DiskContact>();
         met.insert(met.end(), more.begin(), more.end());
@@ -97,8 +132,14 @@ class LeadingEngine final : public Engine {
     return met;
   }
 
-  const PhaseTimes& phase_times() const override { return part_->phase_times(); }
-  std::vector<std::string> take_warnings() override { return part_->take_warnings(); }
+  RankReport report() const {
+    RankReport all;
+    together(Call::report, [&] { all = part_.report(); });
+    return all;
+  }
+
+  const PhaseTimes& phase_times() const override { return part_.engine().phase_times(); }
+  std::vector<std::string> take_warnings() override { return part_.engine().take_warnings(); }
 
  private:
   // What all ranks do at once. An error of the physics is every rank's; any other leaves them apart.
@@ -117,25 +158,27 @@ class LeadingEngine final : public Engine {
 
   Ranks& ranks_;
   RankLead& lead_;
-  std::unique_ptr<Engine> part_;
+  Part part_;
   DiskColumns columns_;
   mutable std::unique_ptr<State> whole_;  // of all ranks, since it was asked for after the last step
 };
 
 // One call of the lead, on another rank.
-void follow(Call call, Ranks& ranks, Engine& part) {
+void follow(Call call, Ranks& ranks, Part& part, const Traffic& before) {
   if (call == Call::step) {
     try {
-      part.step();
+      part.step(before);
     } catch (const PhysicsError&) {
       // Rank 0 has it too, and says so.
     }
   } else if (call == Call::collect) {
-    ranks.gather(message_of(part.state().disks));
+    ranks.gather(message_of(part.engine().state().disks));
   } else if (call == Call::contacts) {
     Bytes own;
-    put_all(own, part.contacts());
+    put_all(own, part.engine().contacts());
     ranks.gather(own);
+  } else if (call == Call::report) {
+    part.report();
   }
 }
 
@@ -145,7 +188,9 @@ std::unique_ptr<Engine> RankLead::make_engine(const Scene& scene, State initial,
                                               const std::string& start) {
   agree_on(ranks_, Call::make);
   shared_text(ranks_, start);
-  return std::make_unique<LeadingEngine>(ranks_, *this, make_part(scene, std::move(initial), threads, ranks_));
+  auto engine = std::make_unique<LeadingEngine>(ranks_, *this, make_part(scene, std::move(initial), threads, ranks_));
+  report_ = [lead = engine.get()] { return lead->report(); };
+  return engine;
 }
 
 void RankLead::end() {
@@ -154,20 +199,21 @@ void RankLead::end() {
 
 void follow_lead(Ranks& ranks, const Threads& threads,
                  const std::function<std::pair<Scene, State>(const std::string& start)>& read) {
-  std::unique_ptr<Engine> part;
+  std::optional<Part> part;
   for (;;) {
+    const Traffic before = ranks.traffic();
     const Call call = agree_on(ranks, Call::end);
     if (call == Call::end) return;
-    if (call == Call::drop) part = nullptr;
+    if (call == Call::drop) part.reset();
     if (call == Call::make) {
       auto [scene, state] = read(shared_text(ranks, ""));
       try {
-        part = make_part(scene, std::move(state), threads, ranks);
+        part.emplace(ranks, make_part(scene, std::move(state), threads, ranks));
       } catch (const InputError&) {
         // Rank 0 has it too, and says so.
       }
-    } else if (part != nullptr) {
-      follow(call, ranks, *part);
+    } else if (part) {
+      follow(call, ranks, *part, before);
     }
   }
 }

@@ -9,6 +9,7 @@
 
 #include "core/step/engine.hpp"
 #include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/rank_report.hpp"
 #include "parallel/threads/threads.hpp"
 
 namespace carom {
@@ -28,6 +29,9 @@ class RankLead {
   std::unique_ptr<Engine> make_engine(const Scene& scene, State initial, const Threads& threads,
                                       const std::string& start);
 
+  // Of the engine that was made last. Precondition: it is there, and no rank is lost.
+  RankReport report() const { return report_(); }
+
   // To be called once, when no engine is left. Does nothing after lost().
   void end();
 
@@ -37,6 +41,7 @@ class RankLead {
 
  private:
   Ranks& ranks_;
+  std::function<RankReport()> report_;
   bool lost_ = false;
 };
 

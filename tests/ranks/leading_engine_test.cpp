@@ -6,6 +6,8 @@
 
 #include "core/base/check.hpp"
 #include "core/disks/state_hash.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/start/initial_state.hpp"
 #include "parallel/ranks/local_ranks.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/feature_scenes.hpp"
@@ -60,6 +62,67 @@ TEST(LeadingEngine, HasAllDisksWheneverItIsAsked) {
       }
       EXPECT_EQ(engine->take_warnings(), expected->take_warnings());
     });
+  }
+}
+
+// Two disks far from all borders, on three ranks: what a step says can be counted by hand.
+TEST(LeadingEngine, CountsWhatRanksSayInAStep) {
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 20.0\nheight = 60.0\n[[disks]]\ncount = 3\npositions = [[5.0, 5.0], [5.0, 30.0], [5.0, 55.0]]\n"
+      "velocities = [[1.0, 0.0], [0.0, 0.0], [1.0, 0.0]]\nradius = 0.5\nmass = 1.0\n"
+      "[run]\nmethod = \"pairwise\"\ndt = 0.1\nt_end = 1.0\n",
+      "scene", "");
+  const State start = initial_state(scene);
+  on_ranks(3, scene, start, [&](RankLead& lead) {
+    const auto engine = lead.make_engine(scene, start, {1, 512}, "the start");
+    engine->step();
+    const RankReport first = lead.report();
+    for (int k = 0; k < 4; ++k) engine->step();
+    const RankReport then = lead.report();
+    EXPECT_EQ(first.steps, 1U);
+    EXPECT_EQ(then.steps, 5U);
+    ASSERT_EQ(then.ranks.size(), 3U);
+    EXPECT_EQ(then.imbalance(), 1.0);
+    for (std::size_t r = 0; r < 3; ++r) {
+      EXPECT_EQ(then.ranks[r].disks, 1U);
+      const Traffic a = first.ranks[r].in_steps;
+      const Traffic later = traffic_since(a, then.ranks[r].in_steps);
+      // Ghosts and clusters: to each neighbour a list without a disk, and two lists.
+      EXPECT_EQ(later.exchange.messages, 4U * 4U);
+      EXPECT_EQ(later.exchange.bytes, 4U * 2U * (8U + 16U));
+      // That there is a step; excursion, whether clusters span slabs, one pass of impacts, one sweep, sums, speed.
+      EXPECT_EQ(later.all_reduce.messages, 4U * 7U);
+      EXPECT_EQ(later.gather.messages, 4U);  // the deepest overlaps
+      // The first step sorts, which sends two empty lists and asks whether any has gone far, and looks at all speeds.
+      EXPECT_EQ(a.exchange.messages, 4U + 2U);
+      EXPECT_EQ(a.exchange.bytes, 2U * (8U + 16U) + 16U);
+      EXPECT_EQ(a.all_reduce.messages, 7U + 2U);
+      EXPECT_EQ(a.gather.messages, 1U);
+    }
+  });
+}
+
+TEST(LeadingEngine, CountsTheSameInEqualRuns) {
+  const Scene scene = gas("pairwise");
+  const State start = initial_state(scene);
+  for (const int count : {1, 2, 4}) {
+    std::vector<RankReport> reports;
+    for (int run = 0; run < 2; ++run) {
+      on_ranks(count, scene, start, [&](RankLead& lead) {
+        const auto engine = lead.make_engine(scene, start, {1 + run, 512}, "the start");
+        while (engine->progress().time < scene.run.t_end) engine->step();
+        reports.push_back(lead.report());
+      });
+    }
+    for (std::size_t r = 0; r < reports[0].ranks.size(); ++r) {
+      const Traffic& a = reports[0].ranks[r].in_steps;
+      const Traffic& b = reports[1].ranks[r].in_steps;
+      EXPECT_EQ(a.all().messages, b.all().messages);
+      EXPECT_EQ(a.exchange.bytes, b.exchange.bytes);
+      EXPECT_EQ(a.all_reduce.bytes, b.all_reduce.bytes);
+      EXPECT_EQ(a.gather.bytes, b.gather.bytes);
+      EXPECT_EQ(a.all().messages > 0, count > 1);
+    }
   }
 }
 

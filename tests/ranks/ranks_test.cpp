@@ -56,6 +56,32 @@ TEST(LocalRanks, EndWithTheExceptionOfTheOneThatFails) {
   }
 }
 
+// Counted by hand: what this rank gives, of each kind.
+TEST(LocalRanks, CountWhatTheySay) {
+  for (const int count : {1, 2, 3}) {
+    run_on_local_ranks(count, [&](Ranks& ranks) {
+      ranks.exchange(Bytes(3), Bytes(5));
+      ranks.exchange({}, {});
+      std::vector<std::int64_t> numbers{1, 2};
+      ranks.sum(numbers);
+      double largest = 1.0;
+      ranks.maximum({&largest, 1});
+      ranks.any(false);
+      ranks.gather(Bytes(static_cast<std::size_t>(7 + ranks.rank())));
+      const Traffic& t = ranks.traffic();
+      const Count others = count > 1 ? 1 : 0;  // one rank alone gives nothing to others
+      EXPECT_EQ(t.exchange.messages, others * 4);
+      EXPECT_EQ(t.exchange.bytes, others * 8);
+      EXPECT_EQ(t.all_reduce.messages, others * 3);
+      EXPECT_EQ(t.all_reduce.bytes, others * 32);
+      EXPECT_EQ(t.gather.messages, others);
+      EXPECT_EQ(t.gather.bytes, others * static_cast<Count>(7 + ranks.rank()));
+      EXPECT_EQ(t.all().messages, others * 8);
+      EXPECT_GT(t.seconds, 0.0);
+    });
+  }
+}
+
 TEST(LocalRanks, RefuseToReduceDifferentNumbersOfValues) {
   EXPECT_THROW(run_on_local_ranks(2,
                                   [](Ranks& ranks) {

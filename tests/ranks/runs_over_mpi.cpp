@@ -64,6 +64,14 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcess) {
       EXPECT_TRUE(text_of(at("one") / file) == text_of(at("r" + ranks) / file)) << ranks << file;
     }
     EXPECT_EQ(summary("one"), summary("r" + ranks));
+    const auto all = nlohmann::json::parse(text_of(at("r" + ranks) / "summary.json"));
+    ASSERT_EQ(all.contains("traffic"), ranks != "1");
+    if (ranks == "1") continue;
+    const auto& traffic = all["traffic"];
+    EXPECT_EQ(std::to_string(traffic["disks"].size()), ranks);
+    EXPECT_GT(traffic["exchange"]["bytes"], 0.0);
+    EXPECT_GT(all["phase_s"]["communication"], 0.0);
+    EXPECT_NE(o.out.find("messages with"), std::string::npos) << o.out;
   }
 }
 

@@ -100,7 +100,7 @@ class ProgramTest : public ::testing::Test {
   // The summary without what differs from run to run: times, and how often it was resumed.
   nlohmann::ordered_json summary(const std::string& folder) const {
     auto json = nlohmann::ordered_json::parse(text_of(at(folder) / "summary.json"));
-    for (const char* key : {"wall_s", "cpu_s", "step_s", "phase_s", "resumed", "threads", "engine", "ranks"})
+    for (const char* key : {"wall_s", "cpu_s", "step_s", "phase_s", "resumed", "threads", "engine", "ranks", "traffic"})
       json.erase(key);
     return json;
   }

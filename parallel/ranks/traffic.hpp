@@ -1,0 +1,56 @@
+// What a rank gives to the others: counted, and how long it took. Nothing that is computed depends on it.
+#pragma once
+
+#include <chrono>
+
+#include "core/base/types.hpp"
+
+namespace carom {
+
+struct Messages {
+  Count messages = 0, bytes = 0;
+
+  void add(const Messages& other) {
+    messages += other.messages;
+    bytes += other.bytes;
+  }
+};
+
+// Of one rank: messages to a neighbour; and calls in which all take part, each with the bytes that the rank gives to
+// it, however often MPI passes them on.
+struct Traffic {
+  Messages exchange, all_reduce, gather;
+  double seconds = 0.0;  // in all these, waiting for other ranks included
+
+  Messages all() const {
+    Messages sum = exchange;
+    sum.add(all_reduce);
+    sum.add(gather);
+    return sum;
+  }
+};
+
+// What there is more in `now` than in `before`.
+inline Traffic traffic_since(const Traffic& before, const Traffic& now) {
+  const auto more = [](const Messages& b, const Messages& n) {
+    return Messages{n.messages - b.messages, n.bytes - b.bytes};
+  };
+  return {more(before.exchange, now.exchange), more(before.all_reduce, now.all_reduce), more(before.gather, now.gather),
+          now.seconds - before.seconds};
+}
+
+// Adds the time from construction to destruction.
+class TrafficTimer {
+ public:
+  explicit TrafficTimer(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
+  TrafficTimer(const TrafficTimer&) = delete;
+  TrafficTimer& operator=(const TrafficTimer&) = delete;
+  ~TrafficTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_;
+};
+
+}  // namespace carom

@@ -1,0 +1,46 @@
+// How the work of a run lies on its ranks, and what they said to each other for it.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "parallel/ranks/traffic.hpp"
+
+namespace carom {
+
+// Of one rank.
+struct RankLoad {
+  Count disks = 0;   // now
+  Traffic in_steps;  // since the engine was made; frames and checkpoints left aside
+};
+
+struct RankReport {
+  Count steps = 0;              // since the engine was made
+  std::vector<RankLoad> ranks;  // in order of ranks
+
+  // Most disks of a rank over their mean; 1 without disks.
+  double imbalance() const {
+    Count most = 0;
+    Count all = 0;
+    for (const RankLoad& rank : ranks) {
+      most = std::max(most, rank.disks);
+      all += rank.disks;
+    }
+    return all == 0 ? 1.0 : static_cast<double>(most) * static_cast<double>(ranks.size()) / static_cast<double>(all);
+  }
+
+  // Of all ranks together.
+  Traffic traffic() const {
+    Traffic sum;
+    for (const RankLoad& rank : ranks) {
+      sum.exchange.add(rank.in_steps.exchange);
+      sum.all_reduce.add(rank.in_steps.all_reduce);
+      sum.gather.add(rank.in_steps.gather);
+      sum.seconds += rank.in_steps.seconds;
+    }
+    return sum;
+  }
+};
+
+}  // namespace carom
