@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/base/check.hpp"
 #include "core/base/random.hpp"
@@ -157,13 +158,22 @@ void emit_from_source(const Scene& scene, const Domain& box, State& state, std::
   state.counters.waiting += due - emitted;
 }
 
+Count due_by(const Source& source, double t) {
+  const Count due = static_cast<Count>(std::floor(source.rate * t));
+  return source.limit ? std::min(due, *source.limit) : due;
+}
+
+double largest_radius_of(const Source& source) {
+  if (source.radius.kind != SizeLaw::Kind::from_other) return size_range(source.radius).high;
+  return std::sqrt(size_range(source.mass).high / (std::numbers::pi * source.radius.density));
+}
+
 void emit_due(const Scene& scene, State& state, double t, Count step, const std::function<bool(const Disk&)>& room) {
   state.counters.waiting = 0;
   if (scene.sources.empty()) return;
   const Domain box = box_at(scene.box, t);
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
-    const Count due = static_cast<Count>(std::floor(scene.sources[s].rate * t));
-    emit_from_source(scene, box, state, s, due, step, room);
+    emit_from_source(scene, box, state, s, due_by(scene.sources[s], t), step, room);
   }
 }
 

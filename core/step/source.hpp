@@ -27,6 +27,12 @@ bool has_room(const Disks& disks, const Domain& box, const Disk& newcomer);
 void emit_from_source(const Scene& scene, const Domain& box, State& state, std::size_t index, Count due, Count step,
                       const std::function<bool(const Disk&)>& room);
 
+// How many disks a source shall have emitted by time t: the k-th comes at k / rate.
+Count due_by(const Source& source, double t);
+
+// The largest radius that a source can give a disk, rounding aside; length.
+double largest_radius_of(const Source& source);
+
 // Emits what is due at time t (the k-th disk of a source at k / rate), source by source; a source stops at the first
 // disk that finds no room, which waits and is drawn a new place in the next step. room(disk) tells whether a disk fits
 // among those present, the ones just appended included. Updates counters, next_id and the waiting count.

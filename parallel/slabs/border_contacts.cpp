@@ -26,7 +26,7 @@ std::uint32_t ghost_disk(const GhostDisks& ghosts, const ContactEvent& e) {
 
 }  // namespace
 
-void BorderContacts::share(Disks& disks, DiskColumns columns, GhostDisks& ghosts, const Executor& executor,
+void BorderContacts::share(State& state, DiskColumns columns, GhostDisks& ghosts, const Executor& executor,
                            ContactLists& lists) {
   alone_.clear();
   sent_.clear();
@@ -34,18 +34,18 @@ void BorderContacts::share(Disks& disks, DiskColumns columns, GhostDisks& ghosts
   // Of two ranks, each sees the other beyond both borders.
   const bool to_all = ranks_.any(any_spans(lists)) || ranks_.count() == 2;
   if (to_all) {
-    const std::vector<Bytes> parts = ranks_.gather(parts_at(both_borders, disks, ghosts, lists));
+    const std::vector<Bytes> parts = ranks_.gather(parts_at(both_borders, state, ghosts, lists));
     for (int r = 0; r < ranks_.count(); ++r) {
-      if (r != ranks_.rank()) receive(parts[static_cast<std::size_t>(r)], no_border, disks, columns, ghosts);
+      if (r != ranks_.rank()) receive(parts[static_cast<std::size_t>(r)], no_border, state, columns, ghosts);
     }
   } else {
-    const Bytes down = parts_at(lower_border, disks, ghosts, lists);
-    const auto [below, above] = ranks_.exchange(down, parts_at(upper_border, disks, ghosts, lists));
-    receive(below, lower_border, disks, columns, ghosts);
-    receive(above, upper_border, disks, columns, ghosts);
+    const Bytes down = parts_at(lower_border, state, ghosts, lists);
+    const auto [below, above] = ranks_.exchange(down, parts_at(upper_border, state, ghosts, lists));
+    receive(below, lower_border, state, columns, ghosts);
+    receive(above, upper_border, state, columns, ghosts);
   }
   clear_marks(lists);
-  lists.contacts.resize(disks.size(), ghost_contacts);
+  lists.contacts.resize(state.disks.size(), ghost_contacts);
   merge(ghosts, executor, lists);
 }
 
@@ -78,13 +78,13 @@ bool BorderContacts::is_at(std::uint8_t borders, const GhostDisks& ghosts, const
 }
 
 // This rank's part of the clusters at these borders, as a message.
-Bytes BorderContacts::parts_at(std::uint8_t borders, const Disks& disks, const GhostDisks& ghosts,
+Bytes BorderContacts::parts_at(std::uint8_t borders, const State& state, const GhostDisks& ghosts,
                                const ContactLists& lists) {
   part_.clear();
   part_disks_.clear();
   const auto send_disk = [&](std::uint32_t i) -> std::uint16_t {
     if (ghosts.is_ghost(i)) return 0;
-    if ((mark_[i] & is_sent) == 0) part_disks_.push_back(disk_at(disks, i));
+    if ((mark_[i] & is_sent) == 0) part_disks_.push_back(disk_at(state.disks, i));
     mark_[i] |= is_sent;
     return lists.contacts[i];
   };
@@ -103,6 +103,10 @@ Bytes BorderContacts::parts_at(std::uint8_t borders, const Disks& disks, const G
   Bytes message;
   put_all(message, part_);
   put_all(message, part_disks_);
+  if (state.thermal_hits.empty()) return message;
+  part_hits_.clear();
+  for (const Disk& disk : part_disks_) part_hits_.push_back(thermal_hits_of(state, disk.id));
+  put_all(message, part_hits_);
   return message;
 }
 
@@ -113,11 +117,15 @@ void BorderContacts::clear_marks(const ContactLists& lists) {
   }
 }
 
-void BorderContacts::receive(const Bytes& message, Border from, Disks& disks, DiskColumns columns, GhostDisks& ghosts) {
+void BorderContacts::receive(const Bytes& message, Border from, State& state, DiskColumns columns, GhostDisks& ghosts) {
   MessageReader reader(message);
   const auto contacts = reader.get_all<SentContact>();
   sent_.insert(sent_.end(), contacts.begin(), contacts.end());
-  ghosts.add(reader.get_all<Disk>(), from, columns, disks);
+  const auto disks = reader.get_all<Disk>();
+  ghosts.add(disks, from, columns, state.disks);
+  if (state.thermal_hits.empty()) return;
+  const auto hits = reader.get_all<std::uint32_t>();
+  for (std::size_t k = 0; k < disks.size(); ++k) take_thermal_hits(state, disks[k].id, hits.at(k));
 }
 
 // One entry for each contact, with what both ranks have said of it.

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/disks/disks.hpp"
+#include "core/disks/state.hpp"
 #include "core/physics/contact_event.hpp"
 #include "parallel/ranks/message.hpp"
 #include "parallel/ranks/ranks.hpp"
@@ -24,9 +24,9 @@ class BorderContacts {
   explicit BorderContacts(Ranks& ranks) : ranks_(ranks) {}
 
   // lists.crowded: the contacts that are not alone here, those with ghosts among them, in canonical order of time.
-  // Afterwards it has all contacts of their clusters, and disks and ghosts have the disks of those; contacts across a
+  // Afterwards it has all contacts of their clusters, and state and ghosts have the disks of those; contacts across a
   // border that turn out to be alone are in alone() instead. Of all ghosts the contact count is positive.
-  void share(Disks& disks, DiskColumns columns, GhostDisks& ghosts, const Executor& executor, ContactLists& lists);
+  void share(State& state, DiskColumns columns, GhostDisks& ghosts, const Executor& executor, ContactLists& lists);
 
   const std::vector<ContactEvent>& alone() const { return alone_; }
 
@@ -42,9 +42,9 @@ class BorderContacts {
   void mark_clusters(const GhostDisks& ghosts, const ContactLists& lists);
   bool any_spans(const ContactLists& lists) const;
   bool is_at(std::uint8_t borders, const GhostDisks& ghosts, const ContactEvent& e) const;
-  Bytes parts_at(std::uint8_t borders, const Disks& disks, const GhostDisks& ghosts, const ContactLists& lists);
+  Bytes parts_at(std::uint8_t borders, const State& state, const GhostDisks& ghosts, const ContactLists& lists);
   void clear_marks(const ContactLists& lists);
-  void receive(const Bytes& message, Border from, Disks& disks, DiskColumns columns, GhostDisks& ghosts);
+  void receive(const Bytes& message, Border from, State& state, DiskColumns columns, GhostDisks& ghosts);
   void merge(const GhostDisks& ghosts, const Executor& executor, ContactLists& lists);
   void join_sent();
   bool take_alone(const GhostDisks& ghosts, const ContactLists& lists, const ContactEvent& e);
@@ -56,6 +56,7 @@ class BorderContacts {
   // Scratch.
   std::vector<SentContact> part_;
   std::vector<Disk> part_disks_;
+  std::vector<std::uint32_t> part_hits_;  // by thermal sides, of these disks
 };
 
 }  // namespace carom

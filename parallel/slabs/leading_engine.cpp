@@ -41,12 +41,42 @@ std::unique_ptr<Engine> make_part(const Scene& scene, State initial, const Threa
   return make_slab_pairwise(scene, std::move(initial), threads, ranks);
 }
 
-Bytes message_of(const Disks& disks) {
+// The rank's own disks, with what goes with them.
+Bytes message_of(const State& state) {
   std::vector<Disk> list;
-  for (std::size_t i = 0; i < disks.size(); ++i) list.push_back(disk_at(disks, i));
+  std::vector<std::uint32_t> thermal_hits;
+  for (std::size_t i = 0; i < state.disks.size(); ++i) {
+    list.push_back(disk_at(state.disks, i));
+    if (!state.thermal_hits.empty()) thermal_hits.push_back(thermal_hits_of(state, list.back().id));
+  }
   Bytes message;
   put_all(message, list);
+  put_all(message, thermal_hits);
   return message;
+}
+
+// The state with all disks, of which it has those of one rank.
+State whole_state(const State& part, const std::vector<Bytes>& messages) {
+  State all = part;
+  truncate(all.disks, 0);
+  // A rank without disks does not show which columns there are.
+  DiskColumns columns{false, false, all.disks.spins()};
+  for (const Bytes& message : messages) {
+    for (const Disk& disk : MessageReader(message).get_all<Disk>()) {
+      columns.radius = columns.radius || disk.radius != all.disks.common_radius;
+      columns.mass = columns.mass || disk.mass != all.disks.common_mass;
+    }
+  }
+  for (const Bytes& message : messages) {
+    MessageReader reader(message);
+    const auto disks = reader.get_all<Disk>();
+    const auto thermal_hits = reader.get_all<std::uint32_t>();
+    for (std::size_t k = 0; k < disks.size(); ++k) {
+      push_back(all.disks, disks[k], columns);
+      if (!thermal_hits.empty()) take_thermal_hits(all, disks[k].id, thermal_hits.at(k));
+    }
+  }
+  return all;
 }
 
 // A rank's part of the engine, and what its steps took. All calls are collective.
@@ -85,7 +115,7 @@ class Part {
 class LeadingEngine final : public Engine {
  public:
   LeadingEngine(Ranks& ranks, RankLead& lead, std::unique_ptr<Engine> part)
-      : ranks_(ranks), lead_(lead), part_(ranks, std::move(part)), columns_(columns_of(part_.engine().state().disks)) {}
+      : ranks_(ranks), lead_(lead), part_(ranks, std::move(part)) {}
   LeadingEngine(const LeadingEngine&) = delete;
   LeadingEngine& operator=(const LeadingEngine&) = delete;
   ~LeadingEngine() override {
@@ -101,13 +131,8 @@ class LeadingEngine final : public Engine {
   const State& state() const override {
     if (whole_) return *whole_;
     together(Call::collect, [&] {
-      State all = part_.engine().state();
-      const Bytes own = message_of(all.disks);
-      truncate(all.disks, 0);
-      for (const Bytes& message : ranks_.gather(own)) {
-        for (const Disk& disk : MessageReader(message).get_all<Disk>()) push_back(all.disks, disk, columns_);
-      }
-      whole_ = std::make_unique<State>(std::move(all));
+      const State& part = part_.engine().state();
+      whole_ = std::make_unique<State>(whole_state(part, ranks_.gather(message_of(part))));
     });
     return *whole_;
   }
@@ -159,7 +184,6 @@ class LeadingEngine final : public Engine {
   Ranks& ranks_;
   RankLead& lead_;
   Part part_;
-  DiskColumns columns_;
   mutable std::unique_ptr<State> whole_;  // of all ranks, since it was asked for after the last step
 };
 
@@ -172,7 +196,7 @@ void follow(Call call, Ranks& ranks, Part& part, const Traffic& before) {
       // Rank 0 has it too, and says so.
     }
   } else if (call == Call::collect) {
-    ranks.gather(message_of(part.engine().state().disks));
+    ranks.gather(message_of(part.engine().state()));
   } else if (call == Call::contacts) {
     Bytes own;
     put_all(own, part.engine().contacts());

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include "core/disks/disks.hpp"
+#include "core/disks/state.hpp"
 
 namespace carom {
 
@@ -14,7 +15,7 @@ struct DiskColumns {
 };
 
 inline DiskColumns columns_of(const Disks& d) {
-  return {!d.radius.empty(), !d.mass.empty(), !d.spin.empty()};
+  return {!d.radius.empty(), !d.mass.empty(), d.spins()};
 }
 
 inline void push_back(Disks& d, const Disk& disk, DiskColumns columns) {
@@ -26,6 +27,15 @@ inline void push_back(Disks& d, const Disk& disk, DiskColumns columns) {
   if (columns.radius) d.radius.push_back(disk.radius);
   if (columns.mass) d.mass.push_back(disk.mass);
   if (columns.spin) d.spin.push_back(disk.spin);
+}
+
+// How often thermal sides have reflected a disk: what of a state is by id and goes with its disk. Every rank has
+// entries for all ids; those of its own disks are right.
+inline std::uint32_t thermal_hits_of(const State& state, DiskId id) {
+  return id < state.thermal_hits.size() ? state.thermal_hits[id] : 0;
+}
+inline void take_thermal_hits(State& state, DiskId id, std::uint32_t hits) {
+  if (id < state.thermal_hits.size()) state.thermal_hits[id] = hits;
 }
 
 // Only the first n disks stay.

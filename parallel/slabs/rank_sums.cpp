@@ -1,7 +1,5 @@
 #include "parallel/slabs/rank_sums.hpp"
 
-#include <vector>
-
 #include "core/disks/state_hash.hpp"
 #include "parallel/ranks/message.hpp"
 
@@ -19,11 +17,17 @@ void for_each_number(const Domain& box, ImpactTally& tally, Visit&& visit) {
     *count = static_cast<Count>(number);
   }
   for (std::int64_t& digit : tally.virial.digits()) visit(digit);
+  if (box.shear.acts()) {
+    tally.shear.resize(2);
+    for (ExactSum& sum : tally.shear) {
+      for (std::int64_t& digit : sum.digits()) visit(digit);
+    }
+  }
   if (!box.has(SideKind::wall)) return;
   for (ExactSum& impulse : tally.wall_impulse) {
     for (std::int64_t& digit : impulse.digits()) visit(digit);
   }
-  if (!box.has_moving_side()) return;
+  if (!box.has_moving_side() && !box.has_thermal_side()) return;
   tally.side_energy.resize(all_sides.size());
   for (ExactSum& energy : tally.side_energy) {
     for (std::int64_t& digit : energy.digits()) visit(digit);
@@ -46,6 +50,15 @@ void sum_over_ranks(Ranks& ranks, const Domain& box, ImpactTally& tally) {
   ranks.sum(numbers);
   auto next = numbers.begin();
   for_each_number(box, tally, [&](std::int64_t& number) { number = *next++; });
+}
+
+void sum_counts_over_ranks(Ranks& ranks, std::vector<std::size_t>& count) {
+  auto classes = static_cast<double>(count.size());
+  ranks.maximum({&classes, 1});
+  count.resize(static_cast<std::size_t>(classes), 0);
+  std::vector<std::int64_t> numbers(count.begin(), count.end());
+  ranks.sum(numbers);
+  count.assign(numbers.begin(), numbers.end());
 }
 
 void join_over_ranks(Ranks& ranks, StepFigures& figures) {

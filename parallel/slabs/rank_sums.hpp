@@ -1,7 +1,9 @@
 // Figures of a step, or of a state, that all ranks together make.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
@@ -11,12 +13,14 @@
 
 namespace carom {
 
-// The tally becomes that of all ranks: exact, thus the same in whatever order they are added. Precondition: no side
-// moves or is thermal.
+// The tally becomes that of all ranks: exact, thus the same in whatever order they are added.
 void sum_over_ranks(Ranks& ranks, const Domain& box, ImpactTally& tally);
 
 // The overlaps become the deepest of all ranks'; counts stay.
 void join_over_ranks(Ranks& ranks, StepFigures& figures);
+
+// count[k] becomes that of all ranks; ranks may have fewer classes than others.
+void sum_counts_over_ranks(Ranks& ranks, std::vector<std::size_t>& count);
 
 // state_hash of all ranks' disks together.
 std::uint64_t state_hash_over_ranks(Ranks& ranks, const Disks& own);

@@ -20,16 +20,13 @@ namespace {
 // What of the scene slabs cannot do yet; empty: they can do all of it.
 std::string unsupported(const Scene& scene) {
   if (settles(scene)) return "gravity with restitution below 1";
-  if (!scene.sources.empty()) return "sources";
-  if (scene.box.has_thermal_side()) return "thermal sides";
-  if (scene.box.shear.acts()) return "box.shear_rate";
   return "";
 }
 
 void check(const Scene& scene, const State& state, int ranks) {
   const std::string what = unsupported(scene);
   if (!what.empty()) throw InputError(fmt::format("several ranks do not know {} yet: use one", what));
-  const double radius = largest_radius(state.disks);
+  const double radius = largest_radius_ever(scene, state.disks);
   const double least = least_thickness * radius;
   if (ranks == 1 || least * ranks <= scene.box.height) return;
   throw InputError(

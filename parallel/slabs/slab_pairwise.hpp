@@ -13,7 +13,7 @@ namespace carom {
 // threads each. All ranks make it of the same scene and the same initial state, with all disks; of those each keeps the
 // ones in its slab. step() is collective: all ranks call it, or none. Of state(), the disks are the rank's own, and all
 // else is that of the whole run. ranks outlives the engine. Throws InputError, on all ranks alike, for what it cannot
-// do yet: piles, sources, thermal sides and shear, and slabs thinner than two diameters of the largest disk.
+// do yet: piles, and slabs thinner than two diameters of the largest disk.
 // Preconditions: scene.run.method is pairwise, scene.run.dt > 0, threads.count >= 1.
 std::unique_ptr<Engine> make_slab_pairwise(const Scene& scene, State initial, const Threads& threads, Ranks& ranks);
 

@@ -7,16 +7,16 @@
 
 #include "core/base/check.hpp"
 #include "core/physics/push_apart.hpp"
+#include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/thermostat.hpp"
-#include "parallel/cells/compact.hpp"
 #include "parallel/cells/kick_all.hpp"
-#include "parallel/ranks/message.hpp"
 #include "parallel/slabs/rank_sums.hpp"
 #include "parallel/stepping/draw_velocities.hpp"
 #include "parallel/stepping/drift_blocks.hpp"
 #include "parallel/stepping/finish_disk.hpp"
 #include "parallel/stepping/mark_gone.hpp"
+#include "parallel/stepping/move_sheared.hpp"
 #include "parallel/stepping/resolve_crowded.hpp"
 #include "parallel/stepping/wall_reach.hpp"
 
@@ -33,12 +33,6 @@ constexpr double excursion_share = 0.5;
 // But not before it is so far beyond it, in largest radii.
 constexpr double usual_excursion = 2.0;
 
-// A disk on its way to another rank.
-struct Migrant {
-  Disk disk;
-  int to;
-};
-
 // Of a contact that two ranks resolve, that of the disk with the smaller id counts the impact.
 struct OtherRanks {
   Ranks& ranks;
@@ -50,6 +44,13 @@ struct OtherRanks {
 
 }  // namespace
 
+double largest_radius_ever(const Scene& scene, const Disks& start) {
+  constexpr double rounding = 1.0 + 1e-12;
+  double largest = largest_radius(start);
+  for (const Source& source : scene.sources) largest = std::max(largest, rounding * largest_radius_of(source));
+  return largest;
+}
+
 SlabStepping::SlabStepping(const Scene& scene, State initial, const Threads& threads, Ranks& ranks)
     : scene_(scene),
       state_(std::move(initial)),
@@ -57,11 +58,11 @@ SlabStepping::SlabStepping(const Scene& scene, State initial, const Threads& thr
       executor_(threads.count, threads.block_divisor),
       columns_(columns_of(state_.disks)),
       smallest_radius_(smallest_radius(state_.disks)),
-      largest_radius_(largest_radius(state_.disks)),
+      largest_radius_(largest_radius_ever(scene, state_.disks)),
       obstacles_(place_obstacles(state_.obstacles, scene_.box)),
       border_contacts_(ranks),
       disks_(state_.disks.size()) {
-  make_cells();
+  if (!state_.disks.empty()) make_cells();
   cut_ = cut_into_slabs(scene_.box, state_.disks, ranks.count(), least_thickness * largest_radius_);
   const bool seam = scene_.box.periodic_y();
   const int last = ranks.count() - 1;
@@ -70,24 +71,17 @@ SlabStepping::SlabStepping(const Scene& scene, State initial, const Threads& thr
   keep_own_disks();
 }
 
-// The same on every rank: of the whole box, for all disks.
+// The same on every rank: of the whole box, for all disks; those of other ranks are counted there, if all are not here.
 void SlabStepping::make_cells() {
   const Disks& d = state_.disks;
-  if (d.empty()) return;
-  std::vector<std::size_t> count(class_of_radius(smallest_radius_, largest_radius_) + 1, 0);
-  if (count.size() == 1) {
-    count[0] = d.size();
-  } else {
-    for (const double r : d.radius) ++count[class_of_radius(r, largest_radius_)];
+  std::vector<std::size_t> count(1, 0);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const std::size_t k = class_of_radius(d.radius_of(i), largest_radius_);
+    if (k >= count.size()) count.resize(k + 1, 0);
+    ++count[k];
   }
+  if (d.size() < disks_) sum_counts_over_ranks(ranks_, count);
   make_grid(scene_.box, largest_radius_, count, grid_, cell_margin);
-}
-
-void SlabStepping::keep_own_disks() {
-  Disks& d = state_.disks;
-  gone_.resize(d.size());
-  for (std::size_t i = 0; i < d.size(); ++i) gone_[i] = cut_.rank_at(d.y[i]) == ranks_.rank() ? 0 : 1;
-  remove_marked(d, gone_);
 }
 
 double SlabStepping::disks_at(double /*t*/, Disks& out) const {
@@ -114,8 +108,10 @@ std::vector<DiskContact> SlabStepping::contacts() const {
 
 void SlabStepping::start_interval(double t, double dt, Count step) {
   if (t == 0.0) remove_at_sinks();
-  if (!(scene_.physics.diffusion > 0.0)) return;
+  if (scene_.sources.empty() && !(scene_.physics.diffusion > 0.0)) return;
   const PhaseTimer timer(times_, "start");
+  if (!scene_.sources.empty()) emit_from_sources(t, step);
+  if (!(scene_.physics.diffusion > 0.0)) return;
   speed2_ = draw_velocities(state_.disks, scene_, dt, step, executor_, block_values_);
   ranks_.maximum({&speed2_, 1});
   speed2_known_ = true;
@@ -132,47 +128,6 @@ void SlabStepping::kick_if_due() {
   speed2_known_ = false;
 }
 
-void SlabStepping::remove_at_sinks() {
-  if (!has_sinks(scene_.box)) return;
-  const PhaseTimer timer(times_, "sinks");
-  mark_at_sinks(state_.disks, scene_.box, executor_, gone_, block_values_);
-  remove_gone();
-}
-
-// The marked disks of all ranks.
-void SlabStepping::remove_gone() {
-  auto marked = static_cast<std::int64_t>(std::count(gone_.begin(), gone_.end(), 1));
-  const bool here = marked > 0;
-  ranks_.sum({&marked, 1});
-  if (marked == 0) return;
-  keep_contacts_of_those_that_stay();
-  if (here) remove_in_parallel(state_.disks, gone_, executor_, cells_.column, cells_.pass);
-  disks_ -= static_cast<Count>(marked);
-  state_.counters.removed += static_cast<Count>(marked);
-  sort_due_ = true;
-}
-
-// The pairs found name disks in the order of storage before disks left, and ghosts may have left on their own ranks.
-void SlabStepping::keep_contacts_of_those_that_stay() {
-  std::vector<DiskId> leaving;
-  for (std::size_t i = 0; i < gone_.size(); ++i) {
-    if (gone_[i] != 0) leaving.push_back(state_.disks.id[i]);
-  }
-  Bytes here;
-  put_all(here, leaving);
-  leaving.clear();
-  for (const Bytes& there : ranks_.gather(here)) {
-    const auto more = MessageReader(there).get_all<DiskId>();
-    leaving.insert(leaving.end(), more.begin(), more.end());
-  }
-  std::sort(leaving.begin(), leaving.end());
-  const auto leaves = [&](DiskId id) { return std::binary_search(leaving.begin(), leaving.end(), id); };
-  std::vector<DiskContact> kept = contacts();
-  std::erase_if(kept, [&](const DiskContact& c) { return leaves(c.id1) || leaves(c.id2); });
-  contacts_kept_ = std::move(kept);
-  closed_up_ = true;
-}
-
 double SlabStepping::smallest_of_all() const {
   double least = state_.disks.empty() ? -HUGE_VAL : -smallest_radius(state_.disks);
   ranks_.maximum({&least, 1});
@@ -181,6 +136,7 @@ double SlabStepping::smallest_of_all() const {
 
 Count SlabStepping::parts(double dt) {
   if (disks_ == 0) return 1;
+  if (!scene_.sources.empty()) smallest_radius_ = smallest_of_all();
   // As in TimeStepping: a bound is mostly enough to see that the step is safe.
   const double fall = scene_.physics.gravity.size * dt / smallest_radius_;
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
@@ -193,57 +149,41 @@ Count SlabStepping::parts(double dt) {
 }
 
 void SlabStepping::sort_if_due() {
-  if (!grid_.levels.empty() && std::exchange(sort_due_, false)) sort_now();
+  if (sort_due_) sort_now();
 }
 
 void SlabStepping::sort_now() {
+  if (disks_ == 0) return;
   const PhaseTimer timer(times_, "sort");
+  // The pairs found name disks in the order of storage.
+  pairs_.used = 0;
+  crossing_ids_.clear();
+  sort_due_ = false;
+  if (!scene_.sources.empty()) make_cells();
   migrate();
   sort_into_cells(state_.disks, grid_, executor_, cells_);
   if (!state_.disks.empty()) begin_coarse_positions(state_.disks, grid_, cells_, executor_, coarse_);
-}
-
-// Each disk to the rank whose slab it is in: a neighbour, but for what another disk has sent far.
-void SlabStepping::migrate() {
-  Disks& d = state_.disks;
-  std::vector<Migrant> down;
-  std::vector<Migrant> up;
-  bool far = false;
-  gone_.assign(d.size(), 0);
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    const int to = cut_.rank_at(d.y[i]);
-    if (to == ranks_.rank()) continue;
-    (to == ranks_.above() ? up : down).push_back({disk_at(d, i), to});
-    far = far || (to != ranks_.above() && to != ranks_.below());
-    gone_[i] = 1;
-  }
-  if (!down.empty() || !up.empty()) remove_in_parallel(d, gone_, executor_, cells_.column, cells_.pass);
-  Bytes to_below;
-  Bytes to_above;
-  put_all(to_below, down);
-  put_all(to_above, up);
-  if (ranks_.any(far)) {
-    for (const Bytes& message : ranks_.gather(to_below)) take_in(message);
-    for (const Bytes& message : ranks_.gather(to_above)) take_in(message);
-  } else {
-    const auto [below, above] = ranks_.exchange(to_below, to_above);
-    take_in(below);
-    take_in(above);
-  }
-}
-
-void SlabStepping::take_in(const Bytes& migrants) {
-  for (const auto& [disk, to] : MessageReader(migrants).get_all<Migrant>()) {
-    if (to == ranks_.rank()) push_back(state_.disks, disk, columns_);
-  }
 }
 
 void SlabStepping::drift(double t) {
   const PhaseTimer timer(times_, "drift");
   coarse_.blocks = 0;
   speed2_ = 0.0;
-  if (!state_.disks.empty())
+  if (scene_.box.shear.acts()) {
+    speed2_ = move_sheared(t);
+    if (!state_.disks.empty()) note_coarse_positions(state_.disks, scene_.box, grid_, cells_, executor_, coarse_);
+  } else if (!state_.disks.empty()) {
     speed2_ = drift_blocks(state_.disks, scene_.box, scene_.physics.gravity, t, grid_, cells_, executor_, coarse_);
+  }
+}
+
+// The work of the shear is rounded once for all ranks, as on one machine.
+double SlabStepping::move_sheared(double t) {
+  ImpactTally tally;
+  const double speed2 = carom::move_sheared(state_.disks, scene_.box, t, executor_, tally, block_values_);
+  sum_over_ranks(ranks_, scene_.box, tally);
+  tally.count_into(state_.counters);
+  return speed2;
 }
 
 void SlabStepping::search(const StepRules& rules) {
@@ -314,7 +254,6 @@ StepFigures SlabStepping::resolve(const StepRules& rules) {
   const double speed2 = resolve_here(rules, tally);
   drop_ghosts();
   agree(tally, speed2);
-  tally.count_into(state_.counters);
   return lists_.figures;
 }
 
@@ -326,7 +265,7 @@ double SlabStepping::resolve_here(const StepRules& rules, ImpactTally& tally) {
   lists_.contacts.resize(d.size(), 1);
   double speed2 = resolve_alone_contacts(d, rules, pairs_, walls_, executor_, lists_, tally);
   if (ranks_.count() > 1) {
-    border_contacts_.share(d, columns_, ghosts_, executor_, lists_);
+    border_contacts_.share(state_, columns_, ghosts_, executor_, lists_);
     speed2 = std::max(speed2, resolve_alone_at_border(rules, tally));
   }
   with_view(d, rules, [&](const auto& view) {
@@ -362,6 +301,8 @@ void SlabStepping::drop_ghosts() {
 // next.
 void SlabStepping::agree(ImpactTally& tally, double speed2) {
   sum_over_ranks(ranks_, scene_.box, tally);
+  tally.count_into(state_.counters);
+  if (scene_.box.shear.acts()) speed2 = std::max(speed2, move_sheared(0.0));
   join_over_ranks(ranks_, lists_.figures);
   lists_.figures.inaccurate = tally.inaccurate;
   lists_.figures.inaccurate_at_walls = tally.inaccurate_at_walls;

@@ -26,6 +26,9 @@
 
 namespace carom {
 
+// Of any disk that there is, or that a source may bring; length.
+double largest_radius_ever(const Scene& scene, const Disks& start);
+
 // state().disks are the rank's own disks; all else in state() is the same on all ranks. step() is collective. For
 // PairwiseMethod.
 class SlabStepping : public Engine {
@@ -59,6 +62,9 @@ class SlabStepping : public Engine {
  private:
   void keep_own_disks();
   void make_cells();
+  void emit_from_sources(double t, Count step);
+  void take_newcomers(const Disks& newcomers);
+  double move_sheared(double t);
   void sort_now();
   void migrate();
   void take_in(const Bytes& migrants);
@@ -78,7 +84,7 @@ class SlabStepping : public Engine {
   SlabCut cut_;
   Slab slab_;
   DiskColumns columns_;
-  double smallest_radius_ = 0.0, largest_radius_ = 0.0;  // of all disks
+  double smallest_radius_ = 0.0, largest_radius_ = 0.0;  // of all disks, those that sources may bring too
   CellGrid grid_;                                        // of the whole box
   SortedCells cells_;
   CoarsePositions coarse_;

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <utility>
 
-#include "core/physics/sheared_crossing.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
 #include "parallel/cells/compact.hpp"
 #include "parallel/cells/kick_all.hpp"
-#include "parallel/cells/nearby_runs.hpp"
+#include "parallel/cells/meets_nearby.hpp"
 #include "parallel/stepping/draw_velocities.hpp"
 #include "parallel/stepping/drift_blocks.hpp"
 #include "parallel/stepping/mark_gone.hpp"
+#include "parallel/stepping/move_sheared.hpp"
 #include "parallel/stepping/wall_reach.hpp"
 
 namespace carom {
@@ -85,12 +85,7 @@ void TimeStepping::emit_from_sources(double t, Count step) {
       in_cells = d.size();
     }
     bool met = meets(d, scene_.box, newcomer, in_cells, d.size());
-    for (std::size_t k = 0; k < grid_.levels.size() && in_cells > 0 && !met; ++k) {
-      const GridLevel& level = grid_.levels[k];
-      for_each_run_near(
-          level, cells_.start.data(), scene_.box, newcomer.x, newcomer.y, newcomer.radius + level.largest_radius,
-          [&](std::uint32_t first, std::uint32_t last) { met = met || meets(d, scene_.box, newcomer, first, last); });
-    }
+    met = met || (in_cells > 0 && meets_nearby(d, scene_.box, grid_, cells_, newcomer));
     return !met;
   });
   if (state_.counters.emitted == before) return;
@@ -182,23 +177,9 @@ void TimeStepping::drift(double t) {
 // In a sheared box all disks drift and cross its sides here, before the search takes down where they are; without a
 // time, those that contacts have moved cross.
 void TimeStepping::move_sheared(double t) {
-  Disks& d = state_.disks;
-  block_values_.assign(executor_.blocks(d.size(), look_block), 0.0);
-  std::vector<ImpactTally> tallies(block_values_.size());
-  executor_.for_ranges(d.size(), look_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    double speed2 = 0.0;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (t != 0.0) carom::drift<false>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, 0.0);
-      cross_sheared(d, i, scene_.box, tallies[b]);
-      speed2 = std::max(speed2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
-    }
-    block_values_[b] = speed2;
-  });
   ImpactTally tally;
-  for (const ImpactTally& block : tallies) tally.add(block);
+  speed2_ = carom::move_sheared(state_.disks, scene_.box, t, executor_, tally, block_values_);
   tally.count_into(state_.counters);
-  speed2_ = 0.0;
-  for (const double v2 : block_values_) speed2_ = std::max(speed2_, v2);
   speed2_known_ = true;
 }
 

@@ -65,6 +65,29 @@ TEST(LeadingEngine, HasAllDisksWheneverItIsAsked) {
   }
 }
 
+// What a state has by id is that of the rank that has the disk.
+TEST(LeadingEngine, HasTheReflectionsOfAllDisks) {
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 12.0\nheight = 24.0\nbottom = { temperature = 9.0 }\ntop = { temperature = 0.5 }\n"
+      "[[disks]]\ncount = 40\npositions = \"random\"\nregion = [0.0, 18.0, 12.0, 24.0]\n"
+      "radius = { uniform = [0.3, 0.5] }\nmass = 1.0\nvelocities = { maxwell = 4.0 }\n"
+      "[run]\nmethod = \"pairwise\"\ndt = 0.02\nt_end = 8.0\n",
+      "scene", "");
+  const State start = initial_state(scene);
+  on_ranks(3, scene, start, [&](RankLead& lead) {
+    const auto expected = make_parallel_engine(scene, start, {1});
+    const auto engine = lead.make_engine(scene, start, {1, 512}, "the start");
+    EXPECT_EQ(state_hash(engine->state().disks), state_hash(start.disks));
+    while (engine->progress().time < scene.run.t_end) {
+      engine->step();
+      expected->step();
+    }
+    EXPECT_EQ(engine->state().thermal_hits, expected->state().thermal_hits);
+    EXPECT_EQ(state_hash(engine->state().disks), state_hash(expected->state().disks));
+    EXPECT_EQ(engine->state().disks.radius.size(), start.disks.size());
+  });
+}
+
 // Two disks far from all borders, on three ranks: what a step says can be counted by hand.
 TEST(LeadingEngine, CountsWhatRanksSayInAStep) {
   const Scene scene = parse_scene(

@@ -32,7 +32,7 @@ TEST_P(SlabFeatures, HaveTheBitsOfOneMachineAfterEveryStep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sides, SlabFeatures,
-                         ::testing::Values("wall", "periodic", "periodic_x", "soft", "sink", "moving"),
+                         ::testing::Values("wall", "periodic", "periodic_x", "soft", "sink", "moving", "hot"),
                          [](const auto& p) { return std::string(p.param); });
 
 // Long enough for cells to be sorted many times and for disks to go through all slabs.

@@ -25,13 +25,17 @@ struct Features {
   bool tilted = false;       // gravity is a vector
   std::string thermostat{};  // empty | "langevin" | "andersen"
   std::string rough{};       // empty | "sticking", smooth walls | "sliding", walls that are rough likewise
+  double shear = 0.0;        // rate, of periodic sides
 
   std::string name() const {
     return method + "_" + sides + (gravity ? "_g" : "") + (restitution < 1.0 ? "_e" : "") +
            (diffusion.empty() ? "" : "_" + diffusion) + "_" + radii + (own_masses ? "_m" : "") +
            (source ? "_source" : "") + (obstacles ? "_fixed" : "") + (tilted ? "_tilted" : "") +
            (law.empty() ? "" : "_" + law) + (thermostat.empty() ? "" : "_" + thermostat) +
-           (rough.empty() ? "" : "_" + rough);
+           (rough.empty() ? "" : "_" + rough) +
+           (shear == 0.0  ? ""
+            : shear > 0.0 ? "_shear"
+                          : "_counter_shear");
   }
 };
 
@@ -135,7 +139,8 @@ inline Scene feature_scene(const Features& f, int steps) {
       "title = \"" + f.name() + "\"\nseed = " + std::to_string(f.seed) +
       "\n[box]\nwidth = 24.0\nheight = 18.0\nwall_restitution = " + (f.gravity ? "0.8" : "1.0") + "\n" +
       (f.rough == "sliding" ? "wall_roughness = { tangential_restitution = 0.8, friction = 0.5 }\n" : "") +
-      sides_text(f.sides, f.seed) + physics_text(f) + obstacles_text(f) + disks_text(f) + walls_text(f);
+      (f.shear == 0.0 ? "" : "shear_rate = " + std::to_string(f.shear) + "\n") + sides_text(f.sides, f.seed) +
+      physics_text(f) + obstacles_text(f) + disks_text(f) + walls_text(f);
   if (f.source) {
     text +=
         "[[sources]]\nregion = [4.0, 4.0, 20.0, 14.0]\nrate = 80.0\nradius = 0.25\nmass = 1.5\n"

@@ -1,0 +1,157 @@
+// Which disks a rank has: those that come from sources, leave through sinks, and go to another slab.
+#include <algorithm>
+#include <utility>
+
+#include "core/step/source.hpp"
+#include "parallel/cells/compact.hpp"
+#include "parallel/cells/meets_nearby.hpp"
+#include "parallel/ranks/message.hpp"
+#include "parallel/slabs/slab_stepping.hpp"
+#include "parallel/stepping/mark_gone.hpp"
+
+namespace carom {
+
+namespace {
+
+// A disk on its way to another rank.
+struct Migrant {
+  Disk disk;
+  int to;
+  std::uint32_t thermal_hits;
+};
+
+}  // namespace
+
+void SlabStepping::keep_own_disks() {
+  Disks& d = state_.disks;
+  gone_.resize(d.size());
+  for (std::size_t i = 0; i < d.size(); ++i) gone_[i] = cut_.rank_at(d.y[i]) == ranks_.rank() ? 0 : 1;
+  remove_marked(d, gone_);
+}
+
+// All ranks draw the same newcomers, and ask each other whether one meets a disk; each takes those in its slab. Until
+// then the state has the newcomers alone.
+void SlabStepping::emit_from_sources(double t, Count step) {
+  bool due = false;
+  for (std::size_t s = 0; s < scene_.sources.size(); ++s) {
+    due = due || due_by(scene_.sources[s], t) > state_.sources[s].emitted;
+  }
+  if (due) sort_now();
+  Disks newcomers;
+  newcomers.inertia = state_.disks.inertia;
+  std::swap(newcomers, state_.disks);
+  const Disks& own = newcomers;
+  const auto has_room = [&](const Disk& disk) {
+    const bool met = meets(state_.disks, scene_.box, disk, 0, state_.disks.size()) ||
+                     (!own.empty() && meets_nearby(own, scene_.box, grid_, cells_, disk));
+    return !ranks_.any(met);
+  };
+  try {
+    emit_due(scene_, state_, t, step, has_room);
+  } catch (...) {
+    std::swap(newcomers, state_.disks);
+    throw;
+  }
+  std::swap(newcomers, state_.disks);
+  if (!newcomers.empty()) take_newcomers(newcomers);
+}
+
+// A radius or a mass that the others do not share becomes a column on every rank, whichever has the newcomer.
+void SlabStepping::take_newcomers(const Disks& newcomers) {
+  Disks& d = state_.disks;
+  if (disks_ == 0 && !columns_.radius && !columns_.mass) {
+    d.common_radius = newcomers.radius_of(0);
+    d.common_mass = newcomers.mass_of(0);
+  }
+  for (std::size_t k = 0; k < newcomers.size(); ++k) {
+    const Disk disk = disk_at(newcomers, k);
+    if (!columns_.radius && disk.radius != d.common_radius) d.radius.assign(d.size(), d.common_radius);
+    if (!columns_.mass && disk.mass != d.common_mass) d.mass.assign(d.size(), d.common_mass);
+    columns_.radius = columns_.radius || disk.radius != d.common_radius;
+    columns_.mass = columns_.mass || disk.mass != d.common_mass;
+    if (cut_.rank_at(disk.y) == ranks_.rank()) push_back(d, disk, columns_);
+  }
+  disks_ += newcomers.size();
+  sort_due_ = true;
+  speed2_known_ = false;
+}
+
+void SlabStepping::remove_at_sinks() {
+  if (!has_sinks(scene_.box)) return;
+  const PhaseTimer timer(times_, "sinks");
+  mark_at_sinks(state_.disks, scene_.box, executor_, gone_, block_values_);
+  remove_gone();
+}
+
+// The marked disks of all ranks.
+void SlabStepping::remove_gone() {
+  auto marked = static_cast<std::int64_t>(std::count(gone_.begin(), gone_.end(), 1));
+  const bool here = marked > 0;
+  ranks_.sum({&marked, 1});
+  if (marked == 0) return;
+  keep_contacts_of_those_that_stay();
+  if (here) remove_in_parallel(state_.disks, gone_, executor_, cells_.column, cells_.pass);
+  disks_ -= static_cast<Count>(marked);
+  state_.counters.removed += static_cast<Count>(marked);
+  sort_due_ = true;
+}
+
+// The pairs found name disks in the order of storage before disks left, and ghosts may have left on their own ranks.
+void SlabStepping::keep_contacts_of_those_that_stay() {
+  std::vector<DiskId> leaving;
+  for (std::size_t i = 0; i < gone_.size(); ++i) {
+    if (gone_[i] != 0) leaving.push_back(state_.disks.id[i]);
+  }
+  Bytes here;
+  put_all(here, leaving);
+  leaving.clear();
+  for (const Bytes& there : ranks_.gather(here)) {
+    const auto more = MessageReader(there).get_all<DiskId>();
+    leaving.insert(leaving.end(), more.begin(), more.end());
+  }
+  std::sort(leaving.begin(), leaving.end());
+  const auto leaves = [&](DiskId id) { return std::binary_search(leaving.begin(), leaving.end(), id); };
+  std::vector<DiskContact> kept = contacts();
+  std::erase_if(kept, [&](const DiskContact& c) { return leaves(c.id1) || leaves(c.id2); });
+  contacts_kept_ = std::move(kept);
+  closed_up_ = true;
+}
+
+// Each disk to the rank whose slab it is in: a neighbour, but for what another disk has sent far.
+void SlabStepping::migrate() {
+  Disks& d = state_.disks;
+  std::vector<Migrant> down;
+  std::vector<Migrant> up;
+  bool far = false;
+  gone_.assign(d.size(), 0);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const int to = cut_.rank_at(d.y[i]);
+    if (to == ranks_.rank()) continue;
+    (to == ranks_.above() ? up : down).push_back({disk_at(d, i), to, thermal_hits_of(state_, d.id[i])});
+    far = far || (to != ranks_.above() && to != ranks_.below());
+    gone_[i] = 1;
+  }
+  if (!down.empty() || !up.empty()) remove_in_parallel(d, gone_, executor_, cells_.column, cells_.pass);
+  Bytes to_below;
+  Bytes to_above;
+  put_all(to_below, down);
+  put_all(to_above, up);
+  if (ranks_.any(far)) {
+    for (const Bytes& message : ranks_.gather(to_below)) take_in(message);
+    for (const Bytes& message : ranks_.gather(to_above)) take_in(message);
+  } else {
+    const auto [below, above] = ranks_.exchange(to_below, to_above);
+    take_in(below);
+    take_in(above);
+  }
+}
+
+void SlabStepping::take_in(const Bytes& migrants) {
+  for (const auto& [disk, to, thermal_hits] : MessageReader(migrants).get_all<Migrant>()) {
+    if (to != ranks_.rank()) continue;
+    push_back(state_.disks, disk, columns_);
+    take_thermal_hits(state_, disk.id, thermal_hits);
+  }
+}
+
+}  // namespace carom
