@@ -66,9 +66,11 @@ BlockRunner make_block_runner(const EngineChoice& choice) {
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial) {
   if (choice.lead != nullptr) {
-    RunRecord record;
-    record.scene_text = resolved_toml(scene);
-    const std::string start = checkpoint_bytes(record, initial);
+    const auto start = [&](const State& state) {
+      RunRecord record;
+      record.scene_text = resolved_toml(scene);
+      return checkpoint_bytes(record, state);
+    };
     return choice.lead->make_engine(scene, std::move(initial), {choice.threads}, start);
   }
   if (choice.name == "reference") return make_reference_engine(scene, std::move(initial));

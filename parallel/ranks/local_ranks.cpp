@@ -121,6 +121,13 @@ class LocalRanks final : public Ranks {
   }
   std::vector<Bytes> gather_from_all(const Bytes& here) override { return meeting_.share(rank_, ++turn_, here); }
 
+  std::vector<Bytes> gather_at_first(const Bytes& here) override {
+    std::vector<Bytes> all = gather_from_all(here);
+    if (rank_ != 0) all.clear();
+    return all;
+  }
+  Bytes share_first(const Bytes& first) override { return gather_from_all(rank_ == 0 ? first : Bytes())[0]; }
+
   template <class T, class Join>
   void reduce(std::span<T> values, Join&& join) {
     const std::vector<Bytes> all = gather_from_all(bytes_of<T>(values));

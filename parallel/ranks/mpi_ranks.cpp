@@ -14,6 +14,7 @@ namespace {
 // A message that goes up, and one that goes down: of two ranks, both go to the same one.
 constexpr int tag_up = 1;
 constexpr int tag_down = 2;
+constexpr int tag_to_first = 3;
 // MPI counts bytes in an int: a longer message goes in parts.
 constexpr std::size_t longest_part = std::size_t{1} << 30;
 
@@ -66,6 +67,30 @@ class MpiRanks final : public Ranks {
       }
     }
     return all;
+  }
+
+  // The others send, one after the other: none of them has to hold more than its own.
+  std::vector<Bytes> gather_at_first(const Bytes& here) override {
+    if (rank_ != 0) {
+      std::vector<MPI_Request> sends;
+      const std::uint64_t length = here.size();
+      send(length, here, 0, tag_to_first, sends);
+      MPI_Waitall(static_cast<int>(sends.size()), sends.data(), MPI_STATUSES_IGNORE);
+      return {};
+    }
+    std::vector<Bytes> all{here};
+    for (int r = 1; r < count_; ++r) all.push_back(receive(r, tag_to_first));
+    return all;
+  }
+
+  Bytes share_first(const Bytes& first) override {
+    std::uint64_t length = first.size();
+    MPI_Bcast(&length, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    Bytes message = rank_ == 0 ? first : Bytes(length);
+    for (std::size_t at = 0; at < length; at += longest_part) {
+      MPI_Bcast(message.data() + at, length_of_part(length, at), MPI_BYTE, 0, MPI_COMM_WORLD);
+    }
+    return message;
   }
 
   // The length, then the parts; messages between two ranks with one tag keep their order. Both outlive the requests.

@@ -61,6 +61,17 @@ class Ranks {
     return gather_from_all(here);
   }
 
+  // The same for rank 0 alone: nothing on the others.
+  std::vector<Bytes> collect(const Bytes& here) {
+    const auto counted = count_in(traffic_.gather, 1, rank() == 0 ? 0 : here.size());
+    return gather_at_first(here);
+  }
+  // What rank 0 gave, on all of them.
+  Bytes share(const Bytes& first) {
+    const auto counted = count_in(traffic_.gather, 1, rank() == 0 ? first.size() : 0);
+    return share_first(first);
+  }
+
   // What this rank has given to others since it began.
   const Traffic& traffic() const { return traffic_; }
 
@@ -70,6 +81,8 @@ class Ranks {
   virtual void reduce_to_sum(std::span<std::int64_t> values) = 0;
   virtual void reduce_to_maximum(std::span<double> values) = 0;
   virtual std::vector<Bytes> gather_from_all(const Bytes& here) = 0;
+  virtual std::vector<Bytes> gather_at_first(const Bytes& here) = 0;
+  virtual Bytes share_first(const Bytes& first) = 0;
 
   // One rank alone gives nothing to others.
   [[nodiscard]] TrafficTimer count_in(Messages& kind, Count messages, std::size_t bytes) {

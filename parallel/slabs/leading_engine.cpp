@@ -1,5 +1,7 @@
 #include "parallel/slabs/leading_engine.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -26,26 +28,45 @@ Call agree_on(Ranks& ranks, Call call) {
 
 // The text that rank 0 has, on all ranks.
 std::string shared_text(Ranks& ranks, const std::string& text) {
-  Bytes here;
-  put_all(here, std::vector<char>(text.begin(), text.end()));
-  const std::vector<Bytes> all = ranks.gather(here);
-  const std::vector<char> said = MessageReader(all[0]).get_all<char>();
+  Bytes first;
+  put_all(first, std::vector<char>(text.begin(), text.end()));
+  const std::vector<char> said = MessageReader(ranks.share(first)).get_all<char>();
   return {said.begin(), said.end()};
 }
 
-std::unique_ptr<Engine> make_part(const Scene& scene, State initial, const Threads& threads, Ranks& ranks) {
+// Disks that go from a rank to others at a time: some megabytes, so that no rank has a second copy of them all.
+constexpr std::size_t disks_a_piece = std::size_t{1} << 16;
+
+SlabStart start_of(const Scene& scene, const Disks& all, int ranks) {
   if (scene.run.method != Method::pairwise) {
     throw InputError("several ranks do not know the method " + std::string(name_of(scene.run.method)) +
                      " yet: use one, or --method pairwise");
   }
-  return make_slab_pairwise(scene, std::move(initial), threads, ranks);
+  return slab_start(scene, all, ranks);
 }
 
-// The rank's own disks, with what goes with them.
-Bytes message_of(const State& state) {
+// Each rank takes the disks in its slab of all that rank 0 has.
+Disks deal_out(Ranks& ranks, const SlabStart& start, const Disks& all, Disks part) {
+  truncate(part, 0);
+  const auto expected = static_cast<std::size_t>(start.disks) / static_cast<std::size_t>(ranks.count());
+  reserve(part, expected + expected / 32, start.columns);
+  for (std::size_t begin = 0; begin < start.disks; begin += disks_a_piece) {
+    std::vector<Disk> piece;
+    for (std::size_t i = begin; i < std::min(all.size(), begin + disks_a_piece); ++i) piece.push_back(disk_at(all, i));
+    Bytes message;
+    put_all(message, piece);
+    for (const Disk& disk : MessageReader(ranks.share(message)).get_all<Disk>()) {
+      if (start.cut.rank_at(disk.y) == ranks.rank()) push_back(part, disk, start.columns);
+    }
+  }
+  return part;
+}
+
+// A piece of the rank's own disks, with what goes with them.
+Bytes piece_of(const State& state, std::size_t begin, std::size_t count) {
   std::vector<Disk> list;
   std::vector<std::uint32_t> thermal_hits;
-  for (std::size_t i = 0; i < state.disks.size(); ++i) {
+  for (std::size_t i = begin; i < std::min(state.disks.size(), begin + count); ++i) {
     list.push_back(disk_at(state.disks, i));
     if (!state.thermal_hits.empty()) thermal_hits.push_back(thermal_hits_of(state, list.back().id));
   }
@@ -55,28 +76,29 @@ Bytes message_of(const State& state) {
   return message;
 }
 
-// The state with all disks, of which it has those of one rank.
-State whole_state(const State& part, const std::vector<Bytes>& messages) {
-  State all = part;
-  truncate(all.disks, 0);
+// To all.disks on rank 0; the other ranks leave `all` alone. all: a copy of the part but for its disks.
+void gather_disks(Ranks& ranks, const State& part, State* all) {
+  const Disks& own = part.disks;
   // A rank without disks does not show which columns there are.
-  DiskColumns columns{false, false, all.disks.spins()};
-  for (const Bytes& message : messages) {
-    for (const Disk& disk : MessageReader(message).get_all<Disk>()) {
-      columns.radius = columns.radius || disk.radius != all.disks.common_radius;
-      columns.mass = columns.mass || disk.mass != all.disks.common_mass;
+  std::array<double, 3> most{static_cast<double>(own.size()), own.radius.empty() ? 0.0 : 1.0,
+                             own.mass.empty() ? 0.0 : 1.0};
+  ranks.maximum(most);
+  auto disks = static_cast<std::int64_t>(own.size());
+  ranks.sum({&disks, 1});
+  const DiskColumns columns{most[1] > 0.0, most[2] > 0.0, own.spins()};
+  if (all != nullptr) reserve(all->disks, static_cast<std::size_t>(disks), columns);
+  const std::size_t piece = std::max<std::size_t>(1024, disks_a_piece / static_cast<std::size_t>(ranks.count()));
+  for (std::size_t begin = 0; begin < static_cast<std::size_t>(most[0]); begin += piece) {
+    for (const Bytes& message : ranks.collect(piece_of(part, begin, piece))) {
+      MessageReader reader(message);
+      const auto list = reader.get_all<Disk>();
+      const auto thermal_hits = reader.get_all<std::uint32_t>();
+      for (std::size_t k = 0; k < list.size(); ++k) {
+        push_back(all->disks, list[k], columns);
+        if (!thermal_hits.empty()) take_thermal_hits(*all, list[k].id, thermal_hits.at(k));
+      }
     }
   }
-  for (const Bytes& message : messages) {
-    MessageReader reader(message);
-    const auto disks = reader.get_all<Disk>();
-    const auto thermal_hits = reader.get_all<std::uint32_t>();
-    for (std::size_t k = 0; k < disks.size(); ++k) {
-      push_back(all.disks, disks[k], columns);
-      if (!thermal_hits.empty()) take_thermal_hits(all, disks[k].id, thermal_hits.at(k));
-    }
-  }
-  return all;
 }
 
 // A rank's part of the engine, and what its steps took. All calls are collective.
@@ -131,8 +153,10 @@ class LeadingEngine final : public Engine {
   const State& state() const override {
     if (whole_) return *whole_;
     together(Call::collect, [&] {
-      const State& part = part_.engine().state();
-      whole_ = std::make_unique<State>(whole_state(part, ranks_.gather(message_of(part))));
+      State all = part_.engine().state();
+      truncate(all.disks, 0);
+      gather_disks(ranks_, part_.engine().state(), &all);
+      whole_ = std::make_unique<State>(std::move(all));
     });
     return *whole_;
   }
@@ -149,7 +173,7 @@ class LeadingEngine final : public Engine {
     together(Call::contacts, [&] {
       Bytes own;
       put_all(own, part_.engine().contacts());
-      for (const Bytes& message : ranks_.gather(own)) {
+      for (const Bytes& message : ranks_.collect(own)) {
         const auto more = MessageReader(message).get_all<DiskContact>();
         met.insert(met.end(), more.begin(), more.end());
       }
@@ -196,11 +220,11 @@ void follow(Call call, Ranks& ranks, Part& part, const Traffic& before) {
       // Rank 0 has it too, and says so.
     }
   } else if (call == Call::collect) {
-    ranks.gather(message_of(part.engine().state()));
+    gather_disks(ranks, part.engine().state(), nullptr);
   } else if (call == Call::contacts) {
     Bytes own;
     put_all(own, part.engine().contacts());
-    ranks.gather(own);
+    ranks.collect(own);
   } else if (call == Call::report) {
     part.report();
   }
@@ -209,10 +233,17 @@ void follow(Call call, Ranks& ranks, Part& part, const Traffic& before) {
 }  // namespace
 
 std::unique_ptr<Engine> RankLead::make_engine(const Scene& scene, State initial, const Threads& threads,
-                                              const std::string& start) {
+                                              const std::function<std::string(const State&)>& start) {
+  SlabStart slabs = start_of(scene, initial.disks, ranks_.count());
   agree_on(ranks_, Call::make);
-  shared_text(ranks_, start);
-  auto engine = std::make_unique<LeadingEngine>(ranks_, *this, make_part(scene, std::move(initial), threads, ranks_));
+  Disks all = std::move(initial.disks);
+  initial.disks = no_disks_like(all);
+  shared_text(ranks_, start(initial));
+  ranks_.share(message_of(slabs));
+  initial.disks = deal_out(ranks_, slabs, all, std::move(initial.disks));
+  all = Disks();
+  auto engine =
+      std::make_unique<LeadingEngine>(ranks_, *this, make_slab_part(scene, std::move(initial), slabs, threads, ranks_));
   report_ = [lead = engine.get()] { return lead->report(); };
   return engine;
 }
@@ -231,11 +262,9 @@ void follow_lead(Ranks& ranks, const Threads& threads,
     if (call == Call::drop) part.reset();
     if (call == Call::make) {
       auto [scene, state] = read(shared_text(ranks, ""));
-      try {
-        part.emplace(ranks, make_part(scene, std::move(state), threads, ranks));
-      } catch (const InputError&) {
-        // Rank 0 has it too, and says so.
-      }
+      const SlabStart start = slab_start_of(ranks.share({}));
+      state.disks = deal_out(ranks, start, {}, std::move(state.disks));
+      part.emplace(ranks, make_slab_part(scene, std::move(state), start, threads, ranks));
     } else if (part) {
       follow(call, ranks, *part, before);
     }

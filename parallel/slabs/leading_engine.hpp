@@ -22,12 +22,13 @@ class RankLead {
 
   int count() const { return ranks_.count(); }
 
-  // The engine of all ranks, with the bits of one machine. start: what the other ranks make scene and state of, by the
-  // function that they gave follow_lead. state() has all disks, which costs a message from every rank in each step
-  // after which it is asked for; progress() has those of rank 0. Throws as make_slab_pairwise does, and InputError for
-  // a method other than pairwise. The lead outlives the engine.
+  // The engine of all ranks, with the bits of one machine. start(state): what the other ranks make scene and state of,
+  // by the function that they gave follow_lead; of a state without disks, as each is sent the disks in its slab.
+  // state() has all disks, which costs a message from every rank in each step after which it is asked for; progress()
+  // has those of rank 0. Throws as make_slab_pairwise does, and InputError for a method other than pairwise. The lead
+  // outlives the engine.
   std::unique_ptr<Engine> make_engine(const Scene& scene, State initial, const Threads& threads,
-                                      const std::string& start);
+                                      const std::function<std::string(const State&)>& start);
 
   // Of the engine that was made last. Precondition: it is there, and no rank is lost.
   RankReport report() const { return report_(); }

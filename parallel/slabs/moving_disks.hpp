@@ -38,6 +38,24 @@ inline void take_thermal_hits(State& state, DiskId id, std::uint32_t hits) {
   if (id < state.thermal_hits.size()) state.thermal_hits[id] = hits;
 }
 
+// Room for n disks in all.
+inline void reserve(Disks& d, std::size_t n, DiskColumns columns) {
+  for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy}) column->reserve(n);
+  d.id.reserve(n);
+  if (columns.radius) d.radius.reserve(n);
+  if (columns.mass) d.mass.reserve(n);
+  if (columns.spin) d.spin.reserve(n);
+}
+
+// Without a disk, but with what all share.
+inline Disks no_disks_like(const Disks& d) {
+  Disks none;
+  none.common_radius = d.common_radius;
+  none.common_mass = d.common_mass;
+  none.inertia = d.inertia;
+  return none;
+}
+
 // Only the first n disks stay.
 inline void truncate(Disks& d, std::size_t n) {
   for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass, &d.spin}) {

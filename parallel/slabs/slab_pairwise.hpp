@@ -5,6 +5,7 @@
 
 #include "core/step/engine.hpp"
 #include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/slab_start.hpp"
 #include "parallel/threads/threads.hpp"
 
 namespace carom {
@@ -16,5 +17,10 @@ namespace carom {
 // do yet: piles, and slabs thinner than two diameters of the largest disk.
 // Preconditions: scene.run.method is pairwise, scene.run.dt > 0, threads.count >= 1.
 std::unique_ptr<Engine> make_slab_pairwise(const Scene& scene, State initial, const Threads& threads, Ranks& ranks);
+
+// The same where a rank has been given no more than its disks. part: the initial state with the disks in its slab;
+// start: of all of them.
+std::unique_ptr<Engine> make_slab_part(const Scene& scene, State part, const SlabStart& start, const Threads& threads,
+                                       Ranks& ranks);
 
 }  // namespace carom

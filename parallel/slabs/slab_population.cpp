@@ -22,13 +22,6 @@ struct Migrant {
 
 }  // namespace
 
-void SlabStepping::keep_own_disks() {
-  Disks& d = state_.disks;
-  gone_.resize(d.size());
-  for (std::size_t i = 0; i < d.size(); ++i) gone_[i] = cut_.rank_at(d.y[i]) == ranks_.rank() ? 0 : 1;
-  remove_marked(d, gone_);
-}
-
 // All ranks draw the same newcomers, and ask each other whether one meets a disk; each takes those in its slab. Until
 // then the state has the newcomers alone.
 void SlabStepping::emit_from_sources(double t, Count step) {

@@ -44,44 +44,28 @@ struct OtherRanks {
 
 }  // namespace
 
-double largest_radius_ever(const Scene& scene, const Disks& start) {
-  constexpr double rounding = 1.0 + 1e-12;
-  double largest = largest_radius(start);
-  for (const Source& source : scene.sources) largest = std::max(largest, rounding * largest_radius_of(source));
-  return largest;
-}
-
-SlabStepping::SlabStepping(const Scene& scene, State initial, const Threads& threads, Ranks& ranks)
+SlabStepping::SlabStepping(const Scene& scene, State part, const SlabStart& start, const Threads& threads, Ranks& ranks)
     : scene_(scene),
-      state_(std::move(initial)),
+      state_(std::move(part)),
       ranks_(ranks),
       executor_(threads.count, threads.block_divisor),
-      columns_(columns_of(state_.disks)),
-      smallest_radius_(smallest_radius(state_.disks)),
-      largest_radius_(largest_radius_ever(scene, state_.disks)),
+      cut_(start.cut),
+      columns_(start.columns),
+      smallest_radius_(start.smallest_radius),
+      largest_radius_(start.largest_radius),
       obstacles_(place_obstacles(state_.obstacles, scene_.box)),
       border_contacts_(ranks),
-      disks_(state_.disks.size()) {
-  if (!state_.disks.empty()) make_cells();
-  cut_ = cut_into_slabs(scene_.box, state_.disks, ranks.count(), least_thickness * largest_radius_);
+      disks_(start.disks) {
+  if (disks_ > 0) make_cells(start.counts);
   const bool seam = scene_.box.periodic_y();
   const int last = ranks.count() - 1;
   slab_ = {cut_.low(ranks.rank()), cut_.high(ranks.rank()), last > 0 && (seam || ranks.rank() > 0),
            last > 0 && (seam || ranks.rank() < last)};
-  keep_own_disks();
 }
 
-// The same on every rank: of the whole box, for all disks; those of other ranks are counted there, if all are not here.
-void SlabStepping::make_cells() {
-  const Disks& d = state_.disks;
-  std::vector<std::size_t> count(1, 0);
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    const std::size_t k = class_of_radius(d.radius_of(i), largest_radius_);
-    if (k >= count.size()) count.resize(k + 1, 0);
-    ++count[k];
-  }
-  if (d.size() < disks_) sum_counts_over_ranks(ranks_, count);
-  make_grid(scene_.box, largest_radius_, count, grid_, cell_margin);
+// The same on every rank: of the whole box, for all disks.
+void SlabStepping::make_cells(const std::vector<std::size_t>& counts) {
+  make_grid(scene_.box, largest_radius_, counts, grid_, cell_margin);
 }
 
 double SlabStepping::disks_at(double /*t*/, Disks& out) const {
@@ -159,7 +143,11 @@ void SlabStepping::sort_now() {
   pairs_.used = 0;
   crossing_ids_.clear();
   sort_due_ = false;
-  if (!scene_.sources.empty()) make_cells();
+  if (!scene_.sources.empty()) {
+    std::vector<std::size_t> counts = class_counts(state_.disks, largest_radius_);
+    sum_counts_over_ranks(ranks_, counts);
+    make_cells(counts);
+  }
   migrate();
   sort_into_cells(state_.disks, grid_, executor_, cells_);
   if (!state_.disks.empty()) begin_coarse_positions(state_.disks, grid_, cells_, executor_, coarse_);
@@ -271,7 +259,7 @@ double SlabStepping::resolve_here(const StepRules& rules, ImpactTally& tally) {
   with_view(d, rules, [&](const auto& view) {
     resolve_crowded(view, rules, d, executor_, lists_, tally, OtherRanks{ranks_, ghosts_});
   });
-  return std::max(speed2, finish_crowded_contacts(d, scene_.box, executor_, lists_));
+  return std::max(speed2, finish_crowded_contacts(d, rules, executor_, lists_));
 }
 
 double SlabStepping::resolve_alone_at_border(const StepRules& rules, ImpactTally& tally) {

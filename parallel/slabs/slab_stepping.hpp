@@ -18,6 +18,7 @@
 #include "parallel/slabs/border_search.hpp"
 #include "parallel/slabs/ghost_disks.hpp"
 #include "parallel/slabs/slab_cut.hpp"
+#include "parallel/slabs/slab_start.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 #include "parallel/stepping/resolve_contacts.hpp"
@@ -26,15 +27,12 @@
 
 namespace carom {
 
-// Of any disk that there is, or that a source may bring; length.
-double largest_radius_ever(const Scene& scene, const Disks& start);
-
 // state().disks are the rank's own disks; all else in state() is the same on all ranks. step() is collective. For
 // PairwiseMethod.
 class SlabStepping : public Engine {
  public:
-  // initial: with all disks, of which those in the rank's slab stay.
-  SlabStepping(const Scene& scene, State initial, const Threads& threads, Ranks& ranks);
+  // part: with the disks in the rank's slab. start: of all disks, the same on all ranks.
+  SlabStepping(const Scene& scene, State part, const SlabStart& start, const Threads& threads, Ranks& ranks);
 
   const State& state() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
@@ -60,8 +58,7 @@ class SlabStepping : public Engine {
   Validity validity_;
 
  private:
-  void keep_own_disks();
-  void make_cells();
+  void make_cells(const std::vector<std::size_t>& counts);
   void emit_from_sources(double t, Count step);
   void take_newcomers(const Disks& newcomers);
   double move_sheared(double t);

@@ -273,8 +273,8 @@ double resolve_alone_contacts(Disks& disks, const StepRules& rules, const FoundP
   });
 }
 
-double finish_crowded_contacts(Disks& disks, const Domain& box, const Executor& executor, ContactLists& lists) {
-  return with_view(disks, [&](const auto& d) { return finish_crowded(d, box, executor, lists); });
+double finish_crowded_contacts(Disks& disks, const StepRules& rules, const Executor& executor, ContactLists& lists) {
+  return with_view(disks, rules, [&](const auto& d) { return finish_crowded(d, rules.box, executor, lists); });
 }
 
 double finish_contacts(Disks& disks, const Domain& box, const Executor& executor,

@@ -51,7 +51,7 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
 double resolve_alone_contacts(Disks& disks, const StepRules& rules, const FoundPairs& found,
                               const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
                               ContactLists& lists, ImpactTally& tally);
-double finish_crowded_contacts(Disks& disks, const Domain& box, const Executor& executor, ContactLists& lists);
+double finish_crowded_contacts(Disks& disks, const StepRules& rules, const Executor& executor, ContactLists& lists);
 
 // Wraps the disks in events, clears their counts, returns the largest squared speed among them.
 double finish_contacts(Disks& disks, const Domain& box, const Executor& executor,

@@ -122,7 +122,7 @@ TEST(SlabPairwiseRun, HasTheBitsBetweenThermalSides) {
       "scene", "");
   const State start = initial_state(scene);
   const Counters counters = expect_bits(scene, {1, 2, 3, 4}, RankThreads::alternate).counters;
-  EXPECT_GT(counters.wall_collisions, 500U);
+  EXPECT_GT(counters.wall_collisions, 300U);
   EXPECT_GT(local_trace(scene, start, {1, 1}, 4).most_moved, 0U);
 }
 

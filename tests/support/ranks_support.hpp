@@ -71,6 +71,9 @@ inline void expect_gathers(Ranks& ranks) {
     for (int r = 0; r < ranks.count(); ++r) {
       ASSERT_EQ(all[static_cast<std::size_t>(r)], message_from(r, true, length(r))) << turn;
     }
+    ASSERT_EQ(ranks.collect(message_from(ranks.rank(), true, length(ranks.rank()))),
+              ranks.rank() == 0 ? all : std::vector<Bytes>());
+    ASSERT_EQ(ranks.share(ranks.rank() == 0 ? all[0] : Bytes()), all[0]);
   }
 }
 

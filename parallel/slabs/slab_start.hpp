@@ -1,0 +1,37 @@
+// What every rank has to know of all disks together to take its part of them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
+#include "parallel/ranks/message.hpp"
+#include "parallel/slabs/moving_disks.hpp"
+#include "parallel/slabs/slab_cut.hpp"
+
+namespace carom {
+
+struct SlabStart {
+  SlabCut cut;
+  DiskColumns columns;
+  double smallest_radius = 0.0;     // of all disks; length
+  double largest_radius = 0.0;      // those that sources may bring too
+  std::vector<std::size_t> counts;  // of disks of each class of radii
+  Count disks = 0;
+};
+
+// Throws InputError where the scene is one that slabs do not know, or they would be thinner than two diameters of the
+// largest disk.
+SlabStart slab_start(const Scene& scene, const Disks& all, int ranks);
+
+// How many disks each class of radii has (class_of_radius); one class at least.
+std::vector<std::size_t> class_counts(const Disks& disks, double largest_radius);
+
+Bytes message_of(const SlabStart& start);
+SlabStart slab_start_of(const Bytes& message);
+
+// The disks that are in this rank's slab: others leave, and their memory is given back.
+void keep_own_disks(const SlabCut& cut, int rank, Disks& disks);
+
+}  // namespace carom
