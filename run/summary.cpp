@@ -55,13 +55,16 @@ Json messages_of(const RankReport& report, const Messages& all) {
 Json traffic_of(const Summary& s) {
   if (!s.ranks) return absent();
   Json disks = Json::array();
+  Json peaks = Json::array();
   Json seconds = Json::array();
   for (const RankLoad& rank : s.ranks->ranks) {
     disks.push_back(rank.disks);
+    peaks.push_back(rank.peak_bytes);
     seconds.push_back(rank.in_steps.seconds);
   }
   const Traffic all = s.ranks->traffic();
   return {{"disks", disks},
+          {"peak_bytes", peaks},
           {"imbalance", s.ranks->imbalance()},
           {"exchange", messages_of(*s.ranks, all.exchange)},
           {"all_reduce", messages_of(*s.ranks, all.all_reduce)},
@@ -150,10 +153,10 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return phase_seconds(s); }},
     {"traffic", "",
      "only of several ranks, an object: `disks` of each at the end; `imbalance`, the most of them over their mean; "
-     "what "
-     "a rank said in a step, in the mean of this part of the run, `messages` and `bytes` of `exchange` (to its two "
-     "neighbours), `all_reduce` and `gather` (calls of all ranks, with what the rank gave to them); and the `seconds` "
-     "that each rank took for that",
+     "`peak_bytes`, the most memory that each had; what a rank said in a step, in the mean of this part of the run, "
+     "`messages` and `bytes` of `exchange` (to its two neighbours), `all_reduce` and `gather` (calls of all ranks, "
+     "with "
+     "what the rank gave to them); and the `seconds` that each rank took for that",
      [](const Summary& s) -> Json { return traffic_of(s); }},
 };
 

@@ -172,6 +172,7 @@ Command parse_command_line(int given, const char* const* given_words) {
   add_scene_options(check, words);
   add_value(check, "--accuracy", words.accuracy, "X",
             "say which method and dt keep the error of averages (collision rate, pressure) below X");
+  add_value(check, "--ranks", words.ranks, "N", "memory and messages of each of so many processes as well");
   check->add_flag("--json", words.json, "print the result as JSON");
   describe_resume(resume, words);
   describe_compare(compare, words);

@@ -79,7 +79,11 @@ ResumeOptions resume_options(const OptionWords& words) {
 
 CheckOptions check_options(const OptionWords& words) {
   require(words.first, "check", "no scene file given", "expected carom check SCENE.toml");
-  CheckOptions o{words.first, changes_of(words), std::nullopt, words.json};
+  CheckOptions o;
+  o.scene = words.first;
+  o.changes = changes_of(words);
+  o.json = words.json;
+  if (!words.ranks.empty()) o.ranks = count_of("--ranks", words.ranks);
   if (words.accuracy.empty()) return o;
   o.accuracy = number_of("--accuracy", words.accuracy);
   if (*o.accuracy > 0.0 && *o.accuracy <= most_accuracy) return o;

@@ -235,6 +235,23 @@ Json file_sizes(const OutputForesight& outputs) {
   return sizes;
 }
 
+Json ranks_json(const Told& t) {
+  if (!t.found.ranks) return absent();
+  const RankForesight& r = *t.found.ranks;
+  return {{"count", r.ranks},
+          {"disks", r.disks},
+          {"first_memory_bytes", r.first_bytes},
+          {"memory_bytes", r.other_bytes},
+          {"messages", r.traffic.messages},
+          {"bytes", r.traffic.bytes}};
+}
+
+std::string ranks_text(const RankForesight& r) {
+  return fmt::format("{} with about {:.0f} disks each: {}B of memory, the first {}B; {:.1f} messages with {}B a step",
+                     r.ranks, r.disks, short_number(r.other_bytes), short_number(r.first_bytes), r.traffic.messages,
+                     short_number(r.traffic.bytes));
+}
+
 // A new key is a row here.
 const JsonKey<Told> check_keys[] = {
     {"scene", "", "the scene's file", [](const Told& t) -> Json { return t.scene.file; }},
@@ -273,6 +290,10 @@ const JsonKey<Told> check_keys[] = {
      [](const Told& t) -> Json { return t.found.troubles; }},
     {"growth_s", "s", "only where disks grow: processor time of that",
      [](const Told& t) -> Json { return t.found.growth_seconds > 0.0 ? Json(t.found.growth_seconds) : absent(); }},
+    {"ranks", "",
+     "only with `--ranks`, an object: their `count`, `disks` of each, `memory_bytes` of each but the first, "
+     "`first_memory_bytes` of that, and the `messages` and `bytes` that each sends in a step",
+     [](const Told& t) -> Json { return ranks_json(t); }},
     {"choice", "", "only with `--accuracy`: an object with the method and step that it needs, and all `offers`",
      [](const Told& t) -> Json { return t.accuracy ? choice_json(t.scene, *t.accuracy) : absent(); }},
 };
@@ -299,6 +320,7 @@ std::string main_text(const Scene& scene, const Findings& f) {
                              !tried                                  ? ""
                              : f.population.end > f.population.start ? ", as measured, with what sources add"
                                                                      : ", as measured"));
+  if (f.ranks) line("ranks", ranks_text(*f.ranks));
   line("cost", tried ? cost_text(f) : "not tried either");
   for (const std::string& trouble : f.troubles) line("trouble", trouble);
   return text;

@@ -8,6 +8,7 @@
 #include "app/run/check_outputs.hpp"
 #include "core/scene/scene.hpp"
 #include "run/json_keys.hpp"
+#include "run/rank_foresight.hpp"
 
 namespace carom {
 
@@ -28,7 +29,8 @@ struct Findings {
   double growth_seconds = 0.0;  // of one core; above longest_growth the disks were not grown, and no step tried
   double step_seconds = 0.0;    // of all steps, extrapolated from the first ones; may be infinite
   double memory_bytes = 0.0;
-  std::string stopped;  // what the physics said, if it stopped the trial
+  std::optional<RankForesight> ranks;  // where they were asked for
+  std::string stopped;                 // what the physics said, if it stopped the trial
 
   double seconds() const { return start_seconds + step_seconds + outputs.seconds(); }
 };

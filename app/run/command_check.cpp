@@ -8,6 +8,7 @@
 #include "app/cli/commands.hpp"
 #include "app/run/check_report.hpp"
 #include "core/base/check.hpp"
+#include "core/base/input_message.hpp"
 #include "core/base/wall_clock.hpp"
 #include "core/load/memory_need.hpp"
 #include "core/load/method_choice.hpp"
@@ -26,6 +27,8 @@ namespace {
 
 // Time spent on trying the scene's first steps, in seconds: long enough to tell the cost, short enough to wait for.
 constexpr double trial_seconds = 0.2;
+// What MPI takes of a process of several ranks, beyond what a process without it does; bytes, measured.
+constexpr double mpi_bytes = 25e6;
 // A step that takes longer is given up; seconds.
 constexpr double longest_trial = 60.0;
 
@@ -132,6 +135,13 @@ void try_run(const Scene& scene, const EngineChoice& choice, State initial, Find
   });
 }
 
+// After the memory of one process was taken down, as all ranks are threads of this one.
+void try_ranks(const Scene& scene, const EngineChoice& choice, int ranks, bool tried, Findings& found) {
+  if (!tried) fail_input("--ranks", "the disks grow for too long to be tried", "expected no --ranks");
+  found.ranks = within_memory(scene, [&] { return foresee_ranks(scene, make_initial_state(choice, scene), ranks); });
+  found.ranks->first_bytes = found.memory_bytes + mpi_bytes;
+}
+
 }  // namespace
 
 int command_check(const CheckOptions& options) {
@@ -156,6 +166,7 @@ int command_check(const CheckOptions& options) {
   found.outputs.frames = frame_count(scene.output.every, scene.run.t_end);
   if (!tried) found.memory_bytes = least_memory(Method::exact, found.disks);
   if (tried) try_run(scene, choice, std::move(initial), found);
+  if (options.ranks) try_ranks(scene, choice, *options.ranks, tried, found);
   print_out(options.json ? check_json(scene, found, options.accuracy) : check_text(scene, found, options.accuracy));
   return 0;
 }

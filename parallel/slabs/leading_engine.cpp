@@ -1,5 +1,7 @@
 #include "parallel/slabs/leading_engine.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -121,7 +123,9 @@ class Part {
 
   RankReport report() const {
     Bytes here;
-    put(here, RankLoad{engine_->state().disks.size(), in_steps_});
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    put(here, RankLoad{engine_->state().disks.size(), Count{1024} * static_cast<Count>(usage.ru_maxrss), in_steps_});
     RankReport all{steps_, {}};
     for (const Bytes& there : ranks_.gather(here)) all.ranks.push_back(MessageReader(there).get<RankLoad>());
     return all;

@@ -11,8 +11,9 @@ namespace carom {
 
 // Of one rank.
 struct RankLoad {
-  Count disks = 0;   // now
-  Traffic in_steps;  // since the engine was made; frames and checkpoints left aside
+  Count disks = 0;       // now
+  Count peak_bytes = 0;  // the most memory that its process has had so far
+  Traffic in_steps;      // since the engine was made; frames and checkpoints left aside
 };
 
 struct RankReport {

@@ -1,5 +1,8 @@
 // carom run and resume with --ranks: the files of one process, whatever the number of ranks, stopped, killed and taken
 // up again.
+#include <chrono>
+#include <random>
+
 #include "tests/support/program_support.hpp"
 
 namespace carom {
@@ -31,6 +34,9 @@ trajectory = "xyz"
 series = true
 )";
 
+// Later than any run here comes before it is stopped.
+const std::string far_end = "--t-end 200";
+
 class RanksRun : public test::ProgramTest {
  protected:
   RanksRun() { write("scene.toml", scene); }
@@ -45,6 +51,17 @@ class RanksRun : public test::ProgramTest {
       usleep(1000);
     }
     return run;
+  }
+
+  // The run of a folder has its last checkpoint, and from that comes to the end of the run `one`: some steps on so many
+  // ranks, and then alone, which is faster where there are more ranks than cores.
+  void expect_undisturbed(const std::string& folder, std::size_t ranks) const {
+    const Outcome some =
+        carom(fmt::format("resume {} --quiet --ranks {} --max-walltime 1e-9 ", folder, ranks) + far_end);
+    ASSERT_EQ(some.status, 4) << some.err;
+    ASSERT_EQ(carom("resume " + folder + " --quiet " + far_end).status, 0);
+    EXPECT_EQ(summary(folder)["state_hash"], summary("one")["state_hash"]);
+    EXPECT_EQ(summary(folder)["collisions"], summary("one")["collisions"]);
   }
 
   // Process ids of the ranks of the run of a folder.
@@ -94,21 +111,51 @@ TEST_F(RanksRun, ASignalStopsItWithACheckpoint) {
   EXPECT_EQ(carom("resume out --quiet --ranks 3 --max-walltime 1e-9").status, 4);
 }
 
-// Whichever rank dies: the others end, one line says so, and the last checkpoint goes on as if nothing had been.
+// Whichever of however many ranks dies, and whenever: the others end, one line says so, and the last checkpoint goes on
+// with another number of ranks as if nothing had been.
 TEST_F(RanksRun, AKilledRankEndsAllAndNothingIsLost) {
-  for (const std::size_t victim : {0U, 1U, 2U}) {
-    const std::string folder = fmt::format("killed{}", victim);
-    const pid_t run = start_long(folder, "3");
+  ASSERT_EQ(carom("run scene.toml --quiet --set output.every=1e3 -o one " + far_end).status, 0);
+  std::mt19937 random(19);
+  for (int k = 0; k < 20; ++k) {
+    const std::size_t count = 2 + random() % 3;
+    const std::size_t victim = random() % count;
+    const auto delay = static_cast<useconds_t>(random() % 300'000);
+    SCOPED_TRACE(fmt::format("run {}: rank {} of {}, after {} us", k, victim, count, delay));
+    const std::string folder = fmt::format("killed{}", k);
+    const pid_t run = start_long(folder, std::to_string(count));
     const std::vector<pid_t> ranks = ranks_of(folder);
-    ASSERT_EQ(ranks.size(), 3U);
+    ASSERT_EQ(ranks.size(), count);
     const std::size_t before = said().size();
+    usleep(delay);
     kill(ranks[victim], SIGKILL);
+    const auto begin = std::chrono::steady_clock::now();
     EXPECT_EQ(wait_for(run), 1);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
     EXPECT_EQ(said().substr(before),
               "carom: error: one of the ranks was killed by signal 9; the last checkpoint, if the run has written any, "
               "is whole: carom resume with its folder\n");
     EXPECT_TRUE(ranks_of(folder).empty());
-    ASSERT_EQ(carom("resume " + folder + " --quiet --ranks 2 --max-walltime 1e-9").status, 4);
+    expect_undisturbed(folder, 2 + (count - 1) % 3);
+  }
+}
+
+// A rank that stands still is waited for.
+TEST_F(RanksRun, AStoppedRankIsWaitedFor) {
+  ASSERT_EQ(carom("run scene.toml --quiet --set output.every=1e3 -o one " + far_end).status, 0);
+  for (const std::size_t victim : {0U, 1U}) {
+    const std::string folder = fmt::format("stopped{}", victim);
+    const pid_t run = start_long(folder, "2");
+    const std::vector<pid_t> ranks = ranks_of(folder);
+    ASSERT_EQ(ranks.size(), 2U);
+    kill(ranks[victim], SIGSTOP);
+    sleep(3);
+    EXPECT_EQ(waitpid(run, nullptr, WNOHANG), 0) << said();
+    kill(ranks[victim], SIGCONT);
+    usleep(300'000);
+    EXPECT_EQ(waitpid(run, nullptr, WNOHANG), 0) << said();
+    kill(run, SIGTERM);
+    EXPECT_EQ(wait_for(run), 4) << said();
+    expect_undisturbed(folder, 3);
   }
 }
 
@@ -123,6 +170,32 @@ TEST_F(RanksRun, WhatRanksCannotDoIsSaidInOneLine) {
   EXPECT_EQ(reference.status, 2);
   EXPECT_NE(reference.err.find("--ranks: the reference runs on one"), std::string::npos) << reference.err;
   EXPECT_FALSE(fs::exists(at("out")));
+}
+
+// What carom check says of ranks, against what their run then says.
+TEST_F(RanksRun, CheckForeseesMemoryAndMessages) {
+  const std::string size = " --set disks.0.count=60000 --set box.width=400 --set box.height=600 --t-end 0.5 ";
+  for (const std::string ranks : {"2", "4"}) {
+    const Outcome check = carom("check scene.toml --json --ranks " + ranks + size);
+    ASSERT_EQ(check.status, 0) << check.err;
+    const auto foreseen = nlohmann::json::parse(check.out)["ranks"];
+    const Outcome run = carom("run scene.toml --json --ranks " + ranks + size + "-o r" + ranks);
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto all = nlohmann::json::parse(run.out)["traffic"];
+    const auto sum = [&](const char* what) -> double {
+      return all["exchange"][what].get<double>() + all["all_reduce"][what].get<double>() +
+             all["gather"][what].get<double>();
+    };
+    const auto expect_near = [](double expected, double is, double factor) {
+      EXPECT_LT(is, factor * expected);
+      EXPECT_GT(is, expected / factor);
+    };
+    expect_near(foreseen["messages"], sum("messages"), 1.2);
+    expect_near(foreseen["bytes"], sum("bytes"), 1.5);
+    expect_near(foreseen["disks"], all["disks"][1], 1.1);
+    expect_near(foreseen["memory_bytes"], all["peak_bytes"][1], 1.5);
+    expect_near(foreseen["first_memory_bytes"], all["peak_bytes"][0], 1.5);
+  }
 }
 
 TEST_F(RanksRun, WithoutMpiItSaysWhichPackagesAreMissing) {

@@ -115,15 +115,14 @@ inline std::vector<Scene> slab_scenes(const std::string& sides, int steps) {
   }
   // Sheared boxes: the image above a border is displaced and moves.
   for (const double shear : {0.4, -1.5}) {
-    for (const char* rough : {"", "sticking"}) {
+    for (const double restitution : {1.0, 0.8}) {
       for (const char* radii : {"equal", "mixed"}) {
         if (sides != "periodic") continue;
         Features f;
         f.sides = sides;
         f.radii = radii;
         f.shear = shear;
-        f.rough = rough;
-        f.restitution = *rough == '\0' ? 1.0 : 0.8;
+        f.restitution = restitution;
         f.own_masses = f.radii == "mixed";
         add(f);
       }

@@ -1,0 +1,19 @@
+// What ranks would say to each other in a run, found by trying its first steps with ranks that are threads.
+#pragma once
+
+#include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
+
+namespace carom {
+
+// Of a step and a rank, in the mean.
+struct SlabTraffic {
+  double messages = 0.0, bytes = 0.0;
+};
+
+// Tries for so many seconds, but one step at least, on three ranks at most: an inner slab has two borders however many
+// there are. start: with all disks. Throws InputError where so many ranks do not know the scene. A trial that the
+// physics stops counts as far as it went. Precondition: ranks >= 1.
+SlabTraffic try_slabs(const Scene& scene, const State& start, int ranks, double seconds);
+
+}  // namespace carom
