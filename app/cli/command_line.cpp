@@ -125,6 +125,7 @@ void describe_sweep(CLI::App* sweep, OptionWords& words) {
   add_value(sweep, "--seeds", words.seeds, "N", "so many seeds for each combination, from the scene's on; default 1");
   add_value(sweep, "-o,--output", words.folder, "DIR", "folder of the sweep; default out/<name of the scene>_sweep");
   add_value(sweep, "--jobs", words.jobs, "N", "runs at the same time; default one a core");
+  add_value(sweep, "--ranks", words.ranks, "N", "processes that share the box of each run, over MPI");
   add_value(sweep, "--emit", words.emit, "slurm|parallel", "write a script that runs it elsewhere, and run nothing");
   sweep->add_flag("--force", words.force, "replace another sweep in the folder");
   sweep->footer("Called again, it goes on where it stopped. sweep.csv has a row a run.");

@@ -90,6 +90,7 @@ struct SweepOptions {
   std::vector<std::string> over;  // KEY=FROM:TO:COUNT or KEY=VALUE,...
   int seeds = 1;
   std::optional<int> jobs;  // runs at once
+  int ranks = 1;            // processes of each run
   std::string emit;         // "slurm", "parallel", or empty: run
   bool force = false;
 };

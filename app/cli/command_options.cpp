@@ -143,6 +143,7 @@ SweepOptions sweep_options(const OptionWords& words) {
   o.over = words.over;
   if (!words.seeds.empty()) o.seeds = count_of("--seeds", words.seeds);
   if (!words.jobs.empty()) o.jobs = count_of("--jobs", words.jobs);
+  if (!words.ranks.empty()) o.ranks = count_of("--ranks", words.ranks);
   constexpr std::array<std::string_view, 2> scripts{"slurm", "parallel"};
   if (!words.emit.empty() && std::find(scripts.begin(), scripts.end(), words.emit) == scripts.end()) {
     fail_input("--emit", fmt::format("is {}", in_quotes(words.emit)), expected_one_of(scripts, words.emit));

@@ -132,13 +132,15 @@ class Sweep {
   const std::vector<SweepRun>& runs() const { return runs_; }
   const fs::path& folder() const { return folder_; }
 
+  int ranks() const { return options_.ranks; }
+
   // What runs it: afresh, or on from where it was stopped. threads: 0 leaves them open.
-  std::vector<std::string> command_of(const SweepRun& run, int threads) const {
+  std::vector<std::string> command_of(const SweepRun& run, int threads, const std::string& program = own_path()) const {
     const std::string folder = fs::absolute(folder_of(run)).string();
     const bool resumes = resumable(run);
-    std::vector<std::string> words{own_path(), "resume", folder, "--quiet"};
-    if (!resumes)
-      words = {own_path(), "run", fs::absolute(options_.scene).string(), "--quiet", "--force", "-o", folder};
+    std::vector<std::string> words{program, "resume", folder, "--quiet"};
+    if (!resumes) words = {program, "run", fs::absolute(options_.scene).string(), "--quiet", "--force", "-o", folder};
+    if (options_.ranks > 1) words.insert(words.end(), {"--ranks", fmt::format("{}", options_.ranks)});
     if (threads > 0) words.insert(words.end(), {"--threads", fmt::format("{}", threads)});
     if (resumes) return words;
     for (const Override& change : run.overrides) {
@@ -148,9 +150,10 @@ class Sweep {
     return words;
   }
 
-  std::string shell_line(const SweepRun& run) const {
+  std::string shell_line(const SweepRun& run, const std::string& program = own_path()) const {
     std::string line;
-    for (const std::string& word : command_of(run, 0)) line += (line.empty() ? "" : " ") + quoted_for_shell(word);
+    for (const std::string& word : command_of(run, 0, program))
+      line += (line.empty() ? "" : " ") + quoted_for_shell(word);
     return line;
   }
 
@@ -161,8 +164,8 @@ class Sweep {
       if (!finished(run)) rest.push_back(&run);
     }
     const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    const int jobs = options_.jobs.value_or(cores);
-    const int threads = std::max(1, cores / jobs);
+    const int jobs = options_.jobs.value_or(std::max(1, cores / options_.ranks));
+    const int threads = std::max(1, cores / jobs / options_.ranks);
     print_note(fmt::format("{} of {} runs are left, {} at once", rest.size(), runs_.size(), jobs));
     catch_signals();
     SweepCount count;
@@ -305,17 +308,22 @@ std::string parallel_script(const Sweep& sweep) {
   return text + "RUNS\n";
 }
 
+// Of several ranks Slurm starts none itself: mpirun does, on the nodes of the task.
 std::string slurm_script(const Sweep& sweep) {
+  const bool alone = sweep.ranks() == 1;
+  const std::string program = own_path();
+  const std::string starter = alone ? "" : fmt::format("mpirun -n {} ", sweep.ranks());
   std::size_t left = 0;
   std::string cases;
   for (const SweepRun& run : sweep.runs()) {
     if (sweep.finished(run)) continue;
-    cases += fmt::format("  {}) exec {} --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" ;;\n", ++left, sweep.shell_line(run));
+    cases += fmt::format("  {}) exec {}{} --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" ;;\n", ++left, starter,
+                         sweep.shell_line(run, alone ? program : program + "-mpi"));
   }
   return fmt::format(
-      "#!/bin/sh\n#SBATCH --job-name=carom\n#SBATCH --array=1-{}\n#SBATCH --cpus-per-task=1\n"
+      "#!/bin/sh\n#SBATCH --job-name=carom\n#SBATCH --array=1-{}\n{}#SBATCH --cpus-per-task=1\n"
       "# One task a run that is left of the sweep.\ncase \"$SLURM_ARRAY_TASK_ID\" in\n{}esac\n",
-      std::max<std::size_t>(1, left), cases);
+      std::max<std::size_t>(1, left), alone ? "" : fmt::format("#SBATCH --ntasks={}\n", sweep.ranks()), cases);
 }
 
 }  // namespace

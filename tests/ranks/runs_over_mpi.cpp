@@ -198,6 +198,33 @@ TEST_F(RanksRun, CheckForeseesMemoryAndMessages) {
   }
 }
 
+// Of each run several ranks: started by the sweep, and by the script that it writes for Slurm.
+TEST_F(RanksRun, ASweepOfThemLeavesTheTableOfOneProcess) {
+  const std::string sweep = "sweep scene.toml --over run.t_end=0.1,0.2 ";
+  ASSERT_EQ(carom(sweep + "-o one").status, 0);
+  ASSERT_EQ(carom(sweep + "--ranks 2 -o two").status, 0);
+  ASSERT_EQ(carom(sweep + "--ranks 2 --emit slurm -o script").status, 0);
+  const std::string script = text_of(at("script/sweep.sbatch"));
+  EXPECT_NE(script.find("#SBATCH --array=1-2\n#SBATCH --ntasks=2\n"), std::string::npos) << script;
+  EXPECT_NE(script.find("exec mpirun -n 2 '"), std::string::npos) << script;
+  for (const char* const task : {"1", "2"}) {
+    const Outcome o = shell(fmt::format(
+        "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_ALLOW_RUN_AS_ROOT=1 "
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none SLURM_ARRAY_TASK_ID={} sh "
+        "script/sweep.sbatch </dev/null",
+        task));
+    EXPECT_EQ(o.status, 0) << o.err;
+  }
+  ASSERT_EQ(carom(sweep + "--ranks 2 -o script").status, 0);
+  for (const char* const run : {"0001", "0002"}) {
+    for (const char* const folder : {"two", "script"}) {
+      EXPECT_EQ(summary(fmt::format("one/runs/{}", run)), summary(fmt::format("{}/runs/{}", folder, run))) << folder;
+      const auto all = nlohmann::json::parse(text_of(at(folder) / "runs" / run / "summary.json"));
+      EXPECT_EQ(all["ranks"], 2);
+    }
+  }
+}
+
 TEST_F(RanksRun, WithoutMpiItSaysWhichPackagesAreMissing) {
   const Outcome o = shell("cp $C alone && ./alone run scene.toml --ranks 2");
   EXPECT_EQ(o.status, 2);
