@@ -35,7 +35,6 @@ void check_kind(const Scene& scene) {
   for (const DiskGroup& group : scene.groups) disks += group.count;
   if (!scene.sources.empty()) refuse(scene, "sources add disks", "expected the same disks from start to end");
   if (has_sinks(scene)) refuse(scene, "sinks take disks away", "expected the same disks from start to end");
-  if (scene.box.shear.acts()) refuse(scene, "box.shear_rate moves the images", "expected a box without it");
   if (disks < 2) refuse(scene, "nothing collides", "expected two disks or more");
   if (disks > most_own_disks) {
     refuse(scene, fmt::format("{} disks are too many to compare path by path", disks),
@@ -122,7 +121,7 @@ void plan_flight(const Scene& scene, const Trial& trial, ChartScene& chart) {
   chart.longest_step = std::min(0.98 * safe_travel / std::sqrt(trial.travel2), 0.5 * chart.flight);
   const bool walls = scene.box.has(SideKind::wall);
   const bool elastic = !disks_dissipate(scene) && !scene.box.walls_dissipate() && !scene.box.has_thermal_side() &&
-                       !scene.box.has_moving_side();
+                       !scene.physics.thermostat.acts();
   chart.keeps_energy = elastic;
   chart.keeps_momentum = !walls && !scene.physics.gravity.acts();
   chart.figure = !elastic && chart.keeps_momentum ? Figure::cooling : Figure::pressure;

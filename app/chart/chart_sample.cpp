@@ -8,6 +8,7 @@
 
 #include "core/measure/displacement.hpp"
 #include "core/measure/invariants.hpp"
+#include "core/measure/shear_flow.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
 #include "parallel/simulation.hpp"
@@ -26,12 +27,15 @@ double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Disks of the scene in the equilibrium that they have as an elastic gas, at time 0.
+// Disks of the scene in the equilibrium that they have as an elastic gas between sides at rest, at time 0. A shear flow
+// begins then.
 State start_state(const ChartScene& scene, std::uint64_t seed) {
   Scene melting = scene_of(scene, seed, Method::exact, 0.0, scene.melting);
   melting.physics.restitution = 1.0;
   melting.physics.law = {};
   melting.physics.diffusion = 0.0;
+  const Shear shear = std::exchange(melting.box.shear, Shear{});
+  if (scene.melting > 0.0) melting.box.motions = {};
   const auto engine = make_parallel_engine(melting, initial_state(melting), {1});
   engine->forget_paths();
   while (engine->state().time < scene.melting) engine->step();
@@ -39,7 +43,17 @@ State start_state(const ChartScene& scene, std::uint64_t seed) {
   state.time = 0.0;
   state.window = 0.0;
   state.counters = {};
+  for (std::size_t i = 0; i < state.disks.size() && shear.acts(); ++i) {
+    state.disks.vx[i] += shear.flow(state.disks.y[i], melting.box.height);
+  }
   return state;
+}
+
+// What sides that move and the images of a shear have given.
+double work_on(const State& state) {
+  double work = state.counters.shear_work;
+  for (const double of_side : state.counters.side_energy) work += of_side;
+  return work;
 }
 
 // The same start with every position moved to the next double: what rounding does.
@@ -71,13 +85,11 @@ Flight fly(const Scene& scene, const State& start) {
 }
 
 double mean_distance(const Scene& scene, const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+  const Domain box = box_at(scene.box, scene.run.t_end);
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    double dx = a[i].x - b[i].x;
-    double dy = a[i].y - b[i].y;
-    if (scene.box.periodic_x()) dx = nearest_image(dx, scene.box.width);
-    if (scene.box.periodic_y()) dy = nearest_image(dy, scene.box.height);
-    sum += std::hypot(dx, dy);
+    const Vec2 apart = nearest_image(Vec2{a[i].x - b[i].x, a[i].y - b[i].y}, box);
+    sum += std::hypot(apart.x, apart.y);
   }
   return sum / static_cast<double>(a.size());
 }
@@ -111,22 +123,24 @@ void measure_rates(const ChartScene& scene, const Scene& s, const State& start, 
     const double before = cpu_seconds();
     while (engine->state().time < until) engine->step();
     seconds += cpu_seconds() - before;
-    overlap = std::max(overlap, max_overlap(engine->state().disks, s.box));
+    overlap = std::max(overlap, max_overlap(engine->state().disks, box_at(s.box, engine->state().time)));
     if (scene.figure == Figure::spread) look_at(displacement, engine->state().disks, s.box, engine->state().time);
   }
   const State& end = engine->state();
   const Energy first = energy_of(start.disks, s.physics.gravity);
   const Energy last = energy_of(end.disks, s.physics.gravity);
+  const Disks before = relative_to_flow(start.disks, s.box), after = relative_to_flow(end.disks, s.box);
   sample[Measure::cost] = seconds / (n * s.run.t_end);
   sample[Measure::rate] = 2.0 * static_cast<double>(end.counters.collisions) / (n * s.run.t_end);
-  sample[Measure::energy] = scene.keeps_energy ? std::abs(last.total() / first.total() - 1.0) : undefined;
+  sample[Measure::energy] =
+      scene.keeps_energy ? std::abs(last.total() / (first.total() + work_on(end)) - 1.0) : undefined;
   sample[Measure::momentum] =
-      scene.keeps_momentum ? momentum_drift(momentum_of(start.disks), momentum_of(end.disks)) : undefined;
+      scene.keeps_momentum ? momentum_drift(momentum_of(before), momentum_of(after)) : undefined;
   sample[Measure::overlap] = overlap;
   switch (scene.figure) {
     case Figure::pressure:
-      sample[Measure::figure] =
-          pressure({0.5 * (first.kinetic + last.kinetic), 0.0}, end.counters.virial, s.run.t_end, s.box);
+      sample[Measure::figure] = pressure({0.5 * (energy_of(before, 0.0).kinetic + energy_of(after, 0.0).kinetic), 0.0},
+                                         end.counters.virial, s.run.t_end, s.box);
       break;
     case Figure::cooling:
       sample[Measure::figure] = (std::sqrt(first.kinetic / last.kinetic) - 1.0) / s.run.t_end;

@@ -21,6 +21,16 @@ std::string equal_disks(std::size_t count) {
       count);
 }
 
+std::string sheared_box(double packing_fraction, double rate) {
+  return periodic_box(packing_fraction) + fmt::format("shear_rate = {}\n", rate);
+}
+
+std::string placed_disks(std::size_t count) {
+  return fmt::format(
+      "[[disks]]\ncount = {}\npositions = \"random\"\nvelocities = {{ maxwell = 1.0 }}\nradius = 0.5\nmass = 1.0\n",
+      count);
+}
+
 std::string mixed_disks(std::size_t count) {
   return fmt::format(
       "[[disks]]\ncount = {}\npositions = \"random\"\nvelocities = {{ maxwell = 1.0 }}\n"
@@ -30,6 +40,26 @@ std::string mixed_disks(std::size_t count) {
 
 // At v = 4 sqrt(kT / m), which some disk always has, pairwise splits steps above 0.0625 diameters.
 constexpr double longest_step = 0.064;
+
+// What lies in a gas and can catch disks: polylines with acute wedges, of 30 degrees and less, inner corners, and free
+// ends that disks graze.
+std::string corners() {
+  std::string text = "[box]\nwidth = 36.0\nheight = 36.0\nleft = \"periodic\"\nright = \"periodic\"\n";
+  for (const double x : {2.0, 14.0, 26.0}) {
+    for (const double y : {3.0, 21.0}) {
+      text += fmt::format("[[walls]]\npoints = [[{}, {}], [{}, {}], [{}, {}], [{}, {}]]\n", x, y, x + 6.0, y + 1.5, x,
+                          y + 3.0, x + 6.0, y + 3.0);
+      text += fmt::format("[[walls]]\npoints = [[{}, {}], [{}, {}], [{}, {}]]\n", x + 8.0, y, x + 8.0, y + 5.0, x + 3.0,
+                          y + 5.0);
+    }
+  }
+  return text;
+}
+
+// A channel three diameters high whose floor comes up by half a diameter: disks between walls that close.
+const char* const closing_walls =
+    "[box]\nwidth = 200.0\nheight = 3.0\nleft = \"periodic\"\nright = \"periodic\"\ntop = \"wall\"\n"
+    "bottom = { motion = { vibrate = [0.0, 0.5], period = 5.0 } }\n";
 
 std::vector<ChartScene> make_scenes() {
   constexpr std::size_t many = 1024;
@@ -45,6 +75,11 @@ std::vector<ChartScene> make_scenes() {
       {"mixed", "mixed radii and masses", periodic_box(0.5) + mixed_disks(many), 4.0, 0.28, 3.5, longest_step},
       {"brownian", "Brownian motion", periodic_box(0.3) + "[physics]\ndiffusion = 1.0\n" + equal_disks(400), 6.0,
        0.0256, 0.256, 0.0064, Figure::spread, false, false},
+      {"corners", "corners, wedges and ends", corners() + placed_disks(300), 60.0, 0.8, 10.0, longest_step,
+       Figure::pressure, true, false},
+      {"closing", "between walls that close", closing_walls + placed_disks(200), 60.0, 0.8, 10.0, longest_step,
+       Figure::pressure, true, false},
+      {"shear", "shear flow, fraction 0.5", sheared_box(0.5, 0.1) + equal_disks(many), 4.0, 0.28, 3.5, longest_step},
   };
 }
 

@@ -219,6 +219,7 @@ TEST(MethodChoice, ErrorsOfTheChartAreNoLargerThanAskedFor) {
   std::size_t compared = 0;
   for (const chart::ChartScene& of_chart : chart::chart_scenes()) {
     const Scene scene = chart::scene_of(of_chart, 1, Method::exact, 0.0, of_chart.length);
+    if (scene.box.shear.acts()) continue;  // beside which "auto" is refused
     for (const double accuracy : accuracies) {
       const double dt = pairwise_of(choose_method(scene, accuracy)).dt;
       for (const ChartRow& row : rows) {
