@@ -11,12 +11,15 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/support/bench_scenes.hpp"
 #include "bench/support/gas_features.hpp"
 #include "core/base/kernel_set.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/measure/analysis.hpp"
+#include "core/scene/scene_names.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/step/engine.hpp"
 #include "io/checkpoint/checkpoint.hpp"
@@ -33,6 +36,7 @@ struct Counted {
   int long_run;
   std::function<Start()> make;
   std::size_t block_divisor = 1;  // more: work is cut into smaller parts
+  std::string quantity{};         // of [analysis]: taken so many times of the start, and nothing runs
 };
 
 // One thread has one queue, but two regions where work is cut in two.
@@ -49,7 +53,7 @@ const std::vector<Counted>& all_counted() {
   return all;
 }
 
-// Scene G with one feature each, by both methods.
+// Scene G with one feature each, by both methods, and with one measurement each.
 const std::vector<Counted>& features_counted() {
   static const std::vector<Counted> all = [] {
     std::vector<Counted> list;
@@ -58,6 +62,10 @@ const std::vector<Counted>& features_counted() {
       list.push_back({"pairwise:" + name, 40'000, "disk and step", 12, 60, [name] { return gas(40'000, name); }});
       if (name == "brownian") continue;
       list.push_back({"exact:" + name, 10'000, "collision", 2, 10, [name] { return exact_gas_with(10'000, name); }});
+    }
+    for (const std::string_view quantity : quantity_names) {
+      list.push_back({fmt::format("analysis:{}", quantity), 10'000, "disk and sample", 1, 3, [] { return gas(10'000); },
+                      1, std::string(quantity)});
     }
     return list;
   }();
@@ -77,6 +85,19 @@ void prepare(const Counted& scene, const std::string& path) {
   RunRecord record;
   record.scene_text = resolved_toml(start.scene);
   write_checkpoint(path, record, start.state);
+}
+
+// So many samples of one state.
+void measure(const Counted& counted, const std::string& path, int samples) {
+  const Checkpoint start = read_checkpoint(path);
+  const Scene scene = parse_scene(
+      start.record.scene_text + fmt::format("\n[analysis]\nwhat = [\"{}\"]\nevery = 1.0\n", counted.quantity),
+      counted.name, "");
+  AnalysisRecord record = empty_record(scene);
+  for (int k = 0; k < samples; ++k) {
+    take_sample(record, scene, start.state.disks, start.state.time, start.state, count_pairs);
+  }
+  fmt::print("{}\n", counted.disks * static_cast<std::size_t>(samples));
 }
 
 void run(const Counted& counted, const std::string& path, int steps) {
@@ -106,7 +127,8 @@ int act(const std::vector<std::string>& words) {
   if (command == "prepare") {
     prepare(scene, words.at(2));
   } else if (command == "run") {
-    run(scene, words.at(2), words.at(3) == "long" ? scene.long_run : scene.short_run);
+    const int length = words.at(3) == "long" ? scene.long_run : scene.short_run;
+    scene.quantity.empty() ? run(scene, words.at(2), length) : measure(scene, words.at(2), length);
   } else {
     throw std::invalid_argument("no command " + command);
   }

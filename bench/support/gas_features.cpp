@@ -54,6 +54,7 @@ std::vector<GasFeature> gas_features() {
        "left = \"wall\"\nright = \"wall\"\ntop = \"wall\"\n"
        "bottom = { motion = { vibrate = [0.0, 0.01], period = 2.0 } }\n",
        ""},
+      {"shear", periodic + "shear_rate = 0.0001\n", ""},
       feature("fixed_disks", ""),
       feature("inner_walls", "")};
   const auto named = [&](const char* name) -> GasFeature& {
