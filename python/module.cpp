@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -266,8 +267,8 @@ void bind_simulation(py::module_& m) {
       .def("save_bytes", [](const PySimulation& s) { return py::bytes(s.look().save()); })
       .def("load_bytes", [](PySimulation& s, const py::bytes& bytes) { s.change().load(std::string_view(bytes)); })
       .def("add",
-           [](PySimulation& s, double x, double y, double vx, double vy, double radius, double mass) {
-             return s.change().add({x, y, vx, vy, radius, mass, 0});
+           [](PySimulation& s, double x, double y, double vx, double vy, double radius, double mass, double spin) {
+             return s.change().add({x, y, vx, vy, radius, mass, 0, spin});
            })
       .def("remove", [](PySimulation& s, DiskId id) { return s.change().remove(id); })
       .def("set_velocity",
@@ -286,7 +287,10 @@ void bind_simulation(py::module_& m) {
       .def("cast_ray",
            [](const PySimulation& s, double x, double y, double dx, double dy, double length) -> py::object {
              const auto hit = s.look().cast_ray({x, y}, {dx, dy}, length);
-             return hit ? py::object(py::make_tuple(hit->id, hit->distance, hit->place.x, hit->place.y)) : py::none();
+             if (!hit) return py::none();
+             constexpr std::array what{"disk", "wall", "sink"};
+             return py::make_tuple(hit->id, hit->distance, hit->place.x, hit->place.y,
+                                   what[static_cast<std::size_t>(hit->what)]);
            });
 }
 

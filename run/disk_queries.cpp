@@ -80,6 +80,17 @@ double entry(Vec2 centre, double radius, Vec2 direction) {
   return c / (along + std::sqrt(half_chord2));
 }
 
+// How far along a unit direction from the origin a line crosses the segment from `to` to `to + along`; infinite where
+// it does not. The two pieces at a corner overlap by a rounding, so that no line slips between them.
+double crossing(Vec2 to, Vec2 along, Vec2 direction) {
+  constexpr double rounding = 1e-12;  // of the segment
+  const double sine = direction.x * along.y - direction.y * along.x;
+  if (sine == 0.0) return infinite;
+  const double t = (to.x * along.y - to.y * along.x) / sine;
+  const double share = (to.x * direction.y - to.y * direction.x) / sine;
+  return t >= 0.0 && share >= -rounding && share <= 1.0 + rounding ? t : infinite;
+}
+
 // The length of a ray inside the sides that are not periodic.
 double clipped(const Domain& box, Vec2 from, Vec2 direction, double length) {
   const auto clip = [&](double at, double speed, double size, bool periodic) {
@@ -109,9 +120,20 @@ std::optional<RayHit> first_in_piece(const QueryScene& scene, Vec2 start, Vec2 d
     const Vec2 to = nearest_image({centre.x - middle.x, centre.y - middle.y}, scene.box);
     const double t = entry({to.x + half * direction.x, to.y + half * direction.y}, radius, direction);
     if (t > length) return;
-    if (!first || t < first->distance || (t == first->distance && id < first->id)) first = RayHit{id, t, {}};
+    if (!first || t < first->distance || (t == first->distance && id < first->id)) first = RayHit{id, t};
   };
   see_near(scene, middle, half * std::abs(direction.x) + largest, half * std::abs(direction.y) + largest, look);
+  if (scene.walls == nullptr) return first;
+  const double across = half * std::abs(direction.x), up = half * std::abs(direction.y);
+  const auto cross = [&](std::uint32_t k, Vec2 shift) {
+    const Obstacle& o = (*scene.walls)[k];
+    const Vec2 to{(o.x + shift.x - middle.x) + half * direction.x, (o.y + shift.y - middle.y) + half * direction.y};
+    const double t = crossing(to, {o.dx, o.dy}, direction);
+    if (t > length || (first && t > first->distance)) return;
+    if (first && t == first->distance && (first->what == RayMet::disk || o.id >= first->id)) return;
+    first = RayHit{o.id, t, {}, o.kind == ObstacleKind::sink ? RayMet::sink : RayMet::wall};
+  };
+  scene.walls->visit({middle.x - across, middle.y - up}, {middle.x + across, middle.y + up}, cross);
   return first;
 }
 

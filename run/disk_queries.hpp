@@ -1,8 +1,9 @@
-// Which disks are in a rectangle, which is nearest to a place, which one a ray meets first. Fixed disks are
-// seen as others are.
+// Which disks are in a rectangle, which is nearest to a place, what a ray meets first. Fixed disks are seen as others
+// are; inner walls stop rays.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -26,7 +27,8 @@ struct QueryScene {
   const Disks& disks;
   const Domain& box;
   VisitNear near;
-  const ObstacleCells* fixed = nullptr;  // null where there are none
+  const ObstacleCells* fixed = nullptr;  // disks; null where there are none
+  const ObstacleCells* walls = nullptr;  // inner ones; likewise
 
   std::size_t count() const { return disks.size() + (fixed != nullptr ? fixed->size() : 0); }
 };
@@ -36,10 +38,13 @@ struct NearDisk {
   double distance = 0.0;  // of the centre, to the nearest image
 };
 
+enum class RayMet : std::uint8_t { disk, wall, sink };
+
 struct RayHit {
-  DiskId id = 0;
+  DiskId id = 0;          // of a wall, the number of its [[walls]] table
   double distance = 0.0;  // along the ray to the disk's edge; 0 if the ray begins inside
-  Vec2 place;             // there, inside the box
+  Vec2 place{};           // there, inside the box
+  RayMet what = RayMet::disk;
 };
 
 // Ids, ascending, of the disks whose centres lie in the rectangle, its sides included. Across periodic sides it may
@@ -51,7 +56,8 @@ std::vector<DiskId> disks_in(const QueryScene& scene, Vec2 low, Vec2 high);
 // InputError where the place is not finite or lies outside the box.
 std::optional<NearDisk> nearest_disk(const QueryScene& scene, Vec2 place);
 
-// The first disk on a straight line of this length; it goes through periodic sides and ends at others. Throws
+// The first disk or inner wall on a straight line of this length, the disk of two as near; a line along a wall does not
+// meet it. The line goes through periodic sides and ends at others. Throws
 // InputError where a number is not finite, the direction is 0, the line begins outside the box, or is longer than 10^6
 // times the box.
 std::optional<RayHit> cast_ray(const QueryScene& scene, Vec2 from, Vec2 direction, double length);

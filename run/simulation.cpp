@@ -50,9 +50,9 @@ Scene scene_in(const Checkpoint& checkpoint, const std::string& name) {
   return scene;
 }
 
-// Of the fixed disks: queries do not see inner walls.
-std::unique_ptr<const ObstacleCells> cells_of(std::vector<Obstacle> fixed, const Domain& box) {
-  std::erase_if(fixed, [](const Obstacle& o) { return o.is_segment(); });
+// Of the fixed disks, or of the inner walls.
+std::unique_ptr<const ObstacleCells> cells_of(std::vector<Obstacle> fixed, const Domain& box, bool segments) {
+  std::erase_if(fixed, [segments](const Obstacle& o) { return o.is_segment() != segments; });
   return fixed.empty() ? nullptr : std::make_unique<const ObstacleCells>(fixed, box);
 }
 
@@ -62,7 +62,8 @@ Simulation::Simulation(Scene scene, EngineChoice engine)
     : scene_(std::move(scene)), scene_text_(resolved_toml(scene_)), choice_(std::move(engine)) {
   const FloatEnvironment environment;
   within_memory(scene_, [&] { engine_ = make_engine(choice_, scene_, make_initial_state(choice_, scene_)); });
-  fixed_ = cells_of(state().obstacles, scene_.box);
+  fixed_ = cells_of(state().obstacles, scene_.box, false);
+  walls_ = cells_of(state().obstacles, scene_.box, true);
   start_ = run_start(state(), scene_);
   warnings_ = validity_of(scene_, smallest_radius(state().disks), fastest_speed(state().disks));
 }
@@ -74,7 +75,8 @@ Simulation::Simulation(Checkpoint checkpoint, const std::string& name, EngineCho
       start_(checkpoint.record.start) {
   const FloatEnvironment environment;
   within_memory(scene_, [&] { engine_ = make_engine(choice_, scene_, std::move(checkpoint.state)); });
-  fixed_ = cells_of(state().obstacles, scene_.box);
+  fixed_ = cells_of(state().obstacles, scene_.box, false);
+  walls_ = cells_of(state().obstacles, scene_.box, true);
 }
 
 Simulation Simulation::resume(const std::string& name, EngineChoice engine) {
@@ -229,6 +231,7 @@ void Simulation::check_newcomer(const Disk& disk) const {
   check_size("mass", Dimension::mass, disk.mass);
   check_magnitude("vx", Dimension::speed, disk.vx);
   check_magnitude("vy", Dimension::speed, disk.vy);
+  if (state().disks.spins()) check_magnitude("spin", Dimension::frequency, disk.spin);
   const auto check_axis = [&](const char* what, double size, bool periodic) {
     if (!periodic || size >= 4.0 * disk.radius) return;
     fail_input("radius", fmt::format("is {}", disk.radius),
@@ -264,6 +267,7 @@ std::optional<DiskId> Simulation::add(Disk disk) {
   }
   if (met) return std::nullopt;
   disk.id = state().next_id;
+  if (!state().disks.spins()) disk.spin = 0.0;
   change({Edit::Kind::add, disk, 0});
   return disk.id;
 }
@@ -303,7 +307,7 @@ VisitNear Simulation::visit_near() const {
 
 QueryScene Simulation::query_scene() const {
   if (scene_.box.shear.acts()) fail_input("box.shear_rate", "moves the images", "expected queries of other scenes");
-  return {state().disks, scene_.box, visit_near(), fixed_.get()};
+  return {state().disks, scene_.box, visit_near(), fixed_.get(), walls_.get()};
 }
 
 std::vector<DiskId> Simulation::disks_in(Vec2 low, Vec2 high) const {

@@ -90,7 +90,8 @@ class Simulation {
   // Where a disk lies in storage now, if there is one of this id.
   std::optional<std::size_t> find(DiskId id) const;
 
-  // See disk_queries.hpp. Fixed disks are seen too, with the ids that they have among the disks of the scene.
+  // See disk_queries.hpp. Fixed disks are seen too, with the ids that they have among the disks of the scene; inner
+  // walls by rays alone.
   std::vector<DiskId> disks_in(Vec2 low, Vec2 high) const;
   std::optional<NearDisk> nearest(Vec2 place) const;
   std::optional<RayHit> cast_ray(Vec2 from, Vec2 direction, double length) const;
@@ -109,7 +110,8 @@ class Simulation {
   std::string scene_text_;
   EngineChoice choice_;
   RunStart start_;
-  std::unique_ptr<const ObstacleCells> fixed_;  // for queries; null where nothing is fixed
+  std::unique_ptr<const ObstacleCells> fixed_;  // for queries; null where no disk is fixed
+  std::unique_ptr<const ObstacleCells> walls_;  // likewise, inner walls
   std::unique_ptr<Engine> engine_;
   bool stepped_ = false;         // and nothing was changed or loaded since
   std::optional<State> edited_;  // of which the engine is made anew before the next step

@@ -17,6 +17,13 @@
 #define CAROM_API
 #endif
 
+/* What a C++ program that lists the fields of a struct may leave out. */
+#if defined(__cplusplus) && __cplusplus >= 201402L
+#define CAROM_OPTIONAL = 0
+#else
+#define CAROM_OPTIONAL
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -54,6 +61,7 @@ typedef struct carom_scene {
   double dt;                    /* 0; the step of pairwise and rollback, and of Brownian motion */
   double t_end;                 /* 1e9 */
   uint64_t seed;                /* 1 */
+  double gravity_x;             /* 0; along +x, length / time^2: the vector is (gravity_x, -gravity) */
 } carom_scene;
 
 typedef struct carom_disk {
@@ -61,12 +69,17 @@ typedef struct carom_disk {
   double vx, vy; /* length / time */
   double radius, mass;
   uint32_t id;
+  double spin CAROM_OPTIONAL; /* angular velocity, counter-clockwise, 1 / time; of smooth disks 0, and not read */
 } carom_disk;
+
+/* What a ray has met. */
+typedef enum carom_met { CAROM_MET_DISK = 0, CAROM_MET_WALL = 1, CAROM_MET_SINK = 2 } carom_met;
 
 typedef struct carom_hit {
   double distance; /* along the ray to the disk's edge; 0 if the ray begins inside */
   double x, y;     /* there, inside the box */
-  uint32_t id;
+  uint32_t id;     /* of the disk; of an inner wall the number of its [[walls]] table, from 0 */
+  int what;        /* carom_met */
 } carom_hit;
 
 typedef struct carom_contact {
@@ -134,6 +147,7 @@ CAROM_API carom_status carom_ids(const carom_world* world, uint32_t* ids, size_t
 CAROM_API carom_status carom_positions(const carom_world* world, double* xy, size_t room);  /* x0, y0, x1, y1, ... */
 CAROM_API carom_status carom_velocities(const carom_world* world, double* xy, size_t room); /* likewise */
 CAROM_API carom_status carom_radii(const carom_world* world, double* radii, size_t room);
+CAROM_API carom_status carom_spins(const carom_world* world, double* spins, size_t room); /* 0 of smooth disks */
 /* Those at a time within the last step (with pairwise and rollback, at its end): how many, and their time. */
 CAROM_API carom_status carom_disks_at(const carom_world* world, double t, carom_disk* disks, size_t room, size_t* count,
                                       double* time);
@@ -153,7 +167,7 @@ CAROM_API carom_status carom_remove(carom_world* world, uint32_t id);
 CAROM_API carom_status carom_set_velocity(carom_world* world, uint32_t id, double vx, double vy);
 
 /* --- Asking ---------------------------------------------------------------------------------------------------------
- * Fixed disks are seen too, with the ids that they have among the disks of the scene. */
+ * Fixed disks are seen too, with the ids that they have among the disks of the scene; inner walls by rays alone. */
 
 /* The disks whose centres lie in a rectangle, ids ascending; it may reach across periodic sides. *count is how many
  * there are; CAROM_INPUT, and no ids, where that is more than room. */
@@ -161,7 +175,7 @@ CAROM_API carom_status carom_query_box(const carom_world* world, double x0, doub
                                        uint32_t* ids, size_t room, size_t* count);
 /* The disk whose centre is nearest; distance, to the nearest image, may be null. */
 CAROM_API carom_status carom_nearest(const carom_world* world, double x, double y, uint32_t* id, double* distance);
-/* The first disk on a line of this length from (x, y) along (dx, dy); it goes through periodic sides. */
+/* The first disk or inner wall on a line of this length from (x, y) along (dx, dy); it goes through periodic sides. */
 CAROM_API carom_status carom_cast_ray(const carom_world* world, double x, double y, double dx, double dy, double length,
                                       carom_hit* hit);
 

@@ -99,6 +99,7 @@ class World {
   void positions(std::span<double> xy) const { check(carom_positions(world_, xy.data(), xy.size() / 2)); }
   void velocities(std::span<double> xy) const { check(carom_velocities(world_, xy.data(), xy.size() / 2)); }
   void radii(std::span<double> out) const { check(carom_radii(world_, out.data(), out.size())); }
+  void spins(std::span<double> out) const { check(carom_spins(world_, out.data(), out.size())); }
   std::vector<carom_disk> disks() const {
     std::vector<carom_disk> all(size());
     disks(all);

@@ -56,12 +56,14 @@ class Frame(Disks):
 
 
 class Hit(NamedTuple):
-    """What a ray meets: the disk's id, the distance along the ray to its edge, and the place there (length)."""
+    """What a ray meets: the disk's id, the distance along the ray to its edge, and the place there (length). what: "disk",
+    or "wall" or "sink" of an inner wall, whose id is the number of its table in [[walls]]."""
 
     id: int
     distance: float
     x: float
     y: float
+    what: str = "disk"
 
 
 class View:

@@ -122,9 +122,10 @@ class Simulation:
         differ, v.spin where they are rough. step and every change raise RuntimeError while it, or an array of it, is in use."""
         return View(self._sim.view())
 
-    def add(self, x, y, vx=0.0, vy=0.0, radius=1.0, mass=1.0) -> Optional[int]:
-        """A new disk; its id, or None where it would overlap another. Raises SceneError for numbers out of range."""
-        return self._sim.add(x, y, vx, vy, radius, mass)
+    def add(self, x, y, vx=0.0, vy=0.0, radius=1.0, mass=1.0, spin=0.0) -> Optional[int]:
+        """A new disk; its id, or None where it would overlap another. spin counts where disks are rough. Raises SceneError
+        for numbers out of range."""
+        return self._sim.add(x, y, vx, vy, radius, mass, spin)
 
     def remove(self, id: int) -> bool:
         """Takes a disk away; False where there is none of this id."""
@@ -143,7 +144,7 @@ class Simulation:
         return self._sim.nearest(x, y)
 
     def cast_ray(self, x, y, dx, dy, length) -> Optional[Hit]:
-        """The first disk on a line of this length from (x, y) along (dx, dy); None where there is none."""
+        """The first disk or inner wall on a line of this length from (x, y) along (dx, dy); None where there is none."""
         hit = self._sim.cast_ray(x, y, dx, dy, length)
         return None if hit is None else Hit(*hit)
 

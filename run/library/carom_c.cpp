@@ -167,7 +167,8 @@ carom_status carom_run_while(carom_world* world, double t, int (*go_on)(void* co
 carom_status carom_add(carom_world* world, const carom_disk* disk, uint32_t* id) {
   return with(world, [&](Simulation& s) {
     check_pointer(disk, "disk");
-    const std::optional<DiskId> added = s.add({disk->x, disk->y, disk->vx, disk->vy, disk->radius, disk->mass, 0});
+    const std::optional<DiskId> added =
+        s.add({disk->x, disk->y, disk->vx, disk->vy, disk->radius, disk->mass, 0, disk->spin});
     if (!added) return fail(world, CAROM_NO_ROOM, "the disk would overlap another");
     if (id != nullptr) *id = *added;
     return CAROM_OK;

@@ -16,7 +16,7 @@ using namespace carom;
 
 carom_disk as_c(const Disks& d, std::size_t i) {
   const Disk disk = disk_at(d, i);
-  return {disk.x, disk.y, disk.vx, disk.vy, disk.radius, disk.mass, disk.id};
+  return {disk.x, disk.y, disk.vx, disk.vy, disk.radius, disk.mass, disk.id, disk.spin};
 }
 
 // put(k, disks, i) for the disks in order of id, into an array with so much room.
@@ -123,6 +123,10 @@ carom_status carom_radii(const carom_world* world, double* radii, size_t room) {
   return fill(world, radii, room, [&](std::size_t k, const Disks& d, std::size_t i) { radii[k] = d.radius_of(i); });
 }
 
+carom_status carom_spins(const carom_world* world, double* spins, size_t room) {
+  return fill(world, spins, room, [&](std::size_t k, const Disks& d, std::size_t i) { spins[k] = d.spin_of(i); });
+}
+
 carom_status carom_disks_at(const carom_world* world, double t, carom_disk* disks, size_t room, size_t* count,
                             double* time) {
   return with(world, [&](const Simulation& s) {
@@ -191,8 +195,8 @@ carom_status carom_cast_ray(const carom_world* world, double x, double y, double
   return with(world, [&](const Simulation& s) {
     check_pointer(hit, "hit");
     const std::optional<RayHit> first = s.cast_ray({x, y}, {dx, dy}, length);
-    if (!first) return fail(world, CAROM_NOT_FOUND, "the ray meets no disk");
-    *hit = {first->distance, first->place.x, first->place.y, first->id};
+    if (!first) return fail(world, CAROM_NOT_FOUND, "the ray meets nothing");
+    *hit = {first->distance, first->place.x, first->place.y, first->id, static_cast<int>(first->what)};
     return CAROM_OK;
   });
 }

@@ -34,6 +34,15 @@ std::string line(const char* key, double value) {
   return fmt::format("{} = {:.17e}\n", key, value);
 }
 
+// A number where it is one along -y, so that it is the scene that a file would say so.
+std::string gravity_line(const carom_scene& told) {
+  if (told.gravity_x == 0.0) return line("gravity", told.gravity);
+  for (const double g : {told.gravity_x, told.gravity}) {
+    if (!std::isfinite(g)) fail_input("gravity", fmt::format("is {}", g), "expected a finite number");
+  }
+  return fmt::format("gravity = [{:.17e}, {:.17e}]\n", told.gravity_x, -told.gravity);
+}
+
 }  // namespace
 
 // Through the text, so that what is checked in a file is checked here, and a checkpoint's scene reads back.
@@ -43,7 +52,7 @@ Scene scene_of_struct(const carom_scene& told) {
   text += fmt::format("left = \"{}\"\nright = \"{}\"\nbottom = \"{}\"\ntop = \"{}\"\n", side_name(told.left, "left"),
                       side_name(told.right, "right"), side_name(told.bottom, "bottom"), side_name(told.top, "top"));
   text += fmt::format("wall_restitution = {:.17e}\n", told.wall_restitution) + "[physics]\n";
-  text += line("gravity", told.gravity) + line("diffusion", told.diffusion);
+  text += gravity_line(told) + line("diffusion", told.diffusion);
   text += fmt::format("restitution = {:.17e}\n", told.restitution);
   text += "[[disks]]\ncount = 0\npositions = \"random\"\nradius = 1.0\nmass = 1.0\n[run]\n";
   text += fmt::format("method = \"{}\"\n", name_in<3>({"exact", "pairwise", "rollback"}, told.method, "method"));

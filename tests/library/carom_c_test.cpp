@@ -101,6 +101,61 @@ TEST(CaromC, StructAndTextAreTheSameScene) {
   EXPECT_EQ(of_struct.hash(), of_text.hash());
 }
 
+TEST(CaromC, HasSpinsWhereDisksAreRough) {
+  const std::string rough = "[physics]\nroughness = { tangential_restitution = 0.9 }" + std::string(gas);
+  World world = World::from_text(rough);
+  world.run_until(1.0);
+  std::vector<double> spins(world.size());
+  world.spins(spins);
+  const std::vector<carom_disk> disks = world.disks();
+  double most = 0.0;
+  for (std::size_t k = 0; k < disks.size(); ++k) {
+    EXPECT_EQ(disks[k].spin, spins[k]);
+    most = std::max(most, std::abs(spins[k]));
+  }
+  EXPECT_GT(most, 0.1) << "collisions have turned them";
+  world.remove(0);
+  const std::optional<std::uint32_t> id = world.add({disks[0].x, disks[0].y, 0.0, 0.0, 0.01, 1.0, 0, -2.5});
+  ASSERT_TRUE(id);
+  EXPECT_EQ(world.find(*id)->spin, -2.5);
+  EXPECT_THROW(world.add({1.0, 1.0, 0.0, 0.0, 0.01, 1.0, 0, std::nan("")}), carom::Error);
+  World smooth(box());
+  EXPECT_EQ(smooth.find(smooth.add({5.0, 5.0, 0.0, 0.0, 1.0, 1.0, 0, std::nan("")}).value())->spin, 0.0);
+}
+
+TEST(CaromC, GravityMayBeAVector) {
+  carom_scene scene = box(CAROM_EXACT);
+  scene.gravity = 0.5;
+  scene.gravity_x = -0.25;
+  World world(scene);
+  world.add({10.0, 5.0, 1.0, 2.0, 0.5, 1.0, 0});
+  world.run_until(2.0);
+  const double t = world.time();
+  const carom_disk disk = world.find(0).value();
+  EXPECT_NEAR(disk.vx, 1.0 - 0.25 * t, 1e-12);
+  EXPECT_NEAR(disk.vy, 2.0 - 0.5 * t, 1e-12);
+  scene.gravity_x = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(World{scene}, carom::Error);
+}
+
+TEST(CaromC, InnerWallsStopRays) {
+  World world = World::from_text(
+      "[box]\nwidth = 20\nheight = 10\n[[walls]]\nfrom = [12, 1]\nto = [12, 4]\n[[walls]]\nkind = \"sink\"\n"
+      "from = [8, 1]\nto = [8, 6]\n[[disks]]\ncount = 2\nradius = 0.5\nmass = 1\npositions = [[15, 2], [15, "
+      "5]]\n[run]\n"
+      "method = \"pairwise\"\ndt = 0.01\nt_end = 7\n");
+  const carom_hit wall = world.cast_ray(10, 2, 1, 0, 9).value();
+  EXPECT_EQ(wall.what, CAROM_MET_WALL);
+  EXPECT_EQ(wall.id, 0U);
+  EXPECT_NEAR(wall.distance, 2.0, 1e-14);
+  EXPECT_NEAR(wall.x, 12.0, 1e-14);
+  const carom_hit disk = world.cast_ray(10, 5, 1, 0, 9).value();
+  EXPECT_EQ(disk.what, CAROM_MET_DISK);
+  EXPECT_EQ(disk.id, 1U);
+  EXPECT_EQ(world.cast_ray(10, 5, -1, 0, 9)->what, CAROM_MET_SINK);
+  EXPECT_FALSE(world.cast_ray(10, 7, -1, 0, 9));
+}
+
 TEST(CaromC, SavesAndLoadsInMemoryAndInFiles) {
   const carom::test::TestFolder folder("carom_c_save");
   World world = World::from_text(gas);

@@ -19,6 +19,7 @@ struct Gas {
   std::string method, sides;
   int disks;
   int fixed = 0;
+  std::string walls{};
 };
 
 constexpr const char* fixed_disks = "\nradius = 0.4\npositions = \"random\"\nfixed = true\n";
@@ -28,7 +29,7 @@ Simulation gas(const Gas& g) {
       "[box]\npacking_fraction = " + std::string(g.disks > 1 ? "0.2" : "0.02") + "\naspect = 1.5\n" + g.sides +
       "[[disks]]\ncount = " + std::to_string(g.disks) +
       "\nvelocities = { uniform = 2.0 }\nradius = { uniform = [0.05, 0.5] }\nmass = 1.0\npositions = \"random\"\n" +
-      (g.fixed == 0 ? "" : "[[disks]]\ncount = " + std::to_string(g.fixed) + fixed_disks) +
+      (g.fixed == 0 ? "" : "[[disks]]\ncount = " + std::to_string(g.fixed) + fixed_disks) + g.walls +
       "[run]\ndt = 0.005\nt_end = 10.0\nmethod = \"" + g.method + "\"\n";
   return Simulation(parse_scene(text, "gas.toml", ""), choose_engine("parallel", 1));
 }
@@ -111,6 +112,54 @@ TEST(DiskQueries, AgreeWithAllDisksAndImages) {
       }
     }
   }
+}
+
+// Rays among inner walls, polylines with sharp corners and sinks among them: against every disk and every image of
+// every segment.
+TEST(DiskQueries, RaysEndAtInnerWalls) {
+  const std::string around = "left = \"periodic\"\nright = \"periodic\"\n";
+  const std::string both = around + "bottom = \"periodic\"\ntop = \"periodic\"\n";
+  const std::string walls =
+      "[[walls]]\npoints = [[1, 1], [4, 2], [1.5, 1.2], [2, 5]]\n[[walls]]\nkind = \"sink\"\nfrom = [6, 0.5]\n"
+      "to = [7, 5]\n[[walls]]\nfrom = [0, 3]\nto = [0.5, 0]\n";
+  test::Draws draw(5);
+  int met_walls = 0;
+  for (const std::string& sides : {std::string(), around, both}) {
+    Simulation s = gas({"pairwise", sides, 40, 5, walls});
+    const Domain& box = s.scene().box;
+    for (int k = 0; k < 400; ++k) {
+      const Vec2 place{draw.in(0.0, box.width), draw.in(0.0, box.height)};
+      const double angle = draw.in(0.0, 6.28), length = 0.9 * std::max(box.width, box.height);
+      const Vec2 unit{std::cos(angle), std::sin(angle)};
+      RayHit hit{0, 1e9};
+      for_each_image(s, 2, [&](DiskId id, Vec2 at, double radius) {
+        const double t = plain_entry(at, radius, place, unit);
+        if (t < hit.distance) hit = {id, t};
+      });
+      for (const Obstacle& o : s.state().obstacles) {
+        for (int image = 0; image < 25 && o.is_segment(); ++image) {
+          const int kx = image % 5 - 2, ky = image / 5 - 2;
+          if ((kx != 0 && !box.periodic_x()) || (ky != 0 && !box.periodic_y())) continue;
+          const double x = o.x + kx * box.width - place.x, y = o.y + ky * box.height - place.y;
+          const double side = unit.x * y - unit.y * x, other = unit.x * (y + o.dy) - unit.y * (x + o.dx);
+          if (side * other > 0.0) continue;  // both ends on one side of the ray
+          const double share = side / (side - other);
+          const double t = (x + share * o.dx) * unit.x + (y + share * o.dy) * unit.y;
+          if (t >= 0.0 && t < hit.distance) {
+            hit = {o.id, t, {}, o.kind == ObstacleKind::sink ? RayMet::sink : RayMet::wall};
+          }
+        }
+      }
+      const std::optional<RayHit> met = s.cast_ray(place, unit, length);
+      ASSERT_EQ(met.has_value(), hit.distance <= length) << k;
+      if (!met) continue;
+      EXPECT_NEAR(met->distance, hit.distance, 1e-9);
+      EXPECT_EQ(met->what, hit.what);
+      EXPECT_EQ(met->id, hit.id);
+      met_walls += hit.what != RayMet::disk ? 1 : 0;
+    }
+  }
+  EXPECT_GT(met_walls, 100);
 }
 
 TEST(DiskQueries, OfFixedDisksAlone) {

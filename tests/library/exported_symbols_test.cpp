@@ -57,6 +57,7 @@ TEST(ExportedSymbols, AreWhatTheHeaderDeclaresAndNothingElse) {
                                      "carom_save_memory",
                                      "carom_scene_init",
                                      "carom_set_velocity",
+                                     "carom_spins",
                                      "carom_status_text",
                                      "carom_step",
                                      "carom_steps",

@@ -42,3 +42,27 @@ def test_fixed_disks_are_seen():
     assert sim.cast_ray(5.0, 5.0, 1.0, 0.0, 10.0) == carom.Hit(1, 3.0, 8.0, 5.0)
     assert list(sim.disks_in(0.0, 0.0, 20.0, 10.0)) == [0, 1]
     assert sim.add(12.2, 5.0, radius=0.5) is None
+
+
+def test_rays_end_at_inner_walls():
+    scene = carom.Scene({
+        "box": {"width": 20.0, "height": 10.0},
+        "walls": [{"from": [6.0, 1.0], "to": [6.0, 9.0]}],
+        "disks": [{"count": 1, "positions": [[10.0, 5.0]], "velocities": [[0.0, 0.0]], "radius": 1.0, "mass": 1.0}],
+        "run": {"t_end": 1.0},
+    })
+    sim = carom.Simulation(scene, threads=1)
+    assert sim.cast_ray(5.0, 5.0, 1.0, 0.0, 10.0) == carom.Hit(0, 1.0, 6.0, 5.0, "wall")
+    assert sim.cast_ray(7.0, 5.0, 1.0, 0.0, 10.0) == carom.Hit(0, 2.0, 9.0, 5.0, "disk")
+
+
+def test_rough_disks_come_with_a_spin():
+    scene = carom.Scene({
+        "box": {"width": 20.0, "height": 10.0},
+        "physics": {"roughness": {"tangential_restitution": 0.5}},
+        "disks": [{"count": 1, "positions": [[10.0, 5.0]], "radius": 1.0, "mass": 1.0, "spin": 2.0}],
+        "run": {"t_end": 1.0},
+    })
+    sim = carom.Simulation(scene, threads=1)
+    assert sim.add(5.0, 5.0, radius=0.5, spin=-3.0) == 1
+    assert list(sim.disks().spin) == [2.0, -3.0]
