@@ -37,7 +37,8 @@ constexpr std::size_t most_sampled = 2'000'000;
 
 // Where nothing can be written: bytes of a disk in a frame of trajectory.xyz, with all digits, and of trajectory.h5,
 // packed; of a frame in series.csv and in a movie.
-constexpr double xyz_bytes = 134.0, h5md_bytes = 32.0, h5md_single_bytes = 15.0, row_bytes = 200.0, movie_bytes = 2e4;
+constexpr double xyz_bytes = 134.0, xyz_spin_bytes = 21.0, h5md_bytes = 32.0, h5md_single_bytes = 15.0,
+                 row_bytes = 200.0, movie_bytes = 2e4;
 // gnuplot's SVG: of the axes, and of a point.
 constexpr double plot_bytes = 16e3, point_bytes = 19.0;
 
@@ -98,6 +99,9 @@ Disks moved(const Disks& disks, const Scene& scene, double time) {
         spread > 0.0 ? spread * std::cos(5.0 * static_cast<double>(i)) : later.vy[i] * time - fall * g.down;
     const bool x = scene.box.periodic_x(), y = scene.box.periodic_y();
     later.x[i] = folded(later.x[i] + dx, x ? 0.0 : r, scene.box.width - (x ? 0.0 : r), x);
+    if (!later.spin.empty()) {  // that collisions will have brought, where a run starts without
+      later.spin[i] += std::hypot(later.vx[i], later.vy[i]) / r * std::sin(3.0 * static_cast<double>(i));
+    }
     later.y[i] = folded(later.y[i] + dy, y ? 0.0 : r, scene.box.height - (y ? 0.0 : r), y);
   }
   return later;
@@ -195,9 +199,13 @@ void guess_files(const Scene& scene, double disks, OutputForesight& f) {
   const auto frames = static_cast<double>(f.frames);
   const OutputPlan& plan = scene.output;
   const double shown = disks_shown(scene, disks) / static_cast<double>(plan.select.stride);
-  if (plan.trajectory == TrajectoryFormat::xyz) f.files.emplace_back("trajectory.xyz", xyz_bytes * shown * frames);
+  const bool rough = scene.physics.surfaces.are_rough();
+  if (plan.trajectory == TrajectoryFormat::xyz) {
+    f.files.emplace_back("trajectory.xyz", (xyz_bytes + (rough ? xyz_spin_bytes : 0.0)) * shown * frames);
+  }
   if (plan.trajectory == TrajectoryFormat::h5md) {
-    const double each = plan.single_precision ? h5md_single_bytes : h5md_bytes;
+    const double each =
+        (plan.single_precision ? h5md_single_bytes : h5md_bytes) * (rough ? 1.25 : 1.0);  // a fifth number
     f.files.emplace_back("trajectory.h5", each * shown * frames);
   }
   if (plan.series) f.files.emplace_back("series.csv", row_bytes * frames);
@@ -251,8 +259,9 @@ double quantities_of(const Scene& scene) {
 
 double checkpoint_bytes(const State& state, double scale) {
   if (state.disks.size() > most_rehearsed) {
-    constexpr double disk_bytes = 60.0;
-    return disk_bytes * static_cast<double>(state.disks.size()) * scale;
+    constexpr double disk_bytes = 60.0, spin_bytes = 8.0;
+    return (state.disks.spins() ? disk_bytes + spin_bytes : disk_bytes) * static_cast<double>(state.disks.size()) *
+           scale;
   }
   return scale * static_cast<double>(encode_checkpoint({}, state).size());
 }

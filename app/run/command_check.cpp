@@ -123,7 +123,8 @@ void try_steps(Engine& engine, const Scene& scene, Findings& f) {
   f.memory_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
   if (f.population.end > f.population.start) {
     f.step_seconds = seconds_with_sources(scene, f.population, f.step_seconds);
-    f.memory_bytes += least_memory(scene.run.method, static_cast<Count>(f.population.end - f.population.start));
+    f.memory_bytes += least_memory(scene.run.method, static_cast<Count>(f.population.end - f.population.start),
+                                   scene.physics.surfaces.are_rough());
   }
 }
 
@@ -164,7 +165,7 @@ int command_check(const CheckOptions& options) {
   found.collapse = foresee_collapse(scene, initial.disks);
   found.troubles = foreseen_troubles(scene, found.steps, found.population, found.collapse);
   found.outputs.frames = frame_count(scene.output.every, scene.run.t_end);
-  if (!tried) found.memory_bytes = least_memory(Method::exact, found.disks);
+  if (!tried) found.memory_bytes = least_memory(Method::exact, found.disks, scene.physics.surfaces.are_rough());
   if (tried) try_run(scene, choice, std::move(initial), found);
   if (options.ranks) try_ranks(scene, choice, *options.ranks, tried, found);
   print_out(options.json ? check_json(scene, found, options.accuracy) : check_text(scene, found, options.accuracy));

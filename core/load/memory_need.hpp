@@ -9,6 +9,6 @@ namespace carom {
 
 // Bytes that a run of so many disks takes at the very least: state, cells and lists of the method; what contacts add is
 // left out. Measured peaks are in docs/benchmarks.md.
-double least_memory(Method method, Count disks);
+double least_memory(Method method, Count disks, bool rough = false);
 
 }  // namespace carom

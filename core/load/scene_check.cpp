@@ -26,9 +26,9 @@ void check_length(std::size_t length, Count count, const std::string& where) {
 }
 
 // The place is that of the group that makes it too many.
-void check_memory(Method method, Count total, const std::string& where) {
+void check_memory(const Scene& scene, Method method, Count total, const std::string& where) {
   constexpr double gigabyte = 1e9;
-  const double need = least_memory(method, total);
+  const double need = least_memory(method, total, scene.physics.surfaces.are_rough());
   const double have = machine_memory();
   if (need <= have) return;
   fail_input(where,
@@ -270,7 +270,7 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
     }
     total += count;
     const bool flies = scene.groups[g].positions.kind == PositionLaw::Kind::growth;  // which exact does, whatever runs
-    check_memory(flies ? Method::exact : scene.run.method, total, place(path + ".count"));
+    check_memory(scene, flies ? Method::exact : scene.run.method, total, place(path + ".count"));
     check_group(scene.groups[g], path, place);
   }
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
