@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
 #include "core/base/input_message.hpp"
-#include "core/scene/scene_names.hpp"
 #include "core/scene/scene_ranges.hpp"
 
 namespace carom {
@@ -16,20 +14,6 @@ namespace carom {
 namespace {
 
 constexpr std::string_view either = "expected one of the two";
-
-// Others are measured with images at rest, or from velocities that the flow is part of.
-constexpr std::array measured_in_shear{Quantity::density, Quantity::profile, Quantity::pressure,
-                                       Quantity::collision_rate};
-
-void check_analysis(const Scene& scene, const PlaceOfKey& place) {
-  for (std::size_t q = 0; q < quantities; ++q) {
-    const bool measured = std::find(measured_in_shear.begin(), measured_in_shear.end(), static_cast<Quantity>(q)) !=
-                          measured_in_shear.end();
-    if (measured || !scene.analysis.wanted[q]) continue;
-    fail_input(place("analysis.what"), fmt::format("{} is not measured in a shear flow", quantity_names[q]),
-               "expected density, profile, pressure or collision_rate, or no box.shear_rate");
-  }
-}
 
 void check_shear(const Scene& scene, const PlaceOfKey& place) {
   const std::string where = place("box.shear_rate");
@@ -45,14 +29,12 @@ void check_shear(const Scene& scene, const PlaceOfKey& place) {
   beside(!scene.sources.empty(), "[[sources]]");
   beside(scene.physics.gravity.acts(), "physics.gravity");
   beside(scene.physics.diffusion > 0.0, "physics.diffusion: Brownian disks have no velocity");
-  beside(scene.physics.thermostat.acts(), "physics.thermostat, which would act against the flow");
   beside(scene.physics.collapse_contact_time.has_value(), "physics.collapse");
   beside(scene.physics.surfaces.are_rough(), "physics.roughness");
   if (scene.run.automatic) {
     fail_input(place("run.method"), "is \"auto\" beside box.shear_rate, whose errors are not known",
                "expected a method by name");
   }
-  check_analysis(scene, place);
 }
 
 }  // namespace

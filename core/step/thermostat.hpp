@@ -42,7 +42,8 @@ inline Kick langevin_kick(double rate, double dt) {
   return {(1.0 - q) / (1.0 + q), 2.0 * std::sqrt(q) / (1.0 + q)};
 }
 
-// Kick number k for disks [begin, end) of the scene; heat: the energy that it gives them is added.
+// Kick number k for disks [begin, end) of the scene; heat: the energy that it gives them is added. In a sheared box v
+// is relative to the flow, and the energy that of the laboratory.
 template <class View>
 void kick_disks(const View& d, const Scene& scene, Count k, std::size_t begin, std::size_t end, ExactSum& heat) {
   const Thermostat& bath = scene.physics.thermostat;
@@ -54,7 +55,12 @@ void kick_disks(const View& d, const Scene& scene, Count k, std::size_t begin, s
     const Vec2 r = normals(scene.seed, Stream::thermostat, d.id[i], k);
     const double scale = kick.drawn * std::sqrt(bath.temperature / d.mass(i));
     const double before = d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
-    d.vx[i] = kick.kept * d.vx[i] + scale * r.x;
+    if (scene.box.shear.acts()) [[unlikely]] {
+      const double flow = scene.box.shear.flow(d.y[i], scene.box.height);
+      d.vx[i] = flow + (kick.kept * (d.vx[i] - flow) + scale * r.x);
+    } else {
+      d.vx[i] = kick.kept * d.vx[i] + scale * r.x;
+    }
     d.vy[i] = kick.kept * d.vy[i] + scale * r.y;
     heat.add(0.5 * d.mass(i) * ((d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]) - before));
   }
