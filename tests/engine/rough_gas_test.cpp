@@ -100,6 +100,18 @@ TEST(RoughGas, CoolsAtAConstantRatioOfTemperatures) {
   }
 }
 
+// Where much is lost distributions are further from normal ones: theory has 0.68, Boltzmann's equation 0.634 in this
+// time and 0.627 in the end. Without spin at first it takes 30 collisions a disk to come there (0.59 in the mean of 10
+// to 20), and by then larger gases have vortices, whose energy counts as that of motion. So these begin near the ratio,
+// and are measured early; 1 % statistical error.
+TEST(RoughGas, WithMuchLossHasTheRatioOfBoltzmannsEquation) {
+  Gas g{0.8, 0.0, 0.5, 0.63};
+  g.disks = 400;
+  const double measured = ratio_of(g, 3.0, 8.0, 60);
+  std::printf("e 0.8, b 0: T_rot / T_tr %.4f, theory %.4f, Boltzmann 0.634\n", measured, theory_of_ratio(g));
+  EXPECT_NEAR(measured / 0.634, 1.0, 0.03);
+}
+
 TEST(RoughGas, CoolsAtTheSameRatioUnderPairwise) {
   Gas g{0.9, 0.5, 0.5};
   g.method = "pairwise";
