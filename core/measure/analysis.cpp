@@ -57,18 +57,19 @@ Disks joined(const Disks& all, const IdRange& one, const IdRange& other) {
   return both;
 }
 
-void add_partial(std::vector<PairRecord>& partial, const Scene& scene, const Disks& disks, const PairCounter& count) {
-  const std::vector<NamedIds>& groups = scene.analysis.pair_groups;
-  const DistanceBins bins = distance_bins(scene.analysis.pairs);
-  const double area = area_of_centres(scene.box, bins);
+void add_partial(std::vector<PairRecord>& partial, const AnalysisPlan& plan, const Domain& box, const Disks& disks,
+                 const PairCounter& count) {
+  const std::vector<NamedIds>& groups = plan.pair_groups;
+  const DistanceBins bins = distance_bins(plan.pairs);
+  const double area = area_of_centres(box, bins);
   std::vector<PairCounts> own;
-  for (const NamedIds& group : groups) own.push_back(count(disks_of(disks, group.ids), scene.box, bins));
+  for (const NamedIds& group : groups) own.push_back(count(disks_of(disks, group.ids), box, bins));
   std::size_t next = 0;
   for (std::size_t k = 0; k < groups.size(); ++k) {
     add_pairs(partial[next++], own[k], area);
     for (std::size_t l = k + 1; l < groups.size(); ++l) {
       PairRecord& pairs = partial[next++];
-      const PairCounts both = count(joined(disks, groups[k].ids, groups[l].ids), scene.box, bins);
+      const PairCounts both = count(joined(disks, groups[k].ids, groups[l].ids), box, bins);
       add_counts(pairs, between(both, own[k], own[l]));
       pairs.expected += 2.0 * static_cast<double>(own[k].centres) * static_cast<double>(own[l].centres) / area;
     }
@@ -188,33 +189,20 @@ bool goes_with(const AnalysisRecord& record, const Scene& scene) {
          fits(s.temperature, plan.wants(Quantity::pressure) || plan.wants(Quantity::speeds)) &&
          fits(s.autocorrelation, plan.wants(Quantity::velocity_autocorrelation)) &&
          fits(s.local_order, plan.wants(Quantity::bond_order)) &&
-         fits(s.global_order, plan.wants(Quantity::bond_order)) && same_shape(record.motion, fresh.motion) &&
-         record.structure.along_x.size() == fresh.structure.along_x.size() &&
+         fits(s.global_order, plan.wants(Quantity::bond_order)) &&
+         fits(s.bond_autocorrelation, plan.wants(Quantity::bond_autocorrelation)) &&
+         same_shape(record.motion, fresh.motion) && record.structure.along_x.size() == fresh.structure.along_x.size() &&
          record.structure.along_y.size() == fresh.structure.along_y.size() &&
-         record.velocities.vx.size() == record.velocities.vy.size() && tally.x.from.size() == tally.y.from.size() &&
+         record.velocities.vx.size() == record.velocities.vy.size() &&
+         record.orders.real.size() == record.orders.imaginary.size() && tally.x.from.size() == tally.y.from.size() &&
          (tally.x.sixteenth.empty() || tally.x.sixteenth.size() == tally.x.from.size()) &&
          (tally.y.sixteenth.empty() || tally.y.sixteenth.size() == tally.y.from.size());
 }
 
-void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& all, double t, const State& now,
-                 const PairCounter& count) {
+namespace {
+
+void add_profiles(AnalysisRecord& record, const Scene& scene, const Disks& disks, double t) {
   const AnalysisPlan& plan = scene.analysis;
-  const bool part = !plan.group.empty();
-  const Disks selected = part ? disks_of(all, plan.ids) : Disks{};
-  const Disks& disks = part ? selected : all;
-  record.series.time.push_back(t);
-  record.series.disks.push_back(static_cast<double>(disks.size()));
-  if (plan.wants(Quantity::speeds) || plan.wants(Quantity::pressure)) {
-    const double kinetic = energy_of(relative_to_flow(disks, scene.box), 0.0).kinetic;
-    record.series.temperature.push_back(disks.empty() ? nothing : kinetic / static_cast<double>(disks.size()));
-  }
-  if (plan.wants(Quantity::pair_correlation)) {
-    const DistanceBins bins = distance_bins(plan.pairs);
-    add_pairs(record.pairs, count(disks, scene.box, bins), area_of_centres(scene.box, bins));
-    add_partial(record.partial, scene, disks, count);
-  }
-  if (plan.wants(Quantity::displacement)) add_displacement(record, scene, disks, t);
-  if (plan.wants(Quantity::speeds)) add_speeds(record.speeds, disks, record.series.temperature.back(), plan.speed_max);
   if (plan.wants(Quantity::density)) {
     add_density(record.density, disks, scene.box, plan.density_along_x);
     if (plan.density_every > 0.0) {
@@ -229,19 +217,57 @@ void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& all, d
       add_motion(row, disks, scene.box, plan.profile_along_x);
     }
   }
-  if (plan.wants(Quantity::structure_factor)) add_structure(record.structure, disks, scene.box);
-  if (plan.wants(Quantity::velocity_autocorrelation)) {
-    if (!record.velocities.begun) begin_memory(record.velocities, disks);
-    record.series.autocorrelation.push_back(velocity_autocorrelation(record.velocities, disks));
-  }
+}
+
+// box: at the time of the sample.
+void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const Disks& disks, const Domain& box) {
+  if (plan.wants(Quantity::structure_factor)) add_structure(record.structure, disks, box);
   if (plan.wants(Quantity::bond_order)) {
-    const BondOrder order = bond_order(disks, scene.box);
+    const BondOrder order = bond_order(disks, box);
     record.series.local_order.push_back(order.local);
     record.series.global_order.push_back(order.global);
   }
   if (plan.wants(Quantity::bond_correlation)) {
-    add_bond_correlation(record.bonds, disks, scene.box, distance_bins(plan.bonds));
+    add_bond_correlation(record.bonds, disks, box, distance_bins(plan.bonds));
   }
+  if (plan.wants(Quantity::bond_autocorrelation)) {
+    if (!record.orders.begun) begin_memory(record.orders, disks, box);
+    record.series.bond_autocorrelation.push_back(bond_autocorrelation(record.orders, disks, box));
+  }
+}
+
+}  // namespace
+
+void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& all, double t, const State& now,
+                 const PairCounter& count) {
+  const AnalysisPlan& plan = scene.analysis;
+  const bool part = !plan.group.empty(), sheared = scene.box.shear.acts();
+  const Disks selected = part ? disks_of(all, plan.ids) : Disks{};
+  const Disks& disks = part ? selected : all;
+  const Disks relative = sheared ? relative_to_flow(disks, scene.box) : Disks{};
+  const Disks& in_flow = sheared ? relative : disks;
+  const Domain box = box_at(scene.box, t);
+  record.series.time.push_back(t);
+  record.series.disks.push_back(static_cast<double>(disks.size()));
+  if (plan.wants(Quantity::speeds) || plan.wants(Quantity::pressure)) {
+    const double kinetic = energy_of(in_flow, 0.0).kinetic;
+    record.series.temperature.push_back(disks.empty() ? nothing : kinetic / static_cast<double>(disks.size()));
+  }
+  if (plan.wants(Quantity::pair_correlation)) {
+    const DistanceBins bins = distance_bins(plan.pairs);
+    add_pairs(record.pairs, count(disks, box, bins), area_of_centres(box, bins));
+    add_partial(record.partial, plan, box, disks, count);
+  }
+  if (plan.wants(Quantity::displacement)) add_displacement(record, scene, disks, t);
+  if (plan.wants(Quantity::speeds)) {
+    add_speeds(record.speeds, in_flow, record.series.temperature.back(), plan.speed_max);
+  }
+  if (plan.wants(Quantity::velocity_autocorrelation)) {
+    if (!record.velocities.begun) begin_memory(record.velocities, in_flow);
+    record.series.autocorrelation.push_back(velocity_autocorrelation(record.velocities, in_flow));
+  }
+  add_profiles(record, scene, disks, t);
+  add_order(record, plan, disks, box);
   add_means(record, scene, all, now);
 }
 

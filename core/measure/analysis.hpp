@@ -5,6 +5,7 @@
 
 #include "core/disks/state.hpp"
 #include "core/measure/bond_correlation.hpp"
+#include "core/measure/bond_memory.hpp"
 #include "core/measure/density_profile.hpp"
 #include "core/measure/displacement.hpp"
 #include "core/measure/motion_profile.hpp"
@@ -34,6 +35,7 @@ struct SampleSeries {
   std::vector<double> collision_rate;             // of one disk; likewise
   std::vector<double> autocorrelation;            // of velocities; length^2 / time^2
   std::vector<double> local_order, global_order;  // psi6 (bond_order.hpp)
+  std::vector<double> bond_autocorrelation;       // g6(t) (bond_memory.hpp)
 };
 
 struct AnalysisRecord {
@@ -51,6 +53,7 @@ struct AnalysisRecord {
   StructureFactor structure;
   VelocityMemory velocities;
   BondCorrelation bonds;
+  BondMemory orders;
 };
 
 DistanceBins distance_bins(const DistancePlan& plan);
@@ -64,7 +67,8 @@ bool goes_with(const AnalysisRecord& record, const Scene& scene);
 // Adds the disks of time t; now: what has been counted, at the end of the step that t lies in, as in series.csv. Means
 // are over the steps that have ended since the sample before: no collision is lost or counted twice, but of several
 // samples in one window of an exact run only the first has a mean, and the run's first sample has none. Where the plan
-// names a group, all but those means is of its disks alone.
+// names a group, all but those means is of its disks alone. In a sheared box velocities are those relative to the flow,
+// and displacements those along y.
 void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& disks, double t, const State& now,
                  const PairCounter& count);
 

@@ -55,6 +55,30 @@ class Centres {
     return cells_[static_cast<std::size_t>(row * columns_ + column)];
   }
 
+  // To the nearest image of disk j; in a sheared box that may be one several rows of images away, where disks are few.
+  Vec2 apart(std::size_t i, std::size_t j) const {
+    const Vec2 raw{d_.x[j] - d_.x[i], d_.y[j] - d_.y[i]};
+    return box_.shear.acts() ? nearest_of_rows(raw) : nearest_image(raw, box_);
+  }
+
+  Vec2 nearest_of_rows(Vec2 raw) const {
+    Vec2 nearest;
+    double least = std::numeric_limits<double>::infinity();
+    const auto look = [&](double row) {
+      const double dy = raw.y + row * box_.height;
+      if (!(dy * dy < least)) return false;
+      const double dx = std::remainder(raw.x + row * box_.shear.offset, box_.width);
+      if (dx * dx + dy * dy < least) nearest = {dx, dy};
+      least = std::min(least, dx * dx + dy * dy);
+      return true;
+    };
+    look(0.0);
+    for (double row = 1.0;; row += 1.0) {
+      const bool above = look(row), below = look(-row);
+      if (!above && !below) return nearest;
+    }
+  }
+
   // Cells within reach along an axis, each once.
   struct Span {
     std::ptrdiff_t first, count;
@@ -65,17 +89,27 @@ class Centres {
     return {first, std::min(cells - 1, middle + reach) - first + 1};
   }
 
+  // Columns within reach of disk i in a row of cells, counted as in `up`: where that is a row of images of a sheared
+  // box, of the places whose images are near; where all rows are in `up`, each once, all columns.
+  Span columns_near(std::size_t i, std::ptrdiff_t reach, const Span& up, std::ptrdiff_t row) const {
+    if (!box_.shear.acts()) return span(column_of(d_.x[i]), reach, columns_, box_.periodic_x());
+    if (up.count == rows_) return {0, columns_};
+    const double above = row < rows_ ? -1.0 : row >= 2 * rows_ ? 1.0 : 0.0;  // boxes; the own one begins at row rows_
+    const double x = wrap(d_.x[i] - above * box_.shear.offset, box_.width);
+    return span(column_of(x), reach, columns_, true);
+  }
+
   void collect(std::size_t i, std::ptrdiff_t reach, std::vector<Neighbour>& found) const {
     found.clear();
-    const Span across = span(column_of(d_.x[i]), reach, columns_, box_.periodic_x());
     const Span up = span(row_of(d_.y[i]), reach, rows_, box_.periodic_y());
     for (std::ptrdiff_t r = 0; r < up.count; ++r) {
+      const Span across = columns_near(i, reach, up, up.first + r);
       for (std::ptrdiff_t c = 0; c < across.count; ++c) {
         const std::ptrdiff_t cell = (up.first + r) % rows_ * columns_ + (across.first + c) % columns_;
         for (const std::size_t j : cells_[static_cast<std::size_t>(cell)]) {
           if (j == i) continue;
-          const Vec2 apart = nearest_image(Vec2{d_.x[j] - d_.x[i], d_.y[j] - d_.y[i]}, box_);
-          found.push_back({apart.x * apart.x + apart.y * apart.y, d_.id[j], apart});
+          const Vec2 to = apart(i, j);
+          found.push_back({to.x * to.x + to.y * to.y, d_.id[j], to});
         }
       }
     }

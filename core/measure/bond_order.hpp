@@ -9,7 +9,8 @@
 namespace carom {
 
 // psi6 of each disk, real and imaginary part: the mean of exp(6 i angle) over the directions to its six nearest
-// neighbours (nearest images). In order of storage; empty with fewer than seven disks. O(N).
+// neighbours (nearest images; of a sheared box at the time of the disks). In order of storage; empty with fewer than
+// seven disks. O(N).
 std::vector<Vec2> bond_orders(const Disks& disks, const Domain& box);
 
 struct BondOrder {

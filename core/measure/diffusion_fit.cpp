@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t slopes = 8;
 }
 
-DiffusionFit fit_diffusion(const std::vector<double>& time, const std::vector<double>& square) {
+DiffusionFit fit_diffusion(const std::vector<double>& time, const std::vector<double>& square, double dimensions) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   DiffusionFit fit{nothing, nothing, nothing};
   if (time.empty()) return fit;
@@ -19,7 +19,7 @@ DiffusionFit fit_diffusion(const std::vector<double>& time, const std::vector<do
   const std::size_t steps = time.size() - 1 - first;
   if (steps < slopes) return fit;
   const auto slope = [&](std::size_t a, std::size_t b) {
-    return (square[b] - square[a]) / (4.0 * (time[b] - time[a]));
+    return (square[b] - square[a]) / (2.0 * dimensions * (time[b] - time[a]));
   };
   fit.from = time[first];
   fit.value = slope(first, time.size() - 1);

@@ -84,7 +84,7 @@ void begin_displacement(DisplacementTally& tally, const Disks& d, const Domain& 
   tally.begun = true;
   tally.looked_at = tally.checked_at = time;
   tally.fastest = largest_speed(d);
-  begin_axis(tally.x, d.x, d.id, box.width, box.periodic_x());
+  begin_axis(tally.x, d.x, d.id, box.width, box.periodic_x() && !box.shear.acts());
   begin_axis(tally.y, d.y, d.id, box.height, box.periodic_y());
 }
 
@@ -121,7 +121,7 @@ MeanSquare mean_square_displacement(const DisplacementTally& tally, const Disks&
   Column square = Column::Zero(static_cast<Eigen::Index>(tally.x.from.size()));  // by id; 0 of disks that are gone
   for (std::size_t i = 0; i < d.size(); ++i) {
     if (!is_followed(tally.x, d.id[i])) continue;
-    const double dx = displacement(tally.x, d.x[i], d.id[i], box.width);
+    const double dx = box.shear.acts() ? 0.0 : displacement(tally.x, d.x[i], d.id[i], box.width);
     const double dy = displacement(tally.y, d.y[i], d.id[i], box.height);
     square[d.id[i]] = dx * dx + dy * dy;
     ++mean.disks;

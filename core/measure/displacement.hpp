@@ -13,6 +13,9 @@
 
 namespace carom {
 
+// In a sheared box only the displacement along y counts: along x disks go with the flow, and an image that follows one
+// across the top has come from elsewhere.
+//
 // Along an axis: where each disk was at the start, by id (NaN: no such disk; empty where only rounds are counted), and,
 // where the axis is periodic, its unwrapped coordinate in sixteenths of the period, rounded down (not_followed: no such
 // disk). A coordinate known to a sixteenth tells, with the next frame, how often it went round, as long as no disk
@@ -51,7 +54,8 @@ void follow_rounds(DisplacementTally& tally, const Disks& disks, const Domain& b
 // rounds. 0 where the axis is not periodic.
 std::int32_t rounds_of(const AxisTally& axis, DiskId id);
 
-// Mean of (x - x_0)^2 + (y - y_0)^2 over the disks of the start that are still there; length^2, NaN without any.
+// Mean of (x - x_0)^2 + (y - y_0)^2 over the disks of the start that are still there, of (y - y_0)^2 in a sheared box;
+// length^2, NaN without any.
 // Precondition: look_at was the last to see these disks. Sums in order of ids: the same bits in any storage order.
 struct MeanSquare {
   double value = 0.0;

@@ -15,7 +15,9 @@ constexpr std::size_t few_disks = 4096;
 // Looks within one step beyond which a speed is no speed any more.
 constexpr double most_looks = 10'000.0;
 
+// Of the axes along which rounds count: in a sheared box only y.
 double shortest_period(const Domain& box) {
+  if (box.shear.acts()) return box.height;
   return std::min(box.periodic_x() ? box.width : HUGE_VAL, box.periodic_y() ? box.height : HUGE_VAL);
 }
 

@@ -32,11 +32,14 @@ DistanceCells::Axis DistanceCells::axis(double length, bool periodic, std::size_
 
 DistanceCells::DistanceCells(const Disks& d, const Domain& box, const DistanceBins& bins)
     : bins_(bins),
+      box_(box),
       x_(axis(box.width, box.periodic_x(), d.size())),
       y_(axis(box.height, box.periodic_y(), d.size())),
       rows_(y_.cells),
-      start_(x_.cells * y_.cells + 1, 0),
       places_(d.size()) {
+  // Of the one row of a sheared box, what lies above is the row itself, displaced: all pairs.
+  if (box.shear.acts() && y_.cells == 1) x_.cells = 1;
+  start_.assign(x_.cells * y_.cells + 1, 0);
   std::vector<std::uint32_t> cell(d.size());
   for (std::size_t i = 0; i < d.size(); ++i) {
     cell[i] = static_cast<std::uint32_t>(cell_of(d.y[i], y_.length, y_.cells) * x_.cells +
@@ -55,7 +58,7 @@ DistanceCells::DistanceCells(const Disks& d, const Domain& box, const DistanceBi
 
 // Half of the cells around a cell, so that every two neighbours meet once: the next in its row and three of the row
 // above, round the corner of a periodic side.
-std::size_t DistanceCells::neighbours(std::size_t row, std::size_t column, std::array<std::size_t, 4>& cells) const {
+std::size_t DistanceCells::neighbours(std::size_t row, std::size_t column, Neighbours& cells) const {
   std::size_t count = 0;
   const bool right = column + 1 < x_.cells || (x_.periodic && x_.cells > 1);
   const bool left = column > 0 || (x_.periodic && x_.cells > 1);
@@ -63,10 +66,26 @@ std::size_t DistanceCells::neighbours(std::size_t row, std::size_t column, std::
   const std::size_t before = column > 0 ? column - 1 : x_.cells - 1;
   if (right) cells[count++] = row * x_.cells + next;
   if (row + 1 == y_.cells && !(y_.periodic && y_.cells > 1)) return count;
+  if (row + 1 == y_.cells && box_.shear.acts()) return displaced_above(column, cells, count);
   const std::size_t above = (row + 1 < y_.cells ? row + 1 : 0) * x_.cells;
   if (left) cells[count++] = above + before;
   cells[count++] = above + column;
   if (right) cells[count++] = above + next;
+  return count;
+}
+
+// The lowest row has its images above displaced by the offset: of the cells there, those that come within a cell of
+// this column, and of two whose edge rounding might miss, both. Adds them to the first `count`.
+std::size_t DistanceCells::displaced_above(std::size_t column, Neighbours& cells, std::size_t count) const {
+  constexpr double rounding = 1e-9;  // of a cell; a column's number has ten digits before it at most
+  const double middle = static_cast<double>(column) - box_.shear.offset / x_.length * static_cast<double>(x_.cells);
+  const auto first = static_cast<std::ptrdiff_t>(std::floor(middle - 1.0 - rounding));
+  const auto last = static_cast<std::ptrdiff_t>(std::floor(middle + 2.0 + rounding));
+  const auto columns = static_cast<std::ptrdiff_t>(x_.cells);
+  const std::ptrdiff_t end = std::min(last + 1, first + columns);
+  for (std::ptrdiff_t c = first; c < end; ++c) {
+    cells[count++] = static_cast<std::size_t>(((c % columns) + columns) % columns);
+  }
   return count;
 }
 

@@ -22,8 +22,9 @@ struct DistanceBins {
   double wall_margin = 0.0;  // see DistancePlan
 };
 
-// The centres, sorted into cells no smaller than r_max, so that all partners are in the 3 x 3 cells around. A side with
-// room for fewer than three cells has one.
+// The centres, sorted into cells no smaller than r_max, so that all partners are in the 3 x 3 cells around, in a
+// sheared box above the uppermost row in up to five cells that its offset says. A side with room for fewer than three
+// cells has one; a sheared box as low as that has one in all.
 class DistanceCells {
  public:
   struct Place {
@@ -32,6 +33,7 @@ class DistanceCells {
     std::uint32_t disk;  // where it is stored
   };
 
+  // box: at the time of the disks.
   DistanceCells(const Disks& disks, const Domain& box, const DistanceBins& bins);
 
   std::size_t rows() const { return rows_; }
@@ -53,11 +55,14 @@ class DistanceCells {
     std::size_t cells = 1;
   };
   Axis axis(double length, bool periodic, std::size_t disks) const;
-  std::size_t neighbours(std::size_t row, std::size_t column, std::array<std::size_t, 4>& cells) const;
+  using Neighbours = std::array<std::size_t, 6>;
+  std::size_t neighbours(std::size_t row, std::size_t column, Neighbours& cells) const;
+  std::size_t displaced_above(std::size_t column, Neighbours& cells, std::size_t count) const;
   template <bool round_corner, class Add>
   void visit_between(std::size_t cell, std::size_t other, const Add& add) const;
 
   DistanceBins bins_;
+  Domain box_;
   Axis x_, y_;
   std::size_t rows_ = 1;
   std::size_t centres_ = 0;
@@ -78,8 +83,9 @@ void DistanceCells::visit_between(std::size_t cell, std::size_t other, const Add
       double dx = q.x - p.x;
       double dy = q.y - p.y;
       if constexpr (round_corner) {
-        if (x_.periodic) dx = nearest_image(dx, x_.length);
-        if (y_.periodic) dy = nearest_image(dy, y_.length);
+        const Vec2 apart = nearest_image(Vec2{dx, dy}, box_);
+        dx = apart.x;
+        dy = apart.y;
       }
       const double r2 = dx * dx + dy * dy;
       if (!(r2 < r_max2)) continue;
@@ -91,7 +97,7 @@ void DistanceCells::visit_between(std::size_t cell, std::size_t other, const Add
 
 template <class Add>
 void DistanceCells::visit(std::size_t begin, std::size_t end, const Add& add) const {
-  std::array<std::size_t, 4> around{};
+  Neighbours around{};
   for (std::size_t row = begin; row < end; ++row) {
     for (std::size_t column = 0; column < x_.cells; ++column) {
       const std::size_t home = row * x_.cells + column;

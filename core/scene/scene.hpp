@@ -212,9 +212,10 @@ enum class Quantity : std::uint8_t {
   velocity_autocorrelation,
   structure_factor,
   bond_order,
-  bond_correlation
+  bond_correlation,
+  bond_autocorrelation
 };
-inline constexpr std::size_t quantities = 11;
+inline constexpr std::size_t quantities = 12;
 
 // Distances of pairs, in equal bins.
 struct DistancePlan {

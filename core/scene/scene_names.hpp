@@ -21,9 +21,9 @@ inline constexpr std::array<std::string_view, 4> position_names{"random", "squar
 inline constexpr std::array<std::string_view, 2> precision_names{"double", "single"};
 inline constexpr std::array<std::string_view, 5> colour_names{"speed", "group", "radius", "mass", "id"};  // ColourBy
 inline constexpr std::array<std::string_view, quantities> quantity_names{
-    "pair_correlation", "displacement",   "speeds",          "density",
-    "pressure",         "collision_rate", "profile",         "velocity_autocorrelation",
-    "structure_factor", "bond_order",     "bond_correlation"};  // Quantity
+    "pair_correlation", "displacement",   "speeds",           "density",
+    "pressure",         "collision_rate", "profile",          "velocity_autocorrelation",
+    "structure_factor", "bond_order",     "bond_correlation", "bond_autocorrelation"};  // Quantity
 inline constexpr std::array<std::string_view, 2> axis_names{"x", "y"};
 inline constexpr std::array<std::string_view, 1> collapse_models{"tc"};
 inline constexpr std::array<std::string_view, 2> thermostat_names{"langevin", "andersen"};  // Thermostat::Kind

@@ -143,9 +143,9 @@ void fields(Stream& stream, T& value) {
 template <class Stream, Is<SampleSeries> T>
 void fields(Stream& stream, T& value) {
   auto& [time, disks, displacement, followed, temperature, interval, pressure, collision_rate, autocorrelation,
-         local_order, global_order] = value;
+         local_order, global_order, bond_autocorrelation] = value;
   stream(time, disks, displacement, followed, temperature, interval, pressure, collision_rate, autocorrelation,
-         local_order, global_order);
+         local_order, global_order, bond_autocorrelation);
 }
 
 template <class Stream, Is<SpeedHistogram> T>
@@ -196,12 +196,18 @@ void fields(Stream& stream, T& value) {
   stream(product, pairs, samples);
 }
 
+template <class Stream, Is<BondMemory> T>
+void fields(Stream& stream, T& value) {
+  auto& [begun, real, imaginary] = value;
+  stream(begun, real, imaginary);
+}
+
 template <class Stream, Is<AnalysisRecord> T>
 void fields(Stream& stream, T& value) {
   auto& [counted_until, before, series, pairs, partial, speeds, density, density_rows, displacement, motion,
-         motion_rows, structure, velocities, bonds] = value;
+         motion_rows, structure, velocities, bonds, orders] = value;
   stream(counted_until, before, series, pairs, partial, speeds, density, density_rows, displacement, motion,
-         motion_rows, structure, velocities, bonds);
+         motion_rows, structure, velocities, bonds, orders);
 }
 
 template <class Stream, Is<OutputMark> T>

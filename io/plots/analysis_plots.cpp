@@ -125,16 +125,14 @@ Figure bond_figure(const Scene& scene, const AnalysisRecord& record) {
   return {heading(scene.title, "bond correlation"), "distance r", end, {panel}};
 }
 
-Figure memory_figure(const Scene& scene, const AnalysisRecord& record) {
+Figure memory_figure(const Scene& scene, const AnalysisRecord& record, const std::vector<double>& values,
+                     const char* subject, const char* label) {
   const SampleSeries& series = record.series;
-  Panel panel{"v(0) v(t)", {}, false, false};
+  Panel panel{label, {}, false, false};
   std::vector<double> since;
   for (const double t : series.time) since.push_back(t - series.time.front());
-  panel.lines.push_back(line_of("mean", since, series.autocorrelation));
-  return {heading(scene.title, "velocity autocorrelation"),
-          "time since the first sample",
-          since.empty() ? 1.0 : since.back(),
-          {panel}};
+  panel.lines.push_back(line_of("mean", since, values));
+  return {heading(scene.title, subject), "time since the first sample", since.empty() ? 1.0 : since.back(), {panel}};
 }
 
 // A power law through a point of the curve, over as much of the picture as lies within its heights.
@@ -187,13 +185,15 @@ bool draw_analysis(const std::string& folder, const Scene& scene, const Analysis
       case Quantity::profile:
         return profile_figure(scene, record);
       case Quantity::velocity_autocorrelation:
-        return memory_figure(scene, record);
+        return memory_figure(scene, record, series.autocorrelation, "velocity autocorrelation", "v(0) v(t)");
       case Quantity::structure_factor:
         return structure_figure(scene, record);
       case Quantity::bond_order:
         return order_figure(scene, record);
       case Quantity::bond_correlation:
         return bond_figure(scene, record);
+      case Quantity::bond_autocorrelation:
+        return memory_figure(scene, record, series.bond_autocorrelation, "bond autocorrelation", "g6(t)");
       default:
         return series_figure(scene, record, series.collision_rate, "collision rate",
                              "collisions per disk and unit time");

@@ -29,6 +29,7 @@ constexpr std::array known_curves{KnownCurve{"g(r)", "/pair_correlation", "r", "
                                   KnownCurve{"temperature (position)", "/profile", "position", "temperature"},
                                   KnownCurve{"mean square displacement", "/displacement", nullptr, "mean_square"},
                                   KnownCurve{"mean v(0) v(t)", "/velocity_autocorrelation", nullptr, "value"},
+                                  KnownCurve{"g6(t)", "/bond_autocorrelation", nullptr, "value"},
                                   KnownCurve{"psi6, local", "/bond_order", nullptr, "local"},
                                   KnownCurve{"psi6, global", "/bond_order", nullptr, "global"},
                                   KnownCurve{"pressure of samples", "/pressure", nullptr, "value"},

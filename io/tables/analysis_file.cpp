@@ -78,7 +78,8 @@ void put_means(const Group& group, const std::vector<double>& series, const std:
   group.say("samples", static_cast<double>(mean.samples));
 }
 
-void put_series(Hdf5Output& output, const AnalysisRecord& record, const AnalysisPlan& plan) {
+void put_series(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
+  const AnalysisPlan& plan = scene.analysis;
   const SampleSeries& series = record.series;
   const Group samples(output, "/samples");
   samples.numbers("time", series.time, "time");
@@ -88,8 +89,10 @@ void put_series(Hdf5Output& output, const AnalysisRecord& record, const Analysis
     const Group group(output, "/displacement");
     group.numbers("mean_square", series.displacement, "length^2");
     group.counts("disks", series.followed);
-    group.say("meaning", "since the first sample; of the disks of that time that are still there");
-    const DiffusionFit fit = fit_diffusion(series.time, series.displacement);
+    const bool sheared = scene.box.shear.acts();
+    group.say("meaning", std::string("since the first sample; of the disks of that time that are still there") +
+                             (sheared ? "; along y alone, across the shear flow" : ""));
+    const DiffusionFit fit = fit_diffusion(series.time, series.displacement, sheared ? 1.0 : 2.0);
     group.say("diffusion", fit.value);
     group.say("diffusion_error", fit.error);
     group.say("diffusion_from", fit.from);
@@ -223,7 +226,10 @@ void put_structure(Hdf5Output& output, const AnalysisRecord& record, const Scene
   put(structure_along_x(record, scene), "kx", "along_x");
   put(structure_along_y(record, scene), "ky", "along_y");
   group.say("samples", static_cast<double>(record.structure.samples));
-  group.say("meaning", "|sum of exp(i k x)|^2 over the number of disks, mean over the samples");
+  group.say("meaning", std::string("|sum of exp(i k x)|^2 over the number of disks, mean over the samples") +
+                           (scene.box.shear.acts() ? "; along x with the ky nearest 0 of the waves that the images of "
+                                                     "the shear allow, at most pi / height"
+                                                   : ""));
 }
 
 void put_order(Hdf5Output& output, const AnalysisRecord& record) {
@@ -240,10 +246,20 @@ void put_order(Hdf5Output& output, const AnalysisRecord& record) {
             "global: |mean of psi6|");
 }
 
-void put_memory(Hdf5Output& output, const AnalysisRecord& record) {
+void put_memory(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
   const Group group(output, "/velocity_autocorrelation");
   group.numbers("value", record.series.autocorrelation, "length^2 / time^2");
-  group.say("meaning", "mean of v(0) v(t) over the disks of the first sample that are still there");
+  group.say("meaning", std::string("mean of v(0) v(t) over the disks of the first sample that are still there") +
+                           (scene.box.shear.acts() ? "; velocities relative to the shear flow" : ""));
+}
+
+void put_bond_memory(Hdf5Output& output, const AnalysisRecord& record) {
+  const Group group(output, "/bond_autocorrelation");
+  group.numbers("value", record.series.bond_autocorrelation, "1");
+  group.say(
+      "meaning",
+      "g6(t): sum of Re(psi6(0)* psi6(t)) over sum of |psi6(0)|^2, of the disks of the first sample that are still "
+      "there; psi6 as in bond_order");
 }
 
 void put_density(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
@@ -276,15 +292,16 @@ void write_analysis(const std::string& path, const Scene& scene, const AnalysisR
   output.attribute("/", "creator", {"Carom " CAROM_VERSION}, false);
   output.make_group("/parameters");
   output.text("/parameters/scene", resolved_toml(scene));
-  put_series(output, record, plan);
+  put_series(output, record, scene);
   if (plan.wants(Quantity::pair_correlation)) put_pairs(output, record, scene);
   if (plan.wants(Quantity::speeds)) put_speeds(output, record, scene);
   if (plan.wants(Quantity::density)) put_density(output, record, scene);
   if (plan.wants(Quantity::profile)) put_profile(output, record, scene);
-  if (plan.wants(Quantity::velocity_autocorrelation)) put_memory(output, record);
+  if (plan.wants(Quantity::velocity_autocorrelation)) put_memory(output, record, scene);
   if (plan.wants(Quantity::structure_factor)) put_structure(output, record, scene);
   if (plan.wants(Quantity::bond_order)) put_order(output, record);
   if (plan.wants(Quantity::bond_correlation)) put_bonds(output, record, scene);
+  if (plan.wants(Quantity::bond_autocorrelation)) put_bond_memory(output, record);
   replace_file(path, output.image());
 }
 

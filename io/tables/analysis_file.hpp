@@ -16,13 +16,13 @@ namespace carom {
 // /speeds             u = v sqrt(m / T), measured, maxwell (both densities, means over the bin); counts
 // /density            position, packing_fraction, number_density; centres counted
 // /profile            position, velocity_x, velocity_y, temperature; disks counted
-// /velocity_autocorrelation, /bond_order   value; local, global: an entry a sample
+// /velocity_autocorrelation, /bond_autocorrelation, /bond_order   value; value; local, global: an entry a sample
 // /structure_factor   kx, along_x; ky, along_y: along periodic axes
 // /parameters/scene   the scene with all defaults, as TOML
 // Whatever was not asked for is not there. r, u and position are the middles of the bins. Attributes say the units, how
-// many samples went in; of a series, its mean, how its samples scatter, and the standard error of the mean by blocking
-// (blocking_error.hpp); of the displacement, the diffusion coefficient of its second half with its error
-// (diffusion_fit.hpp).
+// many samples went in, and what a shear flow changes in the meaning; of a series, its mean, how its samples scatter,
+// and the standard error of the mean by blocking (blocking_error.hpp); of the displacement, the diffusion coefficient
+// of its second half with its error (diffusion_fit.hpp).
 //
 // Writes the file beside and renames it, so that a whole one is there at any moment. Throws RunError.
 void write_analysis(const std::string& path, const Scene& scene, const AnalysisRecord& record);

@@ -177,7 +177,7 @@ std::string gravity_text(Dice& dice, double g) {
 
 // Here and there, where velocities are velocities.
 std::string thermostat_text(Dice& dice, const Draft& draft) {
-  if (draft.diffusion > 0.0 || draft.shear != 0.0 || !dice.chance(0.08)) return "";
+  if (draft.diffusion > 0.0 || !dice.chance(0.08)) return "";
   const double energy = draft.units.mass * draft.units.speed * draft.units.speed;
   const double least = draft.dt > 0.0 ? draft.dt : 0.01 * draft.crowd.smallest / draft.speed;
   const double dt = dice.chance(0.3) ? least : least * dice.in(1.0, 30.0);
@@ -295,8 +295,9 @@ std::string run_text(Dice& dice, const Draft& draft) {
   text += fmt::format("t_end = {}\n[output]\nseries = true\n", draft.t_end);
   if (dice.chance(0.8)) text += fmt::format("every = {}\n", rounded(draft.t_end / dice.in(1.0, 40.0)));
   if (!dice.chance(0.1)) return text;
-  text += fmt::format("[analysis]\nwhat = [{}\"density\", \"pressure\"]\nevery = {}\n",
-                      draft.shear != 0.0 ? "" : "\"speeds\", ", rounded(draft.t_end / 7.0));
+  text += fmt::format("[analysis]\nwhat = [\"speeds\", \"density\", \"pressure\"{}]\nevery = {}\n",
+                      dice.chance(0.5) ? ", \"displacement\", \"bond_order\", \"bond_autocorrelation\"" : "",
+                      rounded(draft.t_end / 7.0));
   return text;
 }
 

@@ -36,6 +36,8 @@ def main(h5_path, csv_path):
         seen = profile["disks"][:] > 0
         assert numpy.isfinite(profile["temperature"][:][seen]).all() and profile["velocity_y"].attrs["unit"] == b"length / time"
         assert file["velocity_autocorrelation/value"][0] > 0.0 and len(file["velocity_autocorrelation/value"]) == len(time)
+        memory = file["bond_autocorrelation/value"][:]
+        assert len(memory) == len(time) and memory[0] == 1.0 and (abs(memory) < 1.5).all()
         order = file["bond_order"]
         assert (order["global"][:] <= order["local"][:]).all() and (order["local"][:] < 1.0).all()
         assert numpy.isclose(order.attrs["local_mean"], order["local"][:].mean())
@@ -55,7 +57,8 @@ def main(h5_path, csv_path):
         assert (numpy.diff(file["displacement/disks"][:]) <= 0).all()
         attributes = file["displacement"].attrs
         first = list(time).index(attributes["diffusion_from"])
-        slope = (squares[-1] - squares[first]) / (4.0 * (time[-1] - time[first]))
+        dimensions = 1.0 if b"shear" in attributes["meaning"] else 2.0
+        slope = (squares[-1] - squares[first]) / (2.0 * dimensions * (time[-1] - time[first]))
         assert numpy.isclose(attributes["diffusion"], slope) and attributes["diffusion_error"] > 0.0
         if csv_path:
             with open(csv_path, newline="") as table:

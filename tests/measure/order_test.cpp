@@ -6,6 +6,7 @@
 
 #include "core/base/random.hpp"
 #include "core/measure/bond_correlation.hpp"
+#include "core/measure/bond_memory.hpp"
 #include "core/measure/bond_order.hpp"
 #include "core/measure/motion_profile.hpp"
 #include "core/measure/structure_factor.hpp"
@@ -147,6 +148,89 @@ TEST(BondCorrelation, OfAGasIsThatOfAllPairs) {
   EXPECT_EQ(sums.pairs, pairs);
   EXPECT_EQ(sums.product, other.product) << "storage does not matter";
   for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(sums.product[k], product[k], 1e-9) << k;
+}
+
+// A crystal keeps its directions, whatever way it moves.
+TEST(BondMemory, OfACrystalIsOne) {
+  Domain box;
+  Disks d = triangles(12, 14, box);
+  BondMemory memory;
+  begin_memory(memory, d, box);
+  EXPECT_NEAR(bond_autocorrelation(memory, d, box), 1.0, 1e-12);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    d.x[i] = wrap(d.x[i] + 3.3, box.width);
+    d.y[i] = wrap(d.y[i] + 1.7, box.height);
+  }
+  EXPECT_NEAR(bond_autocorrelation(memory, d, box), 1.0, 1e-12);
+}
+
+// Turned by a, each psi6 is exp(6 i a) times what it was.
+TEST(BondMemory, FallsByTheAngleOfATurn) {
+  const Domain box = test::box_of(100.0, 100.0);
+  const Disks start = ideal_gas(300, test::box_of(40.0, 40.0), 9);
+  for (const double a : {0.0, 0.1, std::numbers::pi / 12.0, 0.5, std::numbers::pi / 3.0}) {
+    Disks before = start, after = start;
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      const double x = start.x[i] - 20.0, y = start.y[i] - 20.0;
+      before.x[i] = 50.0 + x;
+      before.y[i] = 50.0 + y;
+      after.x[i] = 50.0 + std::cos(a) * x - std::sin(a) * y;
+      after.y[i] = 50.0 + std::sin(a) * x + std::cos(a) * y;
+    }
+    BondMemory memory;
+    begin_memory(memory, before, box);
+    EXPECT_NEAR(bond_autocorrelation(memory, after, box), std::cos(6.0 * a), 1e-10) << a;
+    EXPECT_EQ(bond_autocorrelation(memory, turned(after), box), bond_autocorrelation(memory, after, box));
+  }
+}
+
+// In an ideal gas neighbours fly apart: near 1 while disks have hardly moved, and none is left when they have changed
+// places. The sum of N products of independent psi6 scatters by sqrt(N / 2) <|psi6|^2>; neighbours share some of it.
+TEST(BondMemory, OfAnIdealGasIsForgotten) {
+  constexpr std::size_t n = 20'000;
+  const Domain box = test::box_of(200.0, 100.0, true, true);
+  const Disks start = ideal_gas(n, box, 11);
+  BondMemory memory;
+  begin_memory(memory, start, box);
+  double last = 1.0;
+  for (const double t : {0.001, 0.03, 0.1, 0.3, 100.0}) {
+    Disks d = start;
+    for (std::size_t i = 0; i < n; ++i) {
+      d.x[i] -= box.width * std::floor((d.x[i] + t * d.vx[i]) / box.width) - t * d.vx[i];
+      d.y[i] -= box.height * std::floor((d.y[i] + t * d.vy[i]) / box.height) - t * d.vy[i];
+      d.x[i] = wrap(d.x[i], box.width);
+      d.y[i] = wrap(d.y[i], box.height);
+    }
+    const double now = bond_autocorrelation(memory, d, box);
+    EXPECT_LT(now, last) << t;
+    if (t == 0.001) {
+      EXPECT_GT(now, 0.98);
+    }
+    last = now;
+  }
+  EXPECT_NEAR(last, 0.0, 6.0 / std::sqrt(2.0 * n));
+}
+
+// By hand: disks that have gone are left out on both sides, and one that came later is not among them.
+TEST(BondMemory, IsOfTheDisksThatAreStillThere) {
+  const Domain box = test::box_of(30.0, 20.0);
+  Disks first = ideal_gas(40, box, 5), later;
+  BondMemory memory;
+  begin_memory(memory, first, box);
+  for (std::size_t i = 10; i < 40; ++i) append(later, disk_at(ideal_gas(40, box, 6), i));
+  append(later, {15.0, 10.0, 0, 0, 0.01, 1.0, 77});
+  const std::vector<Vec2> then = bond_orders(first, box), now = bond_orders(later, box);
+  double product = 0.0, square = 0.0;
+  for (std::size_t k = 0; k < 30; ++k) {
+    product += then[k + 10].x * now[k].x + then[k + 10].y * now[k].y;
+    square += then[k + 10].x * then[k + 10].x + then[k + 10].y * then[k + 10].y;
+  }
+  EXPECT_NEAR(bond_autocorrelation(memory, later, box), product / square, 1e-12);
+  EXPECT_TRUE(std::isnan(bond_autocorrelation(memory, {}, box)));
+  EXPECT_TRUE(std::isnan(bond_autocorrelation(memory, ideal_gas(6, box, 1), box)));
+  BondMemory nothing;
+  begin_memory(nothing, ideal_gas(6, box, 1), box);
+  EXPECT_TRUE(std::isnan(bond_autocorrelation(nothing, later, box)));
 }
 
 // Against all pairs; and six independent angles would have a mean |psi6| of sqrt(pi) / 2 / sqrt(6) = 0.36, a gas a

@@ -11,14 +11,21 @@ using test::text_of;
 
 const std::string analysis = R"([analysis]
 what = ["pair_correlation", "displacement", "speeds", "density", "pressure", "collision_rate", "profile",
-        "velocity_autocorrelation", "bond_correlation", "bond_order"]
+        "velocity_autocorrelation", "bond_correlation", "bond_order", "bond_autocorrelation"]
 density = { every = 0.5 }
 profile = { every = 0.7 }
 )";
-const std::vector<std::string> plots{
-    "pair_correlation.svg", "displacement.svg",    "speeds.svg",  "density.svg",
-    "pressure.svg",         "collision_rate.svg",  "profile.svg", "velocity_autocorrelation.svg",
-    "bond_order.svg",       "bond_correlation.svg"};
+const std::vector<std::string> plots{"pair_correlation.svg",
+                                     "displacement.svg",
+                                     "speeds.svg",
+                                     "density.svg",
+                                     "pressure.svg",
+                                     "collision_rate.svg",
+                                     "profile.svg",
+                                     "velocity_autocorrelation.svg",
+                                     "bond_order.svg",
+                                     "bond_correlation.svg",
+                                     "bond_autocorrelation.svg"};
 
 class AnalysisRun : public test::ProgramTest {
  protected:
@@ -66,6 +73,31 @@ TEST_F(AnalysisRun, ResumedItGivesTheSameFiles) {
       EXPECT_TRUE(text_of(at("whole") / plot) == text_of(at("parts") / plot)) << plot;
     EXPECT_TRUE(fs::exists(at("parts/structure_factor.svg")));
     EXPECT_EQ(read("parts", "").out, "34\n") << "from 1.05 on, and the end";
+  }
+}
+
+// All of it in a shear flow, and resumed.
+TEST_F(AnalysisRun, InAShearFlowToo) {
+  for (const std::string method : {"pairwise", "exact"}) {
+    write("flow.toml",
+          "[box]\nwidth = 24\nheight = 18\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\n"
+          "top = \"periodic\"\nshear_rate = 0.3\n[[disks]]\nname = \"small\"\ncount = 100\npositions = \"random\"\n"
+          "radius = 0.3\nmass = 1\nvelocities = { maxwell = 1.0 }\n[[disks]]\nname = \"large\"\ncount = 40\n"
+          "positions = \"random\"\nradius = 0.5\nmass = 2\nvelocities = { maxwell = 1.0 }\n[run]\nmethod = \"" +
+              method + "\"\ndt = 0.005\nt_end = 4\n[output]\nevery = 0.2\nseries = true\n" + analysis +
+              "pair_correlation = { groups = [\"small\", \"large\"] }\n");
+    shell("sed -i 's/\"bond_order\"/\"bond_order\", \"structure_factor\"/' flow.toml");
+    ASSERT_EQ(carom("run flow.toml --quiet --force -o whole").status, 0);
+    EXPECT_EQ(read("whole", "").out, "21\n") << read("whole", "").err;
+    const Outcome other = carom("run flow.toml --quiet --force -o other --engine reference");
+    ASSERT_EQ(other.status, 0) << other.err;
+    EXPECT_TRUE(text_of(at("whole/analysis.h5")) == text_of(at("other/analysis.h5"))) << method;
+    const Resumed resumed =
+        resume_to_the_end("parts", carom("run flow.toml --quiet --force -o parts --max-walltime 1e-9"));
+    EXPECT_EQ(resumed.last.status, 0) << resumed.last.err;
+    EXPECT_GE(resumed.parts, 3);
+    expect_same_results("whole", "parts");
+    EXPECT_TRUE(text_of(at("whole/analysis.h5")) == text_of(at("parts/analysis.h5"))) << method;
   }
 }
 

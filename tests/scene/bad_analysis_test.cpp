@@ -63,8 +63,8 @@ TEST(AnalysisScene, OneLineForWhatItDoesNotTake) {
       {"what = [\"speed\"]",
        "gas.toml:25: analysis.what.0: unknown quantity \"speed\"; expected one of "
        "pair_correlation, displacement, speeds, density, pressure, collision_rate, profile, "
-       "velocity_autocorrelation, structure_factor, bond_order, bond_correlation (nearest: "
-       "speeds)"},
+       "velocity_autocorrelation, structure_factor, bond_order, bond_correlation, bond_autocorrelation "
+       "(nearest: speeds)"},
       {"what = []\nevry = 1.0", "analysis.evry: unknown key"},
       {"what = []\nevery = -1", "analysis.every: is -1"},
       {"what = []\nstart = 11", "analysis.start: is 11, after the end of the run; expected at most run.t_end = 10"},

@@ -1,0 +1,26 @@
+// The correlation of psi6 in time, g6(t): how long the six nearest neighbours around a disk keep their directions.
+#pragma once
+
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+
+namespace carom {
+
+// psi6 of the first sample, by id, real and imaginary part; NaN: no such disk.
+struct BondMemory {
+  bool begun = false;
+  std::vector<double> real, imaginary;
+};
+
+// Remembers nothing with fewer than seven disks.
+void begin_memory(BondMemory& memory, const Disks& disks, const Domain& box);
+
+// g6(t) = Re(sum of psi6(0)* psi6(t)) / sum of |psi6(0)|^2 over the disks of the first sample that are still there: 1
+// at first. NaN without any, with fewer than seven disks, and where all psi6(0) are 0. In order of ids: the same bits
+// in any storage order. O(N).
+double bond_autocorrelation(const BondMemory& memory, const Disks& disks, const Domain& box);
+
+}  // namespace carom

@@ -1,0 +1,187 @@
+// What is measured in a sheared box: against all images of all disks, and where it must not matter which image is
+// taken.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "core/measure/bond_correlation.hpp"
+#include "core/measure/bond_order.hpp"
+#include "core/measure/displacement.hpp"
+#include "core/measure/pair_distances.hpp"
+#include "core/measure/structure_factor.hpp"
+#include "parallel/pair_counting.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
+
+namespace carom {
+namespace {
+
+Domain sheared_box(double width, double height, double offset) {
+  Domain box = test::box_of(width, height, true, true);
+  box.shear = {0.1, 0.1 * height, offset};
+  return box;
+}
+
+Disks strewn(test::Draws& draws, const Domain& box, std::size_t n) {
+  Disks disks;
+  for (std::size_t i = 0; i < n; ++i) {
+    append(disks, {draws.in(0.0, box.width), draws.in(0.0, box.height), 0.0, 0.0, 0.1, 1.0, static_cast<DiskId>(i)});
+  }
+  return disks;
+}
+
+// look(dx, dy) to the images of disk j from disk i in rows that are near, in each the nearest one along x.
+template <class Look>
+void for_each_image(const Disks& d, std::size_t i, std::size_t j, const Domain& box, const Look& look) {
+  for (int k = -9; k <= 9; ++k) {
+    const double dx = d.x[j] - d.x[i] + k * box.shear.offset;
+    look(dx - box.width * std::round(dx / box.width), d.y[j] - d.y[i] + k * box.height);
+  }
+}
+
+struct Shape {
+  double width, height, r_max;
+};
+// Many cells, few, one along a side; the largest r_max, of cells no larger than that.
+const Shape shapes[] = {{20, 20, 3}, {50, 7, 3.5}, {7, 50, 2.5}, {9, 10, 3}, {8, 8, 4}, {40, 30, 1}, {12, 12, 3}};
+const double offset_shares[] = {0.0, 0.1, -0.25, 0.3333, 0.5, -0.5, 0.4999};  // of the width
+
+TEST(ShearedMeasures, PairDistancesAreThoseOfAllImages) {
+  test::Draws draws(21);
+  for (const Shape& s : shapes) {
+    for (const double share : offset_shares) {
+      const Domain box = sheared_box(s.width, s.height, share * s.width);
+      const Disks d = strewn(draws, box, 200);
+      const DistanceBins bins{s.r_max, 23, 0.0};
+      std::vector<Count> expected(bins.bins, 0);
+      for (std::size_t i = 0; i < d.size(); ++i) {
+        for (std::size_t j = 0; j < d.size(); ++j) {
+          for_each_image(d, i, j, box, [&](double dx, double dy) {
+            const double bin = std::sqrt(dx * dx + dy * dy) * (23.0 / s.r_max);
+            if (i != j && bin < 23.0) ++expected[static_cast<std::size_t>(bin)];
+          });
+        }
+      }
+      EXPECT_EQ(count_pairs(d, box, bins).counts, expected) << s.width << " x " << s.height << ", " << share;
+      EXPECT_EQ(parallel_pair_counter(3)(d, box, bins).counts, expected);
+      BondCorrelation bonds{std::vector<double>(23, 0.0), std::vector<Count>(23, 0), 0};
+      add_bond_correlation(bonds, d, box, bins);
+      EXPECT_EQ(bonds.pairs, expected);
+    }
+  }
+}
+
+// Each disk counts once, by its nearest image; few disks have neighbours further than half the height.
+TEST(ShearedMeasures, BondOrderIsThatOfAllImages) {
+  test::Draws draws(22);
+  for (const Shape& s : shapes) {
+    for (const double share : offset_shares) {
+      for (const std::size_t n : {7U, 12U, 40U, 300U}) {
+        const Domain box = sheared_box(s.width, s.height, share * s.width);
+        const Disks d = strewn(draws, box, n);
+        const std::vector<Vec2> orders = bond_orders(d, box);
+        ASSERT_EQ(orders.size(), n);
+        for (std::size_t i = 0; i < n; ++i) {
+          std::vector<std::pair<double, std::complex<double>>> all;
+          for (std::size_t j = 0; j < n; ++j) {
+            std::pair<double, std::complex<double>> nearest{1e9, 0.0};
+            for_each_image(d, i, j, box, [&](double dx, double dy) {
+              const std::complex<double> apart(dx, dy);
+              if (std::abs(apart) < nearest.first) nearest = {std::abs(apart), std::polar(1.0, 6.0 * std::arg(apart))};
+            });
+            if (j != i) all.push_back(nearest);
+          }
+          std::partial_sort(all.begin(), all.begin() + 6, all.end(),
+                            [](const auto& a, const auto& b) { return a.first < b.first; });
+          std::complex<double> psi = 0.0;
+          for (int k = 0; k < 6; ++k) psi += all[static_cast<std::size_t>(k)].second / 6.0;
+          EXPECT_NEAR(orders[i].x, psi.real(), 1e-9) << s.width << " x " << s.height << ", " << share << ", " << n;
+          EXPECT_NEAR(orders[i].y, psi.imag(), 1e-9);
+        }
+      }
+    }
+  }
+}
+
+// Along x the wave of the images with the least |ky|; which image of a disk is in the box does not matter.
+TEST(ShearedMeasures, StructureFactorGoesByWavesThatImagesRepeat) {
+  test::Draws draws(23);
+  constexpr std::size_t waves = 40;
+  for (const double share : offset_shares) {
+    const Domain box = sheared_box(30.0, 20.0, share * 30.0);
+    const Disks d = strewn(draws, box, 60);
+    StructureFactor s{std::vector<double>(waves, 0.0), std::vector<double>(waves, 0.0), 0}, other = s;
+    add_structure(s, d, box);
+    for (std::size_t n = 1; n <= waves; ++n) {
+      const double turns = static_cast<double>(n) * share;
+      const double kx = 2.0 * std::numbers::pi * static_cast<double>(n) / 30.0;
+      const double ky = 2.0 * std::numbers::pi * (std::floor(turns + 0.5) - turns) / 20.0;
+      EXPECT_LE(std::abs(ky), std::numbers::pi / 20.0 * (1.0 + 1e-12));
+      std::complex<double> sum = 0.0, up = 0.0;
+      for (std::size_t i = 0; i < d.size(); ++i) {
+        // Any image.
+        const double k = draws.in(-3.0, 3.0) > 0.0 ? 1.0 : -2.0;
+        const double x = d.x[i] + k * box.shear.offset - k * 30.0, y = d.y[i] + k * 20.0;
+        sum += std::polar(1.0, kx * x + ky * y);
+        up += std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(n) * y / 20.0);
+      }
+      EXPECT_NEAR(s.along_x[n - 1], std::norm(sum) / 60.0, 1e-9) << share << ", " << n;
+      EXPECT_NEAR(s.along_y[n - 1], std::norm(up) / 60.0, 1e-9) << share << ", " << n;
+    }
+    Domain still = box;
+    still.shear = {};
+    add_structure(other, d, still);
+    if (share == 0.0) {
+      for (std::size_t n = 0; n < waves; ++n) EXPECT_NEAR(s.along_x[n], other.along_x[n], 1e-9);
+    }
+  }
+}
+
+// A square lattice that the shear has carried along.
+TEST(ShearedMeasures, StructureFactorOfASlidLatticeHasItsPeak) {
+  const double offset = 3.0;
+  const Domain box = sheared_box(12.0, 12.0, offset);
+  Disks d;
+  for (int k = 0; k < 144; ++k) {
+    const double y = k / 12 + 0.5;
+    append(d, {wrap(k % 12 + 0.5 + offset * y / 12.0, 12.0), y, 0, 0, 0.1, 1.0, static_cast<DiskId>(k)});
+  }
+  StructureFactor s{std::vector<double>(48, 0.0), std::vector<double>(24, 0.0), 0};
+  add_structure(s, d, box);
+  // ky = 0 at multiples of 4 waves: rows lie a quarter of a column apart along x, so that they are in step at each
+  // fourth multiple of 12 waves.
+  for (std::size_t n = 1; n <= 48; ++n) EXPECT_NEAR(s.along_x[n - 1], n == 48 ? 144.0 : 0.0, 1e-9) << n;
+  for (std::size_t n = 1; n <= 24; ++n) EXPECT_NEAR(s.along_y[n - 1], n % 12 == 0 ? 144.0 : 0.0, 1e-9) << n;
+}
+
+// A disk that goes up through the box for ever while the flow carries it along: (y - y_0)^2 alone.
+TEST(ShearedMeasures, DisplacementIsAcrossTheFlow) {
+  Domain box = sheared_box(10.0, 10.0, 0.0);
+  Disks d;
+  append(d, {1.0, 9.0, 3.0, 2.0, 0.5, 1.0, 0});
+  append(d, {5.0, 5.0, 0.0, 0.0, 0.5, 1.0, 1});
+  DisplacementTally tally;
+  begin_displacement(tally, d, box, 0.0);
+  double x = 1.0, y = 9.0;
+  for (int k = 1; k <= 40; ++k) {
+    x += 3.0 * 0.5;
+    y += 2.0 * 0.5;
+    box.move_images(0.5 * k);
+    wrap_sheared(x, y, box.shear.offset, box);
+    d.x[0] = x;
+    d.y[0] = y;
+    look_at(tally, d, box, 0.5 * k);
+    const MeanSquare mean = mean_square_displacement(tally, d, box);
+    EXPECT_NEAR(mean.value, 0.5 * k * k, 1e-9) << k;
+    EXPECT_EQ(mean.disks, 2U);
+  }
+  EXPECT_EQ(tally.doubtful, 0U) << "jumps of images along x are no doubt";
+}
+
+}  // namespace
+}  // namespace carom
