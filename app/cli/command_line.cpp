@@ -132,7 +132,7 @@ void describe_sweep(CLI::App* sweep, OptionWords& words) {
 }
 
 void describe_chart(CLI::App* chart, OptionWords& words) {
-  add_value(chart, "--scene", words.first, "SCENE.toml", "of this scene, in place of the seven built in");
+  add_value(chart, "--scene", words.first, "SCENE.toml", "of this scene, in place of those built in");
   add_scene_changes(chart, words);
   add_value(chart, "-o,--output", words.folder, "DIR",
             "folder for chart.svg, .png, .csv and .json; default out/chart, or out/chart_<name of the scene>");
