@@ -238,18 +238,23 @@ void follow(Call call, Ranks& ranks, Part& part, const Traffic& before) {
 
 std::unique_ptr<Engine> RankLead::make_engine(const Scene& scene, State initial, const Threads& threads,
                                               const std::function<std::string(const State&)>& start) {
-  SlabStart slabs = start_of(scene, initial.disks, ranks_.count());
-  agree_on(ranks_, Call::make);
-  Disks all = std::move(initial.disks);
-  initial.disks = no_disks_like(all);
-  shared_text(ranks_, start(initial));
-  ranks_.share(message_of(slabs));
-  initial.disks = deal_out(ranks_, slabs, all, std::move(initial.disks));
-  all = Disks();
-  auto engine =
-      std::make_unique<LeadingEngine>(ranks_, *this, make_slab_part(scene, std::move(initial), slabs, threads, ranks_));
-  report_ = [lead = engine.get()] { return lead->report(); };
-  return engine;
+  const SlabStart slabs = start_of(scene, initial.disks, ranks_.count());
+  try {
+    agree_on(ranks_, Call::make);
+    Disks all = std::move(initial.disks);
+    initial.disks = no_disks_like(all);
+    shared_text(ranks_, start(initial));
+    ranks_.share(message_of(slabs));
+    initial.disks = deal_out(ranks_, slabs, all, std::move(initial.disks));
+    all = Disks();
+    auto engine = std::make_unique<LeadingEngine>(ranks_, *this,
+                                                  make_slab_part(scene, std::move(initial), slabs, threads, ranks_));
+    report_ = [lead = engine.get()] { return lead->report(); };
+    return engine;
+  } catch (...) {
+    lose();
+    throw;
+  }
 }
 
 void RankLead::end() {
