@@ -6,6 +6,7 @@
 #include "core/step/engine.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/scene_support.hpp"
+#include "tests/support/thread_counts.hpp"
 
 namespace carom {
 namespace {
@@ -58,7 +59,7 @@ t_end = 20.0
   const State start = initial_state(scene);
   const auto reference = make_reference_engine(scene, start);
   reference->step();
-  for (const int threads : {1, 2, 3, 5, 8}) {
+  for (const int threads : test::thread_counts) {
     const auto engine = make_parallel_engine(scene, start, {threads, 128});
     engine->step();
     EXPECT_EQ(state_hash(engine->state().disks), state_hash(reference->state().disks)) << threads;

@@ -22,6 +22,7 @@
 #include "tests/support/reference_run.hpp"
 #include "tests/support/resume_support.hpp"
 #include "tests/support/run_in_all_units.hpp"
+#include "tests/support/thread_counts.hpp"
 
 namespace carom::test {
 namespace {
@@ -233,7 +234,7 @@ TEST(Shear, SameBitsOnAnyThreads) {
         const State expected = run(scene, start);
         SCOPED_TRACE(fmt::format("{} {} {}", method, rate, radius));
         EXPECT_GT(expected.counters.collisions, 20U);
-        for (const int threads : {1, 2, 3, 5, 8}) {
+        for (const int threads : test::thread_counts) {
           for (const std::size_t divisor : {std::size_t{1}, std::size_t{128}}) {
             const State end = run_on(scene, start, threads, divisor);
             EXPECT_EQ(state_hash(end.disks), state_hash(expected.disks)) << threads;

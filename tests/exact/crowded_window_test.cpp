@@ -11,6 +11,7 @@
 #include "core/step/window_length.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/exact_support.hpp"
+#include "tests/support/thread_counts.hpp"
 
 namespace carom::exact_tests {
 namespace {
@@ -91,7 +92,7 @@ TEST(CrowdedWindow, ABurstAmongOthersInTiles) {
   const auto reference = make_reference_exact(scene, initial);
   const std::string plain = outcome_of(*reference, scene);
   EXPECT_GT(reference->state().counters.wall_collisions, 2U * most_paths_of_disk);
-  for (const int threads : {1, 2, 3, 5}) {
+  for (const int threads : test::thread_counts) {
     EXPECT_EQ(outcome_of(*make_parallel_engine(scene, initial, {threads, 1024}), scene), plain) << threads;
   }
 }

@@ -10,6 +10,7 @@
 #include "parallel/exact/engine_mode.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/exact_support.hpp"
+#include "tests/support/thread_counts.hpp"
 
 namespace carom::exact_tests {
 namespace {
@@ -46,7 +47,7 @@ void expect_same_bits(const Scene& scene) {
   const State initial = initial_state(scene);
   const State reference = run_reference(scene, initial);
   EXPECT_GT(reference.counters.steps, 0U);
-  for (const int threads : {1, 2, 3, 5, 8}) {
+  for (const int threads : test::thread_counts) {
     ASSERT_EQ(fingerprint(run_parallel(scene, initial, threads)), fingerprint(reference)) << threads << " threads";
   }
   ASSERT_EQ(fingerprint(run_parallel(scene, initial, 2, 1)), fingerprint(reference)) << "single queue";
@@ -298,7 +299,7 @@ TEST(ExactParallelSize, RegionsAsTheyAre) {
   const Scene scene = make_scene({285, 285, "periodic", "", disks(50000, equal), 0.12, ""});
   const State initial = initial_state(scene);
   const std::string reference = fingerprint(run_reference(scene, initial));
-  for (const int threads : {1, 2, 3, 8}) {
+  for (const int threads : test::thread_counts) {
     EXPECT_EQ(fingerprint(run_parallel(scene, initial, threads, 1)), reference) << threads << " threads";
   }
 }
