@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace carom {
 
@@ -59,9 +60,19 @@ void BorderPass::collect(std::uint32_t b, const std::vector<Region>& regions) {
   if (regions.size() > 1) of_region(regions[border.wraps ? 0 : b + 1]);
 }
 
+// Does the disk surely list disks of its own border alone?
+bool BorderPass::lists_are_inside(const Border& border, std::uint32_t i) const {
+  const auto [first, last] = std::pair(border.region.first_disk, border.region.last_disk);
+  const ListRows& rows = lists_.rows();
+  if (!border.wraps) return rows.surely_within(i, first, last);
+  return i < first ? rows.surely_within(i, 0, first)
+                   : rows.surely_within(i, last, static_cast<std::uint32_t>(rows.size()));
+}
+
 void BorderPass::collect(Border& border, std::uint32_t i) const {
   if (!border.holds(i)) return;
   border.disks.push_back(i);
+  if (lists_are_inside(border, i)) return;
   lists_.for_each_neighbour(i, [&](std::uint32_t j) {
     if (!border.holds(j) && !window_.record[j].progress.is_active()) border.touches.push_back(border_of(j));
   });

@@ -58,6 +58,7 @@ class BorderPass {
   std::uint32_t border_of(std::uint32_t i) const { return border_of_tile_[lists_.tile_of(i)]; }
   void collect(std::uint32_t b, const std::vector<Region>& regions);
   void collect(Border& border, std::uint32_t i) const;
+  bool lists_are_inside(const Border& border, std::uint32_t i) const;
   void join();
   std::uint32_t leader_of(std::uint32_t b) const;
   void process(std::uint32_t leader, double per_disk);

@@ -306,10 +306,7 @@ bool EventProcessor<scope>::relist(std::uint32_t i, double time) {
   const Vec2 at = lists_.listing_place(p, window_.rules.box);
   if (!lists_.relist(i, at, *window_.disks, worker_.region, worker_.found)) return false;
   ++worker_.relisted;
-  if constexpr (scope == Scope::region) {
-    safe_times_.mark_relisted(i);
-    safe_times_.push(i, time);
-  }
+  if constexpr (scope == Scope::region) safe_times_.mark_relisted(i, time);
   return true;
 }
 

@@ -65,6 +65,21 @@ class RowSearch {
 
 }  // namespace
 
+bool ListRows::surely_within(std::uint32_t i, std::uint32_t first, std::uint32_t last) const {
+  const Row& row = rows_[i];
+  if (row.more != none || i < first || i >= last) return false;
+  const auto below = static_cast<std::int32_t>(std::min<std::uint32_t>(i - first, 32767));
+  const auto above = static_cast<std::int32_t>(std::min<std::uint32_t>(last - 1 - i, 32767));
+  // All places, whether in use or not: what they had before is near, too.
+  std::int16_t least = 0;
+  std::int16_t most = 0;
+  for (std::uint32_t k = 0; k < row_capacity; ++k) {
+    least = std::min(least, row.offset[k]);
+    most = std::max(most, row.offset[k]);
+  }
+  return least >= -below && most <= above;
+}
+
 void ListRows::begin(std::size_t disks, std::size_t blocks) {
   if (rows_.capacity() < disks) resize_in_huge_pages(rows_, disks);
   rows_.resize(disks);

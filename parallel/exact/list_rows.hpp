@@ -53,6 +53,9 @@ class ListRows {
     visit_offsets(i, some, some);
   }
 
+  // Are all neighbours of disk i stored in [first, last)? May say no where they are, never the other way round.
+  bool surely_within(std::uint32_t i, std::uint32_t first, std::uint32_t last) const;
+
   // Bits (1 << side) of the walls and sinks that the disk can touch while it stays listed.
   unsigned sides_near(std::uint32_t i) const { return rows_[i].sides; }
 

@@ -20,11 +20,14 @@ constexpr std::size_t disks_per_block = 4096;
 constexpr std::size_t most_blocks = 65536;
 // Twice the skin and a diameter make this many mean spacings: about eleven neighbours. Longer lists take longer to go
 // through, shorter ones have to be renewed more often, the sooner the less dense the system is: with one queue the
-// fewest instructions a collision at 10^4 disks are at 2.1, 1.8 and 1.65 spacings at packing fractions 0.2, 0.5 and
-// 0.7.
+// fewest instructions a collision at 10^4 disks are at 2.05 to 2.2, 1.8 to 1.9 and 1.72 spacings at packing fractions
+// 0.2, 0.5 and 0.7.
 constexpr double region_cutoff_in_spacings = 2.0;
-constexpr double thin_cutoff_in_spacings = 2.25;
+constexpr double thin_cutoff_in_spacings = 2.35;
 constexpr double cutoff_by_packing_fraction = -0.9;
+// A disk is listed ahead of where it is by this share of the relist distance at most: it has to be within that
+// distance.
+constexpr double most_lead = 0.8;
 // In very dense systems the skin is at least this share of a mean diameter.
 constexpr double least_skin = 0.08;
 // The skin in units of fixed point, whose rounding must not count.
@@ -101,6 +104,7 @@ void NeighbourLists::choose_skin(const Disks& d, double relist_share) {
                     least_units * std::max(unit_x_, unit_y_)});
   relist_distance_ = relist_share * skin_;
   stay2_ = relist_distance_ * relist_distance_ * (1.0 - 2e-9);
+  lead2_ = most_lead * most_lead * relist_distance_ * relist_distance_;
 }
 
 void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& executor) {

@@ -97,13 +97,19 @@ class NeighbourLists {
   void carry_flow(const Domain& box, double start);
   // Has the flow carried disks so far by time t that the lists are to be built anew?
   bool is_strained(double t) const { return std::abs(flow_.rate) * (t - flow_.built_at) > flow_.strain; }
-  // Where a disk is listed whose path begins here.
+  // Where a disk is listed whose path begins here: ahead of it, in the middle of where it is about to be.
   Vec2 listing_place(PathSegment p, const Domain& box) const {
     if (flow_.acts) [[unlikely]]
       return into_flow(p.x, p.y, p.start);
+    const double v2 = p.vx * p.vx + p.vy * p.vy;
+    const double lead = lead_time_ * lead_time_ * v2 > lead2_ ? std::sqrt(lead2_ / v2) : lead_time_;
+    p.x += lead * p.vx;
+    p.y += lead * p.vy;
     wrap_into(p, box);
     return {p.x, p.y};
   }
+  // For how long disks keep their velocities, about: they are listed as far ahead as they go in that time.
+  void set_lead_time(double t) { lead_time_ = t; }
 
   EngineMode mode() const { return mode_; }
   // Lengths; not in all-pairs mode.
@@ -268,7 +274,9 @@ class NeighbourLists {
   double relist_distance_ = 0.0;
   FlowFrame flow_;
   bool all_periodic_ = false;
-  double stay2_ = 0.0;                                // relist distance squared, a little less
+  double stay2_ = 0.0;  // relist distance squared, a little less
+  double lead_time_ = 0.0;
+  double lead2_ = 0.0;                                // the furthest that a disk is listed ahead, squared
   double period_x_ = 0.0, period_y_ = 0.0;            // length; 0: none
   double periods_per_x_ = 0.0, periods_per_y_ = 0.0;  // 1 / period; 0: none
   double largest_radius_ = 0.0;

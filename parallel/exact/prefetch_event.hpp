@@ -16,9 +16,8 @@ inline constexpr std::uint32_t prefetched_neighbours = 12;
 [[gnu::always_inline]] inline void prefetch_neighbours(const DiskRecord* record, const NeighbourLists& lists,
                                                        std::uint32_t i) {
   const std::int16_t* const offset = lists.rows().plain_list(i).offset;
-  for (std::uint32_t k = 0; k < prefetched_neighbours; ++k) {
-    __builtin_prefetch(&record[i + static_cast<std::uint32_t>(std::int32_t{offset[k]})]);
-  }
+  const DiskRecord* const own = record + i;
+  for (std::uint32_t k = 0; k < prefetched_neighbours; ++k) __builtin_prefetch(own + offset[k]);
 }
 
 // For an event of disk i. At stage 0 the disk and its list; at stage 1, when those have come, its neighbours, its

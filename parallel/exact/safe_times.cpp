@@ -17,38 +17,50 @@ bool is_due_later(const SafeTimeDue& a, const SafeTimeDue& b) {
 
 }  // namespace
 
-double SafeTimes::known_until(std::uint32_t unresolved) const {
-  const DiskProgress progress = window_.record[unresolved].progress;
-  return progress.is_blocked() ? worker_.blocked[progress.blocked()].safe_time : window_.slice_start;
-}
-
-// Before this time, no earlier than `time`, the unresolved disk cannot touch disk i on its present path; `never` if not
-// within the slice.
-double SafeTimes::safe_time_from(std::uint32_t i, double time, std::uint32_t unresolved) const {
+SafeTimes::Place SafeTimes::place_at(std::uint32_t i, double time) const {
   const DiskRecord& f = window_.record[i];
-  const DiskRecord& u = window_.record[unresolved];
   const Gravity& g = window_.rules.gravity;
-  const double until = known_until(unresolved);
-  const double from = std::max(time, until);
-  const PathSegment p = carried_to(f.path, from, g);
-  const PathSegment q = carried_to(u.path, until, g);
-  const Relative r = relative(p, q, window_.rules.box);
-  // Both towards each other, since the motion of the unresolved one is unknown.
-  const double speed =
-      std::sqrt(f.path.vx * f.path.vx + f.path.vy * f.path.vy) + g.size * window_.length + window_.speed_bound;
-  const double contact_distance = f.radius + u.radius + window_.slack + window_.speed_bound * (from - until);
-  const double most = contact_distance + speed * (window_.slice_stop() - from);
-  const double distance2 = r.distance2();
-  if (distance2 > most * most * (1.0 + 1e-9)) return never;
-  return from + std::max(std::sqrt(distance2) - contact_distance, 0.0) / speed;
+  const double s = time - f.path.start;
+  double x = f.path.x + f.path.vx * s;
+  double y = f.path.y + f.path.vy * s;
+  if (g.acts()) {
+    x -= 0.5 * g.left * (s * s);
+    y -= 0.5 * g.down * (s * s);
+  }
+  return {time, x, y, f.radius};
 }
 
+double SafeTimes::distance2(const Place& a, const Place& b) const {
+  const Vec2 apart = nearest_image_at_rest({b.x - a.x, b.y - a.y}, window_.rules.box);
+  return apart.x * apart.x + apart.y * apart.y;
+}
+
+// With a disk whose motion is unknown: both towards each other.
+double SafeTimes::closing_speed(std::uint32_t i) const {
+  const PathSegment& p = window_.record[i].path;
+  return std::sqrt(p.vx * p.vx + p.vy * p.vy) + window_.rules.gravity.size * window_.length + window_.speed_bound;
+}
+
+// Before this time, no earlier than `time`, no unresolved disk can touch disk i on its present path; `never` if not
+// within the slice. Most of them are too far away, which the square of the distance tells.
 SafeTimes::SafeTime SafeTimes::safe_time(std::uint32_t i, double time) const {
   SafeTime first;
+  const DiskRecord* const record = window_.record.data();
+  const Place own = place_at(i, time);
+  const double speed = closing_speed(i);
+  const double reach = (own.radius + window_.slack + speed * (window_.slice_stop() - time)) * (1.0 + 1e-9);
   lists_.for_each_neighbour(i, [&](std::uint32_t j) {
-    if (window_.record[j].progress.is_active()) return;
+    const DiskProgress progress = record[j].progress;
+    if (progress.is_active()) return;
     first.any = true;
-    first.time = std::min(first.time, safe_time_from(i, time, j));
+    const double until = progress.is_blocked() ? worker_.blocked[progress.blocked()].safe_time : window_.slice_start;
+    const Place other = place_at(j, until);
+    const double since = window_.speed_bound * std::max(time - until, 0.0);
+    const double d2 = distance2(own, other);
+    const double most = reach + (other.radius + since) * (1.0 + 1e-9);
+    if (d2 > most * most) return;
+    const double gap = std::sqrt(d2) - (own.radius + other.radius + window_.slack + since);
+    first.time = std::min(first.time, time + std::max(gap, 0.0) / speed);
   });
   return first;
 }
@@ -92,17 +104,29 @@ void SafeTimes::block(std::uint32_t i, double time) {
   window_.next_event_time[i] = worker_.calendar.time_of(entry);
   window_.record[i].progress.set_blocked(static_cast<std::uint32_t>(worker_.blocked.size()));
   worker_.blocked.push_back({i, time});
+  const Place own = place_at(i, time);
+  const double left = window_.slice_stop() - time;
+  const double room = own.radius + window_.slack + 2.0 * window_.speed_bound * left;
   lists_.for_each_neighbour(i, [&](std::uint32_t j) {
     if (!window_.record[j].progress.is_active()) return;
     mark_unresolved_neighbour(j);
-    push_due(safe_time_from(j, time, i), j);
+    const Place other = place_at(j, time);
+    const double d2 = distance2(own, other);
+    const double most = (room + other.radius) * (1.0 + 1e-9);
+    if (d2 > most * most) return;
+    const double gap = std::sqrt(d2) - (own.radius + other.radius + window_.slack);
+    push_due(time + std::max(gap, 0.0) / closing_speed(j), j);
   });
 }
 
-void SafeTimes::mark_relisted(std::uint32_t i) {
+void SafeTimes::mark_relisted(std::uint32_t i, double time) {
+  bool any = false;
   lists_.for_each_neighbour(i, [&](std::uint32_t j) {
-    if (window_.record[j].progress.has(DiskProgress::at_border)) mark_lists_border(i);
+    const DiskProgress progress = window_.record[j].progress;
+    any = any || !progress.is_active();
+    if (progress.has(DiskProgress::at_border)) mark_lists_border(i);
   });
+  if (any) push(i, time);
 }
 
 // Marks are set at once: the neighbours keep disk i in their lists, however soon it is relisted.

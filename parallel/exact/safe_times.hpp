@@ -26,8 +26,8 @@ class SafeTimes {
   // Disk i's motion is not known from now on, so that its active neighbours get safe times too.
   void block(std::uint32_t i, double time);
 
-  // Disk i, of a region and not at its border, has a new list.
-  void mark_relisted(std::uint32_t i);
+  // Disk i, of a region and not at its border, has a new list; asks for its safe time as push() does.
+  void mark_relisted(std::uint32_t i, double time);
   // Any disk i has a new list, and is in other disks' lists than before.
   void mark_relisted_at_border(std::uint32_t i);
 
@@ -36,9 +36,16 @@ class SafeTimes {
     double time = never;
     bool any = false;  // is a neighbour's motion not known?
   };
+  // One of a pair whose distance is asked for, at a time.
+  struct Place {
+    double time;
+    double x, y;
+    double radius;
+  };
 
-  double known_until(std::uint32_t unresolved) const;
-  double safe_time_from(std::uint32_t i, double time, std::uint32_t unresolved) const;
+  Place place_at(std::uint32_t i, double time) const;
+  double distance2(const Place& a, const Place& b) const;
+  double closing_speed(std::uint32_t i) const;
   SafeTime safe_time(std::uint32_t i, double time) const;
   void push_due(double time, std::uint32_t i);
   void mark_unresolved_neighbour(std::uint32_t i);
