@@ -41,7 +41,7 @@ inline constexpr std::size_t most_disks_a_tile = 8192;
 inline constexpr std::size_t tiles_a_region = 16;
 // The larger, the fewer relistings; the smaller, the longer slices. The fewest instructions a collision with two
 // regions of 25000 disks.
-inline constexpr double region_relist_share = 0.8;
+inline constexpr double region_relist_share = 0.82;
 // Mean spacings that a region is wide, at least: in narrower ones what is blocked from one border reaches that from the
 // other.
 inline constexpr double least_region_width = 30.0;

@@ -179,10 +179,13 @@ class EventCalendar {
     std::uint32_t k = first_[std::min(page_ + pages_ahead, pages_)];
     for (int m = 0; m < announced_a_page && k != end_of_list_; ++m, k = node_[k].next) {
       announced_[next_announced_ % announced_.size()] = k;
-      for (std::uint32_t stage = 0; stage < stages; ++stage) {
-        const std::uint32_t before = next_announced_ - stage * disks_a_stage;
-        soon(announced_[before % announced_.size()], static_cast<int>(stage));
-      }
+      const auto announced = [&](std::uint32_t stage) {
+        return announced_[(next_announced_ - stage * disks_a_stage) % announced_.size()];
+      };
+      // One by one, so that each stage is inlined as what it is.
+      soon(announced(0), 0);
+      soon(announced(1), 1);
+      soon(announced(2), 2);
       ++next_announced_;
     }
   }

@@ -45,8 +45,10 @@ constexpr Count relistings_a_disk = 8;
 // fractions of 0.2 and 0.5.
 constexpr double lead_in_free_times = 0.7;
 // With regions: no disk may become faster in a window than this factor times the fastest one at its start. A window in
-// which one does is run again with a larger factor, and at last without regions.
-constexpr double speed_margin = 1.25;
+// which one does is run again with a larger factor, and at last without regions. With 1.15, 1.25 and 1.35, 21, 2 and 0
+// of 100 windows of 50000 disks were in vain; a larger factor makes slices shorter.
+constexpr double speed_margin = 1.35;
+constexpr double margin_of_retry = 2.5;  // over that of the try before
 constexpr int most_retries = 4;
 
 // What is left of the window before, for the next one.
@@ -313,7 +315,7 @@ bool ParallelExact::run_window_with_retry(WindowPlan& plan) {
                       most_retries, plan.start));
     }
     if (retries == most_retries) regions_allowed = false;
-    margin *= 2.0 * speed_margin;
+    margin *= margin_of_retry;
   }
   if (outcome == SliceOutcome::given_up || !regions_allowed) valid_ = Valid::nothing;
   return outcome == SliceOutcome::done;

@@ -22,7 +22,7 @@ constexpr std::size_t most_blocks = 65536;
 // through, shorter ones have to be renewed more often, the sooner the less dense the system is: with one queue the
 // fewest instructions a collision at 10^4 disks are at 2.05 to 2.2, 1.8 to 1.9 and 1.72 spacings at packing fractions
 // 0.2, 0.5 and 0.7.
-constexpr double region_cutoff_in_spacings = 2.0;
+constexpr double region_cutoff_in_spacings = 1.85;
 constexpr double thin_cutoff_in_spacings = 2.35;
 constexpr double cutoff_by_packing_fraction = -0.9;
 // A disk is listed ahead of where it is by this share of the relist distance at most: it has to be within that
