@@ -27,6 +27,13 @@ double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+SideMotion at_rest(double inset) {
+  SideMotion motion;
+  motion.kind = SideMotion::Kind::steady;
+  motion.inset = motion.furthest = inset;
+  return motion;
+}
+
 // Disks of the scene in the equilibrium that they have as an elastic gas between sides at rest, at time 0. A shear flow
 // begins then.
 State start_state(const ChartScene& scene, std::uint64_t seed) {
@@ -35,7 +42,9 @@ State start_state(const ChartScene& scene, std::uint64_t seed) {
   melting.physics.law = {};
   melting.physics.diffusion = 0.0;
   const Shear shear = std::exchange(melting.box.shear, Shear{});
-  if (scene.melting > 0.0) melting.box.motions = {};
+  for (SideMotion& motion : melting.box.motions) {
+    if (motion.moves() && scene.melting > 0.0) motion = at_rest(motion.at(0.0).inset);
+  }
   const auto engine = make_parallel_engine(melting, initial_state(melting), {1});
   engine->forget_paths();
   while (engine->state().time < scene.melting) engine->step();
