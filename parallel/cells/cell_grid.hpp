@@ -45,7 +45,8 @@ struct GridLevel {
   std::uint32_t key_of_row(std::uint32_t row) const {
     return (row >> group_shift) * group_keys + (row & ((1U << group_shift) - 1U)) * stride;
   }
-  bool begins_group(std::uint32_t row) const { return (row & ((1U << group_shift) - 1U)) == 0; }
+  // The row that follows the last one of this row's group.
+  std::uint32_t end_of_group(std::uint32_t row) const { return ((row >> group_shift) + 1U) << group_shift; }
   std::uint32_t key_of_column(std::uint32_t column) const {
     return (column >> band_shift) * band_keys + (column & ((1U << band_shift) - 1U));
   }

@@ -88,7 +88,8 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
 }
 
 template <Scope scope>
-void EventProcessor<scope>::begin_plain_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path) {
+inline void EventProcessor<scope>::begin_plain_segment(std::uint32_t i, std::uint32_t partner,
+                                                       const PathSegment& path) {
   DiskRecord& f = record_[i];
   if (window_.keeps_paths) log_segment(i, partner, path);
   f.path = path;

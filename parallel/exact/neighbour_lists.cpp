@@ -40,44 +40,6 @@ constexpr double two_to_31 = 2147483648.0;
 // Share of the skin that gravity may bend a path by before earliest_relist_time is asked again.
 constexpr double bend_share = 0.1;
 
-// Collects the neighbours of one disk: from runs of slots by the kernel, those without a slot one by one.
-class NeighbourCollector {
- public:
-  NeighbourCollector(ListKernel kernel, const ListQuery& query, const SlotColumns& columns, FoundNeighbours& found)
-      : kernel_(kernel), query_(query), columns_(columns), found_(found) {
-    found.count = 0;
-  }
-
-  void add(SlotRun run) {
-    if (held_ == runs_.size()) search();
-    runs_[held_++] = run;
-    slots_ += run.last - run.first;
-  }
-
-  // A disk near which the query's disk may be.
-  void add(std::uint32_t j, FixedPointPosition position, float radius) {
-    if (found_.buffer.size() < found_.count + list_kernel_padding) found_.grow(found_.count);
-    found_.buffer[found_.count] = j;
-    found_.count += is_neighbour(query_, position, radius) && j != query_.self ? 1U : 0U;
-  }
-
-  // Searches the runs that are held.
-  void search() {
-    if (found_.buffer.size() < found_.count + slots_ + list_kernel_padding) found_.grow(found_.count + slots_);
-    found_.count += kernel_(query_, columns_, runs_.data(), held_, found_.buffer.data() + found_.count);
-    held_ = slots_ = 0;
-  }
-
- private:
-  ListKernel kernel_;
-  const ListQuery& query_;
-  const SlotColumns columns_;
-  FoundNeighbours& found_;
-  std::array<SlotRun, runs_at_once> runs_;
-  std::size_t held_ = 0;
-  std::size_t slots_ = 0;  // in the runs
-};
-
 }  // namespace
 
 void FoundNeighbours::grow(std::size_t disks) {
@@ -232,13 +194,41 @@ ListQuery NeighbourLists::query_at(const Disks& d, std::uint32_t i, FixedPointPo
 bool NeighbourLists::find_neighbours(const Disks& d, std::uint32_t i, FixedPointPosition position,
                                      const ListRegion& region, FoundNeighbours& found) const {
   const ListQuery query = query_at(d, i, position);
-  NeighbourCollector collector(kernel_, query, slots_.columns(), found);
-  const bool inside = visit_runs_near(
-      position_of(position), flow_.stretch * d.radius_of(i) + 2.0 * skin_, region,
-      [&](SlotRun run) { collector.add(run); },
-      [&](std::uint32_t j) { collector.add(j, listed_at_[j], radius_in_units(d.radius_of(j))); });
-  collector.search();
+  std::array<CellRun, runs_at_once> runs;
+  std::size_t held = 0;
+  found.count = 0;
+  const auto search = [&] {
+    search_cells(d, query, std::span<const CellRun>(runs.data(), held), region, found);
+    held = 0;
+  };
+  const bool inside = visit_cells_near(position_of(position), flow_.stretch * d.radius_of(i) + 2.0 * skin_, region,
+                                       [&](std::uint32_t first, std::uint32_t last) {
+                                         if (held == runs.size()) [[unlikely]]
+                                           search();
+                                         runs[held++] = {first, last};
+                                       });
+  if (inside) search();
   return inside;
+}
+
+// The disks chained to the cells of these runs one by one, those in slots by the kernel.
+void NeighbourLists::search_cells(const Disks& d, const ListQuery& query, std::span<const CellRun> runs,
+                                  const ListRegion& region, FoundNeighbours& found) const {
+  std::array<SlotRun, runs_at_once> slot_runs;
+  std::size_t slots = 0;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const auto [first, last] = runs[k];
+    slot_runs[k] = {first * slots_a_cell, last * slots_a_cell};
+    slots += slots_a_cell * (last - first);
+    slots_.visit_chained(first, last, region.last_key, [&](std::uint32_t j) {
+      if (found.buffer.size() < found.count + list_kernel_padding) found.grow(found.count);
+      found.buffer[found.count] = j;
+      const bool near = is_neighbour(query, listed_at_[j], radius_in_units(d.radius_of(j))) && j != query.self;
+      found.count += near ? 1U : 0U;
+    });
+  }
+  if (found.buffer.size() < found.count + slots + list_kernel_padding) found.grow(found.count + slots);
+  found.count += kernel_(query, slots_.columns(), slot_runs.data(), runs.size(), found.buffer.data() + found.count);
 }
 
 void NeighbourLists::find_all_others(std::uint32_t i, FoundNeighbours& found) const {

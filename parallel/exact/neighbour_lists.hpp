@@ -31,15 +31,17 @@ void for_each_cell_run_near(const GridLevel& level, const Domain& box, double x,
     // Up to the end of the band or of the row.
     const std::uint32_t band = std::min(level.columns - column, level.columns_left_in_band(column));
     const std::uint32_t run = std::min(left, band);
-    std::uint32_t first = level.first_key + level.key_of_column(column) + level.key_of_row(rows.first);
-    for (std::uint32_t k = 0, row = rows.first; k < rows.count; ++k) {
+    const std::uint32_t column_key = level.first_key + level.key_of_column(column);
+    std::uint32_t row = rows.first;
+    std::uint32_t first = column_key + level.key_of_row(row);
+    std::uint32_t stop = std::min(level.rows, level.end_of_group(row));
+    for (std::uint32_t k = rows.count; k > 0; --k) {
       visit(first, first + run);
-      const bool wraps = ++row == level.rows;
-      if (wraps || level.begins_group(row)) [[unlikely]] {
-        row = wraps ? 0 : row;
-        first = level.first_key + level.key_of_column(column) + level.key_of_row(row);
-      } else {
-        first += level.stride;
+      first += level.stride;
+      if (++row == stop) [[unlikely]] {
+        row = row == level.rows ? 0 : row;
+        first = column_key + level.key_of_row(row);
+        stop = std::min(level.rows, level.end_of_group(row));
       }
     }
     left -= run;
@@ -214,11 +216,10 @@ class NeighbourLists {
   }
 
  private:
-  // Calls run(slots) and visit(j) for the slots, and the disks without a slot, of cells that may hold disks whose
-  // listed positions are within `distance`, their radii added, of this position. False, perhaps too early, if that
-  // would leave the region.
-  template <class Run, class Visit>
-  bool visit_runs_near(Vec2 position, double distance, const ListRegion& region, Run&& run, Visit&& visit) const {
+  // Calls run(first, last) for runs of cells [first, last) that may hold disks whose listed positions are within
+  // `distance`, their radii added, of this position. False, perhaps too early, if that would leave the region.
+  template <class Run>
+  bool visit_cells_near(Vec2 position, double distance, const ListRegion& region, Run&& run) const {
     bool inside = true;
     for (const GridLevel& level : grid_.levels) {
       // Cells were chosen by coordinates before they were rounded to fixed point.
@@ -226,12 +227,18 @@ class NeighbourLists {
           (distance + flow_.stretch * level.largest_radius) * (1.0 + 1e-9) + std::max(unit_x_, unit_y_);
       for_each_cell_run_near(level, box_, position.x, position.y, cutoff, [&](std::uint32_t first, std::uint32_t last) {
         inside = inside && first >= region.first_key && last <= region.last_key;
-        if (!inside) return;
-        run(SlotRun{first * slots_a_cell, last * slots_a_cell});
-        slots_.visit_chained(first, last, region.last_key, visit);
+        if (inside) run(first, last);
       });
     }
     return inside;
+  }
+  // Likewise run(slots) and visit(j) for the slots, and the disks without a slot, of those cells.
+  template <class Run, class Visit>
+  bool visit_runs_near(Vec2 position, double distance, const ListRegion& region, Run&& run, Visit&& visit) const {
+    return visit_cells_near(position, distance, region, [&](std::uint32_t first, std::uint32_t last) {
+      run(SlotRun{first * slots_a_cell, last * slots_a_cell});
+      slots_.visit_chained(first, last, region.last_key, visit);
+    });
   }
 
   // Is this place within a distance of disk i's listed position? distance2: its square.
@@ -260,6 +267,12 @@ class NeighbourLists {
   float radius_in_units(double radius) const;
   bool find_neighbours(const Disks& disks, std::uint32_t i, FixedPointPosition position, const ListRegion& region,
                        FoundNeighbours& found) const;
+  // Cells [first, last).
+  struct CellRun {
+    std::uint32_t first, last;
+  };
+  void search_cells(const Disks& disks, const ListQuery& query, std::span<const CellRun> runs, const ListRegion& region,
+                    FoundNeighbours& found) const;
   void find_all_others(std::uint32_t i, FoundNeighbours& found) const;
   std::uint32_t cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
   void fill_slots(const Disks& disks, std::uint32_t first_key, std::uint32_t last_key);
