@@ -40,6 +40,7 @@ State after(const Scene& scene, State state, int steps) {
 Start prepared(const std::string& text, const char* name, double dt, int steps, double next_dt) {
   Scene scene = parse_scene(text + run_text(dt), name, "");
   State state = after(scene, initial_state(scene), steps);
+  if (scene.physics.thermostat.acts()) state.intervals = 0;  // the next kick is due at once
   scene.run.dt = next_dt;
   return {std::move(scene), std::move(state)};
 }
@@ -101,6 +102,7 @@ Start melted(Scene scene) {
     engine->step();
   }
   State state = engine->state();
+  if (scene.physics.thermostat.acts()) state.intervals = 0;  // the next kick is due at once
   // Where images, or sides, move they stand elsewhere at another time.
   if (!scene.box.shear.acts() && !scene.box.has_moving_side()) state.time = 0.0;
   state.counters = {};
