@@ -50,10 +50,14 @@ Scene scene_in(const Checkpoint& checkpoint, const std::string& name) {
   return scene;
 }
 
-// Of the fixed disks, or of the inner walls.
-std::unique_ptr<const ObstacleCells> cells_of(std::vector<Obstacle> fixed, const Domain& box, bool segments) {
-  std::erase_if(fixed, [segments](const Obstacle& o) { return o.is_segment() != segments; });
-  return fixed.empty() ? nullptr : std::make_unique<const ObstacleCells>(fixed, box);
+// Of the fixed disks, or of the inner walls, where those are now.
+std::unique_ptr<const ObstacleCells> cells_of(const Scene& scene, const State& state, bool segments) {
+  std::vector<Obstacle> chosen;
+  const std::vector<WallMotion> motions = motions_of(scene);
+  for (const Obstacle& o : state.obstacles) {
+    if (o.is_segment() == segments) chosen.push_back(at_time(o, motions, state.time, scene.box));
+  }
+  return chosen.empty() ? nullptr : std::make_unique<const ObstacleCells>(chosen, std::vector<WallMotion>{}, scene.box);
 }
 
 }  // namespace
@@ -62,8 +66,8 @@ Simulation::Simulation(Scene scene, EngineChoice engine)
     : scene_(std::move(scene)), scene_text_(resolved_toml(scene_)), choice_(std::move(engine)) {
   const FloatEnvironment environment;
   within_memory(scene_, [&] { engine_ = make_engine(choice_, scene_, make_initial_state(choice_, scene_)); });
-  fixed_ = cells_of(state().obstacles, scene_.box, false);
-  walls_ = cells_of(state().obstacles, scene_.box, true);
+  fixed_ = cells_of(scene_, state(), false);
+  walls_ = cells_of(scene_, state(), true);
   start_ = run_start(state(), scene_);
   warnings_ = validity_of(scene_, smallest_radius(state().disks), fastest_speed(state().disks));
 }
@@ -75,8 +79,8 @@ Simulation::Simulation(Checkpoint checkpoint, const std::string& name, EngineCho
       start_(checkpoint.record.start) {
   const FloatEnvironment environment;
   within_memory(scene_, [&] { engine_ = make_engine(choice_, scene_, std::move(checkpoint.state)); });
-  fixed_ = cells_of(state().obstacles, scene_.box, false);
-  walls_ = cells_of(state().obstacles, scene_.box, true);
+  fixed_ = cells_of(scene_, state(), false);
+  walls_ = cells_of(scene_, state(), true);
 }
 
 Simulation Simulation::resume(const std::string& name, EngineChoice engine) {
@@ -262,7 +266,9 @@ std::optional<DiskId> Simulation::add(Disk disk) {
     fixed_->visit({disk.x - disk.radius, disk.y - disk.radius}, {disk.x + disk.radius, disk.y + disk.radius},
                   meet_fixed);
   }
-  for (const Obstacle& o : state().obstacles) {
+  const std::vector<WallMotion> motions = motions_of(scene_);
+  for (const Obstacle& before : state().obstacles) {
+    const Obstacle o = at_time(before, motions, state().time, box);
     met = met || (o.is_segment() && gap_to(o, disk.x, disk.y, disk.radius, scene_.box).beyond >= 0.0);
   }
   if (met) return std::nullopt;
@@ -307,6 +313,10 @@ VisitNear Simulation::visit_near() const {
 
 QueryScene Simulation::query_scene() const {
   if (scene_.box.shear.acts()) fail_input("box.shear_rate", "moves the images", "expected queries of other scenes");
+  if (scene_.box.inner_walls_move && walls_time_ != state().time) {
+    walls_ = cells_of(scene_, state(), true);
+    walls_time_ = state().time;
+  }
   return {state().disks, scene_.box, visit_near(), fixed_.get(), walls_.get()};
 }
 

@@ -111,7 +111,9 @@ class Simulation {
   EngineChoice choice_;
   RunStart start_;
   std::unique_ptr<const ObstacleCells> fixed_;  // for queries; null where no disk is fixed
-  std::unique_ptr<const ObstacleCells> walls_;  // likewise, inner walls
+  // Likewise, inner walls; those that move where they were at walls_time_.
+  mutable std::unique_ptr<const ObstacleCells> walls_;
+  mutable double walls_time_ = -1.0;
   std::unique_ptr<Engine> engine_;
   bool stepped_ = false;         // and nothing was changed or loaded since
   std::optional<State> edited_;  // of which the engine is made anew before the next step

@@ -121,6 +121,13 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return s.thermostat ? json_number(s.counters.thermostat_heat) : absent(); }},
     {"work", "energy", "only with sides that move: an object, the work that each of them did on the disks",
      [](const Summary& s) -> Json { return side_energy_of(s, [&](Side side) { return s.box.moves(side); }); }},
+    {"wall_work", "energy", "only with inner walls that move: the work that they did on the disks",
+     [](const Summary& s) -> Json { return s.box.inner_walls_move ? json_number(s.counters.wall_work) : absent(); }},
+    {"wall_push", "mass length / time", "likewise: the momentum [px, py] that they gave to the disks",
+     [](const Summary& s) -> Json {
+       if (!s.box.inner_walls_move) return absent();
+       return Json::array({json_number(s.counters.wall_push[0]), json_number(s.counters.wall_push[1])});
+     }},
     {"shear_work", "energy", "only with shear_rate: what the moving images did on the disks",
      [](const Summary& s) -> Json { return s.box.shear.acts() ? json_number(s.counters.shear_work) : absent(); }},
     {"seed", "", "of the random numbers", [](const Summary& s) -> Json { return s.seed; }},
@@ -229,7 +236,7 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.momentum_drift = of_velocities(momentum_drift(start.momentum, momentum_of(state.disks)));
   Domain box = box_at(scene.box, state.time);
   const Overlap of_disks = deepest_overlap(state.disks, box);
-  const std::unique_ptr<const ObstacleCells> obstacles = place_obstacles(state.obstacles, box);
+  const std::unique_ptr<const ObstacleCells> obstacles = place_obstacles(state.obstacles, box, motions_of(scene));
   const Overlap of_wall = deepest_wall_overlap(state.disks, box);
   s.max_overlap = of_disks.size;
   s.wall_overlap = of_wall.size;

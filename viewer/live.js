@@ -51,6 +51,7 @@ window.caromLive = {
       if (head.fast !== news.fast && !viewer.rangeChosen) viewer.range = null;
       head.fast = news.fast;
       head.insets.forEach((inset, side) => inset?.push(...news.insets[side]));
+      head.shifts.forEach((shift, wall) => shift?.push(...news.shifts[wall]));
       document.getElementById("story").textContent =
         `${head.disks} disks, ${head.frames} frames, carom ${head.version}`;
     }

@@ -54,13 +54,35 @@ function drawWall(context, camera, [x0, y0, x1, y1], kind, colour) {
   context.stroke();
 }
 
+// An inner wall that has moved by shift, and its images across periodic sides; what lies in the box of them.
+function drawMovingWall(context, camera, { box, axes }, [x0, y0, x1, y1, sink], shift, colour) {
+  const turns = (k, at, size) => {
+    const turn = axes[k].periodic ? Math.floor((at + shift[k]) / size) : 0;
+    return (axes[k].periodic ? [-1, 0, 1] : [0]).map((n) => shift[k] + (n - turn) * size);
+  };
+  context.save();
+  context.beginPath();
+  context.rect(...camera.toPage(0, box.height), box.width * camera.scale, box.height * camera.scale);
+  context.clip();
+  for (const x of turns(0, x0, box.width)) {
+    for (const y of turns(1, y0, box.height)) {
+      drawWall(context, camera, [x0 + x, y0 + y, x1 + x, y1 + y], sink ? "sink" : "wall", colour);
+    }
+  }
+  context.restore();
+}
+
 function drawSides(context, camera, head, frame, colours) {
   const { box } = head;
   for (let s = 0; s < 4; ++s) {
     const ends = sideEnds(s, box, head.insets[s]?.[frame]);
     drawWall(context, camera, ends, box.sides[s], box.thermal[s] ? colours.heat : colours.ink);
   }
-  for (const wall of head.walls) drawWall(context, camera, wall, wall[4] ? "sink" : "wall", colours.ink);
+  for (const wall of head.walls) {
+    const shift = head.shifts[wall[5]]?.[frame];
+    if (shift) drawMovingWall(context, camera, head, wall, shift, colours.ink);
+    else drawWall(context, camera, wall, wall[4] ? "sink" : "wall", colours.ink);
+  }
   context.setLineDash([4, 3]);
   context.strokeStyle = "#1a9850";
   context.lineWidth = 2;

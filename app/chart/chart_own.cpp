@@ -121,7 +121,7 @@ void plan_flight(const Scene& scene, const Trial& trial, ChartScene& chart) {
   chart.longest_step = std::min(0.98 * safe_travel / std::sqrt(trial.travel2), 0.5 * chart.flight);
   const bool walls = scene.box.has(SideKind::wall);
   const bool elastic = !disks_dissipate(scene) && !scene.box.walls_dissipate() && !scene.box.has_thermal_side() &&
-                       !scene.physics.thermostat.acts();
+                       !scene.box.inner_walls_move && !scene.physics.thermostat.acts();
   chart.keeps_energy = elastic;
   chart.keeps_momentum = !walls && !scene.physics.gravity.acts();
   chart.figure = !elastic && chart.keeps_momentum ? Figure::cooling : Figure::pressure;

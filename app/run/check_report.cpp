@@ -95,6 +95,7 @@ std::string physics_text(const Scene& scene) {
   const bool elastic = p.restitution == 1.0 && !p.law.dissipates();
   text += !elastic ? fmt::format("restitution {}", restitutions_text(scene)) : "elastic collisions";
   text += walls_text(scene.box);
+  if (scene.box.inner_walls_move) text += ", inner walls move";
   text += surfaces_text(p.surfaces);
   if (p.diffusion > 0.0) {
     text += fmt::format("; Brownian motion, D = {:g}{}", p.diffusion, p.accumulate ? ", accumulating velocity" : "");

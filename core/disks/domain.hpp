@@ -8,6 +8,7 @@
 #include "core/base/types.hpp"
 #include "core/disks/shear.hpp"
 #include "core/disks/side_motion.hpp"
+#include "core/disks/wall_motion.hpp"
 
 namespace carom {
 
@@ -30,6 +31,8 @@ struct Domain {
   Shear shear{};  // of a box that is periodic both ways, at the time that the box is used for
   // What stands in the box (place_obstacles); null where nothing does. Outlives the box.
   const ObstacleCells* obstacles = nullptr;
+  bool inner_walls_move = false;  // at least one of them
+  BoxTime clock{};                // where those are
 
   SideKind side(Side s) const { return sides[static_cast<std::size_t>(s)]; }
   // Of a wall: speed away from it over speed towards it. Elastic whatever e is in docs/original.md.
@@ -44,6 +47,8 @@ struct Domain {
   bool has_moving_side() const {
     return moves(Side::left) || moves(Side::right) || moves(Side::bottom) || moves(Side::top);
   }
+  // A side or an inner wall.
+  bool has_moving_wall() const { return has_moving_side() || inner_walls_move; }
   const SidePlace& place(Side s) const { return places[static_cast<std::size_t>(s)]; }
   // The same after time t >= 0 more.
   SidePlace place_after(Side s, double t) const {
@@ -56,12 +61,14 @@ struct Domain {
     }
     return false;
   }
-  // Sides that move go to where they are at time t.
-  void move_sides(double t) {
+  // Walls that move go to where they are at time t.
+  void move_walls(double t) {
+    clock = {t, t};
     for (std::size_t s = 0; s < motions.size(); ++s) places[s] = motions[s].at(t);
   }
   // To where they are at time `to`, with the mean speed of the time since `from`: time stepping sees no other.
-  void step_sides(double from, double to) {
+  void step_walls(double from, double to) {
+    clock = {from, to};
     for (std::size_t s = 0; s < motions.size(); ++s) {
       if (!motions[s].moves()) continue;
       const double inset = motions[s].at(to).inset;
@@ -87,9 +94,9 @@ struct Domain {
   }
 };
 
-// The box at time t, when its moving sides, or the images of a sheared one, are where they are then.
+// The box at time t, when its moving walls, or the images of a sheared one, are where they are then.
 inline Domain box_at(Domain box, double t) {
-  if (box.has_moving_side()) box.move_sides(t);
+  if (box.has_moving_wall()) box.move_walls(t);
   if (box.shear.acts()) box.move_images(t);
   return box;
 }

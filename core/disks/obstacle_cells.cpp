@@ -1,5 +1,7 @@
 #include "core/disks/obstacle_cells.hpp"
 
+#include <utility>
+
 namespace carom {
 
 std::string name_of(const Obstacle& o) {
@@ -16,30 +18,25 @@ std::int64_t cells_for(double length, double cell, std::size_t obstacles) {
 
 }  // namespace
 
-ObstacleCells::ObstacleCells(const std::vector<Obstacle>& obstacles, const Domain& box) : obstacles_(obstacles) {
-  const double wanted = std::sqrt(box.width * box.height / (2.0 * static_cast<double>(obstacles.size())));
+ObstacleGrid::ObstacleGrid(const std::vector<Extent>& extents, const Domain& box) {
+  const std::size_t n = std::max<std::size_t>(1, extents.size());
+  const double wanted = std::sqrt(box.width * box.height / (2.0 * static_cast<double>(n)));
   const auto axis = [&](double length, bool periodic) {
-    const std::int64_t cells = cells_for(length, wanted, obstacles.size());
+    const std::int64_t cells = cells_for(length, wanted, n);
     return Axis{length, periodic, cells, static_cast<double>(cells) / length};
   };
   x_ = axis(box.width, box.periodic_x());
   y_ = axis(box.height, box.periodic_y());
-  for (const Obstacle& o : obstacles_) {
-    const auto span = [&](const Axis& along, double c, double d) {
-      return along.span(c + std::min(d, 0.0) - o.radius, c + std::max(d, 0.0) + o.radius);
-    };
-    reach_.push_back({span(x_, o.x, o.dx), span(y_, o.y, o.dy)});
-    has_sinks_ = has_sinks_ || o.kind == ObstacleKind::sink;
-  }
+  for (const Extent& e : extents) reach_.push_back({x_.span(e.low.x, e.high.x), y_.span(e.low.y, e.high.y)});
   // Counted first, then entered.
   const auto for_each_entry = [&](auto&& enter) {
-    for (std::uint32_t k = 0; k < obstacles_.size(); ++k) {
+    for (std::uint32_t k = 0; k < extents.size(); ++k) {
       for (std::int64_t row = reach_[k].rows.first; row <= reach_[k].rows.last; ++row) {
         for (std::int64_t column = reach_[k].columns.first; column <= reach_[k].columns.last; ++column) {
           const std::int64_t py = y_.periods(row);
           const std::int64_t px = x_.periods(column);
           const auto cell = static_cast<std::size_t>((row - py * y_.cells) * x_.cells + (column - px * x_.cells));
-          enter(cell, Entry{k, static_cast<std::int32_t>(px), static_cast<std::int32_t>(py)});
+          enter(cell, Entry{extents[k].obstacle, k, static_cast<std::int32_t>(px), static_cast<std::int32_t>(py)});
         }
       }
     }
@@ -52,15 +49,50 @@ ObstacleCells::ObstacleCells(const std::vector<Obstacle>& obstacles, const Domai
   for_each_entry([&](std::size_t cell, const Entry& entry) { entries_[next[cell]++] = entry; });
 }
 
+ObstacleCells::ObstacleCells(const std::vector<Obstacle>& obstacles, std::vector<WallMotion> motions, const Domain& box)
+    : obstacles_(obstacles), motions_(std::move(motions)), box_(box) {
+  std::vector<ObstacleGrid::Extent> at_rest;
+  for (std::uint32_t k = 0; k < obstacles_.size(); ++k) {
+    Obstacle& o = obstacles_[k];
+    o.moves = o.moves && o.id < motions_.size() && motions_[o.id].moves();
+    has_sinks_ = has_sinks_ || o.kind == ObstacleKind::sink;
+    if (o.moves) {
+      moving_.push_back(k);
+      continue;
+    }
+    at_rest.push_back({k,
+                       {o.x + std::min(o.dx, 0.0) - o.radius, o.y + std::min(o.dy, 0.0) - o.radius},
+                       {o.x + std::max(o.dx, 0.0) + o.radius, o.y + std::max(o.dy, 0.0) + o.radius}});
+  }
+  at_rest_ = ObstacleGrid(at_rest, box);
+  follow(box.clock.from, box.clock.to);
+}
+
+void ObstacleCells::follow(double from, double to) {
+  if (moving_.empty()) return;
+  std::vector<ObstacleGrid::Extent> swept;
+  for (const std::uint32_t k : moving_) {
+    const Obstacle& o = obstacles_[k];
+    const WallMotion::Range range = motions_[o.id].range(from, to);
+    const Vec2 low{o.x + std::min(o.dx, 0.0) + range.low.x, o.y + std::min(o.dy, 0.0) + range.low.y};
+    const Vec2 high{o.x + std::max(o.dx, 0.0) + range.high.x, o.y + std::max(o.dy, 0.0) + range.high.y};
+    // A wall that has gone round a periodic box many times is known less exactly.
+    const Vec2 slack{0x1p-48 * (std::abs(low.x) + std::abs(high.x)), 0x1p-48 * (std::abs(low.y) + std::abs(high.y))};
+    swept.push_back({k, {low.x - slack.x, low.y - slack.y}, {high.x + slack.x, high.y + slack.y}});
+  }
+  swept_ = ObstacleGrid(swept, box_);
+}
+
 bool ObstacleCells::dissipates() const {
   return std::any_of(obstacles_.begin(), obstacles_.end(),
                      [](const Obstacle& o) { return o.restitution < 1.0 && o.kind != ObstacleKind::sink; });
 }
 
-std::unique_ptr<const ObstacleCells> place_obstacles(const std::vector<Obstacle>& obstacles, Domain& box) {
+std::unique_ptr<ObstacleCells> place_obstacles(const std::vector<Obstacle>& obstacles, Domain& box,
+                                               std::vector<WallMotion> motions) {
   box.obstacles = nullptr;
   if (obstacles.empty()) return nullptr;
-  auto cells = std::make_unique<const ObstacleCells>(obstacles, box);
+  auto cells = std::make_unique<ObstacleCells>(obstacles, std::move(motions), box);
   box.obstacles = cells.get();
   return cells;
 }

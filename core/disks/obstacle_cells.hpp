@@ -11,23 +11,22 @@
 #include "core/base/types.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/obstacle.hpp"
+#include "core/disks/wall_motion.hpp"
 
 namespace carom {
 
-// Obstacles do not move, so that the cells are made once. About two cells an obstacle; each cell lists the obstacles
-// that reach into it.
-class ObstacleCells {
+// Rectangles that obstacles reach over, in cells: about two cells an obstacle; each lists those that reach into it.
+class ObstacleGrid {
  public:
-  ObstacleCells(const std::vector<Obstacle>& obstacles, const Domain& box);
+  struct Extent {
+    std::uint32_t obstacle;
+    Vec2 low, high;  // length; beyond periodic sides where it reaches over them
+  };
+  ObstacleGrid() = default;
+  ObstacleGrid(const std::vector<Extent>& extents, const Domain& box);
 
-  const Obstacle& operator[](std::size_t k) const { return obstacles_[k]; }
-  std::size_t size() const { return obstacles_.size(); }
   // The shorter side of a cell; length.
   double cell() const { return std::min(1.0 / x_.cells_per_length, 1.0 / y_.cells_per_length); }
-  // Does any of them take energy from disks?
-  bool dissipates() const;
-  // Does any of them take disks away?
-  bool has_sinks() const { return has_sinks_; }
 
   // Calls see(k, shift) once for every obstacle k, and every image of it across periodic sides, that may reach into the
   // rectangle; the image is displaced by shift. The rectangle may lie beyond periodic sides by a few periods.
@@ -68,7 +67,7 @@ class ObstacleCells {
     }
   };
   struct Entry {
-    std::uint32_t obstacle;
+    std::uint32_t obstacle, extent;
     std::int32_t period_x, period_y;  // in which the obstacle, where it stands, reaches into the cell
   };
   struct Reach {
@@ -82,7 +81,7 @@ class ObstacleCells {
     const auto cell = static_cast<std::size_t>((row - py * y_.cells) * x_.cells + (column - px * x_.cells));
     for (std::uint32_t e = start_[cell]; e < start_[cell + 1]; ++e) {
       const Entry& entry = entries_[e];
-      const Reach& reach = reach_[entry.obstacle];
+      const Reach& reach = reach_[entry.extent];
       const std::int64_t kx = px - entry.period_x;
       const std::int64_t ky = py - entry.period_y;
       // Of the cells that the image and the rectangle share, the first one only.
@@ -92,15 +91,72 @@ class ObstacleCells {
     }
   }
 
-  std::vector<Obstacle> obstacles_;
-  bool has_sinks_ = false;
   Axis x_, y_;
-  std::vector<Reach> reach_;          // of each obstacle
+  std::vector<Reach> reach_;          // of each extent
   std::vector<std::uint32_t> start_;  // of each cell in entries_, row by row; one more than cells
   std::vector<Entry> entries_;
 };
 
-// The cells for a run's obstacles, and box.obstacles set to them; null where there are none.
-std::unique_ptr<const ObstacleCells> place_obstacles(const std::vector<Obstacle>& obstacles, Domain& box);
+// The cells of obstacles at rest are made once; those of walls that move for each step or window anew, of what they
+// sweep over in it: so a wall is found wherever it can be, and its cells are a function of time alone.
+class ObstacleCells {
+ public:
+  // motions: by number of a [[walls]] table.
+  ObstacleCells(const std::vector<Obstacle>& obstacles, std::vector<WallMotion> motions, const Domain& box);
+
+  const Obstacle& operator[](std::size_t k) const { return obstacles_[k]; }
+  std::size_t size() const { return obstacles_.size(); }
+  // The shorter side of a cell; length.
+  double cell() const { return moving_.empty() ? at_rest_.cell() : std::min(at_rest_.cell(), swept_.cell()); }
+  // Does any of them take energy from disks?
+  bool dissipates() const;
+  // Does any of them take disks away?
+  bool has_sinks() const { return has_sinks_; }
+
+  // Of one that moves.
+  const WallMotion& motion_of(const Obstacle& o) const { return motions_[o.id]; }
+  // Walls that move are found at times from one to the other, both included, until the next call.
+  void follow(double from, double to);
+
+  // As ObstacleGrid::visit. The image of one that moves is displaced by shift from where its motion has brought it,
+  // periodic sides or not.
+  template <class See>
+  void visit(Vec2 low, Vec2 high, See&& see) const {
+    at_rest_.visit(low, high, see);
+    if (!moving_.empty()) [[unlikely]]
+      swept_.visit(low, high, see);
+  }
+
+ private:
+  std::vector<Obstacle> obstacles_;
+  std::vector<WallMotion> motions_;
+  std::vector<std::uint32_t> moving_;  // obstacles that move
+  Domain box_;                         // its size and its periodic sides
+  bool has_sinks_ = false;
+  ObstacleGrid at_rest_, swept_;
+};
+
+// The cells for a run's obstacles, where they are at the time of the box, and box.obstacles set to them; null where
+// there are none. motions: by number of a [[walls]] table; without them all stand where they are at time 0.
+std::unique_ptr<ObstacleCells> place_obstacles(const std::vector<Obstacle>& obstacles, Domain& box,
+                                               std::vector<WallMotion> motions = {});
+
+// One that moves where it is at time t, in the box across whose periodic sides it has gone; it does not move any more.
+inline Obstacle at_time(Obstacle o, const std::vector<WallMotion>& motions, double t, const Domain& box) {
+  if (!o.moves) return o;
+  const Vec2 shift = motions[o.id].at({t, t}).shift;
+  o.x += shift.x;
+  o.y += shift.y;
+  if (box.periodic_x()) o.x -= std::floor(o.x / box.width) * box.width;
+  if (box.periodic_y()) o.y -= std::floor(o.y / box.height) * box.height;
+  o.moves = false;
+  return o;
+}
+
+// Walls that move go to where they are at the end of a step.
+inline void step_walls(Domain& box, ObstacleCells* obstacles, double from, double to) {
+  box.step_walls(from, to);
+  if (obstacles != nullptr) obstacles->follow(from, to);
+}
 
 }  // namespace carom

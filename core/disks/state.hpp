@@ -26,6 +26,9 @@ struct Counters {
   double thermostat_heat = 0.0;  // that a thermostat has given to the disks; energy
   // In a sheared box: as virial, times nx ny, n from one centre to the other; and the work that the shear has done.
   double shear_virial = 0.0, shear_work = 0.0;
+  // Energy and momentum (x, y) that inner walls which move have given to the disks.
+  double wall_work = 0.0;
+  double wall_push[2] = {0, 0};
 };
 
 struct SourceState {
@@ -66,7 +69,7 @@ struct ValidityCounts {
   bool late_at_walls_told = false;
   WorstOverlap disks, wall;    // of two disks, of a disk and a wall
   WorstFigure parts, advance;  // most parts that a step was split into; least advance of a frame in dt, if told
-  WorstOverlap crushed;        // by a side that moves, of a disk and what it is pressed into; the run ended there
+  WorstOverlap crushed;        // by a wall that moves, of a disk and what it is pressed into; the run ended there
 };
 
 struct State {

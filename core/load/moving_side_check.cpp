@@ -17,6 +17,36 @@ std::string_view name_of(Side side) {
   return side_names[static_cast<std::size_t>(side)];
 }
 
+// A wall that moves stays in the box until the run's end, but goes round where that is periodic.
+void check_wall_stays(const Scene& scene, Vec2 low, Vec2 high, const std::string& where) {
+  const Domain& box = scene.box;
+  const double slack = slack_of_sides(box, 0.0);
+  const bool leaves_x = !box.periodic_x() && (low.x < -slack || high.x > box.width + slack);
+  const bool leaves_y = !box.periodic_y() && (low.y < -slack || high.y > box.height + slack);
+  if (!leaves_x && !leaves_y) return;
+  const double least = leaves_x ? low.x : low.y;
+  const bool below = least < -slack;
+  fail_input(where,
+             fmt::format("brings the wall to {} = {:g}, beyond the {} side, before run.t_end = {}",
+                         leaves_x ? 'x' : 'y', below ? least : (leaves_x ? high.x : high.y),
+                         name_of(leaves_x ? (below ? Side::left : Side::right) : (below ? Side::bottom : Side::top)),
+                         scene.run.t_end),
+             "expected it to stay in the box");
+}
+
+// Do a side and a wall, which both move steadily, keep their order until the run's end? low, high: of the wall at time
+// 0.
+bool stay_apart(const Scene& scene, Side side, const InnerWall& wall, Vec2 low, Vec2 high) {
+  const SideMotion& motion = scene.box.motions[static_cast<std::size_t>(side)];
+  for (const double t : {0.0, scene.run.t_end}) {
+    const Vec2 shift = wall.motion.at({t, t}).shift;
+    const double limit =
+        inset_to_reach(scene.box, side, {low.x + shift.x, low.y + shift.y}, {high.x + shift.x, high.y + shift.y});
+    if (motion.at(t).inset > limit + slack_of_sides(scene.box, 0.0)) return false;
+  }
+  return true;
+}
+
 void check_wall(const Scene& scene, const InnerWall& wall, const std::string& where) {
   Vec2 low = wall.points.front();
   Vec2 high = low;
@@ -24,8 +54,19 @@ void check_wall(const Scene& scene, const InnerWall& wall, const std::string& wh
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
+  const Vec2 first_low = low;
+  const Vec2 first_high = high;
+  if (wall.motion.moves()) {
+    const WallMotion::Range range = wall.motion.range(0.0, scene.run.t_end);
+    low = {low.x + range.low.x, low.y + range.low.y};
+    high = {high.x + range.high.x, high.y + range.high.y};
+    check_wall_stays(scene, low, high, where);
+  }
   const Sweep sweep = first_sweep(scene.box, low, high, slack_of_sides(scene.box, 0.0), scene.run.t_end);
   if (!sweep.happens()) return;
+  const bool both_steady = wall.motion.pace.kind == SideMotion::Kind::steady &&
+                           scene.box.motions[static_cast<std::size_t>(sweep.side)].kind == SideMotion::Kind::steady;
+  if (both_steady && stay_apart(scene, sweep.side, wall, first_low, first_high)) return;
   fail_input(where, fmt::format("the {} side runs into it at t = {:g}", name_of(sweep.side), sweep.time),
              fmt::format("expected walls where no side comes until run.t_end = {}", scene.run.t_end));
 }
@@ -47,9 +88,10 @@ void check_source(const Scene& scene, const Source& source, double radius, const
 }  // namespace
 
 void check_sweeps(const Scene& scene, const PlaceOfKey& place) {
-  if (!scene.box.has_moving_side()) return;
+  if (!scene.box.has_moving_wall()) return;
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {
-    check_wall(scene, scene.walls[k], place(fmt::format("walls.{}", k)));
+    const bool moves = scene.walls[k].motion.moves();
+    check_wall(scene, scene.walls[k], place(fmt::format("walls.{}{}", k, moves ? ".motion" : "")));
   }
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
     const Source& source = scene.sources[k];

@@ -117,8 +117,13 @@ void check_sides(const Domain& box, const PlaceOfKey& place) {
   }
 }
 
-// What sides that move do not go with.
-void check_moving_sides(const Scene& scene, const PlaceOfKey& place) {
+// What walls that move do not go with.
+void check_moving_walls(const Scene& scene, const PlaceOfKey& place) {
+  for (std::size_t k = 0; k < scene.walls.size(); ++k) {
+    if (!scene.walls[k].motion.moves() || !(scene.physics.diffusion > 0.0)) continue;
+    fail_input(place(fmt::format("walls.{}.motion", k)),
+               "given beside physics.diffusion: Brownian disks have no velocity", "expected one of the two");
+  }
   for (const Side side : all_sides) {
     if (!scene.box.moves(side)) continue;
     const std::string where = place(fmt::format("box.{}.motion", side_names[static_cast<std::size_t>(side)]));
@@ -259,7 +264,7 @@ void check_drift(const Scene& scene, const DiskGroup& group, const std::string& 
 void check_parts(const Scene& scene, const PlaceOfKey& place) {
   check_sides(scene.box, place);
   check_thermal_motion(scene, place);
-  check_moving_sides(scene, place);
+  check_moving_walls(scene, place);
   Count total = 0;
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     const std::string path = fmt::format("disks.{}", g);

@@ -372,6 +372,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   read_restitutions(origin, scene);
   scene.physics.surfaces = read_surfaces(origin);
   scene.walls = read_tables(origin, "walls", read_wall);
+  for (const InnerWall& wall : scene.walls) scene.box.inner_walls_move |= wall.motion.moves();
   scene.growth = read_growth(origin);
   scene.run = read_run(origin);
   scene.output = read_output(origin, scene);

@@ -18,7 +18,7 @@ std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& sta
     before += heat;
     moved += std::abs(heat);
   }
-  for (const double given : {state.counters.thermostat_heat, state.counters.shear_work}) {
+  for (const double given : {state.counters.thermostat_heat, state.counters.shear_work, state.counters.wall_work}) {
     before += given;
     moved += std::abs(given);
   }

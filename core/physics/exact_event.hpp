@@ -219,16 +219,11 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
   return outcome;
 }
 
-// Disk a, which has this id, touches obstacle k (its place in State::obstacles) at time s: it bounces along the
-// shortest line to it; what a sink takes, the caller removes. Under the TC model it hops as from the floor, in
-// proportion to the part of gravity that presses it against the obstacle.
-inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t k, double mass, DiskId id,
-                               ExactDisk& a) {
+// Disk a, which has this id, touches an obstacle at time s: it bounces along the shortest line to it. Under the TC
+// model it hops as from the floor, in proportion to the part of gravity g that presses it against the obstacle.
+inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obstacle& o, const ShortestLine& shortest,
+                                  const Gravity& g, double mass, DiskId id, ExactDisk& a) {
   PathSegment& p = a.path;
-  p = carried_to(p, s, rules.gravity);
-  const Obstacle& o = (*rules.box.obstacles)[k];
-  if (o.kind == ObstacleKind::sink) return {};
-  const ShortestLine shortest = shortest_line(o, p.x, p.y, rules.box);
   const Vec2 apart = shortest.line;
   const double distance2 = shortest.length2;
   const double approach = apart.x * p.vx + apart.y * p.vy;
@@ -244,7 +239,7 @@ inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t 
     const double e = elastic ? 1.0 : own;
     double change = approach < 0.0 ? -(1.0 + e) * approach : 0.0;  // of the approach
     if (rules.tc()) {
-      const double least = least_hop * rules.contact_time * rules.gravity.against(apart.x, apart.y);
+      const double least = least_hop * rules.contact_time * g.against(apart.x, apart.y);
       change = std::max(change, least - approach);
     }
     p.vx += change / distance2 * apart.x;
@@ -257,6 +252,43 @@ inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t 
     outcome = {mass * (change / distance), 0.0, bounced, elastic && loses, bounced && !elastic && loses};
     if (bounced) a.last_contact = s;
   }
+  return outcome;
+}
+
+// The same of a wall that moves, in its frame.
+[[gnu::noinline, gnu::cold]] inline Impact bounce_off_moving_wall(const ExactRules& rules, double s, const Obstacle& o,
+                                                                  double mass, DiskId id, ExactDisk& a) {
+  PathSegment& p = a.path;
+  const PlacedObstacle now = placed(o, rules.box, s);
+  const Vec2 wall = now.place.velocity;
+  const Gravity felt(rules.gravity.left + now.place.acceleration.x, rules.gravity.down + now.place.acceleration.y);
+  const Vec2 before{p.vx, p.vy};
+  p.vx -= wall.x;
+  p.vy -= wall.y;
+  const ShortestLine shortest = shortest_line_wound(now.obstacle, p.x, p.y, rules.box);
+  Impact impact = bounce_off_obstacle(rules, s, now.obstacle, shortest, felt, mass, id, a);
+  if (!impact.happened) {
+    p.vx = before.x;
+    p.vy = before.y;
+    return impact;
+  }
+  p.vx += wall.x;
+  p.vy += wall.y;
+  see_push(impact, mass, wall, before, p.vx, p.vy);
+  return impact;
+}
+
+// Disk a, which has this id, touches obstacle k (its place in State::obstacles) at time s; what a sink takes, the
+// caller removes.
+inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t k, double mass, DiskId id,
+                               ExactDisk& a) {
+  PathSegment& p = a.path;
+  p = carried_to(p, s, rules.gravity);
+  const Obstacle& o = (*rules.box.obstacles)[k];
+  if (o.kind == ObstacleKind::sink) return {};
+  const Impact outcome =
+      o.moves ? bounce_off_moving_wall(rules, s, o, mass, id, a)
+              : bounce_off_obstacle(rules, s, o, shortest_line(o, p.x, p.y, rules.box), rules.gravity, mass, id, a);
   wrap_into(p, rules.box);
   return outcome;
 }

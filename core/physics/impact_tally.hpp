@@ -10,6 +10,7 @@
 #include "core/disks/state.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/resolve.hpp"
+#include "core/physics/support_solver.hpp"
 
 namespace carom {
 
@@ -22,7 +23,8 @@ struct ImpactTally {
   ExactSum virial;
   std::array<ExactSum, 4> wall_impulse;
   std::vector<ExactSum> side_energy;  // that each side gave; empty where none did
-  std::vector<ExactSum> shear;        // in a sheared box: of Impact::shear, and the work done; else empty
+  std::vector<ExactSum> pushes;  // of inner walls that move: work, momentum along x and y; empty where none did any
+  std::vector<ExactSum> shear;   // in a sheared box: of Impact::shear, and the work done; else empty
 
   // partner: the second disk's id, or a wall_partner.
   void add(DiskId partner, const Impact& impact) {
@@ -30,7 +32,11 @@ struct ImpactTally {
     if (!impact.happened) return add_crossing(impact);
     inaccurate_at_walls += impact.inaccurate ? 1 : 0;
     ++wall_collisions;
-    if (is_obstacle(partner)) return;
+    if (is_obstacle(partner)) {
+      if (impact.pushed) [[unlikely]]
+        add_push(impact.energy, impact.virial, impact.shear);
+      return;
+    }
     wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.virial);
     if (impact.energy != 0.0) add_energy(wall_side(partner), impact.energy);
   }
@@ -67,6 +73,13 @@ struct ImpactTally {
     side_energy[static_cast<std::size_t>(side)].add(given);
   }
 
+  void add_push(double work, double along_x, double along_y) {
+    pushes.resize(3);
+    pushes[0].add(work);
+    pushes[1].add(along_x);
+    pushes[2].add(along_y);
+  }
+
   // A collision of two disks.
   void add_collision(double its_virial) {
     ++collisions;
@@ -74,11 +87,15 @@ struct ImpactTally {
   }
 
   // What a support bore in this round of the step, |impulse| (r1 + r2) or, for a wall, |impulse|.
-  // A side that moves does work by it.
-  void add_load(DiskId partner, double borne, const Domain& box) {
+  // A wall that moves does work by it.
+  void add_load(DiskId partner, const Support& s, const Domain& box) {
+    const double borne = carom::borne(s);
     if (is_wall(partner)) {
       ++wall_loads;
-      if (is_obstacle(partner)) return;
+      if (is_obstacle(partner)) {
+        if ((*box.obstacles)[obstacle_of(partner)].moves) add_push(borne * s.second, -borne * s.nx, -borne * s.ny);
+        return;
+      }
       const Side side = wall_side(partner);
       wall_impulse[static_cast<std::size_t>(side)].add(borne);
       if (box.moves(side)) add_energy(side, borne * box.place(side).speed);
@@ -103,6 +120,10 @@ struct ImpactTally {
     if (other.wall_collisions + other.wall_loads > 0) {
       for (std::size_t k = 0; k < wall_impulse.size(); ++k) wall_impulse[k].add(other.wall_impulse[k]);
     }
+    if (!other.pushes.empty()) {
+      pushes.resize(3);
+      for (std::size_t k = 0; k < pushes.size(); ++k) pushes[k].add(other.pushes[k]);
+    }
     if (other.side_energy.empty()) return;
     side_energy.resize(all_sides.size());
     for (std::size_t k = 0; k < side_energy.size(); ++k) side_energy[k].add(other.side_energy[k]);
@@ -122,6 +143,10 @@ struct ImpactTally {
     if (wall_collisions + wall_loads == 0) return;
     for (std::size_t k = 0; k < wall_impulse.size(); ++k) counters.wall_impulse[k] += wall_impulse[k].value();
     for (std::size_t k = 0; k < side_energy.size(); ++k) counters.side_energy[k] += side_energy[k].value();
+    if (pushes.empty()) return;
+    counters.wall_work += pushes[0].value();
+    counters.wall_push[0] += pushes[1].value();
+    counters.wall_push[1] += pushes[2].value();
   }
 };
 

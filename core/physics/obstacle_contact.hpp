@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/disks/obstacle_cells.hpp"
+#include "core/disks/wall_motion.hpp"
 #include "core/physics/advance.hpp"
 #include "core/physics/disk_pair.hpp"
 
@@ -38,7 +39,29 @@ inline ShortestLine shortest_line(const Obstacle& o, Vec2 apart) {
   return {apart, length2, std::sqrt(length2), false};
 }
 
-// Likewise from the nearest image of the obstacle. Precondition: (x, y) is out of the box by less than half a period.
+// An obstacle that moves where it is so long after the time that the box is used for; time, < 0 within a step only.
+// What it is then does not move any more.
+struct PlacedObstacle {
+  Obstacle obstacle;
+  WallPlace place;
+};
+
+[[gnu::noinline, gnu::cold]] inline PlacedObstacle placed(const Obstacle& o, const Domain& box, double later = 0.0) {
+  PlacedObstacle now{o, box.obstacles->motion_of(o).at(box.clock, later)};
+  now.obstacle.x += now.place.shift.x;
+  now.obstacle.y += now.place.shift.y;
+  now.obstacle.moves = false;
+  return now;
+}
+
+// By how many periods `apart` is off the nearest one, as a length.
+inline Vec2 whole_periods(Vec2 apart, const Domain& box) {
+  return {box.periodic_x() ? std::floor(apart.x / box.width + 0.5) * box.width : 0.0,
+          box.periodic_y() ? std::floor(apart.y / box.height + 0.5) * box.height : 0.0};
+}
+
+// Likewise from the nearest image of an obstacle that does not move. Precondition: (x, y) is out of the box by less
+// than half a period.
 inline ShortestLine shortest_line(const Obstacle& o, double x, double y, const Domain& box) {
   const Vec2 apart{x - o.x, y - o.y};
   if (!o.is_segment()) {
@@ -62,20 +85,44 @@ inline ShortestLine shortest_line(const Obstacle& o, double x, double y, const D
   return nearest;
 }
 
+// Likewise from one that is where its motion has brought it, however often round a periodic box.
+inline ShortestLine shortest_line_wound(Obstacle o, double x, double y, const Domain& box) {
+  const Vec2 wound = whole_periods({x - o.x, y - o.y}, box);
+  o.x += wound.x;
+  o.y += wound.y;
+  ShortestLine line = shortest_line(o, x, y, box);
+  line.shift = {line.shift.x + wound.x, line.shift.y + wound.y};
+  return line;
+}
+
 struct ObstacleGap {
-  double nx, ny;  // unit vector from the obstacle to the disk
-  double beyond;  // how far the disk's edge reaches beyond the obstacle's; length, >= 0: they touch
-  bool flat;      // at the inside of a segment
-  Vec2 shift{};   // of the obstacle's image
+  double nx, ny;    // unit vector from the obstacle to the disk
+  double beyond;    // how far the disk's edge reaches beyond the obstacle's; length, >= 0: they touch
+  bool flat;        // at the inside of a segment
+  Vec2 shift{};     // of the obstacle's image
+  Vec2 velocity{};  // of the obstacle; length / time
 };
+
+inline ObstacleGap gap_along(const ShortestLine& s, double contact) {
+  if (s.flat) return {s.line.x, s.line.y, contact - s.distance, true, s.shift};
+  const double nx = s.distance > 0.0 ? s.line.x / s.distance : 0.0;
+  const double ny = s.distance > 0.0 ? s.line.y / s.distance : 1.0;
+  return {nx, ny, contact - s.distance, false, s.shift};
+}
+
+[[gnu::noinline, gnu::cold]] inline ObstacleGap gap_to_moving(const Obstacle& o, double x, double y, double r,
+                                                              const Domain& box) {
+  const PlacedObstacle now = placed(o, box);
+  ObstacleGap gap = gap_along(shortest_line_wound(now.obstacle, x, y, box), r);
+  gap.velocity = now.place.velocity;
+  return gap;
+}
 
 // The nearest image. Coincident centres: upwards.
 inline ObstacleGap gap_to(const Obstacle& o, double x, double y, double r, const Domain& box) {
-  const ShortestLine s = shortest_line(o, x, y, box);
-  if (s.flat) return {s.line.x, s.line.y, r - s.distance, true, s.shift};
-  const double nx = s.distance > 0.0 ? s.line.x / s.distance : 0.0;
-  const double ny = s.distance > 0.0 ? s.line.y / s.distance : 1.0;
-  return {nx, ny, (r + o.radius) - s.distance, false, s.shift};
+  if (o.moves) [[unlikely]]
+    return gap_to_moving(o, x, y, r, box);
+  return gap_along(shortest_line(o, x, y, box), r + o.radius);
 }
 
 // Calls found(k, gap) once for each obstacle k that a disk of radius r at (x, y) overlaps or touches, sinks included.
@@ -85,7 +132,7 @@ void for_each_obstacle_touched(const Domain& box, double x, double y, double r, 
   box.obstacles->visit({x - r, y - r}, {x + r, y + r}, [&](std::uint32_t k, Vec2 shift) {
     const Obstacle& o = (*box.obstacles)[k];
     // This image alone, first: most are out of reach.
-    if (o.is_segment() && shortest_line(o, {(x - o.x) - shift.x, (y - o.y) - shift.y}).distance > r) return;
+    if (o.is_segment() && !o.moves && shortest_line(o, {(x - o.x) - shift.x, (y - o.y) - shift.y}).distance > r) return;
     const ObstacleGap gap = gap_to(o, x, y, r, box);
     // Images lie whole periods apart: of all that are visited, the nearest one only.
     const bool nearest =
@@ -121,9 +168,9 @@ inline bool touches_inner_sink(const Domain& box, double x, double y, double r) 
   return touched;
 }
 
-// Speed towards the obstacle; > 0: the disk moves into it.
+// Speed towards the obstacle, in its frame; > 0: the disk moves into it.
 inline double speed_towards(const ObstacleGap& gap, double vx, double vy) {
-  return -(vx * gap.nx + vy * gap.ny);
+  return -((vx - gap.velocity.x) * gap.nx + (vy - gap.velocity.y) * gap.ny);
 }
 
 // Time since the disk touched the inside of a segment: as time_since_wall, of a wall that is tilted.
@@ -135,10 +182,10 @@ inline double time_since_flat(const ObstacleGap& gap, double speed, const Gravit
 // Time since the disk touched the obstacle, on its present path; infinity when this path never did. Without gravity
 // the root of a quadratic (touching_time); with it, two steps by Newton from there, which leave an error of the order
 // of g^2 dt^4: it shifts the place of the impact, not the energy, as the disk goes back and forth on its own parabola.
-// Preconditions: gap.beyond >= 0 and speed_towards > 0 at (x, y).
+// (vx, vy): in the frame of an obstacle that moves. Preconditions: gap.beyond >= 0 and approaching.
 inline double time_since_obstacle(const Obstacle& o, const ObstacleGap& gap, double r, double vx, double vy,
                                   const Gravity& g) {
-  if (gap.flat) return time_since_flat(gap, speed_towards(gap, vx, vy), g);
+  if (gap.flat) return time_since_flat(gap, -(vx * gap.nx + vy * gap.ny), g);
   const double contact = r + o.radius;
   const double distance = contact - gap.beyond;
   const double dx = distance * gap.nx;

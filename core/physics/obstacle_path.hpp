@@ -11,6 +11,7 @@
 #include "core/disks/obstacle_cells.hpp"
 #include "core/physics/exact_path.hpp"
 #include "core/physics/obstacle_contact.hpp"
+#include "core/physics/swinging_wall.hpp"
 
 namespace carom {
 
@@ -180,6 +181,21 @@ inline double time_to_obstacle(const Obstacle& o, Vec2 apart, const PathSegment&
   return std::min(flat, ends);
 }
 
+// Likewise of a wall that moves: in its frame the disk falls with the difference of their accelerations, which does not
+// change within a window but where it vibrates as a sine. apart: of the disk and the wall where that is at time 0.
+[[gnu::noinline, gnu::cold]] inline double time_to_moving_wall(const Obstacle& o, Vec2 apart, const PathSegment& p,
+                                                               double radius, const Domain& box, const Gravity& g,
+                                                               double span) {
+  const WallMotion& motion = box.obstacles->motion_of(o);
+  if (motion.is_sine()) {
+    return time_to_swinging_wall({o, motion, motion.pace_at(box.clock, p.start)}, apart, p, radius, g, span);
+  }
+  const WallPlace place = motion.at(box.clock, p.start);
+  const PathSegment seen{p.start, p.x, p.y, p.vx - place.velocity.x, p.vy - place.velocity.y};
+  const Gravity felt(g.left + place.acceleration.x, g.down + place.acceleration.y);
+  return time_to_obstacle(o, {apart.x - place.shift.x, apart.y - place.shift.y}, seen, radius, felt, span);
+}
+
 // Does the rectangle around an obstacle's image overlap this one?
 inline bool may_reach(const Obstacle& o, Vec2 shift, Vec2 low, Vec2 high) {
   const double x = o.x + shift.x;
@@ -195,7 +211,8 @@ struct ObstacleContact {
 
 // The first contact of a path with an obstacle, the one earlier in the list of two at the same time; `never` if after
 // `end`. The path is followed a cell at a time, so that only obstacles near it cost anything; the time is that of the
-// whole segment and the obstacle, whatever the cells are. Preconditions: box.obstacles is not null; end is finite.
+// whole segment and the obstacle, whatever the cells are. Preconditions: box.obstacles is not null and follows the
+// window; end is finite.
 inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radius, const Domain& box, const Gravity& g,
                                               double end) {
   const ObstacleCells& obstacles = *box.obstacles;
@@ -218,9 +235,10 @@ inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radiu
                     std::max(at.y, next.y) + std::max(rise_y, 0.0) + reach};
     obstacles.visit(low, high, [&](std::uint32_t k, Vec2 shift) {
       const Obstacle& o = obstacles[k];
-      if (!may_reach(o, shift, low, high)) return;
+      if (!o.moves && !may_reach(o, shift, low, high)) return;
       const Vec2 apart{(p.x - o.x) - shift.x, (p.y - o.y) - shift.y};
-      const double s = p.start + time_to_obstacle(o, apart, p, radius, g, span);
+      const double s = p.start + (o.moves ? time_to_moving_wall(o, apart, p, radius, box, g, span)
+                                          : time_to_obstacle(o, apart, p, radius, g, span));
       if (s <= end && (s < first.time || (s == first.time && k < first.obstacle))) first = {s, k};
     });
     if (first.time <= p.start + to || !(to < span) || !(to > from)) return first;

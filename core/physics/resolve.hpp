@@ -18,35 +18,10 @@
 #include "core/physics/obstacle_contact.hpp"
 #include "core/physics/restitution.hpp"
 #include "core/physics/roughness.hpp"
+#include "core/physics/step_rules.hpp"
 #include "core/physics/thermal_side.hpp"
 
 namespace carom {
-
-// The constants of one step (or part of a step) that resolving needs.
-struct StepRules {
-  Domain box;
-  Gravity gravity;
-  double restitution = 1.0;
-  double dt = 0.0;                        // length of the step just drifted
-  bool settles = false;                   // gravity acts and a contact dissipates: contacts may bear load (resting.hpp)
-  std::uint64_t seed = 0;                 // with thermal sides
-  std::uint32_t* thermal_hits = nullptr;  // State::thermal_hits; a disk in contact changes its own
-  int round = 0;  // of resolving within the step; later ones find what the one before pressed together
-  const RestitutionLaw* law = nullptr;  // of disks, where `restitution` is not all
-  const Surfaces* surfaces = nullptr;   // where disks are rough
-};
-
-// What became of one contact event.
-struct Impact {
-  double virial = 0.0;  // |impulse| x distance of a disk pair, |impulse| of a wall; mass length^2 / time or m l / t
-  double energy = 0.0;  // that a thermal side, one that moves or a shear gave; mass length^2 / time^2
-  bool happened = false;
-  // Late, since the contact is older than the step; or made elastic by the TC model (exact).
-  bool inaccurate = false;
-  bool lost_energy = false;  // exact only
-  bool sheared = false;      // two disks in a sheared box: there is `shear`
-  double shear = 0.0;        // in a sheared box: virial nx ny of two disks, n from one centre to the other
-};
 
 // ago: time before the one that the box is used for; what a sheared one needs to know. Precondition, as of all below
 // that take a view: it is a sheared one if the box is.
@@ -126,7 +101,8 @@ ContactEvent obstacle_event(const View& d, const StepRules& rules, std::uint32_t
   double ago = rules.dt;
   if (speed_towards(gap, d.vx[i], d.vy[i]) > 0.0 && gap.beyond >= 0.0) {
     const Obstacle& o = (*rules.box.obstacles)[k];
-    ago = std::min(rules.dt, time_since_obstacle(o, gap, d.radius(i), d.vx[i], d.vy[i], rules.gravity));
+    ago = std::min(rules.dt, time_since_obstacle(o, gap, d.radius(i), d.vx[i] - gap.velocity.x,
+                                                 d.vy[i] - gap.velocity.y, rules.gravity));
   }
   return {ago, d.id[i], obstacle_partner(k), i, 0};
 }
@@ -359,10 +335,9 @@ double bounce_at_obstacle(const View& d, const StepRules& rules, std::uint32_t i
   return speed + away;
 }
 
-// Likewise for a disk and an obstacle.
+// Likewise for a disk and an obstacle at rest.
 template <class View>
-Impact resolve_obstacle(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t k) {
-  const Obstacle& o = (*rules.box.obstacles)[k];
+Impact resolve_resting_obstacle(const View& d, const StepRules& rules, std::uint32_t i, const Obstacle& o) {
   const auto gap_now = [&] { return gap_to(o, d.x[i], d.y[i], d.radius(i), rules.box); };
   const auto speed = [&](const ObstacleGap& gap) { return speed_towards(gap, d.vx[i], d.vy[i]); };
   ObstacleGap gap = gap_now();
@@ -384,6 +359,38 @@ Impact resolve_obstacle(const View& d, const StepRules& rules, std::uint32_t i, 
   }
   if (gap.beyond >= 0.0 && speed(gap) > 0.0) change += bounce_at_obstacle(d, rules, i, o);
   return {d.mass(i) * change, 0.0, change > 0.0, late};
+}
+
+// Likewise for an inner wall that moves, in its frame: there it rests where it is at the end of the step.
+template <class View>
+[[gnu::noinline, gnu::cold]] Impact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t i,
+                                                        const Obstacle& o) {
+  PlacedObstacle now = placed(o, rules.box);
+  const Vec2 wound = whole_periods({d.x[i] - now.obstacle.x, d.y[i] - now.obstacle.y}, rules.box);
+  now.obstacle.x += wound.x;
+  now.obstacle.y += wound.y;
+  const Vec2 wall = now.place.velocity;
+  const Vec2 before{d.vx[i], d.vy[i]};
+  d.vx[i] -= wall.x;
+  d.vy[i] -= wall.y;
+  Impact impact = resolve_resting_obstacle(d, rules, i, now.obstacle);
+  if (!impact.happened) {
+    d.vx[i] = before.x;
+    d.vy[i] = before.y;
+    return impact;
+  }
+  d.vx[i] += wall.x;
+  d.vy[i] += wall.y;
+  see_push(impact, d.mass(i), wall, before, d.vx[i], d.vy[i]);
+  return impact;
+}
+
+template <class View>
+Impact resolve_obstacle(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t k) {
+  const Obstacle& o = (*rules.box.obstacles)[k];
+  if (o.moves) [[unlikely]]
+    return resolve_moving_wall(d, rules, i, o);
+  return resolve_resting_obstacle(d, rules, i, o);
 }
 
 template <class View>

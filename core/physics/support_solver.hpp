@@ -65,6 +65,7 @@ Support make_support(const View& d, const StepRules& rules, const ContactEvent& 
     s.ny = -gap.ny;
     s.i2 = e.i1;
     s.effective = d.mass(e.i1);
+    s.second = gap.velocity.x * gap.nx + gap.velocity.y * gap.ny;
     return s;
   }
   if (is_wall(e.id2)) {

@@ -13,7 +13,7 @@
 namespace carom {
 
 ReferenceEngine::ReferenceEngine(const Scene& scene, State initial)
-    : scene_(scene), state_(std::move(initial)), obstacles_(place_obstacles(state_.obstacles, scene_.box)) {}
+    : scene_(scene), state_(std::move(initial)), obstacles_(place_run_obstacles(scene_, state_)) {}
 
 double ReferenceEngine::disks_at(double /*t*/, Disks& out) const {
   out = state_.disks;
@@ -54,7 +54,7 @@ Count ReferenceEngine::parts(double dt) {
   const double travel2 =
       with_view(state_.disks, [&](const auto& d) { return largest_travel2(d, 0, state_.disks.size()); });
   const double smallest = smallest_radius(state_.disks);
-  const double fall = smallest > 0.0 ? scene_.physics.gravity.size * dt / smallest : 0.0;
+  const double fall = smallest > 0.0 ? common_travel(scene_, dt, smallest) : 0.0;
   const Count parts = parts_of_step(travel2, fall, dt);
   if (parts > 1) validity_.see_split(state_, dt, parts);
   return parts;

@@ -38,13 +38,12 @@ class ReferenceEngine : public Engine {
 
   Scene scene_;
   State state_;
+  std::unique_ptr<ObstacleCells> obstacles_;  // of scene_.box
   PhaseTimes times_;
   Validity validity_;
   std::vector<ContactEvent> events_;  // of the last search
 
  private:
-  std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box
-
   void remove(const std::vector<unsigned char>& gone);
 };
 

@@ -22,7 +22,7 @@ class ReferenceExact final : public Engine {
   ReferenceExact(const Scene& scene, State initial, double window_scale, CollisionLog* log)
       : scene_(scene),
         state_(std::move(initial)),
-        obstacles_(place_obstacles(state_.obstacles, scene_.box)),
+        obstacles_(place_run_obstacles(scene_, state_)),
         scale_(window_scale),
         log_(log) {}
 
@@ -32,6 +32,7 @@ class ReferenceExact final : public Engine {
     SpeedTally speeds;
     speeds.add(state_.disks, 0, state_.disks.size());
     WindowPlan plan = plan_window(scene_, state_, summarise_speeds(speeds, state_.disks.size()), scale_);
+    if (obstacles_) obstacles_->follow(plan.start, plan.end);
     const PhaseTimer timer(times_, "window");
     const ExactRules rules = exact_rules(scene_, state_.disks, plan.start);
     has_paths_ = false;
@@ -138,7 +139,7 @@ class ReferenceExact final : public Engine {
 
   Scene scene_;
   State state_;
-  std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box
+  std::unique_ptr<ObstacleCells> obstacles_;  // of scene_.box
   double scale_;
   Validity validity_;
   CollisionLog* log_;

@@ -71,7 +71,7 @@ void bear_loads(const View& d, State& state, const StepRules& rules, const std::
   solve_supports(rules, Sweeps<View>{d, supports});
   for (std::size_t k = 0; k < supports.size(); ++k) {
     if (rules.round == 0) shift_by_load(d, supports[k], rules.dt);
-    tally.add_load(loads[k].id2, borne(supports[k]), rules.box);
+    tally.add_load(loads[k].id2, supports[k], rules.box);
     loads[k].force = supports[k].impulse;
   }
   std::erase_if(loads, [](const ContactLoad& load) { return load.force == 0.0; });

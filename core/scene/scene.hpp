@@ -109,6 +109,7 @@ struct InnerWall {
   bool sink = false;         // takes disks that touch it
   double restitution = 1.0;
   int line = 0;  // of the [[walls]] header
+  WallMotion motion{};
 };
 
 // What keeps the disks at a temperature (core/step/thermostat.hpp).
@@ -298,6 +299,22 @@ inline const Surfaces* surfaces_of(const Scene& scene) {
 // Null where the number says it all. Lives as long as the scene.
 inline const RestitutionLaw* law_of(const Scene& scene) {
   return scene.physics.law.is_empty() ? nullptr : &scene.physics.law;
+}
+
+// Of each [[walls]] table; empty where no inner wall moves.
+inline std::vector<WallMotion> motions_of(const Scene& scene) {
+  std::vector<WallMotion> motions;
+  if (!scene.box.inner_walls_move) return motions;
+  for (const InnerWall& wall : scene.walls) motions.push_back(wall.motion);
+  return motions;
+}
+
+// Of the fastest inner wall; length / time.
+inline double fastest_inner_wall(const Scene& scene) {
+  double fastest = 0.0;
+  if (!scene.box.inner_walls_move) return fastest;
+  for (const InnerWall& wall : scene.walls) fastest = std::max(fastest, wall.motion.largest_speed());
+  return fastest;
 }
 
 // May a collision with an inner wall lose energy?

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/input_message.hpp"
+#include "core/scene/scene_motion.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/scene/scene_shear.hpp"
 
@@ -15,7 +16,6 @@ namespace {
 
 constexpr std::string_view table_kind = "box.side";
 constexpr std::string_view motion_kind = "box.side.motion";
-constexpr std::string_view motion_expected = "expected { velocity = [vx, vy] } or { vibrate = [ax, ay], period = T }";
 
 bool is_vertical(std::size_t s) {
   return s < 2;
@@ -33,43 +33,27 @@ void require_wall(const TableReader& side, std::string_view name, SideKind kind)
   side.fail(name, fmt::format("given of a side of kind \"{}\"", kind_name), "expected kind = \"wall\"");
 }
 
-// One of velocity and vibrate: its component into the box.
-double read_inward(const TableReader& motion, std::string_view name, std::size_t s, Dimension dimension) {
-  const std::vector<double> v = as_numbers(motion.origin(), motion.key(name), *motion.find(name));
-  if (v.size() != 2) motion.fail(name, fmt::format("has {} numbers", v.size()), "expected a list of two, x and y");
-  const double across = is_vertical(s) ? v[0] : v[1];
-  const double along = is_vertical(s) ? v[1] : v[0];
+// The component into the box of a velocity or an amplitude.
+double read_inward(const TableReader& motion, const MotionKeys& keys, std::size_t s) {
+  const double across = is_vertical(s) ? keys.value.x : keys.value.y;
+  const double along = is_vertical(s) ? keys.value.y : keys.value.x;
   if (along != 0.0) {
-    motion.fail(name, fmt::format("is {} along the side, which does nothing to disks without friction", along),
+    motion.fail(keys.name, fmt::format("is {} along the side, which does nothing to disks without friction", along),
                 "expected 0 there");
   }
-  if (!in_range(dimension, std::abs(across))) {
-    motion.fail(name, fmt::format("is {}", across), expected_range(dimension));
+  if (!in_range(keys.dimension(), std::abs(across))) {
+    motion.fail(keys.name, fmt::format("is {}", across), expected_range(keys.dimension()));
   }
   return s % 2 == 0 ? across : -across;
 }
 
 SideMotion read_motion(const TableReader& side, std::size_t s) {
-  const toml::node& node = *side.find("motion");
-  const toml::table* table = node.as_table();
-  if (table == nullptr) side.fail("motion", fmt::format("is {}", type_name(node)), motion_expected);
-  const TableReader reader(side.origin(), side.key("motion"), *table, motion_kind);
-  const bool steady = reader.find("velocity") != nullptr;
-  if (steady == (reader.find("vibrate") != nullptr)) {
-    side.fail("motion", steady ? "has both velocity and vibrate" : "has neither velocity nor vibrate", motion_expected);
-  }
+  const TableReader table = motion_table(side, motion_kind);
+  const MotionKeys keys = read_motion_keys(side, table);
   SideMotion motion;
-  const bool sine = reader.choice_or_initial("shape") == 1;
-  motion.kind = steady ? SideMotion::Kind::steady : sine ? SideMotion::Kind::sine : SideMotion::Kind::parabolas;
-  const std::optional<double> period = reader.number("period");
-  if (steady) {
-    if (period) reader.fail("period", "given of a constant velocity", "expected vibrate = [ax, ay] as well");
-    motion.speed = read_inward(reader, "velocity", s, Dimension::speed);
-  } else {
-    motion.amplitude = read_inward(reader, "vibrate", s, Dimension::length);
-    if (!period) reader.fail("period", "missing", "expected the time of one vibration");
-    motion.period = *period;
-  }
+  motion.kind = keys.kind;
+  motion.period = keys.period;
+  (motion.vibrates() ? motion.amplitude : motion.speed) = read_inward(table, keys, s);
   return motion;
 }
 
@@ -169,7 +153,7 @@ void settle_sides(Scene& scene, double largest_radius, const PlaceOfKey& place) 
                            side_names[s + 1], std::max(least, 0.0), scene.run.t_end),
                fmt::format("expected at least {}, the diameter of the largest disk", 2.0 * largest_radius));
   }
-  scene.box.move_sides(0.0);
+  scene.box.move_walls(0.0);
 }
 
 }  // namespace carom

@@ -49,7 +49,10 @@ constexpr SceneTable tables[] = {
      "at its end where more than a twentieth of them do."},
     {"walls", "`[[walls]]`",
      "Inner walls: segments without thickness, which disks touch from both sides and at their ends: funnels, shelves, "
-     "pockets (`kind = \"sink\"`), slits."},
+     "pockets (`kind = \"sink\"`), slits; pistons, paddles and shakers where they move."},
+    {"walls.motion", "`motion = { ... }` of `[[walls]]`",
+     "Exactly one of `velocity` and `vibrate`. All the wall's segments move alike, and do not turn. The wall stays in "
+     "the box, but goes round where that is periodic."},
     {"run", "`[run]`", "How the scene is run."},
     {"output", "`[output]`", "What a run writes."},
     {"output.movie", "`movie = { ... }` in `[output]`",

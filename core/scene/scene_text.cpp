@@ -216,9 +216,17 @@ std::string group_text(const DiskGroup& group) {
   return text + fmt::format("mass = {}\n", size_text(group.mass, "from_radius"));
 }
 
+std::string wall_motion_line(const WallMotion& motion) {
+  if (!motion.moves()) return "";
+  if (!motion.pace.vibrates()) return fmt::format("motion = {{ velocity = {} }}\n", pair(motion.along));
+  return fmt::format("motion = {{ vibrate = {}, period = {}, shape = \"{}\" }}\n", pair(motion.along),
+                     decimal(motion.pace.period), motion.is_sine() ? "sine" : "parabola");
+}
+
 std::string wall_text(const InnerWall& wall) {
   const std::string kind = wall.sink ? "kind = \"sink\"" : fmt::format("restitution = {}", decimal(wall.restitution));
-  return fmt::format("\n[[walls]]\npoints = {}\n{}\n", list_of(wall.points, pair), kind);
+  return fmt::format("\n[[walls]]\npoints = {}\n{}\n{}", list_of(wall.points, pair), kind,
+                     wall_motion_line(wall.motion));
 }
 
 // Empty where nothing grows.

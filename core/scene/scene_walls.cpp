@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "core/scene/scene_motion.hpp"
+
 namespace carom {
 
 namespace {
@@ -29,6 +33,22 @@ std::vector<Vec2> read_points(const TableReader& reader) {
   return points;
 }
 
+WallMotion read_motion(const TableReader& wall) {
+  const TableReader table = motion_table(wall, "walls.motion");
+  const MotionKeys keys = read_motion_keys(wall, table);
+  if (keys.value == Vec2{}) table.fail(keys.name, "is [0, 0]", "expected a wall that moves, or no motion");
+  for (const double part : {keys.value.x, keys.value.y}) {
+    if (part == 0.0 || in_range(keys.dimension(), std::abs(part))) continue;
+    table.fail(keys.name, fmt::format("is [{}, {}]", keys.value.x, keys.value.y), expected_range(keys.dimension()));
+  }
+  WallMotion motion;
+  motion.along = keys.value;
+  motion.pace.kind = keys.kind;
+  motion.pace.period = keys.period;
+  (motion.pace.vibrates() ? motion.pace.amplitude : motion.pace.speed) = 1.0;
+  return motion;
+}
+
 }  // namespace
 
 InnerWall read_wall(const SceneOrigin& origin, const std::string& path, const toml::table& table) {
@@ -47,6 +67,7 @@ InnerWall read_wall(const SceneOrigin& origin, const std::string& path, const to
   const std::optional<double> own = reader.number("restitution");
   if (own && wall.sink) reader.fail("restitution", "given beside kind = \"sink\"", "expected a wall");
   wall.restitution = wall.sink ? 1.0 : own.value_or(common);
+  if (reader.find("motion") != nullptr) wall.motion = read_motion(reader);
   return wall;
 }
 

@@ -34,11 +34,13 @@ Scene inside_moving_sides(const Scene& scene) {
   Scene inner = scene;
   const auto& place = scene.box.places;
   inner.box.motions = {};
+  inner.box.inner_walls_move = false;  // at time 0 they are where the scene has them
   inner.box.places = {};
   inner.box.width -= place[0].inset + place[1].inset;
   inner.box.height -= place[2].inset + place[3].inset;
   const auto moved = [&](Vec2 p) { return Vec2{p.x - place[0].inset, p.y - place[2].inset}; };
   for (InnerWall& wall : inner.walls) {
+    wall.motion = {};
     for (Vec2& p : wall.points) p = moved(p);
   }
   for (std::size_t g = 0; g < inner.groups.size(); ++g) {

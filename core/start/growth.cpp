@@ -46,6 +46,7 @@ Scene flight_scene(const Scene& scene) {
   flight.box.restitutions.fill(1.0);
   flight.box.temperatures.fill(0.0);
   flight.box.motions = {};
+  flight.box.inner_walls_move = false;
   for (SideKind& side : flight.box.sides) side = side == SideKind::periodic ? side : SideKind::wall;
   flight.run.method = Method::exact;
   return flight;
@@ -55,6 +56,7 @@ Scene flight_scene(const Scene& scene) {
 std::vector<Obstacle> hard(std::vector<Obstacle> obstacles) {
   for (Obstacle& o : obstacles) {
     o.restitution = 1.0;
+    o.moves = false;
     if (o.kind == ObstacleKind::sink) o.kind = ObstacleKind::wall;
   }
   return obstacles;

@@ -10,8 +10,8 @@ std::vector<Obstacle> segments_of(const Scene& scene) {
     for (std::size_t k = 1; k < wall.points.size(); ++k) {
       const Vec2 from = wall.points[k - 1];
       const Vec2 to = wall.points[k];
-      segments.push_back(
-          {from.x, from.y, to.x - from.x, to.y - from.y, 0.0, wall.restitution, static_cast<DiskId>(w), kind});
+      segments.push_back({from.x, from.y, to.x - from.x, to.y - from.y, 0.0, wall.restitution, static_cast<DiskId>(w),
+                          kind, wall.motion.moves()});
     }
   }
   return segments;

@@ -38,7 +38,7 @@ class PairwiseMethod final : public Phases {
     for (Count part = 0; part < n; ++part) {
       const double begin = clock_.start(k) + length * static_cast<double>(part);
       const double end = part + 1 < n ? clock_.start(k) + length * static_cast<double>(part + 1) : clock_.end(k);
-      if (scene_.box.has_moving_side()) scene_.box.step_sides(begin, end);
+      if (scene_.box.has_moving_wall()) step_walls(scene_.box, obstacles_.get(), begin, end);
       if (scene_.box.shear.acts()) scene_.box.move_images(end);
       figures.add(advance(rules_for(scene_, state_, length)));
     }
@@ -51,6 +51,7 @@ class PairwiseMethod final : public Phases {
   }
 
  private:
+  using Phases::obstacles_;
   using Phases::scene_;
   using Phases::state_;
   using Phases::validity_;

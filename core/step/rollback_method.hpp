@@ -33,10 +33,11 @@ class RollbackMethod final : public Phases {
     const double end = frame_limit(scene_, state_, clock_);
     const double length = std::min(scene_.run.dt / static_cast<double>(parts(scene_.run.dt)), end - state_.time);
     StepFigures figures;
-    if (scene_.box.has_moving_side()) scene_.box.step_sides(state_.time, state_.time + length);
+    if (scene_.box.has_moving_wall()) step_walls(scene_.box, obstacles_.get(), state_.time, state_.time + length);
     if (scene_.box.shear.acts()) scene_.box.move_images(state_.time + length);
     const double back = advance(rules_for(scene_, state_, length), figures);
     state_.time = back == 0.0 && state_.time + length >= end ? end : std::min(end, state_.time + (length - back));
+    if (scene_.box.inner_walls_move) scene_.box.clock = {state_.time, state_.time};
     remove_at_sinks();
     ++state_.counters.steps;
     validity_.see_step(scene_, figures, state_);
@@ -45,6 +46,7 @@ class RollbackMethod final : public Phases {
   }
 
  private:
+  using Phases::obstacles_;
   using Phases::scene_;
   using Phases::state_;
   using Phases::validity_;
@@ -89,18 +91,18 @@ class RollbackMethod final : public Phases {
     }
     ImpactTally tally;
     bounce(rules, tally);
-    meet_all_walls(back > 0.0 && scene_.box.has_moving_side() ? gone_back(rules, back) : rules, tally, figures);
+    meet_all_walls(back > 0.0 && scene_.box.has_moving_wall() ? gone_back(rules, back) : rules, tally, figures);
     figures.inaccurate_at_walls = tally.inaccurate_at_walls;
     tally.count_into(state_.counters);
     return back;
   }
 
-  // All has gone back by `back`, the sides that move with it.
+  // All has gone back by `back`, the walls that move with it.
   StepRules gone_back(StepRules rules, double back) const {
     if (back < rules.dt) {
-      rules.box.step_sides(state_.time, state_.time + (rules.dt - back));
+      rules.box.step_walls(state_.time, state_.time + (rules.dt - back));
     } else {
-      rules.box.move_sides(state_.time);
+      rules.box.move_walls(state_.time);
     }
     return rules;
   }

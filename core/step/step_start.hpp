@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 
 #include "core/base/random.hpp"
 #include "core/disks/disk_view.hpp"
+#include "core/disks/obstacle_cells.hpp"
 #include "core/disks/state.hpp"
 #include "core/physics/advance.hpp"
 #include "core/physics/boundary.hpp"
@@ -27,6 +29,20 @@ inline StepRules rules_for(const Scene& scene, double dt) {
   rules.law = law_of(scene);
   rules.surfaces = surfaces_of(scene);
   return rules;
+}
+
+// The obstacles of a run in cells, scene.box.obstacles set to them; its walls are where they are at the time of the
+// state.
+inline std::unique_ptr<ObstacleCells> place_run_obstacles(Scene& scene, const State& state) {
+  if (scene.box.inner_walls_move) scene.box.clock = {state.time, state.time};
+  return place_obstacles(state.obstacles, scene.box, motions_of(scene));
+}
+
+// For parts_of_step: the speed that gravity adds in a step of length dt, and that of inner walls, which shall not jump
+// over a disk either, over the smallest radius; 1 / time.
+inline double common_travel(const Scene& scene, double dt, double smallest_radius) {
+  const double fall = scene.physics.gravity.size * dt / smallest_radius;
+  return scene.box.inner_walls_move ? fall + fastest_inner_wall(scene) / smallest_radius : fall;
 }
 
 // With thermal sides: every disk that has an id has a count of its reflections.

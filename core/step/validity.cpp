@@ -9,7 +9,7 @@
 #include "core/base/check.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/scene/drawn_velocities.hpp"
-#include "core/scene/moving_sides_text.hpp"
+#include "core/scene/moving_walls_text.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
@@ -120,7 +120,7 @@ void Validity::see_step(const Scene& scene, const StepFigures& figures, State& s
   if (figures.inaccurate_at_walls > 0 && !pile) see_late_at_walls(scene, figures.inaccurate_at_walls, state);
   if (rollback) see_advance(scene, state);
   const Overlap& deepest = figures.wall.size > figures.left.size ? figures.wall : figures.left;
-  if (scene.box.has_moving_side() && deepest.size > crushed_overlap) state.validity.crushed = {deepest, state.time};
+  if (scene.box.has_moving_wall() && deepest.size > crushed_overlap) state.validity.crushed = {deepest, state.time};
 }
 
 void Validity::see_overlap(const Scene& scene, const StepFigures& figures, State& state) {
@@ -167,7 +167,7 @@ void Validity::see_advance(const Scene& scene, State& state) {
 }
 
 bool walls_are_watched(const Scene& scene) {
-  return scene.physics.gravity.acts() || scene.box.has_moving_side() || scene.box.obstacles != nullptr;
+  return scene.physics.gravity.acts() || scene.box.has_moving_wall() || scene.box.obstacles != nullptr;
 }
 
 std::vector<std::string> Validity::take_warnings() {
@@ -199,11 +199,11 @@ void check_crushed(const Scene& scene, const State& state) {
   const auto& [deepest, time] = state.validity.crushed;
   if (!(deepest.size > crushed_overlap)) return;
   throw PhysicsError(fmt::format(
-      "a side that moves leaves no room at t = {}: disk {} reaches {:.2g} % into {} ({}); move it less far, or take "
+      "a wall that moves leaves no room at t = {}: disk {} reaches {:.2g} % into {} ({}); move it less far, or take "
       "fewer or smaller disks",
       time, deepest.id1, 100.0 * deepest.size,
       is_wall(deepest.id2) ? "the " + wall_name(state, deepest.id2) : fmt::format("disk {}", deepest.id2),
-      moving_sides_text(scene.box, time)));
+      moving_walls_text(scene.box, time)));
 }
 
 double fastest_speed(const Disks& disks) {

@@ -102,7 +102,7 @@ bool walls_are_watched(const Scene& scene);
 // Those of them that tell of one moment, the worst; not of a share that goes on with every step.
 std::vector<std::string> worst_moments(const Scene& scene, const State& state);
 
-// Throws PhysicsError where a side that moves has pressed disks into each other by more than crushed_overlap, or into
+// Throws PhysicsError where a wall that moves has pressed disks into each other by more than crushed_overlap, or into
 // itself: it goes on, and they cannot. Asked before and after a step, so that a state that was left so stays refused,
 // also by a run that is taken up again.
 inline constexpr double crushed_overlap = 0.25;

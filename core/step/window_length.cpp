@@ -38,14 +38,17 @@ SpeedSummary summarise_speeds(const SpeedTally& tally, std::size_t disks) {
 }
 
 double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_t disks) {
-  if (disks == 0) return HUGE_VAL;
+  // An inner wall goes by an eighth of the box at most: so its cells stay few, and its images in order.
+  const double wall = fastest_inner_wall(scene);
+  const double wander = wall > 0.0 ? 0.125 * std::min(scene.box.width, scene.box.height) / wall : HUGE_VAL;
+  if (disks == 0) return wander;
   const double n = static_cast<double>(disks);
   const double spacing = std::sqrt(scene.box.width * scene.box.height / n);
-  double side = 0.0;
+  double side = wall;
   for (const SideMotion& motion : scene.box.motions) side = std::max(side, motion.largest_speed());
   // The images above slide past by an eighth of the width at most (time_to_sheared_contact).
-  const double slide = scene.box.shear.acts() ? 0.125 * scene.box.width / std::abs(scene.box.shear.jump) : HUGE_VAL;
-  // Falling through the spacing adds 2 g spacing to v^2; sides that move give their speed to disks at rest.
+  const double slide = scene.box.shear.acts() ? 0.125 * scene.box.width / std::abs(scene.box.shear.jump) : wander;
+  // Falling through the spacing adds 2 g spacing to v^2; walls that move give their speed to disks at rest.
   const double speed = std::sqrt(speeds.mean2 + 2.0 * scene.physics.gravity.size * spacing + side * side);
   if (!(speed > 0.0)) return slide;
   return std::min(slide, longest_travel * spacing / speed * std::max(1.0, few_disks / n));

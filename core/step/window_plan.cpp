@@ -8,7 +8,7 @@
 
 #include "core/base/check.hpp"
 #include "core/physics/contact_event.hpp"
-#include "core/scene/moving_sides_text.hpp"
+#include "core/scene/moving_walls_text.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/step/window_start.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 constexpr Count enough_windows = 128;
 constexpr double least_pace = 0x1p-30;
 constexpr double least_pace_tc = 0x1p-20;
-// A side that comes on makes disks without room faster and faster; their gaps are a millionth of what they were by
+// A wall that comes on makes disks without room faster and faster; their gaps are a millionth of what they were by
 // then, and each window takes longer to compute than the one before: fewer of them are waited for.
 constexpr double least_pace_moving = 0x1p-10;
 constexpr Count enough_windows_moving = 32;
@@ -37,12 +37,12 @@ std::string partner_text(const Domain& box, DiskId id) {
 [[noreturn]] void fail_standstill(const ExactRules& rules, const EventMark& event, double start) {
   const bool rests = rules.gravity.acts() && dissipates(rules);
   if (!rules.tc() && (rests || may_lose_energy(rules, event.id1, event.id2))) fail_collapse(rules, event, start);
-  if (rules.box.has_moving_side()) {
+  if (rules.box.has_moving_wall()) {
     throw PhysicsError(fmt::format(
-        "exact: time stands still at t = {}: disk {} and {} meet again and again at one moment; a side that moves may "
+        "exact: time stands still at t = {}: disk {} and {} meet again and again at one moment; a wall that moves may "
         "leave them no room ({}): move it less far, or take fewer or smaller disks",
         start + event.time, event.id1, partner_text(rules.box, event.id2),
-        moving_sides_text(rules.box, start + event.time)));
+        moving_walls_text(rules.box, start + event.time)));
   }
   throw PhysicsError(fmt::format(
       "exact: time stands still at t = {}: disk {} and {} meet again and again at one moment; {}", start + event.time,
@@ -84,7 +84,7 @@ WindowPlan plan_window(const Scene& scene, const State& state, const SpeedSummar
   plan.meant = clamped_window(state.window, longest) * scale;
   plan.least = least_window(longest) * scale;
   plan.tc = has_tc(scene);
-  const double pace = plan.tc ? least_pace_tc : scene.box.has_moving_side() ? least_pace_moving : least_pace;
+  const double pace = plan.tc ? least_pace_tc : scene.box.has_moving_wall() ? least_pace_moving : least_pace;
   plan.pace = pace * longest * scale;
   const double cut = next_cut(scene, state);
   plan.end = state.time + plan.meant;
@@ -130,19 +130,18 @@ void check_pace(const Scene& scene, State& state, const WindowPlan& plan) {
     state.stall = {};
     return;
   }
-  const Count watched_windows = scene.box.has_moving_side() ? enough_windows_moving : enough_windows;
+  const Count watched_windows = scene.box.has_moving_wall() ? enough_windows_moving : enough_windows;
   if (state.stall.frames == 0) state.stall.since = plan.start;
   if (++state.stall.frames < watched_windows) return;
   const double advanced = state.time - state.stall.since;
   state.stall = {};
   if (!(advanced < static_cast<double>(watched_windows) * plan.pace)) return;
-  if (scene.box.has_moving_side()) {
+  if (scene.box.has_moving_wall()) {
     throw PhysicsError(fmt::format(
         "exact: time all but stands still at t = {}: the last {} windows, as long as their events allow, advanced it "
-        "by "
-        "{:.2g}; a side that moves leaves the disks hardly any room ({}): move it less far, or take fewer or smaller "
-        "disks",
-        state.time, watched_windows, advanced, moving_sides_text(scene.box, state.time)));
+        "by {:.2g}; a wall that moves leaves the disks hardly any room ({}): move it less far, or take fewer or "
+        "smaller disks",
+        state.time, watched_windows, advanced, moving_walls_text(scene.box, state.time)));
   }
   throw PhysicsError(fmt::format(
       "exact: time all but stands still at t = {}: the last {} windows, as long as their events allow, advanced it by "

@@ -42,6 +42,8 @@ double next_cut(const Scene& scene, const State& state) {
     cut = std::min(cut, next_kick(scene, state));
   }
   for (const SideMotion& motion : scene.box.motions) cut = std::min(cut, motion.piece_end(state.time));
+  if (!scene.box.inner_walls_move) return cut;
+  for (const InnerWall& wall : scene.walls) cut = std::min(cut, wall.motion.pace.piece_end(state.time));
   return cut;
 }
 

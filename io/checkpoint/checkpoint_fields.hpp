@@ -17,9 +17,9 @@ void fields(Stream& stream, T& value) {
 template <class Stream, Is<Counters> T>
 void fields(Stream& stream, T& value) {
   auto& [steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse,
-         side_energy, thermostat_heat, shear_virial, shear_work] = value;
+         side_energy, thermostat_heat, shear_virial, shear_work, wall_work, wall_push] = value;
   stream(steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse,
-         side_energy, thermostat_heat, shear_virial, shear_work);
+         side_energy, thermostat_heat, shear_virial, shear_work, wall_work, wall_push);
 }
 
 template <class Stream, Is<SourceState> T>
@@ -36,8 +36,8 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<Obstacle> T>
 void fields(Stream& stream, T& value) {
-  auto& [x, y, dx, dy, radius, restitution, id, kind] = value;
-  stream(x, y, dx, dy, radius, restitution, id, kind);
+  auto& [x, y, dx, dy, radius, restitution, id, kind, moves] = value;
+  stream(x, y, dx, dy, radius, restitution, id, kind, moves);
 }
 
 template <class Stream, Is<StallWatch> T>

@@ -204,7 +204,7 @@ void FramePainter::paint(const Disks& disks, double time, const std::vector<Disk
   cairo_surface_mark_dirty(image_.get());
   const Context context = context_of(image_);
   draw_sides(context.get(), style_, layout_, time);
-  draw_inner_walls(context.get(), style_, layout_);
+  draw_inner_walls(context.get(), style_, layout_, time);
   draw_stamps(context.get(), style_, layout_, disks.size(), time);
   cairo_surface_flush(image_.get());
 }
@@ -252,7 +252,7 @@ void FramePainter::write_svg(const std::string& path, const Disks& disks, double
     for_each_disk(disks, time, group, draw);
     cairo_restore(c);
     draw_sides(c, style_, layout_, time);
-    draw_inner_walls(c, style_, layout_);
+    draw_inner_walls(c, style_, layout_, time);
     draw_stamps(c, style_, layout_, disks.size(), time);
     check_written(cairo_status(c), path);
   }

@@ -31,6 +31,7 @@ struct FrameStyle {
   DiskId groups = 0;                       // that the list of colours names
   std::vector<std::string> group_names{};  // by number, of those that have one
   std::vector<Obstacle> obstacles{};
+  std::vector<WallMotion> wall_motions{};  // by number of a [[walls]] table; empty where no inner wall moves
 };
 
 // What a run's disks will have, as far as its scene and its first disks show. Speeds to expect are those at the start

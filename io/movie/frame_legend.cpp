@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "core/disks/obstacle_cells.hpp"
 #include "core/scene/scene_names.hpp"
 
 namespace carom {
@@ -218,13 +219,39 @@ void draw_sides(cairo_t* c, const FrameStyle& style, const FrameLayout& layout, 
   cairo_set_dash(c, nullptr, 0, 0.0);
 }
 
-void draw_inner_walls(cairo_t* c, const FrameStyle& style, const FrameLayout& layout) {
+namespace {
+
+void draw_segment(cairo_t* c, const FrameLayout& layout, double x, double y, const Obstacle& o) {
+  cairo_move_to(c, layout.left + x * layout.scale, layout.bottom - y * layout.scale);
+  cairo_line_to(c, layout.left + (x + o.dx) * layout.scale, layout.bottom - (y + o.dy) * layout.scale);
+  cairo_stroke(c);
+}
+
+// All images of a wall that has gone round a periodic box which lie in it, cut off at its sides.
+void draw_images(cairo_t* c, const FrameStyle& style, const FrameLayout& layout, const Obstacle& o) {
+  const Domain& box = style.box;
+  cairo_save(c);
+  cairo_rectangle(c, layout.left, layout.bottom, box.width * layout.scale, -box.height * layout.scale);
+  cairo_clip(c);
+  for (int kx = box.periodic_x() ? -1 : 0; kx <= (box.periodic_x() ? 1 : 0); ++kx) {
+    for (int ky = box.periodic_y() ? -1 : 0; ky <= (box.periodic_y() ? 1 : 0); ++ky) {
+      draw_segment(c, layout, o.x + kx * box.width, o.y + ky * box.height, o);
+    }
+  }
+  cairo_restore(c);
+}
+
+}  // namespace
+
+void draw_inner_walls(cairo_t* c, const FrameStyle& style, const FrameLayout& layout, double time) {
   for (const Obstacle& o : style.obstacles) {
     if (!o.is_segment()) continue;
     set_stroke(c, o.kind == ObstacleKind::sink ? SideKind::sink : SideKind::wall, layout.unit);
-    cairo_move_to(c, layout.left + o.x * layout.scale, layout.bottom - o.y * layout.scale);
-    cairo_line_to(c, layout.left + (o.x + o.dx) * layout.scale, layout.bottom - (o.y + o.dy) * layout.scale);
-    cairo_stroke(c);
+    if (o.moves) {
+      draw_images(c, style, layout, at_time(o, style.wall_motions, time, style.box));
+    } else {
+      draw_segment(c, layout, o.x, o.y, o);
+    }
   }
   cairo_set_dash(c, nullptr, 0, 0.0);
 }

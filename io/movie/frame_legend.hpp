@@ -16,7 +16,7 @@ void draw_legends(_cairo* context, const FrameStyle& style, const FrameLayout& l
 void draw_sides(_cairo* context, const FrameStyle& style, const FrameLayout& layout, double time);
 
 // Inner walls, as the sides are drawn.
-void draw_inner_walls(_cairo* context, const FrameStyle& style, const FrameLayout& layout);
+void draw_inner_walls(_cairo* context, const FrameStyle& style, const FrameLayout& layout, double time);
 
 void draw_stamps(_cairo* context, const FrameStyle& style, const FrameLayout& layout, std::size_t disks, double time);
 

@@ -105,6 +105,7 @@ FrameStyle frame_style(const Scene& scene, const PictureLook& look, const SeenVa
   for (const DiskGroup& group : scene.groups) style.group_names.push_back(group.name);
   if (!scene.sources.empty()) style.group_names.emplace_back(sources_name);
   style.obstacles = obstacles_of(scene);
+  style.wall_motions = motions_of(scene);
   return style;
 }
 

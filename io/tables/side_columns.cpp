@@ -22,6 +22,9 @@ std::vector<std::string> side_column_names(const EnergySources& sources) {
     const char* const name = box.moves(side) ? work_column.name : heat_column.name;
     names.push_back(fmt::format("{}_{}", name, side_names[static_cast<std::size_t>(side)]));
   }
+  if (box.inner_walls_move) {
+    for (const SideColumn& column : wall_columns) names.emplace_back(column.name);
+  }
   if (sources.thermostat) names.emplace_back(thermostat_column.name);
   return names;
 }
@@ -32,6 +35,8 @@ std::vector<double> side_column_values(const EnergySources& sources, const Count
   for (const Side side : all_sides) {
     if (gives_energy(box, side)) values.push_back(counters.side_energy[static_cast<std::size_t>(side)]);
   }
+  if (box.inner_walls_move)
+    values.insert(values.end(), {counters.wall_work, counters.wall_push[0], counters.wall_push[1]});
   if (sources.thermostat) values.push_back(counters.thermostat_heat);
   return values;
 }

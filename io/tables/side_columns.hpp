@@ -21,7 +21,13 @@ inline constexpr SideColumn heat_column{
 inline constexpr SideColumn work_column{"work", "energy",
                                         "that a side that moves has done on the disks since the start"};
 
-// A column of its own name.
+// Columns of their own names.
+inline constexpr SideColumn wall_columns[] = {
+    {"wall_work", "energy", "that inner walls which move have done on the disks since the start"},
+    {"wall_push_x", "mass length / time", "momentum along x that they have given to the disks since the start"},
+    {"wall_push_y", "mass length / time", "likewise along y"},
+};
+
 inline constexpr SideColumn thermostat_column{"thermostat_heat", "energy",
                                               "that the thermostat has given to the disks since the start"};
 

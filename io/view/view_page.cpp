@@ -126,18 +126,29 @@ std::string json_of_insets(const Domain& box, std::span<const double> times) {
   });
 }
 
+// How far each [[walls]] table that moves has moved in each frame; null for those that do not.
+std::string json_of_shifts(const std::vector<WallMotion>& motions, std::span<const double> times) {
+  return json_list(motions, [&](const WallMotion& motion) {
+    const auto shift = [&](double t) {
+      const Vec2 moved = motion.at({t, t}).shift;
+      return fmt::format("[{:.6g},{:.6g}]", moved.x, moved.y);
+    };
+    return motion.moves() ? json_list(times, shift) : std::string("null");
+  });
+}
+
 std::string json_of_block(const ViewBlock& block) {
   return fmt::format("[{},{},{},{},{}]", block.first, block.frames, block.residuals, block.packed.size(), block.check);
 }
 
-// Fixed disks, or the segments of inner walls.
+// Fixed disks, or the segments of inner walls with the number of their table.
 std::string json_of_obstacles(const std::vector<Obstacle>& obstacles, bool segments) {
   std::vector<Obstacle> chosen;
   std::copy_if(obstacles.begin(), obstacles.end(), std::back_inserter(chosen),
                [&](const Obstacle& o) { return o.is_segment() == segments; });
   return json_list(chosen, [&](const Obstacle& o) {
-    return segments ? fmt::format("[{:.7g},{:.7g},{:.7g},{:.7g},{}]", o.x, o.y, o.x + o.dx, o.y + o.dy,
-                                  o.kind == ObstacleKind::sink ? 1 : 0)
+    return segments ? fmt::format("[{:.7g},{:.7g},{:.7g},{:.7g},{},{}]", o.x, o.y, o.x + o.dx, o.y + o.dy,
+                                  o.kind == ObstacleKind::sink ? 1 : 0, o.id)
                     : fmt::format("[{:.7g},{:.7g},{:.7g}]", o.x, o.y, o.radius);
   });
 }
@@ -177,6 +188,7 @@ std::string head_of(const ViewStory& story, const ViewEncoder& encoder, std::str
                       several_groups(disks) ? "true" : "false");
   json += fmt::format(R"(,"insets":{},"obstacles":{},"walls":{})", json_of_insets(story.box, encoder.times()),
                       json_of_obstacles(story.obstacles, false), json_of_obstacles(story.obstacles, true));
+  json += fmt::format(R"(,"shifts":{})", json_of_shifts(story.wall_motions, encoder.times()));
   json += fmt::format(R"(,"axes":{})", json_list(encoder.axes(), [](const ViewAxis& axis) {
                         return fmt::format(R"({{"bits":{},"periodic":{},"quantum":{}}})", axis.bits, axis.periodic,
                                            axis.quantum());
@@ -257,7 +269,8 @@ std::string view_news(const ViewStory& story, const ViewEncoder& encoder, std::s
   std::string json =
       fmt::format(R"({{"state":{},"ended":{},"blocks":{},"times":{})", json_string(state), ended,
                   json_list(fresh, json_of_block), json_list(times, [](double t) { return json_number(t); }));
-  json += fmt::format(R"(,"insets":{},"id":{},"radius":{},"mass":{},"group":{})", json_of_insets(story.box, times),
+  json += fmt::format(R"(,"insets":{},"shifts":{},"id":{},"radius":{},"mass":{},"group":{})",
+                      json_of_insets(story.box, times), json_of_shifts(story.wall_motions, times),
                       json_of_new(all.id, disks), json_of_new(all.radius, disks), json_of_new(all.mass, disks),
                       json_of_new(all.group, disks));
   return json + fmt::format(R"(,"fast":{:.4g},"series":{}}})", encoder.fast_speed(), json_of_series(story.series));

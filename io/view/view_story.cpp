@@ -88,6 +88,7 @@ ViewStory view_story(const Scene& scene) {
     story.sources.push_back({source.side, source.region_low, source.region_high});
   }
   story.obstacles = obstacles_of(scene);
+  story.wall_motions = motions_of(scene);
   story.colour = scene.output.look.colour;
   return story;
 }

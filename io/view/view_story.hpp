@@ -36,6 +36,7 @@ struct ViewStory {
   std::vector<std::string> groups;  // by number; empty: no name
   std::vector<ViewSource> sources;
   std::vector<Obstacle> obstacles;
+  std::vector<WallMotion> wall_motions;  // by number of a [[walls]] table; empty where no inner wall moves
   ColourBy colour = ColourBy::speed;
   ViewSeries series;
   std::vector<AnalysisCurve> curves;

@@ -110,7 +110,13 @@ void EventPredictor::see_obstacles(std::uint32_t i, double end, NextEvent& best)
 bool EventPredictor::touches_slowly(const PathSegment& path, double radius) const {
   const double reach = radius + window_->close;
   bool slowly = false;
-  for_each_solid_touched(window_->rules.box, path.x, path.y, reach, [&](std::uint32_t, const ObstacleGap& gap) {
+  const Domain* box = &window_->rules.box;
+  Domain then;
+  if (box->inner_walls_move) {
+    then = box_at(*box, box->clock.to + path.start);
+    box = &then;
+  }
+  for_each_solid_touched(*box, path.x, path.y, reach, [&](std::uint32_t, const ObstacleGap& gap) {
     const bool close = gap.beyond <= 2.0 * window_->close;
     slowly = slowly || (close && std::abs(speed_towards(gap, path.vx, path.vy)) <= window_->slow);
   });

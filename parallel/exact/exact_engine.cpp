@@ -63,7 +63,7 @@ class ParallelExact final : public Engine {
   ParallelExact(const Scene& scene, State initial, const Threads& threads, const BorderWatch& watch)
       : scene_(scene),
         state_(std::move(initial)),
-        obstacles_(place_obstacles(state_.obstacles, scene_.box)),
+        obstacles_(place_run_obstacles(scene_, state_)),
         predicts_anew_(obstacles_ != nullptr || scene_.box.has_sine_side()),
         executor_(threads.count, threads.block_divisor),
         scheduler_(window_, lists_, executor_) {
@@ -75,6 +75,7 @@ class ParallelExact final : public Engine {
     start_window();
     speeds_ = summarise_speeds(state_.disks, executor_);
     WindowPlan plan = plan_window(scene_, state_, speeds_, 1.0);
+    if (obstacles_) obstacles_->follow(plan.start, plan.end);
     logged_.reset();
     if (!run_window_with_retry(plan)) return;
     store_paths(plan);
@@ -110,7 +111,7 @@ class ParallelExact final : public Engine {
 
   Scene scene_;
   State state_;
-  std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box
+  std::unique_ptr<ObstacleCells> obstacles_;  // of scene_.box
   // How much rounding shifts a contact with an obstacle, or with a side that is a sine, depends on how it is touched:
   // all is predicted again at every window's start.
   const bool predicts_anew_;

@@ -23,6 +23,12 @@ void for_each_number(const Domain& box, ImpactTally& tally, Visit&& visit) {
       for (std::int64_t& digit : sum.digits()) visit(digit);
     }
   }
+  if (box.inner_walls_move) {
+    tally.pushes.resize(3);
+    for (ExactSum& push : tally.pushes) {
+      for (std::int64_t& digit : push.digits()) visit(digit);
+    }
+  }
   if (!box.has(SideKind::wall)) return;
   for (ExactSum& impulse : tally.wall_impulse) {
     for (std::int64_t& digit : impulse.digits()) visit(digit);

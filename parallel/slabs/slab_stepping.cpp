@@ -9,6 +9,7 @@
 #include "core/physics/push_apart.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
+#include "core/step/step_start.hpp"
 #include "core/step/thermostat.hpp"
 #include "parallel/cells/kick_all.hpp"
 #include "parallel/slabs/rank_sums.hpp"
@@ -47,13 +48,13 @@ struct OtherRanks {
 SlabStepping::SlabStepping(const Scene& scene, State part, const SlabStart& start, const Threads& threads, Ranks& ranks)
     : scene_(scene),
       state_(std::move(part)),
+      obstacles_(place_run_obstacles(scene_, state_)),
       ranks_(ranks),
       executor_(threads.count, threads.block_divisor),
       cut_(start.cut),
       columns_(start.columns),
       smallest_radius_(start.smallest_radius),
       largest_radius_(start.largest_radius),
-      obstacles_(place_obstacles(state_.obstacles, scene_.box)),
       border_contacts_(ranks),
       disks_(start.disks) {
   if (disks_ > 0) make_cells(start.counts);
@@ -122,12 +123,12 @@ Count SlabStepping::parts(double dt) {
   if (disks_ == 0) return 1;
   if (!scene_.sources.empty()) smallest_radius_ = smallest_of_all();
   // As in TimeStepping: a bound is mostly enough to see that the step is safe.
-  const double fall = scene_.physics.gravity.size * dt / smallest_radius_;
+  const double fall = common_travel(scene_, dt, smallest_radius_);
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
   if (has_sinks(scene_.box)) smallest_radius_ = smallest_of_all();
   double travel2 = with_view(state_.disks, [&](const auto& d) { return largest_travel2(d, 0, state_.disks.size()); });
   ranks_.maximum({&travel2, 1});
-  const Count parts = parts_of_step(travel2, scene_.physics.gravity.size * dt / smallest_radius_, dt);
+  const Count parts = parts_of_step(travel2, common_travel(scene_, dt, smallest_radius_), dt);
   if (parts > 1) validity_.see_split(state_, dt, parts);
   return parts;
 }

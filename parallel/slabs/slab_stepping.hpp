@@ -56,6 +56,7 @@ class SlabStepping : public Engine {
   Scene scene_;
   State state_;
   Validity validity_;
+  std::unique_ptr<ObstacleCells> obstacles_;  // of scene_.box
 
  private:
   void make_cells(const std::vector<std::size_t>& counts);
@@ -85,7 +86,6 @@ class SlabStepping : public Engine {
   CellGrid grid_;                                        // of the whole box
   SortedCells cells_;
   CoarsePositions coarse_;
-  std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box
   FoundPairs pairs_;
   std::vector<std::vector<ContactEvent>> walls_;
   ContactLists lists_;

@@ -109,7 +109,7 @@ void take_up_loads(const View& d, const StepRules& rules, const Executor& execut
     for (std::size_t k = patches.start[q]; k < patches.start[q] + settle.bearing[q]; ++k) {
       const Support& s = settle.supports[k];
       if (rules.round == 0) shift_by_load(d, s, rules.dt);
-      lists.tallies[q].add_load(settle.placed[settle.place[k]].id2(), borne(s), rules.box);
+      lists.tallies[q].add_load(settle.placed[settle.place[k]].id2(), s, rules.box);
       settle.borne[patches.order[settle.place[k]]] = s.impulse;
       settle.holding[settle.place[k]] = s.impulse > 0.0 ? 1 : 0;
     }

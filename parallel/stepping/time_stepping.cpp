@@ -6,6 +6,7 @@
 
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
+#include "core/step/step_start.hpp"
 #include "parallel/cells/compact.hpp"
 #include "parallel/cells/kick_all.hpp"
 #include "parallel/cells/meets_nearby.hpp"
@@ -35,8 +36,8 @@ constexpr double cell_margin = 2.0 * grid_margin;
 TimeStepping::TimeStepping(const Scene& scene, State initial, const Threads& threads)
     : scene_(scene),
       state_(std::move(initial)),
-      executor_(threads.count, threads.block_divisor),
-      obstacles_(place_obstacles(state_.obstacles, scene_.box)) {}
+      obstacles_(place_run_obstacles(scene_, state_)),
+      executor_(threads.count, threads.block_divisor) {}
 
 double TimeStepping::disks_at(double /*t*/, Disks& out) const {
   out = state_.disks;
@@ -130,10 +131,10 @@ Count TimeStepping::parts(double dt) {
   if (smallest_radius_ == 0.0 || !scene_.sources.empty()) smallest_radius_ = smallest_radius(state_.disks);
   // The bound from the phases before is mostly enough to see that the step is safe; if not, the true figure decides,
   // and it is the reference's. Sinks may have taken the smallest disk: then too the true figure is taken.
-  const double fall = scene_.physics.gravity.size * dt / smallest_radius_;
+  const double fall = common_travel(scene_, dt, smallest_radius_);
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
   if (has_sinks(scene_.box) || smallest_may_be_gone_) smallest_radius_ = smallest_radius(state_.disks);
-  const Count parts = parts_of_step(exact_travel2(), scene_.physics.gravity.size * dt / smallest_radius_, dt);
+  const Count parts = parts_of_step(exact_travel2(), common_travel(scene_, dt, smallest_radius_), dt);
   if (parts > 1) validity_.see_split(state_, dt, parts);
   return parts;
 }

@@ -49,6 +49,7 @@ class TimeStepping : public Engine {
 
   Scene scene_;
   State state_;
+  std::unique_ptr<ObstacleCells> obstacles_;  // of scene_.box
   Executor executor_;
   PhaseTimes times_;
   Validity validity_;
@@ -63,7 +64,6 @@ class TimeStepping : public Engine {
   double exact_travel2();
   void remove_gone(Count marked);  // those of gone_
 
-  std::unique_ptr<const ObstacleCells> obstacles_;  // of scene_.box
   CellGrid grid_;
   SortedCells cells_;
   CoarsePositions coarse_;

@@ -230,6 +230,29 @@ std::string obstacles_text(Dice& dice, const Draft& draft) {
                      count, 0.5 * largest, largest);
 }
 
+// Some walls vibrate, or drift as far as the room allows that they have; across periodic sides as far as they like.
+std::string wall_motion_line(Dice& dice, const Draft& draft, double x, double y, double length) {
+  if (draft.only_reflects || draft.diffusion > 0.0 || !dice.chance(0.4)) return "";
+  const auto room = [&](double c, double size) { return std::max(0.0, std::min(c, size - c) - length); };
+  const double free_x = room(x, draft.width);
+  const double free_y = room(y, draft.height);
+  if (dice.chance(0.5)) {
+    const double ax = rounded(free_x * dice.decades(-4, -1));
+    const double ay = rounded(free_y * dice.decades(-4, -1));
+    const double size = std::max(ax, ay);
+    if (!(size > 0.0)) return "";
+    return fmt::format("motion = {{ vibrate = [{}, {}], period = {}, shape = \"{}\" }}\n", ax, -ay,
+                       rounded(size / draft.units.speed * dice.decades(0, 2)), dice.chance(0.5) ? "sine" : "parabola");
+  }
+  const auto speed = [&](bool periodic, double free) {
+    const double wanted = draft.units.speed * dice.decades(-2, 0);
+    return rounded(periodic || !(draft.t_end > 0.0) ? wanted : std::min(wanted, 0.9 * free / draft.t_end));
+  };
+  const double vx = speed(draft.sides[left] == "periodic", free_x);
+  const double vy = speed(draft.sides[bottom] == "periodic", free_y);
+  return vx > 0.0 || vy > 0.0 ? fmt::format("motion = {{ velocity = [{}, {}] }}\n", -vx, vy) : "";
+}
+
 // Short inner walls; a sink among them where Brownian motion does not forbid it.
 std::string walls_text(Dice& dice, const Draft& draft) {
   const bool room =
@@ -248,6 +271,7 @@ std::string walls_text(Dice& dice, const Draft& draft) {
     } else if (dice.chance(0.5)) {
       text += fmt::format("restitution = {}\n", random_restitution(dice));
     }
+    text += wall_motion_line(dice, draft, x, y, length);
   }
   return text;
 }

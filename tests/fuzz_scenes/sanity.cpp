@@ -107,7 +107,7 @@ void Sanity::look_at_counts(const State& state) {
 void Sanity::look_at_overlaps(const State& state) {
   Domain box = box_at(scene_.box, state.time);
   const double overlap = max_overlap(state.disks, box);
-  const auto obstacles = place_obstacles(state.obstacles, box);
+  const auto obstacles = place_obstacles(state.obstacles, box, motions_of(scene_));
   const double beyond = wall_overlap(state.disks, box);
   if (scene_.run.method == Method::exact) {
     const double smallest = state.disks.empty() ? 1.0 : smallest_radius(state.disks);
@@ -144,7 +144,7 @@ void Sanity::look_at_motion(const State& state) {
       (p.gravity.down != 0.0 && box.periodic_y()) || (p.gravity.left != 0.0 && box.periodic_x());
   if (falls_for_ever) return;
   if (p.gravity.acts() && scene_.run.method != Method::exact) return;  // right to first order
-  double work = state.counters.shear_work;                             // and by sides that move
+  double work = state.counters.shear_work + state.counters.wall_work;  // and by sides that move
   for (const double of_side : state.counters.side_energy) work += of_side;
   const Energy all = energy_of(state.disks, p.gravity);
   const double energy = all.total() - work;

@@ -87,9 +87,9 @@ void Worst::look(const Scene& scene, const State& start, const State& now) {
   const Energy after = energy_of(now.disks, g);
   overlap = std::max(overlap, max_overlap(now.disks, scene.box));
   Domain box = box_at(scene.box, now.time);
-  const auto obstacles = place_obstacles(now.obstacles, box);
+  const auto obstacles = place_obstacles(now.obstacles, box, motions_of(scene));
   wall_overlap = std::max(wall_overlap, carom::wall_overlap(now.disks, box));
-  double work = 0.0;  // by sides that move
+  double work = now.counters.wall_work;  // and by sides that move
   for (const double of_side : now.counters.side_energy) work += of_side;
   const double kept = ratio(after.total() - work, before.total()) - (before.total() != 0.0 ? 1.0 : 0.0);
   const double drift = work == 0.0 ? kept : kept * before.total() / after.total();  // of what it has grown to

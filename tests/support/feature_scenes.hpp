@@ -121,14 +121,20 @@ inline std::string obstacles_text(const Features& f) {
 }
 
 // A line with a corner, a soft wall, one that touches both sides, and a sink where Brownian motion does not forbid it.
+// Where sides move, all of them move too.
 inline std::string walls_text(const Features& f) {
   if (!f.obstacles) return "";
   const bool moving = f.sides == "moving";
-  std::string text = std::string("[[walls]]\npoints = [[") + (moving ? "7.0" : "3.0") +
-                     ", 3.0], [6.0, 4.5], [5.5, 8.0]]\n"
-                     "[[walls]]\nfrom = [20.0, 12.0]\nto = [15.0, 12.0]\nrestitution = 0.6\n" +
-                     (moving ? "" : "[[walls]]\nfrom = [0.0, 14.0]\nto = [4.0, 18.0]\n");
-  if (f.diffusion.empty()) text += "[[walls]]\nfrom = [10.0, 2.0]\nto = [11.0, 2.5]\nkind = \"sink\"\n";
+  const std::string shape = f.seed % 2 == 0 ? "parabola" : "sine";
+  const auto motion = [&](const std::string& how) { return moving ? "motion = { " + how + " }\n" : std::string(); };
+  std::string text =
+      std::string("[[walls]]\npoints = [[") + (moving ? "7.0" : "3.0") + ", 3.0], [6.0, 4.5], [5.5, 8.0]]\n" +
+      motion("vibrate = [0.3, -0.2], period = 0.3, shape = \"" + shape + "\"") +
+      "[[walls]]\nfrom = [20.0, 12.0]\nto = [15.0, 12.0]\nrestitution = 0.6\n" + motion("velocity = [-1.5, 0.5]") +
+      (moving ? "" : "[[walls]]\nfrom = [0.0, 14.0]\nto = [4.0, 18.0]\n");
+  if (f.diffusion.empty()) {
+    text += "[[walls]]\nfrom = [10.0, 2.0]\nto = [11.0, 2.5]\nkind = \"sink\"\n" + motion("velocity = [2.0, 1.0]");
+  }
   return text;
 }
 

@@ -94,6 +94,8 @@ inline Scene scaled(Scene s, const Units& u) {
   }
   for (InnerWall& wall : s.walls) {
     for (Vec2& point : wall.points) scale(point, u.length);
+    scale(wall.motion.along, wall.motion.pace.vibrates() ? u.length : u.speed());
+    wall.motion.pace.period *= u.time;
   }
   for (Source& source : s.sources) {
     scale(source.region_low, u.length);
@@ -128,6 +130,8 @@ inline State scaled(State state, const Units& u) {
   state.counters.thermostat_heat *= u.energy();
   state.counters.shear_virial *= u.mass * u.speed() * u.length;
   state.counters.shear_work *= u.energy();
+  state.counters.wall_work *= u.energy();
+  for (double& push : state.counters.wall_push) push *= u.mass * u.speed();
   for (Obstacle& obstacle : state.obstacles) {
     for (double* length : {&obstacle.x, &obstacle.y, &obstacle.dx, &obstacle.dy, &obstacle.radius}) *length *= u.length;
   }

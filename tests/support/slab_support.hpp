@@ -80,6 +80,9 @@ inline void expect_same(const SlabTrace& expected, const SlabTrace& trace) {
   EXPECT_EQ(expected.counters.waiting, trace.counters.waiting);
   EXPECT_EQ(expected.counters.shear_virial, trace.counters.shear_virial);
   EXPECT_EQ(expected.counters.shear_work, trace.counters.shear_work);
+  EXPECT_EQ(expected.counters.wall_work, trace.counters.wall_work);
+  EXPECT_EQ(expected.counters.wall_push[0], trace.counters.wall_push[0]);
+  EXPECT_EQ(expected.counters.wall_push[1], trace.counters.wall_push[1]);
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(expected.counters.wall_impulse[k], trace.counters.wall_impulse[k]);
     EXPECT_EQ(expected.counters.side_energy[k], trace.counters.side_energy[k]);

@@ -1,0 +1,72 @@
+// The exact method's contact of a path with an inner wall that vibrates as a sine: come up to from the past, as that
+// with a side (swinging_side.hpp). A segment is convex, so that its distance from a disk grows by no less than what the
+// disk moves along the line that is the shortest one now.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/physics/exact_path.hpp"
+#include "core/physics/obstacle_contact.hpp"
+#include "core/physics/swinging_side.hpp"
+
+namespace carom {
+
+struct SwingingWall {
+  const Obstacle& wall;
+  const WallMotion& motion;
+  SidePlace now;  // its pace, at the start of the path
+};
+
+// Unit vector along a line; 0 where that has no length.
+inline Vec2 direction_of(const ShortestLine& s) {
+  if (s.flat) return s.line;
+  return s.distance > 0.0 ? Vec2{s.line.x / s.distance, s.line.y / s.distance} : Vec2{};
+}
+
+// Time until a disk touches the wall, >= 0; `HUGE_VAL` if that is after `span`. apart: of the disk and the wall in the
+// middle of its vibration. A disk that overlaps by rounding touches if it approaches; if not, when it has come back. A
+// sink takes a disk that touches it, wherever the disk moves.
+inline double time_to_swinging_wall(const SwingingWall& s, Vec2 apart, const PathSegment& p, double radius,
+                                    const Gravity& g, double span) {
+  const SideMotion& pace = s.motion.pace;
+  const Vec2 along = s.motion.along;
+  const double w = pace.angular_frequency();
+  const double reach = s.motion.size();
+  const bool sink = s.wall.kind == ObstacleKind::sink;
+  double h = 0.125 * pace.period;  // how far the next step may go
+  for (double t = 0.0; t <= span;) {
+    const Vec2 at{apart.x + (p.vx * t - 0.5 * g.left * (t * t)), apart.y + (p.vy * t - 0.5 * g.down * (t * t))};
+    const Vec2 v{p.vx - g.left * t, p.vy - g.down * t};
+    // Where the wall never comes, one at rest that is thicker by its amplitude is as far.
+    const ShortestLine middle = shortest_line(s.wall, at);
+    if (const double clear = middle.distance - radius - reach; clear > 0.0) {
+      const Vec2 n = direction_of(middle);
+      const double later = t + time_to_approach(clear, -(v.x * n.x + v.y * n.y), g.against(n.x, n.y));
+      if (later > t) {
+        t = later;
+        continue;
+      }
+    }
+    const SidePlace place = pace.swung(s.now, t);
+    const ShortestLine line = shortest_line(s.wall, {at.x - along.x * place.inset, at.y - along.y * place.inset});
+    const Vec2 n = direction_of(line);
+    const double across = along.x * n.x + along.y * n.y;
+    const double pressing = g.against(n.x, n.y);
+    const Swing swing{line.distance - radius, across * place.speed - (v.x * n.x + v.y * n.y),
+                      pressing + across * place.acceleration};
+    if (swing.gap <= 0.0 && (sink || swing.speed > 0.0 || (swing.speed == 0.0 && swing.acceleration > 0.0))) return t;
+    const double jerk = std::abs(across) * (w * w) * w;
+    const double most = std::abs(across) * (w * w) + pressing;
+    const double step =
+        std::min(h, time_to_approach(swing.gap, swing.speed, largest_acceleration(swing, h, jerk, most)));
+    if (!(t + step > t) && swing.speed > 0.0) return t;
+    // A disk that has just left the wall, by less than rounding, is not seen for so long.
+    const double unseen = std::max(0x1p-40 * pace.period, 0x1p-50 * t);
+    t += swing.speed > 0.0 ? step : std::max(step, unseen);
+    h = std::max(unseen, std::min(2.0 * step, 0.125 * pace.period));
+  }
+  return HUGE_VAL;
+}
+
+}  // namespace carom
