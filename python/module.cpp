@@ -230,8 +230,31 @@ void bind_scene(py::module_& m) {
         });
 }
 
+// What is where, now: disks in a rectangle, the nearest one, what a ray meets first.
+void bind_queries(py::class_<PySimulation>& simulation) {
+  simulation
+      .def("disks_in",
+           [](const PySimulation& s, double x0, double y0, double x1, double y1) {
+             return copied(s.look().disks_in({x0, y0}, {x1, y1}));
+           })
+      .def("nearest",
+           [](const PySimulation& s, double x, double y) -> py::object {
+             const auto found = s.look().nearest({x, y});
+             return found ? py::object(py::make_tuple(found->id, found->distance)) : py::none();
+           })
+      .def("cast_ray",
+           [](const PySimulation& s, double x, double y, double dx, double dy, double length) -> py::object {
+             const auto hit = s.look().cast_ray({x, y}, {dx, dy}, length);
+             if (!hit) return py::none();
+             constexpr std::array what{"disk", "wall", "sink"};
+             return py::make_tuple(hit->id, hit->distance, hit->place.x, hit->place.y,
+                                   what[static_cast<std::size_t>(hit->what)]);
+           });
+}
+
 void bind_simulation(py::module_& m) {
-  py::class_<PySimulation>(m, "Simulation")
+  py::class_<PySimulation> simulation(m, "Simulation");
+  simulation
       .def(py::init([](const Scene& scene, const std::string& engine, std::optional<int> threads) {
         const py::gil_scoped_release free;
         return std::make_unique<PySimulation>(Simulation(scene, engine_of(engine, threads)));
@@ -271,27 +294,10 @@ void bind_simulation(py::module_& m) {
              return s.change().add({x, y, vx, vy, radius, mass, 0, spin});
            })
       .def("remove", [](PySimulation& s, DiskId id) { return s.change().remove(id); })
-      .def("set_velocity",
-           [](PySimulation& s, DiskId id, double vx, double vy) {
-             return s.change().set_velocity(id, {vx, vy});
-           })
-      .def("disks_in",
-           [](const PySimulation& s, double x0, double y0, double x1, double y1) {
-             return copied(s.look().disks_in({x0, y0}, {x1, y1}));
-           })
-      .def("nearest",
-           [](const PySimulation& s, double x, double y) -> py::object {
-             const auto found = s.look().nearest({x, y});
-             return found ? py::object(py::make_tuple(found->id, found->distance)) : py::none();
-           })
-      .def("cast_ray",
-           [](const PySimulation& s, double x, double y, double dx, double dy, double length) -> py::object {
-             const auto hit = s.look().cast_ray({x, y}, {dx, dy}, length);
-             if (!hit) return py::none();
-             constexpr std::array what{"disk", "wall", "sink"};
-             return py::make_tuple(hit->id, hit->distance, hit->place.x, hit->place.y,
-                                   what[static_cast<std::size_t>(hit->what)]);
-           });
+      .def("set_velocity", [](PySimulation& s, DiskId id, double vx, double vy) {
+        return s.change().set_velocity(id, {vx, vy});
+      });
+  bind_queries(simulation);
 }
 
 }  // namespace

@@ -219,7 +219,7 @@ void NeighbourLists::search_cells(const Disks& d, const ListQuery& query, std::s
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto [first, last] = runs[k];
     slot_runs[k] = {first * slots_a_cell, last * slots_a_cell};
-    slots += slots_a_cell * (last - first);
+    slots += std::size_t{slots_a_cell} * (last - first);
     slots_.visit_chained(first, last, region.last_key, [&](std::uint32_t j) {
       if (found.buffer.size() < found.count + list_kernel_padding) found.grow(found.count);
       found.buffer[found.count] = j;
