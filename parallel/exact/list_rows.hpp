@@ -15,6 +15,7 @@ struct ListRegion {
   std::uint32_t first_key = 0, last_key = 0xffffffffU;    // cells [first, last)
   std::uint32_t first_disk = 0, last_disk = 0xffffffffU;  // disks stored in [first, last)
   bool holds(std::uint32_t disk) const { return disk >= first_disk && disk < last_disk; }
+  bool is_everything() const { return first_disk == 0 && last_disk == 0xffffffffU; }
 };
 
 // Which disk is in which list; what makes them neighbours is not known here (neighbour_lists.hpp).
@@ -55,6 +56,13 @@ class ListRows {
 
   // Are all neighbours of disk i stored in [first, last)? May say no where they are, never the other way round.
   bool surely_within(std::uint32_t i, std::uint32_t first, std::uint32_t last) const;
+  // Are they all in the region?
+  bool are_within(std::uint32_t i, const ListRegion& region) const {
+    if (region.is_everything() || surely_within(i, region.first_disk, region.last_disk)) return true;
+    bool within = true;
+    for_each_neighbour(i, [&](std::uint32_t j) { within = within && region.holds(j); });
+    return within;
+  }
 
   // Bits (1 << side) of the walls and sinks that the disk can touch while it stays listed.
   unsigned sides_near(std::uint32_t i) const { return rows_[i].sides; }

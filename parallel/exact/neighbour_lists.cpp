@@ -336,7 +336,9 @@ bool NeighbourLists::relist(std::uint32_t i, Vec2 at, const Disks& d, const List
     listed_at_[i] = position;
     return true;
   }
-  if (!find_neighbours(d, i, position, region, found)) return false;
+  // Nor may one that is listed now, and would go on listing disk i: once that one came near again and was relisted, disk
+  // i would not be told of it.
+  if (!rows_.are_within(i, region) || !find_neighbours(d, i, position, region, found)) return false;
   const std::span<const std::uint32_t> near = found.disks();
   if (!std::all_of(near.begin(), near.end(), [&](std::uint32_t j) { return region.holds(j); })) return false;
   if (!move_to_cell_of(d, i, position, region)) return false;

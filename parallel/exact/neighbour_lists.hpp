@@ -175,8 +175,8 @@ class NeighbourLists {
   // one.
   void sort_along(std::vector<double>& column, const Executor& executor);
 
-  // Lists disk i at this position, inside the box. Reads and writes nothing outside the region; where the new list
-  // would reach beyond it, nothing changes and the result is false. found: scratch.
+  // Lists disk i at this position, inside the box. Reads and writes nothing outside the region; where the new list or
+  // the old one reaches beyond it, nothing changes and the result is false. found: scratch.
   bool relist(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region, FoundNeighbours& found);
 
   // Between windows, with a single queue: the last disk of the columns is new; disk i is to go, and the last one takes
