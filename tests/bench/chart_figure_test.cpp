@@ -79,9 +79,9 @@ TEST(ChartFigure, EveryNumberDrawnIsInTheTableAndInItsPanel) {
 
 TEST(ChartFigure, EverySceneAndErrorHasAPanel) {
   const LogFigure whole = whole_figure(tiny_chart());
-  EXPECT_EQ(whole.sections.size(), 7U);
+  EXPECT_EQ(whole.sections.size(), 10U);
   for (const LogSection& section : whole.sections) EXPECT_EQ(section.panels.size(), 6U) << section.heading;
-  EXPECT_EQ(main_figure(tiny_chart()).sections.at(0).panels.size(), 8U) << "seven scenes and rollback's stall";
+  EXPECT_EQ(main_figure(tiny_chart()).sections.at(0).panels.size(), 11U) << "ten scenes and rollback's stall";
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ TEST_F(CommandLine, ChartWritesAllItsFilesOrNone) {
   const std::vector<std::string> names = files_in("chart");
   EXPECT_THAT(names,
               ElementsAre("chart.csv", "chart.json", "chart.png", "chart.svg", "chart_all.png", "chart_all.svg"));
-  EXPECT_EQ(Json::parse(text_of(at("chart/chart.json")))["scenes"].size(), 7U);
+  EXPECT_EQ(Json::parse(text_of(at("chart/chart.json")))["scenes"].size(), 10U);
   expect_error("$C chart --tiny --quiet -o chart", 2, "chart/chart.svg: exists already");
   expect_error("$C chart --tiny -o small.toml", 2, "small.toml: is a file");
   expect_error("$C chart --quik", 2, "chart: there is no option \"--quik\"; expected one of");

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/disks/disks.hpp"
@@ -137,13 +138,16 @@ inline Line from_obstacle(const Obstacle& o, Real x, Real y) {
 }
 
 // Contact of a falling ball with an obstacle displaced by (ox, oy), up to `end`, by going on as far as the ball surely
-// does not touch yet.
+// does not touch yet. NaN where that takes very many steps: the ball slides along the obstacle, and whether it touches
+// rounding decides.
 inline Real obstacle_time(const Ball& a, const Obstacle& o, Real ox, Real oy, Real left, Real down, Real end) {
   const Real g = std::sqrt(left * left + down * down);
   const Real reach = a.r + static_cast<Real>(o.radius);
   const Real nothing = 1e-17L * reach;
+  constexpr int most_steps = 100'000;
   Real t = 0.0L;
-  for (bool first = true;; first = false) {
+  for (int step = 0; step < most_steps; ++step) {
+    const bool first = step == 0;
     const auto [x, y] =
         from_obstacle(o, a.x + a.vx * t - 0.5L * left * t * t - ox, a.y + a.vy * t - 0.5L * down * t * t - oy);
     const Real vx = a.vx - left * t;
@@ -158,6 +162,7 @@ inline Real obstacle_time(const Ball& a, const Obstacle& o, Real ox, Real oy, Re
     const Real speed = std::sqrt(vx * vx + vy * vy);
     t += 2.0L * room / (speed + std::sqrt(speed * speed + 2.0L * g * room));
   }
+  return std::numeric_limits<Real>::quiet_NaN();
 }
 
 // How far a side has come into the box, how fast it comes, and its acceleration, from the formulas of its motion.
@@ -219,10 +224,12 @@ struct Happening {
   Real ox = 0.0L, oy = 0.0L;
   int side = -1;
   int obstacle = -1;
+  bool unknown = false;  // obstacle_time
 };
 
 inline Happening next_happening(const System& s, Real end) {
   Happening first;
+  bool unknown = false;
   const bool px = s.box.periodic_x();
   const bool py = s.box.periodic_y();
   const Real offset = shear_offset(s.box, s.time);
@@ -261,10 +268,12 @@ inline Happening next_happening(const System& s, Real end) {
         for (int ky = py ? -1 : 0; ky <= (py ? 1 : 0); ++ky) {
           const Real t_o = obstacle_time(a, s.obstacles[k], kx * w, ky * h, s.left, s.down, std::min(end, first.time));
           if (t_o < first.time) first = {t_o, i, i, kx * w, ky * h, -1, static_cast<int>(k)};
+          unknown = unknown || std::isnan(t_o);
         }
       }
     }
   }
+  first.unknown = unknown;
   return first;
 }
 
@@ -350,7 +359,8 @@ inline void resolve(System& s, const Happening& e) {
   ++s.collisions;
 }
 
-// Runs to time t. False: there were more than so many events before, and the system is at the last of them.
+// Runs to time t. False: there were more than so many events before, or nothing can be said of the next one; the system
+// is at the last of them.
 inline bool run(System& s, Real t, std::size_t most_events = static_cast<std::size_t>(-1)) {
   std::size_t events = 0;
   for (;;) {
@@ -367,6 +377,7 @@ inline bool run(System& s, Real t, std::size_t most_events = static_cast<std::si
     for (const SideMotion& motion : s.box.motions) longest = std::min(longest, wall_at(motion, s.time).lasts);
     const Real left = t - s.time;
     const Happening e = next_happening(s, std::min(left, longest));
+    if (e.unknown) return false;
     if (e.time > left && left <= longest) {
       advance(s, left);
       return true;
