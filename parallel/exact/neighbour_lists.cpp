@@ -336,8 +336,8 @@ bool NeighbourLists::relist(std::uint32_t i, Vec2 at, const Disks& d, const List
     listed_at_[i] = position;
     return true;
   }
-  // Nor may one that is listed now, and would go on listing disk i: once that one came near again and was relisted, disk
-  // i would not be told of it.
+  // Nor may one that is listed now, and would go on listing disk i: when it comes near again and is relisted, it would
+  // take disk i for one that lists it, too.
   if (!rows_.are_within(i, region) || !find_neighbours(d, i, position, region, found)) return false;
   const std::span<const std::uint32_t> near = found.disks();
   if (!std::all_of(near.begin(), near.end(), [&](std::uint32_t j) { return region.holds(j); })) return false;
