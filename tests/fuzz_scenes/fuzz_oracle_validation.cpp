@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t shards = 4, scenes_a_shard = 500;
 constexpr std::uint64_t seed = 3;
-// Not understood yet, and not held against the oracle until it is: a sheared lattice without heat, restitution 0.5, where
-// both engines count 177 collisions and the oracle 167 on the same paths.
+// Not understood yet, and not held against the oracle until it is: a cold sheared lattice, restitution 0.5, where both
+// engines count 177 collisions and the oracle 167 on the same paths.
 constexpr std::uint32_t open_case = 731;
 
 class OracleScenes : public ::testing::TestWithParam<std::uint32_t> {};
