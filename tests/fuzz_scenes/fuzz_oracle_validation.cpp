@@ -11,17 +11,12 @@ namespace {
 
 constexpr std::uint32_t shards = 4, scenes_a_shard = 500;
 constexpr std::uint64_t seed = 3;
-// Not understood yet, and not held against the oracle until it is: a cold sheared lattice, restitution 0.5, where both
-// engines count 177 collisions and the oracle 167 on the same paths.
-constexpr std::uint32_t open_case = 731;
-
 class OracleScenes : public ::testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(OracleScenes, HaveTheOraclesPaths) {
   std::uint32_t refused = 0;
   for (std::uint32_t k = 0; k < scenes_a_shard; ++k) {
     const std::uint32_t number = GetParam() * scenes_a_shard + k;
-    if (number == open_case) continue;
     const std::string text = random_oracle_scene(seed, number, 0);
     const Trial trial = try_against_oracle(text, "scene");
     for (const std::string& fault : trial.faults) ADD_FAILURE() << fault << "\n" << text;

@@ -27,6 +27,7 @@ constexpr double horizon = 1e-4;     // it is lost beyond this
 constexpr double rounding = 1e-7;    // what may always lie between
 constexpr double unit = 3e-14;       // rounding, of the ways gone and the box's length
 constexpr double vanishing = 1e-9;   // time between two events, over t_end
+constexpr double no_gap = 1e-14;     // gap that a rebound opens, over the box's length
 constexpr int looks = 24;
 constexpr std::size_t most_events = 4000;
 
@@ -85,6 +86,7 @@ class Comparison {
         elastic_(!disks_dissipate(scene) && !scene.box.walls_dissipate() && !inner_walls_dissipate(scene)) {}
 
   void run() {
+    if (!elastic_) first_.no_gap = no_gap * std::max(scene_.box.width, scene_.box.height);
     displace_others(0);
     int look = 1;  // at the start a contact may have happened or not
     for (; look <= looks && trial_.faults.empty(); ++look) {
@@ -113,7 +115,8 @@ class Comparison {
         std::ranges::none_of(scene_.walls, [](const InnerWall& wall) { return wall.restitution == 0.0; }) &&
         std::ranges::none_of(scene_.physics.law.pairs,
                              [](const GroupPair& pair) { return pair.restitution.least == 0.0; });
-    return elastic_ || (bounces && first_.shortest > vanishing * static_cast<oracle::Real>(scene_.run.t_end));
+    return elastic_ || (bounces && first_.undecided == 0.0L &&
+                        first_.shortest > vanishing * static_cast<oracle::Real>(scene_.run.t_end));
   }
 
   // False where nothing can be said of what comes: chaos, or so many events in little time that they may be a collapse.
@@ -128,6 +131,9 @@ class Comparison {
       apart_ = std::max(apart_, apart);
       if (first_.collisions != other.collisions || first_.wall_collisions != other.wall_collisions) return false;
     }
+    // Rebounds that rounding decides leave disks with the speed of the first of them, or not.
+    const auto undecided = static_cast<double>(first_.undecided);
+    apart_ += undecided * std::max(1.0 / scales_.speed, t / scales_.radius);
     return apart_ < horizon;
   }
 

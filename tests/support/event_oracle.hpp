@@ -28,6 +28,7 @@ using Real = long double;
 struct Ball {
   Real x, y, vx, vy, r, m;
   std::size_t group = 0;  // its [[disks]] block
+  Real last_event = -HUGE_VALL;
 };
 
 // e(v) = max(least, 1 - viscosity v^(1/5)) of two groups; least itself where the viscosity is 0.
@@ -49,6 +50,8 @@ struct System {
   std::size_t wall_collisions = 0;
   Real last_event = -HUGE_VALL;
   Real shortest = HUGE_VALL;  // time between two events
+  Real no_gap = 0.0L;         // of two that meet again, speed of approach times the time between: below it, rounding
+  Real undecided = 0.0L;      // largest speed of approach across less than that
 };
 
 inline System make_system(const Disks& disks, const Domain& box, const Gravity& gravity, double restitution,
@@ -300,12 +303,20 @@ inline void advance(System& s, Real t) {
   s.time += t;
 }
 
+// Two that approach at this speed.
+inline void meet(System& s, Ball& a, Ball& b, Real closing) {
+  const Real gap = std::abs(closing) * (s.time - std::max(a.last_event, b.last_event));
+  if (gap < s.no_gap) s.undecided = std::max(s.undecided, std::abs(closing));
+  a.last_event = b.last_event = s.time;
+}
+
 inline void resolve(System& s, const Happening& e) {
   Ball& a = s.balls[e.i];
   if (e.side >= 0) {
     const auto k = static_cast<std::size_t>(e.side);
     const Real u = (k % 2 == 0 ? 1.0L : -1.0L) * wall_at(s.box.motions[k], s.time).speed;  // along x or y
     Real& v = e.side < 2 ? a.vx : a.vy;
+    meet(s, a, a, v - u);
     v = u - static_cast<Real>(s.box.restitutions[k]) * (v - u);
     ++s.wall_collisions;
     return;
@@ -329,6 +340,7 @@ inline void resolve(System& s, const Happening& e) {
                                  ? restitution_of(s, a.group, s.obstacle_groups[static_cast<std::size_t>(e.obstacle)],
                                                   std::abs(along) * std::sqrt(x * x + y * y))
                                  : static_cast<Real>(o.restitution);
+    meet(s, a, a, along * std::sqrt(x * x + y * y));
     a.vx -= (1.0L + restitution) * along * x;
     a.vy -= (1.0L + restitution) * along * y;
     ++s.wall_collisions;
@@ -351,6 +363,7 @@ inline void resolve(System& s, const Happening& e) {
   const Real ny = dy / d;
   const Real closing = (b.vx + jump - a.vx) * nx + (b.vy - a.vy) * ny;
   const Real restitution = restitution_of(s, a.group, b.group, std::abs(closing));
+  meet(s, a, b, closing);
   const Real impulse = -(1.0L + restitution) * closing * a.m * b.m / (a.m + b.m);
   a.vx -= impulse / a.m * nx;
   a.vy -= impulse / a.m * ny;
