@@ -34,8 +34,8 @@ inline double time_to_swinging_wall(const SwingingWall& s, Vec2 apart, const Pat
   const double w = pace.angular_frequency();
   const double reach = s.motion.size();
   const bool sink = s.wall.kind == ObstacleKind::sink;
-  double h = 0.125 * pace.period;  // how far the next step may go
-  for (double t = 0.0; t <= span;) {
+  for (SwingSearch search{pace.period}; search.t <= span;) {
+    const double t = search.t;
     const Vec2 at{apart.x + (p.vx * t - 0.5 * g.left * (t * t)), apart.y + (p.vy * t - 0.5 * g.down * (t * t))};
     const Vec2 v{p.vx - g.left * t, p.vy - g.down * t};
     // Where the wall never comes, one at rest that is thicker by its amplitude is as far.
@@ -44,7 +44,7 @@ inline double time_to_swinging_wall(const SwingingWall& s, Vec2 apart, const Pat
       const Vec2 n = direction_of(middle);
       const double later = t + time_to_approach(clear, -(v.x * n.x + v.y * n.y), g.against(n.x, n.y));
       if (later > t) {
-        t = later;
+        search.t = later;
         continue;
       }
     }
@@ -55,16 +55,10 @@ inline double time_to_swinging_wall(const SwingingWall& s, Vec2 apart, const Pat
     const double pressing = g.against(n.x, n.y);
     const Swing swing{line.distance - radius, across * place.speed - (v.x * n.x + v.y * n.y),
                       pressing + across * place.acceleration};
-    if (swing.gap <= 0.0 && (sink || swing.speed > 0.0 || (swing.speed == 0.0 && swing.acceleration > 0.0))) return t;
+    if (sink && swing.gap <= 0.0) return t;
     const double jerk = std::abs(across) * (w * w) * w;
     const double most = std::abs(across) * (w * w) + pressing;
-    const double step =
-        std::min(h, time_to_approach(swing.gap, swing.speed, largest_acceleration(swing, h, jerk, most)));
-    if (!(t + step > t) && swing.speed > 0.0) return t;
-    // A disk that has just left the wall, by less than rounding, is not seen for so long.
-    const double unseen = std::max(0x1p-40 * pace.period, 0x1p-50 * t);
-    t += swing.speed > 0.0 ? step : std::max(step, unseen);
-    h = std::max(unseen, std::min(2.0 * step, 0.125 * pace.period));
+    if (!search.go_on(swing, jerk, most)) return t;
   }
   return HUGE_VAL;
 }
