@@ -14,7 +14,8 @@ namespace carom {
 struct NoSpin {};
 
 // What collisions ask for besides one number for the restitution: a RestitutionLaw; or, of rough disks, what their
-// surfaces do and a law if there is one; or, in a sheared box, where images are and how they move, and likewise a law.
+// surfaces do and a law if there is one; or, in a sheared box, where images are and how they move, and likewise a law
+// and what surfaces do.
 enum class ContactKind : std::uint8_t { plain, under_law, rough, sheared };
 
 template <bool own_radius, bool own_mass, ContactKind kind = ContactKind::plain>
@@ -22,8 +23,8 @@ struct DiskView {
   static constexpr bool has_mass = own_mass;
   static constexpr bool may_have_law = kind != ContactKind::plain;
   static constexpr bool has_law = kind == ContactKind::under_law;
-  static constexpr bool is_rough = kind == ContactKind::rough;
   static constexpr bool is_sheared = kind == ContactKind::sheared;
+  static constexpr bool may_be_rough = is_sheared || kind == ContactKind::rough;
   double* x;
   double* y;
   double* vx;
@@ -33,7 +34,7 @@ struct DiskView {
   const double* mass_column;
   double common_radius;
   double common_mass;
-  [[no_unique_address]] std::conditional_t<is_rough, double*, NoSpin> spin{};
+  [[no_unique_address]] std::conditional_t<may_be_rough, double*, NoSpin> spin{};  // null of smooth disks
 
   double radius(std::size_t i) const {
     if constexpr (own_radius) {
@@ -55,7 +56,7 @@ template <bool own_radius, bool own_mass, ContactKind kind = ContactKind::plain>
 DiskView<own_radius, own_mass, kind> view_of(Disks& d) {
   DiskView<own_radius, own_mass, kind> view{d.x.data(),      d.y.data(),    d.vx.data(),     d.vy.data(),  d.id.data(),
                                             d.radius.data(), d.mass.data(), d.common_radius, d.common_mass};
-  if constexpr (kind == ContactKind::rough) view.spin = d.spin.data();
+  if constexpr (decltype(view)::may_be_rough) view.spin = d.spin.data();
   return view;
 }
 

@@ -82,10 +82,11 @@ template <bool gravity, class RestitutionOf, class Rub = NoRubbing>
   return outcome;
 }
 
-// The same in a sheared box, of disks with these masses.
-template <class RestitutionOf>
+// The same in a sheared box, of disks with these masses. rough: may rub do anything?
+template <class RestitutionOf, class Rub>
 [[gnu::noinline, gnu::cold]] Impact collide_sheared(const Domain& box, double s, double mass_p, double mass_q,
-                                                    const RestitutionOf& restitution, PathSegment& p, PathSegment& q) {
+                                                    const RestitutionOf& restitution, bool rough, const Rub& rub,
+                                                    PathSegment& p, PathSegment& q) {
   p = carried_to(p, s, 0.0);
   q = carried_to(q, s, 0.0);
   const Relative r = relative_in_shear(p, q, box);
@@ -94,8 +95,9 @@ template <class RestitutionOf>
     const double e = restitution(r);
     const double before = q.vx;
     const double change = collide(r, shares(mass_p, mass_q), e, p.vx, p.vy, q.vx, q.vy);
+    rub(r, change);
     outcome = {reduced_mass(mass_p, mass_q) * change, 0.0, true, false, e < 1.0};
-    see_shear(outcome, r, rows_to_nearest(q.y - p.y, box), mass_q * (q.vx - before), box.shear);
+    see_shear(outcome, r, rows_to_nearest(q.y - p.y, box), mass_q * (q.vx - before), rough, box.shear);
   }
   outcome.energy += wrap_with_work(p, mass_p, box);
   outcome.energy += wrap_with_work(q, mass_q, box);
@@ -122,10 +124,11 @@ inline Impact collide_at(const ExactRules& rules, double s, DiskId id_a, DiskId 
     rub_disks(*rules.surfaces, r, share, change, a.radius, b.radius, a.path.vx, a.path.vy, b.path.vx, b.path.vy, a.spin,
               b.spin);
   };
-  Impact outcome = rules.box.shear.acts()
-                       ? collide_sheared(rules.box, s, mass_a, mass_b, restitution, a.path, b.path)
-                       : collide_paths<true>(rules.box, rules.gravity, s, share, reduced_mass(mass_a, mass_b),
-                                             restitution, a.path, b.path, rub);
+  Impact outcome =
+      rules.box.shear.acts()
+          ? collide_sheared(rules.box, s, mass_a, mass_b, restitution, rules.surfaces != nullptr, rub, a.path, b.path)
+          : collide_paths<true>(rules.box, rules.gravity, s, share, reduced_mass(mass_a, mass_b), restitution, a.path,
+                                b.path, rub);
   if (outcome.happened) {
     outcome.inaccurate = held_elastic;
     outcome.lost_energy = outcome.lost_energy || (!elastic && rubs_away(rules, true));

@@ -51,19 +51,21 @@ double distance2_of(const View& d, std::uint32_t i, std::uint32_t j, const Domai
 
 // Adds to an impact, which two disks had as r says, what a sheared box wants to know. rows: boxes above the second disk
 // of the image that collided. momentum: along x, what the second disk gained. The image has that much more energy than
-// the disk itself.
-inline void see_shear(Impact& impact, const Relative& r, int rows, double momentum, const Shear& shear) {
+// the disk itself. The stress is momentum along x that goes along y; rough disks, whose impulse is not along the line
+// of centres, may hand on another amount along y over their distance along x, which does no work.
+inline void see_shear(Impact& impact, const Relative& r, int rows, double momentum, bool rough, const Shear& shear) {
   impact.sheared = true;
-  impact.shear = impact.virial * (r.dx * r.dy / r.distance2());
+  impact.shear = rough ? r.dy * momentum : impact.virial * (r.dx * r.dy / r.distance2());
   if (rows != 0) impact.energy -= (rows > 0 ? shear.jump : -shear.jump) * momentum;
 }
 
 // Disks i and j have just collided as r says; before: velocity along x of disk j until then.
 template <class View>
-void see_shear_of(const View& d, const Domain& box, std::uint32_t i, std::uint32_t j, const Relative& r, double before,
-                  Impact& impact) {
+void see_shear_of(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j, const Relative& r,
+                  double before, Impact& impact) {
   if constexpr (View::is_sheared) {
-    see_shear(impact, r, rows_to_nearest(d.y[j] - d.y[i], box), d.mass(j) * (d.vx[j] - before), box.shear);
+    see_shear(impact, r, rows_to_nearest(d.y[j] - d.y[i], rules.box), d.mass(j) * (d.vx[j] - before),
+              rules.surfaces != nullptr, rules.box.shear);
   }
 }
 
@@ -144,7 +146,8 @@ void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t 
 template <class View>
 void rub_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j, const Relative& r, Shares share,
               double change) {
-  if constexpr (View::is_rough) {
+  if constexpr (View::may_be_rough) {
+    if (View::is_sheared && rules.surfaces == nullptr) return;
     rub_disks(*rules.surfaces, r, share, change, d.radius(i), d.radius(j), d.vx[i], d.vy[i], d.vx[j], d.vy[j],
               d.spin[i], d.spin[j]);
   }
@@ -153,7 +156,7 @@ void rub_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint3
 // Likewise of disk i and a wall, or an obstacle, that has just changed its velocity by `pressed` along this normal.
 template <class View>
 void rub_against(const View& d, const StepRules& rules, std::uint32_t i, Vec2 normal, bool disk, double pressed) {
-  if constexpr (View::is_rough) {
+  if constexpr (View::may_be_rough && !View::is_sheared) {
     const Surfaces& surfaces = *rules.surfaces;
     rub_wall(disk ? surfaces.disks : surfaces.walls, surfaces.inertia, normal.x, normal.y, d.radius(i), pressed,
              d.vx[i], d.vy[i], d.spin[i]);
@@ -190,7 +193,7 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
     const double change = collide(r, share, e, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
     rub_pair(d, rules, i, j, r, share, change);
     impact = {reduced_mass(d.mass(i), d.mass(j)) * change, 0.0, true, !inside_step};
-    see_shear_of(d, rules.box, i, j, r, before, impact);
+    see_shear_of(d, rules, i, j, r, before, impact);
   }
   if (inside_step) {
     drift_one(d, i, ago, rules.gravity);
@@ -225,7 +228,7 @@ Impact reflect_at_side(const View& d, const StepRules& rules, std::uint32_t i, S
   double normal = 0.0;
   double heat = reflect_thermally(side, rules.box.temperature(side), d.mass(i), {rules.seed, id},
                                   rules.thermal_hits[id], d.vx[i], d.vy[i], &normal);
-  if constexpr (View::is_rough) {
+  if constexpr (View::may_be_rough && !View::is_sheared) {
     if (rules.surfaces->walls.acts()) {
       heat += spin_thermally(rules.surfaces->inertia, rules.box.temperature(side), d.mass(i), d.radius(i), normal,
                              d.spin[i]);

@@ -63,8 +63,8 @@ inline double speed_of_approach(const Relative& r) {
 // law. No box with rough disks is sheared.
 template <class Rules, class Kernel>
 decltype(auto) with_view(Disks& d, const Rules& rules, Kernel&& kernel) {
-  if (rules.surfaces != nullptr) return with_view<ContactKind::rough>(d, kernel);
   if (rules.box.shear.acts()) return with_view<ContactKind::sheared>(d, kernel);
+  if (rules.surfaces != nullptr) return with_view<ContactKind::rough>(d, kernel);
   return rules.law == nullptr ? with_view(d, kernel) : with_view<ContactKind::under_law>(d, kernel);
 }
 

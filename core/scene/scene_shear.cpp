@@ -30,7 +30,6 @@ void check_shear(const Scene& scene, const PlaceOfKey& place) {
   beside(scene.physics.gravity.acts(), "physics.gravity");
   beside(scene.physics.diffusion > 0.0, "physics.diffusion: Brownian disks have no velocity");
   beside(scene.physics.collapse_contact_time.has_value(), "physics.collapse");
-  beside(scene.physics.surfaces.are_rough(), "physics.roughness");
   if (scene.run.automatic) {
     fail_input(place("run.method"), "is \"auto\" beside box.shear_rate, whose errors are not known",
                "expected a method by name");

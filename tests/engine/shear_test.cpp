@@ -322,8 +322,6 @@ TEST(Shear, RefusesWhatItDoesNotGoWith) {
   EXPECT_NE(with_physics("restitution = 0.5\ncollapse = { model = \"tc\", contact_time = 1e-6 }")
                 .find("given beside physics.collapse"),
             std::string::npos);
-  EXPECT_NE(with_physics("roughness = { tangential_restitution = 0.5 }").find("given beside physics.roughness"),
-            std::string::npos);
   f.method = "auto";
   f.more = "accuracy = 0.01\n";
   EXPECT_EQ(

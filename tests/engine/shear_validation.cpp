@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include "core/load/scene_file.hpp"
@@ -81,6 +82,31 @@ TEST(ShearFlow, OfInelasticDisksIsSteady) {
     const Measured m = measure(scene, 60.0, 0.5);
     EXPECT_NEAR(m.viscosity / enskog_viscosity(0.2), 1.0, 0.06);
     EXPECT_NEAR(m.temperature, 2.01, 0.12) << "found by a run ten times as long";
+  }
+}
+
+// Collisions hand on no mean torque in a steady flow where disks turn with it: at half the vorticity, -g / 2 (C. K. K.
+// Lun, J. Fluid Mech. 233, 539, 1991). Disks that begin without spin take it up
+TEST(ShearFlow, TurnsRoughDisksByHalfItsVorticity) {
+  for (const char* surface : {"tangential_restitution = 0.2", "tangential_restitution = 0.5, friction = 0.3"}) {
+    const Scene scene = load_scene(CAROM_SOURCE_DIR "/scenes/couette.toml",
+                                   {{"physics.roughness", fmt::format("{{ {} }}", surface)}, {"run.t_end", "1000.0"}});
+    const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
+    double mean = 0.0, square = 0.0;
+    int samples = 0;
+    for (double at = 40.0; at <= scene.run.t_end; at += 2.0) {
+      while (engine->state().time < at) engine->step();
+      const auto& spin = engine->state().disks.spin;
+      const double now = std::accumulate(spin.begin(), spin.end(), 0.0) / static_cast<double>(spin.size());
+      mean += now;
+      square += now * now;
+      ++samples;
+    }
+    mean /= samples;
+    const double error = std::sqrt((square / samples - mean * mean) / samples);
+    const double expected = -0.5 * scene.box.shear.rate;
+    EXPECT_NEAR(mean / expected, 1.0, 0.05) << surface << ": " << error / std::abs(expected);
+    EXPECT_LT(error, 0.015 * std::abs(expected)) << "it is known to that";
   }
 }
 

@@ -353,7 +353,6 @@ std::string random_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t
   text += run_text(dice, draft);
   text = with_restitution_laws(dice, draft.units, draft.restitution, draft.diffusion > 0.0, std::move(text));
   if (draft.diffusion > 0.0 || !dice.chance(0.15)) return text;
-  if (draft.shear != 0.0) return text;
   return with_rough_disks(dice, draft.units, draft.crowd.largest, draft.method == "exact" && draft.gravity > 0.0, text);
 }
 

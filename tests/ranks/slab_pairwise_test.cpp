@@ -104,13 +104,20 @@ TEST(SlabPairwiseRun, HasTheBitsWhereSourcesFillAnEmptyBox) {
 
 // Strains of several units: the images above go round the box, and disks cross from the last slab into the first.
 TEST(SlabPairwiseRun, HasTheBitsOfAShearFlow) {
-  const Scene scene = slab_scene("periodic", "width = 20.0\nheight = 20.0\nshear_rate = 0.7\n",
-                                 "count = 220\npositions = \"random\"\nradius = { uniform = [0.4, 0.5] }\nmass = 1.0\n"
-                                 "velocities = { maxwell = 1.0 }\n",
-                                 0.02, 300);
-  const Counters counters = expect_bits(scene, {1, 2, 3, 4}, RankThreads::alternate).counters;
-  EXPECT_GT(counters.collisions, 1000U);
-  EXPECT_NE(counters.shear_work, 0.0);
+  Scene scene = slab_scene("periodic", "width = 20.0\nheight = 20.0\nshear_rate = 0.7\n",
+                           "count = 220\npositions = \"random\"\nradius = { uniform = [0.4, 0.5] }\nmass = 1.0\n"
+                           "velocities = { maxwell = 1.0 }\n",
+                           0.02, 300);
+  for (const bool rough : {false, true}) {
+    if (rough) {
+      scene.physics.surfaces.disks = {0.5, 0.3};
+      scene.physics.surfaces.inertia = 0.5;
+    }
+    ASSERT_EQ(initial_state(scene).disks.spins(), rough);
+    const Counters counters = expect_bits(scene, {1, 2, 3, 4}, RankThreads::alternate).counters;
+    EXPECT_GT(counters.collisions, 1000U);
+    EXPECT_NE(counters.shear_work, 0.0);
+  }
 }
 
 // Reflections are counted disk by disk: one that goes to another slab takes its count with it.
