@@ -4,7 +4,8 @@ add_library(carom_warnings INTERFACE)
 target_compile_options(carom_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
   -Woverloaded-virtual -Wcast-align -Wnull-dereference -Wdouble-promotion)
-if(PROJECT_IS_TOP_LEVEL)
+option(CAROM_WERROR "warnings are errors" ${PROJECT_IS_TOP_LEVEL})
+if(CAROM_WERROR)
   target_compile_options(carom_warnings INTERFACE -Werror)
 endif()
 # g++ 12 reports null dereferences, overlaps and bounds inside the standard library's strings that are not there

@@ -4,7 +4,10 @@
 set -euo pipefail
 build=$1 source=$2
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# Beside the build, and warnings as there: the compiler cache then has what that build compiled.
+part=$(realpath "$build")-sources
+trap 'rm -rf "$work" "$part" "$part.log"' EXIT
+rm -rf "$part"
 prefix=$work/prefix
 examples="hello hello_cpp billiards hopper rollback"
 
@@ -36,9 +39,8 @@ configure_and_build() { # SOURCE FOLDER OPTION...
 }
 
 with_cmake() { # FOLDER OPTION...
-    local folder=$work/$1
-    configure_and_build "$source/examples" "$folder" -DCMAKE_BUILD_TYPE=Release "${@:2}"
-    hashes "$folder"
+    configure_and_build "$source/examples" "$1" -DCMAKE_BUILD_TYPE=Release "${@:2}"
+    hashes "$1"
 }
 
 with_pkg_config() { # FOLDER FLAG...
@@ -66,8 +68,8 @@ wanted=$(with_pkg_config plain)
 say "$wanted"
 [[ $(grep -o '[0-9a-f]\{16\}' <<<"$wanted" | wc -l) == 6 ]] || { say "an example prints no hash" && exit 1; }
 same "-ffast-math" "$(with_pkg_config fast -ffast-math)"
-same "find_package" "$(with_cmake installed -DCMAKE_PREFIX_PATH="$prefix")"
-[[ ${3-} != sources ]] || same "add_subdirectory" "$(with_cmake sources -DCAROM_SOURCE="$source")"
+same "find_package" "$(with_cmake "$work/installed" -DCMAKE_PREFIX_PATH="$prefix")"
+[[ ${3-} != sources ]] || same "add_subdirectory" "$(with_cmake "$part" -DCAROM_SOURCE="$source" -DCAROM_WERROR=ON)"
 
 # The static library, with all that it needs.
 cat >"$work/CMakeLists.txt" <<EOP
