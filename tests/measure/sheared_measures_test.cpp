@@ -89,12 +89,13 @@ TEST(ShearedMeasures, BondOrderIsThatOfAllImages) {
         for (std::size_t i = 0; i < n; ++i) {
           std::vector<std::pair<double, std::complex<double>>> all;
           for (std::size_t j = 0; j < n; ++j) {
-            std::pair<double, std::complex<double>> nearest{1e9, 0.0};
+            if (j == i) continue;
+            Vec2 nearest{1e9, 0.0};
             for_each_image(d, i, j, box, [&](double dx, double dy) {
-              const std::complex<double> apart(dx, dy);
-              if (std::abs(apart) < nearest.first) nearest = {std::abs(apart), std::polar(1.0, 6.0 * std::arg(apart))};
+              if (dx * dx + dy * dy < nearest.x * nearest.x + nearest.y * nearest.y) nearest = {dx, dy};
             });
-            if (j != i) all.push_back(nearest);
+            const std::complex<double> apart(nearest.x, nearest.y);
+            all.emplace_back(std::abs(apart), std::polar(1.0, 6.0 * std::arg(apart)));
           }
           std::partial_sort(all.begin(), all.begin() + 6, all.end(),
                             [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -42,6 +42,7 @@ inline Scene short_scene(const std::string& name, const std::string& method) {
   if (name == "analysis") changes.push_back({"disks.0.count", "400"});
   if (name == "hopper") changes.push_back({"disks.0.count", "150"});
   if (name == "gas_million") changes.push_back({"disks.0.count", "2000"});
+  if (name == "tracer_in_bath") changes.push_back({"disks.0.count", "1500"});
   if (name == "dense_mixture") changes.push_back({"disks.0.count", "200"});  // grown anew for each method
   if (name == "lorentz_gas" && method != "exact") {
     changes.push_back({"disks.1.radius", "0.02"});
