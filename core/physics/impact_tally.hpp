@@ -86,14 +86,15 @@ struct ImpactTally {
     virial.add(its_virial);
   }
 
-  // What a support bore in this round of the step, |impulse| (r1 + r2) or, for a wall, |impulse|.
+  // What support k bore in this round of the step, |impulse| (r1 + r2) or, for a wall, |impulse|.
   // A wall that moves does work by it.
-  void add_load(DiskId partner, const Support& s, const Domain& box) {
-    const double borne = carom::borne(s);
+  void add_load(DiskId partner, const SupportSet& set, std::size_t k, const Domain& box) {
+    const double borne = carom::borne(set, k);
     if (is_wall(partner)) {
       ++wall_loads;
       if (is_obstacle(partner)) {
-        if ((*box.obstacles)[obstacle_of(partner)].moves) add_push(borne * s.second, -borne * s.nx, -borne * s.ny);
+        const Support& s = set.contact[k];
+        if ((*box.obstacles)[obstacle_of(partner)].moves) add_push(borne * s.x2, -borne * s.nx, -borne * s.ny);
         return;
       }
       const Side side = wall_side(partner);

@@ -32,47 +32,76 @@ void resolve_impacts(const View& d, const State& state, const StepRules& rules, 
 }
 
 // Sweeps over supports in order of ids.
-template <class View>
 struct Sweeps {
-  const View& d;
-  std::vector<Support>& supports;
+  SupportSet& set;
+  const std::vector<std::uint32_t>& contacts;
 
+  CycleFigures cycle(Watch watch) {
+    return watch == Watch::all       ? cycle<Watch::all>()
+           : watch == Watch::largest ? cycle<Watch::largest>()
+                                     : cycle<Watch::nothing>();
+  }
+  template <Watch watch>
   CycleFigures cycle() {
     CycleFigures figures;
-    for (Support& s : supports) relax_forward(d, s, figures);
-    for (std::size_t k = supports.size(); k-- > 0;) relax_back(d, supports[k], figures);
+    for (std::size_t k = 0; k < set.contact.size(); ++k) relax_forward<watch>(set, k, figures);
+    for (std::size_t k = set.contact.size(); k-- > 0;) relax_back<watch>(set, k, figures);
     return figures;
   }
   SupportTotals totals() const {
     SupportTotals all;
-    for (const Support& s : supports) all.add(s);
+    for (std::size_t k = 0; k < set.contact.size(); ++k) all.add(set.impulse[k], set.contact[k].effective);
     return all;
   }
-  void extrapolate(double beta) {
-    for (Support& s : supports) carom::extrapolate(d, s, beta);
+  void extrapolate(double momentum) {
+    for (std::size_t k = 0; k < set.contact.size(); ++k) extrapolate_impulse(set, k, momentum);
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (contacts[i] > 0) extrapolate_velocity(set, i, momentum);
+    }
   }
 };
+
+// The supports among the events; their contacts to loads.
+template <class View>
+SupportSet make_supports(const View& d, const State& state, const StepRules& rules,
+                         const std::vector<ContactEvent>& events, const std::vector<std::uint32_t>& contacts,
+                         std::vector<ContactLoad>& loads) {
+  SupportSet set;
+  for (const ContactEvent& e : events) {
+    const double force = load_of(state.loads, e);
+    if (!is_solved(d, rules, e, force > 0.0, is_crowded(contacts, e))) continue;
+    const std::size_t k = loads.size();
+    loads.push_back({e.id1, e.id2, 0.0});
+    for (auto* column : {&set.impulse, &set.last, &set.before, &set.counted, &set.contact_distance}) {
+      column->push_back(0.0);
+    }
+    set.contact.emplace_back();
+    set_support(set, k, d, rules, e, force);
+  }
+  set.v.resize(contacts.size());
+  set.last_v.resize(contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) set.v[i] = {d.vx[i], d.vy[i]};
+  return set;
+}
 
 // Solves the supports; their loads go to state.loads, in id order as the events are.
 template <class View>
 void bear_loads(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
                 const std::vector<std::uint32_t>& contacts, ImpactTally& tally) {
-  std::vector<Support> supports;
   std::vector<ContactLoad> loads;
-  for (const ContactEvent& e : events) {
-    const double force = load_of(state.loads, e);
-    if (!is_solved(d, rules, e, force > 0.0, is_crowded(contacts, e))) continue;
-    supports.push_back(make_support(d, rules, e, force));
-    loads.push_back({e.id1, e.id2, 0.0});
-  }
+  SupportSet set = make_supports(d, state, rules, events, contacts, loads);
   if (rules.round == 0) {
-    for (const Support& s : supports) apply_impulse(d, s, s.impulse);
+    for (std::size_t k = 0; k < loads.size(); ++k) apply_impulse(set.v.data(), set.contact[k], set.impulse[k]);
   }
-  solve_supports(rules, Sweeps<View>{d, supports});
-  for (std::size_t k = 0; k < supports.size(); ++k) {
-    if (rules.round == 0) shift_by_load(d, supports[k], rules.dt);
-    tally.add_load(loads[k].id2, supports[k], rules.box);
-    loads[k].force = supports[k].impulse;
+  solve_supports(rules, Sweeps{set, contacts});
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    d.vx[i] = set.v[i].x;
+    d.vy[i] = set.v[i].y;
+  }
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    if (rules.round == 0) shift_by_load(d, set.contact[k], set.impulse[k], rules.dt);
+    tally.add_load(loads[k].id2, set, k, rules.box);
+    loads[k].force = set.impulse[k];
   }
   std::erase_if(loads, [](const ContactLoad& load) { return load.force == 0.0; });
   for (ContactLoad& load : loads) load.force /= rules.dt;

@@ -21,7 +21,7 @@ struct SettleLists {
   std::vector<double> borne;           // by each pair in order of ids: force of the step before, then impulse of this
   std::vector<IdPair> placed;          // the pairs in the order of the patches, so that sweeps read them in a row,
   std::vector<unsigned char> holding;  // and whether each bears load
-  std::vector<Support> supports;       // those of each patch in a row, from the patch's start
+  SupportSet supports;                 // those of each patch in a row, from the patch's start
   std::vector<std::uint32_t> place;    // of each support's pair in placed
   std::vector<std::uint32_t> bearing;  // supports of each patch
   std::vector<CycleFigures> figures;   // of each patch in a cycle of sweeps

@@ -2,6 +2,15 @@
 
 namespace carom {
 
+void resize_supports(SupportSet& set, std::size_t supports, std::size_t disks) {
+  resize_amply(set.contact, supports);
+  for (auto* column : {&set.impulse, &set.last, &set.before, &set.counted, &set.contact_distance}) {
+    resize_amply(*column, supports);
+  }
+  resize_amply(set.v, disks);
+  resize_amply(set.last_v, disks);
+}
+
 void keep_loads(State& state, const StepRules& rules, const Executor& executor, ContactLists& lists) {
   SettleLists& settle = lists.settle;
   const std::size_t n = settle.borne.size();

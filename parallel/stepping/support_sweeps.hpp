@@ -19,6 +19,9 @@ inline bool is_crowded(const ContactLists& lists, const IdPair& p) {
   return lists.contacts[p.i1] > 1 || lists.contacts[p.i2] > 1;
 }
 
+// Room for so many supports.
+void resize_supports(SupportSet& set, std::size_t supports, std::size_t disks);
+
 // The step's pairs (settle.pairs.sorted) into the order of patches, and the supports among them.
 template <class View>
 void make_supports(const View& d, const Disks& disks, const StepRules& rules, const Executor& executor,
@@ -31,7 +34,7 @@ void make_supports(const View& d, const Disks& disks, const StepRules& rules, co
   });
   resize_amply(settle.placed, pairs.size());
   resize_amply(settle.holding, pairs.size());
-  resize_amply(settle.supports, pairs.size());
+  resize_supports(settle.supports, pairs.size(), disks.size());
   resize_amply(settle.place, pairs.size());
   resize_amply(settle.bearing, patches.count());
   resize_amply(settle.totals, patches.count());  // here, as few steps need them: a warm one allocates nothing
@@ -43,7 +46,7 @@ void make_supports(const View& d, const Disks& disks, const StepRules& rules, co
       settle.placed[at] = p;
       settle.holding[at] = 0;
       if (is_solved(d, rules, p.event(), borne > 0.0, is_crowded(lists, p))) {
-        settle.supports[s] = make_support(d, rules, p.event(), borne);
+        set_support(settle.supports, s, d, rules, p.event(), borne);
         settle.place[s++] = at;
       }
       borne = 0.0;
@@ -52,10 +55,21 @@ void make_supports(const View& d, const Disks& disks, const StepRules& rules, co
   });
 }
 
+// Disks a block of the passes over velocities.
+inline constexpr std::size_t velocity_block = 4096;
+
+// visit(i) for all disks in contact.
+template <class Visit>
+void visit_in_contact(const ContactLists& lists, const Executor& executor, Visit&& visit) {
+  executor.for_ranges(lists.contacts.size(), velocity_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (lists.contacts[i] != 0) visit(i);
+    }
+  });
+}
+
 // The sweeps that solve_supports (core/physics/support_solver.hpp) asks for.
-template <class View>
 struct PatchSweeps {
-  const View& d;
   const Executor& executor;
   ContactLists& lists;
 
@@ -63,38 +77,48 @@ struct PatchSweeps {
   template <class Visit>
   void sweep(bool backwards, Visit&& visit) const {
     run_patches(lists.patches, backwards, executor, [&](std::size_t q) {
-      Support* const first = lists.settle.supports.data() + lists.patches.start[q];
+      const std::size_t first = lists.patches.start[q];
       const std::size_t count = lists.settle.bearing[q];
-      for (std::size_t k = 0; k < count; ++k) visit(first[backwards ? count - 1 - k : k], q);
+      for (std::size_t k = 0; k < count; ++k) visit(first + (backwards ? count - 1 - k : k), q);
     });
   }
 
   // Sums over the patches are exact, so their order does not matter.
+  CycleFigures cycle(Watch watch) const {
+    return watch == Watch::all       ? cycle<Watch::all>()
+           : watch == Watch::largest ? cycle<Watch::largest>()
+                                     : cycle<Watch::nothing>();
+  }
+  template <Watch watch>
   CycleFigures cycle() const {
+    SupportSet& set = lists.settle.supports;
     std::vector<CycleFigures>& patch = lists.settle.figures;
-    assign_amply(patch, lists.patches.count(), CycleFigures{});
-    sweep(false, [&](Support& s, std::size_t q) { relax_forward(d, s, patch[q]); });
-    sweep(true, [&](Support& s, std::size_t q) { relax_back(d, s, patch[q]); });
+    if (watch != Watch::nothing) assign_amply(patch, lists.patches.count(), CycleFigures{});
+    sweep(false, [&](std::size_t k, std::size_t q) { relax_forward<watch>(set, k, patch[q]); });
+    sweep(true, [&](std::size_t k, std::size_t q) { relax_back<watch>(set, k, patch[q]); });
     CycleFigures all;
-    for (const CycleFigures& f : patch) {
-      all.largest = std::max(all.largest, f.largest);
-      all.strain = std::max(all.strain, f.strain);
-      all.square.add(f.square);
-    }
+    if (watch == Watch::nothing) return all;
+    for (const CycleFigures& f : patch) all.add(f);
     return all;
   }
 
   SupportTotals totals() const {
     std::vector<SupportTotals>& patch = lists.settle.totals;
+    const SupportSet& set = lists.settle.supports;
     assign_amply(patch, lists.patches.count(), SupportTotals{});
-    sweep(false, [&](const Support& s, std::size_t q) { patch[q].add(s); });
+    sweep(false, [&](std::size_t k, std::size_t q) { patch[q].add(set.impulse[k], set.contact[k].effective); });
     SupportTotals all;
     for (const SupportTotals& t : patch) all.add(t);
     return all;
   }
 
-  void extrapolate(double beta) const {
-    sweep(false, [&](Support& s, std::size_t) { carom::extrapolate(d, s, beta); });
+  void extrapolate(double momentum) const {
+    SupportSet& set = lists.settle.supports;
+    executor.run(lists.patches.count(), [&](std::size_t q) {
+      const std::size_t first = lists.patches.start[q];
+      for (std::size_t k = first; k < first + lists.settle.bearing[q]; ++k) extrapolate_impulse(set, k, momentum);
+    });
+    visit_in_contact(lists, executor, [&](std::size_t i) { extrapolate_velocity(set, i, momentum); });
   }
 };
 
@@ -107,11 +131,11 @@ void take_up_loads(const View& d, const StepRules& rules, const Executor& execut
   assign_amply(lists.tallies, patches.count(), {});
   run_patches(patches, false, executor, [&](std::size_t q) {
     for (std::size_t k = patches.start[q]; k < patches.start[q] + settle.bearing[q]; ++k) {
-      const Support& s = settle.supports[k];
-      if (rules.round == 0) shift_by_load(d, s, rules.dt);
-      lists.tallies[q].add_load(settle.placed[settle.place[k]].id2(), s, rules.box);
-      settle.borne[patches.order[settle.place[k]]] = s.impulse;
-      settle.holding[settle.place[k]] = s.impulse > 0.0 ? 1 : 0;
+      const double impulse = settle.supports.impulse[k];
+      if (rules.round == 0) shift_by_load(d, settle.supports.contact[k], impulse, rules.dt);
+      lists.tallies[q].add_load(settle.placed[settle.place[k]].id2(), settle.supports, k, rules.box);
+      settle.borne[patches.order[settle.place[k]]] = impulse;
+      settle.holding[settle.place[k]] = impulse > 0.0 ? 1 : 0;
     }
   });
   for (const ImpactTally& t : lists.tallies) tally.add(t);
@@ -126,11 +150,18 @@ template <class View>
 void bear_loads(const View& d, State& state, const StepRules& rules, const Executor& executor, ContactLists& lists,
                 ImpactTally& tally) {
   make_supports(d, state.disks, rules, executor, lists);
-  const PatchSweeps<View> sweeps{d, executor, lists};
+  SupportSet& set = lists.settle.supports;
+  visit_in_contact(lists, executor, [&](std::size_t i) { set.v[i] = {d.vx[i], d.vy[i]}; });
+  const PatchSweeps sweeps{executor, lists};
   if (rules.round == 0) {
-    sweeps.sweep(false, [&](Support& s, std::size_t) { apply_impulse(d, s, s.impulse); });
+    sweeps.sweep(false,
+                 [&](std::size_t k, std::size_t) { apply_impulse(set.v.data(), set.contact[k], set.impulse[k]); });
   }
   solve_supports(rules, sweeps);
+  visit_in_contact(lists, executor, [&](std::size_t i) {
+    d.vx[i] = set.v[i].x;
+    d.vy[i] = set.v[i].y;
+  });
   take_up_loads(d, rules, executor, lists, tally);
   keep_loads(state, rules, executor, lists);
 }
