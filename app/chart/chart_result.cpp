@@ -120,7 +120,7 @@ std::optional<double> predicted_order(const ChartScene& scene, Method method, Me
 
 SceneResult summed_up(const ChartScene& scene, const std::vector<std::vector<Sample>>& samples) {
   const bool brownian = scene.figure == Figure::spread;
-  SceneResult result{scene, 1.0, 0.0, {}};
+  SceneResult result{scene, 1.0, 0.0, {}, {}};
   std::vector<Sample> exact;
   std::vector<double> steps;  // of any seed, falling
   for (const auto& of_seed : samples) {
@@ -137,6 +137,11 @@ SceneResult summed_up(const ChartScene& scene, const std::vector<std::vector<Sam
     Curve curve{method, {}, {}};
     for (const double dt : steps) {
       const Series series = series_of(samples, method, dt, brownian);
+      const auto stopped = std::ranges::find_if(series.own, [](const Sample& s) { return !s.stopped.empty(); });
+      if (stopped != series.own.end()) {
+        result.stops.push_back({method, dt, stopped->stopped});
+        continue;
+      }
       if (!series.own.empty()) curve.points.push_back(point_of(series, result.unit, scene.same_start));
     }
     result.curves.push_back(std::move(curve));

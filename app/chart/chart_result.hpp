@@ -38,11 +38,19 @@ struct Curve {
   const std::optional<OrderFit>& fit(Measure m) const { return fits[static_cast<std::size_t>(m)]; }
 };
 
+// A step at which the method stopped in one of the runs: it has no point.
+struct Stop {
+  Method method = Method::exact;
+  double dt = 0.0;
+  std::string why;  // of the first such run
+};
+
 struct SceneResult {
   ChartScene scene;
   double unit = 1.0;    // time that costs are given in: exact's mean free time, or diameter^2 / D for Brownian motion
   double figure = 0.0;  // exact's value of the scene's figure
   std::vector<Curve> curves;  // rollback, pairwise, exact
+  std::vector<Stop> stops;
 };
 
 // The fluid with a number of disks.

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/base/check.hpp"
 #include "core/measure/displacement.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/measure/shear_flow.hpp"
@@ -175,8 +176,13 @@ std::vector<Sample> measure_seed(const ChartScene& scene, std::uint64_t seed, co
     if (!exact.contains(key)) exact[key] = fly(scene_of(scene, seed, Method::exact, setting.dt, scene.flight), start);
     Sample& sample = samples.emplace_back(Sample{setting.method, setting.dt, {}});
     const bool itself = setting.method == Method::exact;
-    compare_flights(flight, start, exact[key], fly(flight, itself ? moved_by_rounding(start) : start), sample);
-    measure_rates(scene, scene_of(scene, seed, setting.method, setting.dt, scene.length), start, sample);
+    try {
+      compare_flights(flight, start, exact[key], fly(flight, itself ? moved_by_rounding(start) : start), sample);
+      measure_rates(scene, scene_of(scene, seed, setting.method, setting.dt, scene.length), start, sample);
+    } catch (const PhysicsError& error) {
+      if (itself) throw;
+      sample.stopped = error.what();
+    }
   }
   return samples;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "app/chart/chart_scenes.hpp"
@@ -30,6 +31,7 @@ struct Sample {
   Method method = Method::exact;
   double dt = 0.0;  // 0: exact
   std::array<double, measure_count> values{};
+  std::string stopped{};  // why the method could not go on; then no value counts
   double& operator[](Measure m) { return values[static_cast<std::size_t>(m)]; }
   double operator[](Measure m) const { return values[static_cast<std::size_t>(m)]; }
 };
@@ -42,7 +44,7 @@ struct Setting {
 };
 
 // Runs every setting that uses this seed from the same start, exact first (for Brownian motion at each dt, as exact
-// needs one there).
+// needs one there). Throws PhysicsError where exact stops.
 std::vector<Sample> measure_seed(const ChartScene& scene, std::uint64_t seed, const std::vector<Setting>& settings);
 
 // A short run of the fluid with so many disks.

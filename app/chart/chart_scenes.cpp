@@ -56,7 +56,8 @@ std::string corners() {
   return text;
 }
 
-// A channel three diameters high whose floor comes up by half a diameter: disks between walls that close.
+// A channel three diameters high whose floor comes up by one: disks between walls that close until two of them, one
+// above the other, just have room.
 const char* const closing_walls =
     "[box]\nwidth = 200.0\nheight = 3.0\nleft = \"periodic\"\nright = \"periodic\"\ntop = \"wall\"\n"
     "bottom = { motion = { vibrate = [0.0, 0.5], period = 5.0 } }\n";

@@ -78,6 +78,9 @@ std::string own_chart_text(const chart::SceneResult& result, const Scene& scene)
                           p.dt > 0.0 && p.dt == scene.run.dt ? "  the scene's dt" : "");
     }
   }
+  for (const chart::Stop& stop : result.stops) {
+    text += fmt::format("  {:<10}{:<12.4g}stops: {}\n", name_of(stop.method), stop.dt, stop.why);
+  }
   text += "cheapest\n";
   for (const double error : {1e-1, 1e-2, 1e-3, 1e-4}) text += cheapest_text(result, error);
   return text;

@@ -122,6 +122,9 @@ Json json_of(const chart::ChartResult& result, const chart::Effort& effort, int 
            {"melting", scene.scene.melting},      {"flight", scene.scene.flight},   {"length", scene.scene.length},
            {"unit_of_time_of_costs", scene.unit}, {"figure_of_exact", scene.figure}};
     s["cost_at_error"] = verdicts_of(scene);
+    for (const chart::Stop& stop : scene.stops) {
+      s["stopped"].push_back({{"method", name_of(stop.method)}, {"dt", stop.dt}, {"why", stop.why}});
+    }
     j["scenes"].push_back(std::move(s));
   }
   return j;

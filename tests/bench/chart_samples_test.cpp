@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/chart/chart_result.hpp"
 #include "app/chart/chart_sample.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/start/initial_state.hpp"
@@ -44,6 +45,24 @@ TEST(ChartSamples, WallsThatMoveAndShearAreScenesToo) {
     ++seen;
   }
   EXPECT_EQ(seen, 3);
+}
+
+// Half a diameter a step: disks between the closing walls are pressed through one.
+TEST(ChartSamples, AStepAtWhichTheMethodStopsHasNoPoint) {
+  const auto& scenes = chart_scenes();
+  ChartScene scene = *std::ranges::find(scenes, "closing", &ChartScene::name);
+  scene.melting *= 0.05;
+  const std::vector<Sample> samples =
+      measure_seed(scene, 1, {{Method::exact, 0.0, 1}, {Method::pairwise, 0.5, 1}, {Method::pairwise, 0.008, 1}});
+  ASSERT_EQ(samples.size(), 3U);
+  EXPECT_EQ(samples[0].stopped, "");
+  EXPECT_NE(samples[1].stopped.find("leaves no room"), std::string::npos) << samples[1].stopped;
+  EXPECT_EQ(samples[2].stopped, "");
+  const SceneResult result = summed_up(scene, {samples});
+  ASSERT_EQ(result.stops.size(), 1U);
+  EXPECT_EQ(result.stops[0].dt, 0.5);
+  ASSERT_EQ(result.curves[1].points.size(), 1U);
+  EXPECT_EQ(result.curves[1].points[0].dt, 0.008);
 }
 
 TEST(ChartSamples, ExactAgreesWithItselfAndShortStepsComeCloser) {
