@@ -26,6 +26,16 @@ class Kill : public test::ProgramTest, public ::testing::WithParamInterface<Kill
     const char* const wanted = std::getenv("CAROM_KILLS");
     return wanted != nullptr ? std::atoi(wanted) : 8;
   }
+  // Perhaps before what is no longer needed was removed: all is there, and going on from such a rest changes nothing.
+  void expect_whole_although_killed() const {
+    const fs::path rest = at("out/carom-unfinished");
+    if (fs::exists(rest / "checkpoint.carom")) {
+      EXPECT_EQ(carom("resume out --quiet").status, 0);
+    } else {
+      fs::remove_all(rest);
+    }
+    expect_same_results("whole", "out");
+  }
   bool has_checkpoint() const {
     return fs::exists(at("out/carom-unfinished/checkpoint.carom")) || fs::exists(at("out/checkpoint.carom"));
   }
@@ -56,7 +66,7 @@ TEST_P(Kill, NothingIsLost) {
       ASSERT_EQ(status, -SIGKILL) << said();
     }
     if (fs::exists(at("out/summary.json"))) {  // killed after the last file was in its place
-      expect_same_results("whole", "out");
+      expect_whole_although_killed();
       fs::remove_all(at("out"));
     }
     if (HasFailure()) return;
