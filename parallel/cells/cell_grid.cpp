@@ -32,6 +32,7 @@ void make_grid(const Domain& box, double largest_radius, const std::vector<std::
     const double across = std::sqrt(cells * box.width / box.height);
     level.columns = cells_of_side(box.width, least, std::clamp(across, 1.0, cells), box.periodic_x());
     level.rows = cells_of_side(box.height, least, cells / std::min<double>(level.columns, cells), box.periodic_y());
+    level.kept_rows = level.rows;
     level.cell_width = box.width / level.columns;
     level.cell_height = box.height / level.rows;
     level.columns_per_length = level.columns / box.width;
@@ -40,6 +41,16 @@ void make_grid(const Domain& box, double largest_radius, const std::vector<std::
     level.first_key = grid.keys;
     grid.keys += level.keys();
     grid.levels.push_back(level);
+  }
+}
+
+void keep_rows(CellGrid& grid, double low, double high) {
+  grid.keys = 0;
+  for (GridLevel& level : grid.levels) {
+    level.first_row = row_at(level, low);
+    level.kept_rows = row_at(level, high) - level.first_row + 1;
+    level.first_key = grid.keys - level.first_row * level.stride;
+    grid.keys += level.keys();
   }
 }
 

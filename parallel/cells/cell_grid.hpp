@@ -21,23 +21,28 @@ inline constexpr double class_ratio = 2.0;
 
 // The grid of one size class. Row r's cells are keys first_key + r * stride + column; each row ends in one empty cell
 // and one empty row follows the last, so that the neighbours of every cell can be looked up without asking where it
-// lies. A tiled level is cut into bands of 2^band_shift columns and groups of 2^group_shift rows, without the empty
-// cells: a tile is what a band and a group have in common.
+// lies. Where only some rows are kept, first_key is that of row 0 all the same, modulo 2^32, so that keys say which row
+// of the box they are of. A tiled level is cut into bands of 2^band_shift columns and groups of 2^group_shift rows,
+// without the empty cells: a tile is what a band and a group have in common.
 struct GridLevel {
-  double largest_radius = 0.0;      // of the class; length
-  double cell_width = 0.0;          // length
-  double cell_height = 0.0;         // length
-  double columns_per_length = 0.0;  // 1 / cell_width
-  double rows_per_length = 0.0;     // 1 / cell_height
-  double margin = 0.0;              // length by which a disk may leave its cell
-  std::uint32_t columns = 1, rows = 1;
+  double largest_radius = 0.0;                 // of the class; length
+  double cell_width = 0.0;                     // length
+  double cell_height = 0.0;                    // length
+  double columns_per_length = 0.0;             // 1 / cell_width
+  double rows_per_length = 0.0;                // 1 / cell_height
+  double margin = 0.0;                         // length by which a disk may leave its cell
+  std::uint32_t columns = 1, rows = 1;         // of the whole box
+  std::uint32_t first_row = 0, kept_rows = 1;  // those that have cells
   std::uint32_t stride = 2;
   std::uint32_t first_key = 0;
   unsigned band_shift = 31;   // columns in a band: 2^band_shift
   unsigned group_shift = 31;  // rows in a group: 2^group_shift
   std::uint32_t band_keys = 0, group_keys = 0;
 
-  std::uint32_t keys() const { return (rows + 1) * stride + 2; }  // of a level that is not tiled
+  // Of a level that is not tiled: how many keys, and the first of them.
+  std::uint32_t keys() const { return (kept_rows + 1) * stride + 2; }
+  std::uint32_t start_key() const { return first_key + first_row * stride; }
+  bool has_row(std::uint32_t row) const { return row - first_row < kept_rows; }
   std::uint32_t columns_left_in_band(std::uint32_t column) const {
     return (1U << band_shift) - (column & ((1U << band_shift) - 1U));
   }
@@ -72,6 +77,10 @@ void make_grid(const Domain& box, double largest_radius, const std::vector<std::
                double margin = grid_margin);
 CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count);
 
+// Only the cells of disks between these heights are kept: a disk elsewhere must not be sorted into the grid, and is
+// found near no place. Precondition: the grid is not tiled, and all its rows are kept.
+void keep_rows(CellGrid& grid, double low, double high);
+
 // Class k holds radii r with largest / 2^(k+1) < r <= largest / 2^k.
 inline std::size_t class_of_radius(double radius, double largest_radius) {
   std::size_t k = 0;
@@ -79,9 +88,11 @@ inline std::size_t class_of_radius(double radius, double largest_radius) {
   return k;
 }
 
+inline std::uint32_t row_at(const GridLevel& level, double y) {
+  return cell_index(y * level.rows_per_length, level.rows);
+}
 inline std::uint32_t key_of(const GridLevel& level, double x, double y) {
-  return level.key_at(cell_index(y * level.rows_per_length, level.rows),
-                      cell_index(x * level.columns_per_length, level.columns));
+  return level.key_at(row_at(level, y), cell_index(x * level.columns_per_length, level.columns));
 }
 
 }  // namespace carom

@@ -39,6 +39,7 @@ void for_each_run_near(const GridLevel& level, const std::uint32_t* start, const
   const std::uint32_t straight = std::min(columns.count, level.columns - columns.first);
   for (std::uint32_t k = 0; k < rows.count; ++k) {
     const std::uint32_t row = rows.first + k < level.rows ? rows.first + k : rows.first + k - level.rows;
+    if (!level.has_row(row)) continue;
     const std::uint32_t row_key = level.first_key + row * level.stride;
     visit(start[row_key + columns.first], start[row_key + columns.first + straight]);
     if (straight < columns.count) visit(start[row_key], start[row_key + columns.count - straight]);

@@ -63,6 +63,7 @@ void make_tiled_grid(const Domain& box, double largest_radius, const std::vector
     level.group_shift = shift_for(height, cell);
     level.columns = bands << level.band_shift;
     level.rows = groups << level.group_shift;
+    level.kept_rows = level.rows;
     level.cell_width = box.width / level.columns;
     level.cell_height = box.height / level.rows;
     level.columns_per_length = level.columns / box.width;

@@ -18,16 +18,14 @@ struct Run {
   bool holds(std::uint32_t i) const { return i >= first && i < last; }
 };
 
-// The disks of a level that were sorted into rows up to, and from, these.
+// The disks of a level that were sorted into rows up to, and from, these; all where the rank has no such row.
 Run rows_up_to(const GridLevel& level, const SortedCells& cells, std::uint32_t row) {
-  return {cells.start[level.first_key], cells.start[level.first_key + (row + 1) * level.stride]};
+  const std::uint32_t rows = std::min(row - level.first_row + 1, level.kept_rows);
+  return {cells.start[level.start_key()], cells.start[level.start_key() + rows * level.stride]};
 }
 Run rows_from(const GridLevel& level, const SortedCells& cells, std::uint32_t row) {
-  return {cells.start[level.first_key + row * level.stride], cells.start[level.first_key + level.keys()]};
-}
-
-std::uint32_t row_at(const GridLevel& level, double y) {
-  return cell_index(y * level.rows_per_length, level.rows);
+  const std::uint32_t first = row > level.first_row ? row - level.first_row : 0;
+  return {cells.start[level.start_key() + first * level.stride], cells.start[level.start_key() + level.keys()]};
 }
 
 void add_run(Run run, std::vector<Run>& runs, std::vector<std::uint32_t>& near) {

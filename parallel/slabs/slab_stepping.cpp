@@ -57,16 +57,17 @@ SlabStepping::SlabStepping(const Scene& scene, State part, const SlabStart& star
       largest_radius_(start.largest_radius),
       border_contacts_(ranks),
       disks_(start.disks) {
-  if (disks_ > 0) make_cells(start.counts);
   const bool seam = scene_.box.periodic_y();
   const int last = ranks.count() - 1;
   slab_ = {cut_.low(ranks.rank()), cut_.high(ranks.rank()), last > 0 && (seam || ranks.rank() > 0),
            last > 0 && (seam || ranks.rank() < last)};
+  if (disks_ > 0) make_cells(start.counts);
 }
 
-// The same on every rank: of the whole box, for all disks.
+// As wide as on one machine, for all disks; but only those of the slab.
 void SlabStepping::make_cells(const std::vector<std::size_t>& counts) {
   make_grid(scene_.box, largest_radius_, counts, grid_, cell_margin);
+  keep_rows(grid_, slab_.low, slab_.high);
 }
 
 double SlabStepping::disks_at(double /*t*/, Disks& out) const {

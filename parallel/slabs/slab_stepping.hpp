@@ -83,7 +83,7 @@ class SlabStepping : public Engine {
   Slab slab_;
   DiskColumns columns_;
   double smallest_radius_ = 0.0, largest_radius_ = 0.0;  // of all disks, those that sources may bring too
-  CellGrid grid_;                                        // of the whole box
+  CellGrid grid_;                                        // of the slab
   SortedCells cells_;
   CoarsePositions coarse_;
   FoundPairs pairs_;

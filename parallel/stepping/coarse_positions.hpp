@@ -60,7 +60,7 @@ struct LevelRange {
   std::size_t first, last;
 };
 inline LevelRange range_of(const GridLevel& level, const SortedCells& cells) {
-  return {cells.start[level.first_key], cells.start[level.first_key + level.keys()]};
+  return {cells.start[level.start_key()], cells.start[level.start_key() + level.keys()]};
 }
 
 // The runs of disks in storage that the search compares a disk with, away from periodic sides: what follows it in its

@@ -83,8 +83,9 @@ void search_border(const SearchInput& in, const GridLevel& level, std::uint32_t 
     test_run<sheared>(in, i, in.start[from], in.start[to + 1], pairs);
   };
   const std::uint32_t row_key = level.first_key + row * level.stride;
-  const bool has_above = level.rows > 1 && (row + 1 < level.rows || in.box.periodic_y());
-  const std::uint32_t above_key = level.first_key + (row + 1 < level.rows ? row + 1 : 0) * level.stride;
+  const std::uint32_t above = row + 1 < level.rows ? row + 1 : 0;
+  const bool has_above = level.rows > 1 && (above > 0 || in.box.periodic_y()) && level.has_row(above);
+  const std::uint32_t above_key = level.first_key + above * level.stride;
   const bool displaced_above = sheared && row + 1 == level.rows;
   for (std::size_t i = begin; i < end; ++i) {
     const std::uint32_t column = in.key[i] - row_key;
@@ -164,12 +165,12 @@ template <bool sheared>
 void search_between(const SearchInput& in, const GridLevel& large, const GridLevel& small, const Executor& executor,
                     FoundPairs& found) {
   const auto disks_of = [&](const GridLevel& level) {
-    return in.start[level.first_key + level.keys()] - in.start[level.first_key];
+    return in.start[level.start_key() + level.keys()] - in.start[level.start_key()];
   };
   const bool by_large = disks_of(large) <= disks_of(small);
   const GridLevel& from = by_large ? large : small;
   const GridLevel& to = by_large ? small : large;
-  const std::size_t begin = in.start[from.first_key];
+  const std::size_t begin = in.start[from.start_key()];
   const std::size_t first = more_buffers(found, executor.blocks(disks_of(from), cross_block));
   executor.for_ranges(disks_of(from), cross_block, [&](std::size_t b, std::size_t low, std::size_t high) {
     std::vector<Pair>& pairs = found.buffers[first + b];
@@ -179,7 +180,7 @@ void search_between(const SearchInput& in, const GridLevel& large, const GridLev
 
 const GridLevel& level_of(const SearchInput& in, const CellGrid& grid, std::size_t i) {
   std::size_t k = 0;
-  while (k + 1 < grid.levels.size() && in.key[i] >= grid.levels[k + 1].first_key) ++k;
+  while (k + 1 < grid.levels.size() && in.key[i] >= grid.levels[k + 1].start_key()) ++k;
   return grid.levels[k];
 }
 
@@ -254,8 +255,8 @@ void find_pairs(const SearchInput& in, const CellGrid& grid, const CoarsePositio
   found.used = 0;
   for (std::size_t k = 0; k < levels; ++k) {
     const GridLevel& level = grid.levels[k];
-    const std::size_t begin = in.start[level.first_key];
-    const std::size_t n = in.start[level.first_key + level.keys()] - begin;
+    const std::size_t begin = in.start[level.start_key()];
+    const std::size_t n = in.start[level.start_key() + level.keys()] - begin;
     const std::size_t first = more_buffers(found, executor.blocks(n, search_block));
     executor.for_ranges(n, search_block, [&](std::size_t b, std::size_t from, std::size_t to) {
       search_level<sheared>(in, level, interior, begin + from, begin + to, found.buffers[first + b]);

@@ -87,7 +87,7 @@ LevelView view_of(const GridLevel& level, const Domain& box) {
           0.5 + level.margin * level.rows_per_length,
           static_cast<double>(level.columns),
           static_cast<double>(level.rows),
-          static_cast<double>(level.first_key),
+          static_cast<double>(level.start_key()) - static_cast<double>(level.first_row) * level.stride,
           static_cast<double>(level.stride),
           1.0 / level.stride,
           box.periodic_x(),

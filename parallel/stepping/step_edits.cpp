@@ -15,7 +15,7 @@ constexpr std::size_t most_loose = 256;
 
 // The disk that apply() stores last has come.
 void add_loose(const Disks& d, const CellGrid& grid, SortedCells& cells, CoarsePositions& coarse) {
-  cells.key.push_back(grid.levels.front().first_key);
+  cells.key.push_back(grid.levels.front().start_key());
   coarse.position.resize(d.size() + coarse_lanes);
   if (!coarse.radius.empty()) coarse.radius.resize(coarse.position.size());
   coarse.loose.push_back(static_cast<std::uint32_t>(d.size() - 1));
