@@ -12,12 +12,11 @@ namespace carom {
 namespace {
 
 // Bytes, measured with 2 10^5 to 4 10^6 disks on 2 and 4 ranks (docs/scaling.md): what a process takes before it has a
-// disk, MPI included; for each of its disks, whose columns it has once and whose lists it makes; for a column that not
-// all scenes have; and for each disk of the run, as every rank has cells for the whole box.
-constexpr double process_bytes = 34e6;
-constexpr double own_disk_bytes = 55.0;
+// disk, MPI included; for each of its disks, with its cells and the lists that it makes; and for a column that not all
+// scenes have.
+constexpr double process_bytes = 31e6;
+constexpr double own_disk_bytes = 69.0;
 constexpr double column_bytes = 12.0;
-constexpr double any_disk_bytes = 8.0;
 
 // Time spent on trying steps; seconds.
 constexpr double traffic_trial = 0.3;
@@ -35,7 +34,7 @@ RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks) {
   f.disks = all / ranks;
   const DiskColumns columns = columns_of(start.disks);
   const int more = (columns.radius ? 1 : 0) + (columns.mass ? 1 : 0) + (columns.spin ? 1 : 0);
-  f.other_bytes = process_bytes + (own_disk_bytes + more * column_bytes) * f.disks + any_disk_bytes * all;
+  f.other_bytes = process_bytes + (own_disk_bytes + more * column_bytes) * f.disks;
   if (scene.box.has_thermal_side()) f.other_bytes += sizeof(std::uint32_t) * all;
   f.traffic = try_slabs(scene, start, ranks, traffic_trial);
   return f;

@@ -50,13 +50,13 @@ std::vector<std::string> warnings_so_far(const RunRecord& record, const Scene& s
 }
 
 // The record of a run that begins, or of one that goes on.
-RunRecord record_of(const Scene& scene, const ResumeFrom* from, const RunSettings& settings, const Engine& engine) {
+RunRecord record_of(const Scene& scene, const ResumeFrom* from, const RunSettings& settings, const RunStart& start) {
   RunRecord record;
   if (from != nullptr) {
     record = from->checkpoint.record;
     ++record.resumed;
   } else {
-    record.start = run_start(engine.state(), scene);
+    record.start = start;
     record.scene_file = scene.file;
   }
   record.version = CAROM_VERSION;
@@ -88,14 +88,15 @@ std::string lost_pictures(const Scene& scene, const RunFiles& files, const std::
 class SceneRun {
  public:
   SceneRun(const Scene& scene, const RunSettings& settings, Engine& engine, RunFiles* files, CheckpointKeeper& keeper,
-           bool goes_on)
+           bool goes_on, Count disks)
       : scene_(scene),
         settings_(settings),
         listener_(settings.listener),
         engine_(engine),
         files_(files),
         keeper_(keeper),
-        goes_on_(goes_on) {}
+        goes_on_(goes_on),
+        disks_(disks) {}
 
   // Steps to the end with all outputs, progress and checkpoints, or until the keeper says stop.
   void go();
@@ -111,6 +112,7 @@ class SceneRun {
   void take_output_warnings() { tell_all(listener_, files_->outputs.take_warnings()); }
   [[noreturn]] void keep_stopped(const PhysicsError& error);
   Summary summary() const;
+  std::vector<std::string> energy_gained() const;
   bool keep_last_checkpoint(const OutputMark& mark);
   std::string make_page();
 
@@ -121,6 +123,7 @@ class SceneRun {
   RunFiles* files_;
   CheckpointKeeper& keeper_;
   bool goes_on_;
+  Count disks_;                    // when it begins
   double step_s_ = 0.0;            // seconds in steps
   std::vector<std::string> told_;  // the warnings that the engine has raised
 };
@@ -169,12 +172,10 @@ RunObserver SceneRun::observer() {
 }
 
 void SceneRun::go() {
-  tell(listener_.begins, engine_.state());
+  tell(listener_.begins, engine_.progress(), disks_);
   try {
     step_s_ = run_to_end(engine_, scene_, observer());
-    if (settings_.strict && keeper_.stopped_by().empty()) {
-      fail_if_any(energy_warnings(scene_, keeper_.record(step_s_).start, engine_.state()));
-    }
+    if (settings_.strict && keeper_.stopped_by().empty()) fail_if_any(energy_gained());
   } catch (const PhysicsError& error) {
     // The state that is kept has them marked as told; with --strict the error has the warning.
     take_news(settings_.strict);
@@ -198,6 +199,11 @@ void SceneRun::keep_stopped(const PhysicsError& error) {
                                  files_->folder.keep_unfinished(), last_state));
 }
 
+std::vector<std::string> SceneRun::energy_gained() const {
+  const Energy now = sums_of(engine_, scene_, settings_.engine).at.energy;
+  return energy_warnings(scene_, keeper_.record(step_s_).start, engine_.progress(), now);
+}
+
 Summary SceneRun::summary() const {
   const RunRecord record = keeper_.record(step_s_);
   Summary summary = summarize(record.start, engine_, scene_, settings_.engine);
@@ -206,7 +212,7 @@ Summary SceneRun::summary() const {
   summary.wall_s = record.wall_s;
   summary.cpu_s = record.cpu_s;
   summary.resumed = record.resumed;
-  summary.warnings = warnings_so_far(record, scene_, engine_.state());
+  summary.warnings = warnings_so_far(record, scene_, engine_.progress());
   return summary;
 }
 
@@ -260,13 +266,13 @@ RunOutcome SceneRun::finished() {
     keeps_checkpoint = keep_last_checkpoint(mark);
     take_output_warnings();
   }
-  for (const std::string& warning : worst_moments(scene_, engine_.state())) {
+  for (const std::string& warning : worst_moments(scene_, engine_.progress())) {
     if (std::find(told_.begin(), told_.end(), warning) == told_.end()) tell(listener_.warning, warning);
   }
   keeper_.discard_own_folder();
   RunOutcome outcome{summary(), "", "", ""};
-  std::vector<std::string> at_end = energy_warnings(scene_, keeper_.record(step_s_).start, engine_.state());
-  for (const std::string& warning : waiting_warnings(scene_, engine_.state())) at_end.push_back(warning);
+  std::vector<std::string> at_end = energy_gained();
+  for (const std::string& warning : waiting_warnings(scene_, engine_.progress())) at_end.push_back(warning);
   tell_all(listener_, at_end);
   outcome.summary.warnings.insert(outcome.summary.warnings.end(), at_end.begin(), at_end.end());
   if (files_ == nullptr) return outcome;
@@ -284,26 +290,32 @@ State state_of(const Scene& scene, ResumeFrom* from, RunSettings& settings) {
   return make_initial_state(settings.engine, scene, watch);
 }
 
-// The engine at the run's start. warnings: of that start.
-std::unique_ptr<Engine> engine_of(const Scene& scene, ResumeFrom* from, RunSettings& settings,
-                                  std::vector<std::string>& warnings) {
-  auto engine =
+// The engine at the run's start.
+struct StartedEngine {
+  std::unique_ptr<Engine> engine;
+  RunStart at;
+  std::vector<std::string> warnings;  // of that start
+};
+StartedEngine engine_of(const Scene& scene, ResumeFrom* from, RunSettings& settings) {
+  StartedEngine start;
+  start.engine =
       within_memory(scene, [&] { return make_engine(settings.engine, scene, state_of(scene, from, settings)); });
-  const State& state = engine->state();
-  warnings = validity_of(scene, smallest_radius(state.disks), fastest_speed(state.disks));
-  if (!settings.strict) return engine;
-  fail_if_any(warnings);
-  if (from != nullptr) fail_if_any(warnings_so_far(from->checkpoint.record, scene, state));
-  return make_strict(std::move(engine));
+  const StateSums sums = sums_of(*start.engine, scene, settings.engine);
+  start.at = sums.at;
+  start.warnings = validity_of(scene, sums.smallest_radius, sums.fastest);
+  if (!settings.strict) return start;
+  fail_if_any(start.warnings);
+  if (from != nullptr) fail_if_any(warnings_so_far(from->checkpoint.record, scene, start.engine->progress()));
+  start.engine = make_strict(std::move(start.engine));
+  return start;
 }
 
 RunOutcome carry_out(const Scene& scene, ResumeFrom* from, RunSettings settings) {
   const FloatEnvironment environment;
-  std::vector<std::string> warnings;
-  const std::unique_ptr<Engine> engine = engine_of(scene, from, settings, warnings);
+  const auto [engine, at, warnings] = engine_of(scene, from, settings);
   tell_all(settings.listener, warnings);
   tell(settings.listener.ready);
-  RunRecord record = record_of(scene, from, settings, *engine);
+  RunRecord record = record_of(scene, from, settings, at);
   if (from == nullptr) record.warnings = warnings;
   const bool new_plan = from != nullptr && record.scene_text != from->checkpoint.record.scene_text;
   const double interval = settings.folder ? scene.output.checkpoint : 0.0;
@@ -319,7 +331,7 @@ RunOutcome carry_out(const Scene& scene, ResumeFrom* from, RunSettings settings)
     // So that a run that is killed in its first minutes is not lost, nor the options with which it was resumed.
     const bool wanted = from != nullptr || scene.output.checkpoint > 0.0;
     if (files != nullptr && (new_plan || (!there && wanted))) keeper.write(engine->state(), 0.0);
-    SceneRun scene_run(scene, settings, *engine, files, keeper, from != nullptr);
+    SceneRun scene_run(scene, settings, *engine, files, keeper, from != nullptr, at.particles);
     scene_run.go();
     return keeper.stopped_by().empty() ? scene_run.finished() : scene_run.stopped();
   } catch (const RunError& error) {

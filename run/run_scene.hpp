@@ -19,10 +19,12 @@ namespace carom {
 
 // What a run tells the program that started it, while it goes on, on the thread that called run(). Each may be empty.
 struct RunListener {
-  std::function<void(const GrowthProgress&)> growth;    // each step of a growth of the initial state
-  std::function<void()> ready;                          // the disks are there, nothing has been written yet
-  std::function<void(const State&)> begins;             // the first step is next
-  std::function<void(const State&)> progress;           // about a hundred times a second
+  std::function<void(const GrowthProgress&)> growth;  // each step of a growth of the initial state
+  std::function<void()> ready;                        // the disks are there, nothing has been written yet
+  // The first step is next, with so many disks; then, about a hundred times a second. The disks of the states are those
+  // of one rank.
+  std::function<void(const State&, Count)> begins;
+  std::function<void(const State&)> progress;
   std::function<void(std::string_view)> note, warning;  // a line each
   std::function<std::string()> stop;                    // as often as progress: why the run shall stop; empty: go on
 };

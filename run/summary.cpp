@@ -10,9 +10,7 @@
 
 #include "core/base/build_version.hpp"
 #include "core/base/short_number.hpp"
-#include "core/disks/obstacle_cells.hpp"
 #include "core/disks/state_hash.hpp"
-#include "core/measure/shear_flow.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene_names.hpp"
 #include "parallel/slabs/leading_engine.hpp"
@@ -214,16 +212,21 @@ std::string disks_line(const Summary& s) {
 
 }  // namespace
 
+StateSums sums_of(const Engine& engine, const Scene& scene, const EngineChoice& choice) {
+  return choice.lead != nullptr ? choice.lead->sums() : sums_of(engine.state(), scene);
+}
+
 Summary summarize(const RunStart& start, const Engine& engine, const Scene& scene, const EngineChoice& choice) {
-  const State& state = engine.state();
-  const Energy energy = energy_of(state.disks, scene.physics.gravity);
+  const State& state = engine.progress();
+  const StateSums sums = sums_of(engine, scene, choice);
+  const Energy& energy = sums.at.energy;
   const double elapsed = state.time - start.time;
   Summary s;
   s.scene = scene.file;
   s.title = scene.title;
   s.method = name_of(scene.run.method);
   s.engine = choice;
-  s.particles = state.disks.size();
+  s.particles = sums.at.particles;
   s.time = state.time;
   s.counters = state.counters;
   s.drawn_velocities = velocities_are_drawn(scene);
@@ -233,23 +236,20 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   };
   s.energy_initial = of_velocities(start.energy.total());
   s.energy_final = of_velocities(energy.total());
-  s.momentum_drift = of_velocities(momentum_drift(start.momentum, momentum_of(state.disks)));
-  Domain box = box_at(scene.box, state.time);
-  const Overlap of_disks = deepest_overlap(state.disks, box);
-  const std::unique_ptr<const ObstacleCells> obstacles = place_obstacles(state.obstacles, box, motions_of(scene));
-  const Overlap of_wall = deepest_wall_overlap(state.disks, box);
-  s.max_overlap = of_disks.size;
-  s.wall_overlap = of_wall.size;
-  s.worst_disks = worst_of(state.validity.disks, of_disks, state.time);
-  s.worst_wall = worst_of(state.validity.wall, of_wall, state.time);
+  s.momentum_drift = of_velocities(momentum_drift(start.momentum, sums.at.momentum));
+  const DeepestOverlaps deepest = choice.lead != nullptr ? choice.lead->overlaps() : overlaps_of(state, scene);
+  s.max_overlap = deepest.disks.size;
+  s.wall_overlap = deepest.wall.size;
+  s.worst_disks = worst_of(state.validity.disks, deepest.disks, state.time);
+  s.worst_wall = worst_of(state.validity.wall, deepest.wall, state.time);
   Energy halfway{0.5 * (start.energy.kinetic + energy.kinetic), 0.0};
-  if (box.shear.acts()) halfway = energy_of(relative_to_flow(state.disks, box), 0.0);
+  if (scene.box.shear.acts()) halfway.kinetic = sums.relative;
   s.pressure =
       of_velocities(pressure(halfway, state.counters.virial, elapsed, box_at(scene.box, state.time - 0.5 * elapsed)));
   const double mean_disks = 0.5 * (static_cast<double>(start.particles) + static_cast<double>(s.particles));
   const double disk_time = mean_disks * elapsed;
   if (disk_time > 0.0) s.collision_rate = 2.0 * static_cast<double>(state.counters.collisions) / disk_time;
-  s.state_hash = hash_text(state_hash(state.disks));
+  s.state_hash = hash_text(sums.hash);
   s.seed = scene.seed;
   s.box = scene.box;
   s.thermostat = scene.physics.thermostat.acts();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/measure/run_start.hpp"
+#include "core/measure/state_sums.hpp"
 #include "parallel/slabs/rank_report.hpp"
 #include "run/json_keys.hpp"
 #include "run/make_engine.hpp"
@@ -40,6 +40,9 @@ struct Summary {
   PhaseTimes phases;
   std::optional<RankReport> ranks;  // of several
 };
+
+// Of all disks, of all ranks.
+StateSums sums_of(const Engine& engine, const Scene& scene, const EngineChoice& choice);
 
 // Everything but the times, the number of frames and the warnings, which the caller adds.
 Summary summarize(const RunStart& start, const Engine& engine, const Scene& scene, const EngineChoice& choice);

@@ -16,8 +16,8 @@ namespace {
 constexpr double rate_seconds = 2.0;  // rates are means over once to twice this time
 
 // Disks without those that came and with those that left: what a later count goes by, which may see a part of them.
-Count state_disks(const State& start) {
-  return start.disks.size() + start.counters.removed - start.counters.emitted;
+Count state_disks(const State& start, Count disks) {
+  return disks + start.counters.removed - start.counters.emitted;
 }
 
 }  // namespace
@@ -33,10 +33,10 @@ std::string progress_text(const ProgressPoint& then, const ProgressPoint& now, s
   return text;
 }
 
-Progress::Progress(bool wanted, double t_end, const State& start, StatusPlace place)
+Progress::Progress(bool wanted, double t_end, const State& start, Count disks, StatusPlace place)
     : line_(wanted, std::move(place)),
       t_end_(t_end),
-      disks_(state_disks(start)),
+      disks_(state_disks(start, disks)),
       start_(line_.seconds()),
       older_{0.0, start.time, start.counters.steps},
       newer_(older_) {}

@@ -23,8 +23,8 @@ std::string progress_text(const ProgressPoint& then, const ProgressPoint& now, s
 // The line of a run: kept up to date on a terminal, a line a minute elsewhere.
 class Progress {
  public:
-  // start: the state that the run begins or goes on from.
-  Progress(bool wanted, double t_end, const State& start, StatusPlace place = on_standard_error());
+  // start: the state that the run begins or goes on from, with so many disks.
+  Progress(bool wanted, double t_end, const State& start, Count disks, StatusPlace place = on_standard_error());
 
   // Brings the line up to date, if it is time.
   void update(const State& state);

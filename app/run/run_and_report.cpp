@@ -27,7 +27,7 @@ RunOutcome run_shown(const CarryOptions& options, const Scene& scene, RunSetting
       if (progress) progress->clear();
     };
     listener.growth = growth_line(!from);
-    listener.begins = [&](const State& state) { progress.emplace(true, scene.run.t_end, state); };
+    listener.begins = [&](const State& state, Count disks) { progress.emplace(true, scene.run.t_end, state, disks); };
     listener.progress = [&](const State& state) { progress->update(state); };
     listener.note = [=](std::string_view text) { clear(), print_note(text); };
     listener.warning = [=](std::string_view text) { clear(), print_warning(text); };

@@ -10,6 +10,11 @@
 namespace carom {
 
 std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state) {
+  return energy_warnings(scene, start, state, energy_of(state.disks, scene.physics.gravity));
+}
+
+std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state,
+                                         const Energy& now) {
   if (scene.physics.diffusion > 0.0) return {};
   const bool exact = scene.run.method == Method::exact;
   double before = start.energy.total() + state.counters.emitted_energy;
@@ -22,7 +27,7 @@ std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& sta
     before += given;
     moved += std::abs(given);
   }
-  const double after = energy_of(state.disks, scene.physics.gravity).total();
+  const double after = now.total();
   if (!(after - before > (exact ? most_gain_exact : most_gain_stepping) * moved)) return {};
   std::string why = "speeds or sizes differ too much for double precision";
   if (exact && has_tc(scene)) {

@@ -18,4 +18,8 @@ inline constexpr double most_gain_stepping = 0.01;
 // What a run at its end has to say of energy that nothing put in. Brownian motion keeps none.
 std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state);
 
+// The same where the energy is known; of state, the disks are not looked at.
+std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state,
+                                         const Energy& now);
+
 }  // namespace carom

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/physics/roughness.hpp"
 #include "core/physics/wall_overlap.hpp"
 #include "core/reference/pair_search.hpp"
 
@@ -12,17 +11,12 @@ namespace carom {
 Energy energy_of(const Disks& d, const std::vector<std::size_t>& order, const Gravity& gravity,
                  const BlockRunner& run) {
   Energy energy;
-  energy.kinetic = blocked_sum(
-      order, run, [&](std::size_t i) { return 0.5 * d.mass_of(i) * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]); });
+  energy.kinetic = blocked_sum(order, run, [&](std::size_t i) { return kinetic_energy_of(d, i); });
   if (gravity.acts()) {
-    energy.potential = blocked_sum(order, run, [&](std::size_t i) {
-      return d.mass_of(i) * gravity.down * d.y[i] + d.mass_of(i) * gravity.left * d.x[i];
-    });
+    energy.potential = blocked_sum(order, run, [&](std::size_t i) { return potential_energy_of(d, i, gravity); });
   }
   if (d.spins()) {
-    energy.rotational = blocked_sum(order, run, [&](std::size_t i) {
-      return rotational_energy(d.inertia, d.mass_of(i), d.radius_of(i), d.spin[i]);
-    });
+    energy.rotational = blocked_sum(order, run, [&](std::size_t i) { return rotational_energy_of(d, i); });
   }
   return energy;
 }
@@ -35,8 +29,7 @@ Momentum momentum_of(const Disks& d, const std::vector<std::size_t>& order, cons
   Momentum p;
   p.x = blocked_sum(order, run, [&](std::size_t i) { return d.mass_of(i) * d.vx[i]; });
   p.y = blocked_sum(order, run, [&](std::size_t i) { return d.mass_of(i) * d.vy[i]; });
-  p.magnitude = blocked_sum(
-      order, run, [&](std::size_t i) { return d.mass_of(i) * std::sqrt(d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]); });
+  p.magnitude = blocked_sum(order, run, [&](std::size_t i) { return momentum_magnitude_of(d, i); });
   return p;
 }
 

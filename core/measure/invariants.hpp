@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "core/disks/domain.hpp"
 #include "core/disks/overlap.hpp"
 #include "core/disks/state.hpp"
+#include "core/physics/roughness.hpp"
 #include "core/scene/scene.hpp"
 
 namespace carom {
@@ -41,6 +43,20 @@ double blocked_sum(const std::vector<std::size_t>& order, const BlockRunner& run
   double total = 0.0;
   for (const double sum : sums) total += sum;
   return total;
+}
+
+// Of disk i.
+inline double kinetic_energy_of(const Disks& d, std::size_t i) {
+  return 0.5 * d.mass_of(i) * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+}
+inline double potential_energy_of(const Disks& d, std::size_t i, const Gravity& gravity) {
+  return d.mass_of(i) * gravity.down * d.y[i] + d.mass_of(i) * gravity.left * d.x[i];
+}
+inline double rotational_energy_of(const Disks& d, std::size_t i) {
+  return rotational_energy(d.inertia, d.mass_of(i), d.radius_of(i), d.spin[i]);
+}
+inline double momentum_magnitude_of(const Disks& d, std::size_t i) {
+  return d.mass_of(i) * std::sqrt(d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
 }
 
 // Sums in id order within blocks of fixed size: the same bits for any storage order and thread count.

@@ -35,6 +35,12 @@ void add_run(Run run, std::vector<Run>& runs, std::vector<std::uint32_t>& near) 
 
 }  // namespace
 
+Slab slab_of(const SlabCut& cut, const Domain& box, int rank) {
+  const int last = cut.ranks() - 1;
+  const bool seam = box.periodic_y();
+  return {cut.low(rank), cut.high(rank), last > 0 && (seam || rank > 0), last > 0 && (seam || rank < last)};
+}
+
 // From the middle of the slab, so that it may be more than half of a periodic box.
 Beyond beyond(const Slab& slab, const Domain& box, double y) {
   const double half = 0.5 * (slab.high - slab.low);

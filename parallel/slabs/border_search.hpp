@@ -10,6 +10,7 @@
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/cells/counting_sort.hpp"
 #include "parallel/slabs/ghost_disks.hpp"
+#include "parallel/slabs/slab_cut.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 
@@ -20,6 +21,8 @@ struct Slab {
   double low = 0.0, high = 0.0;  // length
   bool has_lower = false, has_upper = false;
 };
+
+Slab slab_of(const SlabCut& cut, const Domain& box, int rank);
 
 // How far a centre lies beyond the borders; length, negative within.
 struct Beyond {

@@ -13,13 +13,14 @@
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/moving_disks.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
+#include "parallel/slabs/whole_state.hpp"
 
 namespace carom {
 
 namespace {
 
 // What rank 0 says that comes next.
-enum class Call : std::int64_t { end, make, step, collect, contacts, report, drop };
+enum class Call : std::int64_t { end, make, step, collect, contacts, sums, overlaps, release, report, drop };
 
 // The same on all ranks; only what rank 0 gives counts.
 Call agree_on(Ranks& ranks, Call call) {
@@ -106,9 +107,20 @@ void gather_disks(Ranks& ranks, const State& part, State* all) {
 // A rank's part of the engine, and what its steps took. All calls are collective.
 class Part {
  public:
-  Part(Ranks& ranks, std::unique_ptr<Engine> engine) : ranks_(ranks), engine_(std::move(engine)) {}
+  Part(Ranks& ranks, const Scene& scene, std::unique_ptr<Engine> engine)
+      : ranks_(ranks), scene_(scene), engine_(std::move(engine)) {}
 
+  const Scene& scene() const { return scene_; }
   Engine& engine() const { return *engine_; }
+
+  StateSums sums() const { return sums_over_ranks(ranks_, scene_, engine_->state()); }
+
+  // Null: only a state with all disks tells how deep they overlap.
+  const SlabCut* cut() const {
+    const auto* const in_slabs = dynamic_cast<const InSlabs*>(engine_.get());
+    return in_slabs != nullptr ? in_slabs->slab_cut() : nullptr;
+  }
+  DeepestOverlaps overlaps() const { return overlaps_over_ranks(ranks_, scene_, engine_->state(), *cut()); }
 
   // before: what the ranks had said to each other when they began to agree on this step.
   void step(const Traffic& before) {
@@ -133,6 +145,7 @@ class Part {
 
  private:
   Ranks& ranks_;
+  Scene scene_;
   std::unique_ptr<Engine> engine_;
   Count steps_ = 0;
   Traffic in_steps_;
@@ -140,8 +153,8 @@ class Part {
 
 class LeadingEngine final : public Engine {
  public:
-  LeadingEngine(Ranks& ranks, RankLead& lead, std::unique_ptr<Engine> part)
-      : ranks_(ranks), lead_(lead), part_(ranks, std::move(part)) {}
+  LeadingEngine(Ranks& ranks, RankLead& lead, const Scene& scene, std::unique_ptr<Engine> part)
+      : ranks_(ranks), lead_(lead), part_(ranks, scene, std::move(part)) {}
   LeadingEngine(const LeadingEngine&) = delete;
   LeadingEngine& operator=(const LeadingEngine&) = delete;
   ~LeadingEngine() override {
@@ -183,6 +196,24 @@ class LeadingEngine final : public Engine {
       }
     });
     return met;
+  }
+
+  StateSums sums() const {
+    if (whole_) return sums_of(*whole_, part_.scene());
+    StateSums all;
+    together(Call::sums, [&] { all = part_.sums(); });
+    return all;
+  }
+
+  DeepestOverlaps overlaps() const {
+    if (whole_ || part_.cut() == nullptr) return overlaps_of(state(), part_.scene());
+    DeepestOverlaps all;
+    together(Call::overlaps, [&] { all = part_.overlaps(); });
+    return all;
+  }
+
+  void release_memory() override {
+    together(Call::release, [&] { part_.engine().release_memory(); });
   }
 
   RankReport report() const {
@@ -229,6 +260,12 @@ void follow(Call call, Ranks& ranks, Part& part, const Traffic& before) {
     Bytes own;
     put_all(own, part.engine().contacts());
     ranks.collect(own);
+  } else if (call == Call::sums) {
+    part.sums();
+  } else if (call == Call::overlaps) {
+    part.overlaps();
+  } else if (call == Call::release) {
+    part.engine().release_memory();
   } else if (call == Call::report) {
     part.report();
   }
@@ -247,9 +284,11 @@ std::unique_ptr<Engine> RankLead::make_engine(const Scene& scene, State initial,
     ranks_.share(message_of(slabs));
     initial.disks = deal_out(ranks_, slabs, all, std::move(initial.disks));
     all = Disks();
-    auto engine = std::make_unique<LeadingEngine>(ranks_, *this,
+    auto engine = std::make_unique<LeadingEngine>(ranks_, *this, scene,
                                                   make_slab_part(scene, std::move(initial), slabs, threads, ranks_));
     report_ = [lead = engine.get()] { return lead->report(); };
+    sums_ = [lead = engine.get()] { return lead->sums(); };
+    overlaps_ = [lead = engine.get()] { return lead->overlaps(); };
     return engine;
   } catch (...) {
     lose();
@@ -273,7 +312,7 @@ void follow_lead(Ranks& ranks, const Threads& threads,
       auto [scene, state] = read(shared_text(ranks, ""));
       const SlabStart start = slab_start_of(ranks.share({}));
       state.disks = deal_out(ranks, start, {}, std::move(state.disks));
-      part.emplace(ranks, make_slab_part(scene, std::move(state), start, threads, ranks));
+      part.emplace(ranks, scene, make_slab_part(scene, std::move(state), start, threads, ranks));
     } else if (part) {
       follow(call, ranks, *part, before);
     }

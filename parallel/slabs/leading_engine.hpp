@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/measure/state_sums.hpp"
 #include "core/step/engine.hpp"
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/rank_report.hpp"
@@ -32,6 +33,9 @@ class RankLead {
 
   // Of the engine that was made last. Precondition: it is there, and no rank is lost.
   RankReport report() const { return report_(); }
+  // What is said of all disks, with the bits of one machine, without that a rank has them all.
+  StateSums sums() const { return sums_(); }
+  DeepestOverlaps overlaps() const { return overlaps_(); }
 
   // To be called once, when no engine is left. Does nothing after lost().
   void end();
@@ -43,6 +47,8 @@ class RankLead {
  private:
   Ranks& ranks_;
   std::function<RankReport()> report_;
+  std::function<StateSums()> sums_;
+  std::function<DeepestOverlaps()> overlaps_;
   bool lost_ = false;
 };
 

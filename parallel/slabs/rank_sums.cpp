@@ -40,7 +40,7 @@ void for_each_number(const Domain& box, ImpactTally& tally, Visit&& visit) {
   }
 }
 
-struct DeepestOverlaps {
+struct FiguresOverlaps {
   Overlap left, before, wall;
 };
 
@@ -69,9 +69,9 @@ void sum_counts_over_ranks(Ranks& ranks, std::vector<std::size_t>& count) {
 
 void join_over_ranks(Ranks& ranks, StepFigures& figures) {
   Bytes here;
-  put(here, DeepestOverlaps{figures.left, figures.before, figures.wall});
+  put(here, FiguresOverlaps{figures.left, figures.before, figures.wall});
   for (const Bytes& there : ranks.gather(here)) {
-    const auto seen = MessageReader(there).get<DeepestOverlaps>();
+    const auto seen = MessageReader(there).get<FiguresOverlaps>();
     figures.left.see(seen.left);
     figures.before.see(seen.before);
     figures.wall.see(seen.wall);

@@ -21,6 +21,17 @@ struct SlabCut {
   int rank_at(double y) const;
 };
 
+// An engine whose disks are in slabs, but for what they have moved since they were shared out.
+class InSlabs {
+ public:
+  InSlabs() = default;
+  InSlabs(const InSlabs&) = delete;
+  InSlabs& operator=(const InSlabs&) = delete;
+  virtual ~InSlabs() = default;
+  // The same on all ranks; null while the disks are not in slabs.
+  virtual const SlabCut* slab_cut() const = 0;
+};
+
 // A slab has to be so much thicker than the largest radius: disks of the slabs on either side of it never touch, as far
 // as any may leave its own slab before it goes to the next rank.
 inline constexpr double least_thickness = 4.0;  // radii

@@ -57,10 +57,7 @@ SlabStepping::SlabStepping(const Scene& scene, State part, const SlabStart& star
       largest_radius_(start.largest_radius),
       border_contacts_(ranks),
       disks_(start.disks) {
-  const bool seam = scene_.box.periodic_y();
-  const int last = ranks.count() - 1;
-  slab_ = {cut_.low(ranks.rank()), cut_.high(ranks.rank()), last > 0 && (seam || ranks.rank() > 0),
-           last > 0 && (seam || ranks.rank() < last)};
+  slab_ = slab_of(cut_, scene_.box, ranks.rank());
   if (disks_ > 0) make_cells(start.counts);
 }
 
@@ -70,14 +67,26 @@ void SlabStepping::make_cells(const std::vector<std::size_t>& counts) {
   keep_rows(grid_, slab_.low, slab_.high);
 }
 
+void SlabStepping::release_memory() {
+  if (!std::exchange(closed_up_, true)) contacts_kept_ = contacts_found();
+  sort_due_ = true;
+  for (auto* scratch : {&cells_.key, &cells_.start}) std::vector<std::uint32_t>().swap(*scratch);
+  release_sort_scratch(cells_);
+  coarse_ = {};
+  pairs_ = {};
+}
+
 double SlabStepping::disks_at(double /*t*/, Disks& out) const {
   out = state_.disks;
   return state_.time;
 }
 
-// Those across a border on the rank of the disk with the smaller id.
 std::vector<DiskContact> SlabStepping::contacts() const {
-  if (closed_up_) return contacts_kept_;
+  return closed_up_ ? contacts_kept_ : contacts_found();
+}
+
+// Those across a border on the rank of the disk with the smaller id.
+std::vector<DiskContact> SlabStepping::contacts_found() const {
   std::vector<DiskContact> met;
   const std::vector<DiskId>& id = state_.disks.id;
   for (std::size_t b = 0; b + 1 < pairs_.used; ++b) {

@@ -29,7 +29,7 @@ namespace carom {
 
 // state().disks are the rank's own disks; all else in state() is the same on all ranks. step() is collective. For
 // PairwiseMethod.
-class SlabStepping : public Engine {
+class SlabStepping : public Engine, public InSlabs {
  public:
   // part: with the disks in the rank's slab. start: of all disks, the same on all ranks.
   SlabStepping(const Scene& scene, State part, const SlabStart& start, const Threads& threads, Ranks& ranks);
@@ -37,6 +37,8 @@ class SlabStepping : public Engine {
   const State& state() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
   std::vector<DiskContact> contacts() const override;
+  const SlabCut* slab_cut() const override { return &cut_; }
+  void release_memory() override;
   const PhaseTimes& phase_times() const override { return times_; }
   std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }
 
@@ -59,6 +61,7 @@ class SlabStepping : public Engine {
   std::unique_ptr<ObstacleCells> obstacles_;  // of scene_.box
 
  private:
+  std::vector<DiskContact> contacts_found() const;
   void make_cells(const std::vector<std::size_t>& counts);
   void emit_from_sources(double t, Count step);
   void take_newcomers(const Disks& newcomers);

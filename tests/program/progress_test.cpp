@@ -25,7 +25,6 @@ struct Clock {
 
 State state_at(double time, Count steps) {
   State state;
-  for (std::size_t i = 0; i < 10; ++i) state.disks.x.push_back(0.0);
   state.time = time;
   state.counters.steps = steps;
   return state;
@@ -33,7 +32,7 @@ State state_at(double time, Count steps) {
 
 TEST(Progress, OffATerminalIsALineAMinute) {
   Clock clock;
-  Progress progress(true, 100.0, state_at(0.0, 0), clock.place(false));
+  Progress progress(true, 100.0, state_at(0.0, 0), 10, clock.place(false));
   // A run of three and a half minutes, whose line is updated ten times a second; it slows down after two.
   for (int tenth = 1; tenth <= 2100; ++tenth) {
     clock.now += 0.1;
@@ -53,7 +52,7 @@ TEST(Progress, OffATerminalIsALineAMinute) {
 
 TEST(Progress, AShortRunOffATerminalSaysNothing) {
   Clock clock;
-  Progress progress(true, 1.0, state_at(0.0, 0), clock.place(false));
+  Progress progress(true, 1.0, state_at(0.0, 0), 10, clock.place(false));
   clock.now += 59.0;
   progress.update(state_at(0.5, 10));
   EXPECT_THAT(clock.written, IsEmpty());
@@ -62,7 +61,7 @@ TEST(Progress, AShortRunOffATerminalSaysNothing) {
 TEST(Progress, OnATerminalTheLineIsRenewedInPlace) {
   Clock clock;
   {
-    Progress progress(true, 10.0, state_at(0.0, 0), clock.place(true, 20));
+    Progress progress(true, 10.0, state_at(0.0, 0), 10, clock.place(true, 20));
     for (int k = 1; k <= 3; ++k) {
       clock.now += 0.15;
       progress.update(state_at(k, static_cast<Count>(k)));
@@ -76,7 +75,7 @@ TEST(Progress, OnATerminalTheLineIsRenewedInPlace) {
 TEST(Progress, QuietIsQuiet) {
   for (const bool terminal : {false, true}) {
     Clock clock;
-    Progress progress(false, 10.0, state_at(0.0, 0), clock.place(terminal));
+    Progress progress(false, 10.0, state_at(0.0, 0), 10, clock.place(terminal));
     clock.now += 1e4;
     progress.update(state_at(1.0, 1));
     progress.clear();

@@ -70,6 +70,107 @@ TEST(LeadingEngine, HasAllDisksWheneverItIsAsked) {
   }
 }
 
+std::vector<Scene> scenes_of_all_sums() {
+  std::vector<Scene> scenes;
+  for (const char* sides : {"periodic", "wall", "moving"}) {
+    test::Features features;
+    features.method = "pairwise";
+    features.sides = sides;
+    features.radii = "mixed";
+    features.own_masses = features.gravity = std::string(sides) == "wall";
+    features.obstacles = !features.gravity;
+    features.restitution = 1.0;
+    scenes.push_back(test::feature_scene(features, 12));
+    if (features.gravity) scenes.back().box.restitutions = {1.0, 1.0, 1.0, 1.0};
+  }
+  test::Features sheared;
+  sheared.method = "pairwise";
+  sheared.sides = "periodic";
+  sheared.shear = 0.4;
+  sheared.rough = "sticking";
+  scenes.push_back(test::feature_scene(sheared, 12));
+  return scenes;
+}
+
+void expect_same(const StateSums& a, const StateSums& b) {
+  EXPECT_EQ(a.at.particles, b.at.particles);
+  EXPECT_EQ(a.at.time, b.at.time);
+  EXPECT_EQ(a.at.energy.kinetic, b.at.energy.kinetic);
+  EXPECT_EQ(a.at.energy.potential, b.at.energy.potential);
+  EXPECT_EQ(a.at.energy.rotational, b.at.energy.rotational);
+  EXPECT_EQ(a.at.momentum.x, b.at.momentum.x);
+  EXPECT_EQ(a.at.momentum.y, b.at.momentum.y);
+  EXPECT_EQ(a.at.momentum.magnitude, b.at.momentum.magnitude);
+  EXPECT_EQ(a.relative, b.relative);
+  EXPECT_EQ(a.smallest_radius, b.smallest_radius);
+  EXPECT_EQ(a.fastest, b.fastest);
+  EXPECT_EQ(a.hash, b.hash);
+}
+
+void expect_same(const Overlap& a, const Overlap& b) {
+  EXPECT_EQ(a.size, b.size);
+  EXPECT_EQ(a.id1, b.id1);
+  EXPECT_EQ(a.id2, b.id2);
+}
+
+// Sums and overlaps without that rank 0 has all disks; and a run goes on after memory was given back.
+TEST(LeadingEngine, SaysOfAllDisksWhatOneMachineSays) {
+  double deepest = 0.0;
+  for (const Scene& scene : scenes_of_all_sums()) {
+    SCOPED_TRACE(scene.title);
+    const State start = initial_state(scene);
+    for (const int count : {1, 2, 3, 4}) {
+      on_ranks(count, scene, start, [&](RankLead& lead) {
+        const auto expected = make_parallel_engine(scene, start, {1});
+        const auto engine = lead.make_engine(scene, start, {1, 512}, the_start);
+        for (int step = 0; step < 12; ++step) {
+          expect_same(lead.sums(), sums_of(expected->state(), scene));
+          const DeepestOverlaps overlaps = overlaps_of(expected->state(), scene);
+          expect_same(lead.overlaps().disks, overlaps.disks);
+          expect_same(lead.overlaps().wall, overlaps.wall);
+          deepest = std::max(deepest, overlaps.disks.size);
+          engine->step();
+          expected->step();
+          if (step % 3 == 0) engine->release_memory();
+          EXPECT_EQ(engine->contacts().size(), expected->contacts().size());
+        }
+        EXPECT_EQ(state_hash(engine->state().disks), state_hash(expected->state().disks));
+        expect_same(lead.sums(), sums_of(expected->state(), scene));
+      });
+    }
+  }
+  EXPECT_GT(deepest, 0.0);
+}
+
+// Sums go block by block in order of id; here over several pieces that ranks send, with ids that are missing.
+TEST(LeadingEngine, SumsManyDisksInOrderOfId) {
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 300.0\nheight = 300.0\nright = \"sink\"\n[[disks]]\ncount = 70000\npositions = \"random\"\n"
+      "radius = { uniform = [0.2, 0.4] }\nmass = { uniform = [1.0, 3.0] }\nvelocities = { maxwell = 9.0 }\n"
+      "[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 0.05\n",
+      "scene", "");
+  const State start = initial_state(scene);
+  on_ranks(3, scene, start, [&](RankLead& lead) {
+    const auto expected = make_parallel_engine(scene, start, {1});
+    const auto engine = lead.make_engine(scene, start, {1}, the_start);
+    while (engine->progress().time < scene.run.t_end) {
+      engine->step();
+      expected->step();
+    }
+    EXPECT_LT(expected->state().disks.size(), start.disks.size());
+    expect_same(lead.sums(), sums_of(expected->state(), scene));
+    const State& state = expected->state();
+    const Energy energy = energy_of(state.disks, scene.physics.gravity);
+    const Momentum momentum = momentum_of(state.disks);
+    const StateSums sums = lead.sums();
+    EXPECT_EQ(sums.at.energy.kinetic, energy.kinetic);
+    EXPECT_EQ(sums.at.momentum.x, momentum.x);
+    EXPECT_EQ(sums.at.momentum.y, momentum.y);
+    EXPECT_EQ(sums.at.momentum.magnitude, momentum.magnitude);
+    EXPECT_EQ(sums.hash, state_hash(state.disks));
+  });
+}
+
 // What a state has by id is that of the rank that has the disk.
 TEST(LeadingEngine, HasTheReflectionsOfAllDisks) {
   const Scene scene = parse_scene(

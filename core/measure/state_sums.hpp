@@ -1,0 +1,61 @@
+// What a summary says of all disks of a state together, for a program that need not have them at the same time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/measure/run_start.hpp"
+
+namespace carom {
+
+struct StateSums {
+  RunStart at;            // of this state: disks, time, energy, momentum
+  double relative = 0.0;  // kinetic energy relative to the flow of a sheared box; of others, the kinetic energy
+  double smallest_radius = 0.0, fastest = 0.0;  // length; length / time; 0 without disks
+  std::uint64_t hash = 0;                       // state_hash
+};
+
+struct DeepestOverlaps {
+  Overlap disks, wall;
+};
+
+// The sums from disks that come in pieces: the bits of energy_of and momentum_of all the same.
+class StateTally {
+ public:
+  StateTally(const Scene& scene, double time) : scene_(scene), box_(box_at(scene.box, time)) { sums_.at.time = time; }
+
+  // The next disks in order of id; order: by_id(disks).
+  void add(const Disks& disks, const std::vector<std::size_t>& order);
+
+  StateSums sums() const;
+
+ private:
+  // blocked_sum, term by term.
+  class Sum {
+   public:
+    void add(double term) {
+      block_ += term;
+      if (++terms_ < sum_block) return;
+      total_ += block_;
+      block_ = 0.0;
+      terms_ = 0;
+    }
+    double value() const { return terms_ > 0 ? total_ + block_ : total_; }
+
+   private:
+    double total_ = 0.0, block_ = 0.0;
+    std::size_t terms_ = 0;
+  };
+
+  const Scene& scene_;
+  Domain box_;
+  StateSums sums_;
+  std::uint64_t hashes_ = 0;
+  Sum kinetic_, potential_, rotational_, relative_, px_, py_, magnitude_;
+};
+
+// Of a state with all disks.
+StateSums sums_of(const State& state, const Scene& scene);
+DeepestOverlaps overlaps_of(const State& state, const Scene& scene);
+
+}  // namespace carom
