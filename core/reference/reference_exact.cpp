@@ -30,8 +30,9 @@ class ReferenceExact final : public Engine {
     if (!(state_.time < scene_.run.t_end)) return;
     start_window();
     SpeedTally speeds;
-    speeds.add(state_.disks, 0, state_.disks.size());
-    WindowPlan plan = plan_window(scene_, state_, summarise_speeds(speeds, state_.disks.size()), scale_);
+    const std::size_t n = state_.disks.size();
+    speeds.add(state_.disks, 0, n);
+    WindowPlan plan = plan_window(scene_, state_, n, summarise_speeds(speeds, n), scale_);
     if (obstacles_) obstacles_->follow(plan.start, plan.end);
     const PhaseTimer timer(times_, "window");
     const ExactRules rules = exact_rules(scene_, state_.disks, plan.start);
@@ -130,7 +131,7 @@ class ReferenceExact final : public Engine {
       if (!state_.thermal_hits.empty()) state_.thermal_hits[d.id[i]] = result.disks[i].thermal_hits;
     }
     state_.counters.removed += remove_marked(d, result.gone);
-    finish_window(state_, plan, result.tally, scale_);
+    finish_window(state_, state_.disks.size(), plan, result.tally, scale_);
     Overlap wall;
     if (walls_are_watched(scene_)) wall = deepest_wall_overlap(d, box_at(scene_.box, state_.time), 0, d.size());
     validity_.see_step(scene_, {{}, {}, wall, result.tally.all_inaccurate()}, state_);

@@ -77,10 +77,11 @@ ExactRules exact_rules(const Scene& scene, const Disks& disks, double start) {
   return rules;
 }
 
-WindowPlan plan_window(const Scene& scene, const State& state, const SpeedSummary& speeds, double scale) {
+WindowPlan plan_window(const Scene& scene, const State& state, std::size_t disks, const SpeedSummary& speeds,
+                       double scale) {
   WindowPlan plan;
   plan.start = state.time;
-  const double longest = longest_window(scene, speeds, state.disks.size());
+  const double longest = longest_window(scene, speeds, disks);
   plan.meant = clamped_window(state.window, longest) * scale;
   plan.least = least_window(longest) * scale;
   plan.tc = has_tc(scene);
@@ -111,14 +112,14 @@ WindowPlan shortened(const WindowPlan& plan, const ExactRules& rules, const Even
   return shorter;
 }
 
-void finish_window(State& state, const WindowPlan& plan, const ImpactTally& tally, double scale) {
+void finish_window(State& state, std::size_t disks, const WindowPlan& plan, const ImpactTally& tally, double scale) {
   Counters& c = state.counters;
   tally.count_into(c);
   ++c.steps;
   state.time = plan.end;
   const double meant = plan.meant / scale;
   const double next =
-      next_window(meant, plan.length / scale, tally.collisions + tally.wall_collisions, state.disks.size());
+      next_window(meant, plan.length / scale, tally.collisions + tally.wall_collisions, disks);
   const double least = plan.least / scale;
   // Below the least length windows grow again as soon as they are less crowded; they shrink where they are crowded.
   const bool stays_below = meant < least && std::max(next, meant) < least;

@@ -1,6 +1,8 @@
 // One window of the exact method: where it lies in time.
 #pragma once
 
+#include <cstddef>
+
 #include "core/disks/state.hpp"
 #include "core/physics/exact_event.hpp"
 #include "core/physics/impact_tally.hpp"
@@ -25,16 +27,17 @@ bool has_tc(const Scene& scene);
 // start: of the window, when moving sides are where the rules say.
 ExactRules exact_rules(const Scene& scene, const Disks& disks, double start);
 
-// The window that starts at state.time, from state.window and the disks' speeds. scale: 1, or what a test multiplies
-// windows by. Throws PhysicsError when time no longer advances.
-WindowPlan plan_window(const Scene& scene, const State& state, const SpeedSummary& speeds, double scale);
+// The window that starts at state.time, from state.window, the number of all disks (state may have but some of them) and
+// their speeds. scale: 1, or what a test multiplies windows by. Throws PhysicsError when time no longer advances.
+WindowPlan plan_window(const Scene& scene, const State& state, std::size_t disks, const SpeedSummary& speeds,
+                       double scale);
 
 // What takes the place of a window that proved to be crowded (window_length.hpp) with event `last`: half the way to
 // that event. Throws PhysicsError where time cannot be divided any further.
 WindowPlan shortened(const WindowPlan& plan, const ExactRules& rules, const EventMark& last);
 
-// The window is over: time, counters and the length meant for the next one.
-void finish_window(State& state, const WindowPlan& plan, const ImpactTally& tally, double scale);
+// The window is over: time, counters and the length meant for the next one. disks: how many there are now.
+void finish_window(State& state, std::size_t disks, const WindowPlan& plan, const ImpactTally& tally, double scale);
 
 // After finish_window: throws PhysicsError when a row of crowded windows has hardly advanced time.
 void check_pace(const Scene& scene, State& state, const WindowPlan& plan);

@@ -30,7 +30,7 @@ void EventProcessor<scope>::meet_side(std::uint32_t i, double time) {
   const DiskId partner = record_[i].partner.wall_id();
   ExactDisk now = disk(i);
   const Impact impact = meet_side_at(window_.rules, time, side, window_.disks->mass_of(i), record_[i].id, now);
-  worker_.tally.add(partner, impact);
+  if (counts(i)) worker_.tally.add(partner, impact);
   const bool gone = window_.rules.box.side(side) == SideKind::sink;
   const EventMark event{time, record_[i].id, partner};
   begin_segment(i, now, gone ? LoggedSegment::gone : LoggedSegment::no_disk, event);
@@ -48,7 +48,7 @@ void EventProcessor<scope>::meet_obstacle(std::uint32_t i, double time) {
   ExactDisk now = disk(i);
   const Impact impact =
       meet_obstacle_at(window_.rules, time, record_[i].partner.place(), window_.disks->mass_of(i), record_[i].id, now);
-  worker_.tally.add(partner, impact);
+  if (counts(i)) worker_.tally.add(partner, impact);
   const EventMark event{time, record_[i].id, partner};
   const bool gone = is_sink(window_.rules.box, partner);
   begin_segment(i, now, gone ? LoggedSegment::gone : LoggedSegment::no_disk, event);
@@ -80,7 +80,7 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
   const auto restitution = [this](const Relative&) { return window_.rules.restitution; };
   const Impact impact =
       collide_paths<false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, restitution, p, q);
-  if (impact.happened) worker_.tally.add_collision(impact.virial);
+  if (impact.happened && counts(i)) worker_.tally.add_collision(impact.virial);
   begin_plain_segment(i, j, p);
   begin_plain_segment(j, i, q);
   predict_after_event(i, time);
@@ -131,7 +131,7 @@ void EventProcessor<scope>::collide_any_pair(std::uint32_t i, std::uint32_t j, d
     return;
   }
   const Impact impact = collide_at(window_.rules, time, id1, id2, d.mass_of(i), d.mass_of(j), a, b);
-  worker_.tally.add(id2, impact);
+  if (counts(i)) worker_.tally.add(id2, impact);
   const EventMark event{time, id1, id2};
   begin_segment(i, a, j, event);
   begin_segment(j, b, i, event);

@@ -59,7 +59,8 @@ class DiskProgress {
     at_border = 1,                 // lists a disk of another region
     lists_border = 2,              // lists a disk that is at a border
     has_unresolved_neighbour = 4,  // perhaps: one that is at a border, or blocked in this slice
-    relists_late = 8               // is due to be relisted, which waits for the end of the slice
+    relists_late = 8,              // is due to be relisted, which waits for the end of the slice
+    ghost = 16                     // belongs to another rank, which counts what happens to it
   };
 
   constexpr DiskProgress() = default;  // active
@@ -77,7 +78,7 @@ class DiskProgress {
   constexpr void clear(Mark mark) { bits_ &= ~static_cast<std::uint32_t>(mark); }
 
  private:
-  static constexpr std::uint32_t mark_bits = 4;
+  static constexpr std::uint32_t mark_bits = 5;
   static constexpr std::uint32_t marks = (1U << mark_bits) - 1U;
   static constexpr std::uint32_t active_state = 0xffffffffU >> mark_bits;
   static constexpr std::uint32_t border_state = active_state - 1;

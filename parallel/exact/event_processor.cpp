@@ -225,10 +225,23 @@ void EventProcessor<scope>::relist_late(const std::vector<std::uint32_t>& disks)
     if (!gone && !relist(i, window_.slice_stop())) continue;
     record.progress.clear(DiskProgress::relists_late);
     if (gone) continue;
-    const auto [time, partner] = next_event<false>(i, window_.slice_stop());
-    window_.next_event_time[i] = time;
-    record.partner = partner;
+    predict_next_slice(i);
   }
+}
+
+template <Scope scope>
+void EventProcessor<scope>::predict_next_slice(std::uint32_t i) {
+  const auto [time, partner] = next_event<false>(i, window_.slice_stop());
+  window_.next_event_time[i] = time;
+  record_[i].partner = partner;
+}
+
+template <Scope scope>
+void EventProcessor<scope>::relist_if_due(std::uint32_t i) {
+  const double now = window_.slice_stop();
+  if (lists_.earliest_relist_time(i, record_[i].path, now, now, window_.rules.gravity) > now) return;
+  relist(i, now);
+  mark_relisted(i);
 }
 
 // Border: an event of the queue. It is invalid where the disk's events have been predicted again; an event of the same
@@ -299,11 +312,12 @@ inline void EventProcessor<scope>::schedule(std::uint32_t i, double time, Partne
   }
 }
 
-// False if that would change the lists of another region.
+// False if that would change the lists of another region, or make it a disk at a border.
 template <Scope scope>
 bool EventProcessor<scope>::relist(std::uint32_t i, double time) {
   PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
   const Vec2 at = lists_.listing_place(p, window_.rules.box);
+  if (scope == Scope::region && window_.is_beyond_band(i, at.y, lists_.skin())) return false;
   if (!lists_.relist(i, at, *window_.disks, worker_.region, worker_.found)) return false;
   ++worker_.relisted;
   if constexpr (scope == Scope::region) safe_times_.mark_relisted(i, time);

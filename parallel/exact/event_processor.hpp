@@ -43,6 +43,10 @@ class EventProcessor {
   // Border, at the slice's end: relists those of the disks that are marked relists_late, as far as their lists are
   // within the worker's region, and predicts their next events.
   void relist_late(const std::vector<std::uint32_t>& disks);
+  // Border: the disk, whose path at the slice's end is known, is listed anew if it has moved too far.
+  void relist_if_due(std::uint32_t i);
+  // Border: predicts the disk's next event, after the slice.
+  void predict_next_slice(std::uint32_t i);
   // Border: what a new list means for the next slice; no other thread works.
   void mark_relisted(std::uint32_t i) { safe_times_.mark_relisted_at_border(i); }
   // Processes all events of the slice; stops early where the worker's `ended` is set.
@@ -73,6 +77,8 @@ class EventProcessor {
   void relist_and_predict(std::uint32_t i, double time);
   void put_off_relisting(std::uint32_t i);
   bool relist(std::uint32_t i, double time);
+  // Does this rank count what happens to the disk?
+  bool counts(std::uint32_t i) const { return !has_regions || !record_[i].progress.has(DiskProgress::ghost); }
   void meet_side(std::uint32_t i, double time);
   void meet_obstacle(std::uint32_t i, double time);
   void collide_pair(std::uint32_t i, std::uint32_t j, double time);

@@ -46,7 +46,7 @@ void FoundNeighbours::grow(std::size_t disks) {
   buffer.resize(2 * (disks + list_kernel_padding));
 }
 
-void NeighbourLists::choose_skin(const Disks& d, double relist_share) {
+void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout) {
   const double n = static_cast<double>(d.size());
   double radius = 0.0;
   double area = 0.0;
@@ -58,13 +58,15 @@ void NeighbourLists::choose_skin(const Disks& d, double relist_share) {
     radius = d.common_radius;
     area = n * std::numbers::pi * radius * radius;
   }
-  const double space = box_.width * box_.height;
+  // That the disks have in the box, were there none of other ranks.
+  const double share = layout.disks_of_box > 0 ? n / static_cast<double>(layout.disks_of_box) : 1.0;
+  const double space = share * box_.width * box_.height;
   const double cutoff = mode_ == EngineMode::regions
                             ? region_cutoff_in_spacings
                             : thin_cutoff_in_spacings + cutoff_by_packing_fraction * area / space;
   skin_ = std::max({0.5 * (cutoff * std::sqrt(space / n) - 2.0 * radius), least_skin * 2.0 * radius,
                     least_units * std::max(unit_x_, unit_y_)});
-  relist_distance_ = relist_share * skin_;
+  relist_distance_ = layout.relist_share * skin_;
   stay2_ = relist_distance_ * relist_distance_ * (1.0 - 2e-9);
   lead2_ = most_lead * most_lead * relist_distance_ * relist_distance_;
 }
@@ -75,6 +77,11 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& ex
   if (count.size() == 1) count[0] = d.size();
   if (count.size() > 1) {
     for (const double r : d.radius) ++count[class_of_radius(r, largest)];
+  }
+  if (layout.disks_of_box > 0) {
+    // Cells are those of the whole box.
+    const double others = static_cast<double>(layout.disks_of_box) / std::max<double>(1.0, static_cast<double>(d.size()));
+    for (std::size_t& c : count) c = static_cast<std::size_t>(others * static_cast<double>(c));
   }
   if (layout.disks_per_tile > 0) {
     make_tiled_grid(box_, largest, count, layout.disks_per_tile, layout.regions, grid_);
@@ -102,7 +109,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   grid_.tile_keys = 0;
   stay2_ = never;
   if (mode_ != EngineMode::all_pairs) {
-    choose_skin(d, layout.relist_share);
+    choose_skin(d, layout);
     // That of the rows is given back for what sorting needs.
     if (n > disks_of_much_memory) rows_.release();
     sort(d, layout, executor);

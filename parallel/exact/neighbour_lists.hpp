@@ -257,7 +257,7 @@ class NeighbourLists {
   Vec2 into_flow(double x, double y, double s) const;
   bool stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until,
                             const Gravity& g) const;
-  void choose_skin(const Disks& disks, double relist_share);
+  void choose_skin(const Disks& disks, const ListLayout& layout);
   void sort(Disks& disks, const ListLayout& layout, const Executor& executor);
   void list_all(const Disks& disks, const Executor& executor);
   void list_block(const Disks& disks, std::size_t block, std::size_t begin, std::size_t end);

@@ -131,6 +131,7 @@ void SafeTimes::mark_relisted(std::uint32_t i, double time) {
 
 // Marks are set at once: the neighbours keep disk i in their lists, however soon it is relisted.
 void SafeTimes::mark_relisted_at_border(std::uint32_t i) {
+  if (window_.is_beyond_band(i, lists_.listed_position(i).y, lists_.skin())) mark_border(i);
   lists_.for_each_neighbour(i, [&](std::uint32_t j) {
     if (region_of(i) != region_of(j)) {
       mark_border(i);

@@ -19,9 +19,17 @@ void SliceScheduler::begin_window(bool rebuilt) {
   border_pass_.begin_window();
   single_.begin_window();
   single_.region = ListRegion{};
-  if (!rebuilt) return;
-  relisted_ = 0;
-  lay_out_regions();
+  others_.begin_window();
+  if (rebuilt) {
+    relisted_ = 0;
+    lay_out_regions();
+    slice_room_ = has_regions() ? lists_.skin() - lists_.relist_distance() : never;
+    if (ghosts_ != nullptr) {
+      slice_room_ = ghosts_->least_of_all(slice_room_);
+      mark_ghosts();
+    }
+  }
+  if (ghosts_ != nullptr) mark_edges();
 }
 
 // With about as many disks each.
@@ -85,13 +93,12 @@ void SliceScheduler::find_near_border(Region& region) {
 // No disk leaves its skin: one that is resolved moves by no more than the relist distance, and one that is not by no
 // more than that and what it covers in the slice.
 double SliceScheduler::longest_slice() const {
-  return has_regions() ? (lists_.skin() - lists_.relist_distance()) / window_.speed_bound : never;
+  return has_regions() ? slice_room_ / window_.speed_bound : never;
 }
 
-double SliceScheduler::slice_end(double length, double start, double rate) const {
+double SliceScheduler::slice_end(double length, double start, double per_disk) const {
   double longest = longest_slice();
-  const double n = static_cast<double>(window_.record.size());
-  if (longest < never && rate > 0.0) longest = std::min(longest, events_per_slice * n / rate);
+  if (longest < never && per_disk > 0.0) longest = std::min(longest, events_per_slice / per_disk);
   const double left = length - start;
   const double parts = std::ceil(left / longest);
   return parts > 1.0 ? start + left / parts : never;
@@ -100,6 +107,8 @@ double SliceScheduler::slice_end(double length, double start, double rate) const
 SliceOutcome SliceScheduler::run(double start, double end, double per_disk, double window_start) {
   window_.slice_start = start;
   window_.slice_end = end;
+  if (ghosts_ != nullptr) return run_with_ghosts(per_disk);
+  const Count before = events();
   if (has_regions()) {
     run_regions(per_disk);
   } else {
@@ -109,6 +118,7 @@ SliceOutcome SliceScheduler::run(double start, double end, double per_disk, doub
   if (reached != SliceOutcome::done) return reached;
   if (single_.collapse && !has_regions()) fail_collapse(window_.rules, *single_.collapse, window_start);
   for_each_worker([&](const Worker& worker) { window_.fastest2 = std::max(window_.fastest2, worker.fastest2); });
+  events_of_slice_ = events() - before;
   return SliceOutcome::done;
 }
 
@@ -163,7 +173,73 @@ void SliceScheduler::run_regions(double per_disk) {
   relisted_ += border_pass_.relisted();
   if (watch_) show_borders();
   executor_.run(regions_.size(), [&](std::size_t r) { finish_slice(regions_[r]); });
-  take_in_new_border();
+  take_in_new_border(border_pass_.new_border(), border_pass_.new_near_border());
+}
+
+// The same on one of several ranks. None leaves before all know how the slice ended on each.
+SliceOutcome SliceScheduler::run_with_ghosts(double per_disk) {
+  const Count before = events();
+  Region& region = regions_.front();
+  run_region(region, per_disk);
+  relisted_ += region.worker.relisted;
+  window_.fastest2 = std::max(window_.fastest2, region.worker.fastest2);
+  SliceOutcome here = outcome();
+  if (here == SliceOutcome::done && depends_on_others()) here = SliceOutcome::ghosts_too_few;
+  events_of_slice_ = events() - before;
+  const SliceOutcome reached = ghosts_->agree(here, events_of_slice_);
+  if (reached != SliceOutcome::done) return reached;
+  unknown_ = region.border;
+  for (const BlockedDisk& blocked : region.worker.blocked) unknown_.push_back(blocked.disk);
+  changed_.clear();
+  ghosts_->learn(window_, unknown_, changed_);
+  see_slice_of_others();
+  finish_slice(region);
+  take_in_new_border(others_.border, others_.near_border);
+  relisted_ += others_.relisted;
+  return SliceOutcome::done;
+}
+
+// Is the motion of a disk of this rank not known to the slice's end?
+bool SliceScheduler::depends_on_others() const {
+  const auto is_own = [this](std::uint32_t i) { return !window_.record[i].progress.has(DiskProgress::ghost); };
+  const Region& region = regions_.front();
+  return std::any_of(region.border.begin(), region.border.end(), is_own) ||
+         std::any_of(region.worker.blocked.begin(), region.worker.blocked.end(),
+                     [&](const BlockedDisk& blocked) { return is_own(blocked.disk); });
+}
+
+// All paths are those at the slice's end: first the lists follow, then the blocked disks' events are predicted.
+void SliceScheduler::see_slice_of_others() {
+  others_.begin_slice();
+  others_.region = ListRegion{};
+  EventProcessor<Scope::border> events(window_, lists_, others_);
+  const std::vector<BlockedDisk>& blocked = regions_.front().worker.blocked;
+  for (const std::uint32_t i : changed_) events.relist_if_due(i);
+  for (const BlockedDisk& b : blocked) events.relist_if_due(b.disk);
+  for (const BlockedDisk& b : blocked) events.predict_next_slice(b.disk);
+}
+
+void SliceScheduler::mark_ghosts() {
+  for (std::uint32_t i = 0; i < window_.record.size(); ++i) {
+    if (ghosts_->is_ghost(i)) window_.record[i].progress.set(DiskProgress::ghost);
+  }
+}
+
+// Disks that may meet one that is not here in this window are at a border.
+void SliceScheduler::mark_edges() {
+  Region& region = regions_.front();
+  for (std::uint32_t i = 0; i < window_.record.size(); ++i) {
+    DiskRecord& record = window_.record[i];
+    if (record.progress.is_border() || !window_.is_beyond_band(i, lists_.listed_position(i).y, lists_.skin())) continue;
+    record.progress.set(DiskProgress::at_border);
+    record.progress.set_border();
+    region.border.push_back(i);
+    lists_.for_each_neighbour(i, [&](std::uint32_t j) {
+      if (window_.record[j].progress.has(DiskProgress::lists_border)) return;
+      window_.record[j].progress.set(DiskProgress::lists_border);
+      region.near_border.push_back(j);
+    });
+  }
 }
 
 void SliceScheduler::run_region(Region& region, double per_disk) {
@@ -194,8 +270,9 @@ void SliceScheduler::finish_slice(Region& region) {
                             region.worker.near_border.end());
 }
 
-void SliceScheduler::take_in_new_border() {
-  for (const std::uint32_t i : border_pass_.new_border()) {
+void SliceScheduler::take_in_new_border(const std::vector<std::uint32_t>& border,
+                                        const std::vector<std::uint32_t>& near_border) {
+  for (const std::uint32_t i : border) {
     Region& region = region_of(i);
     const std::uint32_t entry = i - region.worker.region.first_disk;
     region.worker.calendar.take_out(entry);
@@ -203,7 +280,7 @@ void SliceScheduler::take_in_new_border() {
     window_.record[i].progress.set_border();
     region.border.push_back(i);
   }
-  for (const std::uint32_t i : border_pass_.new_near_border()) region_of(i).near_border.push_back(i);
+  for (const std::uint32_t i : near_border) region_of(i).near_border.push_back(i);
 }
 
 void SliceScheduler::show_borders() const {

@@ -10,21 +10,20 @@
 #include "parallel/exact/event_processor.hpp"
 #include "parallel/exact/neighbour_lists.hpp"
 #include "parallel/exact/region.hpp"
+#include "parallel/exact/slice_outcome.hpp"
+#include "parallel/exact/window_ghosts.hpp"
 #include "parallel/exact/window_state.hpp"
 #include "parallel/exact/worker.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
 
-// How a slice ended. Unless it is `done`, nothing of the window counts: a disk was faster than the speed bound; the
-// window is crowded (core/step/window_length.hpp); it was given up.
-enum class SliceOutcome : std::uint8_t { done, too_fast, crowded, given_up };
-
 // With a single queue, a window is one slice, and one worker processes its events. With regions, each thread has a
 // region, a run of layers, and processes the events of its disks as far as they do not depend on disks whose motion is
 // not yet known: a disk that lists one of another region is at the border, and its motion in a slice becomes known in
 // the border pass, after all regions; so does that of disks that are blocked because of one. Which worker processes an
-// event depends on the threads, the event does not.
+// event depends on the threads, the event does not. On one of several ranks there is one region, and disks near the edge
+// of what the rank has are at a border; what happens to those that depend on disks of others the others tell.
 class SliceScheduler {
  public:
   SliceScheduler(WindowState& window, NeighbourLists& lists, const Executor& executor)
@@ -34,8 +33,8 @@ class SliceScheduler {
   void begin_window(bool rebuilt);
 
   // The end of the slice that begins at this time of a window of this length; `never` for the last one. All are of
-  // nearly equal length. rate: events per time, 0 if not known; window.speed_bound has been set.
-  double slice_end(double length, double start, double rate) const;
+  // nearly equal length. per_disk: events a disk and time, 0 if not known; window.speed_bound has been set.
+  double slice_end(double length, double start, double per_disk) const;
 
   // Runs the slice, the window's first where it starts at 0; per_disk: events a disk and time, about. At inelastic
   // collapse the result is `crowded` with regions; otherwise it throws PhysicsError.
@@ -58,6 +57,10 @@ class SliceScheduler {
   void release_calendars();
   // With regions: called at the end of each slice, before blocked disks go on.
   void set_border_watch(const BorderWatch& watch) { watch_ = watch; }
+  // On one of several ranks; outlives the scheduler.
+  void set_ghosts(WindowGhosts* ghosts) { ghosts_ = ghosts; }
+  // Events of the last slice, on all ranks.
+  Count events_of_slice() const { return events_of_slice_; }
   // Disks relisted since the lists were built.
   Count relisted() const { return relisted_; }
 
@@ -78,7 +81,12 @@ class SliceScheduler {
   void run_region(Region& region, double per_disk);
   void begin_slice(Region& region);
   void finish_slice(Region& region);
-  void take_in_new_border();
+  void take_in_new_border(const std::vector<std::uint32_t>& border, const std::vector<std::uint32_t>& near_border);
+  void mark_ghosts();
+  void mark_edges();
+  SliceOutcome run_with_ghosts(double per_disk);
+  void see_slice_of_others();
+  bool depends_on_others() const;
   void show_borders() const;
   Region& region_of(std::uint32_t i) { return regions_[window_.region_of_tile[lists_.tile_of(i)]]; }
   SliceOutcome outcome() const;
@@ -91,6 +99,11 @@ class SliceScheduler {
   Worker single_;           // with a single queue: all disks
   Count relisted_ = 0;
   BorderWatch watch_;
+  double slice_room_ = 0.0;  // no disk may go further in a slice; length
+  Count events_of_slice_ = 0;
+  WindowGhosts* ghosts_ = nullptr;
+  Worker others_;  // of ghosts whose paths other ranks tell
+  std::vector<std::uint32_t> unknown_, changed_;
 };
 
 }  // namespace carom

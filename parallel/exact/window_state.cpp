@@ -30,7 +30,6 @@ void WindowState::begin(const ExactRules& window_rules, const Disks& all, const 
   length = plan.length;
   horizon = windows_ahead * plan.length;
   next_start = std::nextafter(plan.length, never);
-  most_paths = carom::most_paths(all.size());
   fastest2 = fastest_speed2;
   largest_radius = radius;
   set_tolerances();

@@ -11,6 +11,7 @@
 #include "core/step/window_plan.hpp"
 #include "parallel/exact/disk_record.hpp"
 #include "parallel/exact/engine_mode.hpp"
+#include "parallel/exact/known_band.hpp"
 
 namespace carom {
 
@@ -52,6 +53,7 @@ struct WindowState {
   double speed_bound = 0.0;
   double slice_start = 0.0;
   double slice_end = 0.0;  // events before this time; in the last slice up to and including `length`
+  KnownBand band;  // no disk that is not here comes into it in the window
   bool keeps_paths = true;
   Count most_paths = 0;         // of all disks, beyond which the window is crowded (core/step/window_length.hpp)
   std::function<bool()> go_on;  // as in Engine::set_watch
@@ -62,6 +64,10 @@ struct WindowState {
   double last_look(std::uint32_t i) const {
     constexpr std::uint32_t golden = 2654435769U;  // 2^32 over the golden ratio: multiples are spread evenly
     return horizon - length * (0x1p-32 * static_cast<double>(i * golden));
+  }
+  // May disk i, listed at this height with this skin, meet a disk that is not here?
+  bool is_beyond_band(std::uint32_t i, double y, double skin) const {
+    return !band.holds(y, (skin + record[i].radius + largest_radius + slack) * (1.0 + 1e-9));
   }
   bool in_slice(double t) const { return t < slice_end && t <= length; }
   double slice_stop() const { return slice_end < length ? slice_end : length; }

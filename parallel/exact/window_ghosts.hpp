@@ -1,0 +1,41 @@
+// The exact engine on one of several ranks: what a window asks of the others. A rank has its own disks, and sees those
+// of others that are near, its ghosts: it processes their events too, as far as they are known.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "parallel/exact/known_band.hpp"
+#include "parallel/exact/slice_outcome.hpp"
+#include "parallel/exact/window_state.hpp"
+
+namespace carom {
+
+class WindowGhosts {
+ public:
+  WindowGhosts() = default;
+  WindowGhosts(const WindowGhosts&) = delete;
+  WindowGhosts& operator=(const WindowGhosts&) = delete;
+  virtual ~WindowGhosts() = default;
+
+  // Is disk i, by storage index, a ghost?
+  virtual bool is_ghost(std::uint32_t i) const = 0;
+
+  // Where no disk that is not here can come to while none goes further than `flight`.
+  virtual KnownBand band(double flight) const = 0;
+
+  // All of these are collective: each rank calls them at the same places.
+
+  // The smallest of all ranks' numbers.
+  virtual double least_of_all(double here) = 0;
+  // How a slice has ended on all ranks: `done` only if it is that on each. events: of this rank's slice, becomes that of
+  // all.
+  virtual SliceOutcome agree(SliceOutcome here, Count& events) = 0;
+  // The disks, all ghosts, whose motion in the slice is not known here get their paths at the slice's end from the ranks
+  // that own them; `changed` gets those whose path is another now.
+  virtual void learn(WindowState& window, const std::vector<std::uint32_t>& unknown,
+                     std::vector<std::uint32_t>& changed) = 0;
+};
+
+}  // namespace carom

@@ -1,0 +1,188 @@
+#include "parallel/exact/window_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.hpp"
+#include "core/physics/exact_path.hpp"
+#include "parallel/exact/logged_paths.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks a block in passes over all disks.
+constexpr std::size_t pass_block = 8192;
+// At the start of a window all paths begin anew from rounded coordinates, so that events may come a little earlier than
+// they were predicted: disks are predicted again this share of a window early. That is enough where the approach is
+// faster than WindowState::slow; slower contacts that are close are predicted at every start.
+constexpr double early_share = 1e-3;
+// The lists are rebuilt, and the disks sorted, when they have been relisted so many times each: by then neighbours are
+// no longer neighbours in storage.
+constexpr Count relistings_a_disk = 8;
+// A disk that is relisted is listed as far ahead as it flies in this many mean times between its collisions: what it
+// has of its velocity after a collision is two fifths. The fewest instructions a collision are at 0.5 to 1 at packing
+// fractions of 0.2 and 0.5.
+constexpr double lead_in_free_times = 0.7;
+
+}  // namespace
+
+void fail_speed_bound(const WindowPlan& plan) {
+  throw PhysicsError(fmt::format("exact: the speed bound failed after {} retries, at t = {}; please report this scene",
+                                 most_retries, plan.start));
+}
+
+WindowRun::WindowRun(const Scene& scene, State& state, const Executor& executor, PhaseTimes& times)
+    : scene_(scene),
+      state_(state),
+      executor_(executor),
+      times_(times),
+      scheduler_(window_, lists_, executor_),
+      predicts_anew_(scene.box.obstacles != nullptr || scene.box.has_sine_side()) {}
+
+void WindowRun::set_ghosts(WindowGhosts* ghosts, double largest_radius) {
+  ghosts_ = ghosts;
+  least_largest_radius_ = largest_radius;
+  scheduler_.set_ghosts(ghosts);
+}
+
+void WindowRun::release_memory() {
+  window_.release_memory();
+  scheduler_.release_calendars();
+  lists_ = NeighbourLists();
+  known_ = Known::nothing;
+}
+
+bool WindowRun::lists_due(const WindowPlan& plan) const {
+  const bool strained = scene_.box.shear.acts() && lists_.is_strained(plan.end);
+  return known_ == Known::nothing || strained || scheduler_.relisted() > relistings_a_disk * state_.disks.size();
+}
+
+void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout) {
+  const PhaseTimer timer(times_, "list");
+  // Sorting takes about as much.
+  if (state_.disks.size() > disks_of_much_memory) scheduler_.release_calendars();
+  lists_.follow_flow(box_at(scene_.box, plan.start), plan.start, plan.length);
+  lists_.build(state_.disks, scene_.box, layout, executor_);
+  window_.mode = layout.mode;
+  window_.regions = layout.regions;
+  window_.looks_ahead = layout.looks_ahead;
+  largest_radius_ = std::max(least_largest_radius_, carom::largest_radius(state_.disks));
+  known_ = std::max(known_, Known::lists);
+  rebuilt_ = true;
+  // Two disks that did not list each other before cannot touch before one of them reaches its next event, at the latest
+  // that of being relisted.
+  if (known_ == Known::lists_and_times) lists_.sort_along(window_.next_event_time, executor_);
+  lists_.release_scratch();
+}
+
+SliceOutcome WindowRun::run(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin) {
+  if (scene_.box.shear.acts()) lists_.carry_flow(box_at(scene_.box, plan.start), plan.start);
+  load_paths(plan, speeds, disks);
+  const PhaseTimer timer(times_, "events");
+  set_speed_bound(plan, margin);
+  if (ghosts_ != nullptr) window_.band = ghosts_->band(window_.speed_bound * plan.length);
+  scheduler_.begin_window(rebuilt_);
+  rebuilt_ = false;
+  for (double start = 0.0; start < plan.length;) {
+    const double end = scheduler_.slice_end(plan.length, start, per_disk_);
+    const double elapsed = std::min(end, plan.length) - start;
+    const SliceOutcome outcome = scheduler_.run(start, end, per_disk_, plan.start);
+    if (outcome != SliceOutcome::done) return outcome;
+    const auto events = static_cast<double>(scheduler_.events_of_slice());
+    per_disk_ = disks == 0 ? 0.0 : events / elapsed / static_cast<double>(disks);
+    start = end;
+  }
+  scheduler_.end_window();
+  return SliceOutcome::done;
+}
+
+void WindowRun::load_paths(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks) {
+  const PhaseTimer timer(times_, "load");
+  const Disks& d = state_.disks;
+  window_.begin(exact_rules(scene_, d, plan.start), d, plan, speeds.largest2, largest_radius_);
+  window_.most_paths = most_paths(disks);
+  // Two disks an event. Where nothing is known yet, a disk is listed where it is.
+  lists_.set_lead_time(per_disk_ > 0.0 ? lead_in_free_times / (2.0 * per_disk_) : 0.0);
+  window_.safe_speed2 = lists_.safe_speed2(plan.length, window_.rules.gravity.size);
+  window_.last_contact.resize(state_.last_contact.empty() ? 0 : d.size());
+  window_.thermal_hits.resize(state_.thermal_hits.empty() ? 0 : d.size());
+  executor_.for_ranges(d.size(), pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) load_disk(i, plan);
+  });
+}
+
+void WindowRun::load_disk(std::size_t i, const WindowPlan& plan) {
+  const Disks& d = state_.disks;
+  DiskRecord& record = window_.record[i];
+  const bool timed = known_ == Known::lists_and_times;
+  // A contact is predicted again, since rounding at the start of paths may make another event the first.
+  const bool relists = timed && !rebuilt_ && record.partner.is_relist();
+  const Partner partner = relists ? Partner::relist() : Partner::none();
+  const DiskProgress progress = record.progress;
+  record = {{0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]}, d.radius_of(i), d.id[i], partner, 0, 0, progress};
+  window_.next_event_time[i] = timed ? carried_event_time(i, plan) : 0.0;
+  if (!window_.last_contact.empty()) window_.last_contact[i] = state_.last_contact[d.id[i]] - plan.start;
+  if (!window_.thermal_hits.empty()) window_.thermal_hits[i] = state_.thermal_hits[d.id[i]];
+  if (!window_.burst.empty()) window_.burst[i] = {};
+}
+
+// The time of an event that was predicted in the window before, a little early.
+double WindowRun::carried_event_time(std::size_t i, const WindowPlan& plan) const {
+  if (predicts_anew_) return 0.0;
+  const double carried = (window_.next_event_time[i] - length_) - early_share * length_;
+  if (!rebuilt_) return carried;
+  const double relist_at = lists_.earliest_relist_time(static_cast<std::uint32_t>(i), window_.record[i].path, 0.0,
+                                                       plan.length, window_.rules.gravity);
+  return std::min(carried, relist_at);
+}
+
+void WindowRun::set_speed_bound(const WindowPlan& plan, double margin) {
+  const double fall = window_.rules.gravity.size * plan.length;
+  const double fastest = margin * std::sqrt(window_.fastest2) + fall;
+  window_.speed_limit2 = window_.mode == EngineMode::regions ? fastest * fastest : HUGE_VAL;
+  window_.speed_bound = fastest + fall;
+}
+
+ImpactTally WindowRun::store_paths(const WindowPlan& plan, std::vector<unsigned char>& gone) {
+  const PhaseTimer timer(times_, "store");
+  Disks& d = state_.disks;
+  const std::size_t n = d.size();
+  const bool any_gone = scheduler_.any_gone();
+  gone.assign(any_gone ? n : 0, 0);
+  const Domain& box = window_.rules.box;
+  std::vector<ImpactTally> crossings(box.shear.acts() ? executor_.blocks(n, pass_block) : 0);
+  const auto store = [&](const auto& wrap_path) {
+    executor_.for_ranges(n, pass_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        PathSegment p = carried_to(window_.record[i].path, plan.length, window_.rules.gravity);
+        if (any_gone && std::isnan(p.x)) {
+          gone[i] = 1;
+        } else {
+          wrap_path(p, i, b);
+        }
+        put(p, d, i);
+        if (!state_.last_contact.empty()) state_.last_contact[d.id[i]] = plan.start + window_.last_contact[i];
+        if (!state_.thermal_hits.empty()) state_.thermal_hits[d.id[i]] = window_.thermal_hits[i];
+      }
+    });
+  };
+  if (box.shear.acts()) {
+    store([&](PathSegment& p, std::size_t i, std::size_t b) {
+      const double work = wrap_with_work(p, d.mass_of(i), box);
+      if (work != 0.0) crossings[b].add_shear(0.0, work);
+    });
+  } else {
+    store([&](PathSegment& p, std::size_t, std::size_t) { wrap_into(p, box); });
+  }
+  if (d.spins()) d.spin = window_.spin;
+  if (known_ == Known::lists) known_ = Known::lists_and_times;
+  length_ = plan.length;
+  ImpactTally tally = scheduler_.tally();
+  for (const ImpactTally& block : crossings) tally.add(block);
+  return tally;
+}
+
+}  // namespace carom

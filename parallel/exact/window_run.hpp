@@ -1,0 +1,104 @@
+// The windows of the exact engine, one after the other: the paths of the disks in each, and what lasts from one to the
+// next, neighbour lists and the times of next events.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/phase_times.hpp"
+#include "core/disks/state.hpp"
+#include "core/physics/impact_tally.hpp"
+#include "core/scene/scene.hpp"
+#include "core/step/window_length.hpp"
+#include "core/step/window_plan.hpp"
+#include "parallel/exact/engine_mode.hpp"
+#include "parallel/exact/neighbour_lists.hpp"
+#include "parallel/exact/slice_scheduler.hpp"
+#include "parallel/exact/window_state.hpp"
+#include "parallel/threads/executor.hpp"
+
+namespace carom {
+
+// What is left of the window before, for the next one.
+enum class Known : std::uint8_t {
+  nothing,
+  lists,            // neighbour lists and storage order
+  lists_and_times,  // and the next events' times, on paths that go on
+};
+
+// With regions: no disk may become faster in a window than this factor times the fastest one at its start. A window in
+// which one does is run again with a larger factor, and at last without regions. With 1.15, 1.25 and 1.35, 21, 2 and 0
+// of 100 windows of 50000 disks were in vain; a larger factor makes slices shorter.
+inline constexpr double speed_margin = 1.35;
+inline constexpr double margin_of_retry = 2.5;  // over that of the try before
+inline constexpr int most_retries = 4;
+
+// A window was run so often in vain.
+[[noreturn]] void fail_speed_bound(const WindowPlan& plan);
+
+class WindowRun {
+ public:
+  // All but the scene's numbers may change between windows; they outlive it.
+  WindowRun(const Scene& scene, State& state, const Executor& executor, PhaseTimes& times);
+
+  // On one of several ranks; largest_radius: of all disks. Outlives it.
+  void set_ghosts(WindowGhosts* ghosts, double largest_radius);
+
+  Known known() const { return known_; }
+  // No more than this is right any more.
+  void forget(Known left) { known_ = std::min(known_, left); }
+
+  // Are the lists to be built anew for this window?
+  bool lists_due(const WindowPlan& plan) const;
+  // Sorts the disks and lists them. Times that were known stay so.
+  void build_lists(const WindowPlan& plan, const ListLayout& layout);
+
+  // Runs the window; speeds: of all disks of the run at its start, as many as `disks`. margin: over the largest speed.
+  // Unless the outcome is `done`, nothing counts. Precondition: lists are known.
+  SliceOutcome run(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin);
+
+  // After a window that was done: the disks are where it ends, and what they go on with is known. Where disks left
+  // through sinks, gone has an entry for each disk, 1 for those, which stay in the columns; else it is empty. The sums
+  // are those of the window.
+  ImpactTally store_paths(const WindowPlan& plan, std::vector<unsigned char>& gone);
+
+  void release_memory();
+
+  // Of the last window.
+  double length() const { return length_; }
+  double largest_radius() const { return largest_radius_; }
+  WindowState& window() { return window_; }
+  const WindowState& window() const { return window_; }
+  NeighbourLists& lists() { return lists_; }
+  const NeighbourLists& lists() const { return lists_; }
+  SliceScheduler& scheduler() { return scheduler_; }
+  const SliceScheduler& scheduler() const { return scheduler_; }
+
+ private:
+  void load_paths(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks);
+  void load_disk(std::size_t i, const WindowPlan& plan);
+  double carried_event_time(std::size_t i, const WindowPlan& plan) const;
+  void set_speed_bound(const WindowPlan& plan, double margin);
+
+  const Scene& scene_;
+  State& state_;
+  const Executor& executor_;
+  PhaseTimes& times_;
+  WindowState window_;
+  NeighbourLists lists_;
+  SliceScheduler scheduler_;
+  // How much rounding shifts a contact with an obstacle, or with a side that is a sine, depends on how it is touched:
+  // all is predicted again at every window's start.
+  const bool predicts_anew_;
+  WindowGhosts* ghosts_ = nullptr;
+  double least_largest_radius_ = 0.0;  // that of other ranks' disks
+  double largest_radius_ = 0.0;
+  Known known_ = Known::nothing;
+  bool rebuilt_ = false;   // the lists, for the coming window
+  double length_ = 0.0;    // of the last window
+  double per_disk_ = 0.0;  // events a disk and time, of the last slice
+};
+
+}  // namespace carom
