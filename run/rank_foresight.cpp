@@ -1,10 +1,8 @@
 #include "run/rank_foresight.hpp"
 
 #include <algorithm>
-#include <string>
 
 #include "core/base/check.hpp"
-#include "core/scene/scene_names.hpp"
 #include "parallel/slabs/moving_disks.hpp"
 
 namespace carom {
@@ -24,9 +22,10 @@ constexpr double traffic_trial = 0.3;
 }  // namespace
 
 RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks) {
-  if (scene.run.method != Method::pairwise) {
-    throw InputError("several ranks do not know the method " + std::string(name_of(scene.run.method)) +
-                     " yet: use one, or --method pairwise");
+  if (scene.run.method == Method::rollback) {
+    throw InputError(
+        "several ranks do not know the method rollback, whose frames are of the whole box: use one, or "
+        "--method exact");
   }
   const auto all = static_cast<double>(start.disks.size());
   RankForesight f;

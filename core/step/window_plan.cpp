@@ -118,8 +118,7 @@ void finish_window(State& state, std::size_t disks, const WindowPlan& plan, cons
   ++c.steps;
   state.time = plan.end;
   const double meant = plan.meant / scale;
-  const double next =
-      next_window(meant, plan.length / scale, tally.collisions + tally.wall_collisions, disks);
+  const double next = next_window(meant, plan.length / scale, tally.collisions + tally.wall_collisions, disks);
   const double least = plan.least / scale;
   // Below the least length windows grow again as soon as they are less crowded; they shrink where they are crowded.
   const bool stays_below = meant < least && std::max(next, meant) < least;

@@ -27,8 +27,8 @@ bool has_tc(const Scene& scene);
 // start: of the window, when moving sides are where the rules say.
 ExactRules exact_rules(const Scene& scene, const Disks& disks, double start);
 
-// The window that starts at state.time, from state.window, the number of all disks (state may have but some of them) and
-// their speeds. scale: 1, or what a test multiplies windows by. Throws PhysicsError when time no longer advances.
+// The window that starts at state.time, from state.window, the number of all disks (state may have but some of them)
+// and their speeds. scale: 1, or what a test multiplies windows by. Throws PhysicsError when time no longer advances.
 WindowPlan plan_window(const Scene& scene, const State& state, std::size_t disks, const SpeedSummary& speeds,
                        double scale);
 

@@ -71,8 +71,12 @@ inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regio
     return {EngineMode::single_queue, 0, 0, 1.0, disks > executor.grain(disks_in_cache), 0};
   }
   const std::size_t disks_a_tile = std::min(executor.grain(most_disks_a_tile), disks / (tiles_a_region * regions) + 1);
-  return {EngineMode::regions, disks_a_tile, regions, region_relist_share,
-          disks / regions > executor.grain(disks_in_cache), 0};
+  return {EngineMode::regions,
+          disks_a_tile,
+          regions,
+          region_relist_share,
+          disks / regions > executor.grain(disks_in_cache),
+          0};
 }
 
 // Of one of several ranks: one region, of its own disks and its ghosts. disks: those; disks_of_box: of all ranks.

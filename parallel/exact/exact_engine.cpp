@@ -134,7 +134,8 @@ bool ParallelExact::lists_take(const Edit& edit) {
   }
   if (windows_.window().mode != EngineMode::single_queue || d.size() <= all_pairs_up_to) return false;
   if (edit.kind == Edit::Kind::add) {
-    const bool fits = d.radius.empty() ? edit.disk.radius == d.common_radius : edit.disk.radius <= windows_.largest_radius();
+    const bool fits =
+        d.radius.empty() ? edit.disk.radius == d.common_radius : edit.disk.radius <= windows_.largest_radius();
     if (!fits) return false;
     windows_.window().record.emplace_back();
     windows_.window().next_event_time.push_back(now);
@@ -150,7 +151,8 @@ bool ParallelExact::lists_take(const Edit& edit) {
 
 bool ParallelExact::visit_near(Vec2 centre, double half_width, double half_height,
                                const std::function<void(std::size_t)>& visit) {
-  if (windows_.known() == Known::nothing || windows_.window().mode == EngineMode::all_pairs || scene_.box.shear.acts()) return false;
+  if (windows_.known() == Known::nothing || windows_.window().mode == EngineMode::all_pairs || scene_.box.shear.acts())
+    return false;
   windows_.lists().visit_near(centre, half_width, half_height, [&](std::uint32_t i) { visit(i); });
   return true;
 }
@@ -231,13 +233,15 @@ double ParallelExact::disks_at(double t, Disks& out) const {
     return state_.time;
   }
   out = windows_.scheduler().any_gone() ? at_start_ : state_.disks;
-  move_along_paths(windows_.window(), windows_.scheduler(), t > logged_->start ? t - logged_->start : 0.0, windows_.window().rules.box, out);
+  move_along_paths(windows_.window(), windows_.scheduler(), t > logged_->start ? t - logged_->start : 0.0,
+                   windows_.window().rules.box, out);
   return t;
 }
 
 std::vector<DiskContact> ParallelExact::contacts() const {
   if (!windows_.window().keeps_paths || !logged_) return {};
-  return contacts_of_window(windows_.scheduler(), windows_.scheduler().any_gone() ? at_start_.id : state_.disks.id, logged_->start);
+  return contacts_of_window(windows_.scheduler(), windows_.scheduler().any_gone() ? at_start_.id : state_.disks.id,
+                            logged_->start, [](std::uint32_t) { return true; });
 }
 
 }  // namespace

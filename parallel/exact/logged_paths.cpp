@@ -46,11 +46,11 @@ void move_along_paths(const WindowState& window, const SliceScheduler& scheduler
 
 // Both disks of a collision have a segment that begins with it.
 std::vector<DiskContact> contacts_of_window(const SliceScheduler& scheduler, const std::vector<DiskId>& id,
-                                            double start) {
+                                            double start, const std::function<bool(std::uint32_t)>& counts) {
   std::vector<DiskContact> met;
   scheduler.read_logs([&](const std::vector<LoggedSegment>& log, const std::vector<double>& /*spins*/) {
     for (const LoggedSegment& segment : log) {
-      if (!segment.with_disk() || id[segment.disk] > id[segment.partner]) continue;
+      if (!segment.with_disk() || id[segment.disk] > id[segment.partner] || !counts(segment.disk)) continue;
       met.push_back({id[segment.disk], id[segment.partner], start + segment.path.start});
     }
   });

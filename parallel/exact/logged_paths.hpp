@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/disks/disk_contact.hpp"
@@ -26,7 +28,8 @@ void move_along_paths(const WindowState& window, const SliceScheduler& scheduler
                       Disks& disks);
 
 // The collisions of two disks in the window, which began at time `start`. id: of the disks as the window has them.
+// counts: is a collision of which this disk has the smaller id one of them?
 std::vector<DiskContact> contacts_of_window(const SliceScheduler& scheduler, const std::vector<DiskId>& id,
-                                            double start);
+                                            double start, const std::function<bool(std::uint32_t)>& counts);
 
 }  // namespace carom

@@ -80,7 +80,8 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& ex
   }
   if (layout.disks_of_box > 0) {
     // Cells are those of the whole box.
-    const double others = static_cast<double>(layout.disks_of_box) / std::max<double>(1.0, static_cast<double>(d.size()));
+    const double others =
+        static_cast<double>(layout.disks_of_box) / std::max<double>(1.0, static_cast<double>(d.size()));
     for (std::size_t& c : count) c = static_cast<std::size_t>(others * static_cast<double>(c));
   }
   if (layout.disks_per_tile > 0) {

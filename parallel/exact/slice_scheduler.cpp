@@ -190,8 +190,7 @@ SliceOutcome SliceScheduler::run_with_ghosts(double per_disk) {
   if (reached != SliceOutcome::done) return reached;
   unknown_ = region.border;
   for (const BlockedDisk& blocked : region.worker.blocked) unknown_.push_back(blocked.disk);
-  changed_.clear();
-  ghosts_->learn(window_, unknown_, changed_);
+  ghosts_->learn(window_, unknown_);
   see_slice_of_others();
   finish_slice(region);
   take_in_new_border(others_.border, others_.near_border);
@@ -214,8 +213,7 @@ void SliceScheduler::see_slice_of_others() {
   others_.region = ListRegion{};
   EventProcessor<Scope::border> events(window_, lists_, others_);
   const std::vector<BlockedDisk>& blocked = regions_.front().worker.blocked;
-  for (const std::uint32_t i : changed_) events.relist_if_due(i);
-  for (const BlockedDisk& b : blocked) events.relist_if_due(b.disk);
+  for (const std::uint32_t i : unknown_) events.relist_if_due(i);
   for (const BlockedDisk& b : blocked) events.predict_next_slice(b.disk);
 }
 

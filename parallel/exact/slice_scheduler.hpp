@@ -22,8 +22,8 @@ namespace carom {
 // region, a run of layers, and processes the events of its disks as far as they do not depend on disks whose motion is
 // not yet known: a disk that lists one of another region is at the border, and its motion in a slice becomes known in
 // the border pass, after all regions; so does that of disks that are blocked because of one. Which worker processes an
-// event depends on the threads, the event does not. On one of several ranks there is one region, and disks near the edge
-// of what the rank has are at a border; what happens to those that depend on disks of others the others tell.
+// event depends on the threads, the event does not. On one of several ranks there is one region, and disks near the
+// edge of what the rank has are at a border; what happens to those that depend on disks of others the others tell.
 class SliceScheduler {
  public:
   SliceScheduler(WindowState& window, NeighbourLists& lists, const Executor& executor)
@@ -103,7 +103,7 @@ class SliceScheduler {
   Count events_of_slice_ = 0;
   WindowGhosts* ghosts_ = nullptr;
   Worker others_;  // of ghosts whose paths other ranks tell
-  std::vector<std::uint32_t> unknown_, changed_;
+  std::vector<std::uint32_t> unknown_;
 };
 
 }  // namespace carom

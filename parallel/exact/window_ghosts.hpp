@@ -29,13 +29,12 @@ class WindowGhosts {
 
   // The smallest of all ranks' numbers.
   virtual double least_of_all(double here) = 0;
-  // How a slice has ended on all ranks: `done` only if it is that on each. events: of this rank's slice, becomes that of
-  // all.
+  // How a slice has ended on all ranks: `done` only if it is that on each. events: of this rank's slice, becomes that
+  // of all.
   virtual SliceOutcome agree(SliceOutcome here, Count& events) = 0;
-  // The disks, all ghosts, whose motion in the slice is not known here get their paths at the slice's end from the ranks
-  // that own them; `changed` gets those whose path is another now.
-  virtual void learn(WindowState& window, const std::vector<std::uint32_t>& unknown,
-                     std::vector<std::uint32_t>& changed) = 0;
+  // The disks, all ghosts, whose motion in the slice is not known here get their paths at the slice's end from the
+  // ranks that own them.
+  virtual void learn(WindowState& window, const std::vector<std::uint32_t>& unknown) = 0;
 };
 
 }  // namespace carom

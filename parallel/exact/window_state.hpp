@@ -53,7 +53,7 @@ struct WindowState {
   double speed_bound = 0.0;
   double slice_start = 0.0;
   double slice_end = 0.0;  // events before this time; in the last slice up to and including `length`
-  KnownBand band;  // no disk that is not here comes into it in the window
+  KnownBand band;          // no disk that is not here comes into it in the window
   bool keeps_paths = true;
   Count most_paths = 0;         // of all disks, beyond which the window is crowded (core/step/window_length.hpp)
   std::function<bool()> go_on;  // as in Engine::set_watch

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/base/check.hpp"
-#include "core/scene/scene_names.hpp"
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/moving_disks.hpp"
+#include "parallel/slabs/slab_exact.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
 #include "parallel/slabs/whole_state.hpp"
 
@@ -20,7 +20,20 @@ namespace carom {
 namespace {
 
 // What rank 0 says that comes next.
-enum class Call : std::int64_t { end, make, step, collect, contacts, sums, overlaps, release, report, drop };
+enum class Call : std::int64_t {
+  end,
+  make,
+  step,
+  collect,
+  look,
+  contacts,
+  sums,
+  overlaps,
+  forget,
+  release,
+  report,
+  drop
+};
 
 // The same on all ranks; only what rank 0 gives counts.
 Call agree_on(Ranks& ranks, Call call) {
@@ -41,11 +54,18 @@ std::string shared_text(Ranks& ranks, const std::string& text) {
 constexpr std::size_t disks_a_piece = std::size_t{1} << 16;
 
 SlabStart start_of(const Scene& scene, const Disks& all, int ranks) {
-  if (scene.run.method != Method::pairwise) {
-    throw InputError("several ranks do not know the method " + std::string(name_of(scene.run.method)) +
-                     " yet: use one, or --method pairwise");
+  if (scene.run.method == Method::rollback) {
+    throw InputError(
+        "several ranks do not know the method rollback, whose frames are of the whole box: use one, or "
+        "--method exact");
   }
   return slab_start(scene, all, ranks);
+}
+
+std::unique_ptr<Engine> make_part(const Scene& scene, State part, const SlabStart& start, const Threads& threads,
+                                  Ranks& ranks) {
+  const auto make = scene.run.method == Method::exact ? make_slab_exact_part : make_slab_part;
+  return make(scene, std::move(part), start, threads, ranks);
 }
 
 // Each rank takes the disks in its slab of all that rank 0 has.
@@ -104,6 +124,16 @@ void gather_disks(Ranks& ranks, const State& part, State* all) {
   }
 }
 
+// The disks of a rank at the time that rank 0 asks for, which becomes that of what they give.
+State look_at(Ranks& ranks, const Engine& engine, double& t) {
+  Bytes asked;
+  put(asked, t);
+  t = MessageReader(ranks.share(asked)).get<double>();
+  State then;
+  t = engine.disks_at(t, then.disks);
+  return then;
+}
+
 // A rank's part of the engine, and what its steps took. All calls are collective.
 class Part {
  public:
@@ -153,8 +183,12 @@ class Part {
 
 class LeadingEngine final : public Engine {
  public:
+  // Of exact: it knows where disks were within a window.
   LeadingEngine(Ranks& ranks, RankLead& lead, const Scene& scene, std::unique_ptr<Engine> part)
-      : ranks_(ranks), lead_(lead), part_(ranks, scene, std::move(part)) {}
+      : ranks_(ranks),
+        lead_(lead),
+        part_(ranks, scene, std::move(part)),
+        knows_paths_(scene.run.method == Method::exact) {}
   LeadingEngine(const LeadingEngine&) = delete;
   LeadingEngine& operator=(const LeadingEngine&) = delete;
   ~LeadingEngine() override {
@@ -180,9 +214,25 @@ class LeadingEngine final : public Engine {
 
   const State& progress() const override { return part_.engine().state(); }
 
-  double disks_at(double /*t*/, Disks& out) const override {
-    out = state().disks;
-    return state().time;
+  double disks_at(double t, Disks& out) const override {
+    if (!knows_paths_ || !(t < progress().time)) {
+      out = state().disks;
+      return state().time;
+    }
+    double at = t;
+    together(Call::look, [&] {
+      const State here = look_at(ranks_, part_.engine(), at);
+      State all;
+      all.disks = no_disks_like(here.disks);
+      gather_disks(ranks_, here, &all);
+      out = std::move(all.disks);
+    });
+    return at;
+  }
+
+  void forget_paths() override {
+    knows_paths_ = false;
+    together(Call::forget, [&] { part_.engine().forget_paths(); });
   }
 
   std::vector<DiskContact> contacts() const override {
@@ -243,6 +293,7 @@ class LeadingEngine final : public Engine {
   Ranks& ranks_;
   RankLead& lead_;
   Part part_;
+  bool knows_paths_;
   mutable std::unique_ptr<State> whole_;  // of all ranks, since it was asked for after the last step
 };
 
@@ -256,6 +307,11 @@ void follow(Call call, Ranks& ranks, Part& part, const Traffic& before) {
     }
   } else if (call == Call::collect) {
     gather_disks(ranks, part.engine().state(), nullptr);
+  } else if (call == Call::look) {
+    double t = 0.0;
+    gather_disks(ranks, look_at(ranks, part.engine(), t), nullptr);
+  } else if (call == Call::forget) {
+    part.engine().forget_paths();
   } else if (call == Call::contacts) {
     Bytes own;
     put_all(own, part.engine().contacts());
@@ -285,7 +341,7 @@ std::unique_ptr<Engine> RankLead::make_engine(const Scene& scene, State initial,
     initial.disks = deal_out(ranks_, slabs, all, std::move(initial.disks));
     all = Disks();
     auto engine = std::make_unique<LeadingEngine>(ranks_, *this, scene,
-                                                  make_slab_part(scene, std::move(initial), slabs, threads, ranks_));
+                                                  make_part(scene, std::move(initial), slabs, threads, ranks_));
     report_ = [lead = engine.get()] { return lead->report(); };
     sums_ = [lead = engine.get()] { return lead->sums(); };
     overlaps_ = [lead = engine.get()] { return lead->overlaps(); };
@@ -312,7 +368,7 @@ void follow_lead(Ranks& ranks, const Threads& threads,
       auto [scene, state] = read(shared_text(ranks, ""));
       const SlabStart start = slab_start_of(ranks.share({}));
       state.disks = deal_out(ranks, start, {}, std::move(state.disks));
-      part.emplace(ranks, scene, make_slab_part(scene, std::move(state), start, threads, ranks));
+      part.emplace(ranks, scene, make_part(scene, std::move(state), start, threads, ranks));
     } else if (part) {
       follow(call, ranks, *part, before);
     }

@@ -38,6 +38,29 @@ inline void take_thermal_hits(State& state, DiskId id, std::uint32_t hits) {
   if (id < state.thermal_hits.size()) state.thermal_hits[id] = hits;
 }
 
+// The same of the time of a disk's last collision.
+inline double last_contact_of(const State& state, DiskId id) {
+  return id < state.last_contact.size() ? state.last_contact[id] : 0.0;
+}
+
+// A disk with all that goes with it.
+struct MovingDisk {
+  Disk disk;
+  double last_contact;
+  std::uint32_t thermal_hits;
+};
+
+inline MovingDisk moving_disk(const State& state, std::size_t i) {
+  const DiskId id = state.disks.id[i];
+  return {disk_at(state.disks, i), last_contact_of(state, id), thermal_hits_of(state, id)};
+}
+
+inline void take_in(State& state, const MovingDisk& moving, DiskColumns columns) {
+  push_back(state.disks, moving.disk, columns);
+  take_thermal_hits(state, moving.disk.id, moving.thermal_hits);
+  if (moving.disk.id < state.last_contact.size()) state.last_contact[moving.disk.id] = moving.last_contact;
+}
+
 // Room for n disks in all.
 inline void reserve(Disks& d, std::size_t n, DiskColumns columns) {
   for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy}) column->reserve(n);

@@ -1,6 +1,7 @@
 #include "parallel/slabs/slab_cut.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace carom {
 
@@ -27,6 +28,27 @@ SlabCut cut_into_slabs(const Domain& box, const Disks& disks, int ranks, double 
   cut.bounds.push_back(box.height);
   for (std::size_t r = 1; r < slabs; ++r) cut.bounds[r] = std::max(cut.bounds[r], cut.bounds[r - 1] + least);
   for (std::size_t r = slabs - 1; r > 0; --r) cut.bounds[r] = std::min(cut.bounds[r], cut.bounds[r + 1] - least);
+  return cut;
+}
+
+SlabCut cut_by_rows(const Domain& box, const std::vector<std::int64_t>& disks_of_row, int ranks) {
+  const double height = box.height / static_cast<double>(disks_of_row.size());
+  const auto all = static_cast<double>(std::accumulate(disks_of_row.begin(), disks_of_row.end(), std::int64_t{0}));
+  SlabCut cut;
+  cut.bounds.push_back(0.0);
+  double below = 0.0;
+  for (std::size_t row = 0; row < disks_of_row.size(); ++row) {
+    const auto here = static_cast<double>(disks_of_row[row]);
+    while (static_cast<int>(cut.bounds.size()) < ranks) {
+      const double wanted = all * static_cast<double>(cut.bounds.size()) / ranks;
+      if (below + here < wanted) break;
+      const double share = here > 0.0 ? (wanted - below) / here : 0.0;
+      cut.bounds.push_back((static_cast<double>(row) + share) * height);
+    }
+    below += here;
+  }
+  cut.bounds.resize(static_cast<std::size_t>(ranks), box.height);
+  cut.bounds.push_back(box.height);
   return cut;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/disks/disks.hpp"
@@ -39,6 +40,10 @@ inline constexpr double least_thickness = 4.0;  // radii
 // Slabs with about as many disks each, no thinner than least (length). Precondition: ranks >= 1, ranks * least <=
 // height.
 SlabCut cut_into_slabs(const Domain& box, const Disks& disks, int ranks, double least);
+
+// The same from how many disks there are in rows that divide the box's height evenly, in order of heights; slabs may be
+// as thin as they come. Precondition: there are rows.
+SlabCut cut_by_rows(const Domain& box, const std::vector<std::int64_t>& disks_of_row, int ranks);
 
 // How far a disk may leave its slab, and others still find all that touch it one slab further; length.
 inline double room_beyond(const SlabCut& cut, double largest_radius) {

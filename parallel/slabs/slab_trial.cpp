@@ -6,6 +6,7 @@
 #include "core/base/check.hpp"
 #include "core/base/wall_clock.hpp"
 #include "parallel/ranks/local_ranks.hpp"
+#include "parallel/slabs/slab_exact.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
 
 namespace carom {
@@ -30,7 +31,8 @@ struct Tried {
 // One rank's part of the trial. All agree on when to stop, which is not counted.
 Tried try_part(const Scene& scene, const State& start, Ranks& ranks, double seconds) {
   Tried tried;
-  const auto engine = make_slab_pairwise(scene, start, {1}, ranks);
+  const auto make = scene.run.method == Method::exact ? make_slab_exact : make_slab_pairwise;
+  const auto engine = make(scene, start, {1}, ranks);
   const auto begin = WallClock::now();
   bool go_on = true;
   while (go_on && tried.steps < most_steps && engine->state().time < scene.run.t_end) {

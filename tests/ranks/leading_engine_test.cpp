@@ -171,6 +171,40 @@ TEST(LeadingEngine, SumsManyDisksInOrderOfId) {
   });
 }
 
+// At times within a window too, on slabs and where one rank runs all.
+TEST(LeadingEngine, HasAllDisksOfExactWithinWindows) {
+  const Scene slabs = parse_scene(
+      "[box]\nwidth = 12.0\nheight = 300.0\nleft = \"periodic\"\nright = \"periodic\"\n[[disks]]\ncount = 1200\n"
+      "positions = \"random\"\nradius = { uniform = [0.4, 0.6] }\nmass = 1.0\nvelocities = { maxwell = 1.0 }\n"
+      "[run]\nmethod = \"exact\"\nt_end = 5.0\n",
+      "scene", "");
+  for (const Scene& scene : {slabs, gas("exact")}) {
+    const State start = initial_state(scene);
+    for (const int count : {1, 2, 3}) {
+      on_ranks(count, scene, start, [&](RankLead& lead) {
+        const auto expected = make_parallel_engine(scene, start, {1});
+        const auto engine = lead.make_engine(scene, start, {1, 512}, the_start);
+        while (engine->progress().time < scene.run.t_end) {
+          const double before = engine->progress().time;
+          engine->step();
+          expected->step();
+          ASSERT_EQ(engine->progress().time, expected->state().time);
+          EXPECT_EQ(engine->contacts().size(), expected->contacts().size());
+          for (const double share : {0.0, 0.3, 0.9, 1.0}) {
+            const double t = before + share * (engine->progress().time - before);
+            Disks here;
+            Disks there;
+            EXPECT_EQ(engine->disks_at(t, here), expected->disks_at(t, there));
+            ASSERT_EQ(state_hash(here), state_hash(there)) << t;
+          }
+        }
+        EXPECT_EQ(lead.report().steps, expected->state().counters.steps);
+        engine->forget_paths();
+      });
+    }
+  }
+}
+
 // What a state has by id is that of the rank that has the disk.
 TEST(LeadingEngine, HasTheReflectionsOfAllDisks) {
   const Scene scene = parse_scene(
@@ -259,14 +293,16 @@ TEST(LeadingEngine, CountsTheSameInEqualRuns) {
 
 // One engine after another, as a program may make them; and what is refused leaves the ranks together.
 TEST(LeadingEngine, ScenesThatRanksDoNotKnowAreRefusedAndOthersFollow) {
-  const Scene exact = gas("exact");
-  const State start = initial_state(exact);
-  on_ranks(3, exact, start, [&](RankLead& lead) {
+  const Scene rollback = gas("rollback");
+  const State start = initial_state(rollback);
+  on_ranks(3, rollback, start, [&](RankLead& lead) {
     try {
-      lead.make_engine(exact, start, {1}, the_start);
-      ADD_FAILURE() << "exact was taken";
+      lead.make_engine(rollback, start, {1}, the_start);
+      ADD_FAILURE() << "rollback was taken";
     } catch (const InputError& error) {
-      EXPECT_STREQ(error.what(), "several ranks do not know the method exact yet: use one, or --method pairwise");
+      EXPECT_STREQ(error.what(),
+                   "several ranks do not know the method rollback, whose frames are of the whole box: use one, or "
+                   "--method exact");
     }
   });
   const Scene scene = gas("pairwise");

@@ -42,6 +42,18 @@ TEST(MpiRanks, RunPairwiseWithTheBitsOfOneMachine) {
   }
 }
 
+TEST(MpiRanks, RunExactWithTheBitsOfOneMachine) {
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 12.0\nheight = 400.0\n[[disks]]\ncount = 1600\npositions = \"random\"\n"
+      "radius = { uniform = [0.4, 0.6] }\nmass = 1.0\nvelocities = { maxwell = 1.0 }\n"
+      "[run]\nmethod = \"exact\"\nt_end = 5.0\n",
+      "scene", "");
+  const State start = initial_state(scene);
+  const test::SlabTrace trace = test::slab_trace(scene, start, {2, 512}, *session->ranks());
+  test::expect_same(test::one_machine_trace(scene, start), trace);
+  EXPECT_LT(trace.most_disks, 1000U);
+}
+
 }  // namespace
 }  // namespace carom
 

@@ -37,14 +37,30 @@ series = true
 // Later than any run here comes before it is stopped.
 const std::string far_end = "--t-end 200";
 
+// Of a box so tall that its slabs depend on their neighbours' disks alone; frames lie within windows.
+const std::string exact_tall = " --method exact --set box.width=12 --set box.height=480 --set disks.0.count=1600 ";
+
 class RanksRun : public test::ProgramTest {
  protected:
   RanksRun() { write("scene.toml", scene); }
 
   // A run that goes on until it is stopped or killed, once it has written a checkpoint.
-  pid_t start_long(const std::string& folder, const std::string& ranks) const {
-    const pid_t run = start({"run", "scene.toml", "--quiet", "--t-end", "1e4", "--ranks", ranks, "--set",
-                             "output.checkpoint=\"0.05 s\"", "--set", "output.every=1e3", "-o", folder});
+  pid_t start_long(const std::string& folder, const std::string& ranks, const std::string& more = "") const {
+    std::vector<std::string> words{"run",
+                                   "scene.toml",
+                                   "--quiet",
+                                   "--t-end",
+                                   "1e4",
+                                   "--ranks",
+                                   ranks,
+                                   "--set",
+                                   "output.checkpoint=\"0.05 s\"",
+                                   "--set",
+                                   "output.every=1e3"};
+    std::istringstream list(more);
+    words.insert(words.end(), std::istream_iterator<std::string>(list), {});
+    words.insert(words.end(), {"-o", folder});
+    const pid_t run = start(words);
     while (!fs::exists(at(folder) / "carom-unfinished/checkpoint.carom")) {
       EXPECT_EQ(waitpid(run, nullptr, WNOHANG), 0) << said();
       if (HasFailure()) break;
@@ -55,11 +71,10 @@ class RanksRun : public test::ProgramTest {
 
   // The run of a folder has its last checkpoint, and from that comes to the end of the run `one`: some steps on so many
   // ranks, and then alone, which is faster where there are more ranks than cores.
-  void expect_undisturbed(const std::string& folder, std::size_t ranks) const {
-    const Outcome some =
-        carom(fmt::format("resume {} --quiet --ranks {} --max-walltime 1e-9 ", folder, ranks) + far_end);
+  void expect_undisturbed(const std::string& folder, std::size_t ranks, const std::string& end = far_end) const {
+    const Outcome some = carom(fmt::format("resume {} --quiet --ranks {} --max-walltime 1e-9 ", folder, ranks) + end);
     ASSERT_EQ(some.status, 4) << some.err;
-    ASSERT_EQ(carom("resume " + folder + " --quiet " + far_end).status, 0);
+    ASSERT_EQ(carom("resume " + folder + " --quiet " + end).status, 0);
     EXPECT_EQ(summary(folder)["state_hash"], summary("one")["state_hash"]);
     EXPECT_EQ(summary(folder)["collisions"], summary("one")["collisions"]);
   }
@@ -92,6 +107,28 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcess) {
   }
 }
 
+TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithExact) {
+  const std::string run = "run scene.toml --quiet --t-end 4" + exact_tall + "-o ";
+  ASSERT_EQ(carom(run + "one").status, 0);
+  for (const std::string ranks : {"2", "3"}) {
+    const Outcome o = carom(run + "r" + ranks + " --threads 2 --ranks " + ranks);
+    ASSERT_EQ(o.status, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    for (const char* file : {"trajectory.xyz", "series.csv"}) {
+      EXPECT_TRUE(text_of(at("one") / file) == text_of(at("r" + ranks) / file)) << ranks << file;
+    }
+    EXPECT_EQ(summary("one"), summary("r" + ranks));
+    const auto all = nlohmann::json::parse(text_of(at("r" + ranks) / "summary.json"));
+    for (const auto& disks : all["traffic"]["disks"]) EXPECT_LT(disks, 1000) << ranks;
+  }
+  ASSERT_EQ(carom(run + "parts --ranks 2 --max-walltime 1e-9").status, 4);
+  ASSERT_EQ(carom("resume parts --quiet --ranks 3 --max-walltime 1e-9").status, 4);
+  ASSERT_EQ(carom("resume parts --quiet --max-walltime 1e-9").status, 4);
+  ASSERT_EQ(carom("resume parts --quiet --ranks 2").status, 0);
+  EXPECT_TRUE(text_of(at("one/trajectory.xyz")) == text_of(at("parts/trajectory.xyz")));
+  EXPECT_EQ(summary("one"), summary("parts"));
+}
+
 TEST_F(RanksRun, AStoppedRunGoesOnWithAnyNumberOfRanks) {
   ASSERT_EQ(carom("run scene.toml --quiet -o one").status, 0);
   ASSERT_EQ(carom("run scene.toml --quiet -o parts --ranks 2 --max-walltime 1e-9").status, 4);
@@ -112,17 +149,23 @@ TEST_F(RanksRun, ASignalStopsItWithACheckpoint) {
 }
 
 // Whichever of however many ranks dies, and whenever: the others end, one line says so, and the last checkpoint goes on
-// with another number of ranks as if nothing had been.
+// with another number of ranks as if nothing had been. Every third run is one of exact.
 TEST_F(RanksRun, AKilledRankEndsAllAndNothingIsLost) {
-  ASSERT_EQ(carom("run scene.toml --quiet --set output.every=1e3 -o one " + far_end).status, 0);
+  const std::string run_one = "run scene.toml --quiet --set output.every=1e3 ";
+  const std::string exact_end = "--t-end 3e3";
+  ASSERT_EQ(carom(run_one + far_end + " -o one_pairwise").status, 0);
+  ASSERT_EQ(carom(run_one + exact_end + exact_tall + "-o one_exact").status, 0);
   std::mt19937 random(19);
   for (int k = 0; k < 20; ++k) {
+    const bool exact = k % 3 == 2;
+    fs::remove_all(at("one"));
+    fs::copy(at(exact ? "one_exact" : "one_pairwise"), at("one"), fs::copy_options::recursive);
     const std::size_t count = 2 + random() % 3;
     const std::size_t victim = random() % count;
     const auto delay = static_cast<useconds_t>(random() % 300'000);
     SCOPED_TRACE(fmt::format("run {}: rank {} of {}, after {} us", k, victim, count, delay));
     const std::string folder = fmt::format("killed{}", k);
-    const pid_t run = start_long(folder, std::to_string(count));
+    const pid_t run = start_long(folder, std::to_string(count), exact ? exact_tall : "");
     const std::vector<pid_t> ranks = ranks_of(folder);
     ASSERT_EQ(ranks.size(), count);
     const std::size_t before = said().size();
@@ -135,7 +178,7 @@ TEST_F(RanksRun, AKilledRankEndsAllAndNothingIsLost) {
               "carom: error: one of the ranks was killed by signal 9; the last checkpoint, if the run has written any, "
               "is whole: carom resume with its folder\n");
     EXPECT_TRUE(ranks_of(folder).empty());
-    expect_undisturbed(folder, 2 + (count - 1) % 3);
+    expect_undisturbed(folder, 2 + (count - 1) % 3, exact ? exact_end : far_end);
   }
 }
 
@@ -160,9 +203,11 @@ TEST_F(RanksRun, AStoppedRankIsWaitedFor) {
 }
 
 TEST_F(RanksRun, WhatRanksCannotDoIsSaidInOneLine) {
-  const Outcome exact = carom("run scene.toml --ranks 2 --quiet --method exact -o out");
-  EXPECT_EQ(exact.status, 2);
-  EXPECT_EQ(exact.err, "carom: error: several ranks do not know the method exact yet: use one, or --method pairwise\n");
+  const Outcome rollback = carom("run scene.toml --ranks 2 --quiet --method rollback -o out");
+  EXPECT_EQ(rollback.status, 2);
+  EXPECT_EQ(rollback.err,
+            "carom: error: several ranks do not know the method rollback, whose frames are of the whole box: use one, "
+            "or --method exact\n");
   const Outcome many = carom("run scene.toml --ranks 3 --quiet --set box.height=5 --set disks.0.count=20 -o out");
   EXPECT_EQ(many.status, 2);
   EXPECT_NE(many.err.find("3 ranks: slabs of a box 5 high"), std::string::npos) << many.err;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/simulation.hpp"
 #include "parallel/slabs/rank_sums.hpp"
+#include "parallel/slabs/slab_exact.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
 #include "parallel/threads/executor.hpp"
 #include "tests/support/feature_scenes.hpp"
@@ -29,6 +31,8 @@ struct SlabTrace {
   Counters counters;
   std::vector<std::string> warnings;
   std::size_t most_moved = 0;  // on ranks: the most disks that came to a rank, or left it, in a step
+  std::size_t most_disks = 0;  // and the most that it had after one
+  std::size_t thin = 0;        // warnings that slabs would be too thin
 };
 
 inline SlabTrace one_machine_trace(const Scene& scene, const State& start) {
@@ -46,7 +50,8 @@ inline SlabTrace one_machine_trace(const Scene& scene, const State& start) {
 
 inline SlabTrace slab_trace(const Scene& scene, const State& start, const Threads& threads, Ranks& ranks) {
   SlabTrace trace;
-  const auto engine = make_slab_pairwise(scene, start, threads, ranks);
+  const auto make = scene.run.method == Method::exact ? make_slab_exact : make_slab_pairwise;
+  const auto engine = make(scene, start, threads, ranks);
   while (engine->state().time < scene.run.t_end) {
     const std::size_t before = engine->state().disks.size();
     engine->step();
@@ -55,10 +60,14 @@ inline SlabTrace slab_trace(const Scene& scene, const State& start, const Thread
     ranks.sum({&contacts, 1});
     trace.contacts.push_back(static_cast<std::size_t>(contacts));
     const std::size_t now = engine->state().disks.size();
+    trace.most_disks = std::max(trace.most_disks, now);
     trace.most_moved = std::max(trace.most_moved, std::max(before, now) - std::min(before, now));
   }
   trace.counters = engine->state().counters;
   trace.warnings = engine->take_warnings();
+  trace.thin = std::erase_if(trace.warnings, [](const std::string& warning) {
+    return warning.find("slabs would be thinner") != std::string::npos;
+  });
   return trace;
 }
 
@@ -163,8 +172,9 @@ inline SlabTrace local_trace(const Scene& scene, const State& start, const Threa
 // The trace of one machine, and that slabs have it, on so many ranks with 1 and 2 threads each; or, where they
 // alternate, with two threads on odd numbers of ranks.
 enum class RankThreads : std::uint8_t { both, alternate };
-inline SlabTrace expect_bits(const Scene& scene, const std::vector<int>& counts,
-                             RankThreads choice = RankThreads::both) {
+// on_ranks: sees the trace of each.
+inline SlabTrace expect_bits(const Scene& scene, const std::vector<int>& counts, RankThreads choice = RankThreads::both,
+                             const std::function<void(const SlabTrace&)>& on_ranks = {}) {
   const State start = initial_state(scene);
   const SlabTrace expected = one_machine_trace(scene, start);
   for (const int ranks : counts) {
@@ -173,7 +183,9 @@ inline SlabTrace expect_bits(const Scene& scene, const std::vector<int>& counts,
       // Which makes everything ten times as long, and sees races with the most ranks and threads best.
       if (under_thread_sanitizer && (threads == 1 || ranks != counts.back())) continue;
       SCOPED_TRACE(fmt::format("{} ranks, {} threads", ranks, threads));
-      expect_same(expected, local_trace(scene, start, {threads, 512}, ranks));
+      const SlabTrace trace = local_trace(scene, start, {threads, 512}, ranks);
+      expect_same(expected, trace);
+      if (on_ranks) on_ranks(trace);
     }
   }
   return expected;

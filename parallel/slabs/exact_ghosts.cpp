@@ -1,0 +1,217 @@
+#include "parallel/slabs/exact_ghosts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "parallel/ranks/message.hpp"
+
+namespace carom {
+
+namespace {
+
+// New ghosts are due when disks that are not here have come nearer than this share of the depth, or one of the rank's
+// own has left its slab by so much of it.
+constexpr double least_share_left = 0.7;
+constexpr double excursion_share = 0.1;
+
+// A ghost whose motion in the slice is not known: its number among those that the neighbour shows, and how many paths
+// it is known to have begun.
+struct Question {
+  std::uint32_t number;
+  std::uint16_t version;
+};
+
+// What has become of it, where it has begun more.
+struct Answer {
+  std::uint32_t number;
+  std::uint32_t thermal_hits;
+  PathSegment path;
+  double last_contact, spin;
+  std::uint16_t version;
+};
+
+}  // namespace
+
+void ExactGhosts::drop(State& state) {
+  if (marks_.empty()) return;
+  for (std::uint8_t& mark : marks_) mark &= ghost;
+  remove_marked(state.disks, marks_);
+  marks_.clear();
+}
+
+void ExactGhosts::see(const Slab& slab, const Domain& box, double depth, DiskColumns columns, State& state) {
+  slab_ = slab;
+  depth_ = depth;
+  half_ = 0.5 * (slab.high - slab.low);
+  band_ = {slab.low + half_, box.periodic_y() ? box.height : 0.0};
+  std::vector<MovingDisk> down;
+  std::vector<MovingDisk> up;
+  below_ = above_ = {};
+  for (std::size_t i = 0; i < state.disks.size(); ++i) {
+    const double y = from_centre(state.disks.y[i]);
+    if (slab.has_lower && y + half_ < depth) {
+      down.push_back(moving_disk(state, i));
+      below_.shown.ids.push_back(state.disks.id[i]);
+    }
+    if (slab.has_upper && half_ - y < depth) {
+      up.push_back(moving_disk(state, i));
+      above_.shown.ids.push_back(state.disks.id[i]);
+    }
+  }
+  Bytes to_below;
+  Bytes to_above;
+  put_all(to_below, down);
+  put_all(to_above, up);
+  const auto [from_below, from_above] = ranks_.exchange(to_below, to_above);
+  const std::size_t own_disks = state.disks.size();
+  if (slab.has_lower) take_in_ghosts(from_below, below_.ghosts, columns, state);
+  if (slab.has_upper) take_in_ghosts(from_above, above_.ghosts, columns, state);
+  marks_.assign(own_disks, own);
+  marks_.resize(state.disks.size(), ghost);
+}
+
+void ExactGhosts::take_in_ghosts(const Bytes& message, Shared& ghosts, DiskColumns columns, State& state) {
+  for (const MovingDisk& disk : MessageReader(message).get_all<MovingDisk>()) {
+    take_in(state, disk, columns);
+    ghosts.ids.push_back(disk.disk.id);
+  }
+}
+
+void ExactGhosts::find_places(const Disks& d) {
+  // Of all disks that another rank has too.
+  std::vector<std::pair<DiskId, std::uint32_t>> place_of;
+  for (std::uint32_t i = 0; i < d.size(); ++i) {
+    const double y = from_centre(d.y[i]);
+    if (half_ - std::abs(y) < depth_ * (1.0 + 1e-9)) place_of.emplace_back(d.id[i], i);
+  }
+  std::sort(place_of.begin(), place_of.end());
+  marks_.assign(d.size(), own);
+  ghost_places_.clear();
+  const auto find = [&](Shared& shared, std::uint8_t mark) {
+    shared.places.clear();
+    for (const DiskId id : shared.ids) {
+      const auto at = std::lower_bound(place_of.begin(), place_of.end(), std::pair<DiskId, std::uint32_t>(id, 0));
+      shared.places.push_back(at->second);
+      marks_[at->second] |= mark;
+    }
+  };
+  find(below_.shown, seen_below);
+  find(above_.shown, seen_above);
+  for (const bool above : {false, true}) {
+    Shared& ghosts = above ? above_.ghosts : below_.ghosts;
+    find(ghosts, ghost);
+    for (std::uint32_t k = 0; k < ghosts.places.size(); ++k) ghost_places_.push_back({ghosts.places[k], k, above});
+  }
+  std::sort(ghost_places_.begin(), ghost_places_.end(),
+            [](const GhostPlace& a, const GhostPlace& b) { return a.place < b.place; });
+}
+
+void ExactGhosts::look_beyond(const Disks& d) {
+  double from_low = HUGE_VAL;
+  double from_high = HUGE_VAL;
+  excursion_ = 0.0;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    if ((marks_[i] & ghost) != 0) continue;
+    const double y = from_centre(d.y[i]);
+    if ((marks_[i] & seen_below) == 0) from_low = std::min(from_low, y + half_);
+    if ((marks_[i] & seen_above) == 0) from_high = std::min(from_high, half_ - y);
+    if (slab_.has_lower) excursion_ = std::max(excursion_, -(y + half_));
+    if (slab_.has_upper) excursion_ = std::max(excursion_, y - half_);
+  }
+  Bytes to_below;
+  Bytes to_above;
+  put(to_below, from_low);
+  put(to_above, from_high);
+  const auto [from_below, from_above] = ranks_.exchange(to_below, to_above);
+  // Further away may be disks of ranks beyond the neighbour.
+  beyond_below_ = slab_.has_lower ? std::min(MessageReader(from_below).get<double>(), depth_) : HUGE_VAL;
+  beyond_above_ = slab_.has_upper ? std::min(MessageReader(from_above).get<double>(), depth_) : HUGE_VAL;
+}
+
+bool ExactGhosts::are_few() const {
+  return std::min(beyond_below_, beyond_above_) < least_share_left * depth_ || excursion_ > most_excursion();
+}
+
+double ExactGhosts::most_excursion() const {
+  return excursion_share * depth_;
+}
+
+KnownBand ExactGhosts::band(double flight) const {
+  KnownBand known = band_;
+  known.below = -(half_ + beyond_below_) + flight;
+  known.above = half_ + beyond_above_ - flight;
+  return known;
+}
+
+double ExactGhosts::least_of_all(double here) {
+  double most = -here;
+  ranks_.maximum({&most, 1});
+  return -most;
+}
+
+SliceOutcome ExactGhosts::agree(SliceOutcome here, Count& events) {
+  constexpr auto outcomes = static_cast<std::size_t>(SliceOutcome::given_up) + 1;
+  std::array<std::int64_t, outcomes> said{};
+  said[0] = static_cast<std::int64_t>(events);
+  if (here != SliceOutcome::done) said[static_cast<std::size_t>(here)] = 1;
+  ranks_.sum(said);
+  events = static_cast<Count>(said[0]);
+  for (std::size_t k = outcomes - 1; k > 0; --k) {
+    if (said[k] > 0) return static_cast<SliceOutcome>(k);
+  }
+  return SliceOutcome::done;
+}
+
+const ExactGhosts::GhostPlace& ExactGhosts::ghost_at(std::uint32_t place) const {
+  const auto at = std::lower_bound(ghost_places_.begin(), ghost_places_.end(), place,
+                                   [](const GhostPlace& g, std::uint32_t wanted) { return g.place < wanted; });
+  return *at;
+}
+
+void ExactGhosts::learn(WindowState& window, const std::vector<std::uint32_t>& unknown) {
+  std::vector<Question> of_below;
+  std::vector<Question> of_above;
+  for (const std::uint32_t i : unknown) {
+    const GhostPlace& at = ghost_at(i);
+    (at.above ? of_above : of_below).push_back({at.number, window.record[i].version});
+  }
+  Bytes to_below;
+  Bytes to_above;
+  put_all(to_below, of_below);
+  put_all(to_above, of_above);
+  const auto asked = ranks_.exchange(to_below, to_above);
+  const auto answers =
+      ranks_.exchange(answer(window, below_.shown, asked.below), answer(window, above_.shown, asked.above));
+  take_answer(window, below_.ghosts, answers.below);
+  take_answer(window, above_.ghosts, answers.above);
+}
+
+Bytes ExactGhosts::answer(const WindowState& window, const Shared& shown, const Bytes& request) {
+  std::vector<Answer> answers;
+  for (const Question& q : MessageReader(request).get_all<Question>()) {
+    const std::uint32_t i = shown.places.at(q.number);
+    const DiskRecord& record = window.record[i];
+    if (record.version == q.version) continue;
+    answers.push_back({q.number, window.thermal_hits.empty() ? 0 : window.thermal_hits[i], record.path,
+                       window.last_contact.empty() ? 0.0 : window.last_contact[i],
+                       window.spin.empty() ? 0.0 : window.spin[i], record.version});
+  }
+  Bytes message;
+  put_all(message, answers);
+  return message;
+}
+
+void ExactGhosts::take_answer(WindowState& window, const Shared& ghosts, const Bytes& message) {
+  for (const Answer& a : MessageReader(message).get_all<Answer>()) {
+    const std::uint32_t i = ghosts.places.at(a.number);
+    window.record[i].path = a.path;
+    window.record[i].version = a.version;
+    if (!window.thermal_hits.empty()) window.thermal_hits[i] = a.thermal_hits;
+    if (!window.last_contact.empty()) window.last_contact[i] = a.last_contact;
+    if (!window.spin.empty()) window.spin[i] = a.spin;
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,93 @@
+// The ghosts of a rank that runs `exact`: the disks of its neighbours up to a depth beyond its slab's borders, with all
+// that they do. They are chosen when disks are sorted, and the same until the next time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/disks/domain.hpp"
+#include "core/disks/state.hpp"
+#include "parallel/exact/window_ghosts.hpp"
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/border_search.hpp"
+#include "parallel/slabs/moving_disks.hpp"
+
+namespace carom {
+
+class ExactGhosts final : public WindowGhosts {
+ public:
+  explicit ExactGhosts(Ranks& ranks) : ranks_(ranks) {}
+
+  // Takes the ghosts out of the columns again.
+  void drop(State& state);
+  // The disks of the state are those in the rank's slab; it gets the ghosts, up to this depth (length) beyond the
+  // slab's borders. Collective. Precondition: no slab is thinner than the depth, and in a periodic box the slab with
+  // its ghosts is lower than the box.
+  void see(const Slab& slab, const Domain& box, double depth, DiskColumns columns, State& state);
+  // After they have been sorted with the others.
+  void find_places(const Disks& disks);
+
+  // Before each window: how near the disks that this rank does not have have come. Collective.
+  void look_beyond(const Disks& disks);
+  // Are there so few left between these and the slab that new ghosts are due?
+  bool are_few() const;
+
+  // At the start of a window that is run, no disk of any rank has left its slab by more than this; length.
+  double most_excursion() const;
+
+  // The disks of the rank itself, in runs: visit(begin, end).
+  template <class Visit>
+  void visit_own(const Disks& disks, Visit&& visit) const {
+    const std::size_t n = disks.size();
+    for (std::size_t i = 0; i < n;) {
+      std::size_t end = i;
+      const bool ghosts = is_marked(i);
+      while (end < n && is_marked(end) == ghosts) ++end;
+      if (!ghosts) visit(i, end);
+      i = end;
+    }
+  }
+
+  bool is_ghost(std::uint32_t i) const override { return is_marked(i); }
+  KnownBand band(double flight) const override;
+  double least_of_all(double here) override;
+  SliceOutcome agree(SliceOutcome here, Count& events) override;
+  void learn(WindowState& window, const std::vector<std::uint32_t>& unknown) override;
+
+ private:
+  // Of a disk, as bits.
+  enum Mark : std::uint8_t { own = 0, ghost = 1, seen_below = 2, seen_above = 4 };
+  // What one of two neighbours has of the other, in one order on both ranks: ids, and where they are stored.
+  struct Shared {
+    std::vector<DiskId> ids;
+    std::vector<std::uint32_t> places;
+  };
+  // Disks that this rank shows to a neighbour, and its ghosts that the neighbour shows.
+  struct Border {
+    Shared shown, ghosts;
+  };
+  // A ghost by storage index: which border it lies beyond, and its number there.
+  struct GhostPlace {
+    std::uint32_t place, number;
+    bool above;
+  };
+
+  bool is_marked(std::size_t i) const { return i < marks_.size() && (marks_[i] & ghost) != 0; }
+  void take_in_ghosts(const Bytes& message, Shared& ghosts, DiskColumns columns, State& state);
+  double from_centre(double y) const { return band_.from_centre(y); }
+  const GhostPlace& ghost_at(std::uint32_t place) const;
+  static Bytes answer(const WindowState& window, const Shared& shown, const Bytes& request);
+  static void take_answer(WindowState& window, const Shared& ghosts, const Bytes& message);
+
+  Ranks& ranks_;
+  Slab slab_;
+  KnownBand band_;  // centre and period
+  double half_ = 0.0, depth_ = 0.0;
+  double beyond_below_ = 0.0, beyond_above_ = 0.0;  // from the borders to the first disk that is not here
+  double excursion_ = 0.0;                          // how far a disk of this rank has left its slab
+  Border below_, above_;
+  std::vector<std::uint8_t> marks_;  // by storage index
+  std::vector<GhostPlace> ghost_places_;
+};
+
+}  // namespace carom

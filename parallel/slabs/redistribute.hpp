@@ -1,0 +1,20 @@
+// Disks on their way to the ranks in whose slabs they are.
+#pragma once
+
+#include "core/disks/state.hpp"
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/moving_disks.hpp"
+#include "parallel/slabs/slab_cut.hpp"
+
+namespace carom {
+
+// Slabs with about as many disks each; own: the disks of the rank, wherever they are. Collective, as all here.
+SlabCut cut_by_rows_of_all(Ranks& ranks, const Domain& box, const Disks& own);
+
+// Each disk goes to the rank whose slab it is in, from any other.
+void redistribute(Ranks& ranks, const SlabCut& cut, DiskColumns columns, State& state);
+
+// All go to rank 0; the others have none then.
+void collect_on_first(Ranks& ranks, DiskColumns columns, State& state);
+
+}  // namespace carom

@@ -1,0 +1,29 @@
+// The method `exact` on several ranks, each with a slab of the box.
+#pragma once
+
+#include <memory>
+
+#include "core/step/engine.hpp"
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/slab_start.hpp"
+#include "parallel/threads/threads.hpp"
+
+namespace carom {
+
+// This rank's part of an engine that has the bits of make_parallel_exact on any number of ranks with any number of
+// threads each. part: the initial state with the disks in the rank's slab; start: of all of them. step() and all that
+// asks for disks is collective. Of state(), the disks are the rank's own, and all else is that of the whole run. ranks
+// outlives the engine.
+//
+// A rank processes the events of its own disks, and of its neighbours' up to a depth beyond its slab, as far as they do
+// not depend on disks further away; what then became of those it asks their ranks for, after each slice. Where slabs
+// are too thin for that, or the scene has something that they do not know (sources, sinks, Brownian motion,
+// thermostats, shear), rank 0 has all disks and runs them alone; so it does for a while after windows that are crowded.
+// Preconditions: scene.run.method is exact, threads.count >= 1.
+std::unique_ptr<Engine> make_slab_exact_part(const Scene& scene, State part, const SlabStart& start,
+                                             const Threads& threads, Ranks& ranks);
+
+// The same where all ranks have the same initial state, with all disks.
+std::unique_ptr<Engine> make_slab_exact(const Scene& scene, State initial, const Threads& threads, Ranks& ranks);
+
+}  // namespace carom

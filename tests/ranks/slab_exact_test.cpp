@@ -1,0 +1,155 @@
+// `exact` on several ranks: the bits of one machine after every window, on any number of ranks and threads.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/slab_support.hpp"
+
+namespace carom {
+namespace {
+
+using test::expect_bits;
+using test::Features;
+using test::RankThreads;
+using test::SlabTrace;
+
+// A box so tall that each of four slabs is thicker than what depends on its neighbours.
+struct TallBox {
+  std::string sides = "periodic";
+  double width = 24.0, height = 400.0;
+  std::string box{};  // further keys
+  int disks = 2000;
+  std::string radius = "0.6", mass = "1.5";
+  std::string positions = "random";
+  double t_end = 8.0;
+  Features features{};  // physics
+  std::string more{};   // obstacles, inner walls
+};
+
+Scene tall_scene(const TallBox& tall) {
+  std::string sides = test::sides_text(tall.sides, 1);
+  if (tall.sides == "moving") {
+    sides =
+        "left = { motion = { velocity = [0.3, 0.0] } }\nright = \"wall\"\ntop = \"wall\"\n"
+        "bottom = { restitution = 0.9, motion = { vibrate = [0.0, 0.1], period = 0.17, shape = \"sine\" } }\n";
+  }
+  return parse_scene("[box]\n" + sides + fmt::format("width = {}\nheight = {}\n", tall.width, tall.height) + tall.box +
+                         test::physics_text(tall.features) +
+                         fmt::format("[[disks]]\ncount = {}\npositions = \"{}\"\nradius = {}\nmass = {}\n", tall.disks,
+                                     tall.positions, tall.radius, tall.mass) +
+                         "velocities = { maxwell = 4.0 }\n" +
+                         (tall.features.rough.empty() ? "" : "spin_temperature = 5.0\n") + tall.more +
+                         fmt::format("[run]\nmethod = \"exact\"\nt_end = {}\n", tall.t_end),
+                     "scene", "");
+}
+
+// The same bits on 2, 3 and 4 ranks. sometimes_alone: rank 0 runs some windows alone, and slabs go on after them;
+// otherwise none ever has more than its share of the disks.
+Counters expect_bits_on_slabs(const TallBox& tall, RankThreads threads = RankThreads::alternate,
+                              bool sometimes_alone = false) {
+  const auto all = static_cast<std::size_t>(tall.disks);
+  std::size_t alone = 0;
+  const auto see = [&](const SlabTrace& trace) {
+    alone += trace.most_disks >= all ? 1 : 0;
+    if (!sometimes_alone) {
+      EXPECT_LT(trace.most_disks, 6 * all / 10);
+      EXPECT_EQ(trace.thin, 0U);
+    }
+  };
+  const Counters counters = expect_bits(tall_scene(tall), {2, 3, 4}, threads, see).counters;
+  EXPECT_EQ(alone > 0, sometimes_alone);
+  return counters;
+}
+
+TEST(SlabExact, HasTheBitsOfOneMachineAfterEveryWindow) {
+  for (const char* sides : {"periodic", "wall", "soft", "hot"}) {
+    SCOPED_TRACE(sides);
+    EXPECT_GT(expect_bits_on_slabs({.sides = sides}, RankThreads::both).collisions, 5000U);
+  }
+}
+
+TEST(SlabExact, HasTheBitsOfDenseAndDiluteGases) {
+  for (const double packing_fraction : {0.05, 0.5, 0.7, 0.8}) {
+    SCOPED_TRACE(packing_fraction);
+    TallBox tall;
+    tall.height = 2000.0 * 0.36 * 3.14159265 / 24.0 / packing_fraction;
+    tall.positions = packing_fraction < 0.5 ? "random" : "hexagonal";
+    tall.t_end = packing_fraction < 0.1 ? 15.0 : 4.0 * (1.0 - packing_fraction);
+    EXPECT_GT(expect_bits_on_slabs(tall).collisions, 3000U);
+  }
+}
+
+TEST(SlabExact, HasTheBitsOfUnequalDisksThatLoseEnergy) {
+  for (const char* law : {"", "viscoelastic"}) {
+    TallBox tall{.radius = "{ uniform = [0.3, 1.1] }", .mass = "{ uniform = [1, 20] }"};
+    tall.features.law = law;
+    tall.features.restitution = 0.8;
+    EXPECT_GT(expect_bits_on_slabs(tall).collisions, 3000U);
+    tall.box = "[physics.collapse]\nmodel = \"tc\"\ncontact_time = 1e-4\n";
+    EXPECT_GT(expect_bits_on_slabs(tall).collisions, 3000U);
+  }
+}
+
+TEST(SlabExact, HasTheBitsOfRoughDisks) {
+  for (const char* rough : {"sticking", "sliding"}) {
+    TallBox tall{.sides = "wall"};
+    tall.features.rough = rough;
+    EXPECT_GT(expect_bits_on_slabs(tall).collisions, 3000U);
+  }
+}
+
+// Disks fall: slabs are cut anew as they go.
+TEST(SlabExact, HasTheBitsUnderGravity) {
+  for (const bool tilted : {false, true}) {
+    TallBox tall{.sides = "wall", .t_end = 3.0};
+    tall.features.gravity = true;
+    tall.features.tilted = tilted;
+    EXPECT_GT(expect_bits_on_slabs(tall).collisions, 3000U);
+  }
+}
+
+TEST(SlabExact, HasTheBitsWhereWallsMoveAndThingsStandInTheWay) {
+  for (const char* sides : {"moving", "wall", "periodic"}) {
+    SCOPED_TRACE(sides);
+    TallBox tall{.sides = sides};
+    tall.more =
+        "[[disks]]\nfixed = true\ncount = 60\npositions = \"random\"\nregion = [4.0, 50.0, 24.0, 390.0]\n"
+        "radius = { uniform = [0.05, 0.8] }\n[[walls]]\npoints = [[8.0, 20.0], [12.0, 130.0], [10.0, 250.0]]\n";
+    EXPECT_GT(expect_bits_on_slabs(tall).collisions, 3000U);
+    tall.more =
+        "[[walls]]\nfrom = [10.0, 190.0]\nto = [15.0, 205.0]\nmotion = { vibrate = [0.3, -0.2], period = 0.3 }\n";
+    EXPECT_GT(expect_bits_on_slabs(tall).collisions, 3000U);
+  }
+}
+
+// A disk that hardly has room between two fixed ones makes windows crowded.
+TEST(SlabExact, HasTheBitsAfterCrowdedWindows) {
+  TallBox tall{.t_end = 0.02};
+  tall.box =
+      "[[disks]]\nfixed = true\ncount = 2\npositions = [[5.0, 210.0], [5.0, 212.400005]]\nradius = 0.6\n"
+      "[[disks]]\ncount = 1\npositions = [[5.0, 211.200002]]\nvelocities = [[0.0, 100.0]]\nradius = 0.6\nmass = 1.5\n";
+  EXPECT_GT(expect_bits_on_slabs(tall, RankThreads::alternate, true).wall_collisions, 50'000U);
+}
+
+// Light disks among heavy ones soon break the speed bound, and become so fast that slabs are too thin.
+TEST(SlabExact, HasTheBitsWhereWindowsAreDoneAgain) {
+  const TallBox tall{.mass = "{ uniform = [1, 2000] }", .t_end = 150.0};
+  EXPECT_GT(expect_bits_on_slabs(tall, RankThreads::alternate, true).collisions, 3000U);
+}
+
+// What slabs do not know one rank does.
+TEST(SlabExact, HasTheBitsOfScenesThatOneRankRuns) {
+  for (const char* sides : {"wall", "periodic", "sink", "periodic_x"}) {
+    int k = 0;
+    for (const Features& f : test::all_features("exact", sides)) {
+      if (k++ % 3 != 0 || f.gravity || f.restitution < 1.0) continue;
+      const Scene scene = test::feature_scene(f, 20);
+      SCOPED_TRACE(scene.title);
+      expect_bits(scene, {1, 3}, RankThreads::alternate);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom
