@@ -197,6 +197,10 @@ TEST(LeadingEngine, HasAllDisksOfExactWithinWindows) {
             EXPECT_EQ(engine->disks_at(t, here), expected->disks_at(t, there));
             ASSERT_EQ(state_hash(here), state_hash(there)) << t;
           }
+          expect_same(lead.sums(), sums_of(expected->state(), scene));
+          expect_same(lead.overlaps().disks, overlaps_of(expected->state(), scene).disks);
+          expect_same(lead.overlaps().wall, overlaps_of(expected->state(), scene).wall);
+          if (expected->state().counters.steps % 8 == 0) engine->release_memory();
         }
         EXPECT_EQ(lead.report().steps, expected->state().counters.steps);
         engine->forget_paths();
