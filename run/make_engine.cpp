@@ -20,6 +20,17 @@
 
 namespace carom {
 
+namespace {
+
+// What read_rank_start reads.
+std::string rank_start(const Scene& scene, const State& state) {
+  RunRecord record;
+  record.scene_text = resolved_toml(scene);
+  return checkpoint_bytes(record, state);
+}
+
+}  // namespace
+
 int threads_of_rank(int ranks) {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks);
 }
@@ -66,15 +77,21 @@ BlockRunner make_block_runner(const EngineChoice& choice) {
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial) {
   if (choice.lead != nullptr) {
-    const auto start = [&](const State& state) {
-      RunRecord record;
-      record.scene_text = resolved_toml(scene);
-      return checkpoint_bytes(record, state);
-    };
+    const auto start = [&](const State& state) { return rank_start(scene, state); };
     return choice.lead->make_engine(scene, std::move(initial), {choice.threads}, start);
   }
   if (choice.name == "reference") return make_reference_engine(scene, std::move(initial));
   return make_parallel_engine(scene, std::move(initial), {choice.threads});
+}
+
+std::unique_ptr<Engine> make_engine_at_start(const EngineChoice& choice, const Scene& scene,
+                                             const std::function<void(const GrowthProgress&)>& watch) {
+  if (choice.lead != nullptr) {
+    const auto start = [&](const State& state) { return rank_start(scene, state); };
+    std::unique_ptr<Engine> engine = choice.lead->make_engine_at_start(scene, {choice.threads}, start);
+    if (engine) return engine;
+  }
+  return make_engine(choice, scene, make_initial_state(choice, scene, watch));
 }
 
 PairCounter make_pair_counter(const EngineChoice& choice) {

@@ -39,6 +39,10 @@ State make_initial_state(const EngineChoice& choice, const Scene& scene,
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial);
 
+// The same of make_initial_state; of several ranks each makes its part of it, where that can be.
+std::unique_ptr<Engine> make_engine_at_start(const EngineChoice& choice, const Scene& scene,
+                                             const std::function<void(const GrowthProgress&)>& watch = {});
+
 // What the ranks above 0 make a part of: the scene and state with which rank 0 made an engine.
 std::pair<Scene, State> read_rank_start(const std::string& start);
 

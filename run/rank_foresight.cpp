@@ -4,6 +4,8 @@
 
 #include "core/base/check.hpp"
 #include "parallel/slabs/moving_disks.hpp"
+#include "parallel/slabs/start_on_slabs.hpp"
+#include "run/run_outputs.hpp"
 
 namespace carom {
 
@@ -13,7 +15,7 @@ namespace {
 // disk, MPI included; for each of its disks, with its cells and the lists that it makes; and for a column that not all
 // scenes have.
 constexpr double process_bytes = 31e6;
-constexpr double own_disk_bytes = 69.0;
+constexpr double own_disk_bytes = 75.0;
 constexpr double column_bytes = 12.0;
 
 // Time spent on trying steps; seconds.
@@ -35,6 +37,8 @@ RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks) {
   const int more = (columns.radius ? 1 : 0) + (columns.mass ? 1 : 0) + (columns.spin ? 1 : 0);
   f.other_bytes = process_bytes + (own_disk_bytes + more * column_bytes) * f.disks;
   if (scene.box.has_thermal_side()) f.other_bytes += sizeof(std::uint32_t) * all;
+  f.first_has_all = !starts_on_slabs(scene) || wants_files(scene);
+  f.first_bytes = f.other_bytes;
   f.traffic = try_slabs(scene, start, ranks, traffic_trial);
   return f;
 }

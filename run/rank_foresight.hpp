@@ -9,14 +9,15 @@ namespace carom {
 
 struct RankForesight {
   int ranks = 1;
-  double disks = 0.0;        // of each, in the mean
-  double first_bytes = 0.0;  // memory of rank 0, which makes the start and writes the files
-  double other_bytes = 0.0;  // of each of the others
-  SlabTraffic traffic;       // of a step and a rank
+  double disks = 0.0;         // of each, in the mean
+  double first_bytes = 0.0;   // memory of rank 0, which makes the start and writes the files
+  double other_bytes = 0.0;   // of each of the others
+  bool first_has_all = true;  // has rank 0 all disks at any time?
+  SlabTraffic traffic;        // of a step and a rank
 };
 
-// start: with all disks. Throws InputError where so many ranks cannot run the scene. first_bytes is left to whoever has
-// tried the run.
+// start: with all disks. Throws InputError where so many ranks cannot run the scene. Where rank 0 has all disks,
+// first_bytes is left to the caller, which has tried the run.
 RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks);
 
 }  // namespace carom

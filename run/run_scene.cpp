@@ -283,11 +283,11 @@ RunOutcome SceneRun::finished() {
   return outcome;
 }
 
-State state_of(const Scene& scene, ResumeFrom* from, RunSettings& settings) {
-  if (from != nullptr) return std::move(from->checkpoint.state);
+std::unique_ptr<Engine> engine_of(const Scene& scene, ResumeFrom* from, RunSettings& settings) {
+  if (from != nullptr) return make_engine(settings.engine, scene, std::move(from->checkpoint.state));
   // Its line of progress goes with it.
   const auto watch = std::exchange(settings.listener.growth, {});
-  return make_initial_state(settings.engine, scene, watch);
+  return make_engine_at_start(settings.engine, scene, watch);
 }
 
 // The engine at the run's start.
@@ -296,10 +296,9 @@ struct StartedEngine {
   RunStart at;
   std::vector<std::string> warnings;  // of that start
 };
-StartedEngine engine_of(const Scene& scene, ResumeFrom* from, RunSettings& settings) {
+StartedEngine start_engine(const Scene& scene, ResumeFrom* from, RunSettings& settings) {
   StartedEngine start;
-  start.engine =
-      within_memory(scene, [&] { return make_engine(settings.engine, scene, state_of(scene, from, settings)); });
+  start.engine = within_memory(scene, [&] { return engine_of(scene, from, settings); });
   const StateSums sums = sums_of(*start.engine, scene, settings.engine);
   start.at = sums.at;
   start.warnings = validity_of(scene, sums.smallest_radius, sums.fastest);
@@ -312,7 +311,7 @@ StartedEngine engine_of(const Scene& scene, ResumeFrom* from, RunSettings& setti
 
 RunOutcome carry_out(const Scene& scene, ResumeFrom* from, RunSettings settings) {
   const FloatEnvironment environment;
-  const auto [engine, at, warnings] = engine_of(scene, from, settings);
+  const auto [engine, at, warnings] = start_engine(scene, from, settings);
   tell_all(settings.listener, warnings);
   tell(settings.listener.ready);
   RunRecord record = record_of(scene, from, settings, at);

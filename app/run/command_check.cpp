@@ -140,7 +140,7 @@ void try_run(const Scene& scene, const EngineChoice& choice, State initial, Find
 void try_ranks(const Scene& scene, const EngineChoice& choice, int ranks, bool tried, Findings& found) {
   if (!tried) fail_input("--ranks", "the disks grow for too long to be tried", "expected no --ranks");
   found.ranks = within_memory(scene, [&] { return foresee_ranks(scene, make_initial_state(choice, scene), ranks); });
-  found.ranks->first_bytes = found.memory_bytes + mpi_bytes;
+  if (found.ranks->first_has_all) found.ranks->first_bytes = found.memory_bytes + mpi_bytes;
 }
 
 }  // namespace

@@ -12,23 +12,15 @@
 #include "core/physics/obstacle_contact.hpp"
 #include "core/scene/size_law.hpp"
 #include "core/start/between_sides.hpp"
-#include "core/start/circle_lattice.hpp"
 #include "core/start/initial_velocities.hpp"
-#include "core/start/lattice.hpp"
+#include "core/start/lattice_places.hpp"
 #include "core/start/placement.hpp"
 #include "core/start/placement_grid.hpp"
-#include "core/start/start_region.hpp"
 #include "core/start/wall_segments.hpp"
 
 namespace carom {
 
 namespace {
-
-// Rounding of decimals may put a touching disk this far beyond a wall: 1e-12 of its radius, and four units in the last
-// place of the box.
-double side_slack(double radius, double length) {
-  return 1e-12 * radius + 0x1p-50 * length;
-}
 
 // A column becomes one number where all have it.
 void share_where_equal(std::vector<double>& column, double& common) {
@@ -114,66 +106,16 @@ void place_listed(const Scene& scene, std::size_t group, DiskId first_id, Disks&
   }
 }
 
-// The box that a lattice fills: all of it, or a region's rectangle, periodic where it spans a periodic side.
-struct LatticeRoom {
-  Domain box;
-  Vec2 origin;
-};
-LatticeRoom lattice_room(const Domain& box, const std::optional<StartRegion>& region) {
-  if (!region) return {box, {}};
-  LatticeRoom room{{region->high.x - region->low.x, region->high.y - region->low.y}, region->low};
-  const SideKind across = spans_x(*region, box) ? SideKind::periodic : SideKind::wall;
-  const SideKind up = spans_y(*region, box) ? SideKind::periodic : SideKind::wall;
-  room.box.sides = {across, across, up, up};
-  return room;
-}
-
-[[noreturn]] void fail_lattice(const Scene& scene, std::size_t group, double radius, const std::string& room,
-                               Count capacity) {
-  const DiskGroup& g = scene.groups[group];
-  fail_input(place_in_group(scene, group, "positions"),
-             fmt::format("{} disks of radius up to {} do not fit on a {} lattice in {}", g.count, radius,
-                         g.positions.kind == PositionLaw::Kind::square ? "square" : "hexagonal", room),
-             fmt::format("expected at most {}", capacity));
-}
-
-void place_in_circle(const Scene& scene, std::size_t group, DiskId first_id, double radius, Disks& disks) {
-  const DiskGroup& g = scene.groups[group];
-  const StartRegion& region = *g.positions.region;
-  const CircleLattice lattice{g.positions.kind == PositionLaw::Kind::hexagonal, region.radius - radius, 2.0 * radius};
-  const std::vector<Vec2> sites = circle_sites(lattice, g.count);
-  if (sites.empty()) {
-    fail_lattice(scene, group, radius, fmt::format("the circle of radius {}", region.radius), circle_capacity(lattice));
-  }
-  for (std::size_t k = 0; k < sites.size(); ++k) {
-    disks.x[first_id + k] = region.centre.x + sites[k].x;
-    disks.y[first_id + k] = region.centre.y + sites[k].y;
-  }
-}
-
 void place_on_lattice(const Scene& scene, std::size_t group, DiskId first_id, Disks& disks) {
-  const DiskGroup& g = scene.groups[group];
-  if (g.count == 0) return;
-  const bool square = g.positions.kind == PositionLaw::Kind::square;
+  const Count count = scene.groups[group].count;
+  if (count == 0) return;
   double radius = 0.0;
-  for (std::size_t k = 0; k < g.count; ++k) radius = std::max(radius, disks.radius_of(first_id + k));
-  const std::optional<StartRegion>& region = g.positions.region;
-  if (region && region->circle) return place_in_circle(scene, group, first_id, radius, disks);
-  const auto [box, origin] = lattice_room(scene.box, region);
-  const auto lattice =
-      square ? square_lattice(box, g.count, 2.0 * radius) : hexagonal_lattice(box, g.count, 2.0 * radius);
-  if (!lattice) {
-    fail_lattice(scene, group, radius,
-                 fmt::format("the {} of {} x {}", region ? "region" : "box", box.width, box.height),
-                 square ? square_capacity(box, 2.0 * radius) : hexagonal_capacity(box, 2.0 * radius));
-  }
-  for (Count k = 0; k < g.count; ++k) {
-    Vec2 site = lattice_site(*lattice, k, g.count);
-    // Rounding must not carry the outermost disks of a full lattice into a side.
-    if (!box.periodic_x()) site.x = std::clamp(site.x, radius, box.width - radius);
-    if (!box.periodic_y()) site.y = std::clamp(site.y, radius, box.height - radius);
-    disks.x[first_id + k] = origin.x + site.x;
-    disks.y[first_id + k] = origin.y + site.y;
+  for (std::size_t k = 0; k < count; ++k) radius = std::max(radius, disks.radius_of(first_id + k));
+  const LatticePlaces places(scene, group, radius);
+  for (Count k = 0; k < count; ++k) {
+    const Vec2 place = places.at(k);
+    disks.x[first_id + k] = place.x;
+    disks.y[first_id + k] = place.y;
   }
 }
 

@@ -20,17 +20,12 @@ struct Range {
 };
 
 void remove_mean_velocity(Disks& d, Range range) {
-  double mass = 0.0;
-  double px = 0.0;
-  double py = 0.0;
+  GroupMomentum sum;
+  for (std::size_t i = range.first; i < range.last; ++i) sum.add(d.mass_of(i), {d.vx[i], d.vy[i]});
+  const Vec2 mean = sum.mean_velocity();
   for (std::size_t i = range.first; i < range.last; ++i) {
-    mass += d.mass_of(i);
-    px += d.mass_of(i) * d.vx[i];
-    py += d.mass_of(i) * d.vy[i];
-  }
-  for (std::size_t i = range.first; i < range.last; ++i) {
-    d.vx[i] -= px / mass;
-    d.vy[i] -= py / mass;
+    d.vx[i] -= mean.x;
+    d.vy[i] -= mean.y;
   }
 }
 
@@ -49,10 +44,9 @@ void scale_to_energy(Disks& d, Range range, double energy) {
 void set_maxwell(const Scene& scene, double temperature, Disks& d, Range range) {
   if (temperature == 0.0) return;
   for (std::size_t i = range.first; i < range.last; ++i) {
-    const Vec2 normal = normals(scene.seed, Stream::velocity, d.id[i], 0);
-    const double speed = std::sqrt(temperature / d.mass_of(i));
-    d.vx[i] = normal.x * speed;
-    d.vy[i] = normal.y * speed;
+    const Vec2 velocity = maxwell_velocity(scene, temperature, d.id[i], d.mass_of(i));
+    d.vx[i] = velocity.x;
+    d.vy[i] = velocity.y;
   }
   remove_mean_velocity(d, range);
   scale_to_energy(d, range, static_cast<double>(range.last - range.first) * temperature);
@@ -60,9 +54,9 @@ void set_maxwell(const Scene& scene, double temperature, Disks& d, Range range) 
 
 void set_uniform(const Scene& scene, double limit, Disks& d, Range range) {
   for (std::size_t i = range.first; i < range.last; ++i) {
-    const TwoUniforms u = uniforms(scene.seed, Stream::velocity, d.id[i], 0);
-    d.vx[i] = limit * (2.0 * u.a - 1.0);
-    d.vy[i] = limit * (2.0 * u.b - 1.0);
+    const Vec2 velocity = uniform_velocity(scene, limit, d.id[i]);
+    d.vx[i] = velocity.x;
+    d.vy[i] = velocity.y;
   }
 }
 
@@ -78,8 +72,7 @@ void add_drift(Vec2 drift, Disks& d, Range range) {
 void set_thermal_spins(const Scene& scene, double temperature, Disks& d, Range range) {
   double twice_energy = 0.0;
   for (std::size_t i = range.first; i < range.last; ++i) {
-    const double scale = std::sqrt(temperature / (d.inertia * d.mass_of(i))) / d.radius_of(i);
-    d.spin[i] = scale * normals(scene.seed, Stream::spin, d.id[i], 0).x;
+    d.spin[i] = thermal_spin(scene, temperature, d.id[i], d.inertia, d.mass_of(i), d.radius_of(i));
     twice_energy += 2.0 * rotational_energy(d.inertia, d.mass_of(i), d.radius_of(i), d.spin[i]);
   }
   const double factor = std::sqrt(static_cast<double>(range.last - range.first) * temperature / twice_energy);
@@ -102,6 +95,22 @@ void check_finite(const Scene& scene, std::size_t group, const Disks& d, Range r
 }
 
 }  // namespace
+
+Vec2 maxwell_velocity(const Scene& scene, double temperature, DiskId id, double mass) {
+  const Vec2 normal = normals(scene.seed, Stream::velocity, id, 0);
+  const double speed = std::sqrt(temperature / mass);
+  return {normal.x * speed, normal.y * speed};
+}
+
+Vec2 uniform_velocity(const Scene& scene, double limit, DiskId id) {
+  const TwoUniforms u = uniforms(scene.seed, Stream::velocity, id, 0);
+  return {limit * (2.0 * u.a - 1.0), limit * (2.0 * u.b - 1.0)};
+}
+
+double thermal_spin(const Scene& scene, double temperature, DiskId id, double inertia, double mass, double radius) {
+  const double scale = std::sqrt(temperature / (inertia * mass)) / radius;
+  return scale * normals(scene.seed, Stream::spin, id, 0).x;
+}
 
 void set_velocities(const Scene& scene, Disks& d) {
   d.vx.assign(d.size(), 0.0);

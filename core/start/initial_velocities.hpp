@@ -16,4 +16,20 @@ void set_velocities(const Scene& scene, Disks& disks);
 // Where disks are rough: gives them their moments of inertia and first spins, likewise by the law of the group of each.
 void set_spins(const Scene& scene, Disks& disks);
 
+// What they draw for a disk, before the sums over its group.
+Vec2 maxwell_velocity(const Scene& scene, double temperature, DiskId id, double mass);
+Vec2 uniform_velocity(const Scene& scene, double limit, DiskId id);
+double thermal_spin(const Scene& scene, double temperature, DiskId id, double inertia, double mass, double radius);
+
+// The sums over a group that take off its mean velocity; its disks in order of id.
+struct GroupMomentum {
+  double mass = 0.0, px = 0.0, py = 0.0;
+  void add(double m, Vec2 v) {
+    mass += m;
+    px += m * v.x;
+    py += m * v.y;
+  }
+  Vec2 mean_velocity() const { return {px / mass, py / mass}; }
+};
+
 }  // namespace carom

@@ -20,6 +20,12 @@ void place_at_random(const Scene& scene, Disks& disks, PlacementGrid& grid, std:
 // place_at_random, or what gives the same bits.
 using PlaceAtRandom = std::function<void(const Scene&, Disks&, PlacementGrid&, std::vector<std::uint32_t>)>;
 
+// Rounding of decimals may put a touching disk this far beyond a wall: 1e-12 of its radius, and four units in the last
+// place of the box.
+inline double side_slack(double radius, double length) {
+  return 1e-12 * radius + 0x1p-50 * length;
+}
+
 // "file:line: disks.g.key", where messages about group g point.
 std::string place_in_group(const Scene& scene, std::size_t group, std::string_view key);
 

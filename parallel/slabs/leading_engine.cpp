@@ -13,6 +13,7 @@
 #include "parallel/slabs/moving_disks.hpp"
 #include "parallel/slabs/slab_exact.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
+#include "parallel/slabs/start_on_slabs.hpp"
 #include "parallel/slabs/whole_state.hpp"
 
 namespace carom {
@@ -23,6 +24,7 @@ namespace {
 enum class Call : std::int64_t {
   end,
   make,
+  begin,
   step,
   collect,
   look,
@@ -340,16 +342,34 @@ std::unique_ptr<Engine> RankLead::make_engine(const Scene& scene, State initial,
     ranks_.share(message_of(slabs));
     initial.disks = deal_out(ranks_, slabs, all, std::move(initial.disks));
     all = Disks();
-    auto engine = std::make_unique<LeadingEngine>(ranks_, *this, scene,
-                                                  make_part(scene, std::move(initial), slabs, threads, ranks_));
-    report_ = [lead = engine.get()] { return lead->report(); };
-    sums_ = [lead = engine.get()] { return lead->sums(); };
-    overlaps_ = [lead = engine.get()] { return lead->overlaps(); };
-    return engine;
+    return lead_engine(scene, make_part(scene, std::move(initial), slabs, threads, ranks_));
   } catch (...) {
     lose();
     throw;
   }
+}
+
+std::unique_ptr<Engine> RankLead::make_engine_at_start(const Scene& scene, const Threads& threads,
+                                                       const std::function<std::string(const State&)>& start) {
+  if (scene.run.method == Method::rollback || !starts_on_slabs(scene)) return nullptr;
+  try {
+    agree_on(ranks_, Call::begin);
+    shared_text(ranks_, start({}));
+    std::optional<StartOnSlab> made = start_on_slab(scene, ranks_);
+    if (!made) return nullptr;
+    return lead_engine(scene, make_part(scene, std::move(made->part), made->start, threads, ranks_));
+  } catch (...) {
+    lose();
+    throw;
+  }
+}
+
+std::unique_ptr<Engine> RankLead::lead_engine(const Scene& scene, std::unique_ptr<Engine> part) {
+  auto engine = std::make_unique<LeadingEngine>(ranks_, *this, scene, std::move(part));
+  report_ = [lead = engine.get()] { return lead->report(); };
+  sums_ = [lead = engine.get()] { return lead->sums(); };
+  overlaps_ = [lead = engine.get()] { return lead->overlaps(); };
+  return engine;
 }
 
 void RankLead::end() {
@@ -369,6 +389,10 @@ void follow_lead(Ranks& ranks, const Threads& threads,
       const SlabStart start = slab_start_of(ranks.share({}));
       state.disks = deal_out(ranks, start, {}, std::move(state.disks));
       part.emplace(ranks, scene, make_part(scene, std::move(state), start, threads, ranks));
+    } else if (call == Call::begin) {
+      const Scene scene = read(shared_text(ranks, "")).first;
+      std::optional<StartOnSlab> made = start_on_slab(scene, ranks);
+      if (made) part.emplace(ranks, scene, make_part(scene, std::move(made->part), made->start, threads, ranks));
     } else if (part) {
       follow(call, ranks, *part, before);
     }

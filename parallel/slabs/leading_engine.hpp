@@ -31,6 +31,12 @@ class RankLead {
   std::unique_ptr<Engine> make_engine(const Scene& scene, State initial, const Threads& threads,
                                       const std::function<std::string(const State&)>& start);
 
+  // The same of the scene's own start, which each rank makes for its slab: no rank has all disks. Null where the start
+  // is not of a kind that can be made so, or is one that is refused: make_engine with the state of one machine is then
+  // the way, or says why. start: is given a state without disks.
+  std::unique_ptr<Engine> make_engine_at_start(const Scene& scene, const Threads& threads,
+                                               const std::function<std::string(const State&)>& start);
+
   // Of the engine that was made last. Precondition: it is there, and no rank is lost.
   RankReport report() const { return report_(); }
   // What is said of all disks, with the bits of one machine, without that a rank has them all.
@@ -45,6 +51,8 @@ class RankLead {
   void lose() { lost_ = true; }
 
  private:
+  std::unique_ptr<Engine> lead_engine(const Scene& scene, std::unique_ptr<Engine> part);
+
   Ranks& ranks_;
   std::function<RankReport()> report_;
   std::function<StateSums()> sums_;

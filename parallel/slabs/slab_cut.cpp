@@ -26,8 +26,7 @@ SlabCut cut_into_slabs(const Domain& box, const Disks& disks, int ranks, double 
     cut.bounds.push_back(r == 0 ? 0.0 : y.empty() ? even : y[y.size() * r / slabs]);
   }
   cut.bounds.push_back(box.height);
-  for (std::size_t r = 1; r < slabs; ++r) cut.bounds[r] = std::max(cut.bounds[r], cut.bounds[r - 1] + least);
-  for (std::size_t r = slabs - 1; r > 0; --r) cut.bounds[r] = std::min(cut.bounds[r], cut.bounds[r + 1] - least);
+  keep_thick(cut, least);
   return cut;
 }
 
@@ -50,6 +49,12 @@ SlabCut cut_by_rows(const Domain& box, const std::vector<std::int64_t>& disks_of
   cut.bounds.resize(static_cast<std::size_t>(ranks), box.height);
   cut.bounds.push_back(box.height);
   return cut;
+}
+
+void keep_thick(SlabCut& cut, double least) {
+  const std::size_t slabs = cut.bounds.size() - 1;
+  for (std::size_t r = 1; r < slabs; ++r) cut.bounds[r] = std::max(cut.bounds[r], cut.bounds[r - 1] + least);
+  for (std::size_t r = slabs - 1; r > 0; --r) cut.bounds[r] = std::min(cut.bounds[r], cut.bounds[r + 1] - least);
 }
 
 }  // namespace carom

@@ -45,6 +45,9 @@ SlabCut cut_into_slabs(const Domain& box, const Disks& disks, int ranks, double 
 // as thin as they come. Precondition: there are rows.
 SlabCut cut_by_rows(const Domain& box, const std::vector<std::int64_t>& disks_of_row, int ranks);
 
+// Moves bounds until no slab is thinner. Precondition: as above.
+void keep_thick(SlabCut& cut, double least);
+
 // How far a disk may leave its slab, and others still find all that touch it one slab further; length.
 inline double room_beyond(const SlabCut& cut, double largest_radius) {
   return 0.5 * (cut.thinnest() - 2.0 * largest_radius);

@@ -19,9 +19,8 @@ std::string unsupported(const Scene& scene) {
   return settles(scene) ? "gravity with restitution below 1" : "";
 }
 
-double largest_radius_ever(const Scene& scene, const Disks& start) {
+double largest_radius_ever(const Scene& scene, double largest) {
   constexpr double rounding = 1.0 + 1e-12;
-  double largest = largest_radius(start);
   for (const Source& source : scene.sources) largest = std::max(largest, rounding * largest_radius_of(source));
   return largest;
 }
@@ -47,19 +46,28 @@ std::vector<std::size_t> class_counts(const Disks& d, double largest_radius) {
   return counts;
 }
 
-SlabStart slab_start(const Scene& scene, const Disks& all, int ranks) {
+SlabStart slab_start(const Scene& scene, DiskColumns columns, double smallest, double largest, Count disks, int ranks) {
   // Where slabs do not do, one rank has all disks (slab_exact.hpp).
   const bool is_exact = scene.run.method == Method::exact;
   const std::string what = is_exact ? "" : unsupported(scene);
   if (!what.empty()) throw InputError(fmt::format("several ranks do not know {} yet: use one", what));
   SlabStart start;
-  start.smallest_radius = smallest_radius(all);
-  start.largest_radius = largest_radius_ever(scene, all);
+  start.smallest_radius = smallest;
+  start.largest_radius = largest_radius_ever(scene, largest);
   if (!is_exact) check_thickness(scene, start.largest_radius, ranks);
-  start.columns = columns_of(all);
+  start.columns = columns;
+  start.disks = disks;
+  return start;
+}
+
+double thinnest_slab(const Scene& scene, const SlabStart& start) {
+  return scene.run.method == Method::exact ? 0.0 : least_thickness * start.largest_radius;
+}
+
+SlabStart slab_start(const Scene& scene, const Disks& all, int ranks) {
+  SlabStart start = slab_start(scene, columns_of(all), smallest_radius(all), largest_radius(all), all.size(), ranks);
   start.counts = class_counts(all, start.largest_radius);
-  start.disks = all.size();
-  start.cut = cut_into_slabs(scene.box, all, ranks, is_exact ? 0.0 : least_thickness * start.largest_radius);
+  start.cut = cut_into_slabs(scene.box, all, ranks, thinnest_slab(scene, start));
   return start;
 }
 

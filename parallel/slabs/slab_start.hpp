@@ -25,6 +25,13 @@ struct SlabStart {
 // largest disk.
 SlabStart slab_start(const Scene& scene, const Disks& all, int ranks);
 
+// The same before it is known where the disks are: without a cut, and how many there are of each class. Radii: of all
+// disks that there are.
+SlabStart slab_start(const Scene& scene, DiskColumns columns, double smallest, double largest, Count disks, int ranks);
+
+// How thick each slab has to be; length.
+double thinnest_slab(const Scene& scene, const SlabStart& start);
+
 // How many disks each class of radii has (class_of_radius); one class at least.
 std::vector<std::size_t> class_counts(const Disks& disks, double largest_radius);
 

@@ -295,6 +295,47 @@ TEST(LeadingEngine, CountsTheSameInEqualRuns) {
   }
 }
 
+// A start that every rank makes for its slab, a refused one, and one of rank 0, one after the other.
+TEST(LeadingEngine, BeginsWhereDisksLive) {
+  // Slabs of exact have to be high.
+  const auto lattice = [](const std::string& method, int count) {
+    return parse_scene(
+        fmt::format("[box]\nwidth = 12.0\nheight = 300.0\nleft = \"periodic\"\nright = \"periodic\"\n"
+                    "[[disks]]\ncount = {}\npositions = \"hexagonal\"\nradius = {{ uniform = [0.4, 0.6] }}\n"
+                    "mass = 1.0\nvelocities = {{ maxwell = 1.0 }}\n"
+                    "[run]\nmethod = \"{}\"\ndt = 0.02\nt_end = 0.8\n",
+                    count, method),
+        "scene", "");
+  };
+  for (const char* method : {"pairwise", "exact"}) {
+    const Scene scene = lattice(method, 1200);
+    const State start = initial_state(scene);
+    for (const int count : {1, 2, 4}) {
+      on_ranks(count, scene, start, [&](RankLead& lead) {
+        const auto expected = make_parallel_engine(scene, start, {1});
+        const auto engine = lead.make_engine_at_start(scene, {1, 512}, the_start);
+        ASSERT_NE(engine, nullptr);
+        expect_same(lead.sums(), sums_of(start, scene));
+        while (engine->progress().time < scene.run.t_end) {
+          engine->step();
+          expected->step();
+          ASSERT_EQ(lead.sums().hash, state_hash(expected->state().disks));
+        }
+        EXPECT_EQ(engine->state().counters.collisions, expected->state().counters.collisions);
+        EXPECT_EQ(engine->state().next_id, start.next_id);
+      });
+    }
+  }
+  const Scene full = lattice("exact", 8000);
+  on_ranks(3, full, {}, [&](RankLead& lead) {
+    EXPECT_EQ(lead.make_engine_at_start(full, {1}, the_start), nullptr);
+    EXPECT_FALSE(lead.lost());
+  });
+  on_ranks(2, gas("pairwise"), {}, [&](RankLead& lead) {
+    EXPECT_EQ(lead.make_engine_at_start(gas("pairwise"), {1}, the_start), nullptr) << "at random";
+  });
+}
+
 // One engine after another, as a program may make them; and what is refused leaves the ranks together.
 TEST(LeadingEngine, ScenesThatRanksDoNotKnowAreRefusedAndOthersFollow) {
   const Scene rollback = gas("rollback");

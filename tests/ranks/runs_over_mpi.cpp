@@ -129,6 +129,27 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithExact) {
   EXPECT_EQ(summary("one"), summary("parts"));
 }
 
+// No rank has all disks; what is wrong with a lattice is said as one process says it.
+TEST_F(RanksRun, ALatticeIsMadeByAllRanks) {
+  const std::string lattice =
+      " --quiet --set disks.0.positions=hexagonal --set disks.0.count=300 --set output.trajectory=none "
+      "--set output.series=false --set 'output.checkpoint=\"1000 s\"'";
+  ASSERT_EQ(carom("run scene.toml -o one" + lattice).status, 0);
+  for (const std::string ranks : {"2", "3"}) {
+    const Outcome o = carom("run scene.toml -o r" + ranks + " --ranks " + ranks + lattice);
+    ASSERT_EQ(o.status, 0) << o.err;
+    EXPECT_EQ(summary("one"), summary("r" + ranks));
+  }
+  ASSERT_EQ(carom("resume r2 --quiet --t-end 0.5 --ranks 3").status, 0);
+  ASSERT_EQ(carom("resume one --quiet --t-end 0.5").status, 0);
+  EXPECT_EQ(summary("one")["state_hash"], summary("r2")["state_hash"]);
+  const std::string full = "run scene.toml" + lattice + " --set disks.0.count=3000 -o full";
+  const Outcome alone = carom(full);
+  const Outcome several = carom(full + " --ranks 2");
+  EXPECT_EQ(several.status, 2);
+  EXPECT_EQ(several.err, alone.err);
+}
+
 TEST_F(RanksRun, AStoppedRunGoesOnWithAnyNumberOfRanks) {
   ASSERT_EQ(carom("run scene.toml --quiet -o one").status, 0);
   ASSERT_EQ(carom("run scene.toml --quiet -o parts --ranks 2 --max-walltime 1e-9").status, 4);

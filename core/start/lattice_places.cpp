@@ -1,0 +1,84 @@
+#include "core/start/lattice_places.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "core/base/input_message.hpp"
+#include "core/start/circle_lattice.hpp"
+#include "core/start/placement.hpp"
+#include "core/start/start_region.hpp"
+
+namespace carom {
+
+namespace {
+
+// The box that a lattice fills: all of it, or a region's rectangle, periodic where it spans a periodic side.
+struct LatticeRoom {
+  Domain box;
+  Vec2 origin;
+};
+LatticeRoom lattice_room(const Domain& box, const std::optional<StartRegion>& region) {
+  if (!region) return {box, {}};
+  LatticeRoom room{{region->high.x - region->low.x, region->high.y - region->low.y}, region->low};
+  const SideKind across = spans_x(*region, box) ? SideKind::periodic : SideKind::wall;
+  const SideKind up = spans_y(*region, box) ? SideKind::periodic : SideKind::wall;
+  room.box.sides = {across, across, up, up};
+  return room;
+}
+
+[[noreturn]] void fail_lattice(const Scene& scene, std::size_t group, double radius, const std::string& room,
+                               Count capacity) {
+  const DiskGroup& g = scene.groups[group];
+  fail_input(place_in_group(scene, group, "positions"),
+             fmt::format("{} disks of radius up to {} do not fit on a {} lattice in {}", g.count, radius,
+                         g.positions.kind == PositionLaw::Kind::square ? "square" : "hexagonal", room),
+             fmt::format("expected at most {}", capacity));
+}
+
+}  // namespace
+
+LatticePlaces::LatticePlaces(const Scene& scene, std::size_t group, double radius)
+    : radius_(radius), count_(scene.groups[group].count) {
+  const PositionLaw& law = scene.groups[group].positions;
+  const bool square = law.kind == PositionLaw::Kind::square;
+  const std::optional<StartRegion>& region = law.region;
+  if (region && region->circle) {
+    fill_circle(scene, group);
+    return;
+  }
+  const auto [box, origin] = lattice_room(scene.box, region);
+  box_ = box;
+  origin_ = origin;
+  const auto lattice =
+      square ? square_lattice(box, count_, 2.0 * radius) : hexagonal_lattice(box, count_, 2.0 * radius);
+  if (!lattice) {
+    fail_lattice(scene, group, radius,
+                 fmt::format("the {} of {} x {}", region ? "region" : "box", box.width, box.height),
+                 square ? square_capacity(box, 2.0 * radius) : hexagonal_capacity(box, 2.0 * radius));
+  }
+  lattice_ = *lattice;
+}
+
+void LatticePlaces::fill_circle(const Scene& scene, std::size_t group) {
+  const PositionLaw& law = scene.groups[group].positions;
+  const StartRegion& region = *law.region;
+  const CircleLattice lattice{law.kind == PositionLaw::Kind::hexagonal, region.radius - radius_, 2.0 * radius_};
+  sites_ = circle_sites(lattice, count_);
+  origin_ = region.centre;
+  if (!sites_.empty()) return;
+  fail_lattice(scene, group, radius_, fmt::format("the circle of radius {}", region.radius), circle_capacity(lattice));
+}
+
+Vec2 LatticePlaces::at(Count k) const {
+  if (!sites_.empty()) return {origin_.x + sites_[k].x, origin_.y + sites_[k].y};
+  Vec2 site = lattice_site(lattice_, k, count_);
+  // Rounding must not carry the outermost disks of a full lattice into a side.
+  if (!box_.periodic_x()) site.x = std::clamp(site.x, radius_, box_.width - radius_);
+  if (!box_.periodic_y()) site.y = std::clamp(site.y, radius_, box_.height - radius_);
+  return {origin_.x + site.x, origin_.y + site.y};
+}
+
+}  // namespace carom

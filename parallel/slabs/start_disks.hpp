@@ -1,0 +1,78 @@
+// The disks of a scene at its start, one by one: each can be made by itself, from its id.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/size_law.hpp"
+#include "core/start/lattice_places.hpp"
+#include "parallel/ranks/ranks.hpp"
+
+namespace carom {
+
+// Disks first to last - 1 of a group, by their numbers in it.
+struct GroupRange {
+  Count first = 0, last = 0;
+};
+
+// What the sizes of all disks amount to.
+struct SizeFacts {
+  DiskSize smallest, largest;         // radius and mass, each by itself
+  std::vector<double> group_largest;  // radius, of each group
+};
+
+// How the velocities and spins that a group draws become those that it has.
+struct GroupMotion {
+  Vec2 mean;  // taken off
+  double factor = 1.0, spin_factor = 1.0;
+};
+
+// Centres are in the coordinates of the room between sides that move. Every rank can make any disk; the sums over
+// groups, in order of id, go from rank to rank. Precondition: starts_on_slabs(scene).
+class StartDisks {
+ public:
+  // Collective.
+  StartDisks(const Scene& scene, Ranks& ranks);
+
+  const SizeFacts& sizes() const { return sizes_; }
+  Count disks() const { return disks_; }
+  std::size_t groups() const { return scene_.groups.size(); }
+
+  // Throws InputError where a lattice has no room. To be called before what follows.
+  void place();
+
+  // How high the centre of the group's k-th disk lies; no lower than that of the disk before.
+  double height(std::size_t group, Count k) const { return lattices_[group]->at(k).y; }
+  // The group's disks from one height to below another.
+  GroupRange between(std::size_t group, double low, double high) const;
+
+  // Collective: what the velocities need of all disks.
+  void sum_motions();
+
+  // Without a velocity and a spin; with them, which have to be summed before.
+  Disk resting(std::size_t group, Count k) const;
+  Disk moving(std::size_t group, Count k) const;
+
+  // The rank's share of a group, where the work on all disks is shared without regard to where they are.
+  GroupRange share(std::size_t group) const;
+
+ private:
+  DiskSize size_of(std::size_t group, Count k) const;
+  DiskId id_of(std::size_t group, Count k) const { return first_ids_[group] + static_cast<DiskId>(k); }
+  Vec2 drawn_velocity(std::size_t group, Count k, double mass) const;
+  template <class Sum, class Add>
+  void sum_in_order(std::size_t group, Sum& sum, Add&& add);
+  void see_sizes();
+
+  const Scene& scene_;
+  Ranks& ranks_;
+  Count disks_ = 0;
+  std::vector<DiskId> first_ids_;
+  SizeFacts sizes_;
+  std::vector<std::optional<LatticePlaces>> lattices_;
+  std::vector<GroupMotion> motions_;
+};
+
+}  // namespace carom

@@ -1,0 +1,140 @@
+// Initial states that each rank makes for its slab: the disks of one machine, bit for bit.
+#include "parallel/slabs/start_on_slabs.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "core/base/check.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/start/initial_state.hpp"
+#include "parallel/ranks/local_ranks.hpp"
+#include "tests/support/feature_scenes.hpp"
+
+namespace carom {
+namespace {
+
+// box: lines of [box]; rest: the groups and what else there is.
+Scene scene_of(const std::string& box, const std::string& rest) {
+  return parse_scene("[box]\n" + box + rest + "[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 1.0\n", "scene", "");
+}
+
+const std::string periodic = "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+void expect_same(const Disk& a, const Disk& b) {
+  EXPECT_TRUE(same_bits(a.x, b.x) && same_bits(a.y, b.y)) << a.id << " at " << a.x << ", " << a.y;
+  EXPECT_TRUE(same_bits(a.vx, b.vx) && same_bits(a.vy, b.vy)) << a.id << " with " << a.vx << ", " << a.vy;
+  EXPECT_TRUE(same_bits(a.radius, b.radius) && same_bits(a.mass, b.mass)) << a.id;
+  EXPECT_TRUE(same_bits(a.spin, b.spin)) << a.id;
+}
+
+// The parts of all ranks are the state of one machine, and each part lies in its slab.
+void expect_parts(const Scene& scene, int count) {
+  SCOPED_TRACE(fmt::format("{} ranks", count));
+  ASSERT_TRUE(starts_on_slabs(scene));
+  const State all = initial_state(scene);
+  std::map<DiskId, Disk> expected;
+  for (std::size_t i = 0; i < all.disks.size(); ++i) expected[all.disks.id[i]] = disk_at(all.disks, i);
+  std::mutex mutex;
+  std::size_t disks = 0;
+  std::size_t most = 0;
+  run_on_local_ranks(count, [&](Ranks& ranks) {
+    const std::optional<StartOnSlab> made = start_on_slab(scene, ranks);
+    const std::lock_guard lock(mutex);
+    ASSERT_TRUE(made.has_value());
+    const Disks& d = made->part.disks;
+    disks += d.size();
+    most = std::max(most, d.size());
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      ASSERT_TRUE(expected.contains(d.id[i]));
+      expect_same(disk_at(d, i), expected[d.id[i]]);
+      EXPECT_EQ(made->start.cut.rank_at(d.y[i]), ranks.rank());
+    }
+    EXPECT_EQ(d.common_radius, all.disks.common_radius);
+    EXPECT_EQ(d.common_mass, all.disks.common_mass);
+    EXPECT_EQ(d.inertia, all.disks.inertia);
+    EXPECT_EQ(made->part.next_id, all.next_id);
+    EXPECT_EQ(made->part.sources.size(), all.sources.size());
+    EXPECT_EQ(made->part.obstacles.size(), all.obstacles.size());
+    const SlabStart one = slab_start(scene, all.disks, count);
+    EXPECT_EQ(made->start.disks, one.disks);
+    EXPECT_EQ(made->start.smallest_radius, one.smallest_radius);
+    EXPECT_EQ(made->start.largest_radius, one.largest_radius);
+    EXPECT_EQ(made->start.counts, one.counts);
+    EXPECT_EQ(made->start.columns.radius, one.columns.radius);
+    EXPECT_EQ(made->start.columns.mass, one.columns.mass);
+    EXPECT_EQ(made->start.columns.spin, one.columns.spin);
+  });
+  EXPECT_EQ(disks, all.disks.size());
+  EXPECT_LT(most, 2 * disks / static_cast<std::size_t>(count) + 60) << "shared out unevenly";
+}
+
+TEST(StartOnSlabs, IsThatOfOneMachine) {
+  const std::string maxwell = "velocities = { maxwell = 2.0 }\n";
+  const std::vector<Scene> scenes{
+      scene_of(periodic + "packing_fraction = 0.6\n",
+               "[[disks]]\ncount = 1000\npositions = \"hexagonal\"\nradius = 0.5\nmass = 1.0\n" + maxwell),
+      scene_of("width = 40.0\nheight = 50.0\n",
+               "[[disks]]\ncount = 900\npositions = \"square\"\nradius = { uniform = [0.2, 0.5] }\n"
+               "mass = { uniform = [1.0, 2.0] }\ndrift = [0.5, -0.25]\n" +
+                   maxwell),
+      scene_of(periodic + "width = 40.0\nheight = 50.0\nshear_rate = 0.3\n",
+               "[[disks]]\ncount = 901\npositions = \"hexagonal\"\nradius = 0.5\nmass = { from_radius = 3.0 }\n"
+               "velocities = { uniform = 4.0 }\n"),
+      // Lattices above each other, in regions, with sources; rough disks.
+      scene_of(
+          "width = 40.0\nheight = 60.0\n",
+          "[[disks]]\ncount = 300\npositions = \"square\"\nregion = [0.0, 0.0, 40.0, 20.0]\nradius = 0.5\nmass = 1.0\n"
+          "spin_temperature = 2.0\n" +
+              maxwell +
+              "[[disks]]\ncount = 100\npositions = \"hexagonal\"\nregion = [5.0, 30.0, 35.0, 60.0]\nradius = 1.0\n"
+              "mass = 2.0\n[[walls]]\npoints = [[1.0, 22.0], [20.0, 28.0]]\n"
+              "[physics]\nroughness = { tangential_restitution = 0.5 }\n"),
+      scene_of(test::sides_text("moving", 1) + "width = 30.0\nheight = 50.0\n",
+               "[[disks]]\ncount = 400\npositions = \"hexagonal\"\nradius = { uniform = [0.3, 0.5] }\nmass = 1.0\n" +
+                   maxwell),
+  };
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    SCOPED_TRACE(s);
+    for (const int count : {1, 2, 3, 4}) expect_parts(scenes[s], count);
+  }
+}
+
+// Not of one machine's making: which disks overlap is its to say.
+TEST(StartOnSlabs, LeavesWhatIsRefusedToOneMachine) {
+  const std::vector<Scene> scenes{
+      // The second lattice lies on the first.
+      scene_of("width = 40.0\nheight = 60.0\n",
+               "[[disks]]\ncount = 300\npositions = \"square\"\nradius = 0.5\nmass = 1.0\n"
+               "[[disks]]\ncount = 10\npositions = \"square\"\nradius = 0.5\nmass = 1.0\n"),
+      scene_of("width = 10.0\nheight = 10.0\n",
+               "[[disks]]\ncount = 200\npositions = \"square\"\nradius = 0.5\nmass = 1.0\n"),
+      scene_of("width = 40.0\nheight = 4.0\n",
+               "[[disks]]\ncount = 20\npositions = \"square\"\nradius = 0.5\nmass = 1.0\n"),
+  };
+  for (const Scene& scene : scenes) {
+    ASSERT_TRUE(starts_on_slabs(scene));
+    run_on_local_ranks(3, [&](Ranks& ranks) { EXPECT_FALSE(start_on_slab(scene, ranks).has_value()); });
+  }
+}
+
+TEST(StartOnSlabs, KnowsWhatItCannotMake) {
+  const auto disks = [](const std::string& lines) {
+    return "[[disks]]\ncount = 20\nradius = 0.5\nmass = 1.0\n" + lines;
+  };
+  for (const std::string lines : {"positions = \"random\"\n", "positions = \"growth\"\n",
+                                  "positions = \"square\"\nregion = { circle = [20.0, 20.0, 10.0] }\n"}) {
+    EXPECT_FALSE(starts_on_slabs(scene_of("width = 40.0\nheight = 40.0\n", disks(lines)))) << lines;
+  }
+}
+
+}  // namespace
+}  // namespace carom
