@@ -4,6 +4,7 @@
 
 #include "core/base/check.hpp"
 #include "parallel/slabs/moving_disks.hpp"
+#include "parallel/slabs/slab_start.hpp"
 #include "parallel/slabs/start_on_slabs.hpp"
 #include "run/run_outputs.hpp"
 
@@ -17,6 +18,8 @@ namespace {
 constexpr double process_bytes = 31e6;
 constexpr double own_disk_bytes = 75.0;
 constexpr double column_bytes = 12.0;
+// Of exact: with its lists, its paths and its ghosts.
+constexpr double exact_disk_bytes = 360.0;
 
 // Time spent on trying steps; seconds.
 constexpr double traffic_trial = 0.3;
@@ -35,9 +38,11 @@ RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks) {
   f.disks = all / ranks;
   const DiskColumns columns = columns_of(start.disks);
   const int more = (columns.radius ? 1 : 0) + (columns.mass ? 1 : 0) + (columns.spin ? 1 : 0);
-  f.other_bytes = process_bytes + (own_disk_bytes + more * column_bytes) * f.disks;
+  const double disk_bytes = scene.run.method == Method::exact ? exact_disk_bytes : own_disk_bytes;
+  f.alone = slab_start(scene, start.disks, ranks).alone;
+  f.other_bytes = process_bytes + (f.alone.empty() ? (disk_bytes + more * column_bytes) * f.disks : 0.0);
   if (scene.box.has_thermal_side()) f.other_bytes += sizeof(std::uint32_t) * all;
-  f.first_has_all = !starts_on_slabs(scene) || wants_files(scene);
+  f.first_has_all = !f.alone.empty() || !starts_on_slabs(scene) || wants_files(scene);
   f.first_bytes = f.other_bytes;
   f.traffic = try_slabs(scene, start, ranks, traffic_trial);
   return f;

@@ -1,6 +1,8 @@
 // What carom check predicts of a run on several ranks.
 #pragma once
 
+#include <string>
+
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
 #include "parallel/slabs/slab_trial.hpp"
@@ -14,10 +16,11 @@ struct RankForesight {
   double other_bytes = 0.0;   // of each of the others
   bool first_has_all = true;  // has rank 0 all disks at any time?
   SlabTraffic traffic;        // of a step and a rank
+  std::string alone;          // why rank 0 runs all disks (SlabStart); empty: each has its own
 };
 
-// start: with all disks. Throws InputError where so many ranks cannot run the scene. Where rank 0 has all disks,
-// first_bytes is left to the caller, which has tried the run.
+// start: with all disks. Throws InputError for a method that ranks do not know. Where rank 0 has all disks, first_bytes
+// is left to the caller, which has tried the run.
 RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks);
 
 }  // namespace carom

@@ -26,7 +26,7 @@ class RankLead {
   // The engine of all ranks, with the bits of one machine. start(state): what the other ranks make scene and state of,
   // by the function that they gave follow_lead; of a state without disks, as each is sent the disks in its slab.
   // state() has all disks, which costs a message from every rank in each step after which it is asked for; progress()
-  // has those of rank 0. Throws as make_slab_pairwise does, and InputError for a method other than pairwise. The lead
+  // has those of rank 0. Throws InputError for the method rollback, whose frames are of the whole box. The lead
   // outlives the engine.
   std::unique_ptr<Engine> make_engine(const Scene& scene, State initial, const Threads& threads,
                                       const std::function<std::string(const State&)>& start);

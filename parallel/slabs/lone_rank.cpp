@@ -4,9 +4,11 @@
 #include <utility>
 
 #include "core/base/check.hpp"
+#include "core/base/phase_times.hpp"
 #include "parallel/exact/exact_engine.hpp"
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/redistribute.hpp"
+#include "parallel/stepping/pairwise.hpp"
 
 namespace carom {
 
@@ -40,6 +42,37 @@ void take_progress(MessageReader& message, State& state) {
   state.sources = message.get_all<SourceState>();
 }
 
+class LoneEngine final : public Engine {
+ public:
+  LoneEngine(const Scene& scene, State part, const SlabStart& start, const Threads& threads, Ranks& ranks)
+      : state_(std::move(part)), t_end_(scene.run.t_end), lone_(scene, threads, ranks, start) {
+    if (ranks.count() > 1 && !start.alone.empty()) warnings_ = {"one rank runs all disks: " + start.alone};
+    lone_.begin(state_);
+  }
+
+  void step() override {
+    if (state_.time < t_end_) lone_.step(state_);
+  }
+  const State& state() const override { return lone_.state(state_); }
+  double disks_at(double t, Disks& out) const override { return lone_.disks_at(t, state_, out); }
+  std::vector<DiskContact> contacts() const override { return lone_.contacts(); }
+  void forget_paths() override { lone_.forget_paths(); }
+  void release_memory() override { lone_.release_memory(); }
+  const PhaseTimes& phase_times() const override { return lone_.phase_times(); }
+  std::vector<std::string> take_warnings() override {
+    std::vector<std::string> all = std::exchange(warnings_, {});
+    const std::vector<std::string> more = lone_.take_warnings();
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+ private:
+  State state_;  // without disks
+  double t_end_;
+  LoneRank lone_;
+  std::vector<std::string> warnings_;
+};
+
 void put_text(Bytes& message, const std::string& text) {
   put_all(message, std::vector<char>(text.begin(), text.end()));
 }
@@ -51,7 +84,11 @@ void LoneRank::begin(State& state) {
   collect_on_first(ranks_, columns_, state);
   if (ranks_.rank() > 0) return;
   State all = state;
-  engine_ = make_parallel_exact(scene_, std::move(all), threads_);
+  const auto make = [](const Scene& scene, State start, const Threads& threads) {
+    return scene.run.method == Method::exact ? make_parallel_exact(scene, std::move(start), threads)
+                                             : make_parallel_pairwise(scene, std::move(start), threads);
+  };
+  engine_ = make(scene_, std::move(all), threads_);
   if (!keeps_paths_) engine_->forget_paths();
   state.disks = no_disks_like(state.disks);
 }
@@ -102,8 +139,17 @@ std::vector<DiskContact> LoneRank::contacts() const {
   return engine_ ? engine_->contacts() : std::vector<DiskContact>();
 }
 
+const PhaseTimes& LoneRank::phase_times() const {
+  return engine_ ? engine_->phase_times() : no_times_;
+}
+
 std::vector<std::string> LoneRank::take_warnings() {
   return std::exchange(warnings_, {});
+}
+
+std::unique_ptr<Engine> make_lone_part(const Scene& scene, State part, const SlabStart& start, const Threads& threads,
+                                       Ranks& ranks) {
+  return std::make_unique<LoneEngine>(scene, std::move(part), start, threads, ranks);
 }
 
 }  // namespace carom

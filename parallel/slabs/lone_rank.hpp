@@ -1,4 +1,4 @@
-// Rank 0 running `exact` alone, where slabs do not do: it has all disks, and the others wait for what comes of them.
+// Rank 0 running a scene alone, where slabs do not do: it has all disks, and the others wait for what comes of them.
 #pragma once
 
 #include <memory>
@@ -37,6 +37,7 @@ class LoneRank {
   const State& state(const State& here) const { return engine_ ? engine_->state() : here; }
   double disks_at(double t, const State& here, Disks& out) const;
   std::vector<DiskContact> contacts() const;
+  const PhaseTimes& phase_times() const;
   std::vector<std::string> take_warnings();
 
  private:
@@ -44,10 +45,16 @@ class LoneRank {
   Threads threads_;
   Ranks& ranks_;
   DiskColumns columns_;
+  PhaseTimes no_times_;
   bool runs_ = false;
   bool keeps_paths_ = true;
   std::unique_ptr<Engine> engine_;  // on rank 0
   std::vector<std::string> warnings_;
 };
+
+// This rank's part of an engine of which rank 0 has all disks from the start to the end; it warns of that, with
+// start.alone. part and start: as of make_slab_part.
+std::unique_ptr<Engine> make_lone_part(const Scene& scene, State part, const SlabStart& start, const Threads& threads,
+                                       Ranks& ranks);
 
 }  // namespace carom

@@ -43,11 +43,6 @@ constexpr double most_shown = 0.9;
 constexpr int windows_alone_if_thin = 64;
 constexpr int windows_alone_if_crowded = 16;
 
-bool slabs_know(const Scene& scene) {
-  return scene.sources.empty() && !has_sinks(scene.box) && !(scene.physics.diffusion > 0.0) &&
-         !scene.physics.thermostat.acts() && !scene.box.shear.acts();
-}
-
 class SlabExact final : public Engine, public InSlabs {
  public:
   SlabExact(const Scene& scene, State part, const SlabStart& start, const Threads& threads, Ranks& ranks)
@@ -64,7 +59,6 @@ class SlabExact final : public Engine, public InSlabs {
         first_zone_(threads.block_divisor > 1 ? usual_zone_of_cut_work : usual_zone),
         zone_(first_zone_) {
     windows_.set_ghosts(&ghosts_, start.largest_radius);
-    if (ranks.count() == 1 || !slabs_know(scene_)) run_alone(always);
   }
 
   void step() override;
@@ -82,8 +76,6 @@ class SlabExact final : public Engine, public InSlabs {
   const SlabCut* slab_cut() const override;
 
  private:
-  static constexpr int always = -1;
-
   void step_alone();
   void run_alone(int windows);
   SpeedSummary speeds_of_all() const;
@@ -137,7 +129,7 @@ void SlabExact::step() {
 
 void SlabExact::step_alone() {
   lone_.step(state_);
-  if (alone_ != always) --alone_;
+  --alone_;
 }
 
 void SlabExact::release_memory() {
@@ -309,6 +301,7 @@ std::vector<std::string> SlabExact::take_warnings() {
 
 std::unique_ptr<Engine> make_slab_exact_part(const Scene& scene, State part, const SlabStart& start,
                                              const Threads& threads, Ranks& ranks) {
+  if (ranks.count() == 1 || !start.alone.empty()) return make_lone_part(scene, std::move(part), start, threads, ranks);
   return std::make_unique<SlabExact>(scene, std::move(part), start, threads, ranks);
 }
 

@@ -17,8 +17,8 @@ namespace carom {
 //
 // A rank processes the events of its own disks, and of its neighbours' up to a depth beyond its slab, as far as they do
 // not depend on disks further away; what then became of those it asks their ranks for, after each slice. Where slabs
-// are too thin for that, or the scene has something that they do not know (sources, sinks, Brownian motion,
-// thermostats, shear), rank 0 has all disks and runs them alone; so it does for a while after windows that are crowded.
+// are too thin for that, rank 0 has all disks for a while and runs them alone (lone_rank.hpp), as it does after windows
+// that are crowded, and always where the scene has something that slabs do not know (SlabStart).
 // Preconditions: scene.run.method is exact, threads.count >= 1.
 std::unique_ptr<Engine> make_slab_exact_part(const Scene& scene, State part, const SlabStart& start,
                                              const Threads& threads, Ranks& ranks);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/step/pairwise_method.hpp"
+#include "parallel/slabs/lone_rank.hpp"
 #include "parallel/slabs/slab_stepping.hpp"
 
 namespace carom {
@@ -16,6 +17,7 @@ std::unique_ptr<Engine> make_slab_pairwise(const Scene& scene, State initial, co
 
 std::unique_ptr<Engine> make_slab_part(const Scene& scene, State part, const SlabStart& start, const Threads& threads,
                                        Ranks& ranks) {
+  if (!start.alone.empty()) return make_lone_part(scene, std::move(part), start, threads, ranks);
   return std::make_unique<PairwiseMethod<SlabStepping>>(scene, std::move(part), std::cref(start), threads,
                                                         std::ref(ranks));
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <string>
 
-#include "core/base/check.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_start.hpp"
 #include "parallel/cells/cell_grid.hpp"
@@ -14,9 +13,14 @@ namespace carom {
 
 namespace {
 
-// What of the scene slabs cannot do yet; empty: they can do all of it.
-std::string unsupported(const Scene& scene) {
-  return settles(scene) ? "gravity with restitution below 1" : "";
+// What of the scene slabs do not know; empty: they know all of it.
+std::string unknown_to_slabs(const Scene& scene) {
+  if (scene.run.method == Method::pairwise) return settles(scene) ? "gravity with restitution below 1" : "";
+  if (!scene.sources.empty()) return "sources";
+  if (has_sinks(scene)) return "sinks";
+  if (scene.physics.diffusion > 0.0) return "Brownian motion";
+  if (scene.physics.thermostat.acts()) return "thermostats";
+  return scene.box.shear.acts() ? "a shear flow" : "";
 }
 
 double largest_radius_ever(const Scene& scene, double largest) {
@@ -25,13 +29,18 @@ double largest_radius_ever(const Scene& scene, double largest) {
   return largest;
 }
 
-void check_thickness(const Scene& scene, double largest, int ranks) {
+std::string why_alone(const Scene& scene, double largest, int ranks) {
+  const bool is_exact = scene.run.method == Method::exact;
+  const std::string unknown = unknown_to_slabs(scene);
+  if (!unknown.empty())
+    return fmt::format("{} on slabs does not know {} yet", is_exact ? "exact" : "pairwise", unknown);
   const double least = least_thickness * largest;
-  if (ranks == 1 || least * ranks <= scene.box.height) return;
-  throw InputError(
-      fmt::format("{} ranks: slabs of a box {:g} high would be thinner than two diameters of the largest disk, whose "
-                  "radius is {:g}; use {} at most",
-                  ranks, scene.box.height, largest, std::max(1, static_cast<int>(scene.box.height / least))));
+  // Those of exact are asked for their thickness in each window.
+  if (is_exact || ranks == 1 || least * ranks <= scene.box.height) return "";
+  return fmt::format(
+      "{} slabs of a box {:g} high would be thinner than two diameters of the largest disk, whose radius "
+      "is {:g}; use {} at most",
+      ranks, scene.box.height, largest, std::max(1, static_cast<int>(scene.box.height / least)));
 }
 
 }  // namespace
@@ -47,21 +56,18 @@ std::vector<std::size_t> class_counts(const Disks& d, double largest_radius) {
 }
 
 SlabStart slab_start(const Scene& scene, DiskColumns columns, double smallest, double largest, Count disks, int ranks) {
-  // Where slabs do not do, one rank has all disks (slab_exact.hpp).
-  const bool is_exact = scene.run.method == Method::exact;
-  const std::string what = is_exact ? "" : unsupported(scene);
-  if (!what.empty()) throw InputError(fmt::format("several ranks do not know {} yet: use one", what));
   SlabStart start;
   start.smallest_radius = smallest;
   start.largest_radius = largest_radius_ever(scene, largest);
-  if (!is_exact) check_thickness(scene, start.largest_radius, ranks);
+  start.alone = why_alone(scene, start.largest_radius, ranks);
   start.columns = columns;
   start.disks = disks;
   return start;
 }
 
 double thinnest_slab(const Scene& scene, const SlabStart& start) {
-  return scene.run.method == Method::exact ? 0.0 : least_thickness * start.largest_radius;
+  const bool may_be_thin = scene.run.method == Method::exact || !start.alone.empty();
+  return may_be_thin ? 0.0 : least_thickness * start.largest_radius;
 }
 
 SlabStart slab_start(const Scene& scene, const Disks& all, int ranks) {
@@ -79,6 +85,7 @@ Bytes message_of(const SlabStart& start) {
   put(message, start.largest_radius);
   put_all(message, start.counts);
   put(message, start.disks);
+  put_all(message, std::vector<char>(start.alone.begin(), start.alone.end()));
   return message;
 }
 
@@ -91,6 +98,8 @@ SlabStart slab_start_of(const Bytes& message) {
   start.largest_radius = reader.get<double>();
   start.counts = reader.get_all<std::size_t>();
   start.disks = reader.get<Count>();
+  const auto alone = reader.get_all<char>();
+  start.alone.assign(alone.begin(), alone.end());
   return start;
 }
 

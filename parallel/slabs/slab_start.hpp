@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "core/disks/state.hpp"
@@ -19,10 +20,10 @@ struct SlabStart {
   double largest_radius = 0.0;      // those that sources may bring too
   std::vector<std::size_t> counts;  // of disks of each class of radii
   Count disks = 0;
+  // Why one rank has to run the scene (lone_rank.hpp); empty: slabs do.
+  std::string alone;
 };
 
-// Throws InputError where the scene is one that slabs do not know, or they would be thinner than two diameters of the
-// largest disk.
 SlabStart slab_start(const Scene& scene, const Disks& all, int ranks);
 
 // The same before it is known where the disks are: without a cut, and how many there are of each class. Radii: of all

@@ -55,7 +55,6 @@ Tried try_part(const Scene& scene, const State& start, Ranks& ranks, double seco
 }  // namespace
 
 SlabTraffic try_slabs(const Scene& scene, const State& start, int ranks, double seconds) {
-  slab_start(scene, start.disks, ranks);  // are so many possible?
   const int count = std::min(ranks, most_tried);
   Tried all;
   std::mutex mutex;

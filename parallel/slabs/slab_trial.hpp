@@ -12,8 +12,7 @@ struct SlabTraffic {
 };
 
 // Tries for so many seconds, but one step at least, on three ranks at most: an inner slab has two borders however many
-// there are. start: with all disks. Throws InputError where so many ranks do not know the scene. A trial that the
-// physics stops counts as far as it went. Precondition: ranks >= 1.
+// there are. start: with all disks. A trial that the physics stops counts as far as it went. Precondition: ranks >= 1.
 SlabTraffic try_slabs(const Scene& scene, const State& start, int ranks, double seconds);
 
 }  // namespace carom

@@ -164,39 +164,38 @@ TEST(SlabPairwiseRun, EndsAsOneMachineWhereAStepIsFarTooLong) {
   });
 }
 
-std::string refusal(const Scene& scene, int count) {
-  std::string text;
-  try {
-    const State start = initial_state(scene);
-    run_on_local_ranks(count, [&](Ranks& ranks) { make_slab_pairwise(scene, start, {1}, ranks); });
-  } catch (const InputError& error) {
-    text = error.what();
+// What slabs do not do one rank does, with the same bits, and says why.
+void expect_one_rank(const Scene& scene, const std::string& why) {
+  const State start = initial_state(scene);
+  run_on_local_ranks(2, [&](Ranks& ranks) {
+    EXPECT_EQ(make_slab_pairwise(scene, start, {1}, ranks)->take_warnings(),
+              std::vector<std::string>{"one rank runs all disks: " + why});
+  });
+  expect_bits(scene, {2, 3}, RankThreads::alternate,
+              [&](const test::SlabTrace& trace) { EXPECT_GE(trace.most_disks, start.disks.size()); });
+}
+
+TEST(SlabPairwiseAlone, RunsPiles) {
+  Features f;
+  f.gravity = true;
+  f.restitution = 0.7;
+  for (const char* radii : {"equal", "mixed"}) {
+    f.radii = radii;
+    expect_one_rank(test::feature_scene(f, 40), "pairwise on slabs does not know gravity with restitution below 1 yet");
   }
-  return text;
 }
 
-TEST(SlabPairwiseRefuses, WhatItCannotDoYetInOneLine) {
-  const auto with = [](const char* sides, auto&& change) {
-    Features f;
-    f.sides = sides;
-    change(f);
-    return refusal(test::feature_scene(f, 5), 2);
-  };
-  const auto plain = [](Features&) {};
-  EXPECT_EQ(with("wall", plain), "");
-  EXPECT_EQ(with("wall", [](Features& f) { f.gravity = true, f.restitution = 0.7; }),
-            "several ranks do not know gravity with restitution below 1 yet: use one");
-}
-
-TEST(SlabPairwiseRefuses, SlabsThinnerThanTwoDiametersOfTheLargestDisk) {
+TEST(SlabPairwiseAlone, RunsSlabsThinnerThanTwoDiametersOfTheLargestDisk) {
   Features f;
   f.radii = "wide";  // the largest radius is 4, the box 18 high
   const Scene scene = test::feature_scene(f, steps);
-  EXPECT_EQ(refusal(scene, 1), "");
-  EXPECT_EQ(
-      refusal(scene, 2),
-      "2 ranks: slabs of a box 18 high would be thinner than two diameters of the largest disk, whose radius is 4; "
-      "use 1 at most");
+  const State start = initial_state(scene);
+  run_on_local_ranks(
+      1, [&](Ranks& ranks) { EXPECT_TRUE(make_slab_pairwise(scene, start, {1}, ranks)->take_warnings().empty()); });
+  const std::string thin =
+      " slabs of a box 18 high would be thinner than two diameters of the largest disk, whose radius is 4; use 1 at "
+      "most";
+  expect_one_rank(scene, "2" + thin);
 }
 
 TEST(SlabCut, HasAsManyDisksInEachSlab) {
