@@ -38,11 +38,18 @@ struct GridLevel {
   unsigned band_shift = 31;   // columns in a band: 2^band_shift
   unsigned group_shift = 31;  // rows in a group: 2^group_shift
   std::uint32_t band_keys = 0, group_keys = 0;
+  // Of a tiled level: the first of the rows that are stored, and how many they are.
+  std::uint32_t first_stored = 0, stored_rows = 0xffffffffU;
 
   // Of a level that is not tiled: how many keys, and the first of them.
   std::uint32_t keys() const { return (kept_rows + 1) * stride + 2; }
   std::uint32_t start_key() const { return first_key + first_row * stride; }
   bool has_row(std::uint32_t row) const { return row - first_row < kept_rows; }
+  // The place of a row among those that are stored; of another row, that of the nearest one.
+  std::uint32_t place_of_row(std::uint32_t row) const {
+    const std::uint32_t place = row - first_stored;
+    return place < stored_rows ? place : place_round_the_box(place);
+  }
   std::uint32_t columns_left_in_band(std::uint32_t column) const {
     return (1U << band_shift) - (column & ((1U << band_shift) - 1U));
   }
@@ -57,6 +64,14 @@ struct GridLevel {
   }
   std::uint32_t key_at(std::uint32_t row, std::uint32_t column) const {
     return first_key + key_of_row(row) + key_of_column(column);
+  }
+
+ private:
+  // place: of a row that is not stored behind the first one; modulo 2^32 where it comes before it.
+  std::uint32_t place_round_the_box(std::uint32_t place) const {
+    if (place >= rows) place += rows;
+    if (place < stored_rows) return place;
+    return place < stored_rows + (rows - stored_rows) / 2 ? stored_rows - 1 : 0;
   }
 };
 
@@ -92,7 +107,7 @@ inline std::uint32_t row_at(const GridLevel& level, double y) {
   return cell_index(y * level.rows_per_length, level.rows);
 }
 inline std::uint32_t key_of(const GridLevel& level, double x, double y) {
-  return level.key_at(row_at(level, y), cell_index(x * level.columns_per_length, level.columns));
+  return level.key_at(level.place_of_row(row_at(level, y)), cell_index(x * level.columns_per_length, level.columns));
 }
 
 }  // namespace carom

@@ -17,6 +17,9 @@ constexpr std::uint32_t most_layers_a_region = 8;
 // Thinner layers would cut most searches in two.
 constexpr double least_cells_a_layer = 8.0;
 
+// A disk that has left the tiles that are kept must be nearer to one end of them than to the other.
+constexpr std::int64_t least_groups_left_out = 2;
+
 // log2 of the number of parts of about this size in the whole.
 unsigned shift_for(double whole, double part) {
   return static_cast<unsigned>(std::clamp(std::lround(std::log2(std::max(1.0, whole / part))), 0L, 20L));
@@ -79,6 +82,29 @@ void make_tiled_grid(const Domain& box, double largest_radius, const std::vector
   }
   grid.tiles = bands * groups;
   grid.tiles_a_layer = tiles_a_layer;
+  grid.keys = grid.tiles * grid.tile_keys;
+}
+
+void keep_tiles_between(const Domain& box, double low, double high, CellGrid& grid) {
+  const std::uint32_t groups = grid.levels[0].rows >> grid.levels[0].group_shift;
+  const auto group_at = [&](double y) { return static_cast<std::int64_t>(std::floor(y / box.height * groups)); };
+  std::int64_t first = group_at(low);
+  std::int64_t last = group_at(high);
+  if (!box.periodic_y()) {
+    first = std::clamp<std::int64_t>(first, 0, groups - 1);
+    last = std::clamp<std::int64_t>(last, 0, groups - 1);
+  }
+  if (last - first + 1 + least_groups_left_out > groups) return;
+  const auto kept = static_cast<std::uint32_t>(last - first + 1);
+  const auto skipped = static_cast<std::uint32_t>((first % groups + groups) % groups);
+  const bool wide = box.width >= box.height;
+  for (GridLevel& level : grid.levels) {
+    level.first_stored = skipped << level.group_shift;
+    level.stored_rows = kept << level.group_shift;
+    if (wide) level.band_keys = kept * grid.tile_keys;
+  }
+  grid.tiles = grid.tiles / groups * kept;
+  if (wide) grid.tiles_a_layer = kept;
   grid.keys = grid.tiles * grid.tile_keys;
 }
 

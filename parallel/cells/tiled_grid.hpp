@@ -17,4 +17,8 @@ namespace carom {
 void make_tiled_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
                      std::size_t disks_per_tile, std::size_t regions, CellGrid& grid);
 
+// Only the tiles between these heights, about, are kept; they may lie across the bottom and the top of a periodic box.
+// A disk elsewhere is in the row of cells that is nearest among those kept. Where the others would be few, all stay.
+void keep_tiles_between(const Domain& box, double low, double high, CellGrid& grid);
+
 }  // namespace carom

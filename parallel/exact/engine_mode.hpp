@@ -29,6 +29,7 @@ struct ListLayout {
   bool looks_ahead = false;
   // Of the whole box, where a rank has but some of its disks; 0: it has all.
   std::size_t disks_of_box = 0;
+  double low = 0.0, high = 0.0;  // then: about between these heights; length
 };
 
 // Up to so many disks all pairs are as fast as lists, and nothing has to be relisted in the long windows of few disks.
@@ -58,7 +59,7 @@ inline std::size_t most_regions(std::size_t disks, const Domain& box) {
 
 // The only place where the mode is chosen. regions_allowed: false where a window is run again without.
 inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regions_allowed, const Executor& executor) {
-  if (disks <= all_pairs_up_to) return {EngineMode::all_pairs, 0, 0, 1.0, false, 0};
+  if (disks <= all_pairs_up_to) return {EngineMode::all_pairs, 0, 0, 1.0, false};
   // Where work is cut into smaller blocks, regions are wanted for fewer disks too, and more than one on one thread.
   const bool is_cut = executor.grain(single_queue_up_to) < single_queue_up_to;
   const std::size_t single = is_cut                    ? executor.grain(single_queue_of_cut_work_up_to)
@@ -68,7 +69,7 @@ inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regio
   const std::size_t regions = is_cut ? wanted : std::min(wanted, most_regions(disks, box));
   // Regions know no images that move.
   if (!regions_allowed || box.shear.acts() || disks <= single || regions < 2) {
-    return {EngineMode::single_queue, 0, 0, 1.0, disks > executor.grain(disks_in_cache), 0};
+    return {EngineMode::single_queue, 0, 0, 1.0, disks > executor.grain(disks_in_cache)};
   }
   const std::size_t disks_a_tile = std::min(executor.grain(most_disks_a_tile), disks / (tiles_a_region * regions) + 1);
   return {EngineMode::regions,
@@ -79,14 +80,20 @@ inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regio
           0};
 }
 
-// Of one of several ranks: one region, of its own disks and its ghosts. disks: those; disks_of_box: of all ranks.
-inline ListLayout layout_of_rank(std::size_t disks, std::size_t disks_of_box, const Executor& executor) {
-  return {EngineMode::regions,
-          std::min(executor.grain(most_disks_a_tile), disks / tiles_a_region + 1),
-          1,
-          region_relist_share,
-          disks > executor.grain(disks_in_cache),
-          disks_of_box};
+// Of one of several ranks: one region, of its own disks and its ghosts, which are as many as `disks` and lie between
+// two heights; disks_of_box: of all ranks.
+inline ListLayout layout_of_rank(std::size_t disks, std::size_t disks_of_box, double low, double high,
+                                 const Executor& executor) {
+  ListLayout layout;
+  layout.mode = EngineMode::regions;
+  layout.disks_per_tile = std::min(executor.grain(most_disks_a_tile), disks / tiles_a_region + 1);
+  layout.regions = 1;
+  layout.relist_share = region_relist_share;
+  layout.looks_ahead = disks > executor.grain(disks_in_cache);
+  layout.disks_of_box = disks_of_box;
+  layout.low = low;
+  layout.high = high;
+  return layout;
 }
 
 }  // namespace carom

@@ -86,6 +86,7 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& ex
   }
   if (layout.disks_per_tile > 0) {
     make_tiled_grid(box_, largest, count, layout.disks_per_tile, layout.regions, grid_);
+    if (layout.disks_of_box > 0) keep_tiles_between(box_, layout.low, layout.high, grid_);
   } else {
     // About two disks a cell: lists extend over several cells, and each costs as much to visit, empty or not.
     for (std::size_t& c : count) c = c / 4 + 1;

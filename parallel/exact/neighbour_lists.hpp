@@ -20,12 +20,24 @@
 
 namespace carom {
 
+// The rows of a level that are stored, by their places, for a span of all rows that reaches from one end of the places
+// to the other, or does not go round the box.
+inline Span stored_span(const GridLevel& level, Span rows) {
+  if (rows.count == level.rows) return {0, std::min(level.rows, level.stored_rows)};
+  if (level.stored_rows >= level.rows) return rows;
+  const std::uint32_t end = rows.first + rows.count - 1;
+  const std::uint32_t first = level.place_of_row(rows.first);
+  const std::uint32_t last = level.place_of_row(end < level.rows ? end : end - level.rows);
+  return {first, last >= first ? last - first + 1 : 1};
+}
+
 // Calls visit(first, last) for runs of cells [first, last) of a level, neighbours in memory, that together are those
 // within `distance` (length) of (x, y).
 template <class Visit>
 void for_each_cell_run_near(const GridLevel& level, const Domain& box, double x, double y, double distance,
                             Visit&& visit) {
-  const Span rows = span_around(y, distance, box.height, level.rows_per_length, level.rows, box.periodic_y());
+  const Span rows =
+      stored_span(level, span_around(y, distance, box.height, level.rows_per_length, level.rows, box.periodic_y()));
   const Span columns = span_around(x, distance, box.width, level.columns_per_length, level.columns, box.periodic_x());
   for (std::uint32_t left = columns.count, column = columns.first; left > 0;) {
     // Up to the end of the band or of the row.

@@ -214,8 +214,10 @@ bool SlabExact::share_out(const WindowPlan& plan, double fastest) {
   redistribute(ranks_, cut_, start_.columns, state_);
   const std::optional<double> depth = ghost_depth(plan, fastest);
   if (!depth) return false;
-  ghosts_.see(slab_of(cut_, scene_.box, ranks_.rank()), scene_.box, *depth, start_.columns, state_);
-  windows_.build_lists(plan, layout_of_rank(state_.disks.size(), static_cast<std::size_t>(start_.disks), executor_));
+  const Slab slab = slab_of(cut_, scene_.box, ranks_.rank());
+  ghosts_.see(slab, scene_.box, *depth, start_.columns, state_);
+  windows_.build_lists(plan, layout_of_rank(state_.disks.size(), static_cast<std::size_t>(start_.disks),
+                                            slab.low - *depth, slab.high + *depth, executor_));
   ghosts_.find_places(state_.disks);
   ghosts_.look_beyond(state_.disks);
   return true;
