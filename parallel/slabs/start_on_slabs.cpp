@@ -55,6 +55,7 @@ class Maker {
         })) {
       return {};
     }
+    if (!start_.alone.empty()) return {};
     cut();
     if (ranks_.any(overlap())) return {};
     disks_.sum_motions();
