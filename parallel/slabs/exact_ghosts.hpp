@@ -35,17 +35,23 @@ class ExactGhosts final : public WindowGhosts {
   // At the start of a window that is run, no disk of any rank has left its slab by more than this; length.
   double most_excursion() const;
 
-  // The disks of the rank itself, in runs: visit(begin, end).
+  // Disks [begin, end) by storage index, in runs: visit(first, last, is_own), with whether they are the rank's own.
   template <class Visit>
-  void visit_own(const Disks& disks, Visit&& visit) const {
-    const std::size_t n = disks.size();
-    for (std::size_t i = 0; i < n;) {
-      std::size_t end = i;
+  void visit_runs(std::size_t begin, std::size_t end, Visit&& visit) const {
+    for (std::size_t i = begin; i < end;) {
+      std::size_t last = i;
       const bool ghosts = is_marked(i);
-      while (end < n && is_marked(end) == ghosts) ++end;
-      if (!ghosts) visit(i, end);
-      i = end;
+      while (last < end && is_marked(last) == ghosts) ++last;
+      visit(i, last, !ghosts);
+      i = last;
     }
+  }
+  // The rank's own among the first n.
+  template <class Visit>
+  void visit_own(std::size_t n, Visit&& visit) const {
+    visit_runs(0, n, [&](std::size_t first, std::size_t last, bool is_own) {
+      if (is_own) visit(first, last);
+    });
   }
 
   bool is_ghost(std::uint32_t i) const override { return is_marked(i); }

@@ -12,6 +12,7 @@
 #include "core/base/check.hpp"
 #include "core/disks/obstacle_cells.hpp"
 #include "core/step/step_start.hpp"
+#include "core/step/thermostat.hpp"
 #include "core/step/validity.hpp"
 #include "core/step/window_length.hpp"
 #include "core/step/window_plan.hpp"
@@ -42,6 +43,8 @@ constexpr double most_shown = 0.9;
 // Where slabs would be too thin, or a window was crowded, one rank runs so many.
 constexpr int windows_alone_if_thin = 64;
 constexpr int windows_alone_if_crowded = 16;
+// Disks a block.
+constexpr std::size_t kick_block = 4096;
 
 class SlabExact final : public Engine, public InSlabs {
  public:
@@ -76,6 +79,8 @@ class SlabExact final : public Engine, public InSlabs {
   const SlabCut* slab_cut() const override;
 
  private:
+  void start_window();
+  void kick();
   void step_alone();
   void run_alone(int windows);
   SpeedSummary speeds_of_all() const;
@@ -118,13 +123,43 @@ void SlabExact::step() {
   if (alone_ != 0) return step_alone();
   if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
   count_thermal_hits(scene_, state_);
-  if (side_turns(scene_, state_.time)) windows_.forget(Known::lists);
+  start_window();
   const SpeedSummary speeds = speeds_of_all();
   WindowPlan plan = plan_window(scene_, state_, start_.disks, speeds, 1.0);
   if (obstacles_) obstacles_->follow(plan.start, plan.end);
   if (!run_window(plan, speeds)) return step_alone();
   finish(plan);
   check_pace(scene_, state_, plan);
+}
+
+// What is drawn for a disk, its rank and those that see it as a ghost draw alike.
+void SlabExact::start_window() {
+  const PhaseTimer timer(times_, "start");
+  if (brownian_interval_begins(scene_, state_)) {
+    const BrownianInterval interval = begin_brownian_interval(scene_, state_);
+    draw_brownian_interval(state_.disks, scene_, interval, executor_, gone_);
+    windows_.forget(Known::lists);
+  }
+  if (is_kick_due(scene_, state_)) kick();
+  if (side_turns(scene_, state_.time)) windows_.forget(Known::lists);
+}
+
+void SlabExact::kick() {
+  const Count number = state_.intervals++;
+  const std::size_t n = state_.disks.size();
+  std::vector<ExactSum> heat(executor_.blocks(n, kick_block) + 1);
+  std::vector<ExactSum> of_ghosts(heat.size());
+  with_view(state_.disks, [&](const auto& d) {
+    executor_.for_ranges(n, kick_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+      ghosts_.visit_runs(begin, end, [&](std::size_t first, std::size_t last, bool is_own) {
+        kick_disks(d, scene_, number, first, last, is_own ? heat[b] : of_ghosts[b]);
+      });
+    });
+  });
+  for (std::size_t b = 1; b < heat.size(); ++b) heat[0].add(heat[b]);
+  ranks_.sum(heat[0].digits());
+  state_.counters.thermostat_heat += heat[0].value();
+  windows_.forget(Known::lists);
 }
 
 void SlabExact::step_alone() {
@@ -156,7 +191,8 @@ void SlabExact::run_alone(int windows) {
 
 SpeedSummary SlabExact::speeds_of_all() const {
   SpeedTally tally;
-  ghosts_.visit_own(state_.disks, [&](std::size_t begin, std::size_t end) { tally.add(state_.disks, begin, end); });
+  ghosts_.visit_own(state_.disks.size(),
+                    [&](std::size_t begin, std::size_t end) { tally.add(state_.disks, begin, end); });
   ranks_.sum(tally.squares.digits());
   ranks_.maximum({&tally.largest2, 1});
   return summarise_speeds(tally, start_.disks);
@@ -255,7 +291,7 @@ void SlabExact::finish(const WindowPlan& plan) {
 Disks SlabExact::own_of(const Disks& all) const {
   Disks own = all;
   std::vector<unsigned char> gone(all.size(), 1);
-  ghosts_.visit_own(all, [&](std::size_t begin, std::size_t end) { std::fill_n(&gone[begin], end - begin, 0); });
+  ghosts_.visit_own(all.size(), [&](std::size_t begin, std::size_t end) { std::fill_n(&gone[begin], end - begin, 0); });
   remove_marked(own, gone);
   return own;
 }

@@ -18,8 +18,6 @@ std::string unknown_to_slabs(const Scene& scene) {
   if (scene.run.method == Method::pairwise) return settles(scene) ? "gravity with restitution below 1" : "";
   if (!scene.sources.empty()) return "sources";
   if (has_sinks(scene)) return "sinks";
-  if (scene.physics.diffusion > 0.0) return "Brownian motion";
-  if (scene.physics.thermostat.acts()) return "thermostats";
   return scene.box.shear.acts() ? "a shear flow" : "";
 }
 

@@ -22,7 +22,7 @@ struct TallBox {
   int disks = 2000;
   std::string radius = "0.6", mass = "1.5";
   std::string positions = "random";
-  double t_end = 8.0;
+  double t_end = 8.0, step = 0.05;
   Features features{};  // physics
   std::string more{};   // obstacles, inner walls
 };
@@ -40,7 +40,7 @@ Scene tall_scene(const TallBox& tall) {
                                      tall.positions, tall.radius, tall.mass) +
                          "velocities = { maxwell = 4.0 }\n" +
                          (tall.features.rough.empty() ? "" : "spin_temperature = 5.0\n") + tall.more +
-                         fmt::format("[run]\nmethod = \"exact\"\nt_end = {}\n", tall.t_end),
+                         fmt::format("[run]\nmethod = \"exact\"\ndt = {}\nt_end = {}\n", tall.step, tall.t_end),
                      "scene", "");
 }
 
@@ -96,6 +96,19 @@ TEST(SlabExact, HasTheBitsOfRoughDisks) {
     TallBox tall{.sides = "wall"};
     tall.features.rough = rough;
     EXPECT_GT(expect_bits_on_slabs(tall).collisions, 3000U);
+  }
+}
+
+// Each disk draws the same on every rank that sees it.
+TEST(SlabExact, HasTheBitsOfThermostatsAndBrownianMotion) {
+  for (const char* thermostat : {"langevin", "andersen", ""}) {
+    TallBox tall{.t_end = 3.0};
+    tall.features.thermostat = thermostat;
+    if (tall.features.thermostat.empty()) tall.features.diffusion = "replace";
+    tall.step = 0.2;
+    const Counters counters = expect_bits_on_slabs(tall);
+    EXPECT_GT(counters.collisions, 1000U);
+    EXPECT_EQ(counters.thermostat_heat != 0.0, !tall.features.thermostat.empty());
   }
 }
 

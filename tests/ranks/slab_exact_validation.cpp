@@ -33,6 +33,7 @@ class TallBoxes {
     f.rough = one_of({"", "", "sticking", "sliding"});
     f.law = one_of({"", "", "viscoelastic"});
     f.restitution = f.law.empty() && chance(0.3) ? 0.8 : 1.0;
+    f.thermostat = one_of({"", "", "", "langevin", "andersen"});
     f.gravity = f.sides != "periodic" && chance(0.2);
     f.tilted = chance(0.5);
     f.seed = static_cast<int>(1 + random_() % 100);
