@@ -17,9 +17,6 @@ namespace {
 constexpr std::uint64_t most_trials_each = 60;
 constexpr std::uint64_t most_trials_at_least = 5'000'000;
 
-// Trials a disk, on average, from which it pays to know the open cells.
-constexpr std::uint64_t many_trials = 4;
-
 PlacementRoom::Axis room_along(double length, bool periodic, double radius) {
   return periodic ? PlacementRoom::Axis{0.0, length} : PlacementRoom::Axis{radius, length - radius};
 }
@@ -78,7 +75,7 @@ bool PlacementSearch::next_class() {
 bool PlacementSearch::lesson_due(std::size_t k) const {
   if (list) return refine_due();
   if (cells) return cells->list_due();
-  return trials - trials_before > many_trials * (k - begin) + 1000;
+  return trials_are_many(trials - trials_before, k - begin);
 }
 
 void PlacementSearch::learn() {

@@ -47,6 +47,12 @@ TrialDraw draw_trial(std::uint64_t seed, std::uint32_t id, std::uint64_t trial, 
 // may lie outside the room.
 Vec2 trial_point(const Domain& box, const PlacementRoom& room, const VoxelList* list, const TrialDraw& draw);
 
+// Does it pay to know the open cells after so many trials in vain for so many disks?
+inline bool trials_are_many(std::uint64_t trials, std::uint64_t disks) {
+  constexpr std::uint64_t many = 4;
+  return trials > many * disks + 1000;
+}
+
 // A search through one class of members, whose radii differ by less than a factor of two. What it knows of the free
 // places grows with need: nothing; which cells of a fixed grid are open; a list of voxels, refined now and then.
 struct PlacementSearch {

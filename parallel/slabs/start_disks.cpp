@@ -134,16 +134,11 @@ Vec2 StartDisks::drawn_velocity(std::size_t group, Count k, double mass) const {
   return v;
 }
 
-Disk StartDisks::resting(std::size_t group, Count k) const {
-  const DiskSize size = size_of(group, k);
-  const Vec2 place = lattices_[group]->at(k);
-  return {place.x, place.y, 0.0, 0.0, size.radius, size.mass, id_of(group, k), 0.0};
-}
-
-Disk StartDisks::moving(std::size_t group, Count k) const {
+Disk StartDisks::disk_at(std::size_t group, Count k, Vec2 place) const {
   const DiskGroup& g = scene_.groups[group];
   const GroupMotion& motion = motions_[group];
-  Disk disk = resting(group, k);
+  const DiskSize size = size_of(group, k);
+  Disk disk{place.x, place.y, 0.0, 0.0, size.radius, size.mass, id_of(group, k), 0.0};
   const Vec2 v = drawn_velocity(group, k, disk.mass);
   const bool scaled = g.velocities.kind == VelocityLaw::Kind::maxwell && g.velocities.temperature != 0.0;
   disk.vx = scaled ? v.x * motion.factor : v.x;

@@ -40,7 +40,7 @@ class StartDisks {
   Count disks() const { return disks_; }
   std::size_t groups() const { return scene_.groups.size(); }
 
-  // Throws InputError where a lattice has no room. To be called before what follows.
+  // Of lattices. Throws InputError where one has no room. To be called before heights and places are asked for.
   void place();
 
   // How high the centre of the group's k-th disk lies; no lower than that of the disk before.
@@ -51,15 +51,17 @@ class StartDisks {
   // Collective: what the velocities need of all disks.
   void sum_motions();
 
-  // Without a velocity and a spin; with them, which have to be summed before.
-  Disk resting(std::size_t group, Count k) const;
-  Disk moving(std::size_t group, Count k) const;
+  // Of a lattice.
+  Vec2 place_of(std::size_t group, Count k) const { return lattices_[group]->at(k); }
+  DiskSize size_of(std::size_t group, Count k) const;
+  // With its velocity and spin, which have to be summed before.
+  Disk disk_at(std::size_t group, Count k, Vec2 place) const;
+  DiskId first_id(std::size_t group) const { return first_ids_[group]; }
 
   // The rank's share of a group, where the work on all disks is shared without regard to where they are.
   GroupRange share(std::size_t group) const;
 
  private:
-  DiskSize size_of(std::size_t group, Count k) const;
   DiskId id_of(std::size_t group, Count k) const { return first_ids_[group] + static_cast<DiskId>(k); }
   Vec2 drawn_velocity(std::size_t group, Count k, double mass) const;
   template <class Sum, class Add>

@@ -14,8 +14,10 @@
 #include "core/start/between_sides.hpp"
 #include "core/start/placement.hpp"
 #include "core/start/placement_grid.hpp"
+#include "core/start/placement_search.hpp"
 #include "core/start/wall_segments.hpp"
 #include "parallel/cells/cell_grid.hpp"
+#include "parallel/slabs/random_on_slabs.hpp"
 #include "parallel/slabs/rank_sums.hpp"
 #include "parallel/slabs/start_disks.hpp"
 
@@ -51,13 +53,12 @@ class Maker {
     if (fails([&] {
           start_ = slab_start(scene_, columns(), disks_.sizes().smallest.radius, disks_.sizes().largest.radius,
                               disks_.disks(), ranks_.count());
-          disks_.place();
+          if (!at_random()) disks_.place();
         })) {
       return {};
     }
     if (!start_.alone.empty()) return {};
-    cut();
-    if (ranks_.any(overlap())) return {};
+    if (at_random() ? !place_at_random() : !place_lattices()) return {};
     disks_.sum_motions();
     StartOnSlab made{part(), start_};
     const Disks& d = made.part.disks;
@@ -80,6 +81,30 @@ class Maker {
     return ranks_.any(failed);
   }
 
+  bool at_random() const { return scene_.groups[0].positions.kind == PositionLaw::Kind::random; }
+
+  bool place_lattices() {
+    cut();
+    return !ranks_.any(overlap());
+  }
+
+  // Disks of one size, spread evenly over the height.
+  bool place_at_random() {
+    if (start_.columns.radius) return false;
+    const double radius = disks_.sizes().largest.radius;
+    const PlacementRoom::Axis along = placement_room(at_rest_.box, radius).up;
+    for (int r = 0; r < ranks_.count(); ++r) {
+      const double share = static_cast<double>(r) / ranks_.count();
+      start_.cut.bounds.push_back(r == 0 ? 0.0 : along.low + share * (along.high - along.low) + up_);
+    }
+    start_.cut.bounds.push_back(scene_.box.height);
+    keep_thick(start_.cut, thinnest_slab(scene_, start_));
+    start_.counts.assign(class_of_radius(radius, start_.largest_radius) + 1, 0);
+    start_.counts.back() = static_cast<std::size_t>(disks_.disks());
+    placed_ = place_on_slabs(at_rest_, radius, disks_.disks(), start_.cut, up_, ranks_);
+    return placed_.has_value();
+  }
+
   DiskColumns columns() const {
     const SizeFacts& sizes = disks_.sizes();
     return {sizes.smallest.radius < sizes.largest.radius,
@@ -97,7 +122,7 @@ class Maker {
       const GroupRange range = disks_.share(g);
       for (Count k = range.first; k < range.last; ++k) {
         ++rows[cell_index(height(g, k) * rows_per_length, rows_counted)];
-        const double radius = start_.columns.radius ? disks_.resting(g, k).radius : disks_.sizes().largest.radius;
+        const double radius = start_.columns.radius ? disks_.size_of(g, k).radius : disks_.sizes().largest.radius;
         const std::size_t size_class = class_of_radius(radius, start_.largest_radius);
         if (size_class >= start_.counts.size()) start_.counts.resize(size_class + 1, 0);
         ++start_.counts[size_class];
@@ -143,10 +168,10 @@ class Maker {
       for (const GroupRange& range : seen_between(g, low, high)) {
         reserve_more(near, range.last - range.first);
         for (Count k = range.first; k < range.last; ++k) {
-          const Disk disk = disks_.resting(g, k);
-          near.x.push_back(disk.x);
-          near.y.push_back(disk.y);
-          if (start_.columns.radius) near.radius.push_back(disk.radius);
+          const Vec2 place = disks_.place_of(g, k);
+          near.x.push_back(place.x);
+          near.y.push_back(place.y);
+          if (start_.columns.radius) near.radius.push_back(disks_.size_of(g, k).radius);
         }
       }
     }
@@ -175,6 +200,35 @@ class Maker {
     return deep;
   }
 
+  // use(group, k, place) for the disks of the slab, in order of id.
+  template <class Use>
+  void for_own(Use&& use) const {
+    std::size_t next = 0;
+    for (std::size_t g = 0; g < disks_.groups(); ++g) {
+      const Count count = at_rest_.groups[g].count;
+      if (placed_) {
+        const Count end = disks_.first_id(g) + count;
+        for (; next < placed_->id.size() && placed_->id[next] < end; ++next) {
+          use(g, placed_->id[next] - disks_.first_id(g), Vec2{placed_->x[next], placed_->y[next]});
+        }
+      } else if (count > 0) {
+        const GroupRange range = disks_.between(g, low_, high_);
+        for (Count k = range.first; k < range.last; ++k) use(g, k, disks_.place_of(g, k));
+      }
+    }
+  }
+
+  // Made in the room between moving sides; in a sheared box, at rest.
+  Disk in_box(Disk disk) const {
+    const Domain& room = inner_box_;
+    if (room.shear.acts()) disk.vx += room.shear.flow(disk.y, room.height);
+    if (scene_.box.has_moving_side()) {
+      disk.x += right_;
+      disk.y += up_;
+    }
+    return disk;
+  }
+
   State part() const {
     State state;
     Disks& d = state.disks;
@@ -184,20 +238,8 @@ class Maker {
     if (!start_.columns.mass) d.common_mass = sizes.largest.mass;
     const auto expected = static_cast<std::size_t>(disks_.disks()) / static_cast<std::size_t>(ranks_.count());
     reserve(d, expected + expected / 32, start_.columns);
-    const Domain& room = inner_box_;
-    for (std::size_t g = 0; g < disks_.groups(); ++g) {
-      if (at_rest_.groups[g].count == 0) continue;
-      const GroupRange range = disks_.between(g, low_, high_);
-      for (Count k = range.first; k < range.last; ++k) {
-        Disk disk = disks_.moving(g, k);
-        if (room.shear.acts()) disk.vx += room.shear.flow(disk.y, room.height);
-        if (scene_.box.has_moving_side()) {
-          disk.x += right_;
-          disk.y += up_;
-        }
-        push_back(d, disk, start_.columns);
-      }
-    }
+    for_own(
+        [&](std::size_t g, Count k, Vec2 place) { push_back(d, in_box(disks_.disk_at(g, k, place)), start_.columns); });
     state.obstacles = segments_of(scene_);
     state.next_id = static_cast<DiskId>(disks_.disks());
     state.sources.resize(scene_.sources.size());
@@ -212,24 +254,27 @@ class Maker {
   double right_ = 0.0, up_ = 0.0;  // of the room in the box; length
   double low_ = 0.0, high_ = 0.0;  // of the slab in the room; length
   SlabStart start_;
+  std::optional<PlacedOnSlab> placed_;  // at random
 };
 
 }  // namespace
 
 bool starts_on_slabs(const Scene& scene) {
+  using Kind = PositionLaw::Kind;
   if (scene.box.has_moving_side() && scene.box.shear.acts()) return false;
   Count disks = 0;
+  bool lattices = true;
   for (const DiskGroup& g : scene.groups) {
-    const bool lattice =
-        g.positions.kind == PositionLaw::Kind::square || g.positions.kind == PositionLaw::Kind::hexagonal;
-    const bool in_circle = g.positions.region && g.positions.region->circle;
     const auto listed = [&](const SizeLaw& law) {
       return law.kind != SizeLaw::Kind::list || law.values.size() >= g.count;
     };
-    if (g.fixed || !lattice || in_circle || !listed(g.radius) || !listed(g.mass)) return false;
+    if (g.fixed || !listed(g.radius) || !listed(g.mass)) return false;
+    const bool in_circle = g.positions.region && g.positions.region->circle;
+    const bool lattice = g.positions.kind == Kind::square || g.positions.kind == Kind::hexagonal;
+    lattices = lattices && lattice && !in_circle;
     disks += g.count;
   }
-  return disks > 0;
+  return disks > 0 && (lattices || places_on_slabs(scene));
 }
 
 std::optional<StartOnSlab> start_on_slab(const Scene& scene, Ranks& ranks) {

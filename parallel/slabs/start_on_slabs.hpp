@@ -10,7 +10,8 @@
 
 namespace carom {
 
-// Are the scene's disks of a kind that needs no rank to know them all? So far: lattices.
+// Are the scene's disks of a kind that needs no rank to know them all? Lattices, and disks
+// of equal size at random that are not dense.
 bool starts_on_slabs(const Scene& scene);
 
 struct StartOnSlab {

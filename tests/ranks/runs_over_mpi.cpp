@@ -140,6 +140,10 @@ TEST_F(RanksRun, ALatticeIsMadeByAllRanks) {
     ASSERT_EQ(o.status, 0) << o.err;
     EXPECT_EQ(summary("one"), summary("r" + ranks));
   }
+  const std::string random = lattice + " --set disks.0.positions=random --set disks.0.radius=0.5";
+  ASSERT_EQ(carom("run scene.toml -o one-random" + random).status, 0);
+  ASSERT_EQ(carom("run scene.toml -o r-random --ranks 3" + random).status, 0);
+  EXPECT_EQ(summary("one-random"), summary("r-random"));
   ASSERT_EQ(carom("resume r2 --quiet --t-end 0.5 --ranks 3").status, 0);
   ASSERT_EQ(carom("resume one --quiet --t-end 0.5").status, 0);
   EXPECT_EQ(summary("one")["state_hash"], summary("r2")["state_hash"]);

@@ -108,6 +108,46 @@ TEST(StartOnSlabs, IsThatOfOneMachine) {
   }
 }
 
+// A trial is refused by the disks that one machine has placed before, wherever they are, and by no other.
+TEST(StartOnSlabs, PlacesAtRandomAsOneMachine) {
+  const std::string random = "positions = \"random\"\nradius = 0.5\nvelocities = { maxwell = 2.0 }\n";
+  const std::vector<Scene> scenes{
+      scene_of(periodic + "packing_fraction = 0.35\n", "[[disks]]\ncount = 5000\nmass = 1.0\n" + random),
+      scene_of("width = 40.0\nheight = 90.0\n", "[[disks]]\ncount = 800\nmass = 1.0\n" + random +
+                                                    "[[disks]]\ncount = 500\nmass = { uniform = [1.0, 3.0] }\n" +
+                                                    random +
+                                                    "[[walls]]\npoints = [[1.0, 22.0], [20.0, 28.0], [21.0, 60.0]]\n"),
+      scene_of(periodic + "width = 60.0\nheight = 20.0\nshear_rate = 0.3\n",
+               "[[disks]]\ncount = 400\nmass = 1.0\n" + random),
+      scene_of(test::sides_text("moving", 1) + "width = 30.0\nheight = 50.0\n",
+               "[[disks]]\ncount = 400\nmass = 1.0\n" + random +
+                   "[[sources]]\nregion = [2.0, 4.0, 10.0, 14.0]\nrate = 7.0\nradius = 1.2\nmass = 1.0\n"),
+      // Batches in which most get in each other's way, and a slab hardly thicker than what it sees of others.
+      scene_of(periodic + "width = 30.0\nheight = 9.0\n", "[[disks]]\ncount = 130\nmass = 1.0\n" + random),
+  };
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    SCOPED_TRACE(s);
+    for (const int count : {1, 2, 3, 4}) expect_parts(scenes[s], count);
+  }
+}
+
+// Where trials are many one machine learns where there is room, which ranks do not: here in a channel, though it is not
+// dense.
+TEST(StartOnSlabs, LeavesManyTrialsToOneMachine) {
+  const Scene scene = scene_of("width = 3.0\nheight = 2000.0\n",
+                               "[[disks]]\ncount = 2950\npositions = \"random\"\nradius = 0.5\nmass = 1.0\n");
+  ASSERT_TRUE(starts_on_slabs(scene));
+  run_on_local_ranks(3, [&](Ranks& ranks) { EXPECT_FALSE(start_on_slab(scene, ranks).has_value()); });
+}
+
+TEST(StartOnSlabs, LeavesDenseAndMixedDisksToOneMachine) {
+  for (const char* disks : {"count = 4000\nradius = 0.5\n", "count = 100\nradius = { uniform = [0.4, 0.5] }\n"}) {
+    const std::string dense = disks[8] == '4' ? "packing_fraction = 0.5\n" : "packing_fraction = 0.2\n";
+    EXPECT_FALSE(starts_on_slabs(
+        scene_of(periodic + dense, "[[disks]]\npositions = \"random\"\nmass = 1.0\n" + std::string(disks))));
+  }
+}
+
 // Not of one machine's making: which disks overlap is its to say.
 TEST(StartOnSlabs, LeavesWhatIsRefusedToOneMachine) {
   const std::vector<Scene> scenes{
@@ -130,8 +170,10 @@ TEST(StartOnSlabs, KnowsWhatItCannotMake) {
   const auto disks = [](const std::string& lines) {
     return "[[disks]]\ncount = 20\nradius = 0.5\nmass = 1.0\n" + lines;
   };
-  for (const std::string lines : {"positions = \"random\"\n", "positions = \"growth\"\n",
-                                  "positions = \"square\"\nregion = { circle = [20.0, 20.0, 10.0] }\n"}) {
+  for (const std::string lines :
+       {"positions = \"random\"\nregion = [0.0, 0.0, 20.0, 20.0]\n",
+        "positions = \"square\"\n[[disks]]\ncount = 1\nradius = 0.5\nmass = 1.0\npositions = \"random\"\n",
+        "positions = \"growth\"\n", "positions = \"square\"\nregion = { circle = [20.0, 20.0, 10.0] }\n"}) {
     EXPECT_FALSE(starts_on_slabs(scene_of("width = 40.0\nheight = 40.0\n", disks(lines)))) << lines;
   }
 }

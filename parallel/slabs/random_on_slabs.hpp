@@ -1,0 +1,28 @@
+// Random addition by ranks that each know the disks near their own slab alone.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/slab_cut.hpp"
+
+namespace carom {
+
+// Are all disks equally large and placed at random anywhere, and few enough for what follows?
+bool places_on_slabs(const Scene& scene);
+
+// The disks in a rank's slab, in order of id.
+struct PlacedOnSlab {
+  std::vector<double> x, y;  // length
+  std::vector<DiskId> id;
+};
+
+// Where place_at_random of core puts disks of equal radius with ids 0 to count - 1, bit for bit. cut: of the box whose
+// lower side is `up` below that of the scene's box (length). Collective; none, on all ranks, where trials become so
+// many that one machine begins to learn where there is room. Precondition: places_on_slabs, of disks that may all move.
+std::optional<PlacedOnSlab> place_on_slabs(const Scene& scene, double radius, Count count, const SlabCut& cut,
+                                           double up, Ranks& ranks);
+
+}  // namespace carom
