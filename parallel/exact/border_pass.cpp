@@ -136,4 +136,8 @@ void BorderPass::relist_late() {
   }
 }
 
+void BorderPass::relist_if_far(std::uint32_t i) {
+  EventProcessor<Scope::border>(window_, lists_, late_).relist_if_far(i);
+}
+
 }  // namespace carom

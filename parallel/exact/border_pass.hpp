@@ -32,6 +32,10 @@ class BorderPass {
   // Was the window found void?
   bool ended() const;
 
+  // After the slice, on one thread: relists disk i if it has moved further than one at a border may when a slice
+  // begins.
+  void relist_if_far(std::uint32_t i);
+
   // Disks that came to be at a border, and that list one now, in the slice.
   const std::vector<std::uint32_t>& new_border() const { return late_.border; }
   const std::vector<std::uint32_t>& new_near_border() const { return late_.near_border; }

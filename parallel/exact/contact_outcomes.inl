@@ -176,7 +176,7 @@ void EventProcessor<scope>::count_burst(std::uint32_t i, const EventMark& event)
   if (!window_.burst[i].add(event.time, window_.length)) return;
   if (!worker_.collapse) worker_.collapse = event;
   if constexpr (scope == Scope::region) {
-    if (record_[i].progress.is_active()) safe_times_.block(i, event.time);
+    if (record_[i].progress.is_active()) block(i, event.time);
   } else {
     worker_.ended = true;
   }

@@ -75,6 +75,8 @@ class DiskProgress {
 
   constexpr bool has(Mark mark) const { return (bits_ & mark) != 0; }
   constexpr void set(Mark mark) { bits_ |= mark; }
+  // At a border, or a neighbour of one that is.
+  constexpr bool is_near_border() const { return (bits_ & (at_border | lists_border)) != 0; }
   constexpr void clear(Mark mark) { bits_ &= ~static_cast<std::uint32_t>(mark); }
 
  private:

@@ -22,8 +22,8 @@ struct ListLayout {
   EngineMode mode = EngineMode::single_queue;
   std::size_t disks_per_tile = 0;  // with regions
   std::size_t regions = 0;
-  // Share of the skin that a disk may move through before it is relisted. Below 1 where there are regions: a disk that
-  // is blocked, or at a border, must not cross the whole skin within a slice.
+  // Share of the skin that a disk near a border between regions may move through before it is relisted; others may move
+  // through the whole of it. Below 1 where there are regions: one at a border must not leave its skin within a slice.
   double relist_share = 1.0;
   // The calendars hold more disks than a cache: what comes soon is prefetched.
   bool looks_ahead = false;
@@ -42,9 +42,10 @@ inline constexpr std::size_t disks_in_cache = 16384;
 // Disks that are neighbours in memory; regions consist of whole layers of tiles.
 inline constexpr std::size_t most_disks_a_tile = 8192;
 inline constexpr std::size_t tiles_a_region = 16;
-// The larger, the fewer relistings; the smaller, the longer slices. The fewest instructions a collision with two
-// regions of 25000 disks.
-inline constexpr double region_relist_share = 0.82;
+// The larger, the fewer relistings near borders; the smaller, the longer slices.
+inline constexpr double region_relist_share = 0.75;
+// On one of several ranks all disks are relisted as those near a border.
+inline constexpr double rank_relist_share = 0.82;
 // Mean spacings that a region is wide, at least: in narrower ones what is blocked from one border reaches that from the
 // other.
 inline constexpr double least_region_width = 30.0;
@@ -88,7 +89,7 @@ inline ListLayout layout_of_rank(std::size_t disks, std::size_t disks_of_box, do
   layout.mode = EngineMode::regions;
   layout.disks_per_tile = std::min(executor.grain(most_disks_a_tile), disks / tiles_a_region + 1);
   layout.regions = 1;
-  layout.relist_share = region_relist_share;
+  layout.relist_share = rank_relist_share;
   layout.looks_ahead = disks > executor.grain(disks_in_cache);
   layout.disks_of_box = disks_of_box;
   layout.low = low;

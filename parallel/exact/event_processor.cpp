@@ -113,7 +113,8 @@ void EventProcessor<scope>::run_region() {
     const double time = find_first(i) ? worker_.calendar.time_of(i - first_) : never;
     const double safe_time = safe_times_.first();
     if (safe_time <= time && safe_time < never) {
-      safe_times_.reach_first();
+      SafeTimeDue due;
+      if (safe_times_.reach_first(due)) block(due.disk, due.time);
     } else if (window_.in_slice(time)) {
       process(i, time);
     } else {
@@ -192,7 +193,7 @@ void EventProcessor<scope>::process_without_partner(std::uint32_t i, double time
 template <Scope scope>
 void EventProcessor<scope>::process_pair(std::uint32_t i, std::uint32_t j, double time) {
   if (scope == Scope::region && !record_[j].progress.is_active()) {
-    safe_times_.block(i, time);
+    block(i, time);
   } else if (record_[j].version == record_[i].partner_version) {
     collide_pair(i, j, time);
   } else {
@@ -202,11 +203,53 @@ void EventProcessor<scope>::process_pair(std::uint32_t i, std::uint32_t j, doubl
 
 template <Scope scope>
 void EventProcessor<scope>::relist_and_predict(std::uint32_t i, double time) {
-  if (scope == Scope::border || relist(i, time)) {
+  if (scope == Scope::border || relist(i, time, relist_distance(i))) {
     predict_next_event<false>(i, time);
   } else {
-    safe_times_.block(i, time);
+    block(i, time);
   }
+}
+
+// Near borders disks are relisted sooner, since it may have to wait for a slice's end; one queue has none.
+template <Scope scope>
+inline const RelistDistance& EventProcessor<scope>::relist_distance(std::uint32_t i) const {
+  if (scope != Scope::region) return lists_.relist_distance(has_regions);
+  return lists_.relist_distance(record_[i].progress.is_near_border() || !lists_.is_in_core(i, worker_.region));
+}
+
+// Does the disk, whose motion from now on is not known, stay within its skin to the end of the slice?
+template <Scope scope>
+bool EventProcessor<scope>::stays_in_skin(std::uint32_t i, double time) const {
+  const PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
+  return lists_.stays_in_skin(i, p.x, p.y, window_.speed_bound * (window_.slice_stop() - time));
+}
+
+// Region: what happens to the disk from now on waits for the border pass, and so does relisting; so it is relisted now
+// if it could leave its skin before the slice's end. Where that cannot be done here the window is void; it is run again
+// with new lists and shorter slices.
+template <Scope scope>
+void EventProcessor<scope>::block(std::uint32_t i, double time) {
+  if (!stays_in_skin(i, time)) [[unlikely]] {
+    const bool listed = relist(i, time, lists_.relist_distance(true)) || relist_a_little(i, time);
+    if (!listed || !stays_in_skin(i, time)) worker_.too_fast = worker_.ended = true;
+    predict_next_event<false>(i, time);
+  }
+  safe_times_.block(i, time);
+}
+
+// Where the disk cannot be listed where it is: it is listed no further from its listed position than it has to be.
+template <Scope scope>
+bool EventProcessor<scope>::relist_a_little(std::uint32_t i, double time) {
+  PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
+  const Vec2 listed = lists_.listed_position(i);
+  const Vec2 back = nearest_image_at_rest({listed.x - p.x, listed.y - p.y}, window_.rules.box);
+  const double distance = std::sqrt(back.x * back.x + back.y * back.y);
+  const double room = lists_.skin() - window_.speed_bound * (window_.slice_stop() - time);
+  const double share = std::clamp(0.99 * room / distance, 0.0, 1.0);
+  p.x += share * back.x;
+  p.y += share * back.y;
+  wrap_into(p, window_.rules.box);
+  return relist_at(i, time, {p.x, p.y});
 }
 
 template <Scope scope>
@@ -222,10 +265,9 @@ void EventProcessor<scope>::relist_late(const std::vector<std::uint32_t>& disks)
     DiskRecord& record = record_[i];
     if (!record.progress.has(DiskProgress::relists_late)) continue;
     const bool gone = std::isnan(record.path.x);
-    if (!gone && !relist(i, window_.slice_stop())) continue;
+    if (!gone && !relist(i, window_.slice_stop(), relist_distance(i))) continue;
     record.progress.clear(DiskProgress::relists_late);
-    if (gone) continue;
-    predict_next_slice(i);
+    if (!gone) predict_next_slice(i);
   }
 }
 
@@ -239,9 +281,21 @@ void EventProcessor<scope>::predict_next_slice(std::uint32_t i) {
 template <Scope scope>
 void EventProcessor<scope>::relist_if_due(std::uint32_t i) {
   const double now = window_.slice_stop();
-  if (lists_.earliest_relist_time(i, record_[i].path, now, now, window_.rules.gravity) > now) return;
-  relist(i, now);
+  const RelistDistance& distance = relist_distance(i);
+  if (lists_.earliest_relist_time(i, record_[i].path, now, now, window_.rules.gravity, distance) > now) return;
+  relist(i, now, distance);
   mark_relisted(i);
+}
+
+template <Scope scope>
+void EventProcessor<scope>::relist_if_far(std::uint32_t i) {
+  const PathSegment p = carried_to(record_[i].path, window_.slice_stop(), window_.rules.gravity);
+  if (std::isnan(p.x)) return;
+  const double rest = lists_.skin() - lists_.relist_distance(true).length;
+  const bool is_far = !lists_.stays_in_skin(i, p.x, p.y, rest);
+  if (is_far) relist(i, window_.slice_stop(), relist_distance(i));
+  predict_next_slice(i);
+  if (is_far) mark_relisted(i);
 }
 
 // Border: an event of the queue. It is invalid where the disk's events have been predicted again; an event of the same
@@ -273,15 +327,25 @@ inline ScheduledEvent EventProcessor<scope>::next_event(std::uint32_t i, double 
   } else if (!next.lasting) {
     event.time = window_.last_look(i);
   }
-  if (is_straight_ ? lists_.stays_listed(i, record.path, event.time)
-                   : lists_.stays_listed_bent(i, record.path, from, event.time, window_.rules.gravity))
-    return event;
-  const double relist_at = lists_.earliest_relist_time(i, record.path, from, from, window_.rules.gravity);
+  const RelistDistance& relist = relist_distance(i);
+  if (stays_listed(i, from, event.time, relist)) return event;
+  const double relist_at = lists_.earliest_relist_time(i, record.path, from, from, window_.rules.gravity, relist);
   if (scope == Scope::border && from < window_.slice_stop() && window_.in_slice(relist_at)) {
     put_off_relisting(i);
+    // Slices are so short that this does not happen.
+    if (!stays_listed(i, from, std::min(event.time, window_.slice_stop()), lists_.relist_distance(false)))
+      worker_.too_fast = worker_.ended = true;
     return event;
   }
   return relist_at < event.time ? ScheduledEvent{relist_at, Partner::relist()} : event;
+}
+
+template <Scope scope>
+inline bool EventProcessor<scope>::stays_listed(std::uint32_t i, double from, double until,
+                                                const RelistDistance& relist) const {
+  const PathSegment& path = record_[i].path;
+  return is_straight_ ? lists_.stays_listed(i, path, until, relist)
+                      : lists_.stays_listed_bent(i, path, from, until, window_.rules.gravity, relist);
 }
 
 template <Scope scope>
@@ -314,9 +378,13 @@ inline void EventProcessor<scope>::schedule(std::uint32_t i, double time, Partne
 
 // False if that would change the lists of another region, or make it a disk at a border.
 template <Scope scope>
-bool EventProcessor<scope>::relist(std::uint32_t i, double time) {
-  PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
-  const Vec2 at = lists_.listing_place(p, window_.rules.box);
+bool EventProcessor<scope>::relist(std::uint32_t i, double time, const RelistDistance& ahead) {
+  const PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
+  return relist_at(i, time, lists_.listing_place(p, window_.rules.box, ahead));
+}
+
+template <Scope scope>
+bool EventProcessor<scope>::relist_at(std::uint32_t i, double time, Vec2 at) {
   if (scope == Scope::region && window_.is_beyond_band(i, at.y, lists_.skin())) return false;
   if (!lists_.relist(i, at, *window_.disks, worker_.region, worker_.found)) return false;
   ++worker_.relisted;

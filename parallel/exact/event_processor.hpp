@@ -45,6 +45,9 @@ class EventProcessor {
   void relist_late(const std::vector<std::uint32_t>& disks);
   // Border: the disk, whose path at the slice's end is known, is listed anew if it has moved too far.
   void relist_if_due(std::uint32_t i);
+  // Border, after the slice, where no other thread works: relists disk i unless it is within the relist distance of
+  // disks near a border, and marks what that means for the next slice.
+  void relist_if_far(std::uint32_t i);
   // Border: predicts the disk's next event, after the slice.
   void predict_next_slice(std::uint32_t i);
   // Border: what a new list means for the next slice; no other thread works.
@@ -76,7 +79,14 @@ class EventProcessor {
   [[gnu::always_inline]] inline void schedule(std::uint32_t i, double time, Partner partner);
   void relist_and_predict(std::uint32_t i, double time);
   void put_off_relisting(std::uint32_t i);
-  bool relist(std::uint32_t i, double time);
+  bool relist(std::uint32_t i, double time, const RelistDistance& ahead);
+  bool relist_a_little(std::uint32_t i, double time);
+  bool relist_at(std::uint32_t i, double time, Vec2 at);
+  [[gnu::always_inline]] inline bool stays_listed(std::uint32_t i, double from, double until,
+                                                  const RelistDistance& relist) const;
+  bool stays_in_skin(std::uint32_t i, double time) const;
+  void block(std::uint32_t i, double time);
+  const RelistDistance& relist_distance(std::uint32_t i) const;
   // Does this rank count what happens to the disk?
   bool counts(std::uint32_t i) const { return !has_regions || !record_[i].progress.has(DiskProgress::ghost); }
   void meet_side(std::uint32_t i, double time);

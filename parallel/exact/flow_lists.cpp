@@ -50,7 +50,7 @@ Vec2 NeighbourLists::into_flow(double x, double y, double s) const {
 bool NeighbourLists::stays_listed_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const {
   if (mode_ == EngineMode::all_pairs) return true;
   const double bend = 0.25 * std::abs(flow_.rate * path.vy) * (until - from) * (until - from);
-  const double room = relist_distance_ * (1.0 - 1e-9) - bend;
+  const double room = elsewhere_.length * (1.0 - 1e-9) - bend;
   const auto inside = [&](double t) {
     const double s = t - path.start;
     const double y = path.y + path.vy * s;
@@ -67,12 +67,12 @@ double NeighbourLists::earliest_relist_in_flow(std::uint32_t i, const PathSegmen
   const auto nearest = [](double d, double period) { return d - period * std::round(d / period); };
   const Vec2 off{nearest(p.x - tilt * p.y - listed.x, box_.width), nearest(p.y - listed.y, box_.height)};
   const Vec2 speed{p.vx - flow_.rate * p.y - tilt * p.vy, p.vy};
-  double room = relist_distance_ * (1.0 - 1e-9);
+  double room = elsewhere_.length * (1.0 - 1e-9);
   double ahead = never;
   // The straight path, less what the flow can bend it by in that time.
   const double half_bend = std::abs(flow_.rate * p.vy);
   if (half_bend > 0.0) {
-    ahead = std::max(std::sqrt(bend_share * relist_distance_ / half_bend), until - from);
+    ahead = std::max(std::sqrt(bend_share * elsewhere_.length / half_bend), until - from);
     room -= half_bend * ahead * ahead;
     if (!(room > 0.0)) return from;
   }

@@ -40,6 +40,10 @@ constexpr double two_to_31 = 2147483648.0;
 // Share of the skin that gravity may bend a path by before earliest_relist_time is asked again.
 constexpr double bend_share = 0.1;
 
+RelistDistance relist_distance_of(double length) {
+  return {length, length * length * (1.0 - 2e-9), most_lead * most_lead * length * length};
+}
+
 }  // namespace
 
 void FoundNeighbours::grow(std::size_t disks) {
@@ -66,9 +70,9 @@ void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout) {
                             : thin_cutoff_in_spacings + cutoff_by_packing_fraction * area / space;
   skin_ = std::max({0.5 * (cutoff * std::sqrt(space / n) - 2.0 * radius), least_skin * 2.0 * radius,
                     least_units * std::max(unit_x_, unit_y_)});
-  relist_distance_ = layout.relist_share * skin_;
-  stay2_ = relist_distance_ * relist_distance_ * (1.0 - 2e-9);
-  lead2_ = most_lead * most_lead * relist_distance_ * relist_distance_;
+  near_border_ = relist_distance_of(layout.relist_share * skin_);
+  elsewhere_ = relist_distance_of(skin_);
+  elsewhere_.lead2 = near_border_.lead2;
 }
 
 void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& executor) {
@@ -100,6 +104,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   box_ = box;
   unit_x_ = box.width / (box.periodic_x() ? 2.0 * two_to_31 : two_to_31);
   unit_y_ = box.height / (box.periodic_y() ? 2.0 * two_to_31 : two_to_31);
+  layers_along_x_ = box.width >= box.height;
   all_periodic_ = box.periodic_x() && box.periodic_y();
   period_x_ = box.periodic_x() ? box.width : 0.0;
   period_y_ = box.periodic_y() ? box.height : 0.0;
@@ -109,7 +114,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   largest_radius_ = largest_radius(d);
   grid_.tiles = grid_.tiles_a_layer = 1;
   grid_.tile_keys = 0;
-  stay2_ = never;
+  near_border_ = elsewhere_ = {};
   if (mode_ != EngineMode::all_pairs) {
     choose_skin(d, layout);
     // That of the rows is given back for what sorting needs.
@@ -125,6 +130,21 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
     }
   });
   list_all(d, executor);
+}
+
+// A disk is listed again within the relist distance of its listed position, and ahead of where it is by less; what it
+// lists then is within the reach of lists of that place.
+ListRegion NeighbourLists::region_of_tiles(std::uint32_t first, std::uint32_t last) const {
+  ListRegion region{first * grid_.tile_keys, last * grid_.tile_keys, first_disk_of(first), first_disk_of(last)};
+  const double side = layers_along_x_ ? box_.width : box_.height;
+  const double unit = layers_along_x_ ? unit_x_ : unit_y_;
+  const double tiles_to_length = side / static_cast<double>(grid_.tiles);
+  const double depth = 2.0 * largest_radius_ + 3.0 * skin_ + most_lead * near_border_.length;
+  const double from = first * tiles_to_length + depth;
+  const double size = last * tiles_to_length - depth - from;
+  region.core = static_cast<std::uint32_t>(std::min(from, side) / unit);
+  region.core_size = size > 0.0 ? static_cast<std::uint32_t>(size / unit) : 0;
+  return region;
 }
 
 void NeighbourLists::list_all(const Disks& d, const Executor& executor) {
@@ -275,18 +295,18 @@ void NeighbourLists::release_scratch() {
 }
 
 double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& path, double from, double until,
-                                            const Gravity& gravity) const {
+                                            const Gravity& gravity, const RelistDistance& relist) const {
   if (mode_ == EngineMode::all_pairs) return never;
   if (flow_.acts) return earliest_relist_in_flow(i, path, from, until);
   const PathSegment p = carried_to(path, from, gravity);
   const double g = gravity.size;
   const Vec2 position = listed_position(i);
   const auto [dx, dy] = nearest_image_at_rest({p.x - position.x, p.y - position.y}, box_);
-  double room = relist_distance_ * (1.0 - 1e-9);
+  double room = relist.length * (1.0 - 1e-9);
   double ahead = never;
   if (g > 0.0) {
     // The straight path, less what gravity can bend it by in that time.
-    ahead = std::max(std::sqrt(2.0 * bend_share * relist_distance_ / g), until - from);
+    ahead = std::max(std::sqrt(2.0 * bend_share * relist.length / g), until - from);
     room -= 0.5 * g * ahead * ahead;
     if (!(room > 0.0)) return from;
   }
@@ -296,9 +316,9 @@ double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& 
 // A straight path whose ends are in a circle is in it; gravity bends it by g t^2 / 8 at most, so that it has to begin
 // and end further inside.
 bool NeighbourLists::stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until,
-                                          const Gravity& g) const {
+                                          const Gravity& g, const RelistDistance& relist) const {
   if (mode_ == EngineMode::all_pairs) return true;
-  const double room = relist_distance_ * (1.0 - 1e-9) - 0.125 * g.size * (until - from) * (until - from);
+  const double room = relist.length * (1.0 - 1e-9) - 0.125 * g.size * (until - from) * (until - from);
   const auto inside = [&](double t) {
     const double s = t - path.start;
     return is_within(i, path.x + (path.vx - 0.5 * g.left * s) * s, path.y + (path.vy - 0.5 * g.down * s) * s,

@@ -94,10 +94,17 @@ inline double time_within(double room, Vec2 d, Vec2 v) {
   return b > 0.0 ? c / (b + root) : (root - b) / a;
 }
 
+// How far a disk may move from its listed position before it is relisted.
+struct RelistDistance {
+  double length = 0.0;
+  double stay2 = never;  // its square, a little less
+  double lead2 = 0.0;    // the furthest that a disk is listed ahead, squared
+};
+
 // Each disk has a listed position, where it was when it was listed, and may move by the skin from it. Disks i and j are
 // in each other's lists whenever their listed positions are within r_i + r_j + 2 skin (nearest image); so while both
 // are within the skin of their listed positions, disks that are not listed together cannot touch. A disk that has moved
-// by the relist distance, a share of the skin, is listed again where it is. In all-pairs mode every disk lists every
+// by the relist distance, at most the skin, is listed again where it is. In all-pairs mode every disk lists every
 // other one, and none is ever relisted.
 class NeighbourLists {
  public:
@@ -112,11 +119,11 @@ class NeighbourLists {
   // Has the flow carried disks so far by time t that the lists are to be built anew?
   bool is_strained(double t) const { return std::abs(flow_.rate) * (t - flow_.built_at) > flow_.strain; }
   // Where a disk is listed whose path begins here: ahead of it, in the middle of where it is about to be.
-  Vec2 listing_place(PathSegment p, const Domain& box) const {
+  Vec2 listing_place(PathSegment p, const Domain& box, const RelistDistance& relist) const {
     if (flow_.acts) [[unlikely]]
       return into_flow(p.x, p.y, p.start);
     const double v2 = p.vx * p.vx + p.vy * p.vy;
-    const double lead = lead_time_ * lead_time_ * v2 > lead2_ ? std::sqrt(lead2_ / v2) : lead_time_;
+    const double lead = lead_time_ * lead_time_ * v2 > relist.lead2 ? std::sqrt(relist.lead2 / v2) : lead_time_;
     p.x += lead * p.vx;
     p.y += lead * p.vy;
     wrap_into(p, box);
@@ -126,9 +133,9 @@ class NeighbourLists {
   void set_lead_time(double t) { lead_time_ = t; }
 
   EngineMode mode() const { return mode_; }
-  // Lengths; not in all-pairs mode.
-  double skin() const { return skin_; }
-  double relist_distance() const { return relist_distance_; }
+  // Not in all-pairs mode.
+  double skin() const { return skin_; }  // length
+  const RelistDistance& relist_distance(bool near_border) const { return near_border ? near_border_ : elsewhere_; }
   // Of disk i; inside the box, but for rounding.
   Vec2 listed_position(std::uint32_t i) const { return position_of(listed_at_[i]); }
 
@@ -140,8 +147,11 @@ class NeighbourLists {
     return grid_.tile_keys == 0 ? (tile == 0 ? 0 : static_cast<std::uint32_t>(rows_.size()))
                                 : cells_.start[std::size_t{tile} * grid_.tile_keys];
   }
-  ListRegion region_of_tiles(std::uint32_t first, std::uint32_t last) const {
-    return {first * grid_.tile_keys, last * grid_.tile_keys, first_disk_of(first), first_disk_of(last)};
+  ListRegion region_of_tiles(std::uint32_t first, std::uint32_t last) const;
+  // Is the disk listed so deep within the region that it can be listed again there?
+  bool is_in_core(std::uint32_t i, const ListRegion& region) const {
+    const FixedPointPosition at = listed_at_[i];
+    return (layers_along_x_ ? at.x : at.y) - region.core < region.core_size;
   }
   // Of disk i, where there are regions.
   std::uint32_t tile_of(std::uint32_t i) const { return rows_.block_of(i); }
@@ -166,18 +176,26 @@ class NeighbourLists {
   // position; `from` itself when it does not. Extrapolates no further than `until`, or as far as gravity bends the path
   // little.
   double earliest_relist_time(std::uint32_t i, const PathSegment& path, double from, double until,
-                              const Gravity& gravity) const;
+                              const Gravity& gravity, const RelistDistance& relist) const;
 
   // Does the disk, within the relist distance of its listed position at time `from`, stay so until `until`? May say no
   // where earliest_relist_time would say yes, never the other way round; much faster. Precondition: neither gravity nor
   // a shear acts.
-  bool stays_listed(std::uint32_t i, const PathSegment& path, double until) const {
+  bool stays_listed(std::uint32_t i, const PathSegment& path, double until, const RelistDistance& relist) const {
     const double s = until - path.start;
-    return is_within(i, path.x + path.vx * s, path.y + path.vy * s, stay2_);
+    return is_within(i, path.x + path.vx * s, path.y + path.vy * s, relist.stay2);
   }
   // Likewise where one of them does.
-  bool stays_listed_bent(std::uint32_t i, const PathSegment& path, double from, double until, const Gravity& g) const {
-    return flow_.acts ? stays_listed_in_flow(i, path, from, until) : stays_listed_falling(i, path, from, until, g);
+  bool stays_listed_bent(std::uint32_t i, const PathSegment& path, double from, double until, const Gravity& g,
+                         const RelistDistance& relist) const {
+    return flow_.acts ? stays_listed_in_flow(i, path, from, until)
+                      : stays_listed_falling(i, path, from, until, g, relist);
+  }
+  // Is a disk that is here now within the skin of its listed position, however it moves over this distance? Not in a
+  // sheared box.
+  bool stays_in_skin(std::uint32_t i, double x, double y, double distance) const {
+    const double room = skin_ * (1.0 - 1e-9) - distance;
+    return room > 0.0 && is_within(i, x, y, room * room);
   }
 
   // Gives back memory that only building needs, where that is much.
@@ -267,8 +285,8 @@ class NeighbourLists {
   bool stays_listed_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const;
   double earliest_relist_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const;
   Vec2 into_flow(double x, double y, double s) const;
-  bool stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until,
-                            const Gravity& g) const;
+  bool stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until, const Gravity& g,
+                            const RelistDistance& relist) const;
   void choose_skin(const Disks& disks, const ListLayout& layout);
   void sort(Disks& disks, const ListLayout& layout, const Executor& executor);
   void list_all(const Disks& disks, const Executor& executor);
@@ -296,12 +314,11 @@ class NeighbourLists {
   CellGrid grid_;
   SortedCells cells_;
   double skin_ = 0.0;
-  double relist_distance_ = 0.0;
+  RelistDistance near_border_, elsewhere_;
   FlowFrame flow_;
   bool all_periodic_ = false;
-  double stay2_ = 0.0;  // relist distance squared, a little less
+  bool layers_along_x_ = false;  // one after the other
   double lead_time_ = 0.0;
-  double lead2_ = 0.0;                                // the furthest that a disk is listed ahead, squared
   double period_x_ = 0.0, period_y_ = 0.0;            // length; 0: none
   double periods_per_x_ = 0.0, periods_per_y_ = 0.0;  // 1 / period; 0: none
   double largest_radius_ = 0.0;

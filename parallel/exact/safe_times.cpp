@@ -84,18 +84,17 @@ void SafeTimes::push(std::uint32_t i, double time) {
   push_due(safe.time, i);
 }
 
-void SafeTimes::reach_first() {
-  const auto [time, i] = worker_.safe_times.front();
+bool SafeTimes::reach_first(SafeTimeDue& due) {
+  due = worker_.safe_times.front();
+  const auto [time, i] = due;
   std::pop_heap(worker_.safe_times.begin(), worker_.safe_times.end(), is_due_later);
   worker_.safe_times.pop_back();
-  if (!window_.record[i].progress.is_active()) return;
+  if (!window_.record[i].progress.is_active()) return false;
   const SafeTime safe = safe_time(i, time);
   const double slice = window_.slice_stop() - window_.slice_start;
-  if (safe.time <= time + worthwhile_share * slice) {
-    block(i, time);
-  } else {
-    push_due(safe.time, i);
-  }
+  if (safe.time <= time + worthwhile_share * slice) return true;
+  push_due(safe.time, i);
+  return false;
 }
 
 void SafeTimes::block(std::uint32_t i, double time) {

@@ -21,8 +21,8 @@ class SafeTimes {
   double first() const { return worker_.safe_times.empty() ? never : worker_.safe_times.front().time; }
   // Asks for the safe time of the disk, whose motion is known up to `time`, when it comes, if it is within the slice.
   void push(std::uint32_t i, double time);
-  // The first that is due has come; it may be later by now, if the disk's path has changed.
-  void reach_first();
+  // The first that is due has come; it may be later by now, if the disk's path has changed. Is the disk to be blocked?
+  bool reach_first(SafeTimeDue& due);
   // Disk i's motion is not known from now on, so that its active neighbours get safe times too.
   void block(std::uint32_t i, double time);
 

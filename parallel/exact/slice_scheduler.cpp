@@ -23,7 +23,7 @@ void SliceScheduler::begin_window(bool rebuilt) {
   if (rebuilt) {
     relisted_ = 0;
     lay_out_regions();
-    slice_room_ = has_regions() ? lists_.skin() - lists_.relist_distance() : never;
+    slice_room_ = has_regions() ? lists_.skin() - lists_.relist_distance(true).length : never;
     if (ghosts_ != nullptr) {
       slice_room_ = ghosts_->least_of_all(slice_room_);
       mark_ghosts();
@@ -55,6 +55,8 @@ void SliceScheduler::lay_out_regions() {
     std::fill(window_.region_of_tile.begin() + first_tile, window_.region_of_tile.begin() + last_tile,
               static_cast<std::uint16_t>(r));
     regions_[r].worker.region = lists_.region_of_tiles(first_tile, last_tile);
+    // What a rank has of others may be at a border in any window: all disks are relisted as those near one.
+    if (ghosts_ != nullptr) regions_[r].worker.region.core_size = 0;
     regions_[r].worker.begin_window();
     regions_[r].worker.begin_slice();  // a void window leaves blocked disks behind
   }
@@ -90,8 +92,8 @@ void SliceScheduler::find_near_border(Region& region) {
   }
 }
 
-// No disk leaves its skin: one that is resolved moves by no more than the relist distance, and one that is not by no
-// more than that and what it covers in the slice.
+// A disk at a border, which is not relisted before the slice's end, does not leave its skin: it begins the slice within
+// the relist distance.
 double SliceScheduler::longest_slice() const {
   return has_regions() ? slice_room_ / window_.speed_bound : never;
 }
@@ -268,17 +270,39 @@ void SliceScheduler::finish_slice(Region& region) {
                             region.worker.near_border.end());
 }
 
+// One that was elsewhere may have moved further than it may near a border; when it is relisted, others may come to be
+// at the border, or near it: both lists may grow.
 void SliceScheduler::take_in_new_border(const std::vector<std::uint32_t>& border,
                                         const std::vector<std::uint32_t>& near_border) {
-  for (const std::uint32_t i : border) {
-    Region& region = region_of(i);
-    const std::uint32_t entry = i - region.worker.region.first_disk;
-    region.worker.calendar.take_out(entry);
-    window_.next_event_time[i] = region.worker.calendar.time_of(entry);
-    window_.record[i].progress.set_border();
-    region.border.push_back(i);
+  std::size_t at = 0;
+  std::size_t near = 0;
+  while (at < border.size() || near < near_border.size()) {
+    if (at < border.size()) {
+      take_in_border(border[at++]);
+    } else {
+      take_in_near_border(near_border[near++]);
+    }
   }
-  for (const std::uint32_t i : near_border) region_of(i).near_border.push_back(i);
+}
+
+void SliceScheduler::take_in_border(std::uint32_t i) {
+  Region& region = region_of(i);
+  const std::uint32_t entry = i - region.worker.region.first_disk;
+  region.worker.calendar.take_out(entry);
+  window_.next_event_time[i] = region.worker.calendar.time_of(entry);
+  window_.record[i].progress.set_border();
+  region.border.push_back(i);
+  if (ghosts_ == nullptr) border_pass_.relist_if_far(i);
+}
+
+// With ghosts no disk moves further than one near a border may.
+void SliceScheduler::take_in_near_border(std::uint32_t i) {
+  Region& region = region_of(i);
+  region.near_border.push_back(i);
+  if (ghosts_ != nullptr || !window_.record[i].progress.is_active()) return;
+  window_.next_event_time[i] = region.worker.calendar.time_of(i - region.worker.region.first_disk);
+  border_pass_.relist_if_far(i);
+  EventProcessor<Scope::region>(window_, lists_, region.worker).enter(i);
 }
 
 void SliceScheduler::show_borders() const {

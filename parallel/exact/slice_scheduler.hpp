@@ -82,6 +82,8 @@ class SliceScheduler {
   void begin_slice(Region& region);
   void finish_slice(Region& region);
   void take_in_new_border(const std::vector<std::uint32_t>& border, const std::vector<std::uint32_t>& near_border);
+  void take_in_border(std::uint32_t i);
+  void take_in_near_border(std::uint32_t i);
   void mark_ghosts();
   void mark_edges();
   SliceOutcome run_with_ghosts(double per_disk);

@@ -134,8 +134,10 @@ double WindowRun::carried_event_time(std::size_t i, const WindowPlan& plan) cons
   if (predicts_anew_) return 0.0;
   const double carried = (window_.next_event_time[i] - length_) - early_share * length_;
   if (!rebuilt_) return carried;
-  const double relist_at = lists_.earliest_relist_time(static_cast<std::uint32_t>(i), window_.record[i].path, 0.0,
-                                                       plan.length, window_.rules.gravity);
+  // Which disks are near borders is not known yet: none moves further than those may.
+  const double relist_at =
+      lists_.earliest_relist_time(static_cast<std::uint32_t>(i), window_.record[i].path, 0.0, plan.length,
+                                  window_.rules.gravity, lists_.relist_distance(true));
   return std::min(carried, relist_at);
 }
 
