@@ -29,10 +29,11 @@ class EventPredictor {
   // The earliest event of disk i with a side or a neighbour, up to the horizon, all on their present paths. newest: no
   // neighbour's segment starts later than the disk's own.
   template <bool newest>
-  NextEvent earliest(std::uint32_t i) const {
+  [[gnu::always_inline]] NextEvent earliest(std::uint32_t i) const {
     const ListRows::PlainList list = lists_->rows().plain_list(i);
     if (more_than_neighbours_ || !list.is_plain) return earliest_with_sides(i);
-    const auto kernel = newest ? kernels_.near_newest : kernels_.near;
+    const auto kernel = list.is_inside ? (newest ? kernels_.inside_newest : kernels_.inside)
+                                       : (newest ? kernels_.near_newest : kernels_.near);
     const FirstContact first = kernel(constants_, &window_->record[i], list.offset, list.count);
     if (first.ambiguous) [[unlikely]]
       return earliest_one_by_one(i);

@@ -86,7 +86,7 @@ class EventProcessor {
                                                   const RelistDistance& relist) const;
   bool stays_in_skin(std::uint32_t i, double time) const;
   void block(std::uint32_t i, double time);
-  const RelistDistance& relist_distance(std::uint32_t i) const;
+  [[gnu::always_inline]] inline const RelistDistance& relist_distance(std::uint32_t i) const;
   // Does this rank count what happens to the disk?
   bool counts(std::uint32_t i) const { return !has_regions || !record_[i].progress.has(DiskProgress::ghost); }
   void meet_side(std::uint32_t i, double time);

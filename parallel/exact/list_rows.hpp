@@ -69,16 +69,21 @@ class ListRows {
 
   // Bits (1 << side) of the walls and sinks that the disk can touch while it stays listed.
   unsigned sides_near(std::uint32_t i) const { return rows_[i].sides; }
+  // Beside those: a neighbour may be listed across a border along a period.
+  static constexpr unsigned across = 1U << 4;
+  // Are the disk and its neighbours, while they stay listed, on one side of each such border?
+  bool is_inside(std::uint32_t i) const { return (rows_[i].sides & across) == 0; }
 
   // A list that is all in one row, of a disk with no side near; nothing to visit but offset[0] to offset[count - 1].
   struct PlainList {
     bool is_plain;  // otherwise the rest means nothing
+    bool is_inside;
     const std::int16_t* offset;
     std::uint32_t count;
   };
   PlainList plain_list(std::uint32_t i) const {
     const Row& row = rows_[i];
-    return {row.more == none && row.sides == 0, row.offset, row.count};
+    return {row.more == none && (row.sides & (across - 1U)) == 0, (row.sides & across) == 0, row.offset, row.count};
   }
 
   // Between windows: one more disk, the last, with an empty list; and one less, whose list is empty and which no other

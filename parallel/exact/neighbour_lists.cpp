@@ -121,6 +121,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
     if (n > disks_of_much_memory) rows_.release();
     sort(d, layout, executor);
   }
+  find_inner_part();
   if (listed_at_.capacity() < n) resize_in_huge_pages(listed_at_, n);
   listed_at_.resize(n);
   executor.for_ranges(n, disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -267,10 +268,23 @@ void NeighbourLists::find_all_others(std::uint32_t i, FoundNeighbours& found) co
   found.count = found.buffer.size();
 }
 
+// Disks that list each other are within their contact distance and 4 skins of each other while they stay listed, and
+// each is within the skin of where it is listed.
+void NeighbourLists::find_inner_part() {
+  const bool none = mode_ == EngineMode::all_pairs || flow_.acts;
+  const double depth = none ? never : (2.0 * largest_radius_ + 4.0 * skin_) * (1.0 + 1e-6);
+  const auto part = [depth](double side, bool periodic, double& low, double& high) {
+    low = periodic ? depth : -never;
+    high = periodic ? side - depth : never;
+  };
+  part(box_.width, box_.periodic_x(), inner_low_.x, inner_high_.x);
+  part(box_.height, box_.periodic_y(), inner_low_.y, inner_high_.y);
+}
+
 unsigned NeighbourLists::find_sides(const Disks& d, std::uint32_t i) const {
-  if (all_periodic_) return 0;
-  unsigned sides = 0;
   const Vec2 position = listed_position(i);
+  unsigned sides = is_inside(position) ? 0U : ListRows::across;
+  if (all_periodic_) return sides;
   for (const Side side : all_sides) {
     if (box_.side(side) == SideKind::periodic) continue;
     // A side that moves may come as far as this.

@@ -181,9 +181,15 @@ class NeighbourLists {
   // Does the disk, within the relist distance of its listed position at time `from`, stay so until `until`? May say no
   // where earliest_relist_time would say yes, never the other way round; much faster. Precondition: neither gravity nor
   // a shear acts.
-  bool stays_listed(std::uint32_t i, const PathSegment& path, double until, const RelistDistance& relist) const {
+  [[gnu::always_inline]] bool stays_listed(std::uint32_t i, const PathSegment& path, double until,
+                                           const RelistDistance& relist) const {
     const double s = until - path.start;
-    return is_within(i, path.x + path.vx * s, path.y + path.vy * s, relist.stay2);
+    const double x = path.x + path.vx * s;
+    const double y = path.y + path.vy * s;
+    if (!rows_.is_inside(i)) [[unlikely]]
+      return is_within(i, x, y, relist.stay2);
+    const Vec2 listed = listed_position(i);
+    return (x - listed.x) * (x - listed.x) + (y - listed.y) * (y - listed.y) < relist.stay2;
   }
   // Likewise where one of them does.
   bool stays_listed_bent(std::uint32_t i, const PathSegment& path, double from, double until, const Gravity& g,
@@ -307,6 +313,10 @@ class NeighbourLists {
   std::uint32_t cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
   void fill_slots(const Disks& disks, std::uint32_t first_key, std::uint32_t last_key);
   bool move_to_cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position, const ListRegion& region);
+  void find_inner_part();
+  bool is_inside(Vec2 listed) const {
+    return inner_low_.x < listed.x && listed.x < inner_high_.x && inner_low_.y < listed.y && listed.y < inner_high_.y;
+  }
   unsigned find_sides(const Disks& disks, std::uint32_t i) const;
 
   EngineMode mode_ = EngineMode::single_queue;
@@ -319,6 +329,8 @@ class NeighbourLists {
   bool all_periodic_ = false;
   bool layers_along_x_ = false;  // one after the other
   double lead_time_ = 0.0;
+  // Disks that are listed in between list none across a border along a period.
+  Vec2 inner_low_, inner_high_;
   double period_x_ = 0.0, period_y_ = 0.0;            // length; 0: none
   double periods_per_x_ = 0.0, periods_per_y_ = 0.0;  // 1 / period; 0: none
   double largest_radius_ = 0.0;

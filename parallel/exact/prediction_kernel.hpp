@@ -49,6 +49,8 @@ using PredictionKernel = FirstContact (*)(const PredictionConstants& constants, 
 
 struct PredictionKernels {
   PredictionKernel<std::int16_t> near, near_newest;
+  // Where all places are on one side of each border along a period, so that no image but the disks themselves is met.
+  PredictionKernel<std::int16_t> inside, inside_newest;
   PredictionKernel<std::int32_t> far;
 };
 

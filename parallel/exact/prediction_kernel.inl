@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "parallel/exact/prediction_kernel.hpp"
 
@@ -15,6 +16,7 @@ using Doubles = double __attribute__((vector_size(32)));
 using Longs = long long __attribute__((vector_size(32)));
 
 constexpr std::uint32_t lanes = prediction_lanes;
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 static_assert(offsetof(PathSegment, vy) == offsetof(PathSegment, x) + 3 * sizeof(double));
 static_assert(sizeof(LaneConstant) == sizeof(Doubles));
@@ -118,6 +120,9 @@ struct Own {
   Doubles start, x, y, vx, vy, radius;
 };
 
+// Which images of neighbours may be the nearest ones.
+enum class Images { any, own };
+
 // Places and velocities of four disks.
 struct Motions {
   Doubles x, y, vx, vy;
@@ -143,7 +148,7 @@ template <GravityKind gravity>
 // core's collision_time(), operation by operation: carried_to, relative, time_to_contact, touching_time. Differences
 // may have the other sign, which changes no bit of the time. Not a number where there is no contact. slowest: the
 // least |dr.dv| so far.
-template <GravityKind gravity, bool unequal_radii, bool newest>
+template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
 inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const DiskRecord& f0, const DiskRecord& f1,
                              const DiskRecord& f2, const DiskRecord& f3, Doubles& slowest) {
   const Doubles m0 = load_motion(f0.path);
@@ -161,8 +166,12 @@ inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const
   carry<gravity>(f, both - start, others);
   Motions mine{own.x, own.y, own.vx, own.vy};
   if constexpr (!newest) carry<gravity>(f, both - own.start, mine);
-  const Doubles dx = nearest(others.x - mine.x, f.period_x, f.periods_per_x);
-  const Doubles dy = nearest(others.y - mine.y, f.period_y, f.periods_per_y);
+  Doubles dx = others.x - mine.x;
+  Doubles dy = others.y - mine.y;
+  if constexpr (images == Images::any) {
+    dx = nearest(dx, f.period_x, f.periods_per_x);
+    dy = nearest(dy, f.period_y, f.periods_per_y);
+  }
   const Doubles dvx = others.vx - mine.vx;
   const Doubles dvy = others.vy - mine.vy;
   const Doubles approach = dx * dvx + dy * dvy;
@@ -176,11 +185,11 @@ inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const
   // Not a number where the paths miss.
   const Doubles until_meeting = root((dvx * dvx + dvy * dvy) * contact2 - cross * cross) - approach;
   const Doubles until_contact = ((dx * dx + dy * dy) - contact2) / until_meeting;
-  const Longs recedes = approach >= all(0.0);
-  return both + larger(all(0.0), number(bits(until_contact) | recedes));
+  // By the sign: +0 and -0 are slow.
+  return both + larger(all(0.0), choose(bits(approach), until_contact, all(not_a_number)));
 }
 
-template <GravityKind gravity, bool unequal_radii, bool newest, class Offset>
+template <GravityKind gravity, bool unequal_radii, bool newest, Images images, class Offset>
 FirstContact first_contact(const PredictionConstants& f, const DiskRecord* record, const Offset* offset,
                            std::uint32_t count) {
   const PathSegment& p = record->path;
@@ -191,8 +200,8 @@ FirstContact first_contact(const PredictionConstants& f, const DiskRecord* recor
   Longs batch{};
   Doubles slowest = all(never);
   for (const Offset* n = offset; n < offset + count; n += lanes, batch += 1) {
-    const Doubles time = four_contacts<gravity, unequal_radii, newest>(f, own, record[n[0]], record[n[1]], record[n[2]],
-                                                                       record[n[3]], slowest);
+    const Doubles time = four_contacts<gravity, unequal_radii, newest, images>(f, own, record[n[0]], record[n[1]],
+                                                                               record[n[2]], record[n[3]], slowest);
     const Longs sooner = time < first;
     ties |= time == first;
     batch_of_first = bits(choose(sooner, number(batch), number(batch_of_first)));
@@ -217,9 +226,11 @@ FirstContact first_contact(const PredictionConstants& f, const DiskRecord* recor
 
 template <GravityKind gravity, bool unequal_radii>
 PredictionKernels kernels_for() {
-  return {first_contact<gravity, unequal_radii, false, std::int16_t>,
-          first_contact<gravity, unequal_radii, true, std::int16_t>,
-          first_contact<gravity, unequal_radii, false, std::int32_t>};
+  return {first_contact<gravity, unequal_radii, false, Images::any, std::int16_t>,
+          first_contact<gravity, unequal_radii, true, Images::any, std::int16_t>,
+          first_contact<gravity, unequal_radii, false, Images::own, std::int16_t>,
+          first_contact<gravity, unequal_radii, true, Images::own, std::int16_t>,
+          first_contact<gravity, unequal_radii, false, Images::any, std::int32_t>};
 }
 
 template <GravityKind gravity>
