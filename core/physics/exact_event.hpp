@@ -62,14 +62,15 @@ struct NoRubbing {
 // Two disks (smaller id first) collide at time s; their new segments p and q start there. share and reduced_mass: of
 // their masses. restitution(r): of disks that approach as r says. rub(r, change): what follows along their surfaces,
 // with the change that collide() returned. gravity: may g be other than 0?
-template <bool gravity, class RestitutionOf, class Rub = NoRubbing>
+// wraps: false where it is known that both, and the way between them, cross no border along a period.
+template <bool gravity, bool wraps = true, class RestitutionOf, class Rub = NoRubbing>
 [[gnu::always_inline]] inline Impact collide_paths(const Domain& box, const Gravity& g, double s, Shares share,
                                                    double reduced_mass, const RestitutionOf& restitution,
                                                    PathSegment& p, PathSegment& q, const Rub& rub = {}) {
   drift<gravity>(p.x, p.y, p.vx, p.vy, s - p.start, g);
   drift<gravity>(q.x, q.y, q.vx, q.vy, s - q.start, g);
   p.start = q.start = s;
-  const Relative r = relative(p, q, box);
+  const Relative r = wraps ? relative(p, q, box) : Relative{q.x - p.x, q.y - p.y, q.vx - p.vx, q.vy - p.vy};
   Impact outcome;
   if (r.approach() < 0.0 && r.distance2() > 0.0) {
     const double e = restitution(r);
@@ -77,8 +78,10 @@ template <bool gravity, class RestitutionOf, class Rub = NoRubbing>
     rub(r, change);
     outcome = {reduced_mass * change, 0.0, true, false, e < 1.0};
   }
-  wrap_into(p, box);
-  wrap_into(q, box);
+  if constexpr (wraps) {
+    wrap_into(p, box);
+    wrap_into(q, box);
+  }
   return outcome;
 }
 

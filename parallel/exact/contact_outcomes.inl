@@ -78,8 +78,10 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
     return;
   }
   const auto restitution = [this](const Relative&) { return window_.rules.restitution; };
+  const bool inside = lists_.rows().is_inside(i) && lists_.rows().is_inside(j);
   const Impact impact =
-      collide_paths<false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, restitution, p, q);
+      inside ? collide_paths<false, false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, restitution, p, q)
+             : collide_paths<false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, restitution, p, q);
   if (impact.happened && counts(i)) worker_.tally.add_collision(impact.virial);
   begin_plain_segment(i, j, p);
   begin_plain_segment(j, i, q);
@@ -91,7 +93,10 @@ template <Scope scope>
 inline void EventProcessor<scope>::begin_plain_segment(std::uint32_t i, std::uint32_t partner,
                                                        const PathSegment& path) {
   DiskRecord& f = record_[i];
-  if (window_.keeps_paths) log_segment(i, partner, path);
+  if (window_.keeps_paths) [[unlikely]] {
+    const PathSegment copy = path;  // so that the path itself stays in registers
+    log_segment(i, partner, copy);
+  }
   f.path = path;
   if (++f.version > most_paths_of_disk || ++worker_.segments > window_.most_paths) [[unlikely]] {
     worker_.crowded = EventMark{path.start, std::min(f.id, record_[partner].id), std::max(f.id, record_[partner].id)};

@@ -127,9 +127,10 @@ class EventCalendar {
   };
 
   [[gnu::always_inline]] std::uint32_t page_of(double time) const {
-    const double page = std::min(std::max((time - start_) * pages_per_time_, 0.0), last_page_);
-    const auto p = static_cast<std::uint32_t>(static_cast<std::int32_t>(page));
-    return time <= end_ ? std::max(p, page_) : pages_;
+    const double page = std::min((time - start_) * pages_per_time_, last_page_);
+    // What is long before the present page is below 0, or below any whole number.
+    const auto p = static_cast<std::int32_t>(page);
+    return time <= end_ ? static_cast<std::uint32_t>(std::max(p, static_cast<std::int32_t>(page_))) : pages_;
   }
   void link(std::uint32_t disk, std::uint32_t page) {
     const std::uint32_t next = first_[page];

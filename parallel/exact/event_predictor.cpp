@@ -38,12 +38,22 @@ FirstContact EventPredictor::first_contact(std::uint32_t i) const {
     const bool tie = found.time == first.time && found.time < never;
     const bool ambiguous = first.ambiguous || found.ambiguous || tie;
     if (found.time < first.time) first = found;
-    first.ambiguous = ambiguous;
+    first.ambiguous = ambiguous;  // whatever the time is then
   };
   lists_->rows().visit_offsets(
       i, [&](const std::int16_t* offset, std::uint32_t count) { see(kernels_.near, offset, count); },
       [&](const std::int32_t* offset, std::uint32_t count) { see(kernels_.far, offset, count); });
   return first;
+}
+
+NextEvent EventPredictor::earliest(std::uint32_t i) const {
+  const ListRows::PlainList list = lists_->rows().plain_list(i);
+  if (!kernel_tells(list)) return earliest_with_sides(i);
+  const FirstContact first = first_in<false>(list, i);
+  if (first.ambiguous) [[unlikely]]
+    return earliest_one_by_one(i);
+  if (!(first.time <= window_->horizon)) return {};
+  return {first.time, partner_in(list, i, first)};
 }
 
 NextEvent EventPredictor::earliest_with_sides(std::uint32_t i) const {
@@ -132,7 +142,7 @@ PredictionConstants EventPredictor::constants_of(const WindowState& window) {
   f.half_left = in_all_lanes(0.5 * rules.gravity.left);
   const double contact_distance = window.disks->common_radius + window.disks->common_radius;
   f.contact2 = in_all_lanes(contact_distance * contact_distance);
-  f.slow_approach = std::sqrt(window.slow2()) * slow_margin;
+  f.slow_approach = in_all_lanes(std::sqrt(window.slow2()) * slow_margin);
   if (rules.box.periodic_x()) {
     f.period_x = in_all_lanes(rules.box.width);
     f.periods_per_x = in_all_lanes(1.0 / rules.box.width);

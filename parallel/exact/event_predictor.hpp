@@ -26,20 +26,21 @@ class EventPredictor {
     see_far();
   }
 
-  // The earliest event of disk i with a side or a neighbour, up to the horizon, all on their present paths. newest: no
-  // neighbour's segment starts later than the disk's own.
+  // Does the kernel alone tell the disk's first event, but for what is ambiguous?
+  bool kernel_tells(const ListRows::PlainList& list) const { return list.is_plain && !more_than_neighbours_; }
+  // Then: its first contact. newest: no neighbour's segment starts later than the disk's own.
   template <bool newest>
-  [[gnu::always_inline]] NextEvent earliest(std::uint32_t i) const {
-    const ListRows::PlainList list = lists_->rows().plain_list(i);
-    if (more_than_neighbours_ || !list.is_plain) return earliest_with_sides(i);
+  FirstContact first_in(const ListRows::PlainList& list, std::uint32_t i) const {
     const auto kernel = list.is_inside ? (newest ? kernels_.inside_newest : kernels_.inside)
                                        : (newest ? kernels_.near_newest : kernels_.near);
-    const FirstContact first = kernel(constants_, &window_->record[i], list.offset, list.count);
-    if (first.ambiguous) [[unlikely]]
-      return earliest_one_by_one(i);
-    if (!(first.time <= window_->horizon)) return {};
-    return {first.time, Partner::disk(i + static_cast<std::uint32_t>(std::int32_t{list.offset[first.neighbour]}))};
+    return kernel(constants_, &window_->record[i], list.offset, list.count);
   }
+  static Partner partner_in(const ListRows::PlainList& list, std::uint32_t i, const FirstContact& first) {
+    return Partner::disk(i + static_cast<std::uint32_t>(std::int32_t{list.offset[first.neighbour]}));
+  }
+
+  // The earliest event of disk i with a side or a neighbour, up to the horizon, all on their present paths.
+  NextEvent earliest(std::uint32_t i) const;
 
   // To be called for every segment that begins, with its v^2.
   void note_speed(double v2) {

@@ -273,7 +273,7 @@ void EventProcessor<scope>::relist_late(const std::vector<std::uint32_t>& disks)
 
 template <Scope scope>
 void EventProcessor<scope>::predict_next_slice(std::uint32_t i) {
-  const auto [time, partner] = next_event<false>(i, window_.slice_stop());
+  const auto [time, partner] = next_event(i, window_.slice_stop(), predictor_.earliest(i));
   window_.next_event_time[i] = time;
   record_[i].partner = partner;
 }
@@ -310,15 +310,13 @@ void EventProcessor<scope>::process_border(const QueuedEvent& e) {
   if (present.id1 == e.id1 && present.id2 == e.id2) process(i, e.time);
 }
 
-// The earliest event of the disk on its present path; nothing happens to it up to `from`. When it has to be relisted is
-// extrapolated no further than gravity bends the path little: that is later than `from` then, however long the window
-// is, so that relisting always makes progress.
+// What the disk's next event is, if `next` is its earliest on its present path; nothing happens to it up to `from`. When
+// it has to be relisted is extrapolated no further than gravity bends the path little: that is later than `from` then,
+// however long the window is, so that relisting always makes progress.
 template <Scope scope>
-template <bool newest>
-inline ScheduledEvent EventProcessor<scope>::next_event(std::uint32_t i, double from) {
+ScheduledEvent EventProcessor<scope>::next_event(std::uint32_t i, double from, const NextEvent& next) {
   DiskRecord& record = record_[i];
   from = std::max(from, record.path.start);
-  const NextEvent next = predictor_.template earliest<newest>(i);
   // The events of lasting contacts are predicted again when the next window starts.
   ScheduledEvent event{next.lasting ? window_.next_start : window_.horizon, Partner::none()};
   if (next.time < event.time) {
@@ -348,10 +346,34 @@ inline bool EventProcessor<scope>::stays_listed(std::uint32_t i, double from, do
                       : lists_.stays_listed_bent(i, path, from, until, window_.rules.gravity, relist);
 }
 
+// Nearly always the kernel tells, and the disk stays listed up to then.
 template <Scope scope>
 template <bool newest>
 void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
-  const auto [time, partner] = next_event<newest>(i, from);
+  const ListRows::PlainList list = lists_.rows().plain_list(i);
+  if (!predictor_.kernel_tells(list)) [[unlikely]]
+    return predict_from_all(i, from);
+  const FirstContact first = predictor_.template first_in<newest>(list, i);
+  if (!(first.time <= window_.horizon)) [[unlikely]] {
+    if (first.ambiguous) return predict_from_all(i, from);
+    return schedule_next(i, from, {});
+  }
+  const Partner partner = EventPredictor::partner_in(list, i, first);
+  DiskRecord& record = record_[i];
+  if (!is_straight_ || !lists_.stays_listed(i, record.path, first.time, relist_distance(i))) [[unlikely]]
+    return schedule_next(i, from, {first.time, partner});
+  record.partner_version = record_[partner.index()].version;
+  schedule(i, first.time, partner);
+}
+
+template <Scope scope>
+void EventProcessor<scope>::predict_from_all(std::uint32_t i, double from) {
+  schedule_next(i, from, predictor_.earliest(i));
+}
+
+template <Scope scope>
+void EventProcessor<scope>::schedule_next(std::uint32_t i, double from, const NextEvent& next) {
+  const auto [time, partner] = next_event(i, from, next);
   schedule(i, time, partner);
 }
 

@@ -71,11 +71,12 @@ class EventProcessor {
   void process_border(const QueuedEvent& e);
   void predict_after_event(std::uint32_t i, double time);
 
-  // newest: as EventPredictor::earliest.
-  template <bool newest>
-  [[gnu::always_inline]] inline ScheduledEvent next_event(std::uint32_t i, double from);
+  ScheduledEvent next_event(std::uint32_t i, double from, const NextEvent& next);
+  // newest: as EventPredictor::first_in.
   template <bool newest>
   void predict_next_event(std::uint32_t i, double from);
+  [[gnu::noinline]] void predict_from_all(std::uint32_t i, double from);
+  [[gnu::noinline]] void schedule_next(std::uint32_t i, double from, const NextEvent& next);
   [[gnu::always_inline]] inline void schedule(std::uint32_t i, double time, Partner partner);
   void relist_and_predict(std::uint32_t i, double time);
   void put_off_relisting(std::uint32_t i);

@@ -1,6 +1,7 @@
 // The prediction kernel: when a disk first touches one of its neighbours. One version for each instruction set.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "core/physics/exact_path.hpp"
@@ -27,15 +28,17 @@ struct PredictionConstants {
   LaneConstant left = in_all_lanes(0.0), half_left = in_all_lanes(0.0);
   LaneConstant contact2 = in_all_lanes(0.0);  // of equal disks: contact distance, squared
   // |dr.dv| of a pair that approaches so slowly that its contact may last (WindowState::close).
-  double slow_approach = 0.0;
+  LaneConstant slow_approach = in_all_lanes(0.0);
+  // All bits but the sign: takes signs off, and is not a number.
+  LaneConstant magnitude_bits = in_all_lanes(std::bit_cast<double>(0x7fffffffffffffffULL));
 };
 
 // The first contact of a disk with one of its neighbours.
 struct FirstContact {
   double time = never;          // `never`: there is none
   std::uint32_t neighbour = 0;  // its place in the list
-  // The kernel cannot tell: two neighbours are touched at the same time, or a neighbour is approached slowly. Nothing
-  // else counts then.
+  // The kernel cannot tell: two neighbours are touched at the same time, or a neighbour is approached slowly. Then the
+  // time is not a number.
   bool ambiguous = false;
 };
 

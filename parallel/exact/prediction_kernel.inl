@@ -16,7 +16,6 @@ using Doubles = double __attribute__((vector_size(32)));
 using Longs = long long __attribute__((vector_size(32)));
 
 constexpr std::uint32_t lanes = prediction_lanes;
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 static_assert(offsetof(PathSegment, vy) == offsetof(PathSegment, x) + 3 * sizeof(double));
 static_assert(sizeof(LaneConstant) == sizeof(Doubles));
@@ -54,6 +53,15 @@ inline Doubles choose(Longs truth, Doubles a, Doubles b) {
 #endif
 }
 
+// a where the sign of `sign` is set.
+inline Doubles choose_by_sign(Doubles sign, Doubles a, Doubles b) {
+#if defined(__AVX__)
+  return __builtin_ia32_blendvpd256(b, a, sign);
+#else
+  return choose(bits(sign) >> 63, a, b);
+#endif
+}
+
 inline Doubles root(Doubles v) {
 #if defined(__AVX__)
   return __builtin_bit_cast(Doubles, __builtin_ia32_sqrtpd256(v));
@@ -79,11 +87,6 @@ inline Doubles smaller(Doubles a, Doubles b) {
 #endif
 }
 
-inline Doubles magnitude(Doubles v) {
-  constexpr long long magnitude_bits = 0x7fffffffffffffffLL;
-  return number(bits(v) & Longs{magnitude_bits, magnitude_bits, magnitude_bits, magnitude_bits});
-}
-
 // Bit k is set where lane k is true.
 inline unsigned bits_of(Longs truth) {
 #if defined(__AVX__)
@@ -95,9 +98,11 @@ inline unsigned bits_of(Longs truth) {
 }
 
 inline double least_lane(Doubles v) {
-  const double least01 = v[0] < v[1] ? v[0] : v[1];
-  const double least23 = v[2] < v[3] ? v[2] : v[3];
-  return least01 < least23 ? least01 : least23;
+  using Pair = double __attribute__((vector_size(16)));
+  const Pair low = __builtin_shufflevector(v, v, 0, 1);
+  const Pair high = __builtin_shufflevector(v, v, 2, 3);
+  const Pair least = low < high ? low : high;
+  return least[0] < least[1] ? least[0] : least[1];
 }
 
 // To the nearest whole number, |v| < 2^51.
@@ -181,13 +186,15 @@ inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const
     const Doubles contact_distance = own.radius + Doubles{f0.radius, f1.radius, f2.radius, f3.radius};
     contact2 = contact_distance * contact_distance;
   }
-  slowest = smaller(magnitude(approach), slowest);
+  slowest = smaller(number(bits(approach) & bits(load(f.magnitude_bits))), slowest);
   // Not a number where the paths miss.
   const Doubles until_meeting = root((dvx * dvx + dvy * dvy) * contact2 - cross * cross) - approach;
   const Doubles until_contact = ((dx * dx + dy * dy) - contact2) / until_meeting;
   // By the sign: +0 and -0 are slow.
-  return both + larger(all(0.0), choose(bits(approach), until_contact, all(not_a_number)));
+  return both + larger(all(0.0), choose_by_sign(approach, until_contact, load(f.magnitude_bits)));
 }
+
+constexpr FirstContact cannot_tell{std::numeric_limits<double>::quiet_NaN(), 0, true};
 
 template <GravityKind gravity, bool unequal_radii, bool newest, Images images, class Offset>
 FirstContact first_contact(const PredictionConstants& f, const DiskRecord* record, const Offset* offset,
@@ -208,17 +215,19 @@ FirstContact first_contact(const PredictionConstants& f, const DiskRecord* recor
     first = smaller(time, first);
   }
   FirstContact found;
+  if (bits_of(ties | (slowest <= load(f.slow_approach))) != 0) [[unlikely]]
+    return cannot_tell;
   found.time = least_lane(first);
   const unsigned firsts = bits_of(first == all(found.time));
-  const auto lane = static_cast<std::uint32_t>(std::countr_zero(firsts));
-  found.neighbour = static_cast<std::uint32_t>(batch_of_first[lane & (lanes - 1)]) * lanes + lane;
-  found.ambiguous = bits_of(ties | (slowest <= all(f.slow_approach))) != 0;
+  const auto place = [&](unsigned left) {
+    const auto lane = static_cast<std::uint32_t>(__builtin_ctz(left));
+    return static_cast<std::uint32_t>(batch_of_first[lane]) * lanes + lane;
+  };
+  found.neighbour = place(firsts);
   if ((firsts & (firsts - 1)) != 0 && found.time < never) [[unlikely]] {
     // Padding gives the same neighbour twice.
     for (unsigned left = firsts & (firsts - 1); left != 0; left &= left - 1) {
-      const auto other = static_cast<std::uint32_t>(std::countr_zero(left));
-      const std::uint32_t k = static_cast<std::uint32_t>(batch_of_first[other]) * lanes + other;
-      found.ambiguous = found.ambiguous || offset[k] != offset[found.neighbour];
+      if (offset[place(left)] != offset[found.neighbour]) return cannot_tell;
     }
   }
   return found;

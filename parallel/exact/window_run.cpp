@@ -109,24 +109,34 @@ void WindowRun::load_paths(const WindowPlan& plan, const SpeedSummary& speeds, s
   window_.safe_speed2 = lists_.safe_speed2(plan.length, window_.rules.gravity.size);
   window_.last_contact.resize(state_.last_contact.empty() ? 0 : d.size());
   window_.thermal_hits.resize(state_.thermal_hits.empty() ? 0 : d.size());
-  executor_.for_ranges(d.size(), pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) load_disk(i, plan);
-  });
+  executor_.for_ranges(d.size(), pass_block,
+                       [&](std::size_t, std::size_t begin, std::size_t end) { load_disks(begin, end, plan); });
 }
 
-void WindowRun::load_disk(std::size_t i, const WindowPlan& plan) {
+void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan& plan) {
   const Disks& d = state_.disks;
-  DiskRecord& record = window_.record[i];
   const bool timed = known_ == Known::lists_and_times;
-  // A contact is predicted again, since rounding at the start of paths may make another event the first.
-  const bool relists = timed && !rebuilt_ && record.partner.is_relist();
-  const Partner partner = relists ? Partner::relist() : Partner::none();
-  const DiskProgress progress = record.progress;
-  record = {{0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]}, d.radius_of(i), d.id[i], partner, 0, 0, progress};
-  window_.next_event_time[i] = timed ? carried_event_time(i, plan) : 0.0;
-  if (!window_.last_contact.empty()) window_.last_contact[i] = state_.last_contact[d.id[i]] - plan.start;
-  if (!window_.thermal_hits.empty()) window_.thermal_hits[i] = state_.thermal_hits[d.id[i]];
-  if (!window_.burst.empty()) window_.burst[i] = {};
+  const bool relists_stay = timed && !rebuilt_;
+  const double* const radius = d.radius.empty() ? nullptr : d.radius.data();
+  const double common_radius = d.common_radius;
+  for (std::size_t i = begin; i < end; ++i) {
+    DiskRecord& record = window_.record[i];
+    // A contact is predicted again, since rounding at the start of paths may make another event the first.
+    const bool relists = relists_stay && record.partner.is_relist();
+    record.path = {0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]};
+    record.radius = radius != nullptr ? radius[i] : common_radius;
+    record.id = d.id[i];
+    record.partner = relists ? Partner::relist() : Partner::none();
+    record.version = record.partner_version = 0;
+    window_.next_event_time[i] = timed ? carried_event_time(i, plan) : 0.0;
+  }
+  if (!window_.last_contact.empty()) {
+    for (std::size_t i = begin; i < end; ++i) window_.last_contact[i] = state_.last_contact[d.id[i]] - plan.start;
+  }
+  if (!window_.thermal_hits.empty()) {
+    for (std::size_t i = begin; i < end; ++i) window_.thermal_hits[i] = state_.thermal_hits[d.id[i]];
+  }
+  if (!window_.burst.empty()) std::fill_n(&window_.burst[begin], end - begin, Burst{});
 }
 
 // The time of an event that was predicted in the window before, a little early.
@@ -166,8 +176,12 @@ ImpactTally WindowRun::store_paths(const WindowPlan& plan, std::vector<unsigned 
           wrap_path(p, i, b);
         }
         put(p, d, i);
-        if (!state_.last_contact.empty()) state_.last_contact[d.id[i]] = plan.start + window_.last_contact[i];
-        if (!state_.thermal_hits.empty()) state_.thermal_hits[d.id[i]] = window_.thermal_hits[i];
+      }
+      if (!state_.last_contact.empty()) {
+        for (std::size_t i = begin; i < end; ++i) state_.last_contact[d.id[i]] = plan.start + window_.last_contact[i];
+      }
+      if (!state_.thermal_hits.empty()) {
+        for (std::size_t i = begin; i < end; ++i) state_.thermal_hits[d.id[i]] = window_.thermal_hits[i];
       }
     });
   };

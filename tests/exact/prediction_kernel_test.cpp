@@ -73,7 +73,8 @@ void expect_contact(PredictionKernel<Offset> kernel, const PredictionConstants& 
     ASSERT_TRUE(found.ambiguous);
   }
   false_alarms += found.ambiguous && !expected.ambiguous ? 1 : 0;
-  if (found.ambiguous) return;  // the rest means nothing
+  ASSERT_EQ(found.ambiguous, std::isnan(found.time));
+  if (found.ambiguous) return;
   ASSERT_EQ(found.time, expected.time);
   if (expected.time < never) {
     ASSERT_EQ(found.neighbour < offset.size() ? offset[found.neighbour] : padded[found.neighbour],
@@ -117,7 +118,7 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
     constants.left = in_all_lanes(g.left);
     constants.half_left = in_all_lanes(0.5 * g.left);
     constants.contact2 = in_all_lanes(4.0 * 0.3 * 0.3);
-    constants.slow_approach = slow_approach;
+    constants.slow_approach = in_all_lanes(slow_approach);
     if (c.periodic) {
       constants.period_x = in_all_lanes(box.width);
       constants.period_y = in_all_lanes(box.height);
@@ -132,6 +133,9 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
       expect_contact(kernels.near, constants, record, own, offset, expected, false_alarms);
       expect_contact(kernels.far, constants, record, own, offset, expected, false_alarms);
       if (newest) expect_contact(kernels.near_newest, constants, record, own, offset, expected, false_alarms);
+      if (c.periodic) continue;
+      expect_contact(kernels.inside, constants, record, own, offset, expected, false_alarms);
+      if (newest) expect_contact(kernels.inside_newest, constants, record, own, offset, expected, false_alarms);
     }
   }
   EXPECT_GT(met, 100);
