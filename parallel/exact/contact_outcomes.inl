@@ -83,14 +83,27 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
       inside ? collide_paths<false, false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, restitution, p, q)
              : collide_paths<false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, restitution, p, q);
   if (impact.happened && counts(i)) worker_.tally.add_collision(impact.virial);
-  begin_plain_segment(i, j, p);
-  begin_plain_segment(j, i, q);
+  const double v2 = std::max(p.vx * p.vx + p.vy * p.vy, q.vx * q.vx + q.vy * q.vy);
+  worker_.segments += 2;
+  const bool many_i = begin_plain_segment(i, j, p);
+  const bool many_j = begin_plain_segment(j, i, q);
+  if (many_i || many_j || worker_.segments > window_.most_paths) [[unlikely]] {
+    worker_.crowded = EventMark{time, record_[i].id, record_[j].id};
+    worker_.ended = true;
+  }
+  predictor_.note_speed(v2);
+  if (has_regions && v2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
+  if constexpr (scope == Scope::region) {
+    if (record_[i].progress.has(DiskProgress::has_unresolved_neighbour)) safe_times_.push(i, time);
+    if (record_[j].progress.has(DiskProgress::has_unresolved_neighbour)) safe_times_.push(j, time);
+  }
   predict_after_event(i, time);
   predict_after_event(j, time);
 }
 
+// Has the disk begun too many?
 template <Scope scope>
-inline void EventProcessor<scope>::begin_plain_segment(std::uint32_t i, std::uint32_t partner,
+inline bool EventProcessor<scope>::begin_plain_segment(std::uint32_t i, std::uint32_t partner,
                                                        const PathSegment& path) {
   DiskRecord& f = record_[i];
   if (window_.keeps_paths) [[unlikely]] {
@@ -98,15 +111,7 @@ inline void EventProcessor<scope>::begin_plain_segment(std::uint32_t i, std::uin
     log_segment(i, partner, copy);
   }
   f.path = path;
-  if (++f.version > most_paths_of_disk || ++worker_.segments > window_.most_paths) [[unlikely]] {
-    worker_.crowded = EventMark{path.start, std::min(f.id, record_[partner].id), std::max(f.id, record_[partner].id)};
-    worker_.ended = true;
-  }
-  const double v2 = path.vx * path.vx + path.vy * path.vy;
-  predictor_.note_speed(v2);
-  if (has_regions && v2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
-  if (scope == Scope::region && record_[i].progress.has(DiskProgress::has_unresolved_neighbour))
-    safe_times_.push(i, path.start);
+  return ++f.version > most_paths_of_disk;
 }
 
 template <Scope scope>

@@ -310,9 +310,9 @@ void EventProcessor<scope>::process_border(const QueuedEvent& e) {
   if (present.id1 == e.id1 && present.id2 == e.id2) process(i, e.time);
 }
 
-// What the disk's next event is, if `next` is its earliest on its present path; nothing happens to it up to `from`. When
-// it has to be relisted is extrapolated no further than gravity bends the path little: that is later than `from` then,
-// however long the window is, so that relisting always makes progress.
+// What the disk's next event is, if `next` is its earliest on its present path; nothing happens to it up to `from`.
+// When it has to be relisted is extrapolated no further than gravity bends the path little: that is later than `from`
+// then, however long the window is, so that relisting always makes progress.
 template <Scope scope>
 ScheduledEvent EventProcessor<scope>::next_event(std::uint32_t i, double from, const NextEvent& next) {
   DiskRecord& record = record_[i];
@@ -360,8 +360,14 @@ void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
   }
   const Partner partner = EventPredictor::partner_in(list, i, first);
   DiskRecord& record = record_[i];
-  if (!is_straight_ || !lists_.stays_listed(i, record.path, first.time, relist_distance(i))) [[unlikely]]
+  if (!is_straight_) [[unlikely]]
     return schedule_next(i, from, {first.time, partner});
+  const RelistDistance& relist = relist_distance(i);
+  if (!lists_.stays_listed(i, record.path, first.time, relist)) {
+    if (scope == Scope::border) return schedule_next(i, from, {first.time, partner});
+    const double relist_at = lists_.relist_time_straight(i, record.path, std::max(from, record.path.start), relist);
+    if (relist_at < first.time) return schedule(i, relist_at, Partner::relist());
+  }
   record.partner_version = record_[partner.index()].version;
   schedule(i, first.time, partner);
 }

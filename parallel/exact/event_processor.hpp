@@ -95,7 +95,7 @@ class EventProcessor {
   void collide_pair(std::uint32_t i, std::uint32_t j, double time);
   void collide_plain_pair(std::uint32_t i, std::uint32_t j, double time);
   void collide_any_pair(std::uint32_t i, std::uint32_t j, double time);
-  [[gnu::always_inline]] inline void begin_plain_segment(std::uint32_t i, std::uint32_t partner,
+  [[gnu::always_inline]] inline bool begin_plain_segment(std::uint32_t i, std::uint32_t partner,
                                                          const PathSegment& path);
   // partner: see LoggedSegment.
   void log_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path);

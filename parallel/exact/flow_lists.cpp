@@ -76,7 +76,7 @@ double NeighbourLists::earliest_relist_in_flow(std::uint32_t i, const PathSegmen
     room -= half_bend * ahead * ahead;
     if (!(room > 0.0)) return from;
   }
-  return from + std::min(time_within(room, off, speed), ahead);
+  return from + std::min(time_within(room * room, off, speed), ahead);
 }
 
 }  // namespace carom

@@ -324,7 +324,7 @@ double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& 
     room -= 0.5 * g * ahead * ahead;
     if (!(room > 0.0)) return from;
   }
-  return from + std::min(time_within(room, {dx, dy}, {p.vx, p.vy}), ahead);
+  return from + std::min(time_within(room * room, {dx, dy}, {p.vx, p.vy}), ahead);
 }
 
 // A straight path whose ends are in a circle is in it; gravity bends it by g t^2 / 8 at most, so that it has to begin
@@ -383,7 +383,8 @@ bool NeighbourLists::relist(std::uint32_t i, Vec2 at, const Disks& d, const List
   // take disk i for one that lists it, too.
   if (!rows_.are_within(i, region) || !find_neighbours(d, i, position, region, found)) return false;
   const std::span<const std::uint32_t> near = found.disks();
-  if (!std::all_of(near.begin(), near.end(), [&](std::uint32_t j) { return region.holds(j); })) return false;
+  const auto held = [&](std::uint32_t j) { return region.holds(j); };
+  if (!region.is_everything() && !std::all_of(near.begin(), near.end(), held)) return false;
   if (!move_to_cell_of(d, i, position, region)) return false;
   listed_at_[i] = position;
   rows_.set_sides(i, find_sides(d, i));

@@ -83,9 +83,9 @@ struct FoundNeighbours {
   void grow(std::size_t disks);
 };
 
-// Time for which a point that is now at d and goes at v stays within `room` (length) of the origin; 0 if it is not.
-inline double time_within(double room, Vec2 d, Vec2 v) {
-  const double c = room * room - (d.x * d.x + d.y * d.y);
+// Time for which a point that is now at d and goes at v stays within a distance of the origin; 0 if it is not.
+inline double time_within(double distance2, Vec2 d, Vec2 v) {
+  const double c = distance2 - (d.x * d.x + d.y * d.y);
   if (!(c > 0.0)) return 0.0;
   const double a = v.x * v.x + v.y * v.y;
   if (a == 0.0) return never;
@@ -177,6 +177,17 @@ class NeighbourLists {
   // little.
   double earliest_relist_time(std::uint32_t i, const PathSegment& path, double from, double until,
                               const Gravity& gravity, const RelistDistance& relist) const;
+
+  // The same where neither gravity nor a shear acts, and without an end.
+  double relist_time_straight(std::uint32_t i, const PathSegment& path, double from,
+                              const RelistDistance& relist) const {
+    const double s = from - path.start;
+    const Vec2 listed = listed_position(i);
+    Vec2 d{path.x + path.vx * s - listed.x, path.y + path.vy * s - listed.y};
+    if (!rows_.is_inside(i)) [[unlikely]]
+      d = nearest_image_at_rest(d, box_);
+    return from + time_within(relist.stay2, d, {path.vx, path.vy});
+  }
 
   // Does the disk, within the relist distance of its listed position at time `from`, stay so until `until`? May say no
   // where earliest_relist_time would say yes, never the other way round; much faster. Precondition: neither gravity nor
