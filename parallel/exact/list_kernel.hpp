@@ -55,7 +55,29 @@ std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& colu
 std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                              std::uint32_t* found);
 
-// The best version for the processor at hand.
+// A disk's list that is all in one row of its ListRows, 64 bytes: eight others, then the offsets of its neighbours.
+inline constexpr std::uint32_t row_offsets = 28;
+
+// What is another list in place of the one in a row.
+struct ListChange {
+  bool fits = true;                      // otherwise the rest means nothing: the new list does not fit in a row
+  std::int16_t offset[row_offsets];      // of the new list
+  std::uint32_t stay = 0;                // bit k: the neighbour at place k of the old list is in the new one
+  std::uint32_t fresh[row_offsets + 1];  // those of the new list that are not in the old one
+  std::uint32_t fresh_count = 0;
+};
+
+// row: disk i's old list, of `count` neighbours; near[0] to near[new_count - 1]: the new one, without i itself.
+using ChangeKernel = void (*)(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
+                              std::size_t new_count, ListChange& change);
+
+void change_kernel_baseline(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
+                            std::size_t new_count, ListChange& change);
+void change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
+                        std::size_t new_count, ListChange& change);
+
+// The best versions for the processor at hand.
 ListKernel choose_list_kernel();
+ChangeKernel choose_change_kernel();
 
 }  // namespace carom

@@ -94,6 +94,44 @@ std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns,
                                    : find<true>(query, columns, runs, count, found);
 }
 
+// Sixteen places at a time; those that are not in use become 0, which is no neighbour's offset.
+void change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
+                        std::size_t new_count, ListChange& change) {
+  constexpr short before = 4;  // places before the offsets
+  change.fits = new_count <= row_offsets;
+  if (!change.fits) return;
+  const auto* const half = static_cast<const __m256i*>(row);
+  const __m256i place = _mm256_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const __m256i end = _mm256_set1_epi16(static_cast<short>(count + before));
+  const __m256i is_offset = _mm256_cmpgt_epi16(place, _mm256_set1_epi16(before - 1));
+  const __m256i later = _mm256_add_epi16(place, _mm256_set1_epi16(16));
+  const __m256i low =
+      _mm256_and_si256(_mm256_load_si256(half), _mm256_and_si256(is_offset, _mm256_cmpgt_epi16(end, place)));
+  const __m256i high = _mm256_and_si256(_mm256_load_si256(half + 1), _mm256_cmpgt_epi16(end, later));
+  __m256i low_stays = _mm256_setzero_si256();
+  __m256i high_stays = _mm256_setzero_si256();
+  std::uint32_t fresh = 0;
+  std::int32_t beyond = 0;
+  for (std::size_t k = 0; k < new_count; ++k) {
+    const auto far = static_cast<std::int32_t>(near[k] - i);
+    const auto offset = static_cast<std::int16_t>(far);
+    beyond |= far ^ offset;
+    change.offset[k] = offset;
+    const __m256i sought = _mm256_set1_epi16(offset);
+    const __m256i in_low = _mm256_cmpeq_epi16(low, sought);
+    const __m256i in_high = _mm256_cmpeq_epi16(high, sought);
+    const __m256i any = _mm256_or_si256(in_low, in_high);
+    low_stays = _mm256_or_si256(low_stays, in_low);
+    high_stays = _mm256_or_si256(high_stays, in_high);
+    change.fresh[fresh] = near[k];
+    fresh += static_cast<std::uint32_t>(_mm256_testz_si256(any, any));
+  }
+  change.fits = beyond == 0;
+  change.fresh_count = fresh;
+  const __m256i bytes = _mm256_permute4x64_epi64(_mm256_packs_epi16(low_stays, high_stays), 0xd8);
+  change.stay = static_cast<std::uint32_t>(_mm256_movemask_epi8(bytes)) >> before;
+}
+
 }  // namespace carom
 
 #else
@@ -103,6 +141,11 @@ namespace carom {
 std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                              std::uint32_t* found) {
   return list_kernel_baseline(query, columns, runs, count, found);
+}
+
+void change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
+                        std::size_t new_count, ListChange& change) {
+  change_kernel_baseline(row, count, i, near, new_count, change);
 }
 
 }  // namespace carom

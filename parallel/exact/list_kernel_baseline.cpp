@@ -1,3 +1,5 @@
+#include <cstring>
+
 #include "core/base/kernel_set.hpp"
 #include "parallel/exact/list_kernel.hpp"
 
@@ -17,6 +19,33 @@ std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& colu
     }
   }
   return n;
+}
+
+void change_kernel_baseline(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
+                            std::size_t new_count, ListChange& change) {
+  constexpr std::size_t before_offsets = 8;
+  std::int16_t old[row_offsets];
+  std::memcpy(old, static_cast<const char*>(row) + before_offsets, sizeof old);
+  change.fits = new_count <= row_offsets;
+  change.stay = change.fresh_count = 0;
+  for (std::size_t k = 0; change.fits && k < new_count; ++k) {
+    const auto far = static_cast<std::int32_t>(near[k] - i);
+    const auto offset = static_cast<std::int16_t>(far);
+    change.fits = far == offset;
+    change.offset[k] = offset;
+    std::uint32_t places = 0;
+    for (std::uint32_t place = 0; place < count; ++place) {
+      places |= static_cast<std::uint32_t>(old[place] == offset) << place;
+    }
+    change.stay |= places;
+    change.fresh[change.fresh_count] = near[k];
+    change.fresh_count += static_cast<std::uint32_t>(places == 0);
+  }
+}
+
+ChangeKernel choose_change_kernel() {
+  if (kernel_set() == KernelSet::avx2) return change_kernel_avx2;
+  return change_kernel_baseline;
 }
 
 ListKernel choose_list_kernel() {

@@ -189,39 +189,36 @@ void ListRows::remove_wide(Row& row, std::int32_t offset) {
 void ListRows::replace(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region) {
   const Row& row = rows_[i];
   if (row.more != none || row.count == 0) [[unlikely]] {
-    for_each_neighbour(i, [&](std::uint32_t j) {
-      if (region.holds(j)) remove(j, i);
-    });
-    free_wide_rows(i);
-    for (const std::uint32_t j : near) insert(j, i);
-    set(i, near);
+    exchange(i, near, region);
   } else {
     patch(i, near, region);
   }
 }
 
+// However long they are.
+void ListRows::exchange(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region) {
+  for_each_neighbour(i, [&](std::uint32_t j) {
+    if (region.holds(j)) remove(j, i);
+  });
+  free_wide_rows(i);
+  for (const std::uint32_t j : near) insert(j, i);
+  set(i, near);
+}
+
 // Where the old list is all in one row.
 void ListRows::patch(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region) {
   Row& row = rows_[i];
+  const std::uint32_t old_count = row.count;
   const Row old = row;
-  const RowSearch search(&old);
-  row.count = 0;
-  std::uint32_t stay = 0;
-  for (const std::uint32_t j : near) {
-    const auto offset = static_cast<std::int32_t>(j - i);
-    const bool fits = row.count < row_capacity && offset == static_cast<std::int16_t>(offset);
-    if (!fits) [[unlikely]] {
-      insert_wide(row, offset);
-      insert(j, i);
-      continue;
-    }
-    row.offset[row.count++] = static_cast<std::int16_t>(offset);
-    const std::uint32_t places = search.places_of(static_cast<std::int16_t>(offset));
-    stay |= places;
-    if ((places & ((1U << old.count) - 1U)) == 0) insert(j, i);
-  }
+  ListChange change;
+  change_kernel_(&old, old_count, i, near.data(), near.size(), change);
+  if (!change.fits) [[unlikely]]
+    return exchange(i, near, region);
+  row.count = static_cast<std::uint8_t>(near.size());
+  std::memcpy(row.offset, change.offset, sizeof change.offset);
   if (row.count > 0) put_and_pad<row_capacity>(row.offset, row.count, row.offset[0]);
-  for (std::uint32_t go = ~stay & ((1U << old.count) - 1U); go != 0; go &= go - 1U) {
+  for (std::uint32_t k = 0; k < change.fresh_count; ++k) insert(change.fresh[k], i);
+  for (std::uint32_t go = ~change.stay & ((1U << old_count) - 1U); go != 0; go &= go - 1U) {
     const std::uint32_t j = i + static_cast<std::uint32_t>(std::int32_t{old.offset[std::countr_zero(go)]});
     if (region.holds(j)) remove(j, i);
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "parallel/exact/list_kernel.hpp"
 #include "parallel/exact/prediction_kernel.hpp"
 
 namespace carom {
@@ -37,7 +38,7 @@ class ListRows {
 
   // Calls near(offset, count) and, where those are not all, far(offset, count): the neighbours of disk i are disks i +
   // offset[k], at most row_capacity at a time; what follows up to the next multiple of prediction_lanes is one of them.
-  static constexpr std::uint32_t row_capacity = 28;
+  static constexpr std::uint32_t row_capacity = row_offsets;
   template <class Near, class Far>
   void visit_offsets(std::uint32_t i, Near&& near, Far&& far) const {
     const Row& row = rows_[i];
@@ -125,10 +126,12 @@ class ListRows {
   void insert(std::uint32_t i, std::uint32_t j);
   void insert_wide(Row& row, std::int32_t offset);
   void free_wide_rows(std::uint32_t i);
+  void exchange(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region);
   void patch(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region);
   void remove(std::uint32_t i, std::uint32_t j);
   void remove_wide(Row& row, std::int32_t offset);
 
+  ChangeKernel change_kernel_ = choose_change_kernel();
   std::vector<Row> rows_;
   std::vector<std::vector<WideRow>> wide_;  // of each block
   std::vector<std::uint32_t> free_wide_;    // of each block: the first of its wide rows that are not in use
