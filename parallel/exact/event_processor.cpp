@@ -273,6 +273,11 @@ void EventProcessor<scope>::relist_late(const std::vector<std::uint32_t>& disks)
 
 template <Scope scope>
 void EventProcessor<scope>::predict_next_slice(std::uint32_t i) {
+  if (std::isnan(record_[i].path.x)) {
+    window_.next_event_time[i] = never;
+    record_[i].partner = Partner::none();
+    return;
+  }
   const auto [time, partner] = next_event(i, window_.slice_stop(), predictor_.earliest(i));
   window_.next_event_time[i] = time;
   record_[i].partner = partner;
@@ -281,6 +286,7 @@ void EventProcessor<scope>::predict_next_slice(std::uint32_t i) {
 template <Scope scope>
 void EventProcessor<scope>::relist_if_due(std::uint32_t i) {
   const double now = window_.slice_stop();
+  if (std::isnan(record_[i].path.x)) return;
   const RelistDistance& distance = relist_distance(i);
   if (lists_.earliest_relist_time(i, record_[i].path, now, now, window_.rules.gravity, distance) > now) return;
   relist(i, now, distance);

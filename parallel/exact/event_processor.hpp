@@ -43,7 +43,7 @@ class EventProcessor {
   // Border, at the slice's end: relists those of the disks that are marked relists_late, as far as their lists are
   // within the worker's region, and predicts their next events.
   void relist_late(const std::vector<std::uint32_t>& disks);
-  // Border: the disk, whose path at the slice's end is known, is listed anew if it has moved too far.
+  // Border: the disk, whose path at the slice's end is known, is listed anew if it has moved too far, and is not gone.
   void relist_if_due(std::uint32_t i);
   // Border, after the slice, where no other thread works: relists disk i unless it is within the relist distance of
   // disks near a border, and marks what that means for the next slice.

@@ -234,7 +234,7 @@ double ParallelExact::disks_at(double t, Disks& out) const {
   }
   out = windows_.scheduler().any_gone() ? at_start_ : state_.disks;
   move_along_paths(windows_.window(), windows_.scheduler(), t > logged_->start ? t - logged_->start : 0.0,
-                   windows_.window().rules.box, out);
+                   windows_.window().rules.box, {}, out);
   return t;
 }
 

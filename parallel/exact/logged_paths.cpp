@@ -33,7 +33,7 @@ std::vector<PathSegment> paths_at(const WindowState& window, const SliceSchedule
 }  // namespace
 
 void move_along_paths(const WindowState& window, const SliceScheduler& scheduler, double s, const Domain& box,
-                      Disks& disks) {
+                      const std::vector<unsigned char>& left_out, Disks& disks) {
   std::vector<unsigned char> gone;
   const std::vector<PathSegment> path = paths_at(window, scheduler, s, gone, disks.spin);
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -41,6 +41,7 @@ void move_along_paths(const WindowState& window, const SliceScheduler& scheduler
     wrap_with_work(p, 0.0, box);
     put(p, disks, i);
   }
+  for (std::size_t i = 0; i < left_out.size(); ++i) gone[i] |= left_out[i];
   remove_marked(disks, gone);
 }
 

@@ -23,9 +23,9 @@ inline void put(const PathSegment& p, Disks& d, std::size_t i) {
 }
 
 // Carries the disks, stored as the window has them, along their logged paths to time s of the window; those that had
-// left through a sink by then are removed.
+// left through a sink by then are removed, and those marked in left_out, which has an entry for each or is empty.
 void move_along_paths(const WindowState& window, const SliceScheduler& scheduler, double s, const Domain& box,
-                      Disks& disks);
+                      const std::vector<unsigned char>& left_out, Disks& disks);
 
 // The collisions of two disks in the window, which began at time `start`. id: of the disks as the window has them.
 // counts: is a collision of which this disk has the smaller id one of them?

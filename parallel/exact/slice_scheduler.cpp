@@ -215,7 +215,10 @@ void SliceScheduler::see_slice_of_others() {
   others_.region = ListRegion{};
   EventProcessor<Scope::border> events(window_, lists_, others_);
   const std::vector<BlockedDisk>& blocked = regions_.front().worker.blocked;
-  for (const std::uint32_t i : unknown_) events.relist_if_due(i);
+  for (const std::uint32_t i : unknown_) {
+    if (std::isnan(window_.record[i].path.x)) others_.any_gone = true;
+    events.relist_if_due(i);
+  }
   for (const BlockedDisk& b : blocked) events.predict_next_slice(b.disk);
 }
 

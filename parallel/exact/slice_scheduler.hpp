@@ -69,6 +69,7 @@ class SliceScheduler {
   void for_each_worker(Visit&& visit) const {
     for (const Region& region : regions_) visit(region.worker);
     border_pass_.for_each_worker(visit);
+    visit(others_);
     visit(single_);
   }
   double longest_slice() const;

@@ -34,11 +34,18 @@ struct Answer {
 
 }  // namespace
 
-void ExactGhosts::drop(State& state) {
-  if (marks_.empty()) return;
-  for (std::uint8_t& mark : marks_) mark &= ghost;
-  remove_marked(state.disks, marks_);
+void ExactGhosts::drop(State& state, const std::vector<unsigned char>& gone) {
+  if (marks_.empty() && gone.empty()) return;
+  std::vector<unsigned char> leaves = ghosts_among(state.disks.size());
+  for (std::size_t i = 0; i < gone.size(); ++i) leaves[i] |= gone[i];
+  remove_marked(state.disks, leaves);
   marks_.clear();
+}
+
+std::vector<unsigned char> ExactGhosts::ghosts_among(std::size_t n) const {
+  std::vector<unsigned char> ghosts(n, 0);
+  for (std::size_t i = 0; i < std::min(n, marks_.size()); ++i) ghosts[i] = marks_[i] & ghost;
+  return ghosts;
 }
 
 void ExactGhosts::see(const Slab& slab, const Domain& box, double depth, DiskColumns columns, State& state) {

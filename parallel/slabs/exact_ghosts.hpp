@@ -18,8 +18,11 @@ class ExactGhosts final : public WindowGhosts {
  public:
   explicit ExactGhosts(Ranks& ranks) : ranks_(ranks) {}
 
-  // Takes the ghosts out of the columns again.
-  void drop(State& state);
+  // Takes the ghosts out of the columns again, and those that are gone: empty, or an entry for each disk. Disks behind
+  // those that there were are the rank's own.
+  void drop(State& state, const std::vector<unsigned char>& gone = {});
+  // An entry for each of n disks, 1 for ghosts.
+  std::vector<unsigned char> ghosts_among(std::size_t n) const;
   // The disks of the state are those in the rank's slab; it gets the ghosts, up to this depth (length) beyond the
   // slab's borders. Collective. Precondition: no slab is thinner than the depth, and in a periodic box the slab with
   // its ghosts is lower than the box.

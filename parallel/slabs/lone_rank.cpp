@@ -45,9 +45,9 @@ void take_progress(MessageReader& message, State& state) {
 class LoneEngine final : public Engine {
  public:
   LoneEngine(const Scene& scene, State part, const SlabStart& start, const Threads& threads, Ranks& ranks)
-      : state_(std::move(part)), t_end_(scene.run.t_end), lone_(scene, threads, ranks, start) {
+      : state_(std::move(part)), t_end_(scene.run.t_end), lone_(scene, threads, ranks) {
     if (ranks.count() > 1 && !start.alone.empty()) warnings_ = {"one rank runs all disks: " + start.alone};
-    lone_.begin(state_);
+    lone_.begin(start.columns, state_);
   }
 
   void step() override {
@@ -79,9 +79,9 @@ void put_text(Bytes& message, const std::string& text) {
 
 }  // namespace
 
-void LoneRank::begin(State& state) {
+void LoneRank::begin(DiskColumns columns, State& state) {
   runs_ = true;
-  collect_on_first(ranks_, columns_, state);
+  collect_on_first(ranks_, columns, state);
   if (ranks_.rank() > 0) return;
   State all = state;
   const auto make = [](const Scene& scene, State start, const Threads& threads) {
@@ -122,11 +122,19 @@ void LoneRank::step(State& state) {
   if (!text.empty()) throw PhysicsError(std::string(text.begin(), text.end()));
 }
 
-void LoneRank::end(State& state) {
+void LoneRank::end(State& state, DiskColumns& columns, Count& disks) {
   runs_ = false;
-  if (!engine_) return;
-  state = engine_->state();
-  engine_.reset();
+  Bytes message;
+  if (engine_) {
+    state = engine_->state();
+    engine_.reset();
+    put(message, columns_of(state.disks));
+    put(message, Count{state.disks.size()});
+  }
+  const Bytes said = ranks_.share(message);
+  MessageReader reader(said);
+  columns = reader.get<DiskColumns>();
+  disks = reader.get<Count>();
 }
 
 double LoneRank::disks_at(double t, const State& here, Disks& out) const {

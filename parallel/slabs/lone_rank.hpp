@@ -16,11 +16,11 @@ namespace carom {
 
 class LoneRank {
  public:
-  LoneRank(const Scene& scene, const Threads& threads, Ranks& ranks, const SlabStart& start)
-      : scene_(scene), threads_(threads), ranks_(ranks), columns_(start.columns) {}
+  LoneRank(const Scene& scene, const Threads& threads, Ranks& ranks)
+      : scene_(scene), threads_(threads), ranks_(ranks) {}
 
-  // Takes the disks of all ranks. Collective, as are step() and end().
-  void begin(State& state);
+  // Takes the disks of all ranks, which have these columns. Collective, as are step() and end().
+  void begin(DiskColumns columns, State& state);
   // Between begin() and end(), on every rank.
   bool runs() const { return runs_; }
   // A window. state gets all that is not of disks; an error of the physics is every rank's.
@@ -30,8 +30,8 @@ class LoneRank {
   void release_memory() {
     if (engine_) engine_->release_memory();
   }
-  // The disks are in the state of rank 0 again.
-  void end(State& state);
+  // The disks are in the state of rank 0 again; all ranks learn which columns they have, and how many they are.
+  void end(State& state, DiskColumns& columns, Count& disks);
 
   // Of rank 0, with all disks; the others give back `here`, which has none.
   const State& state(const State& here) const { return engine_ ? engine_->state() : here; }
@@ -44,7 +44,6 @@ class LoneRank {
   Scene scene_;
   Threads threads_;
   Ranks& ranks_;
-  DiskColumns columns_;
   PhaseTimes no_times_;
   bool runs_ = false;
   bool keeps_paths_ = true;

@@ -81,6 +81,23 @@ void redistribute(Ranks& ranks, const SlabCut& cut, DiskColumns columns, State& 
   take_own(ranks, above, columns, state);
 }
 
+// A radius or a mass that the others do not share becomes a column on every rank, whichever has the newcomer.
+void take_newcomers(const SlabCut& cut, int rank, const Disks& newcomers, bool are_first, DiskColumns& columns,
+                    Disks& own) {
+  if (are_first && !newcomers.empty() && !columns.radius && !columns.mass) {
+    own.common_radius = newcomers.radius_of(0);
+    own.common_mass = newcomers.mass_of(0);
+  }
+  for (std::size_t k = 0; k < newcomers.size(); ++k) {
+    const Disk disk = disk_at(newcomers, k);
+    if (!columns.radius && disk.radius != own.common_radius) own.radius.assign(own.size(), own.common_radius);
+    if (!columns.mass && disk.mass != own.common_mass) own.mass.assign(own.size(), own.common_mass);
+    columns.radius = columns.radius || disk.radius != own.common_radius;
+    columns.mass = columns.mass || disk.mass != own.common_mass;
+    if (cut.rank_at(disk.y) == rank) push_back(own, disk, columns);
+  }
+}
+
 void collect_on_first(Ranks& ranks, DiskColumns columns, State& state) {
   Disks& d = state.disks;
   auto most = static_cast<double>(d.size());

@@ -6,6 +6,7 @@
 #include "parallel/cells/compact.hpp"
 #include "parallel/cells/meets_nearby.hpp"
 #include "parallel/ranks/message.hpp"
+#include "parallel/slabs/redistribute.hpp"
 #include "parallel/slabs/slab_stepping.hpp"
 #include "parallel/stepping/mark_gone.hpp"
 
@@ -49,21 +50,8 @@ void SlabStepping::emit_from_sources(double t, Count step) {
   if (!newcomers.empty()) take_newcomers(newcomers);
 }
 
-// A radius or a mass that the others do not share becomes a column on every rank, whichever has the newcomer.
 void SlabStepping::take_newcomers(const Disks& newcomers) {
-  Disks& d = state_.disks;
-  if (disks_ == 0 && !columns_.radius && !columns_.mass) {
-    d.common_radius = newcomers.radius_of(0);
-    d.common_mass = newcomers.mass_of(0);
-  }
-  for (std::size_t k = 0; k < newcomers.size(); ++k) {
-    const Disk disk = disk_at(newcomers, k);
-    if (!columns_.radius && disk.radius != d.common_radius) d.radius.assign(d.size(), d.common_radius);
-    if (!columns_.mass && disk.mass != d.common_mass) d.mass.assign(d.size(), d.common_mass);
-    columns_.radius = columns_.radius || disk.radius != d.common_radius;
-    columns_.mass = columns_.mass || disk.mass != d.common_mass;
-    if (cut_.rank_at(disk.y) == ranks_.rank()) push_back(d, disk, columns_);
-  }
+  carom::take_newcomers(cut_, ranks_.rank(), newcomers, disks_ == 0, columns_, state_.disks);
   disks_ += newcomers.size();
   sort_due_ = true;
   speed2_known_ = false;

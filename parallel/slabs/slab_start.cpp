@@ -16,8 +16,6 @@ namespace {
 // What of the scene slabs do not know; empty: they know all of it.
 std::string unknown_to_slabs(const Scene& scene) {
   if (scene.run.method == Method::pairwise) return settles(scene) ? "gravity with restitution below 1" : "";
-  if (!scene.sources.empty()) return "sources";
-  if (has_sinks(scene)) return "sinks";
   return scene.box.shear.acts() ? "a shear flow" : "";
 }
 

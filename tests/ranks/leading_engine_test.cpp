@@ -178,7 +178,10 @@ TEST(LeadingEngine, HasAllDisksOfExactWithinWindows) {
       "positions = \"random\"\nradius = { uniform = [0.4, 0.6] }\nmass = 1.0\nvelocities = { maxwell = 1.0 }\n"
       "[run]\nmethod = \"exact\"\nt_end = 5.0\n",
       "scene", "");
-  for (const Scene& scene : {slabs, gas("exact")}) {
+  Scene sinks = slabs;
+  sinks.box.sides[static_cast<std::size_t>(Side::top)] = SideKind::sink;
+  sinks.box.sides[static_cast<std::size_t>(Side::bottom)] = SideKind::sink;
+  for (const Scene& scene : {slabs, sinks, gas("exact")}) {
     const State start = initial_state(scene);
     for (const int count : {1, 2, 3}) {
       on_ranks(count, scene, start, [&](RankLead& lead) {

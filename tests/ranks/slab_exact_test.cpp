@@ -112,6 +112,50 @@ TEST(SlabExact, HasTheBitsOfThermostatsAndBrownianMotion) {
   }
 }
 
+// Disks that sinks take, on the sides and on inner walls, and those that sources bring, of sizes that none at the start
+// has.
+TEST(SlabExact, HasTheBitsOfSourcesAndSinks) {
+  for (const bool sources : {false, true}) {
+    for (const char* sides : {"sink", "periodic", "periodic_x"}) {
+      SCOPED_TRACE(fmt::format("{} {}", sides, sources));
+      TallBox tall{.sides = sides, .t_end = 4.0};
+      tall.more = "[[walls]]\nfrom = [8.0, 60.0]\nto = [12.0, 330.0]\nkind = \"sink\"\n";
+      if (sources) {
+        tall.more +=
+            "[[sources]]\nregion = [4.0, 50.0, 20.0, 350.0]\nrate = 20.0\nradius = { uniform = [0.1, 0.3] }\nmass = "
+            "2.0\n"
+            "velocities = { maxwell = 9.0 }\n";
+      }
+      const Counters counters = expect_bits_on_slabs(tall);
+      EXPECT_GT(counters.collisions, 500U);
+      EXPECT_GT(counters.removed, 30U);
+      EXPECT_EQ(counters.emitted > 30U, sources);
+    }
+  }
+}
+
+// A box that sources fill: first one rank runs it.
+TEST(SlabExact, HasTheBitsOfABoxThatSourcesFill) {
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 12.0\nheight = 300.0\ntop = \"sink\"\n[[sources]]\nregion = [1.0, 5.0, 11.0, 295.0]\nrate = "
+      "300.0\n"
+      "radius = { uniform = [0.2, 0.5] }\nmass = 1.0\nvelocities = { maxwell = 1.0 }\nlimit = 900\n"
+      "[run]\nmethod = \"exact\"\nt_end = 5.0\n",
+      "scene", "");
+  std::size_t on_slabs = 0;
+  const auto see = [&](const SlabTrace& trace) { on_slabs += trace.last_disks < 600 ? 1 : 0; };
+  const Counters counters = expect_bits(scene, {2, 3}, RankThreads::alternate, see).counters;
+  EXPECT_GT(on_slabs, 0U);
+  EXPECT_EQ(counters.emitted, 900U);
+}
+
+// Brownian disks that cross a sink unseen leave at an interval's start.
+TEST(SlabExact, HasTheBitsOfBrownianDisksThatSinksTake) {
+  TallBox tall{.sides = "sink", .t_end = 3.0, .step = 0.2};
+  tall.features.diffusion = "replace";
+  EXPECT_GT(expect_bits_on_slabs(tall).removed, 30U);
+}
+
 // Disks fall: slabs are cut anew as they go.
 TEST(SlabExact, HasTheBitsUnderGravity) {
   for (const bool tilted : {false, true}) {

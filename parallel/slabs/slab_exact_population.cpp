@@ -1,0 +1,98 @@
+// What happens between two windows of `exact` on slabs: disks come from sources, leave through sinks, and are kicked.
+#include <utility>
+
+#include "core/step/source.hpp"
+#include "core/step/step_start.hpp"
+#include "core/step/thermostat.hpp"
+#include "core/step/window_start.hpp"
+#include "parallel/exact/window_passes.hpp"
+#include "parallel/slabs/redistribute.hpp"
+#include "parallel/slabs/slab_exact_engine.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks a block.
+constexpr std::size_t kick_block = 4096;
+
+}  // namespace
+
+// What is drawn for a disk, its rank and those that see it as a ghost draw alike.
+void SlabExact::start_window() {
+  const PhaseTimer timer(times_, "start");
+  if (!scene_.sources.empty()) emit();
+  if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
+  count_thermal_hits(scene_, state_);
+  if (brownian_interval_begins(scene_, state_)) {
+    const BrownianInterval interval = begin_brownian_interval(scene_, state_);
+    draw_brownian_interval(state_.disks, scene_, interval, executor_, gone_);
+    windows_.forget(Known::lists);
+    remove_gone();
+  }
+  if (is_kick_due(scene_, state_)) kick();
+  if (side_turns(scene_, state_.time)) windows_.forget(Known::lists);
+}
+
+// All ranks draw the same newcomers, and ask each other whether one meets a disk. Until then the state has the
+// newcomers alone.
+void SlabExact::emit() {
+  Disks here = no_disks_like(state_.disks);
+  std::swap(here, state_.disks);
+  const auto has_room = [&](const Disk& disk) {
+    const Disks& newcomers = state_.disks;
+    return !ranks_.any(meets(newcomers, scene_.box, disk, 0, newcomers.size()) ||
+                       meets(here, scene_.box, disk, 0, here.size()));
+  };
+  try {
+    emit_at_window_start(scene_, state_, has_room);
+  } catch (...) {
+    std::swap(here, state_.disks);
+    throw;
+  }
+  std::swap(here, state_.disks);
+  const Disks& newcomers = here;
+  if (newcomers.empty()) return;
+  take_newcomers(cut_, ranks_.rank(), newcomers, start_.disks == 0, start_.columns, state_.disks);
+  start_.disks += newcomers.size();
+  windows_.forget(Known::nothing);
+}
+
+// Of the disks marked in gone_, if it is not empty, those of all ranks count. Returns whether any left; ghosts have
+// left with them.
+bool SlabExact::remove_gone() {
+  if (!takes_) return false;
+  std::int64_t gone = 0;
+  if (!gone_.empty()) {
+    ghosts_.visit_own(gone_.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) gone += gone_[i];
+    });
+  }
+  ranks_.sum({&gone, 1});
+  if (gone == 0) return false;
+  ghosts_.drop(state_, gone_);
+  windows_.forget(Known::nothing);
+  start_.disks -= static_cast<Count>(gone);
+  state_.counters.removed += static_cast<Count>(gone);
+  return true;
+}
+
+void SlabExact::kick() {
+  const Count number = state_.intervals++;
+  const std::size_t n = state_.disks.size();
+  std::vector<ExactSum> heat(executor_.blocks(n, kick_block) + 1);
+  std::vector<ExactSum> of_ghosts(heat.size());
+  with_view(state_.disks, [&](const auto& d) {
+    executor_.for_ranges(n, kick_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+      ghosts_.visit_runs(begin, end, [&](std::size_t first, std::size_t last, bool is_own) {
+        kick_disks(d, scene_, number, first, last, is_own ? heat[b] : of_ghosts[b]);
+      });
+    });
+  });
+  for (std::size_t b = 1; b < heat.size(); ++b) heat[0].add(heat[b]);
+  ranks_.sum(heat[0].digits());
+  state_.counters.thermostat_heat += heat[0].value();
+  windows_.forget(Known::lists);
+}
+
+}  // namespace carom
