@@ -60,21 +60,26 @@ inline constexpr std::uint32_t row_offsets = 28;
 
 // What is another list in place of the one in a row.
 struct ListChange {
-  bool fits = true;                      // otherwise the rest means nothing: the new list does not fit in a row
-  std::int16_t offset[row_offsets];      // of the new list
-  std::uint32_t stay = 0;                // bit k: the neighbour at place k of the old list is in the new one
-  std::uint32_t fresh[row_offsets + 1];  // those of the new list that are not in the old one
-  std::uint32_t fresh_count = 0;
+  bool fits = true;               // otherwise the rest means nothing: the new list does not fit in a row
+  std::uint32_t stay = 0;         // bit k: the neighbour at place k of the old list is in the new one
+  std::uint32_t fresh_count = 0;  // how many of the new list are not in the old one
+};
+
+// Where the new list goes: all its offsets, and those of its disks that are not in the old list. Room for
+// row_offsets and, of the latter, one more.
+struct NewList {
+  std::int16_t* offset;
+  std::uint32_t* fresh;
 };
 
 // row: disk i's old list, of `count` neighbours; near[0] to near[new_count - 1]: the new one, without i itself.
-using ChangeKernel = void (*)(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
-                              std::size_t new_count, ListChange& change);
+using ChangeKernel = ListChange (*)(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
+                                    std::size_t new_count, const NewList& to);
 
-void change_kernel_baseline(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
-                            std::size_t new_count, ListChange& change);
-void change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
-                        std::size_t new_count, ListChange& change);
+ListChange change_kernel_baseline(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
+                                  std::size_t new_count, const NewList& to);
+ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
+                              std::size_t new_count, const NewList& to);
 
 // The best versions for the processor at hand.
 ListKernel choose_list_kernel();

@@ -95,11 +95,12 @@ std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns,
 }
 
 // Sixteen places at a time; those that are not in use become 0, which is no neighbour's offset.
-void change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
-                        std::size_t new_count, ListChange& change) {
+ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
+                              std::size_t new_count, const NewList& to) {
+  ListChange change;
   constexpr short before = 4;  // places before the offsets
   change.fits = new_count <= row_offsets;
-  if (!change.fits) return;
+  if (!change.fits) return change;
   const auto* const half = static_cast<const __m256i*>(row);
   const __m256i place = _mm256_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const __m256i end = _mm256_set1_epi16(static_cast<short>(count + before));
@@ -116,20 +117,21 @@ void change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, c
     const auto far = static_cast<std::int32_t>(near[k] - i);
     const auto offset = static_cast<std::int16_t>(far);
     beyond |= far ^ offset;
-    change.offset[k] = offset;
+    to.offset[k] = offset;
     const __m256i sought = _mm256_set1_epi16(offset);
     const __m256i in_low = _mm256_cmpeq_epi16(low, sought);
     const __m256i in_high = _mm256_cmpeq_epi16(high, sought);
     const __m256i any = _mm256_or_si256(in_low, in_high);
     low_stays = _mm256_or_si256(low_stays, in_low);
     high_stays = _mm256_or_si256(high_stays, in_high);
-    change.fresh[fresh] = near[k];
+    to.fresh[fresh] = near[k];
     fresh += static_cast<std::uint32_t>(_mm256_testz_si256(any, any));
   }
   change.fits = beyond == 0;
   change.fresh_count = fresh;
   const __m256i bytes = _mm256_permute4x64_epi64(_mm256_packs_epi16(low_stays, high_stays), 0xd8);
   change.stay = static_cast<std::uint32_t>(_mm256_movemask_epi8(bytes)) >> before;
+  return change;
 }
 
 }  // namespace carom
@@ -143,9 +145,9 @@ std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns,
   return list_kernel_baseline(query, columns, runs, count, found);
 }
 
-void change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
-                        std::size_t new_count, ListChange& change) {
-  change_kernel_baseline(row, count, i, near, new_count, change);
+ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
+                              std::size_t new_count, const NewList& to) {
+  return change_kernel_baseline(row, count, i, near, new_count, to);
 }
 
 }  // namespace carom

@@ -21,26 +21,27 @@ std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& colu
   return n;
 }
 
-void change_kernel_baseline(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
-                            std::size_t new_count, ListChange& change) {
+ListChange change_kernel_baseline(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
+                                  std::size_t new_count, const NewList& to) {
+  ListChange change;
   constexpr std::size_t before_offsets = 8;
   std::int16_t old[row_offsets];
   std::memcpy(old, static_cast<const char*>(row) + before_offsets, sizeof old);
   change.fits = new_count <= row_offsets;
-  change.stay = change.fresh_count = 0;
   for (std::size_t k = 0; change.fits && k < new_count; ++k) {
     const auto far = static_cast<std::int32_t>(near[k] - i);
     const auto offset = static_cast<std::int16_t>(far);
     change.fits = far == offset;
-    change.offset[k] = offset;
+    to.offset[k] = offset;
     std::uint32_t places = 0;
     for (std::uint32_t place = 0; place < count; ++place) {
       places |= static_cast<std::uint32_t>(old[place] == offset) << place;
     }
     change.stay |= places;
-    change.fresh[change.fresh_count] = near[k];
+    to.fresh[change.fresh_count] = near[k];
     change.fresh_count += static_cast<std::uint32_t>(places == 0);
   }
+  return change;
 }
 
 ChangeKernel choose_change_kernel() {

@@ -210,14 +210,16 @@ void ListRows::patch(std::uint32_t i, std::span<const std::uint32_t> near, const
   Row& row = rows_[i];
   const std::uint32_t old_count = row.count;
   const Row old = row;
-  ListChange change;
-  change_kernel_(&old, old_count, i, near.data(), near.size(), change);
-  if (!change.fits) [[unlikely]]
+  std::uint32_t fresh[row_capacity + 1];
+  // Places beyond the new list keep what they had: surely_within reads them too.
+  const ListChange change = change_kernel_(&old, old_count, i, near.data(), near.size(), {row.offset, fresh});
+  if (!change.fits) [[unlikely]] {
+    row = old;
     return exchange(i, near, region);
+  }
   row.count = static_cast<std::uint8_t>(near.size());
-  std::memcpy(row.offset, change.offset, sizeof change.offset);
   if (row.count > 0) put_and_pad<row_capacity>(row.offset, row.count, row.offset[0]);
-  for (std::uint32_t k = 0; k < change.fresh_count; ++k) insert(change.fresh[k], i);
+  for (std::uint32_t k = 0; k < change.fresh_count; ++k) insert(fresh[k], i);
   for (std::uint32_t go = ~change.stay & ((1U << old_count) - 1U); go != 0; go &= go - 1U) {
     const std::uint32_t j = i + static_cast<std::uint32_t>(std::int32_t{old.offset[std::countr_zero(go)]});
     if (region.holds(j)) remove(j, i);
