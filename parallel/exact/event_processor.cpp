@@ -7,6 +7,7 @@
 #include "core/step/window_length.hpp"
 #include "parallel/exact/contact_outcomes.inl"
 #include "parallel/exact/prefetch_event.hpp"
+#include "parallel/exact/relisting.inl"
 
 namespace carom {
 
@@ -202,76 +203,6 @@ void EventProcessor<scope>::process_pair(std::uint32_t i, std::uint32_t j, doubl
 }
 
 template <Scope scope>
-void EventProcessor<scope>::relist_and_predict(std::uint32_t i, double time) {
-  if (scope == Scope::border || relist(i, time, relist_distance(i))) {
-    predict_next_event<false>(i, time);
-  } else {
-    block(i, time);
-  }
-}
-
-// Near borders disks are relisted sooner, since it may have to wait for a slice's end; one queue has none.
-template <Scope scope>
-inline const RelistDistance& EventProcessor<scope>::relist_distance(std::uint32_t i) const {
-  if (scope != Scope::region) return lists_.relist_distance(has_regions);
-  return lists_.relist_distance(record_[i].progress.is_near_border() || !lists_.is_in_core(i, worker_.region));
-}
-
-// Does the disk, whose motion from now on is not known, stay within its skin to the end of the slice?
-template <Scope scope>
-bool EventProcessor<scope>::stays_in_skin(std::uint32_t i, double time) const {
-  const PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
-  return lists_.stays_in_skin(i, p.x, p.y, window_.speed_bound * (window_.slice_stop() - time));
-}
-
-// Region: what happens to the disk from now on waits for the border pass, and so does relisting; so it is relisted now
-// if it could leave its skin before the slice's end. Where that cannot be done here the window is void; it is run again
-// with new lists and shorter slices.
-template <Scope scope>
-void EventProcessor<scope>::block(std::uint32_t i, double time) {
-  if (!stays_in_skin(i, time)) [[unlikely]] {
-    const bool listed = relist(i, time, lists_.relist_distance(true)) || relist_a_little(i, time);
-    if (!listed || !stays_in_skin(i, time)) worker_.too_fast = worker_.ended = true;
-    predict_next_event<false>(i, time);
-  }
-  safe_times_.block(i, time);
-}
-
-// Where the disk cannot be listed where it is: it is listed no further from its listed position than it has to be.
-template <Scope scope>
-bool EventProcessor<scope>::relist_a_little(std::uint32_t i, double time) {
-  PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
-  const Vec2 listed = lists_.listed_position(i);
-  const Vec2 back = nearest_image_at_rest({listed.x - p.x, listed.y - p.y}, window_.rules.box);
-  const double distance = std::sqrt(back.x * back.x + back.y * back.y);
-  const double room = lists_.skin() - window_.speed_bound * (window_.slice_stop() - time);
-  const double share = std::clamp(0.99 * room / distance, 0.0, 1.0);
-  p.x += share * back.x;
-  p.y += share * back.y;
-  wrap_into(p, window_.rules.box);
-  return relist_at(i, time, {p.x, p.y});
-}
-
-template <Scope scope>
-void EventProcessor<scope>::put_off_relisting(std::uint32_t i) {
-  if (record_[i].progress.has(DiskProgress::relists_late)) return;
-  record_[i].progress.set(DiskProgress::relists_late);
-  worker_.late.push_back(i);
-}
-
-template <Scope scope>
-void EventProcessor<scope>::relist_late(const std::vector<std::uint32_t>& disks) {
-  for (const std::uint32_t i : disks) {
-    DiskRecord& record = record_[i];
-    if (!record.progress.has(DiskProgress::relists_late)) continue;
-    const bool gone = std::isnan(record.path.x);
-    if (!gone && !relist(i, window_.slice_stop(), relist_distance(i))) continue;
-    record.progress.clear(DiskProgress::relists_late);
-    if (!gone) predict_next_slice(i);
-  }
-}
-
-template <Scope scope>
 void EventProcessor<scope>::predict_next_slice(std::uint32_t i) {
   if (std::isnan(record_[i].path.x)) {
     window_.next_event_time[i] = never;
@@ -281,27 +212,6 @@ void EventProcessor<scope>::predict_next_slice(std::uint32_t i) {
   const auto [time, partner] = next_event(i, window_.slice_stop(), predictor_.earliest(i));
   window_.next_event_time[i] = time;
   record_[i].partner = partner;
-}
-
-template <Scope scope>
-void EventProcessor<scope>::relist_if_due(std::uint32_t i) {
-  const double now = window_.slice_stop();
-  if (std::isnan(record_[i].path.x)) return;
-  const RelistDistance& distance = relist_distance(i);
-  if (lists_.earliest_relist_time(i, record_[i].path, now, now, window_.rules.gravity, distance) > now) return;
-  relist(i, now, distance);
-  mark_relisted(i);
-}
-
-template <Scope scope>
-void EventProcessor<scope>::relist_if_far(std::uint32_t i) {
-  const PathSegment p = carried_to(record_[i].path, window_.slice_stop(), window_.rules.gravity);
-  if (std::isnan(p.x)) return;
-  const double rest = lists_.skin() - lists_.relist_distance(true).length;
-  const bool is_far = !lists_.stays_in_skin(i, p.x, p.y, rest);
-  if (is_far) relist(i, window_.slice_stop(), relist_distance(i));
-  predict_next_slice(i);
-  if (is_far) mark_relisted(i);
 }
 
 // Border: an event of the queue. It is invalid where the disk's events have been predicted again; an event of the same
@@ -408,22 +318,6 @@ inline void EventProcessor<scope>::schedule(std::uint32_t i, double time, Partne
     worker_.calendar.move(i - first_, time,
                           [this](std::uint32_t a, std::uint32_t b) { return comes_first(a + first_, b + first_); });
   }
-}
-
-// False if that would change the lists of another region, or make it a disk at a border.
-template <Scope scope>
-bool EventProcessor<scope>::relist(std::uint32_t i, double time, const RelistDistance& ahead) {
-  const PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
-  return relist_at(i, time, lists_.listing_place(p, window_.rules.box, ahead));
-}
-
-template <Scope scope>
-bool EventProcessor<scope>::relist_at(std::uint32_t i, double time, Vec2 at) {
-  if (scope == Scope::region && window_.is_beyond_band(i, at.y, lists_.skin())) return false;
-  if (!lists_.relist(i, at, *window_.disks, worker_.region, worker_.found)) return false;
-  ++worker_.relisted;
-  if constexpr (scope == Scope::region) safe_times_.mark_relisted(i, time);
-  return true;
 }
 
 template class EventProcessor<Scope::all>;
