@@ -143,8 +143,11 @@ ListRegion NeighbourLists::region_of_tiles(std::uint32_t first, std::uint32_t la
   const double depth = 2.0 * largest_radius_ + 3.0 * skin_ + most_lead * near_border_.length;
   const double from = first * tiles_to_length + depth;
   const double size = last * tiles_to_length - depth - from;
-  region.core = static_cast<std::uint32_t>(std::min(from, side) / unit);
-  region.core_size = size > 0.0 ? static_cast<std::uint32_t>(size / unit) : 0;
+  region.core = region.core_size = 0;
+  if (!(size > 0.0)) return region;
+  // Both are less than the side, so that they fit.
+  region.core = static_cast<std::uint32_t>(from / unit);
+  region.core_size = static_cast<std::uint32_t>(size / unit);
   return region;
 }
 
