@@ -14,7 +14,7 @@ constexpr double events_per_slice = 0.25;
 
 }  // namespace
 
-void SliceScheduler::begin_window(bool rebuilt) {
+void SliceScheduler::begin_window(bool rebuilt, double per_disk) {
   for (Region& region : regions_) region.worker.begin_window();
   border_pass_.begin_window();
   single_.begin_window();
@@ -29,7 +29,10 @@ void SliceScheduler::begin_window(bool rebuilt) {
       mark_ghosts();
     }
   }
-  if (ghosts_ != nullptr) mark_edges();
+  if (ghosts_ == nullptr) return;
+  const double slice = std::min(slice_end(window_.length, 0.0, per_disk), window_.length);
+  window_.band = ghosts_->band(window_.speed_bound * slice);
+  mark_edges();
 }
 
 // With about as many disks each.
@@ -182,11 +185,13 @@ void SliceScheduler::run_regions(double per_disk) {
 SliceOutcome SliceScheduler::run_with_ghosts(double per_disk) {
   const Count before = events();
   Region& region = regions_.front();
+  const bool near = ghosts_->strangers_come_near(window_);
   run_region(region, per_disk);
   relisted_ += region.worker.relisted;
   window_.fastest2 = std::max(window_.fastest2, region.worker.fastest2);
   SliceOutcome here = outcome();
   if (here == SliceOutcome::done && depends_on_others()) here = SliceOutcome::ghosts_too_few;
+  if (near) here = SliceOutcome::strangers_too_near;
   events_of_slice_ = events() - before;
   const SliceOutcome reached = ghosts_->agree(here, events_of_slice_);
   if (reached != SliceOutcome::done) return reached;

@@ -29,8 +29,9 @@ class SliceScheduler {
   SliceScheduler(WindowState& window, NeighbourLists& lists, const Executor& executor)
       : window_(window), lists_(lists), executor_(executor), border_pass_(window, lists, executor) {}
 
-  // A window begins, in window.mode. rebuilt: so do the lists.
-  void begin_window(bool rebuilt);
+  // A window begins, in window.mode; window.speed_bound has been set. rebuilt: so do the lists. per_disk: events a disk
+  // and time, 0 if not known.
+  void begin_window(bool rebuilt, double per_disk);
 
   // The end of the slice that begins at this time of a window of this length; `never` for the last one. All are of
   // nearly equal length. per_disk: events a disk and time, 0 if not known; window.speed_bound has been set.

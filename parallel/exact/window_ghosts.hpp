@@ -22,8 +22,11 @@ class WindowGhosts {
   // Is disk i, by storage index, a ghost?
   virtual bool is_ghost(std::uint32_t i) const = 0;
 
-  // Where no disk that is not here can come to while none goes further than `flight`.
-  virtual KnownBand band(double flight) const = 0;
+  // Where no disk that is not here comes to in this window, unless strangers_come_near says so on a rank that has it.
+  // slice_flight: no disk goes further in a slice; length, the same on all ranks.
+  virtual KnownBand band(double slice_flight) = 0;
+  // At the start of a slice: may disks of this rank that a neighbour does not have come into that one's band in it?
+  virtual bool strangers_come_near(const WindowState& window) const = 0;
 
   // All of these are collective: each rank calls them at the same places.
 

@@ -83,8 +83,7 @@ SliceOutcome WindowRun::run(const WindowPlan& plan, const SpeedSummary& speeds, 
   load_paths(plan, speeds, disks);
   const PhaseTimer timer(times_, "events");
   set_speed_bound(plan, margin);
-  if (ghosts_ != nullptr) window_.band = ghosts_->band(window_.speed_bound * plan.length);
-  scheduler_.begin_window(rebuilt_);
+  scheduler_.begin_window(rebuilt_, per_disk_);
   rebuilt_ = false;
   for (double start = 0.0; start < plan.length;) {
     const double end = scheduler_.slice_end(plan.length, start, per_disk_);

@@ -15,6 +15,8 @@ namespace {
 // own has left its slab by so much of it.
 constexpr double least_share_left = 0.7;
 constexpr double excursion_share = 0.1;
+// Disks that are not here are taken to come nearer by at least what the fastest one covers in so many slices.
+constexpr double slices_ahead = 2.0;
 
 // A ghost whose motion in the slice is not known: its number among those that the neighbour shows, and how many paths
 // it is known to have begun.
@@ -115,26 +117,55 @@ void ExactGhosts::find_places(const Disks& d) {
             [](const GhostPlace& a, const GhostPlace& b) { return a.place < b.place; });
 }
 
-void ExactGhosts::look_beyond(const Disks& d) {
-  double from_low = HUGE_VAL;
-  double from_high = HUGE_VAL;
+void ExactGhosts::look_beyond(const Disks& d, const Approach& approach) {
+  find_strangers(d, false, approach.furthest, of_below_);
+  find_strangers(d, true, approach.furthest, of_above_);
   excursion_ = 0.0;
   for (std::size_t i = 0; i < d.size(); ++i) {
     if ((marks_[i] & ghost) != 0) continue;
-    const double y = from_centre(d.y[i]);
-    if ((marks_[i] & seen_below) == 0) from_low = std::min(from_low, y + half_);
-    if ((marks_[i] & seen_above) == 0) from_high = std::min(from_high, half_ - y);
-    if (slab_.has_lower) excursion_ = std::max(excursion_, -(y + half_));
-    if (slab_.has_upper) excursion_ = std::max(excursion_, y - half_);
+    if (slab_.has_lower) excursion_ = std::max(excursion_, -beyond_border(false, d.y[i]));
+    if (slab_.has_upper) excursion_ = std::max(excursion_, -beyond_border(true, d.y[i]));
   }
+  furthest_ = approach.furthest;
+  taken_ = approach.taken;
   Bytes to_below;
   Bytes to_above;
-  put(to_below, from_low);
-  put(to_above, from_high);
+  put(to_below, of_below_.nearest);
+  put(to_above, of_above_.nearest);
   const auto [from_below, from_above] = ranks_.exchange(to_below, to_above);
-  // Further away may be disks of ranks beyond the neighbour.
-  beyond_below_ = slab_.has_lower ? std::min(MessageReader(from_below).get<double>(), depth_) : HUGE_VAL;
-  beyond_above_ = slab_.has_upper ? std::min(MessageReader(from_above).get<double>(), depth_) : HUGE_VAL;
+  // Further away may be disks of the ranks beyond the neighbours, which are not watched: as near as any can come.
+  const double behind = std::min(depth_, approach.thinnest - most_excursion() - (approach.furthest - approach.taken));
+  beyond_below_ = slab_.has_lower ? std::min(MessageReader(from_below).get<double>(), behind) : HUGE_VAL;
+  beyond_above_ = slab_.has_upper ? std::min(MessageReader(from_above).get<double>(), behind) : HUGE_VAL;
+}
+
+// Others are too far away to become the nearest ones.
+void ExactGhosts::find_strangers(const Disks& d, bool above, double furthest, Strangers& strangers) const {
+  strangers.nearest = HUGE_VAL;
+  strangers.places.clear();
+  const std::uint8_t known = ghost | (above ? seen_above : seen_below);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    if ((marks_[i] & known) == 0) strangers.nearest = std::min(strangers.nearest, beyond_border(above, d.y[i]));
+  }
+  const double within = strangers.nearest + furthest;
+  for (std::uint32_t i = 0; i < d.size(); ++i) {
+    if ((marks_[i] & known) == 0 && beyond_border(above, d.y[i]) <= within) strangers.places.push_back(i);
+  }
+}
+
+bool ExactGhosts::strangers_come_near(const WindowState& window) const {
+  return (slab_.has_lower && come_near(window, false, of_below_)) ||
+         (slab_.has_upper && come_near(window, true, of_above_));
+}
+
+bool ExactGhosts::come_near(const WindowState& window, bool above, const Strangers& strangers) const {
+  double nearest = HUGE_VAL;
+  for (const std::uint32_t i : strangers.places) {
+    const double y = carried_to(window.record[i].path, window.slice_start, window.rules.gravity).y;
+    if (!std::isnan(y)) nearest = std::min(nearest, beyond_border(above, y));
+  }
+  const double flight = window.speed_bound * (window.slice_stop() - window.slice_start);
+  return nearest - flight < strangers.nearest - taken_;
 }
 
 bool ExactGhosts::are_few() const {
@@ -145,10 +176,12 @@ double ExactGhosts::most_excursion() const {
   return excursion_share * depth_;
 }
 
-KnownBand ExactGhosts::band(double flight) const {
+KnownBand ExactGhosts::band(double slice_flight) {
+  slice_flight_ = slice_flight;
+  taken_ = std::min(furthest_, std::max(taken_, slices_ahead * slice_flight));
   KnownBand known = band_;
-  known.below = -(half_ + beyond_below_) + flight;
-  known.above = half_ + beyond_above_ - flight;
+  known.below = -(half_ + beyond_below_) + taken_;
+  known.above = half_ + beyond_above_ - taken_;
   return known;
 }
 

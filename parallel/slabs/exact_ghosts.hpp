@@ -2,6 +2,7 @@
 // that they do. They are chosen when disks are sorted, and the same until the next time.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,13 @@
 #include "parallel/slabs/moving_disks.hpp"
 
 namespace carom {
+
+// How disks that a rank does not have may come nearer to it in a window; lengths.
+struct Approach {
+  double furthest = 0.0;  // no disk goes further in the window
+  double taken = 0.0;     // they are taken to come nearer by this much at most; no more than `furthest`
+  double thinnest = 0.0;  // of all slabs: beyond a neighbour's lie those of the next rank
+};
 
 class ExactGhosts final : public WindowGhosts {
  public:
@@ -31,12 +39,14 @@ class ExactGhosts final : public WindowGhosts {
   void find_places(const Disks& disks);
 
   // Before each window: how near the disks that this rank does not have have come. Collective.
-  void look_beyond(const Disks& disks);
+  void look_beyond(const Disks& disks, const Approach& approach);
   // Are there so few left between these and the slab that new ghosts are due?
   bool are_few() const;
 
   // At the start of a window that is run, no disk of any rank has left its slab by more than this; length.
   double most_excursion() const;
+  // No disk went further than this in a slice of the last window; length. HUGE_VAL: there was none.
+  double slice_flight() const { return slice_flight_; }
 
   // Disks [begin, end) by storage index, in runs: visit(first, last, is_own), with whether they are the rank's own.
   template <class Visit>
@@ -58,7 +68,8 @@ class ExactGhosts final : public WindowGhosts {
   }
 
   bool is_ghost(std::uint32_t i) const override { return is_marked(i); }
-  KnownBand band(double flight) const override;
+  KnownBand band(double slice_flight) override;
+  bool strangers_come_near(const WindowState& window) const override;
   double least_of_all(double here) override;
   SliceOutcome agree(SliceOutcome here, Count& events) override;
   void learn(WindowState& window, const std::vector<std::uint32_t>& unknown) override;
@@ -75,6 +86,11 @@ class ExactGhosts final : public WindowGhosts {
   struct Border {
     Shared shown, ghosts;
   };
+  // Disks of this rank that a neighbour does not have, and which may be the nearest ones to it in the window.
+  struct Strangers {
+    double nearest = HUGE_VAL;  // from the border, at the window's start
+    std::vector<std::uint32_t> places;
+  };
   // A ghost by storage index: which border it lies beyond, and its number there.
   struct GhostPlace {
     std::uint32_t place, number;
@@ -84,6 +100,9 @@ class ExactGhosts final : public WindowGhosts {
   bool is_marked(std::size_t i) const { return i < marks_.size() && (marks_[i] & ghost) != 0; }
   void take_in_ghosts(const Bytes& message, Shared& ghosts, DiskColumns columns, State& state);
   double from_centre(double y) const { return band_.from_centre(y); }
+  double beyond_border(bool above, double y) const { return above ? half_ - from_centre(y) : from_centre(y) + half_; }
+  void find_strangers(const Disks& disks, bool above, double furthest, Strangers& strangers) const;
+  bool come_near(const WindowState& window, bool above, const Strangers& strangers) const;
   const GhostPlace& ghost_at(std::uint32_t place) const;
   static Bytes answer(const WindowState& window, const Shared& shown, const Bytes& request);
   static void take_answer(WindowState& window, const Shared& ghosts, const Bytes& message);
@@ -94,6 +113,9 @@ class ExactGhosts final : public WindowGhosts {
   double half_ = 0.0, depth_ = 0.0;
   double beyond_below_ = 0.0, beyond_above_ = 0.0;  // from the borders to the first disk that is not here
   double excursion_ = 0.0;                          // how far a disk of this rank has left its slab
+  double furthest_ = 0.0, taken_ = 0.0;             // of the window's Approach
+  double slice_flight_ = HUGE_VAL;                  // as band() says; of the last window
+  Strangers of_below_, of_above_;
   Border below_, above_;
   std::vector<std::uint8_t> marks_;  // by storage index
   std::vector<GhostPlace> ghost_places_;

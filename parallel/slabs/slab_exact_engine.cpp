@@ -24,6 +24,11 @@ constexpr double zone_of_retry = 1.5;  // over that of the try before
 // Of the depth at which ghosts are chosen, the share that has to be left when they are chosen anew is a little less
 // than one over this.
 constexpr double depth_in_reserve = 1.45;
+// Disks that a rank does not have are taken to come nearer in a window by this share of how far the fastest disk could
+// go; by more where they did, and by less again after windows in which they did not.
+constexpr double usual_approach = 0.35;
+constexpr double approach_of_retry = 1.5;
+constexpr double approach_after_window = 0.99;
 // Of its thickness a slab shows its neighbours so much at most.
 constexpr double most_shown = 0.9;
 // Where slabs would be too thin, or a window was crowded, one rank runs so many.
@@ -45,6 +50,7 @@ SlabExact::SlabExact(const Scene& scene, State part, const SlabStart& start, con
       lone_(scene, threads, ranks),
       first_zone_(threads.block_divisor > 1 ? usual_zone_of_cut_work : usual_zone),
       zone_(first_zone_),
+      approach_(usual_approach),
       takes_(has_sinks(scene_.box)) {
   windows_.set_ghosts(&ghosts_, start.largest_radius);
 }
@@ -112,11 +118,16 @@ bool SlabExact::run_window(WindowPlan& plan, const SpeedSummary& speeds) {
       return false;
     }
     const SliceOutcome outcome = windows_.run(plan, speeds, start_.disks, margin);
-    if (outcome == SliceOutcome::done) return true;
+    if (outcome == SliceOutcome::done) {
+      approach_ = std::max(usual_approach, approach_after_window * approach_);
+      return true;
+    }
     windows_.forget(Known::nothing);
     if (outcome == SliceOutcome::crowded) break;
     if (outcome == SliceOutcome::ghosts_too_few) {
       zone_ *= zone_of_retry;
+    } else if (outcome == SliceOutcome::strangers_too_near) {
+      approach_ = std::min(1.0, approach_of_retry * approach_);
     } else {
       margin *= margin_of_retry;
       ++retries;
@@ -141,7 +152,7 @@ void SlabExact::warn_of_thin_slabs() {
 bool SlabExact::prepare_lists(const WindowPlan& plan, double fastest) {
   bool due = windows_.lists_due(plan);
   if (ranks_.any(due)) return share_out(plan, fastest);
-  ghosts_.look_beyond(state_.disks);
+  ghosts_.look_beyond(state_.disks, approach_in(plan, fastest));
   return !ranks_.any(ghosts_.are_few()) || share_out(plan, fastest);
 }
 
@@ -158,8 +169,14 @@ bool SlabExact::share_out(const WindowPlan& plan, double fastest) {
   windows_.build_lists(plan, layout_of_rank(state_.disks.size(), static_cast<std::size_t>(start_.disks),
                                             slab.low - *depth, slab.high + *depth, executor_));
   ghosts_.find_places(state_.disks);
-  ghosts_.look_beyond(state_.disks);
+  ghosts_.look_beyond(state_.disks, approach_in(plan, fastest));
   return true;
+}
+
+// A little more than the fastest disk goes, so that rounding does not matter.
+Approach SlabExact::approach_in(const WindowPlan& plan, double fastest) const {
+  const double furthest = fastest * plan.length * (1.0 + 1e-6) + 1e-12 * scene_.box.height;
+  return {furthest, approach_ * furthest, cut_.thinnest()};
 }
 
 // None: slabs are too thin. Windows may be twice as long by the time of the next ghosts.
@@ -167,7 +184,9 @@ std::optional<double> SlabExact::ghost_depth(const WindowPlan& plan, double fast
   const Domain& box = scene_.box;
   const double spacing = std::sqrt(box.width * box.height / static_cast<double>(std::max<Count>(1, start_.disks)));
   const double reach = 2.0 * start_.largest_radius + 2.0 * spacing;
-  const double depth = depth_in_reserve * (zone_ * spacing + reach + fastest * 2.0 * plan.length);
+  const double nearer =
+      std::max(approach_ * fastest * 2.0 * plan.length, std::min(ghosts_.slice_flight(), fastest * plan.length));
+  const double depth = depth_in_reserve * (zone_ * spacing + reach + nearer);
   double thickest = 0.0;
   for (int r = 0; r < cut_.ranks(); ++r) thickest = std::max(thickest, cut_.high(r) - cut_.low(r));
   const bool fits =

@@ -59,6 +59,7 @@ class SlabExact final : public Engine, public InSlabs {
   bool run_window(WindowPlan& plan, const SpeedSummary& speeds);
   bool prepare_lists(const WindowPlan& plan, double fastest);
   bool share_out(const WindowPlan& plan, double fastest);
+  Approach approach_in(const WindowPlan& plan, double fastest) const;
   std::optional<double> ghost_depth(const WindowPlan& plan, double fastest) const;
   void finish(const WindowPlan& plan);
   Disks own_of(const Disks& all) const;
@@ -79,6 +80,7 @@ class SlabExact final : public Engine, public InSlabs {
   int alone_ = 0;  // windows that one rank has still to run
   const double first_zone_;
   double zone_;             // mean spacings
+  double approach_;         // share of the furthest flight by which disks of others are taken to come nearer
   bool thin_told_ = false;  // that slabs would be too thin
   const bool takes_;        // sinks do
   std::optional<WindowPlan> logged_;
