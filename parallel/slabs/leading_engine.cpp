@@ -87,17 +87,14 @@ Disks deal_out(Ranks& ranks, const SlabStart& start, const Disks& all, Disks par
   return part;
 }
 
-// A piece of the rank's own disks, with what goes with them.
+// A piece of the rank's own disks, with what of the state goes with them.
 Bytes piece_of(const State& state, std::size_t begin, std::size_t count) {
-  std::vector<Disk> list;
-  std::vector<std::uint32_t> thermal_hits;
+  std::vector<MovingDisk> list;
   for (std::size_t i = begin; i < std::min(state.disks.size(), begin + count); ++i) {
-    list.push_back(disk_at(state.disks, i));
-    if (!state.thermal_hits.empty()) thermal_hits.push_back(thermal_hits_of(state, list.back().id));
+    list.push_back(moving_disk(state, i));
   }
   Bytes message;
   put_all(message, list);
-  put_all(message, thermal_hits);
   return message;
 }
 
@@ -115,13 +112,7 @@ void gather_disks(Ranks& ranks, const State& part, State* all) {
   const std::size_t piece = std::max<std::size_t>(1024, disks_a_piece / static_cast<std::size_t>(ranks.count()));
   for (std::size_t begin = 0; begin < static_cast<std::size_t>(most[0]); begin += piece) {
     for (const Bytes& message : ranks.collect(piece_of(part, begin, piece))) {
-      MessageReader reader(message);
-      const auto list = reader.get_all<Disk>();
-      const auto thermal_hits = reader.get_all<std::uint32_t>();
-      for (std::size_t k = 0; k < list.size(); ++k) {
-        push_back(all->disks, list[k], columns);
-        if (!thermal_hits.empty()) take_thermal_hits(*all, list[k].id, thermal_hits.at(k));
-      }
+      for (const MovingDisk& disk : MessageReader(message).get_all<MovingDisk>()) take_in(*all, disk, columns);
     }
   }
 }

@@ -235,6 +235,28 @@ TEST(LeadingEngine, HasTheReflectionsOfAllDisks) {
   });
 }
 
+// The same of the TC model's times: a checkpoint holds them, and other bits would follow from other times.
+TEST(LeadingEngine, HasTheContactTimesOfAllDisks) {
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 20.0\nheight = 60.0\nleft = \"periodic\"\nright = \"periodic\"\n"
+      "[physics]\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.02 }\n"
+      "[[disks]]\ncount = 700\npositions = \"random\"\nradius = 0.5\nmass = 1.0\nvelocities = { maxwell = 1.0 }\n"
+      "[run]\nmethod = \"exact\"\nt_end = 2.0\n",
+      "scene", "");
+  const State start = initial_state(scene);
+  on_ranks(2, scene, start, [&](RankLead& lead) {
+    const auto expected = make_parallel_engine(scene, start, {1});
+    const auto engine = lead.make_engine(scene, start, {1, 512}, the_start);
+    while (engine->progress().time < scene.run.t_end) {
+      engine->step();
+      expected->step();
+    }
+    EXPECT_EQ(engine->progress().disks.size() < start.disks.size(), true) << "one rank runs them all";
+    EXPECT_EQ(engine->state().last_contact, expected->state().last_contact);
+    EXPECT_EQ(state_hash(engine->state().disks), state_hash(expected->state().disks));
+  });
+}
+
 // Three disks far from each other, on three ranks: what a step says can be counted by hand.
 TEST(LeadingEngine, CountsWhatRanksSayInAStep) {
   const Scene scene = parse_scene(
