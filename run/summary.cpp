@@ -53,15 +53,18 @@ Json messages_of(const RankReport& report, const Messages& all) {
 Json traffic_of(const Summary& s) {
   if (!s.ranks) return absent();
   Json disks = Json::array();
+  Json ghosts = Json::array();
   Json peaks = Json::array();
   Json seconds = Json::array();
   for (const RankLoad& rank : s.ranks->ranks) {
     disks.push_back(rank.disks);
+    ghosts.push_back(rank.ghosts);
     peaks.push_back(rank.peak_bytes);
     seconds.push_back(rank.in_steps.seconds);
   }
   const Traffic all = s.ranks->traffic();
   return {{"disks", disks},
+          {"ghosts", ghosts},
           {"peak_bytes", peaks},
           {"imbalance", s.ranks->imbalance()},
           {"exchange", messages_of(*s.ranks, all.exchange)},
@@ -157,7 +160,9 @@ const JsonKey<Summary> summary_keys[] = {
      "`communication`, what of the others went into messages and waiting for them",
      [](const Summary& s) -> Json { return phase_seconds(s); }},
     {"traffic", "",
-     "only of several ranks, an object: `disks` of each at the end; `imbalance`, the most of them over their mean; "
+     "only of several ranks, an object: `disks` of each at the end; `ghosts`, those of others that each had beside "
+     "them "
+     "in the last step; `imbalance`, the most disks over their mean; "
      "`peak_bytes`, the most memory that each had; what a rank said in a step, in the mean of this part of the run, "
      "`messages` and `bytes` of `exchange` (to its two neighbours), `all_reduce` and `gather` (calls of all ranks, "
      "with "

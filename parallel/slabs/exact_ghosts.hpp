@@ -35,6 +35,7 @@ class ExactGhosts final : public WindowGhosts {
   // slab's borders. Collective. Precondition: no slab is thinner than the depth, and in a periodic box the slab with
   // its ghosts is lower than the box.
   void see(const Slab& slab, const Domain& box, double depth, DiskColumns columns, State& state);
+  std::size_t count() const { return below_.ghosts.ids.size() + above_.ghosts.ids.size(); }
   // After they have been sorted with the others.
   void find_places(const Disks& disks);
 

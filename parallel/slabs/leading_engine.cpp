@@ -160,7 +160,9 @@ class Part {
     Bytes here;
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    put(here, RankLoad{engine_->state().disks.size(), Count{1024} * static_cast<Count>(usage.ru_maxrss), in_steps_});
+    const auto* const in_slabs = dynamic_cast<const InSlabs*>(engine_.get());
+    put(here, RankLoad{engine_->state().disks.size(), in_slabs != nullptr ? in_slabs->ghosts() : 0,
+                       Count{1024} * static_cast<Count>(usage.ru_maxrss), in_steps_});
     RankReport all{steps_, {}};
     for (const Bytes& there : ranks_.gather(here)) all.ranks.push_back(MessageReader(there).get<RankLoad>());
     return all;

@@ -12,6 +12,7 @@ namespace carom {
 // Of one rank.
 struct RankLoad {
   Count disks = 0;       // now
+  Count ghosts = 0;      // of other ranks, in the last step
   Count peak_bytes = 0;  // the most memory that its process has had so far
   Traffic in_steps;      // since the engine was made; frames and checkpoints left aside
 };

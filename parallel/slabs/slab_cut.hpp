@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/types.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 
@@ -31,6 +32,8 @@ class InSlabs {
   virtual ~InSlabs() = default;
   // The same on all ranks; null while the disks are not in slabs.
   virtual const SlabCut* slab_cut() const = 0;
+  // Disks of other ranks that this one had beside its own in the last step; 0 while the disks are not in slabs.
+  virtual Count ghosts() const = 0;
 };
 
 // A slab has to be so much thicker than the largest radius: disks of the slabs on either side of it never touch, as far

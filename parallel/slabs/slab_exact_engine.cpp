@@ -198,6 +198,7 @@ std::optional<double> SlabExact::ghost_depth(const WindowPlan& plan, double fast
 void SlabExact::finish(const WindowPlan& plan) {
   ImpactTally tally = windows_.store_paths(plan, gone_);
   left_ = ghosts_.most_excursion() + windows_.window().speed_bound * plan.length;
+  seen_ghosts_ = ghosts_.count();
   logged_ = plan;
   WindowDisks at_start;
   if (takes_) at_start = {state_.disks, ghosts_.ghosts_among(state_.disks.size())};

@@ -46,6 +46,7 @@ class SlabExact final : public Engine, public InSlabs {
   const PhaseTimes& phase_times() const override { return times_; }
   std::vector<std::string> take_warnings() override;
   const SlabCut* slab_cut() const override;
+  Count ghosts() const override { return lone_.runs() ? 0 : seen_ghosts_; }
 
  private:
   void start_window();
@@ -71,7 +72,8 @@ class SlabExact final : public Engine, public InSlabs {
   Executor executor_;
   SlabStart start_;
   SlabCut cut_;
-  double left_ = 0.0;  // no disk has left its slab by more; length
+  Count seen_ghosts_ = 0;  // in the last window
+  double left_ = 0.0;      // no disk has left its slab by more; length
   Validity validity_;
   PhaseTimes times_;
   ExactGhosts ghosts_;

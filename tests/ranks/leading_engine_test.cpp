@@ -252,6 +252,7 @@ TEST(LeadingEngine, HasTheContactTimesOfAllDisks) {
       expected->step();
     }
     EXPECT_EQ(engine->progress().disks.size() < start.disks.size(), true) << "one rank runs them all";
+    EXPECT_GT(lead.report().ranks[1].ghosts, 0U);
     EXPECT_EQ(engine->state().last_contact, expected->state().last_contact);
     EXPECT_EQ(state_hash(engine->state().disks), state_hash(expected->state().disks));
   });
@@ -282,6 +283,7 @@ TEST(LeadingEngine, CountsWhatRanksSayInAStep) {
       // Ghosts and clusters: to each neighbour a list and two lists, each with its length. A slab ends where the first
       // disk of the next one is, which is a ghost.
       const Count ghost = r > 0 ? sizeof(Disk) : 0;
+      EXPECT_EQ(then.ranks[r].ghosts, r < 2 ? 1U : 0U);
       EXPECT_EQ(later.exchange.messages, 4U * 4U);
       EXPECT_EQ(later.exchange.bytes, 4U * (2U * (8U + 16U) + ghost));
       // That there is a step; excursion, whether clusters span slabs, one pass of impacts, one sweep, sums, speed.
