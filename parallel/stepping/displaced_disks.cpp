@@ -16,10 +16,9 @@ namespace {
 constexpr std::size_t disk_block = 8192;
 constexpr std::size_t search_block = 64;
 
-// The displaced disks into displaced.all; returns the largest displacement of any disk, length.
 template <class View>
-double find_displaced(const View& d, std::size_t n, const Domain& box, const Executor& executor,
-                      DisplacedDisks& displaced) {
+double find_displaced_in(const View& d, std::size_t n, const Domain& box, const Executor& executor,
+                         DisplacedDisks& displaced) {
   const std::size_t blocks = executor.blocks(n, disk_block);
   while (displaced.blocks.size() < blocks) {
     displaced.blocks.emplace_back();
@@ -47,10 +46,9 @@ double find_displaced(const View& d, std::size_t n, const Domain& box, const Exe
   return std::sqrt(furthest2);
 }
 
-// slack: how far a disk may be outside the cell that it was sorted into; length.
 template <class View>
-bool is_pressed(const View& d, const Domain& box, const CellGrid& grid, const SortedCells& cells, double slack,
-                std::size_t i) {
+bool is_pressed_in(const View& d, const Domain& box, const CellGrid& grid, const SortedCells& cells, double slack,
+                   std::size_t i) {
   if (is_pressed_into_wall(d, box, i)) return true;
   bool pressed = false;
   for (const GridLevel& level : grid.levels) {
@@ -77,19 +75,33 @@ void keep_places(const Disks& disks, const Executor& executor, DisplacedDisks& d
   });
 }
 
-bool presses_others(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells, double strayed,
-                    const Executor& executor, DisplacedDisks& displaced) {
+double find_displaced(Disks& disks, const Domain& box, const Executor& executor, DisplacedDisks& displaced) {
+  return with_view(disks, [&](const auto& d) { return find_displaced_in(d, disks.size(), box, executor, displaced); });
+}
+
+bool is_pressed(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells, double slack,
+                std::size_t i) {
+  return with_view(disks, [&](const auto& d) { return is_pressed_in(d, box, grid, cells, slack, i); });
+}
+
+bool any_pressed(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells, double slack,
+                 const Executor& executor, DisplacedDisks& displaced) {
   return with_view(disks, [&](const auto& d) {
-    const double slack = strayed + find_displaced(d, disks.size(), box, executor, displaced);
     const std::vector<std::uint32_t>& all = displaced.all;
     assign_amply(displaced.pressed, executor.blocks(all.size(), search_block), static_cast<unsigned char>(0));
     executor.for_ranges(all.size(), search_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end && displaced.pressed[b] == 0; ++k) {
-        displaced.pressed[b] = is_pressed(d, box, grid, cells, slack, all[k]) ? 1 : 0;
+        displaced.pressed[b] = is_pressed_in(d, box, grid, cells, slack, all[k]) ? 1 : 0;
       }
     });
     return std::find(displaced.pressed.begin(), displaced.pressed.end(), 1) != displaced.pressed.end();
   });
+}
+
+bool presses_others(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells, double strayed,
+                    const Executor& executor, DisplacedDisks& displaced) {
+  const double slack = strayed + find_displaced(disks, box, executor, displaced);
+  return any_pressed(disks, box, grid, cells, slack, executor, displaced);
 }
 
 }  // namespace carom

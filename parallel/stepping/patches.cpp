@@ -97,7 +97,7 @@ void take_as_one_patch(Patches& patches, std::size_t contacts) {
 }
 
 void order_by_patch(Patches& patches) {
-  const std::size_t count = patches.first[patch_phases];
+  const std::size_t count = patches.first.back();
   assign_amply(patches.start, count + 1, 0U);
   for (const std::uint32_t p : patches.patch) ++patches.start[p + 1];
   for (std::size_t p = 0; p < count; ++p) patches.start[p + 1] += patches.start[p];

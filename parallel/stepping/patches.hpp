@@ -25,7 +25,7 @@ inline constexpr std::uint32_t patch_phases = patch_layouts + 1;
 struct Patches {
   std::vector<std::uint32_t> order;  // indices into the list, patch by patch, in the list's order within each
   std::vector<std::uint32_t> start;  // of each patch in order; patches + 1
-  std::array<std::uint32_t, patch_phases + 1> first{};  // patch of each phase
+  std::vector<std::uint32_t> first;  // patch of each phase; phases + 1
   // Scratch.
   std::vector<std::array<std::uint16_t, patch_layouts>> home;  // patch of each disk in each layout
   std::vector<unsigned char> reached;                          // by each disk: the phase of its latest contact
@@ -33,6 +33,7 @@ struct Patches {
   std::vector<std::array<double, 4>> bounds;                   // of blocks of disks
 
   std::size_t count() const { return start.size() - 1; }
+  std::uint32_t phases() const { return static_cast<std::uint32_t>(first.size()) - 1; }
 };
 
 // contacts: how many of them there are. in_contact[i]: 0 for a disk that is in none. Returns whether there is more than
@@ -70,13 +71,21 @@ void build_patches(Patches& patches, const Disks& disks, const std::vector<std::
 
 // task(patch) for every patch, so that, if a task runs its patch's contacts in order, the bits are those of running the
 // whole list in order; backwards, with tasks that run theirs backwards, those of the whole list backwards.
-template <class Task>
-void run_patches(const Patches& patches, bool backwards, const Executor& executor, Task&& task) {
-  for (std::uint32_t n = 0; n < patch_phases; ++n) {
-    const std::uint32_t phase = backwards ? patch_phases - 1 - n : n;
+// before(phase, backwards) is called before each phase.
+template <class Task, class Before>
+void run_patches(const Patches& patches, bool backwards, const Executor& executor, Task&& task, Before&& before) {
+  const std::uint32_t phases = patches.phases();
+  for (std::uint32_t n = 0; n < phases; ++n) {
+    const std::uint32_t phase = backwards ? phases - 1 - n : n;
+    before(phase, backwards);
     const std::uint32_t first = patches.first[phase];
     executor.run(patches.first[phase + 1] - first, [&](std::size_t b) { task(first + b); });
   }
+}
+
+template <class Task>
+void run_patches(const Patches& patches, bool backwards, const Executor& executor, Task&& task) {
+  run_patches(patches, backwards, executor, task, [](std::uint32_t /*phase*/, bool /*backwards*/) {});
 }
 
 }  // namespace carom

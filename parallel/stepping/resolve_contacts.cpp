@@ -192,11 +192,15 @@ void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists&
 }
 
 void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists) {
+  lists.placed.clear();
+  if (executor.threads() == 1) return take_as_one_patch(lists.patches, lists.crowded.size());
+  build_patches(lists.patches, disks, lists.contacts, lists.crowded.size(), executor,
+                [&](std::size_t k) { return disks_of(lists.crowded[k]); });
+  place_in_patches(executor, lists);
+}
+
+void place_in_patches(const Executor& executor, ContactLists& lists) {
   const std::vector<ContactEvent>& crowded = lists.crowded;
-  if (executor.threads() == 1) return take_as_one_patch(lists.patches, crowded.size());
-  build_patches(lists.patches, disks, lists.contacts, crowded.size(), executor, [&](std::size_t k) {
-    return Pair{crowded[k].i1, is_wall(crowded[k].id2) ? crowded[k].i1 : crowded[k].i2};
-  });
   resize_amply(lists.placed, crowded.size());
   executor.for_ranges(crowded.size(), contact_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t at = begin; at < end; ++at) lists.placed[at] = crowded[lists.patches.order[at]];

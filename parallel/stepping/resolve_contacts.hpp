@@ -26,7 +26,7 @@ struct ContactLists {
   std::vector<std::uint16_t> contacts;  // of each disk in this step (contact_count.hpp); all 0 between steps
   std::vector<ContactEvent> crowded;
   std::vector<std::vector<ContactEvent>> crowded_blocks;
-  std::vector<ContactEvent> placed;  // the crowded in the order of the patches
+  std::vector<ContactEvent> placed;  // the crowded in the order of the patches; empty: they are in it
   std::vector<ImpactTally> tallies;  // of each block
   std::vector<double> largest;       // of each block
   std::vector<std::size_t> offsets;  // of each block's part of a list
@@ -92,13 +92,29 @@ void join_crowded(std::size_t blocks, ContactLists& lists);
 // contacts are visited two to five times, too few to pay for moving them.
 void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists);
 
-// task(contact, patch) for all of lists.crowded, in the order that place_crowded was given.
+// The same with patches that also say what waits for other ranks (Others: support_sweeps.hpp).
+template <class Others>
+void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists, Others& others);
+
+// lists.crowded in the order of the patches to lists.placed.
+void place_in_patches(const Executor& executor, ContactLists& lists);
+
+inline Pair disks_of(const ContactEvent& e) {
+  return {e.i1, is_wall(e.id2) ? e.i1 : e.i2};
+}
+
+// task(contact, patch) for all of lists.crowded, in the order that place_crowded was given. before: as of run_patches.
+template <class Task, class Before>
+void run_crowded(const Executor& executor, const ContactLists& lists, Task&& task, Before&& before) {
+  const std::vector<ContactEvent>& list = lists.placed.empty() ? lists.crowded : lists.placed;
+  const auto run_patch = [&](std::size_t q) {
+    for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) task(list[at], q);
+  };
+  run_patches(lists.patches, false, executor, run_patch, before);
+}
 template <class Task>
 void run_crowded(const Executor& executor, const ContactLists& lists, Task&& task) {
-  const std::vector<ContactEvent>& list = executor.threads() == 1 ? lists.crowded : lists.placed;
-  run_patches(lists.patches, false, executor, [&](std::size_t q) {
-    for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) task(list[at], q);
-  });
+  run_crowded(executor, lists, task, [](std::uint32_t /*phase*/, bool /*backwards*/) {});
 }
 
 // Are there more impacts than before? Takes the new number down.
@@ -126,6 +142,17 @@ void see_overlaps_left(const View& d, const Domain& box, std::size_t n, const Ex
     for (std::size_t k = begin; k < end; ++k) see_overlap_left(d, box, event(k), lists.seen[b]);
   });
   add_seen(lists);
+}
+
+template <class Others>
+void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists, Others& others) {
+  if constexpr (Others::alone) {
+    place_crowded(disks, executor, lists);
+  } else {
+    others.build(lists.patches, disks, lists.contacts, lists.crowded.size(), executor,
+                 [&](std::size_t k) { return disks_of(lists.crowded[k]); });
+    place_in_patches(executor, lists);
+  }
 }
 
 template <class Alone>

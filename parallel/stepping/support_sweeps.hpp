@@ -1,14 +1,18 @@
 // The supports of a step, solved patch by patch with the bits of core/reference/step_contacts.cpp's serial sweeps.
+// Others: what ranks of several have to ask each other, NoOtherSlabs below or OtherSlabs
+// (parallel/slabs/other_slabs.hpp).
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/disks/state.hpp"
 #include "core/physics/impact_tally.hpp"
 #include "core/physics/resting.hpp"
 #include "core/physics/support_solver.hpp"
+#include "parallel/stepping/disk_values.hpp"
 #include "parallel/stepping/resolve_contacts.hpp"
 #include "parallel/threads/executor.hpp"
 #include "parallel/threads/resize_amply.hpp"
@@ -19,17 +23,47 @@ inline bool is_crowded(const ContactLists& lists, const IdPair& p) {
   return lists.contacts[p.i1] > 1 || lists.contacts[p.i2] > 1;
 }
 
+// What resolving a pile asks of other ranks, on one machine. counts(patch): of contacts that two ranks resolve, one
+// counts them. before(values): what run_patches calls before each phase; values are those that the sweep changes.
+struct NoOtherSlabs {
+  static constexpr bool alone = true;
+  bool any(bool here) const { return here; }
+  bool counts(std::size_t /*patch*/) const { return true; }
+  void complete_counts(ContactLists& /*lists*/) const {}
+  void add_up(CycleFigures& /*figures*/, Watch /*watch*/) const {}
+  void add_up(SupportTotals& /*totals*/) const {}
+  template <class DisksOf>
+  void build(Patches& patches, const Disks& disks, const std::vector<std::uint16_t>& in_contact, std::size_t contacts,
+             const Executor& executor, DisksOf&& disks_of) const {
+    build_patches(patches, disks, in_contact, contacts, executor, disks_of);
+  }
+  template <class Values>
+  auto before(Values /*values*/) const {
+    return [](std::uint32_t /*phase*/, bool /*backwards*/) {};
+  }
+  template <class Values>
+  void refresh(Values /*values*/) const {}
+};
+
 // Room for so many supports.
 void resize_supports(SupportSet& set, std::size_t supports, std::size_t disks);
 
+// The patches' tallies, those that this rank counts.
+template <class Others>
+void add_tallies(const ContactLists& lists, const Others& others, ImpactTally& tally) {
+  for (std::size_t q = 0; q < lists.tallies.size(); ++q) {
+    if (others.counts(q)) tally.add(lists.tallies[q]);
+  }
+}
+
 // The step's pairs (settle.pairs.sorted) into the order of patches, and the supports among them.
-template <class View>
+template <class View, class Others>
 void make_supports(const View& d, const Disks& disks, const StepRules& rules, const Executor& executor,
-                   ContactLists& lists) {
+                   ContactLists& lists, Others&& others) {
   SettleLists& settle = lists.settle;
   const std::vector<IdPair>& pairs = settle.pairs.sorted;
   Patches& patches = lists.patches;
-  build_patches(patches, disks, lists.contacts, pairs.size(), executor, [&](std::size_t k) {
+  others.build(patches, disks, lists.contacts, pairs.size(), executor, [&](std::size_t k) {
     return Pair{pairs[k].i1, pairs[k].i2};
   });
   resize_amply(settle.placed, pairs.size());
@@ -69,18 +103,26 @@ void visit_in_contact(const ContactLists& lists, const Executor& executor, Visit
 }
 
 // The sweeps that solve_supports (core/physics/support_solver.hpp) asks for.
+template <class Others>
 struct PatchSweeps {
   const Executor& executor;
   ContactLists& lists;
+  Others& others;
 
-  // visit(support, patch) for all supports in order, or backwards.
-  template <class Visit>
-  void sweep(bool backwards, Visit&& visit) const {
-    run_patches(lists.patches, backwards, executor, [&](std::size_t q) {
+  // visit(support, patch) for all supports in order, or backwards; before: as of run_patches.
+  template <class Visit, class Before>
+  void sweep(bool backwards, Visit&& visit, Before&& before) const {
+    const auto run_patch = [&](std::size_t q) {
       const std::size_t first = lists.patches.start[q];
       const std::size_t count = lists.settle.bearing[q];
       for (std::size_t k = 0; k < count; ++k) visit(first + (backwards ? count - 1 - k : k), q);
-    });
+    };
+    run_patches(lists.patches, backwards, executor, run_patch, before);
+  }
+  // Where the visits need nothing that another visit has changed of the other disk.
+  template <class Visit>
+  void visit_all(Visit&& visit) const {
+    sweep(false, visit, [](std::uint32_t /*phase*/, bool /*backwards*/) {});
   }
 
   // Sums over the patches are exact, so their order does not matter.
@@ -94,11 +136,17 @@ struct PatchSweeps {
     SupportSet& set = lists.settle.supports;
     std::vector<CycleFigures>& patch = lists.settle.figures;
     if (watch != Watch::nothing) assign_amply(patch, lists.patches.count(), CycleFigures{});
-    sweep(false, [&](std::size_t k, std::size_t q) { relax_forward<watch>(set, k, patch[q]); });
-    sweep(true, [&](std::size_t k, std::size_t q) { relax_back<watch>(set, k, patch[q]); });
+    const auto before = others.before(Velocities{set.v.data()});
+    sweep(
+        false, [&](std::size_t k, std::size_t q) { relax_forward<watch>(set, k, patch[q]); }, before);
+    sweep(
+        true, [&](std::size_t k, std::size_t q) { relax_back<watch>(set, k, patch[q]); }, before);
     CycleFigures all;
     if (watch == Watch::nothing) return all;
-    for (const CycleFigures& f : patch) all.add(f);
+    for (std::size_t q = 0; q < patch.size(); ++q) {
+      if (others.counts(q)) all.add(patch[q]);
+    }
+    others.add_up(all, watch);
     return all;
   }
 
@@ -106,9 +154,12 @@ struct PatchSweeps {
     std::vector<SupportTotals>& patch = lists.settle.totals;
     const SupportSet& set = lists.settle.supports;
     assign_amply(patch, lists.patches.count(), SupportTotals{});
-    sweep(false, [&](std::size_t k, std::size_t q) { patch[q].add(set.impulse[k], set.contact[k].effective); });
+    visit_all([&](std::size_t k, std::size_t q) { patch[q].add(set.impulse[k], set.contact[k].effective); });
     SupportTotals all;
-    for (const SupportTotals& t : patch) all.add(t);
+    for (std::size_t q = 0; q < patch.size(); ++q) {
+      if (others.counts(q)) all.add(patch[q]);
+    }
+    others.add_up(all);
     return all;
   }
 
@@ -123,9 +174,9 @@ struct PatchSweeps {
 };
 
 // What the loads do to the disks, and their impulses back to the pairs (settle.borne, settle.holding).
-template <class View>
+template <class View, class Others>
 void take_up_loads(const View& d, const StepRules& rules, const Executor& executor, ContactLists& lists,
-                   ImpactTally& tally) {
+                   ImpactTally& tally, Others&& others) {
   SettleLists& settle = lists.settle;
   const Patches& patches = lists.patches;
   assign_amply(lists.tallies, patches.count(), {});
@@ -138,7 +189,7 @@ void take_up_loads(const View& d, const StepRules& rules, const Executor& execut
       settle.holding[settle.place[k]] = impulse > 0.0 ? 1 : 0;
     }
   });
-  for (const ImpactTally& t : lists.tallies) tally.add(t);
+  add_tallies(lists, others, tally);
 }
 
 // The loads of the step in order of ids, from settle.borne.
@@ -146,23 +197,22 @@ void keep_loads(State& state, const StepRules& rules, const Executor& executor, 
 
 // Solves the supports among the step's pairs; their loads go to state.loads, their impulses to the tally.
 // Precondition: settle.borne has what each pair bore in the step, or the round, before.
-template <class View>
+template <class View, class Others>
 void bear_loads(const View& d, State& state, const StepRules& rules, const Executor& executor, ContactLists& lists,
-                ImpactTally& tally) {
-  make_supports(d, state.disks, rules, executor, lists);
+                ImpactTally& tally, Others& others) {
+  make_supports(d, state.disks, rules, executor, lists, others);
   SupportSet& set = lists.settle.supports;
   visit_in_contact(lists, executor, [&](std::size_t i) { set.v[i] = {d.vx[i], d.vy[i]}; });
-  const PatchSweeps sweeps{executor, lists};
+  const PatchSweeps<Others> sweeps{executor, lists, others};
   if (rules.round == 0) {
-    sweeps.sweep(false,
-                 [&](std::size_t k, std::size_t) { apply_impulse(set.v.data(), set.contact[k], set.impulse[k]); });
+    sweeps.visit_all([&](std::size_t k, std::size_t) { apply_impulse(set.v.data(), set.contact[k], set.impulse[k]); });
   }
   solve_supports(rules, sweeps);
   visit_in_contact(lists, executor, [&](std::size_t i) {
     d.vx[i] = set.v[i].x;
     d.vy[i] = set.v[i].y;
   });
-  take_up_loads(d, rules, executor, lists, tally);
+  take_up_loads(d, rules, executor, lists, tally, others);
   keep_loads(state, rules, executor, lists);
 }
 

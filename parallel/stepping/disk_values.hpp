@@ -1,0 +1,50 @@
+// What the sweeps over a step's contacts change of a disk, by storage index: so much of it ranks send each other.
+#pragma once
+
+#include <cstddef>
+
+#include "core/base/types.hpp"
+#include "core/disks/disks.hpp"
+
+namespace carom {
+
+// In the sweeps over supports.
+struct Velocities {
+  using Value = Vec2;
+  Vec2* v;
+
+  Value get(std::size_t i) const { return v[i]; }
+  void set(std::size_t i, const Value& value) const { v[i] = value; }
+};
+
+// When disks are pushed apart.
+struct Places {
+  using Value = Vec2;
+  Disks& d;
+
+  Value get(std::size_t i) const { return {d.x[i], d.y[i]}; }
+  void set(std::size_t i, const Value& value) const {
+    d.x[i] = value.x;
+    d.y[i] = value.y;
+  }
+};
+
+// In impacts.
+struct Motions {
+  struct Value {
+    Vec2 place, velocity;
+    double spin;
+  };
+  Disks& d;
+
+  Value get(std::size_t i) const { return {{d.x[i], d.y[i]}, {d.vx[i], d.vy[i]}, d.spin.empty() ? 0.0 : d.spin[i]}; }
+  void set(std::size_t i, const Value& value) const {
+    d.x[i] = value.place.x;
+    d.y[i] = value.place.y;
+    d.vx[i] = value.velocity.x;
+    d.vy[i] = value.velocity.y;
+    if (!d.spin.empty()) d.spin[i] = value.spin;
+  }
+};
+
+}  // namespace carom
