@@ -6,10 +6,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/base/check.hpp"
 #include "parallel/ranks/message.hpp"
+#include "parallel/slabs/load_memory.hpp"
 #include "parallel/slabs/moving_disks.hpp"
 #include "parallel/slabs/slab_exact.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
@@ -202,6 +204,7 @@ class LeadingEngine final : public Engine {
       State all = part_.engine().state();
       truncate(all.disks, 0);
       gather_disks(ranks_, part_.engine().state(), &all);
+      all.loads = collect_loads(ranks_, part_.engine().state().loads);
       whole_ = std::make_unique<State>(std::move(all));
     });
     return *whole_;
@@ -302,6 +305,7 @@ void follow(Call call, Ranks& ranks, Part& part, const Traffic& before) {
     }
   } else if (call == Call::collect) {
     gather_disks(ranks, part.engine().state(), nullptr);
+    collect_loads(ranks, part.engine().state().loads);
   } else if (call == Call::look) {
     double t = 0.0;
     gather_disks(ranks, look_at(ranks, part.engine(), t), nullptr);
@@ -331,10 +335,12 @@ std::unique_ptr<Engine> RankLead::make_engine(const Scene& scene, State initial,
     agree_on(ranks_, Call::make);
     Disks all = std::move(initial.disks);
     initial.disks = no_disks_like(all);
+    const std::vector<ContactLoad> loads = std::exchange(initial.loads, {});
     shared_text(ranks_, start(initial));
     ranks_.share(message_of(slabs));
     initial.disks = deal_out(ranks_, slabs, all, std::move(initial.disks));
     all = Disks();
+    deal_out_loads(ranks_, loads, initial);
     return lead_engine(scene, make_part(scene, std::move(initial), slabs, threads, ranks_));
   } catch (...) {
     lose();
@@ -381,6 +387,7 @@ void follow_lead(Ranks& ranks, const Threads& threads,
       auto [scene, state] = read(shared_text(ranks, ""));
       const SlabStart start = slab_start_of(ranks.share({}));
       state.disks = deal_out(ranks, start, {}, std::move(state.disks));
+      deal_out_loads(ranks, {}, state);
       part.emplace(ranks, scene, make_part(scene, std::move(state), start, threads, ranks));
     } else if (call == Call::begin) {
       const Scene scene = read(shared_text(ranks, "")).first;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "parallel/ranks/message.hpp"
+#include "parallel/slabs/load_memory.hpp"
 
 namespace carom {
 
@@ -115,6 +116,7 @@ void collect_on_first(Ranks& ranks, DiskColumns columns, State& state) {
     }
   }
   if (ranks.rank() > 0) truncate(d, 0);
+  state.loads = collect_loads(ranks, state.loads);
 }
 
 }  // namespace carom

@@ -19,7 +19,7 @@ void redistribute(Ranks& ranks, const SlabCut& cut, DiskColumns columns, State& 
 void take_newcomers(const SlabCut& cut, int rank, const Disks& newcomers, bool are_first, DiskColumns& columns,
                     Disks& own);
 
-// All go to rank 0; the others have none then.
+// All go to rank 0, with what they bear; the others have none then.
 void collect_on_first(Ranks& ranks, DiskColumns columns, State& state);
 
 }  // namespace carom

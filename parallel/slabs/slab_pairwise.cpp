@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/step/pairwise_method.hpp"
+#include "parallel/slabs/load_memory.hpp"
 #include "parallel/slabs/lone_rank.hpp"
 #include "parallel/slabs/slab_stepping.hpp"
 
@@ -12,6 +13,7 @@ namespace carom {
 std::unique_ptr<Engine> make_slab_pairwise(const Scene& scene, State initial, const Threads& threads, Ranks& ranks) {
   const SlabStart start = slab_start(scene, initial.disks, ranks.count());
   keep_own_disks(start.cut, ranks.rank(), initial.disks);
+  keep_own_loads(initial);
   return make_slab_part(scene, std::move(initial), start, threads, ranks);
 }
 

@@ -6,6 +6,7 @@
 #include "parallel/cells/compact.hpp"
 #include "parallel/cells/meets_nearby.hpp"
 #include "parallel/ranks/message.hpp"
+#include "parallel/slabs/load_memory.hpp"
 #include "parallel/slabs/redistribute.hpp"
 #include "parallel/slabs/slab_stepping.hpp"
 #include "parallel/stepping/mark_gone.hpp"
@@ -19,6 +20,24 @@ struct Migrant {
   Disk disk;
   int to;
   std::uint32_t thermal_hits;
+};
+
+// Those that leave by one border, with the loads that they bear.
+struct Migrants {
+  std::vector<Migrant> list;
+  std::vector<DiskId> ids;
+
+  void add(const Migrant& migrant) {
+    list.push_back(migrant);
+    ids.push_back(migrant.disk.id);
+  }
+  Bytes message(const std::vector<ContactLoad>& loads) {
+    std::sort(ids.begin(), ids.end());
+    Bytes bytes;
+    put_all(bytes, list);
+    put_all(bytes, loads_of(loads, ids));
+    return bytes;
+  }
 };
 
 }  // namespace
@@ -101,22 +120,22 @@ void SlabStepping::keep_contacts_of_those_that_stay() {
 // Each disk to the rank whose slab it is in: a neighbour, but for what another disk has sent far.
 void SlabStepping::migrate() {
   Disks& d = state_.disks;
-  std::vector<Migrant> down;
-  std::vector<Migrant> up;
+  Migrants down;
+  Migrants up;
   bool far = false;
   gone_.assign(d.size(), 0);
   for (std::size_t i = 0; i < d.size(); ++i) {
     const int to = cut_.rank_at(d.y[i]);
     if (to == ranks_.rank()) continue;
-    (to == ranks_.above() ? up : down).push_back({disk_at(d, i), to, thermal_hits_of(state_, d.id[i])});
+    (to == ranks_.above() ? up : down).add({disk_at(d, i), to, thermal_hits_of(state_, d.id[i])});
     far = far || (to != ranks_.above() && to != ranks_.below());
     gone_[i] = 1;
   }
-  if (!down.empty() || !up.empty()) remove_in_parallel(d, gone_, executor_, cells_.column, cells_.pass);
-  Bytes to_below;
-  Bytes to_above;
-  put_all(to_below, down);
-  put_all(to_above, up);
+  if (!down.list.empty() || !up.list.empty()) {
+    remove_in_parallel(d, gone_, executor_, cells_.column, cells_.pass);
+  }
+  const Bytes to_below = down.message(state_.loads);
+  const Bytes to_above = up.message(state_.loads);
   if (ranks_.any(far)) {
     for (const Bytes& message : ranks_.gather(to_below)) take_in(message);
     for (const Bytes& message : ranks_.gather(to_above)) take_in(message);
@@ -128,11 +147,16 @@ void SlabStepping::migrate() {
 }
 
 void SlabStepping::take_in(const Bytes& migrants) {
-  for (const auto& [disk, to, thermal_hits] : MessageReader(migrants).get_all<Migrant>()) {
+  MessageReader reader(migrants);
+  std::vector<DiskId> ids;
+  for (const auto& [disk, to, thermal_hits] : reader.get_all<Migrant>()) {
     if (to != ranks_.rank()) continue;
     push_back(state_.disks, disk, columns_);
     take_thermal_hits(state_, disk.id, thermal_hits);
+    ids.push_back(disk.id);
   }
+  std::sort(ids.begin(), ids.end());
+  merge_loads(loads_of(reader.get_all<ContactLoad>(), ids), state_.loads);
 }
 
 }  // namespace carom

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "core/step/source.hpp"
-#include "core/step/step_start.hpp"
 #include "parallel/cells/cell_grid.hpp"
 
 namespace carom {
@@ -15,8 +14,7 @@ namespace {
 
 // What of the scene slabs do not know; empty: they know all of it.
 std::string unknown_to_slabs(const Scene& scene) {
-  if (scene.run.method == Method::pairwise) return settles(scene) ? "gravity with restitution below 1" : "";
-  return scene.box.shear.acts() ? "a shear flow" : "";
+  return scene.run.method == Method::exact && scene.box.shear.acts() ? "a shear flow" : "";
 }
 
 double largest_radius_ever(const Scene& scene, double largest) {
@@ -28,8 +26,7 @@ double largest_radius_ever(const Scene& scene, double largest) {
 std::string why_alone(const Scene& scene, double largest, int ranks) {
   const bool is_exact = scene.run.method == Method::exact;
   const std::string unknown = unknown_to_slabs(scene);
-  if (!unknown.empty())
-    return fmt::format("{} on slabs does not know {} yet", is_exact ? "exact" : "pairwise", unknown);
+  if (!unknown.empty()) return fmt::format("exact on slabs does not know {} yet", unknown);
   const double least = least_thickness * largest;
   // Those of exact are asked for their thickness in each window.
   if (is_exact || ranks == 1 || least * ranks <= scene.box.height) return "";

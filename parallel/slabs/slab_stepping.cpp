@@ -56,6 +56,7 @@ SlabStepping::SlabStepping(const Scene& scene, State part, const SlabStart& star
       smallest_radius_(start.smallest_radius),
       largest_radius_(start.largest_radius),
       border_contacts_(ranks),
+      border_rounds_(ranks),
       disks_(start.disks) {
   slab_ = slab_of(cut_, scene_.box, ranks.rank());
   if (disks_ > 0) make_cells(start.counts);
@@ -187,13 +188,18 @@ double SlabStepping::move_sheared(double t) {
 
 void SlabStepping::search(const StepRules& rules) {
   closed_up_ = false;
+  if (!state_.disks.empty() && !coarse_.current) {
+    note_coarse_positions(state_.disks, scene_.box, grid_, cells_, executor_, coarse_);
+  }
   find_near_borders();
   pairs_.used = 0;
   strays_ = 0;
   pairs_.furthest = 0.0;
+  if (rules.settles) carom::keep_places(state_.disks, executor_, displaced_);
   if (!state_.disks.empty()) {
     const PhaseTimer timer(times_, "search");
     strays_ = find_contacts(state_.disks, scene_.box, grid_, cells_, coarse_, executor_, pairs_);
+    coarse_.current = false;  // what was found will be moved
   }
   if (has_walls(rules.box)) {
     const PhaseTimer timer(times_, "walls");
@@ -250,7 +256,7 @@ void SlabStepping::see_neighbours() {
 StepFigures SlabStepping::resolve(const StepRules& rules) {
   const PhaseTimer timer(times_, "resolve");
   ImpactTally tally;
-  const double speed2 = resolve_here(rules, tally);
+  const double speed2 = rules.settles ? settle_here(rules, tally) : resolve_here(rules, tally);
   drop_ghosts();
   agree(tally, speed2);
   return lists_.figures;

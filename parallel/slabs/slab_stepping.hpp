@@ -15,11 +15,13 @@
 #include "parallel/cells/counting_sort.hpp"
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/border_contacts.hpp"
+#include "parallel/slabs/border_rounds.hpp"
 #include "parallel/slabs/border_search.hpp"
 #include "parallel/slabs/ghost_disks.hpp"
 #include "parallel/slabs/slab_cut.hpp"
 #include "parallel/slabs/slab_start.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
+#include "parallel/stepping/displaced_disks.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 #include "parallel/stepping/resolve_contacts.hpp"
 #include "parallel/threads/executor.hpp"
@@ -52,8 +54,8 @@ class SlabStepping : public Engine, public InSlabs {
   void drift(double t);
   void search(const StepRules& rules);
   StepFigures resolve(const StepRules& rules);
-  void keep_places() {}
-  bool presses_others() { return false; }
+  void keep_places() {}  // by search(), which may sort the disks anew
+  bool presses_others();
   void remove_at_sinks();
 
   Scene scene_;
@@ -74,6 +76,9 @@ class SlabStepping : public Engine, public InSlabs {
   void see_neighbours();
   double resolve_here(const StepRules& rules, ImpactTally& tally);
   double resolve_alone_at_border(const StepRules& rules, ImpactTally& tally);
+  double settle_here(const StepRules& rules, ImpactTally& tally);
+  bool presses_disks_of_others(double excursion, double slack);
+  bool is_pressed_by(const std::vector<Disk>& disks, double slack);
   void drop_ghosts();
   double smallest_of_all() const;
   void remove_gone();
@@ -95,6 +100,8 @@ class SlabStepping : public Engine, public InSlabs {
   ContactLists lists_;
   GhostDisks ghosts_;
   BorderContacts border_contacts_;
+  BorderRounds border_rounds_;
+  DisplacedDisks displaced_;
   std::vector<std::pair<DiskId, DiskId>> crossing_ids_;  // of the last search: own disk, ghost
   std::vector<DiskContact> contacts_kept_;               // of that search, where disks have left since
   bool closed_up_ = false;                               // have they?

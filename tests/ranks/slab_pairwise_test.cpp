@@ -175,16 +175,6 @@ void expect_one_rank(const Scene& scene, const std::string& why) {
               [&](const test::SlabTrace& trace) { EXPECT_GE(trace.most_disks, start.disks.size()); });
 }
 
-TEST(SlabPairwiseAlone, RunsPiles) {
-  Features f;
-  f.gravity = true;
-  f.restitution = 0.7;
-  for (const char* radii : {"equal", "mixed"}) {
-    f.radii = radii;
-    expect_one_rank(test::feature_scene(f, 40), "pairwise on slabs does not know gravity with restitution below 1 yet");
-  }
-}
-
 TEST(SlabPairwiseAlone, RunsSlabsThinnerThanTwoDiametersOfTheLargestDisk) {
   Features f;
   f.radii = "wide";  // the largest radius is 4, the box 18 high

@@ -1,0 +1,89 @@
+// Piles on slabs: the contacts of a step in rounds that ranks take together (border_rounds.hpp), and whether resolving
+// them has pressed disks of different slabs together.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "parallel/ranks/message.hpp"
+#include "parallel/slabs/other_slabs.hpp"
+#include "parallel/slabs/slab_stepping.hpp"
+#include "parallel/stepping/settle_phases.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks that a rank sends to all at a time.
+constexpr std::size_t disks_a_piece = std::size_t{1} << 14;
+
+}  // namespace
+
+// Returns the largest squared speed of disks that had contacts.
+double SlabStepping::settle_here(const StepRules& rules, ImpactTally& tally) {
+  lists_.figures = {};
+  if (ranks_.count() == 1) return settle_contacts(state_, rules, pairs_, walls_, executor_, lists_, tally);
+  border_rounds_.begin(pairs_.buffers[pairs_.used - 1], state_.disks, ghosts_);
+  OtherSlabs others(ranks_, border_rounds_);
+  return settle_with(state_, rules, pairs_, walls_, ghosts_.own(), executor_, lists_, tally, others);
+}
+
+// Disks of two slabs are asked about on both ranks, each knowing which of its own were displaced.
+bool SlabStepping::presses_others() {
+  if (disks_ == 0) return false;
+  const PhaseTimer timer(times_, "resolve");
+  Disks& d = state_.disks;
+  const double far = find_displaced(d, scene_.box, executor_, displaced_);
+  const double slack = pairs_.furthest + far;
+  const bool pressed = any_pressed(d, scene_.box, grid_, cells_, slack, executor_, displaced_);
+  std::array<double, 3> most{far, displaced_.all.empty() ? 0.0 : 1.0, pressed ? 1.0 : 0.0};
+  ranks_.maximum(most);
+  if (most[1] == 0.0 || most[2] > 0.0 || ranks_.count() == 1) return most[2] > 0.0;
+  return ranks_.any(presses_disks_of_others(excursion_ + most[0], slack));
+}
+
+// Is a displaced disk of another rank pressed into one of this rank? excursion: how far any disk may have left its
+// slab; slack: how far one of this rank may have left its cell; length.
+bool SlabStepping::presses_disks_of_others(double excursion, double slack) {
+  if (excursion <= room_beyond(cut_, largest_radius_)) {
+    std::vector<std::uint32_t>& near = displaced_.all;
+    find_seen_beyond(slab_, scene_.box, state_.disks, near, largest_radius_, excursion, seen_);
+    Bytes to_below;
+    Bytes to_above;
+    put_all(to_below, seen_.below);
+    put_all(to_above, seen_.above);
+    const auto [below, above] = ranks_.exchange(to_below, to_above);
+    return is_pressed_by(MessageReader(below).get_all<Disk>(), slack) ||
+           is_pressed_by(MessageReader(above).get_all<Disk>(), slack);
+  }
+  // So far that they may touch disks beyond the next slab: all ranks ask about all of them.
+  auto most = static_cast<double>(displaced_.all.size());
+  ranks_.maximum({&most, 1});
+  bool pressed = false;
+  for (std::size_t begin = 0; begin < static_cast<std::size_t>(most); begin += disks_a_piece) {
+    std::vector<Disk> piece;
+    const std::size_t end = std::min(displaced_.all.size(), begin + disks_a_piece);
+    for (std::size_t k = begin; k < end; ++k) piece.push_back(disk_at(state_.disks, displaced_.all[k]));
+    Bytes message;
+    put_all(message, piece);
+    const std::vector<Bytes> pieces = ranks_.gather(message);
+    for (int r = 0; r < ranks_.count(); ++r) {
+      if (r == ranks_.rank()) continue;
+      pressed = is_pressed_by(MessageReader(pieces[static_cast<std::size_t>(r)]).get_all<Disk>(), slack) || pressed;
+    }
+  }
+  return pressed;
+}
+
+// Is one of these disks, of another rank, pressed into one of this rank? Behind those while they are asked about.
+bool SlabStepping::is_pressed_by(const std::vector<Disk>& disks, double slack) {
+  const std::size_t own = state_.disks.size();
+  for (const Disk& disk : disks) push_back(state_.disks, disk, columns_);
+  bool pressed = false;
+  for (std::size_t i = own; i < state_.disks.size() && !pressed; ++i) {
+    pressed = is_pressed(state_.disks, scene_.box, grid_, cells_, slack, i);
+  }
+  truncate(state_.disks, own);
+  return pressed;
+}
+
+}  // namespace carom
