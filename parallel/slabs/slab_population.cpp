@@ -7,6 +7,7 @@
 #include "parallel/cells/meets_nearby.hpp"
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/load_memory.hpp"
+#include "parallel/slabs/rank_sums.hpp"
 #include "parallel/slabs/redistribute.hpp"
 #include "parallel/slabs/slab_stepping.hpp"
 #include "parallel/stepping/mark_gone.hpp"
@@ -15,10 +16,13 @@ namespace carom {
 
 namespace {
 
+// Slabs are cut anew where one has so many times its share of the disks, and so many more: rows of cells are whole.
+constexpr double uneven_share = 1.1;
+constexpr double uneven_disks = 64.0;
+
 // A disk on its way to another rank.
 struct Migrant {
   Disk disk;
-  int to;
   std::uint32_t thermal_hits;
 };
 
@@ -117,46 +121,62 @@ void SlabStepping::keep_contacts_of_those_that_stay() {
   closed_up_ = true;
 }
 
-// Each disk to the rank whose slab it is in: a neighbour, but for what another disk has sent far.
+// Slabs with as many disks each as there can be, where one has more than its share: disks fall, or come from sources.
+void SlabStepping::cut_anew_if_uneven() {
+  if (ranks_.count() == 1) return;
+  auto most = static_cast<double>(state_.disks.size());
+  ranks_.maximum({&most, 1});
+  const double share = static_cast<double>(disks_) / ranks_.count();
+  if (most <= uneven_share * share + uneven_disks) return;
+  cut_ = cut_by_rows_of_all(ranks_, scene_.box, state_.disks);
+  keep_thick(cut_, least_thickness * largest_radius_);
+  slab_ = slab_of(cut_, scene_.box, ranks_.rank());
+  std::vector<std::size_t> counts = class_counts(state_.disks, largest_radius_);
+  sum_counts_over_ranks(ranks_, counts);
+  make_cells(counts);
+}
+
+// Each disk to the rank whose slab it is in: a neighbour, but for what another disk has sent far, and where slabs are
+// cut anew. Those go on through the neighbours.
 void SlabStepping::migrate() {
+  while (ranks_.any(migrate_to_neighbours())) continue;
+}
+
+// Is one of the rank's disks not yet where it belongs?
+bool SlabStepping::migrate_to_neighbours() {
   Disks& d = state_.disks;
   Migrants down;
   Migrants up;
-  bool far = false;
   gone_.assign(d.size(), 0);
   for (std::size_t i = 0; i < d.size(); ++i) {
     const int to = cut_.rank_at(d.y[i]);
     if (to == ranks_.rank()) continue;
-    (to == ranks_.above() ? up : down).add({disk_at(d, i), to, thermal_hits_of(state_, d.id[i])});
-    far = far || (to != ranks_.above() && to != ranks_.below());
+    const bool goes_up = to == ranks_.above() || (to != ranks_.below() && to > ranks_.rank());
+    (goes_up ? up : down).add({disk_at(d, i), thermal_hits_of(state_, d.id[i])});
     gone_[i] = 1;
   }
   if (!down.list.empty() || !up.list.empty()) {
     remove_in_parallel(d, gone_, executor_, cells_.column, cells_.pass);
   }
-  const Bytes to_below = down.message(state_.loads);
-  const Bytes to_above = up.message(state_.loads);
-  if (ranks_.any(far)) {
-    for (const Bytes& message : ranks_.gather(to_below)) take_in(message);
-    for (const Bytes& message : ranks_.gather(to_above)) take_in(message);
-  } else {
-    const auto [below, above] = ranks_.exchange(to_below, to_above);
-    take_in(below);
-    take_in(above);
-  }
+  const auto [below, above] = ranks_.exchange(down.message(state_.loads), up.message(state_.loads));
+  const bool all_at_home = take_in(below);
+  return !take_in(above) || !all_at_home;
 }
 
-void SlabStepping::take_in(const Bytes& migrants) {
+// Do all of them belong here?
+bool SlabStepping::take_in(const Bytes& migrants) {
   MessageReader reader(migrants);
   std::vector<DiskId> ids;
-  for (const auto& [disk, to, thermal_hits] : reader.get_all<Migrant>()) {
-    if (to != ranks_.rank()) continue;
+  bool all_at_home = true;
+  for (const auto& [disk, thermal_hits] : reader.get_all<Migrant>()) {
     push_back(state_.disks, disk, columns_);
     take_thermal_hits(state_, disk.id, thermal_hits);
     ids.push_back(disk.id);
+    all_at_home = all_at_home && cut_.rank_at(disk.y) == ranks_.rank();
   }
   std::sort(ids.begin(), ids.end());
   merge_loads(loads_of(reader.get_all<ContactLoad>(), ids), state_.loads);
+  return all_at_home;
 }
 
 }  // namespace carom

@@ -160,6 +160,7 @@ void SlabStepping::sort_now() {
     sum_counts_over_ranks(ranks_, counts);
     make_cells(counts);
   }
+  cut_anew_if_uneven();
   migrate();
   sort_into_cells(state_.disks, grid_, executor_, cells_);
   if (!state_.disks.empty()) begin_coarse_positions(state_.disks, grid_, cells_, executor_, coarse_);

@@ -70,8 +70,10 @@ class SlabStepping : public Engine, public InSlabs {
   void take_newcomers(const Disks& newcomers);
   double move_sheared(double t);
   void sort_now();
+  void cut_anew_if_uneven();
   void migrate();
-  void take_in(const Bytes& migrants);
+  bool migrate_to_neighbours();
+  bool take_in(const Bytes& migrants);
   void find_near_borders();
   void see_neighbours();
   double resolve_here(const StepRules& rules, ImpactTally& tally);
