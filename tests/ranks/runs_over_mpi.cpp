@@ -129,6 +129,25 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithExact) {
   EXPECT_EQ(summary("one"), summary("parts"));
 }
 
+// A pile that lands; what contacts bear goes on from the checkpoint, too.
+TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithAPile) {
+  const std::string run =
+      "run scene.toml --quiet --threads 1 --set physics.gravity=40 --set physics.restitution=0.5 --set box.width=12 "
+      "--set box.height=10 --set disks.0.count=60 --set 'output.checkpoint=\"1000 s\"' -o ";
+  ASSERT_EQ(carom(run + "one --t-end 0.5").status, 0);
+  const Outcome o = carom(run + "r2 --ranks 2 --t-end 0.5");
+  ASSERT_EQ(o.status, 0) << o.err;
+  for (const char* file : {"trajectory.xyz", "series.csv"}) {
+    EXPECT_TRUE(text_of(at("one") / file) == text_of(at("r2") / file)) << file;
+  }
+  EXPECT_EQ(summary("one"), summary("r2"));
+  EXPECT_EQ(o.err.find("one rank runs"), std::string::npos) << o.err;
+  ASSERT_EQ(carom("resume r2 --quiet --t-end 0.55 --ranks 3").status, 0);
+  ASSERT_EQ(carom("resume r2 --quiet --t-end 0.6").status, 0);
+  ASSERT_EQ(carom("resume one --quiet --t-end 0.6").status, 0);
+  EXPECT_EQ(summary("one")["state_hash"], summary("r2")["state_hash"]);
+}
+
 // No rank has all disks; what is wrong with a lattice is said as one process says it.
 TEST_F(RanksRun, ALatticeIsMadeByAllRanks) {
   const std::string lattice =
