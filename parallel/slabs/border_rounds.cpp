@@ -11,9 +11,9 @@ namespace {
 // Directions in which a list is run.
 constexpr unsigned char run_forward = 1, run_back = 2;
 
-// The phases of what lies inside a slab in a round: the layouts of patches and what fits none; or that alone, where
-// there are too few contacts for patches.
-constexpr std::uint32_t least_patch_contacts = 4096;
+// What lies inside a slab goes in layouts of patches in those rounds that have twice as many contacts; in others there
+// is too little for threads to share.
+constexpr std::size_t least_patch_contacts = 4096;
 
 std::vector<std::uint32_t> in_id_order(std::vector<std::uint32_t> indices, const Disks& disks) {
   std::sort(indices.begin(), indices.end(),
