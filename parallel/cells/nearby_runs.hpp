@@ -17,8 +17,8 @@ struct Span {
 // What rounding may make of a distance, generously; share of the box's side.
 inline constexpr double span_rounding = 1e-12;
 
-// The cells that hold anything whose coordinate was within reach of c when it was sorted in. Also where it was as far as
-// that exactly: disks that touch, each as far from its cell as any, move together in a lattice.
+// The cells that hold anything whose coordinate was within reach of c when it was sorted in. Also where it was as far
+// as that exactly: disks that touch, each as far from its cell as any, move together in a lattice.
 inline Span span_around(double c, double reach, double length, double per_length, std::uint32_t cells, bool periodic) {
   reach += span_rounding * length;
   // When the two ends come within a cell of each other round the corner, take the whole side once.
