@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/disks/disks.hpp"
 #include "parallel/exact/list_kernel.hpp"
 
 namespace carom {
@@ -15,41 +14,21 @@ class CellSlots {
  public:
   static constexpr std::uint32_t none = empty_slot;
 
-  // Empties all cells, for this many disks. unequal_radii: slots hold radii too.
-  void begin(std::uint32_t cells, std::size_t disks, bool unequal_radii);
+  // Empties all cells. They come in parts of so many that follow each other; a part is for one thread at a time.
+  // unequal_radii: slots hold radii too.
+  void begin(std::uint32_t cells, std::uint32_t cells_a_part, bool unequal_radii);
 
   // radius: over the unit of lengths that the kernel works in, a little more; ignored where all are equal.
   void insert(std::uint32_t cell, std::uint32_t disk, FixedPointPosition position, float radius);
-  std::uint32_t cell_of(std::uint32_t disk) const { return cell_[disk]; }
-  // Takes the disk out of its cell. False, without a change, if it is chained behind a disk that holds(disk) denies:
-  // another thread may read that one's link.
-  template <class Holds>
-  bool remove(std::uint32_t disk, Holds&& holds) {
-    const std::uint32_t first = cell_[disk] * slots_a_cell;
-    for (std::uint32_t s = first; s < first + slots_a_cell; ++s) {
-      if (disk_[s] != disk) continue;
-      disk_[s] = none;
-      return true;
-    }
-    return unchain(disk, holds);
-  }
-
-  // Between windows: one more disk, the last, in no cell yet; and one less, which is in none.
-  void append() {
-    cell_.push_back(none);
-    next_.push_back(none);
-  }
-  void drop_last() {
-    cell_.pop_back();
-    next_.pop_back();
-  }
+  // Takes the disk out of the cell that it is in.
+  void remove(std::uint32_t cell, std::uint32_t disk);
 
   SlotColumns columns() const { return {position_.data(), disk_.data(), radius_.empty() ? nullptr : radius_.data()}; }
   // Calls visit(disk) for the disks chained to cells [first, last). Reads nothing of cells from `end` on.
   template <class Visit>
   void visit_chained(std::uint32_t first, std::uint32_t last, std::uint32_t end, Visit&& visit) const {
     constexpr std::uint32_t at_once = 4;
-    // A link is a disk's number, below 2^31, or all ones.
+    // The number of a link is below 2^31, or all ones.
     while (first < last) {
       const std::uint32_t* const c = &chain_[first];
       if (first + at_once <= end && first + at_once <= chain_.size() && (c[0] & c[1] & c[2] & c[3]) == none)
@@ -57,32 +36,34 @@ class CellSlots {
         first += at_once;
         continue;
       }
-      for (std::uint32_t m = *c; m != none; m = next_[m]) visit(m);
+      for (std::uint32_t m = *c; m != none;) {
+        const Link link = links_of(first).link[m];
+        visit(link.disk);
+        m = link.next;
+      }
       ++first;
     }
   }
 
  private:
-  template <class Holds>
-  bool unchain(std::uint32_t disk, Holds&& holds) {
-    std::uint32_t* link = &chain_[cell_[disk]];
-    bool may_write = true;
-    while (*link != disk) {
-      may_write = holds(*link);
-      link = &next_[*link];
-    }
-    if (may_write) *link = next_[disk];
-    return may_write;
-  }
+  struct Link {
+    std::uint32_t disk;
+    std::uint32_t next;  // number of a link of the same part; none
+  };
+  struct PartLinks {
+    std::vector<Link> link;
+    std::uint32_t free = none;  // the first of those that are not in use
+  };
+  const PartLinks& links_of(std::uint32_t cell) const { return links_[cell / cells_a_part_]; }
+  PartLinks& links_of(std::uint32_t cell) { return links_[cell / cells_a_part_]; }
 
   // By slot.
   std::vector<FixedPointPosition> position_;
   std::vector<std::uint32_t> disk_;   // none: empty
   std::vector<float> radius_;         // where they differ
-  std::vector<std::uint32_t> chain_;  // by cell: the first disk chained to it
-  // By disk.
-  std::vector<std::uint32_t> cell_;
-  std::vector<std::uint32_t> next_;  // where it is chained
+  std::vector<std::uint32_t> chain_;  // by cell: number of the link of the first disk chained to it
+  std::vector<PartLinks> links_;      // by part
+  std::uint32_t cells_a_part_ = 1;
 };
 
 }  // namespace carom

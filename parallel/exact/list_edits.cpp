@@ -11,7 +11,7 @@ void NeighbourLists::append(const Disks& d) {
   const FixedPointPosition position = fixed_point(d.x[i], d.y[i]);
   const ListRegion everything;
   listed_at_.push_back(position);
-  slots_.append();
+  ++first_of_tile_.back();
   rows_.append(0, find_sides(d, i));
   FoundNeighbours found;
   find_neighbours(d, i, position, everything, found);
@@ -22,16 +22,15 @@ void NeighbourLists::append(const Disks& d) {
 void NeighbourLists::remove(std::uint32_t i, const Disks& d) {
   const auto last = static_cast<std::uint32_t>(d.size() - 1);
   const ListRegion everything;
-  const auto always = [](std::uint32_t) { return true; };
   const auto take_out = [&](std::uint32_t disk) {
     rows_.replace(disk, {}, everything);
-    slots_.remove(disk, always);
+    slots_.remove(cell_of(d, disk, listed_at_[disk]), disk);
   };
   take_out(i);
   if (i != last) {
     std::vector<std::uint32_t> near;
     for_each_neighbour(last, [&](std::uint32_t j) { near.push_back(j); });
-    const std::uint32_t cell = slots_.cell_of(last);
+    const std::uint32_t cell = cell_of(d, last, listed_at_[last]);
     take_out(last);
     listed_at_[i] = listed_at_[last];
     slots_.insert(cell, i, listed_at_[i], radius_in_units(d.radius_of(last)));
@@ -39,7 +38,7 @@ void NeighbourLists::remove(std::uint32_t i, const Disks& d) {
     rows_.replace(i, near, everything);
   }
   rows_.drop_last();
-  slots_.drop_last();
+  --first_of_tile_.back();
   listed_at_.pop_back();
 }
 

@@ -121,6 +121,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
     if (n > disks_of_much_memory) rows_.release();
     sort(d, layout, executor);
   }
+  find_tiles(n);
   find_inner_part();
   if (listed_at_.capacity() < n) resize_in_huge_pages(listed_at_, n);
   listed_at_.resize(n);
@@ -152,7 +153,8 @@ ListRegion NeighbourLists::region_of_tiles(std::uint32_t first, std::uint32_t la
 }
 
 void NeighbourLists::list_all(const Disks& d, const Executor& executor) {
-  if (mode_ != EngineMode::all_pairs) slots_.begin(grid_.keys, d.size(), !d.radius.empty());
+  if (mode_ != EngineMode::all_pairs)
+    slots_.begin(grid_.keys, grid_.tile_keys == 0 ? grid_.keys : grid_.tile_keys, !d.radius.empty());
   if (mode_ == EngineMode::regions) {
     executor.run(grid_.tiles, [&](std::size_t t) {
       const auto tile = static_cast<std::uint32_t>(t);
@@ -185,16 +187,6 @@ void NeighbourLists::list_block(const Disks& d, std::size_t block, std::size_t b
       find_neighbours(d, i, listed_at_[i], everything, found);
     }
     rows_.set(i, found.disks());
-  }
-}
-
-// Puts the disks sorted into cells [first_key, last_key) into the cells' slots.
-void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::uint32_t last_key) {
-  for (std::uint32_t key = first_key; key < last_key; ++key) {
-    for (std::uint32_t i = cells_.start[key]; i < cells_.start[key + 1]; ++i) {
-      const std::uint32_t cell = flow_.acts ? cell_of(d, i, listed_at_[i]) : key;
-      slots_.insert(cell, i, listed_at_[i], radius_in_units(d.radius_of(i)));
-    }
   }
 }
 
@@ -308,7 +300,9 @@ void NeighbourLists::sort_along(std::vector<double>& column, const Executor& exe
 }
 
 void NeighbourLists::release_scratch() {
-  if (rows_.size() > disks_of_much_memory) release_sort_scratch(cells_);
+  if (rows_.size() <= disks_of_much_memory) return;
+  release_sort_scratch(cells_);
+  std::vector<std::uint32_t>().swap(cells_.start);
 }
 
 double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& path, double from, double until,
@@ -355,24 +349,6 @@ double NeighbourLists::safe_speed2(double length, double g) const {
   const double listed = flow_.stretch * (2.0 * flow_.stretch * largest_radius_ + 4.0 * skin_);
   const double flight = 0.5 * (0.49 * period - listed) - g * length * length;
   return flight > 0.0 ? (flight / length) * (flight / length) : -1.0;
-}
-
-std::uint32_t NeighbourLists::cell_of(const Disks& d, std::uint32_t i, FixedPointPosition fixed) const {
-  const std::size_t level =
-      d.radius.empty() || grid_.levels.size() == 1 ? 0 : class_of_radius(d.radius[i], grid_.levels[0].largest_radius);
-  const Vec2 position = position_of(fixed);
-  return key_of(grid_.levels[level], position.x, position.y);
-}
-
-// Moves the disk to the cell of this position; false, without a change, if its old cell, or the link to it there, is
-// outside the region.
-bool NeighbourLists::move_to_cell_of(const Disks& d, std::uint32_t i, FixedPointPosition position,
-                                     const ListRegion& region) {
-  const std::uint32_t old_key = slots_.cell_of(i);
-  if (old_key < region.first_key || old_key >= region.last_key) return false;
-  if (!slots_.remove(i, [&](std::uint32_t j) { return region.holds(j); })) return false;
-  slots_.insert(cell_of(d, i, position), i, position, radius_in_units(d.radius_of(i)));
-  return true;
 }
 
 bool NeighbourLists::relist(std::uint32_t i, Vec2 at, const Disks& d, const ListRegion& region,

@@ -143,10 +143,7 @@ class NeighbourLists {
   // reach from one of the box's longer sides to the other; one where there are no regions.
   std::uint32_t tiles() const { return grid_.tiles; }
   std::uint32_t tiles_a_layer() const { return grid_.tiles_a_layer; }
-  std::uint32_t first_disk_of(std::uint32_t tile) const {
-    return grid_.tile_keys == 0 ? (tile == 0 ? 0 : static_cast<std::uint32_t>(rows_.size()))
-                                : cells_.start[std::size_t{tile} * grid_.tile_keys];
-  }
+  std::uint32_t first_disk_of(std::uint32_t tile) const { return first_of_tile_[tile]; }
   ListRegion region_of_tiles(std::uint32_t first, std::uint32_t last) const;
   // Is the disk listed so deep within the region that it can be listed again there?
   bool is_in_core(std::uint32_t i, const ListRegion& region) const {
@@ -269,7 +266,7 @@ class NeighbourLists {
   bool visit_cells_near(Vec2 position, double distance, const ListRegion& region, Run&& run) const {
     bool inside = true;
     for (const GridLevel& level : grid_.levels) {
-      // Cells were chosen by coordinates before they were rounded to fixed point.
+      // Which cell a listed position at the edge of one is in, rounding decides.
       const double cutoff =
           (distance + flow_.stretch * level.largest_radius) * (1.0 + 1e-9) + std::max(unit_x_, unit_y_);
       for_each_cell_run_near(level, box_, position.x, position.y, cutoff, [&](std::uint32_t first, std::uint32_t last) {
@@ -306,6 +303,7 @@ class NeighbourLists {
                             const RelistDistance& relist) const;
   void choose_skin(const Disks& disks, const ListLayout& layout);
   void sort(Disks& disks, const ListLayout& layout, const Executor& executor);
+  void find_tiles(std::size_t disks);
   void list_all(const Disks& disks, const Executor& executor);
   void list_block(const Disks& disks, std::size_t block, std::size_t begin, std::size_t end);
   FixedPointPosition fixed_point(double x, double y) const;
@@ -323,6 +321,7 @@ class NeighbourLists {
   void find_all_others(std::uint32_t i, FoundNeighbours& found) const;
   std::uint32_t cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
   void fill_slots(const Disks& disks, std::uint32_t first_key, std::uint32_t last_key);
+  void move_into_cell(const Disks& disks, std::uint32_t i, std::uint32_t key);
   bool move_to_cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position, const ListRegion& region);
   void find_inner_part();
   bool is_inside(Vec2 listed) const {
@@ -334,6 +333,7 @@ class NeighbourLists {
   Domain box_;
   CellGrid grid_;
   SortedCells cells_;
+  std::vector<std::uint32_t> first_of_tile_;  // and after the last one: how many disks
   double skin_ = 0.0;
   RelistDistance near_border_, elsewhere_;
   FlowFrame flow_;

@@ -1,0 +1,63 @@
+// The cells of the neighbour lists: which one a listed position is in, and how disks come into them.
+#include <algorithm>
+
+#include "parallel/exact/neighbour_lists.hpp"
+
+namespace carom {
+
+void NeighbourLists::find_tiles(std::size_t disks) {
+  first_of_tile_.assign(std::size_t{grid_.tiles} + 1, static_cast<std::uint32_t>(disks));
+  first_of_tile_[0] = 0;
+  for (std::uint32_t tile = 1; tile < grid_.tiles; ++tile) {
+    first_of_tile_[tile] = cells_.start[std::size_t{tile} * grid_.tile_keys];
+  }
+}
+
+// Puts the disks that are sorted into cells [first_key, last_key) into the slots of the cells of their listed
+// positions: the same ones, but for a shear.
+void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::uint32_t last_key) {
+  for (std::uint32_t key = first_key; key < last_key; ++key) {
+    for (std::uint32_t i = cells_.start[key]; i < cells_.start[key + 1]; ++i) {
+      if (!flow_.acts) move_into_cell(d, i, key);
+      const std::uint32_t cell = cell_of(d, i, listed_at_[i]);
+      slots_.insert(cell, i, listed_at_[i], radius_in_units(d.radius_of(i)));
+    }
+  }
+}
+
+// Rounding may have led the listed position out of the cell that the disk is sorted into, to the next one: then it is
+// moved by one.
+void NeighbourLists::move_into_cell(const Disks& d, std::uint32_t i, std::uint32_t key) {
+  constexpr std::uint32_t shifts[] = {0U, 1U, 0U - 1U};
+  const FixedPointPosition rounded = listed_at_[i];
+  for (const std::uint32_t dy : shifts) {
+    for (const std::uint32_t dx : shifts) {
+      listed_at_[i] = {rounded.x + dx, rounded.y + dy};
+      if (cell_of(d, i, listed_at_[i]) == key) return;
+    }
+  }
+}
+
+std::uint32_t NeighbourLists::cell_of(const Disks& d, std::uint32_t i, FixedPointPosition fixed) const {
+  const std::size_t level =
+      d.radius.empty() || grid_.levels.size() == 1 ? 0 : class_of_radius(d.radius[i], grid_.levels[0].largest_radius);
+  const GridLevel& cells = grid_.levels[level];
+  const auto cell = [](std::uint32_t at, std::uint32_t count, bool periodic) {
+    const auto k = static_cast<std::uint32_t>(std::uint64_t{at} * count >> (periodic ? 32U : 31U));
+    return std::min(k, count - 1);  // the far wall itself
+  };
+  return cells.key_at(cells.place_of_row(cell(fixed.y, cells.rows, box_.periodic_y())),
+                      cell(fixed.x, cells.columns, box_.periodic_x()));
+}
+
+// Moves the disk to the cell of this position; false, without a change, if its old cell is outside the region.
+bool NeighbourLists::move_to_cell_of(const Disks& d, std::uint32_t i, FixedPointPosition position,
+                                     const ListRegion& region) {
+  const std::uint32_t old_key = cell_of(d, i, listed_at_[i]);
+  if (old_key < region.first_key || old_key >= region.last_key) return false;
+  slots_.remove(old_key, i);
+  slots_.insert(cell_of(d, i, position), i, position, radius_in_units(d.radius_of(i)));
+  return true;
+}
+
+}  // namespace carom
