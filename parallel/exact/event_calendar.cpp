@@ -18,13 +18,15 @@ constexpr double events_a_page = 2.0;
 
 }  // namespace
 
-void EventCalendar::begin(double start, double end, std::size_t disks, std::size_t expected, bool many) {
+void EventCalendar::begin(double start, double end, const CalendarEntries& entries, std::size_t expected, bool many) {
   many_ = many;
   pages_written_at_once_ = many ? pages_of_transit : absent;
-  end_of_list_ = static_cast<std::uint32_t>(disks);
-  if (node_.capacity() < disks + 1) resize_in_huge_pages(node_, disks + 1);
-  node_.resize(disks + 1);
+  node_ = entries.entry;
+  first_disk_ = entries.first;
+  last_disk_ = entries.last;
+  end_of_list_ = entries.end;
   end_ = end;
+  const std::size_t disks = last_disk_ - first_disk_;
   const std::size_t most = most_pages_a_disk * disks + few_pages;
   const std::size_t wanted =
       expected == 0 ? 2 * disks : static_cast<std::size_t>(pages_per_event * static_cast<double>(expected));
@@ -33,7 +35,6 @@ void EventCalendar::begin(double start, double end, std::size_t disks, std::size
 }
 
 void EventCalendar::release_memory() {
-  std::vector<Node>().swap(node_);
   std::vector<std::uint32_t>().swap(first_);
 }
 
@@ -48,7 +49,7 @@ void EventCalendar::set_pages(double start, double pages_per_time, std::size_t p
   is_sorted_ = false;
   transit_.fill({end_of_list_, 0});
   first_in_transit_ = absent;
-  announced_.fill(0);
+  announced_.fill(first_disk_);
 }
 
 // Divides what is left of the time anew, so that the events of the present page fall on many; what is beyond the most
@@ -64,10 +65,10 @@ bool EventCalendar::shorten_pages() {
   const double page_length = page_ + 1 == pages_ ? end_ - page_start : 1.0 / pages_per_time_;
   const double pages_per_time = static_cast<double>(crowded_.size()) / (events_a_page * spread);
   if (!(spread >= spread_share * page_length) || !(pages_per_time < HUGE_VAL)) return false;
-  const std::size_t most = most_pages_a_disk * end_of_list_ + few_pages;
+  const std::size_t most = most_pages_a_disk * (last_disk_ - first_disk_) + few_pages;
   const double pages = (end_ - page_start) * pages_per_time + 1.0;
   set_pages(page_start, pages_per_time, pages < static_cast<double>(most) ? static_cast<std::size_t>(pages) : most);
-  for (std::uint32_t disk = 0; disk < end_of_list_; ++disk) {
+  for (std::uint32_t disk = first_disk_; disk < last_disk_; ++disk) {
     if (holds(disk)) insert(disk, node_[disk].time);
   }
   return true;

@@ -11,6 +11,21 @@
 
 namespace carom {
 
+// A disk's next event. No event that is stored with the disk happens before `time`, whether it is in a calendar or not.
+struct CalendarEntry {
+  double time = 0.0;
+  // The calendar's: a disk; or what begins a page, and so on. Nothing between windows.
+  std::uint32_t previous = 0, next = 0;
+};
+static_assert(sizeof(CalendarEntry) == 16);
+
+// The entries of some disks, [first, last) by storage index, and one more, which ends all lists of their calendar.
+struct CalendarEntries {
+  CalendarEntry* entry = nullptr;
+  std::uint32_t first = 0, last = 0;
+  std::uint32_t end = 0;
+};
+
 // The time from start to end is divided into pages; a page is a doubly linked list of the disks whose next event falls
 // on it, in no order. The present page is searched for the first event whenever it is asked for; pages are so short
 // that it holds one or two. An entry that becomes invalid moves to its new page, so that none has to be recognised and
@@ -24,11 +39,11 @@ class EventCalendar {
   // How often a disk is announced before its event comes.
   static constexpr int stages = 3;
 
-  // Empties the calendar, for events in [start, end] of this many disks; about `expected` of them, if that is known.
-  // many: announces what comes soon.
-  void begin(double start, double end, std::size_t disks, std::size_t expected, bool many);
+  // Empties the calendar, for events in [start, end] of these disks; about `expected` of them, if that is known.
+  // many: announces what comes soon. The entries outlive the calendar's use.
+  void begin(double start, double end, const CalendarEntries& disks, std::size_t expected, bool many);
 
-  // Gives back all memory; begin() is next.
+  // Gives back the memory of the pages; begin() is next.
   void release_memory();
 
   // Enters the disk, before any event is asked for; once for each. `never` and other times beyond the end are allowed.
@@ -99,13 +114,9 @@ class EventCalendar {
   }
 
  private:
-  struct Node {
-    double time;
-    // A disk; page_bit and the page that begins with this one; in transit, in_transit and the place there; absent.
-    std::uint32_t previous;
-    std::uint32_t next;  // disk, or end_of_list_
-  };
-  static_assert(sizeof(Node) == 16);
+  using Node = CalendarEntry;
+  // In place of a previous disk: page_bit and the page that begins with this one; in transit, in_transit and the place
+  // there; absent.
   static constexpr std::uint32_t page_bit = 0x80000000U;
   static constexpr std::uint32_t absent = 0xffffffffU;
   static constexpr std::uint32_t in_transit = 0xfffffffeU;  // Node::next is the place
@@ -227,13 +238,14 @@ class EventCalendar {
   bool is_sorted_ = false;  // the present page
   bool many_ = false;
   std::uint32_t pages_written_at_once_ = absent;  // from the present one; entries of later ones are in transit first
-  std::uint32_t end_of_list_ = 0;
+  std::uint32_t end_of_list_ = 0;                 // an entry that is no disk's
   std::array<Transit, places_in_transit> transit_{};
   std::uint32_t next_place_ = 0;
   std::uint32_t first_in_transit_ = absent;   // a page; there is none before
   std::array<std::uint32_t, 8> announced_{};  // the last ones, in turn
   std::uint32_t next_announced_ = 0;
-  std::vector<Node> node_;              // of each disk, and one that ends all lists
+  Node* node_ = nullptr;  // of each disk, by storage index
+  std::uint32_t first_disk_ = 0, last_disk_ = 0;
   std::vector<std::uint32_t> first_;    // of each page, and of what comes after the end
   std::vector<std::uint32_t> crowded_;  // scratch
 };

@@ -33,7 +33,6 @@ EventProcessor<scope>::EventProcessor(WindowState& window, NeighbourLists& lists
       safe_times_(window, lists, worker),
       predictor_(window, lists),
       record_(window.record.data()),
-      first_(worker.region.first_disk),
       is_plain_(is_plain(window)),
       is_straight_(!window.rules.gravity.acts() && !window.rules.box.shear.acts()),
       reduced_mass_(reduced_mass(window.disks->common_mass, window.disks->common_mass)) {}
@@ -42,40 +41,33 @@ template <Scope scope>
 void EventProcessor<scope>::enter_all(double events_a_disk) {
   const auto last = std::min(static_cast<std::uint32_t>(window_.record.size()), worker_.region.last_disk);
   EventCalendar& calendar = worker_.calendar;
-  const std::size_t disks = last - first_;
-  const double expected = std::min(events_a_disk, most_events_a_disk) * static_cast<double>(disks);
-  calendar.begin(window_.slice_start, window_.length, disks, static_cast<std::size_t>(expected), window_.looks_ahead);
+  const std::uint32_t first = worker_.region.first_disk;
+  const double expected = std::min(events_a_disk, most_events_a_disk) * static_cast<double>(last - first);
+  calendar.begin(window_.slice_start, window_.length, window_.entries_of(first, last, worker_.number),
+                 static_cast<std::size_t>(expected), window_.looks_ahead);
   const auto is_active = [this](std::uint32_t i) { return !has_regions || record_[i].progress.is_active(); };
-  for (std::uint32_t i = first_; i < last; ++i) {
+  for (std::uint32_t i = first; i < last; ++i) {
     if (is_active(i)) {
-      calendar.insert(i - first_, window_.next_event_time[i]);
+      calendar.insert(i, window_.next_event_time(i));
     } else {
-      calendar.leave_out(i - first_);
+      calendar.leave_out(i);
     }
   }
   // As nothing has happened yet, these may be predicted in any order, and the first page of the calendar stays short.
-  for (std::uint32_t i = first_; i < last; ++i) {
-    if (window_.next_event_time[i] <= 0.0 && is_active(i)) predict_next_event<false>(i, 0.0);
-  }
-}
-
-template <Scope scope>
-void EventProcessor<scope>::leave_all() {
-  const auto last = std::min(static_cast<std::uint32_t>(window_.record.size()), worker_.region.last_disk);
-  for (std::uint32_t i = first_; i < last; ++i) {
-    if (worker_.calendar.holds(i - first_)) window_.next_event_time[i] = worker_.calendar.time_of(i - first_);
+  for (std::uint32_t i = first; i < last; ++i) {
+    if (window_.next_event_time(i) <= 0.0 && is_active(i)) predict_next_event<false>(i, 0.0);
   }
 }
 
 template <Scope scope>
 void EventProcessor<scope>::enter(std::uint32_t i) {
-  worker_.calendar.move(i - first_, window_.next_event_time[i],
-                        [this](std::uint32_t a, std::uint32_t b) { return comes_first(a + first_, b + first_); });
+  worker_.calendar.move(i, window_.next_event_time(i),
+                        [this](std::uint32_t a, std::uint32_t b) { return comes_first(a, b); });
 }
 
 template <Scope scope>
 void EventProcessor<scope>::push_next_event(std::uint32_t i) {
-  if (window_.in_slice(window_.next_event_time[i])) worker_.queue.push({window_.next_event_time[i], 0, 0, i});
+  if (window_.in_slice(window_.next_event_time(i))) worker_.queue.push({window_.next_event_time(i), 0, 0, i});
 }
 
 template <Scope scope>
@@ -89,13 +81,11 @@ void EventProcessor<scope>::run() {
 // The disk whose event is the first one in the calendar.
 template <Scope scope>
 inline bool EventProcessor<scope>::find_first(std::uint32_t& i) {
-  const auto order = [this](std::uint32_t a, std::uint32_t b) { return comes_first(a + first_, b + first_); };
+  const auto order = [this](std::uint32_t a, std::uint32_t b) { return comes_first(a, b); };
   const auto soon = [this](std::uint32_t k, int stage) __attribute__((always_inline)) {
-    prefetch_event(record_, lists_, worker_, k + first_, stage);
+    prefetch_event(record_, lists_, worker_, k, stage);
   };
-  const bool found = worker_.calendar.find_first(i, order, soon);
-  i += first_;
-  return found;
+  return worker_.calendar.find_first(i, order, soon);
 }
 
 template <Scope scope>
@@ -111,7 +101,7 @@ template <Scope scope>
 void EventProcessor<scope>::run_region() {
   std::uint32_t i = 0;
   while (!worker_.ended) {
-    const double time = find_first(i) ? worker_.calendar.time_of(i - first_) : never;
+    const double time = find_first(i) ? worker_.calendar.time_of(i) : never;
     const double safe_time = safe_times_.first();
     if (safe_time <= time && safe_time < never) {
       SafeTimeDue due;
@@ -205,12 +195,12 @@ void EventProcessor<scope>::process_pair(std::uint32_t i, std::uint32_t j, doubl
 template <Scope scope>
 void EventProcessor<scope>::predict_next_slice(std::uint32_t i) {
   if (std::isnan(record_[i].path.x)) {
-    window_.next_event_time[i] = never;
+    window_.set_next_event_time(i, never);
     record_[i].partner = Partner::none();
     return;
   }
   const auto [time, partner] = next_event(i, window_.slice_stop(), predictor_.earliest(i));
-  window_.next_event_time[i] = time;
+  window_.set_next_event_time(i, time);
   record_[i].partner = partner;
 }
 
@@ -219,7 +209,7 @@ void EventProcessor<scope>::predict_next_slice(std::uint32_t i) {
 template <Scope scope>
 void EventProcessor<scope>::process_border(const QueuedEvent& e) {
   const std::uint32_t i = e.disk;
-  if (window_.next_event_time[i] != e.time) return;
+  if (window_.next_event_time(i) != e.time) return;
   QueuedEvent present = e;
   present.id1 = present.id2 = 0;
   name(present);
@@ -309,14 +299,13 @@ template <Scope scope>
 inline void EventProcessor<scope>::schedule(std::uint32_t i, double time, Partner partner) {
   record_[i].partner = partner;
   if constexpr (scope == Scope::border) {
-    window_.next_event_time[i] = time;
+    window_.set_next_event_time(i, time);
     QueuedEvent e{time, 0, 0, i};
     if (!window_.in_slice(time)) return;
     name(e);
     worker_.queue.push(e);
   } else {
-    worker_.calendar.move(i - first_, time,
-                          [this](std::uint32_t a, std::uint32_t b) { return comes_first(a + first_, b + first_); });
+    worker_.calendar.move(i, time, [this](std::uint32_t a, std::uint32_t b) { return comes_first(a, b); });
   }
 }
 

@@ -30,10 +30,8 @@ class EventProcessor {
  public:
   EventProcessor(WindowState& window, NeighbourLists& lists, Worker& worker);
 
-  // All and region: enters the disks into the calendar, for about so many events a disk in the window, and takes the
-  // times of their next events out again.
+  // All and region: enters the disks into the calendar, for about so many events a disk in the window.
   void enter_all(double events_a_disk);
-  void leave_all();
   // Region: the disk, whose motion was not known, is active from now on.
   void enter(std::uint32_t i);
   // Region: for the disk, at the start of a slice, as SafeTimes::push.
@@ -112,7 +110,6 @@ class EventProcessor {
   SafeTimes safe_times_;
   EventPredictor predictor_;
   DiskRecord* record_;
-  std::uint32_t first_;  // disk of the calendar; entry k is of disk first_ + k
   bool is_plain_;
   bool is_straight_;     // neither gravity nor a shear bends paths from where lists take disks to go
   double reduced_mass_;  // of two disks of a plain scene

@@ -129,7 +129,7 @@ bool ParallelExact::lists_take(const Edit& edit) {
   const Disks& d = state_.disks;
   const double now = windows_.length();
   if (edit.kind == Edit::Kind::set_velocity) {
-    windows_.window().next_event_time[edit.index] = now;
+    windows_.window().set_next_event_time(static_cast<std::uint32_t>(edit.index), now);
     return true;
   }
   if (windows_.window().mode != EngineMode::single_queue || d.size() <= all_pairs_up_to) return false;
@@ -137,15 +137,11 @@ bool ParallelExact::lists_take(const Edit& edit) {
     const bool fits =
         d.radius.empty() ? edit.disk.radius == d.common_radius : edit.disk.radius <= windows_.largest_radius();
     if (!fits) return false;
-    windows_.window().record.emplace_back();
-    windows_.window().next_event_time.push_back(now);
+    windows_.window().append_disk(now);
     return true;
   }
   windows_.lists().remove(static_cast<std::uint32_t>(edit.index), d);
-  windows_.window().record[edit.index] = windows_.window().record.back();
-  windows_.window().record.pop_back();
-  windows_.window().next_event_time[edit.index] = windows_.window().next_event_time.back();
-  windows_.window().next_event_time.pop_back();
+  windows_.window().remove_disk(edit.index);
   return true;
 }
 

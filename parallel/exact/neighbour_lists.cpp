@@ -99,7 +99,8 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& ex
   sort_into_cells(d, grid_, executor, cells_);
 }
 
-void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout, const Executor& executor) {
+void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout, const Executor& executor,
+                           const Sorted& sorted) {
   mode_ = layout.mode;
   box_ = box;
   unit_x_ = box.width / (box.periodic_x() ? 2.0 * two_to_31 : two_to_31);
@@ -120,6 +121,8 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
     // That of the rows is given back for what sorting needs.
     if (n > disks_of_much_memory) rows_.release();
     sort(d, layout, executor);
+    if (sorted) sorted(cells_.order, cells_.column);
+    if (n > disks_of_much_memory) release_sort_scratch(cells_);
   }
   find_tiles(n);
   find_inner_part();
@@ -132,6 +135,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
     }
   });
   list_all(d, executor);
+  if (n > disks_of_much_memory) std::vector<std::uint32_t>().swap(cells_.start);
 }
 
 // A disk is listed again within the relist distance of its listed position, and ahead of where it is by less; what it
@@ -288,21 +292,6 @@ unsigned NeighbourLists::find_sides(const Disks& d, std::uint32_t i) const {
     if (mode_ == EngineMode::all_pairs || gap <= skin_) sides |= 1U << static_cast<unsigned>(side);
   }
   return sides;
-}
-
-void NeighbourLists::sort_along(std::vector<double>& column, const Executor& executor) {
-  if (mode_ == EngineMode::all_pairs) return;
-  std::vector<double>& sorted = cells_.column;
-  executor.for_ranges(column.size(), disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) sorted[i] = column[cells_.order[i]];
-  });
-  column.swap(sorted);
-}
-
-void NeighbourLists::release_scratch() {
-  if (rows_.size() <= disks_of_much_memory) return;
-  release_sort_scratch(cells_);
-  std::vector<std::uint32_t>().swap(cells_.start);
 }
 
 double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& path, double from, double until,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -109,8 +110,11 @@ struct RelistDistance {
 class NeighbourLists {
  public:
   // Sorts the disks into cells (their storage order changes) and lists all of them where they are; in all-pairs mode
-  // they are not sorted.
-  void build(Disks& disks, const Domain& box, const ListLayout& layout, const Executor& executor);
+  // they are not sorted. sorted: is called when they have been, before they are listed, with the place that each disk
+  // had before, and a column to use.
+  using Sorted = std::function<void(const std::vector<std::uint32_t>& order, std::vector<double>& scratch)>;
+  void build(Disks& disks, const Domain& box, const ListLayout& layout, const Executor& executor,
+             const Sorted& sorted = {});
 
   // In a sheared box, before lists are built for a window that starts then and is so long, and at the start of each
   // window; box: at that time. No operation elsewhere.
@@ -211,13 +215,6 @@ class NeighbourLists {
     const double room = skin_ * (1.0 - 1e-9) - distance;
     return room > 0.0 && is_within(i, x, y, room * room);
   }
-
-  // Gives back memory that only building needs, where that is much.
-  void release_scratch();
-
-  // Brings a column of the disks that were there at the last build, in the storage order before it, into the present
-  // one.
-  void sort_along(std::vector<double>& column, const Executor& executor);
 
   // Lists disk i at this position, inside the box. Reads and writes nothing outside the region; where the new list or
   // the old one reaches beyond it, nothing changes and the result is false. found: scratch.

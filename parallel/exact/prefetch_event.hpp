@@ -36,7 +36,7 @@ inline constexpr std::uint32_t prefetched_neighbours = 12;
   if (stage == 1) {
     __builtin_prefetch(&record[j]);
     lists.prefetch(j);
-    worker.calendar.prefetch(j - worker.region.first_disk);
+    worker.calendar.prefetch(j);
   } else {
     prefetch_neighbours(record, lists, j);
   }

@@ -98,9 +98,7 @@ bool SafeTimes::reach_first(SafeTimeDue& due) {
 }
 
 void SafeTimes::block(std::uint32_t i, double time) {
-  const std::uint32_t entry = i - worker_.region.first_disk;
-  worker_.calendar.take_out(entry);
-  window_.next_event_time[i] = worker_.calendar.time_of(entry);
+  worker_.calendar.take_out(i);
   window_.record[i].progress.set_blocked(static_cast<std::uint32_t>(worker_.blocked.size()));
   worker_.blocked.push_back({i, time});
   const Place own = place_at(i, time);

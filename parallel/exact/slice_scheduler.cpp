@@ -57,6 +57,7 @@ void SliceScheduler::lay_out_regions() {
     regions_[r].middle_tile = (first + (layer - first) / 2) * tiles_a_layer;
     std::fill(window_.region_of_tile.begin() + first_tile, window_.region_of_tile.begin() + last_tile,
               static_cast<std::uint16_t>(r));
+    regions_[r].worker.number = r;
     regions_[r].worker.region = lists_.region_of_tiles(first_tile, last_tile);
     // What a rank has of others may be at a border in any window: all disks are relisted as those near one.
     if (ghosts_ != nullptr) regions_[r].worker.region.core_size = 0;
@@ -127,11 +128,6 @@ SliceOutcome SliceScheduler::run(double start, double end, double per_disk, doub
   return SliceOutcome::done;
 }
 
-void SliceScheduler::end_window() {
-  executor_.run(regions_.size(),
-                [&](std::size_t r) { EventProcessor<Scope::region>(window_, lists_, regions_[r].worker).leave_all(); });
-}
-
 void SliceScheduler::release_calendars() {
   for (Region& region : regions_) region.worker.calendar.release_memory();
   single_.calendar.release_memory();
@@ -162,7 +158,6 @@ void SliceScheduler::run_single_queue(double per_disk) {
   EventProcessor<Scope::all> events(window_, lists_, single_);
   events.enter_all(per_disk * window_.length);
   events.run();
-  events.leave_all();
   relisted_ += single_.relisted;
 }
 
@@ -295,9 +290,7 @@ void SliceScheduler::take_in_new_border(const std::vector<std::uint32_t>& border
 
 void SliceScheduler::take_in_border(std::uint32_t i) {
   Region& region = region_of(i);
-  const std::uint32_t entry = i - region.worker.region.first_disk;
-  region.worker.calendar.take_out(entry);
-  window_.next_event_time[i] = region.worker.calendar.time_of(entry);
+  region.worker.calendar.take_out(i);
   window_.record[i].progress.set_border();
   region.border.push_back(i);
   if (ghosts_ == nullptr) border_pass_.relist_if_far(i);
@@ -308,7 +301,6 @@ void SliceScheduler::take_in_near_border(std::uint32_t i) {
   Region& region = region_of(i);
   region.near_border.push_back(i);
   if (ghosts_ != nullptr || !window_.record[i].progress.is_active()) return;
-  window_.next_event_time[i] = region.worker.calendar.time_of(i - region.worker.region.first_disk);
   border_pass_.relist_if_far(i);
   EventProcessor<Scope::region>(window_, lists_, region.worker).enter(i);
 }

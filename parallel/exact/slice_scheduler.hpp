@@ -40,8 +40,6 @@ class SliceScheduler {
   // Runs the slice, the window's first where it starts at 0; per_disk: events a disk and time, about. At inelastic
   // collapse the result is `crowded` with regions; otherwise it throws PhysicsError.
   SliceOutcome run(double start, double end, double per_disk, double window_start);
-  // After the window's last slice, if all were done.
-  void end_window();
   // Without regions: the event that tells that the window is crowded, the same as the reference's.
   const EventMark& crowding() const { return *single_.crowded; }
 

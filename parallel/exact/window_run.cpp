@@ -65,17 +65,29 @@ void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout) {
   // Sorting takes about as much.
   if (state_.disks.size() > disks_of_much_memory) scheduler_.release_calendars();
   lists_.follow_flow(box_at(scene_.box, plan.start), plan.start, plan.length);
-  lists_.build(state_.disks, scene_.box, layout, executor_);
+  // Two disks that did not list each other before cannot touch before one of them reaches its next event, at the latest
+  // that of being relisted.
+  const bool timed = known_ == Known::lists_and_times;
+  lists_.build(state_.disks, scene_.box, layout, executor_, [&](const auto& order, auto& scratch) {
+    if (timed) sort_times(order, scratch);
+  });
   window_.mode = layout.mode;
   window_.regions = layout.regions;
   window_.looks_ahead = layout.looks_ahead;
   largest_radius_ = std::max(least_largest_radius_, carom::largest_radius(state_.disks));
   known_ = std::max(known_, Known::lists);
   rebuilt_ = true;
-  // Two disks that did not list each other before cannot touch before one of them reaches its next event, at the latest
-  // that of being relisted.
-  if (known_ == Known::lists_and_times) lists_.sort_along(window_.next_event_time, executor_);
-  lists_.release_scratch();
+}
+
+// order: for each disk, which one it was before.
+void WindowRun::sort_times(const std::vector<std::uint32_t>& order, std::vector<double>& scratch) {
+  const auto for_blocks = [&](const auto& move) {
+    executor_.for_ranges(order.size(), pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) move(i);
+    });
+  };
+  for_blocks([&](std::size_t i) { scratch[i] = window_.entry[order[i]].time; });
+  for_blocks([&](std::size_t i) { window_.entry[i].time = scratch[i]; });
 }
 
 SliceOutcome WindowRun::run(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin) {
@@ -94,7 +106,6 @@ SliceOutcome WindowRun::run(const WindowPlan& plan, const SpeedSummary& speeds, 
     per_disk_ = disks == 0 ? 0.0 : events / elapsed / static_cast<double>(disks);
     start = end;
   }
-  scheduler_.end_window();
   return SliceOutcome::done;
 }
 
@@ -127,7 +138,7 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
     record.id = d.id[i];
     record.partner = relists ? Partner::relist() : Partner::none();
     record.version = record.partner_version = 0;
-    window_.next_event_time[i] = timed ? carried_event_time(i, plan) : 0.0;
+    window_.set_next_event_time(static_cast<std::uint32_t>(i), timed ? carried_event_time(i, plan) : 0.0);
   }
   if (!window_.last_contact.empty()) {
     for (std::size_t i = begin; i < end; ++i) window_.last_contact[i] = state_.last_contact[d.id[i]] - plan.start;
@@ -141,7 +152,7 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
 // The time of an event that was predicted in the window before, a little early.
 double WindowRun::carried_event_time(std::size_t i, const WindowPlan& plan) const {
   if (predicts_anew_) return 0.0;
-  const double carried = (window_.next_event_time[i] - length_) - early_share * length_;
+  const double carried = (window_.entry[i].time - length_) - early_share * length_;
   if (!rebuilt_) return carried;
   // Which disks are near borders is not known yet: none moves further than those may.
   const double relist_at =

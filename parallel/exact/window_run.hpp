@@ -79,6 +79,7 @@ class WindowRun {
  private:
   void load_paths(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks);
   void load_disks(std::size_t begin, std::size_t end, const WindowPlan& plan);
+  void sort_times(const std::vector<std::uint32_t>& order, std::vector<double>& scratch);
   double carried_event_time(std::size_t i, const WindowPlan& plan) const;
   void set_speed_bound(const WindowPlan& plan, double margin);
 

@@ -34,7 +34,7 @@ void WindowState::begin(const ExactRules& window_rules, const Disks& all, const 
   largest_radius = radius;
   set_tolerances();
   resize_column(record, all.size());
-  resize_column(next_event_time, all.size());
+  resize_column(entry, all.size() + std::max<std::size_t>(regions, 1) * entries_apart);
   burst.resize(dissipates(rules) ? all.size() : 0);
   spin = all.spin;
 }
@@ -49,9 +49,21 @@ void WindowState::set_tolerances() {
   slow = rounding_ratio * rounding / length;
 }
 
+void WindowState::append_disk(double next_event) {
+  record.emplace_back();
+  entry.emplace_back();
+  entry[record.size() - 1].time = next_event;
+}
+
+void WindowState::remove_disk(std::size_t i) {
+  entry[i] = entry[record.size() - 1];
+  record[i] = record.back();
+  record.pop_back();
+}
+
 void WindowState::release_memory() {
   std::vector<DiskRecord>().swap(record);
-  std::vector<double>().swap(next_event_time);
+  std::vector<CalendarEntry>().swap(entry);
 }
 
 }  // namespace carom

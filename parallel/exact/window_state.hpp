@@ -11,9 +11,13 @@
 #include "core/step/window_plan.hpp"
 #include "parallel/exact/disk_record.hpp"
 #include "parallel/exact/engine_mode.hpp"
+#include "parallel/exact/event_calendar.hpp"
 #include "parallel/exact/known_band.hpp"
 
 namespace carom {
+
+// The ends of two calendars are so far from each other that threads do not wait for each other's.
+inline constexpr std::size_t entries_apart = 8;
 
 // Columns are by storage index.
 struct WindowState {
@@ -23,9 +27,10 @@ struct WindowState {
   ExactRules rules;
   const Disks* disks = nullptr;  // masses
   std::vector<DiskRecord> record;
-  // No event that is stored with this disk happens before. An event of two disks is stored with the one that began its
-  // path last (or with both), contact with a side and relisting with the disk itself.
-  std::vector<double> next_event_time;
+  // When the next event is that is stored with the disk. An event of two disks is stored with the one that began its
+  // path last (or with both), contact with a side and relisting with the disk itself. After those of the disks: the
+  // ends of calendars.
+  std::vector<CalendarEntry> entry;
   std::vector<double> last_contact;         // with the TC model
   std::vector<std::uint32_t> thermal_hits;  // with thermal sides
   std::vector<Burst> burst;                 // where any contact dissipates
@@ -58,6 +63,17 @@ struct WindowState {
   Count most_paths = 0;         // of all disks, beyond which the window is crowded (core/step/window_length.hpp)
   std::function<bool()> go_on;  // as in Engine::set_watch
   std::vector<double> spin;     // of rough disks, by storage index
+
+  double next_event_time(std::uint32_t i) const { return entry[i].time; }
+  void set_next_event_time(std::uint32_t i, double time) { entry[i].time = time; }
+  // Of a calendar of the disks from first to last, one of several that are in use at the same time.
+  CalendarEntries entries_of(std::uint32_t first, std::uint32_t last, std::size_t calendar) {
+    const std::size_t end = record.size() + (calendar + 1) * entries_apart - 1;
+    return {entry.data(), first, last, static_cast<std::uint32_t>(end)};
+  }
+  // Between windows: one more disk, the last; and one less, disk i, whose number the last one takes.
+  void append_disk(double next_event);
+  void remove_disk(std::size_t i);
 
   // When a disk without an event up to the horizon is predicted again: within the window before that, at another time
   // for each disk, so that not all come at once.

@@ -42,6 +42,7 @@ struct SafeTimeDue {
 struct Worker {
   ListRegion region;                    // what it may read and write
   EventCalendar calendar;               // of a single queue, or of a region
+  std::size_t number = 0;               // of the region
   std::vector<SafeTimeDue> safe_times;  // of a region: a heap, the first on top
   EventQueue queue;                     // of a border
   ImpactTally tally;

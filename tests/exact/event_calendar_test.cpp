@@ -15,6 +15,13 @@
 namespace carom {
 namespace {
 
+struct Entries {
+  explicit Entries(std::uint32_t disks) : entry(disks + 1), number(disks) {}
+  CalendarEntries all() { return {entry.data(), 0, number, number}; }
+  std::vector<CalendarEntry> entry;
+  std::uint32_t number;
+};
+
 bool smaller_number(std::uint32_t a, std::uint32_t b) {
   return a < b;
 }
@@ -39,8 +46,9 @@ void expect_order(const Pattern& pattern, std::uint32_t disks, std::size_t expec
   test::Draws draws(disks + expected);
   constexpr double start = 0.5;
   constexpr double end = 8.0;
+  Entries entries(disks);
   EventCalendar calendar;
-  calendar.begin(start, end, disks, expected, many);
+  calendar.begin(start, end, entries.all(), expected, many);
   std::vector<double> time(disks);
   for (std::uint32_t k = 0; k < disks; ++k) {
     // Some before the start, which come first.
@@ -76,8 +84,9 @@ TEST(EventCalendar, GivesTheFirstEventOfAllDisks) {
 }
 
 TEST(EventCalendar, HoldsTheLastMoment) {
+  Entries entries(3);
   EventCalendar calendar;
-  calendar.begin(0.0, 1.0, 3, 0, false);
+  calendar.begin(0.0, 1.0, entries.all(), 0, false);
   calendar.insert(0, 1.0);
   calendar.insert(1, std::nextafter(1.0, 2.0));
   calendar.insert(2, never);
@@ -93,8 +102,9 @@ TEST(EventCalendar, ForgetsDisksThatAreOut) {
   for (const bool many : {false, true}) {
     test::Draws draws(7);
     constexpr std::uint32_t disks = 300;
+    Entries entries(disks);
     EventCalendar calendar;
-    calendar.begin(0.0, 4.0, disks, 2000, many);
+    calendar.begin(0.0, 4.0, entries.all(), 2000, many);
     std::vector<double> time(disks);
     std::vector<bool> out(disks);
     for (std::uint32_t k = 0; k < disks; ++k) {
@@ -135,8 +145,9 @@ TEST(EventCalendar, ForgetsDisksThatAreOut) {
 // Each disk of a page is announced before its event, at every stage in turn.
 TEST(EventCalendar, AnnouncesWhatComesSoon) {
   constexpr std::uint32_t disks = 2000;
+  Entries entries(disks);
   EventCalendar calendar;
-  calendar.begin(0.0, 1.0, disks, disks, true);
+  calendar.begin(0.0, 1.0, entries.all(), disks, true);
   for (std::uint32_t k = 0; k < disks; ++k) calendar.insert(k, (k + 0.5) / disks);
   std::vector<int> announced(disks, 0);
   const auto soon = [&](std::uint32_t k, int stage) {
