@@ -19,8 +19,8 @@ void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::ui
   for (std::uint32_t key = first_key; key < last_key; ++key) {
     for (std::uint32_t i = cells_.start[key]; i < cells_.start[key + 1]; ++i) {
       if (!flow_.acts) move_into_cell(d, i, key);
-      const std::uint32_t cell = cell_of(d, i, listed_at_[i]);
-      slots_.insert(cell, i, listed_at_[i], radius_in_units(d.radius_of(i)));
+      const FixedPointPosition at = rows_.listed_at(i);
+      slots_.insert(cell_of(d, i, at), i, at, radius_in_units(d.radius_of(i)));
     }
   }
 }
@@ -29,11 +29,11 @@ void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::ui
 // moved by one.
 void NeighbourLists::move_into_cell(const Disks& d, std::uint32_t i, std::uint32_t key) {
   constexpr std::uint32_t shifts[] = {0U, 1U, 0U - 1U};
-  const FixedPointPosition rounded = listed_at_[i];
+  const FixedPointPosition rounded = rows_.listed_at(i);
   for (const std::uint32_t dy : shifts) {
     for (const std::uint32_t dx : shifts) {
-      listed_at_[i] = {rounded.x + dx, rounded.y + dy};
-      if (cell_of(d, i, listed_at_[i]) == key) return;
+      const FixedPointPosition shifted{rounded.x + dx, rounded.y + dy};
+      if (cell_of(d, i, shifted) == key) return rows_.set_listed_at(i, shifted);
     }
   }
 }
@@ -53,7 +53,7 @@ std::uint32_t NeighbourLists::cell_of(const Disks& d, std::uint32_t i, FixedPoin
 // Moves the disk to the cell of this position; false, without a change, if its old cell is outside the region.
 bool NeighbourLists::move_to_cell_of(const Disks& d, std::uint32_t i, FixedPointPosition position,
                                      const ListRegion& region) {
-  const std::uint32_t old_key = cell_of(d, i, listed_at_[i]);
+  const std::uint32_t old_key = cell_of(d, i, rows_.listed_at(i));
   if (old_key < region.first_key || old_key >= region.last_key) return false;
   slots_.remove(old_key, i);
   slots_.insert(cell_of(d, i, position), i, position, radius_in_units(d.radius_of(i)));

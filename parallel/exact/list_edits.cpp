@@ -10,9 +10,9 @@ void NeighbourLists::append(const Disks& d) {
   const auto i = static_cast<std::uint32_t>(d.size() - 1);
   const FixedPointPosition position = fixed_point(d.x[i], d.y[i]);
   const ListRegion everything;
-  listed_at_.push_back(position);
   ++first_of_tile_.back();
-  rows_.append(0, find_sides(d, i));
+  rows_.append(position);
+  rows_.set_sides(i, find_sides(d, i));
   FoundNeighbours found;
   find_neighbours(d, i, position, everything, found);
   slots_.insert(cell_of(d, i, position), i, position, radius_in_units(d.radius_of(i)));
@@ -24,22 +24,22 @@ void NeighbourLists::remove(std::uint32_t i, const Disks& d) {
   const ListRegion everything;
   const auto take_out = [&](std::uint32_t disk) {
     rows_.replace(disk, {}, everything);
-    slots_.remove(cell_of(d, disk, listed_at_[disk]), disk);
+    slots_.remove(cell_of(d, disk, rows_.listed_at(disk)), disk);
   };
   take_out(i);
   if (i != last) {
     std::vector<std::uint32_t> near;
     for_each_neighbour(last, [&](std::uint32_t j) { near.push_back(j); });
-    const std::uint32_t cell = cell_of(d, last, listed_at_[last]);
+    const std::uint32_t cell = cell_of(d, last, rows_.listed_at(last));
     take_out(last);
-    listed_at_[i] = listed_at_[last];
-    slots_.insert(cell, i, listed_at_[i], radius_in_units(d.radius_of(last)));
+    const FixedPointPosition at = rows_.listed_at(last);
+    rows_.set_listed_at(i, at);
+    slots_.insert(cell, i, at, radius_in_units(d.radius_of(last)));
     rows_.set_sides(i, rows_.sides_near(last));
     rows_.replace(i, near, everything);
   }
   rows_.drop_last();
   --first_of_tile_.back();
-  listed_at_.pop_back();
 }
 
 }  // namespace carom

@@ -55,8 +55,10 @@ std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& colu
 std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                              std::uint32_t* found);
 
-// A disk's list that is all in one row of its ListRows, 64 bytes: eight others, then the offsets of its neighbours.
-inline constexpr std::uint32_t row_offsets = 28;
+// A disk's list that is all in one row of its ListRows, 64 bytes: sixteen others, as many as eight offsets are, then
+// the offsets of its neighbours.
+inline constexpr std::uint32_t places_before_offsets = 8;
+inline constexpr std::uint32_t row_offsets = 24;
 
 // What is another list in place of the one in a row.
 struct ListChange {

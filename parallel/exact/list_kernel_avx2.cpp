@@ -98,7 +98,7 @@ std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns,
 ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
                               std::size_t new_count, const NewList& to) {
   ListChange change;
-  constexpr short before = 4;  // places before the offsets
+  constexpr short before = places_before_offsets;
   change.fits = new_count <= row_offsets;
   if (!change.fits) return change;
   const auto* const half = static_cast<const __m256i*>(row);

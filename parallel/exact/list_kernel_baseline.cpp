@@ -24,7 +24,7 @@ std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& colu
 ListChange change_kernel_baseline(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
                                   std::size_t new_count, const NewList& to) {
   ListChange change;
-  constexpr std::size_t before_offsets = 8;
+  constexpr std::size_t before_offsets = places_before_offsets * sizeof(std::int16_t);
   std::int16_t old[row_offsets];
   std::memcpy(old, static_cast<const char*>(row) + before_offsets, sizeof old);
   change.fits = new_count <= row_offsets;

@@ -31,7 +31,7 @@ void put_and_pad(std::int32_t* offsets, std::uint32_t count, std::int32_t offset
   std::fill(offsets + count, offsets + std::min(count + prediction_lanes, capacity), offset);
 }
 
-// A row, to be searched for offsets. header: the 8 bytes before its 28 offsets, 16-byte aligned.
+// A row, to be searched for offsets. header: the 16 bytes before its offsets, 16-byte aligned.
 class RowSearch {
  public:
 #if defined(__SSE2__)
@@ -44,17 +44,16 @@ class RowSearch {
     const auto equal = [&](int k) { return _mm_cmpeq_epi16(part_[k], sought); };
     const auto low = static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(equal(0), equal(1))));
     const auto high = static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(equal(2), equal(3))));
-    return (high << 16 | low) >> header_places;
+    return (high << 16 | low) >> places_before_offsets;
   }
 
  private:
-  static constexpr unsigned header_places = 4;
   __m128i part_[4];
 #else
-  explicit RowSearch(const void* header) : offset_(static_cast<const std::int16_t*>(header) + 4) {}
+  explicit RowSearch(const void* header) : offset_(static_cast<const std::int16_t*>(header) + places_before_offsets) {}
   std::uint32_t places_of(std::int16_t offset) const {
     std::uint32_t places = 0;
-    for (unsigned k = 0; k < 28; ++k) places |= static_cast<std::uint32_t>(offset_[k] == offset) << k;
+    for (unsigned k = 0; k < row_offsets; ++k) places |= static_cast<std::uint32_t>(offset_[k] == offset) << k;
     return places;
   }
 

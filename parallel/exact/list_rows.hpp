@@ -1,4 +1,5 @@
-// The neighbour lists as they lie in memory: for each disk a row of the storage offsets to its neighbours.
+// The neighbour lists as they lie in memory: for each disk a row of the storage offsets to its neighbours, with the
+// position at which it is listed.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +27,7 @@ struct ListRegion {
 class ListRows {
  public:
   // Rows for this many disks, in blocks of disks that share memory for long lists: a block is for one thread at a time.
-  // The lists are as they were, to be set anew.
+  // What is in them is as it was, to be set anew.
   void begin(std::size_t disks, std::size_t blocks);
   std::size_t size() const { return rows_.size(); }
   void release() { std::vector<Row>().swap(rows_); }
@@ -89,12 +90,14 @@ class ListRows {
 
   // Between windows: one more disk, the last, with an empty list; and one less, whose list is empty and which no other
   // disk lists.
-  void append(std::size_t block, unsigned sides) {
+  void append(FixedPointPosition listed_at) {
     rows_.emplace_back();
-    enter(static_cast<std::uint32_t>(rows_.size() - 1), block, sides);
+    rows_.back().listed_at = listed_at;
   }
   void drop_last() { rows_.pop_back(); }
 
+  FixedPointPosition listed_at(std::uint32_t i) const { return rows_[i].listed_at; }
+  void set_listed_at(std::uint32_t i, FixedPointPosition p) { rows_[i].listed_at = p; }
   void set_sides(std::uint32_t i, unsigned sides) { rows_[i].sides = static_cast<std::uint8_t>(sides); }
   [[gnu::always_inline]] void prefetch(std::uint32_t i) const { __builtin_prefetch(rows_.data() + i); }
 
@@ -112,6 +115,7 @@ class ListRows {
     std::uint8_t count = 0;
     std::uint8_t sides = 0;
     std::uint16_t block = 0;  // its tile, where there are regions
+    FixedPointPosition listed_at;
     std::int16_t offset[row_capacity] = {};
   };
   static_assert(sizeof(Row) == 64);

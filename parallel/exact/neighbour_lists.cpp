@@ -6,7 +6,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/base/huge_pages.hpp"
 #include "core/physics/boundary.hpp"
 #include "parallel/cells/tiled_grid.hpp"
 
@@ -126,14 +125,6 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   }
   find_tiles(n);
   find_inner_part();
-  if (listed_at_.capacity() < n) resize_in_huge_pages(listed_at_, n);
-  listed_at_.resize(n);
-  executor.for_ranges(n, disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec2 at = flow_.acts ? into_flow(d.x[i], d.y[i], 0.0) : Vec2{d.x[i], d.y[i]};
-      listed_at_[i] = fixed_point(at.x, at.y);
-    }
-  });
   list_all(d, executor);
   if (n > disks_of_much_memory) std::vector<std::uint32_t>().swap(cells_.start);
 }
@@ -156,23 +147,34 @@ ListRegion NeighbourLists::region_of_tiles(std::uint32_t first, std::uint32_t la
   return region;
 }
 
+void NeighbourLists::set_listed_positions(const Disks& d, const Executor& executor) {
+  executor.for_ranges(d.size(), disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec2 at = flow_.acts ? into_flow(d.x[i], d.y[i], 0.0) : Vec2{d.x[i], d.y[i]};
+      rows_.set_listed_at(static_cast<std::uint32_t>(i), fixed_point(at.x, at.y));
+    }
+  });
+}
+
 void NeighbourLists::list_all(const Disks& d, const Executor& executor) {
   if (mode_ != EngineMode::all_pairs)
     slots_.begin(grid_.keys, grid_.tile_keys == 0 ? grid_.keys : grid_.tile_keys, !d.radius.empty());
   if (mode_ == EngineMode::regions) {
+    rows_.begin(d.size(), grid_.tiles);
+    set_listed_positions(d, executor);
     executor.run(grid_.tiles, [&](std::size_t t) {
       const auto tile = static_cast<std::uint32_t>(t);
       fill_slots(d, tile * grid_.tile_keys, (tile + 1) * grid_.tile_keys);
     });
-    rows_.begin(d.size(), grid_.tiles);
     executor.run(grid_.tiles, [&](std::size_t t) {
       const auto tile = static_cast<std::uint32_t>(t);
       list_block(d, t, first_disk_of(tile), first_disk_of(tile + 1));
     });
   } else {
     const std::size_t per_block = std::max(disks_per_block, d.size() / most_blocks + 1);
-    if (mode_ == EngineMode::single_queue) fill_slots(d, 0, grid_.keys);
     rows_.begin(d.size(), executor.blocks(d.size(), per_block));
+    set_listed_positions(d, executor);
+    if (mode_ == EngineMode::single_queue) fill_slots(d, 0, grid_.keys);
     executor.for_ranges(d.size(), per_block,
                         [&](std::size_t b, std::size_t begin, std::size_t end) { list_block(d, b, begin, end); });
   }
@@ -188,7 +190,7 @@ void NeighbourLists::list_block(const Disks& d, std::size_t block, std::size_t b
     if (mode_ == EngineMode::all_pairs) {
       find_all_others(i, found);
     } else {
-      find_neighbours(d, i, listed_at_[i], everything, found);
+      find_neighbours(d, i, rows_.listed_at(i), everything, found);
     }
     rows_.set(i, found.disks());
   }
@@ -252,7 +254,7 @@ void NeighbourLists::search_cells(const Disks& d, const ListQuery& query, std::s
     slots_.visit_chained(first, last, region.last_key, [&](std::uint32_t j) {
       if (found.buffer.size() < found.count + list_kernel_padding) found.grow(found.count);
       found.buffer[found.count] = j;
-      const bool near = is_neighbour(query, listed_at_[j], radius_in_units(d.radius_of(j))) && j != query.self;
+      const bool near = is_neighbour(query, rows_.listed_at(j), radius_in_units(d.radius_of(j))) && j != query.self;
       found.count += near ? 1U : 0U;
     });
   }
@@ -344,7 +346,7 @@ bool NeighbourLists::relist(std::uint32_t i, Vec2 at, const Disks& d, const List
                             FoundNeighbours& found) {
   const FixedPointPosition position = fixed_point(at.x, at.y);
   if (mode_ == EngineMode::all_pairs) {
-    listed_at_[i] = position;
+    rows_.set_listed_at(i, position);
     return true;
   }
   // Nor may one that is listed now, and would go on listing disk i: when it comes near again and is relisted, it would
@@ -354,7 +356,7 @@ bool NeighbourLists::relist(std::uint32_t i, Vec2 at, const Disks& d, const List
   const auto held = [&](std::uint32_t j) { return region.holds(j); };
   if (!region.is_everything() && !std::all_of(near.begin(), near.end(), held)) return false;
   if (!move_to_cell_of(d, i, position, region)) return false;
-  listed_at_[i] = position;
+  rows_.set_listed_at(i, position);
   rows_.set_sides(i, find_sides(d, i));
   rows_.replace(i, near, region);
   return true;

@@ -141,7 +141,7 @@ class NeighbourLists {
   double skin() const { return skin_; }  // length
   const RelistDistance& relist_distance(bool near_border) const { return near_border ? near_border_ : elsewhere_; }
   // Of disk i; inside the box, but for rounding.
-  Vec2 listed_position(std::uint32_t i) const { return position_of(listed_at_[i]); }
+  Vec2 listed_position(std::uint32_t i) const { return position_of(rows_.listed_at(i)); }
 
   // Tiles are runs of disks in storage that are neighbours in space, and layers are runs of as many tiles each, which
   // reach from one of the box's longer sides to the other; one where there are no regions.
@@ -151,7 +151,7 @@ class NeighbourLists {
   ListRegion region_of_tiles(std::uint32_t first, std::uint32_t last) const;
   // Is the disk listed so deep within the region that it can be listed again there?
   bool is_in_core(std::uint32_t i, const ListRegion& region) const {
-    const FixedPointPosition at = listed_at_[i];
+    const FixedPointPosition at = rows_.listed_at(i);
     return (layers_along_x_ ? at.x : at.y) - region.core < region.core_size;
   }
   // Of disk i, where there are regions.
@@ -169,10 +169,7 @@ class NeighbourLists {
   const ListRows& rows() const { return rows_; }
 
   // Prefetches the list of disk i.
-  [[gnu::always_inline]] void prefetch(std::uint32_t i) const {
-    rows_.prefetch(i);
-    __builtin_prefetch(&listed_at_[i]);
-  }
+  [[gnu::always_inline]] void prefetch(std::uint32_t i) const { rows_.prefetch(i); }
   // A time up to which the disk, now (at time `from`) on this path, stays within the relist distance of its listed
   // position; `from` itself when it does not. Extrapolates no further than `until`, or as far as gravity bends the path
   // little.
@@ -301,6 +298,7 @@ class NeighbourLists {
   void choose_skin(const Disks& disks, const ListLayout& layout);
   void sort(Disks& disks, const ListLayout& layout, const Executor& executor);
   void find_tiles(std::size_t disks);
+  void set_listed_positions(const Disks& disks, const Executor& executor);
   void list_all(const Disks& disks, const Executor& executor);
   void list_block(const Disks& disks, std::size_t block, std::size_t begin, std::size_t end);
   FixedPointPosition fixed_point(double x, double y) const;
@@ -344,7 +342,6 @@ class NeighbourLists {
   double largest_radius_ = 0.0;
   double unit_x_ = 0.0, unit_y_ = 0.0;  // of a FixedPointPosition; length
   ListRows rows_;
-  std::vector<FixedPointPosition> listed_at_;
   CellSlots slots_;
   ListKernel kernel_ = choose_list_kernel();
 };
