@@ -12,6 +12,8 @@ namespace {
 constexpr double pages_per_event = 1.6;
 constexpr std::size_t most_pages_a_disk = 8;
 constexpr std::size_t few_pages = 64;
+// Parts of the time that are divided into pages one after the other, where there are many disks.
+constexpr std::size_t parts = 4;
 // Pages are shortened where the events of a crowded one are spread over this share of it or more.
 constexpr double spread_share = 0.125;
 constexpr double events_a_page = 2.0;
@@ -31,7 +33,31 @@ void EventCalendar::begin(double start, double end, const CalendarEntries& entri
   const std::size_t wanted =
       expected == 0 ? 2 * disks : static_cast<std::size_t>(pages_per_event * static_cast<double>(expected));
   const std::size_t pages = std::clamp(wanted, disks / 2 + 1, most);
-  set_pages(start, end > start ? static_cast<double>(pages) / (end - start) : 0.0, pages);
+  pages_a_part_ = many ? pages / parts + 1 : pages;
+  begin_part(start, end > start ? static_cast<double>(pages) / (end - start) : 0.0, pages);
+}
+
+// pages: of this part and those to come. What is beyond this part stays together with what comes after the end.
+void EventCalendar::begin_part(double start, double pages_per_time, std::size_t pages) {
+  const std::size_t here = std::min(pages, pages_a_part_);
+  set_pages(start, pages_per_time, here);
+  later_pages_ = pages - here;
+  if (later_pages_ > 0) last_page_ = static_cast<double>(here);
+}
+
+// False, without a change, if this is the last one.
+bool EventCalendar::begin_next_part() {
+  if (later_pages_ == 0) return false;
+  deliver_all();
+  begin_part(start_ + last_page_ / pages_per_time_, pages_per_time_, later_pages_);
+  enter_again();
+  return true;
+}
+
+void EventCalendar::enter_again() {
+  for (std::uint32_t disk = first_disk_; disk < last_disk_; ++disk) {
+    if (holds(disk)) insert(disk, node_[disk].time);
+  }
 }
 
 void EventCalendar::release_memory() {
@@ -46,6 +72,7 @@ void EventCalendar::set_pages(double start, double pages_per_time, std::size_t p
   pages_ = static_cast<std::uint32_t>(pages);
   last_page_ = static_cast<double>(pages - 1);
   page_ = 0;
+  later_pages_ = 0;
   is_sorted_ = false;
   transit_.fill({end_of_list_, 0});
   first_in_transit_ = absent;
@@ -68,9 +95,7 @@ bool EventCalendar::shorten_pages() {
   const std::size_t most = most_pages_a_disk * (last_disk_ - first_disk_) + few_pages;
   const double pages = (end_ - page_start) * pages_per_time + 1.0;
   set_pages(page_start, pages_per_time, pages < static_cast<double>(most) ? static_cast<std::size_t>(pages) : most);
-  for (std::uint32_t disk = first_disk_; disk < last_disk_; ++disk) {
-    if (holds(disk)) insert(disk, node_[disk].time);
-  }
+  enter_again();
   return true;
 }
 

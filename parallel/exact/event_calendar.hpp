@@ -33,7 +33,7 @@ struct CalendarEntries {
 //
 // Where there are many disks, neither a page nor the disks on it are in a cache: an entry for a page that comes later
 // is written to it some moves later, when the page has been prefetched, and the disks of pages that come soon are
-// announced.
+// announced. There, the time is divided part after part, so that pages take less memory than the disks' entries.
 class EventCalendar {
  public:
   // How often a disk is announced before its event comes.
@@ -79,14 +79,17 @@ class EventCalendar {
 
   // The disk whose event is the first one up to the end; false if there is none. It stays where it is until it is
   // moved. comes_first(a, b): of two disks with events at the same time, does that of a come first?
-  // soon(disk, stage) is called for disks of pages that come soon, stage < stages.
+  // soon(disk, stage) is called for disks of pages that come soon, stage < stages. Inlined as move is.
   template <class ComesFirst, class Soon>
-  bool find_first(std::uint32_t& disk, ComesFirst&& comes_first, Soon&& soon) {
+  [[gnu::always_inline]] bool find_first(std::uint32_t& disk, ComesFirst&& comes_first, Soon&& soon) {
     for (;;) {
       const std::uint32_t begin = first_[page_];
       if (begin == end_of_list_) {
         is_sorted_ = false;
-        if (page_ + 1 == pages_) return false;
+        if (page_ + 1 == pages_) [[unlikely]] {
+          if (!begin_next_part()) return false;
+          continue;
+        }
         ++page_;
         if (!many_) continue;
         if (page_ + pages_ahead >= first_in_transit_) [[unlikely]]
@@ -218,6 +221,9 @@ class EventCalendar {
     node_[next].previous = disk;
   }
   void set_pages(double start, double pages_per_time, std::size_t pages);
+  void begin_part(double start, double pages_per_time, std::size_t pages);
+  bool begin_next_part();
+  void enter_again();
   bool shorten_pages();
   void collect_page();
   void relink_page();
@@ -235,7 +241,9 @@ class EventCalendar {
   double last_page_ = 0.0;
   std::uint32_t pages_ = 1;
   std::uint32_t page_ = 0;  // the present one
-  bool is_sorted_ = false;  // the present page
+  std::size_t pages_a_part_ = 1;
+  std::size_t later_pages_ = 0;  // of the parts to come
+  bool is_sorted_ = false;       // the present page
   bool many_ = false;
   std::uint32_t pages_written_at_once_ = absent;  // from the present one; entries of later ones are in transit first
   std::uint32_t end_of_list_ = 0;                 // an entry that is no disk's
