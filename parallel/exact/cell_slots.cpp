@@ -16,7 +16,7 @@ void refill(std::vector<T>& column, std::size_t n, T value) {
 
 void CellSlots::begin(std::uint32_t cells, std::uint32_t cells_a_part, bool unequal_radii) {
   const std::size_t slots = std::size_t{cells} * slots_a_cell;
-  refill(position_, slots, FixedPointPosition{});
+  refill(position_, slots, SlotPosition{});
   refill(disk_, slots, none);
   refill(radius_, unequal_radii ? slots : 0, 0.0F);
   refill(chain_, cells, none);
@@ -28,7 +28,7 @@ void CellSlots::begin(std::uint32_t cells, std::uint32_t cells_a_part, bool uneq
   }
 }
 
-void CellSlots::insert(std::uint32_t cell, std::uint32_t disk, FixedPointPosition position, float radius) {
+void CellSlots::insert(std::uint32_t cell, std::uint32_t disk, SlotPosition position, float radius) {
   const std::uint32_t first = cell * slots_a_cell;
   for (std::uint32_t s = first; s < first + slots_a_cell; ++s) {
     if (disk_[s] != none) continue;

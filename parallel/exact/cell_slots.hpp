@@ -19,7 +19,7 @@ class CellSlots {
   void begin(std::uint32_t cells, std::uint32_t cells_a_part, bool unequal_radii);
 
   // radius: over the unit of lengths that the kernel works in, a little more; ignored where all are equal.
-  void insert(std::uint32_t cell, std::uint32_t disk, FixedPointPosition position, float radius);
+  void insert(std::uint32_t cell, std::uint32_t disk, SlotPosition position, float radius);
   // Takes the disk out of the cell that it is in.
   void remove(std::uint32_t cell, std::uint32_t disk);
 
@@ -58,7 +58,7 @@ class CellSlots {
   PartLinks& links_of(std::uint32_t cell) { return links_[cell / cells_a_part_]; }
 
   // By slot.
-  std::vector<FixedPointPosition> position_;
+  std::vector<SlotPosition> position_;
   std::vector<std::uint32_t> disk_;   // none: empty
   std::vector<float> radius_;         // where they differ
   std::vector<std::uint32_t> chain_;  // by cell: number of the link of the first disk chained to it

@@ -1,9 +1,21 @@
 // The cells of the neighbour lists: which one a listed position is in, and how disks come into them.
 #include <algorithm>
+#include <cmath>
 
 #include "parallel/exact/neighbour_lists.hpp"
 
 namespace carom {
+
+namespace {
+
+// What rounding and slots add to the reach of lists, generously.
+constexpr double slot_room = 1.1;
+// In skins.
+constexpr double coarse_unit = 1.0 / 32.0;
+// More than what single precision adds to the reach of a list, as a share of it.
+constexpr double search_rounding = 4e-5;
+
+}  // namespace
 
 void NeighbourLists::find_tiles(std::size_t disks) {
   first_of_tile_.assign(std::size_t{grid_.tiles} + 1, static_cast<std::uint32_t>(disks));
@@ -13,6 +25,34 @@ void NeighbourLists::find_tiles(std::size_t disks) {
   }
 }
 
+// Differences of two places that are listed together must not wrap round in a slot, and those of all that one search
+// sees should not, unless units would be coarse then: others may be listed too. A period has more bits than a slot, or
+// as many, so that differences wrap round the box as they do in full.
+void NeighbourLists::choose_slot_units() {
+  const double listed = flow_.stretch * (2.0 * largest_radius_ + 2.0 * skin_) * slot_room;
+  double cell_width = 0.0;
+  double cell_height = 0.0;
+  for (const GridLevel& level : grid_.levels) {
+    cell_width = std::max(cell_width, level.cell_width);
+    cell_height = std::max(cell_height, level.cell_height);
+  }
+  const auto shift = [&](double unit, double cell) {
+    const auto unit_of = [unit](unsigned bits) { return std::ldexp(unit, static_cast<int>(bits)); };
+    const auto reach_of = [&](unsigned bits) { return 0x1p15 * unit_of(bits); };
+    unsigned bits = 0;
+    while (bits < 16U &&
+           (reach_of(bits) < listed || (reach_of(bits) < listed + cell && unit_of(bits + 1) < coarse_unit * skin_))) {
+      ++bits;
+    }
+    return bits;
+  };
+  slot_shift_x_ = shift(unit_x_, cell_width);
+  slot_shift_y_ = shift(unit_y_, cell_height);
+  slot_unit_x_ = std::ldexp(unit_x_, static_cast<int>(slot_shift_x_));
+  slot_unit_y_ = std::ldexp(unit_y_, static_cast<int>(slot_shift_y_));
+  search_margin_ = 2.0 * (slot_unit_x_ + slot_unit_y_) + search_rounding * listed;
+}
+
 // Puts the disks that are sorted into cells [first_key, last_key) into the slots of the cells of their listed
 // positions: the same ones, but for a shear.
 void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::uint32_t last_key) {
@@ -20,7 +60,7 @@ void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::ui
     for (std::uint32_t i = cells_.start[key]; i < cells_.start[key + 1]; ++i) {
       if (!flow_.acts) move_into_cell(d, i, key);
       const FixedPointPosition at = rows_.listed_at(i);
-      slots_.insert(cell_of(d, i, at), i, at, radius_in_units(d.radius_of(i)));
+      slots_.insert(cell_of(d, i, at), i, slot_position(at), radius_in_units(d.radius_of(i)));
     }
   }
 }
@@ -56,7 +96,7 @@ bool NeighbourLists::move_to_cell_of(const Disks& d, std::uint32_t i, FixedPoint
   const std::uint32_t old_key = cell_of(d, i, rows_.listed_at(i));
   if (old_key < region.first_key || old_key >= region.last_key) return false;
   slots_.remove(old_key, i);
-  slots_.insert(cell_of(d, i, position), i, position, radius_in_units(d.radius_of(i)));
+  slots_.insert(cell_of(d, i, position), i, slot_position(position), radius_in_units(d.radius_of(i)));
   return true;
 }
 

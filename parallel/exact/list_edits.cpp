@@ -15,7 +15,7 @@ void NeighbourLists::append(const Disks& d) {
   rows_.set_sides(i, find_sides(d, i));
   FoundNeighbours found;
   find_neighbours(d, i, position, everything, found);
-  slots_.insert(cell_of(d, i, position), i, position, radius_in_units(d.radius_of(i)));
+  slots_.insert(cell_of(d, i, position), i, slot_position(position), radius_in_units(d.radius_of(i)));
   rows_.replace(i, found.disks(), everything);
 }
 
@@ -34,7 +34,7 @@ void NeighbourLists::remove(std::uint32_t i, const Disks& d) {
     take_out(last);
     const FixedPointPosition at = rows_.listed_at(last);
     rows_.set_listed_at(i, at);
-    slots_.insert(cell, i, at, radius_in_units(d.radius_of(last)));
+    slots_.insert(cell, i, slot_position(at), radius_in_units(d.radius_of(last)));
     rows_.set_sides(i, rows_.sides_near(last));
     rows_.replace(i, near, everything);
   }

@@ -13,10 +13,16 @@ struct FixedPointPosition {
   std::uint32_t x = 0, y = 0;
 };
 
+// What a slot has of one: 16 of its bits, from the same one upwards for all. Differences wrap round too; those of
+// places that are far from each other say nothing.
+struct SlotPosition {
+  std::uint16_t x = 0, y = 0;
+};
+
 // Lengths in any one unit, such that squares are numbers in single precision.
 struct ListQuery {
-  FixedPointPosition position;
-  float unit_x = 0.0F, unit_y = 0.0F;  // of FixedPointPosition; length
+  SlotPosition position;
+  float unit_x = 0.0F, unit_y = 0.0F;  // of a SlotPosition; length
   float cutoff = 0.0F;                 // without the neighbour's radius; length
   float common_radius = 0.0F;          // where all disks have one; length
   std::uint32_t self = 0;              // is not its own neighbour
@@ -24,7 +30,7 @@ struct ListQuery {
 
 // By slot.
 struct SlotColumns {
-  const FixedPointPosition* position = nullptr;
+  const SlotPosition* position = nullptr;
   const std::uint32_t* disk = nullptr;  // empty_slot: none
   const float* radius = nullptr;        // length, in the query's unit; null: all have the common one
 };
@@ -37,9 +43,12 @@ struct SlotRun {
 inline constexpr std::uint32_t slots_a_cell = 4;
 
 // All versions do these operations in this order, so that they find the same disks.
-inline bool is_neighbour(const ListQuery& q, FixedPointPosition p, float radius) {
-  const float dx = static_cast<float>(static_cast<std::int32_t>(p.x - q.position.x)) * q.unit_x;
-  const float dy = static_cast<float>(static_cast<std::int32_t>(p.y - q.position.y)) * q.unit_y;
+inline bool is_neighbour(const ListQuery& q, SlotPosition p, float radius) {
+  const auto difference = [](std::uint16_t a, std::uint16_t b) {
+    return static_cast<float>(static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b)));
+  };
+  const float dx = difference(p.x, q.position.x) * q.unit_x;
+  const float dy = difference(p.y, q.position.y) * q.unit_y;
   const float cutoff = q.cutoff + radius;
   return dx * dx + dy * dy <= cutoff * cutoff;
 }

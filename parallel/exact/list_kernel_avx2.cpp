@@ -27,7 +27,7 @@ constexpr auto packing = [] {
 
 // The query in every lane.
 struct Lanes {
-  __m256i x, y, self;
+  __m256i position, self;
   __m256 unit_x, unit_y, cutoff, cutoff2;
 };
 
@@ -36,18 +36,17 @@ template <bool unequal_radii, bool eight>
 inline std::size_t take(const Lanes& l, const SlotColumns& columns, std::uint32_t s, std::uint32_t* found) {
   const auto half = [](const auto* column) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(column)); };
   const auto whole = [](const auto* column) { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(column)); };
-  const __m256 a = _mm256_castsi256_ps(whole(columns.position + s));
-  const __m256 b = eight ? _mm256_castsi256_ps(whole(columns.position + s + slots_a_cell)) : a;
   const __m256i disk =
       eight ? whole(columns.disk + s)
             : _mm256_inserti128_si256(_mm256_set1_epi32(static_cast<int>(empty_slot)), half(columns.disk + s), 0);
-  // Lanes 0, 1, 4, 5, 2, 3, 6, 7, put in order at the end.
-  const __m256i x = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0x88));
-  const __m256i y = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0xdd));
-  const __m256 dx = _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_sub_epi32(x, l.x)), l.unit_x);
-  const __m256 dy = _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_sub_epi32(y, l.y)), l.unit_y);
-  const __m256 unordered = _mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy));
-  const __m256 distance2 = _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(unordered), 0xd8));
+  const __m256i position = eight ? whole(columns.position + s) : _mm256_castsi128_si256(half(columns.position + s));
+  // In each lane x in the lower half, y in the upper one.
+  const __m256i off = _mm256_sub_epi16(position, l.position);
+  const __m256i off_x = _mm256_srai_epi32(_mm256_slli_epi32(off, 16), 16);
+  const __m256i off_y = _mm256_srai_epi32(off, 16);
+  const __m256 dx = _mm256_mul_ps(_mm256_cvtepi32_ps(off_x), l.unit_x);
+  const __m256 dy = _mm256_mul_ps(_mm256_cvtepi32_ps(off_y), l.unit_y);
+  const __m256 distance2 = _mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy));
   __m256 cutoff2 = l.cutoff2;
   if constexpr (unequal_radii) {
     const __m256 radius =
@@ -69,8 +68,7 @@ template <bool unequal_radii>
 std::size_t find(const ListQuery& q, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                  std::uint32_t* found) {
   const float cutoff = q.cutoff + q.common_radius;
-  const Lanes l{_mm256_set1_epi32(static_cast<int>(q.position.x)),
-                _mm256_set1_epi32(static_cast<int>(q.position.y)),
+  const Lanes l{_mm256_set1_epi32(static_cast<int>(std::uint32_t{q.position.y} << 16U | q.position.x)),
                 _mm256_set1_epi32(static_cast<int>(q.self)),
                 _mm256_set1_ps(q.unit_x),
                 _mm256_set1_ps(q.unit_y),

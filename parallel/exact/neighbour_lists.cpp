@@ -120,6 +120,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
     // That of the rows is given back for what sorting needs.
     if (n > disks_of_much_memory) rows_.release();
     sort(d, layout, executor);
+    choose_slot_units();
     if (sorted) sorted(cells_.order, cells_.column);
     if (n > disks_of_much_memory) release_sort_scratch(cells_);
   }
@@ -136,7 +137,7 @@ ListRegion NeighbourLists::region_of_tiles(std::uint32_t first, std::uint32_t la
   const double side = layers_along_x_ ? box_.width : box_.height;
   const double unit = layers_along_x_ ? unit_x_ : unit_y_;
   const double tiles_to_length = side / static_cast<double>(grid_.tiles);
-  const double depth = 2.0 * largest_radius_ + 3.0 * skin_ + most_lead * near_border_.length;
+  const double depth = 2.0 * largest_radius_ + 3.0 * skin_ + search_margin_ + most_lead * near_border_.length;
   const double from = first * tiles_to_length + depth;
   const double size = last * tiles_to_length - depth - from;
   region.core = region.core_size = 0;
@@ -212,11 +213,12 @@ float NeighbourLists::radius_in_units(double radius) const {
 
 ListQuery NeighbourLists::query_at(const Disks& d, std::uint32_t i, FixedPointPosition position) const {
   const double per_length = 1.0 / skin_;
-  const double distance = flow_.stretch * d.radius_of(i) + 2.0 * skin_;
+  // Each position is less than a unit of slots from where it says.
+  const double distance = flow_.stretch * d.radius_of(i) + 2.0 * skin_ + slot_unit_x_ + slot_unit_y_;
   const auto single = [&](double length) { return static_cast<float>(length * per_length); };
-  return {position,
-          single(unit_x_),
-          single(unit_y_),
+  return {slot_position(position),
+          single(slot_unit_x_),
+          single(slot_unit_y_),
           single(distance * single_margin),
           single(flow_.stretch * d.common_radius * single_margin),
           i};
@@ -232,12 +234,13 @@ bool NeighbourLists::find_neighbours(const Disks& d, std::uint32_t i, FixedPoint
     search_cells(d, query, std::span<const CellRun>(runs.data(), held), region, found);
     held = 0;
   };
-  const bool inside = visit_cells_near(position_of(position), flow_.stretch * d.radius_of(i) + 2.0 * skin_, region,
-                                       [&](std::uint32_t first, std::uint32_t last) {
-                                         if (held == runs.size()) [[unlikely]]
-                                           search();
-                                         runs[held++] = {first, last};
-                                       });
+  const double distance = flow_.stretch * d.radius_of(i) + 2.0 * skin_ + search_margin_;
+  const bool inside =
+      visit_cells_near(position_of(position), distance, region, [&](std::uint32_t first, std::uint32_t last) {
+        if (held == runs.size()) [[unlikely]]
+          search();
+        runs[held++] = {first, last};
+      });
   if (inside) search();
   return inside;
 }
@@ -254,7 +257,8 @@ void NeighbourLists::search_cells(const Disks& d, const ListQuery& query, std::s
     slots_.visit_chained(first, last, region.last_key, [&](std::uint32_t j) {
       if (found.buffer.size() < found.count + list_kernel_padding) found.grow(found.count);
       found.buffer[found.count] = j;
-      const bool near = is_neighbour(query, rows_.listed_at(j), radius_in_units(d.radius_of(j))) && j != query.self;
+      const bool near =
+          is_neighbour(query, slot_position(rows_.listed_at(j)), radius_in_units(d.radius_of(j))) && j != query.self;
       found.count += near ? 1U : 0U;
     });
   }
@@ -273,7 +277,7 @@ void NeighbourLists::find_all_others(std::uint32_t i, FoundNeighbours& found) co
 // each is within the skin of where it is listed.
 void NeighbourLists::find_inner_part() {
   const bool none = mode_ == EngineMode::all_pairs || flow_.acts;
-  const double depth = none ? never : (2.0 * largest_radius_ + 4.0 * skin_) * (1.0 + 1e-6);
+  const double depth = none ? never : (2.0 * largest_radius_ + 4.0 * skin_ + search_margin_) * (1.0 + 1e-6);
   const auto part = [depth](double side, bool periodic, double& low, double& high) {
     low = periodic ? depth : -never;
     high = periodic ? side - depth : never;
@@ -337,7 +341,7 @@ double NeighbourLists::safe_speed2(double length, double g) const {
   if (box_.periodic_y()) period = std::min(period, box_.height);
   if (period == HUGE_VAL) return HUGE_VAL;
   if (mode_ == EngineMode::all_pairs) return -1.0;
-  const double listed = flow_.stretch * (2.0 * flow_.stretch * largest_radius_ + 4.0 * skin_);
+  const double listed = flow_.stretch * (2.0 * flow_.stretch * largest_radius_ + 4.0 * skin_ + search_margin_);
   const double flight = 0.5 * (0.49 * period - listed) - g * length * length;
   return flight > 0.0 ? (flight / length) * (flight / length) : -1.0;
 }

@@ -302,6 +302,10 @@ class NeighbourLists {
   void list_all(const Disks& disks, const Executor& executor);
   void list_block(const Disks& disks, std::size_t block, std::size_t begin, std::size_t end);
   FixedPointPosition fixed_point(double x, double y) const;
+  void choose_slot_units();
+  SlotPosition slot_position(FixedPointPosition p) const {
+    return {static_cast<std::uint16_t>(p.x >> slot_shift_x_), static_cast<std::uint16_t>(p.y >> slot_shift_y_)};
+  }
   Vec2 position_of(FixedPointPosition p) const { return {p.x * unit_x_, p.y * unit_y_}; }
   ListQuery query_at(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
   float radius_in_units(double radius) const;
@@ -340,7 +344,12 @@ class NeighbourLists {
   double period_x_ = 0.0, period_y_ = 0.0;            // length; 0: none
   double periods_per_x_ = 0.0, periods_per_y_ = 0.0;  // 1 / period; 0: none
   double largest_radius_ = 0.0;
-  double unit_x_ = 0.0, unit_y_ = 0.0;  // of a FixedPointPosition; length
+  double unit_x_ = 0.0, unit_y_ = 0.0;            // of a FixedPointPosition; length
+  double slot_unit_x_ = 0.0, slot_unit_y_ = 0.0;  // of a SlotPosition; length
+  // Disks that are this much further from each other than lists reach may be listed all the same: each of the two finds
+  // the other. Length.
+  double search_margin_ = 0.0;
+  unsigned slot_shift_x_ = 0, slot_shift_y_ = 0;  // a SlotPosition has its bits from this one on
   ListRows rows_;
   CellSlots slots_;
   ListKernel kernel_ = choose_list_kernel();

@@ -132,11 +132,11 @@ TEST(NeighbourLists, KeepToTheirRegion) {
 TEST(ListKernel, AllVersionsFindTheSame) {
   test::Draws draws(8);
   constexpr std::uint32_t cells = 51;
-  std::vector<FixedPointPosition> position;
+  std::vector<SlotPosition> position;
   std::vector<std::uint32_t> disk;
   std::vector<float> radius;
   for (std::uint32_t s = 0; s < cells * slots_a_cell; ++s) {
-    position.push_back({static_cast<std::uint32_t>(draws.bits()), static_cast<std::uint32_t>(draws.bits())});
+    position.push_back({static_cast<std::uint16_t>(draws.bits()), static_cast<std::uint16_t>(draws.bits())});
     disk.push_back(draws.bits() % 4 == 0 ? empty_slot : s);
     radius.push_back(static_cast<float>(draws.in(0.05, 2.0)));
   }
@@ -145,8 +145,8 @@ TEST(ListKernel, AllVersionsFindTheSame) {
     ListQuery query;
     query.self = static_cast<std::uint32_t>(draws.bits() % disk.size());
     query.position = position[query.self];
-    query.unit_x = 0x1p-32F * 10.0F;
-    query.unit_y = 0x1p-32F * 8.0F;
+    query.unit_x = 0x1p-16F * 10.0F;
+    query.unit_y = 0x1p-16F * 8.0F;
     query.cutoff = static_cast<float>(draws.in(0.2, 3.0));
     query.common_radius = 0.5F;
     const SlotColumns columns{position.data(), disk.data(), round % 2 == 0 ? radius.data() : nullptr};
