@@ -91,8 +91,10 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& ex
     make_tiled_grid(box_, largest, count, layout.disks_per_tile, layout.regions, grid_);
     if (layout.disks_of_box > 0) keep_tiles_between(box_, layout.low, layout.high, grid_);
   } else {
-    // About two disks a cell: lists extend over several cells, and each costs as much to visit, empty or not.
-    for (std::size_t& c : count) c = c / 4 + 1;
+    // About two disks a cell: lists extend over several cells, and each costs as much to visit, empty or not. A few
+    // more where they are many, for memory's sake.
+    const std::size_t share = d.size() > disks_of_much_memory ? 5 : 4;
+    for (std::size_t& c : count) c = c / share + 1;
     make_grid(box_, largest, count, grid_);
   }
   sort_into_cells(d, grid_, executor, cells_);
