@@ -9,7 +9,8 @@ namespace carom {
 
 namespace {
 
-constexpr double disks_per_cell = 2.0;
+// About, by a factor of 1.4 either way, since a tile has a power of two of them: a cell has room for four without links.
+constexpr double disks_per_cell = 2.8;
 // The number of a tile has to fit in 16 bits; sides that are rounded make up to twice as many.
 constexpr double most_tiles = 30000.0;
 // Of a region: enough that regions can be given nearly the same number of disks where those are spread unevenly.
@@ -62,8 +63,11 @@ void make_tiled_grid(const Domain& box, double largest_radius, const std::vector
     GridLevel level;
     level.largest_radius = radius;
     const double cell = cell_of(static_cast<double>(count[k]));
-    level.band_shift = shift_for(width, cell);
-    level.group_shift = shift_for(height, cell);
+    // First how many cells a tile has: were both sides rounded by themselves, cells could hold half or twice as many.
+    const unsigned shift = shift_for(width * height, cell * cell);
+    const double band_shift = 0.5 * (shift + std::log2(width / height));
+    level.band_shift = static_cast<unsigned>(std::lround(std::clamp<double>(band_shift, 0.0, shift)));
+    level.group_shift = shift - level.band_shift;
     level.columns = bands << level.band_shift;
     level.rows = groups << level.group_shift;
     level.kept_rows = level.rows;
