@@ -37,7 +37,7 @@ inline constexpr std::size_t all_pairs_up_to = 40;
 // Up to so many disks one queue on one thread is as fast as regions on two.
 inline constexpr std::size_t single_queue_up_to = 49152;
 inline constexpr std::size_t single_queue_of_cut_work_up_to = 8192;
-// What so many disks take, 250 bytes each, is in a cache of the second level.
+// What so many disks take, 200 bytes each, is in a cache of the second level.
 inline constexpr std::size_t disks_in_cache = 16384;
 // Disks that are neighbours in memory; regions consist of whole layers of tiles.
 inline constexpr std::size_t most_disks_a_tile = 8192;

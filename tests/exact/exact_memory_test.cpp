@@ -1,0 +1,95 @@
+// How much memory the exact engine takes for a disk: this program adds up all that is allocated, its own and the
+// engine's.
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <string>
+
+#include "core/load/memory_need.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/start/initial_state.hpp"
+#include "core/step/engine.hpp"
+#include "parallel/simulation.hpp"
+
+namespace {
+
+std::atomic<long> allocated{0};  // bytes
+std::atomic<long> most{0};
+
+void* counted(std::size_t bytes, std::size_t alignment) {
+  void* const memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  const long now = allocated += static_cast<long>(malloc_usable_size(memory));
+  long before = most.load();
+  while (before < now && !most.compare_exchange_weak(before, now)) {
+  }
+  return memory;
+}
+
+void uncount(void* memory) {
+  if (memory != nullptr) allocated -= static_cast<long>(malloc_usable_size(memory));
+  std::free(memory);
+}
+
+}  // namespace
+
+// The other forms end in these; see warm_step_allocation_test.
+[[gnu::noinline]] void* operator new(std::size_t bytes) {
+  return counted(bytes, alignof(std::max_align_t));
+}
+[[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return counted(bytes, static_cast<std::size_t>(alignment));
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  uncount(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  uncount(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
+  uncount(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  uncount(memory);
+}
+
+namespace carom {
+namespace {
+
+constexpr long disks = 80'000;  // enough for regions, and for giving back what is not needed all the time
+
+double most_bytes_a_disk(int threads) {
+  const Scene scene = parse_scene(
+      "[box]\npacking_fraction = 0.5\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\n"
+      "top = \"periodic\"\n[[disks]]\ncount = " +
+          std::to_string(disks) +
+          "\npositions = \"square\"\nvelocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0\n"
+          "[run]\nmethod = \"exact\"\nt_end = 100.0\n",
+      "memory", "");
+  const long before = allocated;
+  State initial = initial_state(scene);
+  most = allocated.load();
+  const auto engine = make_parallel_engine(scene, std::move(initial), {threads});
+  engine->forget_paths();
+  while (engine->progress().counters.collisions < 4 * disks) engine->step();
+  return static_cast<double>(most - before) / static_cast<double>(disks);
+}
+
+// The lower bound that scenes are checked with is near what runs take, on the safe side.
+TEST(ExactMemory, OfADiskIsWhatScenesAreCheckedWith) {
+  const double least = least_memory(Method::exact, disks) / static_cast<double>(disks);
+  for (const int threads : {1, 2}) {
+    const double taken = most_bytes_a_disk(threads);
+    RecordProperty("bytes_a_disk_" + std::to_string(threads), std::to_string(taken));
+    EXPECT_GT(taken, least) << threads << " threads";
+    EXPECT_LT(taken, 1.05 * least) << threads << " threads";
+  }
+}
+
+}  // namespace
+}  // namespace carom
