@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/check.hpp"
 #include "core/physics/exact_path.hpp"
@@ -93,6 +94,8 @@ void WindowRun::sort_times(const std::vector<std::uint32_t>& order, std::vector<
 SliceOutcome WindowRun::run(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin) {
   if (scene_.box.shear.acts()) lists_.carry_flow(box_at(scene_.box, plan.start), plan.start);
   load_paths(plan, speeds, disks);
+  // Lists and times are those of the window's end from now on, or of a moment at which it fails.
+  const Known known = std::exchange(known_, Known::nothing);
   const PhaseTimer timer(times_, "events");
   set_speed_bound(plan, margin);
   scheduler_.begin_window(rebuilt_, per_disk_);
@@ -106,6 +109,7 @@ SliceOutcome WindowRun::run(const WindowPlan& plan, const SpeedSummary& speeds, 
     per_disk_ = disks == 0 ? 0.0 : events / elapsed / static_cast<double>(disks);
     start = end;
   }
+  known_ = known;
   return SliceOutcome::done;
 }
 
