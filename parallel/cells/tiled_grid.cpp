@@ -9,7 +9,8 @@ namespace carom {
 
 namespace {
 
-// About, by a factor of 1.4 either way, since a tile has a power of two of them: a cell has room for four without links.
+// About, by a factor of 1.4 either way, since a tile has a power of two of them: a cell has room for four without
+// links.
 constexpr double disks_per_cell = 2.8;
 // The number of a tile has to fit in 16 bits; sides that are rounded make up to twice as many.
 constexpr double most_tiles = 30000.0;
