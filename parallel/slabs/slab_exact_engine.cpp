@@ -26,7 +26,7 @@ constexpr double zone_of_retry = 1.5;  // over that of the try before
 constexpr double depth_in_reserve = 1.45;
 // Disks that a rank does not have are taken to come nearer in a window by this share of how far the fastest disk could
 // go; by more where they did, and by less again after windows in which they did not.
-constexpr double usual_approach = 0.35;
+constexpr double usual_approach = 0.5;
 constexpr double approach_of_retry = 1.5;
 constexpr double approach_after_window = 0.99;
 // Of its thickness a slab shows its neighbours so much at most.
