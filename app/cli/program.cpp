@@ -57,21 +57,19 @@ void occupy_standard_streams() {
   }
 }
 
-// A column of many disks is mapped by itself, so that it goes back to the system when it is freed. glibc would take to
-// keeping up to 32 MiB, in pieces, once one of that size was freed.
-void give_back_columns() {
-#if defined(__GLIBC__)
-  constexpr int column = 1 << 21;  // bytes
-  mallopt(M_MMAP_THRESHOLD, column);
-#endif
-}
-
 int fail(int status, const char* what) {
   print_note(fmt::format("error: {}", what));
   return status;
 }
 
 }  // namespace
+
+void give_back_columns() {
+#if defined(__GLIBC__)
+  constexpr int column = 1 << 21;  // bytes
+  mallopt(M_MMAP_THRESHOLD, column);
+#endif
+}
 
 int program(int argc, char** argv, RankLead* lead) {
   occupy_standard_streams();

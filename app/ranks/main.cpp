@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   const std::unique_ptr<Ranks> ranks = session.ranks();
   if (ranks->rank() == 0) return lead(session, *ranks, argc, argv);
   leave_signals_to_rank_0();
+  give_back_columns();
   const FloatEnvironment environment;
   try {
     follow_lead(*ranks, {threads_of_rank(ranks->count())}, read_rank_start);

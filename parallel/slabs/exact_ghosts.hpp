@@ -29,6 +29,14 @@ class ExactGhosts final : public WindowGhosts {
   // Takes the ghosts out of the columns again, and those that are gone: empty, or an entry for each disk. Disks behind
   // those that there were are the rank's own.
   void drop(State& state, const std::vector<unsigned char>& gone = {});
+  // May there be ghosts among the columns?
+  bool any() const { return !marks_.empty(); }
+  // Of n disks the rank's own.
+  std::size_t own_among(std::size_t n) const {
+    std::size_t own_disks = 0;
+    visit_own(n, [&](std::size_t begin, std::size_t end) { own_disks += end - begin; });
+    return own_disks;
+  }
   // An entry for each of n disks, 1 for ghosts.
   std::vector<unsigned char> ghosts_among(std::size_t n) const;
   // The disks of the state are those in the rank's slab; it gets the ghosts, up to this depth (length) beyond the

@@ -163,7 +163,8 @@ class Part {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     const auto* const in_slabs = dynamic_cast<const InSlabs*>(engine_.get());
-    put(here, RankLoad{engine_->state().disks.size(), in_slabs != nullptr ? in_slabs->ghosts() : 0,
+    const Count own = in_slabs != nullptr ? in_slabs->own_disks() : engine_->state().disks.size();
+    put(here, RankLoad{own, in_slabs != nullptr ? in_slabs->ghosts() : 0,
                        Count{1024} * static_cast<Count>(usage.ru_maxrss), in_steps_});
     RankReport all{steps_, {}};
     for (const Bytes& there : ranks_.gather(here)) all.ranks.push_back(MessageReader(there).get<RankLoad>());
@@ -210,7 +211,7 @@ class LeadingEngine final : public Engine {
     return *whole_;
   }
 
-  const State& progress() const override { return part_.engine().state(); }
+  const State& progress() const override { return part_.engine().progress(); }
 
   double disks_at(double t, Disks& out) const override {
     if (!knows_paths_ || !(t < progress().time)) {

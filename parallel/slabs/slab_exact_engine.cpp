@@ -214,19 +214,12 @@ void SlabExact::finish(const WindowPlan& plan) {
   validity_.see_step(scene_, figures, state_);
 }
 
-Disks SlabExact::own_of(const Disks& all) const {
-  Disks own = all;
-  std::vector<unsigned char> gone(all.size(), 1);
-  ghosts_.visit_own(all.size(), [&](std::size_t begin, std::size_t end) { std::fill_n(&gone[begin], end - begin, 0); });
-  remove_marked(own, gone);
-  return own;
-}
-
 const State& SlabExact::state() const {
   if (lone_.runs()) return lone_.state(state_);
+  if (!ghosts_.any()) return state_;
   if (!own_) {
     own_ = state_;
-    own_->disks = own_of(state_.disks);
+    remove_marked(own_->disks, ghosts_.ghosts_among(own_->disks.size()));
   }
   return *own_;
 }

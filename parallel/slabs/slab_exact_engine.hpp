@@ -46,6 +46,9 @@ class SlabExact final : public Engine, public InSlabs {
   const PhaseTimes& phase_times() const override { return times_; }
   std::vector<std::string> take_warnings() override;
   const SlabCut* slab_cut() const override;
+  Count own_disks() const override {
+    return lone_.runs() ? lone_.state(state_).disks.size() : ghosts_.own_among(state_.disks.size());
+  }
   Count ghosts() const override { return lone_.runs() ? 0 : seen_ghosts_; }
 
  private:
@@ -63,7 +66,6 @@ class SlabExact final : public Engine, public InSlabs {
   Approach approach_in(const WindowPlan& plan, double fastest) const;
   std::optional<double> ghost_depth(const WindowPlan& plan, double fastest) const;
   void finish(const WindowPlan& plan);
-  Disks own_of(const Disks& all) const;
 
   Scene scene_;
   State state_;  // with ghosts

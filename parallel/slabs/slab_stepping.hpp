@@ -40,6 +40,7 @@ class SlabStepping : public Engine, public InSlabs {
   double disks_at(double t, Disks& out) const override;
   std::vector<DiskContact> contacts() const override;
   const SlabCut* slab_cut() const override { return &cut_; }
+  Count own_disks() const override { return state_.disks.size(); }
   Count ghosts() const override { return ghosts_.count(); }
   void release_memory() override;
   const PhaseTimes& phase_times() const override { return times_; }
