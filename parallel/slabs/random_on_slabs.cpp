@@ -184,6 +184,7 @@ class SlabPlacement {
   // Goes through the disks in each other's way, in order, from first points on; returns those all of whose known points
   // are covered, which the others then do not see.
   std::vector<std::size_t> go_through() {
+    // In any order: whether a point is covered does not depend on the order of the disks in a cell.
     for (const auto& [k, trials] : later_) move(k, first_points_[k]);
     std::fill(absent_.begin(), absent_.end(), 0);
     std::vector<std::size_t> without;
