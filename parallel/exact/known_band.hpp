@@ -12,9 +12,11 @@ struct KnownBand {
   double period = 0.0;  // 0: none
   double below = -HUGE_VAL, above = HUGE_VAL;
 
+  // Precondition: y is in the box, or out of it by less than a third of a period.
   double from_centre(double y) const {
     const double d = y - centre;
-    return period > 0.0 ? d - period * std::round(d / period) : d;
+    const double turn = std::abs(d) > 0.5 * period ? period : 0.0;
+    return d > 0.0 ? d - turn : d + turn;
   }
   // Is all within this distance of height y in the band?
   bool holds(double y, double distance) const {

@@ -22,6 +22,12 @@ class WindowGhosts {
   // Is disk i, by storage index, a ghost?
   virtual bool is_ghost(std::uint32_t i) const = 0;
 
+  // The part of the box whose disks the rank had as its own when ghosts were chosen: between two heights.
+  struct Heights {
+    double low, high;
+  };
+  virtual Heights own_heights() const = 0;
+
   // Where no disk that is not here comes to in this window, unless strangers_come_near says so on a rank that has it.
   // slice_flight: no disk goes further in a slice; length, the same on all ranks.
   virtual KnownBand band(double slice_flight) = 0;

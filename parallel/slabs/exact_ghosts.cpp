@@ -115,17 +115,13 @@ void ExactGhosts::find_places(const Disks& d) {
   }
   std::sort(ghost_places_.begin(), ghost_places_.end(),
             [](const GhostPlace& a, const GhostPlace& b) { return a.place < b.place; });
+  ghosts_.clear(d.size());
+  for (const GhostPlace& g : ghost_places_) ghosts_.insert(g.place);
+  ghosts_.count();
 }
 
 void ExactGhosts::look_beyond(const Disks& d, const Approach& approach) {
-  find_strangers(d, false, approach.furthest, of_below_);
-  find_strangers(d, true, approach.furthest, of_above_);
-  excursion_ = 0.0;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    if ((marks_[i] & ghost) != 0) continue;
-    if (slab_.has_lower) excursion_ = std::max(excursion_, -beyond_border(false, d.y[i]));
-    if (slab_.has_upper) excursion_ = std::max(excursion_, -beyond_border(true, d.y[i]));
-  }
+  find_strangers(d, approach.furthest);
   furthest_ = approach.furthest;
   taken_ = approach.taken;
   Bytes to_below;
@@ -139,17 +135,33 @@ void ExactGhosts::look_beyond(const Disks& d, const Approach& approach) {
   beyond_above_ = slab_.has_upper ? std::min(MessageReader(from_above).get<double>(), behind) : HUGE_VAL;
 }
 
-// Others are too far away to become the nearest ones.
-void ExactGhosts::find_strangers(const Disks& d, bool above, double furthest, Strangers& strangers) const {
-  strangers.nearest = HUGE_VAL;
-  strangers.places.clear();
-  const std::uint8_t known = ghost | (above ? seen_above : seen_below);
+// Strangers further away than that cannot become the nearest ones.
+void ExactGhosts::find_strangers(const Disks& d, double furthest) {
+  double below = HUGE_VAL;
+  double above = HUGE_VAL;
+  double lowest = 0.0;
+  double highest = 0.0;
   for (std::size_t i = 0; i < d.size(); ++i) {
-    if ((marks_[i] & known) == 0) strangers.nearest = std::min(strangers.nearest, beyond_border(above, d.y[i]));
+    const std::uint8_t mark = marks_[i];
+    const double y = from_centre(d.y[i]);
+    below = std::min(below, (mark & (ghost | seen_below)) == 0 ? y : HUGE_VAL);
+    above = std::min(above, (mark & (ghost | seen_above)) == 0 ? -y : HUGE_VAL);
+    lowest = std::min(lowest, (mark & ghost) == 0 ? y : 0.0);
+    highest = std::max(highest, (mark & ghost) == 0 ? y : 0.0);
   }
-  const double within = strangers.nearest + furthest;
+  of_below_ = {below + half_, {}};
+  of_above_ = {above + half_, {}};
+  excursion_ = 0.0;
+  if (slab_.has_lower) excursion_ = std::max(excursion_, -lowest - half_);
+  if (slab_.has_upper) excursion_ = std::max(excursion_, highest - half_);
+  below += furthest;
+  above += furthest;
   for (std::uint32_t i = 0; i < d.size(); ++i) {
-    if ((marks_[i] & known) == 0 && beyond_border(above, d.y[i]) <= within) strangers.places.push_back(i);
+    const double y = from_centre(d.y[i]);
+    if (y > below && -y > above) [[likely]]
+      continue;
+    if (y <= below && (marks_[i] & (ghost | seen_below)) == 0) of_below_.places.push_back(i);
+    if (-y <= above && (marks_[i] & (ghost | seen_above)) == 0) of_above_.places.push_back(i);
   }
 }
 
@@ -204,17 +216,11 @@ SliceOutcome ExactGhosts::agree(SliceOutcome here, Count& events) {
   return SliceOutcome::done;
 }
 
-const ExactGhosts::GhostPlace& ExactGhosts::ghost_at(std::uint32_t place) const {
-  const auto at = std::lower_bound(ghost_places_.begin(), ghost_places_.end(), place,
-                                   [](const GhostPlace& g, std::uint32_t wanted) { return g.place < wanted; });
-  return *at;
-}
-
 void ExactGhosts::learn(WindowState& window, const std::vector<std::uint32_t>& unknown) {
   std::vector<Question> of_below;
   std::vector<Question> of_above;
   for (const std::uint32_t i : unknown) {
-    const GhostPlace& at = ghost_at(i);
+    const GhostPlace& at = ghost_places_[ghosts_.number_of(i)];
     (at.above ? of_above : of_below).push_back({at.number, window.record[i].version});
   }
   Bytes to_below;

@@ -12,6 +12,7 @@
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/border_search.hpp"
 #include "parallel/slabs/moving_disks.hpp"
+#include "parallel/slabs/place_set.hpp"
 
 namespace carom {
 
@@ -77,6 +78,7 @@ class ExactGhosts final : public WindowGhosts {
   }
 
   bool is_ghost(std::uint32_t i) const override { return is_marked(i); }
+  Heights own_heights() const override { return {slab_.low, slab_.high}; }
   KnownBand band(double slice_flight) override;
   bool strangers_come_near(const WindowState& window) const override;
   double least_of_all(double here) override;
@@ -110,9 +112,8 @@ class ExactGhosts final : public WindowGhosts {
   void take_in_ghosts(const Bytes& message, Shared& ghosts, DiskColumns columns, State& state);
   double from_centre(double y) const { return band_.from_centre(y); }
   double beyond_border(bool above, double y) const { return above ? half_ - from_centre(y) : from_centre(y) + half_; }
-  void find_strangers(const Disks& disks, bool above, double furthest, Strangers& strangers) const;
+  void find_strangers(const Disks& disks, double furthest);
   bool come_near(const WindowState& window, bool above, const Strangers& strangers) const;
-  const GhostPlace& ghost_at(std::uint32_t place) const;
   static Bytes answer(const WindowState& window, const Shared& shown, const Bytes& request);
   static void take_answer(WindowState& window, const Shared& ghosts, const Bytes& message);
 
@@ -127,7 +128,8 @@ class ExactGhosts final : public WindowGhosts {
   Strangers of_below_, of_above_;
   Border below_, above_;
   std::vector<std::uint8_t> marks_;  // by storage index
-  std::vector<GhostPlace> ghost_places_;
+  PlaceSet ghosts_;
+  std::vector<GhostPlace> ghost_places_;  // in order of places, as ghosts_ counts them
 };
 
 }  // namespace carom
