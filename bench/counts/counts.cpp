@@ -23,7 +23,9 @@
 #include "core/scene/scene_text.hpp"
 #include "core/step/engine.hpp"
 #include "io/checkpoint/checkpoint.hpp"
+#include "parallel/ranks/local_ranks.hpp"
 #include "parallel/simulation.hpp"
+#include "parallel/slabs/slab_exact.hpp"
 
 namespace carom::bench {
 namespace {
@@ -37,6 +39,7 @@ struct Counted {
   std::function<Start()> make;
   std::size_t block_divisor = 1;  // more: work is cut into smaller parts
   std::string quantity{};         // of [analysis]: taken so many times of the start, and nothing runs
+  int ranks = 1;                  // that share it, threads of this process
 };
 
 // One thread has one queue, but two regions where work is cut in two.
@@ -47,6 +50,7 @@ const std::vector<Counted>& all_counted() {
       {"exact_0.5", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.5); }},
       {"exact_0.2", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.2); }},
       {"exact_0.5_regions", 50'000, "collision", 2, 6, [] { return exact_gas(50'000, 0.5); }, 2},
+      {"exact_0.5_ranks", 50'000, "collision", 2, 6, [] { return exact_gas(50'000, 0.5); }, 1, {}, 2},
       {"pairwise_gas", 100'000, "disk and step", 12, 60, [] { return gas(100'000); }},
       {"pairwise_brownian", 100'000, "disk and step", 2, 14, [] { return gas(100'000, "brownian"); }},
       {"pairwise_pile", 9'600, "disk and step", 2, 8, [] { return settled_pile(240, 40); }}};
@@ -104,11 +108,24 @@ void run(const Counted& counted, const std::string& path, int steps) {
   if (kernel_set() == KernelSet::baseline) throw std::runtime_error("counts are of a processor with AVX2");
   Checkpoint start = read_checkpoint(path);
   const Scene scene = parse_scene(start.record.scene_text, counted.name, "");
-  const auto engine = make_parallel_engine(scene, std::move(start.state), {1, counted.block_divisor});
-  engine->forget_paths();
-  for (int k = 0; k < steps; ++k) engine->step();
   const bool exact = scene.run.method == Method::exact;
-  fmt::print("{}\n", exact ? engine->state().counters.collisions : counted.disks * static_cast<std::size_t>(steps));
+  Count collisions = 0;
+  const auto take_steps = [&](Engine& engine) {
+    engine.forget_paths();
+    for (int k = 0; k < steps; ++k) engine.step();
+  };
+  if (counted.ranks > 1) {
+    run_on_local_ranks(counted.ranks, [&](Ranks& ranks) {
+      const auto engine = make_slab_exact(scene, start.state, {1, counted.block_divisor}, ranks);
+      take_steps(*engine);
+      if (ranks.rank() == 0) collisions = engine->progress().counters.collisions;
+    });
+  } else {
+    const auto engine = make_parallel_engine(scene, std::move(start.state), {1, counted.block_divisor});
+    take_steps(*engine);
+    collisions = engine->progress().counters.collisions;
+  }
+  fmt::print("{}\n", exact ? collisions : counted.disks * static_cast<std::size_t>(steps));
 }
 
 int act(const std::vector<std::string>& words) {
