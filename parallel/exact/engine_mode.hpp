@@ -44,8 +44,8 @@ inline constexpr std::size_t most_disks_a_tile = 8192;
 inline constexpr std::size_t tiles_a_region = 16;
 // The larger, the fewer relistings near borders; the smaller, the longer slices.
 inline constexpr double region_relist_share = 0.75;
-// On one of several ranks all disks are relisted as those near a border.
-inline constexpr double rank_relist_share = 0.82;
+// On one of several ranks, of ghosts.
+inline constexpr double rank_relist_share = 0.7;
 // Mean spacings that a region is wide, at least: in narrower ones what is blocked from one border reaches that from the
 // other.
 inline constexpr double least_region_width = 30.0;

@@ -16,8 +16,9 @@ namespace carom {
 struct ListRegion {
   std::uint32_t first_key = 0, last_key = 0xffffffffU;    // cells [first, last)
   std::uint32_t first_disk = 0, last_disk = 0xffffffffU;  // disks stored in [first, last)
-  // Along the longer side of the box, a coordinate of listed positions: those in [core, core + core_size) can be listed
-  // again by this thread alone, wherever within reach they are when they are due.
+  // A coordinate of listed positions: those in [core, core + core_size) can be listed again by this thread alone,
+  // wherever within reach they are when they are due.
+  bool core_is_of_x = false;
   std::uint32_t core = 0, core_size = 0xffffffffU;
   bool holds(std::uint32_t disk) const { return disk >= first_disk && disk < last_disk; }
   bool is_everything() const { return first_disk == 0 && last_disk == 0xffffffffU; }

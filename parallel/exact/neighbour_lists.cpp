@@ -142,12 +142,20 @@ ListRegion NeighbourLists::region_of_tiles(std::uint32_t first, std::uint32_t la
   const double depth = 2.0 * largest_radius_ + 3.0 * skin_ + search_margin_ + most_lead * near_border_.length;
   const double from = first * tiles_to_length + depth;
   const double size = last * tiles_to_length - depth - from;
+  region.core_is_of_x = layers_along_x_;
   region.core = region.core_size = 0;
   if (!(size > 0.0)) return region;
   // Both are less than the side, so that they fit.
   region.core = static_cast<std::uint32_t>(from / unit);
   region.core_size = static_cast<std::uint32_t>(size / unit);
   return region;
+}
+
+void NeighbourLists::set_core_between(double low, double high, ListRegion& region) const {
+  constexpr double most = 0xfffffffeU;
+  region.core_is_of_x = false;
+  region.core = static_cast<std::uint32_t>(std::clamp(low / unit_y_, 0.0, most));
+  region.core_size = static_cast<std::uint32_t>(std::clamp((high - low) / unit_y_, 0.0, most));
 }
 
 void NeighbourLists::set_listed_positions(const Disks& d, const Executor& executor) {

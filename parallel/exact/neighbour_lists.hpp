@@ -149,10 +149,12 @@ class NeighbourLists {
   std::uint32_t tiles_a_layer() const { return grid_.tiles_a_layer; }
   std::uint32_t first_disk_of(std::uint32_t tile) const { return first_of_tile_[tile]; }
   ListRegion region_of_tiles(std::uint32_t first, std::uint32_t last) const;
+  // The region's core is what lies between these heights of the box; length.
+  void set_core_between(double low, double high, ListRegion& region) const;
   // Is the disk listed so deep within the region that it can be listed again there?
   bool is_in_core(std::uint32_t i, const ListRegion& region) const {
     const FixedPointPosition at = rows_.listed_at(i);
-    return (layers_along_x_ ? at.x : at.y) - region.core < region.core_size;
+    return (region.core_is_of_x ? at.x : at.y) - region.core < region.core_size;
   }
   // Of disk i, where there are regions.
   std::uint32_t tile_of(std::uint32_t i) const { return rows_.block_of(i); }

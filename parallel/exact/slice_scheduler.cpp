@@ -59,14 +59,20 @@ void SliceScheduler::lay_out_regions() {
               static_cast<std::uint16_t>(r));
     regions_[r].worker.number = r;
     regions_[r].worker.region = lists_.region_of_tiles(first_tile, last_tile);
-    // What a rank has of others may be at a border in any window: all disks are relisted as those near one.
-    if (ghosts_ != nullptr) regions_[r].worker.region.core_size = 0;
+    if (ghosts_ != nullptr) set_core_of_rank(regions_[r].worker.region);
     regions_[r].worker.begin_window();
     regions_[r].worker.begin_slice();  // a void window leaves blocked disks behind
   }
   border_pass_.lay_out(regions_);
   executor_.run(count, [&](std::size_t r) { find_border(regions_[r]); });
   executor_.run(count, [&](std::size_t r) { find_near_border(regions_[r]); });
+}
+
+// What a rank has of others may be at a border in any window, and is relisted as disks near one are; never what lies in
+// its own slab, or the window is void.
+void SliceScheduler::set_core_of_rank(ListRegion& region) const {
+  const WindowGhosts::Heights own = ghosts_->own_heights();
+  lists_.set_core_between(own.low, own.high, region);
 }
 
 void SliceScheduler::find_border(Region& region) {
@@ -200,11 +206,13 @@ SliceOutcome SliceScheduler::run_with_ghosts(double per_disk) {
   return SliceOutcome::done;
 }
 
-// Is the motion of a disk of this rank not known to the slice's end?
+// Is the motion of a disk of this rank not known to the slice's end? Or that of one in its slab from the slice's start
+// on: it may leave its skin.
 bool SliceScheduler::depends_on_others() const {
   const auto is_own = [this](std::uint32_t i) { return !window_.record[i].progress.has(DiskProgress::ghost); };
   const Region& region = regions_.front();
-  return std::any_of(region.border.begin(), region.border.end(), is_own) ||
+  const auto must_be_known = [&](std::uint32_t i) { return is_own(i) || lists_.is_in_core(i, region.worker.region); };
+  return std::any_of(region.border.begin(), region.border.end(), must_be_known) ||
          std::any_of(region.worker.blocked.begin(), region.worker.blocked.end(),
                      [&](const BlockedDisk& blocked) { return is_own(blocked.disk); });
 }
@@ -296,7 +304,7 @@ void SliceScheduler::take_in_border(std::uint32_t i) {
   if (ghosts_ == nullptr) border_pass_.relist_if_far(i);
 }
 
-// With ghosts no disk moves further than one near a border may.
+// With ghosts: a disk near a border is relisted in the slice, if need be before it is blocked.
 void SliceScheduler::take_in_near_border(std::uint32_t i) {
   Region& region = region_of(i);
   region.near_border.push_back(i);

@@ -74,6 +74,7 @@ class SliceScheduler {
   double longest_slice() const;
   bool has_regions() const { return window_.mode == EngineMode::regions; }
   void lay_out_regions();
+  void set_core_of_rank(ListRegion& region) const;
   void find_border(Region& region);
   void find_near_border(Region& region);
   void run_single_queue(double per_disk);
