@@ -15,9 +15,10 @@ constexpr double windows_ahead = 4.0;
 // Disks that approach at more than `slow` meet at a time that rounding shifts by less than this part of a window.
 constexpr double rounding_ratio = 1e5;
 
+// Room for a few more: with ghosts, disks become now a few more, now a few less.
 template <class T>
 void resize_column(std::vector<T>& column, std::size_t n) {
-  if (column.capacity() < n) resize_in_huge_pages(column, n);
+  if (column.capacity() < n) resize_in_huge_pages(column, n, T{}, n + n / 64);
   column.resize(n);
 }
 
@@ -33,8 +34,10 @@ void WindowState::begin(const ExactRules& window_rules, const Disks& all, const 
   fastest2 = fastest_speed2;
   largest_radius = radius;
   set_tolerances();
-  resize_column(record, all.size());
   resize_column(entry, all.size() + std::max<std::size_t>(regions, 1) * entries_apart);
+  // Of other disks than before, and written anew: there are never two of this column, the largest.
+  if (record.capacity() < all.size()) std::vector<DiskRecord>().swap(record);
+  resize_column(record, all.size());
   burst.resize(dissipates(rules) ? all.size() : 0);
   spin = all.spin;
 }
