@@ -116,6 +116,9 @@ class NeighbourLists {
   void build(Disks& disks, const Domain& box, const ListLayout& layout, const Executor& executor,
              const Sorted& sorted = {});
 
+  // Before lists are built anew: the greater part of their memory, so that there is room for what comes before.
+  void release_rows() { rows_.release(); }
+
   // In a sheared box, before lists are built for a window that starts then and is so long, and at the start of each
   // window; box: at that time. No operation elsewhere.
   void follow_flow(const Domain& box, double start, double length);

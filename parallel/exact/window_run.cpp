@@ -56,6 +56,13 @@ void WindowRun::release_memory() {
   known_ = Known::nothing;
 }
 
+void WindowRun::forget_lists() {
+  known_ = Known::nothing;
+  if (state_.disks.size() <= disks_of_much_memory) return;
+  scheduler_.release_calendars();
+  lists_.release_rows();
+}
+
 bool WindowRun::lists_due(const WindowPlan& plan) const {
   const bool strained = scene_.box.shear.acts() && lists_.is_strained(plan.end);
   return known_ == Known::nothing || strained || scheduler_.relisted() > relistings_a_disk * state_.disks.size();

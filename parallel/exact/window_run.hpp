@@ -50,6 +50,9 @@ class WindowRun {
   // No more than this is right any more.
   void forget(Known left) { known_ = std::min(known_, left); }
 
+  // Nothing is right any more, and all will be built anew: what many disks take for it is given back now.
+  void forget_lists();
+
   // Are the lists to be built anew for this window?
   bool lists_due(const WindowPlan& plan) const;
   // Sorts the disks and lists them. Times that were known stay so.

@@ -158,8 +158,8 @@ bool SlabExact::prepare_lists(const WindowPlan& plan, double fastest) {
 
 bool SlabExact::share_out(const WindowPlan& plan, double fastest) {
   const PhaseTimer timer(times_, "exchange");
+  windows_.forget_lists();
   ghosts_.drop(state_);
-  windows_.forget(Known::lists);
   cut_ = cut_by_rows_of_all(ranks_, scene_.box, state_.disks);
   redistribute(ranks_, cut_, start_.columns, state_);
   const std::optional<double> depth = ghost_depth(plan, fastest);
