@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "parallel/ranks/message.hpp"
+#include "parallel/slabs/disk_pieces.hpp"
 
 namespace carom {
 
@@ -34,14 +36,27 @@ struct Answer {
   std::uint16_t version;
 };
 
+std::vector<DiskId> ids_of(const Disks& d, const std::vector<std::uint32_t>& places) {
+  std::vector<DiskId> ids(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) ids[k] = d.id[places[k]];
+  return ids;
+}
+
 }  // namespace
 
 void ExactGhosts::drop(State& state, const std::vector<unsigned char>& gone) {
   if (marks_.empty() && gone.empty()) return;
-  std::vector<unsigned char> leaves = ghosts_among(state.disks.size());
-  for (std::size_t i = 0; i < gone.size(); ++i) leaves[i] |= gone[i];
-  remove_marked(state.disks, leaves);
+  if (gone.empty() && !ghost_places_.empty()) {
+    DiskHoles holes;
+    for (const GhostPlace& at : ghost_places_) holes.add({&at.place, 1});
+    holes.close(state.disks);
+  } else {
+    std::vector<unsigned char> leaves = ghosts_among(state.disks.size());
+    for (std::size_t i = 0; i < gone.size(); ++i) leaves[i] |= gone[i];
+    remove_marked(state.disks, leaves);
+  }
   marks_.clear();
+  ghost_places_.clear();
 }
 
 std::vector<unsigned char> ExactGhosts::ghosts_among(std::size_t n) const {
@@ -55,42 +70,38 @@ void ExactGhosts::see(const Slab& slab, const Domain& box, double depth, DiskCol
   depth_ = depth;
   half_ = 0.5 * (slab.high - slab.low);
   band_ = {slab.low + half_, box.periodic_y() ? box.height : 0.0};
-  std::vector<MovingDisk> down;
-  std::vector<MovingDisk> up;
   below_ = above_ = {};
-  for (std::size_t i = 0; i < state.disks.size(); ++i) {
+  ForNeighbours shown;
+  for (std::uint32_t i = 0; i < state.disks.size(); ++i) {
     const double y = from_centre(state.disks.y[i]);
-    if (slab.has_lower && y + half_ < depth) {
-      down.push_back(moving_disk(state, i));
-      below_.shown.ids.push_back(state.disks.id[i]);
-    }
-    if (slab.has_upper && half_ - y < depth) {
-      up.push_back(moving_disk(state, i));
-      above_.shown.ids.push_back(state.disks.id[i]);
-    }
+    if (slab.has_lower && y + half_ < depth) shown.below.push_back(i);
+    if (slab.has_upper && half_ - y < depth) shown.above.push_back(i);
   }
-  Bytes to_below;
-  Bytes to_above;
-  put_all(to_below, down);
-  put_all(to_above, up);
-  const auto [from_below, from_above] = ranks_.exchange(to_below, to_above);
+  below_.shown.ids = ids_of(state.disks, shown.below);
+  above_.shown.ids = ids_of(state.disks, shown.above);
   const std::size_t own_disks = state.disks.size();
-  if (slab.has_lower) take_in_ghosts(from_below, below_.ghosts, columns, state);
-  if (slab.has_upper) take_in_ghosts(from_above, above_.ghosts, columns, state);
+  auto most = static_cast<double>(shown.most());
+  ranks_.maximum({&most, 1});
+  exchange_disks(
+      ranks_, state, shown, static_cast<std::size_t>(most),
+      [&](std::size_t from_below, std::size_t from_above) {
+        reserve_amply(state.disks, own_disks + from_below + from_above, columns);
+        below_.ghosts.ids.reserve(from_below);
+        above_.ghosts.ids.reserve(from_above);
+      },
+      [](std::span<const std::uint32_t>) {},
+      [&](const MovingDisk& disk, bool is_from_above) {
+        take_in(state, disk, columns);
+        (is_from_above ? above_ : below_).ghosts.ids.push_back(disk.disk.id);
+      });
   marks_.assign(own_disks, own);
   marks_.resize(state.disks.size(), ghost);
-}
-
-void ExactGhosts::take_in_ghosts(const Bytes& message, Shared& ghosts, DiskColumns columns, State& state) {
-  for (const MovingDisk& disk : MessageReader(message).get_all<MovingDisk>()) {
-    take_in(state, disk, columns);
-    ghosts.ids.push_back(disk.disk.id);
-  }
 }
 
 void ExactGhosts::find_places(const Disks& d) {
   // Of all disks that another rank has too.
   std::vector<std::pair<DiskId, std::uint32_t>> place_of;
+  place_of.reserve(below_.shown.ids.size() + above_.shown.ids.size() + count());
   for (std::uint32_t i = 0; i < d.size(); ++i) {
     const double y = from_centre(d.y[i]);
     if (half_ - std::abs(y) < depth_ * (1.0 + 1e-9)) place_of.emplace_back(d.id[i], i);
@@ -98,8 +109,10 @@ void ExactGhosts::find_places(const Disks& d) {
   std::sort(place_of.begin(), place_of.end());
   marks_.assign(d.size(), own);
   ghost_places_.clear();
+  ghost_places_.reserve(count());
   const auto find = [&](Shared& shared, std::uint8_t mark) {
     shared.places.clear();
+    shared.places.reserve(shared.ids.size());
     for (const DiskId id : shared.ids) {
       const auto at = std::lower_bound(place_of.begin(), place_of.end(), std::pair<DiskId, std::uint32_t>(id, 0));
       shared.places.push_back(at->second);

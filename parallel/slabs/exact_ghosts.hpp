@@ -109,7 +109,6 @@ class ExactGhosts final : public WindowGhosts {
   };
 
   bool is_marked(std::size_t i) const { return i < marks_.size() && (marks_[i] & ghost) != 0; }
-  void take_in_ghosts(const Bytes& message, Shared& ghosts, DiskColumns columns, State& state);
   double from_centre(double y) const { return band_.from_centre(y); }
   double beyond_border(bool above, double y) const { return above ? half_ - from_centre(y) : from_centre(y) + half_; }
   void find_strangers(const Disks& disks, double furthest);

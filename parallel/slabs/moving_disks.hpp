@@ -29,6 +29,25 @@ inline void push_back(Disks& d, const Disk& disk, DiskColumns columns) {
   if (columns.spin) d.spin.push_back(disk.spin);
 }
 
+// Writes a disk over the one that is stored there.
+inline void put_at(Disks& d, std::size_t i, const Disk& disk) {
+  d.x[i] = disk.x;
+  d.y[i] = disk.y;
+  d.vx[i] = disk.vx;
+  d.vy[i] = disk.vy;
+  d.id[i] = disk.id;
+  if (!d.radius.empty()) d.radius[i] = disk.radius;
+  if (!d.mass.empty()) d.mass[i] = disk.mass;
+  if (!d.spin.empty()) d.spin[i] = disk.spin;
+}
+
+inline void copy_within(Disks& d, std::size_t from, std::size_t to) {
+  for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass, &d.spin}) {
+    if (!column->empty()) (*column)[to] = (*column)[from];
+  }
+  d.id[to] = d.id[from];
+}
+
 // How often thermal sides have reflected a disk: what of a state is by id and goes with its disk. Every rank has
 // entries for all ids; those of its own disks are right.
 inline std::uint32_t thermal_hits_of(const State& state, DiskId id) {
@@ -55,10 +74,15 @@ inline MovingDisk moving_disk(const State& state, std::size_t i) {
   return {disk_at(state.disks, i), last_contact_of(state, id), thermal_hits_of(state, id)};
 }
 
-inline void take_in(State& state, const MovingDisk& moving, DiskColumns columns) {
-  push_back(state.disks, moving.disk, columns);
+// All of it but the disk itself.
+inline void take_what_goes_along(State& state, const MovingDisk& moving) {
   take_thermal_hits(state, moving.disk.id, moving.thermal_hits);
   if (moving.disk.id < state.last_contact.size()) state.last_contact[moving.disk.id] = moving.last_contact;
+}
+
+inline void take_in(State& state, const MovingDisk& moving, DiskColumns columns) {
+  push_back(state.disks, moving.disk, columns);
+  take_what_goes_along(state, moving);
 }
 
 // Room for n disks in all.
@@ -68,6 +92,19 @@ inline void reserve(Disks& d, std::size_t n, DiskColumns columns) {
   if (columns.radius) d.radius.reserve(n);
   if (columns.mass) d.mass.reserve(n);
   if (columns.spin) d.spin.reserve(n);
+}
+
+// The same, and for a few more where that is not there: numbers of disks that go up and down a little do not move the
+// columns each time, and columns do not become twice as long, as push_back makes them.
+inline void reserve_amply(Disks& d, std::size_t n, DiskColumns columns) {
+  const auto amply = [n](auto& column) {
+    if (n > column.capacity()) column.reserve(n + n / 64);
+  };
+  for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy}) amply(*column);
+  amply(d.id);
+  if (columns.radius) amply(d.radius);
+  if (columns.mass) amply(d.mass);
+  if (columns.spin) amply(d.spin);
 }
 
 // Without a disk, but with what all share.

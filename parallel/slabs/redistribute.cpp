@@ -1,10 +1,13 @@
 #include "parallel/slabs/redistribute.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "parallel/ranks/message.hpp"
+#include "parallel/slabs/disk_pieces.hpp"
 #include "parallel/slabs/load_memory.hpp"
 
 namespace carom {
@@ -13,7 +16,10 @@ namespace {
 
 // Rows by which slabs are cut: no slab has so many that one row matters.
 constexpr std::size_t rows = 4096;
-// Disks that a rank sends to all at a time.
+// Disks that all ranks together send to all at a time; of one at least some.
+constexpr std::size_t disks_of_all_a_piece = std::size_t{1} << 16;
+constexpr std::size_t least_a_piece = 256;
+// And those that come to rank 0 from each.
 constexpr std::size_t disks_a_piece = std::size_t{1} << 14;
 
 struct Migrant {
@@ -21,27 +27,52 @@ struct Migrant {
   int to;
 };
 
-// A piece of each rank's list, on all of them.
-std::vector<Bytes> gather_piece(Ranks& ranks, const std::vector<Migrant>& all, std::size_t begin) {
-  const auto from = all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), begin));
-  const auto to = all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), begin + disks_a_piece));
-  Bytes piece;
-  put_all(piece, std::vector<Migrant>(from, to));
-  return ranks.gather(piece);
+// The disks that are in another rank's slab; those for ranks that are no neighbours go down. far: are there any?
+ForNeighbours leaving(const Ranks& ranks, const SlabCut& cut, const Disks& d, bool& far) {
+  ForNeighbours list;
+  for (std::uint32_t i = 0; i < d.size(); ++i) {
+    if (cut.is_between_bounds(ranks.rank(), d.y[i])) continue;
+    const int to = cut.rank_at(d.y[i]);
+    if (to == ranks.rank()) continue;
+    (to == ranks.above() ? list.above : list.below).push_back(i);
+    far = far || (to != ranks.above() && to != ranks.below());
+  }
+  return list;
 }
 
-void take_own(Ranks& ranks, const Bytes& message, DiskColumns columns, State& state) {
-  for (const Migrant& m : MessageReader(message).get_all<Migrant>()) {
-    if (m.to == ranks.rank()) take_in(state, m.moving, columns);
+// most: of any rank.
+void send_through_all(Ranks& ranks, const SlabCut& cut, const std::vector<std::uint32_t>& list, std::size_t most,
+                      DiskColumns columns, State& state) {
+  const std::size_t piece = std::max(least_a_piece, disks_of_all_a_piece / static_cast<std::size_t>(ranks.count()));
+  DiskHoles holes;
+  for (std::size_t begin = 0; begin < most; begin += piece) {
+    std::vector<Migrant> some;
+    const std::size_t end = std::min(list.size(), begin + piece);
+    for (std::size_t k = begin; k < end; ++k) {
+      some.push_back({moving_disk(state, list[k]), cut.rank_at(state.disks.y[list[k]])});
+    }
+    Bytes message;
+    put_all(message, some);
+    const std::vector<Bytes> of_all = ranks.gather(message);
+    if (begin < end) holes.add(std::span(list).subspan(begin, end - begin));
+    for (const Bytes& of_one : of_all) {
+      for (const Migrant& m : MessageReader(of_one).get_all<Migrant>()) {
+        if (m.to == ranks.rank()) holes.take_in(m.moving, columns, state);
+      }
+    }
   }
+  holes.close(state.disks);
 }
 
-void send_through_all(Ranks& ranks, const std::vector<Migrant>& leaving, DiskColumns columns, State& state) {
-  auto most = static_cast<double>(leaving.size());
-  ranks.maximum({&most, 1});
-  for (std::size_t begin = 0; begin < static_cast<std::size_t>(most); begin += disks_a_piece) {
-    for (const Bytes& piece : gather_piece(ranks, leaving, begin)) take_own(ranks, piece, columns, state);
-  }
+void send_to_neighbours(Ranks& ranks, const ForNeighbours& list, std::size_t most, DiskColumns columns, State& state) {
+  const std::size_t staying = state.disks.size() - list.below.size() - list.above.size();
+  DiskHoles holes;
+  exchange_disks(
+      ranks, state, list, most,
+      [&](std::size_t below, std::size_t above) { reserve_amply(state.disks, staying + below + above, columns); },
+      [&](std::span<const std::uint32_t> sent) { holes.add(sent); },
+      [&](const MovingDisk& disk, bool) { holes.take_in(disk, columns, state); });
+  holes.close(state.disks);
 }
 
 }  // namespace
@@ -57,29 +88,14 @@ SlabCut cut_by_rows_of_all(Ranks& ranks, const Domain& box, const Disks& own) {
 }
 
 void redistribute(Ranks& ranks, const SlabCut& cut, DiskColumns columns, State& state) {
-  Disks& d = state.disks;
-  std::vector<Migrant> leaving;
-  std::vector<unsigned char> gone(d.size(), 0);
   bool far = false;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    const int to = cut.rank_at(d.y[i]);
-    if (to == ranks.rank()) continue;
-    leaving.push_back({moving_disk(state, i), to});
-    far = far || (to != ranks.above() && to != ranks.below());
-    gone[i] = 1;
-  }
-  if (!leaving.empty()) remove_marked(d, gone);
-  if (ranks.any(far)) return send_through_all(ranks, leaving, columns, state);
-  std::vector<Migrant> down;
-  std::vector<Migrant> up;
-  for (const Migrant& m : leaving) (m.to == ranks.above() ? up : down).push_back(m);
-  Bytes to_below;
-  Bytes to_above;
-  put_all(to_below, down);
-  put_all(to_above, up);
-  const auto [below, above] = ranks.exchange(to_below, to_above);
-  take_own(ranks, below, columns, state);
-  take_own(ranks, above, columns, state);
+  ForNeighbours list = leaving(ranks, cut, state.disks, far);
+  std::array<double, 2> all{far ? 1.0 : 0.0, static_cast<double>(list.below.size() + list.above.size())};
+  ranks.maximum(all);
+  const auto most = static_cast<std::size_t>(all[1]);
+  if (all[0] == 0.0) return send_to_neighbours(ranks, list, most, columns, state);
+  list.below.insert(list.below.end(), list.above.begin(), list.above.end());
+  send_through_all(ranks, cut, list.below, most, columns, state);
 }
 
 // A radius or a mass that the others do not share becomes a column on every rank, whichever has the newcomer.

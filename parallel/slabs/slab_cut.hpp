@@ -21,6 +21,8 @@ struct SlabCut {
   double thinnest() const;
   // The rank that has a centre at this height; below the box the first one, above it the last.
   int rank_at(double y) const;
+  // True only if that is this rank, and quickly; not of what lies outside the box.
+  bool is_between_bounds(int rank, double y) const { return y >= low(rank) && y < high(rank); }
 };
 
 // An engine whose disks are in slabs, but for what they have moved since they were shared out.
