@@ -6,6 +6,7 @@
 #include "parallel/cells/compact.hpp"
 #include "parallel/cells/meets_nearby.hpp"
 #include "parallel/ranks/message.hpp"
+#include "parallel/slabs/disk_pieces.hpp"
 #include "parallel/slabs/load_memory.hpp"
 #include "parallel/slabs/rank_sums.hpp"
 #include "parallel/slabs/redistribute.hpp"
@@ -31,6 +32,7 @@ struct Migrants {
   std::vector<Migrant> list;
   std::vector<DiskId> ids;
 
+  bool is_full() const { return list.size() == disks_a_message; }
   void add(const Migrant& migrant) {
     list.push_back(migrant);
     ids.push_back(migrant.disk.id);
@@ -137,30 +139,37 @@ void SlabStepping::cut_anew_if_uneven() {
 }
 
 // Each disk to the rank whose slab it is in: a neighbour, but for what another disk has sent far, and where slabs are
-// cut anew. Those go on through the neighbours.
+// cut anew. Those go on through the neighbours; where many leave, some at a time.
 void SlabStepping::migrate() {
   while (ranks_.any(migrate_to_neighbours())) continue;
 }
 
-// Is one of the rank's disks not yet where it belongs?
+// Is one of the rank's disks not yet where it belongs? Those that are stored last take the places of those that leave:
+// all are sorted next.
 bool SlabStepping::migrate_to_neighbours() {
   Disks& d = state_.disks;
   Migrants down;
   Migrants up;
-  gone_.assign(d.size(), 0);
-  for (std::size_t i = 0; i < d.size(); ++i) {
+  DiskHoles holes;
+  bool all_at_home = true;
+  for (std::uint32_t i = 0; i < d.size(); ++i) {
+    if (cut_.is_between_bounds(ranks_.rank(), d.y[i])) continue;
     const int to = cut_.rank_at(d.y[i]);
     if (to == ranks_.rank()) continue;
     const bool goes_up = to == ranks_.above() || (to != ranks_.below() && to > ranks_.rank());
-    (goes_up ? up : down).add({disk_at(d, i), thermal_hits_of(state_, d.id[i])});
-    gone_[i] = 1;
+    Migrants& list = goes_up ? up : down;
+    if (list.is_full()) {
+      all_at_home = false;
+      continue;
+    }
+    list.add({disk_at(d, i), thermal_hits_of(state_, d.id[i])});
+    holes.add({&i, 1});
   }
-  if (!down.list.empty() || !up.list.empty()) {
-    remove_in_parallel(d, gone_, executor_, cells_.column, cells_.pass);
-  }
+  holes.close(d);
   const auto [below, above] = ranks_.exchange(down.message(state_.loads), up.message(state_.loads));
-  const bool all_at_home = take_in(below);
-  return !take_in(above) || !all_at_home;
+  if (!take_in(below)) all_at_home = false;
+  if (!take_in(above)) all_at_home = false;
+  return !all_at_home;
 }
 
 // Do all of them belong here?
