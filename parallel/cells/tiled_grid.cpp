@@ -12,6 +12,8 @@ namespace {
 // About, by a factor of 1.4 either way, since a tile has a power of two of them: a cell has room for four without
 // links.
 constexpr double disks_per_cell = 2.8;
+// Of an even tile: as many as the rounding leaves, so that there are few cells.
+constexpr double disks_per_even_cell = 1.3 * disks_per_cell;
 // The number of a tile has to fit in 16 bits; sides that are rounded make up to twice as many.
 constexpr double most_tiles = 30000.0;
 // Of a region: enough that regions can be given nearly the same number of disks where those are spread unevenly.
@@ -88,6 +90,13 @@ void make_tiled_grid(const Domain& box, double largest_radius, const std::vector
   grid.tiles = bands * groups;
   grid.tiles_a_layer = tiles_a_layer;
   grid.keys = grid.tiles * grid.tile_keys;
+}
+
+std::size_t even_tile(std::size_t wanted, std::size_t disks_of_box) {
+  const auto cells_of = [](double disks) { return std::log2(std::max(1.0, disks / disks_per_even_cell)); };
+  const double least = std::ceil(cells_of(static_cast<double>(disks_of_box) / most_tiles));
+  const double most = std::floor(cells_of(static_cast<double>(wanted)));
+  return static_cast<std::size_t>(disks_per_even_cell * std::exp2(std::max(least, most)));
 }
 
 void keep_tiles_between(const Domain& box, double low, double high, CellGrid& grid) {

@@ -17,6 +17,10 @@ namespace carom {
 void make_tiled_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
                      std::size_t disks_per_tile, std::size_t regions, CellGrid& grid);
 
+// No more disks than wanted, but where there would be too many tiles, such that cells have as many disks as they
+// should: cells with half as many take twice the memory.
+std::size_t even_tile(std::size_t wanted, std::size_t disks_of_box);
+
 // Only the tiles between these heights, about, are kept; they may lie across the bottom and the top of a periodic box.
 // A disk elsewhere is in the row of cells that is nearest among those kept. Where the others would be few, all stay.
 void keep_tiles_between(const Domain& box, double low, double high, CellGrid& grid);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/disks/domain.hpp"
+#include "parallel/cells/tiled_grid.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
@@ -87,7 +88,8 @@ inline ListLayout layout_of_rank(std::size_t disks, std::size_t disks_of_box, do
                                  const Executor& executor) {
   ListLayout layout;
   layout.mode = EngineMode::regions;
-  layout.disks_per_tile = std::min(executor.grain(most_disks_a_tile), disks / tiles_a_region + 1);
+  const std::size_t tile = std::min(executor.grain(most_disks_a_tile), disks / tiles_a_region + 1);
+  layout.disks_per_tile = even_tile(tile, disks_of_box);
   layout.regions = 1;
   layout.relist_share = rank_relist_share;
   layout.looks_ahead = disks > executor.grain(disks_in_cache);
