@@ -62,7 +62,7 @@ bool CheckpointKeeper::look(const Engine& engine, double t_end, double step_s) {
   }
   const bool stop = !stopped_by_.empty();
   if (!stop && wish == Wish::nothing && now < due_) return true;
-  write(engine.state(), step_s);
+  write(engine, step_s);
   if (wish == Wish::checkpoint) note_ = fmt::format("checkpoint at t = {:g}; {}", time, resume_command());
   return !stop;
 }
@@ -71,14 +71,14 @@ bool CheckpointKeeper::wants_stop() const {
   return stop_wished() || seconds() > max_walltime_;
 }
 
-void CheckpointKeeper::write(const State& state, double step_s) {
-  write(state, step_s, outputs_ != nullptr ? outputs_->mark() : OutputMark{});
+void CheckpointKeeper::write(const Engine& engine, double step_s) {
+  write(engine, step_s, outputs_ != nullptr ? outputs_->mark() : OutputMark{});
 }
 
-void CheckpointKeeper::write(const State& state, double step_s, OutputMark mark) {
+void CheckpointKeeper::write(const Engine& engine, double step_s, OutputMark mark) {
   RunRecord now = record(step_s);
   now.outputs = std::move(mark);
-  save_checkpoint(folder().unfinished(), now, state);
+  save_checkpoint(folder().unfinished(), now, *engine.pieces());
   written_to_ = folder().name();
   folder().keep_unfinished();
   if (interval_ > 0.0) due_ = seconds() + interval_;

@@ -35,9 +35,9 @@ class CheckpointKeeper {
   // Is the run to stop, by a signal or since its time is up? To be asked at any time, by any thread.
   bool wants_stop() const;
 
-  // Writes one now.
-  void write(const State& state, double step_s);
-  void write(const State& state, double step_s, OutputMark mark);
+  // Writes one now, piece by piece: an engine of several ranks need not have all disks on one of them.
+  void write(const Engine& engine, double step_s);
+  void write(const Engine& engine, double step_s, OutputMark mark);
 
   // The record as it is now, for the summary; step_s is that of this process.
   RunRecord record(double step_s) const;

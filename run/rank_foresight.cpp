@@ -42,7 +42,7 @@ RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks) {
   f.alone = slab_start(scene, start.disks, ranks).alone;
   f.other_bytes = process_bytes + (f.alone.empty() ? (disk_bytes + more * column_bytes) * f.disks : 0.0);
   if (scene.box.has_thermal_side()) f.other_bytes += sizeof(std::uint32_t) * all;
-  f.first_has_all = !f.alone.empty() || !starts_on_slabs(scene) || wants_files(scene);
+  f.first_has_all = !f.alone.empty() || !starts_on_slabs(scene) || wants_frames(scene.output) || scene.analysis.any();
   f.first_bytes = f.other_bytes;
   f.traffic = try_slabs(scene, start, ranks, traffic_trial);
   return f;

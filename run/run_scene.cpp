@@ -189,7 +189,7 @@ void SceneRun::go() {
 void SceneRun::keep_stopped(const PhysicsError& error) {
   std::string last_state;
   try {
-    keeper_.write(engine_.state(), step_s_);
+    keeper_.write(engine_, step_s_);
     last_state = fmt::format(", its last good state in {}", checkpoint_name);
   } catch (const RunError& why) {
     last_state = fmt::format("; {}", why.what());
@@ -228,7 +228,7 @@ bool SceneRun::keep_last_checkpoint(const OutputMark& mark) {
   const bool wanted = scene_.output.checkpoint > 0.0;
   if (!wanted && files_->outputs.lost_plots().empty()) return false;
   try {
-    keeper_.write(engine_.state(), step_s_, mark);
+    keeper_.write(engine_, step_s_, mark);
   } catch (const RunError&) {
     if (wanted) throw;
     return false;
@@ -329,7 +329,7 @@ RunOutcome carry_out(const Scene& scene, ResumeFrom* from, RunSettings settings)
     if (files != nullptr) keeper.write_to(&files->folder, &files->outputs, there);
     // So that a run that is killed in its first minutes is not lost, nor the options with which it was resumed.
     const bool wanted = from != nullptr || scene.output.checkpoint > 0.0;
-    if (files != nullptr && (new_plan || (!there && wanted))) keeper.write(engine->state(), 0.0);
+    if (files != nullptr && (new_plan || (!there && wanted))) keeper.write(*engine, 0.0);
     SceneRun scene_run(scene, settings, *engine, files, keeper, from != nullptr, at.particles);
     scene_run.go();
     return keeper.stopped_by().empty() ? scene_run.finished() : scene_run.stopped();

@@ -19,6 +19,7 @@ class StrictEngine final : public Engine {
   }
   const State& state() const override { return engine_->state(); }
   const State& progress() const override { return engine_->progress(); }
+  std::unique_ptr<StatePieces> pieces() const override { return engine_->pieces(); }
   double disks_at(double t, Disks& out) const override { return engine_->disks_at(t, out); }
   void forget_paths() override { engine_->forget_paths(); }
   void release_memory() override { engine_->release_memory(); }

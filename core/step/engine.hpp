@@ -10,6 +10,7 @@
 #include "core/base/phase_times.hpp"
 #include "core/disks/disk_contact.hpp"
 #include "core/disks/state.hpp"
+#include "core/disks/state_pieces.hpp"
 #include "core/scene/scene.hpp"
 #include "core/step/edit.hpp"
 
@@ -31,6 +32,10 @@ class Engine {
 
   // The same for all that asks for no disk: they may be a part only, that of one rank of several.
   virtual const State& progress() const { return state(); }
+
+  // state() in pieces, for a program that writes it and need not have all disks at once. To be used before the next
+  // step.
+  virtual std::unique_ptr<StatePieces> pieces() const { return std::make_unique<WholeState>(state()); }
 
   // The disks at time t, start of the last step <= t <= state().time, written to out; no bit of the state changes.
   // Time stepping knows step ends only and gives state() whatever t is; the return value is the time of what it gave.

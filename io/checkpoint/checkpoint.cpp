@@ -8,6 +8,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <span>
+#include <stdexcept>
 
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
@@ -73,6 +75,30 @@ class SummedFile {
   BlockHash hash_;
   std::string chunk_;
 };
+
+// Record and state as bytes: each list of the state from its pieces, in place of what the state's part has of it.
+void write_content(const ByteWriter::Sink& sink, const RunRecord& record, const StatePieces& state) {
+  const auto write_list = [&](StateList list) {
+    const std::uint64_t entries = state.entries(list);
+    std::uint64_t left = entries * entry_bytes(list);
+    sink(reinterpret_cast<const char*>(&entries), sizeof entries);
+    state.visit(list, [&](std::span<const std::byte> some) {
+      left -= some.size();
+      sink(reinterpret_cast<const char*>(some.data()), some.size());
+    });
+    if (left != 0) throw std::logic_error("a state in pieces has not the entries that it said");
+  };
+  ByteWriter writer(sink, [&](const void* there) {
+    for (const StateList list : all_state_lists) {
+      const bool same = with_list(state.part(), list, [&](const auto& values) { return there == &values; });
+      if (!same) continue;
+      write_list(list);
+      return true;
+    }
+    return false;
+  });
+  writer(record, state.part());
+}
 
 std::ifstream open_file(const std::string& path) {
   std::error_code error;
@@ -171,17 +197,21 @@ Checkpoint decode(ByteReader reader, const std::string& name) {
 
 }  // namespace
 
-void write_checkpoint(const std::string& path, const RunRecord& record, const State& state) {
+void write_checkpoint(const std::string& path, const RunRecord& record, const StatePieces& state) {
   SummedFile file(path);
   const Header header;
   file.write(reinterpret_cast<const char*>(&header), sizeof header);
   std::uint64_t content = 0;
-  ByteWriter writer([&](const char* data, std::size_t bytes) {
+  const auto sink = [&](const char* data, std::size_t bytes) {
     content += bytes;
     file.write(data, bytes);
-  });
-  writer(record, state);
+  };
+  write_content(sink, record, state);
   file.finish(content);
+}
+
+void write_checkpoint(const std::string& path, const RunRecord& record, const State& state) {
+  write_checkpoint(path, record, WholeState(state));
 }
 
 Checkpoint read_checkpoint(const std::string& path) {
@@ -197,8 +227,7 @@ Checkpoint read_checkpoint(const std::string& path) {
 std::string checkpoint_bytes(const RunRecord& record, const State& state) {
   const Header header;
   std::string bytes(reinterpret_cast<const char*>(&header), sizeof header);
-  ByteWriter writer([&](const char* data, std::size_t count) { bytes.append(data, count); });
-  writer(record, state);
+  write_content([&](const char* data, std::size_t count) { bytes.append(data, count); }, record, WholeState(state));
   Tail tail;
   tail.bytes = bytes.size() - sizeof header;
   bytes.resize((bytes.size() + 7) / 8 * 8, '\0');
@@ -223,11 +252,14 @@ Checkpoint checkpoint_from_bytes(std::string_view bytes, const std::string& name
   return decode_checkpoint(bytes.substr(sizeof header, tail.bytes), name);
 }
 
-std::string encode_checkpoint(const RunRecord& record, const State& state) {
+std::string encode_checkpoint(const RunRecord& record, const StatePieces& state) {
   std::string bytes;
-  ByteWriter writer([&](const char* data, std::size_t count) { bytes.append(data, count); });
-  writer(record, state);
+  write_content([&](const char* data, std::size_t count) { bytes.append(data, count); }, record, state);
   return bytes;
+}
+
+std::string encode_checkpoint(const RunRecord& record, const State& state) {
+  return encode_checkpoint(record, WholeState(state));
 }
 
 Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name) {

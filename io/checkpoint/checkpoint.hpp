@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/disks/state.hpp"
+#include "core/disks/state_pieces.hpp"
 #include "core/measure/run_start.hpp"
 #include "io/checkpoint/output_mark.hpp"
 
@@ -29,7 +30,9 @@ struct Checkpoint {
   State state;
 };
 
-// Writes the file and returns when it is on the disk itself. Throws RunError.
+// Writes the file and returns when it is on the disk itself. Throws RunError. Of a state in pieces, one is in memory at
+// a time, and the file is that of the whole state.
+void write_checkpoint(const std::string& path, const RunRecord& record, const StatePieces& state);
 void write_checkpoint(const std::string& path, const RunRecord& record, const State& state);
 
 // Reads it back. The checksum over the whole file is verified before anything in it is used. Throws InputError, "path:
@@ -42,6 +45,7 @@ Checkpoint checkpoint_from_bytes(std::string_view bytes, const std::string& name
 
 // The part of a checkpoint behind its checksum, from memory, for the fuzzer. Throws InputError.
 Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name);
+std::string encode_checkpoint(const RunRecord& record, const StatePieces& state);
 std::string encode_checkpoint(const RunRecord& record, const State& state);
 
 }  // namespace carom

@@ -12,7 +12,7 @@ namespace carom {
 
 namespace fs = std::filesystem;
 
-void save_checkpoint(const std::string& folder, const RunRecord& record, const State& state) {
+void save_checkpoint(const std::string& folder, const RunRecord& record, const StatePieces& state) {
   const fs::path newest = fs::path(folder) / checkpoint_name;
   const fs::path previous = fs::path(folder) / previous_checkpoint_name;
   const fs::path beside = fs::path(folder) / "checkpoint.new.carom";

@@ -10,7 +10,7 @@ namespace carom {
 
 // Writes folder/checkpoint.carom; the one before becomes checkpoint.previous.carom. At every moment, whatever happens
 // to the machine, the folder holds a whole one. Throws RunError; then both are as they were.
-void save_checkpoint(const std::string& folder, const RunRecord& record, const State& state);
+void save_checkpoint(const std::string& folder, const RunRecord& record, const StatePieces& state);
 
 // A checkpoint that the user named, and the folder of its run.
 struct CheckpointPlace {

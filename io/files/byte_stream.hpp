@@ -23,11 +23,13 @@ concept Number = (std::is_arithmetic_v<T> && !std::same_as<T, bool>) || std::is_
 template <class T, class U>
 concept Is = std::same_as<std::remove_const_t<T>, U>;
 
-// Hands the bytes to `sink`, in any pieces.
+// Hands the bytes to `sink`, in any pieces. writes(list), where given: hands a list, with its length in front, to the
+// sink itself and returns true, or leaves it to the writer.
 class ByteWriter {
  public:
   using Sink = std::function<void(const char*, std::size_t)>;
-  explicit ByteWriter(Sink sink) : sink_(std::move(sink)) {}
+  using ListWriter = std::function<bool(const void*)>;
+  explicit ByteWriter(Sink sink, ListWriter writes = {}) : sink_(std::move(sink)), writes_(std::move(writes)) {}
 
   template <class... Parts>
   void operator()(const Parts&... parts) {
@@ -55,6 +57,7 @@ class ByteWriter {
   }
   template <class T>
   void put(const std::vector<T>& list) {
+    if (writes_ && writes_(&list)) return;
     put(std::uint64_t{list.size()});
     if constexpr (Number<T>) {
       raw(list.data(), list.size() * sizeof(T));
@@ -72,6 +75,7 @@ class ByteWriter {
   void put(const T& value) { fields(*this, value); }
 
   Sink sink_;
+  ListWriter writes_;
 };
 
 // The bytes do not say what was expected of them.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/load_memory.hpp"
 #include "parallel/slabs/moving_disks.hpp"
+#include "parallel/slabs/shared_lists.hpp"
 #include "parallel/slabs/slab_exact.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
 #include "parallel/slabs/start_on_slabs.hpp"
@@ -29,6 +31,8 @@ enum class Call : std::int64_t {
   begin,
   step,
   collect,
+  lists,
+  piece,
   look,
   contacts,
   sums,
@@ -147,9 +151,14 @@ class Part {
   }
   DeepestOverlaps overlaps() const { return overlaps_over_ranks(ranks_, scene_, engine_->state(), *cut()); }
 
+  // The lists of the state as it is now; until the next step.
+  void share_lists() { lists_.emplace(ranks_, engine_->state()); }
+  SharedLists& lists() { return *lists_; }
+
   // before: what the ranks had said to each other when they began to agree on this step.
   void step(const Traffic& before) {
     ++steps_;
+    lists_.reset();
     engine_->step();
     const Traffic more = traffic_since(before, ranks_.traffic());
     in_steps_.exchange.add(more.exchange);
@@ -175,6 +184,7 @@ class Part {
   Ranks& ranks_;
   Scene scene_;
   std::unique_ptr<Engine> engine_;
+  std::optional<SharedLists> lists_;
   Count steps_ = 0;
   Traffic in_steps_;
 };
@@ -212,6 +222,8 @@ class LeadingEngine final : public Engine {
   }
 
   const State& progress() const override { return part_.engine().progress(); }
+
+  std::unique_ptr<StatePieces> pieces() const override { return std::make_unique<Pieces>(*this); }
 
   double disks_at(double t, Disks& out) const override {
     if (!knows_paths_ || !(t < progress().time)) {
@@ -275,6 +287,36 @@ class LeadingEngine final : public Engine {
   std::vector<std::string> take_warnings() override { return part_.engine().take_warnings(); }
 
  private:
+  // Each piece is a call of its own, so that ranks wait for the next call, whatever it is, when a writer gives up.
+  class Pieces final : public StatePieces {
+   public:
+    explicit Pieces(const LeadingEngine& engine) : engine_(engine) {
+      engine.together(Call::lists, [&] { engine.part_.share_lists(); });
+    }
+
+    const State& part() const override { return engine_.progress(); }
+
+    // Loads across borders are there twice, so that only those that come can be counted.
+    Count entries(StateList list) const override {
+      if (list != StateList::loads) return engine_.part_.lists().entries(list);
+      Count loads = 0;
+      visit(list, [&loads](std::span<const std::byte> some) { loads += some.size() / sizeof(ContactLoad); });
+      return loads;
+    }
+
+    void visit(StateList list, const Use& use) const override {
+      SharedLists& lists = engine_.part_.lists();
+      for (std::size_t k = 0; k < lists.pieces(list); ++k) {
+        Bytes some;
+        engine_.together(Call::piece, [&] { some = lists.piece(list, k); });
+        use(some);
+      }
+    }
+
+   private:
+    const LeadingEngine& engine_;
+  };
+
   // What all ranks do at once. An error of the physics is every rank's; any other leaves them apart.
   template <class Work>
   void together(Call call, Work&& work) const {
@@ -291,7 +333,7 @@ class LeadingEngine final : public Engine {
 
   Ranks& ranks_;
   RankLead& lead_;
-  Part part_;
+  mutable Part part_;
   bool knows_paths_;
   mutable std::unique_ptr<State> whole_;  // of all ranks, since it was asked for after the last step
 };
@@ -307,6 +349,10 @@ void follow(Call call, Ranks& ranks, Part& part, const Traffic& before) {
   } else if (call == Call::collect) {
     gather_disks(ranks, part.engine().state(), nullptr);
     collect_loads(ranks, part.engine().state().loads);
+  } else if (call == Call::lists) {
+    part.share_lists();
+  } else if (call == Call::piece) {
+    part.lists().piece({}, 0);
   } else if (call == Call::look) {
     double t = 0.0;
     gather_disks(ranks, look_at(ranks, part.engine(), t), nullptr);

@@ -8,39 +8,17 @@
 #include "core/disks/obstacle_cells.hpp"
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/border_search.hpp"
+#include "parallel/slabs/id_pieces.hpp"
 #include "parallel/slabs/moving_disks.hpp"
 
 namespace carom {
 
 namespace {
 
-// Ids of which all ranks send the disks at a time: some megabytes on rank 0.
-constexpr unsigned piece_shift = 15;
-constexpr std::size_t ids_a_piece = std::size_t{1} << piece_shift;
-
-// Storage indices by piece, in any order within one.
-struct Pieces {
-  std::vector<std::uint32_t> disks;
-  std::vector<std::size_t> ends;
-};
-Pieces pieces_of(const Disks& d, std::size_t count) {
-  Pieces pieces;
-  pieces.ends.assign(count, 0);
-  for (const DiskId id : d.id) ++pieces.ends[id >> piece_shift];
-  std::partial_sum(pieces.ends.begin(), pieces.ends.end(), pieces.ends.begin());
-  std::vector<std::size_t> next(count, 0);
-  for (std::size_t p = 1; p < count; ++p) next[p] = pieces.ends[p - 1];
-  pieces.disks.resize(d.size());
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    pieces.disks[next[d.id[i] >> piece_shift]++] = static_cast<std::uint32_t>(i);
-  }
-  return pieces;
-}
-
 std::size_t piece_count(Ranks& ranks, const Disks& own) {
-  double most = own.id.empty() ? -1.0 : static_cast<double>(*std::max_element(own.id.begin(), own.id.end()));
-  ranks.maximum({&most, 1});
-  return most < 0.0 ? 0 : (static_cast<std::size_t>(most) >> piece_shift) + 1;
+  double ids = own.id.empty() ? 0.0 : static_cast<double>(*std::max_element(own.id.begin(), own.id.end())) + 1.0;
+  ranks.maximum({&ids, 1});
+  return id_pieces(static_cast<std::size_t>(ids));
 }
 
 // All disks of a piece at the places of their ids, those that there are closed up.
@@ -101,16 +79,14 @@ Disks disks_at_borders(Ranks& ranks, const Slab& slab, const Domain& box, const 
 
 void visit_in_id_order(Ranks& ranks, const Disks& own, const std::function<void(const Disks&)>& use) {
   const std::size_t count = piece_count(ranks, own);
-  const Pieces pieces = pieces_of(own, count);
+  const IdPieces pieces(own, count);
   const DiskColumns columns{true, true, own.spins()};
   std::vector<Disk> piece;
   std::vector<unsigned char> there;
   Disks some = no_disks_like(own);
   for (std::size_t p = 0; p < count; ++p) {
     piece.clear();
-    for (std::size_t k = p == 0 ? 0 : pieces.ends[p - 1]; k < pieces.ends[p]; ++k) {
-      piece.push_back(disk_at(own, pieces.disks[k]));
-    }
+    for (const std::uint32_t i : pieces[p]) piece.push_back(disk_at(own, i));
     Bytes here;
     put_all(here, piece);
     const std::vector<Bytes> messages = ranks.collect(here);

@@ -8,7 +8,10 @@
 #include <csignal>
 #include <cstring>
 #include <limits>
+#include <optional>
+#include <span>
 #include <sstream>
+#include <stdexcept>
 
 #include "core/base/check.hpp"
 #include "core/base/random.hpp"
@@ -131,6 +134,64 @@ TEST_F(CheckpointFile, GivesBackEveryBit) {
   EXPECT_EQ(back.record.outputs.movie->parts, (std::vector<std::string>{"a.mp4", "b.mp4"}));
 }
 
+// Gives its lists an entry at a time, and has none of them itself.
+class EntryByEntry final : public StatePieces {
+ public:
+  explicit EntryByEntry(const State& state) : whole_(state), part_(state) {
+    part_.disks = {};
+    part_.disks.common_radius = state.disks.common_radius;
+    part_.disks.common_mass = state.disks.common_mass;
+    part_.disks.inertia = state.disks.inertia;
+    part_.loads.clear();
+    part_.last_contact.clear();
+    part_.thermal_hits.clear();
+  }
+  const State& part() const override { return part_; }
+  Count entries(StateList list) const override { return whole_.entries(list); }
+  void visit(StateList list, const Use& use) const override {
+    if (list == fails_at) throw RunError("no more of it");
+    const std::size_t width = entry_bytes(list);
+    whole_.visit(list, [&](std::span<const std::byte> all) {
+      for (std::size_t at = 0; at < all.size(); at += width) use(all.subspan(at, width));
+      if (list == lies_about) use(all.first(width));
+    });
+  }
+  std::optional<StateList> fails_at, lies_about;
+
+ private:
+  WholeState whole_;
+  State part_;
+};
+
+TEST_F(CheckpointFile, OfPiecesIsThatOfTheWhole) {
+  State state = full_state();
+  write_checkpoint(path(), full_record(), EntryByEntry(state));
+  EXPECT_TRUE(bytes_of(path()) == whole_);
+  state.disks.inertia = 0.5;
+  state.disks.spin = {1.5, -2.5};
+  for (const StateList list : all_state_lists) EXPECT_GT(WholeState(state).entries(list), 1U);
+  const std::string bytes = encode_checkpoint(full_record(), EntryByEntry(state));
+  EXPECT_EQ(decode_checkpoint(bytes, "c").state.disks.spin, state.disks.spin);
+  EXPECT_TRUE(bytes == encode_checkpoint(full_record(), state));
+}
+
+// Whatever list breaks off: no whole file has half a state.
+TEST_F(CheckpointFile, PiecesThatBreakOffHarmNoOther) {
+  const State state = full_state();
+  save_checkpoint(folder_.path().string(), full_record(), WholeState(state));
+  EntryByEntry pieces(state);
+  for (const StateList list : all_state_lists) {
+    pieces.fails_at = list;
+    EXPECT_THROW(save_checkpoint(folder_.path().string(), full_record(), pieces), RunError);
+    EXPECT_EQ(bytes_of(path()), whole_);
+    EXPECT_FALSE(fs::exists(folder_.path() / "checkpoint.new.carom"));
+  }
+  pieces.fails_at.reset();
+  pieces.lies_about = StateList::y;
+  EXPECT_THROW(save_checkpoint(folder_.path().string(), full_record(), pieces), std::logic_error);
+  EXPECT_EQ(bytes_of(path()), whole_);
+}
+
 TEST_F(CheckpointFile, AnEmptyStateToo) {
   write_checkpoint(path(), {}, {});
   const Checkpoint back = read_checkpoint(path());
@@ -237,7 +298,7 @@ TEST_F(CheckpointFile, TheLastTwoAreKept) {
   State state = full_state();
   for (int k = 1; k <= 3; ++k) {
     state.time = k;
-    save_checkpoint(folder_.path().string(), full_record(), state);
+    save_checkpoint(folder_.path().string(), full_record(), WholeState(state));
   }
   EXPECT_EQ(read_checkpoint(path()).state.time, 3.0);
   EXPECT_EQ(read_checkpoint((folder_.path() / previous_checkpoint_name).string()).state.time, 2.0);
@@ -247,14 +308,14 @@ TEST_F(CheckpointFile, TheLastTwoAreKept) {
 TEST_F(CheckpointFile, OneThatFindsNoRoomHarmsNoOther) {
   std::signal(SIGXFSZ, SIG_IGN);
   State state = full_state();
-  save_checkpoint(folder_.path().string(), full_record(), state);
+  save_checkpoint(folder_.path().string(), full_record(), WholeState(state));
   rlimit limit{};
   getrlimit(RLIMIT_FSIZE, &limit);
   const rlimit small{200, limit.rlim_max};
   setrlimit(RLIMIT_FSIZE, &small);
   std::string what;
   try {
-    save_checkpoint(folder_.path().string(), full_record(), state);
+    save_checkpoint(folder_.path().string(), full_record(), WholeState(state));
   } catch (const RunError& error) {
     what = error.what();
   }
@@ -281,7 +342,8 @@ TEST_F(CheckpointFile, IsFoundInTheFolderOfItsRun) {
 }
 
 TEST_F(CheckpointFile, OneThatIsDamagedNamesTheOneBefore) {
-  save_checkpoint(folder_.path().string(), full_record(), full_state());
+  const State state = full_state();
+  save_checkpoint(folder_.path().string(), full_record(), WholeState(state));
   folder_.write(checkpoint_name, whole_.substr(0, 300));
   const auto complaint_of = [&] {
     try {

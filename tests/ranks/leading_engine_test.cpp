@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <span>
 #include <tuple>
 
 #include "core/base/check.hpp"
@@ -46,6 +48,31 @@ void on_ranks(int count, const Scene& scene, const State& start, const std::func
   });
 }
 
+// The entries of a list, piece by piece; no piece is large.
+std::vector<std::byte> entries_of(const StatePieces& pieces, StateList list, std::size_t largest) {
+  std::vector<std::byte> all;
+  pieces.visit(list, [&](std::span<const std::byte> some) {
+    EXPECT_LE(some.size(), largest);
+    all.insert(all.end(), some.begin(), some.end());
+  });
+  EXPECT_EQ(all.size(), pieces.entries(list) * entry_bytes(list));
+  return all;
+}
+
+// The state in pieces is the whole one, byte for byte and in the same order.
+void expect_whole_in_pieces(const Engine& engine) {
+  const auto pieces = engine.pieces();
+  std::vector<std::vector<std::byte>> lists;
+  for (const StateList list : all_state_lists) lists.push_back(entries_of(*pieces, list, std::size_t{1} << 20));
+  const WholeState whole(engine.state());
+  for (std::size_t k = 0; k < lists.size(); ++k) {
+    EXPECT_TRUE(lists[k] == entries_of(whole, all_state_lists[k], SIZE_MAX)) << k;
+  }
+  EXPECT_EQ(pieces->part().time, whole.part().time);
+  EXPECT_EQ(pieces->part().counters.virial, whole.part().counters.virial);
+  EXPECT_EQ(pieces->part().next_id, whole.part().next_id);
+}
+
 TEST(LeadingEngine, HasAllDisksWheneverItIsAsked) {
   const Scene scene = gas("pairwise");
   const State start = initial_state(scene);
@@ -66,6 +93,7 @@ TEST(LeadingEngine, HasAllDisksWheneverItIsAsked) {
         EXPECT_EQ(state_hash(disks), state_hash(expected->state().disks));
         EXPECT_EQ(state_hash(engine->state().disks), state_hash(disks)) << "asked again";
         EXPECT_EQ(engine->state().disks.radius.size(), start.disks.size());
+        expect_whole_in_pieces(*engine);
       }
       EXPECT_EQ(engine->take_warnings(), expected->take_warnings());
     });
@@ -170,6 +198,7 @@ TEST(LeadingEngine, SumsManyDisksInOrderOfId) {
     EXPECT_EQ(sums.at.momentum.y, momentum.y);
     EXPECT_EQ(sums.at.momentum.magnitude, momentum.magnitude);
     EXPECT_EQ(sums.hash, state_hash(state.disks));
+    expect_whole_in_pieces(*engine);
   });
 }
 
@@ -206,6 +235,7 @@ TEST(LeadingEngine, HasAllDisksOfExactWithinWindows) {
           expect_same(lead.overlaps().disks, overlaps_of(expected->state(), scene).disks);
           expect_same(lead.overlaps().wall, overlaps_of(expected->state(), scene).wall);
           if (expected->state().counters.steps % 8 == 0) engine->release_memory();
+          expect_whole_in_pieces(*engine);
         }
         EXPECT_EQ(lead.report().steps, expected->state().counters.steps);
         engine->forget_paths();
@@ -231,6 +261,7 @@ TEST(LeadingEngine, HasTheReflectionsOfAllDisks) {
       engine->step();
       expected->step();
     }
+    expect_whole_in_pieces(*engine);
     EXPECT_EQ(engine->state().thermal_hits, expected->state().thermal_hits);
     EXPECT_EQ(state_hash(engine->state().disks), state_hash(expected->state().disks));
     EXPECT_EQ(engine->state().disks.radius.size(), start.disks.size());
@@ -255,6 +286,7 @@ TEST(LeadingEngine, HasTheContactTimesOfAllDisks) {
     }
     EXPECT_LT(engine->progress().disks.size(), start.disks.size()) << "one rank runs them all";
     EXPECT_GT(lead.report().ranks[1].ghosts, 0U);
+    expect_whole_in_pieces(*engine);
     EXPECT_EQ(engine->state().last_contact, expected->state().last_contact);
     EXPECT_EQ(state_hash(engine->state().disks), state_hash(expected->state().disks));
   });
@@ -286,11 +318,31 @@ TEST(LeadingEngine, HasTheLoadsOfAllDisksAndGoesOnFromThem) {
       }
       end = engine->state();
       EXPECT_EQ(loads_of(end), loads_of(expected->state()));
+      expect_whole_in_pieces(*engine);
       ASSERT_EQ(state_hash(end.disks), state_hash(expected->state().disks));
     });
     start = std::move(end);
   }
   EXPECT_GT(start.loads.size(), 100U);
+}
+
+// A writer that gives up, as on a full disk, leaves ranks that go on.
+TEST(LeadingEngine, GoesOnAfterAWriterGaveUp) {
+  const Scene scene = gas("pairwise");
+  const State start = initial_state(scene);
+  on_ranks(3, scene, start, [&](RankLead& lead) {
+    const auto expected = make_parallel_engine(scene, start, {1});
+    const auto engine = lead.make_engine(scene, start, {1, 512}, the_start);
+    for (const StateList list : {StateList::x, StateList::radius}) {
+      const auto give_up = [](std::span<const std::byte> /*some*/) { throw RunError("the disk is full"); };
+      EXPECT_THROW(engine->pieces()->visit(list, give_up), RunError);
+      EXPECT_FALSE(lead.lost());
+      engine->step();
+      expected->step();
+      EXPECT_EQ(lead.sums().hash, state_hash(expected->state().disks));
+      expect_whole_in_pieces(*engine);
+    }
+  });
 }
 
 // Three disks far from each other, on three ranks: what a step says can be counted by hand.

@@ -291,6 +291,19 @@ TEST_F(RanksRun, CheckForeseesMemoryAndMessages) {
   }
 }
 
+// Checkpoints are written on the way and at the end while each disk stays where it is: rank 0 needs no more memory than
+// another rank. All disks of this run are 36 MB.
+TEST_F(RanksRun, NoRankHasAllDisksForACheckpoint) {
+  const Outcome o = carom(
+      "run scene.toml --quiet --json --ranks 4 --threads 1 --set box.width=2000 --set box.height=1000 "
+      "--set disks.0.count=1000000 --set disks.0.positions=square --set disks.0.radius=0.4 --t-end 0.06 "
+      "--set output.trajectory=none --set output.series=false --set 'output.checkpoint=\"0.02 s\"' -o out");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const auto peaks = nlohmann::json::parse(o.out)["traffic"]["peak_bytes"];
+  for (std::size_t rank = 1; rank < 4; ++rank) EXPECT_LT(peaks[0], peaks[rank].get<double>() + 18e6);
+  EXPECT_GT(fs::file_size(at("out/checkpoint.carom")), 36'000'000U);
+}
+
 // Of each run several ranks: started by the sweep, and by the script that it writes for Slurm.
 TEST_F(RanksRun, ASweepOfThemLeavesTheTableOfOneProcess) {
   const std::string sweep = "sweep scene.toml --over run.t_end=0.1,0.2 ";
