@@ -9,6 +9,7 @@
 #include "core/base/collision_log.hpp"
 #include "core/base/phase_times.hpp"
 #include "core/disks/disk_contact.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/state.hpp"
 #include "core/disks/state_pieces.hpp"
 #include "core/scene/scene.hpp"
@@ -40,6 +41,14 @@ class Engine {
   // The disks at time t, start of the last step <= t <= state().time, written to out; no bit of the state changes.
   // Time stepping knows step ends only and gives state() whatever t is; the return value is the time of what it gave.
   virtual double disks_at(double t, Disks& out) const = 0;
+
+  // The same in pieces, to be used before the next step. room: for disks that have to lie somewhere; it outlives what
+  // is returned.
+  virtual std::unique_ptr<DisksInPieces> pieces_at(double t, Disks& room) const {
+    if (!(t < state().time)) return std::make_unique<WholeDisks>(state().disks, state().time);
+    const double time = disks_at(t, room);
+    return std::make_unique<WholeDisks>(room, time);
+  }
 
   // Says that no times within a step will be asked for: an exact engine then keeps no paths, and disks_at gives
   // state(). Changes no bit of the state.

@@ -8,36 +8,12 @@
 #include "core/disks/obstacle_cells.hpp"
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/border_search.hpp"
-#include "parallel/slabs/id_pieces.hpp"
 #include "parallel/slabs/moving_disks.hpp"
+#include "parallel/slabs/ordered_disks.hpp"
 
 namespace carom {
 
 namespace {
-
-std::size_t piece_count(Ranks& ranks, const Disks& own) {
-  double ids = own.id.empty() ? 0.0 : static_cast<double>(*std::max_element(own.id.begin(), own.id.end())) + 1.0;
-  ranks.maximum({&ids, 1});
-  return id_pieces(static_cast<std::size_t>(ids));
-}
-
-// All disks of a piece at the places of their ids, those that there are closed up.
-void take_piece(const std::vector<Bytes>& messages, std::vector<Disk>& piece, std::vector<unsigned char>& there) {
-  piece.resize(ids_a_piece);
-  there.assign(ids_a_piece, 0);
-  for (const Bytes& message : messages) {
-    for (const Disk& disk : MessageReader(message).get_all<Disk>()) {
-      const std::size_t at = disk.id & (ids_a_piece - 1);
-      piece[at] = disk;
-      there[at] = 1;
-    }
-  }
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < ids_a_piece; ++k) {
-    if (there[k] != 0) piece[kept++] = piece[k];
-  }
-  piece.resize(kept);
-}
 
 // How far a disk of any rank has left its slab; length.
 double excursion_over_ranks(Ranks& ranks, const Slab& slab, const Domain& box, const Disks& own) {
@@ -78,23 +54,10 @@ Disks disks_at_borders(Ranks& ranks, const Slab& slab, const Domain& box, const 
 }  // namespace
 
 void visit_in_id_order(Ranks& ranks, const Disks& own, const std::function<void(const Disks&)>& use) {
-  const std::size_t count = piece_count(ranks, own);
-  const IdPieces pieces(own, count);
-  const DiskColumns columns{true, true, own.spins()};
-  std::vector<Disk> piece;
-  std::vector<unsigned char> there;
-  Disks some = no_disks_like(own);
-  for (std::size_t p = 0; p < count; ++p) {
-    piece.clear();
-    for (const std::uint32_t i : pieces[p]) piece.push_back(disk_at(own, i));
-    Bytes here;
-    put_all(here, piece);
-    const std::vector<Bytes> messages = ranks.collect(here);
-    if (ranks.rank() > 0) continue;
-    take_piece(messages, piece, there);
-    truncate(some, 0);
-    for (const Disk& disk : piece) push_back(some, disk, columns);
-    use(some);
+  OrderedDisks disks(ranks, own);
+  for (std::size_t p = 0; p < disks.pieces(); ++p) {
+    const Disks& some = disks.piece(p);
+    if (ranks.rank() == 0) use(some);
   }
 }
 
@@ -107,6 +70,18 @@ StateSums sums_over_ranks(Ranks& ranks, const Scene& scene, const State& part) {
     tally.add(some, order);
   });
   return tally.sums();
+}
+
+Overlap overlap_over_ranks(Ranks& ranks, const Domain& box, const Disks& own, const SlabCut& cut) {
+  Overlap deepest = deepest_overlap(own, box);
+  if (ranks.count() > 1) {
+    const Slab slab = slab_of(cut, box, ranks.rank());
+    deepest.see(deepest_overlap(disks_at_borders(ranks, slab, box, own), box));
+  }
+  Bytes here;
+  put(here, deepest);
+  for (const Bytes& there : ranks.gather(here)) deepest.see(MessageReader(there).get<Overlap>());
+  return deepest;
 }
 
 DeepestOverlaps overlaps_over_ranks(Ranks& ranks, const Scene& scene, const State& part, const SlabCut& cut) {

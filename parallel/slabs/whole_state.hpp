@@ -21,4 +21,7 @@ StateSums sums_over_ranks(Ranks& ranks, const Scene& scene, const State& part);
 // cut: the slabs that the disks are in, or have not left by more than half of the thinnest.
 DeepestOverlaps overlaps_over_ranks(Ranks& ranks, const Scene& scene, const State& part, const SlabCut& cut);
 
+// The same of two disks alone: those that a rank has in that box, which may be of a moment within the last step.
+Overlap overlap_over_ranks(Ranks& ranks, const Domain& box, const Disks& own, const SlabCut& cut);
+
 }  // namespace carom

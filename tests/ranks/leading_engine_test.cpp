@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <tuple>
 
@@ -73,6 +74,34 @@ void expect_whole_in_pieces(const Engine& engine) {
   EXPECT_EQ(pieces->part().next_id, whole.part().next_id);
 }
 
+// The disks of a moment in pieces are those of one machine, in order of id, whatever other moment was looked at since.
+// Returns whether their overlap is known without having them all.
+bool expect_moment_in_pieces(const Engine& engine, const Engine& expected, double t, const Scene& scene) {
+  Disks there;
+  Disks room;
+  Disks other_room;
+  const double time = expected.disks_at(t, there);
+  const auto pieces = engine.pieces_at(t, room);
+  EXPECT_EQ(engine.pieces_at(engine.progress().time, other_room)->size(), expected.state().disks.size());
+  EXPECT_EQ(pieces->time(), time);
+  EXPECT_EQ(pieces->size(), there.size());
+  std::uint64_t hashes = 0;
+  std::size_t next = 0;
+  pieces->visit([&](const Disks& some) {
+    EXPECT_LE(some.size(), std::size_t{1} << 15);
+    hashes += sum_of_hashes(some);
+    for (const DiskId id : some.id) {
+      EXPECT_GE(id, next);
+      next = std::size_t{id} + 1;
+    }
+  });
+  EXPECT_EQ(hashes, sum_of_hashes(there));
+  const std::optional<double> overlap = pieces->max_overlap();
+  EXPECT_EQ(overlap.value_or(0.0), overlap ? max_overlap(there, box_at(scene.box, time)) : 0.0);
+  EXPECT_EQ(state_hash(pieces->whole()), state_hash(there));
+  return overlap.has_value();
+}
+
 TEST(LeadingEngine, HasAllDisksWheneverItIsAsked) {
   const Scene scene = gas("pairwise");
   const State start = initial_state(scene);
@@ -94,6 +123,7 @@ TEST(LeadingEngine, HasAllDisksWheneverItIsAsked) {
         EXPECT_EQ(state_hash(engine->state().disks), state_hash(disks)) << "asked again";
         EXPECT_EQ(engine->state().disks.radius.size(), start.disks.size());
         expect_whole_in_pieces(*engine);
+        EXPECT_TRUE(expect_moment_in_pieces(*engine, *expected, 0.0, scene));
       }
       EXPECT_EQ(engine->take_warnings(), expected->take_warnings());
     });
@@ -199,6 +229,7 @@ TEST(LeadingEngine, SumsManyDisksInOrderOfId) {
     EXPECT_EQ(sums.at.momentum.magnitude, momentum.magnitude);
     EXPECT_EQ(sums.hash, state_hash(state.disks));
     expect_whole_in_pieces(*engine);
+    EXPECT_TRUE(expect_moment_in_pieces(*engine, *expected, scene.run.t_end, scene));
   });
 }
 
@@ -212,6 +243,7 @@ TEST(LeadingEngine, HasAllDisksOfExactWithinWindows) {
   Scene sinks = slabs;
   sinks.box.sides[static_cast<std::size_t>(Side::top)] = SideKind::sink;
   sinks.box.sides[static_cast<std::size_t>(Side::bottom)] = SideKind::sink;
+  int overlaps = 0;
   for (const Scene& scene : {slabs, sinks, gas("exact")}) {
     const State start = initial_state(scene);
     for (const int count : {1, 2, 3}) {
@@ -230,6 +262,7 @@ TEST(LeadingEngine, HasAllDisksOfExactWithinWindows) {
             Disks there;
             EXPECT_EQ(engine->disks_at(t, here), expected->disks_at(t, there));
             ASSERT_EQ(state_hash(here), state_hash(there)) << t;
+            overlaps += expect_moment_in_pieces(*engine, *expected, t, scene) ? 1 : 0;
           }
           expect_same(lead.sums(), sums_of(expected->state(), scene));
           expect_same(lead.overlaps().disks, overlaps_of(expected->state(), scene).disks);
@@ -242,6 +275,7 @@ TEST(LeadingEngine, HasAllDisksOfExactWithinWindows) {
       });
     }
   }
+  EXPECT_GT(overlaps, 100);
 }
 
 // What a state has by id is that of the rank that has the disk.

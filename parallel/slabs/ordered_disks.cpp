@@ -1,0 +1,59 @@
+#include "parallel/slabs/ordered_disks.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "parallel/ranks/message.hpp"
+#include "parallel/slabs/moving_disks.hpp"
+
+namespace carom {
+
+namespace {
+
+std::size_t piece_count(Ranks& ranks, const Disks& own) {
+  double ids = own.id.empty() ? 0.0 : static_cast<double>(*std::max_element(own.id.begin(), own.id.end())) + 1.0;
+  ranks.maximum({&ids, 1});
+  return id_pieces(static_cast<std::size_t>(ids));
+}
+
+}  // namespace
+
+OrderedDisks::OrderedDisks(Ranks& ranks, const Disks& own)
+    : ranks_(ranks), own_(own), count_(piece_count(ranks, own)), pieces_(own, count_), some_(no_disks_like(own)) {
+  auto size = static_cast<std::int64_t>(own.size());
+  ranks.sum({&size, 1});
+  size_ = static_cast<Count>(size);
+}
+
+const Disks& OrderedDisks::piece(std::size_t number) {
+  list_.clear();
+  for (const std::uint32_t i : pieces_[number]) list_.push_back(disk_at(own_, i));
+  Bytes here;
+  put_all(here, list_);
+  const std::vector<Bytes> messages = ranks_.collect(here);
+  truncate(some_, 0);
+  if (ranks_.rank() > 0) return some_;
+  take(messages);
+  for (const Disk& disk : list_) push_back(some_, disk, {true, true, own_.spins()});
+  return some_;
+}
+
+// All disks of a piece at the places of their ids, those that there are closed up.
+void OrderedDisks::take(const std::vector<Bytes>& messages) {
+  list_.resize(ids_a_piece);
+  there_.assign(ids_a_piece, 0);
+  for (const Bytes& message : messages) {
+    for (const Disk& disk : MessageReader(message).get_all<Disk>()) {
+      const std::size_t at = disk.id & (ids_a_piece - 1);
+      list_[at] = disk;
+      there_[at] = 1;
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < ids_a_piece; ++k) {
+    if (there_[k] != 0) list_[kept++] = list_[k];
+  }
+  list_.resize(kept);
+}
+
+}  // namespace carom

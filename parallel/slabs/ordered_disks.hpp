@@ -1,0 +1,37 @@
+// The disks of all ranks in order of id, on rank 0, a piece at a time.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/disks/disks.hpp"
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/id_pieces.hpp"
+
+namespace carom {
+
+class OrderedDisks {
+ public:
+  // own: outlives this, and stays as it is. Collective.
+  OrderedDisks(Ranks& ranks, const Disks& own);
+
+  Count size() const { return size_; }  // of all ranks
+  std::size_t pieces() const { return count_; }
+
+  // The disks of a piece in order of id, with a radius and a mass each, on rank 0; nothing on the others. Collective.
+  const Disks& piece(std::size_t number);
+
+ private:
+  void take(const std::vector<Bytes>& messages);
+
+  Ranks& ranks_;
+  const Disks& own_;
+  Count size_ = 0;
+  std::size_t count_ = 0;
+  IdPieces pieces_;
+  Disks some_;
+  std::vector<Disk> list_;
+  std::vector<unsigned char> there_;
+};
+
+}  // namespace carom

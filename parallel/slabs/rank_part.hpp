@@ -1,0 +1,95 @@
+// What each rank has of the engine that rank 0 leads (leading_engine.hpp), and what rank 0 can ask of all of them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/measure/state_sums.hpp"
+#include "core/step/engine.hpp"
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/rank_report.hpp"
+#include "parallel/slabs/shared_lists.hpp"
+#include "parallel/slabs/shown_disks.hpp"
+#include "parallel/slabs/slab_cut.hpp"
+
+namespace carom {
+
+// What rank 0 says that comes next.
+enum class RankCall : std::int64_t {
+  end,
+  make,
+  begin,
+  step,
+  collect,
+  lists,
+  piece,
+  show,
+  some,
+  overlap,
+  look,
+  contacts,
+  sums,
+  overlaps,
+  forget,
+  release,
+  report,
+  drop
+};
+
+// The same on all ranks; only what rank 0 gives counts.
+RankCall agree_on(Ranks& ranks, RankCall call);
+
+// A rank's part of the engine, and what its steps took. All calls are collective.
+class RankPart {
+ public:
+  RankPart(Ranks& ranks, const Scene& scene, std::unique_ptr<Engine> engine)
+      : ranks_(ranks), scene_(scene), engine_(std::move(engine)) {}
+
+  const Scene& scene() const { return scene_; }
+  Engine& engine() const { return *engine_; }
+
+  StateSums sums() const;
+
+  // Null: only a state with all disks tells how deep they overlap.
+  const SlabCut* cut() const;
+  DeepestOverlaps overlaps() const;
+
+  // All disks: to all->disks on rank 0, the other ranks give null; all: a copy of the part but for its disks.
+  void gather(State* all) const;
+  // The same at the time that rank 0 gives, which becomes that of the disks.
+  void gather_at(double& t, State* all) const;
+
+  // The lists of the state as it is now; until the next step.
+  void share_lists() { lists_ = std::make_unique<SharedLists>(ranks_, engine_->state()); }
+  SharedLists& lists() { return *lists_; }
+
+  // The disks of a moment; until the next one, or the next step. Of what is given, that of rank 0 counts.
+  void show(bool within, double t) {
+    shown_.reset();
+    shown_ = std::make_unique<ShownDisks>(ranks_, *engine_, within, t);
+  }
+  ShownDisks& shown() { return *shown_; }
+  double shown_overlap() const { return shown_->max_overlap(scene_, *cut()); }
+
+  // before: what the ranks had said to each other when they began to agree on this step.
+  void step(const Traffic& before);
+
+  // Gives back what only steps and looks need.
+  void release_memory();
+
+  RankReport report() const;
+
+ private:
+  Ranks& ranks_;
+  Scene scene_;
+  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<SharedLists> lists_;
+  std::unique_ptr<ShownDisks> shown_;
+  Count steps_ = 0;
+  Traffic in_steps_;
+};
+
+// One call of the lead, on another rank. before: as of RankPart::step.
+void follow(RankCall call, Ranks& ranks, RankPart& part, const Traffic& before);
+
+}  // namespace carom

@@ -1,0 +1,36 @@
+#include "parallel/slabs/shown_disks.hpp"
+
+#include "parallel/ranks/message.hpp"
+#include "parallel/slabs/whole_state.hpp"
+
+namespace carom {
+
+namespace {
+
+struct Moment {
+  double t = 0.0;
+  bool within = false;
+};
+
+}  // namespace
+
+ShownDisks::ShownDisks(Ranks& ranks, const Engine& engine, bool within, double t) : ranks_(ranks) {
+  Bytes asked;
+  put(asked, Moment{t, within});
+  const auto moment = MessageReader(ranks.share(asked)).get<Moment>();
+  time_ = moment.within ? engine.disks_at(moment.t, then_) : engine.progress().time;
+  own_ = moment.within ? &then_ : &engine.state().disks;
+  ordered_.emplace(ranks, *own_);
+}
+
+const Disks& ShownDisks::piece(std::size_t number) {
+  Bytes asked;
+  put(asked, number);
+  return ordered_->piece(MessageReader(ranks_.share(asked)).get<std::size_t>());
+}
+
+double ShownDisks::max_overlap(const Scene& scene, const SlabCut& cut) const {
+  return overlap_over_ranks(ranks_, box_at(scene.box, time_), *own_, cut).size;
+}
+
+}  // namespace carom

@@ -1,0 +1,40 @@
+// The disks of all ranks at a moment of the last step, which rank 0 looks at piece by piece. All calls are collective;
+// of what is asked, that of rank 0 counts.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/scene/scene.hpp"
+#include "core/step/engine.hpp"
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/ordered_disks.hpp"
+#include "parallel/slabs/slab_cut.hpp"
+
+namespace carom {
+
+class ShownDisks {
+ public:
+  // engine: of this rank; it makes no step as long as this is there. within: at time t within the step, which it knows;
+  // otherwise, at the end of it.
+  ShownDisks(Ranks& ranks, const Engine& engine, bool within, double t);
+
+  double time() const { return time_; }
+  Count size() const { return ordered_->size(); }
+  std::size_t pieces() const { return ordered_->pieces(); }
+
+  // In order of id; nothing but on rank 0.
+  const Disks& piece(std::size_t number);
+
+  // The largest of two disks, over the sum of their radii.
+  double max_overlap(const Scene& scene, const SlabCut& cut) const;
+
+ private:
+  Ranks& ranks_;
+  double time_ = 0.0;
+  Disks then_;  // of a moment within the step
+  const Disks* own_ = nullptr;
+  std::optional<OrderedDisks> ordered_;
+};
+
+}  // namespace carom
