@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <memory>
 
 #include "core/base/wall_clock.hpp"
 #include "run/frame_schedule.hpp"
@@ -23,7 +24,7 @@ double slack_of(const Scene& scene) {
 
 // A function that gets the disks at times of its own, from `start` on.
 struct Watcher {
-  const std::function<void(const Disks&, double)>* look = nullptr;
+  const std::function<void(const DisksInPieces&)>* look = nullptr;
   double start = 0.0, early = 0.0;  // early: how much sooner than start will do
   FrameSchedule schedule;
 
@@ -35,7 +36,7 @@ struct Watcher {
   }
 };
 
-Watcher watcher(const std::function<void(const Disks&, double)>& look, const Scene& scene, double every, double start,
+Watcher watcher(const std::function<void(const DisksInPieces&)>& look, const Scene& scene, double every, double start,
                 const std::optional<double>& last) {
   const double slack = slack_of(scene);
   Watcher w{&look, start, slack * every, {every, scene.run.t_end - start, slack}};
@@ -86,22 +87,22 @@ class FrameMaker {
 
   void make_due() {
     const double now = engine_.progress().time;
-    std::optional<double> shown;  // the time asked for that disks_ are of
+    std::unique_ptr<DisksInPieces> disks;
+    std::optional<double> shown;  // the time asked for that they are of
     while (due()) {
       const std::optional<double> times[] = {watchers_[0].due(now), watchers_[1].due(now)};
       const std::size_t first = !times[1] || (times[0] && *times[0] <= *times[1]) ? 0 : 1;
-      if (times[first] != shown) time_ = engine_.disks_at(*times[first], disks_);
+      if (times[first] != shown) disks = engine_.pieces_at(*times[first], room_);
       shown = times[first];
-      (*watchers_[first].look)(disks_, time_);
-      watchers_[first].schedule.made(time_ - watchers_[first].start);
+      (*watchers_[first].look)(*disks);
+      watchers_[first].schedule.made(disks->time() - watchers_[first].start);
     }
   }
 
  private:
   const Engine& engine_;
   std::array<Watcher, 2> watchers_;
-  Disks disks_;
-  double time_ = 0.0;
+  Disks room_;
 };
 
 }  // namespace

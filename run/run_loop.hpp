@@ -11,10 +11,10 @@ namespace carom {
 // Functions that are called during a run; each may be empty. Output never changes the state.
 struct RunObserver {
   // A frame: the disks and their time. The first is at 0, the last at t_end, none comes twice.
-  std::function<void(const Disks&, double)> frame;
+  std::function<void(const DisksInPieces&)> frame;
   // A moment of scene.analysis: the first at its start, the last at t_end. Frames and moments come in order of time; of
   // two of the same time, the moment.
-  std::function<void(const Disks&, double)> sample;
+  std::function<void(const DisksInPieces&)> sample;
   // After each step, and after the frames and moments that lie in it.
   std::function<void()> stepped;
   // Between steps, about a hundred times a second, and once more at the end, with the seconds spent in steps so far.

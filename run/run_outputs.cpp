@@ -126,31 +126,34 @@ bool RunOutputs::follows() const {
 void RunOutputs::follow(const Engine& engine, double t) {
   if (analysis_) analysis_->follow(engine, t);
   if (!shows_rounds()) return;
-  const State& now = engine.state();
-  if (follow_disks(rounds_, engine, scene_, t) && t == now.time) look_at(rounds_, now.disks, scene_.box, t);
+  if (follow_disks(rounds_, engine, scene_, t) && t == engine.progress().time) {
+    Disks room;
+    look_at(rounds_, *engine.pieces_at(t, room), scene_.box);
+  }
 }
 
-void RunOutputs::frame(const Disks& disks, double time, const State& now) {
+void RunOutputs::frame(const DisksInPieces& disks, const State& now) {
+  const double time = disks.time();
   ++frames_;
   last_time_ = time;
-  if (shows_rounds()) follow_rounds(rounds_, disks, scene_.box, time, run_);
-  if (trajectory_) trajectory_->write(disks, time, run_);
+  if (shows_rounds()) follow_rounds(rounds_, disks, scene_.box, run_);
+  if (trajectory_) trajectory_->write(disks, run_);
   SeriesRow row{};
   if (series_) {
     const bool displacement = scene_.analysis.wants(Quantity::displacement);
-    row = series_->write(disks, time, now, displacement ? analysis_->displacement(disks, time) : 0.0, run_);
+    row = series_->write(disks, now, displacement ? analysis_->displacement(disks.whole(), time) : 0.0, run_);
   }
-  if (!series_ && h5md_) row = meter_.row(disks, time, now, run_);
-  if (h5md_) h5md_->write(disks, time, now.counters.steps, row, run_);
-  if (plot_velocity_) record(velocities_, disks, time);
+  if (!series_ && h5md_) row = meter_.row(disks, now, run_);
+  if (h5md_) h5md_->write(disks, now.counters.steps, row, run_);
+  if (plot_velocity_) record(velocities_, disks.whole(), time);
   if (plot_energy_) {
-    const Energy energy = energy_of(disks, scene_.physics.gravity);
+    const Energy energy = energy_of(disks.whole(), scene_.physics.gravity);
     energies_.t.push_back(time);
     energies_.kinetic.push_back(energy.kinetic);
     energies_.potential.push_back(energy.potential);
     energies_.total.push_back(energy.total());
   }
-  if (scene_.output.movie && lost_movie_.empty()) add_to_movie(disks, time);
+  if (scene_.output.movie && lost_movie_.empty()) add_to_movie(disks.whole(), time);
 }
 
 void RunOutputs::add_to_movie(const Disks& disks, double time) {

@@ -40,7 +40,8 @@ class RunOutputs {
   void follow(const Engine& engine, double t);
   bool follows() const;  // whether that changes anything
 
-  void frame(const Disks& disks, double time, const State& now);
+  // now: of the run, all but its disks.
+  void frame(const DisksInPieces& disks, const State& now);
 
   RunOutputs(const RunOutputs&) = delete;  // the trajectory refers to the counts of rounds
   RunOutputs& operator=(const RunOutputs&) = delete;

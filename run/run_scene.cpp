@@ -152,17 +152,17 @@ RunObserver SceneRun::observer() {
   if (files_ == nullptr) return observer;
   RunOutputs& outputs = files_->outputs;
   if (wants_frames(scene_.output)) {
-    observer.frame = [this, &outputs](const Disks& disks, double time) {
-      outputs.follow(engine_, time);
-      outputs.frame(disks, time, engine_.state());
+    observer.frame = [this, &outputs](const DisksInPieces& disks) {
+      outputs.follow(engine_, disks.time());
+      outputs.frame(disks, engine_.progress());
       take_output_warnings();
     };
     if (goes_on_ && outputs.frames() > 0) observer.last_frame = outputs.last_time();
   }
   if (RunningAnalysis* const analysis = outputs.analysis()) {
-    observer.sample = [this, &outputs, analysis](const Disks& disks, double time) {
-      outputs.follow(engine_, time);
-      analysis->sample(disks, time, engine_.state());
+    observer.sample = [this, &outputs, analysis](const DisksInPieces& disks) {
+      outputs.follow(engine_, disks.time());
+      analysis->sample(disks.whole(), disks.time(), engine_.progress());
       take_output_warnings();
     };
     if (!analysis->record().series.time.empty()) observer.last_sample = analysis->last_time();

@@ -36,9 +36,8 @@ RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder,
 
 void RunningAnalysis::follow(const Engine& engine, double t) {
   if (!scene_.analysis.wants(Quantity::displacement)) return;
-  const State& now = engine.state();
-  if (follow_disks(record_.displacement, engine, scene_, t) && t == now.time) {
-    look_at(record_.displacement, now.disks, scene_.box, t);
+  if (follow_disks(record_.displacement, engine, scene_, t) && t == engine.progress().time) {
+    look_at(record_.displacement, engine.state().disks, scene_.box, t);
   }
 }
 

@@ -146,7 +146,7 @@ Rehearsed rehearse(const Scene& scene, const EngineChoice& choice, const Engine&
   outputs.share_work(make_block_runner(choice));
   for (Count k = 0; k < frames; ++k) {
     const double time = static_cast<double>(k) * every;
-    outputs.frame(moved(disks, scene, time), time, tried.state());
+    outputs.frame(WholeDisks(moved(disks, scene, time), time), tried.state());
   }
   outputs.finish(false);
   r.wall = seconds_since(start);

@@ -72,12 +72,30 @@ void follow_along(AxisTally& axis, const std::vector<double>& coordinate, const 
   }
 }
 
+void follow_rounds_of(DisplacementTally& tally, const Disks& d, const Domain& box, const BlockRunner& run) {
+  std::vector<Count> doubtful((d.size() + look_block - 1) / look_block, 0);
+  run(doubtful.size(), [&](std::size_t b) {
+    const std::size_t begin = b * look_block, end = std::min(begin + look_block, d.size());
+    doubtful[b] =
+        look_along(tally.x, d.x, d.id, box.width, begin, end) + look_along(tally.y, d.y, d.id, box.height, begin, end);
+  });
+  tally.doubtful = std::accumulate(doubtful.begin(), doubtful.end(), tally.doubtful);
+  if (box.periodic_x()) follow_along(tally.x, d.x, d.id, box.width);
+  if (box.periodic_y()) follow_along(tally.y, d.y, d.id, box.height);
+}
+
 }  // namespace
 
 double largest_speed(const Disks& d) {
   double largest2 = 0.0;
   for (std::size_t i = 0; i < d.size(); ++i) largest2 = std::max(largest2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
   return std::sqrt(largest2);
+}
+
+double largest_speed(const DisksInPieces& disks) {
+  double largest = 0.0;
+  disks.visit([&](const Disks& some) { largest = std::max(largest, largest_speed(some)); });
+  return largest;
 }
 
 void begin_displacement(DisplacementTally& tally, const Disks& d, const Domain& box, double time) {
@@ -94,22 +112,21 @@ void look_at(DisplacementTally& tally, const Disks& d, const Domain& box, double
   tally.looked_at = time;
 }
 
-void follow_rounds(DisplacementTally& tally, const Disks& d, const Domain& box, double time, const BlockRunner& run) {
+void look_at(DisplacementTally& tally, const DisksInPieces& disks, const Domain& box) {
+  disks.visit([&](const Disks& some) { look_at(tally, some, box, disks.time()); });
+}
+
+void follow_rounds(DisplacementTally& tally, const DisksInPieces& disks, const Domain& box, const BlockRunner& run) {
   if (!tally.begun) {
     tally.begun = true;
-    tally.checked_at = time;
-    tally.fastest = largest_speed(d);
+    tally.checked_at = disks.time();
+    tally.fastest = largest_speed(disks);
+    // Ids begin without gaps: room that need not grow piece by piece.
+    if (box.periodic_x()) tally.x.sixteenth.reserve(disks.size());
+    if (box.periodic_y()) tally.y.sixteenth.reserve(disks.size());
   }
-  std::vector<Count> doubtful((d.size() + look_block - 1) / look_block, 0);
-  run(doubtful.size(), [&](std::size_t b) {
-    const std::size_t begin = b * look_block, end = std::min(begin + look_block, d.size());
-    doubtful[b] =
-        look_along(tally.x, d.x, d.id, box.width, begin, end) + look_along(tally.y, d.y, d.id, box.height, begin, end);
-  });
-  tally.doubtful = std::accumulate(doubtful.begin(), doubtful.end(), tally.doubtful);
-  if (box.periodic_x()) follow_along(tally.x, d.x, d.id, box.width);
-  if (box.periodic_y()) follow_along(tally.y, d.y, d.id, box.height);
-  tally.looked_at = time;
+  disks.visit([&](const Disks& some) { follow_rounds_of(tally, some, box, run); });
+  tally.looked_at = disks.time();
 }
 
 std::int32_t rounds_of(const AxisTally& axis, DiskId id) {

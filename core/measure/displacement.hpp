@@ -8,7 +8,7 @@
 
 #include "core/base/block_runner.hpp"
 #include "core/base/types.hpp"
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/domain.hpp"
 
 namespace carom {
@@ -38,17 +38,23 @@ struct DisplacementTally {
 
 // sqrt(vx^2 + vy^2) of the fastest disk, 0 without disks.
 double largest_speed(const Disks& disks);
+double largest_speed(const DisksInPieces& disks);
 
 // From here on displacements count, of the disks that are there.
 void begin_displacement(DisplacementTally& tally, const Disks& disks, const Domain& box, double time);
 
 // Takes note of where the disks are; a disk that came later is not followed.
 void look_at(DisplacementTally& tally, const Disks& disks, const Domain& box, double time);
+void look_at(DisplacementTally& tally, const DisksInPieces& disks, const Domain& box);
 
 // Takes note of where the disks are, and follows those that it does not know yet from here on, for their rounds alone:
 // a disk that it meets for the first time has gone round 0 times.
-void follow_rounds(DisplacementTally& tally, const Disks& disks, const Domain& box, double time,
+void follow_rounds(DisplacementTally& tally, const DisksInPieces& disks, const Domain& box,
                    const BlockRunner& run = run_in_order);
+
+inline void follow_rounds(DisplacementTally& tally, const Disks& disks, const Domain& box, double time) {
+  follow_rounds(tally, WholeDisks(disks, time), box);
+}
 
 // How often a disk has gone round, upwards along the axis less downwards: its unwrapped coordinate is x + period *
 // rounds. 0 where the axis is not periodic.

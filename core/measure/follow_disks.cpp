@@ -26,16 +26,17 @@ double shortest_period(const Domain& box) {
 bool follow_disks(DisplacementTally& tally, const Engine& engine, const Scene& scene, double t) {
   const double period = shortest_period(scene.box);
   if (!tally.begun || period == HUGE_VAL) return false;
-  const State& now = engine.state();
+  Disks between;
+  const auto now = engine.pieces_at(engine.progress().time, between);
   const double g = scene.physics.gravity.size;
   // No disk can come further in a time, if none is faster at both its ends.
   const auto reach = [g](double speed, double time) { return (speed + g * time) * time; };
   double speed = tally.fastest;
   // Brownian motion and thermostats draw speeds anew, and sources bring in new ones.
   const bool ask = scene.physics.diffusion > 0.0 || scene.physics.thermostat.acts() || !scene.sources.empty() ||
-                   now.disks.size() < few_disks || !(reach(speed, t - tally.checked_at) < check_share * period);
+                   now->size() < few_disks || !(reach(speed, t - tally.checked_at) < check_share * period);
   if (ask) {
-    tally.fastest = largest_speed(now.disks);
+    tally.fastest = largest_speed(*now);
     tally.checked_at = t;
     speed = std::max(speed, tally.fastest);
   }
@@ -45,14 +46,14 @@ bool follow_disks(DisplacementTally& tally, const Engine& engine, const Scene& s
   if (!(travel > longest_share * period)) return true;
   const double looks = std::ceil(travel / (look_share * period));
   const double begin = tally.looked_at;
-  Disks between;
   for (double k = 1.0; k < looks; ++k) {
     const double wanted = begin + span * (k / looks);
-    if (looks > most_looks || engine.disks_at(wanted, between) != wanted) {
+    const auto there = looks > most_looks ? nullptr : engine.pieces_at(wanted, between);
+    if (!there || there->time() != wanted) {
       ++tally.doubtful;
       break;
     }
-    look_at(tally, between, scene.box, wanted);
+    look_at(tally, *there, scene.box);
   }
   return true;
 }

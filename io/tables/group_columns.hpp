@@ -27,6 +27,8 @@ class GroupMeter {
   // Group by group; none where no block of the scene has a name.
   std::vector<GroupColumn> columns() const;
 
+  bool empty() const { return groups_.empty(); }
+
   // The disks of one frame, a value a column. What is made of velocities is NaN for Brownian motion.
   std::vector<double> row(const Disks& disks) const;
 

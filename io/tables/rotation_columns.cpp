@@ -1,6 +1,6 @@
 #include "io/tables/rotation_columns.hpp"
 
-#include "core/measure/invariants.hpp"
+#include "core/measure/blocked_tally.hpp"
 
 namespace carom {
 
@@ -11,10 +11,12 @@ std::vector<std::string> rotation_column_names(const Scene& scene) {
   return names;
 }
 
-std::vector<double> rotation_column_values(const Disks& disks, const BlockRunner& run) {
-  if (!disks.spins()) return {};
-  const double energy = energy_of(disks, by_id(disks), 0.0, run).rotational;
-  return {energy, disks.empty() ? 0.0 : 2.0 * energy / static_cast<double>(disks.size())};
+std::vector<double> rotation_column_values(const DisksInPieces& disks, const BlockRunner& run) {
+  BlockedTally sum;
+  disks.visit(
+      [&](const Disks& d) { sum.add(by_id(d), run, [&](std::size_t i) { return rotational_energy_of(d, i); }); });
+  const double energy = sum.value();
+  return {energy, disks.size() == 0 ? 0.0 : 2.0 * energy / static_cast<double>(disks.size())};
 }
 
 }  // namespace carom

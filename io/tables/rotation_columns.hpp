@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/block_runner.hpp"
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/scene/scene.hpp"
 
 namespace carom {
@@ -23,8 +23,8 @@ inline constexpr RotationColumn rotation_columns[] = {
      "`kinetic` over `disks`"},
 };
 
-// Names of the scene's columns, none where disks are smooth; and their values, in the same order.
+// Names of the scene's columns, none where disks are smooth; and their values, in the same order, where they are rough.
 std::vector<std::string> rotation_column_names(const Scene& scene);
-std::vector<double> rotation_column_values(const Disks& disks, const BlockRunner& run);
+std::vector<double> rotation_column_values(const DisksInPieces& disks, const BlockRunner& run);
 
 }  // namespace carom

@@ -3,19 +3,49 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <optional>
+#include <vector>
 
+#include "core/measure/blocked_tally.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/measure/shear_flow.hpp"
 
 namespace carom {
 
-// order, energy: of the disks, whose velocities are relative to a shear flow.
-IntervalMeans SeriesMeter::means(const Disks& disks, const std::vector<std::size_t>& order, const Energy& energy,
-                                 const State& now, const BlockRunner& run) const {
+namespace {
+
+// What a row says of all disks together, from pieces of them.
+struct RowTally {
+  BlockedTally kinetic, potential, rotational, px, py;
+  BlockedTally relative, flow;  // in a sheared box, of velocities relative to the flow
+
+  void add(const Disks& d, const Domain& box, const Gravity& gravity, const BlockRunner& run) {
+    const std::vector<std::size_t> order = by_id(d);
+    kinetic.add(order, run, [&](std::size_t i) { return kinetic_energy_of(d, i); });
+    if (gravity.acts()) potential.add(order, run, [&](std::size_t i) { return potential_energy_of(d, i, gravity); });
+    if (d.spins()) rotational.add(order, run, [&](std::size_t i) { return rotational_energy_of(d, i); });
+    px.add(order, run, [&](std::size_t i) { return d.mass_of(i) * d.vx[i]; });
+    py.add(order, run, [&](std::size_t i) { return d.mass_of(i) * d.vy[i]; });
+    if (!box.shear.acts()) return;
+    const Disks there = relative_to_flow(d, box);
+    relative.add(order, run, [&](std::size_t i) { return kinetic_energy_of(there, i); });
+    flow.add(order, run, [&](std::size_t i) { return there.mass_of(i) * there.vx[i] * there.vy[i]; });
+  }
+};
+
+double overlap_of(const DisksInPieces& disks, const Domain& box, const BlockRunner& run) {
+  const std::optional<double> known = disks.max_overlap();
+  return known ? *known : max_overlap(disks.whole(), box, run);
+}
+
+}  // namespace
+
+// energy, momentum_flow: of velocities relative to a shear flow.
+IntervalMeans SeriesMeter::means(Count disks, const Energy& energy, double momentum_flow, const State& now) const {
   const double elapsed = now.time - done_.counted_until;
   if (!(elapsed > 0.0)) return done_.means;
   const Counters& c = now.counters;
-  const double disk_time = elapsed * static_cast<double>(disks.size());
+  const double disk_time = elapsed * static_cast<double>(disks);
   const auto collisions = static_cast<double>(c.collisions - done_.before.collisions);
   IntervalMeans mean{pressure(energy, c.virial - done_.before.virial, elapsed, box_at(box_, now.time)),
                      disk_time > 0.0 ? 2.0 * collisions / disk_time : 0.0,
@@ -25,38 +55,38 @@ IntervalMeans SeriesMeter::means(const Disks& disks, const std::vector<std::size
   }
   if (box_.shear.acts()) {
     const double virial = c.shear_virial - done_.before.shear_virial;
-    mean.shear_stress = shear_stress(momentum_flow(disks, order, run), virial, elapsed, box_);
+    mean.shear_stress = shear_stress(momentum_flow, virial, elapsed, box_);
   }
   return mean;
 }
 
-SeriesRow SeriesMeter::row(const Disks& disks, double time, const State& now, const BlockRunner& run) {
+SeriesRow SeriesMeter::row(const DisksInPieces& disks, const State& now, const BlockRunner& run) {
   const Counters& c = now.counters;
-  const std::vector<std::size_t> order = by_id(disks);
-  const Energy energy = energy_of(disks, order, gravity_, run);
-  const Momentum momentum = momentum_of(disks, order, run);
+  RowTally sums;
+  disks.visit([&](const Disks& some) { sums.add(some, box_, gravity_, run); });
+  const Energy energy{sums.kinetic.value(), sums.potential.value(), sums.rotational.value()};
+  const auto count = static_cast<double>(disks.size());
   if (box_.shear.acts()) {
-    const Disks relative = relative_to_flow(disks, box_);
-    const Energy thermal = energy_of(relative, order, gravity_, run);
-    done_.means = means(relative, order, thermal, now, run);
-    const double temperature = disks.empty() ? 0.0 : thermal.kinetic / static_cast<double>(disks.size());
+    const double relative = sums.relative.value();
+    done_.means = means(disks.size(), {relative}, sums.flow.value(), now);
+    const double temperature = disks.size() == 0 ? 0.0 : relative / count;
     const double stress = done_.means.shear_stress;
     shear_row_ = {stress, stress / box_.shear.rate, temperature, c.shear_work};
   } else {
-    done_.means = means(disks, order, energy, now, run);
+    done_.means = means(disks.size(), energy, 0.0, now);
   }
   const auto of_velocities = [&](double value) { return drawn_ ? std::numeric_limits<double>::quiet_NaN() : value; };
-  const SeriesRow row{static_cast<double>(disks.size()),
+  const SeriesRow row{count,
                       of_velocities(energy.kinetic),
                       energy.potential,
                       of_velocities(energy.total()),
-                      of_velocities(momentum.x),
-                      of_velocities(momentum.y),
+                      of_velocities(sums.px.value()),
+                      of_velocities(sums.py.value()),
                       static_cast<double>(c.collisions),
                       static_cast<double>(c.wall_collisions),
                       of_velocities(done_.means.pressure),
                       done_.means.collision_rate,
-                      with_overlap_ ? max_overlap(disks, box_at(box_, time), run) : 0.0,
+                      with_overlap_ ? overlap_of(disks, box_at(box_, disks.time()), run) : 0.0,
                       static_cast<double>(c.removed),
                       static_cast<double>(c.emitted),
                       static_cast<double>(c.waiting),
@@ -74,6 +104,7 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
       sources_(scene),
       meter_(scene, true),
       groups_(scene),
+      rotates_(scene.physics.surfaces.are_rough()),
       with_displacement_(scene.analysis.wants(Quantity::displacement)) {
   std::string heading = "t";
   for (const SeriesColumn& column : series_columns) heading += fmt::format(",{}", column.name);
@@ -92,6 +123,7 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene, const Se
       sources_(scene),
       meter_(scene, true, from.meter),
       groups_(scene),
+      rotates_(scene.physics.surfaces.are_rough()),
       with_displacement_(scene.analysis.wants(Quantity::displacement)),
       rows_(from.file.frames) {}
 
@@ -100,11 +132,11 @@ SeriesMark SeriesWriter::mark() {
   return {{file_.name(), rows_, file_.bytes()}, meter_.mark()};
 }
 
-SeriesRow SeriesWriter::write(const Disks& disks, double time, const State& now, double displacement,
+SeriesRow SeriesWriter::write(const DisksInPieces& disks, const State& now, double displacement,
                               const BlockRunner& run) {
-  const SeriesRow row = meter_.row(disks, time, now, run);
+  const SeriesRow row = meter_.row(disks, now, run);
   // {} writes the shortest text that reads back as the same double.
-  std::string line = fmt::format("{}", time);
+  std::string line = fmt::format("{}", disks.time());
   for (std::size_t k = 0; k < row.size(); ++k) {
     if (series_columns[k].whole) {
       fmt::format_to(std::back_inserter(line), ",{}", static_cast<Count>(row[k]));
@@ -116,12 +148,17 @@ SeriesRow SeriesWriter::write(const Disks& disks, double time, const State& now,
   for (const double value : side_column_values(sources_, now.counters)) {
     fmt::format_to(std::back_inserter(line), ",{}", value);
   }
-  for (const double value : rotation_column_values(disks, run)) fmt::format_to(std::back_inserter(line), ",{}", value);
+  if (rotates_) {
+    for (const double value : rotation_column_values(disks, run))
+      fmt::format_to(std::back_inserter(line), ",{}", value);
+  }
   if (sources_.box.shear.acts()) {
     for (const double value : meter_.shear_row()) fmt::format_to(std::back_inserter(line), ",{}", value);
   }
-  for (const double value : groups_.row(relative_to_flow(disks, sources_.box)))
-    fmt::format_to(std::back_inserter(line), ",{}", value);
+  if (!groups_.empty()) {
+    for (const double value : groups_.row(relative_to_flow(disks.whole(), sources_.box)))
+      fmt::format_to(std::back_inserter(line), ",{}", value);
+  }
   file_.write(line + "\n");
   file_.flush();
   ++rows_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/block_runner.hpp"
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/state.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/scene/drawn_velocities.hpp"
@@ -67,12 +67,12 @@ class SeriesMeter {
         drawn_(velocities_are_drawn(scene)),
         done_(from) {}
 
-  // Disks at the time of a frame, that time, and what `now` has counted. An exact run counts to the end of its window,
+  // Disks at the time of a frame, and what `now` has counted. An exact run counts to the end of its window,
   // which may lie a little after the frame; intervals are taken between the states, so that no collision is lost or
   // counted twice. pressure, collision_rate (per disk) and the four wall forces are means over the time since the row
   // before, and 0 in the first row; a row whose state is the one of the row before (a frame of the same window) repeats
   // them. What is made of velocities is NaN for Brownian motion (core/scene/drawn_velocities.hpp).
-  SeriesRow row(const Disks& disks, double time, const State& now, const BlockRunner& run = run_in_order);
+  SeriesRow row(const DisksInPieces& disks, const State& now, const BlockRunner& run = run_in_order);
 
   // Of the last row, as shear_columns; only of a sheared box.
   const std::array<double, shear_columns.size()>& shear_row() const { return shear_row_; }
@@ -80,8 +80,7 @@ class SeriesMeter {
   const MeterMark& mark() const { return done_; }
 
  private:
-  IntervalMeans means(const Disks& disks, const std::vector<std::size_t>& order, const Energy& energy, const State& now,
-                      const BlockRunner& run) const;
+  IntervalMeans means(Count disks, const Energy& energy, double momentum_flow, const State& now) const;
 
   Domain box_;
   Gravity gravity_;
@@ -102,8 +101,12 @@ class SeriesWriter {
 
   // One row, which it returns: see SeriesMeter::row. displacement: the mean square, a column where
   // scene.analysis asks for it. The columns of groups with names come last.
-  SeriesRow write(const Disks& disks, double time, const State& now, double displacement = 0.0,
+  SeriesRow write(const DisksInPieces& disks, const State& now, double displacement = 0.0,
                   const BlockRunner& run = run_in_order);
+  SeriesRow write(const Disks& disks, double time, const State& now, double displacement = 0.0,
+                  const BlockRunner& run = run_in_order) {
+    return write(WholeDisks(disks, time), now, displacement, run);
+  }
 
   // Where the file has come to; all up to there is on the disk.
   SeriesMark mark();
@@ -115,6 +118,7 @@ class SeriesWriter {
   EnergySources sources_;
   SeriesMeter meter_;
   GroupMeter groups_;
+  bool rotates_;
   bool with_displacement_;
   Count rows_ = 0;
 };

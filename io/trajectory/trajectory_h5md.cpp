@@ -19,6 +19,7 @@
 #include "io/trajectory/h5md_elements.hpp"
 #include "io/trajectory/h5md_layout.hpp"
 #include "io/trajectory/h5md_values.hpp"
+#include "io/trajectory/place_batches.hpp"
 #include "io/trajectory/xdmf.hpp"
 
 namespace carom {
@@ -79,12 +80,13 @@ struct H5mdWriter::File {
   void describe(const Scene& scene) const;
   void make_elements();
   void open_elements(Count frames);
-  void write_frame(const Disks& disks, const BlockRunner& run);
-  void write_element(H5mdElement& element, const Disks& disks, const BlockRunner& run);
-  void write_once(H5mdElement& element, const Disks& disks, hsize_t first, hsize_t last);
-  void fill(const H5mdElement& element, const Disks& disks, hsize_t begin, hsize_t end,
+  void write_frame(const DisksInPieces& disks, const BlockRunner& run);
+  void write_element(H5mdElement& element, const PlaceBatch& batch, const BlockRunner& run);
+  void write_once(H5mdElement& element, const PlaceBatch& batch, hsize_t first, hsize_t last);
+  // begin, end: counted from the first place of the batch.
+  void fill(const H5mdElement& element, const PlaceBatch& batch, hsize_t begin, hsize_t end,
             std::vector<unsigned char>& buffer) const {
-    fill_with_values(element.quantity, form, disks, {disk_at, begin, end}, buffer);
+    fill_with_values(element.quantity, form, batch.disks, {batch.disk_at, begin, end}, buffer);
   }
   void flush();
   void close();
@@ -93,7 +95,7 @@ struct H5mdWriter::File {
   Hdf5Output output;
   Selection select;
   H5mdForm form;
-  bool exact = false, growing = false;
+  bool exact = false, growing = false, rotates = false;
   hsize_t chunk = 1;   // places
   hsize_t places = 0;  // that the file has
   hsize_t known = 0;   // places whose mass, radius and species are in the file
@@ -102,7 +104,6 @@ struct H5mdWriter::File {
   std::vector<std::size_t> shown_columns;  // of series_columns
   std::vector<H5mdColumn> columns;  // step, the observables, and time, which says how many frames are whole, at last
   GroupMeter groups;
-  std::vector<std::uint32_t> disk_at;
   std::vector<Packer> packers = std::vector<Packer>(chunks_at_once);
   double work_seen = 0.0;  // of the run, at the last frame
   double unflushed_work = 0.0;
@@ -115,6 +116,7 @@ H5mdWriter::File::File(const std::string& file_path, const Scene& scene, bool ex
       form{scene.output.single_precision, scene.output.dimensions, ends_of_groups(scene), rounds},
       exact(scene.run.method == Method::exact),
       growing(may_grow(select, scene, disks_at_start(scene))),
+      rotates(scene.physics.surfaces.are_rough()),
       elements(h5md_elements(scene, rounds != nullptr)),
       shown_columns(observables_of(scene)),
       columns(h5md_columns(scene)),
@@ -215,57 +217,59 @@ void H5mdWriter::File::open_elements(Count kept) {
   for (H5mdColumn& c : columns) output.resize(c.set, shape_of(c, kept));
 }
 
-// The frame's row of an element, chunk by chunk. Chunks without a disk are not written: they read as fill values.
-void H5mdWriter::File::write_element(H5mdElement& e, const Disks& disks, const BlockRunner& run) {
-  Extent size{frames + 1, places}, begin{frames, 0};
-  if (e.components > 1) {
-    size.push_back(e.components);
-    begin.push_back(0);
-  }
-  output.resize(e.set, size);
+// Of the frame's row of an element these places, chunk by chunk. Chunks without a disk are not written: they read as
+// fill values.
+void H5mdWriter::File::write_element(H5mdElement& e, const PlaceBatch& batch, const BlockRunner& run) {
+  Extent begin{frames, 0};
+  if (e.components > 1) begin.push_back(0);
   std::vector<hsize_t> firsts;
-  for (hsize_t first = 0; first < disk_at.size(); first += chunk) {
-    const auto from = disk_at.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto to = disk_at.begin() + static_cast<std::ptrdiff_t>(std::min<hsize_t>(first + chunk, disk_at.size()));
+  for (hsize_t first = 0; first < batch.count; first += chunk) {
+    const auto from = batch.disk_at.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto to = batch.disk_at.begin() + static_cast<std::ptrdiff_t>(std::min<hsize_t>(first + chunk, batch.count));
     if (std::any_of(from, to, [](std::uint32_t i) { return i != no_disk; })) firsts.push_back(first);
   }
   for (std::size_t done = 0; done < firsts.size(); done += chunks_at_once) {
     const std::size_t count = std::min(chunks_at_once, firsts.size() - done);
     run(count, [&](std::size_t k) {
       Packer& packer = packers[k];
-      fill(e, disks, firsts[done + k], firsts[done + k] + chunk, packer.buffer);
+      fill(e, batch, firsts[done + k], firsts[done + k] + chunk, packer.buffer);
       packer.deflate.pack(packer.buffer.data(), packer.buffer.size(), e.kind.width);
     });
     for (std::size_t k = 0; k < count; ++k) {
-      begin[1] = firsts[done + k];
+      begin[1] = batch.first + firsts[done + k];
       output.write_packed_chunk(e.set, begin, packers[k].deflate.packed());
     }
   }
 }
 
-// What a disk has for ever, of the places first to last - 1. A disk that came and went since the frame before is never
-// seen: its place keeps the fill values.
-void H5mdWriter::File::write_once(H5mdElement& e, const Disks& disks, hsize_t first, hsize_t last) {
-  // As long as what is known: a later writer goes by that.
-  if (growing) output.resize(e.set, {last});
-  for (hsize_t begin = first; begin < last; begin += chunk) {
-    const hsize_t end = std::min(begin + chunk, last);
-    fill(e, disks, begin, end, packers[0].buffer);
+// What a disk has for ever, of those of the places first to last - 1 that are in the batch. A disk that came and went
+// since the frame before is never seen: its place keeps the fill values.
+void H5mdWriter::File::write_once(H5mdElement& e, const PlaceBatch& batch, hsize_t first, hsize_t last) {
+  const hsize_t here = std::min<hsize_t>(last, batch.first + batch.count);
+  for (hsize_t begin = std::max<hsize_t>(first, batch.first); begin < here; begin += chunk) {
+    const hsize_t end = std::min(begin + chunk, here);
+    fill(e, batch, begin - batch.first, end - batch.first, packers[0].buffer);
     output.write_block(e.set, e.kind, {begin}, {end - begin}, packers[0].buffer.data());
   }
 }
 
-void H5mdWriter::File::write_frame(const Disks& disks, const BlockRunner& run) {
-  find_places(select, disks, 0, disk_at);
-  places = std::max<hsize_t>(places, disk_at.size());
+// Element by element, each from all disks, so that its chunks lie together in the file.
+void H5mdWriter::File::write_frame(const DisksInPieces& disks, const BlockRunner& run) {
+  const hsize_t shown = growing || known < places ? count_places(select, disks) : 0;
+  places = std::max(places, shown);
   for (H5mdElement& e : elements) {
     if (e.each_frame) {
-      write_element(e, disks, run);
-    } else if (disk_at.size() > known) {
-      write_once(e, disks, known, disk_at.size());
+      Extent size{frames + 1, places};
+      if (e.components > 1) size.push_back(e.components);
+      output.resize(e.set, size);
+      visit_places(select, disks, chunk, [&](const PlaceBatch& batch) { write_element(e, batch, run); });
+    } else if (shown > known) {
+      // As long as what is known: a later writer goes by that.
+      if (growing) output.resize(e.set, {shown});
+      visit_places(select, disks, chunk, [&](const PlaceBatch& batch) { write_once(e, batch, known, shown); });
     }
   }
-  known = std::max<hsize_t>(known, disk_at.size());
+  known = std::max(known, shown);
   ++frames;
 }
 
@@ -325,16 +329,20 @@ H5mdWriter::H5mdWriter(const std::string& path, const Scene& scene, Count frames
 
 H5mdWriter::~H5mdWriter() = default;
 
-void H5mdWriter::write(const Disks& disks, double time, Count step, const SeriesRow& row, const BlockRunner& run) {
+void H5mdWriter::write(const DisksInPieces& disks, Count step, const SeriesRow& row, const BlockRunner& run) {
   File& f = *file_;
   const Count shown = f.exact ? f.frames : step;
   f.write_frame(disks, run);
   f.columns.front().values.push_back(static_cast<double>(shown));
   std::size_t column = 0;
   for (const std::size_t k : f.shown_columns) f.columns[++column].values.push_back(row[k]);
-  for (const double value : rotation_column_values(disks, run)) f.columns[++column].values.push_back(value);
-  for (const double value : f.groups.row(disks)) f.columns[++column].values.push_back(value);
-  f.columns.back().values.push_back(time);
+  if (f.rotates) {
+    for (const double value : rotation_column_values(disks, run)) f.columns[++column].values.push_back(value);
+  }
+  if (!f.groups.empty()) {
+    for (const double value : f.groups.row(disks.whole())) f.columns[++column].values.push_back(value);
+  }
+  f.columns.back().values.push_back(disks.time());
   const auto count = static_cast<double>(disks.size());
   const double work = work_done(step, row[collisions_column] + row[wall_collisions_column], count);
   f.unflushed_work += std::max(0.0, work - f.work_seen) + work_of_disk_written * count;

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/measure/displacement.hpp"
 #include "core/scene/scene.hpp"
 #include "io/files/file_mark.hpp"
@@ -30,7 +30,10 @@ class H5mdWriter {
 
   // One frame: the disks that scene.output.select names. step: what the run has counted; time stepping shows it, an
   // exact run, whose frames may share a window, shows the number of the frame instead.
-  void write(const Disks& disks, double time, Count step, const SeriesRow& row, const BlockRunner& run = run_in_order);
+  void write(const DisksInPieces& disks, Count step, const SeriesRow& row, const BlockRunner& run = run_in_order);
+  void write(const Disks& disks, double time, Count step, const SeriesRow& row, const BlockRunner& run = run_in_order) {
+    write(WholeDisks(disks, time), step, row, run);
+  }
 
   // Hands all frames so far to the system. write() does it about twice a second, by the work of the run and not by a
   // clock, so that equal runs leave equal files.

@@ -129,16 +129,26 @@ void XyzWriter::write_lines(const Disks& disks, const std::vector<std::size_t>& 
   }
 }
 
-void XyzWriter::write(const Disks& disks, double time, const BlockRunner& run) {
-  std::vector<std::size_t> order = by_id(disks);
-  const Selection& select = plan_.select;
-  if (!select.all()) {
-    std::erase_if(order, [&](std::size_t i) { return !is_selected(select, disks, i); });
-  }
-  std::string head = fmt::format("{}\n{}", order.size(), lattice_);
-  head.append(number_text(time), 1);
+Count XyzWriter::count_of(const DisksInPieces& disks) const {
+  if (plan_.select.all()) return disks.size();
+  Count count = 0;
+  disks.visit([&](const Disks& some) {
+    for (std::size_t i = 0; i < some.size(); ++i) count += is_selected(plan_.select, some, i) ? 1U : 0U;
+  });
+  return count;
+}
+
+void XyzWriter::write(const DisksInPieces& disks, const BlockRunner& run) {
+  std::string head = fmt::format("{}\n{}", count_of(disks), lattice_);
+  head.append(number_text(disks.time()), 1);
   file_.write(head + '\n');
-  write_blocks(disks, order, run);
+  disks.visit([&](const Disks& some) {
+    std::vector<std::size_t> order = by_id(some);
+    if (!plan_.select.all()) {
+      std::erase_if(order, [&](std::size_t i) { return !is_selected(plan_.select, some, i); });
+    }
+    write_blocks(some, order, run);
+  });
   file_.flush();
   ++frames_;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/block_runner.hpp"
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/domain.hpp"
 #include "core/measure/displacement.hpp"
 #include "core/scene/scene.hpp"
@@ -43,7 +43,10 @@ class XyzWriter {
   XyzWriter(const std::string& path, XyzPlan plan, const FileMark& from);
 
   // One frame: the selected disks in order of id, numbers with as many digits as it takes to read them back.
-  void write(const Disks& disks, double time, const BlockRunner& run = run_in_order);
+  void write(const DisksInPieces& disks, const BlockRunner& run = run_in_order);
+  void write(const Disks& disks, double time, const BlockRunner& run = run_in_order) {
+    write(WholeDisks(disks, time), run);
+  }
 
   // Where the file has come to; all up to there is on the disk.
   FileMark mark();
@@ -51,6 +54,7 @@ class XyzWriter {
   void close() { file_.close(); }
 
  private:
+  Count count_of(const DisksInPieces& disks) const;  // how many are selected
   void write_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
                    std::string& text) const;
   void write_blocks(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run);

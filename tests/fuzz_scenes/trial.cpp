@@ -142,7 +142,7 @@ class Court {
     std::vector<Frame> frames;
     RunObserver observer;
     if (every >= 0.0) {
-      observer.frame = [&](const Disks& disks, double time) { frames.push_back({time, state_hash(disks)}); };
+      observer.frame = [&](const DisksInPieces& disks) { frames.push_back({disks.time(), state_hash(disks.whole())}); };
     }
     run_to_end(*engine, scene, observer);
     if (hash_of(engine->state()) != hash_of(end_)) {

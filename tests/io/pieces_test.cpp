@@ -1,0 +1,172 @@
+// Files of disks that come in pieces, as those of several ranks do: byte for byte those of the same disks as a whole.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <sstream>
+
+#include "core/base/random.hpp"
+#include "core/disks/disks_in_pieces.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/measure/displacement.hpp"
+#include "io/tables/series.hpp"
+#include "io/trajectory/trajectory_h5md.hpp"
+#include "io/trajectory/trajectory_xyz.hpp"
+#include "tests/support/test_folder.hpp"
+
+namespace carom {
+namespace {
+
+// Pieces of so many ids; each has a radius and a mass a disk, in descending order of id.
+class CutDisks final : public DisksInPieces {
+ public:
+  CutDisks(const Disks& disks, double time, DiskId ids) : disks_(disks), order_(by_id(disks)), time_(time), ids_(ids) {}
+  double time() const override { return time_; }
+  Count size() const override { return disks_.size(); }
+  const Disks& whole() const override {
+    ADD_FAILURE() << "asks for all disks";
+    return disks_;
+  }
+  std::optional<double> max_overlap() const override { return 0.125; }
+  void visit(const Use& use) const override {
+    std::vector<std::size_t> piece;
+    for (std::size_t k = 0; k <= order_.size(); ++k) {
+      const bool next = k == order_.size() || (!piece.empty() && number_of(order_[k]) != number_of(piece.front()));
+      if (next) hand_out(piece, use);
+      if (k < order_.size()) piece.push_back(order_[k]);
+    }
+  }
+
+ private:
+  DiskId number_of(std::size_t i) const { return disks_.id[i] / ids_; }
+  void hand_out(std::vector<std::size_t>& piece, const Use& use) const {
+    Disks some;
+    some.inertia = disks_.inertia;
+    for (auto i = piece.rbegin(); i != piece.rend(); ++i) {
+      const Disk disk = disk_at(disks_, *i);
+      for (const auto& [column, value] :
+           {std::pair(&some.x, disk.x), std::pair(&some.y, disk.y), std::pair(&some.vx, disk.vx),
+            std::pair(&some.vy, disk.vy), std::pair(&some.radius, disk.radius), std::pair(&some.mass, disk.mass)}) {
+        column->push_back(value);
+      }
+      some.id.push_back(disk.id);
+      if (some.spins()) some.spin.push_back(disk.spin);
+    }
+    piece.clear();
+    use(some);
+  }
+
+  const Disks& disks_;
+  std::vector<std::size_t> order_;
+  double time_;
+  DiskId ids_;
+};
+
+// Disks of frame k: scattered in memory, some gone since the frame before.
+Disks frame_disks(const Scene& scene, std::uint32_t count, std::uint32_t k) {
+  Disks disks;
+  if (scene.physics.surfaces.are_rough()) disks.inertia = 0.5;
+  for (std::uint32_t place = 0; place < count; ++place) {
+    const DiskId id = (place * 7919U) % count;
+    const TwoUniforms u = uniforms(3, Stream::position, id, k);
+    if (u.a < 0.05 * k) continue;
+    append(disks, {u.a * scene.box.width, u.b * scene.box.height, u.b - 0.5, u.a - 0.5, 0.01 + 0.001 * (id % 3), 1.5,
+                   id, u.a + u.b});
+  }
+  return disks;
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ostringstream all;
+  all << std::ifstream(path, std::ios::binary).rdbuf();
+  return all.str();
+}
+
+// All files of four frames, as they are in the folder then. ids: of a piece; 0: disks as a whole.
+std::string files_of(const test::TestFolder& folder, const Scene& scene, std::uint32_t count, DiskId ids) {
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  DisplacementTally rounds;
+  XyzPlan plan{scene.box, scene.output.select};
+  plan.rounds = &rounds;
+  plan.spins = scene.physics.surfaces.are_rough();
+  {
+    H5mdWriter h5md(path("trajectory.h5"), scene, &rounds);
+    XyzWriter xyz(path("trajectory.xyz"), plan);
+    SeriesMeter meter(scene, false);
+    SeriesWriter series(path("series.csv"), scene);
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const Disks all = frame_disks(scene, count, k);
+      State now;
+      now.time = 0.25 * k;
+      now.counters.steps = k;
+      now.counters.virial = 3.5 * k;
+      const auto write = [&](const DisksInPieces& disks) {
+        follow_rounds(rounds, disks, scene.box);
+        xyz.write(disks);
+        h5md.write(disks, k, meter.row(disks, now));
+        // The largest overlap of pieces is what the ranks say, and no disk is large enough here to have one.
+        if (ids > 0 && disks.max_overlap() != 0.125) ADD_FAILURE();
+        series.write(disks, now);
+      };
+      if (ids == 0) write(WholeDisks(all, now.time));
+      if (ids > 0) write(CutDisks(all, now.time, ids));
+    }
+    h5md.close();
+    xyz.close();
+    series.close();
+  }
+  std::string files;
+  for (const char* name : {"trajectory.h5", "trajectory.xdmf", "trajectory.xyz"}) files += bytes_of(path(name));
+  // But for the overlaps.
+  std::istringstream lines(bytes_of(path("series.csv")));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (std::size_t column = 0; std::getline(cells, cell, ','); ++column) {
+      if (column != 1 + overlap_column) files += cell + ",";
+    }
+  }
+  return files;
+}
+
+TEST(Pieces, FilesAreThoseOfTheWhole) {
+  const test::TestFolder folder("pieces");
+  const auto scene_with = [](const std::string& box, const std::string& physics, const std::string& output) {
+    return parse_scene(fmt::format("[box]\nwidth = 40.0\nheight = 30.0\nleft = \"periodic\"\nright = \"periodic\"\n{}\n"
+                                   "[physics]\n{}\n[[disks]]\ncount = 4000\npositions = \"random\"\nradius = 0.01\n"
+                                   "mass = 1.5\n[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 1.0\n[output]\n"
+                                   "every = 0.25\ntrajectory = \"h5md\"\n{}\n",
+                                   box, physics, output),
+                       "scene", "");
+  };
+  const std::string shear = "bottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = 0.5";
+  for (const Scene& scene : {scene_with("", "gravity = 2.0", ""), scene_with("", "", "select = \"every 7th\""),
+                             scene_with("", "", "select = [3.0, 4.0, 21.0, 15.0]"),
+                             scene_with("", "roughness = { tangential_restitution = 0.5 }", "dimensions = 3"),
+                             scene_with(shear, "", "precision = \"single\"")}) {
+    const std::string whole = files_of(folder, scene, 4000, 0);
+    for (const DiskId ids : {1U, 100U, 4096U}) {
+      EXPECT_TRUE(whole == files_of(folder, scene, 4000, ids)) << scene.output.select.stride << " " << ids;
+    }
+  }
+}
+
+// More disks than go into the file at once, and chunks that end where no piece does.
+TEST(Pieces, ManyDisksGoChunkByChunk) {
+  const test::TestFolder folder("pieces_of_many");
+  for (const char* select : {"", "select = \"every 2nd\"\n", "select = [0.0, 0.0, 400.0, 250.0]\n"}) {
+    const Scene scene =
+        parse_scene(fmt::format("[box]\nwidth = 400.0\nheight = 300.0\nleft = \"periodic\"\nright = \"periodic\"\n"
+                                "[[disks]]\ncount = 180000\npositions = \"square\"\nradius = 0.01\nmass = 1.5\n"
+                                "[run]\nmethod = \"exact\"\nt_end = 1.0\n[output]\ntrajectory = \"h5md\"\n{}",
+                                select),
+                    "scene", "");
+    const std::string whole = files_of(folder, scene, 180000, 0);
+    EXPECT_TRUE(whole == files_of(folder, scene, 180000, 1U << 15)) << select;
+  }
+}
+
+}  // namespace
+}  // namespace carom
