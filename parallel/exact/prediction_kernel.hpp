@@ -29,6 +29,7 @@ struct PredictionConstants {
   LaneConstant contact2 = in_all_lanes(0.0);  // of equal disks: contact distance, squared
   // |dr.dv| of a pair that approaches so slowly that its contact may last (WindowState::close).
   LaneConstant slow_approach = in_all_lanes(0.0);
+  LaneConstant zero = in_all_lanes(0.0);
   // All bits but the sign: takes signs off, and is not a number.
   LaneConstant magnitude_bits = in_all_lanes(std::bit_cast<double>(0x7fffffffffffffffULL));
 };

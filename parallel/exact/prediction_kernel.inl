@@ -1,6 +1,7 @@
 // The kernel, compiled once for every instruction set; CAROM_PREDICTION_KERNELS names the version. Four neighbours at a
 // time, in the compilers' own vector types: on a machine without them the compiler splits them.
 
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -97,12 +98,30 @@ inline unsigned bits_of(Longs truth) {
 #endif
 }
 
-inline double least_lane(Doubles v) {
-  using Pair = double __attribute__((vector_size(16)));
-  const Pair low = __builtin_shufflevector(v, v, 0, 1);
-  const Pair high = __builtin_shufflevector(v, v, 2, 3);
-  const Pair least = low < high ? low : high;
-  return least[0] < least[1] ? least[0] : least[1];
+inline bool any_true(Longs truth) {
+#if defined(__AVX__)
+  return __builtin_ia32_vtestzpd256(number(truth), number(truth)) == 0;
+#else
+  return bits_of(truth) != 0;
+#endif
+}
+
+// The least of the four, in all lanes.
+inline Doubles least_of_all(Doubles v) {
+  const Doubles pairs = smaller(v, __builtin_shufflevector(v, v, 2, 3, 0, 1));
+  return smaller(pairs, __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2));
+}
+
+// Of whole numbers below 2^31, that of the first lane whose bit is set.
+inline std::uint32_t lane_of(Longs v, unsigned set) {
+#if defined(__AVX2__)
+  using Ints = int __attribute__((vector_size(32)));
+  const Ints halves = __builtin_bit_cast(Ints, v);
+  const int lower = 2 * __builtin_ctz(set);
+  return static_cast<std::uint32_t>(__builtin_ia32_permvarsi256(halves, Ints{lower})[0]);
+#else
+  return static_cast<std::uint32_t>(v[__builtin_ctz(set)]);
+#endif
 }
 
 // To the nearest whole number, |v| < 2^51.
@@ -154,8 +173,9 @@ template <GravityKind gravity>
 // may have the other sign, which changes no bit of the time. Not a number where there is no contact. slowest: the
 // least |dr.dv| so far.
 template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
-inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const DiskRecord& f0, const DiskRecord& f1,
-                             const DiskRecord& f2, const DiskRecord& f3, Doubles& slowest) {
+[[gnu::always_inline]] inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const DiskRecord& f0,
+                                                    const DiskRecord& f1, const DiskRecord& f2, const DiskRecord& f3,
+                                                    Doubles& slowest) {
   const Doubles m0 = load_motion(f0.path);
   const Doubles m1 = load_motion(f1.path);
   const Doubles m2 = load_motion(f2.path);
@@ -189,9 +209,9 @@ inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const
   slowest = smaller(number(bits(approach) & bits(load(f.magnitude_bits))), slowest);
   // Not a number where the paths miss.
   const Doubles until_meeting = root((dvx * dvx + dvy * dvy) * contact2 - cross * cross) - approach;
-  const Doubles until_contact = ((dx * dx + dy * dy) - contact2) / until_meeting;
+  const Doubles until_contact = larger((dx * dx + dy * dy) - contact2, load(f.zero)) / until_meeting;
   // By the sign: +0 and -0 are slow.
-  return both + larger(all(0.0), choose_by_sign(approach, until_contact, load(f.magnitude_bits)));
+  return both + choose_by_sign(approach, until_contact, load(f.magnitude_bits));
 }
 
 constexpr FirstContact cannot_tell{std::numeric_limits<double>::quiet_NaN(), 0, true};
@@ -202,32 +222,32 @@ FirstContact first_contact(const PredictionConstants& f, const DiskRecord* recor
   const PathSegment& p = record->path;
   const Own own{all(p.start), all(p.x), all(p.y), all(p.vx), all(p.vy), all(record->radius)};
   Doubles first = all(never);
-  Longs batch_of_first{};
+  Longs place_of_first{};
   Longs ties{};
-  Longs batch{};
+  Longs place{0, 1, 2, 3};
   Doubles slowest = all(never);
-  for (const Offset* n = offset; n < offset + count; n += lanes, batch += 1) {
+  for (const Offset* n = offset; n < offset + count; n += lanes) {
+    // Constants are read where they are each time: kept from one turn to the next they would be on the stack.
+    std::atomic_signal_fence(std::memory_order_seq_cst);
     const Doubles time = four_contacts<gravity, unequal_radii, newest, images>(f, own, record[n[0]], record[n[1]],
                                                                                record[n[2]], record[n[3]], slowest);
     const Longs sooner = time < first;
     ties |= time == first;
-    batch_of_first = bits(choose(sooner, number(batch), number(batch_of_first)));
+    place_of_first = bits(choose(sooner, number(place), number(place_of_first)));
     first = smaller(time, first);
+    place += lanes;
   }
-  FirstContact found;
-  if (bits_of(ties | (slowest <= load(f.slow_approach))) != 0) [[unlikely]]
+  if (any_true(ties | (slowest <= load(f.slow_approach)))) [[unlikely]]
     return cannot_tell;
-  found.time = least_lane(first);
-  const unsigned firsts = bits_of(first == all(found.time));
-  const auto place = [&](unsigned left) {
-    const auto lane = static_cast<std::uint32_t>(__builtin_ctz(left));
-    return static_cast<std::uint32_t>(batch_of_first[lane]) * lanes + lane;
-  };
-  found.neighbour = place(firsts);
+  FirstContact found;
+  const Doubles least = least_of_all(first);
+  found.time = least[0];
+  const unsigned firsts = bits_of(first == least);
+  found.neighbour = lane_of(place_of_first, firsts);
   if ((firsts & (firsts - 1)) != 0 && found.time < never) [[unlikely]] {
     // Padding gives the same neighbour twice.
     for (unsigned left = firsts & (firsts - 1); left != 0; left &= left - 1) {
-      if (offset[place(left)] != offset[found.neighbour]) return cannot_tell;
+      if (offset[lane_of(place_of_first, left)] != offset[found.neighbour]) return cannot_tell;
     }
   }
   return found;
