@@ -2,7 +2,10 @@
 // cells are searched without following links.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "parallel/exact/list_kernel.hpp"
@@ -24,6 +27,25 @@ class CellSlots {
   void remove(std::uint32_t cell, std::uint32_t disk);
 
   SlotColumns columns() const { return {position_.data(), disk_.data(), radius_.empty() ? nullptr : radius_.data()}; }
+  // The numbers of the links of some cells, bit by bit in all of them: all ones as long as no disk is chained to any.
+  using Links = std::uint32_t __attribute__((vector_size(16)));
+  static constexpr Links no_links = {none, none, none, none};
+  // Adds those of cells [first, last), and perhaps of some after them, but of none from `end` on.
+  void add_links(std::uint32_t first, std::uint32_t last, std::uint32_t end, Links& all) const {
+    constexpr std::uint32_t at_once = 4;
+    const auto four = [this](std::uint32_t cell) {
+      Links links;
+      std::memcpy(&links, &chain_[cell], sizeof links);
+      return links;
+    };
+    if (first + at_once > std::min<std::size_t>(end, chain_.size())) [[unlikely]] {
+      for (; first < last; ++first) all &= Links{chain_[first], none, none, none};
+      return;
+    }
+    all &= four(first);
+    for (first += at_once; first < last; first += at_once) all &= four(std::min(first, last - at_once));
+  }
+  static bool any(const Links& all) { return (all[0] & all[1] & all[2] & all[3]) != none; }
   // Calls visit(disk) for the disks chained to cells [first, last). Reads nothing of cells from `end` on.
   template <class Visit>
   void visit_chained(std::uint32_t first, std::uint32_t last, std::uint32_t end, Visit&& visit) const {

@@ -50,7 +50,9 @@ void NeighbourLists::choose_slot_units() {
   slot_shift_y_ = shift(unit_y_, cell_height);
   slot_unit_x_ = std::ldexp(unit_x_, static_cast<int>(slot_shift_x_));
   slot_unit_y_ = std::ldexp(unit_y_, static_cast<int>(slot_shift_y_));
-  search_margin_ = 2.0 * (slot_unit_x_ + slot_unit_y_) + search_rounding * listed;
+  const double unit = std::max(slot_unit_x_, slot_unit_y_);
+  slots_per_length_ = 1.0 / unit;
+  search_margin_ = 2.0 * (slot_unit_x_ + slot_unit_y_) + 2.0 * list_kernel_rounding * unit + search_rounding * listed;
 }
 
 // Puts the disks that are sorted into cells [first_key, last_key) into the slots of the cells of their listed
@@ -82,12 +84,8 @@ std::uint32_t NeighbourLists::cell_of(const Disks& d, std::uint32_t i, FixedPoin
   const std::size_t level =
       d.radius.empty() || grid_.levels.size() == 1 ? 0 : class_of_radius(d.radius[i], grid_.levels[0].largest_radius);
   const GridLevel& cells = grid_.levels[level];
-  const auto cell = [](std::uint32_t at, std::uint32_t count, bool periodic) {
-    const auto k = static_cast<std::uint32_t>(std::uint64_t{at} * count >> (periodic ? 32U : 31U));
-    return std::min(k, count - 1);  // the far wall itself
-  };
-  return cells.key_at(cells.place_of_row(cell(fixed.y, cells.rows, box_.periodic_y())),
-                      cell(fixed.x, cells.columns, box_.periodic_x()));
+  return cells.key_at(cells.place_of_row(cell_of_listed(fixed.y, cells.rows, box_.periodic_y())),
+                      cell_of_listed(fixed.x, cells.columns, box_.periodic_x()));
 }
 
 // Moves the disk to the cell of this position; false, without a change, if its old cell is outside the region.

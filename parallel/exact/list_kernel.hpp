@@ -19,20 +19,22 @@ struct SlotPosition {
   std::uint16_t x = 0, y = 0;
 };
 
-// Lengths in any one unit, such that squares are numbers in single precision.
+// Lengths are in units of the coarser coordinate of a SlotPosition.
 struct ListQuery {
   SlotPosition position;
-  float unit_x = 0.0F, unit_y = 0.0F;  // of a SlotPosition; length
-  float cutoff = 0.0F;                 // without the neighbour's radius; length
-  float common_radius = 0.0F;          // where all disks have one; length
-  std::uint32_t self = 0;              // is not its own neighbour
+  std::int16_t unit_x = 0, unit_y = 0;  // of a SlotPosition, in 2^-15 of that unit
+  float cutoff = 0.0F;                  // without the neighbour's radius; length
+  float common_radius = 0.0F;           // where all disks have one; length
+  std::uint32_t self = 0;               // is not its own neighbour
 };
+// Whole numbers of units, so that the distance of two places is as far off as this at most; length.
+inline constexpr double list_kernel_rounding = 2.2;
 
 // By slot.
 struct SlotColumns {
   const SlotPosition* position = nullptr;
   const std::uint32_t* disk = nullptr;  // empty_slot: none
-  const float* radius = nullptr;        // length, in the query's unit; null: all have the common one
+  const float* radius = nullptr;        // length, as in the query; null: all have the common one
 };
 inline constexpr std::uint32_t empty_slot = 0xffffffffU;
 
@@ -42,15 +44,16 @@ struct SlotRun {
 };
 inline constexpr std::uint32_t slots_a_cell = 4;
 
-// All versions do these operations in this order, so that they find the same disks.
+// All versions do these operations in this order, so that they find the same disks, and each of two disks the other.
 inline bool is_neighbour(const ListQuery& q, SlotPosition p, float radius) {
-  const auto difference = [](std::uint16_t a, std::uint16_t b) {
-    return static_cast<float>(static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b)));
+  const auto distance = [](std::uint16_t a, std::uint16_t b, std::int16_t unit) {
+    const int difference = static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b));
+    return ((difference < 0 ? -difference : difference) * unit + 0x4000) >> 15;
   };
-  const float dx = difference(p.x, q.position.x) * q.unit_x;
-  const float dy = difference(p.y, q.position.y) * q.unit_y;
+  const int dx = distance(p.x, q.position.x, q.unit_x);
+  const int dy = distance(p.y, q.position.y, q.unit_y);
   const float cutoff = q.cutoff + radius;
-  return dx * dx + dy * dy <= cutoff * cutoff;
+  return static_cast<float>(dx * dx + dy * dy) <= cutoff * cutoff;
 }
 
 // Writes the neighbours among the disks in the slots of the runs, in order, and returns how many. found has room for

@@ -27,8 +27,8 @@ constexpr auto packing = [] {
 
 // The query in every lane.
 struct Lanes {
-  __m256i position, self;
-  __m256 unit_x, unit_y, cutoff, cutoff2;
+  __m256i position, unit, self;
+  __m256 cutoff, cutoff2;
 };
 
 // Packs the near disks of the slots from s on: eight, or slots_a_cell.
@@ -41,12 +41,9 @@ inline std::size_t take(const Lanes& l, const SlotColumns& columns, std::uint32_
             : _mm256_inserti128_si256(_mm256_set1_epi32(static_cast<int>(empty_slot)), half(columns.disk + s), 0);
   const __m256i position = eight ? whole(columns.position + s) : _mm256_castsi128_si256(half(columns.position + s));
   // In each lane x in the lower half, y in the upper one.
-  const __m256i off = _mm256_sub_epi16(position, l.position);
-  const __m256i off_x = _mm256_srai_epi32(_mm256_slli_epi32(off, 16), 16);
-  const __m256i off_y = _mm256_srai_epi32(off, 16);
-  const __m256 dx = _mm256_mul_ps(_mm256_cvtepi32_ps(off_x), l.unit_x);
-  const __m256 dy = _mm256_mul_ps(_mm256_cvtepi32_ps(off_y), l.unit_y);
-  const __m256 distance2 = _mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy));
+  const __m256i apart = _mm256_abs_epi16(_mm256_sub_epi16(l.position, position));
+  const __m256i distances = _mm256_mulhrs_epi16(apart, l.unit);
+  const __m256 distance2 = _mm256_cvtepi32_ps(_mm256_madd_epi16(distances, distances));
   __m256 cutoff2 = l.cutoff2;
   if constexpr (unequal_radii) {
     const __m256 radius =
@@ -54,8 +51,9 @@ inline std::size_t take(const Lanes& l, const SlotColumns& columns, std::uint32_
     const __m256 cutoff = _mm256_add_ps(l.cutoff, radius);
     cutoff2 = _mm256_mul_ps(cutoff, cutoff);
   }
-  const __m256i excluded = _mm256_or_si256(_mm256_cmpeq_epi32(disk, l.self),
-                                           _mm256_cmpeq_epi32(disk, _mm256_set1_epi32(static_cast<int>(empty_slot))));
+  // By the sign: that of an empty slot is set.
+  static_assert((empty_slot >> 31U) != 0);
+  const __m256i excluded = _mm256_or_si256(_mm256_cmpeq_epi32(disk, l.self), disk);
   const __m256i near = _mm256_castps_si256(_mm256_cmp_ps(distance2, cutoff2, _CMP_LE_OQ));
   const auto bits = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_andnot_si256(excluded, near))));
   const __m128i order = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(packing[bits].data()));
@@ -69,11 +67,9 @@ std::size_t find(const ListQuery& q, const SlotColumns& columns, const SlotRun* 
                  std::uint32_t* found) {
   const float cutoff = q.cutoff + q.common_radius;
   const Lanes l{_mm256_set1_epi32(static_cast<int>(std::uint32_t{q.position.y} << 16U | q.position.x)),
-                _mm256_set1_epi32(static_cast<int>(q.self)),
-                _mm256_set1_ps(q.unit_x),
-                _mm256_set1_ps(q.unit_y),
-                _mm256_set1_ps(q.cutoff),
-                _mm256_set1_ps(cutoff * cutoff)};
+                _mm256_set1_epi32(static_cast<int>(static_cast<std::uint32_t>(q.unit_y) << 16U |
+                                                   static_cast<std::uint32_t>(q.unit_x))),
+                _mm256_set1_epi32(static_cast<int>(q.self)), _mm256_set1_ps(q.cutoff), _mm256_set1_ps(cutoff * cutoff)};
   std::size_t n = 0;
   for (std::size_t k = 0; k < count; ++k) {
     std::uint32_t s = runs[k].first;
@@ -82,6 +78,22 @@ std::size_t find(const ListQuery& q, const SlotColumns& columns, const SlotRun* 
     if (s < last) n += take<unequal_radii, false>(l, columns, s, found + n);
   }
   return n;
+}
+
+// Puts the offsets from disk i, eight at a time: 0 where there are none left. False if they do not fit in 16 bits.
+inline bool put_offsets(std::uint32_t i, const std::uint32_t* near, std::size_t count, std::int16_t* offset) {
+  const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  const __m256i own = _mm256_set1_epi32(static_cast<int>(i));
+  __m256i beyond = _mm256_setzero_si256();
+  for (std::size_t k = 0; k < count; k += lanes) {
+    const __m256i is_one = _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(count - k)), lane);
+    const __m256i disk = _mm256_maskload_epi32(reinterpret_cast<const int*>(near + k), is_one);
+    const __m256i far = _mm256_and_si256(_mm256_sub_epi32(disk, own), is_one);
+    const __m128i packed = _mm_packs_epi32(_mm256_castsi256_si128(far), _mm256_extracti128_si256(far, 1));
+    beyond = _mm256_or_si256(beyond, _mm256_xor_si256(_mm256_cvtepi16_epi32(packed), far));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(offset + k), packed);
+  }
+  return _mm256_testz_si256(beyond, beyond) != 0;
 }
 
 }  // namespace
@@ -107,16 +119,12 @@ ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_
   const __m256i low =
       _mm256_and_si256(_mm256_load_si256(half), _mm256_and_si256(is_offset, _mm256_cmpgt_epi16(end, place)));
   const __m256i high = _mm256_and_si256(_mm256_load_si256(half + 1), _mm256_cmpgt_epi16(end, later));
+  change.fits = put_offsets(i, near, new_count, to.offset);
   __m256i low_stays = _mm256_setzero_si256();
   __m256i high_stays = _mm256_setzero_si256();
   std::uint32_t fresh = 0;
-  std::int32_t beyond = 0;
   for (std::size_t k = 0; k < new_count; ++k) {
-    const auto far = static_cast<std::int32_t>(near[k] - i);
-    const auto offset = static_cast<std::int16_t>(far);
-    beyond |= far ^ offset;
-    to.offset[k] = offset;
-    const __m256i sought = _mm256_set1_epi16(offset);
+    const __m256i sought = _mm256_set1_epi16(to.offset[k]);
     const __m256i in_low = _mm256_cmpeq_epi16(low, sought);
     const __m256i in_high = _mm256_cmpeq_epi16(high, sought);
     const __m256i any = _mm256_or_si256(in_low, in_high);
@@ -125,7 +133,6 @@ ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_
     to.fresh[fresh] = near[k];
     fresh += static_cast<std::uint32_t>(_mm256_testz_si256(any, any));
   }
-  change.fits = beyond == 0;
   change.fresh_count = fresh;
   const __m256i bytes = _mm256_permute4x64_epi64(_mm256_packs_epi16(low_stays, high_stays), 0xd8);
   change.stay = static_cast<std::uint32_t>(_mm256_movemask_epi8(bytes)) >> before;

@@ -210,7 +210,7 @@ void ListRows::patch(std::uint32_t i, std::span<const std::uint32_t> near, const
   const std::uint32_t old_count = row.count;
   const Row old = row;
   std::uint32_t fresh[row_capacity + 1];
-  // Places beyond the new list keep what they had: surely_within reads them too.
+  // Places beyond the new list keep what they had, or have 0: surely_within reads them too.
   const ListChange change = change_kernel_(&old, old_count, i, near.data(), near.size(), {row.offset, fresh});
   if (!change.fits) [[unlikely]] {
     row = old;

@@ -106,6 +106,8 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   box_ = box;
   unit_x_ = box.width / (box.periodic_x() ? 2.0 * two_to_31 : two_to_31);
   unit_y_ = box.height / (box.periodic_y() ? 2.0 * two_to_31 : two_to_31);
+  units_per_x_ = 1.0 / unit_x_;
+  units_per_y_ = 1.0 / unit_y_;
   layers_along_x_ = box.width >= box.height;
   all_periodic_ = box.periodic_x() && box.periodic_y();
   period_x_ = box.periodic_x() ? box.width : 0.0;
@@ -123,6 +125,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
     if (n > disks_of_much_memory) rows_.release();
     sort(d, layout, executor);
     choose_slot_units();
+    prepare_query(d);
     if (sorted) sorted(cells_.order, cells_.column);
     if (n > disks_of_much_memory) release_sort_scratch(cells_);
   }
@@ -216,55 +219,82 @@ FixedPointPosition NeighbourLists::fixed_point(double x, double y) const {
   return {units(x, unit_x_, box_.periodic_x()), units(y, unit_y_, box_.periodic_y())};
 }
 
-// In units of the skin, a little more.
+// In the kernel's units, a little more.
 float NeighbourLists::radius_in_units(double radius) const {
-  return static_cast<float>(flow_.stretch * radius * (1.0 / skin_ * single_margin));
+  return static_cast<float>(flow_.stretch * radius * (slots_per_length_ * single_margin));
+}
+
+void NeighbourLists::prepare_query(const Disks& d) {
+  const auto share = [&](double unit) {
+    return static_cast<std::int16_t>(std::min(std::floor(0x1p15 * (unit * slots_per_length_)), 0x1p15 - 1.0));
+  };
+  // Each position is less than a unit of slots from where it says.
+  const double reach = (2.0 * skin_ + slot_unit_x_ + slot_unit_y_) * slots_per_length_ + list_kernel_rounding;
+  query_ = {};
+  query_.unit_x = share(slot_unit_x_);
+  query_.unit_y = share(slot_unit_y_);
+  query_.cutoff = static_cast<float>(reach * single_margin);
+  query_.common_radius = radius_in_units(d.common_radius);
 }
 
 ListQuery NeighbourLists::query_at(const Disks& d, std::uint32_t i, FixedPointPosition position) const {
-  const double per_length = 1.0 / skin_;
-  // Each position is less than a unit of slots from where it says.
-  const double distance = flow_.stretch * d.radius_of(i) + 2.0 * skin_ + slot_unit_x_ + slot_unit_y_;
-  const auto single = [&](double length) { return static_cast<float>(length * per_length); };
-  return {slot_position(position),
-          single(slot_unit_x_),
-          single(slot_unit_y_),
-          single(distance * single_margin),
-          single(flow_.stretch * d.common_radius * single_margin),
-          i};
+  ListQuery query = query_;
+  query.position = slot_position(position);
+  query.cutoff += d.radius.empty() ? query.common_radius : radius_in_units(d.radius[i]);
+  query.self = i;
+  return query;
 }
 
 bool NeighbourLists::find_neighbours(const Disks& d, std::uint32_t i, FixedPointPosition position,
                                      const ListRegion& region, FoundNeighbours& found) const {
   const ListQuery query = query_at(d, i, position);
-  std::array<CellRun, runs_at_once> runs;
+  std::array<SlotRun, runs_at_once> runs;
   std::size_t held = 0;
+  CellSlots::Links links = CellSlots::no_links;
+  bool inside = true;
   found.count = 0;
   const auto search = [&] {
-    search_cells(d, query, std::span<const CellRun>(runs.data(), held), region, found);
+    const std::span<const SlotRun> held_runs(runs.data(), held);
+    if (CellSlots::any(links)) search_chains(d, query, held_runs, region, found);
+    search_slots(query, held_runs, found);
     held = 0;
+    links = CellSlots::no_links;
+  };
+  const auto add = [&](std::uint32_t first, std::uint32_t last) {
+    inside = inside && first >= region.first_key && last <= region.last_key;
+    if (!inside) return;
+    if (held == runs.size()) [[unlikely]]
+      search();
+    runs[held++] = {first * slots_a_cell, last * slots_a_cell};
+    slots_.add_links(first, last, region.last_key, links);
   };
   const double distance = flow_.stretch * d.radius_of(i) + 2.0 * skin_ + search_margin_;
-  const bool inside =
-      visit_cells_near(position_of(position), distance, region, [&](std::uint32_t first, std::uint32_t last) {
-        if (held == runs.size()) [[unlikely]]
-          search();
-        runs[held++] = {first, last};
-      });
+  for (const GridLevel& level : grid_.levels) {
+    const double reach = distance + flow_.stretch * level.largest_radius;
+    const bool periodic_x = period_x_ != 0.0;
+    const bool periodic_y = period_y_ != 0.0;
+    const Span rows =
+        stored_span(level, span_around_listed(position.y, listed_units(reach, units_per_y_), level.rows, periodic_y));
+    const Span columns = span_around_listed(position.x, listed_units(reach, units_per_x_), level.columns, periodic_x);
+    for_each_cell_run(level, rows, columns, add);
+  }
   if (inside) search();
   return inside;
 }
 
-// The disks chained to the cells of these runs one by one, those in slots by the kernel.
-void NeighbourLists::search_cells(const Disks& d, const ListQuery& query, std::span<const CellRun> runs,
-                                  const ListRegion& region, FoundNeighbours& found) const {
-  std::array<SlotRun, runs_at_once> slot_runs;
+// The disks in the slots of these runs.
+void NeighbourLists::search_slots(const ListQuery& query, std::span<const SlotRun> runs, FoundNeighbours& found) const {
   std::size_t slots = 0;
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    const auto [first, last] = runs[k];
-    slot_runs[k] = {first * slots_a_cell, last * slots_a_cell};
-    slots += std::size_t{slots_a_cell} * (last - first);
-    slots_.visit_chained(first, last, region.last_key, [&](std::uint32_t j) {
+  for (const SlotRun& run : runs) slots += run.last - run.first;
+  if (found.buffer.size() < found.count + slots + list_kernel_padding) found.grow(found.count + slots);
+  found.count += kernel_(query, slots_.columns(), runs.data(), runs.size(), found.buffer.data() + found.count);
+}
+
+// Those chained to their cells, one by one.
+void NeighbourLists::search_chains(const Disks& d, const ListQuery& query, std::span<const SlotRun> runs,
+                                   const ListRegion& region, FoundNeighbours& found) const {
+  for (const SlotRun& run : runs) {
+    slots_.visit_chained(run.first / slots_a_cell, run.last / slots_a_cell, region.last_key, [&](std::uint32_t j) {
       if (found.buffer.size() < found.count + list_kernel_padding) found.grow(found.count);
       found.buffer[found.count] = j;
       const bool near =
@@ -272,8 +302,6 @@ void NeighbourLists::search_cells(const Disks& d, const ListQuery& query, std::s
       found.count += near ? 1U : 0U;
     });
   }
-  if (found.buffer.size() < found.count + slots + list_kernel_padding) found.grow(found.count + slots);
-  found.count += kernel_(query, slots_.columns(), slot_runs.data(), runs.size(), found.buffer.data() + found.count);
 }
 
 void NeighbourLists::find_all_others(std::uint32_t i, FoundNeighbours& found) const {

@@ -32,14 +32,28 @@ inline Span stored_span(const GridLevel& level, Span rows) {
   return {first, last >= first ? last - first + 1 : 1};
 }
 
-// Calls visit(first, last) for runs of cells [first, last) of a level, neighbours in memory, that together are those
-// within `distance` (length) of (x, y).
+// Of so many cells along a side, the one in which disks are that are listed at this coordinate, in 2^-32 of a period or
+// 2^-31 of a side between walls.
+inline std::uint32_t cell_of_listed(std::uint32_t at, std::uint32_t cells, bool periodic) {
+  const auto k = static_cast<std::uint32_t>(std::uint64_t{at} * cells >> (periodic ? 32U : 31U));
+  return std::min(k, cells - 1);  // the far wall itself
+}
+
+// The cells of those that are listed within reach of a coordinate.
+inline Span span_around_listed(std::uint32_t at, std::uint32_t reach, std::uint32_t cells, bool periodic) {
+  // When the two ends come within a cell of each other round the corner, the whole side once.
+  if (cells <= 2 || 2 * std::uint64_t{reach} * cells >= std::uint64_t{cells - 2} << (periodic ? 32U : 31U))
+    return {0, cells};
+  const std::uint32_t low = periodic || at > reach ? at - reach : 0;
+  const std::uint32_t first = cell_of_listed(low, cells, periodic);
+  const std::uint32_t last = cell_of_listed(at + reach, cells, periodic);
+  return {first, last >= first ? last - first + 1 : cells - first + last + 1};
+}
+
+// Calls visit(first, last) for runs of cells [first, last) of a level, neighbours in memory, that together are those of
+// these rows and columns.
 template <class Visit>
-void for_each_cell_run_near(const GridLevel& level, const Domain& box, double x, double y, double distance,
-                            Visit&& visit) {
-  const Span rows =
-      stored_span(level, span_around(y, distance, box.height, level.rows_per_length, level.rows, box.periodic_y()));
-  const Span columns = span_around(x, distance, box.width, level.columns_per_length, level.columns, box.periodic_x());
+void for_each_cell_run(const GridLevel& level, Span rows, Span columns, Visit&& visit) {
   for (std::uint32_t left = columns.count, column = columns.first; left > 0;) {
     // Up to the end of the band or of the row.
     const std::uint32_t band = std::min(level.columns - column, level.columns_left_in_band(column));
@@ -268,7 +282,11 @@ class NeighbourLists {
       // Which cell a listed position at the edge of one is in, rounding decides.
       const double cutoff =
           (distance + flow_.stretch * level.largest_radius) * (1.0 + 1e-9) + std::max(unit_x_, unit_y_);
-      for_each_cell_run_near(level, box_, position.x, position.y, cutoff, [&](std::uint32_t first, std::uint32_t last) {
+      const Span rows = stored_span(
+          level, span_around(position.y, cutoff, box_.height, level.rows_per_length, level.rows, box_.periodic_y()));
+      const Span columns =
+          span_around(position.x, cutoff, box_.width, level.columns_per_length, level.columns, box_.periodic_x());
+      for_each_cell_run(level, rows, columns, [&](std::uint32_t first, std::uint32_t last) {
         inside = inside && first >= region.first_key && last <= region.last_key;
         if (inside) run(first, last);
       });
@@ -308,20 +326,23 @@ class NeighbourLists {
   void list_block(const Disks& disks, std::size_t block, std::size_t begin, std::size_t end);
   FixedPointPosition fixed_point(double x, double y) const;
   void choose_slot_units();
+  void prepare_query(const Disks& disks);
   SlotPosition slot_position(FixedPointPosition p) const {
     return {static_cast<std::uint16_t>(p.x >> slot_shift_x_), static_cast<std::uint16_t>(p.y >> slot_shift_y_)};
   }
   Vec2 position_of(FixedPointPosition p) const { return {p.x * unit_x_, p.y * unit_y_}; }
+  // At least as far, in units of listed positions; or far enough for the whole side.
+  static std::uint32_t listed_units(double length, double units_per_length) {
+    constexpr double most = 0x1p31;
+    return static_cast<std::uint32_t>(std::min(length * units_per_length * (1.0 + 1e-9) + 2.0, most));
+  }
   ListQuery query_at(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
   float radius_in_units(double radius) const;
   bool find_neighbours(const Disks& disks, std::uint32_t i, FixedPointPosition position, const ListRegion& region,
                        FoundNeighbours& found) const;
-  // Cells [first, last).
-  struct CellRun {
-    std::uint32_t first, last;
-  };
-  void search_cells(const Disks& disks, const ListQuery& query, std::span<const CellRun> runs, const ListRegion& region,
-                    FoundNeighbours& found) const;
+  void search_slots(const ListQuery& query, std::span<const SlotRun> runs, FoundNeighbours& found) const;
+  void search_chains(const Disks& disks, const ListQuery& query, std::span<const SlotRun> runs,
+                     const ListRegion& region, FoundNeighbours& found) const;
   void find_all_others(std::uint32_t i, FoundNeighbours& found) const;
   std::uint32_t cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
   void fill_slots(const Disks& disks, std::uint32_t first_key, std::uint32_t last_key);
@@ -350,7 +371,10 @@ class NeighbourLists {
   double periods_per_x_ = 0.0, periods_per_y_ = 0.0;  // 1 / period; 0: none
   double largest_radius_ = 0.0;
   double unit_x_ = 0.0, unit_y_ = 0.0;            // of a FixedPointPosition; length
+  double units_per_x_ = 0.0, units_per_y_ = 0.0;  // 1 / unit
   double slot_unit_x_ = 0.0, slot_unit_y_ = 0.0;  // of a SlotPosition; length
+  double slots_per_length_ = 0.0;                 // 1 / the coarser of the two
+  ListQuery query_;                               // of any disk, its radius apart, where it is and which it is
   // Disks that are this much further from each other than lists reach may be listed all the same: each of the two finds
   // the other. Length.
   double search_margin_ = 0.0;

@@ -132,23 +132,24 @@ TEST(NeighbourLists, KeepToTheirRegion) {
 TEST(ListKernel, AllVersionsFindTheSame) {
   test::Draws draws(8);
   constexpr std::uint32_t cells = 51;
+  constexpr double units_per_length = 0x1p16 / 10.0;
   std::vector<SlotPosition> position;
   std::vector<std::uint32_t> disk;
   std::vector<float> radius;
   for (std::uint32_t s = 0; s < cells * slots_a_cell; ++s) {
     position.push_back({static_cast<std::uint16_t>(draws.bits()), static_cast<std::uint16_t>(draws.bits())});
     disk.push_back(draws.bits() % 4 == 0 ? empty_slot : s);
-    radius.push_back(static_cast<float>(draws.in(0.05, 2.0)));
+    radius.push_back(static_cast<float>(draws.in(0.05, 2.0) * units_per_length));
   }
   std::size_t found = 0;
   for (std::uint32_t round = 0; round < 300; ++round) {
     ListQuery query;
     query.self = static_cast<std::uint32_t>(draws.bits() % disk.size());
     query.position = position[query.self];
-    query.unit_x = 0x1p-16F * 10.0F;
-    query.unit_y = 0x1p-16F * 8.0F;
-    query.cutoff = static_cast<float>(draws.in(0.2, 3.0));
-    query.common_radius = 0.5F;
+    query.unit_x = 0x7fff;
+    query.unit_y = round % 3 == 0 ? 0x7fff : 26214;
+    query.cutoff = static_cast<float>(draws.in(0.2, 3.0) * units_per_length);
+    query.common_radius = static_cast<float>(0.5 * units_per_length);
     const SlotColumns columns{position.data(), disk.data(), round % 2 == 0 ? radius.data() : nullptr};
     if (columns.radius != nullptr) query.common_radius = 0.0F;
     std::vector<SlotRun> runs;
