@@ -9,9 +9,9 @@ namespace carom {
 
 namespace {
 
-// About, by a factor of 1.4 either way, since a tile has a power of two of them: a cell has room for four without
+// About, by a factor of 1.4 either way, since a tile has a power of two of them: a cell has room for eight without
 // links.
-constexpr double disks_per_cell = 2.8;
+constexpr double disks_per_cell = 5.0;
 // Of an even tile: as many as the rounding leaves, so that there are few cells.
 constexpr double disks_per_even_cell = 1.3 * disks_per_cell;
 // The number of a tile has to fit in 16 bits; sides that are rounded make up to twice as many.

@@ -27,30 +27,43 @@ class CellSlots {
   void remove(std::uint32_t cell, std::uint32_t disk);
 
   SlotColumns columns() const { return {position_.data(), disk_.data(), radius_.empty() ? nullptr : radius_.data()}; }
-  // The numbers of the links of some cells, bit by bit in all of them: all ones as long as no disk is chained to any.
-  using Links = std::uint32_t __attribute__((vector_size(16)));
-  static constexpr Links no_links = {none, none, none, none};
-  // Adds those of cells [first, last), and perhaps of some after them, but of none from `end` on.
-  void add_links(std::uint32_t first, std::uint32_t last, std::uint32_t end, Links& all) const {
-    constexpr std::uint32_t at_once = 4;
-    const auto four = [this](std::uint32_t cell) {
-      Links links;
-      std::memcpy(&links, &chain_[cell], sizeof links);
-      return links;
-    };
-    if (first + at_once > std::min<std::size_t>(end, chain_.size())) [[unlikely]] {
-      for (; first < last; ++first) all &= Links{chain_[first], none, none, none};
-      return;
+  // Whether disks are chained to some cells: asked of several runs of cells at once.
+  class Chains {
+   public:
+    // Cells [first, last); perhaps some after them, too.
+    void add(std::uint32_t first, std::uint32_t last) {
+      constexpr std::uint32_t at_once = 4;
+      if (first + at_once > end_) [[unlikely]] {
+        for (; first < last; ++first) all_ &= Links{chain_[first], none, none, none};
+        return;
+      }
+      all_ &= four(first);
+      for (first += at_once; first < last; first += at_once) all_ &= four(std::min(first, last - at_once));
     }
-    all &= four(first);
-    for (first += at_once; first < last; first += at_once) all &= four(std::min(first, last - at_once));
+    // To any of them? The number of a link is below 2^31, or all ones.
+    bool any() const { return (all_[0] & all_[1] & all_[2] & all_[3]) != none; }
+
+   private:
+    friend class CellSlots;
+    using Links = std::uint32_t __attribute__((vector_size(16)));
+    Chains(const std::uint32_t* chain, std::uint32_t end) : chain_(chain), end_(end) {}
+    Links four(std::uint32_t cell) const {
+      Links links;
+      std::memcpy(&links, chain_ + cell, sizeof links);
+      return links;
+    }
+    const std::uint32_t* chain_;
+    std::uint32_t end_;
+    Links all_ = {none, none, none, none};
+  };
+  // Of cells none of which is `end` or after it; nothing is read there.
+  Chains chains_before(std::uint32_t end) const {
+    return {chain_.data(), std::min(end, static_cast<std::uint32_t>(chain_.size()))};
   }
-  static bool any(const Links& all) { return (all[0] & all[1] & all[2] & all[3]) != none; }
   // Calls visit(disk) for the disks chained to cells [first, last). Reads nothing of cells from `end` on.
   template <class Visit>
   void visit_chained(std::uint32_t first, std::uint32_t last, std::uint32_t end, Visit&& visit) const {
     constexpr std::uint32_t at_once = 4;
-    // The number of a link is below 2^31, or all ones.
     while (first < last) {
       const std::uint32_t* const c = &chain_[first];
       if (first + at_once <= end && first + at_once <= chain_.size() && (c[0] & c[1] & c[2] & c[3]) == none)

@@ -81,8 +81,7 @@ void NeighbourLists::move_into_cell(const Disks& d, std::uint32_t i, std::uint32
 }
 
 std::uint32_t NeighbourLists::cell_of(const Disks& d, std::uint32_t i, FixedPointPosition fixed) const {
-  const std::size_t level =
-      d.radius.empty() || grid_.levels.size() == 1 ? 0 : class_of_radius(d.radius[i], grid_.levels[0].largest_radius);
+  const std::size_t level = d.radius.empty() ? 0 : class_of_radius(d.radius[i], grid_.levels[0].largest_radius);
   const GridLevel& cells = grid_.levels[level];
   return cells.key_at(cells.place_of_row(cell_of_listed(fixed.y, cells.rows, box_.periodic_y())),
                       cell_of_listed(fixed.x, cells.columns, box_.periodic_x()));
@@ -94,7 +93,8 @@ bool NeighbourLists::move_to_cell_of(const Disks& d, std::uint32_t i, FixedPoint
   const std::uint32_t old_key = cell_of(d, i, rows_.listed_at(i));
   if (old_key < region.first_key || old_key >= region.last_key) return false;
   slots_.remove(old_key, i);
-  slots_.insert(cell_of(d, i, position), i, slot_position(position), radius_in_units(d.radius_of(i)));
+  const float radius = d.radius.empty() ? 0.0F : radius_in_units(d.radius[i]);
+  slots_.insert(cell_of(d, i, position), i, slot_position(position), radius);
   return true;
 }
 

@@ -42,7 +42,7 @@ inline constexpr std::uint32_t empty_slot = 0xffffffffU;
 struct SlotRun {
   std::uint32_t first, last;
 };
-inline constexpr std::uint32_t slots_a_cell = 4;
+inline constexpr std::uint32_t slots_a_cell = 8;
 
 // All versions do these operations in this order, so that they find the same disks, and each of two disks the other.
 inline bool is_neighbour(const ListQuery& q, SlotPosition p, float radius) {
@@ -67,10 +67,22 @@ std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& colu
 std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                              std::uint32_t* found);
 
-// A disk's list that is all in one row of its ListRows, 64 bytes: sixteen others, as many as eight offsets are, then
-// the offsets of its neighbours.
-inline constexpr std::uint32_t places_before_offsets = 8;
+// A disk's list in one cache line (ListRows). Most neighbours are stored nearby, so that offsets to them fit in 16
+// bits.
 inline constexpr std::uint32_t row_offsets = 24;
+struct alignas(64) ListRow {
+  static constexpr std::uint32_t none = 0xffffffffU;
+  std::uint32_t more = none;  // number of a wide row of its block
+  std::uint8_t count = 0;
+  std::uint8_t sides = 0;
+  std::uint16_t block = 0;  // its tile, where there are regions
+  FixedPointPosition listed_at;
+  std::int16_t offset[row_offsets] = {};
+};
+static_assert(sizeof(ListRow) == 64);
+// As many as eight offsets are.
+inline constexpr std::uint32_t places_before_offsets = 8;
+static_assert(offsetof(ListRow, offset) == places_before_offsets * sizeof(std::int16_t));
 
 // What is another list in place of the one in a row.
 struct ListChange {
@@ -95,8 +107,22 @@ ListChange change_kernel_baseline(const void* row, std::uint32_t count, std::uin
 ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
                               std::size_t new_count, const NewList& to);
 
+// Takes disk i into the rows of some disks, or out of them, where there is room for it and it is there, and returns how
+// many are left to do: the first ones of `disks` then. Offsets beyond a list, up to the next multiple of `row_padding`
+// places, are ones that it has.
+inline constexpr std::uint32_t row_padding = 4;
+using EditKernel = std::uint32_t (*)(ListRow* rows, std::uint32_t i, std::uint32_t* disks, std::uint32_t count);
+struct EditKernels {
+  EditKernel insert, remove;
+};
+
+// These leave all to do.
+EditKernels edit_kernels_baseline();
+EditKernels edit_kernels_avx2();
+
 // The best versions for the processor at hand.
 ListKernel choose_list_kernel();
 ChangeKernel choose_change_kernel();
+EditKernels choose_edit_kernels();
 
 }  // namespace carom

@@ -31,24 +31,21 @@ struct Lanes {
   __m256 cutoff, cutoff2;
 };
 
-// Packs the near disks of the slots from s on: eight, or slots_a_cell.
-template <bool unequal_radii, bool eight>
+static_assert(slots_a_cell == lanes);
+
+// Packs the near disks of the eight slots from s on.
+template <bool unequal_radii>
 inline std::size_t take(const Lanes& l, const SlotColumns& columns, std::uint32_t s, std::uint32_t* found) {
-  const auto half = [](const auto* column) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(column)); };
-  const auto whole = [](const auto* column) { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(column)); };
-  const __m256i disk =
-      eight ? whole(columns.disk + s)
-            : _mm256_inserti128_si256(_mm256_set1_epi32(static_cast<int>(empty_slot)), half(columns.disk + s), 0);
-  const __m256i position = eight ? whole(columns.position + s) : _mm256_castsi128_si256(half(columns.position + s));
+  const auto load = [](const auto* column) { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(column)); };
+  const __m256i disk = load(columns.disk + s);
+  const __m256i position = load(columns.position + s);
   // In each lane x in the lower half, y in the upper one.
   const __m256i apart = _mm256_abs_epi16(_mm256_sub_epi16(l.position, position));
   const __m256i distances = _mm256_mulhrs_epi16(apart, l.unit);
   const __m256 distance2 = _mm256_cvtepi32_ps(_mm256_madd_epi16(distances, distances));
   __m256 cutoff2 = l.cutoff2;
   if constexpr (unequal_radii) {
-    const __m256 radius =
-        eight ? _mm256_loadu_ps(columns.radius + s) : _mm256_castps128_ps256(_mm_loadu_ps(columns.radius + s));
-    const __m256 cutoff = _mm256_add_ps(l.cutoff, radius);
+    const __m256 cutoff = _mm256_add_ps(l.cutoff, _mm256_loadu_ps(columns.radius + s));
     cutoff2 = _mm256_mul_ps(cutoff, cutoff);
   }
   // By the sign: that of an empty slot is set.
@@ -72,10 +69,8 @@ std::size_t find(const ListQuery& q, const SlotColumns& columns, const SlotRun* 
                 _mm256_set1_epi32(static_cast<int>(q.self)), _mm256_set1_ps(q.cutoff), _mm256_set1_ps(cutoff * cutoff)};
   std::size_t n = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    std::uint32_t s = runs[k].first;
-    const std::uint32_t last = runs[k].last;
-    for (; s + lanes <= last; s += lanes) n += take<unequal_radii, true>(l, columns, s, found + n);
-    if (s < last) n += take<unequal_radii, false>(l, columns, s, found + n);
+    for (std::uint32_t s = runs[k].first; s < runs[k].last; s += lanes)
+      n += take<unequal_radii>(l, columns, s, found + n);
   }
   return n;
 }
@@ -96,7 +91,61 @@ inline bool put_offsets(std::uint32_t i, const std::uint32_t* near, std::size_t 
   return _mm256_testz_si256(beyond, beyond) != 0;
 }
 
+// Puts the offset at place `count` and at the next ones.
+inline void put_and_pad(ListRow& row, std::uint32_t count, std::int16_t offset) {
+  static_assert(row_padding * sizeof offset == 8);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(row.offset + count), _mm_set1_epi16(offset));
+}
+
+// Rows that are nearly full are left to do: there is no room for as many offsets then.
+std::uint32_t insert_into_rows(ListRow* rows, std::uint32_t i, std::uint32_t* disks, std::uint32_t count) {
+  std::uint32_t left = 0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t j = disks[k];
+    ListRow& row = rows[j];
+    const auto far = static_cast<std::int32_t>(i - j);
+    const auto offset = static_cast<std::int16_t>(far);
+    if (row.count + row_padding <= row_offsets && far == offset) [[likely]] {
+      put_and_pad(row, row.count, offset);
+      ++row.count;
+    } else {
+      disks[left++] = j;
+    }
+  }
+  return left;
+}
+
+std::uint32_t remove_from_rows(ListRow* rows, std::uint32_t i, std::uint32_t* disks, std::uint32_t count) {
+  std::uint32_t left = 0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t j = disks[k];
+    ListRow& row = rows[j];
+    const auto far = static_cast<std::int32_t>(i - j);
+    const auto* const half = reinterpret_cast<const __m256i*>(&row);
+    const __m256i sought = _mm256_set1_epi16(static_cast<short>(far));
+    const __m256i packed = _mm256_packs_epi16(_mm256_cmpeq_epi16(_mm256_load_si256(half), sought),
+                                              _mm256_cmpeq_epi16(_mm256_load_si256(half + 1), sought));
+    const auto places = static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_permute4x64_epi64(packed, 0xd8)));
+    // Padding may have the offset too, but after it.
+    const auto place =
+        static_cast<std::uint32_t>(__builtin_ctzll(std::uint64_t{places} >> places_before_offsets | 1ULL << 32U));
+    const std::uint32_t last = row.count - 1U;
+    if (place <= last && last + row_padding <= row_offsets && far == static_cast<std::int16_t>(far)) [[likely]] {
+      row.offset[place] = row.offset[last];
+      put_and_pad(row, last, row.offset[0]);
+      row.count = static_cast<std::uint8_t>(last);
+    } else {
+      disks[left++] = j;
+    }
+  }
+  return left;
+}
+
 }  // namespace
+
+EditKernels edit_kernels_avx2() {
+  return {insert_into_rows, remove_from_rows};
+}
 
 std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                              std::uint32_t* found) {
@@ -153,6 +202,10 @@ std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns,
 ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
                               std::size_t new_count, const NewList& to) {
   return change_kernel_baseline(row, count, i, near, new_count, to);
+}
+
+EditKernels edit_kernels_avx2() {
+  return edit_kernels_baseline();
 }
 
 }  // namespace carom

@@ -44,6 +44,16 @@ ListChange change_kernel_baseline(const void* row, std::uint32_t count, std::uin
   return change;
 }
 
+EditKernels edit_kernels_baseline() {
+  const auto leave = [](ListRow*, std::uint32_t, std::uint32_t*, std::uint32_t count) { return count; };
+  return {leave, leave};
+}
+
+EditKernels choose_edit_kernels() {
+  if (kernel_set() == KernelSet::avx2) return edit_kernels_avx2();
+  return edit_kernels_baseline();
+}
+
 ChangeKernel choose_change_kernel() {
   if (kernel_set() == KernelSet::avx2) return change_kernel_avx2;
   return change_kernel_baseline;

@@ -17,8 +17,9 @@ namespace {
 // Puts the offset at place `count` and at what is left of the kernel's batch then. capacity: of the list.
 template <std::uint32_t capacity>
 void put_and_pad(std::int16_t* offsets, std::uint32_t count, std::int16_t offset) {
-  // As one number; some places more do no harm, and cost no branch.
-  const std::uint64_t four = static_cast<std::uint16_t>(offset) * 0x0001000100010001ULL;
+  // At once; some places more do no harm, and cost no branch.
+  using Four = std::int16_t __attribute__((vector_size(8)));
+  const Four four = {offset, offset, offset, offset};
   static_assert(sizeof four == prediction_lanes * sizeof offset);
   if (count + prediction_lanes <= capacity) [[likely]] {
     std::memcpy(offsets + count, &four, sizeof four);
@@ -218,11 +219,16 @@ void ListRows::patch(std::uint32_t i, std::span<const std::uint32_t> near, const
   }
   row.count = static_cast<std::uint8_t>(near.size());
   if (row.count > 0) put_and_pad<row_capacity>(row.offset, row.count, row.offset[0]);
-  for (std::uint32_t k = 0; k < change.fresh_count; ++k) insert(fresh[k], i);
+  const std::uint32_t inserts = edit_kernels_.insert(rows_.data(), i, fresh, change.fresh_count);
+  for (std::uint32_t k = 0; k < inserts; ++k) insert(fresh[k], i);
+  std::uint32_t gone[row_capacity];
+  std::uint32_t count = 0;
   for (std::uint32_t go = ~change.stay & ((1U << old_count) - 1U); go != 0; go &= go - 1U) {
-    const std::uint32_t j = i + static_cast<std::uint32_t>(std::int32_t{old.offset[std::countr_zero(go)]});
-    if (region.holds(j)) remove(j, i);
+    gone[count] = i + static_cast<std::uint32_t>(std::int32_t{old.offset[std::countr_zero(go)]});
+    count += static_cast<std::uint32_t>(region.holds(gone[count]));
   }
+  const std::uint32_t removals = edit_kernels_.remove(rows_.data(), i, gone, count);
+  for (std::uint32_t k = 0; k < removals; ++k) remove(gone[k], i);
 }
 
 }  // namespace carom

@@ -109,17 +109,9 @@ class ListRows {
   void replace(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region);
 
  private:
-  static constexpr std::uint32_t none = 0xffffffffU;
-  // A disk's list in one cache line. Most neighbours are stored nearby, so that offsets to them fit in 16 bits.
-  struct alignas(64) Row {
-    std::uint32_t more = none;  // number of a wide row of its block
-    std::uint8_t count = 0;
-    std::uint8_t sides = 0;
-    std::uint16_t block = 0;  // its tile, where there are regions
-    FixedPointPosition listed_at;
-    std::int16_t offset[row_capacity] = {};
-  };
-  static_assert(sizeof(Row) == 64);
+  using Row = ListRow;
+  static constexpr std::uint32_t none = Row::none;
+  static_assert(row_padding == prediction_lanes);
   // Neighbours that did not fit in the row.
   static constexpr std::uint32_t wide_row_capacity = 12;
   struct alignas(64) WideRow {
@@ -137,6 +129,7 @@ class ListRows {
   void remove_wide(Row& row, std::int32_t offset);
 
   ChangeKernel change_kernel_ = choose_change_kernel();
+  EditKernels edit_kernels_ = choose_edit_kernels();
   std::vector<Row> rows_;
   std::vector<std::vector<WideRow>> wide_;  // of each block
   std::vector<std::uint32_t> free_wide_;    // of each block: the first of its wide rows that are not in use

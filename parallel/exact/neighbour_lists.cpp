@@ -1,7 +1,6 @@
 #include "parallel/exact/neighbour_lists.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -31,10 +30,6 @@ constexpr double most_lead = 0.8;
 constexpr double least_skin = 0.08;
 // The skin in units of fixed point, whose rounding must not count.
 constexpr double least_units = 1024.0;
-// Single precision finds a few too many rather than one too few.
-constexpr double single_margin = 1.0 + 1e-5;
-// Runs of disks that the kernel searches in one call.
-constexpr std::size_t runs_at_once = 16;
 constexpr double two_to_31 = 2147483648.0;
 // Share of the skin that gravity may bend a path by before earliest_relist_time is asked again.
 constexpr double bend_share = 0.1;
@@ -91,9 +86,9 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& ex
     make_tiled_grid(box_, largest, count, layout.disks_per_tile, layout.regions, grid_);
     if (layout.disks_of_box > 0) keep_tiles_between(box_, layout.low, layout.high, grid_);
   } else {
-    // About two disks a cell: lists extend over several cells, and each costs as much to visit, empty or not. A few
-    // more where they are many, for memory's sake.
-    const std::size_t share = d.size() > disks_of_much_memory ? 5 : 4;
+    // About four disks a cell, which has room for eight: lists extend over several cells, and each costs as much to
+    // visit, empty or not. A few more where they are many, for memory's sake.
+    const std::size_t share = d.size() > disks_of_much_memory ? 10 : 8;
     for (std::size_t& c : count) c = c / share + 1;
     make_grid(box_, largest, count, grid_);
   }
@@ -217,91 +212,6 @@ FixedPointPosition NeighbourLists::fixed_point(double x, double y) const {
     return static_cast<std::uint32_t>(periodic ? whole : std::clamp(whole, std::int64_t{0}, std::int64_t{1} << 31));
   };
   return {units(x, unit_x_, box_.periodic_x()), units(y, unit_y_, box_.periodic_y())};
-}
-
-// In the kernel's units, a little more.
-float NeighbourLists::radius_in_units(double radius) const {
-  return static_cast<float>(flow_.stretch * radius * (slots_per_length_ * single_margin));
-}
-
-void NeighbourLists::prepare_query(const Disks& d) {
-  const auto share = [&](double unit) {
-    return static_cast<std::int16_t>(std::min(std::floor(0x1p15 * (unit * slots_per_length_)), 0x1p15 - 1.0));
-  };
-  // Each position is less than a unit of slots from where it says.
-  const double reach = (2.0 * skin_ + slot_unit_x_ + slot_unit_y_) * slots_per_length_ + list_kernel_rounding;
-  query_ = {};
-  query_.unit_x = share(slot_unit_x_);
-  query_.unit_y = share(slot_unit_y_);
-  query_.cutoff = static_cast<float>(reach * single_margin);
-  query_.common_radius = radius_in_units(d.common_radius);
-}
-
-ListQuery NeighbourLists::query_at(const Disks& d, std::uint32_t i, FixedPointPosition position) const {
-  ListQuery query = query_;
-  query.position = slot_position(position);
-  query.cutoff += d.radius.empty() ? query.common_radius : radius_in_units(d.radius[i]);
-  query.self = i;
-  return query;
-}
-
-bool NeighbourLists::find_neighbours(const Disks& d, std::uint32_t i, FixedPointPosition position,
-                                     const ListRegion& region, FoundNeighbours& found) const {
-  const ListQuery query = query_at(d, i, position);
-  std::array<SlotRun, runs_at_once> runs;
-  std::size_t held = 0;
-  CellSlots::Links links = CellSlots::no_links;
-  bool inside = true;
-  found.count = 0;
-  const auto search = [&] {
-    const std::span<const SlotRun> held_runs(runs.data(), held);
-    if (CellSlots::any(links)) search_chains(d, query, held_runs, region, found);
-    search_slots(query, held_runs, found);
-    held = 0;
-    links = CellSlots::no_links;
-  };
-  const auto add = [&](std::uint32_t first, std::uint32_t last) {
-    inside = inside && first >= region.first_key && last <= region.last_key;
-    if (!inside) return;
-    if (held == runs.size()) [[unlikely]]
-      search();
-    runs[held++] = {first * slots_a_cell, last * slots_a_cell};
-    slots_.add_links(first, last, region.last_key, links);
-  };
-  const double distance = flow_.stretch * d.radius_of(i) + 2.0 * skin_ + search_margin_;
-  for (const GridLevel& level : grid_.levels) {
-    const double reach = distance + flow_.stretch * level.largest_radius;
-    const bool periodic_x = period_x_ != 0.0;
-    const bool periodic_y = period_y_ != 0.0;
-    const Span rows =
-        stored_span(level, span_around_listed(position.y, listed_units(reach, units_per_y_), level.rows, periodic_y));
-    const Span columns = span_around_listed(position.x, listed_units(reach, units_per_x_), level.columns, periodic_x);
-    for_each_cell_run(level, rows, columns, add);
-  }
-  if (inside) search();
-  return inside;
-}
-
-// The disks in the slots of these runs.
-void NeighbourLists::search_slots(const ListQuery& query, std::span<const SlotRun> runs, FoundNeighbours& found) const {
-  std::size_t slots = 0;
-  for (const SlotRun& run : runs) slots += run.last - run.first;
-  if (found.buffer.size() < found.count + slots + list_kernel_padding) found.grow(found.count + slots);
-  found.count += kernel_(query, slots_.columns(), runs.data(), runs.size(), found.buffer.data() + found.count);
-}
-
-// Those chained to their cells, one by one.
-void NeighbourLists::search_chains(const Disks& d, const ListQuery& query, std::span<const SlotRun> runs,
-                                   const ListRegion& region, FoundNeighbours& found) const {
-  for (const SlotRun& run : runs) {
-    slots_.visit_chained(run.first / slots_a_cell, run.last / slots_a_cell, region.last_key, [&](std::uint32_t j) {
-      if (found.buffer.size() < found.count + list_kernel_padding) found.grow(found.count);
-      found.buffer[found.count] = j;
-      const bool near =
-          is_neighbour(query, slot_position(rows_.listed_at(j)), radius_in_units(d.radius_of(j))) && j != query.self;
-      found.count += near ? 1U : 0U;
-    });
-  }
 }
 
 void NeighbourLists::find_all_others(std::uint32_t i, FoundNeighbours& found) const {

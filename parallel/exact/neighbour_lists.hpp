@@ -17,6 +17,7 @@
 #include "parallel/exact/engine_mode.hpp"
 #include "parallel/exact/list_kernel.hpp"
 #include "parallel/exact/list_rows.hpp"
+#include "parallel/exact/listed_cells.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
@@ -30,24 +31,6 @@ inline Span stored_span(const GridLevel& level, Span rows) {
   const std::uint32_t first = level.place_of_row(rows.first);
   const std::uint32_t last = level.place_of_row(end < level.rows ? end : end - level.rows);
   return {first, last >= first ? last - first + 1 : 1};
-}
-
-// Of so many cells along a side, the one in which disks are that are listed at this coordinate, in 2^-32 of a period or
-// 2^-31 of a side between walls.
-inline std::uint32_t cell_of_listed(std::uint32_t at, std::uint32_t cells, bool periodic) {
-  const auto k = static_cast<std::uint32_t>(std::uint64_t{at} * cells >> (periodic ? 32U : 31U));
-  return std::min(k, cells - 1);  // the far wall itself
-}
-
-// The cells of those that are listed within reach of a coordinate.
-inline Span span_around_listed(std::uint32_t at, std::uint32_t reach, std::uint32_t cells, bool periodic) {
-  // When the two ends come within a cell of each other round the corner, the whole side once.
-  if (cells <= 2 || 2 * std::uint64_t{reach} * cells >= std::uint64_t{cells - 2} << (periodic ? 32U : 31U))
-    return {0, cells};
-  const std::uint32_t low = periodic || at > reach ? at - reach : 0;
-  const std::uint32_t first = cell_of_listed(low, cells, periodic);
-  const std::uint32_t last = cell_of_listed(at + reach, cells, periodic);
-  return {first, last >= first ? last - first + 1 : cells - first + last + 1};
 }
 
 // Calls visit(first, last) for runs of cells [first, last) of a level, neighbours in memory, that together are those of
@@ -340,7 +323,6 @@ class NeighbourLists {
   float radius_in_units(double radius) const;
   bool find_neighbours(const Disks& disks, std::uint32_t i, FixedPointPosition position, const ListRegion& region,
                        FoundNeighbours& found) const;
-  void search_slots(const ListQuery& query, std::span<const SlotRun> runs, FoundNeighbours& found) const;
   void search_chains(const Disks& disks, const ListQuery& query, std::span<const SlotRun> runs,
                      const ListRegion& region, FoundNeighbours& found) const;
   void find_all_others(std::uint32_t i, FoundNeighbours& found) const;
@@ -370,11 +352,12 @@ class NeighbourLists {
   double period_x_ = 0.0, period_y_ = 0.0;            // length; 0: none
   double periods_per_x_ = 0.0, periods_per_y_ = 0.0;  // 1 / period; 0: none
   double largest_radius_ = 0.0;
-  double unit_x_ = 0.0, unit_y_ = 0.0;            // of a FixedPointPosition; length
-  double units_per_x_ = 0.0, units_per_y_ = 0.0;  // 1 / unit
-  double slot_unit_x_ = 0.0, slot_unit_y_ = 0.0;  // of a SlotPosition; length
-  double slots_per_length_ = 0.0;                 // 1 / the coarser of the two
-  ListQuery query_;                               // of any disk, its radius apart, where it is and which it is
+  double unit_x_ = 0.0, unit_y_ = 0.0;                     // of a FixedPointPosition; length
+  double units_per_x_ = 0.0, units_per_y_ = 0.0;           // 1 / unit
+  double slot_unit_x_ = 0.0, slot_unit_y_ = 0.0;           // of a SlotPosition; length
+  double slots_per_length_ = 0.0;                          // 1 / the coarser of the two
+  ListQuery query_;                                        // of any disk, its radius apart, where it is and which it is
+  std::uint32_t common_reach_x_ = 0, common_reach_y_ = 0;  // of lists, where all radii are equal: as listed_units
   // Disks that are this much further from each other than lists reach may be listed all the same: each of the two finds
   // the other. Length.
   double search_margin_ = 0.0;

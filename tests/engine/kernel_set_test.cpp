@@ -35,6 +35,10 @@ TEST(KernelSet, KernelsFollowTheEnvironment) {
   EXPECT_EQ(choose_move_kernel(), baseline ? move_disks_baseline : move_disks_avx2);
   EXPECT_EQ(choose_brownian_kernel(), baseline ? draw_brownian_baseline : draw_brownian_avx2);
   EXPECT_EQ(choose_list_kernel(), baseline ? list_kernel_baseline : list_kernel_avx2);
+  EXPECT_EQ(choose_change_kernel(), baseline ? change_kernel_baseline : change_kernel_avx2);
+  const EditKernels edits = baseline ? edit_kernels_baseline() : edit_kernels_avx2();
+  EXPECT_EQ(choose_edit_kernels().insert, edits.insert);
+  EXPECT_EQ(choose_edit_kernels().remove, edits.remove);
 }
 
 class KernelSetProgram : public test::ProgramTest {};
