@@ -17,7 +17,7 @@ bool is_due_later(const SafeTimeDue& a, const SafeTimeDue& b) {
 
 }  // namespace
 
-SafeTimes::Place SafeTimes::place_at(std::uint32_t i, double time) const {
+inline SafeTimes::Place SafeTimes::place_at(std::uint32_t i, double time) const {
   const DiskRecord& f = window_.record[i];
   const Gravity& g = window_.rules.gravity;
   const double s = time - f.path.start;
@@ -30,8 +30,11 @@ SafeTimes::Place SafeTimes::place_at(std::uint32_t i, double time) const {
   return {time, x, y, f.radius};
 }
 
-double SafeTimes::distance2(const Place& a, const Place& b) const {
-  const Vec2 apart = nearest_image_at_rest({b.x - a.x, b.y - a.y}, window_.rules.box);
+// inside: there is no image nearer than b itself (ListRows::is_inside).
+inline double SafeTimes::distance2(const Place& a, const Place& b, bool inside) const {
+  Vec2 apart{b.x - a.x, b.y - a.y};
+  if (!inside) [[unlikely]]
+    apart = nearest_image_at_rest(apart, window_.rules.box);
   return apart.x * apart.x + apart.y * apart.y;
 }
 
@@ -48,6 +51,7 @@ SafeTimes::SafeTime SafeTimes::safe_time(std::uint32_t i, double time) const {
   const DiskRecord* const record = window_.record.data();
   const Place own = place_at(i, time);
   const double speed = closing_speed(i);
+  const bool inside = lists_.rows().is_inside(i);
   const double reach = (own.radius + window_.slack + speed * (window_.slice_stop() - time)) * (1.0 + 1e-9);
   lists_.for_each_neighbour(i, [&](std::uint32_t j) {
     const DiskProgress progress = record[j].progress;
@@ -56,7 +60,7 @@ SafeTimes::SafeTime SafeTimes::safe_time(std::uint32_t i, double time) const {
     const double until = progress.is_blocked() ? worker_.blocked[progress.blocked()].safe_time : window_.slice_start;
     const Place other = place_at(j, until);
     const double since = window_.speed_bound * std::max(time - until, 0.0);
-    const double d2 = distance2(own, other);
+    const double d2 = distance2(own, other, inside);
     const double most = reach + (other.radius + since) * (1.0 + 1e-9);
     if (d2 > most * most) return;
     const double gap = std::sqrt(d2) - (own.radius + other.radius + window_.slack + since);
@@ -102,13 +106,14 @@ void SafeTimes::block(std::uint32_t i, double time) {
   window_.record[i].progress.set_blocked(static_cast<std::uint32_t>(worker_.blocked.size()));
   worker_.blocked.push_back({i, time});
   const Place own = place_at(i, time);
+  const bool inside = lists_.rows().is_inside(i);
   const double left = window_.slice_stop() - time;
   const double room = own.radius + window_.slack + 2.0 * window_.speed_bound * left;
   lists_.for_each_neighbour(i, [&](std::uint32_t j) {
     if (!window_.record[j].progress.is_active()) return;
     mark_unresolved_neighbour(j);
     const Place other = place_at(j, time);
-    const double d2 = distance2(own, other);
+    const double d2 = distance2(own, other, inside);
     const double most = (room + other.radius) * (1.0 + 1e-9);
     if (d2 > most * most) return;
     const double gap = std::sqrt(d2) - (own.radius + other.radius + window_.slack);

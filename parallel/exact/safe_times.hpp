@@ -44,7 +44,7 @@ class SafeTimes {
   };
 
   Place place_at(std::uint32_t i, double time) const;
-  double distance2(const Place& a, const Place& b) const;
+  double distance2(const Place& a, const Place& b, bool inside) const;
   double closing_speed(std::uint32_t i) const;
   SafeTime safe_time(std::uint32_t i, double time) const;
   void push_due(double time, std::uint32_t i);
