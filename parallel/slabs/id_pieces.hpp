@@ -33,8 +33,9 @@ class IdPieces {
     }
   }
 
-  // Storage indices of the disks of a piece, in any order.
+  // Storage indices of the disks of a piece, in any order; none of a piece that there is not.
   std::span<const std::uint32_t> operator[](std::size_t piece) const {
+    if (piece >= ends_.size()) return {};
     const std::size_t begin = piece == 0 ? 0 : ends_[piece - 1];
     return std::span(disks_).subspan(begin, ends_[piece] - begin);
   }

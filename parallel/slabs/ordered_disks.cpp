@@ -1,6 +1,5 @@
 #include "parallel/slabs/ordered_disks.hpp"
 
-#include <algorithm>
 #include <cstdint>
 
 #include "parallel/ranks/message.hpp"
@@ -8,26 +7,20 @@
 
 namespace carom {
 
-namespace {
-
-std::size_t piece_count(Ranks& ranks, const Disks& own) {
-  double ids = own.id.empty() ? 0.0 : static_cast<double>(*std::max_element(own.id.begin(), own.id.end())) + 1.0;
-  ranks.maximum({&ids, 1});
-  return id_pieces(static_cast<std::size_t>(ids));
-}
-
-}  // namespace
-
-OrderedDisks::OrderedDisks(Ranks& ranks, const Disks& own)
-    : ranks_(ranks), own_(own), count_(piece_count(ranks, own)), pieces_(own, count_), some_(no_disks_like(own)) {
+OrderedDisks::OrderedDisks(Ranks& ranks, const Disks& own, DiskId ids)
+    : ranks_(ranks), own_(own), some_(no_disks_like(own)) {
   auto size = static_cast<std::int64_t>(own.size());
   ranks.sum({&size, 1});
   size_ = static_cast<Count>(size);
+  double most = ids;
+  ranks.maximum({&most, 1});
+  count_ = id_pieces(static_cast<std::size_t>(most));
 }
 
 const Disks& OrderedDisks::piece(std::size_t number) {
+  if (!pieces_) pieces_.emplace(own_, count_);
   list_.clear();
-  for (const std::uint32_t i : pieces_[number]) list_.push_back(disk_at(own_, i));
+  for (const std::uint32_t i : (*pieces_)[number]) list_.push_back(disk_at(own_, i));
   Bytes here;
   put_all(here, list_);
   const std::vector<Bytes> messages = ranks_.collect(here);

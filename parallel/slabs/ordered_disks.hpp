@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/disks/disks.hpp"
@@ -12,8 +13,9 @@ namespace carom {
 
 class OrderedDisks {
  public:
-  // own: outlives this, and stays as it is. Collective.
-  OrderedDisks(Ranks& ranks, const Disks& own);
+  // own: outlives this, and stays as it is. ids: above all ids of its disks. Collective, but does not look at the
+  // disks: it costs no more than asking how many there are.
+  OrderedDisks(Ranks& ranks, const Disks& own, DiskId ids);
 
   Count size() const { return size_; }  // of all ranks
   std::size_t pieces() const { return count_; }
@@ -28,7 +30,7 @@ class OrderedDisks {
   const Disks& own_;
   Count size_ = 0;
   std::size_t count_ = 0;
-  IdPieces pieces_;
+  std::optional<IdPieces> pieces_;  // since the first was asked for
   Disks some_;
   std::vector<Disk> list_;
   std::vector<unsigned char> there_;

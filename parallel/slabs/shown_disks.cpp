@@ -20,7 +20,7 @@ ShownDisks::ShownDisks(Ranks& ranks, const Engine& engine, bool within, double t
   const auto moment = MessageReader(ranks.share(asked)).get<Moment>();
   time_ = moment.within ? engine.disks_at(moment.t, then_) : engine.progress().time;
   own_ = moment.within ? &then_ : &engine.state().disks;
-  ordered_.emplace(ranks, *own_);
+  ordered_.emplace(ranks, *own_, engine.progress().next_id);
 }
 
 const Disks& ShownDisks::piece(std::size_t number) {

@@ -53,8 +53,8 @@ Disks disks_at_borders(Ranks& ranks, const Slab& slab, const Domain& box, const 
 
 }  // namespace
 
-void visit_in_id_order(Ranks& ranks, const Disks& own, const std::function<void(const Disks&)>& use) {
-  OrderedDisks disks(ranks, own);
+void visit_in_id_order(Ranks& ranks, const State& part, const std::function<void(const Disks&)>& use) {
+  OrderedDisks disks(ranks, part.disks, part.next_id);
   for (std::size_t p = 0; p < disks.pieces(); ++p) {
     const Disks& some = disks.piece(p);
     if (ranks.rank() == 0) use(some);
@@ -64,7 +64,7 @@ void visit_in_id_order(Ranks& ranks, const Disks& own, const std::function<void(
 StateSums sums_over_ranks(Ranks& ranks, const Scene& scene, const State& part) {
   StateTally tally(scene, part.time);
   std::vector<std::size_t> order;
-  visit_in_id_order(ranks, part.disks, [&](const Disks& some) {
+  visit_in_id_order(ranks, part, [&](const Disks& some) {
     order.resize(some.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     tally.add(some, order);

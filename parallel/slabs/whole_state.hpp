@@ -13,7 +13,7 @@ namespace carom {
 
 // Calls use(some) on rank 0 for the disks of all ranks in order of id, some ten thousand at a time, with a radius and a
 // mass each.
-void visit_in_id_order(Ranks& ranks, const Disks& own, const std::function<void(const Disks&)>& use);
+void visit_in_id_order(Ranks& ranks, const State& part, const std::function<void(const Disks&)>& use);
 
 // part: a state with the rank's own disks. The result is that of all disks, bit for bit; of the sums, on rank 0 alone.
 StateSums sums_over_ranks(Ranks& ranks, const Scene& scene, const State& part);
