@@ -84,6 +84,12 @@ std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& sce
   return make_parallel_engine(scene, std::move(initial), {choice.threads});
 }
 
+std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial,
+                                    std::unique_ptr<DiskSource> disks) {
+  const auto start = [&](const State& state) { return rank_start(scene, state); };
+  return choice.lead->make_engine(scene, std::move(initial), std::move(disks), {choice.threads}, start);
+}
+
 std::unique_ptr<Engine> make_engine_at_start(const EngineChoice& choice, const Scene& scene,
                                              const std::function<void(const GrowthProgress&)>& watch) {
   if (choice.lead != nullptr) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/block_runner.hpp"
+#include "core/disks/disk_source.hpp"
 #include "core/measure/pair_distances.hpp"
 #include "core/start/growth.hpp"
 #include "core/step/engine.hpp"
@@ -38,6 +39,11 @@ State make_initial_state(const EngineChoice& choice, const Scene& scene,
                          const std::function<void(const GrowthProgress&)>& watch = {});
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial);
+
+// The same of disks that come some at a time, for several ranks: none has all of them. initial: has none.
+// Precondition: there is a lead.
+std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial,
+                                    std::unique_ptr<DiskSource> disks);
 
 // The same of make_initial_state; of several ranks each makes its part of it, where that can be.
 std::unique_ptr<Engine> make_engine_at_start(const EngineChoice& choice, const Scene& scene,

@@ -70,7 +70,8 @@ bool lacks_plots(const Scene& scene, const fs::path& folder) {
 }  // namespace
 
 void check_resumable(const ResumeFrom& from, const Scene& before, const Scene& now, const std::string& name) {
-  const auto& [checkpoint, place] = from;
+  const Checkpoint& checkpoint = from.checkpoint;
+  const CheckpointPlace& place = from.place;
   if (checkpoint.state.sources.size() != now.sources.size()) {
     fail_input(name, "holds a state that does not belong to its scene",
                "expected a checkpoint as Carom wrote it; the one before may serve (checkpoint.previous.carom)");

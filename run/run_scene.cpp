@@ -284,6 +284,9 @@ RunOutcome SceneRun::finished() {
 }
 
 std::unique_ptr<Engine> engine_of(const Scene& scene, ResumeFrom* from, RunSettings& settings) {
+  if (from != nullptr && from->disks) {
+    return make_engine(settings.engine, scene, std::move(from->checkpoint.state), std::move(from->disks));
+  }
   if (from != nullptr) return make_engine(settings.engine, scene, std::move(from->checkpoint.state));
   // Its line of progress goes with it.
   const auto watch = std::exchange(settings.listener.growth, {});

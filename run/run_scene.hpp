@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,6 +53,7 @@ struct RunOutcome {
 struct ResumeFrom {
   Checkpoint checkpoint;
   CheckpointPlace place;
+  std::unique_ptr<DiskSource> disks = nullptr;  // where ranks take them; else they are in the checkpoint's state
 };
 
 // Runs the scene to scene.run.t_end, or until a stop is asked for, with all files that it asks for. Throws InputError

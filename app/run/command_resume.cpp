@@ -27,7 +27,13 @@ int command_resume(const ResumeOptions& options) {
   RunSettings settings = settings_of(options);
   catch_signals();
   ResumeFrom from{{}, find_checkpoint(options.checkpoint)};
-  from.checkpoint = read_checkpoint_at(from.place);
+  if (options.lead != nullptr) {
+    auto [checkpoint, disks] = read_checkpoint_in_pieces_at(from.place);
+    from.checkpoint = std::move(checkpoint);
+    from.disks = std::move(disks);
+  } else {
+    from.checkpoint = read_checkpoint_at(from.place);
+  }
   const RunRecord& record = from.checkpoint.record;
   const Scene scene = scene_of(record, options.changes);
   check_view(options, scene);

@@ -10,10 +10,12 @@
 #include <fstream>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
 #include "io/checkpoint/checkpoint_fields.hpp"
+#include "io/checkpoint/stored_disks.hpp"
 #include "io/files/block_hash.hpp"
 #include "io/files/output_file.hpp"
 
@@ -182,17 +184,32 @@ void check_names(const OutputMark& mark) {
   }
 }
 
-Checkpoint decode(ByteReader reader, const std::string& name) {
-  Checkpoint checkpoint;
+// then(): what else may find bad bytes.
+template <class Then>
+void decode_into(Checkpoint& checkpoint, ByteReader reader, const std::string& name, Then&& then) {
   try {
     reader(checkpoint.record, checkpoint.state);
     if (reader.left() != 0) throw BadBytes("goes on where it should end");
     check_state(checkpoint.state);
     check_names(checkpoint.record.outputs);
+    then();
   } catch (const BadBytes& bad) {
     refuse(name, fmt::format("holds no state of a run: it {}", bad.what()));
   }
+}
+
+Checkpoint decode(ByteReader reader, const std::string& name) {
+  Checkpoint checkpoint;
+  decode_into(checkpoint, std::move(reader), name, [] {});
   return checkpoint;
+}
+
+// Where a column of the disks is noted; null: the list is another one.
+StoredColumn* column_for(const void* list, Disks& disks, StoredColumns& columns) {
+  if (list == &disks.id) return &columns.id;
+  const auto numbers = columns_of_numbers(disks);
+  const auto at = std::find(numbers.begin(), numbers.end(), list);
+  return at == numbers.end() ? nullptr : &columns.numbers[static_cast<std::size_t>(at - numbers.begin())];
 }
 
 }  // namespace
@@ -222,6 +239,29 @@ Checkpoint read_checkpoint(const std::string& path) {
     if (!file.read(data, static_cast<std::streamsize>(bytes))) throw BadBytes("could not be read twice");
   };
   return decode(ByteReader(take, content), path);
+}
+
+CheckpointInPieces read_checkpoint_in_pieces(const std::string& path) {
+  std::ifstream file = open_file(path);
+  const std::uint64_t content = verified_content(file, path);
+  file.seekg(sizeof(Header));
+  CheckpointInPieces read;
+  State& state = read.checkpoint.state;
+  StoredColumns columns;
+  const auto take = [&](char* data, std::size_t bytes) {
+    if (!file.read(data, static_cast<std::streamsize>(bytes))) throw BadBytes("could not be read twice");
+  };
+  const auto pass = [&](const void* list, std::uint64_t bytes) {
+    StoredColumn* const column = column_for(list, state.disks, columns);
+    if (column == nullptr) return false;
+    *column = {static_cast<std::streamoff>(file.tellg()), bytes};
+    file.seekg(static_cast<std::streamoff>(bytes), std::ios::cur);
+    return true;
+  };
+  decode_into(read.checkpoint, ByteReader(take, content, pass), path, [&] {
+    read.disks = std::make_unique<StoredDisks>(std::move(file), path, columns, state.disks, state.next_id);
+  });
+  return read;
 }
 
 std::string checkpoint_bytes(const RunRecord& record, const State& state) {

@@ -1,10 +1,12 @@
 // Checkpoints: everything from which a run goes on, bit for bit, in one file that is whole or refused.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/disks/disk_source.hpp"
 #include "core/disks/state.hpp"
 #include "core/disks/state_pieces.hpp"
 #include "core/measure/run_start.hpp"
@@ -38,6 +40,13 @@ void write_checkpoint(const std::string& path, const RunRecord& record, const St
 // Reads it back. The checksum over the whole file is verified before anything in it is used. Throws InputError, "path:
 // what is wrong", for a file that is cut short, changed in any bit, of another byte order or format, or no checkpoint.
 Checkpoint read_checkpoint(const std::string& path);
+
+// The same, but for its disks, which stay in the file and are read from there.
+struct CheckpointInPieces {
+  Checkpoint checkpoint;
+  std::unique_ptr<DiskSource> disks;
+};
+CheckpointInPieces read_checkpoint_in_pieces(const std::string& path);
 
 // The same in memory: the bytes of the file, and back. name is for messages. Throws InputError as read_checkpoint does.
 std::string checkpoint_bytes(const RunRecord& record, const State& state);

@@ -64,9 +64,12 @@ CheckpointPlace find_checkpoint(const std::string& name) {
   return {file, folder.empty() ? fs::path(".") : folder, false};
 }
 
-Checkpoint read_checkpoint_at(const CheckpointPlace& place) {
+namespace {
+
+template <class Read>
+auto read_at(const CheckpointPlace& place, Read&& read) {
   try {
-    return read_checkpoint(place.file.string());
+    return read(place.file.string());
   } catch (const InputError& error) {
     const fs::path previous = place.file.parent_path() / previous_checkpoint_name;
     if (place.file.filename() == previous_checkpoint_name) throw;
@@ -79,6 +82,16 @@ Checkpoint read_checkpoint_at(const CheckpointPlace& place) {
     }
     throw InputError(fmt::format("{}; the one before it is whole: carom resume {}", error.what(), previous.string()));
   }
+}
+
+}  // namespace
+
+Checkpoint read_checkpoint_at(const CheckpointPlace& place) {
+  return read_at(place, read_checkpoint);
+}
+
+CheckpointInPieces read_checkpoint_in_pieces_at(const CheckpointPlace& place) {
+  return read_at(place, read_checkpoint_in_pieces);
 }
 
 }  // namespace carom

@@ -24,5 +24,6 @@ CheckpointPlace find_checkpoint(const std::string& name);
 
 // read_checkpoint; where the file is damaged, and the one before it is whole, the InputError names it.
 Checkpoint read_checkpoint_at(const CheckpointPlace& place);
+CheckpointInPieces read_checkpoint_in_pieces_at(const CheckpointPlace& place);
 
 }  // namespace carom

@@ -84,11 +84,14 @@ struct BadBytes : std::runtime_error {
 };
 
 // Takes bytes from `source`, `left` of them in all. Throws BadBytes rather than read beyond them, or make a list longer
-// than what is left.
+// than what is left. passes(list, bytes), where given: takes so many bytes of a list of numbers from the source itself,
+// so that the list stays empty, and returns true; or leaves it to the reader.
 class ByteReader {
  public:
   using Source = std::function<void(char*, std::size_t)>;
-  ByteReader(Source source, std::uint64_t left) : source_(std::move(source)), left_(left) {}
+  using ListPass = std::function<bool(const void*, std::uint64_t)>;
+  ByteReader(Source source, std::uint64_t left, ListPass passes = {})
+      : source_(std::move(source)), left_(left), passes_(std::move(passes)) {}
 
   template <class... Parts>
   void operator()(Parts&... parts) {
@@ -135,7 +138,12 @@ class ByteReader {
   template <class T>
   void get(std::vector<T>& list) {
     if constexpr (Number<T>) {
-      list.resize(length(sizeof(T)));
+      const std::size_t entries = length(sizeof(T));
+      if (passes_ && passes_(&list, entries * sizeof(T))) {
+        left_ -= entries * sizeof(T);
+        return;
+      }
+      list.resize(entries);
       raw(list.data(), list.size() * sizeof(T));
     } else {
       // Entries may be larger in memory than in the file: the list grows with what is read, not with what is promised.
@@ -157,6 +165,7 @@ class ByteReader {
 
   Source source_;
   std::uint64_t left_;
+  ListPass passes_;
 };
 
 }  // namespace carom

@@ -32,13 +32,12 @@ std::string shared_text(Ranks& ranks, const std::string& text) {
 // Disks that go from a rank to others at a time: some megabytes, so that no rank has a second copy of them all.
 constexpr std::size_t disks_a_piece = std::size_t{1} << 16;
 
-SlabStart start_of(const Scene& scene, const Disks& all, int ranks) {
+void refuse_unknown(const Scene& scene) {
   if (scene.run.method == Method::rollback) {
     throw InputError(
         "several ranks do not know the method rollback, whose frames are of the whole box: use one, or "
         "--method exact");
   }
-  return slab_start(scene, all, ranks);
 }
 
 std::unique_ptr<Engine> make_part(const Scene& scene, State part, const SlabStart& start, const Threads& threads,
@@ -47,14 +46,17 @@ std::unique_ptr<Engine> make_part(const Scene& scene, State part, const SlabStar
   return make(scene, std::move(part), start, threads, ranks);
 }
 
-// Each rank takes the disks in its slab of all that rank 0 has.
-Disks deal_out(Ranks& ranks, const SlabStart& start, const Disks& all, Disks part) {
+// Each rank takes the disks in its slab of all that rank 0 has, or reads. all: null on the other ranks.
+Disks deal_out(Ranks& ranks, const SlabStart& start, DiskSource* all, Disks part) {
   truncate(part, 0);
   const auto expected = static_cast<std::size_t>(start.disks) / static_cast<std::size_t>(ranks.count());
   reserve(part, expected + expected / 32, start.columns);
   for (std::size_t begin = 0; begin < start.disks; begin += disks_a_piece) {
     std::vector<Disk> piece;
-    for (std::size_t i = begin; i < std::min(all.size(), begin + disks_a_piece); ++i) piece.push_back(disk_at(all, i));
+    if (all != nullptr) {
+      const Disks some = all->read(begin, std::min(all->size(), begin + disks_a_piece));
+      for (std::size_t i = 0; i < some.size(); ++i) piece.push_back(disk_at(some, i));
+    }
     Bytes message;
     put_all(message, piece);
     for (const Disk& disk : MessageReader(ranks.share(message)).get_all<Disk>()) {
@@ -275,16 +277,31 @@ class LeadingEngine final : public Engine {
 
 std::unique_ptr<Engine> RankLead::make_engine(const Scene& scene, State initial, const Threads& threads,
                                               const std::function<std::string(const State&)>& start) {
-  const SlabStart slabs = start_of(scene, initial.disks, ranks_.count());
+  refuse_unknown(scene);
+  const SlabStart slabs = slab_start(scene, initial.disks, ranks_.count());
+  Disks none = no_disks_like(initial.disks);
+  auto disks = std::make_unique<HeldDisks>(std::exchange(initial.disks, std::move(none)));
+  return make_parts(scene, std::move(initial), std::move(disks), slabs, threads, start);
+}
+
+std::unique_ptr<Engine> RankLead::make_engine(const Scene& scene, State initial, std::unique_ptr<DiskSource> disks,
+                                              const Threads& threads,
+                                              const std::function<std::string(const State&)>& start) {
+  refuse_unknown(scene);
+  const SlabStart slabs = slab_start(scene, *disks, ranks_.count());
+  return make_parts(scene, std::move(initial), std::move(disks), slabs, threads, start);
+}
+
+std::unique_ptr<Engine> RankLead::make_parts(const Scene& scene, State initial, std::unique_ptr<DiskSource> disks,
+                                             const SlabStart& slabs, const Threads& threads,
+                                             const std::function<std::string(const State&)>& start) {
   try {
     agree_on(ranks_, RankCall::make);
-    Disks all = std::move(initial.disks);
-    initial.disks = no_disks_like(all);
     const std::vector<ContactLoad> loads = std::exchange(initial.loads, {});
     shared_text(ranks_, start(initial));
     ranks_.share(message_of(slabs));
-    initial.disks = deal_out(ranks_, slabs, all, std::move(initial.disks));
-    all = Disks();
+    initial.disks = deal_out(ranks_, slabs, disks.get(), std::move(initial.disks));
+    disks.reset();
     deal_out_loads(ranks_, loads, initial);
     return lead_engine(scene, make_part(scene, std::move(initial), slabs, threads, ranks_));
   } catch (...) {
@@ -331,7 +348,7 @@ void follow_lead(Ranks& ranks, const Threads& threads,
     if (call == RankCall::make) {
       auto [scene, state] = read(shared_text(ranks, ""));
       const SlabStart start = slab_start_of(ranks.share({}));
-      state.disks = deal_out(ranks, start, {}, std::move(state.disks));
+      state.disks = deal_out(ranks, start, nullptr, std::move(state.disks));
       deal_out_loads(ranks, {}, state);
       part.emplace(ranks, scene, make_part(scene, std::move(state), start, threads, ranks));
     } else if (call == RankCall::begin) {

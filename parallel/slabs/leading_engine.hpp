@@ -7,10 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "core/disks/disk_source.hpp"
 #include "core/measure/state_sums.hpp"
 #include "core/step/engine.hpp"
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/rank_report.hpp"
+#include "parallel/slabs/slab_start.hpp"
 #include "parallel/threads/threads.hpp"
 
 namespace carom {
@@ -30,6 +32,10 @@ class RankLead {
   // outlives the engine.
   std::unique_ptr<Engine> make_engine(const Scene& scene, State initial, const Threads& threads,
                                       const std::function<std::string(const State&)>& start);
+
+  // The same of disks that come some at a time, from a checkpoint: no rank has all. initial: has none.
+  std::unique_ptr<Engine> make_engine(const Scene& scene, State initial, std::unique_ptr<DiskSource> disks,
+                                      const Threads& threads, const std::function<std::string(const State&)>& start);
 
   // The same of the scene's own start, which each rank makes for its slab: no rank has all disks. Null where the start
   // is not of a kind that can be made so, or is one that is refused: make_engine with the state of one machine is then
@@ -51,6 +57,9 @@ class RankLead {
   void lose() { lost_ = true; }
 
  private:
+  std::unique_ptr<Engine> make_parts(const Scene& scene, State initial, std::unique_ptr<DiskSource> disks,
+                                     const SlabStart& slabs, const Threads& threads,
+                                     const std::function<std::string(const State&)>& start);
   std::unique_ptr<Engine> lead_engine(const Scene& scene, std::unique_ptr<Engine> part);
 
   Ranks& ranks_;

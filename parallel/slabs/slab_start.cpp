@@ -3,14 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string>
 
+#include "core/disks/cell_index.hpp"
 #include "core/step/source.hpp"
 #include "parallel/cells/cell_grid.hpp"
 
 namespace carom {
 
 namespace {
+
+// Rows by whose disks slabs are cut.
+constexpr std::size_t rows_counted = 4096;
 
 // What of the scene slabs do not know; empty: they know all of it.
 std::string unknown_to_slabs(const Scene& scene) {
@@ -67,6 +73,35 @@ SlabStart slab_start(const Scene& scene, const Disks& all, int ranks) {
   SlabStart start = slab_start(scene, columns_of(all), smallest_radius(all), largest_radius(all), all.size(), ranks);
   start.counts = class_counts(all, start.largest_radius);
   start.cut = cut_into_slabs(scene.box, all, ranks, thinnest_slab(scene, start));
+  return start;
+}
+
+SlabStart slab_start(const Scene& scene, DiskSource& all, int ranks) {
+  if (all.size() == 0) return slab_start(scene, all.read(0, 0), ranks);
+  double smallest = HUGE_VAL;
+  double largest = 0.0;
+  bool spins = false;
+  std::vector<std::int64_t> disks_of_row(rows_counted, 0);
+  const double rows_per_length = static_cast<double>(rows_counted) / scene.box.height;
+  visit_pieces(all, [&](const Disks& some) {
+    smallest = std::min(smallest, smallest_radius(some));
+    largest = std::max(largest, largest_radius(some));
+    spins = some.spins();
+    for (const double y : some.y) ++disks_of_row[cell_index(y * rows_per_length, rows_counted)];
+  });
+  SlabStart start = slab_start(scene, {all.has_radii(), all.has_masses(), spins}, smallest, largest, all.size(), ranks);
+  if (start.columns.radius) {
+    visit_pieces(all, [&](const Disks& some) {
+      const std::vector<std::size_t> counts = class_counts(some, start.largest_radius);
+      start.counts.resize(std::max(start.counts.size(), counts.size()), 0);
+      for (std::size_t k = 0; k < counts.size(); ++k) start.counts[k] += counts[k];
+    });
+  } else {
+    start.counts.assign(class_of_radius(largest, start.largest_radius) + 1, 0);
+    start.counts.back() = all.size();
+  }
+  start.cut = cut_by_rows(scene.box, disks_of_row, ranks);
+  keep_thick(start.cut, thinnest_slab(scene, start));
   return start;
 }
 

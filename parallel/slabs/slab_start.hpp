@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/disks/disk_source.hpp"
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
 #include "parallel/ranks/message.hpp"
@@ -25,6 +26,9 @@ struct SlabStart {
 };
 
 SlabStart slab_start(const Scene& scene, const Disks& all, int ranks);
+
+// The same of disks that come some at a time; its slabs differ a little. Reads them once, or twice where radii differ.
+SlabStart slab_start(const Scene& scene, DiskSource& all, int ranks);
 
 // The same before it is known where the disks are: without a cut, and how many there are of each class. Radii: of all
 // disks that there are.

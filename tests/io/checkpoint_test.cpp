@@ -106,10 +106,16 @@ class CheckpointFile : public ::testing::Test {
   }
   std::string path() const { return (folder_.path() / checkpoint_name).string(); }
 
-  // What reading the file complains of; empty if it is taken.
+  // What reading the file complains of, in pieces as whole; empty if it is taken.
   static std::string complaint_of(const std::string& file) {
+    const std::string complaint = complaint_of([&] { read_checkpoint(file); }, file);
+    EXPECT_EQ(complaint_of([&] { read_checkpoint_in_pieces(file); }, file), complaint);
+    return complaint;
+  }
+  template <class Read>
+  static std::string complaint_of(Read&& read, const std::string& file) {
     try {
-      read_checkpoint(file);
+      read();
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr(file + ": "));
       return error.what();
@@ -192,6 +198,31 @@ TEST_F(CheckpointFile, PiecesThatBreakOffHarmNoOther) {
   EXPECT_EQ(bytes_of(path()), whole_);
 }
 
+// Disks that stay in the file and are read some at a time, with all columns and with few.
+TEST_F(CheckpointFile, GivesBackItsDisksInPieces) {
+  State all = full_state();
+  all.next_id = 200'000;
+  for (DiskId id = 5; id < all.next_id; ++id) append(all.disks, {0.1 * id, 1.0 * id, 2.0, 3.0, 0.5, 2.0, id});
+  State equal;
+  equal.next_id = 100;
+  equal.disks.inertia = 0.5;
+  for (DiskId id = 0; id < 100; ++id) append(equal.disks, {1.0 * id, 2.0, 3.0, 4.0, 0.5, 2.0, id, 7.0 * id});
+  for (const State& state : {all, equal, State{}}) {
+    write_checkpoint(path(), full_record(), state);
+    CheckpointInPieces back = read_checkpoint_in_pieces(path());
+    State& read = back.checkpoint.state;
+    EXPECT_TRUE(read.disks.empty());
+    EXPECT_EQ(back.disks->size(), state.disks.size());
+    EXPECT_EQ(back.disks->has_radii(), !state.disks.radius.empty());
+    EXPECT_EQ(back.disks->has_masses(), !state.disks.mass.empty());
+    visit_pieces(*back.disks, [&](const Disks& some) {
+      EXPECT_LE(some.size(), disks_of_a_read);
+      for (std::size_t i = 0; i < some.size(); ++i) append(read.disks, disk_at(some, i));
+    });
+    EXPECT_EQ(encode_checkpoint(back.checkpoint.record, read), encode_checkpoint(full_record(), state));
+  }
+}
+
 TEST_F(CheckpointFile, AnEmptyStateToo) {
   write_checkpoint(path(), {}, {});
   const Checkpoint back = read_checkpoint(path());
@@ -256,20 +287,20 @@ TEST_F(CheckpointFile, SaysWhatIsWrong) {
 }
 
 TEST_F(CheckpointFile, ContentThatContradictsItselfIsRefused) {
-  const auto refused = [](const auto& spoil) {
+  const auto refused = [&](const auto& spoil) {
     RunRecord record = full_record();
     State state = full_state();
     spoil(record, state);
-    try {
-      decode_checkpoint(encode_checkpoint(record, state), "c");
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    write_checkpoint(path(), record, state);
+    return complaint_of(path());
   };
   EXPECT_EQ(refused([](RunRecord&, State&) {}), "");
   EXPECT_THAT(refused([](RunRecord&, State& s) { s.disks.vx.pop_back(); }), HasSubstr("columns of different lengths"));
   EXPECT_THAT(refused([](RunRecord&, State& s) { s.disks.id[0] = 5; }), HasSubstr("a disk that was never made"));
+  EXPECT_THAT(refused([](RunRecord&, State& s) { s.disks.x.clear(); }), HasSubstr("columns of different lengths"));
+  EXPECT_THAT(refused([](RunRecord&, State& s) { s.disks.mass.push_back(1.0); }),
+              HasSubstr("columns of different lengths"));
+  EXPECT_THAT(refused([](RunRecord&, State& s) { s.disks.inertia = 0.5; }), HasSubstr("spins of other disks"));
   EXPECT_THAT(refused([](RunRecord& r, State&) { r.outputs.movie->parts[0] = "../a"; }),
               HasSubstr("outside its folder"));
 }

@@ -15,6 +15,7 @@
 #include "core/start/initial_state.hpp"
 #include "parallel/ranks/local_ranks.hpp"
 #include "parallel/simulation.hpp"
+#include "parallel/slabs/moving_disks.hpp"
 #include "tests/support/feature_scenes.hpp"
 
 namespace carom {
@@ -483,6 +484,35 @@ TEST(LeadingEngine, BeginsWhereDisksLive) {
   on_ranks(2, gas("pairwise"), {}, [&](RankLead& lead) {
     EXPECT_EQ(lead.make_engine_at_start(gas("pairwise"), {1}, the_start), nullptr) << "at random";
   });
+}
+
+// As those of a checkpoint; how slabs are cut then has nothing to do with the bits.
+TEST(LeadingEngine, BeginsFromDisksThatComeSomeAtATime) {
+  for (const char* method : {"pairwise", "exact"}) {
+    for (const char* radius : {"0.5", "{ uniform = [0.2, 0.6] }"}) {
+      const Scene scene =
+          parse_scene(fmt::format("[box]\nwidth = 12.0\nheight = 300.0\n[[disks]]\ncount = 1000\npositions = "
+                                  "\"random\"\nradius = {}\nmass = 1.0\n"
+                                  "velocities = {{ maxwell = 1.0 }}\n[run]\nmethod = \"{}\"\ndt = 0.02\nt_end = 0.8\n",
+                                  radius, method),
+                      "scene", "");
+      const State start = initial_state(scene);
+      for (const int count : {1, 2, 4}) {
+        on_ranks(count, scene, start, [&](RankLead& lead) {
+          State none = start;
+          auto disks = std::make_unique<HeldDisks>(std::exchange(none.disks, no_disks_like(start.disks)));
+          const auto expected = make_parallel_engine(scene, start, {1});
+          const auto engine = lead.make_engine(scene, std::move(none), std::move(disks), {1, 512}, the_start);
+          while (engine->progress().time < scene.run.t_end) {
+            engine->step();
+            expected->step();
+            ASSERT_EQ(lead.sums().hash, state_hash(expected->state().disks));
+          }
+          EXPECT_EQ(engine->state().counters.collisions, expected->state().counters.collisions);
+        });
+      }
+    }
+  }
 }
 
 // One engine after another, as a program may make them; and what is refused leaves the ranks together.

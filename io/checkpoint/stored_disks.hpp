@@ -1,0 +1,52 @@
+// The disks of a checkpoint, left in its file and read some at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+#include "core/disks/disk_source.hpp"
+
+namespace carom {
+
+// Where a column lies in the file. No bytes: the disks have none, or there are no disks.
+struct StoredColumn {
+  std::streamoff begin = 0;
+  std::uint64_t bytes = 0;
+};
+
+struct StoredColumns {
+  std::array<StoredColumn, 7> numbers;  // in the order of columns_of_numbers
+  StoredColumn id;
+};
+
+// All columns but that of ids.
+inline std::array<std::vector<double>*, 7> columns_of_numbers(Disks& d) {
+  return {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass, &d.spin};
+}
+
+class StoredDisks final : public DiskSource {
+ public:
+  // none: what the disks share, without a disk; name: of the file, for messages. Throws BadBytes where the columns are
+  // not of the same disks, or a disk has not been made when `next_id` was next.
+  StoredDisks(std::ifstream file, std::string name, const StoredColumns& columns, const Disks& none, DiskId next_id);
+
+  std::size_t size() const override { return size_; }
+  bool has_radii() const override { return columns_.numbers[4].bytes > 0; }
+  bool has_masses() const override { return columns_.numbers[5].bytes > 0; }
+  // Throws RunError where the file can be read no more.
+  Disks read(std::size_t begin, std::size_t end) override;
+
+ private:
+  template <class T>
+  void read_column(const StoredColumn& column, std::size_t begin, std::size_t end, std::vector<T>& values);
+
+  std::ifstream file_;
+  std::string name_;
+  StoredColumns columns_;
+  Disks none_;
+  std::size_t size_;
+};
+
+}  // namespace carom
