@@ -20,6 +20,10 @@ constexpr double own_disk_bytes = 75.0;
 constexpr double column_bytes = 12.0;
 // Of exact: with its lists, its paths and its ghosts.
 constexpr double exact_disk_bytes = 275.0;
+// Of rank 0 where it writes frames: HDF5, and pieces on their way; and for each disk of all ranks, how often it went
+// round.
+constexpr double frame_bytes = 20e6;
+constexpr double round_bytes = 8.0;
 
 // Time spent on trying steps; seconds.
 constexpr double traffic_trial = 0.3;
@@ -42,8 +46,8 @@ RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks) {
   f.alone = slab_start(scene, start.disks, ranks).alone;
   f.other_bytes = process_bytes + (f.alone.empty() ? (disk_bytes + more * column_bytes) * f.disks : 0.0);
   if (scene.box.has_thermal_side()) f.other_bytes += sizeof(std::uint32_t) * all;
-  f.first_has_all = !f.alone.empty() || !starts_on_slabs(scene) || wants_frames(scene.output) || scene.analysis.any();
-  f.first_bytes = f.other_bytes;
+  f.first_has_all = !f.alone.empty() || !starts_on_slabs(scene) || wants_all_disks(scene);
+  f.first_bytes = f.other_bytes + (wants_frames(scene.output) ? frame_bytes + round_bytes * all : 0.0);
   f.traffic = try_slabs(scene, start, ranks, traffic_trial);
   return f;
 }

@@ -29,6 +29,12 @@ bool wants_files(const Scene& scene) {
   return wants_frames(scene.output) || scene.analysis.any() || scene.output.checkpoint > 0.0;
 }
 
+bool wants_all_disks(const Scene& scene) {
+  const OutputPlan& plan = scene.output;
+  return scene.analysis.any() || plan.movie || plan.view || !plan.plots.empty() ||
+         (wants_frames(plan) && !reported_groups(scene).empty());
+}
+
 RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count)
     : scene_(scene),
       folder_(folder),
