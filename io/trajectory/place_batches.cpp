@@ -63,25 +63,23 @@ class Batches {
 
 }  // namespace
 
-std::size_t count_places(const Selection& select, const DisksInPieces& disks) {
+std::size_t FramePlaces::count() const {
   std::size_t places = 0;
-  disks.visit([&](const Disks& some) {
+  disks_.visit([&](const Disks& some) {
     for (std::size_t i = 0; i < some.size(); ++i) {
-      if (!is_selected(select, some, i)) continue;
-      places = select.by_region ? places + 1 : std::max(places, place_of(select, some.id[i]) + 1);
+      if (!is_selected(select_, some, i)) continue;
+      places = select_.by_region ? places + 1 : std::max(places, place_of(select_, some.id[i]) + 1);
     }
   });
   return places;
 }
 
-void visit_places(const Selection& select, const DisksInPieces& disks, std::size_t chunk,
-                  const std::function<void(const PlaceBatch&)>& use) {
-  Batches batches(select, chunk, use);
-  disks.visit([&](const Disks& some) {
-    if (some.size() < disks.size()) return batches.add(some);
-    std::vector<std::uint32_t> disk_at;
-    find_places(select, some, 0, disk_at);
-    if (!disk_at.empty()) use({some, disk_at, 0, disk_at.size()});
+void FramePlaces::visit(const std::function<void(const PlaceBatch&)>& use) {
+  Batches batches(select_, chunk_, use);
+  disks_.visit([&](const Disks& some) {
+    if (some.size() < disks_.size()) return batches.add(some);
+    if (disk_at_.empty()) find_places(select_, some, 0, disk_at_);
+    if (!disk_at_.empty()) use({some, disk_at_, 0, disk_at_.size()});
   });
   batches.finish();
 }

@@ -19,12 +19,25 @@ struct PlaceBatch {
   std::size_t first = 0, count = 0;
 };
 
-// How many places there are up to the last that has a disk.
-std::size_t count_places(const Selection& select, const DisksInPieces& disks);
+// The places of one frame's disks, which are visited once for each of their quantities.
+class FramePlaces {
+ public:
+  // All outlive this. chunk: places that are written together.
+  FramePlaces(const Selection& select, const DisksInPieces& disks, std::size_t chunk)
+      : select_(select), disks_(disks), chunk_(chunk) {}
 
-// Calls use() for all of these places, in order. Batches are of whole chunks, but for the last; disks that come in one
-// piece are one batch, of others there are some ten thousand in each.
-void visit_places(const Selection& select, const DisksInPieces& disks, std::size_t chunk,
-                  const std::function<void(const PlaceBatch&)>& use);
+  // How many there are up to the last that has a disk.
+  std::size_t count() const;
+
+  // Calls use() for all of these places, in order. Batches are of whole chunks, but for the last; disks that come in
+  // one piece are one batch, of others there are some ten thousand in each.
+  void visit(const std::function<void(const PlaceBatch&)>& use);
+
+ private:
+  const Selection& select_;
+  const DisksInPieces& disks_;
+  std::size_t chunk_;
+  std::vector<std::uint32_t> disk_at_;  // of disks that come in one piece, once they were visited
+};
 
 }  // namespace carom

@@ -255,18 +255,19 @@ void H5mdWriter::File::write_once(H5mdElement& e, const PlaceBatch& batch, hsize
 
 // Element by element, each from all disks, so that its chunks lie together in the file.
 void H5mdWriter::File::write_frame(const DisksInPieces& disks, const BlockRunner& run) {
-  const hsize_t shown = growing || known < places ? count_places(select, disks) : 0;
+  FramePlaces frame(select, disks, chunk);
+  const hsize_t shown = growing || known < places ? frame.count() : 0;
   places = std::max(places, shown);
   for (H5mdElement& e : elements) {
     if (e.each_frame) {
       Extent size{frames + 1, places};
       if (e.components > 1) size.push_back(e.components);
       output.resize(e.set, size);
-      visit_places(select, disks, chunk, [&](const PlaceBatch& batch) { write_element(e, batch, run); });
+      frame.visit([&](const PlaceBatch& batch) { write_element(e, batch, run); });
     } else if (shown > known) {
       // As long as what is known: a later writer goes by that.
       if (growing) output.resize(e.set, {shown});
-      visit_places(select, disks, chunk, [&](const PlaceBatch& batch) { write_once(e, batch, known, shown); });
+      frame.visit([&](const PlaceBatch& batch) { write_once(e, batch, known, shown); });
     }
   }
   known = std::max(known, shown);
