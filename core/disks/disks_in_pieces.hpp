@@ -21,7 +21,8 @@ class DisksInPieces {
   virtual Count size() const = 0;  // of all pieces
 
   // Calls use() for piece after piece: all ids of a piece are above those of the one before, and within it disks have
-  // any order. Each disk has the radius, the mass and the spin that it has in whole(). What use() throws ends it.
+  // any order. Each disk has the radius, the mass and the spin that it has in whole(). What use() throws ends it;
+  // use() asks nothing else of these disks or of their engine.
   virtual void visit(const Use& use) const = 0;
 
   // The largest overlap of two disks over the sum of their radii, where that is known without all disks.

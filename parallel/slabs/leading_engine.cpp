@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <optional>
 #include <span>
 #include <utility>
@@ -208,11 +209,18 @@ class LeadingEngine final : public Engine {
     Count size() const override { return size_; }
 
     void visit(const Use& use) const override {
-      for (std::size_t k = 0; k < shown().pieces(); ++k) {
-        const Disks* some = nullptr;
-        engine_.together(RankCall::some, [&] { some = &engine_.part_.shown().piece(k); });
-        use(*some);
-      }
+      // One call for all pieces, as ranks wait for each other at each: what use() throws waits until all have come.
+      ShownDisks& disks = shown();
+      std::exception_ptr failed;
+      const auto use_if_whole = [&](const Disks& some) {
+        try {
+          if (!failed) use(some);
+        } catch (...) {
+          failed = std::current_exception();
+        }
+      };
+      engine_.together(RankCall::some, [&] { disks.visit(use_if_whole); });
+      if (failed) std::rethrow_exception(failed);
     }
 
     std::optional<double> max_overlap() const override {

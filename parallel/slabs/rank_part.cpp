@@ -137,7 +137,7 @@ void follow(RankCall call, Ranks& ranks, RankPart& part, const Traffic& before) 
   } else if (call == RankCall::show) {
     part.show(false, 0.0);
   } else if (call == RankCall::some) {
-    part.shown().piece(0);
+    part.shown().visit({});
   } else if (call == RankCall::overlap) {
     part.shown_overlap();
   } else if (call == RankCall::look) {

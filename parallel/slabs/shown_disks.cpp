@@ -23,10 +23,11 @@ ShownDisks::ShownDisks(Ranks& ranks, const Engine& engine, bool within, double t
   ordered_.emplace(ranks, *own_, engine.progress().next_id);
 }
 
-const Disks& ShownDisks::piece(std::size_t number) {
-  Bytes asked;
-  put(asked, number);
-  return ordered_->piece(MessageReader(ranks_.share(asked)).get<std::size_t>());
+void ShownDisks::visit(const DisksInPieces::Use& use) {
+  for (std::size_t k = 0; k < ordered_->pieces(); ++k) {
+    const Disks& some = ordered_->piece(k);
+    if (ranks_.rank() == 0) use(some);
+  }
 }
 
 double ShownDisks::max_overlap(const Scene& scene, const SlabCut& cut) const {

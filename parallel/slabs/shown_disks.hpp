@@ -21,10 +21,9 @@ class ShownDisks {
 
   double time() const { return time_; }
   Count size() const { return ordered_->size(); }
-  std::size_t pieces() const { return ordered_->pieces(); }
 
-  // In order of id; nothing but on rank 0.
-  const Disks& piece(std::size_t number);
+  // Calls use() for piece after piece in order of id, on rank 0 alone. It must not throw.
+  void visit(const DisksInPieces::Use& use);
 
   // The largest of two disks, over the sum of their radii.
   double max_overlap(const Scene& scene, const SlabCut& cut) const;

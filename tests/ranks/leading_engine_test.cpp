@@ -371,6 +371,9 @@ TEST(LeadingEngine, GoesOnAfterAWriterGaveUp) {
     for (const StateList list : {StateList::x, StateList::radius}) {
       const auto give_up = [](std::span<const std::byte> /*some*/) { throw RunError("the disk is full"); };
       EXPECT_THROW(engine->pieces()->visit(list, give_up), RunError);
+      Disks room;
+      const auto throw_at_once = [](const Disks& /*some*/) { throw RunError("the disk is full"); };
+      EXPECT_THROW(engine->pieces_at(0.0, room)->visit(throw_at_once), RunError);
       EXPECT_FALSE(lead.lost());
       engine->step();
       expected->step();
