@@ -81,7 +81,10 @@ void NeighbourLists::move_into_cell(const Disks& d, std::uint32_t i, std::uint32
 }
 
 std::uint32_t NeighbourLists::cell_of(const Disks& d, std::uint32_t i, FixedPointPosition fixed) const {
-  const std::size_t level = d.radius.empty() ? 0 : class_of_radius(d.radius[i], grid_.levels[0].largest_radius);
+  // A disk that was added since may be smaller than those that the grid was made for.
+  const std::size_t smallest = grid_.levels.size() - 1;
+  const std::size_t level =
+      smallest == 0 ? 0 : std::min(class_of_radius(d.radius[i], grid_.levels[0].largest_radius), smallest);
   const GridLevel& cells = grid_.levels[level];
   return cells.key_at(cells.place_of_row(cell_of_listed(fixed.y, cells.rows, box_.periodic_y())),
                       cell_of_listed(fixed.x, cells.columns, box_.periodic_x()));

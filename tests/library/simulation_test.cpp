@@ -201,6 +201,32 @@ TEST(Simulation, ManyChangesHaveTheReferencesBits) {
   }
 }
 
+// The cells of the lists were made for disks of a few sizes, none as small.
+TEST(Simulation, AddsADiskSmallerThanAllWithTheReferencesBits) {
+  for (const char* radius : {"0.3", "{ uniform = [0.3, 0.5] }", "{ uniform = [0.1, 0.6] }"}) {
+    const Scene scene =
+        parse_scene(std::string("[box]\npacking_fraction = 0.2\n[[disks]]\ncount = 500\npositions = \"random\"\nmass = "
+                                "1.0\nvelocities = { maxwell = 1.0 }\nradius = ") +
+                        radius + "\n[run]\nt_end = 1e3\nmethod = \"exact\"\n",
+                    "gas.toml", "");
+    const auto hash = [&](const EngineChoice& engine) {
+      Simulation s(scene, engine);
+      s.step(2);
+      test::Draws draw(3);
+      int added = 0;
+      for (int k = 0; k < 40; ++k) {
+        const double x = draw.in(0.1, scene.box.width - 0.1);
+        if (s.add({x, draw.in(0.1, scene.box.height - 0.1), 3.0, 1.0, 0.01, 0.1})) ++added;
+      }
+      EXPECT_GT(added, 10);
+      s.step(4);
+      EXPECT_LE(max_overlap(s.state().disks, s.scene().box), 1e-9);
+      return s.hash();
+    };
+    EXPECT_EQ(hash(choice("parallel", 1)), hash(choice("reference"))) << radius;
+  }
+}
+
 TEST(Simulation, AddsNoDiskOnAFixedOne) {
   const Scene scene = parse_scene(R"(
     [box]
