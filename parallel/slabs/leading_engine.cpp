@@ -152,7 +152,9 @@ class LeadingEngine final : public Engine {
     return all;
   }
 
+  // Ranks may store their disks in another order then.
   void release_memory() override {
+    whole_.reset();
     shown_ = 0;
     together(RankCall::release, [&] { part_.release_memory(); });
   }
