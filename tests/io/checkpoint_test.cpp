@@ -224,7 +224,7 @@ TEST_F(CheckpointFile, GivesBackItsDisksInPieces) {
 }
 
 TEST_F(CheckpointFile, AnEmptyStateToo) {
-  write_checkpoint(path(), {}, {});
+  write_checkpoint(path(), {}, State{});
   const Checkpoint back = read_checkpoint(path());
   EXPECT_TRUE(back.state.disks.empty());
   EXPECT_FALSE(back.record.outputs.trajectory.has_value());
