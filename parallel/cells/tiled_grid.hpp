@@ -10,10 +10,10 @@
 namespace carom {
 
 // A grid of tiles of at most about disks_per_tile disks, if those are spread evenly, each with the cells of all size
-// classes: about two disks a cell. The tiles lie in layers across the box's longer side, one after the other in memory,
-// that can be shared out among this many regions, the same number to each, if the box is long enough. count[k] is the
-// number of disks of class k (class_of_radius), whose largest radius is largest_radius / class_ratio^k. The memory that
-// grid has is used again.
+// classes: about five disks a cell. The tiles lie in layers across the box's longer side, one after the other in
+// memory, that can be shared out among this many regions, the same number to each, if the box is long enough. count[k]
+// is the number of disks of class k (class_of_radius), whose largest radius is largest_radius / class_ratio^k. The
+// memory that grid has is used again.
 void make_tiled_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
                      std::size_t disks_per_tile, std::size_t regions, CellGrid& grid);
 
