@@ -1,4 +1,4 @@
-// Disks that come some at a time: those of a file, so that nobody has them all.
+// Disks that are read a piece at a time, so that those of a file are never in memory all at once.
 #pragma once
 
 #include <algorithm>

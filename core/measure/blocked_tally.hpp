@@ -1,6 +1,7 @@
-// blocked_sum of disks that come in pieces.
+// blocked_sum of terms that come one after the other, or of disks that come in pieces.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -11,6 +12,15 @@ namespace carom {
 
 class BlockedTally {
  public:
+  // The next term.
+  void add(double term) {
+    block_ += term;
+    if (++terms_ < sum_block) return;
+    total_ += block_;
+    block_ = 0.0;
+    terms_ = 0;
+  }
+
   // The next terms, in order of id over all pieces: term(i) for each i of order. However they are cut into pieces, the
   // value has the bits of blocked_sum over all.
   template <class Term>
@@ -31,14 +41,6 @@ class BlockedTally {
   double value() const { return terms_ > 0 ? total_ + block_ : total_; }
 
  private:
-  void add(double term) {
-    block_ += term;
-    if (++terms_ < sum_block) return;
-    total_ += block_;
-    block_ = 0.0;
-    terms_ = 0;
-  }
-
   double total_ = 0.0;     // of whole blocks
   double block_ = 0.0;     // of the block that is not whole
   std::size_t terms_ = 0;  // in it

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/measure/blocked_tally.hpp"
 #include "core/measure/run_start.hpp"
 
 namespace carom {
@@ -30,28 +31,11 @@ class StateTally {
   StateSums sums() const;
 
  private:
-  // blocked_sum, term by term.
-  class Sum {
-   public:
-    void add(double term) {
-      block_ += term;
-      if (++terms_ < sum_block) return;
-      total_ += block_;
-      block_ = 0.0;
-      terms_ = 0;
-    }
-    double value() const { return terms_ > 0 ? total_ + block_ : total_; }
-
-   private:
-    double total_ = 0.0, block_ = 0.0;
-    std::size_t terms_ = 0;
-  };
-
   const Scene& scene_;
   Domain box_;
   StateSums sums_;
   std::uint64_t hashes_ = 0;
-  Sum kinetic_, potential_, rotational_, relative_, px_, py_, magnitude_;
+  BlockedTally kinetic_, potential_, rotational_, relative_, px_, py_, magnitude_;
 };
 
 // Of a state with all disks.
