@@ -108,7 +108,8 @@ const JsonKey<Summary> summary_keys[] = {
      "mean over the run, from collisions and the kinetic energy halfway between start and end (in a shear flow that "
      "relative to it at the end); null likewise",
      [](const Summary& s) -> Json { return json_number(s.pressure); }},
-    {"collision_rate", "1 / time", "collisions that a disk takes part in per unit time",
+    {"collision_rate", "1 / time",
+     "collisions that a disk takes part in per unit time, over the time that all disks were there",
      [](const Summary& s) -> Json { return json_number(s.collision_rate); }},
     {"removed", "", "disks that sinks have taken", [](const Summary& s) -> Json { return s.counters.removed; }},
     {"emitted", "", "disks that came from sources", [](const Summary& s) -> Json { return s.counters.emitted; }},
@@ -251,9 +252,9 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   if (scene.box.shear.acts()) halfway.kinetic = sums.relative;
   s.pressure =
       of_velocities(pressure(halfway, state.counters.virial, elapsed, box_at(scene.box, state.time - 0.5 * elapsed)));
-  const double mean_disks = 0.5 * (static_cast<double>(start.particles) + static_cast<double>(s.particles));
-  const double disk_time = mean_disks * elapsed;
+  const double disk_time = state.counters.disk_time;
   if (disk_time > 0.0) s.collision_rate = 2.0 * static_cast<double>(state.counters.collisions) / disk_time;
+  if (elapsed > 0.0) s.mean_disks = disk_time / elapsed;
   s.state_hash = hash_text(sums.hash);
   s.seed = scene.seed;
   s.box = scene.box;
@@ -293,7 +294,7 @@ std::string table_text(const Summary& s, const std::string& folder) {
   if (!s.drawn_velocities) line("pressure", fmt::format("{:.6g}", s.pressure));
   line("state hash", s.state_hash);
   line("speed", fmt::format("{} steps/s, {} disk-steps/s; {} in all", short_number(rate),
-                            short_number(rate * static_cast<double>(s.particles)), duration_text(s.wall_s)));
+                            short_number(rate * s.mean_disks), duration_text(s.wall_s)));
   if (s.ranks) line("ranks", traffic_line(s));
   if (s.resumed > 0) line("resumed", s.resumed == 1 ? "once" : fmt::format("{} times", s.resumed));
   if (!folder.empty()) line("results", folder);

@@ -27,6 +27,7 @@ struct Summary {
   double momentum_drift = 0.0;                   // |change of sum m v| over sum |m v|, the larger of start and end
   double max_overlap = 0.0, wall_overlap = 0.0;  // now
   WorstOverlap worst_disks, worst_wall;          // of the whole run
+  double mean_disks = 0.0;                       // over the whole run
   double pressure = 0.0;        // over the whole run, from the kinetic energy halfway between start and end
   double collision_rate = 0.0;  // per disk per unit time: a collision counts for both disks
   std::string state_hash;

@@ -105,7 +105,7 @@ void add_displacement(AnalysisRecord& record, const Scene& scene, const Disks& d
 void add_means(AnalysisRecord& record, const Scene& scene, const Disks& disks, const State& now) {
   const bool first = record.series.time.size() == 1;
   const double elapsed = first ? 0.0 : now.time - record.counted_until;
-  const double disk_time = elapsed * static_cast<double>(disks.size());
+  const double disk_time = first ? 0.0 : now.counters.disk_time - record.before.disk_time;
   record.series.interval.push_back(elapsed);
   if (scene.analysis.wants(Quantity::pressure)) {
     const double virial = now.counters.virial - record.before.virial;

@@ -35,6 +35,7 @@ class ReferenceEngine : public Engine {
   void drift(double t);  // all disks
   void wrap_all();
   void remove_at_sinks();
+  Count all_disks() const { return state_.disks.size(); }
 
   Scene scene_;
   State state_;

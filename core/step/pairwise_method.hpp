@@ -32,6 +32,7 @@ class PairwiseMethod final : public Phases {
       start_interval(clock_.start(k), dt, k);
       kick_if_due();
     }
+    const Count disks = all_disks();
     const Count n = parts(dt);
     StepFigures figures;
     const double length = dt / static_cast<double>(n);
@@ -44,7 +45,7 @@ class PairwiseMethod final : public Phases {
     }
     remove_at_sinks();
     state_.step_begun = false;
-    ++state_.counters.steps;
+    count_step(state_.counters, disks, all_disks(), dt);
     state_.time = clock_.end(k);
     validity_.see_step(scene_, figures, state_);
     check_crushed(scene_, state_);
@@ -56,6 +57,7 @@ class PairwiseMethod final : public Phases {
   using Phases::state_;
   using Phases::validity_;
 
+  using Phases::all_disks;
   using Phases::drift;
   using Phases::keep_places;
   using Phases::kick_if_due;

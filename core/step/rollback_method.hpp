@@ -30,6 +30,8 @@ class RollbackMethod final : public Phases {
     if (state_.time >= scene_.run.t_end) return;
     check_crushed(scene_, state_);
     begin_frame();
+    const Count disks = all_disks();
+    const double begin = state_.time;
     const double end = frame_limit(scene_, state_, clock_);
     const double length = std::min(scene_.run.dt / static_cast<double>(parts(scene_.run.dt)), end - state_.time);
     StepFigures figures;
@@ -39,7 +41,7 @@ class RollbackMethod final : public Phases {
     state_.time = back == 0.0 && state_.time + length >= end ? end : std::min(end, state_.time + (length - back));
     if (scene_.box.inner_walls_move) scene_.box.clock = {state_.time, state_.time};
     remove_at_sinks();
-    ++state_.counters.steps;
+    count_step(state_.counters, disks, all_disks(), state_.time - begin);
     validity_.see_step(scene_, figures, state_);
     check_crushed(scene_, state_);
     check_stall(state_, scene_);
@@ -51,6 +53,7 @@ class RollbackMethod final : public Phases {
   using Phases::state_;
   using Phases::validity_;
 
+  using Phases::all_disks;
   using Phases::bounce;
   using Phases::drift;
   using Phases::find_approaching;

@@ -6,6 +6,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/types.hpp"
+#include "core/disks/state.hpp"
 
 namespace carom {
 
@@ -33,6 +34,16 @@ inline StepClock make_step_clock(double dt, double t_end) {
   // Where t_end is a whole number of steps but for rounding, the last step is a full one like the others.
   clock.last = whole ? dt : t_end - clock.start(clock.steps - 1);
   return clock;
+}
+
+// A step of this length is over. before, after: how many disks there were at its start, its sources' among them, and
+// are at its end. The sum is Kahan's, so that millions of steps round it no more than one does.
+inline void count_step(Counters& c, Count before, Count after, double length) {
+  ++c.steps;
+  const double more = 0.5 * length * static_cast<double>(before + after) - c.disk_time_excess;
+  const double sum = c.disk_time + more;
+  c.disk_time_excess = (sum - c.disk_time) - more;
+  c.disk_time = sum;
 }
 
 // In one part of a step no disk may move further than this share of its own radius, so that two disks approach by at

@@ -81,6 +81,7 @@ WindowPlan plan_window(const Scene& scene, const State& state, std::size_t disks
                        double scale) {
   WindowPlan plan;
   plan.start = state.time;
+  plan.disks = disks;
   const double longest = longest_window(scene, speeds, disks);
   plan.meant = clamped_window(state.window, longest) * scale;
   plan.least = least_window(longest) * scale;
@@ -115,7 +116,7 @@ WindowPlan shortened(const WindowPlan& plan, const ExactRules& rules, const Even
 void finish_window(State& state, std::size_t disks, const WindowPlan& plan, const ImpactTally& tally, double scale) {
   Counters& c = state.counters;
   tally.count_into(c);
-  ++c.steps;
+  count_step(c, plan.disks, disks, plan.length);
   state.time = plan.end;
   const double meant = plan.meant / scale;
   const double next = next_window(meant, plan.length / scale, tally.collisions + tally.wall_collisions, disks);

@@ -19,6 +19,7 @@ struct WindowPlan {
   double least = 0.0;   // length below which only crowded windows go
   double pace = 0.0;    // mean length of windows below which time all but stands still
   bool tc = false;      // the TC model makes collisions elastic
+  Count disks = 0;      // at its start
 };
 
 // Does the TC model make collisions elastic? Not where all are, whatever the scene says.

@@ -16,10 +16,11 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<Counters> T>
 void fields(Stream& stream, T& value) {
-  auto& [steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse,
-         side_energy, thermostat_heat, shear_virial, shear_work, wall_work, wall_push] = value;
-  stream(steps, collisions, wall_collisions, removed, emitted, waiting, virial, emitted_energy, wall_impulse,
-         side_energy, thermostat_heat, shear_virial, shear_work, wall_work, wall_push);
+  auto& [steps, collisions, wall_collisions, removed, emitted, waiting, disk_time, disk_time_excess, virial,
+         emitted_energy, wall_impulse, side_energy, thermostat_heat, shear_virial, shear_work, wall_work, wall_push] =
+      value;
+  stream(steps, collisions, wall_collisions, removed, emitted, waiting, disk_time, disk_time_excess, virial,
+         emitted_energy, wall_impulse, side_energy, thermostat_heat, shear_virial, shear_work, wall_work, wall_push);
 }
 
 template <class Stream, Is<SourceState> T>

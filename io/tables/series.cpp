@@ -41,11 +41,11 @@ double overlap_of(const DisksInPieces& disks, const Domain& box, const BlockRunn
 }  // namespace
 
 // energy, momentum_flow: of velocities relative to a shear flow.
-IntervalMeans SeriesMeter::means(Count disks, const Energy& energy, double momentum_flow, const State& now) const {
+IntervalMeans SeriesMeter::means(const Energy& energy, double momentum_flow, const State& now) const {
   const double elapsed = now.time - done_.counted_until;
   if (!(elapsed > 0.0)) return done_.means;
   const Counters& c = now.counters;
-  const double disk_time = elapsed * static_cast<double>(disks);
+  const double disk_time = c.disk_time - done_.before.disk_time;
   const auto collisions = static_cast<double>(c.collisions - done_.before.collisions);
   IntervalMeans mean{pressure(energy, c.virial - done_.before.virial, elapsed, box_at(box_, now.time)),
                      disk_time > 0.0 ? 2.0 * collisions / disk_time : 0.0,
@@ -68,12 +68,12 @@ SeriesRow SeriesMeter::row(const DisksInPieces& disks, const State& now, const B
   const auto count = static_cast<double>(disks.size());
   if (box_.shear.acts()) {
     const double relative = sums.relative.value();
-    done_.means = means(disks.size(), {relative}, sums.flow.value(), now);
+    done_.means = means({relative}, sums.flow.value(), now);
     const double temperature = disks.size() == 0 ? 0.0 : relative / count;
     const double stress = done_.means.shear_stress;
     shear_row_ = {stress, stress / box_.shear.rate, temperature, c.shear_work};
   } else {
-    done_.means = means(disks.size(), energy, 0.0, now);
+    done_.means = means(energy, 0.0, now);
   }
   const auto of_velocities = [&](double value) { return drawn_ ? std::numeric_limits<double>::quiet_NaN() : value; };
   const SeriesRow row{count,

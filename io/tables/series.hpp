@@ -80,7 +80,7 @@ class SeriesMeter {
   const MeterMark& mark() const { return done_; }
 
  private:
-  IntervalMeans means(Count disks, const Energy& energy, double momentum_flow, const State& now) const;
+  IntervalMeans means(const Energy& energy, double momentum_flow, const State& now) const;
 
   Domain box_;
   Gravity gravity_;

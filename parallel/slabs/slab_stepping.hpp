@@ -58,6 +58,7 @@ class SlabStepping : public Engine, public InSlabs {
   void keep_places() {}  // by search(), which may sort the disks anew
   bool presses_others();
   void remove_at_sinks();
+  Count all_disks() const { return disks_; }
 
   Scene scene_;
   State state_;

@@ -45,6 +45,7 @@ class TimeStepping : public Engine {
   void gather(const StepRules& rules);                   // all contacts into lists_.events (rollback)
   void finish_contacts();                                // wraps what they moved
   void remove_at_sinks();
+  Count all_disks() const { return state_.disks.size(); }
   void forget_speeds() { speed2_known_ = false; }  // after a phase that may have raised one unseen
 
   Scene scene_;

@@ -55,6 +55,19 @@ TEST_P(SourceSink, EmitsAtItsRate) {
   EXPECT_EQ(end.next_id, end.counters.emitted);
 }
 
+// A disk that leaves through a sink was there up to then, to half a step: rates are per disk that was there.
+TEST_P(SourceSink, CountsHowLongDisksAreThere) {
+  constexpr double dt = 0.25;
+  Scene s = scene(dt, 64.0);
+  s.box.sides[static_cast<std::size_t>(Side::left)] = SideKind::sink;
+  const State start = test::state_of(s, {{11.0, 20.0, -1.0, 0.0, 1.0, 1.0},   // leaves at 10
+                                         {41.0, 40.0, -2.0, 0.0, 1.0, 1.0},   // at 20
+                                         {50.0, 80.0, 0.0, 0.0, 1.0, 1.0}});  // stays
+  const State end = test::run(s, start);
+  EXPECT_EQ(end.counters.removed, 2U);
+  EXPECT_NEAR(end.counters.disk_time, 10.0 + 20.0 + 64.0, 2.0 * dt);
+}
+
 // More than find room: none ever overlaps, the rest waits and is counted, and the limit holds.
 TEST_P(SourceSink, NeverIntoAnOverlap) {
   Scene s = scene(0.05, 10.0);

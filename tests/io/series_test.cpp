@@ -53,12 +53,14 @@ TEST(Series, RowsHoldStateAndIntervalMeans) {
   SeriesWriter series(path, small_scene());
   series.write(d, 0.0, state);
   state.time = 0.5;
+  state.counters.disk_time = 1.5;  // both disks, and a third for the first half of it
   state.counters.collisions = 3;
   state.counters.wall_collisions = 5;
   state.counters.virial = 8.0;
   state.counters.wall_impulse[2] = 6.0;
   series.write(d, 0.5, state);
   state.time = 1.0;
+  state.counters.disk_time = 2.5;
   state.counters.collisions = 4;
   state.counters.removed = 7;
   series.write(d, 1.0, state);
@@ -77,7 +79,7 @@ TEST(Series, RowsHoldStateAndIntervalMeans) {
   EXPECT_EQ(rows[0]["pressure"], 0.0);
   EXPECT_EQ(rows[1]["t"], 0.5);
   EXPECT_EQ(rows[1]["pressure"], (11.0 + 8.0 / (2.0 * 0.5)) / 20.0);
-  EXPECT_EQ(rows[1]["collision_rate"], 2.0 * 3.0 / (2.0 * 0.5));
+  EXPECT_EQ(rows[1]["collision_rate"], 2.0 * 3.0 / 1.5);
   EXPECT_EQ(rows[1]["force_bottom"], 12.0);
   EXPECT_EQ(rows[1]["wall_collisions"], 5.0);
   EXPECT_EQ(rows[2]["pressure"], 11.0 / 20.0);

@@ -123,6 +123,8 @@ inline State scaled(State state, const Units& u) {
   d.common_radius *= u.length;
   d.common_mass *= u.mass;
   state.time *= u.time;
+  state.counters.disk_time *= u.time;
+  state.counters.disk_time_excess *= u.time;
   state.counters.virial *= u.mass * u.speed() * u.length;
   state.counters.emitted_energy *= u.energy();
   for (double& impulse : state.counters.wall_impulse) impulse *= u.mass * u.speed();

@@ -32,6 +32,7 @@ inline void expect_equal(const State& a, const State& b) {
   EXPECT_EQ(a.counters.wall_collisions, b.counters.wall_collisions);
   EXPECT_EQ(a.counters.removed, b.counters.removed);
   EXPECT_EQ(a.counters.emitted, b.counters.emitted);
+  EXPECT_EQ(a.counters.disk_time, b.counters.disk_time);
   EXPECT_EQ(a.counters.virial, b.counters.virial);
   EXPECT_EQ(a.counters.emitted_energy, b.counters.emitted_energy);
   for (int side = 0; side < 4; ++side) {

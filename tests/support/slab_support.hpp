@@ -89,6 +89,7 @@ inline void expect_same(const SlabTrace& expected, const SlabTrace& trace) {
   EXPECT_EQ(expected.counters.emitted, trace.counters.emitted);
   EXPECT_EQ(expected.counters.emitted_energy, trace.counters.emitted_energy);
   EXPECT_EQ(expected.counters.waiting, trace.counters.waiting);
+  EXPECT_EQ(expected.counters.disk_time, trace.counters.disk_time);
   EXPECT_EQ(expected.counters.shear_virial, trace.counters.shear_virial);
   EXPECT_EQ(expected.counters.shear_work, trace.counters.shear_work);
   EXPECT_EQ(expected.counters.wall_work, trace.counters.wall_work);
