@@ -31,8 +31,7 @@ bool wants_files(const Scene& scene) {
 
 bool wants_all_disks(const Scene& scene) {
   const OutputPlan& plan = scene.output;
-  return scene.analysis.any() || plan.movie || plan.view || !plan.plots.empty() ||
-         (wants_frames(plan) && !reported_groups(scene).empty());
+  return scene.analysis.any() || plan.movie || plan.view || !plan.plots.empty();
 }
 
 RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count)

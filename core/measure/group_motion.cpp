@@ -4,31 +4,37 @@
 
 namespace carom {
 
-GroupMotion group_motion(const Disks& d, std::span<const std::size_t> members) {
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  GroupMotion motion;
-  double mass = 0.0, px = 0.0, py = 0.0;
+void GroupTally::add(const Disks& d, std::span<const std::size_t> members) {
+  count_ += members.size();
   for (const std::size_t i : members) {
     const double m = d.mass_of(i);
-    mass += m;
-    px += m * d.vx[i];
-    py += m * d.vy[i];
-    motion.kinetic += 0.5 * m * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+    mass_ += m;
+    px_ += m * d.vx[i];
+    py_ += m * d.vy[i];
+    kinetic_ += 0.5 * m * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
   }
-  if (members.empty()) {
-    motion.temperature = nothing;
-    motion.velocity = {nothing, nothing};
-    return motion;
-  }
-  motion.velocity = {px / mass, py / mass};
-  double thermal = 0.0;
+}
+
+void GroupTally::add_thermal(const Disks& d, std::span<const std::size_t> members) {
+  const Vec2 mean = velocity();
   for (const std::size_t i : members) {
-    const double ux = d.vx[i] - motion.velocity.x;
-    const double uy = d.vy[i] - motion.velocity.y;
-    thermal += 0.5 * d.mass_of(i) * (ux * ux + uy * uy);
+    const double ux = d.vx[i] - mean.x;
+    const double uy = d.vy[i] - mean.y;
+    thermal_ += 0.5 * d.mass_of(i) * (ux * ux + uy * uy);
   }
-  motion.temperature = thermal / static_cast<double>(members.size());
-  return motion;
+}
+
+GroupMotion GroupTally::motion() const {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  if (count_ == 0) return {kinetic_, nothing, {nothing, nothing}};
+  return {kinetic_, thermal_ / static_cast<double>(count_), velocity()};
+}
+
+GroupMotion group_motion(const Disks& d, std::span<const std::size_t> members) {
+  GroupTally tally;
+  tally.add(d, members);
+  tally.add_thermal(d, members);
+  return tally.motion();
 }
 
 }  // namespace carom

@@ -14,8 +14,26 @@ struct GroupMotion {
   Vec2 velocity;             // V: momentum over mass; length / time; NaN without any
 };
 
-// members: storage indices in order of id, so that the sums have the same bits in any storage order. k_B = 1, two
-// degrees of freedom a disk: a block with velocities = { maxwell = T } starts with temperature T.
+// The motion of disks that come in pieces: all of them by add(), and then all once more by add_thermal(), as only then
+// their mean velocity is known. members: storage indices in order of id, over all pieces too, so that the sums have the
+// same bits in any storage order.
+class GroupTally {
+ public:
+  void add(const Disks& disks, std::span<const std::size_t> members);
+  void add_thermal(const Disks& disks, std::span<const std::size_t> members);
+
+  Count disks() const { return count_; }
+  GroupMotion motion() const;
+
+ private:
+  Vec2 velocity() const { return {px_ / mass_, py_ / mass_}; }
+
+  Count count_ = 0;
+  double mass_ = 0.0, px_ = 0.0, py_ = 0.0, kinetic_ = 0.0, thermal_ = 0.0;
+};
+
+// The same of disks that are all here. k_B = 1, two degrees of freedom a disk: a block with velocities =
+// { maxwell = T } starts with temperature T.
 GroupMotion group_motion(const Disks& disks, std::span<const std::size_t> members);
 
 }  // namespace carom

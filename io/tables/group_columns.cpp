@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/measure/group_motion.hpp"
+#include "core/measure/shear_flow.hpp"
 #include "core/scene/drawn_velocities.hpp"
 
 namespace carom {
@@ -18,7 +19,11 @@ std::vector<GroupColumn> group_column_kinds() {
           {"vy", false, "length / time", "likewise"}};
 }
 
-GroupMeter::GroupMeter(const Scene& scene) : groups_(reported_groups(scene)), drawn_(velocities_are_drawn(scene)) {}
+GroupMeter::GroupMeter(const Scene& scene, bool relative)
+    : groups_(reported_groups(scene)),
+      drawn_(velocities_are_drawn(scene)),
+      box_(scene.box),
+      relative_(relative && scene.box.shear.acts()) {}
 
 std::vector<GroupColumn> GroupMeter::columns() const {
   std::vector<GroupColumn> columns;
@@ -31,18 +36,33 @@ std::vector<GroupColumn> GroupMeter::columns() const {
   return columns;
 }
 
-std::vector<double> GroupMeter::row(const Disks& disks) const {
+template <class Use>
+void GroupMeter::visit(const DisksInPieces& disks, const Use& use) const {
+  disks.visit([&](const Disks& some) {
+    const Disks in_flow = relative_ ? relative_to_flow(some, box_) : Disks{};
+    const Disks& d = relative_ ? in_flow : some;
+    const std::vector<std::size_t> order = by_id(d);
+    const auto place_of = [&](DiskId id) {
+      return std::lower_bound(order.begin(), order.end(), id, [&](std::size_t i, DiskId k) { return d.id[i] < k; });
+    };
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const IdRange& ids = groups_[g].ids;
+      use(g, d, std::span<const std::size_t>(place_of(ids.first), place_of(ids.end)));
+    }
+  });
+}
+
+std::vector<double> GroupMeter::row(const DisksInPieces& disks) const {
   std::vector<double> row;
   if (groups_.empty()) return row;
-  const std::vector<std::size_t> order = by_id(disks);
-  const auto place_of = [&](DiskId id) {
-    return std::lower_bound(order.begin(), order.end(), id, [&](std::size_t i, DiskId k) { return disks.id[i] < k; });
-  };
+  using Members = std::span<const std::size_t>;
+  std::vector<GroupTally> tallies(groups_.size());
+  visit(disks, [&](std::size_t g, const Disks& d, Members members) { tallies[g].add(d, members); });
+  visit(disks, [&](std::size_t g, const Disks& d, Members members) { tallies[g].add_thermal(d, members); });
   const auto of_velocities = [&](double v) { return drawn_ ? std::numeric_limits<double>::quiet_NaN() : v; };
-  for (const NamedGroup& group : groups_) {
-    const std::span<const std::size_t> members(place_of(group.ids.first), place_of(group.ids.end));
-    const GroupMotion motion = group_motion(disks, members);
-    row.push_back(static_cast<double>(members.size()));
+  for (const GroupTally& tally : tallies) {
+    const GroupMotion motion = tally.motion();
+    row.push_back(static_cast<double>(tally.disks()));
     for (const double v : {motion.kinetic, motion.temperature, motion.velocity.x, motion.velocity.y}) {
       row.push_back(of_velocities(v));
     }

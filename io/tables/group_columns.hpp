@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/scene/disk_group.hpp"
 #include "core/scene/scene.hpp"
 
@@ -22,7 +22,8 @@ std::vector<GroupColumn> group_column_kinds();
 
 class GroupMeter {
  public:
-  explicit GroupMeter(const Scene& scene);
+  // relative: velocities are those relative to the flow of a sheared box.
+  explicit GroupMeter(const Scene& scene, bool relative = false);
 
   // Group by group; none where no block of the scene has a name.
   std::vector<GroupColumn> columns() const;
@@ -30,11 +31,18 @@ class GroupMeter {
   bool empty() const { return groups_.empty(); }
 
   // The disks of one frame, a value a column. What is made of velocities is NaN for Brownian motion.
-  std::vector<double> row(const Disks& disks) const;
+  std::vector<double> row(const DisksInPieces& disks) const;
+  std::vector<double> row(const Disks& disks) const { return row(WholeDisks(disks, 0.0)); }
 
  private:
+  // use(g, disks, members) for each group and each piece: those of its disks that are there, in order of id.
+  template <class Use>
+  void visit(const DisksInPieces& disks, const Use& use) const;
+
   std::vector<NamedGroup> groups_;
   bool drawn_;
+  Domain box_;
+  bool relative_;
 };
 
 }  // namespace carom

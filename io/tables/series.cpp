@@ -103,7 +103,7 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
     : file_(path),
       sources_(scene),
       meter_(scene, true),
-      groups_(scene),
+      groups_(scene, true),
       rotates_(scene.physics.surfaces.are_rough()),
       with_displacement_(scene.analysis.wants(Quantity::displacement)) {
   std::string heading = "t";
@@ -122,7 +122,7 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene, const Se
     : file_(path, from.file.bytes),
       sources_(scene),
       meter_(scene, true, from.meter),
-      groups_(scene),
+      groups_(scene, true),
       rotates_(scene.physics.surfaces.are_rough()),
       with_displacement_(scene.analysis.wants(Quantity::displacement)),
       rows_(from.file.frames) {}
@@ -156,8 +156,7 @@ SeriesRow SeriesWriter::write(const DisksInPieces& disks, const State& now, doub
     for (const double value : meter_.shear_row()) fmt::format_to(std::back_inserter(line), ",{}", value);
   }
   if (!groups_.empty()) {
-    for (const double value : groups_.row(relative_to_flow(disks.whole(), sources_.box)))
-      fmt::format_to(std::back_inserter(line), ",{}", value);
+    for (const double value : groups_.row(disks)) fmt::format_to(std::back_inserter(line), ",{}", value);
   }
   file_.write(line + "\n");
   file_.flush();

@@ -341,7 +341,7 @@ void H5mdWriter::write(const DisksInPieces& disks, Count step, const SeriesRow& 
     for (const double value : rotation_column_values(disks, run)) f.columns[++column].values.push_back(value);
   }
   if (!f.groups.empty()) {
-    for (const double value : f.groups.row(disks.whole())) f.columns[++column].values.push_back(value);
+    for (const double value : f.groups.row(disks)) f.columns[++column].values.push_back(value);
   }
   f.columns.back().values.push_back(disks.time());
   const auto count = static_cast<double>(disks.size());

@@ -8,61 +8,17 @@
 #include <sstream>
 
 #include "core/base/random.hpp"
-#include "core/disks/disks_in_pieces.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/measure/displacement.hpp"
+#include "core/scene/disk_group.hpp"
 #include "io/tables/series.hpp"
 #include "io/trajectory/trajectory_h5md.hpp"
 #include "io/trajectory/trajectory_xyz.hpp"
+#include "tests/support/cut_disks.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {
-
-// Pieces of so many ids; each has a radius and a mass a disk, in descending order of id.
-class CutDisks final : public DisksInPieces {
- public:
-  CutDisks(const Disks& disks, double time, DiskId ids) : disks_(disks), order_(by_id(disks)), time_(time), ids_(ids) {}
-  double time() const override { return time_; }
-  Count size() const override { return disks_.size(); }
-  const Disks& whole() const override {
-    ADD_FAILURE() << "asks for all disks";
-    return disks_;
-  }
-  std::optional<double> max_overlap() const override { return 0.125; }
-  void visit(const Use& use) const override {
-    std::vector<std::size_t> piece;
-    for (std::size_t k = 0; k <= order_.size(); ++k) {
-      const bool next = k == order_.size() || (!piece.empty() && number_of(order_[k]) != number_of(piece.front()));
-      if (next) hand_out(piece, use);
-      if (k < order_.size()) piece.push_back(order_[k]);
-    }
-  }
-
- private:
-  DiskId number_of(std::size_t i) const { return disks_.id[i] / ids_; }
-  void hand_out(std::vector<std::size_t>& piece, const Use& use) const {
-    Disks some;
-    some.inertia = disks_.inertia;
-    for (auto i = piece.rbegin(); i != piece.rend(); ++i) {
-      const Disk disk = disk_at(disks_, *i);
-      for (const auto& [column, value] :
-           {std::pair(&some.x, disk.x), std::pair(&some.y, disk.y), std::pair(&some.vx, disk.vx),
-            std::pair(&some.vy, disk.vy), std::pair(&some.radius, disk.radius), std::pair(&some.mass, disk.mass)}) {
-        column->push_back(value);
-      }
-      some.id.push_back(disk.id);
-      if (some.spins()) some.spin.push_back(disk.spin);
-    }
-    piece.clear();
-    use(some);
-  }
-
-  const Disks& disks_;
-  std::vector<std::size_t> order_;
-  double time_;
-  DiskId ids_;
-};
 
 // Disks of frame k: scattered in memory, some gone since the frame before.
 Disks frame_disks(const Scene& scene, std::uint32_t count, std::uint32_t k) {
@@ -91,6 +47,7 @@ std::string files_of(const test::TestFolder& folder, const Scene& scene, std::ui
   DisplacementTally rounds;
   XyzPlan plan{scene.box, scene.output.select};
   plan.rounds = &rounds;
+  plan.group_ends = ends_of_groups(scene);
   plan.spins = scene.physics.surfaces.are_rough();
   {
     H5mdWriter h5md(path("trajectory.h5"), scene, &rounds);
@@ -112,7 +69,7 @@ std::string files_of(const test::TestFolder& folder, const Scene& scene, std::ui
         series.write(disks, now);
       };
       if (ids == 0) write(WholeDisks(all, now.time));
-      if (ids > 0) write(CutDisks(all, now.time, ids));
+      if (ids > 0) write(test::CutDisks(all, now.time, ids));
     }
     h5md.close();
     xyz.close();
@@ -136,8 +93,11 @@ TEST(Pieces, FilesAreThoseOfTheWhole) {
   const test::TestFolder folder("pieces");
   const auto scene_with = [](const std::string& box, const std::string& physics, const std::string& output) {
     return parse_scene(fmt::format("[box]\nwidth = 40.0\nheight = 30.0\nleft = \"periodic\"\nright = \"periodic\"\n{}\n"
-                                   "[physics]\n{}\n[[disks]]\ncount = 4000\npositions = \"random\"\nradius = 0.01\n"
-                                   "mass = 1.5\n[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 1.0\n[output]\n"
+                                   "[physics]\n{}\n"
+                                   "[[disks]]\nname = \"few\"\ncount = 900\npositions = \"random\"\nradius = 0.01\n"
+                                   "mass = 1.5\n"
+                                   "[[disks]]\ncount = 3100\npositions = \"random\"\nradius = 0.01\nmass = "
+                                   "1.5\n[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 1.0\n[output]\n"
                                    "every = 0.25\ntrajectory = \"h5md\"\n{}\n",
                                    box, physics, output),
                        "scene", "");

@@ -107,10 +107,11 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcess) {
   }
 }
 
-// The other format, of some disks and of those in a part of the box.
+// The other format, of some disks and of those in a part of the box; with columns of a group that has a name.
 TEST_F(RanksRun, LeavesTheTrajectoryOfOneProcess) {
   const std::string run =
-      "run scene.toml --quiet --threads 1 --set output.trajectory=h5md --set physics.gravity=1.0 "
+      "run scene.toml --quiet --threads 1 --set output.trajectory=h5md --set disks.0.name=gas --set "
+      "physics.gravity=1.0 "
       "--set 'box.right=\"sink\"' --set 'box.left=\"wall\"' --set 'box.bottom=\"periodic\"' --set "
       "'box.top=\"periodic\"' ";
   for (const std::string select : {"", "--set 'output.select=\"every 3rd\"' ", "--set output.select=[2,2,15,30] "}) {
