@@ -24,6 +24,8 @@ constexpr double exact_disk_bytes = 275.0;
 // round.
 constexpr double frame_bytes = 20e6;
 constexpr double round_bytes = 8.0;
+// Where it draws a movie: two pictures and the fonts.
+constexpr double picture_bytes = 10e6;
 
 // Time spent on trying steps; seconds.
 constexpr double traffic_trial = 0.3;
@@ -48,6 +50,7 @@ RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks) {
   if (scene.box.has_thermal_side()) f.other_bytes += sizeof(std::uint32_t) * all;
   f.first_has_all = !f.alone.empty() || !starts_on_slabs(scene) || wants_all_disks(scene);
   f.first_bytes = f.other_bytes + (wants_frames(scene.output) ? frame_bytes + round_bytes * all : 0.0);
+  if (scene.output.movie) f.first_bytes += picture_bytes;
   f.traffic = try_slabs(scene, start, ranks, traffic_trial);
   return f;
 }

@@ -30,8 +30,7 @@ bool wants_files(const Scene& scene) {
 }
 
 bool wants_all_disks(const Scene& scene) {
-  const OutputPlan& plan = scene.output;
-  return scene.analysis.any() || plan.movie || plan.view || !plan.plots.empty();
+  return scene.analysis.any() || scene.output.view;
 }
 
 RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count)
@@ -148,20 +147,19 @@ void RunOutputs::frame(const DisksInPieces& disks, const State& now) {
     const bool displacement = scene_.analysis.wants(Quantity::displacement);
     row = series_->write(disks, now, displacement ? analysis_->displacement(disks.whole(), time) : 0.0, run_);
   }
-  if (!series_ && h5md_) row = meter_.row(disks, now, run_);
+  if (!series_ && (h5md_ || plot_energy_)) row = meter_.row(disks, now, run_);
   if (h5md_) h5md_->write(disks, now.counters.steps, row, run_);
-  if (plot_velocity_) record(velocities_, disks.whole(), time);
+  if (plot_velocity_) record(velocities_, disks);
   if (plot_energy_) {
-    const Energy energy = energy_of(disks.whole(), scene_.physics.gravity);
     energies_.t.push_back(time);
-    energies_.kinetic.push_back(energy.kinetic);
-    energies_.potential.push_back(energy.potential);
-    energies_.total.push_back(energy.total());
+    energies_.kinetic.push_back(row[kinetic_column]);
+    energies_.potential.push_back(row[potential_column]);
+    energies_.total.push_back(row[total_column]);
   }
-  if (scene_.output.movie && lost_movie_.empty()) add_to_movie(disks.whole(), time);
+  if (scene_.output.movie && lost_movie_.empty()) add_to_movie(disks);
 }
 
-void RunOutputs::add_to_movie(const Disks& disks, double time) {
+void RunOutputs::add_to_movie(const DisksInPieces& disks) {
   try {
     if (!movie_) {
       movie_ = std::make_unique<MovieWriter>(folder_.unfinished(),
@@ -170,7 +168,7 @@ void RunOutputs::add_to_movie(const Disks& disks, double time) {
         warnings_.emplace_back("ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on");
       }
     }
-    movie_->add(disks, time);
+    movie_->add(disks);
   } catch (const RunError& error) {
     lose_movie(error.what());
     warnings_.push_back(fmt::format("{}; the run goes on without a movie", lost_movie_));

@@ -77,7 +77,7 @@ class RunOutputs {
   XyzPlan xyz_plan() const;
   void draw_plots();
   bool draw(const std::function<bool()>& plot);  // false: there is no gnuplot
-  void add_to_movie(const Disks& disks, double time);
+  void add_to_movie(const DisksInPieces& disks);
   void lose_movie(const std::string& why);
 
   const Scene& scene_;
@@ -88,7 +88,7 @@ class RunOutputs {
   bool doubt_told_ = false;
   std::unique_ptr<XyzWriter> trajectory_;
   std::unique_ptr<H5mdWriter> h5md_;
-  SeriesMeter meter_;  // for trajectory.h5 where there is no series.csv
+  SeriesMeter meter_;  // for trajectory.h5 and energy.svg where there is no series.csv
   std::unique_ptr<SeriesWriter> series_;
   std::unique_ptr<RunningAnalysis> analysis_;
   std::unique_ptr<MovieWriter> movie_;  // from the first frame on, which sets its colour scale

@@ -23,13 +23,17 @@ void widen(ValueRange& range, bool any, double low, double high) {
   range = any ? ValueRange{std::min(range.low, low), std::max(range.high, high)} : ValueRange{low, high};
 }
 
-double speed_square_of(const Disks& disks) {
+// In order of ids: the same bits in any storage order.
+double speed_square_of(const DisksInPieces& disks) {
+  const auto n = static_cast<double>(disks.size());
   double mean = 0.0, greatest = 0.0;
-  for (std::size_t i = 0; i < disks.size(); ++i) {
-    const double v2 = disks.vx[i] * disks.vx[i] + disks.vy[i] * disks.vy[i];
-    mean += v2 / static_cast<double>(disks.size());
-    greatest = std::max(greatest, v2);
-  }
+  disks.visit([&](const Disks& d) {
+    for (const std::size_t i : by_id(d)) {
+      const double v2 = d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
+      mean += v2 / n;
+      greatest = std::max(greatest, v2);
+    }
+  });
   return std::min(greatest, reach * reach * mean);
 }
 
@@ -52,21 +56,24 @@ void SeenValues::add_mass(double low, double high) {
   widen(mass, any, low, high);
 }
 
-void SeenValues::add(const Disks& disks, const std::vector<DiskId>& group) {
-  if (disks.empty()) return;
+void SeenValues::add(const DisksInPieces& disks, const std::vector<DiskId>& group) {
+  if (disks.size() == 0) return;
   speed_square = std::max(speed_square, speed_square_of(disks));
-  const auto ends = [&](auto value) {
-    ValueRange range{value(0), value(0)};
-    for (std::size_t i = 1; i < disks.size(); ++i) widen(range, true, value(i), value(i));
-    return range;
-  };
-  const ValueRange radii = ends([&](std::size_t i) { return disks.radius_of(i); });
-  const ValueRange masses = ends([&](std::size_t i) { return disks.mass_of(i); });
-  add_radius(radii.low, radii.high);
-  add_mass(masses.low, masses.high);
-  last_id = std::max(last_id, *std::max_element(disks.id.begin(), disks.id.end()));
+  disks.visit([&](const Disks& d) {
+    if (d.empty()) return;
+    const auto ends = [&](auto value) {
+      ValueRange range{value(0), value(0)};
+      for (std::size_t i = 1; i < d.size(); ++i) widen(range, true, value(i), value(i));
+      return range;
+    };
+    const ValueRange radii = ends([&](std::size_t i) { return d.radius_of(i); });
+    const ValueRange masses = ends([&](std::size_t i) { return d.mass_of(i); });
+    add_radius(radii.low, radii.high);
+    add_mass(masses.low, masses.high);
+    last_id = std::max(last_id, *std::max_element(d.id.begin(), d.id.end()));
+    any = true;
+  });
   groups = std::max(groups, group.empty() ? 1 : *std::max_element(group.begin(), group.end()) + 1);
-  any = true;
 }
 
 ValueRange colour_range(const PictureLook& look, const SeenValues& seen) {

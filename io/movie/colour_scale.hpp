@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/scene/scene.hpp"
 #include "io/movie/colour_map.hpp"
 
@@ -22,8 +22,9 @@ struct SeenValues {
   DiskId groups = 0;  // numbers of groups are below
 
   // A frame: of the speeds, the fastest disk's or 2.5 root mean squares, whichever is less. group: of each disk, or
-  // empty.
-  void add(const Disks& disks, const std::vector<DiskId>& group);
+  // empty; a frame in several pieces has none.
+  void add(const DisksInPieces& disks, const std::vector<DiskId>& group);
+  void add(const Disks& disks, const std::vector<DiskId>& group) { add(WholeDisks(disks, 0.0), group); }
   void add_radius(double low, double high);
   void add_mass(double low, double high);
 };

@@ -110,9 +110,9 @@ FramePainter::FramePainter(FrameStyle style) : style_(std::move(style)), layout_
   draw_legends(context.get(), style_, layout_);
   cairo_surface_flush(background_.get());
   const PixelArea area = box_area(background_);
-  for_each_disk(as_disks(style_.obstacles), 0.0, {}, [&area](double x, double y, double radius, const Colour&) {
-    fill_disk(area, x, y, radius, obstacle_colour);
-  });
+  for_each_disk(
+      WholeDisks(as_disks(style_.obstacles), 0.0), {},
+      [&area](double x, double y, double radius, const Colour&) { fill_disk(area, x, y, radius, obstacle_colour); });
   cairo_surface_mark_dirty(background_.get());
 }
 
@@ -162,47 +162,53 @@ Colour FramePainter::colour_of(const Disks& disks, std::size_t i, const std::vec
 }
 
 template <class Draw>
-void FramePainter::for_each_disk(const Disks& disks, double time, const std::vector<DiskId>& group,
-                                 Draw draw_at) const {
-  const Domain box = box_at(style_.box, time);
+void FramePainter::for_each_disk(const DisksInPieces& disks, const std::vector<DiskId>& group, Draw draw) const {
+  const Domain box = box_at(style_.box, disks.time());
   const double smallest = disks.size() <= few_disks ? smallest_of_few : 0.0;
-  for (std::size_t i = 0; i < disks.size(); ++i) {
-    const Colour colour = colour_of(disks, i, group);
-    const double r = disks.radius_of(i);
-    const double pixels = std::max(r * layout_.scale, smallest);
-    // A disk across a periodic side is seen on the other one too.
-    const double across = !box.periodic_x()            ? 0.0
-                          : disks.x[i] < r             ? box.width
-                          : disks.x[i] > box.width - r ? -box.width
-                                                       : 0.0;
-    const double along = !box.periodic_y()             ? 0.0
-                         : disks.y[i] < r              ? box.height
-                         : disks.y[i] > box.height - r ? -box.height
-                                                       : 0.0;
-    const auto draw = [&](double x, double y) {
-      draw_at(layout_.left + x * layout_.scale, layout_.bottom - y * layout_.scale, pixels, colour);
-    };
-    draw(disks.x[i], disks.y[i]);
-    if (across != 0.0) draw(disks.x[i] + across, disks.y[i]);
-    if (along != 0.0 && box.shear.acts()) {
-      const double x = wrap(disks.x[i] + (along > 0.0 ? box.shear.offset : -box.shear.offset), box.width);
-      for (const double image : {x, x - box.width, x + box.width}) draw(image, disks.y[i] + along);
-      continue;
+  disks.visit([&](const Disks& d) {
+    for (const std::size_t i : by_id(d)) {
+      const Colour colour = colour_of(d, i, group);
+      const double pixels = std::max(d.radius_of(i) * layout_.scale, smallest);
+      for_each_image(d, i, box, [&](double x, double y) {
+        draw(layout_.left + x * layout_.scale, layout_.bottom - y * layout_.scale, pixels, colour);
+      });
     }
-    if (along != 0.0) draw(disks.x[i], disks.y[i] + along);
-    if (across != 0.0 && along != 0.0) draw(disks.x[i] + across, disks.y[i] + along);
-  }
+  });
 }
 
-void FramePainter::paint(const Disks& disks, double time, const std::vector<DiskId>& group) {
+// A disk across a periodic side is seen on the other one too. box: at the time of the disks.
+template <class Draw>
+void FramePainter::for_each_image(const Disks& disks, std::size_t i, const Domain& box, Draw draw) const {
+  const double r = disks.radius_of(i);
+  const double across = !box.periodic_x()            ? 0.0
+                        : disks.x[i] < r             ? box.width
+                        : disks.x[i] > box.width - r ? -box.width
+                                                     : 0.0;
+  const double along = !box.periodic_y()             ? 0.0
+                       : disks.y[i] < r              ? box.height
+                       : disks.y[i] > box.height - r ? -box.height
+                                                     : 0.0;
+  draw(disks.x[i], disks.y[i]);
+  if (across != 0.0) draw(disks.x[i] + across, disks.y[i]);
+  if (along != 0.0 && box.shear.acts()) {
+    const double x = wrap(disks.x[i] + (along > 0.0 ? box.shear.offset : -box.shear.offset), box.width);
+    for (const double image : {x, x - box.width, x + box.width}) draw(image, disks.y[i] + along);
+    return;
+  }
+  if (along != 0.0) draw(disks.x[i], disks.y[i] + along);
+  if (across != 0.0 && along != 0.0) draw(disks.x[i] + across, disks.y[i] + along);
+}
+
+void FramePainter::paint(const DisksInPieces& disks, const std::vector<DiskId>& group) {
   cairo_surface_flush(image_.get());
   std::memcpy(cairo_image_surface_get_data(image_.get()), cairo_image_surface_get_data(background_.get()), bytes());
   const PixelArea area = box_area(image_);
-  for_each_disk(disks, time, group, [&area](double x, double y, double radius, const Colour& colour) {
+  for_each_disk(disks, group, [&area](double x, double y, double radius, const Colour& colour) {
     fill_disk(area, x, y, radius, colour);
   });
   cairo_surface_mark_dirty(image_.get());
   const Context context = context_of(image_);
+  const double time = disks.time();
   draw_sides(context.get(), style_, layout_, time);
   draw_inner_walls(context.get(), style_, layout_, time);
   draw_stamps(context.get(), style_, layout_, disks.size(), time);
@@ -247,9 +253,9 @@ void FramePainter::write_svg(const std::string& path, const Disks& disks, double
       cairo_set_source_rgb(c, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
       cairo_fill(c);
     };
-    for_each_disk(as_disks(style_.obstacles), 0.0, {},
+    for_each_disk(WholeDisks(as_disks(style_.obstacles), 0.0), {},
                   [&](double x, double y, double radius, const Colour&) { draw(x, y, radius, obstacle_colour); });
-    for_each_disk(disks, time, group, draw);
+    for_each_disk(WholeDisks(disks, time), group, draw);
     cairo_restore(c);
     draw_sides(c, style_, layout_, time);
     draw_inner_walls(c, style_, layout_, time);

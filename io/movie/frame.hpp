@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/obstacle.hpp"
 #include "core/scene/scene.hpp"
@@ -37,7 +37,10 @@ struct FrameStyle {
 // What a run's disks will have, as far as its scene and its first disks show. Speeds to expect are those at the start
 // (2.5 times the root mean square, or the fastest disk if it is slower), what falling to the floor adds on average,
 // what equipartition gives the lighter ones, what sources and Brownian motion bring in.
-SeenValues foreseen_values(const Scene& scene, const Disks& first);
+SeenValues foreseen_values(const Scene& scene, const DisksInPieces& first);
+inline SeenValues foreseen_values(const Scene& scene, const Disks& first) {
+  return foreseen_values(scene, WholeDisks(first, 0.0));
+}
 
 // A style for all frames of a run.
 FrameStyle frame_style(const Scene& scene, const PictureLook& look, const SeenValues& seen);
@@ -61,9 +64,13 @@ class FramePainter {
   FramePainter& operator=(const FramePainter&) = delete;
   ~FramePainter();
 
-  // Draws a frame; pixels() and write_png() give it until the next call. group: of each disk, where the trajectory has
+  // Draws a frame; pixels() and write_png() give it until the next call. Disks are drawn in order of ids, so that the
+  // rims of two that share a pixel look the same in any storage order. group: of each disk, where the trajectory has
   // it; empty: by the style's group_ends.
-  void paint(const Disks& disks, double time, const std::vector<DiskId>& group = {});
+  void paint(const DisksInPieces& disks, const std::vector<DiskId>& group = {});
+  void paint(const Disks& disks, double time, const std::vector<DiskId>& group = {}) {
+    paint(WholeDisks(disks, time), group);
+  }
 
   // Pixels are 32-bit words 0x00rrggbb, row by row from the top.
   int width() const { return layout_.width; }
@@ -90,7 +97,9 @@ class FramePainter {
   Colour colour_of(const Disks& disks, std::size_t i, const std::vector<DiskId>& group) const;
   // draw(x, y, radius, colour), in pixels, for each disk, and again where it is seen across a periodic side.
   template <class Draw>
-  void for_each_disk(const Disks& disks, double time, const std::vector<DiskId>& group, Draw draw) const;
+  void for_each_disk(const DisksInPieces& disks, const std::vector<DiskId>& group, Draw draw) const;
+  template <class Draw>
+  void for_each_image(const Disks& disks, std::size_t i, const Domain& box, Draw draw) const;
 
   FrameStyle style_;
   FrameLayout layout_;

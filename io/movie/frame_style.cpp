@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/measure/invariants.hpp"
 #include "core/scene/disk_group.hpp"
 #include "core/scene/size_law.hpp"
 #include "core/start/initial_state.hpp"
@@ -20,18 +21,21 @@ constexpr double tail = 2.5;
 constexpr Count most_ids = std::numeric_limits<DiskId>::max();
 
 // Mean square speed once collisions have shared the energy out: 2 kT / m with kT = K / N, averaged over the disks. 0
-// for disks of one mass, where it says nothing new.
-double shared_square(const Disks& disks) {
-  double kinetic = 0.0, inverse_mass = 0.0, least = 0.0, greatest = 0.0;
-  for (std::size_t i = 0; i < disks.size(); ++i) {
-    const double mass = disks.mass_of(i);
-    kinetic += 0.5 * mass * (disks.vx[i] * disks.vx[i] + disks.vy[i] * disks.vy[i]);
-    inverse_mass += 1.0 / mass;
-    least = i == 0 ? mass : std::min(least, mass);
-    greatest = std::max(greatest, mass);
-  }
+// for disks of one mass, where it says nothing new. In order of ids, here and below: the same bits in any storage
+// order.
+double shared_square(const DisksInPieces& disks) {
+  double kinetic = 0.0, inverse_mass = 0.0, least = HUGE_VAL, greatest = 0.0;
+  disks.visit([&](const Disks& d) {
+    for (const std::size_t i : by_id(d)) {
+      const double mass = d.mass_of(i);
+      kinetic += kinetic_energy_of(d, i);
+      inverse_mass += 1.0 / mass;
+      least = std::min(least, mass);
+      greatest = std::max(greatest, mass);
+    }
+  });
   const auto n = static_cast<double>(disks.size());
-  return least == greatest ? 0.0 : 2.0 * (kinetic / n) * (inverse_mass / n);
+  return least >= greatest ? 0.0 : 2.0 * (kinetic / n) * (inverse_mass / n);
 }
 
 // The way of a disk along an axis of the box to the wall that it falls to. part: of gravity, towards low coordinates.
@@ -40,15 +44,17 @@ double way_down(double part, double coordinate, double radius, double length) {
 }
 
 // What falling to the floor, and to a side wall, adds, on average.
-double falling_square(const Disks& disks, const Gravity& gravity, const Domain& box) {
+double falling_square(const DisksInPieces& disks, const Gravity& gravity, const Domain& box) {
   double across = 0.0, height = 0.0;
-  for (std::size_t i = 0; i < disks.size(); ++i) {
-    const double r = disks.radius_of(i);
-    across += way_down(gravity.left, disks.x[i], r, box.width);
-    height += way_down(gravity.down, disks.y[i], r, box.height);
-  }
+  disks.visit([&](const Disks& d) {
+    for (const std::size_t i : by_id(d)) {
+      const double r = d.radius_of(i);
+      across += way_down(gravity.left, d.x[i], r, box.width);
+      height += way_down(gravity.down, d.y[i], r, box.height);
+    }
+  });
   const double work = std::abs(gravity.down) * height + std::abs(gravity.left) * across;
-  return disks.empty() ? 0.0 : 2.0 * work / static_cast<double>(disks.size());
+  return disks.size() == 0 ? 0.0 : 2.0 * work / static_cast<double>(disks.size());
 }
 
 // What the radii and masses of a source may be.
@@ -109,7 +115,7 @@ FrameStyle frame_style(const Scene& scene, const PictureLook& look, const SeenVa
   return style;
 }
 
-SeenValues foreseen_values(const Scene& scene, const Disks& first) {
+SeenValues foreseen_values(const Scene& scene, const DisksInPieces& first) {
   const Physics& physics = scene.physics;
   SeenValues seen;
   seen.add(first, {});

@@ -80,8 +80,8 @@ std::string MovieWriter::frame_path(Count number) const {
   return path(fmt::format("frames/frame_{:06}.png", number));
 }
 
-void MovieWriter::add(const Disks& disks, double time, const std::vector<DiskId>& group) {
-  painter_.paint(disks, time, group);
+void MovieWriter::add(const DisksInPieces& disks, const std::vector<DiskId>& group) {
+  painter_.paint(disks, group);
   if (single_frames()) {
     painter_.write_png(frame_path(frames_ + 1));
   } else {

@@ -29,7 +29,10 @@ class MovieWriter {
 
   // Throws RunError if the frame cannot be drawn or handed over, with what ffmpeg said.
   // group: as for FramePainter::paint.
-  void add(const Disks& disks, double time, const std::vector<DiskId>& group = {});
+  void add(const DisksInPieces& disks, const std::vector<DiskId>& group = {});
+  void add(const Disks& disks, double time, const std::vector<DiskId>& group = {}) {
+    add(WholeDisks(disks, time), group);
+  }
 
   // Of a movie.mp4: ends the part that is being made; what all parts hold is on the disk. Throws RunError if ffmpeg
   // could not write it.

@@ -30,23 +30,60 @@ void adopt_newcomers(VelocityRecord& record, const Disks& disks) {
 // Quantiles of more values than this tell no more to the eye.
 constexpr std::size_t most_sampled = 20'000;
 
-std::array<double, velocity_levels> levels_of(const Disks& disks, const std::vector<double>& velocity) {
-  constexpr std::array<double, velocity_levels - 2> shares{0.05, 0.25, 0.5, 0.75, 0.95};
-  const auto [least, greatest] = std::minmax_element(velocity.begin(), velocity.end());
-  const std::size_t stride = (disks.size() + most_sampled - 1) / most_sampled;
+// One component of the velocities in a frame.
+struct Component {
+  double least = HUGE_VAL, greatest = -HUGE_VAL;
   std::vector<double> sample;
+
+  void add(double velocity, bool sampled) {
+    velocity += 0.0;  // -0 becomes 0: in a file they differ, and which of them is the least hung on the order
+    least = std::min(least, velocity);
+    greatest = std::max(greatest, velocity);
+    if (sampled) sample.push_back(velocity);
+  }
+
+  std::array<double, velocity_levels> levels() {
+    constexpr std::array<double, velocity_levels - 2> shares{0.05, 0.25, 0.5, 0.75, 0.95};
+    std::sort(sample.begin(), sample.end());
+    std::array<double, velocity_levels> levels{};
+    levels.front() = least;
+    levels.back() = greatest;
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      levels[k + 1] = sample[static_cast<std::size_t>(std::lround(shares[k] * static_cast<double>(sample.size() - 1)))];
+    }
+    return levels;
+  }
+};
+
+// Precondition: there are disks.
+VelocityBand band_of(const DisksInPieces& disks) {
+  Component x, y;
+  const auto look = [&](std::size_t stride) {
+    disks.visit([&](const Disks& d) {
+      for (std::size_t i = 0; i < d.size(); ++i) {
+        const bool sampled = d.id[i] % stride == 0;
+        x.add(d.vx[i], sampled);
+        y.add(d.vy[i], sampled);
+      }
+    });
+  };
+  look((disks.size() + most_sampled - 1) / most_sampled);
+  if (x.sample.empty()) look(1);  // ids may all lie between the multiples
+  return {disks.time(), x.levels(), y.levels()};
+}
+
+// The next points of the curves of these disks.
+void add_points(VelocityRecord& record, const Disks& disks, double time) {
+  if (record.curves.empty()) return;
+  const DiskId last = record.curves.back().id;
   for (std::size_t i = 0; i < disks.size(); ++i) {
-    if (disks.id[i] % stride == 0) sample.push_back(velocity[i]);
+    if (disks.id[i] > last) continue;
+    if (auto* const curve = find_curve(record, disks.id[i])) {
+      curve->t.push_back(time);
+      curve->vx.push_back(disks.vx[i]);
+      curve->vy.push_back(disks.vy[i]);
+    }
   }
-  if (sample.empty()) sample = velocity;  // ids may all lie between the multiples
-  std::sort(sample.begin(), sample.end());
-  std::array<double, velocity_levels> levels{};
-  levels.front() = *least;
-  levels.back() = *greatest;
-  for (std::size_t k = 0; k < shares.size(); ++k) {
-    levels[k + 1] = sample[static_cast<std::size_t>(std::lround(shares[k] * static_cast<double>(sample.size() - 1)))];
-  }
-  return levels;
 }
 
 // One component of all disks: the bands, their edges with names, and the median.
@@ -75,21 +112,14 @@ Panel band_panel(const char* y_label, const VelocityRecord& record,
 
 }  // namespace
 
-void record(VelocityRecord& record, const Disks& disks, double time) {
-  record.end = time;
-  record.most = std::max<Count>(record.most, disks.size());
-  if (!disks.empty()) record.bands.push_back({time, levels_of(disks, disks.vx), levels_of(disks, disks.vy)});
-  if (record.curves.size() < most_velocity_curves) adopt_newcomers(record, disks);
-  if (record.curves.empty()) return;
-  const DiskId last = record.curves.back().id;
-  for (std::size_t i = 0; i < disks.size(); ++i) {
-    if (disks.id[i] > last) continue;
-    if (auto* const curve = find_curve(record, disks.id[i])) {
-      curve->t.push_back(time);
-      curve->vx.push_back(disks.vx[i]);
-      curve->vy.push_back(disks.vy[i]);
-    }
-  }
+void record(VelocityRecord& record, const DisksInPieces& disks) {
+  record.end = disks.time();
+  record.most = std::max(record.most, disks.size());
+  if (disks.size() > 0) record.bands.push_back(band_of(disks));
+  disks.visit([&](const Disks& some) {
+    if (record.curves.size() < most_velocity_curves) adopt_newcomers(record, some);
+    add_points(record, some, disks.time());
+  });
 }
 
 bool plot_velocity(const std::string& path, const std::string& title, const VelocityRecord& record) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 
 namespace carom {
 
@@ -33,7 +33,10 @@ struct VelocityRecord {
 };
 inline constexpr std::size_t most_velocity_curves = 10;
 
-void record(VelocityRecord& record, const Disks& disks, double time);
+void record(VelocityRecord& record, const DisksInPieces& disks);
+inline void record(VelocityRecord& velocities, const Disks& disks, double time) {
+  record(velocities, WholeDisks(disks, time));
+}
 
 struct EnergyRecord {
   std::vector<double> t, kinetic, potential, total;

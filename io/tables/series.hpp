@@ -54,6 +54,7 @@ inline constexpr std::array<SeriesColumn, 18> series_columns{{
 inline constexpr const char* displacement_column = "displacement";  // behind them, where [analysis] asks for it
 using SeriesRow = std::array<double, series_columns.size()>;        // counts are exact up to 2^53
 
+inline constexpr std::size_t kinetic_column = 1, potential_column = 2, total_column = 3;
 inline constexpr std::size_t collisions_column = 6, wall_collisions_column = 7;
 inline constexpr std::size_t overlap_column = 10;  // max_overlap
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <numeric>
 #include <sstream>
 
@@ -11,6 +12,8 @@
 #include "core/load/scene_file.hpp"
 #include "core/measure/displacement.hpp"
 #include "core/scene/disk_group.hpp"
+#include "io/movie/frame.hpp"
+#include "io/plots/plot.hpp"
 #include "io/tables/series.hpp"
 #include "io/trajectory/trajectory_h5md.hpp"
 #include "io/trajectory/trajectory_xyz.hpp"
@@ -111,6 +114,57 @@ TEST(Pieces, FilesAreThoseOfTheWhole) {
     for (const DiskId ids : {1U, 100U, 4096U}) {
       EXPECT_TRUE(whole == files_of(folder, scene, 4000, 4, ids)) << scene.output.select.stride << " " << ids;
     }
+  }
+}
+
+std::string bits(double value) {
+  return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+// What pictures and plots are made of: pixels, the ends of the colour scale, velocities. ids: as above.
+std::string pictures_of(const Scene& scene, std::uint32_t frames, DiskId ids) {
+  VelocityRecord velocities;
+  std::string all;
+  std::unique_ptr<FramePainter> painter;
+  const auto look = [&](const DisksInPieces& disks) {
+    record(velocities, disks);
+    const SeenValues seen = foreseen_values(scene, disks);
+    if (!painter) painter = std::make_unique<FramePainter>(frame_style(scene, scene.output.look, seen));
+    painter->paint(disks);
+    all.append(reinterpret_cast<const char*>(painter->pixels()), painter->bytes());
+    for (const double value : {seen.speed_square, seen.radius.low, seen.radius.high, seen.mass.low, seen.mass.high,
+                               static_cast<double>(seen.last_id)}) {
+      all += bits(value);
+    }
+  };
+  for (std::uint32_t k = 0; k < frames; ++k) {
+    const Disks disks = frame_disks(scene, 4000, k);
+    if (ids == 0) look(WholeDisks(disks, 0.25 * k));
+    if (ids > 0) look(test::CutDisks(disks, 0.25 * k, ids));
+  }
+  for (const VelocityBand& band : velocities.bands) {
+    for (std::size_t k = 0; k < velocity_levels; ++k) all += bits(band.vx[k]) + bits(band.vy[k]);
+  }
+  for (const VelocityRecord::Curve& curve : velocities.curves) {
+    for (std::size_t k = 0; k < curve.t.size(); ++k) all += bits(curve.t[k]) + bits(curve.vx[k]) + bits(curve.vy[k]);
+  }
+  return all;
+}
+
+TEST(Pieces, PicturesAreThoseOfTheWhole) {
+  const auto scene_with = [](const std::string& box, const std::string& colour) {
+    return parse_scene(fmt::format("[box]\nwidth = 4.0\nheight = 3.0\nleft = \"periodic\"\nright = \"periodic\"\n{}\n"
+                                   "[[disks]]\ncount = 900\npositions = \"random\"\nradius = 0.01\nmass = 1.5\n"
+                                   "[[disks]]\ncount = 3100\npositions = \"random\"\nradius = 0.01\nmass = 2.5\n"
+                                   "[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 1.0\n[output]\n"
+                                   "every = 0.25\nmovie = {{ colour = \"{}\", size = [600, 400] }}\n",
+                                   box, colour),
+                       "scene", "");
+  };
+  const std::string shear = "bottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = 0.5";
+  for (const Scene& scene : {scene_with("", "speed"), scene_with(shear, "group")}) {
+    const std::string whole = pictures_of(scene, 3, 0);
+    for (const DiskId ids : {1U, 100U, 4096U}) EXPECT_TRUE(whole == pictures_of(scene, 3, ids)) << ids;
   }
 }
 

@@ -150,17 +150,24 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithExact) {
   EXPECT_EQ(summary("one"), summary("parts"));
 }
 
-// A pile that lands; what contacts bear goes on from the checkpoint, too.
+// A pile that lands, with pictures of it; what contacts bear goes on from the checkpoint, too.
 TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithAPile) {
   const std::string run =
       "run scene.toml --quiet --threads 1 --set physics.gravity=40 --set physics.restitution=0.5 --set box.width=12 "
-      "--set box.height=10 --set disks.0.count=60 --set 'output.checkpoint=\"1000 s\"' -o ";
+      "--set box.height=10 --set disks.0.count=60 --set 'output.checkpoint=\"1000 s\"' "
+      "--set 'output.plots=[\"velocity\",\"energy\"]' --set 'output.movie={size=[320,320]}' -o ";
   ASSERT_EQ(carom(run + "one --t-end 0.5").status, 0);
   const Outcome o = carom(run + "r2 --ranks 2 --t-end 0.5");
   ASSERT_EQ(o.status, 0) << o.err;
-  for (const char* file : {"trajectory.xyz", "series.csv"}) {
+  for (const char* file : {"trajectory.xyz", "series.csv", "velocity.svg", "energy.svg"}) {
     EXPECT_TRUE(text_of(at("one") / file) == text_of(at("r2") / file)) << file;
   }
+  // Its bytes tell how many threads ffmpeg had, which finds fewer cores under mpiexec.
+  const auto pixels = [&](const std::string& folder) {
+    return shell("ffmpeg -loglevel error -i " + folder + "/movie.mp4 -f md5 -").out;
+  };
+  EXPECT_NE(pixels("one"), "");
+  EXPECT_EQ(pixels("one"), pixels("r2"));
   EXPECT_EQ(summary("one"), summary("r2"));
   EXPECT_EQ(o.err.find("one rank runs"), std::string::npos) << o.err;
   ASSERT_EQ(carom("resume r2 --quiet --t-end 0.55 --ranks 3").status, 0);
@@ -333,9 +340,13 @@ TEST_F(RanksRun, NoRankHasAllDisksForACheckpoint) {
 }
 
 // The same of frames: what rank 0 has of all disks are counts of their rounds, 8 MB, and some megabytes of pieces; HDF5
-// takes its share. One that had all disks would take 110 MB more than another rank.
+// and a movie's picture take their share. One that had all disks would take 110 MB more than another rank.
 TEST_F(RanksRun, NoRankHasAllDisksForAFrame) {
-  expect_even_peaks(carom(million_on_four + "--set output.every=0.06 --set output.trajectory=h5md"), 45e6);
+  expect_even_peaks(
+      carom(million_on_four +
+            "--set output.every=0.06 --set output.trajectory=h5md --set disks.0.name=gas --set output.movie=true "
+            "--set 'output.plots=[\"velocity\",\"energy\"]'"),
+      45e6);
 }
 
 // Of each run several ranks: started by the sweep, and by the script that it writes for Slurm.
