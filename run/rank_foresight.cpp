@@ -27,6 +27,14 @@ constexpr double round_bytes = 8.0;
 // Where it draws a movie: two pictures and the fonts.
 constexpr double picture_bytes = 10e6;
 
+// What rank 0 remembers of the first sample, for each disk of all ranks: places, with rounds, and velocities.
+double remembered_bytes(const Scene& scene) {
+  constexpr double two_numbers = 16.0;
+  const AnalysisPlan& plan = scene.analysis;
+  return (plan.wants(Quantity::displacement) ? two_numbers + round_bytes : 0.0) +
+         (plan.wants(Quantity::velocity_autocorrelation) ? two_numbers : 0.0);
+}
+
 // Time spent on trying steps; seconds.
 constexpr double traffic_trial = 0.3;
 
@@ -50,6 +58,7 @@ RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks) {
   if (scene.box.has_thermal_side()) f.other_bytes += sizeof(std::uint32_t) * all;
   f.first_has_all = !f.alone.empty() || !starts_on_slabs(scene) || wants_all_disks(scene);
   f.first_bytes = f.other_bytes + (wants_frames(scene.output) ? frame_bytes + round_bytes * all : 0.0);
+  f.first_bytes += remembered_bytes(scene) * all;
   if (scene.output.movie) f.first_bytes += picture_bytes;
   f.traffic = try_slabs(scene, start, ranks, traffic_trial);
   return f;

@@ -30,7 +30,7 @@ bool wants_files(const Scene& scene) {
 }
 
 bool wants_all_disks(const Scene& scene) {
-  return scene.analysis.any() || scene.output.view;
+  return samples_all_disks(scene) || scene.output.view;
 }
 
 RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count)
@@ -145,7 +145,7 @@ void RunOutputs::frame(const DisksInPieces& disks, const State& now) {
   SeriesRow row{};
   if (series_) {
     const bool displacement = scene_.analysis.wants(Quantity::displacement);
-    row = series_->write(disks, now, displacement ? analysis_->displacement(disks.whole(), time) : 0.0, run_);
+    row = series_->write(disks, now, displacement ? analysis_->displacement(disks) : 0.0, run_);
   }
   if (!series_ && (h5md_ || plot_energy_)) row = meter_.row(disks, now, run_);
   if (h5md_) h5md_->write(disks, now.counters.steps, row, run_);

@@ -162,7 +162,7 @@ RunObserver SceneRun::observer() {
   if (RunningAnalysis* const analysis = outputs.analysis()) {
     observer.sample = [this, &outputs, analysis](const DisksInPieces& disks) {
       outputs.follow(engine_, disks.time());
-      analysis->sample(disks.whole(), disks.time(), engine_.progress());
+      analysis->sample(disks, engine_.progress());
       take_output_warnings();
     };
     if (!analysis->record().series.time.empty()) observer.last_sample = analysis->last_time();

@@ -37,18 +37,19 @@ RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder,
 void RunningAnalysis::follow(const Engine& engine, double t) {
   if (!scene_.analysis.wants(Quantity::displacement)) return;
   if (follow_disks(record_.displacement, engine, scene_, t) && t == engine.progress().time) {
-    look_at(record_.displacement, engine.state().disks, scene_.box, t);
+    Disks room;
+    look_at(record_.displacement, *engine.pieces_at(t, room), scene_.box);
   }
 }
 
-void RunningAnalysis::sample(const Disks& disks, double time, const State& now) {
-  take_sample(record_, scene_, disks, time, now, count_);
+void RunningAnalysis::sample(const DisksInPieces& disks, const State& now) {
+  take_sample(record_, scene_, disks, now, count_);
   if (WallClock::now() - written_ > write_interval) write();
 }
 
-double RunningAnalysis::displacement(const Disks& disks, double time) {
+double RunningAnalysis::displacement(const DisksInPieces& disks) {
   if (!record_.displacement.begun) return std::numeric_limits<double>::quiet_NaN();
-  look_at(record_.displacement, disks, scene_.box, time);
+  look_at(record_.displacement, disks, scene_.box);
   return mean_square_displacement(record_.displacement, disks, scene_.box).value;
 }
 

@@ -22,10 +22,10 @@ class RunningAnalysis {
   void follow(const Engine& engine, double t);
 
   // Writes analysis.h5 now and then. Throws RunError where it cannot.
-  void sample(const Disks& disks, double time, const State& now);
+  void sample(const DisksInPieces& disks, const State& now);
 
   // Mean square displacement of the disks of a frame; NaN before the first sample.
-  double displacement(const Disks& disks, double time);
+  double displacement(const DisksInPieces& disks);
 
   const AnalysisRecord& record() const { return record_; }
   double last_time() const { return record_.series.time.back(); }  // of the last sample, if there is one

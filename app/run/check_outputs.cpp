@@ -160,7 +160,7 @@ Rehearsed rehearse(const Scene& scene, const EngineChoice& choice, const Engine&
   if (!sample || outputs.analysis() == nullptr) return r;
   start = WallClock::now();
   outputs.analysis()->follow(tried, tried.state().time);
-  outputs.analysis()->sample(tried.state().disks, tried.state().time, tried.state());
+  outputs.analysis()->sample(WholeDisks(tried.state().disks, tried.state().time), tried.state());
   r.sample_seconds = seconds_since(start);
   return r;
 }

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/measure/blocked_tally.hpp"
 #include "core/measure/bond_order.hpp"
 #include "core/measure/invariants.hpp"
-#include "core/measure/shear_flow.hpp"
+#include "core/measure/measured_disks.hpp"
 #include "core/scene/drawn_velocities.hpp"
 
 namespace carom {
@@ -15,21 +16,12 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-Disks disks_of(const Disks& all, const IdRange& ids) {
-  Disks some;
-  some.common_radius = all.common_radius;
-  some.common_mass = all.common_mass;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!ids.holds(all.id[i])) continue;
-    some.x.push_back(all.x[i]);
-    some.y.push_back(all.y[i]);
-    some.vx.push_back(all.vx[i]);
-    some.vy.push_back(all.vy[i]);
-    some.id.push_back(all.id[i]);
-    if (!all.radius.empty()) some.radius.push_back(all.radius[i]);
-    if (!all.mass.empty()) some.mass.push_back(all.mass[i]);
-  }
-  return some;
+// Sum of m v^2 / 2 over all disks.
+double kinetic_energy_of(const DisksInPieces& disks) {
+  BlockedTally sum;
+  disks.visit(
+      [&](const Disks& d) { sum.add(by_id(d), run_in_order, [&](std::size_t i) { return kinetic_energy_of(d, i); }); });
+  return sum.value();
 }
 
 void add_counts(PairRecord& pairs, const PairCounts& found) {
@@ -89,12 +81,12 @@ Profile& row_at(std::vector<Profile>& rows, const Scene& scene, double every, do
   return rows[k];
 }
 
-void add_displacement(AnalysisRecord& record, const Scene& scene, const Disks& disks, double t) {
+void add_displacement(AnalysisRecord& record, const Scene& scene, const DisksInPieces& disks) {
   DisplacementTally& tally = record.displacement;
   if (tally.begun) {
-    look_at(tally, disks, scene.box, t);
+    look_at(tally, disks, scene.box);
   } else {
-    begin_displacement(tally, disks, scene.box, t);
+    begin_displacement(tally, disks, scene.box);
   }
   const MeanSquare mean = mean_square_displacement(tally, disks, scene.box);
   record.series.displacement.push_back(mean.value);
@@ -102,7 +94,7 @@ void add_displacement(AnalysisRecord& record, const Scene& scene, const Disks& d
 }
 
 // Means over the time since the sample before, of all disks.
-void add_means(AnalysisRecord& record, const Scene& scene, const Disks& disks, const State& now) {
+void add_means(AnalysisRecord& record, const Scene& scene, const DisksInPieces& disks, const State& now) {
   const bool first = record.series.time.size() == 1;
   const double elapsed = first ? 0.0 : now.time - record.counted_until;
   const double disk_time = first ? 0.0 : now.counters.disk_time - record.before.disk_time;
@@ -110,9 +102,11 @@ void add_means(AnalysisRecord& record, const Scene& scene, const Disks& disks, c
   if (scene.analysis.wants(Quantity::pressure)) {
     const double virial = now.counters.virial - record.before.virial;
     const bool known = elapsed > 0.0 && !velocities_are_drawn(scene);
-    record.series.pressure.push_back(known ? pressure(energy_of(relative_to_flow(disks, scene.box), 0.0), virial,
-                                                      elapsed, box_at(scene.box, now.time))
-                                           : nothing);
+    const auto mean = [&] {
+      const Energy energy{kinetic_energy_of(DisksInFlow(disks, scene.box))};
+      return pressure(energy, virial, elapsed, box_at(scene.box, now.time));
+    };
+    record.series.pressure.push_back(known ? mean() : nothing);
   }
   if (scene.analysis.wants(Quantity::collision_rate)) {
     const auto collisions = static_cast<double>(now.counters.collisions - record.before.collisions);
@@ -201,7 +195,8 @@ bool goes_with(const AnalysisRecord& record, const Scene& scene) {
 
 namespace {
 
-void add_profiles(AnalysisRecord& record, const Scene& scene, const Disks& disks, double t) {
+void add_profiles(AnalysisRecord& record, const Scene& scene, const DisksInPieces& disks) {
+  const double t = disks.time();
   const AnalysisPlan& plan = scene.analysis;
   if (plan.wants(Quantity::density)) {
     add_density(record.density, disks, scene.box, plan.density_along_x);
@@ -220,45 +215,48 @@ void add_profiles(AnalysisRecord& record, const Scene& scene, const Disks& disks
 }
 
 // box: at the time of the sample.
-void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const Disks& disks, const Domain& box) {
+void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const DisksInPieces& disks, const Domain& box) {
   if (plan.wants(Quantity::structure_factor)) add_structure(record.structure, disks, box);
   if (plan.wants(Quantity::bond_order)) {
-    const BondOrder order = bond_order(disks, box);
+    const BondOrder order = bond_order(disks.whole(), box);
     record.series.local_order.push_back(order.local);
     record.series.global_order.push_back(order.global);
   }
   if (plan.wants(Quantity::bond_correlation)) {
-    add_bond_correlation(record.bonds, disks, box, distance_bins(plan.bonds));
+    add_bond_correlation(record.bonds, disks.whole(), box, distance_bins(plan.bonds));
   }
   if (plan.wants(Quantity::bond_autocorrelation)) {
-    if (!record.orders.begun) begin_memory(record.orders, disks, box);
-    record.series.bond_autocorrelation.push_back(bond_autocorrelation(record.orders, disks, box));
+    if (!record.orders.begun) begin_memory(record.orders, disks.whole(), box);
+    record.series.bond_autocorrelation.push_back(bond_autocorrelation(record.orders, disks.whole(), box));
   }
 }
 
 }  // namespace
 
-void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& all, double t, const State& now,
+bool samples_all_disks(const Scene& scene) {
+  const AnalysisPlan& plan = scene.analysis;
+  return plan.wants(Quantity::pair_correlation) || plan.wants(Quantity::bond_order) ||
+         plan.wants(Quantity::bond_correlation) || plan.wants(Quantity::bond_autocorrelation);
+}
+
+void take_sample(AnalysisRecord& record, const Scene& scene, const DisksInPieces& all, const State& now,
                  const PairCounter& count) {
   const AnalysisPlan& plan = scene.analysis;
-  const bool part = !plan.group.empty(), sheared = scene.box.shear.acts();
-  const Disks selected = part ? disks_of(all, plan.ids) : Disks{};
-  const Disks& disks = part ? selected : all;
-  const Disks relative = sheared ? relative_to_flow(disks, scene.box) : Disks{};
-  const Disks& in_flow = sheared ? relative : disks;
-  const Domain box = box_at(scene.box, t);
-  record.series.time.push_back(t);
+  const DisksOfGroup disks(all, plan.group.empty() ? std::nullopt : std::optional(plan.ids));
+  const DisksInFlow in_flow(disks, scene.box);
+  const Domain box = box_at(scene.box, all.time());
+  record.series.time.push_back(all.time());
   record.series.disks.push_back(static_cast<double>(disks.size()));
   if (plan.wants(Quantity::speeds) || plan.wants(Quantity::pressure)) {
-    const double kinetic = energy_of(in_flow, 0.0).kinetic;
-    record.series.temperature.push_back(disks.empty() ? nothing : kinetic / static_cast<double>(disks.size()));
+    const double kinetic = kinetic_energy_of(in_flow);
+    record.series.temperature.push_back(disks.size() == 0 ? nothing : kinetic / static_cast<double>(disks.size()));
   }
   if (plan.wants(Quantity::pair_correlation)) {
     const DistanceBins bins = distance_bins(plan.pairs);
-    add_pairs(record.pairs, count(disks, box, bins), area_of_centres(box, bins));
-    add_partial(record.partial, plan, box, disks, count);
+    add_pairs(record.pairs, count(disks.whole(), box, bins), area_of_centres(box, bins));
+    add_partial(record.partial, plan, box, disks.whole(), count);
   }
-  if (plan.wants(Quantity::displacement)) add_displacement(record, scene, disks, t);
+  if (plan.wants(Quantity::displacement)) add_displacement(record, scene, disks);
   if (plan.wants(Quantity::speeds)) {
     add_speeds(record.speeds, in_flow, record.series.temperature.back(), plan.speed_max);
   }
@@ -266,7 +264,7 @@ void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& all, d
     if (!record.velocities.begun) begin_memory(record.velocities, in_flow);
     record.series.autocorrelation.push_back(velocity_autocorrelation(record.velocities, in_flow));
   }
-  add_profiles(record, scene, disks, t);
+  add_profiles(record, scene, disks);
   add_order(record, plan, disks, box);
   add_means(record, scene, all, now);
 }

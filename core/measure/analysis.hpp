@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/state.hpp"
 #include "core/measure/bond_correlation.hpp"
 #include "core/measure/bond_memory.hpp"
@@ -64,12 +65,19 @@ AnalysisRecord empty_record(const Scene& scene);
 // Was the record made for this scene?
 bool goes_with(const AnalysisRecord& record, const Scene& scene);
 
-// Adds the disks of time t; now: what has been counted, at the end of the step that t lies in, as in series.csv. Means
-// are over the steps that have ended since the sample before: no collision is lost or counted twice, but of several
-// samples in one window of an exact run only the first has a mean, and the run's first sample has none. Where the plan
-// names a group, all but those means is of its disks alone. In a sheared box velocities are those relative to the flow,
-// and displacements those along y.
-void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& disks, double t, const State& now,
+// Adds the disks of a time t; now: what has been counted, at the end of the step that t lies in, as in series.csv.
+// Means are over the steps that have ended since the sample before: no collision is lost or counted twice, but of
+// several samples in one window of an exact run only the first has a mean, and the run's first sample has none. Where
+// the plan names a group, all but those means is of its disks alone. In a sheared box velocities are those relative to
+// the flow, and displacements those along y.
+void take_sample(AnalysisRecord& record, const Scene& scene, const DisksInPieces& disks, const State& now,
                  const PairCounter& count);
+inline void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& disks, double t, const State& now,
+                        const PairCounter& count) {
+  take_sample(record, scene, WholeDisks(disks, t), now, count);
+}
+
+// Does the plan ask for anything that is found among neighbours, of all disks at once?
+bool samples_all_disks(const Scene& scene);
 
 }  // namespace carom

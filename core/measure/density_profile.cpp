@@ -53,16 +53,18 @@ DensityProfile empty_density(std::size_t slabs) {
   return {std::vector<Count>(slabs, 0), std::vector<double>(slabs, 0.0), 0};
 }
 
-void add_density(DensityProfile& profile, const Disks& d, const Domain& box, bool along_x) {
+void add_density(DensityProfile& profile, const DisksInPieces& disks, const Domain& box, bool along_x) {
   const double length = along_x ? box.width : box.height;
   const auto count = static_cast<std::ptrdiff_t>(profile.centres.size());
   const Slabs slabs{length, length / static_cast<double>(count), count, along_x ? box.periodic_x() : box.periodic_y()};
-  const std::vector<double>& coordinate = along_x ? d.x : d.y;
   std::vector<ExactSum> covered(profile.centres.size());
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    ++profile.centres[slabs.nearest(slabs.at(coordinate[i]))];
-    share_out(slabs, coordinate[i], d.radius_of(i), covered);
-  }
+  disks.visit([&](const Disks& d) {
+    const std::vector<double>& coordinate = along_x ? d.x : d.y;
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      ++profile.centres[slabs.nearest(slabs.at(coordinate[i]))];
+      share_out(slabs, coordinate[i], d.radius_of(i), covered);
+    }
+  });
   for (std::size_t k = 0; k < covered.size(); ++k) profile.covered[k] += covered[k].value();
   ++profile.samples;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/domain.hpp"
 
 namespace carom {
@@ -19,7 +19,10 @@ struct DensityProfile {
 
 DensityProfile empty_density(std::size_t slabs);
 
-void add_density(DensityProfile& profile, const Disks& disks, const Domain& box, bool along_x);
+void add_density(DensityProfile& profile, const DisksInPieces& disks, const Domain& box, bool along_x);
+inline void add_density(DensityProfile& profile, const Disks& disks, const Domain& box, bool along_x) {
+  add_density(profile, WholeDisks(disks, 0.0), box, along_x);
+}
 
 // Part of a disk of radius 1 that lies below the line y = h: 0 for h <= -1, 1 for h >= 1.
 double share_below(double h);

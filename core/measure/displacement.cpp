@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
-#include "core/base/column.hpp"
 #include "core/disks/cell_index.hpp"
 
 namespace carom {
@@ -19,7 +19,7 @@ constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 // Disks a block of a look: a few milliseconds of work.
 constexpr std::size_t look_block = std::size_t{1} << 16;
 // Ids a block of the sum.
-constexpr Eigen::Index mean_block = 4096;
+constexpr DiskId mean_block = 4096;
 
 std::int32_t part_of(double coordinate, double period) {
   return cell_index(coordinate / period * static_cast<double>(parts), parts);
@@ -29,11 +29,19 @@ bool is_followed(const AxisTally& axis, DiskId id) {
   return id < axis.from.size() && !std::isnan(axis.from[id]);
 }
 
+// Ids begin without gaps: room for those of so many disks, which need not grow piece by piece.
+AxisTally empty_axis(Count disks, bool periodic) {
+  AxisTally axis;
+  axis.from.reserve(disks);
+  if (periodic) axis.sixteenth.reserve(disks);
+  return axis;
+}
+
 void begin_axis(AxisTally& axis, const std::vector<double>& coordinate, const std::vector<DiskId>& id, double period,
                 bool periodic) {
   const std::size_t ids = id.empty() ? 0 : std::size_t{*std::max_element(id.begin(), id.end())} + 1;
-  axis.from.assign(ids, nowhere);
-  axis.sixteenth.assign(periodic ? ids : 0, not_followed);
+  axis.from.resize(std::max(ids, axis.from.size()), nowhere);
+  if (periodic) axis.sixteenth.resize(axis.from.size(), not_followed);
   for (std::size_t i = 0; i < id.size(); ++i) {
     axis.from[id[i]] = coordinate[i];
     if (periodic) axis.sixteenth[id[i]] = part_of(coordinate[i], period);
@@ -98,12 +106,18 @@ double largest_speed(const DisksInPieces& disks) {
   return largest;
 }
 
-void begin_displacement(DisplacementTally& tally, const Disks& d, const Domain& box, double time) {
+void begin_displacement(DisplacementTally& tally, const DisksInPieces& disks, const Domain& box) {
   tally.begun = true;
-  tally.looked_at = tally.checked_at = time;
-  tally.fastest = largest_speed(d);
-  begin_axis(tally.x, d.x, d.id, box.width, box.periodic_x() && !box.shear.acts());
-  begin_axis(tally.y, d.y, d.id, box.height, box.periodic_y());
+  tally.looked_at = tally.checked_at = disks.time();
+  tally.fastest = 0.0;
+  const bool rounds_x = box.periodic_x() && !box.shear.acts(), rounds_y = box.periodic_y();
+  tally.x = empty_axis(disks.size(), rounds_x);
+  tally.y = empty_axis(disks.size(), rounds_y);
+  disks.visit([&](const Disks& d) {
+    tally.fastest = std::max(tally.fastest, largest_speed(d));
+    begin_axis(tally.x, d.x, d.id, box.width, rounds_x);
+    begin_axis(tally.y, d.y, d.id, box.height, rounds_y);
+  });
 }
 
 void look_at(DisplacementTally& tally, const Disks& d, const Domain& box, double time) {
@@ -133,21 +147,25 @@ std::int32_t rounds_of(const AxisTally& axis, DiskId id) {
   return id < axis.sixteenth.size() ? axis.sixteenth[id] >> 4 : 0;  // rounds down
 }
 
-MeanSquare mean_square_displacement(const DisplacementTally& tally, const Disks& d, const Domain& box) {
+// Block by block of ids, those that are gone as if they had not moved.
+MeanSquare mean_square_displacement(const DisplacementTally& tally, const DisksInPieces& disks, const Domain& box) {
   MeanSquare mean;
-  Column square = Column::Zero(static_cast<Eigen::Index>(tally.x.from.size()));  // by id; 0 of disks that are gone
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    if (!is_followed(tally.x, d.id[i])) continue;
-    const double dx = box.shear.acts() ? 0.0 : displacement(tally.x, d.x[i], d.id[i], box.width);
-    const double dy = displacement(tally.y, d.y[i], d.id[i], box.height);
-    square[d.id[i]] = dx * dx + dy * dy;
-    ++mean.disks;
-  }
-  double total = 0.0;
-  for (Eigen::Index begin = 0; begin < square.size(); begin += mean_block) {
-    total += square.segment(begin, std::min(mean_block, square.size() - begin)).sum();
-  }
-  mean.value = mean.disks > 0 ? total / static_cast<double>(mean.disks) : nowhere;
+  double total = 0.0, sum = 0.0;
+  DiskId block = 0;  // that the sum is of
+  disks.visit([&](const Disks& d) {
+    for (const std::size_t i : by_id(d)) {
+      if (!is_followed(tally.x, d.id[i])) continue;
+      const double dx = box.shear.acts() ? 0.0 : displacement(tally.x, d.x[i], d.id[i], box.width);
+      const double dy = displacement(tally.y, d.y[i], d.id[i], box.height);
+      if (d.id[i] / mean_block != block) {
+        total += std::exchange(sum, 0.0);
+        block = d.id[i] / mean_block;
+      }
+      sum += dx * dx + dy * dy;
+      ++mean.disks;
+    }
+  });
+  mean.value = mean.disks > 0 ? (total + sum) / static_cast<double>(mean.disks) : nowhere;
   return mean;
 }
 

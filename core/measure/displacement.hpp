@@ -41,7 +41,10 @@ double largest_speed(const Disks& disks);
 double largest_speed(const DisksInPieces& disks);
 
 // From here on displacements count, of the disks that are there.
-void begin_displacement(DisplacementTally& tally, const Disks& disks, const Domain& box, double time);
+void begin_displacement(DisplacementTally& tally, const DisksInPieces& disks, const Domain& box);
+inline void begin_displacement(DisplacementTally& tally, const Disks& disks, const Domain& box, double time) {
+  begin_displacement(tally, WholeDisks(disks, time), box);
+}
 
 // Takes note of where the disks are; a disk that came later is not followed.
 void look_at(DisplacementTally& tally, const Disks& disks, const Domain& box, double time);
@@ -67,6 +70,9 @@ struct MeanSquare {
   double value = 0.0;
   Count disks = 0;
 };
-MeanSquare mean_square_displacement(const DisplacementTally& tally, const Disks& disks, const Domain& box);
+MeanSquare mean_square_displacement(const DisplacementTally& tally, const DisksInPieces& disks, const Domain& box);
+inline MeanSquare mean_square_displacement(const DisplacementTally& tally, const Disks& disks, const Domain& box) {
+  return mean_square_displacement(tally, WholeDisks(disks, 0.0), box);
+}
 
 }  // namespace carom

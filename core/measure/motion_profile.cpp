@@ -11,17 +11,19 @@ MotionProfile empty_profile(std::size_t slabs) {
   return {std::vector<Count>(slabs, 0), zeros, zeros, zeros, zeros, 0};
 }
 
-void add_motion(MotionProfile& profile, const Disks& d, const Domain& box, bool along_x) {
+void add_motion(MotionProfile& profile, const DisksInPieces& disks, const Domain& box, bool along_x) {
   const double slabs_per_length = static_cast<double>(profile.disks.size()) / (along_x ? box.width : box.height);
-  for (const std::size_t i : by_id(d)) {
-    const std::size_t k = cell_index((along_x ? d.x[i] : d.y[i]) * slabs_per_length, profile.disks.size());
-    const double m = d.mass_of(i);
-    ++profile.disks[k];
-    profile.mass[k] += m;
-    profile.px[k] += m * d.vx[i];
-    profile.py[k] += m * d.vy[i];
-    profile.twice_k[k] += m * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
-  }
+  disks.visit([&](const Disks& d) {
+    for (const std::size_t i : by_id(d)) {
+      const std::size_t k = cell_index((along_x ? d.x[i] : d.y[i]) * slabs_per_length, profile.disks.size());
+      const double m = d.mass_of(i);
+      ++profile.disks[k];
+      profile.mass[k] += m;
+      profile.px[k] += m * d.vx[i];
+      profile.py[k] += m * d.vy[i];
+      profile.twice_k[k] += m * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+    }
+  });
   ++profile.samples;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/domain.hpp"
 
 namespace carom {
@@ -21,7 +21,10 @@ struct MotionProfile {
 MotionProfile empty_profile(std::size_t slabs);
 
 // In order of ids: the same bits in any storage order.
-void add_motion(MotionProfile& profile, const Disks& disks, const Domain& box, bool along_x);
+void add_motion(MotionProfile& profile, const DisksInPieces& disks, const Domain& box, bool along_x);
+inline void add_motion(MotionProfile& profile, const Disks& disks, const Domain& box, bool along_x) {
+  add_motion(profile, WholeDisks(disks, 0.0), box, along_x);
+}
 
 // Of slab k: the mean velocity V of all its disks and samples, and the temperature, (sum of m v^2 - M V^2) / 2 a disk.
 // NaN where no disk was.

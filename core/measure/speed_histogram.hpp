@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 
 namespace carom {
 
@@ -20,7 +20,10 @@ struct SpeedHistogram {
 
 // Adds the disks of one moment. temperature: mean kinetic energy a disk (two degrees of freedom of T / 2 each); where
 // it is 0 there is nothing to add.
-void add_speeds(SpeedHistogram& histogram, const Disks& disks, double temperature, double max);
+void add_speeds(SpeedHistogram& histogram, const DisksInPieces& disks, double temperature, double max);
+inline void add_speeds(SpeedHistogram& histogram, const Disks& disks, double temperature, double max) {
+  add_speeds(histogram, WholeDisks(disks, 0.0), temperature, max);
+}
 
 // Share of the disks that equilibrium has in bin k: exp(-u_k^2 / 2) - exp(-u_(k+1)^2 / 2), the integral of f.
 double maxwell_share(double max, std::size_t bins, std::size_t k);

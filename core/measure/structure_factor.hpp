@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/domain.hpp"
 
 namespace carom {
@@ -19,6 +19,9 @@ struct StructureFactor {
 };
 
 // box: at the time of the disks. In order of ids: the same bits in any storage order.
-void add_structure(StructureFactor& structure, const Disks& disks, const Domain& box);
+void add_structure(StructureFactor& structure, const DisksInPieces& disks, const Domain& box);
+inline void add_structure(StructureFactor& structure, const Disks& disks, const Domain& box) {
+  add_structure(structure, WholeDisks(disks, 0.0), box);
+}
 
 }  // namespace carom

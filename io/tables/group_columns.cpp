@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/measure/group_motion.hpp"
-#include "core/measure/shear_flow.hpp"
+#include "core/measure/measured_disks.hpp"
 #include "core/scene/drawn_velocities.hpp"
 
 namespace carom {
@@ -20,10 +20,7 @@ std::vector<GroupColumn> group_column_kinds() {
 }
 
 GroupMeter::GroupMeter(const Scene& scene, bool relative)
-    : groups_(reported_groups(scene)),
-      drawn_(velocities_are_drawn(scene)),
-      box_(scene.box),
-      relative_(relative && scene.box.shear.acts()) {}
+    : groups_(reported_groups(scene)), drawn_(velocities_are_drawn(scene)), box_(scene.box), relative_(relative) {}
 
 std::vector<GroupColumn> GroupMeter::columns() const {
   std::vector<GroupColumn> columns;
@@ -38,9 +35,7 @@ std::vector<GroupColumn> GroupMeter::columns() const {
 
 template <class Use>
 void GroupMeter::visit(const DisksInPieces& disks, const Use& use) const {
-  disks.visit([&](const Disks& some) {
-    const Disks in_flow = relative_ ? relative_to_flow(some, box_) : Disks{};
-    const Disks& d = relative_ ? in_flow : some;
+  disks.visit([&](const Disks& d) {
     const std::vector<std::size_t> order = by_id(d);
     const auto place_of = [&](DiskId id) {
       return std::lower_bound(order.begin(), order.end(), id, [&](std::size_t i, DiskId k) { return d.id[i] < k; });
@@ -52,9 +47,11 @@ void GroupMeter::visit(const DisksInPieces& disks, const Use& use) const {
   });
 }
 
-std::vector<double> GroupMeter::row(const DisksInPieces& disks) const {
+std::vector<double> GroupMeter::row(const DisksInPieces& all) const {
   std::vector<double> row;
   if (groups_.empty()) return row;
+  const DisksInFlow in_flow(all, box_);
+  const DisksInPieces& disks = relative_ ? static_cast<const DisksInPieces&>(in_flow) : all;
   using Members = std::span<const std::size_t>;
   std::vector<GroupTally> tallies(groups_.size());
   visit(disks, [&](std::size_t g, const Disks& d, Members members) { tallies[g].add(d, members); });

@@ -10,10 +10,12 @@
 
 #include "core/base/random.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/measure/analysis.hpp"
 #include "core/measure/displacement.hpp"
 #include "core/scene/disk_group.hpp"
 #include "io/movie/frame.hpp"
 #include "io/plots/plot.hpp"
+#include "io/tables/analysis_file.hpp"
 #include "io/tables/series.hpp"
 #include "io/trajectory/trajectory_h5md.hpp"
 #include "io/trajectory/trajectory_xyz.hpp"
@@ -165,6 +167,44 @@ TEST(Pieces, PicturesAreThoseOfTheWhole) {
   for (const Scene& scene : {scene_with("", "speed"), scene_with(shear, "group")}) {
     const std::string whole = pictures_of(scene, 3, 0);
     for (const DiskId ids : {1U, 100U, 4096U}) EXPECT_TRUE(whole == pictures_of(scene, 3, ids)) << ids;
+  }
+}
+
+// What is measured of the frames, as its file. ids: as above.
+std::string samples_of(const test::TestFolder& folder, const Scene& scene, std::uint32_t frames, DiskId ids) {
+  AnalysisRecord record = empty_record(scene);
+  for (std::uint32_t k = 0; k < frames; ++k) {
+    const Disks disks = frame_disks(scene, 9000, k);
+    State now;
+    now.time = 0.25 * k;
+    now.counters.virial = 3.5 * k;
+    now.counters.collisions = 7 * k;
+    if (ids == 0) take_sample(record, scene, WholeDisks(disks, now.time), now, count_pairs);
+    if (ids > 0) take_sample(record, scene, test::CutDisks(disks, now.time, ids), now, count_pairs);
+  }
+  const std::string path = (folder.path() / "analysis.h5").string();
+  write_analysis(path, scene, record);
+  return bytes_of(path);
+}
+
+TEST(Pieces, SamplesAreThoseOfTheWhole) {
+  const test::TestFolder folder("pieces_samples");
+  const auto scene_with = [](const std::string& box, const std::string& analysis) {
+    return parse_scene(
+        fmt::format("[box]\nwidth = 40.0\nheight = 30.0\nleft = \"periodic\"\nright = \"periodic\"\n{}\n"
+                    "[[disks]]\nname = \"few\"\ncount = 900\npositions = \"random\"\nradius = 0.01\nmass = 1.5\n"
+                    "[[disks]]\ncount = 8100\npositions = \"random\"\nradius = 0.01\nmass = 1.5\n"
+                    "[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 1.0\n[analysis]\n"
+                    "what = [\"displacement\", \"speeds\", \"density\", \"pressure\", \"collision_rate\", \"profile\", "
+                    "\"velocity_autocorrelation\", \"structure_factor\"]\ndensity = {{ every = 0.5 }}\n"
+                    "profile = {{ axis = \"x\", every = 0.5 }}\n{}\n",
+                    box, analysis),
+        "scene", "");
+  };
+  const std::string shear = "bottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = 0.5";
+  for (const Scene& scene : {scene_with("", ""), scene_with("", "select = \"few\""), scene_with(shear, "")}) {
+    const std::string whole = samples_of(folder, scene, 4, 0);
+    for (const DiskId ids : {1U, 100U, 4100U}) EXPECT_TRUE(whole == samples_of(folder, scene, 4, ids)) << ids;
   }
 }
 

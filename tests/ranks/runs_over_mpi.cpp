@@ -107,13 +107,15 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcess) {
   }
 }
 
-// The other format, of some disks and of those in a part of the box; with columns of a group that has a name.
+// The other format, of some disks and of those in a part of the box; with columns of a group that has a
+// name, and with what is measured of disks one by one.
 TEST_F(RanksRun, LeavesTheTrajectoryOfOneProcess) {
   const std::string run =
       "run scene.toml --quiet --threads 1 --set output.trajectory=h5md --set disks.0.name=gas --set "
       "physics.gravity=1.0 "
       "--set 'box.right=\"sink\"' --set 'box.left=\"wall\"' --set 'box.bottom=\"periodic\"' --set "
-      "'box.top=\"periodic\"' ";
+      "'box.top=\"periodic\"' --set 'analysis.what=[\"displacement\",\"speeds\",\"density\",\"pressure\",\"profile\","
+      "\"velocity_autocorrelation\",\"structure_factor\"]' ";
   for (const std::string select : {"", "--set 'output.select=\"every 3rd\"' ", "--set output.select=[2,2,15,30] "}) {
     fs::remove_all(at("one"));
     ASSERT_EQ(carom(run + select + "-o one").status, 0);
@@ -121,7 +123,7 @@ TEST_F(RanksRun, LeavesTheTrajectoryOfOneProcess) {
       fs::remove_all(at("several"));
       const Outcome o = carom(run + select + "-o several --ranks " + ranks);
       ASSERT_EQ(o.status, 0) << o.err;
-      for (const char* file : {"trajectory.h5", "series.csv"}) {
+      for (const char* file : {"trajectory.h5", "series.csv", "analysis.h5"}) {
         EXPECT_TRUE(text_of(at("one") / file) == text_of(at("several") / file)) << ranks << select << file;
       }
     }
@@ -345,7 +347,8 @@ TEST_F(RanksRun, NoRankHasAllDisksForAFrame) {
   expect_even_peaks(
       carom(million_on_four +
             "--set output.every=0.06 --set output.trajectory=h5md --set disks.0.name=gas --set output.movie=true "
-            "--set 'output.plots=[\"velocity\",\"energy\"]'"),
+            "--set 'output.plots=[\"velocity\",\"energy\"]' "
+            "--set 'analysis.what=[\"speeds\",\"density\",\"pressure\",\"profile\",\"structure_factor\"]'"),
       45e6);
 }
 

@@ -1,0 +1,51 @@
+#include "core/measure/measured_disks.hpp"
+
+#include "core/measure/shear_flow.hpp"
+
+namespace carom {
+
+Disks disks_of(const Disks& all, const IdRange& ids) {
+  Disks some;
+  some.common_radius = all.common_radius;
+  some.common_mass = all.common_mass;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!ids.holds(all.id[i])) continue;
+    some.x.push_back(all.x[i]);
+    some.y.push_back(all.y[i]);
+    some.vx.push_back(all.vx[i]);
+    some.vy.push_back(all.vy[i]);
+    some.id.push_back(all.id[i]);
+    if (!all.radius.empty()) some.radius.push_back(all.radius[i]);
+    if (!all.mass.empty()) some.mass.push_back(all.mass[i]);
+  }
+  return some;
+}
+
+DisksOfGroup::DisksOfGroup(const DisksInPieces& all, const std::optional<IdRange>& ids)
+    : all_(all), ids_(ids), size_(ids ? 0 : all.size()) {
+  if (ids) all.visit([&](const Disks& some) { size_ += disks_of(some, *ids).size(); });
+}
+
+void DisksOfGroup::visit(const Use& use) const {
+  if (!ids_) return all_.visit(use);
+  all_.visit([&](const Disks& some) { use(disks_of(some, *ids_)); });
+}
+
+const Disks& DisksOfGroup::whole() const {
+  if (!ids_) return all_.whole();
+  if (!whole_) whole_ = disks_of(all_.whole(), *ids_);
+  return *whole_;
+}
+
+void DisksInFlow::visit(const Use& use) const {
+  if (!box_.shear.acts()) return disks_.visit(use);
+  disks_.visit([&](const Disks& some) { use(relative_to_flow(some, box_)); });
+}
+
+const Disks& DisksInFlow::whole() const {
+  if (!box_.shear.acts()) return disks_.whole();
+  if (!whole_) whole_ = relative_to_flow(disks_.whole(), box_);
+  return *whole_;
+}
+
+}  // namespace carom
