@@ -13,7 +13,7 @@
 #include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"
 #include "io/checkpoint/checkpoint.hpp"
-#include "parallel/pair_counting.hpp"
+#include "parallel/cells/pair_counting.hpp"
 #include "parallel/simulation.hpp"
 #include "parallel/slabs/leading_engine.hpp"
 #include "parallel/start/random_placement.hpp"

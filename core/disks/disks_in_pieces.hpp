@@ -3,8 +3,10 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "core/disks/disks.hpp"
+#include "core/disks/pair_counts.hpp"
 
 namespace carom {
 
@@ -27,6 +29,10 @@ class DisksInPieces {
 
   // The largest overlap of two disks over the sum of their radii, where that is known without all disks.
   virtual std::optional<double> max_overlap() const { return std::nullopt; }
+
+  // The pairs that the scene's [analysis] counts (core/measure/pair_records.hpp), where they are counted without all
+  // disks.
+  virtual std::optional<std::vector<PairCounts>> pair_counts() const { return std::nullopt; }
 
   // All of them at once: of several ranks, on this one.
   virtual const Disks& whole() const = 0;

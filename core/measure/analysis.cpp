@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/measure/blocked_tally.hpp"
 #include "core/measure/bond_order.hpp"
@@ -22,50 +23,6 @@ double kinetic_energy_of(const DisksInPieces& disks) {
   disks.visit(
       [&](const Disks& d) { sum.add(by_id(d), run_in_order, [&](std::size_t i) { return kinetic_energy_of(d, i); }); });
   return sum.value();
-}
-
-void add_counts(PairRecord& pairs, const PairCounts& found) {
-  for (std::size_t k = 0; k < pairs.counts.size(); ++k) pairs.counts[k] += found.counts[k];
-  pairs.centres += found.centres;
-}
-
-void add_pairs(PairRecord& pairs, const PairCounts& found, double area) {
-  const auto n = static_cast<double>(found.centres);
-  add_counts(pairs, found);
-  if (found.centres > 0) pairs.expected += n * (n - 1.0) / area;
-}
-
-// Pairs of two groups are those of both together without those of each.
-PairCounts between(const PairCounts& both, const PairCounts& one, const PairCounts& other) {
-  PairCounts pairs{both.centres, both.counts};
-  for (std::size_t k = 0; k < pairs.counts.size(); ++k) pairs.counts[k] -= one.counts[k] + other.counts[k];
-  return pairs;
-}
-
-Disks joined(const Disks& all, const IdRange& one, const IdRange& other) {
-  Disks both = disks_of(all, one);
-  const Disks more = disks_of(all, other);
-  for (std::size_t i = 0; i < more.size(); ++i) append(both, disk_at(more, i));
-  return both;
-}
-
-void add_partial(std::vector<PairRecord>& partial, const AnalysisPlan& plan, const Domain& box, const Disks& disks,
-                 const PairCounter& count) {
-  const std::vector<NamedIds>& groups = plan.pair_groups;
-  const DistanceBins bins = distance_bins(plan.pairs);
-  const double area = area_of_centres(box, bins);
-  std::vector<PairCounts> own;
-  for (const NamedIds& group : groups) own.push_back(count(disks_of(disks, group.ids), box, bins));
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    add_pairs(partial[next++], own[k], area);
-    for (std::size_t l = k + 1; l < groups.size(); ++l) {
-      PairRecord& pairs = partial[next++];
-      const PairCounts both = count(joined(disks, groups[k].ids, groups[l].ids), box, bins);
-      add_counts(pairs, between(both, own[k], own[l]));
-      pairs.expected += 2.0 * static_cast<double>(own[k].centres) * static_cast<double>(own[l].centres) / area;
-    }
-  }
 }
 
 // The row of the profile that a sample at time t belongs to: at the edge of two, to the later one; the last moment, to
@@ -117,10 +74,6 @@ void add_means(AnalysisRecord& record, const Scene& scene, const DisksInPieces& 
 }
 
 }  // namespace
-
-DistanceBins distance_bins(const DistancePlan& plan) {
-  return {plan.r_max, static_cast<std::size_t>(plan.bins), plan.wall_margin};
-}
 
 AnalysisRecord empty_record(const Scene& scene) {
   const AnalysisPlan& plan = scene.analysis;
@@ -235,7 +188,8 @@ void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const DisksInPi
 
 bool samples_all_disks(const Scene& scene) {
   const AnalysisPlan& plan = scene.analysis;
-  return plan.wants(Quantity::pair_correlation) || plan.wants(Quantity::bond_order) ||
+  // The images above a sheared box are displaced: slabs do not know them.
+  return (plan.wants(Quantity::pair_correlation) && scene.box.shear.acts()) || plan.wants(Quantity::bond_order) ||
          plan.wants(Quantity::bond_correlation) || plan.wants(Quantity::bond_autocorrelation);
 }
 
@@ -252,9 +206,8 @@ void take_sample(AnalysisRecord& record, const Scene& scene, const DisksInPieces
     record.series.temperature.push_back(disks.size() == 0 ? nothing : kinetic / static_cast<double>(disks.size()));
   }
   if (plan.wants(Quantity::pair_correlation)) {
-    const DistanceBins bins = distance_bins(plan.pairs);
-    add_pairs(record.pairs, count(disks.whole(), box, bins), area_of_centres(box, bins));
-    add_partial(record.partial, plan, box, disks.whole(), count);
+    const std::optional<std::vector<PairCounts>> known = all.pair_counts();
+    add_pairs(record.pairs, record.partial, plan, box, known ? *known : pairs_of_plan(plan, all.whole(), box, count));
   }
   if (plan.wants(Quantity::displacement)) add_displacement(record, scene, disks);
   if (plan.wants(Quantity::speeds)) {

@@ -10,19 +10,13 @@
 #include "core/measure/density_profile.hpp"
 #include "core/measure/displacement.hpp"
 #include "core/measure/motion_profile.hpp"
-#include "core/measure/pair_distances.hpp"
+#include "core/measure/pair_records.hpp"
 #include "core/measure/speed_histogram.hpp"
 #include "core/measure/structure_factor.hpp"
 #include "core/measure/velocity_memory.hpp"
 #include "core/scene/scene.hpp"
 
 namespace carom {
-
-struct PairRecord {
-  std::vector<Count> counts;  // ordered pairs, by bin, summed over the samples
-  Count centres = 0;          // likewise, disks whose surroundings were counted
-  double expected = 0.0;  // likewise, n (n - 1) / A: ordered pairs that n disks anywhere in A make in a unit of area
-};
 
 // One entry a sample. What a scene does not ask for is empty.
 struct SampleSeries {
@@ -56,8 +50,6 @@ struct AnalysisRecord {
   BondCorrelation bonds;
   BondMemory orders;
 };
-
-DistanceBins distance_bins(const DistancePlan& plan);
 
 // An empty record with the bins that the scene asks for.
 AnalysisRecord empty_record(const Scene& scene);

@@ -10,6 +10,7 @@
 
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/pair_counts.hpp"
 #include "core/scene/scene.hpp"
 
 namespace carom {
@@ -111,12 +112,6 @@ void DistanceCells::visit(std::size_t begin, std::size_t end, const Add& add) co
     }
   }
 }
-
-// Pairs of one moment.
-struct PairCounts {
-  Count centres = 0;          // disks whose surroundings were counted
-  std::vector<Count> counts;  // ordered pairs from them, by bin
-};
 
 // What counts them: serially, or on all threads with the same result.
 using PairCounter = std::function<PairCounts(const Disks&, const Domain&, const DistanceBins&)>;

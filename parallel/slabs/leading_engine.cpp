@@ -70,10 +70,10 @@ Disks deal_out(Ranks& ranks, const SlabStart& start, DiskSource* all, Disks part
 class LeadingEngine final : public Engine {
  public:
   // Of exact: it knows where disks were within a window.
-  LeadingEngine(Ranks& ranks, RankLead& lead, const Scene& scene, std::unique_ptr<Engine> part)
+  LeadingEngine(Ranks& ranks, RankLead& lead, const Scene& scene, std::unique_ptr<Engine> part, const Threads& threads)
       : ranks_(ranks),
         lead_(lead),
-        part_(ranks, scene, std::move(part)),
+        part_(ranks, scene, std::move(part), threads),
         knows_paths_(scene.run.method == Method::exact) {}
   LeadingEngine(const LeadingEngine&) = delete;
   LeadingEngine& operator=(const LeadingEngine&) = delete;
@@ -233,6 +233,14 @@ class LeadingEngine final : public Engine {
       return deepest;
     }
 
+    std::optional<std::vector<PairCounts>> pair_counts() const override {
+      if (engine_.part_.cut() == nullptr) return std::nullopt;
+      shown();
+      std::optional<std::vector<PairCounts>> pairs;
+      engine_.together(RankCall::pairs, [&] { pairs = engine_.part_.shown_pairs(); });
+      return pairs;
+    }
+
     const Disks& whole() const override {
       if (!within()) return engine_.state().disks;
       if (!gathered_) engine_.disks_at(t_, room_);
@@ -313,7 +321,7 @@ std::unique_ptr<Engine> RankLead::make_parts(const Scene& scene, State initial, 
     initial.disks = deal_out(ranks_, slabs, disks.get(), std::move(initial.disks));
     disks.reset();
     deal_out_loads(ranks_, loads, initial);
-    return lead_engine(scene, make_part(scene, std::move(initial), slabs, threads, ranks_));
+    return lead_engine(scene, make_part(scene, std::move(initial), slabs, threads, ranks_), threads);
   } catch (...) {
     lose();
     throw;
@@ -328,15 +336,16 @@ std::unique_ptr<Engine> RankLead::make_engine_at_start(const Scene& scene, const
     shared_text(ranks_, start({}));
     std::optional<StartOnSlab> made = start_on_slab(scene, ranks_);
     if (!made) return nullptr;
-    return lead_engine(scene, make_part(scene, std::move(made->part), made->start, threads, ranks_));
+    return lead_engine(scene, make_part(scene, std::move(made->part), made->start, threads, ranks_), threads);
   } catch (...) {
     lose();
     throw;
   }
 }
 
-std::unique_ptr<Engine> RankLead::lead_engine(const Scene& scene, std::unique_ptr<Engine> part) {
-  auto engine = std::make_unique<LeadingEngine>(ranks_, *this, scene, std::move(part));
+std::unique_ptr<Engine> RankLead::lead_engine(const Scene& scene, std::unique_ptr<Engine> part,
+                                              const Threads& threads) {
+  auto engine = std::make_unique<LeadingEngine>(ranks_, *this, scene, std::move(part), threads);
   report_ = [lead = engine.get()] { return lead->report(); };
   sums_ = [lead = engine.get()] { return lead->sums(); };
   overlaps_ = [lead = engine.get()] { return lead->overlaps(); };
@@ -360,11 +369,12 @@ void follow_lead(Ranks& ranks, const Threads& threads,
       const SlabStart start = slab_start_of(ranks.share({}));
       state.disks = deal_out(ranks, start, nullptr, std::move(state.disks));
       deal_out_loads(ranks, {}, state);
-      part.emplace(ranks, scene, make_part(scene, std::move(state), start, threads, ranks));
+      part.emplace(ranks, scene, make_part(scene, std::move(state), start, threads, ranks), threads);
     } else if (call == RankCall::begin) {
       const Scene scene = read(shared_text(ranks, "")).first;
       std::optional<StartOnSlab> made = start_on_slab(scene, ranks);
-      if (made) part.emplace(ranks, scene, make_part(scene, std::move(made->part), made->start, threads, ranks));
+      if (made)
+        part.emplace(ranks, scene, make_part(scene, std::move(made->part), made->start, threads, ranks), threads);
     } else if (part) {
       follow(call, ranks, *part, before);
     }

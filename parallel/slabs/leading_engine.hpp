@@ -60,7 +60,7 @@ class RankLead {
   std::unique_ptr<Engine> make_parts(const Scene& scene, State initial, std::unique_ptr<DiskSource> disks,
                                      const SlabStart& slabs, const Threads& threads,
                                      const std::function<std::string(const State&)>& start);
-  std::unique_ptr<Engine> lead_engine(const Scene& scene, std::unique_ptr<Engine> part);
+  std::unique_ptr<Engine> lead_engine(const Scene& scene, std::unique_ptr<Engine> part, const Threads& threads);
 
   Ranks& ranks_;
   std::function<RankReport()> report_;

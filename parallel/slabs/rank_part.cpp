@@ -140,6 +140,8 @@ void follow(RankCall call, Ranks& ranks, RankPart& part, const Traffic& before) 
     part.shown().visit({});
   } else if (call == RankCall::overlap) {
     part.shown_overlap();
+  } else if (call == RankCall::pairs) {
+    part.shown_pairs();
   } else if (call == RankCall::look) {
     double t = 0.0;
     part.gather_at(t, nullptr);

@@ -3,14 +3,18 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "core/measure/state_sums.hpp"
 #include "core/step/engine.hpp"
+#include "parallel/cells/pair_counting.hpp"
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/rank_report.hpp"
 #include "parallel/slabs/shared_lists.hpp"
 #include "parallel/slabs/shown_disks.hpp"
 #include "parallel/slabs/slab_cut.hpp"
+#include "parallel/threads/threads.hpp"
 
 namespace carom {
 
@@ -26,6 +30,7 @@ enum class RankCall : std::int64_t {
   show,
   some,
   overlap,
+  pairs,
   look,
   contacts,
   sums,
@@ -42,8 +47,9 @@ RankCall agree_on(Ranks& ranks, RankCall call);
 // A rank's part of the engine, and what its steps took. All calls are collective.
 class RankPart {
  public:
-  RankPart(Ranks& ranks, const Scene& scene, std::unique_ptr<Engine> engine)
-      : ranks_(ranks), scene_(scene), engine_(std::move(engine)) {}
+  // threads: of this rank, for what is measured.
+  RankPart(Ranks& ranks, const Scene& scene, std::unique_ptr<Engine> engine, const Threads& threads)
+      : ranks_(ranks), scene_(scene), engine_(std::move(engine)), count_(parallel_pair_counter(threads.count)) {}
 
   const Scene& scene() const { return scene_; }
   Engine& engine() const { return *engine_; }
@@ -70,6 +76,7 @@ class RankPart {
   }
   ShownDisks& shown() { return *shown_; }
   double shown_overlap() const { return shown_->max_overlap(scene_, *cut()); }
+  std::optional<std::vector<PairCounts>> shown_pairs() const { return shown_->pair_counts(scene_, *cut(), count_); }
 
   // before: what the ranks had said to each other when they began to agree on this step.
   void step(const Traffic& before);
@@ -83,6 +90,7 @@ class RankPart {
   Ranks& ranks_;
   Scene scene_;
   std::unique_ptr<Engine> engine_;
+  PairCounter count_;
   std::unique_ptr<SharedLists> lists_;
   std::unique_ptr<ShownDisks> shown_;
   Count steps_ = 0;

@@ -1,6 +1,7 @@
 #include "parallel/slabs/shown_disks.hpp"
 
 #include "parallel/ranks/message.hpp"
+#include "parallel/slabs/slab_pairs.hpp"
 #include "parallel/slabs/whole_state.hpp"
 
 namespace carom {
@@ -32,6 +33,11 @@ void ShownDisks::visit(const DisksInPieces::Use& use) {
 
 double ShownDisks::max_overlap(const Scene& scene, const SlabCut& cut) const {
   return overlap_over_ranks(ranks_, box_at(scene.box, time_), *own_, cut).size;
+}
+
+std::optional<std::vector<PairCounts>> ShownDisks::pair_counts(const Scene& scene, const SlabCut& cut,
+                                                               const PairCounter& count) const {
+  return pairs_over_ranks(ranks_, scene.analysis, box_at(scene.box, time_), *own_, cut, count);
 }
 
 }  // namespace carom

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
+#include "core/measure/pair_distances.hpp"
 #include "core/scene/scene.hpp"
 #include "core/step/engine.hpp"
 #include "parallel/ranks/ranks.hpp"
@@ -27,6 +29,10 @@ class ShownDisks {
 
   // The largest of two disks, over the sum of their radii.
   double max_overlap(const Scene& scene, const SlabCut& cut) const;
+
+  // See slab_pairs.hpp.
+  std::optional<std::vector<PairCounts>> pair_counts(const Scene& scene, const SlabCut& cut,
+                                                     const PairCounter& count) const;
 
  private:
   Ranks& ranks_;

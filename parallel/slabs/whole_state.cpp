@@ -1,13 +1,12 @@
 #include "parallel/slabs/whole_state.hpp"
 
-#include <algorithm>
-#include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/disks/obstacle_cells.hpp"
 #include "parallel/ranks/message.hpp"
-#include "parallel/slabs/border_search.hpp"
+#include "parallel/slabs/border_disks.hpp"
 #include "parallel/slabs/moving_disks.hpp"
 #include "parallel/slabs/ordered_disks.hpp"
 
@@ -15,40 +14,16 @@ namespace carom {
 
 namespace {
 
-// How far a disk of any rank has left its slab; length.
-double excursion_over_ranks(Ranks& ranks, const Slab& slab, const Domain& box, const Disks& own) {
-  double furthest = 0.0;
-  for (const double y : own.y) {
-    const Beyond b = beyond(slab, box, y);
-    if (slab.has_lower) furthest = std::max(furthest, b.lower);
-    if (slab.has_upper) furthest = std::max(furthest, b.upper);
-  }
-  ranks.maximum({&furthest, 1});
-  return furthest;
-}
-
 // The disks near the borders of a slab, on both sides of them: all pairs across one are among them.
 Disks disks_at_borders(Ranks& ranks, const Slab& slab, const Domain& box, const Disks& own) {
   double largest = largest_radius(own);
   ranks.maximum({&largest, 1});
   const double excursion = excursion_over_ranks(ranks, slab, box, own);
-  std::vector<std::uint32_t> all(own.size());
-  std::iota(all.begin(), all.end(), 0U);
-  SeenBeyond seen;
-  find_seen_beyond(slab, box, own, all, largest, excursion, seen);
-  Bytes to_below;
-  Bytes to_above;
-  put_all(to_below, seen.below);
-  put_all(to_above, seen.above);
-  const auto [below, above] = ranks.exchange(to_below, to_above);
-  constexpr DiskColumns columns{true, true, false};
-  Disks disks;
-  for (const Disk& disk : seen.below) push_back(disks, disk, columns);
-  for (const Disk& disk : seen.above) push_back(disks, disk, columns);
-  for (const Bytes& message : {below, above}) {
-    for (const Disk& disk : MessageReader(message).get_all<Disk>()) push_back(disks, disk, columns);
+  BorderDisks disks = disks_at_borders(ranks, slab, box, own, largest, excursion);
+  for (std::size_t i = 0; i < disks.others.size(); ++i) {
+    push_back(disks.own, disk_at(disks.others, i), {true, true, false});
   }
-  return disks;
+  return std::move(disks.own);
 }
 
 }  // namespace

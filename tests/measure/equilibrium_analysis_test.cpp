@@ -9,7 +9,7 @@
 #include "core/load/scene_file.hpp"
 #include "core/measure/analysis_curves.hpp"
 #include "core/start/initial_state.hpp"
-#include "parallel/pair_counting.hpp"
+#include "parallel/cells/pair_counting.hpp"
 #include "parallel/simulation.hpp"
 
 namespace carom {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/measure/analysis_curves.hpp"
-#include "parallel/pair_counting.hpp"
+#include "parallel/cells/pair_counting.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
 

@@ -14,7 +14,7 @@
 #include "core/measure/displacement.hpp"
 #include "core/measure/pair_distances.hpp"
 #include "core/measure/structure_factor.hpp"
-#include "parallel/pair_counting.hpp"
+#include "parallel/cells/pair_counting.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
 

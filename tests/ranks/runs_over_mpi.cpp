@@ -108,13 +108,14 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcess) {
 }
 
 // The other format, of some disks and of those in a part of the box; with columns of a group that has a
-// name, and with what is measured of disks one by one.
+// name, and with what is measured of disks and of pairs.
 TEST_F(RanksRun, LeavesTheTrajectoryOfOneProcess) {
   const std::string run =
       "run scene.toml --quiet --threads 1 --set output.trajectory=h5md --set disks.0.name=gas --set "
       "physics.gravity=1.0 "
       "--set 'box.right=\"sink\"' --set 'box.left=\"wall\"' --set 'box.bottom=\"periodic\"' --set "
-      "'box.top=\"periodic\"' --set 'analysis.what=[\"displacement\",\"speeds\",\"density\",\"pressure\",\"profile\","
+      "'box.top=\"periodic\"' --set "
+      "'analysis.what=[\"pair_correlation\",\"displacement\",\"speeds\",\"density\",\"pressure\",\"profile\","
       "\"velocity_autocorrelation\",\"structure_factor\"]' ";
   for (const std::string select : {"", "--set 'output.select=\"every 3rd\"' ", "--set output.select=[2,2,15,30] "}) {
     fs::remove_all(at("one"));
@@ -348,7 +349,9 @@ TEST_F(RanksRun, NoRankHasAllDisksForAFrame) {
       carom(million_on_four +
             "--set output.every=0.06 --set output.trajectory=h5md --set disks.0.name=gas --set output.movie=true "
             "--set 'output.plots=[\"velocity\",\"energy\"]' "
-            "--set 'analysis.what=[\"speeds\",\"density\",\"pressure\",\"profile\",\"structure_factor\"]'"),
+            "--set "
+            "'analysis.what=[\"pair_correlation\",\"speeds\",\"density\",\"pressure\",\"profile\",\"structure_factor\"]"
+            "'"),
       45e6);
 }
 

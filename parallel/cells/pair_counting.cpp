@@ -1,4 +1,4 @@
-#include "parallel/pair_counting.hpp"
+#include "parallel/cells/pair_counting.hpp"
 
 #include <memory>
 

@@ -1,0 +1,58 @@
+#include "parallel/slabs/border_disks.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "parallel/ranks/message.hpp"
+#include "parallel/slabs/moving_disks.hpp"
+
+namespace carom {
+
+namespace {
+
+// A disk may be near both borders, and two ranks see each other across both.
+Disks each_once(std::vector<Disk> list) {
+  std::sort(list.begin(), list.end(), [](const Disk& a, const Disk& b) { return a.id < b.id; });
+  list.erase(std::unique(list.begin(), list.end(), [](const Disk& a, const Disk& b) { return a.id == b.id; }),
+             list.end());
+  Disks disks;
+  for (const Disk& disk : list) push_back(disks, disk, {true, true, false});
+  return disks;
+}
+
+std::vector<Disk> both_of(std::vector<Disk> one, const std::vector<Disk>& other) {
+  one.insert(one.end(), other.begin(), other.end());
+  return one;
+}
+
+}  // namespace
+
+double excursion_over_ranks(Ranks& ranks, const Slab& slab, const Domain& box, const Disks& own) {
+  double furthest = 0.0;
+  for (const double y : own.y) {
+    const Beyond b = beyond(slab, box, y);
+    if (slab.has_lower) furthest = std::max(furthest, b.lower);
+    if (slab.has_upper) furthest = std::max(furthest, b.upper);
+  }
+  ranks.maximum({&furthest, 1});
+  return furthest;
+}
+
+BorderDisks disks_at_borders(Ranks& ranks, const Slab& slab, const Domain& box, const Disks& own, double reach,
+                             double excursion) {
+  std::vector<std::uint32_t> all(own.size());
+  std::iota(all.begin(), all.end(), 0U);
+  SeenBeyond seen;
+  find_seen_beyond(slab, box, own, all, reach, excursion, seen);
+  Bytes to_below;
+  Bytes to_above;
+  put_all(to_below, seen.below);
+  put_all(to_above, seen.above);
+  const auto [below, above] = ranks.exchange(to_below, to_above);
+  return {each_once(both_of(std::move(seen.below), seen.above)),
+          each_once(both_of(MessageReader(below).get_all<Disk>(), MessageReader(above).get_all<Disk>()))};
+}
+
+}  // namespace carom

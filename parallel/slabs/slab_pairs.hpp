@@ -1,0 +1,19 @@
+// Pairs by distance of the disks of all ranks, of which none has all.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/measure/pair_records.hpp"
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/slab_cut.hpp"
+
+namespace carom {
+
+// What pairs_of_plan finds among all disks. Absent where the plan asks for no pairs, in a sheared box, and where slabs
+// are so thin that a pair may be of two ranks that are no neighbours. box: at the time of the disks. count: on the
+// threads of this rank. Collective.
+std::optional<std::vector<PairCounts>> pairs_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box,
+                                                        const Disks& own, const SlabCut& cut, const PairCounter& count);
+
+}  // namespace carom
