@@ -27,12 +27,14 @@ constexpr double round_bytes = 8.0;
 // Where it draws a movie: two pictures and the fonts.
 constexpr double picture_bytes = 10e6;
 
-// What rank 0 remembers of the first sample, for each disk of all ranks: places, with rounds, and velocities.
+// What rank 0 remembers of the first sample, for each disk of all ranks: places, with rounds, velocities, and
+// psi6.
 double remembered_bytes(const Scene& scene) {
   constexpr double two_numbers = 16.0;
   const AnalysisPlan& plan = scene.analysis;
   return (plan.wants(Quantity::displacement) ? two_numbers + round_bytes : 0.0) +
-         (plan.wants(Quantity::velocity_autocorrelation) ? two_numbers : 0.0);
+         (plan.wants(Quantity::velocity_autocorrelation) ? two_numbers : 0.0) +
+         (plan.wants(Quantity::bond_autocorrelation) ? two_numbers : 0.0);
 }
 
 // Time spent on trying steps; seconds.

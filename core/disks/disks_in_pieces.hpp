@@ -34,6 +34,10 @@ class DisksInPieces {
   // disks.
   virtual std::optional<std::vector<PairCounts>> pair_counts() const { return std::nullopt; }
 
+  // Calls use() as visit() does, for the disks that the scene's [analysis] measures, with psi6 in place of velocities
+  // (core/measure/bond_order.hpp). False, with no call, where all disks are needed for that.
+  virtual bool visit_orders(const Use& /*use*/) const { return false; }
+
   // All of them at once: of several ranks, on this one.
   virtual const Disks& whole() const = 0;
 };

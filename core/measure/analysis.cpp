@@ -168,10 +168,12 @@ void add_profiles(AnalysisRecord& record, const Scene& scene, const DisksInPiece
 }
 
 // box: at the time of the sample.
-void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const DisksInPieces& disks, const Domain& box) {
+void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const DisksInPieces& all, const DisksInPieces& disks,
+               const Domain& box) {
+  const DisksWithOrders orders(all, disks, box);
   if (plan.wants(Quantity::structure_factor)) add_structure(record.structure, disks, box);
   if (plan.wants(Quantity::bond_order)) {
-    const BondOrder order = bond_order(disks.whole(), box);
+    const BondOrder order = bond_order(orders);
     record.series.local_order.push_back(order.local);
     record.series.global_order.push_back(order.global);
   }
@@ -179,8 +181,8 @@ void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const DisksInPi
     add_bond_correlation(record.bonds, disks.whole(), box, distance_bins(plan.bonds));
   }
   if (plan.wants(Quantity::bond_autocorrelation)) {
-    if (!record.orders.begun) begin_memory(record.orders, disks.whole(), box);
-    record.series.bond_autocorrelation.push_back(bond_autocorrelation(record.orders, disks.whole(), box));
+    if (!record.orders.begun) begin_memory(record.orders, orders);
+    record.series.bond_autocorrelation.push_back(bond_autocorrelation(record.orders, orders));
   }
 }
 
@@ -188,9 +190,10 @@ void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const DisksInPi
 
 bool samples_all_disks(const Scene& scene) {
   const AnalysisPlan& plan = scene.analysis;
+  const bool neighbours = plan.wants(Quantity::pair_correlation) || plan.wants(Quantity::bond_order) ||
+                          plan.wants(Quantity::bond_autocorrelation);
   // The images above a sheared box are displaced: slabs do not know them.
-  return (plan.wants(Quantity::pair_correlation) && scene.box.shear.acts()) || plan.wants(Quantity::bond_order) ||
-         plan.wants(Quantity::bond_correlation) || plan.wants(Quantity::bond_autocorrelation);
+  return plan.wants(Quantity::bond_correlation) || (neighbours && scene.box.shear.acts());
 }
 
 void take_sample(AnalysisRecord& record, const Scene& scene, const DisksInPieces& all, const State& now,
@@ -218,7 +221,7 @@ void take_sample(AnalysisRecord& record, const Scene& scene, const DisksInPieces
     record.series.autocorrelation.push_back(velocity_autocorrelation(record.velocities, in_flow));
   }
   add_profiles(record, scene, disks);
-  add_order(record, plan, disks, box);
+  add_order(record, plan, all, disks, box);
   add_means(record, scene, all, now);
 }
 

@@ -4,37 +4,41 @@
 #include <cmath>
 #include <limits>
 
-#include "core/measure/bond_order.hpp"
-
 namespace carom {
 
 namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 }
 
-void begin_memory(BondMemory& memory, const Disks& d, const Domain& box) {
-  const std::size_t ids = d.empty() ? 0 : *std::max_element(d.id.begin(), d.id.end()) + std::size_t{1};
+void begin_memory(BondMemory& memory, const DisksInPieces& orders) {
   memory.begun = true;
-  memory.real.assign(ids, unknown);
-  memory.imaginary.assign(ids, unknown);
-  const std::vector<Vec2> orders = bond_orders(d, box);
-  for (std::size_t i = 0; i < orders.size(); ++i) {
-    memory.real[d.id[i]] = orders[i].x;
-    memory.imaginary[d.id[i]] = orders[i].y;
-  }
+  // Ids begin without gaps: room that need not grow piece by piece.
+  memory.real.reserve(orders.size());
+  memory.imaginary.reserve(orders.size());
+  orders.visit([&](const Disks& psi) {
+    if (psi.empty()) return;
+    const std::size_t ids = *std::max_element(psi.id.begin(), psi.id.end()) + std::size_t{1};
+    memory.real.resize(ids, unknown);
+    memory.imaginary.resize(ids, unknown);
+    for (std::size_t i = 0; i < psi.size(); ++i) {
+      memory.real[psi.id[i]] = psi.vx[i];
+      memory.imaginary[psi.id[i]] = psi.vy[i];
+    }
+  });
 }
 
-double bond_autocorrelation(const BondMemory& memory, const Disks& d, const Domain& box) {
-  const std::vector<Vec2> orders = bond_orders(d, box);
-  if (orders.empty()) return unknown;
+double bond_autocorrelation(const BondMemory& memory, const DisksInPieces& orders) {
+  if (orders.size() < least_of_bonds) return unknown;
   double product = 0.0, square = 0.0;
-  for (const std::size_t i : by_id(d)) {
-    const std::size_t id = d.id[i];
-    if (id >= memory.real.size() || std::isnan(memory.real[id])) continue;
-    const double re = memory.real[id], im = memory.imaginary[id];
-    product += re * orders[i].x + im * orders[i].y;
-    square += re * re + im * im;
-  }
+  orders.visit([&](const Disks& psi) {
+    for (const std::size_t i : by_id(psi)) {
+      const std::size_t id = psi.id[i];
+      if (id >= memory.real.size() || std::isnan(memory.real[id])) continue;
+      const double re = memory.real[id], im = memory.imaginary[id];
+      product += re * psi.vx[i] + im * psi.vy[i];
+      square += re * re + im * im;
+    }
+  });
   return square > 0.0 ? product / square : unknown;
 }
 

@@ -22,15 +22,20 @@ struct Neighbour {
   bool operator<(const Neighbour& other) const { return std::tie(distance2, id) < std::tie(other.distance2, other.id); }
 };
 
-// Centres in cells of about three disks each.
+// Centres in cells of about three disks each. all: how many disks the box has, of which these may be those in a part;
+// rows of cells without any of them take no memory.
 class Centres {
  public:
-  Centres(const Disks& d, const Domain& box) : d_(d), box_(box) {
-    const double edge = std::sqrt(disks_per_cell * box.width * box.height / static_cast<double>(d.size()));
+  Centres(const Disks& d, const Domain& box, double all) : d_(d), box_(box) {
+    const double edge = std::sqrt(disks_per_cell * box.width * box.height / all);
     columns_ = static_cast<std::ptrdiff_t>(std::max(1.0, std::floor(box.width / edge)));
     rows_ = static_cast<std::ptrdiff_t>(std::max(1.0, std::floor(box.height / edge)));
-    cells_.resize(static_cast<std::size_t>(columns_ * rows_));
-    for (std::size_t i = 0; i < d.size(); ++i) cell(column_of(d.x[i]), row_of(d.y[i])).push_back(i);
+    cells_.resize(static_cast<std::size_t>(rows_));
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      std::vector<std::vector<std::size_t>>& row = cells_[static_cast<std::size_t>(row_of(d.y[i]))];
+      row.resize(static_cast<std::size_t>(columns_));
+      row[static_cast<std::size_t>(column_of(d.x[i]))].push_back(i);
+    }
   }
 
   // The six nearest of disk i, and whatever else was looked at, nearest first: rings of cells until no disk further out
@@ -51,9 +56,6 @@ class Centres {
     return cell_index(x / box_.width * static_cast<double>(columns_), columns_);
   }
   std::ptrdiff_t row_of(double y) const { return cell_index(y / box_.height * static_cast<double>(rows_), rows_); }
-  std::vector<std::size_t>& cell(std::ptrdiff_t column, std::ptrdiff_t row) {
-    return cells_[static_cast<std::size_t>(row * columns_ + column)];
-  }
 
   // To the nearest image of disk j; in a sheared box that may be one several rows of images away, where disks are few.
   Vec2 apart(std::size_t i, std::size_t j) const {
@@ -103,10 +105,11 @@ class Centres {
     found.clear();
     const Span up = span(row_of(d_.y[i]), reach, rows_, box_.periodic_y());
     for (std::ptrdiff_t r = 0; r < up.count; ++r) {
+      const auto& row = cells_[static_cast<std::size_t>((up.first + r) % rows_)];
+      if (row.empty()) continue;
       const Span across = columns_near(i, reach, up, up.first + r);
       for (std::ptrdiff_t c = 0; c < across.count; ++c) {
-        const std::ptrdiff_t cell = (up.first + r) % rows_ * columns_ + (across.first + c) % columns_;
-        for (const std::size_t j : cells_[static_cast<std::size_t>(cell)]) {
+        for (const std::size_t j : row[static_cast<std::size_t>((across.first + c) % columns_)]) {
           if (j == i) continue;
           const Vec2 to = apart(i, j);
           found.push_back({to.x * to.x + to.y * to.y, d_.id[j], to});
@@ -118,7 +121,7 @@ class Centres {
   const Disks& d_;
   const Domain& box_;
   std::ptrdiff_t columns_ = 1, rows_ = 1;
-  std::vector<std::vector<std::size_t>> cells_;
+  std::vector<std::vector<std::vector<std::size_t>>> cells_;  // row by row, column by column
 };
 
 Vec2 product(Vec2 a, Vec2 b) {
@@ -134,37 +137,59 @@ Vec2 sixfold(const Neighbour& n) {
   return product(cube, cube);
 }
 
+// From a disk's nearest neighbours; six of them count.
+Vec2 order_of(const std::vector<Neighbour>& nearest) {
+  Vec2 order{};
+  for (std::size_t k = 0; k < neighbours; ++k) {
+    const Vec2 bond = sixfold(nearest[k]);
+    order.x += bond.x / neighbours;
+    order.y += bond.y / neighbours;
+  }
+  return order;
+}
+
 }  // namespace
 
 std::vector<Vec2> bond_orders(const Disks& d, const Domain& box) {
-  if (d.size() <= neighbours) return {};
-  const Centres centres(d, box);
+  if (d.size() < least_of_bonds) return {};
+  return *bond_orders_of_first(d, d.size(), box, HUGE_VAL, d.size());
+}
+
+std::optional<std::vector<Vec2>> bond_orders_of_first(const Disks& d, std::size_t first, const Domain& box,
+                                                      double known, Count all) {
+  const Centres centres(d, box, static_cast<double>(all));
   std::vector<Neighbour> found;
-  std::vector<Vec2> orders(d.size());
-  for (std::size_t i = 0; i < d.size(); ++i) {
+  std::vector<Vec2> orders(first);
+  for (std::size_t i = 0; i < first; ++i) {
     centres.find(i, found);
-    for (std::size_t k = 0; k < neighbours; ++k) {
-      const Vec2 bond = sixfold(found[k]);
-      orders[i].x += bond.x / neighbours;
-      orders[i].y += bond.y / neighbours;
-    }
+    if (found.size() < neighbours || found[neighbours - 1].distance2 > known * known) return std::nullopt;
+    orders[i] = order_of(found);
   }
   return orders;
 }
 
-BondOrder bond_order(const Disks& d, const Domain& box) {
+Disks with_orders(Disks d, const std::vector<Vec2>& orders) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<Vec2> orders = bond_orders(d, box);
-  if (orders.empty()) return {nothing, nothing};
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    d.vx[i] = orders.empty() ? nothing : orders[i].x;
+    d.vy[i] = orders.empty() ? nothing : orders[i].y;
+  }
+  return d;
+}
+
+BondOrder bond_order(const DisksInPieces& orders) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  if (orders.size() < least_of_bonds) return {nothing, nothing};
   Vec2 all;
   double local = 0.0;
-  for (const std::size_t i : by_id(d)) {
-    const Vec2 psi = orders[i];
-    local += std::sqrt(psi.x * psi.x + psi.y * psi.y);
-    all.x += psi.x;
-    all.y += psi.y;
-  }
-  const auto n = static_cast<double>(d.size());
+  orders.visit([&](const Disks& psi) {
+    for (const std::size_t i : by_id(psi)) {
+      local += std::sqrt(psi.vx[i] * psi.vx[i] + psi.vy[i] * psi.vy[i]);
+      all.x += psi.vx[i];
+      all.y += psi.vy[i];
+    }
+  });
+  const auto n = static_cast<double>(orders.size());
   return {local / n, std::sqrt(all.x * all.x + all.y * all.y) / n};
 }
 

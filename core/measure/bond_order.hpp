@@ -1,9 +1,10 @@
 // The bond-orientational order psi6: how near the six nearest neighbours of each disk come to a hexagon.
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "core/disks/disks.hpp"
+#include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/domain.hpp"
 
 namespace carom {
@@ -13,6 +14,16 @@ namespace carom {
 // seven disks. O(N).
 std::vector<Vec2> bond_orders(const Disks& disks, const Domain& box);
 
+inline constexpr Count least_of_bonds = 7;  // disks: one and its six neighbours
+
+// The same of the first disks, where the others are those around them: all that are no further than known (length)
+// from one of them are there. all: how many disks the box has. Absent where a sixth neighbour may be one that is not.
+std::optional<std::vector<Vec2>> bond_orders_of_first(const Disks& disks, std::size_t first, const Domain& box,
+                                                      double known, Count all);
+
+// The disks with psi6 in place of their velocities, so that it can come in pieces as they do; NaN where there are none.
+Disks with_orders(Disks disks, const std::vector<Vec2>& orders);
+
 struct BondOrder {
   double local = 0.0;   // mean of |psi6| over the disks: order around each; 1 on a hexagonal lattice
   double global = 0.0;  // |mean of psi6|: one orientation for all; likewise
@@ -20,6 +31,10 @@ struct BondOrder {
 
 // NaN with fewer than seven disks. Disks at walls have neighbours on one side only, and little order. In order of ids:
 // the same bits in any storage order. O(N).
-BondOrder bond_order(const Disks& disks, const Domain& box);
+BondOrder bond_order(const DisksInPieces& orders);  // with_orders
+inline BondOrder bond_order(const Disks& disks, const Domain& box) {
+  const Disks orders = with_orders(disks, bond_orders(disks, box));
+  return bond_order(WholeDisks(orders, 0.0));
+}
 
 }  // namespace carom

@@ -1,5 +1,6 @@
 #include "core/measure/measured_disks.hpp"
 
+#include "core/measure/bond_order.hpp"
 #include "core/measure/shear_flow.hpp"
 
 namespace carom {
@@ -45,6 +46,15 @@ void DisksInFlow::visit(const Use& use) const {
 const Disks& DisksInFlow::whole() const {
   if (!box_.shear.acts()) return disks_.whole();
   if (!whole_) whole_ = relative_to_flow(disks_.whole(), box_);
+  return *whole_;
+}
+
+void DisksWithOrders::visit(const Use& use) const {
+  if (!all_.visit_orders(use)) use(whole());
+}
+
+const Disks& DisksWithOrders::whole() const {
+  if (!whole_) whole_ = with_orders(disks_.whole(), bond_orders(disks_.whole(), box_));
   return *whole_;
 }
 

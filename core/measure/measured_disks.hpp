@@ -46,4 +46,23 @@ class DisksInFlow final : public DisksInPieces {
   mutable std::optional<Disks> whole_;  // once asked for
 };
 
+// With psi6 in place of velocities (with_orders), found by those that have the disks, or else among all of them. all:
+// of which the disks are those that are measured. box: at their time. All of it outlives this.
+class DisksWithOrders final : public DisksInPieces {
+ public:
+  DisksWithOrders(const DisksInPieces& all, const DisksInPieces& disks, const Domain& box)
+      : all_(all), disks_(disks), box_(box) {}
+
+  double time() const override { return disks_.time(); }
+  Count size() const override { return disks_.size(); }
+  void visit(const Use& use) const override;
+  const Disks& whole() const override;
+
+ private:
+  const DisksInPieces& all_;
+  const DisksInPieces& disks_;
+  const Domain& box_;
+  mutable std::optional<Disks> whole_;  // once asked for
+};
+
 }  // namespace carom

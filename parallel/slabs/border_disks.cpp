@@ -12,6 +12,9 @@ namespace carom {
 
 namespace {
 
+// What rounding may make of a thickness, generously; share of the box's height.
+constexpr double rounding = 1e-9;
+
 // A disk may be near both borders, and two ranks see each other across both.
 Disks each_once(std::vector<Disk> list) {
   std::sort(list.begin(), list.end(), [](const Disk& a, const Disk& b) { return a.id < b.id; });
@@ -53,6 +56,16 @@ BorderDisks disks_at_borders(Ranks& ranks, const Slab& slab, const Domain& box, 
   const auto [below, above] = ranks.exchange(to_below, to_above);
   return {each_once(both_of(std::move(seen.below), seen.above)),
           each_once(both_of(MessageReader(below).get_all<Disk>(), MessageReader(above).get_all<Disk>()))};
+}
+
+bool is_within_neighbours(const SlabCut& cut, const Domain& box, double reach, double excursion) {
+  return cut.thinnest() > reach + 2.0 * excursion + rounding * box.height;
+}
+
+Disks joined(const Disks& first, const Disks& second) {
+  Disks both = first;
+  for (std::size_t i = 0; i < second.size(); ++i) append(both, disk_at(second, i));
+  return both;
 }
 
 }  // namespace carom

@@ -21,4 +21,10 @@ struct BorderDisks {
 BorderDisks disks_at_borders(Ranks& ranks, const Slab& slab, const Domain& box, const Disks& own, double reach,
                              double excursion);
 
+// Are all disks within reach (length) of a rank's own ones of this rank or a neighbour? Where there are more than two.
+bool is_within_neighbours(const SlabCut& cut, const Domain& box, double reach, double excursion);
+
+// All disks of both, those of the first one first.
+Disks joined(const Disks& first, const Disks& second);
+
 }  // namespace carom

@@ -211,18 +211,16 @@ class LeadingEngine final : public Engine {
     Count size() const override { return size_; }
 
     void visit(const Use& use) const override {
-      // One call for all pieces, as ranks wait for each other at each: what use() throws waits until all have come.
       ShownDisks& disks = shown();
-      std::exception_ptr failed;
-      const auto use_if_whole = [&](const Disks& some) {
-        try {
-          if (!failed) use(some);
-        } catch (...) {
-          failed = std::current_exception();
-        }
-      };
-      engine_.together(RankCall::some, [&] { disks.visit(use_if_whole); });
-      if (failed) std::rethrow_exception(failed);
+      visit_all(RankCall::some, use, [&](const Use& all) { disks.visit(all); });
+    }
+
+    bool visit_orders(const Use& use) const override {
+      if (engine_.part_.cut() == nullptr) return false;
+      shown();
+      bool known = false;
+      visit_all(RankCall::orders, use, [&](const Use& all) { known = engine_.part_.visit_shown_orders(all); });
+      return known;
     }
 
     std::optional<double> max_overlap() const override {
@@ -249,6 +247,21 @@ class LeadingEngine final : public Engine {
     }
 
    private:
+    // One call for all pieces, as ranks wait for each other at each: what use() throws waits until all have come.
+    template <class Visit>
+    void visit_all(RankCall call, const Use& use, const Visit& visit_them) const {
+      std::exception_ptr failed;
+      const auto use_if_whole = [&](const Disks& some) {
+        try {
+          if (!failed) use(some);
+        } catch (...) {
+          failed = std::current_exception();
+        }
+      };
+      engine_.together(call, [&] { visit_them(use_if_whole); });
+      if (failed) std::rethrow_exception(failed);
+    }
+
     bool within() const { return engine_.knows_paths_ && t_ < engine_.progress().time; }
 
     ShownDisks& shown() const {

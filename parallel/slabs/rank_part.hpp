@@ -31,6 +31,7 @@ enum class RankCall : std::int64_t {
   some,
   overlap,
   pairs,
+  orders,
   look,
   contacts,
   sums,
@@ -76,6 +77,7 @@ class RankPart {
   }
   ShownDisks& shown() { return *shown_; }
   double shown_overlap() const { return shown_->max_overlap(scene_, *cut()); }
+  bool visit_shown_orders(const DisksInPieces::Use& use) { return shown_->visit_orders(scene_, *cut(), use); }
   std::optional<std::vector<PairCounts>> shown_pairs() const { return shown_->pair_counts(scene_, *cut(), count_); }
 
   // before: what the ranks had said to each other when they began to agree on this step.

@@ -1,6 +1,7 @@
 #include "parallel/slabs/shown_disks.hpp"
 
 #include "parallel/ranks/message.hpp"
+#include "parallel/slabs/slab_orders.hpp"
 #include "parallel/slabs/slab_pairs.hpp"
 #include "parallel/slabs/whole_state.hpp"
 
@@ -15,20 +16,33 @@ struct Moment {
 
 }  // namespace
 
-ShownDisks::ShownDisks(Ranks& ranks, const Engine& engine, bool within, double t) : ranks_(ranks) {
+ShownDisks::ShownDisks(Ranks& ranks, const Engine& engine, bool within, double t)
+    : ranks_(ranks), ids_(engine.progress().next_id) {
   Bytes asked;
   put(asked, Moment{t, within});
   const auto moment = MessageReader(ranks.share(asked)).get<Moment>();
   time_ = moment.within ? engine.disks_at(moment.t, then_) : engine.progress().time;
   own_ = moment.within ? &then_ : &engine.state().disks;
-  ordered_.emplace(ranks, *own_, engine.progress().next_id);
+  ordered_.emplace(ranks, *own_, ids_);
 }
 
 void ShownDisks::visit(const DisksInPieces::Use& use) {
-  for (std::size_t k = 0; k < ordered_->pieces(); ++k) {
-    const Disks& some = ordered_->piece(k);
+  visit(*ordered_, use);
+}
+
+void ShownDisks::visit(OrderedDisks& disks, const DisksInPieces::Use& use) const {
+  for (std::size_t k = 0; k < disks.pieces(); ++k) {
+    const Disks& some = disks.piece(k);
     if (ranks_.rank() == 0) use(some);
   }
+}
+
+bool ShownDisks::visit_orders(const Scene& scene, const SlabCut& cut, const DisksInPieces::Use& use) {
+  if (!orders_) orders_ = orders_over_ranks(ranks_, scene.analysis, box_at(scene.box, time_), *own_, cut);
+  if (!orders_) return false;
+  OrderedDisks ordered(ranks_, *orders_, ids_);
+  visit(ordered, use);
+  return true;
 }
 
 double ShownDisks::max_overlap(const Scene& scene, const SlabCut& cut) const {

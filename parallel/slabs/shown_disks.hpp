@@ -30,16 +30,24 @@ class ShownDisks {
   // The largest of two disks, over the sum of their radii.
   double max_overlap(const Scene& scene, const SlabCut& cut) const;
 
+  // The same of what visit_orders() has of them (core/disks/disks_in_pieces.hpp). False, on all ranks, where there is
+  // no such thing.
+  bool visit_orders(const Scene& scene, const SlabCut& cut, const DisksInPieces::Use& use);
+
   // See slab_pairs.hpp.
   std::optional<std::vector<PairCounts>> pair_counts(const Scene& scene, const SlabCut& cut,
                                                      const PairCounter& count) const;
 
  private:
+  void visit(OrderedDisks& disks, const DisksInPieces::Use& use) const;
+
   Ranks& ranks_;
+  DiskId ids_ = 0;  // above all of this rank
   double time_ = 0.0;
   Disks then_;  // of a moment within the step
   const Disks* own_ = nullptr;
   std::optional<OrderedDisks> ordered_;
+  std::optional<Disks> orders_;  // of this rank's disks, once asked for
 };
 
 }  // namespace carom

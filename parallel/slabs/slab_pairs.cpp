@@ -3,14 +3,10 @@
 #include <cstdint>
 
 #include "parallel/slabs/border_disks.hpp"
-#include "parallel/slabs/moving_disks.hpp"
 
 namespace carom {
 
 namespace {
-
-// What rounding may make of a thickness, generously; share of the box's height.
-constexpr double rounding = 1e-9;
 
 // Adds the numbers of some counts, one after the other, so many times.
 void add_numbers(std::vector<std::int64_t>& sum, const std::vector<PairCounts>& counts, std::int64_t times) {
@@ -41,15 +37,11 @@ std::optional<std::vector<PairCounts>> pairs_over_ranks(Ranks& ranks, const Anal
     const Slab slab = slab_of(cut, box, ranks.rank());
     const double excursion = excursion_over_ranks(ranks, slab, box, own);
     const double reach = plan.pairs.r_max;
-    const bool thin = !(cut.thinnest() > reach + 2.0 * excursion + rounding * box.height);
-    if (thin && ranks.count() > 2) return std::nullopt;
-    BorderDisks border = disks_at_borders(ranks, slab, box, own, reach, excursion);
+    if (ranks.count() > 2 && !is_within_neighbours(cut, box, reach, excursion)) return std::nullopt;
+    const BorderDisks border = disks_at_borders(ranks, slab, box, own, reach, excursion);
     add_numbers(numbers, pairs_of(border.own), -1);
     add_numbers(numbers, pairs_of(border.others), -1);
-    for (std::size_t i = 0; i < border.others.size(); ++i) {
-      push_back(border.own, disk_at(border.others, i), {true, true, false});
-    }
-    add_numbers(numbers, pairs_of(border.own), 1);
+    add_numbers(numbers, pairs_of(joined(border.own, border.others)), 1);
   }
   ranks.sum(numbers);
   auto next = numbers.begin();

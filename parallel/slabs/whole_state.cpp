@@ -1,7 +1,6 @@
 #include "parallel/slabs/whole_state.hpp"
 
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "core/disks/obstacle_cells.hpp"
@@ -19,11 +18,8 @@ Disks disks_at_borders(Ranks& ranks, const Slab& slab, const Domain& box, const 
   double largest = largest_radius(own);
   ranks.maximum({&largest, 1});
   const double excursion = excursion_over_ranks(ranks, slab, box, own);
-  BorderDisks disks = disks_at_borders(ranks, slab, box, own, largest, excursion);
-  for (std::size_t i = 0; i < disks.others.size(); ++i) {
-    push_back(disks.own, disk_at(disks.others, i), {true, true, false});
-  }
-  return std::move(disks.own);
+  const BorderDisks disks = disks_at_borders(ranks, slab, box, own, largest, excursion);
+  return joined(disks.own, disks.others);
 }
 
 }  // namespace

@@ -1,0 +1,45 @@
+#include "parallel/slabs/slab_orders.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "core/measure/bond_order.hpp"
+#include "core/measure/measured_disks.hpp"
+#include "parallel/slabs/border_disks.hpp"
+#include "parallel/slabs/moving_disks.hpp"
+
+namespace carom {
+
+namespace {
+
+// How far neighbours are looked for at first, in mean distances: in a liquid six are within two of them.
+constexpr double first_reach = 3.0;
+
+}  // namespace
+
+// Neighbours are looked for twice as far as long as a disk of any rank has too few.
+std::optional<Disks> orders_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box, const Disks& all,
+                                       const SlabCut& cut) {
+  if (box.shear.acts()) return std::nullopt;
+  const Disks some = plan.group.empty() ? Disks{} : disks_of(all, plan.ids);
+  const Disks& own = plan.group.empty() ? all : some;
+  auto count = static_cast<std::int64_t>(own.size());
+  ranks.sum({&count, 1});
+  const auto disks = static_cast<Count>(count);
+  if (disks < least_of_bonds) return with_orders(own, {});
+  if (ranks.count() == 1) return with_orders(own, bond_orders(own, box));
+  const Slab slab = slab_of(cut, box, ranks.rank());
+  const double excursion = excursion_over_ranks(ranks, slab, box, own);
+  double reach = first_reach * std::sqrt(box.width * box.height / static_cast<double>(disks));
+  for (;; reach *= 2.0) {
+    if (ranks.count() > 2 && !is_within_neighbours(cut, box, reach, excursion)) return std::nullopt;
+    Disks around = joined(own, disks_at_borders(ranks, slab, box, own, reach, excursion).others);
+    const auto orders = bond_orders_of_first(around, own.size(), box, reach, disks);
+    if (ranks.any(!orders.has_value())) continue;
+    truncate(around, own.size());
+    return with_orders(std::move(around), *orders);
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,19 @@
+// psi6 of the disks of all ranks, of which none has all.
+#pragma once
+
+#include <optional>
+
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+#include "core/scene/scene.hpp"
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/slab_cut.hpp"
+
+namespace carom {
+
+// This rank's disks, as with_orders: those that the plan measures. Absent, on all ranks, in a sheared box, and where a
+// disk's six neighbours may be of ranks that are no neighbours. box: at the time of the disks. Collective.
+std::optional<Disks> orders_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box, const Disks& own,
+                                       const SlabCut& cut);
+
+}  // namespace carom
