@@ -68,6 +68,8 @@ void give_back_columns() {
 #if defined(__GLIBC__)
   constexpr int column = 1 << 21;  // bytes
   mallopt(M_MMAP_THRESHOLD, column);
+  // What is smaller, such as messages of ranks, is not given back and asked for again each time.
+  mallopt(M_TRIM_THRESHOLD, 4 * column);
 #endif
 }
 

@@ -55,6 +55,18 @@ class MessageReader {
     return values;
   }
 
+  // Calls use(value) for each value that put_all has put there, without a copy of them all.
+  template <class T, class Use>
+  void for_each(Use&& use) {
+    const auto count = get<std::size_t>();
+    const std::byte* from = take(count, sizeof(T));
+    for (std::size_t k = 0; k < count; ++k, from += sizeof(T)) {
+      T value{};
+      std::memcpy(&value, from, sizeof(T));
+      use(value);
+    }
+  }
+
  private:
   const std::byte* take(std::size_t count, std::size_t size) {
     if (count > (message_.size() - at_) / size) throw std::out_of_range("a message between ranks is too short");

@@ -78,7 +78,9 @@ class MpiRanks final : public Ranks {
       MPI_Waitall(static_cast<int>(sends.size()), sends.data(), MPI_STATUSES_IGNORE);
       return {};
     }
-    std::vector<Bytes> all{here};
+    std::vector<Bytes> all;
+    all.reserve(static_cast<std::size_t>(count_));
+    all.push_back(here);
     for (int r = 1; r < count_; ++r) all.push_back(receive(r, tag_to_first));
     return all;
   }

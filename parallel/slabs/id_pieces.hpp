@@ -11,8 +11,8 @@
 
 namespace carom {
 
-// Ids of a piece: some megabytes of disks.
-inline constexpr unsigned id_piece_shift = 15;
+// Ids of a piece: a megabyte of disks, so that messages are not mapped each by itself (give_back_columns in app/cli).
+inline constexpr unsigned id_piece_shift = 14;
 inline constexpr std::size_t ids_a_piece = std::size_t{1} << id_piece_shift;
 
 // How many pieces there are of ids 0 to ids - 1.

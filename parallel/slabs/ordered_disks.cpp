@@ -21,9 +21,9 @@ const Disks& OrderedDisks::piece(std::size_t number) {
   if (!pieces_) pieces_.emplace(own_, count_);
   list_.clear();
   for (const std::uint32_t i : (*pieces_)[number]) list_.push_back(disk_at(own_, i));
-  Bytes here;
-  put_all(here, list_);
-  const std::vector<Bytes> messages = ranks_.collect(here);
+  here_.clear();
+  put_all(here_, list_);
+  const std::vector<Bytes> messages = ranks_.collect(here_);
   truncate(some_, 0);
   if (ranks_.rank() > 0) return some_;
   take(messages);
@@ -36,11 +36,11 @@ void OrderedDisks::take(const std::vector<Bytes>& messages) {
   list_.resize(ids_a_piece);
   there_.assign(ids_a_piece, 0);
   for (const Bytes& message : messages) {
-    for (const Disk& disk : MessageReader(message).get_all<Disk>()) {
+    MessageReader(message).for_each<Disk>([this](const Disk& disk) {
       const std::size_t at = disk.id & (ids_a_piece - 1);
       list_[at] = disk;
       there_[at] = 1;
-    }
+    });
   }
   std::size_t kept = 0;
   for (std::size_t k = 0; k < ids_a_piece; ++k) {

@@ -32,6 +32,8 @@ class OrderedDisks {
   std::size_t count_ = 0;
   std::optional<IdPieces> pieces_;  // since the first was asked for
   Disks some_;
+  // Kept from piece to piece, as fresh memory costs more than what is done with it.
+  Bytes here_;
   std::vector<Disk> list_;
   std::vector<unsigned char> there_;
 };
