@@ -10,6 +10,7 @@
 #include "core/physics/contact_event.hpp"
 #include "core/scene/moving_walls_text.hpp"
 #include "core/scene/scene_names.hpp"
+#include "core/step/step_clock.hpp"
 #include "core/step/window_start.hpp"
 
 namespace carom {
