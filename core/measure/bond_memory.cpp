@@ -1,8 +1,9 @@
 #include "core/measure/bond_memory.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/measure/vectors_by_id.hpp"
 
 namespace carom {
 
@@ -12,19 +13,7 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 void begin_memory(BondMemory& memory, const DisksInPieces& orders) {
   memory.begun = true;
-  // Ids begin without gaps: room that need not grow piece by piece.
-  memory.real.reserve(orders.size());
-  memory.imaginary.reserve(orders.size());
-  orders.visit([&](const Disks& psi) {
-    if (psi.empty()) return;
-    const std::size_t ids = *std::max_element(psi.id.begin(), psi.id.end()) + std::size_t{1};
-    memory.real.resize(ids, unknown);
-    memory.imaginary.resize(ids, unknown);
-    for (std::size_t i = 0; i < psi.size(); ++i) {
-      memory.real[psi.id[i]] = psi.vx[i];
-      memory.imaginary[psi.id[i]] = psi.vy[i];
-    }
-  });
+  keep_by_id(orders, memory.real, memory.imaginary);
 }
 
 double bond_autocorrelation(const BondMemory& memory, const DisksInPieces& orders) {

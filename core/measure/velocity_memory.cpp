@@ -1,8 +1,9 @@
 #include "core/measure/velocity_memory.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/measure/vectors_by_id.hpp"
 
 namespace carom {
 
@@ -12,19 +13,7 @@ constexpr double no_velocity = std::numeric_limits<double>::quiet_NaN();
 
 void begin_memory(VelocityMemory& memory, const DisksInPieces& disks) {
   memory.begun = true;
-  // Ids begin without gaps: room that need not grow piece by piece.
-  memory.vx.reserve(disks.size());
-  memory.vy.reserve(disks.size());
-  disks.visit([&](const Disks& d) {
-    if (d.empty()) return;
-    const std::size_t ids = *std::max_element(d.id.begin(), d.id.end()) + std::size_t{1};
-    memory.vx.resize(ids, no_velocity);
-    memory.vy.resize(ids, no_velocity);
-    for (std::size_t i = 0; i < d.size(); ++i) {
-      memory.vx[d.id[i]] = d.vx[i];
-      memory.vy[d.id[i]] = d.vy[i];
-    }
-  });
+  keep_by_id(disks, memory.vx, memory.vy);
 }
 
 double velocity_autocorrelation(const VelocityMemory& memory, const DisksInPieces& disks) {
