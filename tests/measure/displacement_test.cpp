@@ -131,7 +131,7 @@ TEST(Displacement, OverThoseThatWereThereAndStillAre) {
   const MeanSquare mean = mean_square_displacement(tally, later, box);
   EXPECT_EQ(mean.disks, 2U);
   EXPECT_EQ(mean.value, (4.0 + 9.0) / 2.0);
-  EXPECT_TRUE(std::isnan(mean_square_displacement(tally, {}, box).value));
+  EXPECT_TRUE(std::isnan(mean_square_displacement(tally, Disks{}, box).value));
 }
 
 }  // namespace
