@@ -4,6 +4,7 @@
 
 #include "core/base/check.hpp"
 #include "parallel/slabs/moving_disks.hpp"
+#include "parallel/slabs/slab_orders.hpp"
 #include "parallel/slabs/slab_start.hpp"
 #include "parallel/slabs/start_on_slabs.hpp"
 #include "run/run_outputs.hpp"
@@ -37,6 +38,18 @@ double remembered_bytes(const Scene& scene) {
          (plan.wants(Quantity::bond_autocorrelation) ? two_numbers : 0.0);
 }
 
+// Does [analysis] look for neighbours so far away, in slabs so thin, that they may be of ranks that are no neighbours?
+bool looks_beyond_neighbours(const Scene& scene, const SlabCut& cut, Count disks) {
+  if (cut.ranks() <= 2) return false;
+  const AnalysisPlan& plan = scene.analysis;
+  const bool orders = plan.wants(Quantity::bond_order) || plan.wants(Quantity::bond_correlation) ||
+                      plan.wants(Quantity::bond_autocorrelation);
+  const double reach = std::max({plan.wants(Quantity::pair_correlation) ? plan.pairs.r_max : 0.0,
+                                 plan.wants(Quantity::bond_correlation) ? plan.bonds.r_max : 0.0,
+                                 orders && disks > 0 ? first_reach(scene.box, disks) : 0.0});
+  return reach >= cut.thinnest();
+}
+
 // Time spent on trying steps; seconds.
 constexpr double traffic_trial = 0.3;
 
@@ -55,10 +68,12 @@ RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks) {
   const DiskColumns columns = columns_of(start.disks);
   const int more = (columns.radius ? 1 : 0) + (columns.mass ? 1 : 0) + (columns.spin ? 1 : 0);
   const double disk_bytes = scene.run.method == Method::exact ? exact_disk_bytes : own_disk_bytes;
-  f.alone = slab_start(scene, start.disks, ranks).alone;
+  const SlabStart slabs = slab_start(scene, start.disks, ranks);
+  f.alone = slabs.alone;
   f.other_bytes = process_bytes + (f.alone.empty() ? (disk_bytes + more * column_bytes) * f.disks : 0.0);
   if (scene.box.has_thermal_side()) f.other_bytes += sizeof(std::uint32_t) * all;
-  f.first_has_all = !f.alone.empty() || !starts_on_slabs(scene) || wants_all_disks(scene);
+  f.first_has_all = !f.alone.empty() || !starts_on_slabs(scene) || scene.output.view ||
+                    looks_beyond_neighbours(scene, slabs.cut, start.disks.size());
   f.first_bytes = f.other_bytes + (wants_frames(scene.output) ? frame_bytes + round_bytes * all : 0.0);
   f.first_bytes += remembered_bytes(scene) * all;
   if (scene.output.movie) f.first_bytes += picture_bytes;

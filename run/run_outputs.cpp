@@ -29,10 +29,6 @@ bool wants_files(const Scene& scene) {
   return wants_frames(scene.output) || scene.analysis.any() || scene.output.checkpoint > 0.0;
 }
 
-bool wants_all_disks(const Scene& scene) {
-  return samples_all_disks(scene) || scene.output.view;
-}
-
 RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count)
     : scene_(scene),
       folder_(folder),

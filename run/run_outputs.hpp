@@ -23,8 +23,6 @@ namespace carom {
 // Whether a scene asks for any file that is made of frames; for any file at all.
 bool wants_frames(const OutputPlan& plan);
 bool wants_files(const Scene& scene);
-// Whether any of them is made of all disks at once; the others are, piece by piece.
-bool wants_all_disks(const Scene& scene);
 
 class RunOutputs {
  public:

@@ -38,6 +38,10 @@ class DisksInPieces {
   // (core/measure/bond_order.hpp). False, with no call, where all disks are needed for that.
   virtual bool visit_orders(const Use& /*use*/) const { return false; }
 
+  // The pairs that its bond correlation is made of (core/measure/bond_correlation.hpp), likewise; absent with fewer
+  // than seven disks, too.
+  virtual std::optional<BondPairs> bond_pairs() const { return std::nullopt; }
+
   // All of them at once: of several ranks, on this one.
   virtual const Disks& whole() const = 0;
 };

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/fixed_point_sum.hpp"
 #include "core/base/types.hpp"
 
 namespace carom {
@@ -10,6 +11,12 @@ namespace carom {
 struct PairCounts {
   Count centres = 0;          // disks whose surroundings were counted
   std::vector<Count> counts;  // ordered pairs from them, by bin
+};
+
+// How alike the hexagons around the two of a pair are turned.
+struct BondPairs {
+  std::vector<Count> counts;           // as PairCounts
+  std::vector<FixedPointSum> product;  // of the same pairs: Re(psi6 of one, conjugate, times psi6 of the other)
 };
 
 }  // namespace carom

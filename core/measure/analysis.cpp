@@ -177,8 +177,9 @@ void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const DisksInPi
     record.series.local_order.push_back(order.local);
     record.series.global_order.push_back(order.global);
   }
-  if (plan.wants(Quantity::bond_correlation)) {
-    add_bond_correlation(record.bonds, disks.whole(), box, distance_bins(plan.bonds));
+  if (plan.wants(Quantity::bond_correlation) && disks.size() >= least_of_bonds) {
+    const std::optional<BondPairs> known = all.bond_pairs();
+    add_bond_pairs(record.bonds, known ? *known : bond_pairs(orders.whole(), box, distance_bins(plan.bonds)));
   }
   if (plan.wants(Quantity::bond_autocorrelation)) {
     if (!record.orders.begun) begin_memory(record.orders, orders);
@@ -187,14 +188,6 @@ void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const DisksInPi
 }
 
 }  // namespace
-
-bool samples_all_disks(const Scene& scene) {
-  const AnalysisPlan& plan = scene.analysis;
-  const bool neighbours = plan.wants(Quantity::pair_correlation) || plan.wants(Quantity::bond_order) ||
-                          plan.wants(Quantity::bond_autocorrelation);
-  // The images above a sheared box are displaced: slabs do not know them.
-  return plan.wants(Quantity::bond_correlation) || (neighbours && scene.box.shear.acts());
-}
 
 void take_sample(AnalysisRecord& record, const Scene& scene, const DisksInPieces& all, const State& now,
                  const PairCounter& count) {

@@ -69,7 +69,4 @@ inline void take_sample(AnalysisRecord& record, const Scene& scene, const Disks&
   take_sample(record, scene, WholeDisks(disks, t), now, count);
 }
 
-// Does the plan ask for anything that is found among all disks at once, and not piece by piece or slab by slab?
-bool samples_all_disks(const Scene& scene);
-
 }  // namespace carom

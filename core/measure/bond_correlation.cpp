@@ -1,26 +1,25 @@
 #include "core/measure/bond_correlation.hpp"
 
-#include "core/measure/bond_order.hpp"
-
 namespace carom {
 
-void add_bond_correlation(BondCorrelation& sums, const Disks& disks, const Domain& box, const DistanceBins& bins) {
-  Disks ordered;  // centres alone, so that the order of the sums is that of ids
-  for (const std::size_t i : by_id(disks)) {
-    ordered.x.push_back(disks.x[i]);
-    ordered.y.push_back(disks.y[i]);
-    ordered.id.push_back(disks.id[i]);
-  }
-  const std::vector<Vec2> order = bond_orders(ordered, box);
-  if (order.empty()) return;
-  const DistanceCells cells(ordered, box, bins);
+BondPairs bond_pairs(const Disks& orders, const Domain& box, const DistanceBins& bins) {
+  const DistanceCells cells(orders, box, bins);
+  BondPairs found{std::vector<Count>(bins.bins, 0), std::vector<FixedPointSum>(bins.bins)};
   using Place = DistanceCells::Place;
   cells.visit(0, cells.rows(), [&](std::size_t bin, const Place& p, const Place& q) {
-    const Vec2 a = order[p.disk], b = order[q.disk];
+    const Vec2 a{orders.vx[p.disk], orders.vy[p.disk]}, b{orders.vx[q.disk], orders.vy[q.disk]};
     const unsigned times = p.centre + q.centre;
-    sums.product[bin] += times * (a.x * b.x + a.y * b.y);
-    sums.pairs[bin] += times;
+    add_term(found.product[bin], times * (a.x * b.x + a.y * b.y));
+    found.counts[bin] += times;
   });
+  return found;
+}
+
+void add_bond_pairs(BondCorrelation& sums, const BondPairs& found) {
+  for (std::size_t k = 0; k < found.counts.size(); ++k) {
+    sums.product[k] += value_of(found.product[k]);
+    sums.pairs[k] += found.counts[k];
+  }
   ++sums.samples;
 }
 

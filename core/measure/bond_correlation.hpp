@@ -17,8 +17,10 @@ struct BondCorrelation {
   Count samples = 0;
 };
 
-// Nothing is added with fewer than seven disks. In order of ids: the same bits in any storage order. Precondition: the
-// sums have bins.bins entries.
-void add_bond_correlation(BondCorrelation& sums, const Disks& disks, const Domain& box, const DistanceBins& bins);
+// The pairs of one moment, in any order of storage. orders: disks with psi6 in place of velocities (with_orders).
+BondPairs bond_pairs(const Disks& orders, const Domain& box, const DistanceBins& bins);
+
+// Adds them as one sample. Precondition: the sums have as many bins.
+void add_bond_pairs(BondCorrelation& sums, const BondPairs& found);
 
 }  // namespace carom

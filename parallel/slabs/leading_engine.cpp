@@ -224,19 +224,15 @@ class LeadingEngine final : public Engine {
     }
 
     std::optional<double> max_overlap() const override {
-      if (engine_.part_.cut() == nullptr) return std::nullopt;
-      shown();
-      double deepest = 0.0;
-      engine_.together(RankCall::overlap, [&] { deepest = engine_.part_.shown_overlap(); });
-      return deepest;
+      return found<double>(RankCall::overlap, [](const RankPart& part) { return part.shown_overlap(); });
     }
 
     std::optional<std::vector<PairCounts>> pair_counts() const override {
-      if (engine_.part_.cut() == nullptr) return std::nullopt;
-      shown();
-      std::optional<std::vector<PairCounts>> pairs;
-      engine_.together(RankCall::pairs, [&] { pairs = engine_.part_.shown_pairs(); });
-      return pairs;
+      return found<std::vector<PairCounts>>(RankCall::pairs, [](const RankPart& part) { return part.shown_pairs(); });
+    }
+
+    std::optional<BondPairs> bond_pairs() const override {
+      return found<BondPairs>(RankCall::bonds, [](RankPart& part) { return part.shown_bonds(); });
     }
 
     const Disks& whole() const override {
@@ -247,6 +243,16 @@ class LeadingEngine final : public Engine {
     }
 
    private:
+    // What the ranks find among the disks that are shown, each in its slab.
+    template <class Found, class Find>
+    std::optional<Found> found(RankCall call, const Find& find) const {
+      if (engine_.part_.cut() == nullptr) return std::nullopt;
+      shown();
+      std::optional<Found> all;
+      engine_.together(call, [&] { all = find(engine_.part_); });
+      return all;
+    }
+
     // One call for all pieces, as ranks wait for each other at each: what use() throws waits until all have come.
     template <class Visit>
     void visit_all(RankCall call, const Use& use, const Visit& visit_them) const {

@@ -144,6 +144,8 @@ void follow(RankCall call, Ranks& ranks, RankPart& part, const Traffic& before) 
     part.shown_pairs();
   } else if (call == RankCall::orders) {
     part.visit_shown_orders({});
+  } else if (call == RankCall::bonds) {
+    part.shown_bonds();
   } else if (call == RankCall::look) {
     double t = 0.0;
     part.gather_at(t, nullptr);

@@ -32,6 +32,7 @@ enum class RankCall : std::int64_t {
   overlap,
   pairs,
   orders,
+  bonds,
   look,
   contacts,
   sums,
@@ -79,6 +80,7 @@ class RankPart {
   double shown_overlap() const { return shown_->max_overlap(scene_, *cut()); }
   bool visit_shown_orders(const DisksInPieces::Use& use) { return shown_->visit_orders(scene_, *cut(), use); }
   std::optional<std::vector<PairCounts>> shown_pairs() const { return shown_->pair_counts(scene_, *cut(), count_); }
+  std::optional<BondPairs> shown_bonds() { return shown_->bond_pairs(scene_, *cut()); }
 
   // before: what the ranks had said to each other when they began to agree on this step.
   void step(const Traffic& before);

@@ -37,9 +37,11 @@ class ShownDisks {
   // See slab_pairs.hpp.
   std::optional<std::vector<PairCounts>> pair_counts(const Scene& scene, const SlabCut& cut,
                                                      const PairCounter& count) const;
+  std::optional<BondPairs> bond_pairs(const Scene& scene, const SlabCut& cut);
 
  private:
   void visit(OrderedDisks& disks, const DisksInPieces::Use& use) const;
+  bool find_orders(const Scene& scene, const SlabCut& cut);
 
   Ranks& ranks_;
   DiskId ids_ = 0;  // above all of this rank

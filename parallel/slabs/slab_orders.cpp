@@ -11,17 +11,14 @@
 
 namespace carom {
 
-namespace {
-
-// How far neighbours are looked for at first, in mean distances: in a liquid six are within two of them.
-constexpr double first_reach = 3.0;
-
-}  // namespace
+// In a liquid six are within two mean distances.
+double first_reach(const Domain& box, Count disks) {
+  return 3.0 * std::sqrt(box.width * box.height / static_cast<double>(disks));
+}
 
 // Neighbours are looked for twice as far as long as a disk of any rank has too few.
 std::optional<Disks> orders_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box, const Disks& all,
                                        const SlabCut& cut) {
-  if (box.shear.acts()) return std::nullopt;
   const Disks some = plan.group.empty() ? Disks{} : disks_of(all, plan.ids);
   const Disks& own = plan.group.empty() ? all : some;
   auto count = static_cast<std::int64_t>(own.size());
@@ -31,8 +28,7 @@ std::optional<Disks> orders_over_ranks(Ranks& ranks, const AnalysisPlan& plan, c
   if (ranks.count() == 1) return with_orders(own, bond_orders(own, box));
   const Slab slab = slab_of(cut, box, ranks.rank());
   const double excursion = excursion_over_ranks(ranks, slab, box, own);
-  double reach = first_reach * std::sqrt(box.width * box.height / static_cast<double>(disks));
-  for (;; reach *= 2.0) {
+  for (double reach = first_reach(box, disks);; reach *= 2.0) {
     if (ranks.count() > 2 && !is_within_neighbours(cut, box, reach, excursion)) return std::nullopt;
     Disks around = joined(own, disks_at_borders(ranks, slab, box, own, reach, excursion).others);
     const auto orders = bond_orders_of_first(around, own.size(), box, reach, disks);

@@ -11,9 +11,12 @@
 
 namespace carom {
 
-// This rank's disks, as with_orders: those that the plan measures. Absent, on all ranks, in a sheared box, and where a
-// disk's six neighbours may be of ranks that are no neighbours. box: at the time of the disks. Collective.
+// This rank's disks, as with_orders: those that the plan measures. Absent, on all ranks, where a disk's six neighbours
+// may be of ranks that are no neighbours. box: at the time of the disks. Collective.
 std::optional<Disks> orders_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box, const Disks& own,
                                        const SlabCut& cut);
+
+// How far neighbours are looked for at first, with so many disks; length.
+double first_reach(const Domain& box, Count disks);
 
 }  // namespace carom

@@ -1,53 +1,100 @@
 #include "parallel/slabs/slab_pairs.hpp"
 
 #include <cstdint>
+#include <functional>
 
+#include "core/measure/bond_correlation.hpp"
+#include "core/measure/bond_order.hpp"
 #include "parallel/slabs/border_disks.hpp"
 
 namespace carom {
 
 namespace {
 
-// Adds the numbers of some counts, one after the other, so many times.
-void add_numbers(std::vector<std::int64_t>& sum, const std::vector<PairCounts>& counts, std::int64_t times) {
-  std::size_t next = 0;
-  const auto add = [&](Count number) {
-    if (next == sum.size()) sum.push_back(0);
-    sum[next++] += times * static_cast<std::int64_t>(number);
-  };
-  for (const PairCounts& c : counts) {
-    add(c.centres);
-    for (const Count number : c.counts) add(number);
+// Sums over pairs of some disks and over these disks.
+using PairNumbers = std::vector<std::int64_t>;
+
+void add_times(PairNumbers& sum, const PairNumbers& numbers, std::int64_t times) {
+  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += times * numbers[k];
+}
+
+// Those of the disks of all ranks, of pairs that are no further apart than reach (length). A pair of two ranks is one
+// of the disks at their border, and is found on both: so all that lies within a slab counts twice as well, and half of
+// the sum is what there is. Its disks are there twice, too.
+std::optional<PairNumbers> numbers_over_ranks(Ranks& ranks, const Domain& box, const Disks& own, const SlabCut& cut,
+                                              double reach,
+                                              const std::function<PairNumbers(const Disks&)>& numbers_of) {
+  if (ranks.count() == 1) return numbers_of(own);
+  const Slab slab = slab_of(cut, box, ranks.rank());
+  const double excursion = excursion_over_ranks(ranks, slab, box, own);
+  if (ranks.count() > 2 && !is_within_neighbours(cut, box, reach, excursion)) return std::nullopt;
+  const BorderDisks border = disks_at_borders(ranks, slab, box, own, reach, excursion);
+  PairNumbers numbers = numbers_of(own);
+  for (std::int64_t& number : numbers) number *= 2;
+  add_times(numbers, numbers_of(border.own), -1);
+  add_times(numbers, numbers_of(border.others), -1);
+  add_times(numbers, numbers_of(joined(border.own, border.others)), 1);
+  ranks.sum(numbers);
+  for (std::int64_t& number : numbers) number /= 2;
+  return numbers;
+}
+
+PairNumbers numbers_in(const std::vector<PairCounts>& pairs) {
+  PairNumbers numbers;
+  for (const PairCounts& p : pairs) {
+    numbers.push_back(static_cast<std::int64_t>(p.centres));
+    for (const Count count : p.counts) numbers.push_back(static_cast<std::int64_t>(count));
   }
+  return numbers;
+}
+
+PairNumbers numbers_in(const BondPairs& pairs) {
+  PairNumbers numbers;
+  for (const Count count : pairs.counts) numbers.push_back(static_cast<std::int64_t>(count));
+  for (const FixedPointSum& product : pairs.product) {
+    numbers.push_back(product.high);
+    numbers.push_back(product.low);
+  }
+  return numbers;
 }
 
 }  // namespace
 
-// A pair of two ranks is one of the disks at their border, and is found on both: so all that lies within a slab counts
-// twice as well, and half of the sum is what there is. Its disks are centres twice, too.
 std::optional<std::vector<PairCounts>> pairs_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box,
                                                         const Disks& own, const SlabCut& cut,
                                                         const PairCounter& count) {
-  if (!plan.wants(Quantity::pair_correlation) || box.shear.acts()) return std::nullopt;
-  const auto pairs_of = [&](const Disks& disks) { return pairs_of_plan(plan, disks, box, count); };
-  std::vector<PairCounts> pairs = pairs_of(own);
-  std::vector<std::int64_t> numbers;
-  add_numbers(numbers, pairs, 2);
-  if (ranks.count() > 1) {
-    const Slab slab = slab_of(cut, box, ranks.rank());
-    const double excursion = excursion_over_ranks(ranks, slab, box, own);
-    const double reach = plan.pairs.r_max;
-    if (ranks.count() > 2 && !is_within_neighbours(cut, box, reach, excursion)) return std::nullopt;
-    const BorderDisks border = disks_at_borders(ranks, slab, box, own, reach, excursion);
-    add_numbers(numbers, pairs_of(border.own), -1);
-    add_numbers(numbers, pairs_of(border.others), -1);
-    add_numbers(numbers, pairs_of(joined(border.own, border.others)), 1);
+  if (!plan.wants(Quantity::pair_correlation)) return std::nullopt;
+  std::vector<PairCounts> pairs;
+  const auto numbers = numbers_over_ranks(ranks, box, own, cut, plan.pairs.r_max, [&](const Disks& disks) {
+    pairs = pairs_of_plan(plan, disks, box, count);
+    return numbers_in(pairs);
+  });
+  if (!numbers) return std::nullopt;
+  auto next = numbers->begin();
+  for (PairCounts& p : pairs) {
+    p.centres = static_cast<Count>(*next++);
+    for (Count& number : p.counts) number = static_cast<Count>(*next++);
   }
-  ranks.sum(numbers);
-  auto next = numbers.begin();
-  for (PairCounts& c : pairs) {
-    c.centres = static_cast<Count>(*next++) / 2;
-    for (Count& number : c.counts) number = static_cast<Count>(*next++) / 2;
+  return pairs;
+}
+
+std::optional<BondPairs> bond_pairs_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box,
+                                               const Disks& orders, const SlabCut& cut) {
+  if (!plan.wants(Quantity::bond_correlation)) return std::nullopt;
+  auto disks = static_cast<std::int64_t>(orders.size());
+  ranks.sum({&disks, 1});
+  if (static_cast<Count>(disks) < least_of_bonds) return std::nullopt;
+  BondPairs pairs;
+  const auto numbers = numbers_over_ranks(ranks, box, orders, cut, plan.bonds.r_max, [&](const Disks& some) {
+    pairs = bond_pairs(some, box, distance_bins(plan.bonds));
+    return numbers_in(pairs);
+  });
+  if (!numbers) return std::nullopt;
+  auto next = numbers->begin();
+  for (Count& number : pairs.counts) number = static_cast<Count>(*next++);
+  for (FixedPointSum& product : pairs.product) {
+    product.high = *next++;
+    product.low = *next++;
   }
   return pairs;
 }

@@ -109,6 +109,10 @@ TEST(BondOrder, TurnedCrystalsHaveNoOrderInCommon) {
   EXPECT_LT(order.global, 0.05);
 }
 
+BondPairs pairs_of(const Disks& d, const Domain& box, const DistanceBins& bins) {
+  return bond_pairs(with_orders(d, bond_orders(d, box)), box, bins);
+}
+
 // On a hexagonal lattice every psi6 is the same: g6 is 1 wherever there are pairs, which are at distances of
 // neighbours.
 TEST(BondCorrelation, OfAHexagonalLatticeIsOne) {
@@ -116,7 +120,7 @@ TEST(BondCorrelation, OfAHexagonalLatticeIsOne) {
   const Disks d = triangles(12, 14, box);
   const DistanceBins bins{5.0, 50, 0.0};
   BondCorrelation sums{std::vector<double>(50, 0.0), std::vector<Count>(50, 0), 0};
-  add_bond_correlation(sums, d, box, bins);
+  add_bond_pairs(sums, pairs_of(d, box, bins));
   EXPECT_EQ(sums.samples, 1U);
   EXPECT_EQ(sums.pairs[10] + sums.pairs[9], 168U * 6U) << "at the lattice spacing, give or take rounding";
   for (std::size_t k = 0; k < 50; ++k) {
@@ -143,8 +147,8 @@ TEST(BondCorrelation, OfAGasIsThatOfAllPairs) {
     }
   }
   BondCorrelation sums{std::vector<double>(n, 0.0), std::vector<Count>(n, 0), 0}, other = sums;
-  add_bond_correlation(sums, d, box, bins);
-  add_bond_correlation(other, turned(d), box, bins);
+  add_bond_pairs(sums, pairs_of(d, box, bins));
+  add_bond_pairs(other, pairs_of(turned(d), box, bins));
   EXPECT_EQ(sums.pairs, pairs);
   EXPECT_EQ(sums.product, other.product) << "storage does not matter";
   for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(sums.product[k], product[k], 1e-9) << k;

@@ -69,9 +69,7 @@ TEST(ShearedMeasures, PairDistancesAreThoseOfAllImages) {
       }
       EXPECT_EQ(count_pairs(d, box, bins).counts, expected) << s.width << " x " << s.height << ", " << share;
       EXPECT_EQ(parallel_pair_counter(3)(d, box, bins).counts, expected);
-      BondCorrelation bonds{std::vector<double>(23, 0.0), std::vector<Count>(23, 0), 0};
-      add_bond_correlation(bonds, d, box, bins);
-      EXPECT_EQ(bonds.pairs, expected);
+      EXPECT_EQ(bond_pairs(with_orders(d, bond_orders(d, box)), box, bins).counts, expected);
     }
   }
 }

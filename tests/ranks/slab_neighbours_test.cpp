@@ -1,5 +1,5 @@
 // What ranks find among neighbours, each among the disks of its slab and at its borders, is that of one machine: pairs
-// by distance, and psi6.
+// by distance, psi6, and its correlation over distance.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/load/scene_file.hpp"
+#include "core/measure/bond_correlation.hpp"
 #include "core/measure/bond_order.hpp"
 #include "core/measure/measured_disks.hpp"
 #include "core/measure/pair_records.hpp"
@@ -24,7 +25,8 @@ Scene scene_with(const std::string& method, const std::string& sides, int height
                   "radius = 0.3\nmass = 1.0\nvelocities = {{ maxwell = 2.0 }}\n[[disks]]\nname = \"many\"\ncount = {}\n"
                   "positions = \"random\"\nradius = {{ uniform = [0.4, 0.6] }}\nmass = 1.0\n"
                   "velocities = {{ maxwell = 1.0 }}\n[run]\nmethod = \"{}\"\ndt = 0.02\nt_end = 0.4\n[analysis]\n"
-                  "what = [\"pair_correlation\"]\n{}\n",
+                  "what = [\"pair_correlation\", \"bond_correlation\"]\n"
+                  "bond_correlation = {{ r_max = 2.5, bins = 20 }}\n{}\n",
                   height, sides, height, 4 * height, method, pairs),
       "scene", "");
 }
@@ -62,8 +64,25 @@ bool expect_orders(const DisksInPieces& pieces, const Disks& there, const Scene&
   return known;
 }
 
+// And of the pairs that its correlation over distance is made of.
+bool expect_bonds(const DisksInPieces& pieces, const Disks& there, const Scene& scene) {
+  const AnalysisPlan& plan = scene.analysis;
+  const auto bonds = pieces.bond_pairs();
+  if (!bonds) return false;
+  const Domain box = box_at(scene.box, pieces.time());
+  const Disks measured = plan.group.empty() ? there : disks_of(there, plan.ids);
+  const BondPairs all = bond_pairs(with_orders(measured, bond_orders(measured, box)), box, distance_bins(plan.bonds));
+  EXPECT_EQ(bonds->counts, all.counts);
+  EXPECT_EQ(bonds->product.size(), all.product.size());
+  for (std::size_t k = 0; k < std::min(bonds->product.size(), all.product.size()); ++k) {
+    EXPECT_EQ(bonds->product[k].high, all.product[k].high) << k;
+    EXPECT_EQ(bonds->product[k].low, all.product[k].low) << k;
+  }
+  return true;
+}
+
 struct Known {
-  int pairs = 0, orders = 0;
+  int pairs = 0, orders = 0, bonds = 0;
 };
 
 // In steps of a run on so many ranks, also at times within them. Returns how often the ranks could tell.
@@ -82,6 +101,7 @@ Known expect_those_of_one_machine(const Scene& scene, int ranks) {
       const auto pieces = engine->pieces_at(t, room);
       known.pairs += expect_pairs(*pieces, there, scene) ? 1 : 0;
       known.orders += expect_orders(*pieces, there, scene) ? 1 : 0;
+      known.bonds += expect_bonds(*pieces, there, scene) ? 1 : 0;
     }
   });
   return known;
@@ -103,23 +123,34 @@ TEST(SlabNeighbours, AreThoseOfOneMachine) {
         // The few are so far from each other that they look for neighbours beyond the next of thin slabs.
         if (pairs == of_some && ranks > 2) continue;
         EXPECT_EQ(known.orders, 20) << ranks;
+        EXPECT_EQ(known.bonds, 20) << ranks;
       }
     }
     const Known exact = expect_those_of_one_machine(scene_with("exact", sides, 400, of_groups), 3);
     EXPECT_GT(exact.pairs, 0);
     EXPECT_EQ(exact.pairs, exact.orders);
+    EXPECT_EQ(exact.pairs, exact.bonds);
     // Each of two thin slabs sees the other across both borders.
     EXPECT_EQ(expect_those_of_one_machine(scene_with("pairwise", sides, 8, far), 2).pairs, 20);
   }
 }
 
-// Neighbours of ranks that are none, and images above that are displaced: all disks are needed.
-TEST(SlabNeighbours, AreLeftToOthersWhereSlabsAreThinOrSheared) {
+// The images above a sheared box are displaced, by more than its width in the end.
+TEST(SlabNeighbours, AreThoseOfOneMachineInAShearFlow) {
+  const std::string shear = periodic + "shear_rate = 0.7\n";
+  for (const int ranks : {1, 2, 3, 4}) {
+    const Known known = expect_those_of_one_machine(scene_with("pairwise", shear, 60, far), ranks);
+    EXPECT_EQ(known.pairs, 20) << ranks;
+    EXPECT_EQ(known.orders, 20) << ranks;
+    EXPECT_EQ(known.bonds, 20) << ranks;
+  }
+  EXPECT_EQ(expect_those_of_one_machine(scene_with("pairwise", shear, 8, far), 2).bonds, 20);
+}
+
+// Neighbours of ranks that are none: all disks are needed.
+TEST(SlabNeighbours, AreLeftToOthersWhereSlabsAreThin) {
   const Known thin = expect_those_of_one_machine(scene_with("pairwise", walls, 12, far), 4);
-  EXPECT_EQ(thin.pairs + thin.orders, 0);
-  const std::string shear = periodic + "shear_rate = 0.1\n";
-  const Known sheared = expect_those_of_one_machine(scene_with("pairwise", shear, 60, far), 2);
-  EXPECT_EQ(sheared.pairs + sheared.orders, 0);
+  EXPECT_EQ(thin.pairs + thin.orders + thin.bonds, 0);
 }
 
 }  // namespace
