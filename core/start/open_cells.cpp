@@ -25,7 +25,8 @@ constexpr double cell_margin = 1e-6;
 
 }  // namespace
 
-OpenCells::OpenCells(const Domain& box, double smallest, std::size_t disks, const StartRegion* region)
+OpenCells::OpenCells(const Domain& box, double smallest, std::size_t disks, const StartRegion* region,
+                     const KnownHeights& known)
     : box_(box), region_(region), smallest_(smallest), disks_(disks) {
   const auto most = static_cast<double>(std::min(most_cells, most_cells_per_disk * disks + 4096));
   const double edge = std::max(smallest / cells_per_radius, box.width * std::sqrt(box.height / box.width / most));
@@ -33,14 +34,23 @@ OpenCells::OpenCells(const Domain& box, double smallest, std::size_t disks, cons
   rows_ = static_cast<std::size_t>(std::clamp(box.height / edge, 1.0, most / static_cast<double>(columns_)));
   cell_x_ = box.width / static_cast<double>(columns_);
   cell_y_ = box.height / static_cast<double>(rows_);
-  open_ = columns_ * rows_;
+  first_row_ = first_row_from(known.low);
+  end_row_ = std::max(first_row_, first_row_from(known.high));
+  open_ = columns_ * (end_row_ - first_row_);
   resize_in_huge_pages(bits_, open_ / 64 + 1);
   close_margins(smallest);
   if (region_ != nullptr) close_outside();
 }
 
+// Of the first row of tiles whose lower edge is not below.
+std::size_t OpenCells::first_row_from(double height) const {
+  const auto rows = static_cast<double>(rows_);
+  const double row = std::ceil(std::clamp(height / tile_height(), -1.0, rows)) * VoxelList::tile;
+  return static_cast<std::size_t>(std::clamp(row, 0.0, rows));
+}
+
 void OpenCells::close_outside() {
-  for (std::size_t row = 0; row < rows_; ++row) {
+  for (std::size_t row = first_row_; row < end_row_; ++row) {
     const double low = static_cast<double>(row) * cell_y_;
     for (std::size_t column = 0; column < columns_; ++column) {
       const double left = static_cast<double>(column) * cell_x_;
@@ -56,7 +66,7 @@ void OpenCells::close_margins(double smallest) {
   };
   const std::size_t across = box_.periodic_x() ? 0 : std::min(cells(cell_x_), columns_ / 2);
   const std::size_t up = box_.periodic_y() ? 0 : std::min(cells(cell_y_), rows_ / 2);
-  for (std::size_t row = 0; row < rows_; ++row) {
+  for (std::size_t row = first_row_; row < end_row_; ++row) {
     if (row < up || row >= rows_ - up) {
       close_span(row, 0, columns_);
     } else {
@@ -67,7 +77,7 @@ void OpenCells::close_margins(double smallest) {
 }
 
 void OpenCells::close_span(std::size_t row, std::size_t first, std::size_t count) {
-  std::size_t cell = row * columns_ + first;
+  std::size_t cell = (row - first_row_) * columns_ + first;
   while (count > 0) {
     const std::size_t shift = cell % 64;
     const std::size_t taken = std::min(count, 64 - shift);
@@ -105,19 +115,20 @@ void OpenCells::close_around(double x, double y, double radius) {
     if (half_squared <= 0.0 || (outside && !box_.periodic_y())) continue;
     const double half = std::sqrt(half_squared);
     const double wrapped = row < 0.0 ? row + rows : (row >= rows ? row - rows : row);
+    if (wrapped < static_cast<double>(first_row_) || wrapped >= static_cast<double>(end_row_)) continue;
     close_columns(wrapped, std::ceil((x - half) / cell_x_ + cell_margin),
                   std::floor((x + half) / cell_x_ - cell_margin));
   }
 }
 
-bool OpenCells::list_due() const {
-  return open_ <= std::max(listed_per_disk * disks_, least_listed);
+bool OpenCells::list_due(std::size_t open) const {
+  return open <= std::max(listed_per_disk * disks_, least_listed);
 }
 
 // The open cells of a row, from left to right.
 void OpenCells::read_row(std::size_t row, std::vector<Voxel>& open) const {
   open.clear();
-  const std::size_t begin = row * columns_;
+  const std::size_t begin = (row - first_row_) * columns_;
   const std::size_t end = begin + columns_;
   for (std::size_t word = begin / 64; 64 * word < end; ++word) {
     for (std::uint64_t rest = ~bits_[word]; rest != 0; rest &= rest - 1) {
@@ -134,11 +145,11 @@ VoxelList OpenCells::list() const {
   resize_in_huge_pages(open, open_);
   open.clear();
   std::array<std::vector<Voxel>, side> row;
-  for (std::size_t first = 0; first < rows_; first += side) {
+  for (std::size_t first = first_row_; first < end_row_; first += side) {
     std::array<std::size_t, side> next{};
     for (std::size_t r = 0; r < side; ++r) {
       row[r].clear();
-      if (first + r < rows_) read_row(first + r, row[r]);
+      if (first + r < end_row_) read_row(first + r, row[r]);
     }
     for (;;) {
       std::size_t tile = columns_;

@@ -152,13 +152,17 @@ void PlacementSearch::fail_jammed(std::size_t k) const {
       "expected fewer disks or a larger box, or positions = \"growth\" (denser), \"hexagonal\" or \"square\"");
 }
 
+std::uint64_t most_trials(std::size_t members) {
+  return std::max(most_trials_at_least, most_trials_each * members);
+}
+
 PlacementSearch make_placement_search(const Scene& scene, Disks& disks, PlacementGrid& grid,
                                       std::vector<std::uint32_t>& members) {
   if (!disks.radius.empty()) {
     std::stable_sort(members.begin(), members.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return disks.radius[a] > disks.radius[b]; });
   }
-  const std::uint64_t most = std::max(most_trials_at_least, most_trials_each * members.size());
+  const std::uint64_t most = most_trials(members.size());
   const StartRegion* region = nullptr;
   if (!members.empty()) {
     const auto& of_first = scene.groups[group_of(scene, members.front())].positions.region;

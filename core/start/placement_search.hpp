@@ -98,6 +98,8 @@ struct PlacementSearch {
 // Trials of one disk before it is given up, and those after which the list may be refined for it alone.
 inline constexpr std::uint64_t most_trials_of_one = 200'000;
 inline constexpr std::uint64_t trials_between_lessons = 20'000;
+// Trials that a search for so many may cost in all.
+std::uint64_t most_trials(std::size_t members);
 
 PlacementSearch make_placement_search(const Scene& scene, Disks& disks, PlacementGrid& grid,
                                       std::vector<std::uint32_t>& members);

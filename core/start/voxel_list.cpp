@@ -37,10 +37,11 @@ VoxelList::VoxelList(const Domain& box, double smallest, std::size_t disks, std:
       rows_(rows),
       size_x_(box.width / static_cast<double>(columns)),
       size_y_(box.height / static_cast<double>(rows)),
-      list_(std::move(open)) {}
+      list_(std::move(open)),
+      all_(list_.size()) {}
 
 Vec2 VoxelList::point(TwoUniforms in_voxel, double which) const {
-  const Voxel voxel = list_[entry_of(which)];
+  const Voxel voxel = list_[entry_of(which) - before_];
   return {(voxel.column + in_voxel.a) * size_x_, (voxel.row + in_voxel.b) * size_y_};
 }
 
@@ -53,7 +54,7 @@ bool VoxelList::holds(Vec2 point) const {
 // Not beyond what 32 bits count, and not so many that memory runs short.
 bool VoxelList::halved() const {
   constexpr std::uint64_t most = std::uint64_t{1} << 31;
-  return columns_ <= most && rows_ <= most && list_.size() <= std::max(halved_per_disk * disks_, halved_at_least);
+  return columns_ <= most && rows_ <= most && all_ <= std::max(halved_per_disk * disks_, halved_at_least);
 }
 
 // Nothing of it is in the room that walls and sinks leave to a centre.
@@ -110,6 +111,7 @@ void VoxelList::replace(std::vector<Voxel> survivors) {
   size_x_ = box_.width / static_cast<double>(columns_);
   size_y_ = box_.height / static_cast<double>(rows_);
   list_ = std::move(survivors);
+  be_part(0, list_.size());
 }
 
 }  // namespace carom

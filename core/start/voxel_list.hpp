@@ -32,20 +32,30 @@ class VoxelList {
   VoxelList(const Domain& box, double smallest, std::size_t disks, std::size_t columns, std::size_t rows,
             std::vector<Voxel> open, const StartRegion* region = nullptr);
 
+  // Of the voxels that are here. As a list is made or changed, they are all there are.
   std::size_t size() const { return list_.size(); }
   bool empty() const { return list_.empty(); }
 
+  // Some of a list of so many that several share: those that so many are before.
+  void be_part(std::size_t before, std::size_t all) {
+    before_ = before;
+    all_ = all;
+  }
+  std::size_t all() const { return all_; }
+  // Is the voxel here?
+  bool has(double which) const { return entry_of(which) - before_ < list_.size(); }
+
   // The least trials in vain after which refining costs less than it saves.
-  std::uint64_t patience() const { return list_.size() / 4 + 256; }
+  std::uint64_t patience() const { return all_ / 4 + 256; }
 
   // Is the point in one of the voxels? Reads the whole list.
   bool holds(Vec2 point) const;
 
-  // A point uniform in a voxel. Precondition: not empty.
+  // A point uniform in a voxel. Precondition: it is here.
   Vec2 point(TwoUniforms in_voxel, double which) const;
 
   // Asks for the memory that point is about to read.
-  void prefetch(double which) const { __builtin_prefetch(&list_[entry_of(which)]); }
+  void prefetch(double which) const { __builtin_prefetch(&list_[entry_of(which) - before_]); }
 
   // What is left of the voxels begin to end - 1 of the list, in their order: those that no disk of the grid rules out,
   // whole, or the quarters of them if the list is to be halved().
@@ -60,12 +70,16 @@ class VoxelList {
   // voxels up to some k >= first + their number in place of those from `first` on, and returns where they end;
   // afterwards the list ends there.
   std::size_t put(std::size_t first, const std::vector<Voxel>& survivors);
-  void end_at(std::size_t size) { list_.resize(size); }
+  void end_at(std::size_t size) {
+    list_.resize(size);
+    be_part(0, size);
+  }
 
  private:
   bool outside(double x, double y, double half_x, double half_y) const;
+  // Among all.
   std::size_t entry_of(double which) const {
-    return std::min(static_cast<std::size_t>(which * static_cast<double>(list_.size())), list_.size() - 1);
+    return std::min(static_cast<std::size_t>(which * static_cast<double>(all_)), all_ - 1);
   }
 
   Domain box_;
@@ -76,6 +90,7 @@ class VoxelList {
   double size_x_, size_y_;     // of a voxel, length
   std::uint32_t tile_ = tile;  // voxels along a side of a tile
   std::vector<Voxel> list_;
+  std::size_t before_ = 0, all_ = 0;
 };
 
 }  // namespace carom

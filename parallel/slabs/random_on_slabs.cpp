@@ -1,6 +1,7 @@
 #include "parallel/slabs/random_on_slabs.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -16,6 +17,7 @@
 #include "core/start/wall_segments.hpp"
 #include "parallel/cells/batch_cells.hpp"
 #include "parallel/slabs/border_search.hpp"
+#include "parallel/slabs/open_places.hpp"
 
 namespace carom {
 
@@ -24,18 +26,25 @@ namespace {
 // Disks of a batch: so few of all that few of it get into each other's way, and some megabytes on each rank.
 constexpr Count batches = 64;
 constexpr Count smallest_batch = 64, largest_batch = Count{1} << 17;
-// Trials that ranks tell each other of at a time where few disks are still without a place.
-constexpr std::size_t most_trials_at_once = 16;
+// Trials of a disk that ranks tell each other of at first, where few disks are without a place; twice as many each
+// time. And those of all disks, unless there are more disks than that.
+constexpr std::size_t first_trials = 16, trials_at_once = 4096;
 // How many more disks than in the mean a slab may get: in standard deviations, and a share.
 constexpr double deviations = 8.0, more_disks = 0.02;
 constexpr double rounding = 1e-9;
-// Packing fraction up to which one machine learns nothing, measured with 4 10^5 disks: 0.38 is below, 0.4 above.
-constexpr double most_packed = 0.39;
+constexpr std::size_t voxels_per_disk = 256;
+// Points whose memory is asked for at a time.
+constexpr std::size_t points_at_once = 32;
+// Of a number that ranks add up: each bit is set by one of them.
+constexpr std::size_t bits_a_number = 63;
+// Packing fraction at which random addition jams (Feder 1980).
+constexpr double most_packed = 0.547;
 
-// All ranks know every trial's point, which follows from seed, id and trial; whether it is free of the disks placed
-// before knows the rank in whose slab it lies. What they tell each other is a bit a trial. Then all of them go through
-// the batch in order, as one machine does: a disk takes its first free point that no other of the batch covers. Where
-// one has none left, the ranks look for its next, and go through the batch again.
+// A trial's point follows from seed, id and trial, and where few places are left from a list of voxels of which each
+// rank has a part; whether it is free of the disks placed before knows the rank in whose slab, or voxels, it lies. What
+// they tell each other is a bit a trial, and points that not all of them know. Then all of them go through the batch in
+// order, as one machine does: a disk takes its first free point that no other of the batch covers. Where one has none
+// left, the ranks look for its next, and go through the batch again.
 class SlabPlacement {
  public:
   SlabPlacement(const Scene& scene, double radius, Count count, const SlabCut& cut, double up, Ranks& ranks)
@@ -53,24 +62,24 @@ class SlabPlacement {
     slab_.high -= up;
     make_room_for_disks();
     grid_.emplace(box_, near_);
+    places_.emplace(box_, radius_, static_cast<std::size_t>(count_), heights(), near_, *grid_, ranks_);
   }
 
   std::optional<PlacedOnSlab> place() {
     const auto batch = static_cast<std::size_t>(std::clamp(count_ / batches, smallest_batch, largest_batch));
     cells_.fit(box_, 2.000001 * radius_, batch);  // rounding may shift a cell's edge
-    for (first_ = 0; first_ < count_; first_ += points_.size()) {
-      points_.assign(static_cast<std::size_t>(std::min<Count>(batch, count_ - first_)), {});
+    while (first_ < count_) {
+      while (places_->lesson_due(static_cast<std::size_t>(first_))) {
+        if (!places_->learn()) return {};
+      }
+      if (places_->list() != nullptr && places_->list()->all() == 0) return {};
+      points_.assign(static_cast<std::size_t>(std::min<Count>(std::min(batch, batch_of_list()), count_ - first_)), {});
       if (!find_points() || !settle() || ranks_.any(!commit())) return {};
     }
     return own_disks();
   }
 
  private:
-  struct Point {
-    Vec2 at;
-    std::uint64_t trial = 0;
-  };
-
   // A slab as high as this may get so many disks, and sees those of its neighbours that may touch its own.
   void make_room_for_disks() {
     const double height = std::min(box_.height, slab_.high - slab_.low + 2.0 * reach());
@@ -84,38 +93,91 @@ class SlabPlacement {
     near_.id.resize(capacity);
   }
 
-  double reach() const { return 2.0 * radius_ + rounding * box_.height; }
+  double reach() const { return OpenPlaces::reach(radius_) + rounding * box_.height; }
+  KnownHeights heights() const {
+    KnownHeights known;
+    if (ranks_.rank() > 0) known.low = slab_.low;
+    if (ranks_.rank() + 1 < ranks_.count()) known.high = slab_.high;
+    return known;
+  }
   bool is_own(Vec2 p) const { return cut_.rank_at(p.y + up_) == ranks_.rank(); }
   bool is_near(Vec2 p) const {
     const Beyond b = beyond(slab_, box_, p.y);
     return std::max(b.lower, b.upper) <= reach();
   }
 
-  Vec2 point_of(std::size_t k, std::uint64_t trial) const {
-    const auto id = static_cast<DiskId>(first_ + k);
-    return trial_point(box_, room_, nullptr, draw_trial(scene_.seed, id, trial, false));
+  // Where few places are left, a large batch would only get into its own way.
+  std::size_t batch_of_list() const {
+    const VoxelList* const list = places_->list();
+    return list != nullptr ? std::max<std::size_t>(smallest_batch, list->all() / voxels_per_disk) : largest_batch;
   }
-  bool is_free(Vec2 p) const { return room_.holds(p) && !grid_->overlapping(p.x, p.y, radius_, false); }
+
+  // The point of a trial, if it is known here: without a list every one is, otherwise those in a voxel of this rank.
+  std::optional<Vec2> known_point(std::size_t k, std::uint64_t trial) const {
+    const VoxelList* const list = places_->list();
+    const auto id = static_cast<DiskId>(first_ + k);
+    const TrialDraw draw = draw_trial(scene_.seed, id, trial, list != nullptr);
+    if (list != nullptr && !list->has(draw.voxel)) return {};
+    return trial_point(box_, room_, list, draw);
+  }
+  // Is it this rank's to say whether a point that it knows is free?
+  bool is_judged_here(Vec2 p) const { return places_->list() != nullptr || is_own(p); }
+  void set(std::size_t bit) { bits_[bit / bits_a_number] |= std::int64_t{1} << (bit % bits_a_number); }
+  bool is_set(std::size_t bit) const { return (bits_[bit / bits_a_number] >> (bit % bits_a_number) & 1) != 0; }
+
+  // Sets the trial's bit if its point is free, now or in judge(): while memory answers for one point, others are drawn.
+  void judge_soon(std::size_t trial, Vec2 p) {
+    if (!room_.holds(p)) return;
+    grid_->prefetch_cells(p.x, p.y);
+    judged_.push_back({trial, p});
+    if (judged_.size() == points_at_once) judge();
+  }
+  void judge() {
+    for (const Judged& j : judged_) grid_->prefetch_disks(j.point.x, j.point.y);
+    for (const Judged& j : judged_) {
+      if (grid_->overlapping(j.point.x, j.point.y, radius_, false)) continue;
+      set(j.trial);
+    }
+    judged_.clear();
+  }
+
+  // The points of trials of these disks, on all ranks.
+  std::vector<Vec2> points_of(const std::vector<std::size_t>& disks, const std::vector<std::uint64_t>& trials) {
+    std::vector<std::int64_t> bits(2 * disks.size(), 0);
+    for (std::size_t m = 0; m < disks.size(); ++m) {
+      const std::optional<Vec2> p = known_point(disks[m], trials[m]);
+      if (!p) continue;
+      bits[2 * m] = std::bit_cast<std::int64_t>(p->x);
+      bits[2 * m + 1] = std::bit_cast<std::int64_t>(p->y);
+    }
+    if (places_->list() != nullptr) ranks_.sum(bits);  // each is known to one
+    std::vector<Vec2> points(disks.size());
+    for (std::size_t m = 0; m < disks.size(); ++m) {
+      points[m] = {std::bit_cast<double>(bits[2 * m]), std::bit_cast<double>(bits[2 * m + 1])};
+    }
+    return points;
+  }
 
   // For each of these disks of the batch, from trial next[m] on, the first that is free of the disks placed before;
   // next[m] becomes it. False where one has none.
   bool next_free(const std::vector<std::size_t>& disks, std::vector<std::uint64_t>& next) {
     std::vector<std::size_t> pending(disks.size());
     for (std::size_t m = 0; m < disks.size(); ++m) pending[m] = m;
-    while (!pending.empty()) {
-      const std::size_t at_once = std::clamp<std::size_t>(smallest_batch * 64 / pending.size(), 1, most_trials_at_once);
-      bits_.assign((pending.size() * at_once + 62) / 63, 0);  // 63 a number: their sum is of one rank's each
+    for (std::size_t most = first_trials; !pending.empty(); most = std::min(2 * most, trials_at_once)) {
+      const std::size_t at_once = std::clamp<std::size_t>(trials_at_once / pending.size(), 1, most);
+      bits_.assign(pending.size() * at_once / bits_a_number + 1, 0);
       for (std::size_t b = 0; b < pending.size() * at_once; ++b) {
         const std::size_t m = pending[b / at_once];
-        const Vec2 p = point_of(disks[m], next[m] + b % at_once);
-        if (is_own(p) && is_free(p)) bits_[b / 63] |= std::int64_t{1} << (b % 63);
+        const std::optional<Vec2> p = known_point(disks[m], next[m] + b % at_once);
+        if (p && is_judged_here(*p)) judge_soon(b, *p);
       }
+      judge();
       ranks_.sum(bits_);
       std::size_t left = 0;
       for (std::size_t q = 0; q < pending.size(); ++q) {
         const std::size_t m = pending[q];
         std::size_t t = 0;
-        while (t < at_once && (bits_[(q * at_once + t) / 63] >> ((q * at_once + t) % 63) & 1) == 0) ++t;
+        while (t < at_once && !is_set(q * at_once + t)) ++t;
         next[m] += t;
         if (next[m] >= trials_between_lessons) return false;
         if (t == at_once) pending[left++] = m;
@@ -131,8 +193,24 @@ class SlabPlacement {
     std::vector<std::uint64_t> next(points_.size(), 0);
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
     if (!next_free(all, next)) return false;
-    for (std::size_t k = 0; k < all.size(); ++k) points_[k] = {point_of(k, next[k]), next[k]};
+    const std::vector<Vec2> points = points_of(all, next);
+    for (std::size_t k = 0; k < all.size(); ++k) points_[k] = {points[k], next[k]};
     first_points_ = points_;
+    end_at_lesson();
+    return true;
+  }
+
+  // Disks of the batch take no fewer trials than is known so far: those that come after a lesson are left to the next
+  // one. True where there are such.
+  bool end_at_lesson() {
+    const std::uint64_t most = places_->trials_to_lesson();
+    std::uint64_t trials = 0;
+    std::size_t k = 0;
+    while (k < points_.size() && trials <= most) trials += points_[k++].trial;
+    if (k == points_.size()) return false;
+    points_.resize(k);
+    std::erase_if(conflicts_, [k](std::size_t disk) { return disk >= k; });
+    std::erase_if(later_, [k](const auto& entry) { return entry.first >= k; });
     return true;
   }
 
@@ -148,33 +226,36 @@ class SlabPlacement {
                            [&](std::uint32_t other) { return other < k && absent_[other] == 0 && !apart(other, p); });
   }
 
-  // The disks of the batch whose first point one before them covers: each rank looks at those in its slab.
-  void find_conflicts() {
+  void fill_cells() {
     cells_.clear();
     for (std::size_t k = 0; k < points_.size(); ++k) cells_.insert(static_cast<std::uint32_t>(k), points_[k].at);
+  }
+
+  // The disks of the batch whose first point one before them covers: each rank looks at those in its slab.
+  void find_conflicts() {
+    fill_cells();
     absent_.assign(points_.size(), 0);
-    bits_.assign(points_.size() / 63 + 1, 0);
+    bits_.assign(points_.size() / bits_a_number + 1, 0);
     for (std::size_t k = 0; k < points_.size(); ++k) {
       const Vec2 p = points_[k].at;
-      if (is_own(p) && is_covered(k, p)) bits_[k / 63] |= std::int64_t{1} << (k % 63);
+      if (is_own(p) && is_covered(k, p)) set(k);
     }
     ranks_.sum(bits_);
     conflicts_.clear();
     for (std::size_t k = 0; k < points_.size(); ++k) {
-      if ((bits_[k / 63] >> (k % 63) & 1) != 0) conflicts_.push_back(k);
+      if (is_set(k)) conflicts_.push_back(k);
     }
   }
 
-  void move(std::size_t k, const Point& to) {
+  void move(std::size_t k, const TrialPlace& to) {
     cells_.move(static_cast<std::uint32_t>(k), points_[k].at, to.at);
     points_[k] = to;
   }
 
   // The next known point of k that none before it covers; false where there is none.
   bool move_on(std::size_t k) {
-    for (const std::uint64_t trial : later_[k]) {
-      const Point next{point_of(k, trial), trial};
-      if (trial <= points_[k].trial || is_covered(k, next.at)) continue;
+    for (const TrialPlace& next : later_[k]) {
+      if (next.trial <= points_[k].trial || is_covered(k, next.at)) continue;
       move(k, next);
       return true;
     }
@@ -185,7 +266,7 @@ class SlabPlacement {
   // are covered, which the others then do not see.
   std::vector<std::size_t> go_through() {
     // In any order: whether a point is covered does not depend on the order of the disks in a cell.
-    for (const auto& [k, trials] : later_) move(k, first_points_[k]);
+    for (const auto& [k, places] : later_) move(k, first_points_[k]);
     std::fill(absent_.begin(), absent_.end(), 0);
     std::vector<std::size_t> without;
     std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> again(conflicts_.begin(),
@@ -209,22 +290,27 @@ class SlabPlacement {
   bool settle() {
     find_conflicts();
     for (;;) {
-      const std::vector<std::size_t> without = go_through();
+      std::vector<std::size_t> without = go_through();
+      if (end_at_lesson()) {
+        fill_cells();
+        std::erase_if(without, [this](std::size_t k) { return k >= points_.size(); });
+      }
       if (without.empty()) return true;
       std::vector<std::uint64_t> next;
       for (const std::size_t k : without) {
-        next.push_back((later_[k].empty() ? first_points_[k].trial : later_[k].back()) + 1);
+        next.push_back((later_[k].empty() ? first_points_[k].trial : later_[k].back().trial) + 1);
       }
       if (!next_free(without, next)) return false;
-      for (std::size_t m = 0; m < without.size(); ++m) later_[without[m]].push_back(next[m]);
+      const std::vector<Vec2> points = points_of(without, next);
+      for (std::size_t m = 0; m < without.size(); ++m) later_[without[m]].push_back({points[m], next[m]});
     }
   }
 
-  // False where one machine would begin to learn, or the slab gets more disks than there is memory for.
+  // Places disks of the batch up to a lesson. False where the trials run out, or the slab gets more disks than there is
+  // memory for.
   bool commit() {
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-      if (trials_are_many(trials_, first_ + k)) return false;
-      trials_ += points_[k].trial;
+    const std::size_t settled = places_->take_in(static_cast<std::size_t>(first_), points_);
+    for (std::size_t k = 0; k < settled; ++k) {
       const Vec2 p = points_[k].at;
       if (!is_near(p)) continue;
       if (stored_ == near_.size()) return false;
@@ -233,10 +319,12 @@ class SlabPlacement {
       near_.id[stored_] = static_cast<DiskId>(first_ + k);
       grid_->insert(stored_++);
     }
-    return true;
+    first_ += settled;
+    return settled > 0;
   }
 
   PlacedOnSlab own_disks() {
+    places_.reset();
     grid_.reset();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < stored_; ++i) {
@@ -264,14 +352,19 @@ class SlabPlacement {
   Disks near_;  // its own, and those of others that may touch them; stored_ of them are placed
   std::size_t stored_ = 0;
   std::optional<PlacementGrid> grid_;
-  Count first_ = 0;           // of the batch
-  std::uint64_t trials_ = 0;  // in vain, of all disks so far
-  std::vector<Point> first_points_, points_;
-  std::unordered_map<std::size_t, std::vector<std::uint64_t>> later_;  // trials behind the first point
+  std::optional<OpenPlaces> places_;
+  Count first_ = 0;  // of the batch
+  std::vector<TrialPlace> first_points_, points_;
+  std::unordered_map<std::size_t, std::vector<TrialPlace>> later_;  // behind the first point
   BatchCells cells_;
   std::vector<std::size_t> conflicts_;
   std::vector<unsigned char> absent_;  // of the batch, while it is gone through
   std::vector<std::int64_t> bits_;
+  struct Judged {
+    std::size_t trial;
+    Vec2 point;
+  };
+  std::vector<Judged> judged_;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace carom {
 
-// Are all disks equally large and placed at random anywhere, and few enough for what follows?
+// Are all disks equally large and placed at random anywhere, and are they not too many for that?
 bool places_on_slabs(const Scene& scene);
 
 // The disks in a rank's slab, in order of id.
@@ -20,8 +20,8 @@ struct PlacedOnSlab {
 };
 
 // Where place_at_random of core puts disks of equal radius with ids 0 to count - 1, bit for bit. cut: of the box whose
-// lower side is `up` below that of the scene's box (length). Collective; none, on all ranks, where trials become so
-// many that one machine begins to learn where there is room. Precondition: places_on_slabs, of disks that may all move.
+// lower side is `up` below that of the scene's box (length). Collective; none, on all ranks, where that gives up, or
+// tries a disk in vain for long. Precondition: places_on_slabs, of disks that may all move.
 std::optional<PlacedOnSlab> place_on_slabs(const Scene& scene, double radius, Count count, const SlabCut& cut,
                                            double up, Ranks& ranks);
 

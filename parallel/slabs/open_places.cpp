@@ -1,0 +1,88 @@
+#include "parallel/slabs/open_places.hpp"
+
+#include <utility>
+
+#include "core/start/placement_search.hpp"
+
+namespace carom {
+
+bool OpenPlaces::lesson_due(std::size_t placed) const {
+  if (list_) return in_vain_ > list_->patience();
+  if (cells_) return cells_->list_due(open_);
+  return trials_are_many(trials_, placed);
+}
+
+bool OpenPlaces::learn() {
+  if (list_) return refine_list();
+  return cells_ ? make_list() : make_cells();
+}
+
+bool OpenPlaces::make_cells() {
+  cells_.emplace(box_, radius_, count_, nullptr, known_);
+  if (cells_->tile_height() > tallest_tile(radius_)) return false;
+  grid_.for_each([&](std::size_t i) { cells_->close_around(disks_.x[i], disks_.y[i], radius_); });
+  auto open = static_cast<std::int64_t>(cells_->open());
+  ranks_.sum({&open, 1});
+  open_ = static_cast<std::size_t>(open);
+  closed_ahead_ = false;
+  return true;
+}
+
+bool OpenPlaces::make_list() {
+  if (closed_ahead_) make_cells();
+  list_.emplace(cells_->list());
+  cells_.reset();
+  share_list();
+  return true;
+}
+
+bool OpenPlaces::refine_list() {
+  list_->replace(list_->survivors(grid_, 0, list_->size()));
+  share_list();
+  return true;
+}
+
+// The ranks' rows lie one above the other, and so do their parts of the list.
+void OpenPlaces::share_list() {
+  std::vector<std::int64_t> sizes(static_cast<std::size_t>(ranks_.count()), 0);
+  const auto rank = static_cast<std::size_t>(ranks_.rank());
+  sizes[rank] = static_cast<std::int64_t>(list_->size());
+  ranks_.sum(sizes);
+  std::size_t before = 0;
+  std::size_t all = 0;
+  for (std::size_t r = 0; r < sizes.size(); ++r) {
+    if (r == rank) before = all;
+    all += static_cast<std::size_t>(sizes[r]);
+  }
+  list_->be_part(before, all);
+  in_vain_ = 0;
+}
+
+// Cells that each disk closes beyond those that the ones before it close.
+std::vector<std::int64_t> OpenPlaces::close(const std::vector<TrialPlace>& batch) {
+  std::vector<std::int64_t> closed;
+  for (const TrialPlace& place : batch) {
+    const std::size_t before = cells_->open();
+    cells_->close_around(place.at.x, place.at.y, radius_);
+    closed.push_back(static_cast<std::int64_t>(before - cells_->open()));
+  }
+  ranks_.sum(closed);
+  return closed;
+}
+
+std::size_t OpenPlaces::take_in(std::size_t placed, const std::vector<TrialPlace>& batch) {
+  const std::vector<std::int64_t> closed = cells_ ? close(batch) : std::vector<std::int64_t>(batch.size(), 0);
+  for (std::size_t k = 0; k < batch.size(); ++k) {
+    if (k > 0 && lesson_due(placed + k)) {
+      closed_ahead_ = cells_.has_value();
+      return k;
+    }
+    if (trials_ + batch[k].trial >= most_trials(count_)) return 0;
+    trials_ += batch[k].trial;
+    in_vain_ += batch[k].trial;
+    open_ -= static_cast<std::size_t>(closed[k]);
+  }
+  return batch.size();
+}
+
+}  // namespace carom
