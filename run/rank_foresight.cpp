@@ -4,6 +4,7 @@
 
 #include "core/base/check.hpp"
 #include "parallel/slabs/moving_disks.hpp"
+#include "parallel/slabs/random_on_slabs.hpp"
 #include "parallel/slabs/slab_orders.hpp"
 #include "parallel/slabs/slab_start.hpp"
 #include "parallel/slabs/start_on_slabs.hpp"
@@ -67,7 +68,8 @@ RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks) {
   f.disks = all / ranks;
   const DiskColumns columns = columns_of(start.disks);
   const int more = (columns.radius ? 1 : 0) + (columns.mass ? 1 : 0) + (columns.spin ? 1 : 0);
-  const double disk_bytes = scene.run.method == Method::exact ? exact_disk_bytes : own_disk_bytes;
+  double disk_bytes = scene.run.method == Method::exact ? exact_disk_bytes : own_disk_bytes;
+  if (places_on_slabs(scene)) disk_bytes = std::max(disk_bytes, placing_bytes(scene));
   const SlabStart slabs = slab_start(scene, start.disks, ranks);
   f.alone = slabs.alone;
   f.other_bytes = process_bytes + (f.alone.empty() ? (disk_bytes + more * column_bytes) * f.disks : 0.0);

@@ -367,18 +367,32 @@ class SlabPlacement {
   std::vector<Judged> judged_;
 };
 
+// Of disks that are equally large.
+double packing_fraction(const Scene& scene) {
+  double covered = 0.0;
+  for (const DiskGroup& g : scene.groups) {
+    covered += static_cast<double>(g.count) * std::numbers::pi * g.radius.value * g.radius.value;
+  }
+  return covered / (scene.box.width * scene.box.height);
+}
+
 }  // namespace
 
+double placing_bytes(const Scene& scene) {
+  // Measured with 4 10^6 disks on 4 ranks, at 0.3 and 0.5: where cells and a list of voxels are learnt.
+  constexpr double learns_from = 0.39;
+  constexpr double bytes = 107.0;
+  return packing_fraction(scene) > learns_from ? bytes : 0.0;
+}
+
 bool places_on_slabs(const Scene& scene) {
-  double covered = 0.0;
   for (const DiskGroup& g : scene.groups) {
     const bool anywhere = g.positions.kind == PositionLaw::Kind::random && !g.positions.region;
     const SizeLaw& radius = g.radius;
     const bool equal = radius.kind == SizeLaw::Kind::constant && radius.value == scene.groups[0].radius.value;
     if (!anywhere || !equal) return false;
-    covered += static_cast<double>(g.count) * std::numbers::pi * radius.value * radius.value;
   }
-  return covered <= most_packed * scene.box.width * scene.box.height;
+  return packing_fraction(scene) <= most_packed;
 }
 
 std::optional<PlacedOnSlab> place_on_slabs(const Scene& scene, double radius, Count count, const SlabCut& cut,
