@@ -32,6 +32,7 @@ constexpr std::size_t first_trials = 16, trials_at_once = 4096;
 // How many more disks than in the mean a slab may get: in standard deviations, and a share.
 constexpr double deviations = 8.0, more_disks = 0.02;
 constexpr double rounding = 1e-9;
+// Where few places are left, a large batch would only get into its own way: a disk for so many voxels.
 constexpr std::size_t voxels_per_disk = 256;
 // Points whose memory is asked for at a time.
 constexpr std::size_t points_at_once = 32;
@@ -106,7 +107,6 @@ class SlabPlacement {
     return std::max(b.lower, b.upper) <= reach();
   }
 
-  // Where few places are left, a large batch would only get into its own way.
   std::size_t batch_of_list() const {
     const VoxelList* const list = places_->list();
     return list != nullptr ? std::max<std::size_t>(smallest_batch, list->all() / voxels_per_disk) : largest_batch;
@@ -159,8 +159,10 @@ class SlabPlacement {
   }
 
   // For each of these disks of the batch, from trial next[m] on, the first that is free of the disks placed before;
-  // next[m] becomes it. False where one has none.
-  bool next_free(const std::vector<std::size_t>& disks, std::vector<std::uint64_t>& next) {
+  // next[m] becomes it. Returns how many of them, from the first on, have one; where all disks of the batch are asked
+  // about, those that come after a lesson need none.
+  std::size_t next_free(const std::vector<std::size_t>& disks, std::vector<std::uint64_t>& next) {
+    std::size_t end = disks.size();
     std::vector<std::size_t> pending(disks.size());
     for (std::size_t m = 0; m < disks.size(); ++m) pending[m] = m;
     for (std::size_t most = first_trials; !pending.empty(); most = std::min(2 * most, trials_at_once)) {
@@ -179,12 +181,23 @@ class SlabPlacement {
         std::size_t t = 0;
         while (t < at_once && !is_set(q * at_once + t)) ++t;
         next[m] += t;
-        if (next[m] >= trials_between_lessons) return false;
+        if (next[m] >= trials_between_lessons) end = std::min(end, m);
         if (t == at_once) pending[left++] = m;
       }
       pending.resize(left);
+      if (disks.size() == points_.size()) end = std::min(end, disks_before_lesson(next));
+      std::erase_if(pending, [end](std::size_t m) { return m >= end; });
     }
-    return true;
+    return end;
+  }
+
+  // How many of the batch there are up to a lesson, one at least, if they take so many trials each.
+  std::size_t disks_before_lesson(const std::vector<std::uint64_t>& trials) const {
+    const std::uint64_t most = places_->trials_to_lesson();
+    std::uint64_t sum = 0;
+    std::size_t k = 0;
+    while (k < trials.size() && sum <= most) sum += trials[k++];
+    return k;
   }
 
   bool find_points() {
@@ -192,26 +205,29 @@ class SlabPlacement {
     std::vector<std::size_t> all(points_.size());
     std::vector<std::uint64_t> next(points_.size(), 0);
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-    if (!next_free(all, next)) return false;
+    const std::size_t found = next_free(all, next);
+    all.resize(found);
+    points_.resize(found);
     const std::vector<Vec2> points = points_of(all, next);
-    for (std::size_t k = 0; k < all.size(); ++k) points_[k] = {points[k], next[k]};
+    for (std::size_t k = 0; k < found; ++k) points_[k] = {points[k], next[k]};
     first_points_ = points_;
-    end_at_lesson();
-    return true;
+    return found > 0;
   }
 
-  // Disks of the batch take no fewer trials than is known so far: those that come after a lesson are left to the next
-  // one. True where there are such.
-  bool end_at_lesson() {
-    const std::uint64_t most = places_->trials_to_lesson();
-    std::uint64_t trials = 0;
-    std::size_t k = 0;
-    while (k < points_.size() && trials <= most) trials += points_[k++].trial;
-    if (k == points_.size()) return false;
+  // Leaves the disks from k on to the next batch: it does not matter to which one a disk belongs.
+  void end_batch_at(std::size_t k) {
     points_.resize(k);
     std::erase_if(conflicts_, [k](std::size_t disk) { return disk >= k; });
     std::erase_if(later_, [k](const auto& entry) { return entry.first >= k; });
-    return true;
+    fill_cells();
+  }
+
+  // Those that come after a lesson, if disks stay where they are now.
+  void end_batch_at_lesson() {
+    std::vector<std::uint64_t> trials;
+    for (const TrialPlace& place : points_) trials.push_back(place.trial);
+    const std::size_t k = disks_before_lesson(trials);
+    if (k < points_.size()) end_batch_at(k);
   }
 
   bool apart(std::size_t k, Vec2 p) const {
@@ -291,16 +307,19 @@ class SlabPlacement {
     find_conflicts();
     for (;;) {
       std::vector<std::size_t> without = go_through();
-      if (end_at_lesson()) {
-        fill_cells();
-        std::erase_if(without, [this](std::size_t k) { return k >= points_.size(); });
-      }
+      end_batch_at_lesson();
+      std::erase_if(without, [this](std::size_t k) { return k >= points_.size(); });
       if (without.empty()) return true;
       std::vector<std::uint64_t> next;
       for (const std::size_t k : without) {
         next.push_back((later_[k].empty() ? first_points_[k].trial : later_[k].back().trial) + 1);
       }
-      if (!next_free(without, next)) return false;
+      const std::size_t found = next_free(without, next);
+      if (found < without.size()) {
+        end_batch_at(without[found]);
+        if (points_.empty()) return false;
+        without.resize(found);
+      }
       const std::vector<Vec2> points = points_of(without, next);
       for (std::size_t m = 0; m < without.size(); ++m) later_[without[m]].push_back({points[m], next[m]});
     }
