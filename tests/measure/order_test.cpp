@@ -75,7 +75,7 @@ TEST(StructureFactor, OfALatticeHasBraggPeaks) {
 TEST(StructureFactor, ASideThatIsNoPeriodAndNoDisksGiveNothing) {
   const Domain box = test::box_of(30.0, 20.0, true, false);
   StructureFactor s{std::vector<double>(5, 0.0), {}, 0};
-  add_structure(s, {}, box);
+  add_structure(s, Disks{}, box);
   EXPECT_EQ(s.samples, 0U);
   add_structure(s, ideal_gas(10, box, 1), box);
   EXPECT_TRUE(s.along_y.empty());
@@ -230,7 +230,7 @@ TEST(BondMemory, IsOfTheDisksThatAreStillThere) {
     square += then[k + 10].x * then[k + 10].x + then[k + 10].y * then[k + 10].y;
   }
   EXPECT_NEAR(bond_autocorrelation(memory, later, box), product / square, 1e-12);
-  EXPECT_TRUE(std::isnan(bond_autocorrelation(memory, {}, box)));
+  EXPECT_TRUE(std::isnan(bond_autocorrelation(memory, Disks{}, box)));
   EXPECT_TRUE(std::isnan(bond_autocorrelation(memory, ideal_gas(6, box, 1), box)));
   BondMemory nothing;
   begin_memory(nothing, ideal_gas(6, box, 1), box);
@@ -273,7 +273,7 @@ TEST(BondOrder, NeedsSevenDisks) {
   const Domain box = test::box_of(30.0, 20.0);
   EXPECT_TRUE(std::isnan(bond_order(ideal_gas(6, box, 7), box).local));
   EXPECT_FALSE(std::isnan(bond_order(ideal_gas(7, box, 7), box).local));
-  EXPECT_TRUE(std::isnan(bond_order({}, box).global));
+  EXPECT_TRUE(std::isnan(bond_order(Disks{}, box).global));
 }
 
 TEST(VelocityMemory, FreeFlightForgetsNothingAndAWallTurnsItRound) {
@@ -292,7 +292,7 @@ TEST(VelocityMemory, FreeFlightForgetsNothingAndAWallTurnsItRound) {
     d.vy[i] = -d.vy[i];
   }
   EXPECT_NEAR(velocity_autocorrelation(memory, d), -mean, 1e-12);
-  EXPECT_TRUE(std::isnan(velocity_autocorrelation(memory, {})));
+  EXPECT_TRUE(std::isnan(velocity_autocorrelation(memory, Disks{})));
 }
 
 // A shear flow vx = 0.2 y at temperature 1, masses of 1 and 4: the temperature leaves the flow out, all but what it
