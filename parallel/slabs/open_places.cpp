@@ -12,6 +12,14 @@ bool OpenPlaces::lesson_due(std::size_t placed) const {
   return trials_are_many(trials_, placed);
 }
 
+std::size_t OpenPlaces::disks_before_lesson(const std::vector<std::uint64_t>& trials) const {
+  if (!list_) return trials.size();
+  std::uint64_t sum = in_vain_;
+  std::size_t k = 0;
+  while (k < trials.size() && sum <= list_->patience()) sum += trials[k++];
+  return k;
+}
+
 bool OpenPlaces::learn() {
   if (list_) return refine_list();
   return cells_ ? make_list() : make_cells();

@@ -1,10 +1,8 @@
 // Where disks that ranks place at random may still find room.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -38,11 +36,9 @@ class OpenPlaces {
   // Collective. The grid has all disks that are placed and near. False where its rows reach further than this is for.
   bool learn();
 
-  // After so many trials in vain, more than these, there is something to learn.
-  std::uint64_t trials_to_lesson() const {
-    if (!list_) return std::numeric_limits<std::uint64_t>::max();
-    return list_->patience() - std::min(in_vain_, list_->patience());
-  }
+  // How many disks there are up to the next lesson, one at least, if they take so many trials each. Before there is a
+  // list, that is not foreseen.
+  std::size_t disks_before_lesson(const std::vector<std::uint64_t>& trials) const;
 
   // Voxels, the same whoever has them; none where there is no list yet.
   const VoxelList* list() const { return list_ ? &*list_ : nullptr; }

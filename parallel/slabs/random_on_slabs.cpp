@@ -1,7 +1,6 @@
 #include "parallel/slabs/random_on_slabs.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -18,6 +17,8 @@
 #include "parallel/cells/batch_cells.hpp"
 #include "parallel/slabs/border_search.hpp"
 #include "parallel/slabs/open_places.hpp"
+#include "parallel/slabs/placement_trials.hpp"
+#include "parallel/slabs/shared_bits.hpp"
 
 namespace carom {
 
@@ -26,44 +27,33 @@ namespace {
 // Disks of a batch: so few of all that few of it get into each other's way, and some megabytes on each rank.
 constexpr Count batches = 64;
 constexpr Count smallest_batch = 64, largest_batch = Count{1} << 17;
-// Trials of a disk that ranks tell each other of at first, where few disks are without a place; twice as many each
-// time. And those of all disks, unless there are more disks than that.
-constexpr std::size_t first_trials = 16, trials_at_once = 4096;
 // How many more disks than in the mean a slab may get: in standard deviations, and a share.
 constexpr double deviations = 8.0, more_disks = 0.02;
 constexpr double rounding = 1e-9;
 // Where few places are left, a large batch would only get into its own way: a disk for so many voxels.
 constexpr std::size_t voxels_per_disk = 256;
-// Points whose memory is asked for at a time.
-constexpr std::size_t points_at_once = 32;
-// Of a number that ranks add up: each bit is set by one of them.
-constexpr std::size_t bits_a_number = 63;
 // Packing fraction at which random addition jams (Feder 1980).
 constexpr double most_packed = 0.547;
 
-// A trial's point follows from seed, id and trial, and where few places are left from a list of voxels of which each
-// rank has a part; whether it is free of the disks placed before knows the rank in whose slab, or voxels, it lies. What
-// they tell each other is a bit a trial, and points that not all of them know. Then all of them go through the batch in
-// order, as one machine does: a disk takes its first free point that no other of the batch covers. Where one has none
-// left, the ranks look for its next, and go through the batch again.
+// For a batch of disks the ranks find the first trials that are free of the disks placed before (PlacementTrials). Then
+// all of them go through the batch in order, as one machine does: a disk takes its first free point that no other of
+// the batch covers. Where one has none left, the ranks look for its next, and go through the batch again.
 class SlabPlacement {
  public:
   SlabPlacement(const Scene& scene, double radius, Count count, const SlabCut& cut, double up, Ranks& ranks)
-      : scene_(scene),
-        box_(scene.box),
+      : box_(scene.box),
         walls_(place_obstacles(segments_of(scene), box_)),
         radius_(radius),
         count_(count),
-        cut_(cut),
-        up_(up),
         ranks_(ranks),
-        room_(placement_room(box_, radius)),
+        site_{scene, box_, placement_room(box_, radius), radius, cut, up, ranks},
         slab_(slab_of(cut, box_, ranks.rank())) {
     slab_.low -= up;
     slab_.high -= up;
     make_room_for_disks();
     grid_.emplace(box_, near_);
     places_.emplace(box_, radius_, static_cast<std::size_t>(count_), heights(), near_, *grid_, ranks_);
+    trials_.emplace(site_, *places_, *grid_);
   }
 
   std::optional<PlacedOnSlab> place() {
@@ -84,7 +74,7 @@ class SlabPlacement {
   // A slab as high as this may get so many disks, and sees those of its neighbours that may touch its own.
   void make_room_for_disks() {
     const double height = std::min(box_.height, slab_.high - slab_.low + 2.0 * reach());
-    const double room = std::max(room_.up.high - room_.up.low, height);
+    const double room = std::max(site_.room.up.high - site_.room.up.low, height);
     const double expected = static_cast<double>(count_) * std::min(1.0, height / room);
     const double most = expected * (1.0 + more_disks) + deviations * std::sqrt(expected) + 64.0;
     const auto capacity = static_cast<std::size_t>(std::min(most, static_cast<double>(count_)));
@@ -101,7 +91,6 @@ class SlabPlacement {
     if (ranks_.rank() + 1 < ranks_.count()) known.high = slab_.high;
     return known;
   }
-  bool is_own(Vec2 p) const { return cut_.rank_at(p.y + up_) == ranks_.rank(); }
   bool is_near(Vec2 p) const {
     const Beyond b = beyond(slab_, box_, p.y);
     return std::max(b.lower, b.upper) <= reach();
@@ -112,92 +101,10 @@ class SlabPlacement {
     return list != nullptr ? std::max<std::size_t>(smallest_batch, list->all() / voxels_per_disk) : largest_batch;
   }
 
-  // The point of a trial, if it is known here: without a list every one is, otherwise those in a voxel of this rank.
-  std::optional<Vec2> known_point(std::size_t k, std::uint64_t trial) const {
-    const VoxelList* const list = places_->list();
-    const auto id = static_cast<DiskId>(first_ + k);
-    const TrialDraw draw = draw_trial(scene_.seed, id, trial, list != nullptr);
-    if (list != nullptr && !list->has(draw.voxel)) return {};
-    return trial_point(box_, room_, list, draw);
-  }
-  // Is it this rank's to say whether a point that it knows is free?
-  bool is_judged_here(Vec2 p) const { return places_->list() != nullptr || is_own(p); }
-  void set(std::size_t bit) { bits_[bit / bits_a_number] |= std::int64_t{1} << (bit % bits_a_number); }
-  bool is_set(std::size_t bit) const { return (bits_[bit / bits_a_number] >> (bit % bits_a_number) & 1) != 0; }
-
-  // Sets the trial's bit if its point is free, now or in judge(): while memory answers for one point, others are drawn.
-  void judge_soon(std::size_t trial, Vec2 p) {
-    if (!room_.holds(p)) return;
-    grid_->prefetch_cells(p.x, p.y);
-    judged_.push_back({trial, p});
-    if (judged_.size() == points_at_once) judge();
-  }
-  void judge() {
-    for (const Judged& j : judged_) grid_->prefetch_disks(j.point.x, j.point.y);
-    for (const Judged& j : judged_) {
-      if (grid_->overlapping(j.point.x, j.point.y, radius_, false)) continue;
-      set(j.trial);
-    }
-    judged_.clear();
-  }
-
-  // The points of trials of these disks, on all ranks.
-  std::vector<Vec2> points_of(const std::vector<std::size_t>& disks, const std::vector<std::uint64_t>& trials) {
-    std::vector<std::int64_t> bits(2 * disks.size(), 0);
-    for (std::size_t m = 0; m < disks.size(); ++m) {
-      const std::optional<Vec2> p = known_point(disks[m], trials[m]);
-      if (!p) continue;
-      bits[2 * m] = std::bit_cast<std::int64_t>(p->x);
-      bits[2 * m + 1] = std::bit_cast<std::int64_t>(p->y);
-    }
-    if (places_->list() != nullptr) ranks_.sum(bits);  // each is known to one
-    std::vector<Vec2> points(disks.size());
-    for (std::size_t m = 0; m < disks.size(); ++m) {
-      points[m] = {std::bit_cast<double>(bits[2 * m]), std::bit_cast<double>(bits[2 * m + 1])};
-    }
-    return points;
-  }
-
-  // For each of these disks of the batch, from trial next[m] on, the first that is free of the disks placed before;
-  // next[m] becomes it. Returns how many of them, from the first on, have one; where all disks of the batch are asked
-  // about, those that come after a lesson need none.
-  std::size_t next_free(const std::vector<std::size_t>& disks, std::vector<std::uint64_t>& next) {
-    std::size_t end = disks.size();
-    std::vector<std::size_t> pending(disks.size());
-    for (std::size_t m = 0; m < disks.size(); ++m) pending[m] = m;
-    for (std::size_t most = first_trials; !pending.empty(); most = std::min(2 * most, trials_at_once)) {
-      const std::size_t at_once = std::clamp<std::size_t>(trials_at_once / pending.size(), 1, most);
-      bits_.assign(pending.size() * at_once / bits_a_number + 1, 0);
-      for (std::size_t b = 0; b < pending.size() * at_once; ++b) {
-        const std::size_t m = pending[b / at_once];
-        const std::optional<Vec2> p = known_point(disks[m], next[m] + b % at_once);
-        if (p && is_judged_here(*p)) judge_soon(b, *p);
-      }
-      judge();
-      ranks_.sum(bits_);
-      std::size_t left = 0;
-      for (std::size_t q = 0; q < pending.size(); ++q) {
-        const std::size_t m = pending[q];
-        std::size_t t = 0;
-        while (t < at_once && !is_set(q * at_once + t)) ++t;
-        next[m] += t;
-        if (next[m] >= trials_between_lessons) end = std::min(end, m);
-        if (t == at_once) pending[left++] = m;
-      }
-      pending.resize(left);
-      if (disks.size() == points_.size()) end = std::min(end, disks_before_lesson(next));
-      std::erase_if(pending, [end](std::size_t m) { return m >= end; });
-    }
-    return end;
-  }
-
-  // How many of the batch there are up to a lesson, one at least, if they take so many trials each.
-  std::size_t disks_before_lesson(const std::vector<std::uint64_t>& trials) const {
-    const std::uint64_t most = places_->trials_to_lesson();
-    std::uint64_t sum = 0;
-    std::size_t k = 0;
-    while (k < trials.size() && sum <= most) sum += trials[k++];
-    return k;
+  std::vector<DiskId> ids_of(const std::vector<std::size_t>& disks) const {
+    std::vector<DiskId> ids;
+    for (const std::size_t k : disks) ids.push_back(static_cast<DiskId>(first_ + k));
+    return ids;
   }
 
   bool find_points() {
@@ -205,13 +112,11 @@ class SlabPlacement {
     std::vector<std::size_t> all(points_.size());
     std::vector<std::uint64_t> next(points_.size(), 0);
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-    const std::size_t found = next_free(all, next);
-    all.resize(found);
-    points_.resize(found);
-    const std::vector<Vec2> points = points_of(all, next);
-    for (std::size_t k = 0; k < found; ++k) points_[k] = {points[k], next[k]};
+    std::vector<DiskId> ids = ids_of(all);
+    ids.resize(trials_->next_free(ids, next, true));
+    points_ = trials_->places_of(ids, next);
     first_points_ = points_;
-    return found > 0;
+    return !points_.empty();
   }
 
   // Leaves the disks from k on to the next batch: it does not matter to which one a disk belongs.
@@ -226,7 +131,7 @@ class SlabPlacement {
   void end_batch_at_lesson() {
     std::vector<std::uint64_t> trials;
     for (const TrialPlace& place : points_) trials.push_back(place.trial);
-    const std::size_t k = disks_before_lesson(trials);
+    const std::size_t k = places_->disks_before_lesson(trials);
     if (k < points_.size()) end_batch_at(k);
   }
 
@@ -251,15 +156,15 @@ class SlabPlacement {
   void find_conflicts() {
     fill_cells();
     absent_.assign(points_.size(), 0);
-    bits_.assign(points_.size() / bits_a_number + 1, 0);
+    covered_.clear(points_.size());
     for (std::size_t k = 0; k < points_.size(); ++k) {
       const Vec2 p = points_[k].at;
-      if (is_own(p) && is_covered(k, p)) set(k);
+      if (site_.is_own(p) && is_covered(k, p)) covered_.set(k);
     }
-    ranks_.sum(bits_);
+    covered_.share(ranks_);
     conflicts_.clear();
     for (std::size_t k = 0; k < points_.size(); ++k) {
-      if (is_set(k)) conflicts_.push_back(k);
+      if (covered_.is_set(k)) conflicts_.push_back(k);
     }
   }
 
@@ -314,14 +219,12 @@ class SlabPlacement {
       for (const std::size_t k : without) {
         next.push_back((later_[k].empty() ? first_points_[k].trial : later_[k].back().trial) + 1);
       }
-      const std::size_t found = next_free(without, next);
-      if (found < without.size()) {
-        end_batch_at(without[found]);
-        if (points_.empty()) return false;
-        without.resize(found);
-      }
-      const std::vector<Vec2> points = points_of(without, next);
-      for (std::size_t m = 0; m < without.size(); ++m) later_[without[m]].push_back({points[m], next[m]});
+      std::vector<DiskId> ids = ids_of(without);
+      ids.resize(trials_->next_free(ids, next, false));
+      if (ids.size() < without.size()) end_batch_at(without[ids.size()]);
+      if (points_.empty()) return false;
+      const std::vector<TrialPlace> places = trials_->places_of(ids, next);
+      for (std::size_t m = 0; m < ids.size(); ++m) later_[without[m]].push_back(places[m]);
     }
   }
 
@@ -343,11 +246,12 @@ class SlabPlacement {
   }
 
   PlacedOnSlab own_disks() {
+    trials_.reset();
     places_.reset();
     grid_.reset();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < stored_; ++i) {
-      if (!is_own({near_.x[i], near_.y[i]})) continue;
+      if (!site_.is_own({near_.x[i], near_.y[i]})) continue;
       near_.x[kept] = near_.x[i];
       near_.y[kept] = near_.y[i];
       near_.id[kept++] = near_.id[i];
@@ -358,32 +262,25 @@ class SlabPlacement {
     return {std::move(near_.x), std::move(near_.y), std::move(near_.id)};
   }
 
-  const Scene& scene_;
   Domain box_;
   std::unique_ptr<const ObstacleCells> walls_;
   double radius_;
   Count count_;
-  const SlabCut& cut_;
-  double up_;
   Ranks& ranks_;
-  PlacementRoom room_;
+  PlacementSite site_;
   Slab slab_;
   Disks near_;  // its own, and those of others that may touch them; stored_ of them are placed
   std::size_t stored_ = 0;
   std::optional<PlacementGrid> grid_;
   std::optional<OpenPlaces> places_;
+  std::optional<PlacementTrials> trials_;
   Count first_ = 0;  // of the batch
   std::vector<TrialPlace> first_points_, points_;
   std::unordered_map<std::size_t, std::vector<TrialPlace>> later_;  // behind the first point
   BatchCells cells_;
   std::vector<std::size_t> conflicts_;
   std::vector<unsigned char> absent_;  // of the batch, while it is gone through
-  std::vector<std::int64_t> bits_;
-  struct Judged {
-    std::size_t trial;
-    Vec2 point;
-  };
-  std::vector<Judged> judged_;
+  SharedBits covered_;
 };
 
 // Of disks that are equally large.
