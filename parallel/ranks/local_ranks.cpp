@@ -1,6 +1,8 @@
 #include "parallel/ranks/local_ranks.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <condition_variable>
 #include <cstring>
 #include <deque>
@@ -15,78 +17,93 @@ namespace carom {
 namespace {
 
 // What the threads share: a queue of messages for each rank and direction, and a table that all of them fill and read.
+// Each rank sleeps by itself: a message wakes the one that it is for, and a full table every other one, once. Tests
+// have more ranks than cores, where threads that wake in vain, or wait for one lock, cost more than all else.
 class Meeting {
  public:
-  explicit Meeting(int count) : inboxes_(static_cast<std::size_t>(count)), tables_(2) {
-    for (Table& table : tables_) table.entries.resize(inboxes_.size());
+  explicit Meeting(int count) : places_(static_cast<std::size_t>(count)) {
+    for (Table& table : tables_) table.entries.resize(places_.size());
   }
 
-  int count() const { return static_cast<int>(inboxes_.size()); }
+  int count() const { return static_cast<int>(places_.size()); }
 
   void send(int to, bool from_below, const Bytes& message) {
-    const std::lock_guard lock(mutex_);
-    queue_of(to, from_below).push_back(message);
-    changed_.notify_all();
+    Place& place = places_[static_cast<std::size_t>(to)];
+    {
+      const std::lock_guard lock(place.mutex);
+      place.queue(from_below).push_back(message);
+    }
+    place.changed.notify_one();
   }
 
   Bytes receive(int rank, bool from_below) {
-    std::unique_lock lock(mutex_);
-    std::deque<Bytes>& queue = queue_of(rank, from_below);
-    wait(lock, [&] { return !queue.empty(); });
+    Place& place = places_[static_cast<std::size_t>(rank)];
+    std::deque<Bytes>& queue = place.queue(from_below);
+    std::unique_lock lock(place.mutex);
+    place.changed.wait(lock, [&] { return !queue.empty() || full_ == failed; });
+    if (queue.empty()) fail_too();
     Bytes message = std::move(queue.front());
     queue.pop_front();
     return message;
   }
 
-  // The entries of all ranks. Two tables take turns: no rank fills the next one before all have filled this one, and
-  // none fills this one again before all have read it, as they fill the next one afterwards.
-  std::vector<Bytes> share(int rank, std::uint64_t turn, const Bytes& entry) {
-    std::unique_lock lock(mutex_);
-    Table& table = tables_[turn % 2];
-    if (table.turn != turn) {
-      table.turn = turn;
-      table.filled = 0;
-    }
+  // The entries of all ranks, until this rank calls again. turn: 1 at the first call, 2 at the second. Two tables take
+  // turns: no rank fills the next one before all have filled this one, and none fills this one again before all have
+  // read it, as they fill the next one afterwards.
+  const std::vector<Bytes>& share(int rank, int turn, const Bytes& entry) {
+    Table& table = tables_[static_cast<std::size_t>(turn % 2)];
     table.entries[static_cast<std::size_t>(rank)] = entry;
-    ++table.filled;
-    changed_.notify_all();
-    wait(lock, [&] { return table.filled == table.entries.size(); });
+    if (++table.filled == count()) {
+      table.filled = 0;
+      int before = turn - 1;
+      if (full_.compare_exchange_strong(before, turn)) wake_all();
+    }
+    Place& place = places_[static_cast<std::size_t>(rank)];
+    std::unique_lock lock(place.mutex);
+    place.changed.wait(lock, [&] { return full_ == turn || full_ == failed; });
+    if (full_ == failed) fail_too();
     return table.entries;
   }
 
   // A rank has thrown.
   void fail(std::exception_ptr error) {
-    const std::lock_guard lock(mutex_);
-    if (!error_) error_ = std::move(error);
-    changed_.notify_all();
+    {
+      const std::lock_guard lock(error_mutex_);
+      if (!error_) error_ = std::move(error);
+    }
+    full_ = failed;
+    wake_all();
   }
+  // Precondition: all ranks have ended.
   std::exception_ptr error() const { return error_; }
 
  private:
-  struct Inbox {
+  struct Place {
+    std::deque<Bytes>& queue(bool of_below) { return of_below ? from_below : from_above; }
+
+    std::mutex mutex;
+    std::condition_variable changed;
     std::deque<Bytes> from_below, from_above;
   };
   struct Table {
-    std::uint64_t turn = 0;
-    std::size_t filled = 0;
     std::vector<Bytes> entries;  // of each rank
+    std::atomic<int> filled = 0;
   };
 
-  std::deque<Bytes>& queue_of(int rank, bool from_below) {
-    Inbox& inbox = inboxes_[static_cast<std::size_t>(rank)];
-    return from_below ? inbox.from_below : inbox.from_above;
+  // The lock is for one that has looked and does not wait yet.
+  void wake_all() {
+    for (Place& place : places_) {
+      { const std::lock_guard lock(place.mutex); }
+      place.changed.notify_one();
+    }
   }
+  [[noreturn]] static void fail_too() { throw std::runtime_error("another rank has failed"); }
 
-  template <class Ready>
-  void wait(std::unique_lock<std::mutex>& lock, Ready&& ready) {
-    changed_.wait(lock, [&] { return ready() || error_; });
-    if (!ready()) throw std::runtime_error("another rank has failed");
-  }
-
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<Inbox> inboxes_;
-  std::vector<Table> tables_;
+  static constexpr int failed = -1;
+  std::vector<Place> places_;  // of each rank
+  std::array<Table, 2> tables_;
+  std::atomic<int> full_ = 0;  // the turn whose table was filled last, or failed
+  std::mutex error_mutex_;
   std::exception_ptr error_;
 };
 
@@ -126,11 +143,13 @@ class LocalRanks final : public Ranks {
     if (rank_ != 0) all.clear();
     return all;
   }
-  Bytes share_first(const Bytes& first) override { return gather_from_all(rank_ == 0 ? first : Bytes())[0]; }
+  Bytes share_first(const Bytes& first) override {
+    return meeting_.share(rank_, ++turn_, rank_ == 0 ? first : Bytes())[0];
+  }
 
   template <class T, class Join>
   void reduce(std::span<T> values, Join&& join) {
-    const std::vector<Bytes> all = gather_from_all(bytes_of<T>(values));
+    const std::vector<Bytes>& all = meeting_.share(rank_, ++turn_, bytes_of<T>(values));
     for (std::size_t r = 0; r < all.size(); ++r) {
       if (all[r].size() != values.size_bytes()) throw std::logic_error("ranks reduce different numbers of values");
       for (std::size_t k = 0; k < values.size(); ++k) {
@@ -143,7 +162,7 @@ class LocalRanks final : public Ranks {
 
   Meeting& meeting_;
   int rank_;
-  std::uint64_t turn_ = 0;
+  int turn_ = 0;
 };
 
 }  // namespace
