@@ -115,7 +115,8 @@ TEST_F(RanksRun, LeavesTheTrajectoryOfOneProcess) {
       "physics.gravity=1.0 "
       "--set 'box.right=\"sink\"' --set 'box.left=\"wall\"' --set 'box.bottom=\"periodic\"' --set "
       "'box.top=\"periodic\"' --set "
-      "'analysis.what=[\"bond_order\",\"bond_autocorrelation\",\"pair_correlation\",\"displacement\",\"speeds\","
+      "'analysis.what=[\"bond_order\",\"bond_correlation\",\"bond_autocorrelation\",\"pair_correlation\","
+      "\"displacement\",\"speeds\","
       "\"density\",\"pressure\",\"profile\","
       "\"velocity_autocorrelation\",\"structure_factor\"]' ";
   for (const std::string select : {"", "--set 'output.select=\"every 3rd\"' ", "--set output.select=[2,2,15,30] "}) {
