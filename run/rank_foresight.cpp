@@ -45,9 +45,10 @@ bool looks_beyond_neighbours(const Scene& scene, const SlabCut& cut, Count disks
   const AnalysisPlan& plan = scene.analysis;
   const bool orders = plan.wants(Quantity::bond_order) || plan.wants(Quantity::bond_correlation) ||
                       plan.wants(Quantity::bond_autocorrelation);
+  const Count measured = plan.group.empty() ? disks : plan.ids.end - plan.ids.first;
   const double reach = std::max({plan.wants(Quantity::pair_correlation) ? plan.pairs.r_max : 0.0,
                                  plan.wants(Quantity::bond_correlation) ? plan.bonds.r_max : 0.0,
-                                 orders && disks > 0 ? first_reach(scene.box, disks) : 0.0});
+                                 orders && measured > 0 ? first_reach(scene.box, measured) : 0.0});
   return reach >= cut.thinnest();
 }
 

@@ -21,8 +21,14 @@ std::size_t OpenPlaces::disks_before_lesson(const std::vector<std::uint64_t>& tr
 }
 
 bool OpenPlaces::learn() {
-  if (list_) return refine_list();
-  return cells_ ? make_list() : make_cells();
+  if (!list_ && !cells_) return make_cells();
+  if (list_) {
+    list_->replace(list_->survivors(grid_, 0, list_->size()));
+  } else {
+    make_list();
+  }
+  share_list();
+  return true;
 }
 
 bool OpenPlaces::make_cells() {
@@ -36,18 +42,10 @@ bool OpenPlaces::make_cells() {
   return true;
 }
 
-bool OpenPlaces::make_list() {
+void OpenPlaces::make_list() {
   if (closed_ahead_) make_cells();
   list_.emplace(cells_->list());
   cells_.reset();
-  share_list();
-  return true;
-}
-
-bool OpenPlaces::refine_list() {
-  list_->replace(list_->survivors(grid_, 0, list_->size()));
-  share_list();
-  return true;
 }
 
 // The ranks' rows lie one above the other, and so do their parts of the list.

@@ -53,8 +53,7 @@ class OpenPlaces {
  private:
   static double tallest_tile(double radius) { return 2.0 * radius; }
   bool make_cells();
-  bool make_list();
-  bool refine_list();
+  void make_list();
   void share_list();
   std::vector<std::int64_t> close(const std::vector<TrialPlace>& batch);
 

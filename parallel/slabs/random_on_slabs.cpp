@@ -41,31 +41,28 @@ constexpr double most_packed = 0.547;
 class SlabPlacement {
  public:
   SlabPlacement(const Scene& scene, double radius, Count count, const SlabCut& cut, double up, Ranks& ranks)
-      : box_(scene.box),
-        walls_(place_obstacles(segments_of(scene), box_)),
-        radius_(radius),
+      : site_{scene, scene.box, placement_room(scene.box, radius), radius, cut, up, ranks},
+        walls_(place_obstacles(segments_of(scene), site_.box)),
         count_(count),
-        ranks_(ranks),
-        site_{scene, box_, placement_room(box_, radius), radius, cut, up, ranks},
-        slab_(slab_of(cut, box_, ranks.rank())) {
+        slab_(slab_of(cut, scene.box, ranks.rank())) {
     slab_.low -= up;
     slab_.high -= up;
     make_room_for_disks();
-    grid_.emplace(box_, near_);
-    places_.emplace(box_, radius_, static_cast<std::size_t>(count_), heights(), near_, *grid_, ranks_);
+    grid_.emplace(site_.box, near_);
+    places_.emplace(site_.box, site_.radius, static_cast<std::size_t>(count_), heights(), near_, *grid_, site_.ranks);
     trials_.emplace(site_, *places_, *grid_);
   }
 
   std::optional<PlacedOnSlab> place() {
     const auto batch = static_cast<std::size_t>(std::clamp(count_ / batches, smallest_batch, largest_batch));
-    cells_.fit(box_, 2.000001 * radius_, batch);  // rounding may shift a cell's edge
+    cells_.fit(site_.box, 2.000001 * site_.radius, batch);  // rounding may shift a cell's edge
     while (first_ < count_) {
       while (places_->lesson_due(static_cast<std::size_t>(first_))) {
         if (!places_->learn()) return {};
       }
       if (places_->list() != nullptr && places_->list()->all() == 0) return {};
       points_.assign(static_cast<std::size_t>(std::min<Count>(std::min(batch, batch_of_list()), count_ - first_)), {});
-      if (!find_points() || !settle() || ranks_.any(!commit())) return {};
+      if (!find_points() || !settle() || site_.ranks.any(!commit())) return {};
     }
     return own_disks();
   }
@@ -73,26 +70,26 @@ class SlabPlacement {
  private:
   // A slab as high as this may get so many disks, and sees those of its neighbours that may touch its own.
   void make_room_for_disks() {
-    const double height = std::min(box_.height, slab_.high - slab_.low + 2.0 * reach());
+    const double height = std::min(site_.box.height, slab_.high - slab_.low + 2.0 * reach());
     const double room = std::max(site_.room.up.high - site_.room.up.low, height);
     const double expected = static_cast<double>(count_) * std::min(1.0, height / room);
     const double most = expected * (1.0 + more_disks) + deviations * std::sqrt(expected) + 64.0;
     const auto capacity = static_cast<std::size_t>(std::min(most, static_cast<double>(count_)));
-    near_.common_radius = radius_;
+    near_.common_radius = site_.radius;
     near_.x.resize(capacity);
     near_.y.resize(capacity);
     near_.id.resize(capacity);
   }
 
-  double reach() const { return OpenPlaces::reach(radius_) + rounding * box_.height; }
+  double reach() const { return OpenPlaces::reach(site_.radius) + rounding * site_.box.height; }
   KnownHeights heights() const {
     KnownHeights known;
-    if (ranks_.rank() > 0) known.low = slab_.low;
-    if (ranks_.rank() + 1 < ranks_.count()) known.high = slab_.high;
+    if (site_.ranks.rank() > 0) known.low = slab_.low;
+    if (site_.ranks.rank() + 1 < site_.ranks.count()) known.high = slab_.high;
     return known;
   }
   bool is_near(Vec2 p) const {
-    const Beyond b = beyond(slab_, box_, p.y);
+    const Beyond b = beyond(slab_, site_.box, p.y);
     return std::max(b.lower, b.upper) <= reach();
   }
 
@@ -136,9 +133,9 @@ class SlabPlacement {
   }
 
   bool apart(std::size_t k, Vec2 p) const {
-    const double contact = radius_ + radius_;
+    const double contact = site_.radius + site_.radius;
     const Vec2 other = points_[k].at;
-    return !(nearest_distance2({other.x - p.x, other.y - p.y}, box_) < contact * contact);
+    return !(nearest_distance2({other.x - p.x, other.y - p.y}, site_.box) < contact * contact);
   }
 
   // By a disk before k in the batch?
@@ -161,7 +158,7 @@ class SlabPlacement {
       const Vec2 p = points_[k].at;
       if (site_.is_own(p) && is_covered(k, p)) covered_.set(k);
     }
-    covered_.share(ranks_);
+    covered_.share(site_.ranks);
     conflicts_.clear();
     for (std::size_t k = 0; k < points_.size(); ++k) {
       if (covered_.is_set(k)) conflicts_.push_back(k);
@@ -262,12 +259,9 @@ class SlabPlacement {
     return {std::move(near_.x), std::move(near_.y), std::move(near_.id)};
   }
 
-  Domain box_;
-  std::unique_ptr<const ObstacleCells> walls_;
-  double radius_;
-  Count count_;
-  Ranks& ranks_;
   PlacementSite site_;
+  std::unique_ptr<const ObstacleCells> walls_;  // of its box
+  Count count_;
   Slab slab_;
   Disks near_;  // its own, and those of others that may touch them; stored_ of them are placed
   std::size_t stored_ = 0;
