@@ -29,6 +29,7 @@ class CrowdedRun : public ProgramTest {
   }
   static std::string hash_of(const Outcome& o) { return nlohmann::json::parse(o.out)["state_hash"]; }
 };
+using LongCrowdedRun = CrowdedRun;
 
 TEST_F(CrowdedRun, ASignalStopsItWithACheckpoint) {
   write_burst("burst.toml", "1e-16");
@@ -41,7 +42,7 @@ TEST_F(CrowdedRun, ASignalStopsItWithACheckpoint) {
   }
 }
 
-TEST_F(CrowdedRun, ItsWallTimeStopsIt) {
+TEST_F(LongCrowdedRun, ItsWallTimeStopsIt) {
   write_burst("burst.toml", "1e-16");
   for (const std::string engine : {"parallel", "reference"}) {
     const Outcome o = carom("run burst.toml --max-walltime 0.3 -o " + engine + " --engine " + engine);
@@ -50,7 +51,7 @@ TEST_F(CrowdedRun, ItsWallTimeStopsIt) {
   }
 }
 
-TEST_F(CrowdedRun, StoppedAgainAndAgainItHasTheSameBits) {
+TEST_F(LongCrowdedRun, StoppedAgainAndAgainItHasTheSameBits) {
   write_burst("burst.toml", "1e-12");
   const Outcome whole = carom("run burst.toml -o whole --json --quiet");
   ASSERT_EQ(whole.status, 0) << whole.err;

@@ -16,7 +16,7 @@ namespace {
 
 // Silos of 200, poured with these seeds: among them are some in which an impact returns a disk into the wall, to the
 // very place where its drift ended; it then lay up to 4 % of its radius beyond the wall at the end of a step.
-TEST(Landing, LeavesNoDiskPressedIntoAWallOrAnother) {
+TEST(LongLanding, LeavesNoDiskPressedIntoAWallOrAnother) {
   test::Silo silo{200, 2.0, 0.4, 0.6, 0.01};
   const double fall = std::sqrt(2.0 * test::silo_scene(silo).box.height);
   silo.dt = 0.45 * silo.smallest / fall;

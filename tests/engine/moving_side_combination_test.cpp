@@ -71,7 +71,7 @@ TEST(MovingSideBesideObstacles, ABallBetweenThem) {
 }
 
 // Each time round the ball gains twice the piston's speed; when its room is used up the run ends, with time and place.
-TEST(MovingSideBesideObstacles, StopsWhereItWouldCrushADisk) {
+TEST(LongMovingSideBesideObstacles, StopsWhereItWouldCrushADisk) {
   for (const char* method : methods) {
     for (const std::string& obstacle : {peg, wall}) {
       SCOPED_TRACE(std::string(method) + "\n" + obstacle);

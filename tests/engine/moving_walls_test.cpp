@@ -145,7 +145,7 @@ std::string stirrers() {
 }
 
 // Elastic: what the energy rises by is the work, and the momentum what sides and walls give.
-TEST(MovingWall, DoesTheWorkThatIsGained) {
+TEST(LongMovingWall, DoesTheWorkThatIsGained) {
   for (const char* method : methods) {
     for (const std::string physics : {"", "[physics]\ngravity = [0.1, -0.3]\n"}) {
       SCOPED_TRACE(std::string(method) + physics);
@@ -232,7 +232,7 @@ std::string hashes(Engine& engine, double t_end) {
 }
 
 // Step by step, on any number of threads; and so a run that goes on from any of its states.
-TEST(MovingWall, HasTheSameBitsInBothEnginesAndFromAnyState) {
+TEST(LongMovingWall, HasTheSameBitsInBothEnginesAndFromAnyState) {
   const std::string sides = "left = \"periodic\"\nright = \"periodic\"\ntop = { motion = { velocity = [0, -0.1] } }";
   for (const char* method : methods) {
     for (const std::string physics : {"",
@@ -319,7 +319,7 @@ TEST(MovingWall, JumpsOverNoDisk) {
   }
 }
 
-TEST(MovingWall, StopsWhereItWouldCrushADisk) {
+TEST(LongMovingWall, StopsWhereItWouldCrushADisk) {
   for (const char* method : methods) {
     SCOPED_TRACE(method);
     const Scene scene = scene_with("", wall("[[8, 0], [8, 20]]", "velocity = [1, 0]") + one_disk(14, 10, 0.5, 0, 1),

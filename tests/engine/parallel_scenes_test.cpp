@@ -1,4 +1,6 @@
 // The engine against the reference on every scene of scenes/, after each of its first steps.
+#include <set>
+
 #include "tests/support/scenes_on_threads.hpp"
 
 namespace carom {
@@ -10,8 +12,21 @@ TEST_P(ParallelScenes, EqualTheReferenceAtFirst) {
   test::expect_engine_equals_reference(GetParam(), 40);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ParallelScenes, ::testing::ValuesIn(test::scene_files()),
-                         [](const auto& p) { return p.param; });
+// Those that take more than a second, or all others.
+std::vector<std::string> scenes(bool that_take_long) {
+  const std::set<std::string> take_long{"analysis", "couette", "heat_conduction", "lorentz_gas",   "mixing",
+                                        "paddle",   "piston",  "rough_gas",       "tracer_in_bath"};
+  std::vector<std::string> names = test::scene_files();
+  std::erase_if(names, [&](const std::string& name) { return take_long.contains(name) != that_take_long; });
+  return names;
+}
+
+std::string name_of(const ::testing::TestParamInfo<std::string>& info) {
+  return info.param;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ParallelScenes, ::testing::ValuesIn(scenes(false)), name_of);
+INSTANTIATE_TEST_SUITE_P(LongScenes, ParallelScenes, ::testing::ValuesIn(scenes(true)), name_of);
 
 }  // namespace
 }  // namespace carom

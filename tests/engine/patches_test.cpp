@@ -99,7 +99,7 @@ void check(const Contacts& c, int threads, std::size_t divisor, bool cut) {
   }
 }
 
-TEST(Patches, KeepTheOrderOfEachDisk) {
+TEST(LongPatches, KeepTheOrderOfEachDisk) {
   for (const int threads : {1, 2, 5}) {
     check(random_contacts(6000, 9000, 100.0, 80.0), threads, 4, true);
     check(random_contacts(6000, 9000, 3000.0, 40.0), threads, 4, true);

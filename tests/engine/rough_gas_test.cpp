@@ -83,7 +83,7 @@ TEST(RoughGasTheory, KnowsEquipartition) {
 // Theory takes both distributions for normal ones. They are not quite: boltzmann is the ratio that Boltzmann's equation
 // itself has for the same rule, from a direct simulation without space (pairs drawn by their relative velocity, 20,000
 // disks), up to a percent.
-TEST(RoughGas, CoolsAtAConstantRatioOfTemperatures) {
+TEST(LongRoughGas, CoolsAtAConstantRatioOfTemperatures) {
   struct Case {
     Gas gas;
     double boltzmann;
@@ -112,7 +112,7 @@ TEST(RoughGas, WithMuchLossHasTheRatioOfBoltzmannsEquation) {
   EXPECT_NEAR(measured / 0.634, 1.0, 0.03);
 }
 
-TEST(RoughGas, CoolsAtTheSameRatioUnderPairwise) {
+TEST(LongRoughGas, CoolsAtTheSameRatioUnderPairwise) {
   Gas g{0.9, 0.5, 0.5};
   g.method = "pairwise";
   const double measured = ratio_of(g, 10.0, 18.0, 12);

@@ -97,7 +97,7 @@ TEST(RoughShear, SmoothSurfacesChangeNoBit) {
   }
 }
 
-TEST(RoughShear, SameBitsOnAnyThreadsAndResumed) {
+TEST(LongRoughShear, SameBitsOnAnyThreadsAndResumed) {
   constexpr const char* law = "restitution = 0.9\n[[physics.pairs]]\ngroups = [\"a\", \"a\"]\nrestitution = 0.8";
   constexpr const char* bath = "thermostat = { kind = \"langevin\", temperature = 1.0, rate = 0.2, dt = 0.05 }";
   constexpr Count steps = 60;

@@ -163,7 +163,7 @@ State run_on(const Scene& scene, const State& start, int threads, std::size_t di
 
 // A bath of friction 2 rate (N T - N T0) takes what the shear heats by, stress times rate and area: the temperature
 // where both are the same. The noise works on velocities relative to the flow, whose mean stays 0.
-TEST(Shear, ABathTakesTheHeatOfTheFlow) {
+TEST(LongShear, ABathTakesTheHeatOfTheFlow) {
   Flow f;
   f.disks = 400;
   f.width = f.height = 40.0;
@@ -219,7 +219,7 @@ TEST(Shear, AThermostatHasTheSameBitsOnAnyThreads) {
   }
 }
 
-TEST(Shear, SameBitsOnAnyThreads) {
+TEST(LongShear, SameBitsOnAnyThreads) {
   for (const char* radius : {"0.5", "{ uniform = [0.05, 0.6] }", "{ choice = [0.05, 0.1, 1.2] }"}) {
     for (const char* rate : {"0.2", "-1.5"}) {
       for (const char* method : method_words) {

@@ -55,7 +55,7 @@ Scene burst_scene() {
 }
 
 // pi sqrt(M / m), as the collisions of 1 : 100^n count the digits of pi; half of them between the disks.
-TEST(CrowdedWindow, FiniteBurstsAreCountedToTheEndByBothEngines) {
+TEST(LongCrowdedWindow, FiniteBurstsAreCountedToTheEndByBothEngines) {
   for (const double ratio : {1e-8, 1e-10, 1e-12}) {
     const Scene scene = burst_scene();
     const auto reference = make_reference_exact(scene, light_and_heavy(ratio));
@@ -71,7 +71,7 @@ TEST(CrowdedWindow, FiniteBurstsAreCountedToTheEndByBothEngines) {
 
 // The same burst where the walls lose energy but are not part of it: a heavy disk at rest is what the light one is
 // thrown against.
-TEST(CrowdedWindow, AnElasticBurstIsNoCollapseWhereOtherContactsDissipate) {
+TEST(LongCrowdedWindow, AnElasticBurstIsNoCollapseWhereOtherContactsDissipate) {
   Scene scene = burst_scene();
   scene.box.restitutions.fill(0.5);
   scene.run.t_end = 20.0;
@@ -80,7 +80,7 @@ TEST(CrowdedWindow, AnElasticBurstIsNoCollapseWhereOtherContactsDissipate) {
 }
 
 // A burst in a corner of a gas, with regions: which event was too much is found without them.
-TEST(CrowdedWindow, ABurstAmongOthersInTiles) {
+TEST(LongCrowdedWindow, ABurstAmongOthersInTiles) {
   const Scene scene =
       make_scene({30, 30, "wall", "",
                   "[[disks]]\ncount = 2\npositions = [[0.3, 15], [3.6, 15]]\nvelocities = [[0, 0], [-1, 0]]\n"
@@ -135,7 +135,7 @@ TEST(CrowdedWindow, TouchingDisksThatFillTheBox) {
 }
 
 // Gaps of the last bit: time goes on by 1e-16 an event.
-TEST(CrowdedWindow, HardlyAnyRoom) {
+TEST(LongCrowdedWindow, HardlyAnyRoom) {
   Domain box;
   box.width = box.height = std::nextafter(2.0, 3.0);
   EXPECT_THAT(outcome(plain_scene(box, 1.0), state_of({{1, 1, 1, 0.3, 1, 1, 0}})),
@@ -149,7 +149,7 @@ TEST(CrowdedWindow, AtRestOnAnElasticFloorIsNotCalledCollapse) {
               AllOf(HasSubstr("time stands still at t = 0"), HasSubstr("the bottom wall"), Not(HasSubstr("collapse"))));
 }
 
-TEST(CrowdedWindow, MassesWhoseSumIsNotANumber) {
+TEST(LongCrowdedWindow, MassesWhoseSumIsNotANumber) {
   Domain box;
   box.width = box.height = 20.0;
   const State initial = state_of({{5, 10, 1, 0, 1, 1.2e308, 0}, {15, 10, -1, 0, 1, 1.1e308, 0}});
@@ -167,7 +167,7 @@ Scene resting_pile(double contact_time) {
 }
 
 // What costs a dozen collisions a disk and contact time would take years: both engines say so after the same windows.
-TEST(CrowdedWindow, APileWithATinyContactTimeSaysThatTimeHardlyAdvances) {
+TEST(LongCrowdedWindow, APileWithATinyContactTimeSaysThatTimeHardlyAdvances) {
   const Scene scene = resting_pile(1e-10);
   EXPECT_THAT(outcome(scene, initial_state(scene)),
               AllOf(HasSubstr("time all but stands still at t = "), HasSubstr("contact_time is too short"),
@@ -182,7 +182,7 @@ TEST(CrowdedWindow, AContactTimeBelowTheResolutionOfTime) {
 }
 
 // A step that is given up leaves the state of its start, and a later one has the bits that it would have had.
-TEST(CrowdedWindow, AStepGivenUpChangesNoBit) {
+TEST(LongCrowdedWindow, AStepGivenUpChangesNoBit) {
   Scene scene = burst_scene();
   for (const bool parallel : {false, true}) {
     const auto make = [&] {

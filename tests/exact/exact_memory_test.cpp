@@ -81,7 +81,7 @@ double most_bytes_a_disk(int threads) {
 }
 
 // The lower bound that scenes are checked with is near what runs take, on the safe side.
-TEST(ExactMemory, OfADiskIsWhatScenesAreCheckedWith) {
+TEST(LongExactMemory, OfADiskIsWhatScenesAreCheckedWith) {
   const double least = least_memory(Method::exact, disks) / static_cast<double>(disks);
   for (const int threads : {1, 2}) {
     const double taken = most_bytes_a_disk(threads);

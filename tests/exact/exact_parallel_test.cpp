@@ -189,7 +189,7 @@ TEST(ExactParallelContacts, ThatLast) {
 }
 
 // Seven disks fill a periodic row: windows so short that the rounding of places is all that moves.
-TEST(ExactParallelContacts, OfDisksWithoutRoom) {
+TEST(LongExactParallelContacts, OfDisksWithoutRoom) {
   const std::string chain =
       "[[disks]]\ncount = 7\nradius = [0.09, 0.075, 0.3, 0.15, 0.3, 0.0375, 0.0375]\nmass = 1\n"
       "positions = [[0.09, 0.6], [0.255, 0.6], [0.63, 0.6], [1.08, 0.6], [1.53, 0.6], [1.8675, 0.6], [1.9425, 0.6]]\n"
@@ -263,7 +263,7 @@ TEST(ExactParallelCollapse, IsReportedAlike) {
 }
 
 // The speed bound fails: a projectile scatters a cold gas, heavy disks hit light ones. The window is run again.
-TEST(ExactParallelSpeeds, ThatRiseWithinAWindow) {
+TEST(LongExactParallelSpeeds, ThatRiseWithinAWindow) {
   const std::string cold = "velocities = { maxwell = 1e-6 }\nradius = 0.4\nmass = 0.001";
   const std::string heavy =
       "[[disks]]\ncount = 2\npositions = [[5, 12], [19, 12.3]]\nradius = [2, 2]\nmass = [900, 700]\n"

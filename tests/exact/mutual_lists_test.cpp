@@ -45,7 +45,7 @@ Seen look_at_each_slice(const std::string& sides, int threads, int windows) {
   return seen;
 }
 
-TEST(MutualLists, AfterEverySlice) {
+TEST(LongMutualLists, AfterEverySlice) {
   for (const char* sides : {"wall", "periodic"}) {
     for (const int threads : {1, 3}) {
       SCOPED_TRACE(testing::Message() << sides << ", " << threads << " threads");

@@ -94,7 +94,7 @@ std::string files_of(const test::TestFolder& folder, const Scene& scene, std::ui
   return files;
 }
 
-TEST(Pieces, FilesAreThoseOfTheWhole) {
+TEST(LongPieces, FilesAreThoseOfTheWhole) {
   const test::TestFolder folder("pieces");
   const auto scene_with = [](const std::string& box, const std::string& physics, const std::string& output) {
     return parse_scene(fmt::format("[box]\nwidth = 40.0\nheight = 30.0\nleft = \"periodic\"\nright = \"periodic\"\n{}\n"
@@ -187,7 +187,7 @@ std::string samples_of(const test::TestFolder& folder, const Scene& scene, std::
   return bytes_of(path);
 }
 
-TEST(Pieces, SamplesAreThoseOfTheWhole) {
+TEST(LongPieces, SamplesAreThoseOfTheWhole) {
   const test::TestFolder folder("pieces_samples");
   const auto scene_with = [](const std::string& box, const std::string& analysis) {
     return parse_scene(
@@ -209,7 +209,7 @@ TEST(Pieces, SamplesAreThoseOfTheWhole) {
 }
 
 // More disks than go into the file at once, and chunks that end where no piece does.
-TEST(Pieces, ManyDisksGoChunkByChunk) {
+TEST(LongPieces, ManyDisksGoChunkByChunk) {
   const test::TestFolder folder("pieces_of_many");
   for (const char* select : {"", "select = \"every 2nd\"\n", "select = [0.0, 0.0, 400.0, 250.0]\n"}) {
     const Scene scene =

@@ -215,7 +215,7 @@ TEST(TrajectoryH5md, GoesOnAfterAnyFrame) {
 }
 
 // The same frames are the same bytes, whenever they were written and however long that took.
-TEST(TrajectoryH5md, EqualRunsLeaveEqualFiles) {
+TEST(LongTrajectoryH5md, EqualRunsLeaveEqualFiles) {
   const TestFolder folder("h5md_equal");
   const std::string path = (folder.path() / "trajectory.h5").string();
   // Until the clock shows another second: longer than anything that a clock might decide, or leave in the file.

@@ -55,8 +55,9 @@ class TrajectoryPrograms : public test::ProgramTest {
     return o.out;
   }
 };
+using LongTrajectoryPrograms = TrajectoryPrograms;
 
-TEST_F(TrajectoryPrograms, AseAndMdanalysisReadTheText) {
+TEST_F(LongTrajectoryPrograms, AseAndMdanalysisReadTheText) {
   run_scene("out");
   EXPECT_THAT(read_as_molecules("out/trajectory.xyz"), HasSubstr("cell 20.0 12.0 1.0 pbc True False False"));
   const std::string walls = "--set box.left=wall --set box.right=wall --method pairwise --dt 0.01";
@@ -64,7 +65,7 @@ TEST_F(TrajectoryPrograms, AseAndMdanalysisReadTheText) {
   EXPECT_THAT(read_as_molecules("out/trajectory.xyz"), HasSubstr("cell 20.0 12.0 1.0 pbc False False False"));
 }
 
-TEST_F(TrajectoryPrograms, MdanalysisReadsTheThreeDimensionsOfH5md) {
+TEST_F(LongTrajectoryPrograms, MdanalysisReadsTheThreeDimensionsOfH5md) {
   run_scene("xyz");
   run_scene("h5", "--set output.trajectory=h5md --set output.dimensions=3");
   const std::string said = read_as_molecules("xyz/trajectory.xyz h5/trajectory.h5");
@@ -113,7 +114,7 @@ TEST_F(TrajectoryPrograms, RoundsDoNotDependOnHowTheRunWasMade) {
   EXPECT_EQ(last_frame("often", "--set output.every=0.01"), expected);
 }
 
-TEST_F(TrajectoryPrograms, AStoppedAndResumedRunCountsOn) {
+TEST_F(LongTrajectoryPrograms, AStoppedAndResumedRunCountsOn) {
   const std::string longer = "--t-end 400 --set output.every=4 ";
   const std::string whole = run_scene("whole", longer);
   Outcome o = carom("run scene.toml --quiet -o parts --max-walltime 1e-6 " + longer);

@@ -108,7 +108,7 @@ TEST(ViewBlocks, NoDisksAreFramesAsWell) {
   expect_round_trip(random_frames(1, 1, 3, true), {view_axis(20.0, true, 1.0), view_axis(7.0, false, 1.0)});
 }
 
-TEST(ViewBlocks, ManyDisksMakeBlocksOfFewFrames) {
+TEST(LongViewBlocks, ManyDisksMakeBlocksOfFewFrames) {
   const auto frames = random_frames(3, 10, 300'000, true);
   const ViewAxes axes{view_axis(20.0, true, 0.01), view_axis(7.0, false, 0.01)};
   const ViewEncoder encoder = encoded(frames, axes);

@@ -75,7 +75,7 @@ TEST(ShearedMeasures, PairDistancesAreThoseOfAllImages) {
 }
 
 // Each disk counts once, by its nearest image; few disks have neighbours further than half the height.
-TEST(ShearedMeasures, BondOrderIsThatOfAllImages) {
+TEST(LongShearedMeasures, BondOrderIsThatOfAllImages) {
   test::Draws draws(22);
   for (const Shape& s : shapes) {
     for (const double share : offset_shares) {

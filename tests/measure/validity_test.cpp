@@ -76,7 +76,7 @@ TEST(Validity, RollbackSaysThatTimeStallsBeforeItStops) {
 }
 
 // The piston leaves the disk less room than it moves in dt: it bounces twice and more often in a step.
-TEST(Validity, TimeSteppingSaysThatWallsAreMetLate) {
+TEST(LongValidity, TimeSteppingSaysThatWallsAreMetLate) {
   for (const char* method : {"pairwise", "rollback"}) {
     const auto closing = [&](const char* end) {
       return stability_scene("closing_walls", {{"run.method", method}, {"run.dt", "0.001"}, {"run.t_end", end}});

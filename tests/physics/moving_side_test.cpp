@@ -203,7 +203,7 @@ TEST(MovingSide, DoesTheWorkThatIsGained) {
 }
 
 // What the floor bears, averaged over whole periods, is the weight of the bed; the bed stays in motion.
-TEST(MovingSide, BearsTheWeightOfAShakenBed) {
+TEST(LongMovingSide, BearsTheWeightOfAShakenBed) {
   const Scene scene = load_scene(folder + "shaken_bed.toml");
   State middle;
   const State end = run_by_engine(scene, initial_state(scene), [&](const State& s) {
@@ -246,7 +246,7 @@ TEST(MovingSide, LetsDisksStartWhereThereIsRoom) {
 }
 
 // Two disks one above the other, and a ceiling that comes down to less than two diameters.
-TEST(MovingSide, StopsWhereItWouldCrushDisks) {
+TEST(LongMovingSide, StopsWhereItWouldCrushDisks) {
   for (const std::string method : {"exact", "pairwise", "rollback"}) {
     SCOPED_TRACE(method);
     const bool exact = method == "exact";

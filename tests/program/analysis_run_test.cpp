@@ -35,8 +35,9 @@ class AnalysisRun : public test::ProgramTest {
                  series + "'");
   }
 };
+using LongAnalysisRun = AnalysisRun;
 
-TEST_F(AnalysisRun, FilesArePlainToOthersAndTheStateIsUntouched) {
+TEST_F(LongAnalysisRun, FilesArePlainToOthersAndTheStateIsUntouched) {
   for (const std::string method : {"pairwise", "rollback", "exact"}) {
     write("plain.toml", test::busy_scene(method, "", "none"));
     write("analysed.toml", test::busy_scene(method, analysis, "none"));
@@ -55,7 +56,7 @@ TEST_F(AnalysisRun, FilesArePlainToOthersAndTheStateIsUntouched) {
   }
 }
 
-TEST_F(AnalysisRun, ResumedItGivesTheSameFiles) {
+TEST_F(LongAnalysisRun, ResumedItGivesTheSameFiles) {
   for (const std::string method : {"pairwise", "exact"}) {
     write("scene.toml", test::replaced(test::replaced(test::busy_scene(method, analysis, "none"), "right = \"sink\"",
                                                       "left = \"periodic\"\nright = \"periodic\""),
@@ -77,7 +78,7 @@ TEST_F(AnalysisRun, ResumedItGivesTheSameFiles) {
 }
 
 // All of it in a shear flow, and resumed.
-TEST_F(AnalysisRun, InAShearFlowToo) {
+TEST_F(LongAnalysisRun, InAShearFlowToo) {
   for (const std::string method : {"pairwise", "exact"}) {
     write("flow.toml",
           "[box]\nwidth = 24\nheight = 18\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\n"

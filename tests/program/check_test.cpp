@@ -26,6 +26,7 @@ class Check : public test::CommandTest {
     return all;
   }
 };
+using LongCheck = Check;
 
 // A disk at rest, radius 0.5, that falls by 8 with g = 1: after 4 units of time it lands with speed 4.
 constexpr const char* falling_disk = R"([box]
@@ -89,7 +90,7 @@ TEST_F(Check, APileAsksForAShorterStepThanItsSpeedsDo) {
   EXPECT_THAT(troubles(j), HasSubstr("in a pile a disk falls by g dt^2 before it is held"));
 }
 
-TEST_F(Check, SourcesAddDisksSpeedsAndMemory) {
+TEST_F(LongCheck, SourcesAddDisksSpeedsAndMemory) {
   write("source.toml", R"([box]
 width = 100.0
 height = 100.0
@@ -117,7 +118,7 @@ t_end = 1000.0
   EXPECT_THAT(carom("check source.toml").out, HasSubstr("with what sources emit up to 50000 at t = 1000"));
 }
 
-TEST_F(Check, EveryFileIsPredictedWithItsSize) {
+TEST_F(LongCheck, EveryFileIsPredictedWithItsSize) {
   const std::string wants =
       "small.toml --t-end 20 --set output.checkpoint=1000 --set output.movie=true --set output.plots='[\"energy\", "
       "\"velocity\"]' --set 'analysis.what=[\"speeds\", \"density\"]'";
@@ -151,7 +152,7 @@ TEST_F(Check, WhatSinksTakeIsLeftOutOfFiles) {
   EXPECT_GT(foreseen, 0.05 * full);
 }
 
-TEST_F(Check, AMovieIsWhatAShortRunCosts) {
+TEST_F(LongCheck, AMovieIsWhatAShortRunCosts) {
   const Json j = check("small.toml --set output.movie=true");
   EXPECT_GT(j["cost_parts_s"]["frames"].get<double>(), j["cost_parts_s"]["steps"].get<double>());
   EXPECT_GE(j["cost_s"].get<double>(), j["cost_parts_s"]["frames"].get<double>());

@@ -15,6 +15,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 using CommandLine = test::CommandTest;
+using LongCommandLine = CommandLine;
 
 TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   const std::vector<std::pair<std::string, std::string>> cases{
@@ -118,7 +119,7 @@ TEST_F(CommandLine, FoldersAreRecognisedByTheirContents) {
                "half), or a trajectory in half/carom-unfinished");
 }
 
-TEST_F(CommandLine, ChartWritesAllItsFilesOrNone) {
+TEST_F(LongCommandLine, ChartWritesAllItsFilesOrNone) {
   ASSERT_EQ(carom("chart --tiny --quiet -o chart").status, 0);
   const std::vector<std::string> names = files_in("chart");
   EXPECT_THAT(names,
@@ -221,7 +222,7 @@ TEST_F(CommandLine, CheckSaysWhatItWouldModel) {
 
 // A scene that the machine could hold and this process may not: a fault of the scene, whether it is run or checked. The
 // address sanitizer takes more room for itself than the limit leaves.
-TEST_F(CommandLine, DisksThatFindNoMemory) {
+TEST_F(LongCommandLine, DisksThatFindNoMemory) {
 #ifdef CAROM_ADDRESS_SANITIZER
   GTEST_SKIP() << "the address sanitizer needs terabytes of address space";
 #endif

@@ -55,7 +55,7 @@ TEST(GroupScenes, MixingComesToOneTemperature) {
 // The friction of a tracer of mass M in two dimensions, Enskog's first approximation:
 // gamma = 2 n g sigma sqrt(2 pi mu T) / M; of the relative velocity times 1 + M N_tracer / (m N_bath). Within a
 // collision or so per tracer, before the flow that they set up in the bath comes back to them.
-TEST(GroupScenes, ABathBrakesTracersAsEnskogSays) {
+TEST(LongGroupScenes, ABathBrakesTracersAsEnskogSays) {
   Scene scene = load_scene(folder + "tracer_in_bath.toml", {{"run.t_end", "0.3"}, {"analysis.start", "0.0"}});
   constexpr double eta = 0.3;
   const double n = 4.0 * eta / std::numbers::pi;

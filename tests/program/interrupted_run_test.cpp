@@ -22,6 +22,7 @@ class InterruptedRun : public test::ProgramTest {
     while (!fs::exists(file)) usleep(1000);
   }
 };
+using LongInterruptedRun = InterruptedRun;
 
 TEST_F(InterruptedRun, StoppedAgainAndAgainItGivesTheSameResults) {
   for (const std::string method : {"pairwise", "exact"}) {
@@ -136,6 +137,7 @@ class InitialState : public InterruptedRun {
     return false;
   }
 };
+using LongInitialState = InitialState;
 
 TEST_F(InitialState, SignalsDoNotWaitForIt) {
   write("slow.toml", slow_growth);
@@ -162,7 +164,7 @@ TEST_F(InitialState, ACheckpointThatIsWishedForEarlyDoesNoHarm) {
   EXPECT_EQ(wait_for(run), 4);
 }
 
-TEST_F(InitialState, TheWallTimeEndsItToo) {
+TEST_F(LongInitialState, TheWallTimeEndsItToo) {
   write("slow.toml", slow_growth);
   const Outcome o = carom("run slow.toml --quiet -o out --max-walltime 0.5");
   EXPECT_EQ(o.status, 4);
@@ -239,7 +241,7 @@ TEST_F(InterruptedRun, OutputsThatAreGoneAreMissed) {
   EXPECT_TRUE(fs::exists(at("out/carom-unfinished/checkpoint.carom")));
 }
 
-TEST_F(InterruptedRun, IntoAnotherFolderItLeavesTheFirstAsItWas) {
+TEST_F(LongInterruptedRun, IntoAnotherFolderItLeavesTheFirstAsItWas) {
   ASSERT_EQ(carom("run busy.toml --quiet -o whole").status, 0);
   ASSERT_EQ(carom("run busy.toml --quiet -o out --max-walltime 1e-9").status, 4);
   const std::string before = test::text_of(at("out/carom-unfinished/trajectory.xyz"));
@@ -251,7 +253,7 @@ TEST_F(InterruptedRun, IntoAnotherFolderItLeavesTheFirstAsItWas) {
   expect_same_results("whole", "out");
 }
 
-TEST_F(InterruptedRun, AFinishedRunGoesOnToALaterEnd) {
+TEST_F(LongInterruptedRun, AFinishedRunGoesOnToALaterEnd) {
   write("asks.toml", test::busy_scene("pairwise", "checkpoint = \"1 h\"\nplots = [\"energy\"]\nmovie = true\n"));
   const std::string seldom = " --quiet --set output.every=1.0";
   ASSERT_EQ(carom("run asks.toml -o whole --t-end 6" + seldom).status, 0);

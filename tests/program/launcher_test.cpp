@@ -48,6 +48,7 @@ touch $ROOT/built)");
     return shell("export ROOT=$(realpath root) PATH=\"$(realpath tools):$PATH\"; " + arguments);
   }
 };
+using LongLauncher = Launcher;
 
 constexpr const char* four_tests = R"(cat <<'END'
 Test project /somewhere
@@ -165,7 +166,7 @@ TEST_F(Launcher, ItsOwnCommandsHaveHelp) {
   EXPECT_THAT(o.err, HasSubstr("\"test\" is a command of the launcher ./carom"));
 }
 
-TEST_F(Launcher, BuildsAgainAfterAChangeInAnyFolderOfTheProgram) {
+TEST_F(LongLauncher, BuildsAgainAfterAChangeInAnyFolderOfTheProgram) {
   write("root/build/release/carom", "#!/bin/sh\necho the program\n");
   fs::permissions(at("root/build/release/carom"), fs::perms::owner_all);
   const auto builds = [&] {

@@ -245,6 +245,7 @@ class Movie : public ::testing::Test {
   const test::TestFolder test_folder_{::testing::UnitTest::GetInstance()->current_test_info()->name()};
   const std::string folder_ = test_folder_.path().string();
 };
+using LongMovie = Movie;
 
 TEST_F(Movie, IsH264WithEveryFrame) {
   Domain box = square_box(10.0);
@@ -257,7 +258,7 @@ TEST_F(Movie, IsH264WithEveryFrame) {
   EXPECT_FALSE(fs::exists(folder_ + "/ffmpeg.log"));
 }
 
-TEST_F(Movie, OtherFormatsAndFramesPerSecond) {
+TEST_F(LongMovie, OtherFormatsAndFramesPerSecond) {
   for (const auto& [format, codec] : {std::pair{MovieFormat::webm, "vp9"}, std::pair{MovieFormat::gif, "gif"}}) {
     FrameStyle style{"test", square_box(10.0), 1.0, 1};
     style.look.fps = 10.0;
@@ -278,7 +279,7 @@ TEST_F(Movie, OtherFormatsAndFramesPerSecond) {
   }
 }
 
-TEST_F(Movie, WhatFfmpegSaysIsInTheError) {
+TEST_F(LongMovie, WhatFfmpegSaysIsInTheError) {
   fs::create_directories(folder_ + "/movie.mp4");  // cannot be opened as a file
   MovieWriter movie(folder_, {"test", square_box(1.0), 1.0, 1});
   try {

@@ -133,6 +133,7 @@ TEST(NamedGroups, UnknownNamesGetTheNearest) {
 }
 
 class NamedGroupsRun : public test::ProgramTest {};
+using LongNamedGroupsRun = NamedGroupsRun;
 
 TEST_F(NamedGroupsRun, ATrajectoryShowsTheGroupInBothFormats) {
   write("scene.toml", with(""));
@@ -187,7 +188,7 @@ TEST_F(NamedGroupsRun, AnalysisOfAGroupIsThatOfItsDisksAlone) {
   EXPECT_EQ(python.out.substr(0, half), python.out.substr(half));
 }
 
-TEST_F(NamedGroupsRun, ResumedTheColumnsGoOn) {
+TEST_F(LongNamedGroupsRun, ResumedTheColumnsGoOn) {
   write("scene.toml", with("movie = { colour = \"group\" }\n"));
   ASSERT_EQ(carom("run scene.toml --quiet -o whole --t-end 3").status, 0);
   const Resumed resumed =

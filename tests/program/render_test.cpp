@@ -52,6 +52,7 @@ class Render : public test::ProgramTest {
         .out;
   }
 };
+using LongRender = Render;
 
 TEST_F(Render, TheScenesMovieLooksAsItSays) {
   run_small();
@@ -60,7 +61,7 @@ TEST_F(Render, TheScenesMovieLooksAsItSays) {
   EXPECT_EQ(text_of(at("again.mp4")), text_of(at("out/movie.mp4")));
 }
 
-TEST_F(Render, TheExtensionSaysWhatItBecomes) {
+TEST_F(LongRender, TheExtensionSaysWhatItBecomes) {
   run_small();
   for (const auto& [file, expected] :
        {std::pair{"a.mp4", "h264,640,400,10/1,5\n"}, std::pair{"a.webm", "vp9,640,400,10/1,5\n"},
@@ -105,7 +106,7 @@ TEST_F(Render, WhatItCannotMakeIsRefusedInOneLine) {
 }
 
 // While it runs, or after it was killed: of the last frame, only a part may be there.
-TEST_F(Render, AnUnfinishedRunIsShownAsFarAsItCame) {
+TEST_F(LongRender, AnUnfinishedRunIsShownAsFarAsItCame) {
   run_small();
   fs::create_directories(at("broken/carom-unfinished"));
   const std::string whole = text_of(at("out/trajectory.xyz"));

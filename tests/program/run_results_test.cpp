@@ -18,6 +18,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 using RunResults = test::CommandTest;
+using LongRunResults = RunResults;
 
 // A disk that moves five radii a step: a warning in the summary, or the end with --strict, with what there was till
 // then.
@@ -293,7 +294,7 @@ TEST_F(RunResults, PlotsNeedNoFolderForTemporaryFiles) {
 }
 
 // Plots that gnuplot fails to draw are lost, and nothing else; they are drawn when the run is resumed.
-TEST_F(RunResults, APlotThatFailsCostsNothingElse) {
+TEST_F(LongRunResults, APlotThatFailsCostsNothingElse) {
   fs::create_directories(at("bin"));
   write("bin/gnuplot", "#!/bin/sh\necho no fonts >&2\nexit 1\n");
   fs::permissions(at("bin/gnuplot"), fs::perms::owner_all);

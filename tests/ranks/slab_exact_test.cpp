@@ -69,7 +69,7 @@ TEST(SlabExact, HasTheBitsOfOneMachineAfterEveryWindow) {
   }
 }
 
-TEST(SlabExact, HasTheBitsOfDenseAndDiluteGases) {
+TEST(LongSlabExact, HasTheBitsOfDenseAndDiluteGases) {
   for (const double packing_fraction : {0.05, 0.5, 0.7, 0.8}) {
     SCOPED_TRACE(packing_fraction);
     TallBox tall;
@@ -80,7 +80,7 @@ TEST(SlabExact, HasTheBitsOfDenseAndDiluteGases) {
   }
 }
 
-TEST(SlabExact, HasTheBitsOfUnequalDisksThatLoseEnergy) {
+TEST(LongSlabExact, HasTheBitsOfUnequalDisksThatLoseEnergy) {
   for (const char* law : {"", "viscoelastic"}) {
     TallBox tall{.radius = "{ uniform = [0.3, 1.1] }", .mass = "{ uniform = [1, 20] }"};
     tall.features.law = law;
@@ -114,7 +114,7 @@ TEST(SlabExact, HasTheBitsOfThermostatsAndBrownianMotion) {
 
 // Disks that sinks take, on the sides and on inner walls, and those that sources bring, of sizes that none at the start
 // has.
-TEST(SlabExact, HasTheBitsOfSourcesAndSinks) {
+TEST(LongSlabExact, HasTheBitsOfSourcesAndSinks) {
   for (const bool sources : {false, true}) {
     for (const char* sides : {"sink", "periodic", "periodic_x"}) {
       SCOPED_TRACE(fmt::format("{} {}", sides, sources));
@@ -135,7 +135,7 @@ TEST(SlabExact, HasTheBitsOfSourcesAndSinks) {
 }
 
 // A box that sources fill: first one rank runs it.
-TEST(SlabExact, HasTheBitsOfABoxThatSourcesFill) {
+TEST(LongSlabExact, HasTheBitsOfABoxThatSourcesFill) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 12.0\nheight = 300.0\ntop = \"sink\"\n[[sources]]\nregion = [1.0, 5.0, 11.0, 295.0]\nrate = "
       "300.0\n"
@@ -166,7 +166,7 @@ TEST(SlabExact, HasTheBitsUnderGravity) {
   }
 }
 
-TEST(SlabExact, HasTheBitsWhereWallsMoveAndThingsStandInTheWay) {
+TEST(LongSlabExact, HasTheBitsWhereWallsMoveAndThingsStandInTheWay) {
   for (const char* sides : {"moving", "wall", "periodic"}) {
     SCOPED_TRACE(sides);
     TallBox tall{.sides = sides};
@@ -181,7 +181,7 @@ TEST(SlabExact, HasTheBitsWhereWallsMoveAndThingsStandInTheWay) {
 }
 
 // A disk that hardly has room between two fixed ones makes windows crowded.
-TEST(SlabExact, HasTheBitsAfterCrowdedWindows) {
+TEST(LongSlabExact, HasTheBitsAfterCrowdedWindows) {
   TallBox tall{.t_end = 0.02};
   tall.box =
       "[[disks]]\nfixed = true\ncount = 2\npositions = [[5.0, 210.0], [5.0, 212.400005]]\nradius = 0.6\n"
@@ -196,7 +196,7 @@ TEST(SlabExact, HasTheBitsWhereWindowsAreDoneAgain) {
 }
 
 // What slabs do not know one rank does.
-TEST(SlabExact, HasTheBitsOfScenesThatOneRankRuns) {
+TEST(LongSlabExact, HasTheBitsOfScenesThatOneRankRuns) {
   for (const char* sides : {"wall", "periodic", "sink", "periodic_x"}) {
     int k = 0;
     for (const Features& f : test::all_features("exact", sides)) {

@@ -39,9 +39,13 @@ TEST_P(SlabPairwise, HasTheBitsOfOneMachineAfterEveryStep) {
   EXPECT_GT(collisions, 25U * scenes.size());
 }
 
-INSTANTIATE_TEST_SUITE_P(Sides, SlabPairwise,
-                         ::testing::Values("wall", "periodic", "periodic_x", "soft", "sink", "moving", "hot"),
-                         [](const auto& p) { return std::string(p.param); });
+std::string name_of(const ::testing::TestParamInfo<const char*>& info) {
+  return info.param;
+}
+
+INSTANTIATE_TEST_SUITE_P(Sides, SlabPairwise, ::testing::Values("moving", "hot"), name_of);
+INSTANTIATE_TEST_SUITE_P(LongSides, SlabPairwise, ::testing::Values("wall", "periodic", "periodic_x", "soft", "sink"),
+                         name_of);
 
 // Nearly all disks are in contact after each step, so that clusters reach through whole slabs.
 TEST(SlabPairwiseRun, HasTheBitsWhereClustersReachThroughSlabs) {

@@ -133,7 +133,7 @@ TEST(StartOnSlabs, PlacesAtRandomAsOneMachine) {
 
 // Where trials are many one machine learns where there is room: which cells are open, from a packing fraction of about
 // 0.39 on, and then a list of voxels, which is refined and halved. Ranks learn the same at the same disks.
-TEST(StartOnSlabs, LearnsWhereThereIsRoom) {
+TEST(LongStartOnSlabs, LearnsWhereThereIsRoom) {
   const std::string random = "mass = 1.0\npositions = \"random\"\nradius = 0.5\n";
   const std::vector<Scene> scenes{
       scene_of(periodic + "packing_fraction = 0.41\n", "[[disks]]\ncount = 2500\n" + random),

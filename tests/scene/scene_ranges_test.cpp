@@ -315,7 +315,7 @@ Course course_of(Scene scene, Method method, bool parallel) {
   return course;
 }
 
-TEST(AnyNumber, IsRefusedOrRight) {
+TEST(LongAnyNumber, IsRefusedOrRight) {
   int refused = 0;
   int ran = 0;
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {

@@ -49,10 +49,18 @@ Check read_check(const std::string& path, const toml::table& table) {
   return check;
 }
 
+Takes read_takes(const std::string& path, const toml::table& table) {
+  const toml::node* node = table.get("takes");
+  if (node == nullptr) return Takes::less;
+  if (node->value_or(std::string()) == "seconds") return Takes::seconds;
+  if (node->value_or(std::string()) == "minutes") return Takes::minutes;
+  fail(path, *node, "expected \"seconds\" or \"minutes\"");
+}
+
 Case read_case(const std::string& path, const toml::table& table) {
   check_keys(path, table,
              {"name", "title", "scene", "set", "set_exact", "set_pairwise", "set_rollback", "check", "right",
-              "most_steps", "slow", "every_step"});
+              "most_steps", "takes", "every_step"});
   Case c;
   c.name = table["name"].value_or(std::string());
   c.title = table["title"].value_or(std::string());
@@ -71,7 +79,7 @@ Case read_case(const std::string& path, const toml::table& table) {
     for (const toml::node& node : *right) c.right.push_back(node.value_or(std::string()));
   }
   c.most_steps = static_cast<Count>(table["most_steps"].value_or(std::int64_t{0}));
-  c.slow = table["slow"].value_or(false);
+  c.takes = read_takes(path, table);
   c.every_step = table["every_step"].value_or(false);
   return c;
 }

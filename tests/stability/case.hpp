@@ -21,6 +21,8 @@ struct Check {
   double bound_of(const std::string& method) const;
 };
 
+enum class Takes { less, seconds, minutes };
+
 struct Case {
   std::string name;   // of the test; letters, digits, _
   std::string title;  // of the row
@@ -30,7 +32,7 @@ struct Case {
   std::vector<Check> checks;
   std::vector<std::string> right;  // methods that must be right; the others may be wrong if they say so
   Count most_steps = 0;            // a run that needs more is ended; 0: no bound
-  bool slow = false;               // takes more than a few seconds
+  Takes takes = Takes::less;       // of its test; those that take minutes are run by the parallel engine alone
   bool every_step = false;         // what is worst is looked for after every step, not at some moments
 };
 

@@ -17,9 +17,9 @@ namespace {
 
 const std::string folder = CAROM_SOURCE_DIR "/scenes/stability";
 
-std::vector<Case> cases(bool slow) {
+std::vector<Case> cases(Takes takes) {
   std::vector<Case> list = read_cases(folder + "/cases.toml");
-  std::erase_if(list, [&](const Case& c) { return c.slow != slow; });
+  std::erase_if(list, [&](const Case& c) { return c.takes != takes; });
   return list;
 }
 
@@ -44,7 +44,7 @@ TEST_P(Stability, IsRightOrSaysSo) {
       EXPECT_TRUE(m.right()) << explain(m);
     }
   }
-  if (c.slow) return;
+  if (c.takes == Takes::minutes) return;
   const CaseResult plain = run_case(c, folder, Which::reference);
   for (std::size_t k = 0; k < result.methods.size(); ++k) {
     EXPECT_EQ(result.methods[k].hash, plain.methods[k].hash) << explain(result.methods[k]);
@@ -56,8 +56,9 @@ std::string name_of(const ::testing::TestParamInfo<Case>& info) {
   return info.param.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Fast, Stability, ::testing::ValuesIn(cases(false)), name_of);
-INSTANTIATE_TEST_SUITE_P(Slow, Stability, ::testing::ValuesIn(cases(true)), name_of);
+INSTANTIATE_TEST_SUITE_P(Fast, Stability, ::testing::ValuesIn(cases(Takes::less)), name_of);
+INSTANTIATE_TEST_SUITE_P(Long, Stability, ::testing::ValuesIn(cases(Takes::seconds)), name_of);
+INSTANTIATE_TEST_SUITE_P(Slow, Stability, ::testing::ValuesIn(cases(Takes::minutes)), name_of);
 
 }  // namespace
 }  // namespace carom::stability

@@ -100,7 +100,7 @@ State grown(const Scene& scene, int threads, std::size_t divisor) {
   return initial_state(scene, place_at_random, parallel_growth(executor, {threads, divisor}));
 }
 
-TEST(Growth, SameBitsPlainAndParallel) {
+TEST(LongGrowth, SameBitsPlainAndParallel) {
   for (const Case& c : cases()) {
     const Scene scene = scene_from(text_of(c.box, c.disks));
     const State expected = initial_state(scene);
