@@ -19,10 +19,6 @@ constexpr double coordinate_slack = 0x1p-50;
 // Classes of size beyond this one share the last grid: radii more than 2^40 apart.
 constexpr int last_class = 40;
 
-std::size_t class_of(double radius, double largest) {
-  return static_cast<std::size_t>(std::min(last_class, std::ilogb(largest / radius)));
-}
-
 // Cells first to last (count of them) along one axis that a reach around a coordinate can touch. Periodic axes give a
 // range that may start below 0 or end beyond the last cell.
 struct CellRange {
@@ -51,6 +47,10 @@ std::size_t wrap_cell(std::ptrdiff_t cell, std::size_t cells) {
 
 }  // namespace
 
+std::size_t PlacementGrid::class_of(double radius, double largest) {
+  return static_cast<std::size_t>(std::min(last_class, std::ilogb(largest / radius)));
+}
+
 PlacementGrid::PlacementGrid(const Domain& box, const Disks& disks)
     : box_(box), disks_(disks), largest_radius_(carom::largest_radius(disks)) {
   resize_in_huge_pages(placed_, disks.size());
@@ -66,6 +66,17 @@ PlacementGrid::PlacementGrid(const Domain& box, const Disks& disks)
     levels_[k].largest_radius = std::max(levels_[k].largest_radius, radius);
   }
   for (Level& level : levels_) size_cells(level);
+}
+
+PlacementGrid::PlacementGrid(const Domain& box, const Disks& disks, double largest_radius,
+                             const std::vector<std::size_t>& expected)
+    : box_(box), disks_(disks), largest_radius_(largest_radius), levels_(expected.size()) {
+  resize_in_huge_pages(placed_, disks.size());
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    levels_[k].disks = expected[k];
+    levels_[k].largest_radius = std::ldexp(largest_radius, -static_cast<int>(k));
+    size_cells(levels_[k]);
+  }
 }
 
 // Cells a diameter wide, but not many more than there are disks.

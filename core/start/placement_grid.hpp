@@ -19,6 +19,13 @@ class PlacementGrid {
   // grid, and holds at most 2^32 - 2 entries.
   PlacementGrid(const Domain& box, const Disks& disks);
 
+  // The same where radii are known only when disks are inserted: none is larger than this, and about so many are
+  // expected of each class; there are none of others.
+  PlacementGrid(const Domain& box, const Disks& disks, double largest_radius, const std::vector<std::size_t>& expected);
+
+  // k, for radii in (largest / 2^(k+1), largest / 2^k].
+  static std::size_t class_of(double radius, double largest);
+
   // Adds disk i at its position in disks.
   void insert(std::size_t i);
 
@@ -79,7 +86,7 @@ class PlacementGrid {
   const Domain& box_;
   const Disks& disks_;
   double largest_radius_ = 0.0;
-  std::vector<Level> levels_;   // by class: radii in (largest / 2^(k+1), largest / 2^k]
+  std::vector<Level> levels_;   // by class
   std::vector<Placed> placed_;  // by index in disks
 };
 

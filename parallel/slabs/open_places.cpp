@@ -32,9 +32,9 @@ bool OpenPlaces::learn() {
 }
 
 bool OpenPlaces::make_cells() {
-  cells_.emplace(box_, radius_, count_, nullptr, known_);
-  if (cells_->tile_height() > tallest_tile(radius_)) return false;
-  grid_.for_each([&](std::size_t i) { cells_->close_around(disks_.x[i], disks_.y[i], radius_); });
+  cells_.emplace(box_, class_.smallest, class_.disks, nullptr, known_);
+  if (cells_->tile_height() > tallest_tile_) return false;
+  grid_.for_each([&](std::size_t i) { cells_->close_around(disks_.x[i], disks_.y[i], disks_.radius_of(i)); });
   auto open = static_cast<std::int64_t>(cells_->open());
   ranks_.sum({&open, 1});
   open_ = static_cast<std::size_t>(open);
@@ -65,30 +65,32 @@ void OpenPlaces::share_list() {
 }
 
 // Cells that each disk closes beyond those that the ones before it close.
-std::vector<std::int64_t> OpenPlaces::close(const std::vector<TrialPlace>& batch) {
+std::vector<std::int64_t> OpenPlaces::close(const std::vector<DiskToPlace>& disks,
+                                            const std::vector<TrialPlace>& places) {
   std::vector<std::int64_t> closed;
-  for (const TrialPlace& place : batch) {
+  for (std::size_t k = 0; k < places.size(); ++k) {
     const std::size_t before = cells_->open();
-    cells_->close_around(place.at.x, place.at.y, radius_);
+    cells_->close_around(places[k].at.x, places[k].at.y, disks[k].radius);
     closed.push_back(static_cast<std::int64_t>(before - cells_->open()));
   }
   ranks_.sum(closed);
   return closed;
 }
 
-std::size_t OpenPlaces::take_in(std::size_t placed, const std::vector<TrialPlace>& batch) {
-  const std::vector<std::int64_t> closed = cells_ ? close(batch) : std::vector<std::int64_t>(batch.size(), 0);
-  for (std::size_t k = 0; k < batch.size(); ++k) {
+std::size_t OpenPlaces::take_in(std::size_t placed, const std::vector<DiskToPlace>& disks,
+                                const std::vector<TrialPlace>& places) {
+  const std::vector<std::int64_t> closed = cells_ ? close(disks, places) : std::vector<std::int64_t>(places.size(), 0);
+  for (std::size_t k = 0; k < places.size(); ++k) {
     if (k > 0 && lesson_due(placed + k)) {
       closed_ahead_ = cells_.has_value();
       return k;
     }
-    if (trials_ + batch[k].trial >= most_trials(count_)) return 0;
-    trials_ += batch[k].trial;
-    in_vain_ += batch[k].trial;
+    if (trials_ + places[k].trial >= most_trials_) return 0;
+    trials_ += places[k].trial;
+    in_vain_ += places[k].trial;
     open_ -= static_cast<std::size_t>(closed[k]);
   }
-  return batch.size();
+  return places.size();
 }
 
 }  // namespace carom

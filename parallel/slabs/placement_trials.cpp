@@ -16,30 +16,30 @@ constexpr std::size_t points_at_once = 32;
 }  // namespace
 
 // Without a list every point is known, otherwise those in voxels of this rank.
-std::optional<Vec2> PlacementTrials::known_point(DiskId disk, std::uint64_t trial) const {
+std::optional<Vec2> PlacementTrials::known_point(const DiskToPlace& disk, const PlacementRoom& room,
+                                                 std::uint64_t trial) const {
   const VoxelList* const list = places_.list();
-  const TrialDraw draw = draw_trial(site_.scene.seed, disk, trial, list != nullptr);
+  const TrialDraw draw = draw_trial(site_.scene.seed, disk.id, trial, list != nullptr);
   if (list != nullptr && !list->has(draw.voxel)) return {};
-  return trial_point(site_.box, site_.room, list, draw);
+  return trial_point(site_.box, room, list, draw);
 }
 
 // Sets the trial's bit if its point is free, now or in answer(): while memory answers for one, others are drawn.
-void PlacementTrials::ask(std::size_t trial, Vec2 point) {
-  if (!site_.room.holds(point)) return;
+void PlacementTrials::ask(std::size_t trial, Vec2 point, double radius) {
   grid_.prefetch_cells(point.x, point.y);
-  asked_.push_back({trial, point});
+  asked_.push_back({trial, point, radius});
   if (asked_.size() == points_at_once) answer();
 }
 
 void PlacementTrials::answer() {
   for (const Asked& a : asked_) grid_.prefetch_disks(a.point.x, a.point.y);
   for (const Asked& a : asked_) {
-    if (!grid_.overlapping(a.point.x, a.point.y, site_.radius, false)) free_.set(a.trial);
+    if (!grid_.overlapping(a.point.x, a.point.y, a.radius, false)) free_.set(a.trial);
   }
   asked_.clear();
 }
 
-std::size_t PlacementTrials::next_free(const std::vector<DiskId>& disks, std::vector<std::uint64_t>& next,
+std::size_t PlacementTrials::next_free(const std::vector<DiskToPlace>& disks, std::vector<std::uint64_t>& next,
                                        bool in_turn) {
   std::size_t end = disks.size();
   std::vector<std::size_t> pending(disks.size());
@@ -47,10 +47,14 @@ std::size_t PlacementTrials::next_free(const std::vector<DiskId>& disks, std::ve
   for (std::size_t most = first_trials; !pending.empty(); most = std::min(2 * most, trials_at_once)) {
     const std::size_t at_once = std::clamp<std::size_t>(trials_at_once / pending.size(), 1, most);
     free_.clear(pending.size() * at_once);
-    for (std::size_t trial = 0; trial < pending.size() * at_once; ++trial) {
-      const std::size_t m = pending[trial / at_once];
-      const std::optional<Vec2> p = known_point(disks[m], next[m] + trial % at_once);
-      if (p && (places_.list() != nullptr || site_.is_own(*p))) ask(trial, *p);
+    for (std::size_t q = 0; q < pending.size(); ++q) {
+      const std::size_t m = pending[q];
+      const PlacementRoom room = placement_room(site_.box, disks[m].radius);
+      for (std::size_t t = 0; t < at_once; ++t) {
+        const std::optional<Vec2> p = known_point(disks[m], room, next[m] + t);
+        if (!p || !room.holds(*p) || (places_.list() == nullptr && !site_.is_own(*p))) continue;
+        ask(q * at_once + t, *p, disks[m].radius);
+      }
     }
     answer();
     free_.share(site_.ranks);
@@ -70,11 +74,12 @@ std::size_t PlacementTrials::next_free(const std::vector<DiskId>& disks, std::ve
   return end;
 }
 
-std::vector<TrialPlace> PlacementTrials::places_of(const std::vector<DiskId>& disks,
+std::vector<TrialPlace> PlacementTrials::places_of(const std::vector<DiskToPlace>& disks,
                                                    const std::vector<std::uint64_t>& trials) const {
   std::vector<std::int64_t> bits(2 * disks.size(), 0);
   for (std::size_t m = 0; m < disks.size(); ++m) {
-    const std::optional<Vec2> p = known_point(disks[m], trials[m]);
+    const PlacementRoom room = placement_room(site_.box, disks[m].radius);
+    const std::optional<Vec2> p = known_point(disks[m], room, trials[m]);
     if (!p) continue;
     bits[2 * m] = std::bit_cast<std::int64_t>(p->x);
     bits[2 * m + 1] = std::bit_cast<std::int64_t>(p->y);

@@ -16,13 +16,11 @@
 
 namespace carom {
 
-// Disks of one radius that are placed in a box, whose ranks each have a slab of another one: its lower side lies `up`
-// below that of the box (length).
+// A box in which disks are placed, whose ranks each have a slab of another one: its lower side lies `up` below that of
+// the box (length).
 struct PlacementSite {
   const Scene& scene;
   Domain box;
-  PlacementRoom room;
-  double radius;
   const SlabCut& cut;
   double up;
   Ranks& ranks;
@@ -42,19 +40,21 @@ class PlacementTrials {
   // For each of these disks, from trial next[m] on, the first that is free; next[m] becomes it. Returns how many of
   // them, from the first on, have one: a disk with trials_between_lessons in vain has none. in_turn: the disks are
   // placed next, one after the other, so that those that come after a lesson need none. Collective.
-  std::size_t next_free(const std::vector<DiskId>& disks, std::vector<std::uint64_t>& next, bool in_turn);
+  std::size_t next_free(const std::vector<DiskToPlace>& disks, std::vector<std::uint64_t>& next, bool in_turn);
 
   // The places of trials that are free. Collective.
-  std::vector<TrialPlace> places_of(const std::vector<DiskId>& disks, const std::vector<std::uint64_t>& trials) const;
+  std::vector<TrialPlace> places_of(const std::vector<DiskToPlace>& disks,
+                                    const std::vector<std::uint64_t>& trials) const;
 
  private:
   struct Asked {
     std::size_t trial;  // of those that are asked about at once
     Vec2 point;
+    double radius;
   };
 
-  std::optional<Vec2> known_point(DiskId disk, std::uint64_t trial) const;
-  void ask(std::size_t trial, Vec2 point);
+  std::optional<Vec2> known_point(const DiskToPlace& disk, const PlacementRoom& room, std::uint64_t trial) const;
+  void ask(std::size_t trial, Vec2 point, double radius);
   void answer();
 
   const PlacementSite& site_;

@@ -17,7 +17,9 @@
 #include "parallel/cells/batch_cells.hpp"
 #include "parallel/slabs/border_search.hpp"
 #include "parallel/slabs/open_places.hpp"
+#include "parallel/slabs/placement_order.hpp"
 #include "parallel/slabs/placement_trials.hpp"
+#include "parallel/slabs/rank_sums.hpp"
 #include "parallel/slabs/shared_bits.hpp"
 
 namespace carom {
@@ -40,48 +42,85 @@ constexpr double most_packed = 0.547;
 // the batch covers. Where one has none left, the ranks look for its next, and go through the batch again.
 class SlabPlacement {
  public:
-  SlabPlacement(const Scene& scene, double radius, Count count, const SlabCut& cut, double up, Ranks& ranks)
-      : site_{scene, scene.box, placement_room(scene.box, radius), radius, cut, up, ranks},
+  SlabPlacement(const Scene& scene, const StartDisks& disks, const SlabCut& cut, double up, Ranks& ranks)
+      : site_{scene, scene.box, cut, up, ranks},
         walls_(place_obstacles(segments_of(scene), site_.box)),
-        count_(count),
+        count_(disks.disks()),
+        sizes_(disks.sizes()),
+        order_(disks, ranks),
         slab_(slab_of(cut, scene.box, ranks.rank())) {
     slab_.low -= up;
     slab_.high -= up;
     make_room_for_disks();
-    grid_.emplace(site_.box, near_);
-    places_.emplace(site_.box, site_.radius, static_cast<std::size_t>(count_), heights(), near_, *grid_, site_.ranks);
-    trials_.emplace(site_, *places_, *grid_);
+    if (sizes_.smallest.radius < sizes_.largest.radius) {
+      grid_.emplace(site_.box, near_, sizes_.largest.radius, most_near_by_class(disks));
+    } else {
+      grid_.emplace(site_.box, near_);
+    }
   }
 
   std::optional<PlacedOnSlab> place() {
-    const auto batch = static_cast<std::size_t>(std::clamp(count_ / batches, smallest_batch, largest_batch));
-    cells_.fit(site_.box, 2.000001 * site_.radius, batch);  // rounding may shift a cell's edge
-    while (first_ < count_) {
-      while (places_->lesson_due(static_cast<std::size_t>(first_))) {
-        if (!places_->learn()) return {};
-      }
-      if (places_->list() != nullptr && places_->list()->all() == 0) return {};
-      points_.assign(static_cast<std::size_t>(std::min<Count>(std::min(batch, batch_of_list()), count_ - first_)), {});
-      if (!find_points() || !settle() || site_.ranks.any(!commit())) return {};
+    std::uint64_t trials_left = most_trials(static_cast<std::size_t>(count_));
+    for (SizeClass next = order_.next_class(); next.disks > 0; next = order_.next_class()) {
+      places_.emplace(site_.box, next, sizes_.largest.radius, trials_left, heights(), near_, *grid_, site_.ranks);
+      trials_.emplace(site_, *places_, *grid_);
+      if (!place_class(next)) return {};
+      trials_left -= places_->trials();
     }
     return own_disks();
   }
 
  private:
-  // A slab as high as this may get so many disks, and sees those of its neighbours that may touch its own.
-  void make_room_for_disks() {
+  bool place_class(const SizeClass& of) {
+    const auto batch = static_cast<std::size_t>(std::clamp(Count{of.disks} / batches, smallest_batch, largest_batch));
+    cells_.fit(site_.box, 2.000001 * of.largest, batch);  // rounding may shift a cell's edge
+    for (placed_ = 0; placed_ < of.disks;) {
+      while (places_->lesson_due(placed_)) {
+        if (!places_->learn()) return false;
+      }
+      if (places_->list() != nullptr && places_->list()->all() == 0) return false;
+      begin_batch(of, std::min(batch, batch_of_list()));
+      if (!find_points() || !settle() || site_.ranks.any(!commit())) return false;
+    }
+    return true;
+  }
+
+  // A slab as high as this may get so many of the disks, and sees those of its neighbours that may touch its own.
+  std::size_t most_near(std::size_t disks) const {
     const double height = std::min(site_.box.height, slab_.high - slab_.low + 2.0 * reach());
-    const double room = std::max(site_.room.up.high - site_.room.up.low, height);
-    const double expected = static_cast<double>(count_) * std::min(1.0, height / room);
+    const PlacementRoom::Axis up = placement_room(site_.box, sizes_.largest.radius).up;
+    const auto all = static_cast<double>(disks);
+    const double expected = all * std::min(1.0, height / std::max(up.high - up.low, height));
     const double most = expected * (1.0 + more_disks) + deviations * std::sqrt(expected) + 64.0;
-    const auto capacity = static_cast<std::size_t>(std::min(most, static_cast<double>(count_)));
-    near_.common_radius = site_.radius;
+    return static_cast<std::size_t>(std::min(most, all));
+  }
+
+  std::vector<std::size_t> most_near_by_class(const StartDisks& disks) const {
+    std::vector<std::size_t> counts(PlacementGrid::class_of(sizes_.smallest.radius, sizes_.largest.radius) + 1, 0);
+    for (std::size_t g = 0; g < disks.groups(); ++g) {
+      const GroupRange range = disks.share(g);
+      for (Count k = range.first; k < range.last; ++k) {
+        ++counts[PlacementGrid::class_of(disks.size_of(g, k).radius, sizes_.largest.radius)];
+      }
+    }
+    sum_counts_over_ranks(site_.ranks, counts);
+    for (std::size_t& count : counts) count = most_near(count);
+    return counts;
+  }
+
+  void make_room_for_disks() {
+    const std::size_t capacity = most_near(static_cast<std::size_t>(count_));
     near_.x.resize(capacity);
     near_.y.resize(capacity);
     near_.id.resize(capacity);
+    if (sizes_.smallest.radius < sizes_.largest.radius) {
+      near_.radius.resize(capacity);
+    } else {
+      near_.common_radius = sizes_.largest.radius;
+    }
   }
 
-  double reach() const { return OpenPlaces::reach(site_.radius) + rounding * site_.box.height; }
+  double reach() const { return OpenPlaces::reach(sizes_.largest.radius) + rounding * site_.box.height; }
   KnownHeights heights() const {
     KnownHeights known;
     if (site_.ranks.rank() > 0) known.low = slab_.low;
@@ -98,20 +137,22 @@ class SlabPlacement {
     return list != nullptr ? std::max<std::size_t>(smallest_batch, list->all() / voxels_per_disk) : largest_batch;
   }
 
-  std::vector<DiskId> ids_of(const std::vector<std::size_t>& disks) const {
-    std::vector<DiskId> ids;
-    for (const std::size_t k : disks) ids.push_back(static_cast<DiskId>(first_ + k));
-    return ids;
+  // The next disks of the class, so many or fewer, one at least.
+  void begin_batch(const SizeClass& of, std::size_t most) {
+    disks_.erase(disks_.begin(), disks_.begin() + static_cast<std::ptrdiff_t>(points_.size()));
+    if (disks_.size() < most) {
+      const std::vector<DiskToPlace> more = order_.next(of, most - disks_.size());
+      disks_.insert(disks_.end(), more.begin(), more.end());
+    }
+    points_.assign(std::min(most, disks_.size()), {});
   }
 
   bool find_points() {
     later_.clear();
-    std::vector<std::size_t> all(points_.size());
+    std::vector<DiskToPlace> all(disks_.begin(), disks_.begin() + static_cast<std::ptrdiff_t>(points_.size()));
     std::vector<std::uint64_t> next(points_.size(), 0);
-    for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-    std::vector<DiskId> ids = ids_of(all);
-    ids.resize(trials_->next_free(ids, next, true));
-    points_ = trials_->places_of(ids, next);
+    all.resize(trials_->next_free(all, next, true));
+    points_ = trials_->places_of(all, next);
     first_points_ = points_;
     return !points_.empty();
   }
@@ -132,16 +173,17 @@ class SlabPlacement {
     if (k < points_.size()) end_batch_at(k);
   }
 
-  bool apart(std::size_t k, Vec2 p) const {
-    const double contact = site_.radius + site_.radius;
-    const Vec2 other = points_[k].at;
-    return !(nearest_distance2({other.x - p.x, other.y - p.y}, site_.box) < contact * contact);
+  // Disk k at p and another one of the batch.
+  bool apart(std::size_t k, Vec2 p, std::size_t other) const {
+    const double contact = disks_[k].radius + disks_[other].radius;
+    const Vec2 at = points_[other].at;
+    return !(nearest_distance2({at.x - p.x, at.y - p.y}, site_.box) < contact * contact);
   }
 
   // By a disk before k in the batch?
   bool is_covered(std::size_t k, Vec2 p) const {
-    return cells_.any_near(p,
-                           [&](std::uint32_t other) { return other < k && absent_[other] == 0 && !apart(other, p); });
+    return cells_.any_near(
+        p, [&](std::uint32_t other) { return other < k && absent_[other] == 0 && !apart(k, p, other); });
   }
 
   void fill_cells() {
@@ -199,7 +241,7 @@ class SlabPlacement {
         continue;
       }
       cells_.for_near(points_[k].at, [&](std::uint32_t other) {
-        if (other > k && !apart(other, points_[k].at)) again.push(other);
+        if (other > k && !apart(k, points_[k].at, other)) again.push(other);
       });
     }
     return without;
@@ -213,62 +255,72 @@ class SlabPlacement {
       std::erase_if(without, [this](std::size_t k) { return k >= points_.size(); });
       if (without.empty()) return true;
       std::vector<std::uint64_t> next;
+      std::vector<DiskToPlace> again;
       for (const std::size_t k : without) {
+        again.push_back(disks_[k]);
         next.push_back((later_[k].empty() ? first_points_[k].trial : later_[k].back().trial) + 1);
       }
-      std::vector<DiskId> ids = ids_of(without);
-      ids.resize(trials_->next_free(ids, next, false));
-      if (ids.size() < without.size()) end_batch_at(without[ids.size()]);
+      again.resize(trials_->next_free(again, next, false));
+      if (again.size() < without.size()) end_batch_at(without[again.size()]);
       if (points_.empty()) return false;
-      const std::vector<TrialPlace> places = trials_->places_of(ids, next);
-      for (std::size_t m = 0; m < ids.size(); ++m) later_[without[m]].push_back(places[m]);
+      const std::vector<TrialPlace> places = trials_->places_of(again, next);
+      for (std::size_t m = 0; m < again.size(); ++m) later_[without[m]].push_back(places[m]);
     }
   }
 
   // Places disks of the batch up to a lesson. False where the trials run out, or the slab gets more disks than there is
   // memory for.
   bool commit() {
-    const std::size_t settled = places_->take_in(static_cast<std::size_t>(first_), points_);
-    for (std::size_t k = 0; k < settled; ++k) {
+    points_.resize(places_->take_in(placed_, disks_, points_));
+    for (std::size_t k = 0; k < points_.size(); ++k) {
       const Vec2 p = points_[k].at;
       if (!is_near(p)) continue;
       if (stored_ == near_.size()) return false;
       near_.x[stored_] = p.x;
       near_.y[stored_] = p.y;
-      near_.id[stored_] = static_cast<DiskId>(first_ + k);
+      near_.id[stored_] = disks_[k].id;
+      if (!near_.radius.empty()) near_.radius[stored_] = disks_[k].radius;
       grid_->insert(stored_++);
     }
-    first_ += settled;
-    return settled > 0;
+    placed_ += points_.size();
+    return !points_.empty();
   }
 
   PlacedOnSlab own_disks() {
     trials_.reset();
     places_.reset();
     grid_.reset();
-    std::size_t kept = 0;
+    std::vector<std::uint32_t> own;
     for (std::size_t i = 0; i < stored_; ++i) {
-      if (!site_.is_own({near_.x[i], near_.y[i]})) continue;
-      near_.x[kept] = near_.x[i];
-      near_.y[kept] = near_.y[i];
-      near_.id[kept++] = near_.id[i];
+      if (site_.is_own({near_.x[i], near_.y[i]})) own.push_back(static_cast<std::uint32_t>(i));
     }
-    near_.x.resize(kept);
-    near_.y.resize(kept);
-    near_.id.resize(kept);
-    return {std::move(near_.x), std::move(near_.y), std::move(near_.id)};
+    std::sort(own.begin(), own.end(), [&](std::uint32_t a, std::uint32_t b) { return near_.id[a] < near_.id[b]; });
+    return {taken(near_.x, own), taken(near_.y, own), taken(near_.id, own)};
+  }
+
+  // The values of these disks, in place of those of all.
+  template <class T>
+  static std::vector<T> taken(std::vector<T>& column, const std::vector<std::uint32_t>& own) {
+    std::vector<T> values;
+    values.reserve(own.size());
+    for (const std::uint32_t i : own) values.push_back(column[i]);
+    std::vector<T>().swap(column);
+    return values;
   }
 
   PlacementSite site_;
   std::unique_ptr<const ObstacleCells> walls_;  // of its box
   Count count_;
+  const SizeFacts& sizes_;
+  PlacementOrder order_;
   Slab slab_;
   Disks near_;  // its own, and those of others that may touch them; stored_ of them are placed
   std::size_t stored_ = 0;
   std::optional<PlacementGrid> grid_;
   std::optional<OpenPlaces> places_;
   std::optional<PlacementTrials> trials_;
-  Count first_ = 0;  // of the batch
+  std::size_t placed_ = 0;          // disks of the class
+  std::vector<DiskToPlace> disks_;  // that come next; the first of them, one a point, are the batch
   std::vector<TrialPlace> first_points_, points_;
   std::unordered_map<std::size_t, std::vector<TrialPlace>> later_;  // behind the first point
   BatchCells cells_;
@@ -276,6 +328,12 @@ class SlabPlacement {
   std::vector<unsigned char> absent_;  // of the batch, while it is gone through
   SharedBits covered_;
 };
+
+bool equally_large(const Scene& scene) {
+  return std::all_of(scene.groups.begin(), scene.groups.end(), [&](const DiskGroup& g) {
+    return g.radius.kind == SizeLaw::Kind::constant && g.radius.value == scene.groups[0].radius.value;
+  });
+}
 
 // Of disks that are equally large.
 double packing_fraction(const Scene& scene) {
@@ -292,22 +350,19 @@ double placing_bytes(const Scene& scene) {
   // Measured with 4 10^6 disks on 4 ranks, at 0.3 and 0.5: where cells and a list of voxels are learnt.
   constexpr double learns_from = 0.39;
   constexpr double bytes = 107.0;
-  return packing_fraction(scene) > learns_from ? bytes : 0.0;
+  return !equally_large(scene) || packing_fraction(scene) > learns_from ? bytes : 0.0;
 }
 
 bool places_on_slabs(const Scene& scene) {
   for (const DiskGroup& g : scene.groups) {
-    const bool anywhere = g.positions.kind == PositionLaw::Kind::random && !g.positions.region;
-    const SizeLaw& radius = g.radius;
-    const bool equal = radius.kind == SizeLaw::Kind::constant && radius.value == scene.groups[0].radius.value;
-    if (!anywhere || !equal) return false;
+    if (g.positions.kind != PositionLaw::Kind::random || g.positions.region) return false;
   }
-  return packing_fraction(scene) <= most_packed;
+  return !equally_large(scene) || packing_fraction(scene) <= most_packed;
 }
 
-std::optional<PlacedOnSlab> place_on_slabs(const Scene& scene, double radius, Count count, const SlabCut& cut,
-                                           double up, Ranks& ranks) {
-  return SlabPlacement(scene, radius, count, cut, up, ranks).place();
+std::optional<PlacedOnSlab> place_on_slabs(const Scene& scene, const StartDisks& disks, const SlabCut& cut, double up,
+                                           Ranks& ranks) {
+  return SlabPlacement(scene, disks, cut, up, ranks).place();
 }
 
 }  // namespace carom

@@ -7,10 +7,11 @@
 #include "core/scene/scene.hpp"
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/slab_cut.hpp"
+#include "parallel/slabs/start_disks.hpp"
 
 namespace carom {
 
-// Are all disks equally large and placed at random anywhere, and are they not too many for that?
+// Are all disks placed at random anywhere, and, where they are equally large, are they not too many for that?
 bool places_on_slabs(const Scene& scene);
 
 // Bytes that each disk of a rank takes while it is placed; 0 where steps take more. Precondition: places_on_slabs.
@@ -22,10 +23,10 @@ struct PlacedOnSlab {
   std::vector<DiskId> id;
 };
 
-// Where place_at_random of core puts disks of equal radius with ids 0 to count - 1, bit for bit. cut: of the box whose
-// lower side is `up` below that of the scene's box (length). Collective; none, on all ranks, where that gives up, or
-// tries a disk in vain for long. Precondition: places_on_slabs, of disks that may all move.
-std::optional<PlacedOnSlab> place_on_slabs(const Scene& scene, double radius, Count count, const SlabCut& cut,
-                                           double up, Ranks& ranks);
+// Where place_at_random of core puts all these disks, bit for bit. cut: of the box whose lower side is `up` below that
+// of the scene's box (length). Collective; none, on all ranks, where that gives up, or tries a disk in vain for long.
+// Precondition: places_on_slabs, of disks that may all move.
+std::optional<PlacedOnSlab> place_on_slabs(const Scene& scene, const StartDisks& disks, const SlabCut& cut, double up,
+                                           Ranks& ranks);
 
 }  // namespace carom

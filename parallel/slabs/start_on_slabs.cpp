@@ -88,21 +88,35 @@ class Maker {
     return !ranks_.any(overlap());
   }
 
-  // Disks of one size, spread evenly over the height.
+  // Disks are spread about evenly over the height.
   bool place_at_random() {
-    if (start_.columns.radius) return false;
-    const double radius = disks_.sizes().largest.radius;
-    const PlacementRoom::Axis along = placement_room(at_rest_.box, radius).up;
+    const PlacementRoom::Axis along = placement_room(at_rest_.box, disks_.sizes().largest.radius).up;
     for (int r = 0; r < ranks_.count(); ++r) {
       const double share = static_cast<double>(r) / ranks_.count();
       start_.cut.bounds.push_back(r == 0 ? 0.0 : along.low + share * (along.high - along.low) + up_);
     }
     start_.cut.bounds.push_back(scene_.box.height);
     keep_thick(start_.cut, thinnest_slab(scene_, start_));
-    start_.counts.assign(class_of_radius(radius, start_.largest_radius) + 1, 0);
-    start_.counts.back() = static_cast<std::size_t>(disks_.disks());
-    placed_ = place_on_slabs(at_rest_, radius, disks_.disks(), start_.cut, up_, ranks_);
+    count_classes();
+    placed_ = place_on_slabs(at_rest_, disks_, start_.cut, up_, ranks_);
     return placed_.has_value();
+  }
+
+  void count_classes() {
+    const double largest = disks_.sizes().largest.radius;
+    start_.counts.assign(class_of_radius(largest, start_.largest_radius) + 1, 0);
+    if (!start_.columns.radius) {
+      start_.counts.back() = static_cast<std::size_t>(disks_.disks());
+      return;
+    }
+    start_.counts.resize(class_of_radius(disks_.sizes().smallest.radius, start_.largest_radius) + 1, 0);
+    for (std::size_t g = 0; g < disks_.groups(); ++g) {
+      const GroupRange range = disks_.share(g);
+      for (Count k = range.first; k < range.last; ++k) {
+        ++start_.counts[class_of_radius(disks_.size_of(g, k).radius, start_.largest_radius)];
+      }
+    }
+    sum_counts_over_ranks(ranks_, start_.counts);
   }
 
   DiskColumns columns() const {
@@ -116,20 +130,15 @@ class Maker {
 
   void cut() {
     std::vector<std::size_t> rows(rows_counted, 0);
-    start_.counts.assign(1, 0);
     const double rows_per_length = static_cast<double>(rows_counted) / scene_.box.height;
     for (std::size_t g = 0; g < disks_.groups(); ++g) {
       const GroupRange range = disks_.share(g);
       for (Count k = range.first; k < range.last; ++k) {
         ++rows[cell_index(height(g, k) * rows_per_length, rows_counted)];
-        const double radius = start_.columns.radius ? disks_.size_of(g, k).radius : disks_.sizes().largest.radius;
-        const std::size_t size_class = class_of_radius(radius, start_.largest_radius);
-        if (size_class >= start_.counts.size()) start_.counts.resize(size_class + 1, 0);
-        ++start_.counts[size_class];
       }
     }
     sum_counts_over_ranks(ranks_, rows);
-    sum_counts_over_ranks(ranks_, start_.counts);
+    count_classes();
     start_.cut = cut_by_rows(scene_.box, {rows.begin(), rows.end()}, ranks_.count());
     keep_thick(start_.cut, thinnest_slab(scene_, start_));
     const int rank = ranks_.rank();

@@ -10,8 +10,7 @@
 
 namespace carom {
 
-// Are the scene's disks of a kind that needs no rank to know them all? Lattices, and disks
-// of equal size at random that are not dense.
+// Are the scene's disks of a kind that needs no rank to know them all? Lattices, and disks at random anywhere.
 bool starts_on_slabs(const Scene& scene);
 
 struct StartOnSlab {

@@ -1,0 +1,45 @@
+// In which order disks are placed at random: large ones first, and of equal ones that with the smaller id.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "parallel/ranks/ranks.hpp"
+#include "parallel/slabs/start_disks.hpp"
+
+namespace carom {
+
+struct DiskToPlace {
+  DiskId id = 0;
+  double radius = 0.0;  // length
+};
+
+// Disks that follow one another and whose radii differ by less than a factor of two: a PlacementSearch learns anew
+// where there is room for each such class.
+struct SizeClass {
+  double largest = 0.0, smallest = 0.0;  // radii
+  std::size_t disks = 0;
+};
+
+// No rank knows the order of all disks: each has a share of them in order, and they tell each other which come next.
+// All calls are collective, and give the same on all ranks.
+class PlacementOrder {
+ public:
+  // disks outlives this.
+  PlacementOrder(const StartDisks& disks, Ranks& ranks);
+
+  // The class that comes next; none of its disks has been given. Without disks after the last.
+  SizeClass next_class() const;
+  // The next disks of the class: `most` of them or fewer, one at least where there is one.
+  std::vector<DiskToPlace> next(const SizeClass& of, std::size_t most);
+
+ private:
+  const StartDisks& disks_;
+  Ranks& ranks_;
+  bool equal_ = false;              // radii: then the order is that of ids
+  std::size_t given_ = 0;           // disks, of all ranks
+  std::vector<DiskToPlace> share_;  // of this rank; empty where all are equal
+  std::size_t given_here_ = 0;      // of the share
+};
+
+}  // namespace carom
