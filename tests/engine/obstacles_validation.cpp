@@ -96,7 +96,7 @@ Scene among_moving_walls(const std::string& shape) {
       "bottom = { motion = { vibrate = [0, 0.5], period = 1.1" +
           motion.substr(0, motion.size() - 1) +
           " }\n"
-          "[physics]\nthermostat = { kind = \"langevin\", temperature = 4.0, rate = 1.0, dt = 0.1 }\n"
+          "[physics]\nthermostat = { kind = \"langevin\", temperature = 4.0, rate = 1.0, dt = 0.5 }\n"
           "[[walls]]\npoints = [[3, 3], [6, 9], [6.5, 3]]\nmotion = { vibrate = [1, 0.5], period = 1.3" +
           motion + "[[walls]]\nfrom = [9, 12]\nto = [16, 14]\nmotion = { vibrate = [0, 2], period = 2.0" + motion +
           "[[disks]]\ncount = 120\npositions = \"random\"\nvelocities = { uniform = 3.0 }\n"
