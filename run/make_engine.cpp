@@ -13,7 +13,6 @@
 #include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"
 #include "io/checkpoint/checkpoint.hpp"
-#include "parallel/cells/pair_counting.hpp"
 #include "parallel/simulation.hpp"
 #include "parallel/slabs/leading_engine.hpp"
 #include "parallel/start/random_placement.hpp"
@@ -70,9 +69,7 @@ std::pair<Scene, State> read_rank_start(const std::string& start) {
 }
 
 BlockRunner make_block_runner(const EngineChoice& choice) {
-  const auto executor = std::make_shared<Executor>(choice.threads);
-  return
-      [executor](std::size_t blocks, const BlockTask& task) { executor->run(blocks, [&](std::size_t b) { task(b); }); };
+  return choice.name == "reference" ? BlockRunner(run_in_order) : blocks_on_threads(choice.threads);
 }
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial) {
@@ -98,11 +95,6 @@ std::unique_ptr<Engine> make_engine_at_start(const EngineChoice& choice, const S
     if (engine) return engine;
   }
   return make_engine(choice, scene, make_initial_state(choice, scene, watch));
-}
-
-PairCounter make_pair_counter(const EngineChoice& choice) {
-  if (choice.name == "reference") return count_pairs;
-  return parallel_pair_counter(choice.threads);
 }
 
 }  // namespace carom

@@ -11,7 +11,6 @@
 
 #include "core/base/block_runner.hpp"
 #include "core/disks/disk_source.hpp"
-#include "core/measure/pair_distances.hpp"
 #include "core/start/growth.hpp"
 #include "core/step/engine.hpp"
 
@@ -54,9 +53,6 @@ std::pair<Scene, State> read_rank_start(const std::string& start);
 
 // The threads that it chooses, for other work between its steps.
 BlockRunner make_block_runner(const EngineChoice& choice);
-
-// Counts pairs by distance (core/measure/pair_distances.hpp); either engine's way gives the same numbers.
-PairCounter make_pair_counter(const EngineChoice& choice);
 
 // Throws the InputError of a scene whose disks do not fit into memory.
 [[noreturn]] void fail_memory(const Scene& scene);

@@ -42,13 +42,13 @@ bool goes_elsewhere(const ResumeFrom& from, const fs::path& folder) {
 }
 
 RunFiles::RunFiles(const Scene& scene, const RunSettings& settings, const fs::path& path)
-    : folder(path, scene.file, settings.force), outputs(scene, folder, make_pair_counter(settings.engine)) {
+    : folder(path, scene.file, settings.force), outputs(scene, folder, make_block_runner(settings.engine)) {
   write_file(folder.path("scene.toml"), resolved_toml(scene));
 }
 
 RunFiles::RunFiles(const Scene& scene, const RunSettings& settings, const fs::path& path, const ResumeFrom& from)
     : folder(goes_elsewhere(from, path) ? OutputFolder(path, from.place.file, settings.force) : OutputFolder(path)),
-      outputs(scene, with_files(folder, path, from), make_pair_counter(settings.engine),
+      outputs(scene, with_files(folder, path, from), make_block_runner(settings.engine),
               from.checkpoint.record.outputs) {
   write_file(folder.path("scene.toml"), resolved_toml(scene));
 }

@@ -29,9 +29,10 @@ bool wants_files(const Scene& scene) {
   return wants_frames(scene.output) || scene.analysis.any() || scene.output.checkpoint > 0.0;
 }
 
-RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count)
+RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run)
     : scene_(scene),
       folder_(folder),
+      run_(std::move(run)),
       meter_(scene, false),
       plot_velocity_(has_plot(scene.output, "velocity")),
       plot_energy_(has_plot(scene.output, "energy") && !velocities_are_drawn(scene)) {
@@ -42,12 +43,13 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
     h5md_ = std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene, shows_rounds() ? &rounds_ : nullptr);
   }
   if (scene.output.series) series_ = std::make_unique<SeriesWriter>(folder.path("series.csv"), scene);
-  if (scene.analysis.any()) analysis_ = std::make_unique<RunningAnalysis>(scene, folder, count);
+  if (scene.analysis.any()) analysis_ = std::make_unique<RunningAnalysis>(scene, folder, run_);
 }
 
-RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count, const OutputMark& from)
+RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run, const OutputMark& from)
     : scene_(scene),
       folder_(folder),
+      run_(std::move(run)),
       frames_(from.frames),
       last_time_(from.last_time),
       rounds_(from.rounds),
@@ -69,7 +71,7 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, const Pai
   if (from.series) series_ = std::make_unique<SeriesWriter>(folder.path(from.series->file.name), scene, *from.series);
   if (scene.analysis.any()) {
     analysis_ =
-        std::make_unique<RunningAnalysis>(scene, folder, count, from.analysis ? *from.analysis : empty_record(scene));
+        std::make_unique<RunningAnalysis>(scene, folder, run_, from.analysis ? *from.analysis : empty_record(scene));
   }
   if (!from.movie) {
     if (scene.output.movie && from.frames > 0) lost_movie_ = "the movie broke off before the checkpoint";

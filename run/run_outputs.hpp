@@ -26,15 +26,12 @@ bool wants_files(const Scene& scene);
 
 class RunOutputs {
  public:
-  // Opens the files in the folder. count: counts pairs for scene.analysis. Throws RunError where a file cannot be
-  // written, here and below.
-  RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count);
+  // Opens the files in the folder. run: shares out the work of a frame or sample; the files are the same. Throws
+  // RunError where a file cannot be written, here and below.
+  RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run);
 
   // Goes on behind a mark: cuts back what came after it. Precondition: files_of(from) are in folder.unfinished().
-  RunOutputs(const Scene& scene, const OutputFolder& folder, const PairCounter& count, const OutputMark& from);
-
-  // Runs the work of a frame on threads; without it, one thread does it. The files are the same.
-  void share_work(BlockRunner run) { run_ = std::move(run); }
+  RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run, const OutputMark& from);
 
   // To be called after each step, and before a frame or a sample at time t: how often disks go round periodic sides.
   void follow(const Engine& engine, double t);
@@ -80,6 +77,7 @@ class RunOutputs {
 
   const Scene& scene_;
   const OutputFolder& folder_;
+  BlockRunner run_;
   Count frames_ = 0;
   double last_time_ = 0.0;
   DisplacementTally rounds_;  // of the disks in a trajectory; begins with its first frame
@@ -96,7 +94,6 @@ class RunOutputs {
   std::vector<std::string> warnings_;
   std::vector<std::string> lost_plots_;
   std::string lost_movie_;
-  BlockRunner run_ = run_in_order;
 };
 
 }  // namespace carom

@@ -327,7 +327,6 @@ RunOutcome carry_out(const Scene& scene, ResumeFrom* from, RunSettings settings)
     if (settings.folder && from != nullptr) results.emplace(scene, settings, *settings.folder, *from);
     if (settings.folder && from == nullptr) results.emplace(scene, settings, *settings.folder);
     RunFiles* const files = results ? &*results : nullptr;
-    if (files != nullptr) files->outputs.share_work(make_block_runner(settings.engine));
     const bool there = from != nullptr && settings.folder && !goes_elsewhere(*from, *settings.folder);
     if (files != nullptr) keeper.write_to(&files->folder, &files->outputs, there);
     // So that a run that is killed in its first minutes is not lost, nor the options with which it was resumed.

@@ -19,13 +19,13 @@ constexpr std::chrono::seconds write_interval{5};
 
 }  // namespace
 
-RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder, PairCounter count)
-    : scene_(scene), folder_(folder), count_(std::move(count)), record_(empty_record(scene)) {}
+RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder, BlockRunner run)
+    : scene_(scene), folder_(folder), run_(std::move(run)), record_(empty_record(scene)) {}
 
-RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder, PairCounter count, AnalysisRecord from)
+RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder, BlockRunner run, AnalysisRecord from)
     : scene_(scene),
       folder_(folder),
-      count_(std::move(count)),
+      run_(std::move(run)),
       record_(std::move(from)),
       warned_(record_.displacement.doubtful > 0) {
   if (!goes_with(record_, scene)) {
@@ -43,7 +43,7 @@ void RunningAnalysis::follow(const Engine& engine, double t) {
 }
 
 void RunningAnalysis::sample(const DisksInPieces& disks, const State& now) {
-  take_sample(record_, scene_, disks, now, count_);
+  take_sample(record_, scene_, disks, now, run_);
   if (WallClock::now() - written_ > write_interval) write();
 }
 

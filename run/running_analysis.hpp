@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/base/block_runner.hpp"
 #include "core/base/wall_clock.hpp"
 #include "core/measure/analysis.hpp"
 #include "core/step/engine.hpp"
@@ -12,11 +13,11 @@ namespace carom {
 
 class RunningAnalysis {
  public:
-  // count: counts pairs. Precondition: scene.analysis.any(). scene and folder must outlive it.
-  RunningAnalysis(const Scene& scene, const OutputFolder& folder, PairCounter count);
+  // run: shares out the work of a sample. Precondition: scene.analysis.any(). scene and folder must outlive it.
+  RunningAnalysis(const Scene& scene, const OutputFolder& folder, BlockRunner run);
 
   // Goes on from what was gathered up to a checkpoint. Throws InputError where it does not go with the scene.
-  RunningAnalysis(const Scene& scene, const OutputFolder& folder, PairCounter count, AnalysisRecord from);
+  RunningAnalysis(const Scene& scene, const OutputFolder& folder, BlockRunner run, AnalysisRecord from);
 
   // To be called after each step, and before a frame or sample at time t.
   void follow(const Engine& engine, double t);
@@ -41,7 +42,7 @@ class RunningAnalysis {
  private:
   const Scene& scene_;
   const OutputFolder& folder_;
-  PairCounter count_;
+  BlockRunner run_;
   AnalysisRecord record_;
   WallClock::time_point written_{};
   bool warned_ = false;

@@ -142,8 +142,7 @@ Rehearsed rehearse(const Scene& scene, const EngineChoice& choice, const Engine&
   const OutputFolder folder(path, scene.file, true);
   auto start = WallClock::now();
   const double cpu_before = cpu_seconds();
-  RunOutputs outputs(scene, folder, make_pair_counter(choice));
-  outputs.share_work(make_block_runner(choice));
+  RunOutputs outputs(scene, folder, make_block_runner(choice));
   for (Count k = 0; k < frames; ++k) {
     const double time = static_cast<double>(k) * every;
     outputs.frame(WholeDisks(moved(disks, scene, time), time), tried.state());

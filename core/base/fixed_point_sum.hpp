@@ -20,6 +20,12 @@ inline void add_term(FixedPointSum& sum, double term) {
   sum.low += units & ((std::int64_t{1} << low_bits) - 1);
 }
 
+inline FixedPointSum& operator+=(FixedPointSum& sum, const FixedPointSum& other) {
+  sum.high += other.high;
+  sum.low += other.low;
+  return sum;
+}
+
 inline double value_of(const FixedPointSum& sum) {
   return static_cast<double>(sum.high) * 0x1p-20 + static_cast<double>(sum.low) * 0x1p-40;
 }

@@ -169,8 +169,8 @@ void add_profiles(AnalysisRecord& record, const Scene& scene, const DisksInPiece
 
 // box: at the time of the sample.
 void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const DisksInPieces& all, const DisksInPieces& disks,
-               const Domain& box) {
-  const DisksWithOrders orders(all, disks, box);
+               const Domain& box, const BlockRunner& run) {
+  const DisksWithOrders orders(all, disks, box, run);
   if (plan.wants(Quantity::structure_factor)) add_structure(record.structure, disks, box);
   if (plan.wants(Quantity::bond_order)) {
     const BondOrder order = bond_order(orders);
@@ -179,7 +179,7 @@ void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const DisksInPi
   }
   if (plan.wants(Quantity::bond_correlation) && disks.size() >= least_of_bonds) {
     const std::optional<BondPairs> known = all.bond_pairs();
-    add_bond_pairs(record.bonds, known ? *known : bond_pairs(orders.whole(), box, distance_bins(plan.bonds)));
+    add_bond_pairs(record.bonds, known ? *known : bond_pairs(orders.whole(), box, distance_bins(plan.bonds), run));
   }
   if (plan.wants(Quantity::bond_autocorrelation)) {
     if (!record.orders.begun) begin_memory(record.orders, orders);
@@ -190,7 +190,7 @@ void add_order(AnalysisRecord& record, const AnalysisPlan& plan, const DisksInPi
 }  // namespace
 
 void take_sample(AnalysisRecord& record, const Scene& scene, const DisksInPieces& all, const State& now,
-                 const PairCounter& count) {
+                 const BlockRunner& run) {
   const AnalysisPlan& plan = scene.analysis;
   const DisksOfGroup disks(all, plan.group.empty() ? std::nullopt : std::optional(plan.ids));
   const DisksInFlow in_flow(disks, scene.box);
@@ -203,7 +203,7 @@ void take_sample(AnalysisRecord& record, const Scene& scene, const DisksInPieces
   }
   if (plan.wants(Quantity::pair_correlation)) {
     const std::optional<std::vector<PairCounts>> known = all.pair_counts();
-    add_pairs(record.pairs, record.partial, plan, box, known ? *known : pairs_of_plan(plan, all.whole(), box, count));
+    add_pairs(record.pairs, record.partial, plan, box, known ? *known : pairs_of_plan(plan, all.whole(), box, run));
   }
   if (plan.wants(Quantity::displacement)) add_displacement(record, scene, disks);
   if (plan.wants(Quantity::speeds)) {
@@ -214,7 +214,7 @@ void take_sample(AnalysisRecord& record, const Scene& scene, const DisksInPieces
     record.series.autocorrelation.push_back(velocity_autocorrelation(record.velocities, in_flow));
   }
   add_profiles(record, scene, disks);
-  add_order(record, plan, all, disks, box);
+  add_order(record, plan, all, disks, box, run);
   add_means(record, scene, all, now);
 }
 

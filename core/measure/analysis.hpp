@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/block_runner.hpp"
 #include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/state.hpp"
 #include "core/measure/bond_correlation.hpp"
@@ -63,10 +64,10 @@ bool goes_with(const AnalysisRecord& record, const Scene& scene);
 // the plan names a group, all but those means is of its disks alone. In a sheared box velocities are those relative to
 // the flow, and displacements those along y.
 void take_sample(AnalysisRecord& record, const Scene& scene, const DisksInPieces& disks, const State& now,
-                 const PairCounter& count);
+                 const BlockRunner& run);
 inline void take_sample(AnalysisRecord& record, const Scene& scene, const Disks& disks, double t, const State& now,
-                        const PairCounter& count) {
-  take_sample(record, scene, WholeDisks(disks, t), now, count);
+                        const BlockRunner& run) {
+  take_sample(record, scene, WholeDisks(disks, t), now, run);
 }
 
 }  // namespace carom

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/block_runner.hpp"
 #include "core/base/types.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
@@ -17,8 +18,10 @@ struct BondCorrelation {
   Count samples = 0;
 };
 
-// The pairs of one moment, in any order of storage. orders: disks with psi6 in place of velocities (with_orders).
-BondPairs bond_pairs(const Disks& orders, const Domain& box, const DistanceBins& bins);
+// The pairs of one moment, the same in any order of storage and whoever runs the blocks. orders: disks with psi6 in
+// place of velocities (with_orders).
+BondPairs bond_pairs(const Disks& orders, const Domain& box, const DistanceBins& bins,
+                     const BlockRunner& run = run_in_order);
 
 // Adds them as one sample. Precondition: the sums have as many bins.
 void add_bond_pairs(BondCorrelation& sums, const BondPairs& found);

@@ -1,6 +1,7 @@
 #include "core/measure/bond_order.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -150,21 +151,29 @@ Vec2 order_of(const std::vector<Neighbour>& nearest) {
 
 }  // namespace
 
-std::vector<Vec2> bond_orders(const Disks& d, const Domain& box) {
+std::vector<Vec2> bond_orders(const Disks& d, const Domain& box, const BlockRunner& run) {
   if (d.size() < least_of_bonds) return {};
-  return *bond_orders_of_first(d, d.size(), box, HUGE_VAL, d.size());
+  return *bond_orders_of_first(d, d.size(), box, HUGE_VAL, d.size(), run);
 }
 
 std::optional<std::vector<Vec2>> bond_orders_of_first(const Disks& d, std::size_t first, const Domain& box,
-                                                      double known, Count all) {
+                                                      double known, Count all, const BlockRunner& run) {
+  constexpr std::size_t block = 4096;  // disks
   const Centres centres(d, box, static_cast<double>(all));
-  std::vector<Neighbour> found;
   std::vector<Vec2> orders(first);
-  for (std::size_t i = 0; i < first; ++i) {
-    centres.find(i, found);
-    if (found.size() < neighbours || found[neighbours - 1].distance2 > known * known) return std::nullopt;
-    orders[i] = order_of(found);
-  }
+  std::atomic<bool> all_known = true;
+  run((first + block - 1) / block, [&](std::size_t b) {
+    std::vector<Neighbour> found;
+    for (std::size_t i = b * block; i < std::min(first, (b + 1) * block) && all_known; ++i) {
+      centres.find(i, found);
+      if (found.size() < neighbours || found[neighbours - 1].distance2 > known * known) {
+        all_known = false;
+        return;
+      }
+      orders[i] = order_of(found);
+    }
+  });
+  if (!all_known) return std::nullopt;
   return orders;
 }
 

@@ -54,7 +54,7 @@ void DisksWithOrders::visit(const Use& use) const {
 }
 
 const Disks& DisksWithOrders::whole() const {
-  if (!whole_) whole_ = with_orders(disks_.whole(), bond_orders(disks_.whole(), box_));
+  if (!whole_) whole_ = with_orders(disks_.whole(), bond_orders(disks_.whole(), box_, run_));
   return *whole_;
 }
 

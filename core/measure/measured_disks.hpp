@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "core/base/block_runner.hpp"
 #include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/domain.hpp"
 #include "core/scene/scene.hpp"
@@ -50,8 +51,8 @@ class DisksInFlow final : public DisksInPieces {
 // of which the disks are those that are measured. box: at their time. All of it outlives this.
 class DisksWithOrders final : public DisksInPieces {
  public:
-  DisksWithOrders(const DisksInPieces& all, const DisksInPieces& disks, const Domain& box)
-      : all_(all), disks_(disks), box_(box) {}
+  DisksWithOrders(const DisksInPieces& all, const DisksInPieces& disks, const Domain& box, const BlockRunner& run)
+      : all_(all), disks_(disks), box_(box), run_(run) {}
 
   double time() const override { return disks_.time(); }
   Count size() const override { return disks_.size(); }
@@ -62,6 +63,7 @@ class DisksWithOrders final : public DisksInPieces {
   const DisksInPieces& all_;
   const DisksInPieces& disks_;
   const Domain& box_;
+  const BlockRunner& run_;
   mutable std::optional<Disks> whole_;  // once asked for
 };
 

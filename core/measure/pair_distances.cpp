@@ -93,10 +93,17 @@ void DistanceCells::count(std::size_t begin, std::size_t end, std::vector<Count>
   visit(begin, end, [&](std::size_t bin, const Place& p, const Place& q) { counts[bin] += p.centre + q.centre; });
 }
 
-PairCounts count_pairs(const Disks& disks, const Domain& box, const DistanceBins& bins) {
+PairCounts count_pairs(const Disks& disks, const Domain& box, const DistanceBins& bins, const BlockRunner& run) {
   const DistanceCells cells(disks, box, bins);
+  std::vector<std::vector<Count>> parts(cells.blocks());
+  run(parts.size(), [&](std::size_t b) {
+    parts[b].assign(bins.bins, 0);
+    cells.count(cells.rows_of(b).begin, cells.rows_of(b).end, parts[b]);
+  });
   PairCounts result{cells.centres(), std::vector<Count>(bins.bins, 0)};
-  cells.count(0, cells.rows(), result.counts);
+  for (const std::vector<Count>& part : parts) {
+    for (std::size_t k = 0; k < part.size(); ++k) result.counts[k] += part[k];
+  }
   return result;
 }
 

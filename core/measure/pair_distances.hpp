@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
+#include "core/base/block_runner.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/pair_counts.hpp"
@@ -34,10 +34,19 @@ class DistanceCells {
     std::uint32_t disk;  // where it is stored
   };
 
+  struct Span {
+    std::size_t begin, end;
+  };
+
   // box: at the time of the disks.
   DistanceCells(const Disks& disks, const Domain& box, const DistanceBins& bins);
 
   std::size_t rows() const { return rows_; }
+  // Rows in blocks to be counted apart.
+  std::size_t blocks() const { return (rows_ + rows_a_block() - 1) / rows_a_block(); }
+  Span rows_of(std::size_t block) const {
+    return {block * rows_a_block(), std::min(rows_, (block + 1) * rows_a_block())};
+  }
   std::size_t centres() const { return centres_; }
 
   // Adds to counts[k] the ordered pairs (i, j) in bin k whose first disk is a centre, of which the one in the lower
@@ -55,6 +64,7 @@ class DistanceCells {
     bool periodic = false;
     std::size_t cells = 1;
   };
+  std::size_t rows_a_block() const { return (rows_ + most_blocks - 1) / most_blocks; }
   Axis axis(double length, bool periodic, std::size_t disks) const;
   using Neighbours = std::array<std::size_t, 6>;
   std::size_t neighbours(std::size_t row, std::size_t column, Neighbours& cells) const;
@@ -62,6 +72,7 @@ class DistanceCells {
   template <bool round_corner, class Add>
   void visit_between(std::size_t cell, std::size_t other, const Add& add) const;
 
+  static constexpr std::size_t most_blocks = 256;  // each has sums of its own
   DistanceBins bins_;
   Domain box_;
   Axis x_, y_;
@@ -113,10 +124,9 @@ void DistanceCells::visit(std::size_t begin, std::size_t end, const Add& add) co
   }
 }
 
-// What counts them: serially, or on all threads with the same result.
-using PairCounter = std::function<PairCounts(const Disks&, const Domain&, const DistanceBins&)>;
-
-PairCounts count_pairs(const Disks& disks, const Domain& box, const DistanceBins& bins);
+// The same whoever runs the blocks, as whole numbers add up to the same in any order.
+PairCounts count_pairs(const Disks& disks, const Domain& box, const DistanceBins& bins,
+                       const BlockRunner& run = run_in_order);
 
 // The places from which pairs are counted: the box without a margin along sides that are not periodic, so that the
 // whole circle of radius r_max lies where centres can be. Area; length^2.

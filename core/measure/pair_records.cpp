@@ -38,14 +38,15 @@ DistanceBins distance_bins(const DistancePlan& plan) {
 }
 
 std::vector<PairCounts> pairs_of_plan(const AnalysisPlan& plan, const Disks& all, const Domain& box,
-                                      const PairCounter& count) {
+                                      const BlockRunner& run) {
   const std::vector<NamedIds>& groups = plan.pair_groups;
   const DistanceBins bins = distance_bins(plan.pairs);
-  std::vector<PairCounts> found{plan.group.empty() ? count(all, box, bins) : count(disks_of(all, plan.ids), box, bins)};
+  std::vector<PairCounts> found{plan.group.empty() ? count_pairs(all, box, bins, run)
+                                                   : count_pairs(disks_of(all, plan.ids), box, bins, run)};
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    found.push_back(count(disks_of(all, groups[k].ids), box, bins));
+    found.push_back(count_pairs(disks_of(all, groups[k].ids), box, bins, run));
     for (std::size_t l = k + 1; l < groups.size(); ++l) {
-      found.push_back(count(joined(all, groups[k].ids, groups[l].ids), box, bins));
+      found.push_back(count_pairs(joined(all, groups[k].ids, groups[l].ids), box, bins, run));
     }
   }
   return found;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/block_runner.hpp"
 #include "core/measure/pair_distances.hpp"
 #include "core/scene/scene.hpp"
 
@@ -19,7 +20,7 @@ DistanceBins distance_bins(const DistancePlan& plan);
 // The pairs of one moment that the plan asks for: those of the disks that are measured, and those of its groups (k, l),
 // k <= l, in order of k, then l: of k alone, and of k and l taken together. box: at the time of the disks.
 std::vector<PairCounts> pairs_of_plan(const AnalysisPlan& plan, const Disks& all, const Domain& box,
-                                      const PairCounter& count);
+                                      const BlockRunner& run);
 
 // Adds them. partial: of the groups, in the same order, l with k in place of both together.
 void add_pairs(PairRecord& measured, std::vector<PairRecord>& partial, const AnalysisPlan& plan, const Domain& box,

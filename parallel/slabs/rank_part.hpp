@@ -6,14 +6,15 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/block_runner.hpp"
 #include "core/measure/state_sums.hpp"
 #include "core/step/engine.hpp"
-#include "parallel/cells/pair_counting.hpp"
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/rank_report.hpp"
 #include "parallel/slabs/shared_lists.hpp"
 #include "parallel/slabs/shown_disks.hpp"
 #include "parallel/slabs/slab_cut.hpp"
+#include "parallel/threads/executor.hpp"
 #include "parallel/threads/threads.hpp"
 
 namespace carom {
@@ -51,7 +52,7 @@ class RankPart {
  public:
   // threads: of this rank, for what is measured.
   RankPart(Ranks& ranks, const Scene& scene, std::unique_ptr<Engine> engine, const Threads& threads)
-      : ranks_(ranks), scene_(scene), engine_(std::move(engine)), count_(parallel_pair_counter(threads.count)) {}
+      : ranks_(ranks), scene_(scene), engine_(std::move(engine)), run_(blocks_on_threads(threads.count)) {}
 
   const Scene& scene() const { return scene_; }
   Engine& engine() const { return *engine_; }
@@ -78,9 +79,9 @@ class RankPart {
   }
   ShownDisks& shown() { return *shown_; }
   double shown_overlap() const { return shown_->max_overlap(scene_, *cut()); }
-  bool visit_shown_orders(const DisksInPieces::Use& use) { return shown_->visit_orders(scene_, *cut(), use); }
-  std::optional<std::vector<PairCounts>> shown_pairs() const { return shown_->pair_counts(scene_, *cut(), count_); }
-  std::optional<BondPairs> shown_bonds() { return shown_->bond_pairs(scene_, *cut()); }
+  bool visit_shown_orders(const DisksInPieces::Use& use) { return shown_->visit_orders(scene_, *cut(), run_, use); }
+  std::optional<std::vector<PairCounts>> shown_pairs() const { return shown_->pair_counts(scene_, *cut(), run_); }
+  std::optional<BondPairs> shown_bonds() { return shown_->bond_pairs(scene_, *cut(), run_); }
 
   // before: what the ranks had said to each other when they began to agree on this step.
   void step(const Traffic& before);
@@ -94,7 +95,7 @@ class RankPart {
   Ranks& ranks_;
   Scene scene_;
   std::unique_ptr<Engine> engine_;
-  PairCounter count_;
+  BlockRunner run_;
   std::unique_ptr<SharedLists> lists_;
   std::unique_ptr<ShownDisks> shown_;
   Count steps_ = 0;

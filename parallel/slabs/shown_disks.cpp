@@ -37,13 +37,14 @@ void ShownDisks::visit(OrderedDisks& disks, const DisksInPieces::Use& use) const
   }
 }
 
-bool ShownDisks::find_orders(const Scene& scene, const SlabCut& cut) {
-  if (!orders_) orders_ = orders_over_ranks(ranks_, scene.analysis, box_at(scene.box, time_), *own_, cut);
+bool ShownDisks::find_orders(const Scene& scene, const SlabCut& cut, const BlockRunner& run) {
+  if (!orders_) orders_ = orders_over_ranks(ranks_, scene.analysis, box_at(scene.box, time_), *own_, cut, run);
   return orders_.has_value();
 }
 
-bool ShownDisks::visit_orders(const Scene& scene, const SlabCut& cut, const DisksInPieces::Use& use) {
-  if (!find_orders(scene, cut)) return false;
+bool ShownDisks::visit_orders(const Scene& scene, const SlabCut& cut, const BlockRunner& run,
+                              const DisksInPieces::Use& use) {
+  if (!find_orders(scene, cut, run)) return false;
   OrderedDisks ordered(ranks_, *orders_, ids_);
   visit(ordered, use);
   return true;
@@ -54,13 +55,13 @@ double ShownDisks::max_overlap(const Scene& scene, const SlabCut& cut) const {
 }
 
 std::optional<std::vector<PairCounts>> ShownDisks::pair_counts(const Scene& scene, const SlabCut& cut,
-                                                               const PairCounter& count) const {
-  return pairs_over_ranks(ranks_, scene.analysis, box_at(scene.box, time_), *own_, cut, count);
+                                                               const BlockRunner& run) const {
+  return pairs_over_ranks(ranks_, scene.analysis, box_at(scene.box, time_), *own_, cut, run);
 }
 
-std::optional<BondPairs> ShownDisks::bond_pairs(const Scene& scene, const SlabCut& cut) {
-  if (!find_orders(scene, cut)) return std::nullopt;
-  return bond_pairs_over_ranks(ranks_, scene.analysis, box_at(scene.box, time_), *orders_, cut);
+std::optional<BondPairs> ShownDisks::bond_pairs(const Scene& scene, const SlabCut& cut, const BlockRunner& run) {
+  if (!find_orders(scene, cut, run)) return std::nullopt;
+  return bond_pairs_over_ranks(ranks_, scene.analysis, box_at(scene.box, time_), *orders_, cut, run);
 }
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/block_runner.hpp"
 #include "core/measure/pair_distances.hpp"
 #include "core/scene/scene.hpp"
 #include "core/step/engine.hpp"
@@ -32,16 +33,16 @@ class ShownDisks {
 
   // The same of what visit_orders() has of them (core/disks/disks_in_pieces.hpp). False, on all ranks, where there is
   // no such thing.
-  bool visit_orders(const Scene& scene, const SlabCut& cut, const DisksInPieces::Use& use);
+  bool visit_orders(const Scene& scene, const SlabCut& cut, const BlockRunner& run, const DisksInPieces::Use& use);
 
   // See slab_pairs.hpp.
   std::optional<std::vector<PairCounts>> pair_counts(const Scene& scene, const SlabCut& cut,
-                                                     const PairCounter& count) const;
-  std::optional<BondPairs> bond_pairs(const Scene& scene, const SlabCut& cut);
+                                                     const BlockRunner& run) const;
+  std::optional<BondPairs> bond_pairs(const Scene& scene, const SlabCut& cut, const BlockRunner& run);
 
  private:
   void visit(OrderedDisks& disks, const DisksInPieces::Use& use) const;
-  bool find_orders(const Scene& scene, const SlabCut& cut);
+  bool find_orders(const Scene& scene, const SlabCut& cut, const BlockRunner& run);
 
   Ranks& ranks_;
   DiskId ids_ = 0;  // above all of this rank

@@ -18,20 +18,20 @@ double first_reach(const Domain& box, Count disks) {
 
 // Neighbours are looked for twice as far as long as a disk of any rank has too few.
 std::optional<Disks> orders_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box, const Disks& all,
-                                       const SlabCut& cut) {
+                                       const SlabCut& cut, const BlockRunner& run) {
   const Disks some = plan.group.empty() ? Disks{} : disks_of(all, plan.ids);
   const Disks& own = plan.group.empty() ? all : some;
   auto count = static_cast<std::int64_t>(own.size());
   ranks.sum({&count, 1});
   const auto disks = static_cast<Count>(count);
   if (disks < least_of_bonds) return with_orders(own, {});
-  if (ranks.count() == 1) return with_orders(own, bond_orders(own, box));
+  if (ranks.count() == 1) return with_orders(own, bond_orders(own, box, run));
   const Slab slab = slab_of(cut, box, ranks.rank());
   const double excursion = excursion_over_ranks(ranks, slab, box, own);
   for (double reach = first_reach(box, disks);; reach *= 2.0) {
     if (ranks.count() > 2 && !is_within_neighbours(cut, box, reach, excursion)) return std::nullopt;
     Disks around = joined(own, disks_at_borders(ranks, slab, box, own, reach, excursion).others);
-    const auto orders = bond_orders_of_first(around, own.size(), box, reach, disks);
+    const auto orders = bond_orders_of_first(around, own.size(), box, reach, disks, run);
     if (ranks.any(!orders.has_value())) continue;
     truncate(around, own.size());
     return with_orders(std::move(around), *orders);

@@ -61,12 +61,11 @@ PairNumbers numbers_in(const BondPairs& pairs) {
 }  // namespace
 
 std::optional<std::vector<PairCounts>> pairs_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box,
-                                                        const Disks& own, const SlabCut& cut,
-                                                        const PairCounter& count) {
+                                                        const Disks& own, const SlabCut& cut, const BlockRunner& run) {
   if (!plan.wants(Quantity::pair_correlation)) return std::nullopt;
   std::vector<PairCounts> pairs;
   const auto numbers = numbers_over_ranks(ranks, box, own, cut, plan.pairs.r_max, [&](const Disks& disks) {
-    pairs = pairs_of_plan(plan, disks, box, count);
+    pairs = pairs_of_plan(plan, disks, box, run);
     return numbers_in(pairs);
   });
   if (!numbers) return std::nullopt;
@@ -79,14 +78,14 @@ std::optional<std::vector<PairCounts>> pairs_over_ranks(Ranks& ranks, const Anal
 }
 
 std::optional<BondPairs> bond_pairs_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box,
-                                               const Disks& orders, const SlabCut& cut) {
+                                               const Disks& orders, const SlabCut& cut, const BlockRunner& run) {
   if (!plan.wants(Quantity::bond_correlation)) return std::nullopt;
   auto disks = static_cast<std::int64_t>(orders.size());
   ranks.sum({&disks, 1});
   if (static_cast<Count>(disks) < least_of_bonds) return std::nullopt;
   BondPairs pairs;
   const auto numbers = numbers_over_ranks(ranks, box, orders, cut, plan.bonds.r_max, [&](const Disks& some) {
-    pairs = bond_pairs(some, box, distance_bins(plan.bonds));
+    pairs = bond_pairs(some, box, distance_bins(plan.bonds), run);
     return numbers_in(pairs);
   });
   if (!numbers) return std::nullopt;

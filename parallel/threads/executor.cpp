@@ -74,4 +74,10 @@ void Executor::enter(Call call, void* task) const {
   arena_->arena.execute([&] { call(task, 0); });
 }
 
+BlockRunner blocks_on_threads(int threads) {
+  const auto executor = std::make_shared<const Executor>(threads);
+  return
+      [executor](std::size_t blocks, const BlockTask& task) { executor->run(blocks, [&](std::size_t b) { task(b); }); };
+}
+
 }  // namespace carom

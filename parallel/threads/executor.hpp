@@ -9,6 +9,8 @@
 #include <memory>
 #include <type_traits>
 
+#include "core/base/block_runner.hpp"
+
 namespace carom {
 
 // Blocks are fixed by the size of the work, never by the number of threads, so what each block computes is the same on
@@ -80,5 +82,8 @@ void Executor::sort(Iterator begin, Iterator end, Less less) const {
   auto task = [&] { tbb::parallel_sort(begin, end, less); };
   enter([](void* t, std::size_t) { (*static_cast<decltype(task)*>(t))(); }, &task);
 }
+
+// Runs blocks on so many threads of its own, which live as long as it.
+BlockRunner blocks_on_threads(int threads);
 
 }  // namespace carom

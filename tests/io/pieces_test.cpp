@@ -179,8 +179,8 @@ std::string samples_of(const test::TestFolder& folder, const Scene& scene, std::
     now.time = 0.25 * k;
     now.counters.virial = 3.5 * k;
     now.counters.collisions = 7 * k;
-    if (ids == 0) take_sample(record, scene, WholeDisks(disks, now.time), now, count_pairs);
-    if (ids > 0) take_sample(record, scene, test::CutDisks(disks, now.time, ids), now, count_pairs);
+    if (ids == 0) take_sample(record, scene, WholeDisks(disks, now.time), now, run_in_order);
+    if (ids > 0) take_sample(record, scene, test::CutDisks(disks, now.time, ids), now, run_in_order);
   }
   const std::string path = (folder.path() / "analysis.h5").string();
   write_analysis(path, scene, record);

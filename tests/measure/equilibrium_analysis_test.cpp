@@ -9,8 +9,8 @@
 #include "core/load/scene_file.hpp"
 #include "core/measure/analysis_curves.hpp"
 #include "core/start/initial_state.hpp"
-#include "parallel/cells/pair_counting.hpp"
 #include "parallel/simulation.hpp"
+#include "parallel/threads/executor.hpp"
 
 namespace carom {
 namespace {
@@ -79,8 +79,8 @@ TEST(EquilibriumAnalysis, ContactValuePressureAndSpeedsAreThoseOfTheory) {
   const Scene scene = parse_scene(gas, "gas.toml", "");
   const auto engine = make_parallel_engine(scene, initial_state(scene), {2});
   AnalysisRecord record = empty_record(scene), start = record, seldom = record;
-  const PairCounter count = parallel_pair_counter(2);
-  take_sample(start, scene, engine->state().disks, 0.0, engine->state(), count);
+  const BlockRunner run = blocks_on_threads(2);
+  take_sample(start, scene, engine->state().disks, 0.0, engine->state(), run);
   const ChiSquare before = chi_square(start.speeds, scene.analysis);
   EXPECT_GT(before.value, 2.0 * bound(before)) << "else the test shows nothing";
   Disks disks;
@@ -88,7 +88,7 @@ TEST(EquilibriumAnalysis, ContactValuePressureAndSpeedsAreThoseOfTheory) {
   for (double t = 10.0; t < 130.0; t += 0.25, ++taken) {
     while (engine->state().time < t) engine->step();
     engine->disks_at(t, disks);
-    take_sample(record, scene, disks, t, engine->state(), count);
+    take_sample(record, scene, disks, t, engine->state(), run);
     // Speeds a few collisions apart, so that samples are independent.
     if (taken % 8 == 0) add_speeds(seldom.speeds, disks, record.series.temperature.back(), scene.analysis.speed_max);
   }

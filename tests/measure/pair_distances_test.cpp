@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/measure/analysis_curves.hpp"
-#include "parallel/cells/pair_counting.hpp"
+#include "parallel/threads/executor.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
 
@@ -69,7 +69,7 @@ TEST(PairDistances, CountsAreThoseOfAllPairsOnAnyNumberOfThreads) {
       const PairCounts expected = all_pairs(disks, box, bins);
       for (const int threads : {0, 1, 2, 5}) {
         const PairCounts found =
-            threads == 0 ? count_pairs(disks, box, bins) : parallel_pair_counter(threads)(disks, box, bins);
+            count_pairs(disks, box, bins, threads == 0 ? BlockRunner(run_in_order) : blocks_on_threads(threads));
         EXPECT_EQ(found.centres, expected.centres);
         EXPECT_EQ(found.counts, expected.counts) << c.width << " x " << c.height << ", " << n << " disks, " << threads;
       }
@@ -89,7 +89,7 @@ TEST(PairDistances, NothingCorrelatedGivesOne) {
     scene.analysis.pairs.bins = 12;
     scene.analysis.pairs.wall_margin = c.r_max + 0.1;
     AnalysisRecord record = empty_record(scene);
-    for (int k = 0; k < 200; ++k) take_sample(record, scene, strewn(draws, scene.box, 200), k, {}, count_pairs);
+    for (int k = 0; k < 200; ++k) take_sample(record, scene, strewn(draws, scene.box, 200), k, {}, run_in_order);
     const BinnedCurve g = pair_correlation_curve(record.pairs, scene.analysis);
     for (std::size_t k = 0; k < 12; ++k) {
       const auto pairs = static_cast<double>(record.pairs.counts[k]);
@@ -112,8 +112,8 @@ TEST(PairDistances, GroupsHavePairsOfTheirOwn) {
   scene.analysis.pair_groups = {{"a", {0, 100}}, {"b", {250, 400}}, {"c", {400, 401}}};
   AnalysisRecord record = empty_record(scene);
   const Disks disks = strewn(draws, scene.box, 500);
-  take_sample(record, scene, disks, 0.0, {}, count_pairs);
-  take_sample(record, scene, disks, 1.0, {}, count_pairs);
+  take_sample(record, scene, disks, 0.0, {}, run_in_order);
+  take_sample(record, scene, disks, 1.0, {}, run_in_order);
   const std::vector<PartialCurve> curves = partial_curves(record, scene.analysis);
   ASSERT_EQ(curves.size(), 6U);
   const auto centres = [&](const IdRange& ids) {

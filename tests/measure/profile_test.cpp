@@ -62,7 +62,7 @@ TEST(Profiles, RowsDivideTheRun) {
   AnalysisRecord record = empty_record(scene);
   for (int k = 0; k <= 5; ++k) {
     const Disks disks = test::disks_of({{4.0, 1.0 + k, 2.0 * k, 0.0, 0.5, 1.0}});
-    take_sample(record, scene, disks, 1.0 + k, {}, {});
+    take_sample(record, scene, disks, 1.0 + k, {}, run_in_order);
   }
   ASSERT_EQ(record.motion_rows.size(), 3U);
   ASSERT_EQ(record.density_rows.size(), 3U);

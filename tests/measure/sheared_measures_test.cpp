@@ -14,7 +14,7 @@
 #include "core/measure/displacement.hpp"
 #include "core/measure/pair_distances.hpp"
 #include "core/measure/structure_factor.hpp"
-#include "parallel/cells/pair_counting.hpp"
+#include "parallel/threads/executor.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
 
@@ -68,7 +68,7 @@ TEST(ShearedMeasures, PairDistancesAreThoseOfAllImages) {
         }
       }
       EXPECT_EQ(count_pairs(d, box, bins).counts, expected) << s.width << " x " << s.height << ", " << share;
-      EXPECT_EQ(parallel_pair_counter(3)(d, box, bins).counts, expected);
+      EXPECT_EQ(count_pairs(d, box, bins, blocks_on_threads(3)).counts, expected);
       EXPECT_EQ(bond_pairs(with_orders(d, bond_orders(d, box)), box, bins).counts, expected);
     }
   }

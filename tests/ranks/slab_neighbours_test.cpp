@@ -35,7 +35,7 @@ Scene scene_with(const std::string& method, const std::string& sides, int height
 bool expect_pairs(const DisksInPieces& pieces, const Disks& there, const Scene& scene) {
   const auto pairs = pieces.pair_counts();
   if (!pairs) return false;
-  const auto all = pairs_of_plan(scene.analysis, there, box_at(scene.box, pieces.time()), count_pairs);
+  const auto all = pairs_of_plan(scene.analysis, there, box_at(scene.box, pieces.time()), run_in_order);
   EXPECT_EQ(pairs->size(), all.size());
   for (std::size_t k = 0; k < std::min(pairs->size(), all.size()); ++k) {
     EXPECT_EQ((*pairs)[k].centres, all[k].centres) << k;
