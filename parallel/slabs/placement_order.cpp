@@ -22,12 +22,9 @@ bool comes_first(const DiskToPlace& a, const DiskToPlace& b) {
 PlacementOrder::PlacementOrder(const StartDisks& disks, Ranks& ranks)
     : disks_(disks), ranks_(ranks), equal_(disks.sizes().smallest.radius == disks.sizes().largest.radius) {
   if (equal_) return;
-  for (std::size_t g = 0; g < disks.groups(); ++g) {
-    const GroupRange range = disks.share(g);
-    for (Count k = range.first; k < range.last; ++k) {
-      share_.push_back({disks.first_id(g) + static_cast<DiskId>(k), disks.size_of(g, k).radius});
-    }
-  }
+  disks.for_share([&](std::size_t g, Count k) {
+    share_.push_back({disks.first_id(g) + static_cast<DiskId>(k), disks.size_of(g, k).radius});
+  });
   std::sort(share_.begin(), share_.end(), comes_first);
 }
 

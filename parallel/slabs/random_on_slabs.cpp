@@ -97,12 +97,9 @@ class SlabPlacement {
 
   std::vector<std::size_t> most_near_by_class(const StartDisks& disks) const {
     std::vector<std::size_t> counts(PlacementGrid::class_of(sizes_.smallest.radius, sizes_.largest.radius) + 1, 0);
-    for (std::size_t g = 0; g < disks.groups(); ++g) {
-      const GroupRange range = disks.share(g);
-      for (Count k = range.first; k < range.last; ++k) {
-        ++counts[PlacementGrid::class_of(disks.size_of(g, k).radius, sizes_.largest.radius)];
-      }
-    }
+    disks.for_share([&](std::size_t g, Count k) {
+      ++counts[PlacementGrid::class_of(disks.size_of(g, k).radius, sizes_.largest.radius)];
+    });
     sum_counts_over_ranks(site_.ranks, counts);
     for (std::size_t& count : counts) count = most_near(count);
     return counts;

@@ -60,6 +60,14 @@ class StartDisks {
 
   // The rank's share of a group, where the work on all disks is shared without regard to where they are.
   GroupRange share(std::size_t group) const;
+  // Calls use(group, k) for the disks of its shares, in order of id.
+  template <class Use>
+  void for_share(Use&& use) const {
+    for (std::size_t g = 0; g < groups(); ++g) {
+      const GroupRange range = share(g);
+      for (Count k = range.first; k < range.last; ++k) use(g, k);
+    }
+  }
 
  private:
   DiskId id_of(std::size_t group, Count k) const { return first_ids_[group] + static_cast<DiskId>(k); }

@@ -110,12 +110,9 @@ class Maker {
       return;
     }
     start_.counts.resize(class_of_radius(disks_.sizes().smallest.radius, start_.largest_radius) + 1, 0);
-    for (std::size_t g = 0; g < disks_.groups(); ++g) {
-      const GroupRange range = disks_.share(g);
-      for (Count k = range.first; k < range.last; ++k) {
-        ++start_.counts[class_of_radius(disks_.size_of(g, k).radius, start_.largest_radius)];
-      }
-    }
+    disks_.for_share([&](std::size_t g, Count k) {
+      ++start_.counts[class_of_radius(disks_.size_of(g, k).radius, start_.largest_radius)];
+    });
     sum_counts_over_ranks(ranks_, start_.counts);
   }
 
@@ -131,12 +128,7 @@ class Maker {
   void cut() {
     std::vector<std::size_t> rows(rows_counted, 0);
     const double rows_per_length = static_cast<double>(rows_counted) / scene_.box.height;
-    for (std::size_t g = 0; g < disks_.groups(); ++g) {
-      const GroupRange range = disks_.share(g);
-      for (Count k = range.first; k < range.last; ++k) {
-        ++rows[cell_index(height(g, k) * rows_per_length, rows_counted)];
-      }
-    }
+    disks_.for_share([&](std::size_t g, Count k) { ++rows[cell_index(height(g, k) * rows_per_length, rows_counted)]; });
     sum_counts_over_ranks(ranks_, rows);
     count_classes();
     start_.cut = cut_by_rows(scene_.box, {rows.begin(), rows.end()}, ranks_.count());
