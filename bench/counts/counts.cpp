@@ -16,6 +16,7 @@
 
 #include "bench/support/bench_scenes.hpp"
 #include "bench/support/gas_features.hpp"
+#include "core/base/block_runner.hpp"
 #include "core/base/kernel_set.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/measure/analysis.hpp"
@@ -99,7 +100,7 @@ void measure(const Counted& counted, const std::string& path, int samples) {
       counted.name, "");
   AnalysisRecord record = empty_record(scene);
   for (int k = 0; k < samples; ++k) {
-    take_sample(record, scene, start.state.disks, start.state.time, start.state, count_pairs);
+    take_sample(record, scene, start.state.disks, start.state.time, start.state, run_in_order);
   }
   fmt::print("{}\n", counted.disks * static_cast<std::size_t>(samples));
 }
