@@ -70,7 +70,6 @@ std::vector<DiskToPlace> PlacementOrder::next(const SizeClass& of, std::size_t m
   const auto stop = std::partition_point(
       disks.begin(), disks.end(), [&](const DiskToPlace& d) { return !comes_first(last, d) && d.radius > half; });
   disks.resize(std::min(most, static_cast<std::size_t>(stop - disks.begin())));
-  given_ += disks.size();
   const auto given = std::partition_point(share_.begin(), share_.end(), [&](const DiskToPlace& d) {
     return !disks.empty() && !comes_first(disks.back(), d);
   });

@@ -36,10 +36,11 @@ class PlacementOrder {
  private:
   const StartDisks& disks_;
   Ranks& ranks_;
-  bool equal_ = false;              // radii: then the order is that of ids
-  std::size_t given_ = 0;           // disks, of all ranks
-  std::vector<DiskToPlace> share_;  // of this rank; empty where all are equal
-  std::size_t given_here_ = 0;      // of the share
+  bool equal_ = false;     // radii: then the order is that of ids
+  std::size_t given_ = 0;  // of all disks
+  // Otherwise this rank's share.
+  std::vector<DiskToPlace> share_;
+  std::size_t given_here_ = 0;
 };
 
 }  // namespace carom

@@ -70,18 +70,14 @@ TEST_P(Obstacles, ResumedRunsHaveTheSameBits) {
   }
 }
 
-std::string method_and_sides(const ::testing::TestParamInfo<std::tuple<const char*, const char*>>& info) {
-  return std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param);
-}
-
 constexpr std::array methods{"pairwise", "rollback", "exact"};
 INSTANTIATE_TEST_SUITE_P(AllMethods, Obstacles,
                          ::testing::Combine(::testing::ValuesIn(methods), ::testing::Values("wall", "moving")),
-                         method_and_sides);
+                         test::method_and_sides);
 INSTANTIATE_TEST_SUITE_P(LongAllMethods, Obstacles,
                          ::testing::Combine(::testing::ValuesIn(methods),
                                             ::testing::Values("periodic", "periodic_x", "sink")),
-                         method_and_sides);
+                         test::method_and_sides);
 
 Scene fixed_scene(const std::string& method, const std::string& physics, const std::string& disks, double t_end) {
   return parse_scene("[box]\nwidth = 20.0\nheight = 20.0\n[physics]\n" + physics + "\n" + disks + "[run]\nmethod = \"" +

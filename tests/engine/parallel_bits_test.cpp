@@ -89,18 +89,14 @@ TEST_P(ParallelBits, EqualTheReferenceAfterEveryStep) {
   }
 }
 
-std::string method_and_sides(const ::testing::TestParamInfo<std::tuple<const char*, const char*>>& info) {
-  return std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param);
-}
-
 constexpr std::array methods{"pairwise", "rollback", "exact"};
 INSTANTIATE_TEST_SUITE_P(AllScenes, ParallelBits,
                          ::testing::Combine(::testing::ValuesIn(methods), ::testing::Values("hot", "moving")),
-                         method_and_sides);
+                         test::method_and_sides);
 INSTANTIATE_TEST_SUITE_P(LongAllScenes, ParallelBits,
                          ::testing::Combine(::testing::ValuesIn(methods),
                                             ::testing::Values("wall", "periodic", "periodic_x", "sink", "soft")),
-                         method_and_sides);
+                         test::method_and_sides);
 
 class TiltedBits : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
@@ -130,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(AllScenes, TiltedBits,
                          ::testing::Combine(::testing::Values("pairwise", "rollback", "exact"),
                                             ::testing::Values("wall", "periodic", "periodic_x", "sink", "soft", "hot",
                                                               "moving")),
-                         method_and_sides);
+                         test::method_and_sides);
 
 // Thermostats, whose kicks fall between the steps, with the other features in turn.
 TEST(ThermostatBits, EqualTheReferenceAfterEveryStep) {

@@ -310,16 +310,12 @@ TEST_P(RestitutionLaws, ResumedRunsHaveTheSameBits) {
   }
 }
 
-std::string method_and_sides(const ::testing::TestParamInfo<std::tuple<const char*, const char*>>& info) {
-  return std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param);
-}
-
 INSTANTIATE_TEST_SUITE_P(AllMethods, RestitutionLaws,
                          ::testing::Combine(::testing::ValuesIn(methods), ::testing::Values("wall", "moving")),
-                         method_and_sides);
+                         test::method_and_sides);
 INSTANTIATE_TEST_SUITE_P(LongAllMethods, RestitutionLaws,
                          ::testing::Combine(::testing::ValuesIn(methods), ::testing::Values("periodic", "sink")),
-                         method_and_sides);
+                         test::method_and_sides);
 
 }  // namespace
 }  // namespace carom

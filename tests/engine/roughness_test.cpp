@@ -304,7 +304,7 @@ TEST_P(Roughnesses, ResumedRunsHaveTheSameBits) {
 INSTANTIATE_TEST_SUITE_P(AllMethods, Roughnesses,
                          ::testing::Combine(::testing::Values("pairwise", "rollback", "exact"),
                                             ::testing::Values("wall", "periodic", "sink", "moving", "hot")),
-                         [](const auto& p) { return std::string(std::get<0>(p.param)) + "_" + std::get<1>(p.param); });
+                         test::method_and_sides);
 
 }  // namespace
 }  // namespace carom

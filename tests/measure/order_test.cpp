@@ -11,6 +11,7 @@
 #include "core/measure/motion_profile.hpp"
 #include "core/measure/structure_factor.hpp"
 #include "core/measure/velocity_memory.hpp"
+#include "parallel/threads/executor.hpp"
 #include "tests/support/disks_by_hand.hpp"
 
 namespace carom {
@@ -152,6 +153,26 @@ TEST(BondCorrelation, OfAGasIsThatOfAllPairs) {
   EXPECT_EQ(sums.pairs, pairs);
   EXPECT_EQ(sums.product, other.product) << "storage does not matter";
   for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(sums.product[k], product[k], 1e-9) << k;
+}
+
+// Enough disks for several blocks of each.
+TEST(BondCorrelation, HasTheSameBitsOnAnyThreads) {
+  const Domain box = test::box_of(130.0, 90.0, true, false);
+  const Disks d = ideal_gas(10'000, box, 5);
+  const DistanceBins bins{2.0, 20, 2.1};
+  const std::vector<Vec2> psi = bond_orders(d, box);
+  const BondPairs pairs = bond_pairs(with_orders(d, psi), box, bins);
+  for (const int threads : {1, 2, 3, 8}) {
+    SCOPED_TRACE(threads);
+    const BlockRunner run = blocks_on_threads(threads);
+    const std::vector<Vec2> shared = bond_orders(d, box, run);
+    ASSERT_EQ(shared.size(), psi.size());
+    for (std::size_t i = 0; i < psi.size(); ++i) EXPECT_TRUE(shared[i].x == psi[i].x && shared[i].y == psi[i].y) << i;
+    EXPECT_FALSE(bond_orders_of_first(d, d.size(), box, 0.5, d.size(), run)) << "sixth neighbours are further";
+    const BondPairs found = bond_pairs(with_orders(d, shared), box, bins, run);
+    EXPECT_EQ(found.counts, pairs.counts);
+    for (std::size_t k = 0; k < bins.bins; ++k) EXPECT_EQ(value_of(found.product[k]), value_of(pairs.product[k])) << k;
+  }
 }
 
 // A crystal keeps its directions, whatever way it moves.

@@ -15,7 +15,7 @@ TEST_P(ResumeAll, HasTheBitsOfARunThatWasNeverStopped) {
 INSTANTIATE_TEST_SUITE_P(AllScenes, ResumeAll,
                          ::testing::Combine(::testing::Values("pairwise", "rollback", "exact"),
                                             ::testing::Values("wall", "periodic", "periodic_x", "sink")),
-                         [](const auto& p) { return std::string(std::get<0>(p.param)) + "_" + std::get<1>(p.param); });
+                         test::method_and_sides);
 
 }  // namespace
 }  // namespace carom

@@ -1,7 +1,10 @@
 // Random small scenes over every combination of features, as TOML text, and the comparison of engines on them.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/disks/state_hash.hpp"
@@ -38,6 +41,11 @@ struct Features {
                           : "_counter_shear");
   }
 };
+
+// In the name of a test.
+inline std::string method_and_sides(const ::testing::TestParamInfo<std::tuple<const char*, const char*>>& info) {
+  return std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param);
+}
 
 inline std::string sides_text(const std::string& sides, int seed) {
   if (sides == "periodic_x") return "left = \"periodic\"\nright = \"periodic\"\nbottom = \"wall\"\ntop = \"sink\"\n";
