@@ -77,6 +77,7 @@ void EventCalendar::set_pages(double start, double pages_per_time, std::size_t p
   transit_.fill({end_of_list_, 0});
   first_in_transit_ = absent;
   announced_.fill(first_disk_);
+  followed_begin_ = followed_end_ = 0;
 }
 
 // Divides what is left of the time anew, so that the events of the present page fall on many; what is beyond the most

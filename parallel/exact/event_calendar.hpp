@@ -127,12 +127,19 @@ class EventCalendar {
   static constexpr std::uint32_t crowd = 64;
   // From one announcement to the next.
   static constexpr std::uint32_t disks_a_stage = 2;
-  static constexpr std::uint32_t pages_ahead = 7;
+  static constexpr std::uint32_t pages_ahead = 9;
   // Only entries of later pages are kept back.
   static constexpr std::uint32_t pages_of_transit = 2 * pages_ahead;
-  static constexpr std::uint32_t places_in_transit = 4;
-  // The disks of a page that are announced; more are rare.
-  static constexpr int announced_a_page = 2;
+  static constexpr std::uint32_t places_in_transit = 8;
+  // The disks of a page that are announced, and those of all pages when one is turned; more are rare.
+  static constexpr std::uint32_t announced_a_page = 4;
+  static constexpr int announced_at_once = 3;
+
+  // An entry of a page that comes soon, and how many of its list, with itself, are to be announced.
+  struct Followed {
+    std::uint32_t disk;
+    std::uint32_t left;
+  };
 
   // An entry that has not been written to its page yet.
   struct Transit {
@@ -186,14 +193,26 @@ class EventCalendar {
     }
     first_in_transit_ = absent;
   }
-  // Announces the disks of a page that comes soon, and once more those that were announced a little before. soon has to
-  // be inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
+  // The list of a page that comes soon is read entry after entry, each some pages after it has been prefetched.
+  // Whether there is one is as good as random: no branch depends on it.
+  void follow(std::uint32_t disk, std::uint32_t left) {
+    const bool is_one = (disk != end_of_list_) & (left > 0) & (followed_end_ - followed_begin_ < followed_.size() - 1);
+    __builtin_prefetch(&node_[disk]);
+    followed_[followed_end_ % followed_.size()] = {disk, left};
+    followed_end_ += static_cast<std::uint32_t>(is_one);
+  }
+  // Announces disks of pages that come soon, and once more those that were announced a little before. soon has to be
+  // inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
   template <class Soon>
   [[gnu::noinline]] void announce(Soon&& soon) {
-    __builtin_prefetch(&node_[first_[std::min(page_ + pages_ahead + 1, pages_)]]);
-    std::uint32_t k = first_[std::min(page_ + pages_ahead, pages_)];
-    for (int m = 0; m < announced_a_page && k != end_of_list_; ++m, k = node_[k].next) {
-      announced_[next_announced_ % announced_.size()] = k;
+    const std::uint32_t come = followed_end_;
+    if (page_ + pages_ahead < pages_) follow(first_[page_ + pages_ahead], announced_a_page);
+    for (int m = 0; m < announced_at_once && followed_begin_ != come; ++m) {
+      const Followed f = followed_[followed_begin_++ % followed_.size()];
+      const Node node = node_[f.disk];
+      if (node.previous >= in_transit) continue;  // it has left its page since
+      follow(node.next, f.left - 1);
+      announced_[next_announced_ % announced_.size()] = f.disk;
       const auto announced = [&](std::uint32_t stage) {
         return announced_[(next_announced_ - stage * disks_a_stage) % announced_.size()];
       };
@@ -249,7 +268,9 @@ class EventCalendar {
   std::uint32_t end_of_list_ = 0;                 // an entry that is no disk's
   std::array<Transit, places_in_transit> transit_{};
   std::uint32_t next_place_ = 0;
-  std::uint32_t first_in_transit_ = absent;   // a page; there is none before
+  std::uint32_t first_in_transit_ = absent;  // a page; there is none before
+  std::array<Followed, 16> followed_{};      // in turn, from the one that begins to before the end
+  std::uint32_t followed_begin_ = 0, followed_end_ = 0;
   std::array<std::uint32_t, 8> announced_{};  // the last ones, in turn
   std::uint32_t next_announced_ = 0;
   Node* node_ = nullptr;  // of each disk, by storage index
