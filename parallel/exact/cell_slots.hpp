@@ -27,6 +27,12 @@ class CellSlots {
   void remove(std::uint32_t cell, std::uint32_t disk);
 
   SlotColumns columns() const { return {position_.data(), disk_.data(), radius_.empty() ? nullptr : radius_.data()}; }
+  // Prefetches cells [first, last).
+  [[gnu::always_inline]] void prefetch(std::uint32_t first, std::uint32_t last) const {
+    prefetch_slots(position_.data(), first, last);
+    prefetch_slots(disk_.data(), first, last);
+    __builtin_prefetch(chain_.data() + first);
+  }
   // Whether disks are chained to some cells: asked of several runs of cells at once.
   class Chains {
    public:
@@ -89,6 +95,15 @@ class CellSlots {
     std::vector<Link> link;
     std::uint32_t free = none;  // the first of those that are not in use
   };
+  // Of a column by slot, whose entries have 4 bytes.
+  template <class T>
+  [[gnu::always_inline]] static void prefetch_slots(const T* column, std::uint32_t first, std::uint32_t last) {
+    static_assert(sizeof(T) == 4);
+    constexpr std::size_t a_line = 16;
+    const std::size_t end = std::size_t{last} * slots_a_cell;
+    for (std::size_t s = std::size_t{first} * slots_a_cell; s < end; s += a_line) __builtin_prefetch(column + s);
+    __builtin_prefetch(column + (end - 1));
+  }
   const PartLinks& links_of(std::uint32_t cell) const { return links_[cell / cells_a_part_]; }
   PartLinks& links_of(std::uint32_t cell) { return links_[cell / cells_a_part_]; }
 

@@ -1,6 +1,7 @@
 // The search of a new list: which cells are within reach, and which disks in them.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "parallel/exact/neighbour_lists.hpp"
@@ -28,6 +29,7 @@ void NeighbourLists::prepare_query(const Disks& d) {
   // Each position is less than a unit of slots from where it says.
   const double reach = (2.0 * skin_ + slot_unit_x_ + slot_unit_y_) * slots_per_length_ + list_kernel_rounding;
   query_ = {};
+  unequal_radii_ = !d.radius.empty();
   query_.unit_x = share(slot_unit_x_);
   query_.unit_y = share(slot_unit_y_);
   query_.cutoff = static_cast<float>(reach * single_margin);
@@ -75,21 +77,21 @@ bool NeighbourLists::find_neighbours(const Disks& d, std::uint32_t i, FixedPoint
     cells += last - first;
     chains.add(first, last);
   };
-  const bool alike = d.radius.empty();
-  for (const GridLevel& level : grid_.levels) {
-    std::uint32_t reach_x = common_reach_x_;
-    std::uint32_t reach_y = common_reach_y_;
-    if (!alike) {
-      const double length = flow_.stretch * (d.radius[i] + level.largest_radius) + 2.0 * skin_ + search_margin_;
-      reach_x = listed_units(length, units_per_x_);
-      reach_y = listed_units(length, units_per_y_);
-    }
-    const Span rows = stored_span(level, span_around_listed(position.y, reach_y, level.rows, box_.periodic_y()));
-    const Span columns = span_around_listed(position.x, reach_x, level.columns, box_.periodic_x());
-    for_each_cell_run(level, rows, columns, add);
-  }
+  visit_cells_in_reach(d.radius_of(i), position, add);
   if (inside) search();
   return inside;
+}
+
+// Gravity may lead the disk a little elsewhere.
+void NeighbourLists::prefetch_search(const PathSegment& path, double radius, double time,
+                                     const RelistDistance& relist) const {
+  if (mode_ == EngineMode::all_pairs || flow_.acts) return;
+  const double s = time - path.start;
+  const Vec2 at = listing_place({time, path.x + s * path.vx, path.y + s * path.vy, path.vx, path.vy}, box_, relist);
+  visit_cells_in_reach(radius, fixed_point(at.x, at.y),
+                       [&](std::uint32_t first, std::uint32_t last) { slots_.prefetch(first, last); });
+  // g++ 12 leaves out calls of functions that do nothing but prefetch.
+  std::atomic_signal_fence(std::memory_order_seq_cst);
 }
 
 // The disks chained to the cells of these runs, one by one.

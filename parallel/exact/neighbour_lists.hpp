@@ -215,6 +215,8 @@ class NeighbourLists {
     return room > 0.0 && is_within(i, x, y, room * room);
   }
 
+  // Prefetches what is read of cells when a disk on this path is relisted at this time.
+  void prefetch_search(const PathSegment& path, double radius, double time, const RelistDistance& relist) const;
   // Lists disk i at this position, inside the box. Reads and writes nothing outside the region; where the new list or
   // the old one reaches beyond it, nothing changes and the result is false. found: scratch.
   bool relist(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region, FoundNeighbours& found);
@@ -319,6 +321,23 @@ class NeighbourLists {
     constexpr double most = 0x1p31;
     return static_cast<std::uint32_t>(std::min(length * units_per_length * (1.0 + 1e-9) + 2.0, most));
   }
+  // Calls visit(first, last) for the runs of cells [first, last) that are searched for neighbours of a disk listed
+  // here.
+  template <class Visit>
+  void visit_cells_in_reach(double radius, FixedPointPosition position, Visit&& visit) const {
+    for (const GridLevel& level : grid_.levels) {
+      std::uint32_t reach_x = common_reach_x_;
+      std::uint32_t reach_y = common_reach_y_;
+      if (unequal_radii_) {
+        const double length = flow_.stretch * (radius + level.largest_radius) + 2.0 * skin_ + search_margin_;
+        reach_x = listed_units(length, units_per_x_);
+        reach_y = listed_units(length, units_per_y_);
+      }
+      const Span rows = stored_span(level, span_around_listed(position.y, reach_y, level.rows, box_.periodic_y()));
+      const Span columns = span_around_listed(position.x, reach_x, level.columns, box_.periodic_x());
+      for_each_cell_run(level, rows, columns, visit);
+    }
+  }
   ListQuery query_at(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
   float radius_in_units(double radius) const;
   bool find_neighbours(const Disks& disks, std::uint32_t i, FixedPointPosition position, const ListRegion& region,
@@ -352,10 +371,11 @@ class NeighbourLists {
   double period_x_ = 0.0, period_y_ = 0.0;            // length; 0: none
   double periods_per_x_ = 0.0, periods_per_y_ = 0.0;  // 1 / period; 0: none
   double largest_radius_ = 0.0;
-  double unit_x_ = 0.0, unit_y_ = 0.0;                     // of a FixedPointPosition; length
-  double units_per_x_ = 0.0, units_per_y_ = 0.0;           // 1 / unit
-  double slot_unit_x_ = 0.0, slot_unit_y_ = 0.0;           // of a SlotPosition; length
-  double slots_per_length_ = 0.0;                          // 1 / the coarser of the two
+  double unit_x_ = 0.0, unit_y_ = 0.0;            // of a FixedPointPosition; length
+  double units_per_x_ = 0.0, units_per_y_ = 0.0;  // 1 / unit
+  double slot_unit_x_ = 0.0, slot_unit_y_ = 0.0;  // of a SlotPosition; length
+  double slots_per_length_ = 0.0;                 // 1 / the coarser of the two
+  bool unequal_radii_ = false;
   ListQuery query_;                                        // of any disk, its radius apart, where it is and which it is
   std::uint32_t common_reach_x_ = 0, common_reach_y_ = 0;  // of lists, where all radii are equal: as listed_units
   // Disks that are this much further from each other than lists reach may be listed all the same: each of the two finds

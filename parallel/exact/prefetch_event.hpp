@@ -16,12 +16,16 @@ inline constexpr std::uint32_t prefetched_neighbours = 12;
 [[gnu::always_inline]] inline void prefetch_neighbours(const DiskRecord* record, const NeighbourLists& lists,
                                                        std::uint32_t i) {
   const std::int16_t* const offset = lists.rows().plain_list(i).offset;
-  const DiskRecord* const own = record + i;
-  for (std::uint32_t k = 0; k < prefetched_neighbours; ++k) __builtin_prefetch(own + offset[k]);
+  // In bytes: as records, compilers add i to each offset first.
+  const char* const own = reinterpret_cast<const char*>(record + i);
+  for (std::uint32_t k = 0; k < prefetched_neighbours; ++k) {
+    __builtin_prefetch(own + std::ptrdiff_t{offset[k]} * std::ptrdiff_t{sizeof(DiskRecord)});
+  }
 }
 
 // For an event of disk i. At stage 0 the disk and its list; at stage 1, when those have come, its neighbours, its
-// partner and the partner's list; at stage 2 the partner's neighbours. Reads nothing outside the worker's region.
+// partner and the partner's list, or the cells that are searched when it is relisted; at stage 2 the partner's
+// neighbours. Reads nothing outside the worker's region.
 [[gnu::always_inline]] inline void prefetch_event(const DiskRecord* record, const NeighbourLists& lists,
                                                   const Worker& worker, std::uint32_t i, int stage) {
   if (stage == 0) {
@@ -31,6 +35,11 @@ inline constexpr std::uint32_t prefetched_neighbours = 12;
   }
   if (stage == 1) prefetch_neighbours(record, lists, i);
   const Partner partner = record[i].partner;
+  if (stage == 1 && partner.is_relist()) {
+    const double time = worker.calendar.time_of(i);
+    lists.prefetch_search(record[i].path, record[i].radius, time, lists.relist_distance(false));
+    return;
+  }
   if (!partner.is_disk() || !worker.region.holds(partner.index())) return;
   const std::uint32_t j = partner.index();
   if (stage == 1) {
