@@ -294,23 +294,27 @@ double NeighbourLists::safe_speed2(double length, double g) const {
   return flight > 0.0 ? (flight / length) * (flight / length) : -1.0;
 }
 
-bool NeighbourLists::relist(std::uint32_t i, Vec2 at, const Disks& d, const ListRegion& region,
-                            FoundNeighbours& found) {
-  const FixedPointPosition position = fixed_point(at.x, at.y);
-  if (mode_ == EngineMode::all_pairs) {
-    rows_.set_listed_at(i, position);
-    return true;
-  }
+bool NeighbourLists::find_list(std::uint32_t i, Vec2 at, const Disks& d, const ListRegion& region,
+                               FoundNeighbours& found) const {
+  found.count = 0;
+  found.at = fixed_point(at.x, at.y);
+  if (mode_ == EngineMode::all_pairs) return true;
   // Nor may one that is listed now, and would go on listing disk i: when it comes near again and is relisted, it would
   // take disk i for one that lists it, too.
-  if (!rows_.are_within(i, region) || !find_neighbours(d, i, position, region, found)) return false;
+  if (!rows_.are_within(i, region) || !find_neighbours(d, i, found.at, region, found)) return false;
   const std::span<const std::uint32_t> near = found.disks();
   const auto held = [&](std::uint32_t j) { return region.holds(j); };
-  if (!region.is_everything() && !std::all_of(near.begin(), near.end(), held)) return false;
-  if (!move_to_cell_of(d, i, position, region)) return false;
-  rows_.set_listed_at(i, position);
+  return region.is_everything() || std::all_of(near.begin(), near.end(), held);
+}
+
+bool NeighbourLists::take_list(std::uint32_t i, const Disks& d, const ListRegion& region,
+                               const FoundNeighbours& found) {
+  const bool all_pairs = mode_ == EngineMode::all_pairs;
+  if (!all_pairs && !move_to_cell_of(d, i, found.at, region)) return false;
+  rows_.set_listed_at(i, found.at);
+  if (all_pairs) return true;
   rows_.set_sides(i, find_sides(d, i));
-  rows_.replace(i, near, region);
+  rows_.replace(i, found.disks(), region);
   return true;
 }
 

@@ -77,6 +77,7 @@ struct FlowFrame {
 struct FoundNeighbours {
   std::vector<std::uint32_t> buffer;
   std::size_t count = 0;
+  FixedPointPosition at;  // of find_list: where the disk is to be listed
   std::span<const std::uint32_t> disks() const { return {buffer.data(), count}; }
   void grow(std::size_t disks);
 };
@@ -219,7 +220,13 @@ class NeighbourLists {
   void prefetch_search(const PathSegment& path, double radius, double time, const RelistDistance& relist) const;
   // Lists disk i at this position, inside the box. Reads and writes nothing outside the region; where the new list or
   // the old one reaches beyond it, nothing changes and the result is false. found: scratch.
-  bool relist(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region, FoundNeighbours& found);
+  bool relist(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region, FoundNeighbours& found) {
+    return find_list(i, position, disks, region, found) && take_list(i, disks, region, found);
+  }
+  // The same in two steps, between which the disks of the new list may be prefetched.
+  bool find_list(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region,
+                 FoundNeighbours& found) const;
+  bool take_list(std::uint32_t i, const Disks& disks, const ListRegion& region, const FoundNeighbours& found);
 
   // Between windows, with a single queue: the last disk of the columns is new; disk i is to go, and the last one takes
   // its number. The columns are those with both.

@@ -111,7 +111,12 @@ bool EventProcessor<scope>::relist(std::uint32_t i, double time, const RelistDis
 template <Scope scope>
 bool EventProcessor<scope>::relist_at(std::uint32_t i, double time, Vec2 at) {
   if (scope == Scope::region && window_.is_beyond_band(i, at.y, lists_.skin())) return false;
-  if (!lists_.relist(i, at, *window_.disks, worker_.region, worker_.found)) return false;
+  const Disks& d = *window_.disks;
+  if (!lists_.find_list(i, at, d, worker_.region, worker_.found)) return false;
+  if (window_.looks_ahead) {
+    for (const std::uint32_t j : worker_.found.disks()) __builtin_prefetch(&record_[j]);
+  }
+  if (!lists_.take_list(i, d, worker_.region, worker_.found)) return false;
   ++worker_.relisted;
   if constexpr (scope == Scope::region) safe_times_.mark_relisted(i, time);
   return true;
