@@ -27,6 +27,8 @@ class CellSlots {
   void remove(std::uint32_t cell, std::uint32_t disk);
 
   SlotColumns columns() const { return {position_.data(), disk_.data(), radius_.empty() ? nullptr : radius_.data()}; }
+  // As begin() was told.
+  bool have_radii() const { return !radius_.empty(); }
   // Prefetches cells [first, last).
   [[gnu::always_inline]] void prefetch(std::uint32_t first, std::uint32_t last) const {
     prefetch_slots(position_.data(), first, last);

@@ -29,7 +29,6 @@ void NeighbourLists::prepare_query(const Disks& d) {
   // Each position is less than a unit of slots from where it says.
   const double reach = (2.0 * skin_ + slot_unit_x_ + slot_unit_y_) * slots_per_length_ + list_kernel_rounding;
   query_ = {};
-  unequal_radii_ = !d.radius.empty();
   query_.unit_x = share(slot_unit_x_);
   query_.unit_y = share(slot_unit_y_);
   query_.cutoff = static_cast<float>(reach * single_margin);

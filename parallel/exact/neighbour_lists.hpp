@@ -216,14 +216,15 @@ class NeighbourLists {
     return room > 0.0 && is_within(i, x, y, room * room);
   }
 
-  // Prefetches what is read of cells when a disk on this path is relisted at this time.
+  // Prefetches what is read of cells when a disk of this radius, on this path, is relisted at this time.
   void prefetch_search(const PathSegment& path, double radius, double time, const RelistDistance& relist) const;
   // Lists disk i at this position, inside the box. Reads and writes nothing outside the region; where the new list or
   // the old one reaches beyond it, nothing changes and the result is false. found: scratch.
   bool relist(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region, FoundNeighbours& found) {
     return find_list(i, position, disks, region, found) && take_list(i, disks, region, found);
   }
-  // The same in two steps, between which the disks of the new list may be prefetched.
+  // The same in two steps, between which the disks of the new list may be prefetched: what the list is to be, in
+  // `found`, and then, if nothing else has changed, the change. Each may say no.
   bool find_list(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region,
                  FoundNeighbours& found) const;
   bool take_list(std::uint32_t i, const Disks& disks, const ListRegion& region, const FoundNeighbours& found);
@@ -335,7 +336,7 @@ class NeighbourLists {
     for (const GridLevel& level : grid_.levels) {
       std::uint32_t reach_x = common_reach_x_;
       std::uint32_t reach_y = common_reach_y_;
-      if (unequal_radii_) {
+      if (slots_.have_radii()) {
         const double length = flow_.stretch * (radius + level.largest_radius) + 2.0 * skin_ + search_margin_;
         reach_x = listed_units(length, units_per_x_);
         reach_y = listed_units(length, units_per_y_);
@@ -378,11 +379,10 @@ class NeighbourLists {
   double period_x_ = 0.0, period_y_ = 0.0;            // length; 0: none
   double periods_per_x_ = 0.0, periods_per_y_ = 0.0;  // 1 / period; 0: none
   double largest_radius_ = 0.0;
-  double unit_x_ = 0.0, unit_y_ = 0.0;            // of a FixedPointPosition; length
-  double units_per_x_ = 0.0, units_per_y_ = 0.0;  // 1 / unit
-  double slot_unit_x_ = 0.0, slot_unit_y_ = 0.0;  // of a SlotPosition; length
-  double slots_per_length_ = 0.0;                 // 1 / the coarser of the two
-  bool unequal_radii_ = false;
+  double unit_x_ = 0.0, unit_y_ = 0.0;                     // of a FixedPointPosition; length
+  double units_per_x_ = 0.0, units_per_y_ = 0.0;           // 1 / unit
+  double slot_unit_x_ = 0.0, slot_unit_y_ = 0.0;           // of a SlotPosition; length
+  double slots_per_length_ = 0.0;                          // 1 / the coarser of the two
   ListQuery query_;                                        // of any disk, its radius apart, where it is and which it is
   std::uint32_t common_reach_x_ = 0, common_reach_y_ = 0;  // of lists, where all radii are equal: as listed_units
   // Disks that are this much further from each other than lists reach may be listed all the same: each of the two finds

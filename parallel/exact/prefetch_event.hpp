@@ -2,6 +2,7 @@
 // do nothing but prefetch.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "parallel/exact/disk_record.hpp"

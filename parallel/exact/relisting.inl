@@ -114,6 +114,7 @@ bool EventProcessor<scope>::relist_at(std::uint32_t i, double time, Vec2 at) {
   const Disks& d = *window_.disks;
   if (!lists_.find_list(i, at, d, worker_.region, worker_.found)) return false;
   if (window_.looks_ahead) {
+    // Those that are new in the list have not been read; they come while rows change.
     for (const std::uint32_t j : worker_.found.disks()) __builtin_prefetch(&record_[j]);
   }
   if (!lists_.take_list(i, d, worker_.region, worker_.found)) return false;
