@@ -32,6 +32,9 @@ class ExactSum {
     limbs_[limb + 2] += sign * static_cast<std::int64_t>(high >> 32);
   }
 
+  // All of them, several times faster than one by one where most are within a factor of 2^36. Precondition: finite.
+  void add(std::span<const double> values);
+
   void add(const ExactSum& other) {
     for (std::size_t k = 0; k < limbs_.size(); ++k) limbs_[k] += other.limbs_[k];
   }

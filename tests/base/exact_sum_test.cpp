@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace carom {
@@ -63,6 +64,39 @@ TEST(ExactSum, IsTheSumInAnyOrderAndScale) {
       for (double& x : scaled) x = std::ldexp(x, shift);
       EXPECT_EQ(sum_of(scaled), std::ldexp(expected, shift)) << shift;
     }
+  }
+}
+
+// Added as a whole they give what they give one by one: in numbers about those of blocks, over ranges that are within
+// what is extracted, beyond it, and beyond all scales, with zeros, and with what cancels but for the last bit.
+TEST(ExactSum, OfManyIsThatOfEach) {
+  std::mt19937_64 random(20261125);
+  const auto mantissa = [&] { return std::ldexp(static_cast<double>(random() >> 11), -53) + 0.5; };
+  for (const int range : {1, 30, 60, 200, 2000}) {
+    for (const std::size_t count : {0U, 1U, 63U, 64U, 255U, 256U, 257U, 1000U, 5000U}) {
+      std::vector<double> terms(count);
+      for (double& x : terms) {
+        const int power = static_cast<int>(random() % static_cast<std::uint64_t>(range)) - range / 2;
+        x = random() % 9 == 0 ? 0.0 : std::ldexp(random() % 2 == 0 ? mantissa() : -mantissa(), power);
+      }
+      for (std::size_t k = 0; k + 2 < count; k += 3) terms[k + 1] = std::nextafter(-terms[k], 1.0);
+      ExactSum whole;
+      whole.add(1.0);
+      whole.add(std::span<const double>(terms));
+      whole.add(-1.0);
+      EXPECT_EQ(whole.value(), sum_of(terms)) << range << ' ' << count;
+    }
+  }
+}
+
+// A common power of two may be near either end of all doubles.
+TEST(ExactSum, OfManyAtTheEndsOfAllDoubles) {
+  for (const double unit : {0x1p-1074, 0x1p-1022, 0x1p-901, 0x1p-900, 0x1p899, 0x1p900, 0x1p1010}) {
+    std::vector<double> terms;
+    for (int k = 0; k < 600; ++k) terms.push_back((k % 2 == 0 ? 1.0 : -1.5) * unit * k);
+    ExactSum whole;
+    whole.add(std::span<const double>(terms));
+    EXPECT_EQ(whole.value(), sum_of(terms)) << unit;
   }
 }
 
