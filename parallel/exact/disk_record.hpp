@@ -30,6 +30,8 @@ class Partner {
   constexpr bool is_none() const { return bits_ == none_bits; }
   constexpr bool is_contact() const { return bits_ < relist_bits; }  // with a disk, a wall or an obstacle
 
+  // Is it the disk of this index?
+  constexpr bool is(std::uint32_t index) const { return bits_ == index; }
   // Of a disk.
   constexpr std::uint32_t index() const { return bits_; }
   // Of a wall: its side. Of an obstacle: its place. Of both: the id that stands for it in events.

@@ -65,8 +65,9 @@ void EventCalendar::release_memory() {
 }
 
 void EventCalendar::set_pages(double start, double pages_per_time, std::size_t pages) {
-  if (first_.capacity() < pages + 1) resize_in_huge_pages(first_, pages + 1);
-  first_.assign(pages + 1, end_of_list_);
+  if (first_.capacity() < pages + 2) resize_in_huge_pages(first_, pages + 2);
+  first_.assign(pages + 2, end_of_list_);
+  first_.back() = absent;
   start_ = start;
   pages_per_time_ = pages_per_time;
   pages_ = static_cast<std::uint32_t>(pages);

@@ -83,31 +83,23 @@ class EventCalendar {
   template <class ComesFirst, class Soon>
   [[gnu::always_inline]] bool find_first(std::uint32_t& disk, ComesFirst&& comes_first, Soon&& soon) {
     for (;;) {
-      const std::uint32_t begin = first_[page_];
-      if (begin == end_of_list_) {
-        is_sorted_ = false;
-        if (page_ + 1 == pages_) [[unlikely]] {
-          if (!begin_next_part()) return false;
-          continue;
-        }
-        ++page_;
-        if (!many_) continue;
-        if (page_ + pages_ahead >= first_in_transit_) [[unlikely]]
-          deliver_all();
-        announce(soon);
+      disk = first_[page_];
+      if (disk == end_of_list_) {
+        if (!turn_page(soon)) return false;
         continue;
       }
-      disk = begin;
-      if (is_sorted_) return true;
+      if (is_sorted_) [[unlikely]]
+        return true;
+      const Node* const node = node_;
       std::uint32_t length = 1;
-      double first = node_[begin].time;
-      for (std::uint32_t k = node_[begin].next; k != end_of_list_; k = node_[k].next, ++length) {
-        const double time = node_[k].time;
+      double first = node[disk].time;
+      for (std::uint32_t k = node[disk].next; k != end_of_list_; k = node[k].next, ++length) {
+        const double time = node[k].time;
         if (time == first) [[unlikely]] {
           disk = comes_first(k, disk) ? k : disk;
         } else {
           disk = time < first ? k : disk;
-          first = time < first ? time : first;
+          first = std::min(time, first);
         }
       }
       if (length <= crowd) [[likely]]
@@ -201,6 +193,26 @@ class EventCalendar {
     followed_[followed_end_ % followed_.size()] = {disk, left};
     followed_end_ += static_cast<std::uint32_t>(is_one);
   }
+  // To the next page, of those that are not empty if none is announced; false if there is none.
+  template <class Soon>
+  [[gnu::always_inline]] bool turn_page(Soon&& soon) {
+    is_sorted_ = false;
+    if (many_) {
+      if (page_ + 1 == pages_) [[unlikely]]
+        return begin_next_part();
+      ++page_;
+      if (page_ + pages_ahead >= first_in_transit_) [[unlikely]]
+        deliver_all();
+      announce(soon);
+      return true;
+    }
+    std::uint32_t page = page_;
+    do {
+      ++page;
+    } while (first_[page] == end_of_list_);
+    page_ = std::min(page, pages_ - 1);
+    return page < pages_;
+  }
   // Announces disks of pages that come soon, and once more those that were announced a little before. soon has to be
   // inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
   template <class Soon>
@@ -275,7 +287,7 @@ class EventCalendar {
   std::uint32_t next_announced_ = 0;
   Node* node_ = nullptr;  // of each disk, by storage index
   std::uint32_t first_disk_ = 0, last_disk_ = 0;
-  std::vector<std::uint32_t> first_;    // of each page, and of what comes after the end
+  std::vector<std::uint32_t> first_;    // of each page, of what comes after the end, and one that is never empty
   std::vector<std::uint32_t> crowded_;  // scratch
 };
 

@@ -132,6 +132,9 @@ void EventProcessor<scope>::run_border() {
 // Of disks whose next events are at the same time: in canonical order; what is not a contact comes first.
 template <Scope scope>
 bool EventProcessor<scope>::comes_first(std::uint32_t a, std::uint32_t b) const {
+  // One event, mostly: the first contact of both.
+  if (record_[a].partner.is(b) && record_[b].partner.is(a)) [[likely]]
+    return false;
   QueuedEvent first{0.0, 0, 0, a};
   QueuedEvent second{0.0, 0, 0, b};
   name(first);
