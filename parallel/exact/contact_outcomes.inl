@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "core/step/window_length.hpp"
@@ -78,11 +79,15 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
     return;
   }
   const auto restitution = [this](const Relative&) { return window_.rules.restitution; };
-  const bool inside = lists_.rows().is_inside(i) && lists_.rows().is_inside(j);
+  const bool inside = lists_.rows().row(i).is_inside() && lists_.rows().row(j).is_inside();
   const Impact impact =
       inside ? collide_paths<false, false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, restitution, p, q)
              : collide_paths<false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, restitution, p, q);
-  if (impact.happened && counts(i)) worker_.tally.add_collision(impact.virial);
+  if (impact.happened && counts(i)) {
+    virials_[virial_count_++] = impact.virial;
+    if (virial_count_ == virials_.size()) [[unlikely]]
+      tally_virials();
+  }
   const double v2 = std::max(p.vx * p.vx + p.vy * p.vy, q.vx * q.vx + q.vy * q.vy);
   worker_.segments += 2;
   const bool many_i = begin_plain_segment(i, j, p);
@@ -99,6 +104,12 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
   }
   predict_after_event(i, time);
   predict_after_event(j, time);
+}
+
+template <Scope scope>
+void EventProcessor<scope>::tally_virials() {
+  worker_.tally.add_collisions(std::span<const double>(virials_).first(virial_count_));
+  virial_count_ = 0;
 }
 
 // Has the disk begun too many?

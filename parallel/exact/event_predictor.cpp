@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/physics/event_order.hpp"
 #include "core/physics/obstacle_contact.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 // |dr.dv| is rounded; what is a little above the limit is looked at too.
 constexpr double slow_margin = 1.0 + 1e-9;
+constexpr double ambiguous = std::numeric_limits<double>::quiet_NaN();
 
 EventMark mark_of(const WindowState& window, std::uint32_t i, const NextEvent& e) {
   const DiskId own = window.record[i].id;
@@ -32,34 +34,37 @@ bool EventPredictor::comes_first(std::uint32_t i, const NextEvent& a, const Next
 FirstContact EventPredictor::first_contact(std::uint32_t i) const {
   const DiskRecord* const own = &window_->record[i];
   FirstContact first;
-  const auto see = [&](const auto& kernel, const auto* offset, std::uint32_t count) {
-    FirstContact found = kernel(constants_, own, offset, count);
+  const auto see = [&](FirstContact found, const auto* offset) {
     found.neighbour = i + static_cast<std::uint32_t>(std::int32_t{offset[found.neighbour]});
     const bool tie = found.time == first.time && found.time < never;
-    const bool ambiguous = first.ambiguous || found.ambiguous || tie;
-    if (found.time < first.time) first = found;
-    first.ambiguous = ambiguous;  // whatever the time is then
+    if (first.is_ambiguous() || found.time >= first.time) {
+      if (tie) first.time = ambiguous;
+      return;
+    }
+    first = found;  // ambiguous or earlier
   };
-  lists_->rows().visit_offsets(
-      i, [&](const std::int16_t* offset, std::uint32_t count) { see(kernels_.near, offset, count); },
-      [&](const std::int32_t* offset, std::uint32_t count) { see(kernels_.far, offset, count); });
+  const ListRow& row = lists_->rows().row(i);
+  see(kernels_.near(constants_, own, row, never), row.offset);
+  lists_->rows().visit_wide_rows(i, [&](const std::int32_t* offset, std::uint32_t count) {
+    see(kernels_.far(constants_, own, offset, count), offset);
+  });
   return first;
 }
 
 NextEvent EventPredictor::earliest(std::uint32_t i) const {
-  const ListRows::PlainList list = lists_->rows().plain_list(i);
-  if (!kernel_tells(list)) return earliest_with_sides(i);
-  const FirstContact first = first_in<false>(list, i);
-  if (first.ambiguous) [[unlikely]]
+  const ListRow& row = lists_->rows().row(i);
+  if (!kernel_tells(row)) return earliest_with_sides(i);
+  const FirstContact first = first_in<false>(row, i, never);
+  if (first.is_ambiguous()) [[unlikely]]
     return earliest_one_by_one(i);
   if (!(first.time <= window_->horizon)) return {};
-  return {first.time, partner_in(list, i, first)};
+  return {first.time, partner_in(row, i, first)};
 }
 
 NextEvent EventPredictor::earliest_with_sides(std::uint32_t i) const {
   if (far_ || (window_->rules.box.shear.acts() && lists_images(i))) return earliest_one_by_one(i);
   const FirstContact first = first_contact(i);
-  if (first.ambiguous) return earliest_one_by_one(i);
+  if (first.is_ambiguous()) return earliest_one_by_one(i);
   NextEvent best = earliest_at_sides(i);
   if (window_->rules.box.obstacles != nullptr) see_obstacles(i, std::min(best.time, first.time), best);
   if (!(first.time <= window_->horizon)) return best;
@@ -133,7 +138,7 @@ bool EventPredictor::touches_slowly(const PathSegment& path, double radius) cons
   return slowly;
 }
 
-PredictionConstants EventPredictor::constants_of(const WindowState& window) {
+PredictionConstants EventPredictor::constants_of(const WindowState& window, const NeighbourLists& lists) {
   const ExactRules& rules = window.rules;
   PredictionConstants f;
   f.down = in_all_lanes(rules.gravity.down);
@@ -143,11 +148,16 @@ PredictionConstants EventPredictor::constants_of(const WindowState& window) {
   const double contact_distance = window.disks->common_radius + window.disks->common_radius;
   f.contact2 = in_all_lanes(contact_distance * contact_distance);
   f.slow_approach = in_all_lanes(std::sqrt(window.slow2()) * slow_margin);
+  f.listed_unit = {{lists.listed_unit().x, lists.listed_unit().y}};
   if (rules.box.periodic_x()) {
+    f.period.lane[0] = rules.box.width;
+    f.periods_per_length.lane[0] = 1.0 / rules.box.width;
     f.period_x = in_all_lanes(rules.box.width);
     f.periods_per_x = in_all_lanes(1.0 / rules.box.width);
   }
   if (rules.box.periodic_y()) {
+    f.period.lane[1] = rules.box.height;
+    f.periods_per_length.lane[1] = 1.0 / rules.box.height;
     f.period_y = in_all_lanes(rules.box.height);
     f.periods_per_y = in_all_lanes(1.0 / rules.box.height);
   }
@@ -165,7 +175,7 @@ NextEvent EventPredictor::earliest_at_sides(std::uint32_t i) const {
     const NextEvent e{side_time(path, side, own.radius, box, g, window_->horizon), Partner::wall(side)};
     if (comes_first(i, e, best)) best = e;
   };
-  const unsigned near = lists_->rows().sides_near(i);
+  const unsigned near = lists_->rows().row(i).sides;
   for (const Side side : all_sides) {
     if ((near >> static_cast<unsigned>(side) & 1U) == 0) continue;
     see_side(side);

@@ -21,22 +21,23 @@ class EventPredictor {
       : window_(&window),
         lists_(&lists),
         kernels_(choose_prediction_kernels(kind_of(window.rules.gravity), !window.disks->radius.empty())),
-        constants_(constants_of(window)),
+        constants_(constants_of(window, lists)),
         fastest2_(window.fastest2) {
     see_far();
   }
 
   // Does the kernel alone tell the disk's first event, but for what is ambiguous?
-  bool kernel_tells(const ListRows::PlainList& list) const { return list.is_plain && !more_than_neighbours_; }
-  // Then: its first contact. newest: no neighbour's segment starts later than the disk's own.
+  bool kernel_tells(const ListRow& row) const { return row.is_plain() && !more_than_neighbours_; }
+  // Then: its first contact. newest: no neighbour's segment starts later than the disk's own. stay2: as the kernel has
+  // it.
   template <bool newest>
-  FirstContact first_in(const ListRows::PlainList& list, std::uint32_t i) const {
-    const auto kernel = list.is_inside ? (newest ? kernels_.inside_newest : kernels_.inside)
-                                       : (newest ? kernels_.near_newest : kernels_.near);
-    return kernel(constants_, &window_->record[i], list.offset, list.count);
+  FirstContact first_in(const ListRow& row, std::uint32_t i, double stay2) const {
+    const auto kernel = row.is_inside() ? (newest ? kernels_.inside_newest : kernels_.inside)
+                                        : (newest ? kernels_.near_newest : kernels_.near);
+    return kernel(constants_, &window_->record[i], row, stay2);
   }
-  static Partner partner_in(const ListRows::PlainList& list, std::uint32_t i, const FirstContact& first) {
-    return Partner::disk(i + static_cast<std::uint32_t>(std::int32_t{list.offset[first.neighbour]}));
+  static Partner partner_in(const ListRow& row, std::uint32_t i, const FirstContact& first) {
+    return Partner::disk(i + static_cast<std::uint32_t>(std::int32_t{row.offset[first.neighbour]}));
   }
 
   // The earliest event of disk i with a side or a neighbour, up to the horizon, all on their present paths.
@@ -64,7 +65,7 @@ class EventPredictor {
   bool lists_images(std::uint32_t i) const;
   bool touches_slowly(const PathSegment& path, double radius) const;
   bool comes_first(std::uint32_t i, const NextEvent& a, const NextEvent& b) const;
-  static PredictionConstants constants_of(const WindowState& window);
+  static PredictionConstants constants_of(const WindowState& window, const NeighbourLists& lists);
 
   const WindowState* window_;
   const NeighbourLists* lists_;

@@ -75,6 +75,7 @@ void EventProcessor<scope>::run() {
   if constexpr (scope == Scope::all) run_all();
   if constexpr (scope == Scope::region) run_region();
   if constexpr (scope == Scope::border) run_border();
+  tally_virials();
   worker_.fastest2 = std::max(worker_.fastest2, predictor_.fastest2());
 }
 
@@ -259,20 +260,20 @@ inline bool EventProcessor<scope>::stays_listed(std::uint32_t i, double from, do
 template <Scope scope>
 template <bool newest>
 void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
-  const ListRows::PlainList list = lists_.rows().plain_list(i);
-  if (!predictor_.kernel_tells(list)) [[unlikely]]
+  const ListRow& row = lists_.rows().row(i);
+  if (!predictor_.kernel_tells(row)) [[unlikely]]
     return predict_from_all(i, from);
-  const FirstContact first = predictor_.template first_in<newest>(list, i);
+  const RelistDistance& relist = relist_distance(i);
+  const FirstContact first = predictor_.template first_in<newest>(row, i, relist.stay2);
   if (!(first.time <= window_.horizon)) [[unlikely]] {
-    if (first.ambiguous) return predict_from_all(i, from);
+    if (first.is_ambiguous()) return predict_from_all(i, from);
     return schedule_next(i, from, {});
   }
-  const Partner partner = EventPredictor::partner_in(list, i, first);
+  const Partner partner = EventPredictor::partner_in(row, i, first);
   DiskRecord& record = record_[i];
   if (!is_straight_) [[unlikely]]
     return schedule_next(i, from, {first.time, partner});
-  const RelistDistance& relist = relist_distance(i);
-  if (!lists_.stays_listed(i, record.path, first.time, relist)) {
+  if (first.leaves_list) {
     if (scope == Scope::border) return schedule_next(i, from, {first.time, partner});
     const double relist_at = lists_.relist_time_straight(i, record.path, std::max(from, record.path.start), relist);
     if (relist_at < first.time) return schedule(i, relist_at, Partner::relist());

@@ -1,6 +1,8 @@
 // The events of a slice in order of time: of all disks, of a region's as far as their motion is known, or of the rest.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -93,6 +95,7 @@ class EventProcessor {
   void collide_pair(std::uint32_t i, std::uint32_t j, double time);
   void collide_plain_pair(std::uint32_t i, std::uint32_t j, double time);
   void collide_any_pair(std::uint32_t i, std::uint32_t j, double time);
+  void tally_virials();
   [[gnu::always_inline]] inline bool begin_plain_segment(std::uint32_t i, std::uint32_t partner,
                                                          const PathSegment& path);
   // partner: see LoggedSegment.
@@ -113,6 +116,9 @@ class EventProcessor {
   bool is_plain_;
   bool is_straight_;     // neither gravity nor a shear bends paths from where lists take disks to go
   double reduced_mass_;  // of two disks of a plain scene
+  // Of the last collisions of a plain scene, which are not tallied yet.
+  std::array<double, 256> virials_{};
+  std::size_t virial_count_ = 0;
 };
 
 }  // namespace carom

@@ -5,15 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "parallel/exact/list_row.hpp"
+
 namespace carom {
 
-// A position in the box, rounded down, in 2^-32 of a period or 2^-31 of a side between walls: differences of whole
-// numbers wrap round a period by themselves, which gives the nearest image.
-struct FixedPointPosition {
-  std::uint32_t x = 0, y = 0;
-};
-
-// What a slot has of one: 16 of its bits, from the same one upwards for all. Differences wrap round too; those of
+// What a slot has of a listed position: 16 of its bits, from the same one upwards for all. Differences wrap round too; those of
 // places that are far from each other say nothing.
 struct SlotPosition {
   std::uint16_t x = 0, y = 0;
@@ -67,23 +63,6 @@ std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& colu
 std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                              std::uint32_t* found);
 
-// A disk's list in one cache line (ListRows). Most neighbours are stored nearby, so that offsets to them fit in 16
-// bits.
-inline constexpr std::uint32_t row_offsets = 24;
-struct alignas(64) ListRow {
-  static constexpr std::uint32_t none = 0xffffffffU;
-  std::uint32_t more = none;  // number of a wide row of its block
-  std::uint8_t count = 0;
-  std::uint8_t sides = 0;
-  std::uint16_t block = 0;  // its tile, where there are regions
-  FixedPointPosition listed_at;
-  std::int16_t offset[row_offsets] = {};
-};
-static_assert(sizeof(ListRow) == 64);
-// As many as eight offsets are.
-inline constexpr std::uint32_t places_before_offsets = 8;
-static_assert(offsetof(ListRow, offset) == places_before_offsets * sizeof(std::int16_t));
-
 // What is another list in place of the one in a row.
 struct ListChange {
   bool fits = true;               // otherwise the rest means nothing: the new list does not fit in a row
@@ -110,7 +89,6 @@ ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_
 // Takes disk i into the rows of some disks, or out of them, where there is room for it and it is there, and returns how
 // many are left to do: the first ones of `disks` then. Offsets beyond a list, up to the next multiple of `row_padding`
 // places, are ones that it has.
-inline constexpr std::uint32_t row_padding = 4;
 using EditKernel = std::uint32_t (*)(ListRow* rows, std::uint32_t i, std::uint32_t* disks, std::uint32_t count);
 struct EditKernels {
   EditKernel insert, remove;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "parallel/exact/list_kernel.hpp"
+#include "parallel/exact/list_row.hpp"
 #include "parallel/exact/prediction_kernel.hpp"
 
 namespace carom {
@@ -38,16 +39,16 @@ class ListRows {
   void enter(std::uint32_t i, std::size_t block, unsigned sides);
   std::uint32_t block_of(std::uint32_t i) const { return rows_[i].block; }
 
-  // Calls near(offset, count) and, where those are not all, far(offset, count): the neighbours of disk i are disks i +
-  // offset[k], at most row_capacity at a time; what follows up to the next multiple of prediction_lanes is one of them.
   static constexpr std::uint32_t row_capacity = row_offsets;
-  template <class Near, class Far>
-  void visit_offsets(std::uint32_t i, Near&& near, Far&& far) const {
+  const ListRow& row(std::uint32_t i) const { return rows_[i]; }
+  // Calls visit(offset, count) for the neighbours of disk i that are not in its row: disks i + offset[k]. What follows
+  // up to the next multiple of prediction_lanes is one of them.
+  template <class Visit>
+  void visit_wide_rows(std::uint32_t i, Visit&& visit) const {
     const Row& row = rows_[i];
-    near(static_cast<const std::int16_t*>(row.offset), std::uint32_t{row.count});
     for (std::uint32_t w = row.more; w != none;) {
       const WideRow& wide = wide_[row.block][w];
-      far(static_cast<const std::int32_t*>(wide.offset), wide.count);
+      visit(static_cast<const std::int32_t*>(wide.offset), wide.count);
       w = wide.next;
     }
   }
@@ -57,7 +58,8 @@ class ListRows {
     const auto some = [&](const auto* offset, std::uint32_t count) {
       for (std::uint32_t k = 0; k < count; ++k) visit(i + static_cast<std::uint32_t>(std::int32_t{offset[k]}));
     };
-    visit_offsets(i, some, some);
+    some(rows_[i].offset, rows_[i].count);
+    visit_wide_rows(i, some);
   }
 
   // Are all neighbours of disk i stored in [first, last)? May say no where they are, never the other way round.
@@ -68,25 +70,6 @@ class ListRows {
     bool within = true;
     for_each_neighbour(i, [&](std::uint32_t j) { within = within && region.holds(j); });
     return within;
-  }
-
-  // Bits (1 << side) of the walls and sinks that the disk can touch while it stays listed.
-  unsigned sides_near(std::uint32_t i) const { return rows_[i].sides; }
-  // Beside those: a neighbour may be listed across a border along a period.
-  static constexpr unsigned across = 1U << 4;
-  // Are the disk and its neighbours, while they stay listed, on one side of each such border?
-  bool is_inside(std::uint32_t i) const { return (rows_[i].sides & across) == 0; }
-
-  // A list that is all in one row, of a disk with no side near; nothing to visit but offset[0] to offset[count - 1].
-  struct PlainList {
-    bool is_plain;  // otherwise the rest means nothing
-    bool is_inside;
-    const std::int16_t* offset;
-    std::uint32_t count;
-  };
-  PlainList plain_list(std::uint32_t i) const {
-    const Row& row = rows_[i];
-    return {row.more == none && (row.sides & (across - 1U)) == 0, (row.sides & across) == 0, row.offset, row.count};
   }
 
   // Between windows: one more disk, the last, with an empty list; and one less, whose list is empty and which no other

@@ -236,7 +236,7 @@ void NeighbourLists::find_inner_part() {
 
 unsigned NeighbourLists::find_sides(const Disks& d, std::uint32_t i) const {
   const Vec2 position = listed_position(i);
-  unsigned sides = is_inside(position) ? 0U : ListRows::across;
+  unsigned sides = is_inside(position) ? 0U : ListRow::across;
   if (all_periodic_) return sides;
   for (const Side side : all_sides) {
     if (box_.side(side) == SideKind::periodic) continue;

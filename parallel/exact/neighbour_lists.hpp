@@ -142,6 +142,7 @@ class NeighbourLists {
   double skin() const { return skin_; }  // length
   const RelistDistance& relist_distance(bool near_border) const { return near_border ? near_border_ : elsewhere_; }
   // Of disk i; inside the box, but for rounding.
+  Vec2 listed_unit() const { return {unit_x_, unit_y_}; }  // of a FixedPointPosition; length
   Vec2 listed_position(std::uint32_t i) const { return position_of(rows_.listed_at(i)); }
 
   // Tiles are runs of disks in storage that are neighbours in space, and layers are runs of as many tiles each, which
@@ -185,7 +186,7 @@ class NeighbourLists {
     const double s = from - path.start;
     const Vec2 listed = listed_position(i);
     Vec2 d{path.x + path.vx * s - listed.x, path.y + path.vy * s - listed.y};
-    if (!rows_.is_inside(i)) [[unlikely]]
+    if (!rows_.row(i).is_inside()) [[unlikely]]
       d = nearest_image_at_rest(d, box_);
     return from + time_within(relist.stay2, d, {path.vx, path.vy});
   }
@@ -198,7 +199,7 @@ class NeighbourLists {
     const double s = until - path.start;
     const double x = path.x + path.vx * s;
     const double y = path.y + path.vy * s;
-    if (!rows_.is_inside(i)) [[unlikely]]
+    if (!rows_.row(i).is_inside()) [[unlikely]]
       return is_within(i, x, y, relist.stay2);
     const Vec2 listed = listed_position(i);
     return (x - listed.x) * (x - listed.x) + (y - listed.y) * (y - listed.y) < relist.stay2;

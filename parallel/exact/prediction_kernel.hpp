@@ -2,10 +2,12 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "core/physics/exact_path.hpp"
 #include "parallel/exact/disk_record.hpp"
+#include "parallel/exact/list_row.hpp"
 
 namespace carom {
 
@@ -15,6 +17,9 @@ inline constexpr std::uint32_t prediction_lanes = 4;
 // The same number in each lane.
 struct alignas(32) LaneConstant {
   double lane[prediction_lanes];
+};
+struct alignas(16) PairConstant {
+  double lane[2];
 };
 constexpr LaneConstant in_all_lanes(double a) {
   return {{a, a, a, a}};
@@ -30,32 +35,42 @@ struct PredictionConstants {
   // |dr.dv| of a pair that approaches so slowly that its contact may last (WindowState::close).
   LaneConstant slow_approach = in_all_lanes(0.0);
   LaneConstant zero = in_all_lanes(0.0);
+  LaneConstant never = in_all_lanes(carom::never);
   // All bits but the sign: takes signs off, and is not a number.
   LaneConstant magnitude_bits = in_all_lanes(std::bit_cast<double>(0x7fffffffffffffffULL));
+  // Along x and y.
+  PairConstant listed_unit = {};                    // of a FixedPointPosition; length
+  PairConstant period = {}, periods_per_length = {};  // as above
+  // 2^52: its last bits are those of a whole number that is added.
+  PairConstant whole = {{0x1p52, 0x1p52}};
 };
 
 // The first contact of a disk with one of its neighbours.
 struct FirstContact {
-  double time = never;          // `never`: there is none
+  double time = never;          // `never`: there is none; not a number: is_ambiguous()
   std::uint32_t neighbour = 0;  // its place in the list
-  // The kernel cannot tell: two neighbours are touched at the same time, or a neighbour is approached slowly. Then the
-  // time is not a number.
-  bool ambiguous = false;
+  // Of a row: on a straight path, the disk is not within the relist distance of its listed position then.
+  bool leaves_list = false;
+
+  // The kernel cannot tell: two neighbours are touched at the same time, or a neighbour is approached slowly.
+  bool is_ambiguous() const { return std::isnan(time); }
 };
 
 // The first of the contacts of disk *own with own[offset[k]], k < count: the same bits as core's collision_time()
 // gives. Preconditions: offsets beyond count, up to the next multiple of prediction_lanes, are any of the others; while
 // paths last, no neighbour is further away than 0.49 periods, nearest image. newest: no neighbour's segment starts
 // later than the disk's own.
-template <class Offset>
-using PredictionKernel = FirstContact (*)(const PredictionConstants& constants, const DiskRecord* own,
-                                          const Offset* offset, std::uint32_t count);
+// Of the offsets of a row. stay2: the relist distance squared, a little less.
+using RowKernel = FirstContact (*)(const PredictionConstants& constants, const DiskRecord* own, const ListRow& row,
+                                   double stay2);
+using WideRowKernel = FirstContact (*)(const PredictionConstants& constants, const DiskRecord* own,
+                                       const std::int32_t* offset, std::uint32_t count);
 
 struct PredictionKernels {
-  PredictionKernel<std::int16_t> near, near_newest;
+  RowKernel near, near_newest;
   // Where all places are on one side of each border along a period, so that no image but the disks themselves is met.
-  PredictionKernel<std::int16_t> inside, inside_newest;
-  PredictionKernel<std::int32_t> far;
+  RowKernel inside, inside_newest;
+  WideRowKernel far;
 };
 
 // What a scene's gravity is: none, along y alone, or any.

@@ -1,6 +1,7 @@
 // The kernel, compiled once for every instruction set; CAROM_PREDICTION_KERNELS names the version. Four neighbours at a
 // time, in the compilers' own vector types: on a machine without them the compiler splits them.
 
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -214,28 +215,47 @@ template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
   return both + choose_by_sign(approach, until_contact, load(f.magnitude_bits));
 }
 
-constexpr FirstContact cannot_tell{std::numeric_limits<double>::quiet_NaN(), 0, true};
+constexpr FirstContact cannot_tell{std::numeric_limits<double>::quiet_NaN()};
+
+// 0, 1, 2, ...: the places of a batch are read from the first one on.
+constexpr auto places = [] {
+  std::array<long long, row_offsets> number{};
+  for (std::size_t k = 0; k < number.size(); ++k) number[k] = static_cast<long long>(k);
+  return number;
+}();
+
+inline Longs places_from(std::size_t k) {
+  Longs v;
+  __builtin_memcpy(&v, &places[k], sizeof v);
+  return v;
+}
 
 template <GravityKind gravity, bool unequal_radii, bool newest, Images images, class Offset>
-FirstContact first_contact(const PredictionConstants& f, const DiskRecord* record, const Offset* offset,
-                           std::uint32_t count) {
+[[gnu::always_inline]] inline FirstContact first_contact(const PredictionConstants& f, const DiskRecord* record,
+                                                         const Offset* offset, std::size_t count) {
+  if (count == 0) [[unlikely]]
+    return {};
+  // Numbers are read here, into all lanes at once.
+  std::atomic_signal_fence(std::memory_order_seq_cst);
   const PathSegment& p = record->path;
   const Own own{all(p.start), all(p.x), all(p.y), all(p.vx), all(p.vy), all(record->radius)};
-  Doubles first = all(never);
-  Longs place_of_first{};
-  Longs ties{};
-  Longs place{0, 1, 2, 3};
-  Doubles slowest = all(never);
-  for (const Offset* n = offset; n < offset + count; n += lanes) {
+  Doubles slowest = load(f.never);
+  const auto contacts_from = [&](std::size_t k) __attribute__((always_inline)) {
     // Constants are read where they are each time: kept from one turn to the next they would be on the stack.
     std::atomic_signal_fence(std::memory_order_seq_cst);
-    const Doubles time = four_contacts<gravity, unequal_radii, newest, images>(f, own, record[n[0]], record[n[1]],
-                                                                               record[n[2]], record[n[3]], slowest);
+    const Offset* const n = offset + k;
+    return four_contacts<gravity, unequal_radii, newest, images>(f, own, record[n[0]], record[n[1]], record[n[2]],
+                                                                 record[n[3]], slowest);
+  };
+  Doubles first = smaller(contacts_from(0), load(f.never));
+  Longs place_of_first = places_from(0);
+  Longs ties{};
+  for (std::size_t k = lanes; k < count; k += lanes) {
+    const Doubles time = contacts_from(k);
     const Longs sooner = time < first;
     ties |= time == first;
-    place_of_first = bits(choose(sooner, number(place), number(place_of_first)));
+    place_of_first = bits(choose(sooner, number(places_from(k)), number(place_of_first)));
     first = smaller(time, first);
-    place += lanes;
   }
   if (any_true(ties | (slowest <= load(f.slow_approach)))) [[unlikely]]
     return cannot_tell;
@@ -253,13 +273,67 @@ FirstContact first_contact(const PredictionConstants& f, const DiskRecord* recor
   return found;
 }
 
+// x and y.
+using Pair = double __attribute__((vector_size(16)));
+
+inline Pair load(const PairConstant& c) {
+  Pair v;
+  __builtin_memcpy(&v, c.lane, sizeof v);
+  return v;
+}
+
+// Exactly.
+inline Pair to_doubles(const PredictionConstants& f, FixedPointPosition p) {
+#if defined(__AVX2__)
+  using Ints = int __attribute__((vector_size(16)));
+  using LongPair = long long __attribute__((vector_size(16)));
+  long long both;
+  static_assert(sizeof both == sizeof p);
+  __builtin_memcpy(&both, &p, sizeof both);
+  const LongPair wide = __builtin_ia32_pmovzxdq128(__builtin_bit_cast(Ints, LongPair{both, 0}));
+  return __builtin_bit_cast(Pair, wide | __builtin_bit_cast(LongPair, load(f.whole))) - load(f.whole);
+#else
+  (void)f;
+  return Pair{static_cast<double>(p.x), static_cast<double>(p.y)};
+#endif
+}
+
+// As NeighbourLists::stays_listed.
+template <Images images>
+[[gnu::always_inline]] inline bool stays_listed(const PredictionConstants& f, const PathSegment& path,
+                                                FixedPointPosition listed_at, double until, double stay2) {
+  const double s = until - path.start;
+  Pair d = Pair{path.x, path.y} + Pair{path.vx, path.vy} * Pair{s, s};
+  d = d - to_doubles(f, listed_at) * load(f.listed_unit);
+  if constexpr (images == Images::any) {
+    const Pair periods = d * load(f.periods_per_length);
+    constexpr double shift = 0x1.8p52;
+    d = d - load(f.period) * ((periods + Pair{shift, shift}) - Pair{shift, shift});
+  }
+  const Pair d2 = d * d;
+  return d2[0] + d2[1] < stay2;
+}
+
+template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
+FirstContact first_in_row(const PredictionConstants& f, const DiskRecord* record, const ListRow& row, double stay2) {
+  FirstContact found = first_contact<gravity, unequal_radii, newest, images>(f, record, row.offset, row.count);
+  if (!stays_listed<images>(f, record->path, row.listed_at, found.time, stay2)) [[unlikely]]
+    found.leaves_list = true;
+  return found;
+}
+
+template <GravityKind gravity, bool unequal_radii>
+FirstContact first_in_wide_row(const PredictionConstants& f, const DiskRecord* record, const std::int32_t* offset,
+                               std::uint32_t count) {
+  return first_contact<gravity, unequal_radii, false, Images::any>(f, record, offset, count);
+}
+
 template <GravityKind gravity, bool unequal_radii>
 PredictionKernels kernels_for() {
-  return {first_contact<gravity, unequal_radii, false, Images::any, std::int16_t>,
-          first_contact<gravity, unequal_radii, true, Images::any, std::int16_t>,
-          first_contact<gravity, unequal_radii, false, Images::own, std::int16_t>,
-          first_contact<gravity, unequal_radii, true, Images::own, std::int16_t>,
-          first_contact<gravity, unequal_radii, false, Images::any, std::int32_t>};
+  return {first_in_row<gravity, unequal_radii, false, Images::any>,
+          first_in_row<gravity, unequal_radii, true, Images::any>,
+          first_in_row<gravity, unequal_radii, false, Images::own>,
+          first_in_row<gravity, unequal_radii, true, Images::own>, first_in_wide_row<gravity, unequal_radii>};
 }
 
 template <GravityKind gravity>

@@ -17,7 +17,7 @@ inline constexpr std::uint32_t prefetched_neighbours = 16;
 
 [[gnu::always_inline]] inline void prefetch_neighbours(const DiskRecord* record, const NeighbourLists& lists,
                                                        std::uint32_t i) {
-  const std::int16_t* const offset = lists.rows().plain_list(i).offset;
+  const std::int16_t* const offset = lists.rows().row(i).offset;
   // In bytes: as records, compilers add i to each offset first.
   const char* const own = reinterpret_cast<const char*>(record + i);
   for (std::uint32_t k = 0; k < prefetched_neighbours; ++k) {

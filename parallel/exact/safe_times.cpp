@@ -30,7 +30,7 @@ inline SafeTimes::Place SafeTimes::place_at(std::uint32_t i, double time) const 
   return {time, x, y, f.radius};
 }
 
-// inside: there is no image nearer than b itself (ListRows::is_inside).
+// inside: there is no image nearer than b itself (ListRow::is_inside).
 inline double SafeTimes::distance2(const Place& a, const Place& b, bool inside) const {
   Vec2 apart{b.x - a.x, b.y - a.y};
   if (!inside) [[unlikely]]
@@ -51,7 +51,7 @@ SafeTimes::SafeTime SafeTimes::safe_time(std::uint32_t i, double time) const {
   const DiskRecord* const record = window_.record.data();
   const Place own = place_at(i, time);
   const double speed = closing_speed(i);
-  const bool inside = lists_.rows().is_inside(i);
+  const bool inside = lists_.rows().row(i).is_inside();
   const double reach = (own.radius + window_.slack + speed * (window_.slice_stop() - time)) * (1.0 + 1e-9);
   lists_.for_each_neighbour(i, [&](std::uint32_t j) {
     const DiskProgress progress = record[j].progress;
@@ -106,7 +106,7 @@ void SafeTimes::block(std::uint32_t i, double time) {
   window_.record[i].progress.set_blocked(static_cast<std::uint32_t>(worker_.blocked.size()));
   worker_.blocked.push_back({i, time});
   const Place own = place_at(i, time);
-  const bool inside = lists_.rows().is_inside(i);
+  const bool inside = lists_.rows().row(i).is_inside();
   const double left = window_.slice_stop() - time;
   const double room = own.radius + window_.slack + 2.0 * window_.speed_bound * left;
   lists_.for_each_neighbour(i, [&](std::uint32_t j) {

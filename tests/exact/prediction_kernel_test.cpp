@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -36,10 +37,16 @@ std::vector<DiskRecord> random_records(test::Draws& draws, const KernelCase& c, 
   return record;
 }
 
+struct Expected {
+  double time = never;
+  std::size_t neighbour = 0;
+  bool ambiguous = false;
+};
+
 // The first contact by the formula of core, one neighbour after the other.
-FirstContact expected_contact(const std::vector<DiskRecord>& record, std::uint32_t own, const std::vector<int>& offset,
+Expected expected_contact(const std::vector<DiskRecord>& record, std::uint32_t own, const std::vector<int>& offset,
                               const Domain& box, const Gravity& g, double slow_approach) {
-  FirstContact first;
+  Expected first;
   bool tie = false;
   for (std::size_t k = 0; k < offset.size(); ++k) {
     const auto j = static_cast<std::uint32_t>(static_cast<int>(own) + offset[k]);
@@ -56,30 +63,60 @@ FirstContact expected_contact(const std::vector<DiskRecord>& record, std::uint32
     }
     tie = false;
     first.time = t;
-    first.neighbour = static_cast<std::uint32_t>(k);
+    first.neighbour = k;
   }
   first.ambiguous |= tie;
   return first;
 }
 
-template <class Offset>
-void expect_contact(PredictionKernel<Offset> kernel, const PredictionConstants& constants,
-                    const std::vector<DiskRecord>& record, std::uint32_t own, const std::vector<int>& offset,
-                    const FirstContact& expected, int& false_alarms) {
-  std::vector<Offset> padded(offset.begin(), offset.end());
-  while (padded.size() % prediction_lanes != 0) padded.push_back(padded[0]);
-  const FirstContact found = kernel(constants, &record[own], padded.data(), static_cast<std::uint32_t>(offset.size()));
+std::vector<int> padded(std::vector<int> offset) {
+  while (offset.size() % prediction_lanes != 0) offset.push_back(offset[0]);
+  return offset;
+}
+
+void expect_contact(const FirstContact& found, const std::vector<int>& offset, const Expected& expected,
+                    int& false_alarms) {
   if (expected.ambiguous) {
-    ASSERT_TRUE(found.ambiguous);
+    ASSERT_TRUE(found.is_ambiguous());
   }
-  false_alarms += found.ambiguous && !expected.ambiguous ? 1 : 0;
-  ASSERT_EQ(found.ambiguous, std::isnan(found.time));
-  if (found.ambiguous) return;
+  false_alarms += found.is_ambiguous() && !expected.ambiguous ? 1 : 0;
+  if (found.is_ambiguous()) return;
   ASSERT_EQ(found.time, expected.time);
   if (expected.time < never) {
-    ASSERT_EQ(found.neighbour < offset.size() ? offset[found.neighbour] : padded[found.neighbour],
-              offset[expected.neighbour]);
+    ASSERT_EQ(padded(offset)[found.neighbour], offset[expected.neighbour]);
   }
+}
+
+// Listed where and how far from where it leaves its range is drawn; some of its places are across a border.
+struct Listed {
+  FixedPointPosition at;
+  double stay2;
+};
+
+void expect_in_row(RowKernel kernel, const PredictionConstants& constants, const std::vector<DiskRecord>& record,
+                   std::uint32_t own, const std::vector<int>& offset, const Listed& listed, const Expected& expected,
+                   int& false_alarms) {
+  ListRow row;
+  row.count = static_cast<std::uint8_t>(offset.size());
+  row.listed_at = listed.at;
+  std::ranges::copy(padded(offset), row.offset);
+  const FirstContact found = kernel(constants, &record[own], row, listed.stay2);
+  expect_contact(found, offset, expected, false_alarms);
+  if (!(found.time < never)) return;
+  const PathSegment& p = record[own].path;
+  double dx = p.x + p.vx * (found.time - p.start) - listed.at.x * constants.listed_unit.lane[0];
+  double dy = p.y + p.vy * (found.time - p.start) - listed.at.y * constants.listed_unit.lane[1];
+  dx -= constants.period.lane[0] * std::nearbyint(dx * constants.periods_per_length.lane[0]);
+  dy -= constants.period.lane[1] * std::nearbyint(dy * constants.periods_per_length.lane[1]);
+  ASSERT_EQ(found.leaves_list, !(dx * dx + dy * dy < listed.stay2));
+}
+
+void expect_in_wide_row(WideRowKernel kernel, const PredictionConstants& constants,
+                        const std::vector<DiskRecord>& record, std::uint32_t own, const std::vector<int>& offset,
+                        const Expected& expected, int& false_alarms) {
+  const FirstContact found =
+      kernel(constants, &record[own], padded(offset).data(), static_cast<std::uint32_t>(offset.size()));
+  expect_contact(found, offset, expected, false_alarms);
 }
 
 class PredictionKernelVersions : public testing::TestWithParam<KernelCase> {};
@@ -125,17 +162,30 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
       constants.periods_per_x = in_all_lanes(1.0 / box.width);
       constants.periods_per_y = in_all_lanes(1.0 / box.height);
     }
-    const FirstContact expected = expected_contact(record, own, offset, box, g, slow_approach);
+    constants.listed_unit = {{0x1p-31 * box.width, 0x1p-31 * box.height}};
+    if (c.periodic) {
+      constants.listed_unit = {{0x1p-32 * box.width, 0x1p-32 * box.height}};
+      constants.period = {{box.width, box.height}};
+      constants.periods_per_length = {{1.0 / box.width, 1.0 / box.height}};
+    }
+    const double listed_x = draws.in(0.0, c.periodic ? 0x1p32 : 0x1p31);
+    const double listed_y = draws.in(0.0, c.periodic ? 0x1p32 : 0x1p31);
+    const Listed listed{{static_cast<std::uint32_t>(listed_x), static_cast<std::uint32_t>(listed_y)},
+                        draws.in(0.0, 10.0)};
+    const Expected expected = expected_contact(record, own, offset, box, g, slow_approach);
     met += expected.time < never && !expected.ambiguous ? 1 : 0;
     ambiguous += expected.ambiguous ? 1 : 0;
     for (const PredictionKernels& kernels : {choose_prediction_kernels(kind_of(g), c.unequal_radii),
                                              prediction_kernels_baseline(kind_of(g), c.unequal_radii)}) {
-      expect_contact(kernels.near, constants, record, own, offset, expected, false_alarms);
-      expect_contact(kernels.far, constants, record, own, offset, expected, false_alarms);
-      if (newest) expect_contact(kernels.near_newest, constants, record, own, offset, expected, false_alarms);
+      const auto expect = [&](RowKernel kernel) {
+        expect_in_row(kernel, constants, record, own, offset, listed, expected, false_alarms);
+      };
+      expect(kernels.near);
+      expect_in_wide_row(kernels.far, constants, record, own, offset, expected, false_alarms);
+      if (newest) expect(kernels.near_newest);
       if (c.periodic) continue;
-      expect_contact(kernels.inside, constants, record, own, offset, expected, false_alarms);
-      if (newest) expect_contact(kernels.inside_newest, constants, record, own, offset, expected, false_alarms);
+      expect(kernels.inside);
+      if (newest) expect(kernels.inside_newest);
     }
   }
   EXPECT_GT(met, 100);

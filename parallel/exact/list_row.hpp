@@ -1,0 +1,43 @@
+// A disk's neighbour list in one cache line.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace carom {
+
+// A position in the box, rounded down, in 2^-32 of a period or 2^-31 of a side between walls: differences of whole
+// numbers wrap round a period by themselves, which gives the nearest image.
+struct FixedPointPosition {
+  std::uint32_t x = 0, y = 0;
+};
+
+// Most neighbours are stored nearby, so that offsets to them fit in 16 bits.
+inline constexpr std::uint32_t row_offsets = 24;
+// Offsets beyond a list, up to the next multiple of so many places, are ones that it has.
+inline constexpr std::uint32_t row_padding = 4;
+
+// Row i of ListRows: the neighbours of disk i are disks i + offset[k], k < count; further ones are in wide rows.
+struct alignas(64) ListRow {
+  static constexpr std::uint32_t none = 0xffffffffU;
+  std::uint32_t more = none;  // number of a wide row of its block
+  std::uint8_t count = 0;
+  // Bits (1 << side) of the walls and sinks that the disk can touch while it stays listed, and `across`.
+  std::uint8_t sides = 0;
+  std::uint16_t block = 0;  // its tile, where there are regions
+  FixedPointPosition listed_at;
+  std::int16_t offset[row_offsets] = {};
+
+  // A neighbour may be listed across a border along a period.
+  static constexpr unsigned across = 1U << 4;
+  // Are the disk and its neighbours, while they stay listed, on one side of each such border?
+  bool is_inside() const { return (sides & across) == 0; }
+  // Is the list all in this row, and no side near?
+  bool is_plain() const { return more == none && (sides & (across - 1U)) == 0; }
+};
+static_assert(sizeof(ListRow) == 64);
+// As many as eight offsets are.
+inline constexpr std::uint32_t places_before_offsets = 8;
+static_assert(offsetof(ListRow, offset) == places_before_offsets * sizeof(std::int16_t));
+
+}  // namespace carom
