@@ -138,18 +138,34 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
   const Disks& d = state_.disks;
   const bool timed = known_ == Known::lists_and_times;
   const bool relists_stay = timed && !rebuilt_;
-  const double* const radius = d.radius.empty() ? nullptr : d.radius.data();
-  const double common_radius = d.common_radius;
+  // Pointers of the columns in registers, as records and entries are written in between.
+  const double* const x = d.x.data();
+  const double* const y = d.y.data();
+  const double* const vx = d.vx.data();
+  const double* const vy = d.vy.data();
+  const DiskId* const id = d.id.data();
+  DiskRecord* const record = window_.record.data();
+  CalendarEntry* const entry = window_.entry.data();
+  const double length = length_;
+  const double early = early_share * length;
   for (std::size_t i = begin; i < end; ++i) {
-    DiskRecord& record = window_.record[i];
     // A contact is predicted again, since rounding at the start of paths may make another event the first.
-    const bool relists = relists_stay && record.partner.is_relist();
-    record.path = {0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]};
-    record.radius = radius != nullptr ? radius[i] : common_radius;
-    record.id = d.id[i];
-    record.partner = relists ? Partner::relist() : Partner::none();
-    record.version = record.partner_version = 0;
-    window_.set_next_event_time(static_cast<std::uint32_t>(i), timed ? carried_event_time(i, plan) : 0.0);
+    const bool relists = relists_stay && record[i].partner.is_relist();
+    record[i].path = {0.0, x[i], y[i], vx[i], vy[i]};
+    record[i].radius = d.common_radius;
+    record[i].id = id[i];
+    record[i].partner = relists ? Partner::relist() : Partner::none();
+    record[i].version = record[i].partner_version = 0;
+    // Of an event that was predicted in the window before, a little early.
+    entry[i].time = (entry[i].time - length) - early;
+  }
+  if (!d.radius.empty()) {
+    for (std::size_t i = begin; i < end; ++i) record[i].radius = d.radius[i];
+  }
+  if (!timed || predicts_anew_) {
+    for (std::size_t i = begin; i < end; ++i) entry[i].time = 0.0;
+  } else if (rebuilt_) {
+    for (std::size_t i = begin; i < end; ++i) entry[i].time = std::min(entry[i].time, first_relist_time(i, plan));
   }
   if (!window_.last_contact.empty()) {
     for (std::size_t i = begin; i < end; ++i) window_.last_contact[i] = state_.last_contact[d.id[i]] - plan.start;
@@ -160,16 +176,10 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
   if (!window_.burst.empty()) std::fill_n(&window_.burst[begin], end - begin, Burst{});
 }
 
-// The time of an event that was predicted in the window before, a little early.
-double WindowRun::carried_event_time(std::size_t i, const WindowPlan& plan) const {
-  if (predicts_anew_) return 0.0;
-  const double carried = (window_.entry[i].time - length_) - early_share * length_;
-  if (!rebuilt_) return carried;
-  // Which disks are near borders is not known yet: none moves further than those may.
-  const double relist_at =
-      lists_.earliest_relist_time(static_cast<std::uint32_t>(i), window_.record[i].path, 0.0, plan.length,
-                                  window_.rules.gravity, lists_.relist_distance(true));
-  return std::min(carried, relist_at);
+// Which disks are near borders is not known when lists have just been built: none moves further than those may.
+double WindowRun::first_relist_time(std::size_t i, const WindowPlan& plan) const {
+  return lists_.earliest_relist_time(static_cast<std::uint32_t>(i), window_.record[i].path, 0.0, plan.length,
+                                     window_.rules.gravity, lists_.relist_distance(true));
 }
 
 void WindowRun::set_speed_bound(const WindowPlan& plan, double margin) {
@@ -177,6 +187,39 @@ void WindowRun::set_speed_bound(const WindowPlan& plan, double margin) {
   const double fastest = margin * std::sqrt(window_.fastest2) + fall;
   window_.speed_limit2 = window_.mode == EngineMode::regions ? fastest * fastest : HUGE_VAL;
   window_.speed_bound = fastest + fall;
+}
+
+// Disks [begin, end), none of which is gone, where neither gravity nor a shear acts: what store_paths does there.
+void WindowRun::store_straight(std::size_t begin, std::size_t end, double length) {
+  Disks& d = state_.disks;
+  const Domain& box = window_.rules.box;
+  double* const x = d.x.data();
+  double* const y = d.y.data();
+  double* const vx = d.vx.data();
+  double* const vy = d.vy.data();
+  const DiskRecord* const record = window_.record.data();
+  const double width = box.periodic_x() ? box.width : HUGE_VAL;
+  const double height = box.periodic_y() ? box.height : HUGE_VAL;
+  const double left = box.periodic_x() ? 0.0 : -HUGE_VAL;
+  const double bottom = box.periodic_y() ? 0.0 : -HUGE_VAL;
+  for (std::size_t i = begin; i < end; ++i) {
+    const PathSegment& p = record[i].path;
+    const double s = length - p.start;
+    double px = p.x;
+    double py = p.y;
+    if (p.start != length) [[likely]] {
+      px += p.vx * s;
+      py += p.vy * s;
+    }
+    if (px < left || px >= width) [[unlikely]]
+      px = box.periodic_x() ? wrap(px, width) : px;
+    if (py < bottom || py >= height) [[unlikely]]
+      py = box.periodic_y() ? wrap(py, height) : py;
+    x[i] = px;
+    y[i] = py;
+    vx[i] = p.vx;
+    vy[i] = p.vy;
+  }
 }
 
 ImpactTally WindowRun::store_paths(const WindowPlan& plan, std::vector<unsigned char>& gone) {
@@ -187,9 +230,11 @@ ImpactTally WindowRun::store_paths(const WindowPlan& plan, std::vector<unsigned 
   gone.assign(any_gone ? n : 0, 0);
   const Domain& box = window_.rules.box;
   std::vector<ImpactTally> crossings(box.shear.acts() ? executor_.blocks(n, pass_block) : 0);
+  const bool straight = !window_.rules.gravity.acts() && !box.shear.acts() && !any_gone;
   const auto store = [&](const auto& wrap_path) {
     executor_.for_ranges(n, pass_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
+      if (straight) store_straight(begin, end, plan.length);
+      for (std::size_t i = straight ? end : begin; i < end; ++i) {
         PathSegment p = carried_to(window_.record[i].path, plan.length, window_.rules.gravity);
         if (any_gone && std::isnan(p.x)) {
           gone[i] = 1;

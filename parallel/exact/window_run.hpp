@@ -83,7 +83,8 @@ class WindowRun {
   void load_paths(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks);
   void load_disks(std::size_t begin, std::size_t end, const WindowPlan& plan);
   void sort_times(const std::vector<std::uint32_t>& order, std::vector<double>& scratch);
-  double carried_event_time(std::size_t i, const WindowPlan& plan) const;
+  double first_relist_time(std::size_t i, const WindowPlan& plan) const;
+  void store_straight(std::size_t begin, std::size_t end, double length);
   void set_speed_bound(const WindowPlan& plan, double margin);
 
   const Scene& scene_;
