@@ -10,6 +10,7 @@
 
 #include "core/step/window_length.hpp"
 #include "parallel/exact/event_processor.hpp"
+#include "parallel/exact/plain_collision.hpp"
 
 namespace carom {
 
@@ -71,39 +72,53 @@ void EventProcessor<scope>::collide_pair(std::uint32_t i, std::uint32_t j, doubl
 template <Scope scope>
 void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j, double time) {
   if (record_[i].id > record_[j].id) std::swap(i, j);
-  PathSegment p = record_[i].path;
-  PathSegment q = record_[j].path;
+  DiskRecord& a = record_[i];
+  DiskRecord& b = record_[j];
   // The speed bound excluded this collision, so it does not hold.
-  if (!(std::max(p.start, q.start) <= time) || is_over(i) || is_over(j)) [[unlikely]] {
+  if (!(std::max(a.path.start, b.path.start) <= time) || is_over(i) || is_over(j)) [[unlikely]] {
     worker_.too_fast = worker_.ended = true;
     return;
   }
-  const auto restitution = [this](const Relative&) { return window_.rules.restitution; };
-  const bool inside = lists_.rows().row(i).is_inside() && lists_.rows().row(j).is_inside();
-  const Impact impact =
-      inside ? collide_paths<false, false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, restitution, p, q)
-             : collide_paths<false>(window_.rules.box, 0.0, time, equal_shares, reduced_mass_, restitution, p, q);
-  if (impact.happened && counts(i)) {
-    virials_[virial_count_++] = impact.virial;
+  if (window_.keeps_paths) [[unlikely]] {
+    log_start(i);
+    log_start(j);
+  }
+  const bool inside = (lists_.rows().row(i).is_inside() && lists_.rows().row(j).is_inside()) ||
+                      inner_part_.holds(time, a.path, b.path);
+  const PlainCollision outcome = inside ? collide_plainly(time, window_.rules.restitution, a.path, b.path)
+                                        : collide_across(time, a.path, b.path);
+  if (outcome.happened && counts(i)) {
+    virials_[virial_count_++] = reduced_mass_ * outcome.change;
     if (virial_count_ == virials_.size()) [[unlikely]]
       tally_virials();
   }
-  const double v2 = std::max(p.vx * p.vx + p.vy * p.vy, q.vx * q.vx + q.vy * q.vy);
+  if (window_.keeps_paths) [[unlikely]] {
+    worker_.log.push_back({i, j, a.path});
+    worker_.log.push_back({j, i, b.path});
+  }
   worker_.segments += 2;
-  const bool many_i = begin_plain_segment(i, j, p);
-  const bool many_j = begin_plain_segment(j, i, q);
-  if (many_i || many_j || worker_.segments > window_.most_paths) [[unlikely]] {
-    worker_.crowded = EventMark{time, record_[i].id, record_[j].id};
+  ++a.version;
+  ++b.version;
+  if (std::max(a.version, b.version) > most_paths_of_disk || worker_.segments > window_.most_paths) [[unlikely]] {
+    worker_.crowded = EventMark{time, a.id, b.id};
     worker_.ended = true;
   }
-  predictor_.note_speed(v2);
-  if (has_regions && v2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
+  predictor_.note_speed(outcome.fastest2);
+  if (has_regions && outcome.fastest2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
   if constexpr (scope == Scope::region) {
-    if (record_[i].progress.has(DiskProgress::has_unresolved_neighbour)) safe_times_.push(i, time);
-    if (record_[j].progress.has(DiskProgress::has_unresolved_neighbour)) safe_times_.push(j, time);
+    if (a.progress.has(DiskProgress::has_unresolved_neighbour)) safe_times_.push(i, time);
+    if (b.progress.has(DiskProgress::has_unresolved_neighbour)) safe_times_.push(j, time);
   }
   predict_after_event(i, time);
   predict_after_event(j, time);
+}
+
+// Of disks that may be on two sides of a border along a period.
+template <Scope scope>
+PlainCollision EventProcessor<scope>::collide_across(double time, PathSegment& p, PathSegment& q) const {
+  const auto restitution = [this](const Relative&) { return window_.rules.restitution; };
+  const Impact impact = collide_paths<false>(window_.rules.box, 0.0, time, equal_shares, 1.0, restitution, p, q);
+  return {impact.happened, impact.virial, std::max(p.vx * p.vx + p.vy * p.vy, q.vx * q.vx + q.vy * q.vy)};
 }
 
 template <Scope scope>
@@ -112,22 +127,15 @@ void EventProcessor<scope>::tally_virials() {
   virial_count_ = 0;
 }
 
-// Has the disk begun too many?
+// The path on which the disk began the window, if it is on it still.
 template <Scope scope>
-inline bool EventProcessor<scope>::begin_plain_segment(std::uint32_t i, std::uint32_t partner,
-                                                       const PathSegment& path) {
-  DiskRecord& f = record_[i];
-  if (window_.keeps_paths) [[unlikely]] {
-    const PathSegment copy = path;  // so that the path itself stays in registers
-    log_segment(i, partner, copy);
-  }
-  f.path = path;
-  return ++f.version > most_paths_of_disk;
+void EventProcessor<scope>::log_start(std::uint32_t i) {
+  if (record_[i].version == 0) worker_.log.push_back({i, LoggedSegment::no_disk, record_[i].path});
 }
 
 template <Scope scope>
 void EventProcessor<scope>::log_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path) {
-  if (record_[i].version == 0) worker_.log.push_back({i, LoggedSegment::no_disk, record_[i].path});
+  log_start(i);
   worker_.log.push_back({i, partner, path});
 }
 

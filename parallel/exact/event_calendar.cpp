@@ -22,7 +22,7 @@ constexpr double events_a_page = 2.0;
 
 void EventCalendar::begin(double start, double end, const CalendarEntries& entries, std::size_t expected, bool many) {
   many_ = many;
-  pages_written_at_once_ = many ? pages_of_transit : absent;
+  pages_written_at_once_ = many ? pages_of_transit : all_pages;
   node_ = entries.entry;
   first_disk_ = entries.first;
   last_disk_ = entries.last;
@@ -55,9 +55,7 @@ bool EventCalendar::begin_next_part() {
 }
 
 void EventCalendar::enter_again() {
-  for (std::uint32_t disk = first_disk_; disk < last_disk_; ++disk) {
-    if (holds(disk)) insert(disk, node_[disk].time);
-  }
+  insert_all([this](std::uint32_t disk) { return holds(disk); });
 }
 
 void EventCalendar::release_memory() {
@@ -72,9 +70,8 @@ void EventCalendar::set_pages(double start, double pages_per_time, std::size_t p
   pages_per_time_ = pages_per_time;
   pages_ = static_cast<std::uint32_t>(pages);
   last_page_ = static_cast<double>(pages - 1);
-  page_ = 0;
+  page_ = unsorted_from_ = 0;
   later_pages_ = 0;
-  is_sorted_ = false;
   transit_.fill({end_of_list_, 0});
   first_in_transit_ = absent;
   announced_.fill(first_disk_);
@@ -115,7 +112,7 @@ void EventCalendar::relink_page() {
     previous = disk;
   }
   node_[previous].next = end_of_list_;
-  is_sorted_ = true;
+  unsorted_from_ = page_ + 1;
 }
 
 }  // namespace carom

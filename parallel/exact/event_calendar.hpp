@@ -46,24 +46,32 @@ class EventCalendar {
   // Gives back the memory of the pages; begin() is next.
   void release_memory();
 
-  // Enters the disk, before any event is asked for; once for each. `never` and other times beyond the end are allowed.
-  void insert(std::uint32_t disk, double time) {
-    node_[disk].time = time;
-    link(disk, page_of(time));
+  // Enters the disks with the times that their entries have, before any event is asked for. `never` and other times
+  // beyond the end are allowed. is_in(disk): otherwise it is not in the calendar, until it is moved.
+  template <class IsIn>
+  void insert_all(IsIn&& is_in) {
+    // In registers, as entries are written in between.
+    const PageOfTime page_of = pages_of_times();
+    Node* const node = node_;
+    std::uint32_t* const first = first_.data();
+    for (std::uint32_t disk = first_disk_; disk < last_disk_; ++disk) {
+      if (is_in(disk)) {
+        link(node, first, disk, page_of(node[disk].time));
+      } else {
+        node[disk].previous = node[disk].next = absent;
+      }
+    }
   }
-  // Instead of insert(): the disk is not in the calendar, until it is moved.
-  void leave_out(std::uint32_t disk) { node_[disk].previous = node_[disk].next = absent; }
   // The disk's next event is at another time; a disk that was taken out is in again. comes_first: as in find_first.
   // Inlined, with what it calls, whatever the compiler thinks: the loop of every collision calls it twice.
   template <class ComesFirst>
-  [[gnu::always_inline]] void move(std::uint32_t disk, double time, ComesFirst&& comes_first) {
+  [[gnu::always_inline]] void move(std::uint32_t disk, double time, ComesFirst comes_first) {
     unlink(disk);
     node_[disk].time = time;
     const std::uint32_t page = page_of(time);
-    if (page - page_ > pages_written_at_once_) {
-      post(disk, page);
-    } else if (is_sorted_ && page == page_) [[unlikely]] {
-      link_in_order(disk, comes_first);
+    // One comparison for two: before them is after all others.
+    if (page - unsorted_from_ > pages_written_at_once_) {
+      page < unsorted_from_ ? link_in_order(disk, comes_first) : post(disk, page);
     } else {
       link(disk, page);
     }
@@ -71,35 +79,35 @@ class EventCalendar {
   // Takes the disk out; it keeps its time.
   void take_out(std::uint32_t disk) {
     unlink(disk);
-    leave_out(disk);
+    node_[disk].previous = node_[disk].next = absent;
   }
   bool holds(std::uint32_t disk) const { return node_[disk].next != absent; }
   double time_of(std::uint32_t disk) const { return node_[disk].time; }
   [[gnu::always_inline]] void prefetch(std::uint32_t disk) const { __builtin_prefetch(&node_[disk]); }
 
-  // The disk whose event is the first one up to the end; false if there is none. It stays where it is until it is
-  // moved. comes_first(a, b): of two disks with events at the same time, does that of a come first?
+  // The disk whose event is the first one up to the end, and its time; false if there is none. It stays where it is
+  // until it is moved. comes_first(a, b): of two disks with events at the same time, does that of a come first?
   // soon(disk, stage) is called for disks of pages that come soon, stage < stages. Inlined as move is.
   template <class ComesFirst, class Soon>
-  [[gnu::always_inline]] bool find_first(std::uint32_t& disk, ComesFirst&& comes_first, Soon&& soon) {
+  [[gnu::always_inline]] bool find_first(std::uint32_t& disk, double& time, ComesFirst comes_first, Soon soon) {
     for (;;) {
       disk = first_[page_];
       if (disk == end_of_list_) {
         if (!turn_page(soon)) return false;
         continue;
       }
-      if (is_sorted_) [[unlikely]]
-        return true;
       const Node* const node = node_;
+      time = node[disk].time;
+      if (page_ < unsorted_from_) [[unlikely]]
+        return true;
       std::uint32_t length = 1;
-      double first = node[disk].time;
       for (std::uint32_t k = node[disk].next; k != end_of_list_; k = node[k].next, ++length) {
-        const double time = node[k].time;
-        if (time == first) [[unlikely]] {
+        const double its = node[k].time;
+        if (its == time) [[unlikely]] {
           disk = comes_first(k, disk) ? k : disk;
         } else {
-          disk = time < first ? k : disk;
-          first = std::min(time, first);
+          disk = its < time ? k : disk;
+          time = std::min(its, time);
         }
       }
       if (length <= crowd) [[likely]]
@@ -139,19 +147,31 @@ class EventCalendar {
     std::uint32_t page;
   };
 
-  [[gnu::always_inline]] std::uint32_t page_of(double time) const {
-    const double page = std::min((time - start_) * pages_per_time_, last_page_);
-    // What is long before the present page is below 0, or below any whole number.
-    const auto p = static_cast<std::int32_t>(page);
-    return time <= end_ ? static_cast<std::uint32_t>(std::max(p, static_cast<std::int32_t>(page_))) : pages_;
+  // Which page a time is on: the present one, or a later one, if it is before that.
+  struct PageOfTime {
+    double start, end, pages_per_time, last_page;
+    std::uint32_t present, pages;
+    [[gnu::always_inline]] std::uint32_t operator()(double time) const {
+      const double page = std::min((time - start) * pages_per_time, last_page);
+      // What is long before the present page is below 0, or below any whole number.
+      const auto p = static_cast<std::int32_t>(page);
+      if (time <= end) [[likely]]
+        return static_cast<std::uint32_t>(std::max(p, static_cast<std::int32_t>(present)));
+      return pages;
+    }
+  };
+  [[gnu::always_inline]] PageOfTime pages_of_times() const {
+    return {start_, end_, pages_per_time_, last_page_, page_, pages_};
   }
-  void link(std::uint32_t disk, std::uint32_t page) {
-    const std::uint32_t next = first_[page];
-    node_[disk].previous = page | page_bit;
-    node_[disk].next = next;
-    node_[next].previous = disk;
-    first_[page] = disk;
+  [[gnu::always_inline]] std::uint32_t page_of(double time) const { return pages_of_times()(time); }
+  [[gnu::always_inline]] static void link(Node* node, std::uint32_t* first, std::uint32_t disk, std::uint32_t page) {
+    const std::uint32_t next = first[page];
+    node[disk].previous = page | page_bit;
+    node[disk].next = next;
+    node[next].previous = disk;
+    first[page] = disk;
   }
+  void link(std::uint32_t disk, std::uint32_t page) { link(node_, first_.data(), disk, page); }
   [[gnu::always_inline]] void unlink(std::uint32_t disk) {
     const Node left = node_[disk];
     if ((left.previous & page_bit) == 0) {
@@ -195,12 +215,13 @@ class EventCalendar {
   }
   // To the next page, of those that are not empty if none is announced; false if there is none.
   template <class Soon>
-  [[gnu::always_inline]] bool turn_page(Soon&& soon) {
-    is_sorted_ = false;
+  [[gnu::always_inline]] bool turn_page(Soon soon) {
     if (many_) {
-      if (page_ + 1 == pages_) [[unlikely]]
+      if (page_ + 1 == pages_) [[unlikely]] {
+        unsorted_from_ = page_;
         return begin_next_part();
-      ++page_;
+      }
+      unsorted_from_ = ++page_;
       if (page_ + pages_ahead >= first_in_transit_) [[unlikely]]
         deliver_all();
       announce(soon);
@@ -210,13 +231,13 @@ class EventCalendar {
     do {
       ++page;
     } while (first_[page] == end_of_list_);
-    page_ = std::min(page, pages_ - 1);
+    unsorted_from_ = page_ = std::min(page, pages_ - 1);
     return page < pages_;
   }
   // Announces disks of pages that come soon, and once more those that were announced a little before. soon has to be
   // inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
   template <class Soon>
-  [[gnu::noinline]] void announce(Soon&& soon) {
+  [[gnu::noinline]] void announce(Soon soon) {
     const std::uint32_t come = followed_end_;
     if (page_ + pages_ahead < pages_) follow(first_[page_ + pages_ahead], announced_a_page);
     for (int m = 0; m < announced_at_once && followed_begin_ != come; ++m) {
@@ -237,7 +258,7 @@ class EventCalendar {
   }
 
   template <class ComesFirst>
-  [[gnu::noinline]] void link_in_order(std::uint32_t disk, ComesFirst&& comes_first) {
+  [[gnu::noinline]] void link_in_order(std::uint32_t disk, ComesFirst comes_first) {
     const double time = node_[disk].time;
     std::uint32_t previous = page_ | page_bit;
     std::uint32_t next = first_[page_];
@@ -259,7 +280,7 @@ class EventCalendar {
   void collect_page();
   void relink_page();
   template <class ComesFirst>
-  void sort_page(ComesFirst&& comes_first) {
+  [[gnu::noinline]] void sort_page(ComesFirst comes_first) {
     collect_page();
     std::sort(crowded_.begin(), crowded_.end(), [&](std::uint32_t a, std::uint32_t b) {
       return node_[a].time != node_[b].time ? node_[a].time < node_[b].time : comes_first(a, b);
@@ -271,12 +292,14 @@ class EventCalendar {
   double pages_per_time_ = 0.0;
   double last_page_ = 0.0;
   std::uint32_t pages_ = 1;
-  std::uint32_t page_ = 0;  // the present one
+  std::uint32_t page_ = 0;           // the present one
+  std::uint32_t unsorted_from_ = 0;  // that, or the next one if it is in order
   std::size_t pages_a_part_ = 1;
   std::size_t later_pages_ = 0;  // of the parts to come
-  bool is_sorted_ = false;       // the present page
   bool many_ = false;
-  std::uint32_t pages_written_at_once_ = absent;  // from the present one; entries of later ones are in transit first
+  // From the present one; entries of later ones are in transit first.
+  static constexpr std::uint32_t all_pages = 0xfffffffeU;
+  std::uint32_t pages_written_at_once_ = all_pages;
   std::uint32_t end_of_list_ = 0;                 // an entry that is no disk's
   std::array<Transit, places_in_transit> transit_{};
   std::uint32_t next_place_ = 0;

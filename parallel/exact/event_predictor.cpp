@@ -35,7 +35,8 @@ FirstContact EventPredictor::first_contact(std::uint32_t i) const {
   const DiskRecord* const own = &window_->record[i];
   FirstContact first;
   const auto see = [&](FirstContact found, const auto* offset) {
-    found.neighbour = i + static_cast<std::uint32_t>(std::int32_t{offset[found.neighbour]});
+    const std::uint32_t place = found.neighbour & ~FirstContact::leaving_bit;
+    found.neighbour = i + static_cast<std::uint32_t>(std::int32_t{offset[place]});
     const bool tie = found.time == first.time && found.time < never;
     if (first.is_ambiguous() || found.time >= first.time) {
       if (tie) first.time = ambiguous;
@@ -44,9 +45,9 @@ FirstContact EventPredictor::first_contact(std::uint32_t i) const {
     first = found;  // ambiguous or earlier
   };
   const ListRow& row = lists_->rows().row(i);
-  see(kernels_.near(constants_, own, row, never), row.offset);
+  see(kernels_.near(constants_[0], own, row), row.offset);
   lists_->rows().visit_wide_rows(i, [&](const std::int32_t* offset, std::uint32_t count) {
-    see(kernels_.far(constants_, own, offset, count), offset);
+    see(kernels_.far(constants_[0], own, offset, count), offset);
   });
   return first;
 }
@@ -54,7 +55,7 @@ FirstContact EventPredictor::first_contact(std::uint32_t i) const {
 NextEvent EventPredictor::earliest(std::uint32_t i) const {
   const ListRow& row = lists_->rows().row(i);
   if (!kernel_tells(row)) return earliest_with_sides(i);
-  const FirstContact first = first_in<false>(row, i, never);
+  const FirstContact first = first_in<false>(row, window_->record[i], false);
   if (first.is_ambiguous()) [[unlikely]]
     return earliest_one_by_one(i);
   if (!(first.time <= window_->horizon)) return {};
@@ -138,7 +139,8 @@ bool EventPredictor::touches_slowly(const PathSegment& path, double radius) cons
   return slowly;
 }
 
-PredictionConstants EventPredictor::constants_of(const WindowState& window, const NeighbourLists& lists) {
+PredictionConstants EventPredictor::constants_of(const WindowState& window, const NeighbourLists& lists,
+                                                 bool near_border) {
   const ExactRules& rules = window.rules;
   PredictionConstants f;
   f.down = in_all_lanes(rules.gravity.down);
@@ -148,16 +150,17 @@ PredictionConstants EventPredictor::constants_of(const WindowState& window, cons
   const double contact_distance = window.disks->common_radius + window.disks->common_radius;
   f.contact2 = in_all_lanes(contact_distance * contact_distance);
   f.slow_approach = in_all_lanes(std::sqrt(window.slow2()) * slow_margin);
-  f.listed_unit = {{lists.listed_unit().x, lists.listed_unit().y}};
+  if (!rules.gravity.acts() && !rules.box.shear.acts()) f.stay2 = lists.relist_distance(near_border).stay2;
+  f.listed_unit = {lists.listed_unit().x, lists.listed_unit().y};
   if (rules.box.periodic_x()) {
-    f.period.lane[0] = rules.box.width;
-    f.periods_per_length.lane[0] = 1.0 / rules.box.width;
+    f.period.x = rules.box.width;
+    f.periods_per_length.x = 1.0 / rules.box.width;
     f.period_x = in_all_lanes(rules.box.width);
     f.periods_per_x = in_all_lanes(1.0 / rules.box.width);
   }
   if (rules.box.periodic_y()) {
-    f.period.lane[1] = rules.box.height;
-    f.periods_per_length.lane[1] = 1.0 / rules.box.height;
+    f.period.y = rules.box.height;
+    f.periods_per_length.y = 1.0 / rules.box.height;
     f.period_y = in_all_lanes(rules.box.height);
     f.periods_per_y = in_all_lanes(1.0 / rules.box.height);
   }

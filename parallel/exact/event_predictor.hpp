@@ -1,6 +1,7 @@
 // The prediction of a disk's next event: its earliest contact with a side or with a disk of its neighbour list.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "parallel/exact/neighbour_lists.hpp"
@@ -21,23 +22,26 @@ class EventPredictor {
       : window_(&window),
         lists_(&lists),
         kernels_(choose_prediction_kernels(kind_of(window.rules.gravity), !window.disks->radius.empty())),
-        constants_(constants_of(window, lists)),
+        constants_{constants_of(window, lists, false), constants_of(window, lists, true)},
         fastest2_(window.fastest2) {
     see_far();
   }
 
   // Does the kernel alone tell the disk's first event, but for what is ambiguous?
-  bool kernel_tells(const ListRow& row) const { return row.is_plain() && !more_than_neighbours_; }
-  // Then: its first contact. newest: no neighbour's segment starts later than the disk's own. stay2: as the kernel has
-  // it.
+  [[gnu::always_inline]] bool kernel_tells(const ListRow& row) const {
+    return ((row.sides | more_than_neighbours_) & ListRow::not_plain) == 0;
+  }
+  // Then: its first contact. newest: no neighbour's segment starts later than the disk's own. near_border: which of the
+  // two relist distances it has.
   template <bool newest>
-  FirstContact first_in(const ListRow& row, std::uint32_t i, double stay2) const {
+  FirstContact first_in(const ListRow& row, const DiskRecord& own, bool near_border) const {
     const auto kernel = row.is_inside() ? (newest ? kernels_.inside_newest : kernels_.inside)
                                         : (newest ? kernels_.near_newest : kernels_.near);
-    return kernel(constants_, &window_->record[i], row, stay2);
+    return kernel(constants_[near_border ? 1 : 0], &own, row);
   }
   static Partner partner_in(const ListRow& row, std::uint32_t i, const FirstContact& first) {
-    return Partner::disk(i + static_cast<std::uint32_t>(std::int32_t{row.offset[first.neighbour]}));
+    const std::uint32_t place = first.neighbour & ~FirstContact::leaving_bit;
+    return Partner::disk(i + static_cast<std::uint32_t>(std::int32_t{row.offset[place]}));
   }
 
   // The earliest event of disk i with a side or a neighbour, up to the horizon, all on their present paths.
@@ -55,7 +59,8 @@ class EventPredictor {
  private:
   void see_far() {
     far_ = !(fastest2_ <= window_->safe_speed2);
-    more_than_neighbours_ = far_ || window_->rules.box.obstacles != nullptr || window_->rules.box.shear.acts();
+    const bool more = far_ || window_->rules.box.obstacles != nullptr || window_->rules.box.shear.acts();
+    more_than_neighbours_ = more ? ListRow::not_plain : 0U;
   }
   FirstContact first_contact(std::uint32_t i) const;
   NextEvent earliest_with_sides(std::uint32_t i) const;
@@ -65,15 +70,15 @@ class EventPredictor {
   bool lists_images(std::uint32_t i) const;
   bool touches_slowly(const PathSegment& path, double radius) const;
   bool comes_first(std::uint32_t i, const NextEvent& a, const NextEvent& b) const;
-  static PredictionConstants constants_of(const WindowState& window, const NeighbourLists& lists);
+  static PredictionConstants constants_of(const WindowState& window, const NeighbourLists& lists, bool near_border);
 
   const WindowState* window_;
   const NeighbourLists* lists_;
   PredictionKernels kernels_;
-  PredictionConstants constants_;
+  std::array<PredictionConstants, 2> constants_;  // elsewhere, and near a border
   double fastest2_;  // largest v^2 so far
-  // Obstacles, a shear, or far_: then the kernel does not tell all.
-  bool more_than_neighbours_ = false;
+  // Obstacles, a shear, or far_: then the kernel does not tell all. As bits of a row's sides.
+  std::uint8_t more_than_neighbours_ = 0;
   bool far_ = false;  // may a disk move so far that images beyond the nearest one, or crossing events, matter?
 };
 

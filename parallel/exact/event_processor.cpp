@@ -35,7 +35,8 @@ EventProcessor<scope>::EventProcessor(WindowState& window, NeighbourLists& lists
       record_(window.record.data()),
       is_plain_(is_plain(window)),
       is_straight_(!window.rules.gravity.acts() && !window.rules.box.shear.acts()),
-      reduced_mass_(reduced_mass(window.disks->common_mass, window.disks->common_mass)) {}
+      reduced_mass_(reduced_mass(window.disks->common_mass, window.disks->common_mass)),
+      inner_part_(window.rules.box) {}
 
 template <Scope scope>
 void EventProcessor<scope>::enter_all(double events_a_disk) {
@@ -46,13 +47,7 @@ void EventProcessor<scope>::enter_all(double events_a_disk) {
   calendar.begin(window_.slice_start, window_.length, window_.entries_of(first, last, worker_.number),
                  static_cast<std::size_t>(expected), window_.looks_ahead);
   const auto is_active = [this](std::uint32_t i) { return !has_regions || record_[i].progress.is_active(); };
-  for (std::uint32_t i = first; i < last; ++i) {
-    if (is_active(i)) {
-      calendar.insert(i, window_.next_event_time(i));
-    } else {
-      calendar.leave_out(i);
-    }
-  }
+  calendar.insert_all(is_active);
   // As nothing has happened yet, these may be predicted in any order, and the first page of the calendar stays short.
   for (std::uint32_t i = first; i < last; ++i) {
     if (window_.next_event_time(i) <= 0.0 && is_active(i)) predict_next_event<false>(i, 0.0);
@@ -81,28 +76,33 @@ void EventProcessor<scope>::run() {
 
 // The disk whose event is the first one in the calendar.
 template <Scope scope>
-inline bool EventProcessor<scope>::find_first(std::uint32_t& i) {
+inline bool EventProcessor<scope>::find_first(std::uint32_t& i, double& time) {
   const auto order = [this](std::uint32_t a, std::uint32_t b) { return comes_first(a, b); };
   const auto soon = [this](std::uint32_t k, int stage) __attribute__((always_inline)) {
     prefetch_event(record_, lists_, worker_, k, stage);
   };
-  return worker_.calendar.find_first(i, order, soon);
+  return worker_.calendar.find_first(i, time, order, soon);
 }
 
 template <Scope scope>
 void EventProcessor<scope>::run_all() {
   std::uint32_t i = 0;
-  while (!worker_.ended && find_first(i)) {
-    process(i, worker_.calendar.time_of(i));
-    if (worker_.until_poll-- == 0) poll_watch();
+  double time = 0.0;
+  Count until_poll = worker_.until_poll;
+  while (!worker_.ended && find_first(i, time)) {
+    process(i, time);
+    if (until_poll-- == 0) until_poll = poll_watch();
   }
+  worker_.until_poll = until_poll;
 }
 
 template <Scope scope>
 void EventProcessor<scope>::run_region() {
   std::uint32_t i = 0;
+  Count until_poll = worker_.until_poll;
   while (!worker_.ended) {
-    const double time = find_first(i) ? worker_.calendar.time_of(i) : never;
+    double time = never;
+    if (!find_first(i, time)) time = never;
     const double safe_time = safe_times_.first();
     if (safe_time <= time && safe_time < never) {
       SafeTimeDue due;
@@ -110,10 +110,11 @@ void EventProcessor<scope>::run_region() {
     } else if (window_.in_slice(time)) {
       process(i, time);
     } else {
-      return;
+      break;
     }
-    if (worker_.until_poll-- == 0) poll_watch();
+    if (until_poll-- == 0) until_poll = poll_watch();
   }
+  worker_.until_poll = until_poll;
 }
 
 template <Scope scope>
@@ -126,7 +127,7 @@ void EventProcessor<scope>::run_border() {
   QueuedEvent e;
   while (!worker_.ended && worker_.queue.pop(e, name_event, prefetch)) {
     process_border(e);
-    if (worker_.until_poll-- == 0) poll_watch();
+    if (worker_.until_poll-- == 0) worker_.until_poll = poll_watch();
   }
 }
 
@@ -143,11 +144,11 @@ bool EventProcessor<scope>::comes_first(std::uint32_t a, std::uint32_t b) const 
   return event_order(first, second);
 }
 
+// Asks whether to go on; returns after how many events to ask again.
 template <Scope scope>
-void EventProcessor<scope>::poll_watch() {
-  worker_.until_poll = events_between_polls;
-  if (!window_.go_on || window_.go_on()) return;
-  worker_.given_up = worker_.ended = true;
+Count EventProcessor<scope>::poll_watch() {
+  if (window_.go_on && !window_.go_on()) worker_.given_up = worker_.ended = true;
+  return events_between_polls;
 }
 
 // The ids of the disk's next event. An entry that is invalid by now may get any.
@@ -162,23 +163,24 @@ void EventProcessor<scope>::name(QueuedEvent& e) const {
 
 // The event of a disk in the calendar.
 template <Scope scope>
-void EventProcessor<scope>::process(std::uint32_t i, double time) {
+inline void EventProcessor<scope>::process(std::uint32_t i, double time) {
   const Partner partner = record_[i].partner;
-  if (partner.is_disk()) {
+  if (partner.is_disk()) [[likely]] {
     process_pair(i, partner.index(), time);
-  } else if (partner.is_wall()) {
-    meet_side(i, time);
-  } else if (partner.is_relist()) {
-    relist_and_predict(i, time);
   } else {
-    process_without_partner(i, time);
+    process_other(i, time);
   }
 }
 
-// The event of a disk with an obstacle, or none.
+// No event with a disk.
 template <Scope scope>
-void EventProcessor<scope>::process_without_partner(std::uint32_t i, double time) {
-  if (record_[i].partner.is_obstacle()) {
+void EventProcessor<scope>::process_other(std::uint32_t i, double time) {
+  const Partner partner = record_[i].partner;
+  if (partner.is_wall()) {
+    meet_side(i, time);
+  } else if (partner.is_relist()) {
+    relist_and_predict(i, time);
+  } else if (partner.is_obstacle()) {
     meet_obstacle(i, time);
   } else {
     predict_next_event<false>(i, time);
@@ -186,7 +188,7 @@ void EventProcessor<scope>::process_without_partner(std::uint32_t i, double time
 }
 
 template <Scope scope>
-void EventProcessor<scope>::process_pair(std::uint32_t i, std::uint32_t j, double time) {
+inline void EventProcessor<scope>::process_pair(std::uint32_t i, std::uint32_t j, double time) {
   if (scope == Scope::region && !record_[j].progress.is_active()) {
     block(i, time);
   } else if (record_[j].version == record_[i].partner_version) {
@@ -263,22 +265,20 @@ void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
   const ListRow& row = lists_.rows().row(i);
   if (!predictor_.kernel_tells(row)) [[unlikely]]
     return predict_from_all(i, from);
-  const RelistDistance& relist = relist_distance(i);
-  const FirstContact first = predictor_.template first_in<newest>(row, i, relist.stay2);
+  const FirstContact first = predictor_.template first_in<newest>(row, record_[i], is_near_border(i));
   if (!(first.time <= window_.horizon)) [[unlikely]] {
     if (first.is_ambiguous()) return predict_from_all(i, from);
     return schedule_next(i, from, {});
   }
-  const Partner partner = EventPredictor::partner_in(row, i, first);
-  DiskRecord& record = record_[i];
-  if (!is_straight_) [[unlikely]]
-    return schedule_next(i, from, {first.time, partner});
-  if (first.leaves_list) {
-    if (scope == Scope::border) return schedule_next(i, from, {first.time, partner});
-    const double relist_at = lists_.relist_time_straight(i, record.path, std::max(from, record.path.start), relist);
+  if (first.leaves_list()) [[unlikely]] {
+    const Partner partner = EventPredictor::partner_in(row, i, first);
+    if (scope == Scope::border || !is_straight_) return schedule_next(i, from, {first.time, partner});
+    const PathSegment& path = record_[i].path;
+    const double relist_at = lists_.relist_time_straight(i, path, std::max(from, path.start), relist_distance(i));
     if (relist_at < first.time) return schedule(i, relist_at, Partner::relist());
   }
-  record.partner_version = record_[partner.index()].version;
+  const Partner partner = EventPredictor::partner_in(row, i, first);
+  record_[i].partner_version = record_[partner.index()].version;
   schedule(i, first.time, partner);
 }
 

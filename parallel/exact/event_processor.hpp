@@ -8,6 +8,7 @@
 
 #include "parallel/exact/event_predictor.hpp"
 #include "parallel/exact/neighbour_lists.hpp"
+#include "parallel/exact/plain_collision.hpp"
 #include "parallel/exact/safe_times.hpp"
 #include "parallel/exact/window_state.hpp"
 #include "parallel/exact/worker.hpp"
@@ -58,16 +59,16 @@ class EventProcessor {
  private:
   static constexpr bool has_regions = scope != Scope::all;
 
-  void poll_watch();
+  Count poll_watch();
   void name(QueuedEvent& e) const;
   void run_all();
   void run_region();
   void run_border();
-  [[gnu::always_inline]] inline bool find_first(std::uint32_t& i);
+  [[gnu::always_inline]] inline bool find_first(std::uint32_t& i, double& time);
   bool comes_first(std::uint32_t a, std::uint32_t b) const;
-  void process(std::uint32_t i, double time);
-  void process_without_partner(std::uint32_t i, double time);
-  void process_pair(std::uint32_t i, std::uint32_t j, double time);
+  [[gnu::always_inline]] inline void process(std::uint32_t i, double time);
+  [[gnu::noinline]] void process_other(std::uint32_t i, double time);
+  [[gnu::always_inline]] inline void process_pair(std::uint32_t i, std::uint32_t j, double time);
   void process_border(const QueuedEvent& e);
   void predict_after_event(std::uint32_t i, double time);
 
@@ -87,7 +88,8 @@ class EventProcessor {
                                                   const RelistDistance& relist) const;
   bool stays_in_skin(std::uint32_t i, double time) const;
   void block(std::uint32_t i, double time);
-  [[gnu::always_inline]] inline const RelistDistance& relist_distance(std::uint32_t i) const;
+  [[gnu::always_inline]] inline bool is_near_border(std::uint32_t i) const;
+  const RelistDistance& relist_distance(std::uint32_t i) const { return lists_.relist_distance(is_near_border(i)); }
   // Does this rank count what happens to the disk?
   bool counts(std::uint32_t i) const { return !has_regions || !record_[i].progress.has(DiskProgress::ghost); }
   void meet_side(std::uint32_t i, double time);
@@ -96,8 +98,8 @@ class EventProcessor {
   void collide_plain_pair(std::uint32_t i, std::uint32_t j, double time);
   void collide_any_pair(std::uint32_t i, std::uint32_t j, double time);
   void tally_virials();
-  [[gnu::always_inline]] inline bool begin_plain_segment(std::uint32_t i, std::uint32_t partner,
-                                                         const PathSegment& path);
+  [[gnu::noinline, gnu::cold]] PlainCollision collide_across(double time, PathSegment& p, PathSegment& q) const;
+  void log_start(std::uint32_t i);
   // partner: see LoggedSegment.
   void log_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path);
   void log_spin(std::uint32_t i, double now);
@@ -116,6 +118,7 @@ class EventProcessor {
   bool is_plain_;
   bool is_straight_;     // neither gravity nor a shear bends paths from where lists take disks to go
   double reduced_mass_;  // of two disks of a plain scene
+  InnerPart inner_part_;
   // Of the last collisions of a plain scene, which are not tallied yet.
   std::array<double, 256> virials_{};
   std::size_t virial_count_ = 0;

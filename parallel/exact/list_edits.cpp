@@ -35,7 +35,7 @@ void NeighbourLists::remove(std::uint32_t i, const Disks& d) {
     const FixedPointPosition at = rows_.listed_at(last);
     rows_.set_listed_at(i, at);
     slots_.insert(cell, i, slot_position(at), radius_in_units(d.radius_of(last)));
-    rows_.set_sides(i, rows_.row(last).sides);
+    rows_.set_sides(i, rows_.row(last).sides & ~ListRow::has_more);
     rows_.replace(i, near, everything);
   }
   rows_.drop_last();

@@ -22,7 +22,7 @@ struct alignas(64) ListRow {
   static constexpr std::uint32_t none = 0xffffffffU;
   std::uint32_t more = none;  // number of a wide row of its block
   std::uint8_t count = 0;
-  // Bits (1 << side) of the walls and sinks that the disk can touch while it stays listed, and `across`.
+  // Bits (1 << side) of the walls and sinks that the disk can touch while it stays listed, `across` and `has_more`.
   std::uint8_t sides = 0;
   std::uint16_t block = 0;  // its tile, where there are regions
   FixedPointPosition listed_at;
@@ -30,10 +30,12 @@ struct alignas(64) ListRow {
 
   // A neighbour may be listed across a border along a period.
   static constexpr unsigned across = 1U << 4;
+  // There is a wide row.
+  static constexpr unsigned has_more = 1U << 5;
+  // Bits of `sides` that a list has which is not all in this row, or a side near.
+  static constexpr unsigned not_plain = has_more | (across - 1U);
   // Are the disk and its neighbours, while they stay listed, on one side of each such border?
   bool is_inside() const { return (sides & across) == 0; }
-  // Is the list all in this row, and no side near?
-  bool is_plain() const { return more == none && (sides & (across - 1U)) == 0; }
 };
 static_assert(sizeof(ListRow) == 64);
 // As many as eight offsets are.

@@ -146,6 +146,7 @@ void ListRows::insert_wide(Row& row, std::int32_t offset) {
     wide[fresh].count = 0;
     wide[fresh].next = row.more;
     row.more = fresh;
+    row.sides |= ListRow::has_more;
   }
   WideRow& last = wide[row.more];
   put_and_pad<wide_row_capacity>(last.offset, last.count++, offset);
@@ -160,6 +161,7 @@ void ListRows::free_wide_rows(std::uint32_t i) {
     free_wide_[row.block] = row.more;
     row.more = next;
   }
+  row.sides &= static_cast<std::uint8_t>(~ListRow::has_more);
 }
 
 // Takes disk j out of the list of disk i, if it is there.

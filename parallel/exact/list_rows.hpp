@@ -82,7 +82,10 @@ class ListRows {
 
   FixedPointPosition listed_at(std::uint32_t i) const { return rows_[i].listed_at; }
   void set_listed_at(std::uint32_t i, FixedPointPosition p) { rows_[i].listed_at = p; }
-  void set_sides(std::uint32_t i, unsigned sides) { rows_[i].sides = static_cast<std::uint8_t>(sides); }
+  // Bits of ListRow::sides, without has_more.
+  void set_sides(std::uint32_t i, unsigned sides) {
+    rows_[i].sides = static_cast<std::uint8_t>(sides | (rows_[i].sides & ListRow::has_more));
+  }
   [[gnu::always_inline]] void prefetch(std::uint32_t i) const { __builtin_prefetch(rows_.data() + i); }
 
   // Gives disk i, whose list is empty, these neighbours.

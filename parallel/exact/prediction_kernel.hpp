@@ -1,8 +1,10 @@
 // The prediction kernel: when a disk first touches one of its neighbours. One version for each instruction set.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/physics/exact_path.hpp"
@@ -18,15 +20,17 @@ inline constexpr std::uint32_t prediction_lanes = 4;
 struct alignas(32) LaneConstant {
   double lane[prediction_lanes];
 };
-struct alignas(16) PairConstant {
-  double lane[2];
+struct alignas(16) AlongAxes {
+  double x = 0.0, y = 0.0;
 };
 constexpr LaneConstant in_all_lanes(double a) {
   return {{a, a, a, a}};
 }
 
-// The same for all disks.
+// The same for all disks, or for all that have a relist distance.
 struct PredictionConstants {
+  // In place of stay2, where paths are bent: no disk surely stays listed.
+  static constexpr double never_listed = -1.0;
   LaneConstant period_x = in_all_lanes(0.0), period_y = in_all_lanes(0.0);            // length; 0: none
   LaneConstant periods_per_x = in_all_lanes(0.0), periods_per_y = in_all_lanes(0.0);  // 1 / period; 0: none
   LaneConstant down = in_all_lanes(0.0), half_down = in_all_lanes(0.0);               // gravity; length / time^2
@@ -38,20 +42,28 @@ struct PredictionConstants {
   LaneConstant never = in_all_lanes(carom::never);
   // All bits but the sign: takes signs off, and is not a number.
   LaneConstant magnitude_bits = in_all_lanes(std::bit_cast<double>(0x7fffffffffffffffULL));
-  // Along x and y.
-  PairConstant listed_unit = {};                    // of a FixedPointPosition; length
-  PairConstant period = {}, periods_per_length = {};  // as above
+  double stay2 = never_listed;           // the relist distance squared, a little less
+  AlongAxes listed_unit;                 // of a FixedPointPosition; length
+  AlongAxes period, periods_per_length;  // as above
   // 2^52: its last bits are those of a whole number that is added.
-  PairConstant whole = {{0x1p52, 0x1p52}};
+  AlongAxes whole = {0x1p52, 0x1p52};
+  // 0, 1, 2, ...: those of a batch of neighbours are read from the first one on.
+  std::array<long long, row_offsets> place = [] {
+    std::array<long long, row_offsets> numbers{};
+    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = static_cast<long long>(k);
+    return numbers;
+  }();
 };
 
 // The first contact of a disk with one of its neighbours.
 struct FirstContact {
   double time = never;          // `never`: there is none; not a number: is_ambiguous()
-  std::uint32_t neighbour = 0;  // its place in the list
-  // Of a row: on a straight path, the disk is not within the relist distance of its listed position then.
-  bool leaves_list = false;
+  // Its place in the list; of a row, perhaps with leaving_bit.
+  std::uint32_t neighbour = 0;
+  static constexpr std::uint32_t leaving_bit = 1U << 31;
 
+  // Of a row: on a straight path, the disk is further than the relist distance from its listed position then.
+  bool leaves_list() const { return (neighbour & leaving_bit) != 0; }
   // The kernel cannot tell: two neighbours are touched at the same time, or a neighbour is approached slowly.
   bool is_ambiguous() const { return std::isnan(time); }
 };
@@ -60,9 +72,8 @@ struct FirstContact {
 // gives. Preconditions: offsets beyond count, up to the next multiple of prediction_lanes, are any of the others; while
 // paths last, no neighbour is further away than 0.49 periods, nearest image. newest: no neighbour's segment starts
 // later than the disk's own.
-// Of the offsets of a row. stay2: the relist distance squared, a little less.
-using RowKernel = FirstContact (*)(const PredictionConstants& constants, const DiskRecord* own, const ListRow& row,
-                                   double stay2);
+// Of the offsets of a row.
+using RowKernel = FirstContact (*)(const PredictionConstants& constants, const DiskRecord* own, const ListRow& row);
 using WideRowKernel = FirstContact (*)(const PredictionConstants& constants, const DiskRecord* own,
                                        const std::int32_t* offset, std::uint32_t count);
 

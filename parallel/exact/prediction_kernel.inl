@@ -1,7 +1,6 @@
 // The kernel, compiled once for every instruction set; CAROM_PREDICTION_KERNELS names the version. Four neighbours at a
 // time, in the compilers' own vector types: on a machine without them the compiler splits them.
 
-#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -217,16 +216,10 @@ template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
 
 constexpr FirstContact cannot_tell{std::numeric_limits<double>::quiet_NaN()};
 
-// 0, 1, 2, ...: the places of a batch are read from the first one on.
-constexpr auto places = [] {
-  std::array<long long, row_offsets> number{};
-  for (std::size_t k = 0; k < number.size(); ++k) number[k] = static_cast<long long>(k);
-  return number;
-}();
-
-inline Longs places_from(std::size_t k) {
+// Of a batch.
+inline Longs places_from(const PredictionConstants& f, std::size_t first) {
   Longs v;
-  __builtin_memcpy(&v, &places[k], sizeof v);
+  __builtin_memcpy(&v, &f.place[first], sizeof v);
   return v;
 }
 
@@ -248,16 +241,16 @@ template <GravityKind gravity, bool unequal_radii, bool newest, Images images, c
                                                                  record[n[3]], slowest);
   };
   Doubles first = smaller(contacts_from(0), load(f.never));
-  Longs place_of_first = places_from(0);
-  Longs ties{};
+  Longs place_of_first = places_from(f, 0);
   for (std::size_t k = lanes; k < count; k += lanes) {
     const Doubles time = contacts_from(k);
     const Longs sooner = time < first;
-    ties |= time == first;
-    place_of_first = bits(choose(sooner, number(places_from(k)), number(place_of_first)));
+    // A tie counts as a neighbour that is approached at no speed.
+    slowest = number(bits(slowest) & ~(time == first));
+    place_of_first = bits(choose(sooner, number(places_from(f, k)), number(place_of_first)));
     first = smaller(time, first);
   }
-  if (any_true(ties | (slowest <= load(f.slow_approach)))) [[unlikely]]
+  if (any_true(slowest <= load(f.slow_approach))) [[unlikely]]
     return cannot_tell;
   FirstContact found;
   const Doubles least = least_of_all(first);
@@ -273,52 +266,59 @@ template <GravityKind gravity, bool unequal_radii, bool newest, Images images, c
   return found;
 }
 
-// x and y.
-using Pair = double __attribute__((vector_size(16)));
+// x and y of a vector.
+using Coordinates = double __attribute__((vector_size(16)));
 
-inline Pair load(const PairConstant& c) {
-  Pair v;
-  __builtin_memcpy(&v, c.lane, sizeof v);
+inline Coordinates load(const AlongAxes& c) {
+  Coordinates v;
+  __builtin_memcpy(&v, &c, sizeof v);
   return v;
 }
 
 // Exactly.
-inline Pair to_doubles(const PredictionConstants& f, FixedPointPosition p) {
+inline Coordinates to_doubles(const PredictionConstants& f, FixedPointPosition p) {
 #if defined(__AVX2__)
   using Ints = int __attribute__((vector_size(16)));
-  using LongPair = long long __attribute__((vector_size(16)));
+  using LongCoordinates = long long __attribute__((vector_size(16)));
   long long both;
   static_assert(sizeof both == sizeof p);
   __builtin_memcpy(&both, &p, sizeof both);
-  const LongPair wide = __builtin_ia32_pmovzxdq128(__builtin_bit_cast(Ints, LongPair{both, 0}));
-  return __builtin_bit_cast(Pair, wide | __builtin_bit_cast(LongPair, load(f.whole))) - load(f.whole);
+  const LongCoordinates wide = __builtin_ia32_pmovzxdq128(__builtin_bit_cast(Ints, LongCoordinates{both, 0}));
+  return __builtin_bit_cast(Coordinates, wide | __builtin_bit_cast(LongCoordinates, load(f.whole))) - load(f.whole);
 #else
   (void)f;
-  return Pair{static_cast<double>(p.x), static_cast<double>(p.y)};
+  return Coordinates{static_cast<double>(p.x), static_cast<double>(p.y)};
 #endif
 }
 
-// As NeighbourLists::stays_listed.
+// FirstContact::leaving_bit, or 0: as NeighbourLists::stays_listed, but for a rounding.
 template <Images images>
-[[gnu::always_inline]] inline bool stays_listed(const PredictionConstants& f, const PathSegment& path,
-                                                FixedPointPosition listed_at, double until, double stay2) {
+[[gnu::always_inline]] inline std::uint32_t leaving_bit(const PredictionConstants& f, const PathSegment& path,
+                                                FixedPointPosition listed_at, double until) {
   const double s = until - path.start;
-  Pair d = Pair{path.x, path.y} + Pair{path.vx, path.vy} * Pair{s, s};
+  Coordinates d = Coordinates{path.x, path.y} + Coordinates{path.vx, path.vy} * Coordinates{s, s};
   d = d - to_doubles(f, listed_at) * load(f.listed_unit);
   if constexpr (images == Images::any) {
-    const Pair periods = d * load(f.periods_per_length);
+    const Coordinates periods = d * load(f.periods_per_length);
     constexpr double shift = 0x1.8p52;
-    d = d - load(f.period) * ((periods + Pair{shift, shift}) - Pair{shift, shift});
+    d = d - load(f.period) * ((periods + Coordinates{shift, shift}) - Coordinates{shift, shift});
   }
-  const Pair d2 = d * d;
-  return d2[0] + d2[1] < stay2;
+  const Coordinates d2 = d * d;
+  // The sign of what is left.
+  const double left = f.stay2 - (d2[0] + d2[1]);
+#if defined(__AVX__)
+  const auto sign = static_cast<std::uint32_t>(__builtin_ia32_movmskpd(Coordinates{left, left}));
+#else
+  const auto sign = static_cast<std::uint32_t>(left < 0.0);
+#endif
+  static_assert(FirstContact::leaving_bit == 1U << 31);
+  return sign << 31;
 }
 
 template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
-FirstContact first_in_row(const PredictionConstants& f, const DiskRecord* record, const ListRow& row, double stay2) {
+FirstContact first_in_row(const PredictionConstants& f, const DiskRecord* record, const ListRow& row) {
   FirstContact found = first_contact<gravity, unequal_radii, newest, images>(f, record, row.offset, row.count);
-  if (!stays_listed<images>(f, record->path, row.listed_at, found.time, stay2)) [[unlikely]]
-    found.leaves_list = true;
+  found.neighbour |= leaving_bit<images>(f, record->path, row.listed_at, found.time);
   return found;
 }
 

@@ -21,9 +21,9 @@ void EventProcessor<scope>::relist_and_predict(std::uint32_t i, double time) {
 
 // Near borders disks are relisted sooner, since it may have to wait for a slice's end; one queue has none.
 template <Scope scope>
-inline const RelistDistance& EventProcessor<scope>::relist_distance(std::uint32_t i) const {
-  if (scope != Scope::region) return lists_.relist_distance(has_regions);
-  return lists_.relist_distance(record_[i].progress.is_near_border() || !lists_.is_in_core(i, worker_.region));
+inline bool EventProcessor<scope>::is_near_border(std::uint32_t i) const {
+  if (scope != Scope::region) return has_regions;
+  return record_[i].progress.is_near_border() || !lists_.is_in_core(i, worker_.region);
 }
 
 // Does the disk, whose motion from now on is not known, stay within its skin to the end of the slice?

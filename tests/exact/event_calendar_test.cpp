@@ -22,6 +22,11 @@ struct Entries {
   std::uint32_t number;
 };
 
+void enter_all(Entries& entries, EventCalendar& calendar, const std::vector<double>& time) {
+  for (std::size_t k = 0; k < time.size(); ++k) entries.entry[k].time = time[k];
+  calendar.insert_all([](std::uint32_t) { return true; });
+}
+
 bool smaller_number(std::uint32_t a, std::uint32_t b) {
   return a < b;
 }
@@ -53,15 +58,17 @@ void expect_order(const Pattern& pattern, std::uint32_t disks, std::size_t expec
   for (std::uint32_t k = 0; k < disks; ++k) {
     // Some before the start, which come first.
     time[k] = k % 10 == 0 ? draws.in(-1.0, start) : start + pattern.wait(draws);
-    calendar.insert(k, time[k]);
   }
+  enter_all(entries, calendar, time);
   std::uint32_t found = 0;
+  double at = 0.0;
   for (int event = 0; event < 4000; ++event) {
     const auto first = static_cast<std::uint32_t>(std::min_element(time.begin(), time.end()) - time.begin());
-    const bool any = calendar.find_first(found, smaller_number, [](std::uint32_t, int) {});
+    const bool any = calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {});
     ASSERT_EQ(any, time[first] <= end) << pattern.name << ", event " << event;
     if (!any) return;
     ASSERT_EQ(found, first) << pattern.name << ", event " << event;
+    ASSERT_EQ(at, time[found]);
     ASSERT_EQ(calendar.time_of(found), time[found]);
     time[found] += pattern.wait(draws);
     calendar.move(found, time[found], smaller_number);
@@ -87,14 +94,13 @@ TEST(EventCalendar, HoldsTheLastMoment) {
   Entries entries(3);
   EventCalendar calendar;
   calendar.begin(0.0, 1.0, entries.all(), 0, false);
-  calendar.insert(0, 1.0);
-  calendar.insert(1, std::nextafter(1.0, 2.0));
-  calendar.insert(2, never);
+  enter_all(entries, calendar, {1.0, std::nextafter(1.0, 2.0), never});
   std::uint32_t found = 9;
-  ASSERT_TRUE(calendar.find_first(found, smaller_number, [](std::uint32_t, int) {}));
+  double at = 0.0;
+  ASSERT_TRUE(calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {}));
   EXPECT_EQ(found, 0U);
   calendar.move(0, never, smaller_number);
-  EXPECT_FALSE(calendar.find_first(found, smaller_number, [](std::uint32_t, int) {}));
+  EXPECT_FALSE(calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {}));
 }
 
 // Disks that are taken out have no event until they are moved in again, some of them to a time that has passed.
@@ -110,19 +116,17 @@ TEST(EventCalendar, ForgetsDisksThatAreOut) {
     for (std::uint32_t k = 0; k < disks; ++k) {
       time[k] = draws.in(0.0, 1.0);
       out[k] = k % 7 == 0;
-      if (out[k]) {
-        calendar.leave_out(k);
-      } else {
-        calendar.insert(k, time[k]);
-      }
+      entries.entry[k].time = time[k];
     }
+    calendar.insert_all([&](std::uint32_t k) { return !out[k]; });
     for (int event = 0; event < 3000; ++event) {
       std::uint32_t first = disks;
       for (std::uint32_t k = 0; k < disks; ++k) {
         if (!out[k] && (first == disks || time[k] < time[first])) first = k;
       }
       std::uint32_t found = disks;
-      const bool any = calendar.find_first(found, smaller_number, [](std::uint32_t, int) {});
+      double at = 0.0;
+      const bool any = calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {});
       ASSERT_EQ(any, time[first] <= 4.0) << "event " << event;
       if (!any) break;
       ASSERT_EQ(found, first) << "event " << event;
@@ -148,14 +152,15 @@ std::uint32_t announced_in_time(const std::vector<double>& time, std::size_t exp
   Entries entries(disks);
   EventCalendar calendar;
   calendar.begin(0.0, 1.0, entries.all(), expected, true);
-  for (std::uint32_t k = 0; k < disks; ++k) calendar.insert(k, time[k]);
+  enter_all(entries, calendar, time);
   std::vector<int> announced(disks, 0);
   const auto soon = [&](std::uint32_t k, int stage) {
     if (announced[k] == stage) ++announced[k];
   };
   std::uint32_t found = 0;
   std::uint32_t in_time = 0;
-  while (calendar.find_first(found, smaller_number, soon)) {
+  double at = 0.0;
+  while (calendar.find_first(found, at, smaller_number, soon)) {
     in_time += announced[found] == EventCalendar::stages ? 1U : 0U;
     calendar.move(found, never, smaller_number);
   }

@@ -83,32 +83,26 @@ void expect_contact(const FirstContact& found, const std::vector<int>& offset, c
   if (found.is_ambiguous()) return;
   ASSERT_EQ(found.time, expected.time);
   if (expected.time < never) {
-    ASSERT_EQ(padded(offset)[found.neighbour], offset[expected.neighbour]);
+    ASSERT_EQ(padded(offset)[found.neighbour & ~FirstContact::leaving_bit], offset[expected.neighbour]);
   }
 }
 
-// Listed where and how far from where it leaves its range is drawn; some of its places are across a border.
-struct Listed {
-  FixedPointPosition at;
-  double stay2;
-};
-
 void expect_in_row(RowKernel kernel, const PredictionConstants& constants, const std::vector<DiskRecord>& record,
-                   std::uint32_t own, const std::vector<int>& offset, const Listed& listed, const Expected& expected,
+                   std::uint32_t own, const std::vector<int>& offset, FixedPointPosition listed_at, const Expected& expected,
                    int& false_alarms) {
   ListRow row;
   row.count = static_cast<std::uint8_t>(offset.size());
-  row.listed_at = listed.at;
+  row.listed_at = listed_at;
   std::ranges::copy(padded(offset), row.offset);
-  const FirstContact found = kernel(constants, &record[own], row, listed.stay2);
+  const FirstContact found = kernel(constants, &record[own], row);
   expect_contact(found, offset, expected, false_alarms);
   if (!(found.time < never)) return;
   const PathSegment& p = record[own].path;
-  double dx = p.x + p.vx * (found.time - p.start) - listed.at.x * constants.listed_unit.lane[0];
-  double dy = p.y + p.vy * (found.time - p.start) - listed.at.y * constants.listed_unit.lane[1];
-  dx -= constants.period.lane[0] * std::nearbyint(dx * constants.periods_per_length.lane[0]);
-  dy -= constants.period.lane[1] * std::nearbyint(dy * constants.periods_per_length.lane[1]);
-  ASSERT_EQ(found.leaves_list, !(dx * dx + dy * dy < listed.stay2));
+  double dx = p.x + p.vx * (found.time - p.start) - listed_at.x * constants.listed_unit.x;
+  double dy = p.y + p.vy * (found.time - p.start) - listed_at.y * constants.listed_unit.y;
+  dx -= constants.period.x * std::nearbyint(dx * constants.periods_per_length.x);
+  dy -= constants.period.y * std::nearbyint(dy * constants.periods_per_length.y);
+  ASSERT_EQ(found.leaves_list(), constants.stay2 - (dx * dx + dy * dy) < 0.0);
 }
 
 void expect_in_wide_row(WideRowKernel kernel, const PredictionConstants& constants,
@@ -162,23 +156,23 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
       constants.periods_per_x = in_all_lanes(1.0 / box.width);
       constants.periods_per_y = in_all_lanes(1.0 / box.height);
     }
-    constants.listed_unit = {{0x1p-31 * box.width, 0x1p-31 * box.height}};
+    constants.listed_unit = {0x1p-31 * box.width, 0x1p-31 * box.height};
     if (c.periodic) {
-      constants.listed_unit = {{0x1p-32 * box.width, 0x1p-32 * box.height}};
-      constants.period = {{box.width, box.height}};
-      constants.periods_per_length = {{1.0 / box.width, 1.0 / box.height}};
+      constants.listed_unit = {0x1p-32 * box.width, 0x1p-32 * box.height};
+      constants.period = {box.width, box.height};
+      constants.periods_per_length = {1.0 / box.width, 1.0 / box.height};
     }
     const double listed_x = draws.in(0.0, c.periodic ? 0x1p32 : 0x1p31);
     const double listed_y = draws.in(0.0, c.periodic ? 0x1p32 : 0x1p31);
-    const Listed listed{{static_cast<std::uint32_t>(listed_x), static_cast<std::uint32_t>(listed_y)},
-                        draws.in(0.0, 10.0)};
+    const FixedPointPosition listed_at{static_cast<std::uint32_t>(listed_x), static_cast<std::uint32_t>(listed_y)};
+    constants.stay2 = draws.in(0.0, 10.0);
     const Expected expected = expected_contact(record, own, offset, box, g, slow_approach);
     met += expected.time < never && !expected.ambiguous ? 1 : 0;
     ambiguous += expected.ambiguous ? 1 : 0;
     for (const PredictionKernels& kernels : {choose_prediction_kernels(kind_of(g), c.unequal_radii),
                                              prediction_kernels_baseline(kind_of(g), c.unequal_radii)}) {
       const auto expect = [&](RowKernel kernel) {
-        expect_in_row(kernel, constants, record, own, offset, listed, expected, false_alarms);
+        expect_in_row(kernel, constants, record, own, offset, listed_at, expected, false_alarms);
       };
       expect(kernels.near);
       expect_in_wide_row(kernels.far, constants, record, own, offset, expected, false_alarms);

@@ -1,0 +1,94 @@
+// The collision of two disks of one mass on straight paths that cross no border along a period: core's collide_paths
+// operation by operation, x and y of a vector at once. It is most of what the exact method does to disks.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/disks/domain.hpp"
+#include "core/physics/exact_path.hpp"
+
+namespace carom {
+
+// x and y of a vector.
+using Coordinates = double __attribute__((vector_size(16)));
+
+static_assert(offsetof(PathSegment, y) == offsetof(PathSegment, x) + sizeof(double));
+static_assert(offsetof(PathSegment, vy) == offsetof(PathSegment, vx) + sizeof(double));
+
+// The two numbers from here on: an x, and the y behind it.
+[[gnu::always_inline]] inline Coordinates load_xy(const double* x) {
+  Coordinates v;
+  __builtin_memcpy(&v, x, sizeof v);
+  return v;
+}
+
+[[gnu::always_inline]] inline void store_xy(double* x, Coordinates v) {
+  __builtin_memcpy(x, &v, sizeof v);
+}
+
+[[gnu::always_inline]] inline Coordinates place_at(double s, const PathSegment& p) {
+  return load_xy(&p.x) + load_xy(&p.vx) * Coordinates{s - p.start, s - p.start};
+}
+
+[[gnu::always_inline]] inline double sum_of(Coordinates v) {
+  return v[0] + v[1];
+}
+
+// Where disks may be without meeting an image or crossing a border along a period.
+struct InnerPart {
+  Coordinates low, high;  // places from low to below high; sides without a period have no end
+  Coordinates far;        // of two disks: less far from each other, along x and along y
+
+  explicit InnerPart(const Domain& box)
+      : low{box.periodic_x() ? 0.0 : -HUGE_VAL, box.periodic_y() ? 0.0 : -HUGE_VAL},
+        high{box.periodic_x() ? box.width : HUGE_VAL, box.periodic_y() ? box.height : HUGE_VAL},
+        far{0.5 * high} {}
+
+  // Are disks with these paths there at time s?
+  [[gnu::always_inline]] bool holds(double s, const PathSegment& p, const PathSegment& q) const {
+    const Coordinates at_p = place_at(s, p);
+    const Coordinates at_q = place_at(s, q);
+    const Coordinates dr = at_q - at_p;
+    const auto inside = (at_p >= low) & (at_p < high) & (at_q >= low) & (at_q < high) & (dr < far) & (-dr < far);
+    return (inside[0] & inside[1]) != 0;
+  }
+};
+
+struct PlainCollision {
+  bool happened = false;  // otherwise the disks recede by rounding: their paths only begin anew
+  double change = 0.0;    // of the squared-distance rate, as collide() returns it
+  double fastest2 = 0.0;  // largest v^2 of both
+};
+
+// Disks with these paths (smaller id first) collide at time s; their new paths start there.
+[[gnu::always_inline]] inline PlainCollision collide_plainly(double s, double restitution, PathSegment& p,
+                                                             PathSegment& q) {
+  Coordinates vp = load_xy(&p.vx);
+  Coordinates vq = load_xy(&q.vx);
+  const Coordinates at_p = place_at(s, p);
+  const Coordinates at_q = place_at(s, q);
+  const Coordinates dr = at_q - at_p;
+  const double approach = sum_of(dr * (vq - vp));
+  const double distance2 = sum_of(dr * dr);
+  PlainCollision outcome;
+  if (approach < 0.0 && distance2 > 0.0) [[likely]] {
+    const double change = (1.0 + restitution) * approach;
+    const double share = change / distance2 * 0.5;
+    const Coordinates kick = Coordinates{share, share} * dr;
+    vp = vp + kick;
+    vq = vq - kick;
+    outcome.happened = true;
+    outcome.change = -change;
+  }
+  outcome.fastest2 = std::max(sum_of(vp * vp), sum_of(vq * vq));
+  p.start = q.start = s;
+  store_xy(&p.x, at_p);
+  store_xy(&q.x, at_q);
+  store_xy(&p.vx, vp);
+  store_xy(&q.vx, vq);
+  return outcome;
+}
+
+}  // namespace carom

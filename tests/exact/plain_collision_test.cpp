@@ -1,0 +1,94 @@
+// The collision of two disks of one mass, x and y at once, against core's formula, bit by bit.
+#include "parallel/exact/plain_collision.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/physics/exact_event.hpp"
+#include "tests/support/draws.hpp"
+
+namespace carom {
+namespace {
+
+PathSegment drawn_path(test::Draws& draws, double far) {
+  return {draws.in(0.0, 1.0), draws.in(-far, far), draws.in(-far, far), draws.in(-2.0, 2.0), draws.in(-2.0, 2.0)};
+}
+
+void expect_same(const PathSegment& a, const PathSegment& b) {
+  EXPECT_EQ(a.start, b.start);
+  EXPECT_EQ(a.x, b.x);
+  EXPECT_EQ(a.y, b.y);
+  EXPECT_EQ(a.vx, b.vx);
+  EXPECT_EQ(a.vy, b.vy);
+}
+
+TEST(PlainCollision, HasTheBitsOfTheFormula) {
+  test::Draws draws(23);
+  int happened = 0;
+  for (int round = 0; round < 2000; ++round) {
+    PathSegment p = drawn_path(draws, 8.0);
+    PathSegment q = drawn_path(draws, 8.0);
+    // Some that recede, some at rest against each other, some at one place.
+    if (round % 10 == 0) q.vx = p.vx, q.vy = p.vy;
+    if (round % 50 == 0) q = p;
+    const double e = round % 3 == 0 ? 1.0 : draws.in(0.0, 1.0);
+    const double s = draws.in(1.0, 2.0);
+    PathSegment core_p = p;
+    PathSegment core_q = q;
+    const Impact impact = collide_paths<false, false>(
+        Domain{}, 0.0, s, equal_shares, 1.0, [&](const Relative&) { return e; }, core_p, core_q);
+    const PlainCollision outcome = collide_plainly(s, e, p, q);
+    happened += impact.happened ? 1 : 0;
+    EXPECT_EQ(outcome.happened, impact.happened);
+    EXPECT_EQ(outcome.change, impact.virial);
+    EXPECT_EQ(outcome.fastest2, std::max(p.vx * p.vx + p.vy * p.vy, q.vx * q.vx + q.vy * q.vy));
+    expect_same(p, core_p);
+    expect_same(q, core_q);
+  }
+  EXPECT_GT(happened, 500);
+  EXPECT_LT(happened, 1500);
+}
+
+// Where the inner part holds two disks, images and borders change nothing; it holds most of those that are nowhere near
+// a border, and none that is across one.
+TEST(PlainCollision, IsTheSameAsAcrossBordersInTheInnerPart) {
+  test::Draws draws(24);
+  for (const bool along_x : {false, true}) {
+    Domain box;
+    box.width = 6.0;
+    box.height = 4.0;
+    box.sides.fill(SideKind::wall);
+    if (along_x) {
+      box.sides[static_cast<std::size_t>(Side::left)] = box.sides[static_cast<std::size_t>(Side::right)] =
+          SideKind::periodic;
+    } else {
+      box.sides.fill(SideKind::periodic);
+    }
+    const InnerPart inner(box);
+    int held = 0;
+    for (int round = 0; round < 3000; ++round) {
+      PathSegment p = drawn_path(draws, 4.0);
+      PathSegment q = drawn_path(draws, 4.0);
+      p.x += 3.0, q.x += 3.0;
+      p.y += 2.0, q.y += 2.0;
+      const double s = draws.in(1.0, 1.5);
+      if (!inner.holds(s, p, q)) continue;
+      ++held;
+      PathSegment core_p = p;
+      PathSegment core_q = q;
+      collide_paths<false>(
+          box, 0.0, s, equal_shares, 1.0, [](const Relative&) { return 1.0; }, core_p, core_q);
+      collide_plainly(s, 1.0, p, q);
+      expect_same(p, core_p);
+      expect_same(q, core_q);
+    }
+    EXPECT_GT(held, 200);
+    EXPECT_FALSE(inner.holds(1.0, {1.0, 0.1, 2.0, 0.0, 0.0}, {1.0, 5.9, 2.0, 0.0, 0.0}));
+    EXPECT_FALSE(inner.holds(1.0, {1.0, 6.0, 2.0, 0.0, 0.0}, {1.0, 5.9, 2.0, 0.0, 0.0}));
+    EXPECT_EQ(inner.holds(1.0, {1.0, 1.0, -0.1, 0.0, 0.0}, {1.0, 1.0, 0.9, 0.0, 0.0}), along_x);
+  }
+}
+
+}  // namespace
+}  // namespace carom
