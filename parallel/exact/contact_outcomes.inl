@@ -83,10 +83,10 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
     log_start(i);
     log_start(j);
   }
-  const bool inside = (lists_.rows().row(i).is_inside() && lists_.rows().row(j).is_inside()) ||
-                      inner_part_.holds(time, a.path, b.path);
-  const PlainCollision outcome = inside ? collide_plainly(time, window_.rules.restitution, a.path, b.path)
-                                        : collide_across(time, a.path, b.path);
+  const bool inside =
+      (lists_.rows().row(i).is_inside() && lists_.rows().row(j).is_inside()) || inner_part_.holds(time, a.path, b.path);
+  const PlainCollision outcome =
+      inside ? collide_plainly(time, window_.rules.restitution, a.path, b.path) : collide_across(time, a.path, b.path);
   if (outcome.happened && counts(i)) {
     virials_[virial_count_++] = reduced_mass_ * outcome.change;
     if (virial_count_ == virials_.size()) [[unlikely]]

@@ -300,7 +300,7 @@ class EventCalendar {
   // From the present one; entries of later ones are in transit first.
   static constexpr std::uint32_t all_pages = 0xfffffffeU;
   std::uint32_t pages_written_at_once_ = all_pages;
-  std::uint32_t end_of_list_ = 0;                 // an entry that is no disk's
+  std::uint32_t end_of_list_ = 0;  // an entry that is no disk's
   std::array<Transit, places_in_transit> transit_{};
   std::uint32_t next_place_ = 0;
   std::uint32_t first_in_transit_ = absent;  // a page; there is none before

@@ -76,7 +76,7 @@ class EventPredictor {
   const NeighbourLists* lists_;
   PredictionKernels kernels_;
   std::array<PredictionConstants, 2> constants_;  // elsewhere, and near a border
-  double fastest2_;  // largest v^2 so far
+  double fastest2_;                               // largest v^2 so far
   // Obstacles, a shear, or far_: then the kernel does not tell all. As bits of a row's sides.
   std::uint8_t more_than_neighbours_ = 0;
   bool far_ = false;  // may a disk move so far that images beyond the nearest one, or crossing events, matter?

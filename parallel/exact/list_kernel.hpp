@@ -9,8 +9,8 @@
 
 namespace carom {
 
-// What a slot has of a listed position: 16 of its bits, from the same one upwards for all. Differences wrap round too; those of
-// places that are far from each other say nothing.
+// What a slot has of a listed position: 16 of its bits, from the same one upwards for all. Differences wrap round too;
+// those of places that are far from each other say nothing.
 struct SlotPosition {
   std::uint16_t x = 0, y = 0;
 };

@@ -57,7 +57,7 @@ struct PredictionConstants {
 
 // The first contact of a disk with one of its neighbours.
 struct FirstContact {
-  double time = never;          // `never`: there is none; not a number: is_ambiguous()
+  double time = never;  // `never`: there is none; not a number: is_ambiguous()
   // Its place in the list; of a row, perhaps with leaving_bit.
   std::uint32_t neighbour = 0;
   static constexpr std::uint32_t leaving_bit = 1U << 31;

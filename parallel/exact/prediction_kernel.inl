@@ -1,6 +1,10 @@
 // The kernel, compiled once for every instruction set; CAROM_PREDICTION_KERNELS names the version. Four neighbours at a
 // time, in the compilers' own vector types: on a machine without them the compiler splits them.
 
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -276,15 +280,12 @@ inline Coordinates load(const AlongAxes& c) {
 }
 
 // Exactly.
-inline Coordinates to_doubles(const PredictionConstants& f, FixedPointPosition p) {
+inline Coordinates to_doubles(const PredictionConstants& f, const FixedPointPosition& p) {
 #if defined(__AVX2__)
-  using Ints = int __attribute__((vector_size(16)));
-  using LongCoordinates = long long __attribute__((vector_size(16)));
-  long long both;
-  static_assert(sizeof both == sizeof p);
-  __builtin_memcpy(&both, &p, sizeof both);
-  const LongCoordinates wide = __builtin_ia32_pmovzxdq128(__builtin_bit_cast(Ints, LongCoordinates{both, 0}));
-  return __builtin_bit_cast(Coordinates, wide | __builtin_bit_cast(LongCoordinates, load(f.whole))) - load(f.whole);
+  static_assert(sizeof p == sizeof(long long));
+  const __m128i wide = _mm_cvtepu32_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&p)));
+  const __m128i whole = _mm_castpd_si128(load(f.whole));
+  return _mm_castsi128_pd(_mm_or_si128(wide, whole)) - load(f.whole);
 #else
   (void)f;
   return Coordinates{static_cast<double>(p.x), static_cast<double>(p.y)};
@@ -294,7 +295,7 @@ inline Coordinates to_doubles(const PredictionConstants& f, FixedPointPosition p
 // FirstContact::leaving_bit, or 0: as NeighbourLists::stays_listed, but for a rounding.
 template <Images images>
 [[gnu::always_inline]] inline std::uint32_t leaving_bit(const PredictionConstants& f, const PathSegment& path,
-                                                FixedPointPosition listed_at, double until) {
+                                                        const FixedPointPosition& listed_at, double until) {
   const double s = until - path.start;
   Coordinates d = Coordinates{path.x, path.y} + Coordinates{path.vx, path.vy} * Coordinates{s, s};
   d = d - to_doubles(f, listed_at) * load(f.listed_unit);

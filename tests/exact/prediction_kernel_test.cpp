@@ -45,7 +45,7 @@ struct Expected {
 
 // The first contact by the formula of core, one neighbour after the other.
 Expected expected_contact(const std::vector<DiskRecord>& record, std::uint32_t own, const std::vector<int>& offset,
-                              const Domain& box, const Gravity& g, double slow_approach) {
+                          const Domain& box, const Gravity& g, double slow_approach) {
   Expected first;
   bool tie = false;
   for (std::size_t k = 0; k < offset.size(); ++k) {
@@ -88,8 +88,8 @@ void expect_contact(const FirstContact& found, const std::vector<int>& offset, c
 }
 
 void expect_in_row(RowKernel kernel, const PredictionConstants& constants, const std::vector<DiskRecord>& record,
-                   std::uint32_t own, const std::vector<int>& offset, FixedPointPosition listed_at, const Expected& expected,
-                   int& false_alarms) {
+                   std::uint32_t own, const std::vector<int>& offset, FixedPointPosition listed_at,
+                   const Expected& expected, int& false_alarms) {
   ListRow row;
   row.count = static_cast<std::uint8_t>(offset.size());
   row.listed_at = listed_at;
