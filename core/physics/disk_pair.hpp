@@ -1,7 +1,8 @@
 // Two disks: do they touch, do they approach, when did or will they touch, what does the collision do.
-// Each formula stands here once; every method and both engines call it. The first disk is the one with the smaller id,
-// so that the operands, and with them the bits, do not depend on which search found the pair. Formulas (6), (12), (16),
-// (23) and faults F4, F8, F9: docs/original.md.
+// Each formula stands here once; every method and both engines call it. Only the exact method's prediction kernel and
+// plain collision (parallel/exact) write (12) and (23) once more, for vectors; tests hold their bits against these.
+// The first disk is the one with the smaller id, so that the operands, and with them the bits, do not depend on which
+// search found the pair. Formulas (6), (12), (16), (23) and faults F4, F8, F9: docs/original.md.
 #pragma once
 
 #include <cmath>

@@ -30,7 +30,7 @@ struct alignas(64) ListRow {
 
   // A neighbour may be listed across a border along a period.
   static constexpr unsigned across = 1U << 4;
-  // There is a wide row.
+  // There is a wide row: `more` says so too, but these bits are asked for together.
   static constexpr unsigned has_more = 1U << 5;
   // Bits of `sides` that a list has which is not all in this row, or a side near.
   static constexpr unsigned not_plain = has_more | (across - 1U);

@@ -270,7 +270,7 @@ template <GravityKind gravity, bool unequal_radii, bool newest, Images images, c
   return found;
 }
 
-// x and y of a vector.
+// x and y of a vector. Not plain_collision.hpp's: nothing that other files inline is compiled for AVX2 here.
 using Coordinates = double __attribute__((vector_size(16)));
 
 inline Coordinates load(const AlongAxes& c) {
