@@ -22,15 +22,16 @@
 
 namespace carom {
 
-// The rows of a level that are stored, by their places, for a span of all rows that reaches from one end of the places
-// to the other, or does not go round the box.
+// The rows of a level that are stored, by their places, for a span of all rows. Where the span goes from what is
+// nearer to the last of them to what is nearer to the first, it is all: a disk may have flown there, and two that are
+// near each other must both find the other one.
 inline Span stored_span(const GridLevel& level, Span rows) {
   if (rows.count == level.rows) return {0, std::min(level.rows, level.stored_rows)};
   if (level.stored_rows >= level.rows) return rows;
   const std::uint32_t end = rows.first + rows.count - 1;
   const std::uint32_t first = level.place_of_row(rows.first);
   const std::uint32_t last = level.place_of_row(end < level.rows ? end : end - level.rows);
-  return {first, last >= first ? last - first + 1 : 1};
+  return last >= first ? Span{first, last - first + 1} : Span{0, level.stored_rows};
 }
 
 // Calls visit(first, last) for runs of cells [first, last) of a level, neighbours in memory, that together are those of
