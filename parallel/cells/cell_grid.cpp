@@ -7,6 +7,9 @@ namespace carom {
 
 namespace {
 
+// A disk that has left the rows that are stored must be nearer to one end of them than to the other.
+constexpr std::int64_t least_rows_left_out = 2;
+
 // `least` is the smallest cell that still finds every neighbour.
 std::uint32_t cells_of_side(double length, double least, double most, bool periodic) {
   const double cells = cells_along(length, least, most);
@@ -50,6 +53,22 @@ void keep_rows(CellGrid& grid, double low, double high) {
     level.first_row = row_at(level, low);
     level.kept_rows = row_at(level, high) - level.first_row + 1;
     level.first_key = grid.keys - level.first_row * level.stride;
+    grid.keys += level.keys();
+  }
+}
+
+void store_rows_between(const Domain& box, double low, double high, CellGrid& grid) {
+  grid.keys = 0;
+  for (GridLevel& level : grid.levels) {
+    const auto row = [&](double y) { return static_cast<std::int64_t>(std::floor(y * level.rows_per_length)); };
+    const std::int64_t rows = level.rows;
+    const std::int64_t first = box.periodic_y() ? row(low) : std::clamp<std::int64_t>(row(low), 0, rows - 1);
+    const std::int64_t last = box.periodic_y() ? row(high) : std::clamp<std::int64_t>(row(high), 0, rows - 1);
+    if (last - first + 1 + least_rows_left_out <= rows) {
+      level.first_stored = static_cast<std::uint32_t>((first % rows + rows) % rows);
+      level.stored_rows = level.kept_rows = static_cast<std::uint32_t>(last - first + 1);
+    }
+    level.first_key = grid.keys;
     grid.keys += level.keys();
   }
 }

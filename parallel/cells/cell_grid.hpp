@@ -38,7 +38,7 @@ struct GridLevel {
   unsigned band_shift = 31;   // columns in a band: 2^band_shift
   unsigned group_shift = 31;  // rows in a group: 2^group_shift
   std::uint32_t band_keys = 0, group_keys = 0;
-  // Of a tiled level: the first of the rows that are stored, and how many they are.
+  // The first of the rows that are stored, and how many they are.
   std::uint32_t first_stored = 0, stored_rows = 0xffffffffU;
 
   // Of a level that is not tiled: how many keys, and the first of them.
@@ -95,6 +95,11 @@ CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<s
 // Only the cells of disks between these heights are kept: a disk elsewhere must not be sorted into the grid, and is
 // found near no place. Precondition: the grid is not tiled, and all its rows are kept.
 void keep_rows(CellGrid& grid, double low, double high);
+
+// Only the rows of cells between these heights are stored, which may lie across the bottom and the top of a periodic
+// box. A disk elsewhere is in the row that is nearest among those stored. Where the others would be few, all stay.
+// Precondition as for keep_rows.
+void store_rows_between(const Domain& box, double low, double high, CellGrid& grid);
 
 // Class k holds radii r with largest / 2^(k+1) < r <= largest / 2^k.
 inline std::size_t class_of_radius(double radius, double largest_radius) {

@@ -91,6 +91,7 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& ex
     const std::size_t share = d.size() > disks_of_much_memory ? 10 : 8;
     for (std::size_t& c : count) c = c / share + 1;
     make_grid(box_, largest, count, grid_);
+    if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, grid_);
   }
   sort_into_cells(d, grid_, executor, cells_);
 }
