@@ -96,7 +96,8 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
     worker_.log.push_back({i, j, a.path});
     worker_.log.push_back({j, i, b.path});
   }
-  worker_.segments += 2;
+  worker_.segments += segments_of(i) + segments_of(j);
+  if constexpr (scope == Scope::part) note_contact(a, b);
   ++a.version;
   ++b.version;
   if (std::max(a.version, b.version) > most_paths_of_disk || worker_.segments > window_.most_paths) [[unlikely]] {
@@ -111,6 +112,15 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
   }
   predict_after_event(i, time);
   predict_after_event(j, time);
+}
+
+// Part: what its own disk does from now on is right only if the ghost came here as the part that owns it says.
+template <Scope scope>
+inline void EventProcessor<scope>::note_contact(DiskRecord& a, DiskRecord& b) {
+  const bool ghost = a.progress.has(DiskProgress::ghost);
+  if (ghost == b.progress.has(DiskProgress::ghost)) [[likely]]
+    return;
+  (ghost ? a : b).progress.set(DiskProgress::met_own);
 }
 
 // Of disks that may be on two sides of a border along a period.
@@ -161,6 +171,7 @@ void EventProcessor<scope>::collide_any_pair(std::uint32_t i, std::uint32_t j, d
   }
   const Impact impact = collide_at(window_.rules, time, id1, id2, d.mass_of(i), d.mass_of(j), a, b);
   if (counts(i)) worker_.tally.add(id2, impact);
+  if constexpr (scope == Scope::part) note_contact(record_[i], record_[j]);
   const EventMark event{time, id1, id2};
   begin_segment(i, a, j, event);
   begin_segment(j, b, i, event);
@@ -181,7 +192,8 @@ void EventProcessor<scope>::begin_segment(std::uint32_t i, const ExactDisk& now,
     window_.spin[i] = now.spin;
   }
   f.path = now.path;
-  if (++f.version > most_paths_of_disk || ++worker_.segments > window_.most_paths) [[unlikely]] {
+  worker_.segments += segments_of(i);
+  if (++f.version > most_paths_of_disk || worker_.segments > window_.most_paths) [[unlikely]] {
     worker_.crowded = event;
     worker_.ended = true;
   }

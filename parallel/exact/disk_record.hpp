@@ -64,6 +64,13 @@ class DiskProgress {
     relists_late = 8,              // is due to be relisted, which waits for the end of the slice
     ghost = 16                     // belongs to another rank, which counts what happens to it
   };
+  // What the marks mean where each thread has a part of the box with a halo (HaloPart). Ghosts are those of the halo.
+  enum HaloMark : std::uint32_t {
+    known_below = 1,  // the part below has the disk in its halo
+    known_above = 2,  // that above does
+    crosses = 4,      // may have come beyond the part's ends since the lists were built
+    met_own = 8       // a ghost that a disk of the part has met in the window
+  };
 
   constexpr DiskProgress() = default;  // active
   constexpr bool is_active() const { return state() == active_state; }
@@ -80,6 +87,9 @@ class DiskProgress {
   // At a border, or a neighbour of one that is.
   constexpr bool is_near_border() const { return (bits_ & (at_border | lists_border)) != 0; }
   constexpr void clear(Mark mark) { bits_ &= ~static_cast<std::uint32_t>(mark); }
+  constexpr bool has(HaloMark mark) const { return (bits_ & mark) != 0; }
+  constexpr void set(HaloMark mark) { bits_ |= mark; }
+  constexpr void clear(HaloMark mark) { bits_ &= ~static_cast<std::uint32_t>(mark); }
 
  private:
   static constexpr std::uint32_t mark_bits = 5;

@@ -82,6 +82,18 @@ inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regio
           0};
 }
 
+// Of one thread's part of the box with its halo, which have so many disks: one calendar. low, high: the part has cells
+// between these heights alone, if the first is less.
+inline ListLayout layout_of_part(std::size_t disks, std::size_t disks_of_box, double low, double high) {
+  ListLayout layout;
+  layout.looks_ahead = disks > disks_in_cache;
+  layout.regions = 1;
+  layout.disks_of_box = disks_of_box;
+  layout.low = low;
+  layout.high = high;
+  return layout;
+}
+
 // Of one of several ranks: one region, of its own disks and its ghosts, which are as many as `disks` and lie between
 // two heights; disks_of_box: of all ranks.
 inline ListLayout layout_of_rank(std::size_t disks, std::size_t disks_of_box, double low, double high,

@@ -61,13 +61,21 @@ void EventProcessor<scope>::enter(std::uint32_t i) {
 }
 
 template <Scope scope>
+void EventProcessor<scope>::replace_path(std::uint32_t i) {
+  const double now = window_.slice_stop();
+  const PathSegment p = carried_to(record_[i].path, now, window_.rules.gravity);
+  if (!lists_.stays_in_skin(i, p.x, p.y, 0.0)) relist(i, now, relist_distance(i));
+  predict_next_event<false>(i, now);
+}
+
+template <Scope scope>
 void EventProcessor<scope>::push_next_event(std::uint32_t i) {
   if (window_.in_slice(window_.next_event_time(i))) worker_.queue.push({window_.next_event_time(i), 0, 0, i});
 }
 
 template <Scope scope>
 void EventProcessor<scope>::run() {
-  if constexpr (scope == Scope::all) run_all();
+  if constexpr (scope == Scope::all || scope == Scope::part) run_all();
   if constexpr (scope == Scope::region) run_region();
   if constexpr (scope == Scope::border) run_border();
   tally_virials();
@@ -90,6 +98,8 @@ void EventProcessor<scope>::run_all() {
   double time = 0.0;
   Count until_poll = worker_.until_poll;
   while (!worker_.ended && find_first(i, time)) {
+    if (scope == Scope::part && !window_.in_slice(time)) [[unlikely]]
+      break;
     process(i, time);
     if (until_poll-- == 0) until_poll = poll_watch();
   }
@@ -314,6 +324,7 @@ inline void EventProcessor<scope>::schedule(std::uint32_t i, double time, Partne
 }
 
 template class EventProcessor<Scope::all>;
+template class EventProcessor<Scope::part>;
 template class EventProcessor<Scope::region>;
 template class EventProcessor<Scope::border>;
 

@@ -18,6 +18,7 @@ namespace carom {
 // Whose events are processed. Motion that is not known, and whatever follows from it, is there only with regions.
 enum class Scope : std::uint8_t {
   all,     // of all disks: a single queue
+  part,    // of a thread's part of the box and its halo: likewise, but what happens to the halo is not counted
   region,  // of a region's disks, as far as their motion is known (SafeTimes), on a thread of its own
   border,  // of a border's disks whose motion is not known, after all regions (BorderPass)
 };
@@ -39,6 +40,8 @@ class EventProcessor {
   void enter(std::uint32_t i);
   // Region: for the disk, at the start of a slice, as SafeTimes::push.
   void push_safe_time(std::uint32_t i) { safe_times_.push(i, window_.slice_start); }
+  // Part: the disk, of the halo, goes on another path at the slice's end.
+  void replace_path(std::uint32_t i);
   // Border: queues the disk's next event, if it is within the slice.
   void push_next_event(std::uint32_t i);
   // Border, at the slice's end: relists those of the disks that are marked relists_late, as far as their lists are
@@ -57,7 +60,7 @@ class EventProcessor {
   void run();
 
  private:
-  static constexpr bool has_regions = scope != Scope::all;
+  static constexpr bool has_regions = scope == Scope::region || scope == Scope::border;
 
   Count poll_watch();
   void name(QueuedEvent& e) const;
@@ -90,8 +93,12 @@ class EventProcessor {
   void block(std::uint32_t i, double time);
   [[gnu::always_inline]] inline bool is_near_border(std::uint32_t i) const;
   const RelistDistance& relist_distance(std::uint32_t i) const { return lists_.relist_distance(is_near_border(i)); }
-  // Does this rank count what happens to the disk?
-  bool counts(std::uint32_t i) const { return !has_regions || !record_[i].progress.has(DiskProgress::ghost); }
+  // Does this rank, or this part, count what happens to the disk?
+  bool counts(std::uint32_t i) const { return scope == Scope::all || !record_[i].progress.has(DiskProgress::ghost); }
+  // Of a part: its own disks alone, so that all parts together see whether the window is crowded.
+  Count segments_of(std::uint32_t i) const { return scope != Scope::part || counts(i) ? 1 : 0; }
+  void note_contact(DiskRecord& a, DiskRecord& b);
+  void note_listing(std::uint32_t i);
   void meet_side(std::uint32_t i, double time);
   void meet_obstacle(std::uint32_t i, double time);
   void collide_pair(std::uint32_t i, std::uint32_t j, double time);

@@ -21,6 +21,7 @@
 #include "core/step/window_start.hpp"
 #include "parallel/cells/compact.hpp"
 #include "parallel/cells/kick_all.hpp"
+#include "parallel/exact/halo_windows.hpp"
 #include "parallel/exact/logged_paths.hpp"
 #include "parallel/exact/window_passes.hpp"
 #include "parallel/exact/window_run.hpp"
@@ -37,7 +38,9 @@ class ParallelExact final : public Engine {
         state_(std::move(initial)),
         obstacles_(place_run_obstacles(scene_, state_)),
         executor_(threads.count, threads.block_divisor),
-        windows_(scene_, state_, executor_, times_) {
+        windows_(scene_, state_, executor_, times_),
+        halos_(scene_, state_, executor_, times_),
+        parts_allowed_(!watch) {
     windows_.scheduler().set_border_watch(watch);
   }
 
@@ -69,10 +72,15 @@ class ParallelExact final : public Engine {
   void start_window();
   bool lists_take(const Edit& edit);
   void begin_brownian();
+  void forget(Known left) {
+    windows_.forget(left);
+    halos_.forget(left);
+  }
   bool has_room(const Disk& newcomer) const;
   void remove(const std::vector<unsigned char>& gone);
   void build_lists_if_due(const WindowPlan& plan, bool regions_allowed);
   bool run_window_with_retry(WindowPlan& plan, const SpeedSummary& speeds);
+  bool run_whole_with_retry(WindowPlan& plan, const SpeedSummary& speeds);
   void finish(const WindowPlan& plan);
 
   Scene scene_;
@@ -82,6 +90,9 @@ class ParallelExact final : public Engine {
   Validity validity_;
   PhaseTimes times_;
   WindowRun windows_;
+  HaloWindows halos_;
+  bool parts_allowed_;
+  bool in_parts_ = false;             // the last window
   std::optional<WindowPlan> logged_;  // the last window, if its paths are known
   std::vector<unsigned char> gone_;
   Disks at_start_;  // the columns before disks left through sinks in the last window; else empty
@@ -95,17 +106,18 @@ void ParallelExact::start_window() {
   if (!scene_.sources.empty()) {
     const Count before = state_.counters.emitted;
     emit_at_window_start(scene_, state_, [&](const Disk& d) { return has_room(d); });
-    if (state_.counters.emitted != before) windows_.forget(Known::nothing);
+    if (state_.counters.emitted != before) forget(Known::nothing);
   }
   if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
   count_thermal_hits(scene_, state_);
   if (brownian_interval_begins(scene_, state_)) begin_brownian();
-  if (kick_if_due(scene_, state_, executor_)) windows_.forget(Known::lists);
-  if (side_turns(scene_, state_.time)) windows_.forget(Known::lists);
+  if (kick_if_due(scene_, state_, executor_)) forget(Known::lists);
+  if (side_turns(scene_, state_.time)) forget(Known::lists);
 }
 
 void ParallelExact::release_memory() {
   windows_.release_memory();
+  halos_.release_memory();
   logged_.reset();
 }
 
@@ -116,7 +128,7 @@ bool ParallelExact::edit(const Edit& edit) {
   const bool known = windows_.known() != Known::nothing && !scene_.box.shear.acts() && lists_take(edit);
   apply(edit, state_);
   if (!known) {
-    windows_.forget(Known::nothing);
+    forget(Known::nothing);
   } else if (edit.kind == Edit::Kind::add) {
     windows_.lists().append(state_.disks);
   }
@@ -167,7 +179,7 @@ bool ParallelExact::has_room(const Disk& newcomer) const {
 void ParallelExact::begin_brownian() {
   const BrownianInterval interval = begin_brownian_interval(scene_, state_);
   draw_brownian_interval(state_.disks, scene_, interval, executor_, gone_);
-  windows_.forget(Known::lists);
+  forget(Known::lists);
   if (!gone_.empty()) remove(gone_);
 }
 
@@ -175,7 +187,7 @@ void ParallelExact::remove(const std::vector<unsigned char>& gone) {
   const std::size_t before = state_.disks.size();
   remove_in_parallel(state_.disks, gone, executor_, column_scratch_, id_scratch_);
   state_.counters.removed += before - state_.disks.size();
-  if (state_.disks.size() != before) windows_.forget(Known::nothing);
+  if (state_.disks.size() != before) forget(Known::nothing);
 }
 
 void ParallelExact::build_lists_if_due(const WindowPlan& plan, bool regions_allowed) {
@@ -183,9 +195,22 @@ void ParallelExact::build_lists_if_due(const WindowPlan& plan, bool regions_allo
   windows_.build_lists(plan, choose_layout(state_.disks.size(), scene_.box, regions_allowed, executor_));
 }
 
-// Runs the window; again with a larger speed bound where a disk was too fast, and shorter where it is crowded. False:
-// given up; the state is as it was.
+// Runs the window, in parts if it can; else the whole, again with a larger speed bound where a disk was too fast, and
+// shorter where it is crowded. False: given up; the state is as it was.
 bool ParallelExact::run_window_with_retry(WindowPlan& plan, const SpeedSummary& speeds) {
+  in_parts_ = parts_allowed_ && halos_.are_wanted();
+  if (in_parts_) {
+    if (windows_.known() != Known::nothing) windows_.release_memory();
+    const SliceOutcome outcome = halos_.run(plan, speeds, windows_.window());
+    if (outcome == SliceOutcome::done) return true;
+    in_parts_ = false;
+    halos_.release_memory();
+    if (outcome == SliceOutcome::given_up) return false;
+  }
+  return run_whole_with_retry(plan, speeds);
+}
+
+bool ParallelExact::run_whole_with_retry(WindowPlan& plan, const SpeedSummary& speeds) {
   double margin = speed_margin;
   int retries = 0;
   bool regions_allowed = true;
@@ -195,7 +220,7 @@ bool ParallelExact::run_window_with_retry(WindowPlan& plan, const SpeedSummary& 
   };
   SliceOutcome outcome = run();
   for (; outcome == SliceOutcome::too_fast || outcome == SliceOutcome::crowded; outcome = run()) {
-    windows_.forget(Known::nothing);
+    forget(Known::nothing);
     if (outcome == SliceOutcome::crowded) {
       // Only a single queue processes events in canonical order, and can tell at which of them it was too many.
       const WindowState& window = windows_.window();
@@ -207,12 +232,13 @@ bool ParallelExact::run_window_with_retry(WindowPlan& plan, const SpeedSummary& 
     if (retries == most_retries) regions_allowed = false;
     margin *= margin_of_retry;
   }
-  if (outcome == SliceOutcome::given_up || !regions_allowed) windows_.forget(Known::nothing);
+  if (outcome == SliceOutcome::given_up || !regions_allowed) forget(Known::nothing);
   return outcome == SliceOutcome::done;
 }
 
 void ParallelExact::finish(const WindowPlan& plan) {
-  const ImpactTally tally = windows_.store_paths(plan, gone_);
+  gone_.clear();
+  const ImpactTally tally = in_parts_ ? halos_.store_paths(plan) : windows_.store_paths(plan, gone_);
   const bool any_gone = !gone_.empty();
   at_start_ = any_gone ? state_.disks : Disks{};
   logged_ = plan;
@@ -228,14 +254,20 @@ double ParallelExact::disks_at(double t, Disks& out) const {
     out = state_.disks;
     return state_.time;
   }
+  const double s = t > logged_->start ? t - logged_->start : 0.0;
+  if (in_parts_) {
+    out = state_.disks;
+    halos_.move_along_paths(s, out);
+    return t;
+  }
   out = windows_.scheduler().any_gone() ? at_start_ : state_.disks;
-  move_along_paths(windows_.window(), windows_.scheduler(), t > logged_->start ? t - logged_->start : 0.0,
-                   windows_.window().rules.box, {}, out);
+  move_along_paths(windows_.window(), windows_.scheduler(), s, windows_.window().rules.box, {}, out);
   return t;
 }
 
 std::vector<DiskContact> ParallelExact::contacts() const {
   if (!windows_.window().keeps_paths || !logged_) return {};
+  if (in_parts_) return halos_.contacts(logged_->start);
   return contacts_of_window(windows_.scheduler(), windows_.scheduler().any_gone() ? at_start_.id : state_.disks.id,
                             logged_->start, [](std::uint32_t) { return true; });
 }

@@ -120,7 +120,15 @@ bool EventProcessor<scope>::relist_at(std::uint32_t i, double time, Vec2 at) {
   if (!lists_.take_list(i, d, worker_.region, worker_.found)) return false;
   ++worker_.relisted;
   if constexpr (scope == Scope::region) safe_times_.mark_relisted(i, time);
+  if constexpr (scope == Scope::part) note_listing(i);
   return true;
+}
+
+// Part: one of its own disks may come beyond an end of the part before it is listed again. The part there must have it.
+template <Scope scope>
+void EventProcessor<scope>::note_listing(std::uint32_t i) {
+  if (!window_.part.note_listing(lists_.listed_position(i), lists_.skin() + window_.slack, record_[i]))
+    worker_.too_fast = worker_.ended = true;
 }
 
 }  // namespace carom

@@ -155,16 +155,27 @@ SliceOutcome SliceScheduler::outcome() const {
   if (given_up) return SliceOutcome::given_up;
   if (too_fast) return SliceOutcome::too_fast;
   // Events pile up at one moment: which of them is the reference's first, regions cannot tell.
-  if (collapsed && has_regions()) return SliceOutcome::crowded;
+  if (collapsed && (has_regions() || window_.is_part)) return SliceOutcome::crowded;
   return crowded || segments > window_.most_paths ? SliceOutcome::crowded : SliceOutcome::done;
 }
 
 void SliceScheduler::run_single_queue(double per_disk) {
   single_.begin_slice();
-  EventProcessor<Scope::all> events(window_, lists_, single_);
-  events.enter_all(per_disk * window_.length);
-  events.run();
+  const auto run = [&](auto events) {
+    if (window_.slice_start == 0.0) events.enter_all(per_disk * window_.length);
+    events.run();
+  };
+  if (window_.is_part) {
+    run(EventProcessor<Scope::part>(window_, lists_, single_));
+  } else {
+    run(EventProcessor<Scope::all>(window_, lists_, single_));
+  }
   relisted_ += single_.relisted;
+}
+
+void SliceScheduler::replace_paths(const std::vector<std::uint32_t>& disks) {
+  EventProcessor<Scope::part> events(window_, lists_, single_);
+  for (const std::uint32_t i : disks) events.replace_path(i);
 }
 
 void SliceScheduler::run_regions(double per_disk) {

@@ -43,6 +43,9 @@ class SliceScheduler {
   // Without regions: the event that tells that the window is crowded, the same as the reference's.
   const EventMark& crowding() const { return *single_.crowded; }
 
+  // Of a part, at the end of a slice: as WindowRun::replace_paths.
+  void replace_paths(const std::vector<std::uint32_t>& disks);
+
   // Of the window so far.
   ImpactTally tally() const;
   Count events() const;

@@ -20,9 +20,6 @@ constexpr std::size_t pass_block = 8192;
 // they were predicted: disks are predicted again this share of a window early. That is enough where the approach is
 // faster than WindowState::slow; slower contacts that are close are predicted at every start.
 constexpr double early_share = 1e-3;
-// The lists are rebuilt, and the disks sorted, when they have been relisted so many times each: by then neighbours are
-// no longer neighbours in storage.
-constexpr Count relistings_a_disk = 8;
 // A disk that is relisted is listed as far ahead as it flies in this many mean times between its collisions: what it
 // has of its velocity after a collision is two fifths. The fewest instructions a collision are at 0.5 to 1 at packing
 // fractions of 0.2 and 0.5.
@@ -65,10 +62,15 @@ void WindowRun::forget_lists() {
 
 bool WindowRun::lists_due(const WindowPlan& plan) const {
   const bool strained = scene_.box.shear.acts() && lists_.is_strained(plan.end);
-  return known_ == Known::nothing || strained || scheduler_.relisted() > relistings_a_disk * state_.disks.size();
+  return known_ == Known::nothing || strained || relistings() > relistings_a_disk;
 }
 
-void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout) {
+double WindowRun::relistings() const {
+  const std::size_t disks = state_.disks.size();
+  return disks == 0 ? 0.0 : static_cast<double>(scheduler_.relisted()) / static_cast<double>(disks);
+}
+
+void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout, const NeighbourLists::Sorted& sorted) {
   const PhaseTimer timer(times_, "list");
   // Sorting takes about as much.
   if (state_.disks.size() > disks_of_much_memory) scheduler_.release_calendars();
@@ -78,6 +80,7 @@ void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout) {
   const bool timed = known_ == Known::lists_and_times;
   lists_.build(state_.disks, scene_.box, layout, executor_, [&](const auto& order, auto& scratch) {
     if (timed) sort_times(order, scratch);
+    if (sorted) sorted(order, scratch);
   });
   window_.mode = layout.mode;
   window_.regions = layout.regions;
@@ -85,6 +88,33 @@ void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout) {
   largest_radius_ = std::max(least_largest_radius_, carom::largest_radius(state_.disks));
   known_ = std::max(known_, Known::lists);
   rebuilt_ = true;
+}
+
+void WindowRun::set_part(const PartEnds& ends, std::size_t own, double largest_radius,
+                         const std::function<DiskProgress(std::uint32_t)>& mark) {
+  window_.is_part = true;
+  window_.part = ends;
+  own_ = own;
+  least_largest_radius_ = largest_radius;
+  largest_radius_ = std::max(largest_radius, largest_radius_);
+  mark_ = mark;
+}
+
+void WindowRun::append_last_disk() {
+  window_.append_disk(0.0);
+  lists_.append(state_.disks);
+}
+
+void WindowRun::note_listing(std::uint32_t i) {
+  window_.part.note_listing(lists_.listed_position(i), lists_.skin() + window_.slack, window_.record[i]);
+}
+
+// Of a part whose lists have just been built.
+void WindowRun::mark_disks() {
+  for (std::uint32_t i = 0; i < window_.record.size(); ++i) {
+    window_.record[i].progress = mark_(i);
+    note_listing(i);
+  }
 }
 
 // order: for each disk, which one it was before.
@@ -99,25 +129,38 @@ void WindowRun::sort_times(const std::vector<std::uint32_t>& order, std::vector<
 }
 
 SliceOutcome WindowRun::run(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin) {
-  if (scene_.box.shear.acts()) lists_.carry_flow(box_at(scene_.box, plan.start), plan.start);
-  load_paths(plan, speeds, disks);
-  // Lists and times are those of the window's end from now on, or of a moment at which it fails.
-  const Known known = std::exchange(known_, Known::nothing);
-  const PhaseTimer timer(times_, "events");
-  set_speed_bound(plan, margin);
-  scheduler_.begin_window(rebuilt_, per_disk_);
-  rebuilt_ = false;
+  begin(plan, speeds, disks, margin);
   for (double start = 0.0; start < plan.length;) {
     const double end = scheduler_.slice_end(plan.length, start, per_disk_);
-    const double elapsed = std::min(end, plan.length) - start;
-    const SliceOutcome outcome = scheduler_.run(start, end, per_disk_, plan.start);
+    const SliceOutcome outcome = run_slice(plan, disks, start, end);
     if (outcome != SliceOutcome::done) return outcome;
-    const auto events = static_cast<double>(scheduler_.events_of_slice());
-    per_disk_ = disks == 0 ? 0.0 : events / elapsed / static_cast<double>(disks);
     start = end;
   }
-  known_ = known;
+  finish_slices();
   return SliceOutcome::done;
+}
+
+// Lists and times are those of the window's end from now on, or of a moment at which it fails.
+void WindowRun::begin(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin) {
+  if (scene_.box.shear.acts()) lists_.carry_flow(box_at(scene_.box, plan.start), plan.start);
+  load_paths(plan, speeds, disks);
+  known_at_end_ = std::exchange(known_, Known::nothing);
+  set_speed_bound(plan, margin);
+  const PhaseTimer timer(times_, "events");
+  scheduler_.begin_window(rebuilt_, per_disk_);
+  if (rebuilt_ && mark_) mark_disks();
+  rebuilt_ = false;
+}
+
+SliceOutcome WindowRun::run_slice(const WindowPlan& plan, std::size_t disks, double start, double end) {
+  const PhaseTimer timer(times_, "events");
+  const double elapsed = std::min(end, plan.length) - start;
+  const SliceOutcome outcome = scheduler_.run(start, end, per_disk_, plan.start);
+  if (outcome != SliceOutcome::done) return outcome;
+  const auto events = static_cast<double>(scheduler_.events_of_slice());
+  const std::size_t counted = window_.is_part ? own_ : disks;
+  per_disk_ = counted == 0 ? 0.0 : events / elapsed / static_cast<double>(counted);
+  return outcome;
 }
 
 void WindowRun::load_paths(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/base/phase_times.hpp"
@@ -27,6 +28,10 @@ enum class Known : std::uint8_t {
   lists,            // neighbour lists and storage order
   lists_and_times,  // and the next events' times, on paths that go on
 };
+
+// The lists are rebuilt, and the disks sorted, when they have been relisted so many times each: by then neighbours are
+// no longer neighbours in storage.
+inline constexpr double relistings_a_disk = 8.0;
 
 // With regions: no disk may become faster in a window than this factor times the fastest one at its start. A window in
 // which one does is run again with a larger factor, and at last without regions. With 1.15, 1.25 and 1.35, 21, 2 and 0
@@ -55,12 +60,33 @@ class WindowRun {
 
   // Are the lists to be built anew for this window?
   bool lists_due(const WindowPlan& plan) const;
-  // Sorts the disks and lists them. Times that were known stay so.
-  void build_lists(const WindowPlan& plan, const ListLayout& layout);
+  // Of a disk, on average, since they were built.
+  double relistings() const;
+  // Sorts the disks and lists them. Times that were known stay so. sorted: as in NeighbourLists::build.
+  void build_lists(const WindowPlan& plan, const ListLayout& layout, const NeighbourLists::Sorted& sorted = {});
+
+  // The disks are those of a thread's part and of its halo; after build_lists. own: how many are its own.
+  // largest_radius: of all disks of the box. mark(i): what is marked of disk i.
+  void set_part(const PartEnds& ends, std::size_t own, double largest_radius,
+                const std::function<DiskProgress(std::uint32_t)>& mark);
+  void set_own(std::size_t own) { own_ = own; }
+  // Of a part, between windows: its last disk is new in the state; disk i is its own now, or what is marked of it is to
+  // be found anew.
+  void append_last_disk();
+  void note_listing(std::uint32_t i);
+  // At a slice's end: these disks of the halo go elsewhere than was thought, and have got the paths on which they go.
+  // They are listed there if need be, and their events are predicted anew.
+  void replace_paths(const std::vector<std::uint32_t>& disks) { scheduler_.replace_paths(disks); }
 
   // Runs the window; speeds: of all disks of the run at its start, as many as `disks`. margin: over the largest speed.
   // Unless the outcome is `done`, nothing counts. Precondition: lists are known.
   SliceOutcome run(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin);
+
+  // The same in steps, for a part: what comes before the first slice, and each slice, from `start` to `end` (`never`:
+  // the window's end). Then finish_slices.
+  void begin(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin);
+  SliceOutcome run_slice(const WindowPlan& plan, std::size_t disks, double start, double end);
+  void finish_slices() { known_ = known_at_end_; }
 
   // After a window that was done: the disks are where it ends, and what they go on with is known. Where disks left
   // through sinks, gone has an entry for each disk, 1 for those, which stay in the columns; else it is empty. The sums
@@ -82,6 +108,7 @@ class WindowRun {
  private:
   void load_paths(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks);
   void load_disks(std::size_t begin, std::size_t end, const WindowPlan& plan);
+  void mark_disks();
   void sort_times(const std::vector<std::uint32_t>& order, std::vector<double>& scratch);
   double first_relist_time(std::size_t i, const WindowPlan& plan) const;
   void store_straight(std::size_t begin, std::size_t end, double length);
@@ -104,6 +131,9 @@ class WindowRun {
   bool rebuilt_ = false;   // the lists, for the coming window
   double length_ = 0.0;    // of the last window
   double per_disk_ = 0.0;  // events a disk and time, of the last slice
+  std::size_t own_ = 0;    // of a part: disks that are not of its halo
+  std::function<DiskProgress(std::uint32_t)> mark_;
+  Known known_at_end_ = Known::nothing;
 };
 
 }  // namespace carom

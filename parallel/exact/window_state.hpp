@@ -13,6 +13,7 @@
 #include "parallel/exact/engine_mode.hpp"
 #include "parallel/exact/event_calendar.hpp"
 #include "parallel/exact/known_band.hpp"
+#include "parallel/exact/part_ends.hpp"
 
 namespace carom {
 
@@ -59,6 +60,8 @@ struct WindowState {
   double slice_start = 0.0;
   double slice_end = 0.0;  // events before this time; in the last slice up to and including `length`
   KnownBand band;          // no disk that is not here comes into it in the window
+  bool is_part = false;    // of the box, one thread's, with a halo
+  PartEnds part;           // then: where it ends
   bool keeps_paths = true;
   Count most_paths = 0;         // of all disks, beyond which the window is crowded (core/step/window_length.hpp)
   std::function<bool()> go_on;  // as in Engine::set_watch

@@ -1,0 +1,128 @@
+// One thread's part of the box in the exact engine: its own disks, and a halo of others' around them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/base/phase_times.hpp"
+#include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
+#include "core/step/window_plan.hpp"
+#include "parallel/exact/box_cut.hpp"
+#include "parallel/exact/halo_width.hpp"
+#include "parallel/exact/window_run.hpp"
+#include "parallel/threads/executor.hpp"
+
+namespace carom {
+
+class HaloPart;
+using HaloParts = std::vector<std::unique_ptr<HaloPart>>;
+
+// A copy of its disks, with lists, calendar and records of its own, in which one thread runs as if there were no other
+// disks. What is missing beyond the halo changes what the halo does, from its outer end inwards, but hardly ever what
+// the part's own disks do; whether it has is asked after each slice of a window (HaloWindows). Where nothing else is
+// said, all parts may do the same at the same time.
+class HaloPart {
+ public:
+  explicit HaloPart(const Scene& scene) : one_thread_(1), run_(scene, state_, one_thread_, times_) {}
+  HaloPart(const HaloPart&) = delete;
+  HaloPart& operator=(const HaloPart&) = delete;
+
+  // Takes its disks from all of them: those of this part of the cut, and of its halo.
+  void take_disks(const Disks& all, const BoxCut& cut, std::size_t part);
+  // Then sorts and lists them. largest_radius: of all disks. first: how many own disks the parts before this one have.
+  // slots[k], of each own disk: gets first and its place among the own ones, where k is its index in `all`.
+  void build(const WindowPlan& plan, const BoxCut& cut, double largest_radius, std::size_t first,
+             std::vector<std::uint32_t>& slots);
+  // When all parts are built: who owns the halo's disks. firsts: `first` of each part, and the number of all disks.
+  void find_owners(const std::vector<std::size_t>& firsts, const std::vector<std::uint32_t>& slots);
+
+  // Own disks to the columns of all, each to its slot: all columns, or positions, velocities and spins.
+  void store_all_columns(Disks& all) const;
+  void store_paths(Disks& all) const { give_paths(state_.disks, all); }
+  // Likewise of other columns, whose disks are in the same order as those of this part.
+  void give_paths(const Disks& here, Disks& all) const;
+  // The other way, for ghosts too.
+  void load_paths(const Disks& all, const HaloParts& parts);
+
+  // Before a window's first slice.
+  void begin_window();
+  // After a slice: compares what its ghosts did with what the same disks did in the parts that own them. Ghosts that
+  // went elsewhere there are put on their paths.
+  void compare_with(const HaloParts& parts);
+  // Then: was all that concerns its own disks as the others have it? And how far from that it was; lengths.
+  bool agrees() const { return agrees_; }
+  const HaloUse& use() const { return use_; }
+
+  // After a window: which of its own disks have come so near to an end that the part there is to have them, too.
+  void find_offers();
+  // Then, when all have: takes what others offer as ghosts. all: the columns.
+  void take_offers(const Disks& all, const HaloParts& parts);
+  // Then, one part after the other: makes the ghosts that came inside disks of its own.
+  void take_over(const HaloParts& parts);
+
+  std::size_t own() const { return own_count_; }
+  std::size_t ghosts() const { return ghosts_.size(); }
+  const Disks& disks() const { return state_.disks; }
+  WindowRun& run() { return run_; }
+  const WindowRun& run() const { return run_; }
+
+ private:
+  // A disk of its own: its index here, and where it is in the columns of all. When it belongs to another part its index
+  // is `none`, so that the others keep their places.
+  struct Own {
+    std::uint32_t index;
+    std::uint32_t slot;
+  };
+  static constexpr std::uint32_t none = 0xffffffffU;
+  // A disk of the halo: its index here, and its place in the part that owns it.
+  struct Ghost {
+    std::uint32_t index;
+    std::uint32_t place;
+    std::uint16_t part;
+    std::uint16_t more_paths;  // begun here in the window than there, modulo 2^16, as its path has been replaced
+  };
+
+  template <class Visit>
+  void for_each_own(Visit&& visit) const {
+    for (const Own& own : own_) {
+      if (own.index != none) visit(own);
+    }
+  }
+  template <class T>
+  void give(const std::vector<T>& column, std::vector<T>& all) const;
+  void find_own(const BoxCut& cut, std::size_t first, std::vector<std::uint32_t>& slots);
+  void set_ends(const BoxCut& cut, double largest_radius);
+  void copy_path(const Disks& from, std::size_t k, std::uint32_t i);
+  bool goes_as_there(const Ghost& ghost, const HaloPart& owner) const;
+  void replace_path(Ghost& ghost, const HaloPart& owner);
+  double beyond_end(const PathSegment& path) const;
+  void offer(std::uint32_t place, double from_centre);
+  void add_ghost(const Disks& all, const HaloPart& owner, std::uint32_t place);
+  void own_ghost(std::size_t ghost, const HaloParts& parts);
+  DiskRecord& record(std::uint32_t i) { return run_.window().record[i]; }
+  const PartEnds& ends() const { return run_.window().part; }
+  // Of two parts along a period each is below and above the other.
+  bool is_one_of_two() const { return below_ == above_; }
+
+  State state_;
+  PhaseTimes times_;
+  Executor one_thread_;
+  WindowRun run_;
+  std::uint16_t number_ = 0;
+  std::uint16_t below_ = 0, above_ = 0;  // parts; this one where there is none
+  double halo_ = 0.0;                    // how wide it is; length
+  std::size_t own_count_ = 0;
+  std::vector<Own> own_;               // by place
+  std::vector<std::uint32_t> source_;  // while it is built: of each disk, the index in all of them
+  std::vector<Ghost> ghosts_;
+  std::vector<std::uint32_t> strays_;  // of the slice: ghosts that went elsewhere, by index
+  std::vector<std::size_t> inside_;    // ghosts that are well inside after the slice, in ghosts_, in order
+  std::vector<std::uint32_t> offers_below_, offers_above_;  // own disks, by place
+  bool agrees_ = true;
+  HaloUse use_;
+};
+
+}  // namespace carom

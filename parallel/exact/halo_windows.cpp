@@ -1,0 +1,228 @@
+#include "parallel/exact/halo_windows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/disks/disks.hpp"
+#include "core/step/step_start.hpp"
+#include "parallel/exact/logged_paths.hpp"
+
+namespace carom {
+
+namespace {
+
+// Of a window. More make halos narrower, as errors come less far in a slice; each waits for the slowest thread.
+constexpr int slices = 4;
+// Fewer disks are as fast on one thread.
+constexpr std::size_t least_disks = 6000;
+// So many mean spacings, or halos, that a part is wide at least.
+constexpr double least_width = 2.0;
+// Windows that run without parts after one that could not be run in parts.
+constexpr int windows_without = 32;
+constexpr int windows_without_of_cut_work = 1;
+// How wide halos are at first, in mean spacings. Where work is cut so small, as tests do, they are and stay so narrow
+// that even small scenes have parts, and many windows are void.
+constexpr double first_width = 8.0;
+constexpr std::size_t cut_small = 8;
+constexpr double width_of_cut_work = 4.0;
+
+}  // namespace
+
+HaloWindows::HaloWindows(const Scene& scene, State& state, const Executor& executor, PhaseTimes& times)
+    : scene_(scene),
+      state_(state),
+      executor_(executor),
+      times_(times),
+      width_(work_is_cut() ? width_of_cut_work : first_width, !work_is_cut()) {}
+
+bool HaloWindows::work_is_cut() const {
+  return executor_.grain(least_disks) < least_disks / cut_small;
+}
+
+// No less than a diameter, where the disks fill but a part of the box.
+double HaloWindows::mean_spacing() const {
+  const double n = static_cast<double>(state_.disks.size());
+  return std::max(std::sqrt(scene_.box.width * scene_.box.height / n), 2.0 * largest_radius(state_.disks));
+}
+
+// Where work is cut into smaller blocks there is more than one part on one thread, too.
+std::size_t HaloWindows::most_parts() const {
+  const bool is_cut = executor_.grain(least_disks) < least_disks;
+  const auto wanted = static_cast<std::size_t>(std::max(executor_.threads(), is_cut ? 2 : 1));
+  const double side = std::max(scene_.box.width, scene_.box.height);
+  const double room = side / (least_width * width_.spacings() * spacing_);
+  return std::min(wanted, static_cast<std::size_t>(room));
+}
+
+// Contacts and hits that the state keeps by id, and disks that come and go, are not for parts; images that move have no
+// ends.
+bool HaloWindows::are_wanted() {
+  if (windows_without_ > 0) {
+    --windows_without_;
+    return false;
+  }
+  if (known_ == Known::nothing) spacing_ = mean_spacing();
+  const bool keeps_disks = scene_.sources.empty() && !has_sinks(scene_);
+  const bool keeps_no_more = !scene_.physics.collapse_contact_time && !scene_.box.has_thermal_side();
+  return keeps_disks && keeps_no_more && !scene_.box.shear.acts() &&
+         state_.disks.size() >= executor_.grain(least_disks) && most_parts() > 1;
+}
+
+void HaloWindows::forget(Known left) {
+  known_ = std::min(known_, left);
+  columns_changed_ = true;
+  for (const std::unique_ptr<HaloPart>& part : parts_) part->run().forget(left);
+}
+
+void HaloWindows::release_memory() {
+  parts_.clear();
+  known_ = Known::nothing;
+}
+
+bool HaloWindows::lists_due(const WindowPlan& plan) const {
+  const auto is_due = [&](const auto& part) { return part->run().lists_due(plan); };
+  return known_ == Known::nothing || width_.is_too_narrow() || std::any_of(parts_.begin(), parts_.end(), is_due);
+}
+
+void HaloWindows::build(const WindowPlan& plan) {
+  const PhaseTimer timer(times_, "list");
+  width_.adapt();
+  build_parts(plan, cut_box(state_.disks, scene_.box, most_parts(), width_.spacings() * spacing_));
+  known_ = Known::lists;
+  columns_changed_ = false;
+}
+
+// Then the columns of all disks are in the order of the parts.
+void HaloWindows::build_parts(const WindowPlan& plan, const BoxCut& cut) {
+  parts_.resize(cut.parts());
+  for (std::unique_ptr<HaloPart>& part : parts_) {
+    if (!part) part = std::make_unique<HaloPart>(scene_);
+  }
+  std::vector<std::uint32_t> slots(state_.disks.size());
+  executor_.run(parts_.size(), [&](std::size_t r) { parts_[r]->take_disks(state_.disks, cut, r); });
+  std::vector<std::size_t> firsts{0};
+  for (const std::unique_ptr<HaloPart>& part : parts_) firsts.push_back(firsts.back() + part->own());
+  const double radius = largest_radius(state_.disks);
+  executor_.run(parts_.size(), [&](std::size_t r) { parts_[r]->build(plan, cut, radius, firsts[r], slots); });
+  for_parts([&](HaloPart& part) {
+    part.find_owners(firsts, slots);
+    part.store_all_columns(state_.disks);
+  });
+}
+
+SliceOutcome HaloWindows::run(const WindowPlan& plan, const SpeedSummary& speeds, const WindowState& window) {
+  SliceOutcome outcome = SliceOutcome::ghosts_too_few;
+  for (int tries = 0; tries < 2 && outcome == SliceOutcome::ghosts_too_few; ++tries) {
+    if (lists_due(plan)) {
+      spacing_ = mean_spacing();
+      build(plan);
+    } else {
+      exchange_disks();
+    }
+    if (parts_.size() < 2) break;
+    begin(plan, speeds, window);
+    outcome = run_slices(plan);
+    if (outcome != SliceOutcome::ghosts_too_few) continue;
+    width_.see_void();
+    ++void_runs_;
+  }
+  if (outcome == SliceOutcome::done) {
+    width_.see_window(use_);
+    known_ = Known::lists_and_times;
+  } else {
+    windows_without_ = work_is_cut() ? windows_without_of_cut_work : windows_without;
+  }
+  return outcome;
+}
+
+// Disks that have come near to another part, or into one, since the last window.
+void HaloWindows::exchange_disks() {
+  for_parts([&](HaloPart& part) { part.take_offers(state_.disks, parts_); });
+  for (const std::unique_ptr<HaloPart>& part : parts_) part->take_over(parts_);
+}
+
+void HaloWindows::begin(const WindowPlan& plan, const SpeedSummary& speeds, const WindowState& window) {
+  known_ = Known::nothing;
+  use_ = {};
+  for_parts([&](HaloPart& part) {
+    if (columns_changed_) part.load_paths(state_.disks, parts_);
+    WindowState& own = part.run().window();
+    own.keeps_paths = window.keeps_paths;
+    own.go_on = window.go_on;
+    part.begin_window();
+    part.run().begin(plan, speeds, state_.disks.size(), 1.0);
+  });
+  columns_changed_ = false;
+}
+
+SliceOutcome HaloWindows::run_slices(const WindowPlan& plan) {
+  const PhaseTimer timer(times_, "events");
+  for (int k = 0; k < slices; ++k) {
+    const auto end_of = [&](int slice) { return plan.length * slice / slices; };
+    const SliceOutcome outcome = run_slice(plan, end_of(k), k + 1 < slices ? end_of(k + 1) : never);
+    if (outcome != SliceOutcome::done) return outcome;
+  }
+  for (const std::unique_ptr<HaloPart>& part : parts_) part->run().finish_slices();
+  return SliceOutcome::done;
+}
+
+// A part whose own disk came where it is not known says that it was too fast.
+SliceOutcome HaloWindows::run_slice(const WindowPlan& plan, double start, double end) {
+  std::vector<SliceOutcome> outcome(parts_.size());
+  executor_.run(parts_.size(),
+                [&](std::size_t r) { outcome[r] = parts_[r]->run().run_slice(plan, state_.disks.size(), start, end); });
+  const auto any = [&](SliceOutcome o) { return std::find(outcome.begin(), outcome.end(), o) != outcome.end(); };
+  for (const SliceOutcome o : {SliceOutcome::given_up, SliceOutcome::crowded}) {
+    if (any(o)) return o;
+  }
+  if (any(SliceOutcome::too_fast)) return SliceOutcome::ghosts_too_few;
+  for_parts([&](HaloPart& part) { part.compare_with(parts_); });
+  bool agree = true;
+  for (const std::unique_ptr<HaloPart>& part : parts_) {
+    agree = agree && part->agrees();
+    use_.see({part->use().nearest / spacing_, part->use().deepest / spacing_});
+  }
+  return agree ? SliceOutcome::done : SliceOutcome::ghosts_too_few;
+}
+
+ImpactTally HaloWindows::store_paths(const WindowPlan& plan) {
+  const PhaseTimer timer(times_, "store");
+  std::vector<ImpactTally> tally(parts_.size());
+  executor_.run(parts_.size(), [&](std::size_t r) {
+    std::vector<unsigned char> gone;
+    tally[r] = parts_[r]->run().store_paths(plan, gone);
+    parts_[r]->store_paths(state_.disks);
+    parts_[r]->find_offers();
+  });
+  for (std::size_t r = 1; r < tally.size(); ++r) tally[0].add(tally[r]);
+  return tally[0];
+}
+
+void HaloWindows::move_along_paths(double s, Disks& disks) const {
+  for (const std::unique_ptr<HaloPart>& part : parts_) {
+    Disks moved = part->disks();
+    const WindowRun& run = part->run();
+    carom::move_along_paths(run.window(), run.scheduler(), s, run.window().rules.box, {}, moved);
+    part->give_paths(moved, disks);
+  }
+}
+
+std::vector<DiskContact> HaloWindows::contacts(double start) const {
+  std::vector<DiskContact> all;
+  for (const std::unique_ptr<HaloPart>& part : parts_) {
+    const auto is_own = [&](std::uint32_t i) {
+      return !part->run().window().record[i].progress.has(DiskProgress::ghost);
+    };
+    const std::vector<DiskContact> own = contacts_of_window(part->run().scheduler(), part->disks().id, start, is_own);
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  return all;
+}
+
+std::size_t HaloWindows::ghosts() const {
+  std::size_t disks = 0;
+  for (const std::unique_ptr<HaloPart>& part : parts_) disks += part->ghosts();
+  return disks;
+}
+
+}  // namespace carom

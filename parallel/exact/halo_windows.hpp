@@ -1,0 +1,86 @@
+// The windows of the exact engine on several threads: each has a part of the box, with a halo.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/base/phase_times.hpp"
+#include "core/disks/disk_contact.hpp"
+#include "core/disks/state.hpp"
+#include "core/physics/impact_tally.hpp"
+#include "core/scene/scene.hpp"
+#include "core/step/window_plan.hpp"
+#include "parallel/exact/box_cut.hpp"
+#include "parallel/exact/halo_part.hpp"
+#include "parallel/exact/halo_width.hpp"
+#include "parallel/exact/window_run.hpp"
+#include "parallel/threads/executor.hpp"
+
+namespace carom {
+
+// Every part runs a slice of the window by itself. Then each one's ghosts are compared with what their owners made of
+// them, and take their paths. The own disks of all parts together are the system if in each slice
+// - a ghost that an own disk met moved as its owner says, and so did one that came beyond its owner's end,
+// - no disk came beyond an end of its part to another one that does not have it as a ghost (PartEnds):
+// every collision of an own disk is then with a disk that is where it was taken to be, and no two disks of two parts
+// overlap, since one of them would have come beyond the end, and the other's part would have seen it as it is.
+// Otherwise the window is void. Bits depend neither on parts nor on halos.
+class HaloWindows {
+ public:
+  // All of these outlive it; the state may change between windows.
+  HaloWindows(const Scene& scene, State& state, const Executor& executor, PhaseTimes& times);
+
+  // Is the next window one for parts?
+  bool are_wanted();
+
+  // No more than this is right any more, or positions and velocities are others.
+  void forget(Known left);
+  void release_memory();
+
+  // As WindowRun::run, and builds lists if they are due. Where the outcome is neither `done` nor `given_up`, the window
+  // is to be run without parts. Of `window` it takes whether paths are kept, and go_on.
+  SliceOutcome run(const WindowPlan& plan, const SpeedSummary& speeds, const WindowState& window);
+  // After a window that was done, as WindowRun::store_paths; no disk is gone.
+  ImpactTally store_paths(const WindowPlan& plan);
+
+  // Of the last window: makes positions and velocities those at time s of it; its collisions.
+  void move_along_paths(double s, Disks& disks) const;
+  std::vector<DiskContact> contacts(double start) const;
+
+  // For measurements: disks of all halos, and how often a window was void, and was run again.
+  std::size_t ghosts() const;
+  Count void_runs() const { return void_runs_; }
+
+ private:
+  bool work_is_cut() const;
+  double mean_spacing() const;
+  std::size_t most_parts() const;
+  bool lists_due(const WindowPlan& plan) const;
+  void build(const WindowPlan& plan);
+  void build_parts(const WindowPlan& plan, const BoxCut& cut);
+  void exchange_disks();
+  void begin(const WindowPlan& plan, const SpeedSummary& speeds, const WindowState& window);
+  SliceOutcome run_slices(const WindowPlan& plan);
+  SliceOutcome run_slice(const WindowPlan& plan, double start, double end);
+  template <class Task>
+  void for_parts(Task&& task) const {
+    executor_.run(parts_.size(), [&](std::size_t r) { task(*parts_[r]); });
+  }
+
+  const Scene& scene_;
+  State& state_;
+  const Executor& executor_;
+  PhaseTimes& times_;
+  HaloParts parts_;
+  HaloWidth width_;
+  HaloUse use_;           // of the window so far
+  double spacing_ = 0.0;  // mean; length
+  Known known_ = Known::nothing;
+  bool columns_changed_ = false;  // positions or velocities of the state, since the last window
+  int windows_without_ = 0;       // so many to come
+  Count void_runs_ = 0;
+};
+
+}  // namespace carom

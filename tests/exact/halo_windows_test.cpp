@@ -1,0 +1,164 @@
+// Windows in parts with halos: the bits of one queue, wherever halos suffice; where they do not, that is seen.
+#include "parallel/exact/halo_windows.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/disks/state_hash.hpp"
+#include "core/step/window_plan.hpp"
+#include "parallel/exact/window_passes.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/support/exact_support.hpp"
+
+namespace carom::exact_tests {
+namespace {
+
+std::string disks(int count, const std::string& rest) {
+  return fmt::format("[[disks]]\ncount = {}\npositions = \"random\"\n{}\n", count, rest);
+}
+
+const std::string equal = "velocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0";
+const std::string mixed =
+    "velocities = { uniform = 2.0 }\nradius = { uniform = [0.2, 0.6] }\nmass = { uniform = [1, 40] }";
+
+// Runs windows in parts alone; divisor: 1, or how much smaller blocks of work are, and with them halos.
+struct InParts {
+  InParts(Scene s, State initial, int threads, std::size_t divisor)
+      : scene(std::move(s)), state(std::move(initial)), executor(threads, divisor) {}
+
+  SliceOutcome step() {
+    const SpeedSummary speeds = summarise_speeds(state.disks, executor);
+    const WindowPlan plan = plan_window(scene, state, state.disks.size(), speeds, 1.0);
+    const SliceOutcome outcome = windows.run(plan, speeds, WindowState{});
+    if (outcome == SliceOutcome::done) {
+      const ImpactTally tally = windows.store_paths(plan);
+      finish_window(state, state.disks.size(), plan, tally, 1.0);
+    }
+    return outcome;
+  }
+
+  Scene scene;
+  State state;
+  Executor executor;
+  PhaseTimes times;
+  HaloWindows windows{scene, state, executor, times};
+};
+
+struct Tally {
+  int done = 0;
+  Count void_runs = 0;
+};
+
+// After each window both have the same state; after one that was void twice, parts begin with the right one.
+Tally run_beside_one_queue(const Scene& scene, int threads, std::size_t divisor, int windows) {
+  const State initial = initial_state(scene);
+  const auto one_queue = make_parallel_engine(scene, initial, {1});
+  InParts parts(scene, initial, threads, divisor);
+  Tally tally;
+  for (int k = 0; k < windows; ++k) {
+    one_queue->step();
+    const State& right = one_queue->state();
+    const SliceOutcome outcome = parts.step();
+    if (outcome == SliceOutcome::done) {
+      ++tally.done;
+      EXPECT_EQ(state_hash(parts.state.disks), state_hash(right.disks)) << "window " << k;
+      EXPECT_EQ(parts.state.counters.collisions, right.counters.collisions) << "window " << k;
+      EXPECT_EQ(parts.state.counters.wall_collisions, right.counters.wall_collisions) << "window " << k;
+      EXPECT_EQ(parts.state.counters.virial, right.counters.virial) << "window " << k;
+      EXPECT_EQ(parts.state.time, right.time) << "window " << k;
+    } else {
+      EXPECT_EQ(outcome, SliceOutcome::ghosts_too_few) << "window " << k;
+      parts.state = right;
+      parts.windows.forget(Known::nothing);
+    }
+    if (testing::Test::HasFailure()) break;
+  }
+  tally.void_runs = parts.windows.void_runs();
+  return tally;
+}
+
+TEST(HaloWindows, HardlyAnyIsVoid) {
+  const Scene scene = make_scene({100, 100, "periodic", "", disks(5000, equal), 1000, ""});
+  for (const int threads : {2, 3}) {
+    SCOPED_TRACE(threads);
+    const Tally tally = run_beside_one_queue(scene, threads, 1, 60);
+    EXPECT_EQ(tally.done, 60);
+    EXPECT_LE(tally.void_runs, 2U);
+  }
+}
+
+// As wide as a part or narrower than what a collision reaches: some windows are void, and none is wrong.
+TEST(HaloWindows, AreVoidWhereHalosAreTooNarrow) {
+  const Scene scene = make_scene({60, 60, "periodic", "", disks(2000, equal), 1000, ""});
+  Tally all;
+  for (const int threads : {2, 3, 8}) {
+    SCOPED_TRACE(threads);
+    const Tally tally = run_beside_one_queue(scene, threads, 128, 60);
+    all.done += tally.done;
+    all.void_runs += tally.void_runs;
+  }
+  EXPECT_GT(all.done, 60);
+  EXPECT_GT(all.void_runs, 3U);
+}
+
+TEST(HaloWindows, OfOtherScenes) {
+  const std::vector<SceneText> scenes{
+      {140, 50, "periodic", "", disks(3500, equal), 1000, ""},
+      {60, 120, "wall", "gravity = [0.1, 0.5]", disks(3500, equal), 1000, ""},
+      {120, 60, "wall", "restitution = 0.95", disks(3500, mixed), 1000, ""},
+      {100, 100, "periodic", "gravity = 0.3\nrestitution = 0.9", disks(4000, mixed), 1000, ""},
+      {300, 300, "periodic", "", disks(3000, equal), 1000, ""}};
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    SCOPED_TRACE(k);
+    const Tally tally = run_beside_one_queue(make_scene(scenes[k]), 2, 1, 30);
+    EXPECT_GE(tally.done, 25);
+  }
+}
+
+// A disk a hundred times as fast as the others flies through parts in a window.
+TEST(HaloWindows, WithAProjectile) {
+  const std::string projectile =
+      "[[disks]]\ncount = 1\npositions = [[50, 50]]\nvelocities = [[7, 99]]\nradius = 0.5\nmass = 1\n";
+  const Scene scene = make_scene({100, 100, "periodic", "", projectile + disks(4000, equal), 1000, ""});
+  for (const std::size_t divisor : {std::size_t{1}, std::size_t{128}}) {
+    const Tally tally = run_beside_one_queue(scene, 3, divisor, 30);
+    EXPECT_GT(tally.done, 0);
+  }
+}
+
+std::vector<std::tuple<double, DiskId, DiskId>> in_order(const std::vector<DiskContact>& contacts) {
+  std::vector<std::tuple<double, DiskId, DiskId>> all;
+  for (const DiskContact& c : contacts) all.emplace_back(c.time, std::min(c.id1, c.id2), std::max(c.id1, c.id2));
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// Frames within a window, and its collisions, are those of one queue.
+TEST(HaloWindows, KeepPaths) {
+  const Scene scene = make_scene({100, 100, "periodic", "gravity = 0.1", disks(5000, mixed), 1000, ""});
+  const State initial = initial_state(scene);
+  const auto one_queue = make_parallel_engine(scene, initial, {1});
+  InParts parts(scene, initial, 2, 1);
+  for (int k = 0; k < 4; ++k) {
+    const double start = parts.state.time;
+    one_queue->step();
+    ASSERT_EQ(parts.step(), SliceOutcome::done);
+    for (const double share : {0.0, 0.3, 0.99}) {
+      const double t = start + share * (parts.state.time - start);
+      Disks frame = parts.state.disks;
+      parts.windows.move_along_paths(t - start, frame);
+      Disks expected;
+      one_queue->disks_at(t, expected);
+      EXPECT_EQ(state_hash(frame), state_hash(expected)) << "window " << k << ", share " << share;
+    }
+    const auto met = in_order(parts.windows.contacts(start));
+    EXPECT_EQ(met, in_order(one_queue->contacts())) << "window " << k;
+    EXPECT_GT(met.size(), 100U);
+  }
+}
+
+}  // namespace
+}  // namespace carom::exact_tests
