@@ -47,7 +47,8 @@ class HaloWidth {
     if (adapts_) spacings_ = std::min(most, spacings_ + step);
   }
 
-  static constexpr double least = 2.0;
+  // Wider than two skins and a radius: a disk that may come beyond an end is within that of it.
+  static constexpr double least = 4.0;
   static constexpr double most = 32.0;
   static constexpr double least_rest = 1.5;
   static constexpr double step = 0.5;

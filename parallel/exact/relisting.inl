@@ -127,7 +127,7 @@ bool EventProcessor<scope>::relist_at(std::uint32_t i, double time, Vec2 at) {
 // Part: one of its own disks may come beyond an end of the part before it is listed again. The part there must have it.
 template <Scope scope>
 void EventProcessor<scope>::note_listing(std::uint32_t i) {
-  if (!window_.part.note_listing(lists_.listed_position(i), lists_.skin() + window_.slack, record_[i]))
+  if (!window_.part.note_listing(lists_.listed_position(i), lists_.skin() + window_.slack, record_[i])) [[unlikely]]
     worker_.too_fast = worker_.ended = true;
 }
 

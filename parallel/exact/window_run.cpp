@@ -94,6 +94,7 @@ void WindowRun::set_part(const PartEnds& ends, std::size_t own, double largest_r
                          const std::function<DiskProgress(std::uint32_t)>& mark) {
   window_.is_part = true;
   window_.part = ends;
+  window_.part_is_known = true;
   own_ = own;
   least_largest_radius_ = largest_radius;
   largest_radius_ = std::max(largest_radius, largest_radius_);
@@ -106,7 +107,8 @@ void WindowRun::append_last_disk() {
 }
 
 void WindowRun::note_listing(std::uint32_t i) {
-  window_.part.note_listing(lists_.listed_position(i), lists_.skin() + window_.slack, window_.record[i]);
+  if (!window_.part.note_listing(lists_.listed_position(i), lists_.skin() + window_.slack, window_.record[i]))
+    window_.part_is_known = false;
 }
 
 // Of a part whose lists have just been built.
@@ -154,6 +156,7 @@ void WindowRun::begin(const WindowPlan& plan, const SpeedSummary& speeds, std::s
 
 SliceOutcome WindowRun::run_slice(const WindowPlan& plan, std::size_t disks, double start, double end) {
   const PhaseTimer timer(times_, "events");
+  if (!window_.part_is_known) return SliceOutcome::too_fast;
   const double elapsed = std::min(end, plan.length) - start;
   const SliceOutcome outcome = scheduler_.run(start, end, per_disk_, plan.start);
   if (outcome != SliceOutcome::done) return outcome;

@@ -70,9 +70,10 @@ class WindowRun {
   void set_part(const PartEnds& ends, std::size_t own, double largest_radius,
                 const std::function<DiskProgress(std::uint32_t)>& mark);
   void set_own(std::size_t own) { own_ = own; }
-  // Of a part, between windows: its last disk is new in the state; disk i is its own now, or what is marked of it is to
-  // be found anew.
+  // Of a part, between windows: its last disk is new in the state.
   void append_last_disk();
+  // Of a part, between windows, and of an own disk: may it come beyond an end? If it is no ghost of the part there, the
+  // next slice says that a disk was too fast.
   void note_listing(std::uint32_t i);
   // At a slice's end: these disks of the halo go elsewhere than was thought, and have got the paths on which they go.
   // They are listed there if need be, and their events are predicted anew.

@@ -58,10 +58,11 @@ struct WindowState {
   double speed_limit2 = 0.0;
   double speed_bound = 0.0;
   double slice_start = 0.0;
-  double slice_end = 0.0;  // events before this time; in the last slice up to and including `length`
-  KnownBand band;          // no disk that is not here comes into it in the window
-  bool is_part = false;    // of the box, one thread's, with a halo
-  PartEnds part;           // then: where it ends
+  double slice_end = 0.0;     // events before this time; in the last slice up to and including `length`
+  KnownBand band;             // no disk that is not here comes into it in the window
+  bool is_part = false;       // of the box, one thread's, with a halo
+  PartEnds part;              // then: where it ends
+  bool part_is_known = true;  // each of its own disks that may come beyond an end is a ghost of the part there
   bool keeps_paths = true;
   Count most_paths = 0;         // of all disks, beyond which the window is crowded (core/step/window_length.hpp)
   std::function<bool()> go_on;  // as in Engine::set_watch
