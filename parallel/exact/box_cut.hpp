@@ -1,4 +1,4 @@
-// The box cut into parts across its longer side, one for each thread, with about as many disks each.
+// The box cut into parts across its longer side, one for each thread, with about as much work each.
 #pragma once
 
 #include <cstddef>
@@ -49,7 +49,15 @@ struct BoxCut {
   double round_the_box(double d) const { return periodic && d < 0.0 ? d + side : d; }
 };
 
+// What the parts of a cut had to do: work[k] for each disk of part k, in any unit. Without parts, one for each disk.
+struct PartWork {
+  BoxCut cut;
+  std::vector<double> work;
+
+  double at(double c) const;
+};
+
 // halo: length. Parts are at least as wide as halos, or fewer than asked for.
-BoxCut cut_box(const Disks& disks, const Domain& box, std::size_t parts, double halo);
+BoxCut cut_box(const Disks& disks, const Domain& box, std::size_t parts, double halo, const PartWork& before = {});
 
 }  // namespace carom

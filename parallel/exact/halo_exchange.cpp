@@ -18,6 +18,11 @@ bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
+// Of a column that scenes may have.
+bool same_bits(const std::vector<double>& a, std::size_t i, const std::vector<double>& b, std::size_t k) {
+  return a.empty() || same_bits(a[i], b[k]);
+}
+
 bool same_path(const PathSegment& a, const PathSegment& b) {
   return same_bits(a.start, b.start) && same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.vx, b.vx) &&
          same_bits(a.vy, b.vy);
@@ -65,12 +70,14 @@ void HaloPart::compare_with(const HaloParts& parts) {
 bool HaloPart::goes_as_there(const Ghost& ghost, const HaloPart& owner) const {
   const WindowState& window = run_.window();
   const WindowState& others = owner.run_.window();
+  const std::uint32_t g = ghost.index;
   const std::uint32_t i = owner.own_[ghost.place].index;
-  const DiskRecord& here = window.record[ghost.index];
+  const DiskRecord& here = window.record[g];
   const DiskRecord& there = others.record[i];
-  return static_cast<std::uint16_t>(here.version - ghost.more_paths) == there.version &&
-         same_path(here.path, there.path) &&
-         (window.spin.empty() || same_bits(window.spin[ghost.index], others.spin[i]));
+  if (static_cast<std::uint16_t>(here.version - ghost.more_paths) != there.version) return false;
+  return same_path(here.path, there.path) && same_bits(window.spin, g, others.spin, i) &&
+         same_bits(window.last_contact, g, others.last_contact, i) &&
+         (window.thermal_hits.empty() || window.thermal_hits[g] == others.thermal_hits[i]);
 }
 
 // With a version that nothing has been predicted with here.
@@ -83,6 +90,8 @@ void HaloPart::replace_path(Ghost& ghost, const HaloPart& owner) {
   ghost.more_paths = static_cast<std::uint16_t>(here.version - others.record[i].version);
   here.path = others.record[i].path;
   if (!window.spin.empty()) window.spin[ghost.index] = others.spin[i];
+  if (!window.last_contact.empty()) window.last_contact[ghost.index] = others.last_contact[i];
+  if (!window.thermal_hits.empty()) window.thermal_hits[ghost.index] = others.thermal_hits[i];
   strays_.push_back(ghost.index);
 }
 

@@ -49,7 +49,7 @@ void HaloPart::take_disks(const Disks& all, const BoxCut& cut, std::size_t part)
   d.inertia = all.inertia;
 }
 
-void HaloPart::build(const WindowPlan& plan, const BoxCut& cut, double largest_radius, std::size_t first,
+void HaloPart::build(const WindowPlan& plan, const BoxCut& cut, State& all, double largest_radius, std::size_t first,
                      std::vector<std::uint32_t>& slots) {
   const double low = cut.along_x ? 0.0 : cut.low(number_) - cut.halo;
   const double high = cut.along_x ? 0.0 : cut.high(number_) + cut.halo;
@@ -61,7 +61,7 @@ void HaloPart::build(const WindowPlan& plan, const BoxCut& cut, double largest_r
                    });
   source_.swap(sorted);
   find_own(cut, first, slots);
-  set_ends(cut, largest_radius);
+  set_ends(cut, all, largest_radius);
 }
 
 void HaloPart::find_own(const BoxCut& cut, std::size_t first, std::vector<std::uint32_t>& slots) {
@@ -82,7 +82,7 @@ void HaloPart::find_own(const BoxCut& cut, std::size_t first, std::vector<std::u
   }
 }
 
-void HaloPart::set_ends(const BoxCut& cut, double largest_radius) {
+void HaloPart::set_ends(const BoxCut& cut, State& all, double largest_radius) {
   PartEnds ends;
   ends.along_x = cut.along_x;
   ends.between.centre = 0.5 * (cut.low(number_) + cut.high(number_));
@@ -90,7 +90,7 @@ void HaloPart::set_ends(const BoxCut& cut, double largest_radius) {
   const double half = 0.5 * (cut.high(number_) - cut.low(number_));
   if (cut.has_below(number_)) ends.between.below = -half;
   if (cut.has_above(number_)) ends.between.above = half;
-  run_.set_part(ends, own_count_, largest_radius, [this, cut](std::uint32_t i) {
+  run_.set_part(ends, own_count_, largest_radius, all, [this, cut](std::uint32_t i) {
     const double at = cut.coordinates(state_.disks)[i];
     DiskProgress progress;
     const bool below = cut.is_known_below(number_, at);

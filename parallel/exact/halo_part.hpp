@@ -32,9 +32,9 @@ class HaloPart {
 
   // Takes its disks from all of them: those of this part of the cut, and of its halo.
   void take_disks(const Disks& all, const BoxCut& cut, std::size_t part);
-  // Then sorts and lists them. largest_radius: of all disks. first: how many own disks the parts before this one have.
-  // slots[k], of each own disk: gets first and its place among the own ones, where k is its index in `all`.
-  void build(const WindowPlan& plan, const BoxCut& cut, double largest_radius, std::size_t first,
+  // Then sorts and lists them. all, largest_radius: of all disks. first: how many own disks the parts before this one
+  // have. slots[k], of each own disk: gets first and its place among the own ones, where k is its index in `all`.
+  void build(const WindowPlan& plan, const BoxCut& cut, State& all, double largest_radius, std::size_t first,
              std::vector<std::uint32_t>& slots);
   // When all parts are built: who owns the halo's disks. firsts: `first` of each part, and the number of all disks.
   void find_owners(const std::vector<std::size_t>& firsts, const std::vector<std::uint32_t>& slots);
@@ -94,7 +94,7 @@ class HaloPart {
   template <class T>
   void give(const std::vector<T>& column, std::vector<T>& all) const;
   void find_own(const BoxCut& cut, std::size_t first, std::vector<std::uint32_t>& slots);
-  void set_ends(const BoxCut& cut, double largest_radius);
+  void set_ends(const BoxCut& cut, State& all, double largest_radius);
   void copy_path(const Disks& from, std::size_t k, std::uint32_t i);
   bool goes_as_there(const Ghost& ghost, const HaloPart& owner) const;
   void replace_path(Ghost& ghost, const HaloPart& owner);

@@ -54,8 +54,7 @@ std::size_t HaloWindows::most_parts() const {
   return std::min(wanted, static_cast<std::size_t>(room));
 }
 
-// Contacts and hits that the state keeps by id, and disks that come and go, are not for parts; images that move have no
-// ends.
+// Disks that come and go are not for parts, and images that move have no ends.
 bool HaloWindows::are_wanted() {
   if (windows_without_ > 0) {
     --windows_without_;
@@ -63,9 +62,8 @@ bool HaloWindows::are_wanted() {
   }
   if (known_ == Known::nothing) spacing_ = mean_spacing();
   const bool keeps_disks = scene_.sources.empty() && !has_sinks(scene_);
-  const bool keeps_no_more = !scene_.physics.collapse_contact_time && !scene_.box.has_thermal_side();
-  return keeps_disks && keeps_no_more && !scene_.box.shear.acts() &&
-         state_.disks.size() >= executor_.grain(least_disks) && most_parts() > 1;
+  return keeps_disks && !scene_.box.shear.acts() && state_.disks.size() >= executor_.grain(least_disks) &&
+         most_parts() > 1;
 }
 
 void HaloWindows::forget(Known left) {
@@ -76,6 +74,7 @@ void HaloWindows::forget(Known left) {
 
 void HaloWindows::release_memory() {
   parts_.clear();
+  work_ = {};
   known_ = Known::nothing;
 }
 
@@ -87,7 +86,13 @@ bool HaloWindows::lists_due(const WindowPlan& plan) const {
 void HaloWindows::build(const WindowPlan& plan) {
   const PhaseTimer timer(times_, "list");
   width_.adapt();
-  build_parts(plan, cut_box(state_.disks, scene_.box, most_parts(), width_.spacings() * spacing_));
+  // The paths of each disk are some work, too.
+  for (std::size_t r = 0; r < parts_.size() && r < work_.work.size(); ++r) {
+    work_.work[r] = work_.work[r] / static_cast<double>(std::max<std::size_t>(parts_[r]->own(), 1)) + 1.0;
+  }
+  const BoxCut cut = cut_box(state_.disks, scene_.box, most_parts(), width_.spacings() * spacing_, work_);
+  work_ = {cut, std::vector<double>(cut.parts(), 0.0)};
+  build_parts(plan, cut);
   known_ = Known::lists;
   columns_changed_ = false;
 }
@@ -103,7 +108,7 @@ void HaloWindows::build_parts(const WindowPlan& plan, const BoxCut& cut) {
   std::vector<std::size_t> firsts{0};
   for (const std::unique_ptr<HaloPart>& part : parts_) firsts.push_back(firsts.back() + part->own());
   const double radius = largest_radius(state_.disks);
-  executor_.run(parts_.size(), [&](std::size_t r) { parts_[r]->build(plan, cut, radius, firsts[r], slots); });
+  executor_.run(parts_.size(), [&](std::size_t r) { parts_[r]->build(plan, cut, state_, radius, firsts[r], slots); });
   for_parts([&](HaloPart& part) {
     part.find_owners(firsts, slots);
     part.store_all_columns(state_.disks);
@@ -185,6 +190,11 @@ SliceOutcome HaloWindows::run_slice(const WindowPlan& plan, double start, double
   return agree ? SliceOutcome::done : SliceOutcome::ghosts_too_few;
 }
 
+void HaloWindows::add_work() {
+  for (std::size_t r = 0; r < parts_.size(); ++r)
+    work_.work[r] += static_cast<double>(parts_[r]->run().scheduler().events());
+}
+
 ImpactTally HaloWindows::store_paths(const WindowPlan& plan) {
   const PhaseTimer timer(times_, "store");
   std::vector<ImpactTally> tally(parts_.size());
@@ -194,6 +204,7 @@ ImpactTally HaloWindows::store_paths(const WindowPlan& plan) {
     parts_[r]->store_paths(state_.disks);
     parts_[r]->find_offers();
   });
+  add_work();
   for (std::size_t r = 1; r < tally.size(); ++r) tally[0].add(tally[r]);
   return tally[0];
 }

@@ -60,6 +60,7 @@ class HaloWindows {
   bool lists_due(const WindowPlan& plan) const;
   void build(const WindowPlan& plan);
   void build_parts(const WindowPlan& plan, const BoxCut& cut);
+  void add_work();
   void exchange_disks();
   void begin(const WindowPlan& plan, const SpeedSummary& speeds, const WindowState& window);
   SliceOutcome run_slices(const WindowPlan& plan);
@@ -75,6 +76,7 @@ class HaloWindows {
   PhaseTimes& times_;
   HaloParts parts_;
   HaloWidth width_;
+  PartWork work_;         // of the parts, and how they were cut
   HaloUse use_;           // of the window so far
   double spacing_ = 0.0;  // mean; length
   Known known_ = Known::nothing;

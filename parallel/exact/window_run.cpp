@@ -35,6 +35,7 @@ void fail_speed_bound(const WindowPlan& plan) {
 WindowRun::WindowRun(const Scene& scene, State& state, const Executor& executor, PhaseTimes& times)
     : scene_(scene),
       state_(state),
+      by_id_(&state),
       executor_(executor),
       times_(times),
       scheduler_(window_, lists_, executor_),
@@ -90,8 +91,9 @@ void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout, co
   rebuilt_ = true;
 }
 
-void WindowRun::set_part(const PartEnds& ends, std::size_t own, double largest_radius,
+void WindowRun::set_part(const PartEnds& ends, std::size_t own, double largest_radius, State& all,
                          const std::function<DiskProgress(std::uint32_t)>& mark) {
+  by_id_ = &all;
   window_.is_part = true;
   window_.part = ends;
   window_.part_is_known = true;
@@ -174,8 +176,8 @@ void WindowRun::load_paths(const WindowPlan& plan, const SpeedSummary& speeds, s
   // Two disks an event. Where nothing is known yet, a disk is listed where it is.
   lists_.set_lead_time(per_disk_ > 0.0 ? lead_in_free_times / (2.0 * per_disk_) : 0.0);
   window_.safe_speed2 = lists_.safe_speed2(plan.length, window_.rules.gravity.size);
-  window_.last_contact.resize(state_.last_contact.empty() ? 0 : d.size());
-  window_.thermal_hits.resize(state_.thermal_hits.empty() ? 0 : d.size());
+  window_.last_contact.resize(by_id_->last_contact.empty() ? 0 : d.size());
+  window_.thermal_hits.resize(by_id_->thermal_hits.empty() ? 0 : d.size());
   executor_.for_ranges(d.size(), pass_block,
                        [&](std::size_t, std::size_t begin, std::size_t end) { load_disks(begin, end, plan); });
 }
@@ -214,10 +216,10 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
     for (std::size_t i = begin; i < end; ++i) entry[i].time = std::min(entry[i].time, first_relist_time(i, plan));
   }
   if (!window_.last_contact.empty()) {
-    for (std::size_t i = begin; i < end; ++i) window_.last_contact[i] = state_.last_contact[d.id[i]] - plan.start;
+    for (std::size_t i = begin; i < end; ++i) window_.last_contact[i] = by_id_->last_contact[d.id[i]] - plan.start;
   }
   if (!window_.thermal_hits.empty()) {
-    for (std::size_t i = begin; i < end; ++i) window_.thermal_hits[i] = state_.thermal_hits[d.id[i]];
+    for (std::size_t i = begin; i < end; ++i) window_.thermal_hits[i] = by_id_->thermal_hits[d.id[i]];
   }
   if (!window_.burst.empty()) std::fill_n(&window_.burst[begin], end - begin, Burst{});
 }
@@ -289,11 +291,15 @@ ImpactTally WindowRun::store_paths(const WindowPlan& plan, std::vector<unsigned 
         }
         put(p, d, i);
       }
-      if (!state_.last_contact.empty()) {
-        for (std::size_t i = begin; i < end; ++i) state_.last_contact[d.id[i]] = plan.start + window_.last_contact[i];
+      if (!by_id_->last_contact.empty()) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (!is_ghost(i)) by_id_->last_contact[d.id[i]] = plan.start + window_.last_contact[i];
+        }
       }
-      if (!state_.thermal_hits.empty()) {
-        for (std::size_t i = begin; i < end; ++i) state_.thermal_hits[d.id[i]] = window_.thermal_hits[i];
+      if (!by_id_->thermal_hits.empty()) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (!is_ghost(i)) by_id_->thermal_hits[d.id[i]] = window_.thermal_hits[i];
+        }
       }
     });
   };

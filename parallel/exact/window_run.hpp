@@ -66,8 +66,9 @@ class WindowRun {
   void build_lists(const WindowPlan& plan, const ListLayout& layout, const NeighbourLists::Sorted& sorted = {});
 
   // The disks are those of a thread's part and of its halo; after build_lists. own: how many are its own.
-  // largest_radius: of all disks of the box. mark(i): what is marked of disk i.
-  void set_part(const PartEnds& ends, std::size_t own, double largest_radius,
+  // largest_radius: of all disks of the box. all: the state of all, which keeps what goes by id; outlives it. mark(i):
+  // what is marked of disk i.
+  void set_part(const PartEnds& ends, std::size_t own, double largest_radius, State& all,
                 const std::function<DiskProgress(std::uint32_t)>& mark);
   void set_own(std::size_t own) { own_ = own; }
   // Of a part, between windows: its last disk is new in the state.
@@ -110,6 +111,8 @@ class WindowRun {
   void load_paths(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks);
   void load_disks(std::size_t begin, std::size_t end, const WindowPlan& plan);
   void mark_disks();
+  // Of another part.
+  bool is_ghost(std::size_t i) const { return window_.is_part && window_.record[i].progress.has(DiskProgress::ghost); }
   void sort_times(const std::vector<std::uint32_t>& order, std::vector<double>& scratch);
   double first_relist_time(std::size_t i, const WindowPlan& plan) const;
   void store_straight(std::size_t begin, std::size_t end, double length);
@@ -117,6 +120,7 @@ class WindowRun {
 
   const Scene& scene_;
   State& state_;
+  State* by_id_;  // the state of all disks: last contacts and thermal hits
   const Executor& executor_;
   PhaseTimes& times_;
   WindowState window_;
