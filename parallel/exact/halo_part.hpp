@@ -11,7 +11,7 @@
 #include "core/scene/scene.hpp"
 #include "core/step/window_plan.hpp"
 #include "parallel/exact/box_cut.hpp"
-#include "parallel/exact/halo_width.hpp"
+#include "parallel/exact/halo_tuning.hpp"
 #include "parallel/exact/window_run.hpp"
 #include "parallel/threads/executor.hpp"
 

@@ -11,15 +11,15 @@ namespace carom {
 
 namespace {
 
-// Of a window. More make halos narrower, as errors come less far in a slice; each waits for the slowest thread.
-constexpr int slices = 4;
 // Fewer disks are as fast on one thread.
 constexpr std::size_t least_disks = 6000;
 // So many mean spacings, or halos, that a part is wide at least.
 constexpr double least_width = 2.0;
-// Windows that run without parts after one that could not be run in parts.
-constexpr int windows_without = 32;
-constexpr int windows_without_of_cut_work = 1;
+// Of a window, each with halos made anew for it.
+constexpr int most_tries = 3;
+// Windows that run without parts after one that could not be run in parts: the more, the sooner that comes again.
+constexpr int least_pause = 2;
+constexpr int longest_pause = 64;
 // How wide halos are at first, in mean spacings. Where work is cut so small, as tests do, they are and stay so narrow
 // that even small scenes have parts, and many windows are void.
 constexpr double first_width = 8.0;
@@ -33,7 +33,8 @@ HaloWindows::HaloWindows(const Scene& scene, State& state, const Executor& execu
       state_(state),
       executor_(executor),
       times_(times),
-      width_(work_is_cut() ? width_of_cut_work : first_width, !work_is_cut()) {}
+      pause_(least_pause),
+      tuning_(work_is_cut() ? width_of_cut_work : first_width, !work_is_cut()) {}
 
 bool HaloWindows::work_is_cut() const {
   return executor_.grain(least_disks) < least_disks / cut_small;
@@ -50,7 +51,7 @@ std::size_t HaloWindows::most_parts() const {
   const bool is_cut = executor_.grain(least_disks) < least_disks;
   const auto wanted = static_cast<std::size_t>(std::max(executor_.threads(), is_cut ? 2 : 1));
   const double side = std::max(scene_.box.width, scene_.box.height);
-  const double room = side / (least_width * width_.spacings() * spacing_);
+  const double room = side / (least_width * tuning_.spacings() * spacing_);
   return std::min(wanted, static_cast<std::size_t>(room));
 }
 
@@ -80,17 +81,17 @@ void HaloWindows::release_memory() {
 
 bool HaloWindows::lists_due(const WindowPlan& plan) const {
   const auto is_due = [&](const auto& part) { return part->run().lists_due(plan); };
-  return known_ == Known::nothing || width_.is_too_narrow() || std::any_of(parts_.begin(), parts_.end(), is_due);
+  return known_ == Known::nothing || tuning_.is_too_narrow() || std::any_of(parts_.begin(), parts_.end(), is_due);
 }
 
 void HaloWindows::build(const WindowPlan& plan) {
   const PhaseTimer timer(times_, "list");
-  width_.adapt();
+  tuning_.adapt();
   // The paths of each disk are some work, too.
   for (std::size_t r = 0; r < parts_.size() && r < work_.work.size(); ++r) {
     work_.work[r] = work_.work[r] / static_cast<double>(std::max<std::size_t>(parts_[r]->own(), 1)) + 1.0;
   }
-  const BoxCut cut = cut_box(state_.disks, scene_.box, most_parts(), width_.spacings() * spacing_, work_);
+  const BoxCut cut = cut_box(state_.disks, scene_.box, most_parts(), tuning_.spacings() * spacing_, work_);
   work_ = {cut, std::vector<double>(cut.parts(), 0.0)};
   build_parts(plan, cut);
   known_ = Known::lists;
@@ -117,7 +118,7 @@ void HaloWindows::build_parts(const WindowPlan& plan, const BoxCut& cut) {
 
 SliceOutcome HaloWindows::run(const WindowPlan& plan, const SpeedSummary& speeds, const WindowState& window) {
   SliceOutcome outcome = SliceOutcome::ghosts_too_few;
-  for (int tries = 0; tries < 2 && outcome == SliceOutcome::ghosts_too_few; ++tries) {
+  for (int tries = 0; tries < most_tries && outcome == SliceOutcome::ghosts_too_few; ++tries) {
     if (lists_due(plan)) {
       spacing_ = mean_spacing();
       build(plan);
@@ -128,14 +129,16 @@ SliceOutcome HaloWindows::run(const WindowPlan& plan, const SpeedSummary& speeds
     begin(plan, speeds, window);
     outcome = run_slices(plan);
     if (outcome != SliceOutcome::ghosts_too_few) continue;
-    width_.see_void();
+    tuning_.see_void();
     ++void_runs_;
   }
   if (outcome == SliceOutcome::done) {
-    width_.see_window(use_);
+    tuning_.see_window(use_);
     known_ = Known::lists_and_times;
+    pause_ = std::max(least_pause, pause_ - 1);
   } else {
-    windows_without_ = work_is_cut() ? windows_without_of_cut_work : windows_without;
+    windows_without_ = pause_;
+    pause_ = std::min(longest_pause, 2 * pause_);
   }
   return outcome;
 }
@@ -162,6 +165,7 @@ void HaloWindows::begin(const WindowPlan& plan, const SpeedSummary& speeds, cons
 
 SliceOutcome HaloWindows::run_slices(const WindowPlan& plan) {
   const PhaseTimer timer(times_, "events");
+  const int slices = tuning_.slices();
   for (int k = 0; k < slices; ++k) {
     const auto end_of = [&](int slice) { return plan.length * slice / slices; };
     const SliceOutcome outcome = run_slice(plan, end_of(k), k + 1 < slices ? end_of(k + 1) : never);

@@ -14,7 +14,7 @@
 #include "core/step/window_plan.hpp"
 #include "parallel/exact/box_cut.hpp"
 #include "parallel/exact/halo_part.hpp"
-#include "parallel/exact/halo_width.hpp"
+#include "parallel/exact/halo_tuning.hpp"
 #include "parallel/exact/window_run.hpp"
 #include "parallel/threads/executor.hpp"
 
@@ -75,7 +75,8 @@ class HaloWindows {
   const Executor& executor_;
   PhaseTimes& times_;
   HaloParts parts_;
-  HaloWidth width_;
+  int pause_;  // windows without parts after the next one that cannot be run in parts
+  HaloTuning tuning_;
   PartWork work_;         // of the parts, and how they were cut
   HaloUse use_;           // of the window so far
   double spacing_ = 0.0;  // mean; length

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/disks/state_hash.hpp"
+#include "core/step/step_start.hpp"
 #include "core/step/window_plan.hpp"
 #include "parallel/exact/window_passes.hpp"
 #include "parallel/simulation.hpp"
@@ -30,6 +31,8 @@ struct InParts {
       : scene(std::move(s)), state(std::move(initial)), executor(threads, divisor) {}
 
   SliceOutcome step() {
+    if (scene.physics.collapse_contact_time) state.last_contact.resize(state.next_id, -never);
+    count_thermal_hits(scene, state);
     const SpeedSummary speeds = summarise_speeds(state.disks, executor);
     const WindowPlan plan = plan_window(scene, state, state.disks.size(), speeds, 1.0);
     const SliceOutcome outcome = windows.run(plan, speeds, WindowState{});
@@ -69,6 +72,8 @@ Tally run_beside_one_queue(const Scene& scene, int threads, std::size_t divisor,
       EXPECT_EQ(parts.state.counters.wall_collisions, right.counters.wall_collisions) << "window " << k;
       EXPECT_EQ(parts.state.counters.virial, right.counters.virial) << "window " << k;
       EXPECT_EQ(parts.state.time, right.time) << "window " << k;
+      EXPECT_EQ(parts.state.last_contact, right.last_contact) << "window " << k;
+      EXPECT_EQ(parts.state.thermal_hits, right.thermal_hits) << "window " << k;
     } else {
       EXPECT_EQ(outcome, SliceOutcome::ghosts_too_few) << "window " << k;
       parts.state = right;
@@ -110,6 +115,10 @@ TEST(HaloWindows, OfOtherScenes) {
       {60, 120, "wall", "gravity = [0.1, 0.5]", disks(3500, equal), 1000, ""},
       {120, 60, "wall", "restitution = 0.95", disks(3500, mixed), 1000, ""},
       {100, 100, "periodic", "gravity = 0.3\nrestitution = 0.9", disks(4000, mixed), 1000, ""},
+      {120, 60, "left = { temperature = 4.0 }\nright = { temperature = 0.5 }", "", disks(3500, equal), 1000, ""},
+      {100, 100, "periodic", "restitution = 0.9\ncollapse = { model = \"tc\", contact_time = 1e-3 }",
+       disks(4000, mixed), 1000, ""},
+      {100, 100, "wall", "roughness = { tangential_restitution = 0.3, friction = 0.4 }", disks(4000, mixed), 1000, ""},
       {300, 300, "periodic", "", disks(3000, equal), 1000, ""}};
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     SCOPED_TRACE(k);

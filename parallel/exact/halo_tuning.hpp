@@ -1,0 +1,62 @@
+// How wide the halos of the exact engine's parts are, and into how many slices windows are cut: as windows need it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+// What a slice, or a window, needed of the halos: how far from the ends of parts the nearest ghost was that went
+// elsewhere than its owner said, and the furthest one that must not. Lengths, or mean spacings.
+struct HaloUse {
+  double nearest = HUGE_VAL;
+  double deepest = 0.0;
+
+  void see(const HaloUse& other) {
+    nearest = std::min(nearest, other.nearest);
+    deepest = std::max(deepest, other.deepest);
+  }
+  double rest() const { return nearest - deepest; }
+};
+
+// What is missing beyond a halo reaches inwards by some spacings in a slice. Where that nearly comes to disks that
+// concern a part's own, halos are made anew and wider; where it does, and the window is void, slices are halved as
+// well: disks crowd, and what happens to one soon concerns many. Where it did not come near before the lists were due,
+// there are fewer slices again, or halos are narrower. More slices than need be wait for the slowest thread more often.
+class HaloTuning {
+ public:
+  // Width at first, in mean spacings. adapts: else all stays as it is.
+  explicit HaloTuning(double spacings, bool adapts) : adapts_(adapts), spacings_(spacings) {}
+
+  double spacings() const { return spacings_; }
+  int slices() const { return slices_; }
+  bool is_too_narrow() const { return adapts_ && least_seen_ < least_rest; }
+  void see_window(const HaloUse& use) { least_seen_ = std::min(least_seen_, use.rest()); }
+  void see_void() {
+    least_seen_ = 0.0;
+    if (adapts_) slices_ = std::min(most_slices, 2 * slices_);
+  }
+  // Halos are made anew.
+  void adapt() {
+    const bool is_wide = adapts_ && least_seen_ > least_rest + 2.0 * step && least_seen_ < HUGE_VAL;
+    if (is_too_narrow()) spacings_ = std::min(widest, spacings_ + step);
+    if (is_wide && slices_ == least_slices) spacings_ = std::max(narrowest, spacings_ - step);
+    if (is_wide) slices_ = std::max(least_slices, slices_ / 2);
+    least_seen_ = HUGE_VAL;
+  }
+
+ private:
+  // Wider than two skins and a radius: a disk that may come beyond an end is within that of it.
+  static constexpr double narrowest = 4.0;
+  static constexpr double widest = 32.0;
+  static constexpr double step = 0.5;
+  static constexpr double least_rest = 1.5;
+  static constexpr int least_slices = 4;
+  static constexpr int most_slices = 64;
+  bool adapts_;
+  double spacings_;
+  int slices_ = least_slices;
+  double least_seen_ = HUGE_VAL;  // rest, since halos were made
+};
+
+}  // namespace carom
