@@ -50,7 +50,7 @@ class HaloTuning {
   static constexpr double narrowest = 4.0;
   static constexpr double widest = 32.0;
   static constexpr double step = 0.5;
-  static constexpr double least_rest = 1.5;
+  static constexpr double least_rest = 1.0;
   static constexpr int least_slices = 4;
   static constexpr int most_slices = 64;
   bool adapts_;
