@@ -22,7 +22,7 @@ constexpr int least_pause = 2;
 constexpr int longest_pause = 64;
 // How wide halos are at first, in mean spacings. Where work is cut so small, as tests do, they are and stay so narrow
 // that even small scenes have parts, and many windows are void.
-constexpr double first_width = 7.5;
+constexpr double first_width = 8.0;
 constexpr std::size_t cut_small = 8;
 constexpr double width_of_cut_work = 4.0;
 
