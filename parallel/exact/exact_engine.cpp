@@ -130,7 +130,7 @@ bool ParallelExact::edit(const Edit& edit) {
   if (!known) {
     forget(Known::nothing);
   } else if (edit.kind == Edit::Kind::add) {
-    windows_.lists().append(state_.disks);
+    windows_.lists().append(state_.disks, {state_.disks.x.back(), state_.disks.y.back()});
   }
   return true;
 }

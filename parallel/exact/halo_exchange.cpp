@@ -49,7 +49,7 @@ void HaloPart::compare_with(const HaloParts& parts) {
     Ghost& ghost = ghosts_[g];
     const HaloPart& owner = *parts[ghost.part];
     DiskRecord& here = record(ghost.index);
-    const DiskRecord& there = owner.run_.window().record[owner.own_[ghost.place].index];
+    const DiskRecord& there = owner.run_.window().record[owner.own_[ghost.place]];
     const bool concerns = here.progress.has(DiskProgress::met_own) || there.progress.has(DiskProgress::crosses);
     here.progress.clear(DiskProgress::met_own);
     const bool is_as_there = goes_as_there(ghost, owner);
@@ -71,7 +71,7 @@ bool HaloPart::goes_as_there(const Ghost& ghost, const HaloPart& owner) const {
   const WindowState& window = run_.window();
   const WindowState& others = owner.run_.window();
   const std::uint32_t g = ghost.index;
-  const std::uint32_t i = owner.own_[ghost.place].index;
+  const std::uint32_t i = owner.own_[ghost.place];
   const DiskRecord& here = window.record[g];
   const DiskRecord& there = others.record[i];
   if (static_cast<std::uint16_t>(here.version - ghost.more_paths) != there.version) return false;
@@ -84,7 +84,7 @@ bool HaloPart::goes_as_there(const Ghost& ghost, const HaloPart& owner) const {
 void HaloPart::replace_path(Ghost& ghost, const HaloPart& owner) {
   WindowState& window = run_.window();
   const WindowState& others = owner.run_.window();
-  const std::uint32_t i = owner.own_[ghost.place].index;
+  const std::uint32_t i = owner.own_[ghost.place];
   DiskRecord& here = window.record[ghost.index];
   ++here.version;
   ghost.more_paths = static_cast<std::uint16_t>(here.version - others.record[i].version);
@@ -104,24 +104,25 @@ double HaloPart::beyond_end(const PathSegment& path) const {
   return std::max(d - between.above, between.below - d);
 }
 
-void HaloPart::find_offers() {
+void HaloPart::find_offers(const Disks& all) {
   offers_below_.clear();
   offers_above_.clear();
-  const std::vector<double>& c = ends().along_x ? state_.disks.x : state_.disks.y;
+  const std::vector<double>& c = ends().along_x ? all.x : all.y;
   const KnownBand& between = ends().between;
   const double low = between.below + halo_;
   const double high = between.above - halo_;
   for (std::uint32_t place = 0; place < own_.size(); ++place) {
-    if (own_[place].index == none) continue;
-    const double d = c[own_[place].index] - between.centre;
+    if (own_[place] == none) continue;
+    const double at = c[slots_[own_[place]]];
+    const double d = at - between.centre;
     if (d <= low || d >= high) [[unlikely]]
-      offer(place, between.from_centre(c[own_[place].index]));
+      offer(place, between.from_centre(at));
   }
 }
 
 // And asks anew whether it may come beyond an end.
 void HaloPart::offer(std::uint32_t place, double from_centre) {
-  const std::uint32_t i = own_[place].index;
+  const std::uint32_t i = own_[place];
   DiskRecord& disk = record(i);
   const bool known_below = disk.progress.has(DiskProgress::known_below);
   const bool known_above = disk.progress.has(DiskProgress::known_above);
@@ -129,11 +130,11 @@ void HaloPart::offer(std::uint32_t place, double from_centre) {
   const bool above = from_centre >= ends().between.above - halo_ && !known_above;
   if (below || (above && is_one_of_two())) {
     disk.progress.set(DiskProgress::known_below);
-    offers_below_.push_back(place);
+    offers_below_.push_back({place, slots_[i]});
   }
   if (above || (below && is_one_of_two())) {
     disk.progress.set(DiskProgress::known_above);
-    if (!is_one_of_two()) offers_above_.push_back(place);
+    if (!is_one_of_two()) offers_above_.push_back({place, slots_[i]});
   }
   if (!disk.progress.has(DiskProgress::crosses)) return;
   disk.progress.clear(DiskProgress::crosses);
@@ -142,30 +143,28 @@ void HaloPart::offer(std::uint32_t place, double from_centre) {
 
 void HaloPart::take_offers(const Disks& all, const HaloParts& parts) {
   if (above_ != number_) {
-    for (const std::uint32_t place : parts[above_]->offers_below_) add_ghost(all, *parts[above_], place);
+    for (const Offer& offer : parts[above_]->offers_below_) add_ghost(all, above_, offer);
   }
   if (below_ != number_) {
-    for (const std::uint32_t place : parts[below_]->offers_above_) add_ghost(all, *parts[below_], place);
+    for (const Offer& offer : parts[below_]->offers_above_) add_ghost(all, below_, offer);
   }
 }
 
-// Its columns are those of all disks, as those of the owner may be moving to where they have room for more.
-void HaloPart::add_ghost(const Disks& all, const HaloPart& owner, std::uint32_t place) {
-  const std::size_t slot = owner.own_[place].slot;
+// The offer says all: the owner is taking in ghosts at the same time.
+void HaloPart::add_ghost(const Disks& all, std::uint16_t owner, const Offer& offer) {
+  const std::uint32_t slot = offer.slot;
   Disks& d = state_.disks;
-  append_from(all.x, slot, d.x);
-  append_from(all.y, slot, d.y);
-  append_from(all.vx, slot, d.vx);
-  append_from(all.vy, slot, d.vy);
+  slots_.push_back(slot);
+  d.x.push_back(all.x[slot]);
   append_from(all.id, slot, d.id);
   append_from(all.radius, slot, d.radius);
   append_from(all.mass, slot, d.mass);
   append_from(all.spin, slot, d.spin);
-  run_.append_last_disk();
+  run_.append_last_disk({all.x[slot], all.y[slot]});
   const auto i = static_cast<std::uint32_t>(d.size() - 1);
   record(i).progress = DiskProgress();
   record(i).progress.set(DiskProgress::ghost);
-  ghosts_.push_back({i, place, owner.number_, 0});
+  ghosts_.push_back({i, offer.place, owner, 0});
 }
 
 // From the last one on: the last ghost takes the place of one that is none any more.
@@ -178,11 +177,11 @@ void HaloPart::take_over(const HaloParts& parts) {
 void HaloPart::own_ghost(std::size_t number, const HaloParts& parts) {
   const Ghost ghost = ghosts_[number];
   HaloPart& owner = *parts[ghost.part];
-  Own& there = owner.own_[ghost.place];
-  DiskProgress& progress = owner.record(there.index).progress;
+  std::uint32_t& there = owner.own_[ghost.place];
+  DiskProgress& progress = owner.record(there).progress;
   if (progress.has(DiskProgress::known_below) && progress.has(DiskProgress::known_above) && !is_one_of_two()) return;
   const auto place = static_cast<std::uint32_t>(own_.size());
-  own_.push_back({ghost.index, there.slot});
+  own_.push_back(ghost.index);
   DiskRecord& disk = record(ghost.index);
   disk.progress = DiskProgress();
   if (ghost.part == below_) disk.progress.set(DiskProgress::known_below);
@@ -192,8 +191,8 @@ void HaloPart::own_ghost(std::size_t number, const HaloParts& parts) {
   ghosts_.pop_back();
   progress = DiskProgress();
   progress.set(DiskProgress::ghost);
-  owner.ghosts_.push_back({there.index, place, number_, 0});
-  there.index = none;
+  owner.ghosts_.push_back({there, place, number_, 0});
+  there = none;
   run_.set_own(++own_count_);
   owner.run_.set_own(--owner.own_count_);
 }

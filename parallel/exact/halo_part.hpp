@@ -39,13 +39,11 @@ class HaloPart {
   // When all parts are built: who owns the halo's disks. firsts: `first` of each part, and the number of all disks.
   void find_owners(const std::vector<std::size_t>& firsts, const std::vector<std::uint32_t>& slots);
 
-  // Own disks to the columns of all, each to its slot: all columns, or positions, velocities and spins.
-  void store_all_columns(Disks& all) const;
-  void store_paths(Disks& all) const { give_paths(state_.disks, all); }
-  // Likewise of other columns, whose disks are in the same order as those of this part.
+  // Then its own disks are stored in the columns of all, each in its slot, and here only their ids, radii and masses
+  // are kept.
+  void give_columns(Disks& all);
+  // Own disks' positions, velocities and spins to their slots; here: in the same order as the disks of this part.
   void give_paths(const Disks& here, Disks& all) const;
-  // The other way, for ghosts too.
-  void load_paths(const Disks& all, const HaloParts& parts);
 
   // Before a window's first slice.
   void begin_window();
@@ -56,8 +54,9 @@ class HaloPart {
   bool agrees() const { return agrees_; }
   const HaloUse& use() const { return use_; }
 
-  // After a window: which of its own disks have come so near to an end that the part there is to have them, too.
-  void find_offers();
+  // After a window: which of its own disks have come so near to an end that the part there is to have them, too. all:
+  // the columns.
+  void find_offers(const Disks& all);
   // Then, when all have: takes what others offer as ghosts. all: the columns.
   void take_offers(const Disks& all, const HaloParts& parts);
   // Then, one part after the other: makes the ghosts that came inside disks of its own.
@@ -65,17 +64,13 @@ class HaloPart {
 
   std::size_t own() const { return own_count_; }
   std::size_t ghosts() const { return ghosts_.size(); }
-  const Disks& disks() const { return state_.disks; }
+  std::size_t size() const { return slots_.size(); }
+  const std::vector<DiskId>& ids() const { return state_.disks.id; }
   WindowRun& run() { return run_; }
   const WindowRun& run() const { return run_; }
 
  private:
-  // A disk of its own: its index here, and where it is in the columns of all. When it belongs to another part its index
-  // is `none`, so that the others keep their places.
-  struct Own {
-    std::uint32_t index;
-    std::uint32_t slot;
-  };
+  // In place of the index of a disk that belongs to another part now, so that the others keep their places.
   static constexpr std::uint32_t none = 0xffffffffU;
   // A disk of the halo: its index here, and its place in the part that owns it.
   struct Ghost {
@@ -85,22 +80,21 @@ class HaloPart {
     std::uint16_t more_paths;  // begun here in the window than there, modulo 2^16, as its path has been replaced
   };
 
-  template <class Visit>
-  void for_each_own(Visit&& visit) const {
-    for (const Own& own : own_) {
-      if (own.index != none) visit(own);
-    }
-  }
+  // An own disk that another part is to have as a ghost.
+  struct Offer {
+    std::uint32_t place;
+    std::uint32_t slot;
+  };
+
   template <class T>
   void give(const std::vector<T>& column, std::vector<T>& all) const;
   void find_own(const BoxCut& cut, std::size_t first, std::vector<std::uint32_t>& slots);
   void set_ends(const BoxCut& cut, State& all, double largest_radius);
-  void copy_path(const Disks& from, std::size_t k, std::uint32_t i);
   bool goes_as_there(const Ghost& ghost, const HaloPart& owner) const;
   void replace_path(Ghost& ghost, const HaloPart& owner);
   double beyond_end(const PathSegment& path) const;
   void offer(std::uint32_t place, double from_centre);
-  void add_ghost(const Disks& all, const HaloPart& owner, std::uint32_t place);
+  void add_ghost(const Disks& all, std::uint16_t owner, const Offer& offer);
   void own_ghost(std::size_t ghost, const HaloParts& parts);
   DiskRecord& record(std::uint32_t i) { return run_.window().record[i]; }
   const PartEnds& ends() const { return run_.window().part; }
@@ -115,12 +109,13 @@ class HaloPart {
   std::uint16_t below_ = 0, above_ = 0;  // parts; this one where there is none
   double halo_ = 0.0;                    // how wide it is; length
   std::size_t own_count_ = 0;
-  std::vector<Own> own_;               // by place
-  std::vector<std::uint32_t> source_;  // while it is built: of each disk, the index in all of them
+  std::vector<std::uint32_t> own_;  // indices of its own disks, by place
+  std::vector<std::uint32_t>
+      slots_;  // of each disk, where it is in the columns of all; while it is built, where it was
   std::vector<Ghost> ghosts_;
   std::vector<std::uint32_t> strays_;  // of the slice: ghosts that went elsewhere, by index
   std::vector<std::size_t> inside_;    // ghosts that are well inside after the slice, in ghosts_, in order
-  std::vector<std::uint32_t> offers_below_, offers_above_;  // own disks, by place
+  std::vector<Offer> offers_below_, offers_above_;
   bool agrees_ = true;
   HaloUse use_;
 };

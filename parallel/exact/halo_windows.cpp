@@ -69,7 +69,6 @@ bool HaloWindows::are_wanted() {
 
 void HaloWindows::forget(Known left) {
   known_ = std::min(known_, left);
-  columns_changed_ = true;
   for (const std::unique_ptr<HaloPart>& part : parts_) part->run().forget(left);
 }
 
@@ -95,7 +94,6 @@ void HaloWindows::build(const WindowPlan& plan) {
   work_ = {cut, std::vector<double>(cut.parts(), 0.0)};
   build_parts(plan, cut);
   known_ = Known::lists;
-  columns_changed_ = false;
 }
 
 // Then the columns of all disks are in the order of the parts.
@@ -112,7 +110,7 @@ void HaloWindows::build_parts(const WindowPlan& plan, const BoxCut& cut) {
   executor_.run(parts_.size(), [&](std::size_t r) { parts_[r]->build(plan, cut, state_, radius, firsts[r], slots); });
   for_parts([&](HaloPart& part) {
     part.find_owners(firsts, slots);
-    part.store_all_columns(state_.disks);
+    part.give_columns(state_.disks);
   });
 }
 
@@ -153,14 +151,12 @@ void HaloWindows::begin(const WindowPlan& plan, const SpeedSummary& speeds, cons
   known_ = Known::nothing;
   use_ = {};
   for_parts([&](HaloPart& part) {
-    if (columns_changed_) part.load_paths(state_.disks, parts_);
     WindowState& own = part.run().window();
     own.keeps_paths = window.keeps_paths;
     own.go_on = window.go_on;
     part.begin_window();
     part.run().begin(plan, speeds, state_.disks.size(), 1.0);
   });
-  columns_changed_ = false;
 }
 
 SliceOutcome HaloWindows::run_slices(const WindowPlan& plan) {
@@ -205,8 +201,7 @@ ImpactTally HaloWindows::store_paths(const WindowPlan& plan) {
   executor_.run(parts_.size(), [&](std::size_t r) {
     std::vector<unsigned char> gone;
     tally[r] = parts_[r]->run().store_paths(plan, gone);
-    parts_[r]->store_paths(state_.disks);
-    parts_[r]->find_offers();
+    parts_[r]->find_offers(state_.disks);
   });
   add_work();
   for (std::size_t r = 1; r < tally.size(); ++r) tally[0].add(tally[r]);
@@ -215,8 +210,11 @@ ImpactTally HaloWindows::store_paths(const WindowPlan& plan) {
 
 void HaloWindows::move_along_paths(double s, Disks& disks) const {
   for (const std::unique_ptr<HaloPart>& part : parts_) {
-    Disks moved = part->disks();
     const WindowRun& run = part->run();
+    Disks moved;
+    moved.id = part->ids();
+    for (std::vector<double>* column : {&moved.x, &moved.y, &moved.vx, &moved.vy}) column->resize(part->size());
+    moved.spin = run.window().spin;
     carom::move_along_paths(run.window(), run.scheduler(), s, run.window().rules.box, {}, moved);
     part->give_paths(moved, disks);
   }
@@ -228,7 +226,7 @@ std::vector<DiskContact> HaloWindows::contacts(double start) const {
     const auto is_own = [&](std::uint32_t i) {
       return !part->run().window().record[i].progress.has(DiskProgress::ghost);
     };
-    const std::vector<DiskContact> own = contacts_of_window(part->run().scheduler(), part->disks().id, start, is_own);
+    const std::vector<DiskContact> own = contacts_of_window(part->run().scheduler(), part->ids(), start, is_own);
     all.insert(all.end(), own.begin(), own.end());
   }
   return all;

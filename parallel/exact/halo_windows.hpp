@@ -35,7 +35,7 @@ class HaloWindows {
   // Is the next window one for parts?
   bool are_wanted();
 
-  // No more than this is right any more, or positions and velocities are others.
+  // No more than this is right any more.
   void forget(Known left);
   void release_memory();
 
@@ -81,8 +81,7 @@ class HaloWindows {
   HaloUse use_;           // of the window so far
   double spacing_ = 0.0;  // mean; length
   Known known_ = Known::nothing;
-  bool columns_changed_ = false;  // positions or velocities of the state, since the last window
-  int windows_without_ = 0;       // so many to come
+  int windows_without_ = 0;  // so many to come
   Count void_runs_ = 0;
 };
 

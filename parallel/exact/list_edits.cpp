@@ -6,9 +6,9 @@
 
 namespace carom {
 
-void NeighbourLists::append(const Disks& d) {
+void NeighbourLists::append(const Disks& d, Vec2 at) {
   const auto i = static_cast<std::uint32_t>(d.size() - 1);
-  const FixedPointPosition position = fixed_point(d.x[i], d.y[i]);
+  const FixedPointPosition position = fixed_point(at.x, at.y);
   const ListRegion everything;
   ++first_of_tile_.back();
   rows_.append(position);

@@ -35,7 +35,7 @@ void fail_speed_bound(const WindowPlan& plan) {
 WindowRun::WindowRun(const Scene& scene, State& state, const Executor& executor, PhaseTimes& times)
     : scene_(scene),
       state_(state),
-      by_id_(&state),
+      all_(&state),
       executor_(executor),
       times_(times),
       scheduler_(window_, lists_, executor_),
@@ -92,8 +92,10 @@ void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout, co
 }
 
 void WindowRun::set_part(const PartEnds& ends, std::size_t own, double largest_radius, State& all,
+                         const std::vector<std::uint32_t>& slots,
                          const std::function<DiskProgress(std::uint32_t)>& mark) {
-  by_id_ = &all;
+  all_ = &all;
+  slots_ = &slots;
   window_.is_part = true;
   window_.part = ends;
   window_.part_is_known = true;
@@ -103,9 +105,9 @@ void WindowRun::set_part(const PartEnds& ends, std::size_t own, double largest_r
   mark_ = mark;
 }
 
-void WindowRun::append_last_disk() {
+void WindowRun::append_last_disk(Vec2 at) {
   window_.append_disk(0.0);
-  lists_.append(state_.disks);
+  lists_.append(state_.disks, at);
 }
 
 void WindowRun::note_listing(std::uint32_t i) {
@@ -175,9 +177,12 @@ void WindowRun::load_paths(const WindowPlan& plan, const SpeedSummary& speeds, s
   window_.most_paths = most_paths(disks);
   // Two disks an event. Where nothing is known yet, a disk is listed where it is.
   lists_.set_lead_time(per_disk_ > 0.0 ? lead_in_free_times / (2.0 * per_disk_) : 0.0);
+  if (slots_ != nullptr) {
+    for (std::size_t i = 0; i < window_.spin.size(); ++i) window_.spin[i] = all_->disks.spin[(*slots_)[i]];
+  }
   window_.safe_speed2 = lists_.safe_speed2(plan.length, window_.rules.gravity.size);
-  window_.last_contact.resize(by_id_->last_contact.empty() ? 0 : d.size());
-  window_.thermal_hits.resize(by_id_->thermal_hits.empty() ? 0 : d.size());
+  window_.last_contact.resize(all_->last_contact.empty() ? 0 : d.size());
+  window_.thermal_hits.resize(all_->thermal_hits.empty() ? 0 : d.size());
   executor_.for_ranges(d.size(), pass_block,
                        [&](std::size_t, std::size_t begin, std::size_t end) { load_disks(begin, end, plan); });
 }
@@ -187,25 +192,34 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
   const bool timed = known_ == Known::lists_and_times;
   const bool relists_stay = timed && !rebuilt_;
   // Pointers of the columns in registers, as records and entries are written in between.
-  const double* const x = d.x.data();
-  const double* const y = d.y.data();
-  const double* const vx = d.vx.data();
-  const double* const vy = d.vy.data();
+  const Disks& paths = all_->disks;
+  const double* const x = paths.x.data();
+  const double* const y = paths.y.data();
+  const double* const vx = paths.vx.data();
+  const double* const vy = paths.vy.data();
   const DiskId* const id = d.id.data();
   DiskRecord* const record = window_.record.data();
   CalendarEntry* const entry = window_.entry.data();
   const double length = length_;
   const double early = early_share * length;
-  for (std::size_t i = begin; i < end; ++i) {
-    // A contact is predicted again, since rounding at the start of paths may make another event the first.
-    const bool relists = relists_stay && record[i].partner.is_relist();
-    record[i].path = {0.0, x[i], y[i], vx[i], vy[i]};
-    record[i].radius = d.common_radius;
-    record[i].id = id[i];
-    record[i].partner = relists ? Partner::relist() : Partner::none();
-    record[i].version = record[i].partner_version = 0;
-    // Of an event that was predicted in the window before, a little early.
-    entry[i].time = (entry[i].time - length) - early;
+  const auto load = [&](const auto& slot_of) __attribute__((always_inline)) {
+    for (std::size_t i = begin; i < end; ++i) {
+      // A contact is predicted again, since rounding at the start of paths may make another event the first.
+      const bool relists = relists_stay && record[i].partner.is_relist();
+      const std::size_t k = slot_of(i);
+      record[i].path = {0.0, x[k], y[k], vx[k], vy[k]};
+      record[i].radius = d.common_radius;
+      record[i].id = id[i];
+      record[i].partner = relists ? Partner::relist() : Partner::none();
+      record[i].version = record[i].partner_version = 0;
+      // Of an event that was predicted in the window before, a little early.
+      entry[i].time = (entry[i].time - length) - early;
+    }
+  };
+  if (slots_ != nullptr) {
+    load([slot = slots_->data()](std::size_t i) { return std::size_t{slot[i]}; });
+  } else {
+    load([](std::size_t i) { return i; });
   }
   if (!d.radius.empty()) {
     for (std::size_t i = begin; i < end; ++i) record[i].radius = d.radius[i];
@@ -216,10 +230,10 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
     for (std::size_t i = begin; i < end; ++i) entry[i].time = std::min(entry[i].time, first_relist_time(i, plan));
   }
   if (!window_.last_contact.empty()) {
-    for (std::size_t i = begin; i < end; ++i) window_.last_contact[i] = by_id_->last_contact[d.id[i]] - plan.start;
+    for (std::size_t i = begin; i < end; ++i) window_.last_contact[i] = all_->last_contact[d.id[i]] - plan.start;
   }
   if (!window_.thermal_hits.empty()) {
-    for (std::size_t i = begin; i < end; ++i) window_.thermal_hits[i] = by_id_->thermal_hits[d.id[i]];
+    for (std::size_t i = begin; i < end; ++i) window_.thermal_hits[i] = all_->thermal_hits[d.id[i]];
   }
   if (!window_.burst.empty()) std::fill_n(&window_.burst[begin], end - begin, Burst{});
 }
@@ -272,6 +286,7 @@ void WindowRun::store_straight(std::size_t begin, std::size_t end, double length
 
 ImpactTally WindowRun::store_paths(const WindowPlan& plan, std::vector<unsigned char>& gone) {
   const PhaseTimer timer(times_, "store");
+  if (slots_ != nullptr) return store_part(plan);
   Disks& d = state_.disks;
   const std::size_t n = d.size();
   const bool any_gone = scheduler_.any_gone();
@@ -291,14 +306,14 @@ ImpactTally WindowRun::store_paths(const WindowPlan& plan, std::vector<unsigned 
         }
         put(p, d, i);
       }
-      if (!by_id_->last_contact.empty()) {
+      if (!all_->last_contact.empty()) {
         for (std::size_t i = begin; i < end; ++i) {
-          if (!is_ghost(i)) by_id_->last_contact[d.id[i]] = plan.start + window_.last_contact[i];
+          all_->last_contact[d.id[i]] = plan.start + window_.last_contact[i];
         }
       }
-      if (!by_id_->thermal_hits.empty()) {
+      if (!all_->thermal_hits.empty()) {
         for (std::size_t i = begin; i < end; ++i) {
-          if (!is_ghost(i)) by_id_->thermal_hits[d.id[i]] = window_.thermal_hits[i];
+          all_->thermal_hits[d.id[i]] = window_.thermal_hits[i];
         }
       }
     });
@@ -312,11 +327,32 @@ ImpactTally WindowRun::store_paths(const WindowPlan& plan, std::vector<unsigned 
     store([&](PathSegment& p, std::size_t, std::size_t) { wrap_into(p, box); });
   }
   if (d.spins()) d.spin = window_.spin;
+  return end_window(plan, crossings);
+}
+
+ImpactTally WindowRun::end_window(const WindowPlan& plan, const std::vector<ImpactTally>& crossings) {
   if (known_ == Known::lists) known_ = Known::lists_and_times;
   length_ = plan.length;
   ImpactTally tally = scheduler_.tally();
   for (const ImpactTally& block : crossings) tally.add(block);
   return tally;
+}
+
+// Own disks alone, to the columns of all.
+ImpactTally WindowRun::store_part(const WindowPlan& plan) {
+  Disks& to = all_->disks;
+  const std::uint32_t* const slot = slots_->data();
+  for (std::size_t i = 0; i < window_.record.size(); ++i) {
+    const DiskRecord& record = window_.record[i];
+    if (record.progress.has(DiskProgress::ghost)) continue;
+    PathSegment p = carried_to(record.path, plan.length, window_.rules.gravity);
+    wrap_into(p, window_.rules.box);
+    put(p, to, slot[i]);
+    if (!window_.spin.empty()) to.spin[slot[i]] = window_.spin[i];
+    if (!window_.last_contact.empty()) all_->last_contact[record.id] = plan.start + window_.last_contact[i];
+    if (!window_.thermal_hits.empty()) all_->thermal_hits[record.id] = window_.thermal_hits[i];
+  }
+  return end_window(plan, {});
 }
 
 }  // namespace carom

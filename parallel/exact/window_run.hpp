@@ -66,13 +66,13 @@ class WindowRun {
   void build_lists(const WindowPlan& plan, const ListLayout& layout, const NeighbourLists::Sorted& sorted = {});
 
   // The disks are those of a thread's part and of its halo; after build_lists. own: how many are its own.
-  // largest_radius: of all disks of the box. all: the state of all, which keeps what goes by id; outlives it. mark(i):
-  // what is marked of disk i.
+  // largest_radius: of all disks of the box. all: the state of all, from which paths are loaded, and to which those of
+  // own disks are stored; disk i is at slots[i] of its columns. Both outlive it. mark(i): what is marked of disk i.
   void set_part(const PartEnds& ends, std::size_t own, double largest_radius, State& all,
-                const std::function<DiskProgress(std::uint32_t)>& mark);
+                const std::vector<std::uint32_t>& slots, const std::function<DiskProgress(std::uint32_t)>& mark);
   void set_own(std::size_t own) { own_ = own; }
-  // Of a part, between windows: its last disk is new in the state.
-  void append_last_disk();
+  // Of a part, between windows: its last disk is new in the state and the slots; at: where it is.
+  void append_last_disk(Vec2 at);
   // Of a part, between windows, and of an own disk: may it come beyond an end? If it is no ghost of the part there, the
   // next slice says that a disk was too fast.
   void note_listing(std::uint32_t i);
@@ -111,8 +111,8 @@ class WindowRun {
   void load_paths(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks);
   void load_disks(std::size_t begin, std::size_t end, const WindowPlan& plan);
   void mark_disks();
-  // Of another part.
-  bool is_ghost(std::size_t i) const { return window_.is_part && window_.record[i].progress.has(DiskProgress::ghost); }
+  ImpactTally store_part(const WindowPlan& plan);
+  ImpactTally end_window(const WindowPlan& plan, const std::vector<ImpactTally>& crossings);
   void sort_times(const std::vector<std::uint32_t>& order, std::vector<double>& scratch);
   double first_relist_time(std::size_t i, const WindowPlan& plan) const;
   void store_straight(std::size_t begin, std::size_t end, double length);
@@ -120,7 +120,8 @@ class WindowRun {
 
   const Scene& scene_;
   State& state_;
-  State* by_id_;  // the state of all disks: last contacts and thermal hits
+  State* all_;  // has all disks' paths, last contacts and thermal hits: `state_`, but of a part
+  const std::vector<std::uint32_t>* slots_ = nullptr;  // of a part
   const Executor& executor_;
   PhaseTimes& times_;
   WindowState window_;
