@@ -8,13 +8,17 @@ namespace carom {
 namespace {
 
 // Room for ghosts that are still to come: one for so many disks.
-constexpr std::size_t spare_share = 64;
+constexpr std::size_t spare_share = 32;
 
 template <class T>
 void take(const std::vector<T>& all, const std::vector<std::uint32_t>& source, std::vector<T>& column) {
-  if (!all.empty()) column.reserve(source.size() + source.size() / spare_share);
   column.resize(all.empty() ? 0 : source.size());
   for (std::size_t i = 0; i < column.size(); ++i) column[i] = all[source[i]];
+}
+
+template <class T>
+void make_room(std::vector<T>& column) {
+  if (!column.empty()) column.reserve(column.size() + column.size() / spare_share);
 }
 
 }  // namespace
@@ -28,6 +32,8 @@ void HaloPart::give(const std::vector<T>& column, std::vector<T>& all) const {
 }
 
 void HaloPart::take_disks(const Disks& all, const BoxCut& cut, std::size_t part) {
+  // Nothing of a part's last windows is needed to build it, and building takes as much.
+  if (slots_.size() > disks_of_much_memory) run_.release_memory();
   number_ = static_cast<std::uint16_t>(part);
   const std::size_t last = cut.parts() - 1;
   below_ = static_cast<std::uint16_t>(!cut.has_below(part) ? part : part == 0 ? last : part - 1);
@@ -39,7 +45,7 @@ void HaloPart::take_disks(const Disks& all, const BoxCut& cut, std::size_t part)
       static_cast<std::size_t>(std::count_if(c.begin(), c.end(), [&](double at) { return cut.owns(part, at); }));
   const auto count = static_cast<std::size_t>(std::count_if(c.begin(), c.end(), is_here));
   slots_.clear();
-  slots_.reserve(count + count / spare_share);
+  slots_.reserve(count);
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (is_here(c[k])) slots_.push_back(static_cast<std::uint32_t>(k));
   }
@@ -128,6 +134,9 @@ void HaloPart::give_columns(Disks& all) {
   give(d.radius, all.radius);
   give(d.mass, all.mass);
   for (std::vector<double>* column : {&d.y, &d.vx, &d.vy}) std::vector<double>().swap(*column);
+  for (std::vector<double>* column : {&d.x, &d.radius, &d.mass, &d.spin}) make_room(*column);
+  make_room(d.id);
+  make_room(slots_);
 }
 
 void HaloPart::give_paths(const Disks& here, Disks& all) const {

@@ -84,7 +84,7 @@ bool ListRows::surely_within(std::uint32_t i, std::uint32_t first, std::uint32_t
 }
 
 void ListRows::begin(std::size_t disks, std::size_t blocks) {
-  if (rows_.capacity() < disks) resize_in_huge_pages(rows_, disks);
+  if (rows_.capacity() < disks) resize_in_huge_pages(rows_, disks, Row{}, disks + disks / 32);
   rows_.resize(disks);
   wide_.resize(blocks);
   free_wide_.assign(blocks, none);

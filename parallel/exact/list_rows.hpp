@@ -29,7 +29,7 @@ struct ListRegion {
 class ListRows {
  public:
   // Rows for this many disks, in blocks of disks that share memory for long lists: a block is for one thread at a time.
-  // What is in them is as it was, to be set anew.
+  // What is in them is as it was, to be set anew. There is room for a few more.
   void begin(std::size_t disks, std::size_t blocks);
   std::size_t size() const { return rows_.size(); }
   void release() { std::vector<Row>().swap(rows_); }

@@ -15,10 +15,10 @@ constexpr double windows_ahead = 4.0;
 // Disks that approach at more than `slow` meet at a time that rounding shifts by less than this part of a window.
 constexpr double rounding_ratio = 1e5;
 
-// Room for a few more: with ghosts, disks become now a few more, now a few less.
+// Room for a few more, which takes no memory: with ghosts, disks become now a few more, now a few less.
 template <class T>
 void resize_column(std::vector<T>& column, std::size_t n) {
-  if (column.capacity() < n) resize_in_huge_pages(column, n, T{}, n + n / 64);
+  if (column.capacity() < n) resize_in_huge_pages(column, n, T{}, n + n / 32);
   column.resize(n);
 }
 
