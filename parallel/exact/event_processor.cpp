@@ -1,6 +1,7 @@
 #include "parallel/exact/event_processor.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "core/physics/event_order.hpp"
@@ -65,6 +66,8 @@ void EventProcessor<scope>::replace_path(std::uint32_t i) {
   const double now = window_.slice_stop();
   const PathSegment p = carried_to(record_[i].path, now, window_.rules.gravity);
   if (!lists_.stays_in_skin(i, p.x, p.y, 0.0)) relist(i, now, relist_distance(i));
+  show_images_if_far(i, now);
+  predictor_.note_speed(p.vx * p.vx + p.vy * p.vy);
   predict_next_event<false>(i, now);
 }
 

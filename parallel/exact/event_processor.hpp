@@ -86,7 +86,9 @@ class EventProcessor {
   void put_off_relisting(std::uint32_t i);
   bool relist(std::uint32_t i, double time, const RelistDistance& ahead);
   bool relist_a_little(std::uint32_t i, double time);
-  bool relist_at(std::uint32_t i, double time, Vec2 at);
+  [[gnu::always_inline]] inline bool relist_at(std::uint32_t i, double time, Vec2 at);
+  [[gnu::noinline]] void show_images_if_far(std::uint32_t i, double time);
+  [[gnu::noinline]] void look_beyond_border(std::uint32_t i, Vec2 at);
   [[gnu::always_inline]] inline bool stays_listed(std::uint32_t i, double from, double until,
                                                   const RelistDistance& relist) const;
   bool stays_in_skin(std::uint32_t i, double time) const;

@@ -218,6 +218,36 @@ class NeighbourLists {
     return room > 0.0 && is_within(i, x, y, room * room);
   }
 
+  // Is this place out of the box along a period?
+  bool is_outside(double x, double y) const {
+    return (x < 0.0 && period_x_ > 0.0) || (y < 0.0 && period_y_ > 0.0) || (x >= period_x_ && period_x_ > 0.0) ||
+           (y >= period_y_ && period_y_ > 0.0);
+  }
+  // A path may leave the box along a period, and lead far into it from the other side: then its coordinates are not
+  // those of the place where the disk is listed, and disks there must look for images. How far from the border a disk
+  // is listed here whose path has come to p; 0 where it is in the box, or so near the border that all disks there look
+  // for images (find_inner_part). Length.
+  double depth_beyond_border(const PathSegment& p, Vec2 listed) const {
+    const double near = 2.0 * skin_ * (1.0 - 1e-6);
+    const auto depth = [near](double c, double at, double period) {
+      if ((c >= 0.0 && c < period) || period == 0.0) [[likely]]
+        return 0.0;
+      const double from_border = std::min(at, period - at);
+      return from_border > near ? from_border : 0.0;
+    };
+    return std::max(depth(p.x, listed.x, period_x_), depth(p.y, listed.y, period_y_));
+  }
+  // May a disk that is listed here list one that is so far from a border along a period?
+  bool may_list_at_depth(Vec2 listed, double depth) const {
+    const double reach = depth + 2.0 * largest_radius_ + 2.0 * skin_ + search_margin_;
+    const auto is_near = [reach](double at, double period) {
+      return std::min(at, period - at) <= reach && period > 0.0;
+    };
+    return is_near(listed.x, period_x_) || is_near(listed.y, period_y_);
+  }
+  // Until it is listed again, disk i looks for images of its neighbours.
+  void look_for_images(std::uint32_t i) { rows_.set_sides(i, rows_.row(i).sides | ListRow::across); }
+
   // Prefetches what is read of cells when a disk of this radius, on this path, is relisted at this time.
   void prefetch_search(const PathSegment& path, double radius, double time, const RelistDistance& relist) const;
   // Lists disk i at this position, inside the box. Reads and writes nothing outside the region; where the new list or
@@ -231,8 +261,8 @@ class NeighbourLists {
                  FoundNeighbours& found) const;
   bool take_list(std::uint32_t i, const Disks& disks, const ListRegion& region, const FoundNeighbours& found);
 
-  // Between windows, with a single queue: the last disk of the columns is new, and is here; disk i is to go, and the last
-  // one takes its number. The columns are those with both.
+  // Between windows, with a single queue: the last disk of the columns is new, and is here; disk i is to go, and the
+  // last one takes its number. The columns are those with both.
   void append(const Disks& disks, Vec2 at);
   void remove(std::uint32_t i, const Disks& disks);
 

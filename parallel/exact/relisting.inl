@@ -11,6 +11,24 @@
 namespace carom {
 
 template <Scope scope>
+inline bool EventProcessor<scope>::relist_at(std::uint32_t i, double time, Vec2 at) {
+  if (scope == Scope::region && window_.is_beyond_band(i, at.y, lists_.skin())) return false;
+  const Disks& d = *window_.disks;
+  if (!lists_.find_list(i, at, d, worker_.region, worker_.found)) return false;
+  if (window_.looks_ahead) {
+    // Those that are new in the list have not been read; they come while rows change.
+    for (const std::uint32_t j : worker_.found.disks()) __builtin_prefetch(&record_[j]);
+  }
+  if (!lists_.take_list(i, d, worker_.region, worker_.found)) return false;
+  ++worker_.relisted;
+  if (window_.depth_beyond_borders.load(std::memory_order_relaxed) > 0.0) [[unlikely]]
+    look_beyond_border(i, at);
+  if constexpr (scope == Scope::region) safe_times_.mark_relisted(i, time);
+  if constexpr (scope == Scope::part) note_listing(i);
+  return true;
+}
+
+template <Scope scope>
 void EventProcessor<scope>::relist_and_predict(std::uint32_t i, double time) {
   if (scope == Scope::border || relist(i, time, relist_distance(i))) {
     predict_next_event<false>(i, time);
@@ -58,7 +76,9 @@ bool EventProcessor<scope>::relist_a_little(std::uint32_t i, double time) {
   p.x += share * back.x;
   p.y += share * back.y;
   wrap_into(p, window_.rules.box);
-  return relist_at(i, time, {p.x, p.y});
+  if (!relist_at(i, time, {p.x, p.y})) return false;
+  show_images_if_far(i, time);
+  return true;
 }
 
 template <Scope scope>
@@ -85,6 +105,7 @@ void EventProcessor<scope>::relist_if_due(std::uint32_t i) {
   const double now = window_.slice_stop();
   if (std::isnan(record_[i].path.x)) return;
   const RelistDistance& distance = relist_distance(i);
+  show_images_if_far(i, now);
   if (lists_.earliest_relist_time(i, record_[i].path, now, now, window_.rules.gravity, distance) > now) return;
   relist(i, now, distance);
   mark_relisted(i);
@@ -105,23 +126,32 @@ void EventProcessor<scope>::relist_if_far(std::uint32_t i) {
 template <Scope scope>
 bool EventProcessor<scope>::relist(std::uint32_t i, double time, const RelistDistance& ahead) {
   const PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
-  return relist_at(i, time, lists_.listing_place(p, window_.rules.box, ahead));
+  const bool outside = lists_.is_outside(p.x, p.y);
+  if (!relist_at(i, time, lists_.listing_place(p, window_.rules.box, ahead))) return false;
+  if (outside) [[unlikely]]
+    show_images_if_far(i, time);
+  return true;
+}
+
+// Where its path has left the box and leads far into it from the other side. In the rest of the window disks that are
+// listed anew at such a depth may list one of this kind.
+template <Scope scope>
+void EventProcessor<scope>::show_images_if_far(std::uint32_t i, double time) {
+  const PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
+  const double depth = lists_.depth_beyond_border(p, lists_.listed_position(i));
+  if (!(depth > 0.0)) return;
+  std::atomic<double>& deepest = window_.depth_beyond_borders;
+  double before = deepest.load(std::memory_order_relaxed);
+  while (before < depth && !deepest.compare_exchange_weak(before, depth, std::memory_order_relaxed)) {
+  }
+  lists_.look_for_images(i);
+  lists_.for_each_neighbour(i, [&](std::uint32_t j) { lists_.look_for_images(j); });
 }
 
 template <Scope scope>
-bool EventProcessor<scope>::relist_at(std::uint32_t i, double time, Vec2 at) {
-  if (scope == Scope::region && window_.is_beyond_band(i, at.y, lists_.skin())) return false;
-  const Disks& d = *window_.disks;
-  if (!lists_.find_list(i, at, d, worker_.region, worker_.found)) return false;
-  if (window_.looks_ahead) {
-    // Those that are new in the list have not been read; they come while rows change.
-    for (const std::uint32_t j : worker_.found.disks()) __builtin_prefetch(&record_[j]);
-  }
-  if (!lists_.take_list(i, d, worker_.region, worker_.found)) return false;
-  ++worker_.relisted;
-  if constexpr (scope == Scope::region) safe_times_.mark_relisted(i, time);
-  if constexpr (scope == Scope::part) note_listing(i);
-  return true;
+void EventProcessor<scope>::look_beyond_border(std::uint32_t i, Vec2 at) {
+  const double depth = window_.depth_beyond_borders.load(std::memory_order_relaxed);
+  if (lists_.may_list_at_depth(at, depth)) lists_.look_for_images(i);
 }
 
 // Part: one of its own disks may come beyond an end of the part before it is listed again. The part there must have it.

@@ -33,6 +33,7 @@ void WindowState::begin(const ExactRules& window_rules, const Disks& all, const 
   next_start = std::nextafter(plan.length, never);
   fastest2 = fastest_speed2;
   largest_radius = radius;
+  depth_beyond_borders.store(0.0, std::memory_order_relaxed);
   set_tolerances();
   resize_column(entry, all.size() + std::max<std::size_t>(regions, 1) * entries_apart);
   // Of other disks than before, and written anew: there are never two of this column, the largest.

@@ -1,6 +1,7 @@
 // What the exact engine holds of every disk during a window, and the numbers that all disks share.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -63,6 +64,9 @@ struct WindowState {
   bool is_part = false;       // of the box, one thread's, with a halo
   PartEnds part;              // then: where it ends
   bool part_is_known = true;  // each of its own disks that may come beyond an end is a ghost of the part there
+  // How far from a border along a period a disk was listed whose path had left the box there and come far into it from
+  // the other side (NeighbourLists::depth_beyond_border); 0: none. Length.
+  std::atomic<double> depth_beyond_borders = 0.0;
   bool keeps_paths = true;
   Count most_paths = 0;         // of all disks, beyond which the window is crowded (core/step/window_length.hpp)
   std::function<bool()> go_on;  // as in Engine::set_watch
