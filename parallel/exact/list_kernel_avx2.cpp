@@ -130,7 +130,8 @@ std::uint32_t remove_from_rows(ListRow* rows, std::uint32_t i, std::uint32_t* di
     const auto place =
         static_cast<std::uint32_t>(__builtin_ctzll(std::uint64_t{places} >> places_before_offsets | 1ULL << 32U));
     const std::uint32_t last = row.count - 1U;
-    if (place <= last && last + row_padding <= row_offsets && far == static_cast<std::int16_t>(far)) [[likely]] {
+    // All that the row had may be gone, and what did not fit in it still there.
+    if (place < row.count && last + row_padding <= row_offsets && far == static_cast<std::int16_t>(far)) [[likely]] {
       row.offset[place] = row.offset[last];
       put_and_pad(row, last, row.offset[0]);
       row.count = static_cast<std::uint8_t>(last);
