@@ -43,14 +43,14 @@ struct Counted {
   int ranks = 1;                  // that share it, threads of this process
 };
 
-// One thread has one queue, but two regions where work is cut in two.
+// One thread has one queue, but two parts with halos where work is cut in two.
 // Sorted into cells in one step of a dozen: the long runs of pairwise are several sorts longer than the short ones.
 const std::vector<Counted>& all_counted() {
   static const std::vector<Counted> all{
       {"exact_0.7", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.7); }},
       {"exact_0.5", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.5); }},
       {"exact_0.2", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.2); }},
-      {"exact_0.5_regions", 50'000, "collision", 2, 6, [] { return exact_gas(50'000, 0.5); }, 2},
+      {"exact_0.5_parts", 50'000, "collision", 2, 6, [] { return exact_gas(50'000, 0.5); }, 2},
       {"exact_0.5_ranks", 50'000, "collision", 2, 6, [] { return exact_gas(50'000, 0.5); }, 1, {}, 2},
       {"pairwise_gas", 100'000, "disk and step", 12, 60, [] { return gas(100'000); }},
       {"pairwise_brownian", 100'000, "disk and step", 2, 14, [] { return gas(100'000, "brownian"); }},
