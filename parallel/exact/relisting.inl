@@ -126,7 +126,8 @@ void EventProcessor<scope>::relist_if_far(std::uint32_t i) {
 template <Scope scope>
 bool EventProcessor<scope>::relist(std::uint32_t i, double time, const RelistDistance& ahead) {
   const PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
-  const bool outside = lists_.is_outside(p.x, p.y);
+  // A disk whose path has left the box looks for images already: it was listed near the border when it left.
+  const bool outside = !lists_.rows().row(i).is_inside() && lists_.is_outside(p.x, p.y);
   if (!relist_at(i, time, lists_.listing_place(p, window_.rules.box, ahead))) return false;
   if (outside) [[unlikely]]
     show_images_if_far(i, time);
