@@ -12,7 +12,7 @@ namespace carom {
 namespace {
 
 // Fewer disks are as fast on one thread.
-constexpr std::size_t least_disks = 6000;
+constexpr std::size_t least_disks = 4000;
 // So many mean spacings, or halos, that a part is wide at least.
 constexpr double least_width = 2.0;
 // Of a window, each with halos made anew for it.
