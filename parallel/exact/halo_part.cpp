@@ -33,7 +33,7 @@ void HaloPart::give(const std::vector<T>& column, std::vector<T>& all) const {
 
 void HaloPart::take_disks(const Disks& all, const BoxCut& cut, std::size_t part) {
   // Nothing of a part's last windows is needed to build it, and building takes as much.
-  if (slots_.size() > disks_of_much_memory) run_.release_memory();
+  if (all.size() > disks_of_much_memory) run_.release_memory();
   number_ = static_cast<std::uint16_t>(part);
   const std::size_t last = cut.parts() - 1;
   below_ = static_cast<std::uint16_t>(!cut.has_below(part) ? part : part == 0 ? last : part - 1);

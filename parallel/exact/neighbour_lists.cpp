@@ -88,7 +88,7 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& ex
   } else {
     // About four disks a cell, which has room for eight: lists extend over several cells, and each costs as much to
     // visit, empty or not. A few more where they are many, for memory's sake.
-    const std::size_t share = d.size() > disks_of_much_memory ? 10 : 8;
+    const std::size_t share = std::max(d.size(), layout.disks_of_box) > disks_of_much_memory ? 10 : 8;
     for (std::size_t& c : count) c = c / share + 1;
     make_grid(box_, largest, count, grid_);
     if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, grid_);
@@ -111,6 +111,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   periods_per_x_ = box.periodic_x() ? 1.0 / box.width : 0.0;
   periods_per_y_ = box.periodic_y() ? 1.0 / box.height : 0.0;
   const std::size_t n = d.size();
+  const bool gives_back = std::max(n, layout.disks_of_box) > disks_of_much_memory;
   largest_radius_ = largest_radius(d);
   grid_.tiles = grid_.tiles_a_layer = 1;
   grid_.tile_keys = 0;
@@ -118,17 +119,17 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   if (mode_ != EngineMode::all_pairs) {
     choose_skin(d, layout);
     // That of the rows is given back for what sorting needs.
-    if (n > disks_of_much_memory) rows_.release();
+    if (gives_back) rows_.release();
     sort(d, layout, executor);
     choose_slot_units();
     prepare_query(d);
     if (sorted) sorted(cells_.order, cells_.column);
-    if (n > disks_of_much_memory) release_sort_scratch(cells_);
+    if (gives_back) release_sort_scratch(cells_);
   }
   find_tiles(n);
   find_inner_part();
   list_all(d, executor);
-  if (n > disks_of_much_memory) std::vector<std::uint32_t>().swap(cells_.start);
+  if (gives_back) std::vector<std::uint32_t>().swap(cells_.start);
 }
 
 // A disk is listed again within the relist distance of its listed position, and ahead of where it is by less; what it

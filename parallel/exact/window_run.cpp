@@ -74,7 +74,7 @@ double WindowRun::relistings() const {
 void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout, const NeighbourLists::Sorted& sorted) {
   const PhaseTimer timer(times_, "list");
   // Sorting takes about as much.
-  if (state_.disks.size() > disks_of_much_memory) scheduler_.release_calendars();
+  if (std::max(state_.disks.size(), layout.disks_of_box) > disks_of_much_memory) scheduler_.release_calendars();
   lists_.follow_flow(box_at(scene_.box, plan.start), plan.start, plan.length);
   // Two disks that did not list each other before cannot touch before one of them reaches its next event, at the latest
   // that of being relisted.

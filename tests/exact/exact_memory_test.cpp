@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -80,6 +81,16 @@ double most_bytes_a_disk(int threads) {
   return static_cast<double>(most - before) / static_cast<double>(disks);
 }
 
+// Of two parts with halos, where so much is the least of one queue. Halos are 8 mean spacings wide, two of each part;
+// their disks are there twice, but for the state's 36 bytes. Each disk has two places (4 bytes each), an id (4) and a
+// coordinate (8) of its part besides, and there is room for one more in 32.
+double in_two_parts(double least) {
+  constexpr double state = 36.0;
+  constexpr double of_parts = 20.0;
+  const double ghosts = 4.0 * 8.0 / std::sqrt(static_cast<double>(disks));
+  return state + (least - state + of_parts) * (1.0 + ghosts) * (1.0 + 1.0 / 32.0);
+}
+
 // The lower bound that scenes are checked with is near what runs take, on the safe side.
 TEST(LongExactMemory, OfADiskIsWhatScenesAreCheckedWith) {
   const double least = least_memory(Method::exact, disks) / static_cast<double>(disks);
@@ -87,7 +98,7 @@ TEST(LongExactMemory, OfADiskIsWhatScenesAreCheckedWith) {
     const double taken = most_bytes_a_disk(threads);
     RecordProperty("bytes_a_disk_" + std::to_string(threads), std::to_string(taken));
     EXPECT_GT(taken, least) << threads << " threads";
-    EXPECT_LT(taken, 1.05 * least) << threads << " threads";
+    EXPECT_LT(taken, 1.05 * (threads == 1 ? least : in_two_parts(least))) << threads << " threads";
   }
 }
 
