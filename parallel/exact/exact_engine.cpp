@@ -200,7 +200,7 @@ void ParallelExact::build_lists_if_due(const WindowPlan& plan, bool regions_allo
 bool ParallelExact::run_window_with_retry(WindowPlan& plan, const SpeedSummary& speeds) {
   in_parts_ = parts_allowed_ && halos_.are_wanted();
   if (in_parts_) {
-    if (windows_.known() != Known::nothing) windows_.release_memory();
+    if (!windows_.window().record.empty()) windows_.release_memory();
     const SliceOutcome outcome = halos_.run(plan, speeds, windows_.window());
     if (outcome == SliceOutcome::done) return true;
     in_parts_ = false;

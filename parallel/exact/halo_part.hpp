@@ -63,7 +63,6 @@ class HaloPart {
   void take_over(const HaloParts& parts);
 
   std::size_t own() const { return own_count_; }
-  std::size_t ghosts() const { return ghosts_.size(); }
   std::size_t size() const { return slots_.size(); }
   const std::vector<DiskId>& ids() const { return state_.disks.id; }
   WindowRun& run() { return run_; }

@@ -13,7 +13,7 @@ namespace {
 
 // Fewer disks are as fast on one thread.
 constexpr std::size_t least_disks = 4000;
-// So many mean spacings, or halos, that a part is wide at least.
+// So many halos a part is wide at least.
 constexpr double least_width = 2.0;
 // Of a window, each with halos made anew for it.
 constexpr int most_tries = 3;
@@ -134,7 +134,7 @@ SliceOutcome HaloWindows::run(const WindowPlan& plan, const SpeedSummary& speeds
     tuning_.see_window(use_);
     known_ = Known::lists_and_times;
     pause_ = std::max(least_pause, pause_ - 1);
-  } else {
+  } else if (outcome != SliceOutcome::given_up) {
     windows_without_ = pause_;
     pause_ = std::min(longest_pause, 2 * pause_);
   }
@@ -230,12 +230,6 @@ std::vector<DiskContact> HaloWindows::contacts(double start) const {
     all.insert(all.end(), own.begin(), own.end());
   }
   return all;
-}
-
-std::size_t HaloWindows::ghosts() const {
-  std::size_t disks = 0;
-  for (const std::unique_ptr<HaloPart>& part : parts_) disks += part->ghosts();
-  return disks;
 }
 
 }  // namespace carom

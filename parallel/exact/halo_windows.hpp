@@ -49,8 +49,7 @@ class HaloWindows {
   void move_along_paths(double s, Disks& disks) const;
   std::vector<DiskContact> contacts(double start) const;
 
-  // For measurements: disks of all halos, and how often a window was void, and was run again.
-  std::size_t ghosts() const;
+  // For measurements: how often a window was void, and was run again.
   Count void_runs() const { return void_runs_; }
 
  private:

@@ -65,7 +65,8 @@ struct WindowState {
   PartEnds part;              // then: where it ends
   bool part_is_known = true;  // each of its own disks that may come beyond an end is a ghost of the part there
   // How far from a border along a period a disk was listed whose path had left the box there and come far into it from
-  // the other side (NeighbourLists::depth_beyond_border); 0: none. Length.
+  // the other side (NeighbourLists::depth_beyond_border); 0: none. Length. A maximum, which has no order; and no bit
+  // depends on it: a list that looks for images it does not need finds the same contacts.
   std::atomic<double> depth_beyond_borders = 0.0;
   bool keeps_paths = true;
   Count most_paths = 0;         // of all disks, beyond which the window is crowded (core/step/window_length.hpp)
