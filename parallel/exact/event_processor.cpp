@@ -252,7 +252,9 @@ ScheduledEvent EventProcessor<scope>::next_event(std::uint32_t i, double from, c
   }
   const RelistDistance& relist = relist_distance(i);
   if (stays_listed(i, from, event.time, relist)) return event;
-  const double relist_at = lists_.earliest_relist_time(i, record.path, from, from, window_.rules.gravity, relist);
+  const double relist_at = is_straight_
+                               ? lists_.relist_time_straight(i, record.path, from, relist)
+                               : lists_.earliest_relist_time(i, record.path, from, from, window_.rules.gravity, relist);
   if (scope == Scope::border && from < window_.slice_stop() && window_.in_slice(relist_at)) {
     put_off_relisting(i);
     // Slices are so short that this does not happen.

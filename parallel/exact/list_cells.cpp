@@ -62,7 +62,7 @@ void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::ui
     for (std::uint32_t i = cells_.start[key]; i < cells_.start[key + 1]; ++i) {
       if (!flow_.acts) move_into_cell(d, i, key);
       const FixedPointPosition at = rows_.listed_at(i);
-      slots_.insert(cell_of(d, i, at), i, slot_position(at), radius_in_units(d.radius_of(i)));
+      slots_.insert(cell_in(level_of(d, i), at), i, slot_position(at), radius_in_units(d.radius_of(i)));
     }
   }
 }
@@ -71,33 +71,33 @@ void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::ui
 // moved by one.
 void NeighbourLists::move_into_cell(const Disks& d, std::uint32_t i, std::uint32_t key) {
   constexpr std::uint32_t shifts[] = {0U, 1U, 0U - 1U};
+  const GridLevel& level = level_of(d, i);
   const FixedPointPosition rounded = rows_.listed_at(i);
   for (const std::uint32_t dy : shifts) {
     for (const std::uint32_t dx : shifts) {
       const FixedPointPosition shifted{rounded.x + dx, rounded.y + dy};
-      if (cell_of(d, i, shifted) == key) return rows_.set_listed_at(i, shifted);
+      if (cell_in(level, shifted) == key) return rows_.set_listed_at(i, shifted);
     }
   }
 }
 
-std::uint32_t NeighbourLists::cell_of(const Disks& d, std::uint32_t i, FixedPointPosition fixed) const {
+// Of the disk's size.
+const GridLevel& NeighbourLists::level_of(const Disks& d, std::uint32_t i) const {
+  if (d.radius.empty()) return grid_.levels.front();
   // A disk that was added since may be smaller than those that the grid was made for.
-  const std::size_t smallest = grid_.levels.size() - 1;
-  const std::size_t level =
-      smallest == 0 ? 0 : std::min(class_of_radius(d.radius[i], grid_.levels[0].largest_radius), smallest);
-  const GridLevel& cells = grid_.levels[level];
-  return cells.key_at(cells.place_of_row(cell_of_listed(fixed.y, cells.rows, box_.periodic_y())),
-                      cell_of_listed(fixed.x, cells.columns, box_.periodic_x()));
+  const std::size_t level = class_of_radius(d.radius[i], grid_.levels.front().largest_radius);
+  return grid_.levels[std::min(level, grid_.levels.size() - 1)];
 }
 
 // Moves the disk to the cell of this position; false, without a change, if its old cell is outside the region.
 bool NeighbourLists::move_to_cell_of(const Disks& d, std::uint32_t i, FixedPointPosition position,
                                      const ListRegion& region) {
-  const std::uint32_t old_key = cell_of(d, i, rows_.listed_at(i));
+  const GridLevel& level = level_of(d, i);
+  const std::uint32_t old_key = cell_in(level, rows_.listed_at(i));
   if (old_key < region.first_key || old_key >= region.last_key) return false;
   slots_.remove(old_key, i);
   const float radius = d.radius.empty() ? 0.0F : radius_in_units(d.radius[i]);
-  slots_.insert(cell_of(d, i, position), i, slot_position(position), radius);
+  slots_.insert(cell_in(level, position), i, slot_position(position), radius);
   return true;
 }
 

@@ -15,7 +15,7 @@ void NeighbourLists::append(const Disks& d, Vec2 at) {
   rows_.set_sides(i, find_sides(d, i));
   FoundNeighbours found;
   find_neighbours(d, i, position, everything, found);
-  slots_.insert(cell_of(d, i, position), i, slot_position(position), radius_in_units(d.radius_of(i)));
+  slots_.insert(cell_in(level_of(d, i), position), i, slot_position(position), radius_in_units(d.radius_of(i)));
   rows_.replace(i, found.disks(), everything);
 }
 
@@ -24,13 +24,13 @@ void NeighbourLists::remove(std::uint32_t i, const Disks& d) {
   const ListRegion everything;
   const auto take_out = [&](std::uint32_t disk) {
     rows_.replace(disk, {}, everything);
-    slots_.remove(cell_of(d, disk, rows_.listed_at(disk)), disk);
+    slots_.remove(cell_in(level_of(d, disk), rows_.listed_at(disk)), disk);
   };
   take_out(i);
   if (i != last) {
     std::vector<std::uint32_t> near;
     for_each_neighbour(last, [&](std::uint32_t j) { near.push_back(j); });
-    const std::uint32_t cell = cell_of(d, last, rows_.listed_at(last));
+    const std::uint32_t cell = cell_in(level_of(d, last), rows_.listed_at(last));
     take_out(last);
     const FixedPointPosition at = rows_.listed_at(last);
     rows_.set_listed_at(i, at);

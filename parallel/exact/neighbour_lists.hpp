@@ -348,7 +348,11 @@ class NeighbourLists {
   void search_chains(const Disks& disks, const ListQuery& query, std::span<const SlotRun> runs,
                      const ListRegion& region, FoundNeighbours& found) const;
   void find_all_others(std::uint32_t i, FoundNeighbours& found) const;
-  std::uint32_t cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
+  const GridLevel& level_of(const Disks& disks, std::uint32_t i) const;
+  std::uint32_t cell_in(const GridLevel& level, FixedPointPosition at) const {
+    return level.key_at(level.place_of_row(cell_of_listed(at.y, level.rows, box_.periodic_y())),
+                        cell_of_listed(at.x, level.columns, box_.periodic_x()));
+  }
   void fill_slots(const Disks& disks, std::uint32_t first_key, std::uint32_t last_key);
   void move_into_cell(const Disks& disks, std::uint32_t i, std::uint32_t key);
   bool move_to_cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position, const ListRegion& region);
