@@ -88,15 +88,14 @@ class NeighbourLists {
   // Has the flow carried disks so far by time t that the lists are to be built anew?
   bool is_strained(double t) const { return std::abs(flow_.rate) * (t - flow_.built_at) > flow_.strain; }
   // Where a disk is listed whose path begins here: ahead of it, in the middle of where it is about to be.
-  Vec2 listing_place(PathSegment p, const Domain& box, const RelistDistance& relist) const {
+  Vec2 listing_place(const PathSegment& p, const Domain& box, const RelistDistance& relist) const {
     if (flow_.acts) [[unlikely]]
       return into_flow(p.x, p.y, p.start);
     const double v2 = p.vx * p.vx + p.vy * p.vy;
     const double lead = lead_time_ * lead_time_ * v2 > relist.lead2 ? std::sqrt(relist.lead2 / v2) : lead_time_;
-    p.x += lead * p.vx;
-    p.y += lead * p.vy;
-    wrap_into(p, box);
-    return {p.x, p.y};
+    const double x = p.x + lead * p.vx;
+    const double y = p.y + lead * p.vy;
+    return {box.periodic_x() ? wrap(x, box.width) : x, box.periodic_y() ? wrap(y, box.height) : y};
   }
   // For how long disks keep their velocities, about: they are listed as far ahead as they go in that time.
   void set_lead_time(double t) { lead_time_ = t; }
@@ -151,7 +150,7 @@ class NeighbourLists {
     const Vec2 listed = listed_position(i);
     Vec2 d{path.x + path.vx * s - listed.x, path.y + path.vy * s - listed.y};
     if (!rows_.row(i).is_inside()) [[unlikely]]
-      d = nearest_image_at_rest(d, box_);
+      d = nearest_image_of(d);
     return from + time_within(relist.stay2, d, {path.vx, path.vy});
   }
 
@@ -292,14 +291,17 @@ class NeighbourLists {
 
   // Is this place within a distance of disk i's listed position? distance2: its square.
   bool is_within(std::uint32_t i, double x, double y, double distance2) const {
+    const Vec2 listed = listed_position(i);
+    const Vec2 d = nearest_image_of({x - listed.x, y - listed.y});
+    return d.x * d.x + d.y * d.y < distance2;
+  }
+  // Of a difference of places; but for rounding.
+  Vec2 nearest_image_of(Vec2 d) const {
     // To the nearest whole number.
     constexpr double shift = 0x1.8p52;
-    const Vec2 listed = listed_position(i);
-    double dx = x - listed.x;
-    double dy = y - listed.y;
-    dx -= period_x_ * ((dx * periods_per_x_ + shift) - shift);
-    dy -= period_y_ * ((dy * periods_per_y_ + shift) - shift);
-    return dx * dx + dy * dy < distance2;
+    d.x -= period_x_ * ((d.x * periods_per_x_ + shift) - shift);
+    d.y -= period_y_ * ((d.y * periods_per_y_ + shift) - shift);
+    return d;
   }
   bool stays_listed_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const;
   double earliest_relist_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const;
