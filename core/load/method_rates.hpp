@@ -16,12 +16,12 @@ inline constexpr double crowding = 0.2;
 inline constexpr double brownian_interval = 0.1;
 
 // CPU seconds on one thread of the machine in docs/chart.json, 1000 disks; from the costs in docs/chart.csv.
-inline constexpr double pairwise_step = 6.5e-9;       // a disk and step
-inline constexpr double pairwise_collision = 0.2e-6;  // a collision
-inline constexpr double exact_collision = 0.2e-6;     // a collision, where disks are crowded
-inline constexpr double exact_flight = 0.11e-6;       // more for each, over the packing fraction: the longer way to it
-inline constexpr double brownian_step = 15e-9;        // a disk and interval: two normal deviates
-inline constexpr double exact_interval = 130e-9;      // a disk and interval, when exact must stop for it
+inline constexpr double pairwise_step = 4.9e-9;        // a disk and step
+inline constexpr double pairwise_collision = 0.18e-6;  // a collision
+inline constexpr double exact_collision = 0.14e-6;     // a collision, where disks are crowded
+inline constexpr double exact_flight = 0.06e-6;        // more for each, over the packing fraction: the longer way to it
+inline constexpr double brownian_step = 11.6e-9;       // a disk and interval: two normal deviates
+inline constexpr double exact_interval = 103e-9;       // a disk and interval, when exact must stop for it
 
 // The TC model in a pile: collisions of a disk in a contact time, at rest (docs/methods.md, production B and C).
 inline constexpr double pile_collisions = 10.0;
