@@ -1,4 +1,4 @@
-// The box cut into parts across its longer side, one for each thread, with about as much work each.
+// The box cut into parts across its longer side, with about as much work each.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// One thread's part of the box in the exact engine: its own disks, and a halo of others' around them.
+// A part of the box in the exact engine, which a thread runs by itself: its own disks, and a halo of others' round it.
 #pragma once
 
 #include <cstddef>

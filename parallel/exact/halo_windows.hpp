@@ -1,4 +1,4 @@
-// The windows of the exact engine on several threads: each has a part of the box, with a halo.
+// The windows of the exact engine on several threads, or of many disks: in parts of the box, each with a halo.
 #pragma once
 
 #include <cstddef>
@@ -49,6 +49,8 @@ class HaloWindows {
   void move_along_paths(double s, Disks& disks) const;
   std::vector<DiskContact> contacts(double start) const;
 
+  // Of the last window.
+  std::size_t parts() const { return parts_.size(); }
   // For measurements: how often a window was void, and was run again.
   Count void_runs() const { return void_runs_; }
 

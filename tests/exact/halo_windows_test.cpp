@@ -53,6 +53,7 @@ struct InParts {
 struct Tally {
   int done = 0;
   Count void_runs = 0;
+  std::size_t parts = 0;
 };
 
 // After each window both have the same state; after one that was void twice, parts begin with the right one.
@@ -82,6 +83,7 @@ Tally run_beside_one_queue(const Scene& scene, int threads, std::size_t divisor,
     if (testing::Test::HasFailure()) break;
   }
   tally.void_runs = parts.windows.void_runs();
+  tally.parts = parts.windows.parts();
   return tally;
 }
 
@@ -107,6 +109,17 @@ TEST(HaloWindows, AreVoidWhereHalosAreTooNarrow) {
   }
   EXPECT_GT(all.done, 60);
   EXPECT_GT(all.void_runs, 3U);
+}
+
+// Work is cut so small that a part has 5 10^5 / 512 disks, if a thread has more than twice as many.
+TEST(HaloWindows, SeveralOnEachThread) {
+  const Scene scene = make_scene({100, 100, "periodic", "", disks(5000, equal), 1000, ""});
+  for (const auto& [threads, parts] : {std::pair{1, 6U}, std::pair{2, 6U}, std::pair{3, 3U}}) {
+    SCOPED_TRACE(threads);
+    const Tally tally = run_beside_one_queue(scene, threads, 512, 60);
+    EXPECT_EQ(tally.parts, parts);
+    EXPECT_GT(tally.done, 5);
+  }
 }
 
 TEST(HaloWindows, OfOtherScenes) {
