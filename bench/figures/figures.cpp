@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 
 #include "bench/support/shield.hpp"
@@ -82,6 +83,7 @@ int run(const std::vector<std::string>& words) {
   const auto wanted = [&](const char* what) {
     return words.size() == 2 || std::find(words.begin() + 2, words.end(), what) != words.end();
   };
+  std::filesystem::create_directories(folder);  // before minutes of measuring
   std::vector<Figure> all;
   const auto add = [&](std::vector<Figure> figures) { all.insert(all.end(), figures.begin(), figures.end()); };
   // First, as the peak of a program that is started is no less than what this one has had.
