@@ -31,7 +31,7 @@ plot 'scaling.csv' skip 1 using 1:2 with linespoints pt 7 lw 2 lc rgb '#0072b2',
 unset label
 set tmargin at screen 0.34
 set bmargin at screen 0.11
-set yrange [1:2.05]
+set yrange [0.8:2.05]
 set ytics 0.2
 set format x '10^{%L}'
 set xlabel 'disks'
