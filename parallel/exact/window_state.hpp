@@ -61,7 +61,7 @@ struct WindowState {
   double slice_start = 0.0;
   double slice_end = 0.0;     // events before this time; in the last slice up to and including `length`
   KnownBand band;             // no disk that is not here comes into it in the window
-  bool is_part = false;       // of the box, one thread's, with a halo
+  bool is_part = false;       // of the box, with a halo
   PartEnds part;              // then: where it ends
   bool part_is_known = true;  // each of its own disks that may come beyond an end is a ghost of the part there
   // How far from a border along a period a disk was listed whose path had left the box there and come far into it from
