@@ -70,6 +70,8 @@ class ParallelExact final : public Engine {
 
  private:
   void start_window();
+  bool parts_are_known() const { return in_parts_ && halos_.known() != Known::nothing; }
+  bool parts_take(const Edit& edit);
   bool lists_take(const Edit& edit);
   void begin_brownian();
   void forget(Known left) {
@@ -125,9 +127,10 @@ bool ParallelExact::edit(const Edit& edit) {
   // The paths of the last window no longer go with the disks.
   logged_.reset();
   at_start_ = Disks{};
-  const bool known = windows_.known() != Known::nothing && !scene_.box.shear.acts() && lists_take(edit);
+  const bool known = windows_.known() != Known::nothing && !scene_.box.shear.acts();
+  const bool taken = parts_are_known() ? parts_take(edit) : known && lists_take(edit);
   apply(edit, state_);
-  if (!known) {
+  if (!taken) {
     forget(Known::nothing);
   } else if (edit.kind == Edit::Kind::add) {
     windows_.lists().append(state_.disks, {state_.disks.x.back(), state_.disks.y.back()});
@@ -157,8 +160,19 @@ bool ParallelExact::lists_take(const Edit& edit) {
   return true;
 }
 
+// Likewise; parts are made anew for a disk that comes or goes.
+bool ParallelExact::parts_take(const Edit& edit) {
+  if (edit.kind != Edit::Kind::set_velocity) return false;
+  halos_.change_velocity(edit.index);
+  return true;
+}
+
 bool ParallelExact::visit_near(Vec2 centre, double half_width, double half_height,
                                const std::function<void(std::size_t)>& visit) {
+  if (parts_are_known()) {
+    halos_.visit_near(centre, half_width, half_height, visit);
+    return true;
+  }
   if (windows_.known() == Known::nothing || windows_.window().mode == EngineMode::all_pairs || scene_.box.shear.acts())
     return false;
   windows_.lists().visit_near(centre, half_width, half_height, [&](std::uint32_t i) { visit(i); });
@@ -199,6 +213,7 @@ void ParallelExact::build_lists_if_due(const WindowPlan& plan, bool regions_allo
 // shorter where it is crowded. False: given up; the state is as it was.
 bool ParallelExact::run_window_with_retry(WindowPlan& plan, const SpeedSummary& speeds) {
   in_parts_ = parts_allowed_ && halos_.are_wanted();
+  if (!in_parts_) halos_.release_memory();
   if (in_parts_) {
     if (!windows_.window().record.empty()) windows_.release_memory();
     const SliceOutcome outcome = halos_.run(plan, speeds, windows_.window());

@@ -139,6 +139,21 @@ void HaloPart::give_columns(Disks& all) {
   make_room(slots_);
 }
 
+// A disk whose next event is now is predicted at the start of the next window, with all disks near it.
+void HaloPart::change_velocity(std::uint32_t slot) {
+  const auto found = std::find(slots_.begin(), slots_.end(), slot);
+  if (found == slots_.end()) return;
+  run_.window().set_next_event_time(static_cast<std::uint32_t>(found - slots_.begin()), run_.length());
+}
+
+void HaloPart::visit_near(Vec2 centre, double half_width, double half_height,
+                          const std::function<void(std::size_t)>& visit) const {
+  const std::vector<DiskRecord>& record = run_.window().record;
+  run_.lists().visit_near(centre, half_width, half_height, [&](std::uint32_t i) {
+    if (!record[i].progress.has(DiskProgress::ghost)) visit(slots_[i]);
+  });
+}
+
 void HaloPart::give_paths(const Disks& here, Disks& all) const {
   give(here.x, all.x);
   give(here.y, all.y);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -61,6 +62,12 @@ class HaloPart {
   void take_offers(const Disks& all, const HaloParts& parts);
   // Then, one part after the other: makes the ghosts that came inside disks of its own.
   void take_over(const HaloParts& parts);
+
+  // Between windows. The disk in this slot has another velocity: if it is here, its next event is predicted anew.
+  void change_velocity(std::uint32_t slot);
+  // Calls visit with the slots of own disks, as NeighbourLists::visit_near.
+  void visit_near(Vec2 centre, double half_width, double half_height,
+                  const std::function<void(std::size_t)>& visit) const;
 
   std::size_t own() const { return own_count_; }
   std::size_t size() const { return slots_.size(); }

@@ -219,6 +219,16 @@ ImpactTally HaloWindows::store_paths(const WindowPlan& plan) {
   return tally[0];
 }
 
+void HaloWindows::change_velocity(std::size_t disk) {
+  for_parts([&](HaloPart& part) { part.change_velocity(static_cast<std::uint32_t>(disk)); });
+}
+
+// An own disk may have left its part, so all parts are asked.
+void HaloWindows::visit_near(Vec2 centre, double half_width, double half_height,
+                             const std::function<void(std::size_t)>& visit) const {
+  for (const std::unique_ptr<HaloPart>& part : parts_) part->visit_near(centre, half_width, half_height, visit);
+}
+
 void HaloWindows::move_along_paths(double s, Disks& disks) const {
   for (const std::unique_ptr<HaloPart>& part : parts_) {
     const WindowRun& run = part->run();

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -44,6 +45,13 @@ class HaloWindows {
   SliceOutcome run(const WindowPlan& plan, const SpeedSummary& speeds, const WindowState& window);
   // After a window that was done, as WindowRun::store_paths; no disk is gone.
   ImpactTally store_paths(const WindowPlan& plan);
+
+  // Between windows, where all is known since the last one was done. The disk has another velocity.
+  void change_velocity(std::size_t disk);
+  // As Engine::visit_near.
+  void visit_near(Vec2 centre, double half_width, double half_height,
+                  const std::function<void(std::size_t)>& visit) const;
+  Known known() const { return known_; }
 
   // Of the last window: makes positions and velocities those at time s of it; its collisions.
   void move_along_paths(double s, Disks& disks) const;
