@@ -162,6 +162,21 @@ std::string steps_text(double t_end, double dt) {
   return fmt::format("dt = {:.1e} would make {:.1e} steps, more than {:.0e}", dt, t_end / dt, most_steps_offered);
 }
 
+// For which share of the run disks lie in a pile: a disk that falls through half the box comes to rest after
+// (1 + e) / (1 - e) times its fall, as its bounces become shorter by e each.
+double share_in_pile(const Scene& scene, const SceneScales& s) {
+  if (!s.settles) return 0.0;
+  double e = scene.physics.restitution;
+  for (const GroupPair& pair : scene.physics.law.pairs) e = std::min(e, pair.restitution.least);
+  for (const Side side : all_sides) {
+    if (scene.box.side(side) == SideKind::wall) e = std::min(e, scene.box.restitution(side));
+  }
+  const Gravity& g = scene.physics.gravity;
+  const double fall = std::sqrt(std::abs(g.down) * scene.box.height + std::abs(g.left) * scene.box.width) / g.size;
+  const double rest = fall * (1.0 + e) / std::max(1.0 - e, 1e-6);
+  return scene.run.t_end / (scene.run.t_end + rest);
+}
+
 MethodOffer offer_pairwise(const Scene& scene, const SceneScales& s, double accuracy) {
   MethodOffer offer;
   offer.method = Method::pairwise;
@@ -173,7 +188,8 @@ MethodOffer offer_pairwise(const Scene& scene, const SceneScales& s, double accu
   offer.error = law.at(offer.dt);
   const double steps = std::max(1.0, scene.run.t_end / offer.dt);
   const double collisions = 0.5 * s.disks * s.collision_rate * scene.run.t_end;
-  offer.seconds = rates::pairwise_step * s.disks * steps + rates::pairwise_collision * collisions;
+  const double step = rates::pairwise_step + rates::pile_step * share_in_pile(scene, s);
+  offer.seconds = step * s.disks * steps + rates::pairwise_collision * collisions;
   offer.possible = steps <= most_steps_offered;
   offer.why = !offer.possible ? steps_text(scene.run.t_end, offer.dt)
               : safe < wanted

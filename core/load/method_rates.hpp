@@ -17,11 +17,15 @@ inline constexpr double brownian_interval = 0.1;
 
 // CPU seconds on one thread of the machine in docs/chart.json, 1000 disks; from the costs in docs/chart.csv.
 inline constexpr double pairwise_step = 4.9e-9;        // a disk and step
+inline constexpr double pile_step = 0.4e-6;            // more for a disk and step of pairwise in a pile
 inline constexpr double pairwise_collision = 0.18e-6;  // a collision
 inline constexpr double exact_collision = 0.14e-6;     // a collision, where disks are crowded
 inline constexpr double exact_flight = 0.06e-6;        // more for each, over the packing fraction: the longer way to it
 inline constexpr double brownian_step = 11.6e-9;       // a disk and interval: two normal deviates
 inline constexpr double exact_interval = 103e-9;       // a disk and interval, when exact must stop for it
+
+// pile_step: the loads of a pile are solved for in sweeps, more of them the higher it is. Productions B and C take 0.2
+// to 0.4 us, a heap of 2000 disks 0.4, a settled pile of 10^5 (docs/benchmarks.md) 1.2.
 
 // The TC model in a pile: collisions of a disk in a contact time, at rest (docs/methods.md, production B and C).
 inline constexpr double pile_collisions = 10.0;
