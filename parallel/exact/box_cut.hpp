@@ -37,12 +37,20 @@ struct BoxCut {
     return (has_below(part) && b >= 0.0 && b <= halo) || (has_above(part) && a >= 0.0 && a <= halo);
   }
 
-  // Of an own disk: is it in the halo of the part below (above)?
+  // The parts next to this one; itself where there is none.
+  std::size_t part_below(std::size_t part) const {
+    return !has_below(part) ? part : part == 0 ? parts() - 1 : part - 1;
+  }
+  std::size_t part_above(std::size_t part) const {
+    return !has_above(part) ? part : part + 1 == parts() ? 0 : part + 1;
+  }
+  // Of an own disk: is it in the halo of the part below (above)? As that part says, whatever rounding does across a
+  // period.
   bool is_known_below(std::size_t part, double c) const {
-    return owns(part, c) && has_below(part) && c - low(part) <= halo;
+    return owns(part, c) && has_below(part) && above(part_below(part), c) <= halo;
   }
   bool is_known_above(std::size_t part, double c) const {
-    return owns(part, c) && has_above(part) && high(part) - c <= halo;
+    return owns(part, c) && has_above(part) && below(part_above(part), c) <= halo;
   }
 
  private:

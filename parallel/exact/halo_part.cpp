@@ -35,9 +35,8 @@ void HaloPart::take_disks(const Disks& all, const BoxCut& cut, std::size_t part)
   // Nothing of a part's last windows is needed to build it, and building takes as much.
   if (all.size() > disks_of_much_memory) run_.release_memory();
   number_ = static_cast<std::uint16_t>(part);
-  const std::size_t last = cut.parts() - 1;
-  below_ = static_cast<std::uint16_t>(!cut.has_below(part) ? part : part == 0 ? last : part - 1);
-  above_ = static_cast<std::uint16_t>(!cut.has_above(part) ? part : part == last ? 0 : part + 1);
+  below_ = static_cast<std::uint16_t>(cut.part_below(part));
+  above_ = static_cast<std::uint16_t>(cut.part_above(part));
   halo_ = cut.halo;
   const std::vector<double>& c = cut.coordinates(all);
   const auto is_here = [&](double at) { return cut.owns(part, at) || cut.in_halo(part, at); };
@@ -104,6 +103,12 @@ void HaloPart::set_ends(const BoxCut& cut, State& all, double largest_radius) {
   const double half = 0.5 * (cut.high(number_) - cut.low(number_));
   if (cut.has_below(number_)) ends.between.below = -half;
   if (cut.has_above(number_)) ends.between.above = half;
+  // Where a third part begins.
+  const auto width = [&](std::size_t part) { return cut.high(part) - cut.low(part); };
+  const bool three_below = cut.has_below(number_) && cut.has_below(below_) && cut.part_below(below_) != number_;
+  const bool three_above = cut.has_above(number_) && cut.has_above(above_) && cut.part_above(above_) != number_;
+  if (three_below) ends.next_below = -half - width(below_);
+  if (three_above) ends.next_above = half + width(above_);
   run_.set_part(ends, own_count_, largest_radius, all, slots_, [this, cut](std::uint32_t i) {
     const PathSegment& path = record(i).path;
     const double at = cut.along_x ? path.x : path.y;

@@ -5,6 +5,7 @@
 
 #include "core/disks/disks.hpp"
 #include "core/step/step_start.hpp"
+#include "core/step/window_length.hpp"
 #include "parallel/exact/logged_paths.hpp"
 
 namespace carom {
@@ -198,7 +199,15 @@ SliceOutcome HaloWindows::run_slice(const WindowPlan& plan, double start, double
     agree = agree && part->agrees();
     use_.see({part->use().nearest / spacing_, part->use().deepest / spacing_});
   }
-  return agree ? SliceOutcome::done : SliceOutcome::ghosts_too_few;
+  if (!agree) return SliceOutcome::ghosts_too_few;
+  return is_crowded() ? SliceOutcome::crowded : SliceOutcome::done;
+}
+
+// All parts together, as one queue counts.
+bool HaloWindows::is_crowded() const {
+  Count paths = 0;
+  for (const std::unique_ptr<HaloPart>& part : parts_) paths += part->run().scheduler().segments();
+  return paths > most_paths(state_.disks.size());
 }
 
 void HaloWindows::add_work() {

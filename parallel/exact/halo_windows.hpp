@@ -24,7 +24,8 @@ namespace carom {
 // Every part runs a slice of the window by itself. Then each one's ghosts are compared with what their owners made of
 // them, and take their paths. The own disks of all parts together are the system if in each slice
 // - a ghost that an own disk met moved as its owner says, and so did one that came beyond its owner's end,
-// - no disk came beyond an end of its part to another one that does not have it as a ghost (PartEnds):
+// - no disk came beyond an end of its part to another one that does not have it as a ghost, nor to a third part
+//   (PartEnds):
 // every collision of an own disk is then with a disk that is where it was taken to be, and no two disks of two parts
 // overlap, since one of them would have come beyond the end, and the other's part would have seen it as it is.
 // Otherwise the window is void. Bits depend neither on parts nor on halos.
@@ -74,6 +75,7 @@ class HaloWindows {
   void begin(const WindowPlan& plan, const SpeedSummary& speeds, const WindowState& window);
   SliceOutcome run_slices(const WindowPlan& plan);
   SliceOutcome run_slice(const WindowPlan& plan, double start, double end);
+  bool is_crowded() const;
   template <class Task>
   void for_parts(Task&& task) const {
     executor_.run(parts_.size(), [&](std::size_t r) { task(*parts_[r]); });

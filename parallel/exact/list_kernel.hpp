@@ -19,8 +19,8 @@ struct SlotPosition {
 struct ListQuery {
   SlotPosition position;
   std::int16_t unit_x = 0, unit_y = 0;  // of a SlotPosition, in 2^-15 of that unit
-  float cutoff = 0.0F;                  // without the neighbour's radius; length
-  float common_radius = 0.0F;           // where all disks have one; length
+  float cutoff = 0.0F;                  // without the two radii; length
+  float radius = 0.0F;                  // of the disk, or of all disks; length
   std::uint32_t self = 0;               // is not its own neighbour
 };
 // Whole numbers of units, so that the distance of two places is as far off as this at most; length.
@@ -48,7 +48,8 @@ inline bool is_neighbour(const ListQuery& q, SlotPosition p, float radius) {
   };
   const int dx = distance(p.x, q.position.x, q.unit_x);
   const int dy = distance(p.y, q.position.y, q.unit_y);
-  const float cutoff = q.cutoff + radius;
+  // The sum of the radii first: it is the same for both of a pair.
+  const float cutoff = q.cutoff + (q.radius + radius);
   return static_cast<float>(dx * dx + dy * dy) <= cutoff * cutoff;
 }
 

@@ -28,7 +28,7 @@ constexpr auto packing = [] {
 // The query in every lane.
 struct Lanes {
   __m256i position, unit, self;
-  __m256 cutoff, cutoff2;
+  __m256 cutoff, radius, cutoff2;
 };
 
 static_assert(slots_a_cell == lanes);
@@ -45,7 +45,7 @@ inline std::size_t take(const Lanes& l, const SlotColumns& columns, std::uint32_
   const __m256 distance2 = _mm256_cvtepi32_ps(_mm256_madd_epi16(distances, distances));
   __m256 cutoff2 = l.cutoff2;
   if constexpr (unequal_radii) {
-    const __m256 cutoff = _mm256_add_ps(l.cutoff, _mm256_loadu_ps(columns.radius + s));
+    const __m256 cutoff = _mm256_add_ps(l.cutoff, _mm256_add_ps(l.radius, _mm256_loadu_ps(columns.radius + s)));
     cutoff2 = _mm256_mul_ps(cutoff, cutoff);
   }
   // By the sign: that of an empty slot is set.
@@ -62,11 +62,14 @@ inline std::size_t take(const Lanes& l, const SlotColumns& columns, std::uint32_
 template <bool unequal_radii>
 std::size_t find(const ListQuery& q, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                  std::uint32_t* found) {
-  const float cutoff = q.cutoff + q.common_radius;
+  const float cutoff = q.cutoff + (q.radius + q.radius);
   const Lanes l{_mm256_set1_epi32(static_cast<int>(std::uint32_t{q.position.y} << 16U | q.position.x)),
                 _mm256_set1_epi32(static_cast<int>(static_cast<std::uint32_t>(q.unit_y) << 16U |
                                                    static_cast<std::uint32_t>(q.unit_x))),
-                _mm256_set1_epi32(static_cast<int>(q.self)), _mm256_set1_ps(q.cutoff), _mm256_set1_ps(cutoff * cutoff)};
+                _mm256_set1_epi32(static_cast<int>(q.self)),
+                _mm256_set1_ps(q.cutoff),
+                _mm256_set1_ps(q.radius),
+                _mm256_set1_ps(cutoff * cutoff)};
   std::size_t n = 0;
   for (std::size_t k = 0; k < count; ++k) {
     for (std::uint32_t s = runs[k].first; s < runs[k].last; s += lanes)

@@ -12,7 +12,7 @@ std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& colu
   for (std::size_t k = 0; k < count; ++k) {
     for (std::uint32_t s = runs[k].first; s < runs[k].last; ++s) {
       const std::uint32_t disk = columns.disk[s];
-      const float radius = columns.radius != nullptr ? columns.radius[s] : query.common_radius;
+      const float radius = columns.radius != nullptr ? columns.radius[s] : query.radius;
       found[n] = disk;
       n += static_cast<unsigned>(is_neighbour(query, columns.position[s], radius)) &
            static_cast<unsigned>(disk != empty_slot) & static_cast<unsigned>(disk != query.self);

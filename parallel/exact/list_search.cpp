@@ -32,7 +32,7 @@ void NeighbourLists::prepare_query(const Disks& d) {
   query_.unit_x = share(slot_unit_x_);
   query_.unit_y = share(slot_unit_y_);
   query_.cutoff = static_cast<float>(reach * single_margin);
-  query_.common_radius = radius_in_units(d.common_radius);
+  query_.radius = radius_in_units(d.common_radius);
   const double length = 2.0 * flow_.stretch * d.common_radius + 2.0 * skin_ + search_margin_;
   common_reach_x_ = listed_units(length, units_per_x_);
   common_reach_y_ = listed_units(length, units_per_y_);
@@ -41,7 +41,7 @@ void NeighbourLists::prepare_query(const Disks& d) {
 ListQuery NeighbourLists::query_at(const Disks& d, std::uint32_t i, FixedPointPosition position) const {
   ListQuery query = query_;
   query.position = slot_position(position);
-  query.cutoff += d.radius.empty() ? query.common_radius : radius_in_units(d.radius[i]);
+  if (!d.radius.empty()) query.radius = radius_in_units(d.radius[i]);
   query.self = i;
   return query;
 }

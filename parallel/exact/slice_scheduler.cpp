@@ -144,19 +144,17 @@ SliceOutcome SliceScheduler::outcome() const {
   bool crowded = false;
   bool given_up = false;
   bool collapsed = false;
-  Count segments = 0;
   for_each_worker([&](const Worker& worker) {
     too_fast = too_fast || worker.too_fast;
     crowded = crowded || worker.crowded;
     given_up = given_up || worker.given_up;
     collapsed = collapsed || worker.collapse;
-    segments += worker.segments;
   });
   if (given_up) return SliceOutcome::given_up;
   if (too_fast) return SliceOutcome::too_fast;
   // Events pile up at one moment: which of them is the reference's first, regions cannot tell.
   if (collapsed && (has_regions() || window_.is_part)) return SliceOutcome::crowded;
-  return crowded || segments > window_.most_paths ? SliceOutcome::crowded : SliceOutcome::done;
+  return crowded || segments() > window_.most_paths ? SliceOutcome::crowded : SliceOutcome::done;
 }
 
 void SliceScheduler::run_single_queue(double per_disk) {
@@ -335,6 +333,12 @@ ImpactTally SliceScheduler::tally() const {
   ImpactTally sum;
   for_each_worker([&](const Worker& worker) { sum.add(worker.tally); });
   return sum;
+}
+
+Count SliceScheduler::segments() const {
+  Count segments = 0;
+  for_each_worker([&](const Worker& worker) { segments += worker.segments; });
+  return segments;
 }
 
 Count SliceScheduler::events() const {

@@ -63,6 +63,8 @@ class SliceScheduler {
   void set_ghosts(WindowGhosts* ghosts) { ghosts_ = ghosts; }
   // Events of the last slice, on all ranks.
   Count events_of_slice() const { return events_of_slice_; }
+  // Paths begun in the window, of a part by its own disks.
+  Count segments() const;
   // Disks relisted since the lists were built.
   Count relisted() const { return relisted_; }
 

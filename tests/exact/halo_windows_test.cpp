@@ -141,6 +141,55 @@ TEST(HaloWindows, OfOtherScenes) {
   }
 }
 
+// Few disks move in a lattice at rest, in a lane free of it.
+std::string lane(double width, double first, double other, double height) {
+  return fmt::format(
+      "[[disks]]\ncount = 2\npositions = [[{}, 0.5], [{}, 0.5]]\nvelocities = [[-100, 0], [0, 0]]\nradius = 0.2\n"
+      "mass = 1\n[[disks]]\ncount = 4900\npositions = \"square\"\nregion = [0, 2, {}, {}]\nradius = 0.2\nmass = 1\n",
+      first, other, width, height);
+}
+
+// From the first of three parts through the second into the third, whose disk there neither of the first two has.
+TEST(HaloWindows, AreVoidWhereADiskComesToAThirdPart) {
+  const Scene scene = make_scene({140, 35, "wall", "", lane(140, 23.8, 108, 35), 1.5, ""});
+  const auto in_parts = make_parallel_engine(scene, initial_state(scene), {3});
+  run_to_end(*in_parts, scene);
+  EXPECT_EQ(in_parts->state().counters.collisions, 1U);
+  EXPECT_EQ(state_hash(in_parts->state().disks), state_hash(run_reference(scene, initial_state(scene)).disks));
+}
+
+// As far inside of its part as halos are wide, to the last bit, where across the period rounding tells.
+TEST(HaloWindows, KnowADiskAtTheHalosEdgeOnBothSidesOfAPeriod) {
+  const std::string sides = "left = \"periodic\"\nright = \"periodic\"";
+  Scene scene = make_scene({140.302, 35, sides, "", lane(140.302, 8.0069900102902469, 127.302, 35), 0.35, ""});
+  scene.box.width = 140.30200000000002;  // all its digits
+  const State reference = run_reference(scene, initial_state(scene));
+  EXPECT_EQ(reference.counters.collisions, 1U);
+  for (const int threads : {2, 3}) {
+    const auto in_parts = make_parallel_engine(scene, initial_state(scene), {threads});
+    run_to_end(*in_parts, scene);
+    EXPECT_EQ(state_hash(in_parts->state().disks), state_hash(reference.disks)) << threads << " threads";
+  }
+}
+
+// Two lattices so dense that all disks together begin too many paths in a window, but neither of the parts does.
+TEST(HaloWindows, AreCrowdedAsOneQueueIs) {
+  const auto lattice = [](int left, int right) {
+    return fmt::format(
+        "[[disks]]\ncount = 3000\npositions = \"square\"\nregion = [{}, 0, {}, 75]\nvelocities = {{ maxwell = 1 }}\n"
+        "radius = 0.4995\nmass = 1\n",
+        left, right);
+  };
+  const Scene scene = make_scene({140, 75, "wall", "", lattice(0, 40) + lattice(100, 140), 0.02, ""});
+  const auto one_queue = make_parallel_engine(scene, initial_state(scene), {1});
+  const auto in_parts = make_parallel_engine(scene, initial_state(scene), {2});
+  one_queue->step();
+  in_parts->step();
+  EXPECT_EQ(in_parts->state().time, one_queue->state().time);
+  EXPECT_LT(one_queue->state().time, 0.02);
+  EXPECT_EQ(state_hash(in_parts->state().disks), state_hash(one_queue->state().disks));
+}
+
 // A disk a hundred times as fast as the others flies through parts in a window.
 TEST(HaloWindows, WithAProjectile) {
   const std::string projectile =

@@ -129,6 +129,32 @@ TEST(NeighbourLists, KeepToTheirRegion) {
   EXPECT_GT(listed, refused);
 }
 
+// As far from each other as the cutoff, where its last bits tell: a disk that lists another one is listed by it. Sums
+// of three floats depend on their order.
+TEST(ListKernel, OfTwoDisksEachFindsTheOther) {
+  test::Draws draws(9);
+  int near = 0;
+  for (int k = 0; k < 200'000; ++k) {
+    ListQuery a;
+    a.unit_x = a.unit_y = 0x7fff;
+    a.cutoff = static_cast<float>(draws.in(20.0, 200.0));
+    a.radius = static_cast<float>(draws.in(10.0, 4000.0));
+    ListQuery b = a;
+    b.radius = static_cast<float>(draws.in(10.0, 4000.0));
+    const double reach = double{a.cutoff} + double{a.radius} + double{b.radius};
+    const double angle = draws.in(0.0, 1.5707);
+    a.position = {30000, 30000};
+    b.position.x = static_cast<std::uint16_t>(30000.0 + std::floor(reach * std::cos(angle)));
+    const double dx = b.position.x - 30000.0;
+    b.position.y = static_cast<std::uint16_t>(30000.0 + std::round(std::sqrt(std::max(reach * reach - dx * dx, 0.0))));
+    const bool a_lists_b = is_neighbour(a, b.position, b.radius);
+    ASSERT_EQ(a_lists_b, is_neighbour(b, a.position, a.radius)) << a.cutoff << " " << a.radius << " " << b.radius;
+    near += a_lists_b ? 1 : 0;
+  }
+  EXPECT_GT(near, 50'000);
+  EXPECT_LT(near, 150'000);
+}
+
 TEST(ListKernel, AllVersionsFindTheSame) {
   test::Draws draws(8);
   constexpr std::uint32_t cells = 51;
@@ -149,9 +175,8 @@ TEST(ListKernel, AllVersionsFindTheSame) {
     query.unit_x = 0x7fff;
     query.unit_y = round % 3 == 0 ? 0x7fff : 26214;
     query.cutoff = static_cast<float>(draws.in(0.2, 3.0) * units_per_length);
-    query.common_radius = static_cast<float>(0.5 * units_per_length);
+    query.radius = static_cast<float>(0.5 * units_per_length);
     const SlotColumns columns{position.data(), disk.data(), round % 2 == 0 ? radius.data() : nullptr};
-    if (columns.radius != nullptr) query.common_radius = 0.0F;
     std::vector<SlotRun> runs;
     std::size_t room = list_kernel_padding;
     for (std::uint32_t k = 0; k < round % 4; ++k) {
