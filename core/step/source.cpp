@@ -158,8 +158,20 @@ void emit_from_source(const Scene& scene, const Domain& box, State& state, std::
   state.counters.waiting += due - emitted;
 }
 
+double emission_time(double rate, Count k) {
+  return static_cast<double>(k) / rate;
+}
+
+// rate * t alone may be rounded below the whole number that it should be.
+Count emissions_due(double rate, double t) {
+  auto k = static_cast<Count>(std::max(0.0, std::floor(rate * t)));
+  while (k > 0 && emission_time(rate, k) > t) --k;
+  while (emission_time(rate, k + 1) <= t) ++k;
+  return k;
+}
+
 Count due_by(const Source& source, double t) {
-  const Count due = static_cast<Count>(std::floor(source.rate * t));
+  const Count due = emissions_due(source.rate, t);
   return source.limit ? std::min(due, *source.limit) : due;
 }
 

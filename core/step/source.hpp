@@ -27,7 +27,13 @@ bool has_room(const Disks& disks, const Domain& box, const Disk& newcomer);
 void emit_from_source(const Scene& scene, const Domain& box, State& state, std::size_t index, Count due, Count step,
                       const std::function<bool(const Disk&)>& room);
 
-// How many disks a source shall have emitted by time t: the k-th comes at k / rate.
+// When a source's k-th disk comes, k = 1, 2, ...: k / rate.
+double emission_time(double rate, Count k);
+
+// Number of emission times up to and including t. Exact for a t that is such a quotient.
+Count emissions_due(double rate, double t);
+
+// How many disks a source shall have emitted by time t, its limit at most.
 Count due_by(const Source& source, double t);
 
 // The largest radius that a source can give a disk, rounding aside; length.

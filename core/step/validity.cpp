@@ -252,8 +252,7 @@ std::vector<std::string> waiting_warnings(const Scene& scene, const State& state
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     const Source& source = scene.sources[s];
     const Count emitted = state.sources[s].emitted;
-    Count due = emissions_due(source.rate, state.time);
-    if (source.limit) due = std::min(due, *source.limit);
+    const Count due = due_by(source, state.time);
     if (due <= emitted) continue;
     const Count waiting = due - emitted;
     const double allowed = std::max(1.0, most_waiting * static_cast<double>(due));

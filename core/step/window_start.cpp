@@ -11,22 +11,11 @@ namespace carom {
 
 namespace {
 
-double emission_time(double rate, Count k) {
-  return static_cast<double>(k) / rate;
-}
-
 bool has_more(const Source& source, const SourceState& s) {
   return !source.limit || s.emitted < *source.limit;
 }
 
 }  // namespace
-
-Count emissions_due(double rate, double t) {
-  auto k = static_cast<Count>(std::max(0.0, std::floor(rate * t)));
-  while (k > 0 && emission_time(rate, k) > t) --k;
-  while (emission_time(rate, k + 1) <= t) ++k;
-  return k;
-}
 
 double next_cut(const Scene& scene, const State& state) {
   double cut = scene.run.t_end;
@@ -65,9 +54,7 @@ void emit_at_window_start(const Scene& scene, State& state, const std::function<
   }
   state.counters.waiting = 0;
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
-    Count due = emissions_due(scene.sources[s].rate, state.time);
-    if (scene.sources[s].limit) due = std::min(due, *scene.sources[s].limit);
-    state.counters.waiting += due - state.sources[s].emitted;
+    state.counters.waiting += due_by(scene.sources[s], state.time) - state.sources[s].emitted;
   }
 }
 

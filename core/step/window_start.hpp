@@ -9,9 +9,6 @@
 
 namespace carom {
 
-// Number of emission times k / rate, k = 1, 2, ..., up to and including t. Exact for a t that is such a quotient.
-Count emissions_due(double rate, double t);
-
 // Earliest time after state.time at which a window must end: the end of the run, the next emission time of a source
 // that has disks left, the end of the Brownian interval, the end of a piece of a side's motion.
 double next_cut(const Scene& scene, const State& state);

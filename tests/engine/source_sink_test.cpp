@@ -37,6 +37,19 @@ class SourceSink : public testing::TestWithParam<Method> {
 INSTANTIATE_TEST_SUITE_P(Methods, SourceSink, testing::ValuesIn(test::stepping_methods),
                          [](const auto& method) { return test::name_of(method.param); });
 
+// The k-th disk comes at k / rate, also where rate * (k / rate) is rounded below k.
+TEST(SourceRate, TheKthDiskIsDueAtKOverRate) {
+  for (const double rate : {49.0, 3.0, 0.7, 1e-3, 1e5}) {
+    Source source;
+    source.rate = rate;
+    for (Count k = 1; k < 2000; ++k) {
+      const double t = static_cast<double>(k) / rate;
+      ASSERT_EQ(due_by(source, t), k) << rate;
+      ASSERT_EQ(due_by(source, std::nextafter(t, 0.0)), k - 1) << rate;
+    }
+  }
+}
+
 // The k-th disk is due at k / rate: with room for all, after every step floor(rate t) are there, t the step's start.
 TEST_P(SourceSink, EmitsAtItsRate) {
   Scene s = scene(0.1, 20.0);
