@@ -93,7 +93,8 @@ bool EventCalendar::shorten_pages() {
   if (!(spread >= spread_share * page_length) || !(pages_per_time < HUGE_VAL)) return false;
   const std::size_t most = most_pages_a_disk * (last_disk_ - first_disk_) + few_pages;
   const double pages = (end_ - page_start) * pages_per_time + 1.0;
-  set_pages(page_start, pages_per_time, pages < static_cast<double>(most) ? static_cast<std::size_t>(pages) : most);
+  const std::size_t left = pages < static_cast<double>(most) ? static_cast<std::size_t>(pages) : most;
+  many_ ? begin_part(page_start, pages_per_time, left) : set_pages(page_start, pages_per_time, left);
   enter_again();
   return true;
 }

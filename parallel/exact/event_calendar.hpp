@@ -153,8 +153,8 @@ class EventCalendar {
     std::uint32_t present, pages;
     [[gnu::always_inline]] std::uint32_t operator()(double time) const {
       const double page = std::min((time - start) * pages_per_time, last_page);
-      // What is long before the present page is below 0, or below any whole number.
-      const auto p = static_cast<std::int32_t>(page);
+      // What is long before the present page is below 0. In this order what is no number is, too.
+      const auto p = static_cast<std::int32_t>(std::max(-1.0, page));
       if (time <= end) [[likely]]
         return static_cast<std::uint32_t>(std::max(p, static_cast<std::int32_t>(present)));
       return pages;
