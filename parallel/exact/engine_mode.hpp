@@ -59,7 +59,8 @@ inline std::size_t most_regions(std::size_t disks, const Domain& box) {
   return static_cast<std::size_t>(std::sqrt(aspect * static_cast<double>(disks)) / least_region_width);
 }
 
-// The only place where the mode is chosen. regions_allowed: false where a window is run again without.
+// Of all disks together; where windows are run in parts, HaloWindows chooses those first. regions_allowed: false where
+// a window is run again without.
 inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regions_allowed, const Executor& executor) {
   if (disks <= all_pairs_up_to) return {EngineMode::all_pairs, 0, 0, 1.0, false};
   // Where work is cut into smaller blocks, regions are wanted for fewer disks too, and more than one on one thread.

@@ -16,7 +16,7 @@ struct QueuedEvent {
   double time = 0.0;
   // Of a contact: the ids of the two; 0, 0 for anything else that is to be done for the disk, which comes first then.
   DiskId id1 = 0, id2 = 0;
-  std::uint32_t disk = 0;  // storage index; its highest bit is the caller's
+  std::uint32_t disk = 0;  // storage index
 };
 
 // An event is written on the page of its time, unordered; a page is ordered when its time comes, by a heap if it holds

@@ -9,8 +9,8 @@
 
 namespace carom {
 
-// Preconditions as for make_reference_exact. With regions, watch is called at the end of each slice, if it is not
-// empty; it changes no bit.
+// Preconditions as for make_reference_exact. watch: for tests and measurements of regions, called at the end of each of
+// their slices. Where it is not empty, no window is run in parts, so that there are regions; it changes no bit.
 std::unique_ptr<Engine> make_parallel_exact(const Scene& scene, State initial, const Threads& threads,
                                             const BorderWatch& watch = {});
 

@@ -1,12 +1,12 @@
-// On one of several ranks: the part of the box whose disks it has.
+// On one of several ranks, or of several parts of the box: where the disks are that it has.
 #pragma once
 
 #include <cmath>
 
 namespace carom {
 
-// All heights y with below <= y - centre <= above, nearest images along a period; lengths. Without bounds, all of the
-// box.
+// All heights y, or places x of parts across x, with below <= y - centre <= above, nearest images along a period;
+// lengths. Without bounds, all of the box.
 struct KnownBand {
   double centre = 0.0;
   double period = 0.0;  // 0: none

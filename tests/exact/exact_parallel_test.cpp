@@ -36,8 +36,8 @@ std::string fingerprint(const State& s) {
       fmt::join(c.side_energy, " "), c.shear_virial, c.shear_work);
 }
 
-// Regions and tiles so small that even these scenes have some; with 1 in place of 128 there are none, and one queue
-// has all events.
+// Parts, or where there are none regions and tiles, so small that even these scenes have some; with 1 in place of 128
+// there are none, and one queue has all events.
 State run_parallel(const Scene& scene, const State& initial, int threads, std::size_t block_divisor = 128) {
   const auto engine = make_parallel_engine(scene, initial, {threads, block_divisor});
   run_to_end(*engine, scene);
@@ -45,8 +45,8 @@ State run_parallel(const Scene& scene, const State& initial, int threads, std::s
 }
 
 // Likewise with regions whose borders are processed after them, as where parts with halos are of no use.
-State run_in_regions(const Scene& scene, const State& initial) {
-  const auto engine = make_parallel_exact(scene, initial, {3, 128}, [](const SliceBorders&) {});
+State run_in_regions(const Scene& scene, const State& initial, std::size_t block_divisor = 128) {
+  const auto engine = make_parallel_exact(scene, initial, {3, block_divisor}, [](const SliceBorders&) {});
   run_to_end(*engine, scene);
   return engine->state();
 }
@@ -60,7 +60,8 @@ void expect_same_bits(const Scene& scene) {
   }
   ASSERT_EQ(fingerprint(run_parallel(scene, initial, 2, 1)), fingerprint(reference)) << "single queue";
   ASSERT_EQ(fingerprint(run_in_regions(scene, initial)), fingerprint(reference)) << "regions";
-  ASSERT_EQ(fingerprint(run_parallel(scene, initial, 3, 1024)), fingerprint(reference)) << "tiles of eight disks";
+  ASSERT_EQ(fingerprint(run_parallel(scene, initial, 3, 1024)), fingerprint(reference)) << "parts of a few disks";
+  ASSERT_EQ(fingerprint(run_in_regions(scene, initial, 1024)), fingerprint(reference)) << "tiles of eight disks";
 }
 
 class ExactParallel : public testing::TestWithParam<ParallelCase> {};
@@ -304,14 +305,15 @@ TEST(ExactParallelSpeeds, ThatRiseAThousandfoldWithinAWindow) {
   EXPECT_GT(fastest2, 100.0 * 100.0);
 }
 
-// Regions of the size that runs have.
-TEST(ExactParallelSize, RegionsAsTheyAre) {
+// Parts and regions of the size that runs have.
+TEST(ExactParallelSize, PartsAndRegionsAsTheyAre) {
   const Scene scene = make_scene({285, 285, "periodic", "", disks(50000, equal), 0.12, ""});
   const State initial = initial_state(scene);
   const std::string reference = fingerprint(run_reference(scene, initial));
   for (const int threads : test::thread_counts) {
     EXPECT_EQ(fingerprint(run_parallel(scene, initial, threads, 1)), reference) << threads << " threads";
   }
+  EXPECT_EQ(fingerprint(run_in_regions(scene, initial, 1)), reference) << "regions";
 }
 
 // After release_memory() the engine has no paths, only the state; what it builds again leads to the same bits.

@@ -6,6 +6,7 @@
 #include "core/load/scene_file.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
+#include "parallel/exact/exact_engine.hpp"
 #include "parallel/simulation.hpp"
 
 namespace carom {
@@ -17,14 +18,17 @@ void expect_same_bits(const std::string& text, double t_end, Count least_collisi
   const State start = initial_state(scene);
   const auto reference = make_reference_engine(scene, start);
   const auto one = make_parallel_engine(scene, start, {1});
-  const auto three = make_parallel_engine(scene, start, {3, 4});
+  const auto parts = make_parallel_engine(scene, start, {3, 4});
+  const auto regions = make_parallel_exact(scene, start, {3, 4}, [](const SliceBorders&) {});
   while (reference->state().time < t_end) {
     reference->step();
     one->step();
-    three->step();
+    parts->step();
+    regions->step();
     const std::uint64_t expected = state_hash(reference->state().disks);
     ASSERT_EQ(expected, state_hash(one->state().disks)) << "t = " << reference->state().time;
-    ASSERT_EQ(expected, state_hash(three->state().disks)) << "t = " << reference->state().time;
+    ASSERT_EQ(expected, state_hash(parts->state().disks)) << "parts, t = " << reference->state().time;
+    ASSERT_EQ(expected, state_hash(regions->state().disks)) << "regions, t = " << reference->state().time;
   }
   EXPECT_EQ(reference->state().counters.collisions, one->state().counters.collisions);
   EXPECT_GT(reference->state().counters.collisions, least_collisions);

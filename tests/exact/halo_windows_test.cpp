@@ -56,7 +56,7 @@ struct Tally {
   std::size_t parts = 0;
 };
 
-// After each window both have the same state; after one that was void twice, parts begin with the right one.
+// After each window both have the same state; after one that was void in all tries, parts begin with the right one.
 Tally run_beside_one_queue(const Scene& scene, int threads, std::size_t divisor, int windows) {
   const State initial = initial_state(scene);
   const auto one_queue = make_parallel_engine(scene, initial, {1});
