@@ -44,7 +44,7 @@ struct Counted {
 };
 
 // One thread has one queue, but two parts with halos where work is cut in two.
-// Sorted into cells in one step of a dozen: the long runs of pairwise are several sorts longer than the short ones.
+// Sorted into cells in one step of two dozen: the long runs of pairwise are several sorts longer than the short ones.
 const std::vector<Counted>& all_counted() {
   static const std::vector<Counted> all{
       {"exact_0.7", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.7); }},

@@ -166,7 +166,7 @@ std::vector<Figure> measure_exact(const std::string& folder) {
            ratio(turns_of(all, million, 1), turns_of(all, million, 2)),
            "",
            {},
-           1.8},
+           1.85},
           {"exact: 10^6 disks, 2 threads (aim 3)", speed(million, 2, 0.5), unit, {}, {}},
           {"exact: 10^5 disks, 1 thread (aim 1.5)", speed(100'000, 1, 0.5), unit, {}, {}},
           {"exact: 10^5 disks, 1 thread, fraction 0.1 (aim 0.75)", speed(100'000, 1, 0.1), unit, {}, {}},
