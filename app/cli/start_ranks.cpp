@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -14,6 +15,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/base/check.hpp"
@@ -93,9 +95,24 @@ int status_of(int wait_status) {
       why));
 }
 
+// Ranks beyond one a core only take turns, which serves to try things out. Each takes some 31 MB before it has a disk:
+// thousands would take the machine down.
+constexpr int most_ranks_a_core = 8;
+
 }  // namespace
 
+void check_ranks_of_this_machine(int ranks) {
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int most = cores * most_ranks_a_core;
+  if (ranks <= most) return;
+  fail_input("--ranks",
+             fmt::format("{} processes are too many for this machine's {} core{}", ranks, cores, cores == 1 ? "" : "s"),
+             fmt::format("expected at most {}, {} a core; on several machines mpirun starts carom-mpi", most,
+                         most_ranks_a_core));
+}
+
 int start_ranks(int ranks, int argc, const char* const* argv) {
+  check_ranks_of_this_machine(ranks);
   const std::string program = require((fs::read_symlink("/proc/self/exe").parent_path() / "carom-mpi").string());
   for (const auto& [name, value] : mpi_settings) setenv(name, value, 0);
   std::vector<std::string> words{require(find_program("mpiexec")), "-q", "-n", fmt::format("{}", ranks)};

@@ -13,6 +13,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/progress.hpp"
+#include "app/cli/start_ranks.hpp"
 #include "app/sweep/run_programs.hpp"
 #include "app/sweep/sweep_plan.hpp"
 #include "core/base/check.hpp"
@@ -329,6 +330,7 @@ std::string slurm_script(const Sweep& sweep) {
 }  // namespace
 
 int command_sweep(const SweepOptions& options) {
+  if (options.emit.empty()) check_ranks_of_this_machine(options.ranks);
   Sweep sweep(options);
   sweep.open_folder();
   const std::size_t left = sweep.runs().size() - sweep.finished();

@@ -42,6 +42,7 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
       {"run small.toml --engine fast", "--engine: there is no engine \"fast\""},
       {"run small.toml --threads 0", "--threads: is \"0\"; expected a whole number of 1 or more"},
       {"run small.toml --threads two", "--threads: is \"two\""},
+      {"run small.toml --ranks 0", "--ranks: is \"0\"; expected a whole number of 1 or more"},
       {"run small.toml --set dt", "--set: is \"dt\"; expected KEY=VALUE"},
       {"run small.toml --set run.dtt=1", "--set run.dtt: unknown key"},
       {"run small.toml --set run.dt=-1", "--set run.dt: is -1"},
@@ -90,6 +91,21 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   };
   for (const auto& [arguments, what] : cases) expect_error("$C " + arguments, 2, what);
   EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "nothing is left behind";
+}
+
+// Thousands would take the machine down. Without a mpiexec to be found, none is started whatever happens.
+TEST_F(CommandLine, MoreRanksThanTheMachineCanBearAreRefused) {
+  for (const std::string command : {"run small.toml -o out", "resume out", "sweep small.toml --seeds 2 -o out"}) {
+    const Outcome o = shell("PATH=/nonexistent $C " + command + " --ranks 100000");
+    EXPECT_EQ(o.status, 2) << command;
+    EXPECT_THAT(o.err, MatchesRegex("carom: error: --ranks: 100000 processes are too many for this machine's [0-9]+ "
+                                    "cores?; expected at most [0-9]+, 8 a core; on several machines mpirun starts "
+                                    "carom-mpi\n"))
+        << command;
+  }
+  EXPECT_FALSE(std::filesystem::exists(at("out")));
+  EXPECT_EQ(carom("sweep small.toml --seeds 2 -o out --ranks 100000 --emit slurm").status, 0)
+      << "which is for another machine";
 }
 
 TEST_F(CommandLine, HelpAndVersion) {
