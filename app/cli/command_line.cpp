@@ -50,8 +50,7 @@ constexpr const char* early_stop =
 void add_run_options(CLI::App* run, OptionWords& words) {
   add_value(run, "--engine", words.engine, "parallel|reference", "default parallel; both give the same bits");
   add_value(run, "--threads", words.threads, "N", "threads of the parallel engine; default all cores");
-  add_value(run, "--ranks", words.ranks, "N",
-            "processes that share the box, over MPI; method pairwise, no piles so far");
+  add_value(run, "--ranks", words.ranks, "N", "processes that share the box, over MPI; methods pairwise and exact");
   add_value(run, "--max-walltime", words.walltime, "TIME",
             "stop with a checkpoint after so long, such as 90 s, 30 min or 2h");
   run->add_flag("--json", words.json, "print the summary as JSON, and nothing else, on standard output");

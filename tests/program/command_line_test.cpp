@@ -117,6 +117,9 @@ TEST_F(CommandLine, HelpAndVersion) {
     EXPECT_THAT(o.out, HasSubstr("Usage: carom")) << command;
     EXPECT_THAT(o.err, IsEmpty());
   }
+  for (const char* const command : {"run", "resume"}) {
+    EXPECT_THAT(carom(std::string(command) + " --help").out, HasSubstr("over MPI; methods pairwise and exact\n"));
+  }
 }
 
 TEST_F(CommandLine, HelpIsAWordToo) {
