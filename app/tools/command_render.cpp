@@ -11,6 +11,7 @@
 #include "core/base/input_message.hpp"
 #include "core/scene/picture_look.hpp"
 #include "io/files/output_file.hpp"
+#include "io/files/output_folder.hpp"
 #include "io/movie/movie.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
 #include "run/recording.hpp"
@@ -89,7 +90,20 @@ struct Target {
   fs::path file;
   std::optional<MovieFormat> movie;  // absent: a picture
   bool svg = false;
+  bool single_frames = false;  // of a movie where there is no ffmpeg: a folder of pictures beside where it would be
+
+  fs::path made() const { return single_frames ? file.parent_path() / "frames" : file; }
 };
+
+// As check_free, of the folder of a movie's frames.
+void check_frames_free(const fs::path& frames, bool force) {
+  if (!fs::exists(frames)) return;
+  if (!holds_frames_only(frames)) {
+    fail_input(frames.string(), "is not a folder of frames and nothing else", "choose another folder with -o");
+  }
+  if (force) return;
+  fail_input(frames.string(), "exists already", "choose another folder with -o, or replace it with --force");
+}
 
 Target target_of(const RenderOptions& options, const Recording& recording) {
   Target target{recording.folder / (options.frame ? fmt::format("frame_{}.png", *options.frame) : "movie.mp4"), {}};
@@ -107,6 +121,7 @@ Target target_of(const RenderOptions& options, const Recording& recording) {
     fail_input("-o", fmt::format("{} is a movie, and --frame asks for a picture", in_quotes(target.file.string())),
                "expected .png or .svg");
   }
+  target.single_frames = target.movie && !finds_ffmpeg();
   return target;
 }
 
@@ -131,8 +146,7 @@ void render_picture(const Recording& recording, const RenderOptions& options, co
   rename_file(made, target.file);
 }
 
-// Returns what was made: the file, or a folder of single frames.
-fs::path render_movie(const Recording& recording, const RenderOptions& options, const Target& target) {
+void render_movie(const Recording& recording, const RenderOptions& options, const Target& target) {
   constexpr double fastest_gif = 50.0;  // delays are whole hundredths of a second, and viewers make two of one
   const Survey survey = survey_of(recording);
   const FrameStyle style = style_of(recording, options, survey);
@@ -142,16 +156,17 @@ fs::path render_movie(const Recording& recording, const RenderOptions& options, 
   }
   const WorkFolder work(target.file);
   MovieWriter movie(work.path.string(), style, *target.movie);
-  if (movie.single_frames() && !options.quiet) {
+  if (target.single_frames && !options.quiet) {
     print_warning("ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on");
   }
   const auto reader = open_frames(recording);
   TrajectoryFrame frame;
   for (Count k = 0; k < survey.frames && reader->read(frame); ++k) movie.add(frame.disks, frame.time, frame.group);
   movie.finish();
-  const fs::path to = movie.single_frames() ? target.file.parent_path() / "frames" : target.file;
-  rename_file(work.path / (movie.single_frames() ? "frames" : movie_name(*target.movie)), to);
-  return to;
+  if (!target.single_frames) return rename_file(work.path / movie_name(*target.movie), target.file);
+  // A folder takes no other's place but that of an empty one: earlier frames step aside until the new ones are there.
+  if (fs::exists(target.made())) rename_file(target.made(), work.path / "earlier");
+  rename_file(work.path / "frames", target.made());
 }
 
 }  // namespace
@@ -159,14 +174,17 @@ fs::path render_movie(const Recording& recording, const RenderOptions& options, 
 int command_render(const RenderOptions& options) {
   const Recording recording = open_recording(options.source);
   const Target target = target_of(options, recording);
-  check_free(target.file, options.force);
-  fs::path made = target.file;
+  if (target.single_frames) {
+    check_frames_free(target.made(), options.force);
+  } else {
+    check_free(target.file, options.force);
+  }
   if (target.movie) {
-    made = render_movie(recording, options, target);
+    render_movie(recording, options, target);
   } else {
     render_picture(recording, options, target);
   }
-  if (!options.quiet) print_out(fmt::format("{}\n", made.string()));
+  if (!options.quiet) print_out(fmt::format("{}\n", target.made().string()));
   return 0;
 }
 

@@ -61,16 +61,6 @@ fs::path normal(const fs::path& folder) {
   return tidy.has_filename() ? tidy : tidy.parent_path();
 }
 
-// Whether a folder holds PNG frames of ours and nothing else, so that it may be replaced as a whole.
-bool holds_frames_only(const fs::path& frames) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(frames, error)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with("frame_") || !name.ends_with(".png")) return false;
-  }
-  return !error;
-}
-
 // The lock of a folder is a record lock on a file in it: it belongs to the process alone, so no child inherits it, not
 // even between its fork and its exec, and it ends with the process however that ends. The process loses it when it
 // closes any descriptor of the file, so it opens no second one: it keeps a list of the files that it holds.
@@ -151,6 +141,15 @@ void check_writable(const fs::path& name, const fs::path& folder) {
 }
 
 }  // namespace
+
+bool holds_frames_only(const fs::path& frames) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(frames, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("frame_") || !name.ends_with(".png")) return false;
+  }
+  return !error;
+}
 
 fs::path present_path(const fs::path& folder, const std::string& file) {
   std::error_code error;

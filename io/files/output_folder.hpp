@@ -64,6 +64,9 @@ class OutputFolder {
 // Where a file of a run lies: in folder/carom-unfinished, or in folder if the run finished.
 std::filesystem::path present_path(const std::filesystem::path& folder, const std::string& file);
 
+// Whether a folder holds PNG frames of ours and nothing else, so that it may be replaced as a whole.
+bool holds_frames_only(const std::filesystem::path& frames);
+
 // Is a run writing into a folder now?
 bool is_being_written(const std::filesystem::path& folder);
 

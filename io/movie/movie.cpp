@@ -34,6 +34,10 @@ std::string part_name(Count first_frame, const std::string& extension) {
 
 }  // namespace
 
+bool finds_ffmpeg() {
+  return !find_program("ffmpeg").empty();
+}
+
 MovieWriter::MovieWriter(const std::string& folder, FrameStyle style, MovieFormat format)
     : folder_(folder),
       style_(std::move(style)),

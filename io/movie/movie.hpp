@@ -12,6 +12,9 @@
 
 namespace carom {
 
+// False where a movie becomes single frames.
+bool finds_ffmpeg();
+
 // A movie is encoded in parts, as a file that ffmpeg has not finished cannot be continued: every mark ends a part. A
 // run without marks has one part, which becomes the movie; else ffmpeg joins them, without encoding anything again.
 class MovieWriter {

@@ -105,6 +105,30 @@ TEST_F(Render, WhatItCannotMakeIsRefusedInOneLine) {
     EXPECT_FALSE(fs::exists(at(file)));
 }
 
+// Where ffmpeg is missing a movie is a folder of frames, which is asked for and replaced as a file would be.
+TEST_F(Render, FramesOfAMovieAreReplacedByForceOnly) {
+  run_small("--set output.movie=false");
+  const std::string render = "PATH=/nonexistent $C render out ";
+  const Outcome first = shell(render);
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_EQ(first.out, "out/frames\n");
+  write("out/frames/frame_000099.png", "of a longer run");
+  const Outcome refused = shell(render);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.err,
+            "carom: error: out/frames: exists already; choose another folder with -o, or replace it with --force\n");
+  const Outcome again = shell(render + "--force --quiet");
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_TRUE(fs::exists(at("out/frames/frame_000005.png")));
+  EXPECT_FALSE(fs::exists(at("out/frames/frame_000099.png"))) << "no frame of an earlier movie is mixed in";
+  EXPECT_FALSE(fs::exists(at("out/movie.mp4.unfinished")));
+  write("out/frames/notes.txt", "mine");
+  const Outcome mine = shell(render + "--force");
+  EXPECT_EQ(mine.status, 2);
+  EXPECT_THAT(mine.err, HasSubstr("out/frames: is not a folder of frames and nothing else; choose another folder"));
+  EXPECT_EQ(text_of(at("out/frames/notes.txt")), "mine");
+}
+
 // While it runs, or after it was killed: of the last frame, only a part may be there.
 TEST_F(LongRender, AnUnfinishedRunIsShownAsFarAsItCame) {
   run_small();
