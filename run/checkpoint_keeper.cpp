@@ -7,6 +7,7 @@
 
 #include "core/base/check.hpp"
 #include "io/checkpoint/checkpoint_place.hpp"
+#include "io/files/shell_word.hpp"
 #include "run/stop_signals.hpp"
 
 namespace carom {
@@ -93,7 +94,7 @@ RunRecord CheckpointKeeper::record(double step_s) const {
 }
 
 std::string CheckpointKeeper::resume_command() const {
-  return written_to_.empty() ? "" : fmt::format("carom resume {}", written_to_);
+  return written_to_.empty() ? "" : fmt::format("carom resume {}", shell_word(written_to_));
 }
 
 void CheckpointKeeper::discard_own_folder() {

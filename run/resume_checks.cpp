@@ -11,6 +11,7 @@
 #include "core/step/step_clock.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/output_folder.hpp"
+#include "io/files/shell_word.hpp"
 
 namespace carom {
 
@@ -81,7 +82,7 @@ void check_resumable(const ResumeFrom& from, const Scene& before, const Scene& n
   if (place.finished && checkpoint.state.time >= now.run.t_end && fs::exists(place.folder / "summary.json") &&
       !lacks_plots(now, place.folder)) {
     fail_input(name, fmt::format("the run came to its end at t = {}", checkpoint.state.time),
-               fmt::format("expected --t-end beyond that, such as carom resume {} --t-end {}", name,
+               fmt::format("expected --t-end beyond that, such as carom resume {} --t-end {}", shell_word(name),
                            2.0 * checkpoint.state.time));
   }
 }

@@ -14,6 +14,7 @@
 #include "core/step/validity.hpp"
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/output_file.hpp"
+#include "io/files/shell_word.hpp"
 #include "run/checkpoint_keeper.hpp"
 #include "run/run_files.hpp"
 #include "run/run_loop.hpp"
@@ -71,16 +72,17 @@ std::string lost_pictures(const Scene& scene, const RunFiles& files, const std::
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
   for (const std::string& plot : files.outputs.lost_plots()) add(plot);
   const std::string& folder = files.folder.name();
+  const std::string word = shell_word(folder);
   const std::string& movie = files.outputs.lost_movie();
   if (!movie.empty()) add(movie);
   if (!lost_view.empty()) add(lost_view);
   if (text.empty()) return text;
   add(fmt::format("all else of the run is in {}", folder));
-  if (resumable && !files.outputs.lost_plots().empty()) add(fmt::format("carom resume {} draws the plots", folder));
+  if (resumable && !files.outputs.lost_plots().empty()) add(fmt::format("carom resume {} draws the plots", word));
   if (!movie.empty() && scene.output.trajectory != TrajectoryFormat::none) {
-    add(fmt::format("carom render {} makes the movie", folder));
+    add(fmt::format("carom render {} makes the movie", word));
   }
-  if (!lost_view.empty()) add(fmt::format("carom view {} makes the page", folder));
+  if (!lost_view.empty()) add(fmt::format("carom view {} makes the page", word));
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include "core/load/scene_check.hpp"
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/output_folder.hpp"
+#include "io/files/shell_word.hpp"
 #include "run/stop_signals.hpp"
 
 namespace carom {
@@ -30,9 +31,9 @@ std::optional<fs::path> folder_of(const RunOptions& options, const Scene& scene)
   std::string note = fmt::format("results go to {}", folder->string());
   if (*folder != wanted) {
     const bool stopped = fs::exists(present_path(wanted, checkpoint_name)) && !fs::exists(wanted / "summary.json");
-    note += fmt::format(
-        " ({} holds another run; {})", wanted.string(),
-        stopped ? fmt::format("carom resume {} goes on with that", wanted.string()) : "--force replaces it");
+    note += fmt::format(" ({} holds another run; {})", wanted.string(),
+                        stopped ? fmt::format("carom resume {} goes on with that", shell_word(wanted.string()))
+                                : "--force replaces it");
   }
   print_note(note);
   return folder;

@@ -23,6 +23,7 @@
 #include "io/checkpoint/checkpoint_place.hpp"
 #include "io/files/child_process.hpp"
 #include "io/files/output_file.hpp"
+#include "io/files/shell_word.hpp"
 #include "run/stop_signals.hpp"
 
 namespace carom {
@@ -50,13 +51,6 @@ std::string cell_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_array()) return fmt::format("{}", value.size());
   return value.is_null() ? "" : value.dump();
-}
-
-// In a shell's single quotes.
-std::string quoted_for_shell(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 struct SweepCount {

@@ -9,6 +9,7 @@
 #include "app/cli/commands.hpp"
 #include "core/base/input_message.hpp"
 #include "io/files/output_folder.hpp"
+#include "io/files/shell_word.hpp"
 #include "io/trajectory/trajectory_difference.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
 
@@ -41,7 +42,7 @@ Output open_output(const std::string& name) {
   if (output.trajectory.empty() && output.summary.is_null()) {
     if (fs::exists(fs::path(name) / unfinished_name)) {
       fail_input(name, "holds a run that is not finished",
-                 fmt::format("expected a finished one (carom resume {}), or a trajectory in {}", name,
+                 fmt::format("expected a finished one (carom resume {}), or a trajectory in {}", shell_word(name),
                              (fs::path(name) / unfinished_name).string()));
     }
     fail_input(name, "holds neither trajectory.xyz, trajectory.h5 nor summary.json", "expected a folder of a run");

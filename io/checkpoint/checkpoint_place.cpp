@@ -7,6 +7,7 @@
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/output_folder.hpp"
+#include "io/files/shell_word.hpp"
 
 namespace carom {
 
@@ -41,7 +42,7 @@ namespace {
   fail_input(name, "holds a finished run that kept no checkpoint",
              fmt::format("to go further, run it once more with one: carom run {} --set output.checkpoint=600 --t-end T "
                          "-o DIR",
-                         (folder / "scene.toml").string()));
+                         shell_word((folder / "scene.toml").string())));
 }
 
 }  // namespace
@@ -80,7 +81,8 @@ auto read_at(const CheckpointPlace& place, Read&& read) {
       if (std::string_view(error.what()).find("is damaged") == std::string_view::npos) throw error;
       throw InputError(fmt::format("{}; there is no whole one before it, so run the scene again", error.what()));
     }
-    throw InputError(fmt::format("{}; the one before it is whole: carom resume {}", error.what(), previous.string()));
+    throw InputError(
+        fmt::format("{}; the one before it is whole: carom resume {}", error.what(), shell_word(previous.string())));
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/base/check.hpp"
 #include "io/files/checkpoint_names.hpp"
+#include "io/files/shell_word.hpp"
 
 namespace carom {
 
@@ -194,8 +195,9 @@ void check_output_folder(const fs::path& name, const fs::path& input, bool force
   if (!fs::exists(unfinished, error)) return;
   if (locked_by_another(unfinished)) fail_locked(name);
   if (force) return;
-  const std::string remedy =
-      fs::exists(unfinished / checkpoint_name, error) ? fmt::format("go on with carom resume {}, ", name.string()) : "";
+  const std::string remedy = fs::exists(unfinished / checkpoint_name, error)
+                                 ? fmt::format("go on with carom resume {}, ", shell_word(name.string()))
+                                 : "";
   throw InputError(
       fmt::format("{}: another run is writing there, or stopped before its end ({}); {}choose another "
                   "folder with -o, or replace it with --force",

@@ -188,6 +188,21 @@ TEST_F(InterruptedRun, WithoutFilesOfItsOwnItMakesAFolderForTheCheckpoint) {
   EXPECT_EQ(summary("whole"), summary("out/busy-2"));
 }
 
+// The command that goes on can be given to a shell as it stands.
+TEST_F(InterruptedRun, WhatGoesOnIsQuotedForTheShell) {
+  const Outcome stopped = carom("run busy.toml -o \"it's 1\" --max-walltime 1e-9 --json");
+  ASSERT_EQ(stopped.status, 4);
+  const std::string command = nlohmann::json::parse(stopped.out)["resume_with"];
+  EXPECT_EQ(command, R"(carom resume 'it'\''s 1')");
+  EXPECT_THAT(stopped.err, HasSubstr("; go on with " + command + "\n"));
+  EXPECT_THAT(carom("run busy.toml -o \"it's 1\"").err,
+              HasSubstr("; go on with " + command + ", choose another folder"));
+  const Outcome on = shell(R"(carom() { "$C" "$@"; }; )" + command + " --t-end 0.1 --quiet");
+  EXPECT_EQ(on.status, 0) << on.err;
+  EXPECT_TRUE(fs::exists(at("it's 1/summary.json")));
+  EXPECT_THAT(carom("resume \"it's 1\"").err, HasSubstr(R"(carom run 'it'\''s 1/scene.toml' --set)"));
+}
+
 TEST_F(InterruptedRun, AFullDiskCostsNothingButTime) {
   write("small.toml", test::busy_scene("pairwise", "checkpoint = 0.02\n"));
   ASSERT_EQ(carom("run small.toml --quiet -o whole --t-end 10").status, 0);
