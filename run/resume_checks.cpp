@@ -35,9 +35,15 @@ Count begun_steps(const Scene& scene, const State& state) {
   return scene.physics.diffusion > 0.0 ? state.intervals : 0;
 }
 
+// The scene as the run has it, with what options and --set made of the file that it came from.
+std::string scene_file_of(const CheckpointPlace& place, const Scene& scene) {
+  const fs::path kept = present_path(place.folder, "scene.toml");
+  return fs::exists(kept) ? kept.string() : scene.file;
+}
+
 // May the run end at another time than the one given at first? It must not have to go back, and the step that was cut
 // short to end at the old time must not have begun.
-void check_end(const Scene& before, const Scene& now, const State& state) {
+void check_end(const CheckpointPlace& place, const Scene& before, const Scene& now, const State& state) {
   const double t_end = now.run.t_end;
   if (t_end == before.run.t_end) return;
   const std::string told = fmt::format("is {}", t_end);
@@ -54,7 +60,7 @@ void check_end(const Scene& before, const Scene& now, const State& state) {
   fail_input(
       "--t-end", fmt::format("{}, but the run's last step was cut short to end at {}", told, before.run.t_end),
       fmt::format("expected an earlier checkpoint, or a new run to the later end: carom run {} --t-end {} -o DIR",
-                  now.file, t_end));
+                  shell_word(scene_file_of(place, now)), t_end));
 }
 
 // Was a plot lost at the end of the run, or taken away since? Going on from the end draws it.
@@ -77,7 +83,7 @@ void check_resumable(const ResumeFrom& from, const Scene& before, const Scene& n
     fail_input(name, "holds a state that does not belong to its scene",
                "expected a checkpoint as Carom wrote it; the one before may serve (checkpoint.previous.carom)");
   }
-  check_end(before, now, checkpoint.state);
+  check_end(place, before, now, checkpoint.state);
   check_files(place, checkpoint.record.outputs);
   if (place.finished && checkpoint.state.time >= now.run.t_end && fs::exists(place.folder / "summary.json") &&
       !lacks_plots(now, place.folder)) {

@@ -289,7 +289,11 @@ TEST_F(LongInterruptedRun, AFinishedRunGoesOnToALaterEnd) {
               HasSubstr("bare: holds a finished run that kept no checkpoint; to go further, run it once more with one: "
                         "carom run bare/scene.toml --set output.checkpoint=600 --t-end T -o DIR\n"));
   ASSERT_EQ(carom("run asks.toml -o cut --set output.movie=false --t-end 3.001" + seldom).status, 0);
-  EXPECT_THAT(carom("resume cut --t-end 6").err, HasSubstr("the run's last step was cut short to end at 3.001"));
+  EXPECT_THAT(
+      carom("resume cut --t-end 6").err,
+      HasSubstr("the run's last step was cut short to end at 3.001; expected an earlier checkpoint, or a new run "
+                "to the later end: carom run cut/scene.toml --t-end 6 -o DIR\n"))
+      << "the scene file of the folder, which has what options changed";
 }
 
 TEST_F(InterruptedRun, OptionsOfResumeAreKept) {
