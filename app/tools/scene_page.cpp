@@ -51,6 +51,8 @@ std::string kind_text(const SceneKey& key) {
       return "a number from 0 to 1";
     case KeyKind::count:
       return "a whole number, 0 or more";
+    case KeyKind::ordinal:
+      return "a whole number, 1 or more";
     case KeyKind::flag:
       return "`true` or `false`";
     default:

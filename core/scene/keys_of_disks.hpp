@@ -108,7 +108,7 @@ inline constexpr SceneKey keys[] = {
      R"(mass = { frame = "out/melt" })"},
     {"frame", "frame", text, none, "required", "A run's folder, or a trajectory; from the scene's folder.",
      R"(positions = { frame = "out/melt" })"},
-    {"frame", "index", count, none, "the last", "Which frame, counted from 1.",
+    {"frame", "index", ordinal, none, "the last", "Which frame, counted from 1.",
      R"(positions = { frame = "out/melt", index = 5 })"},
     {"frame", "time", number, Dimension::time, "the last", "The frame nearest to this time.",
      R"(positions = { frame = "out/melt", time = 2.5 })"},

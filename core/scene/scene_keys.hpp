@@ -19,6 +19,7 @@ enum class KeyKind : std::uint8_t {
   non_negative,   // >= 0
   unit_interval,  // from 0 to 1
   count,          // a whole number, 0 or more
+  ordinal,        // a whole number, 1 or more
   flag,           // true or false
   text,
   choice,  // one of names

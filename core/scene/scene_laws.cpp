@@ -56,7 +56,6 @@ SceneFrame read_frame(const TableReader& owner, std::string_view name, const tom
   asked.index = law.count("index");
   asked.time = law.number("time");
   if (asked.index && asked.time) law.fail("time", "given beside index", expected);
-  if (asked.index == 0U) law.fail("index", "is 0", "expected 1 or more");
   if (!law.origin().frames) law.fail("frame", "cannot be read here", "expected positions of another kind");
   try {
     return law.origin().frames(asked);

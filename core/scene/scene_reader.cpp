@@ -112,16 +112,17 @@ double as_number(const SceneOrigin& origin, const std::string& key, const toml::
   return number->get();
 }
 
-Count as_count(const SceneOrigin& origin, const std::string& key, const toml::node& node) {
-  constexpr std::string_view expected = "expected a whole number, 0 or more";
+Count as_count(const SceneOrigin& origin, const std::string& key, const toml::node& node, Count least) {
+  const std::string expected = fmt::format("expected a whole number, {} or more", least);
   if (const auto* integer = node.as_integer()) {
-    if (integer->get() < 0) origin.fail(key, fmt::format("is {}", integer->get()), expected);
+    if (integer->get() < static_cast<std::int64_t>(least))
+      origin.fail(key, fmt::format("is {}", integer->get()), expected);
     return static_cast<Count>(integer->get());
   }
   const auto* number = node.as_floating_point();  // 1e6 is a float in TOML, and a fair way to write a count
   if (number == nullptr) origin.fail(key, fmt::format("is {}", type_name(node)), expected);
   const double value = number->get();
-  if (!(value >= 0.0 && value <= largest_exact_count) || value != std::floor(value)) {
+  if (!(value >= static_cast<double>(least) && value <= largest_exact_count) || value != std::floor(value)) {
     origin.fail(key, fmt::format("is {}", value), expected);
   }
   return static_cast<Count>(value);
@@ -216,9 +217,9 @@ std::optional<double> TableReader::number(std::string_view name) const {
 }
 
 std::optional<Count> TableReader::count(std::string_view name) const {
-  row(name);
+  const Count least = row(name).kind == KeyKind::ordinal ? 1 : 0;
   const toml::node* node = find(name);
-  return node == nullptr ? std::nullopt : std::optional(as_count(*origin_, key(name), *node));
+  return node == nullptr ? std::nullopt : std::optional(as_count(*origin_, key(name), *node, least));
 }
 
 std::optional<bool> TableReader::flag(std::string_view name) const {

@@ -55,7 +55,8 @@ std::string_view type_name(const toml::node& node);
 
 // One value of the type asked for; key is its path. Each throws InputError for another type; numbers must be finite.
 double as_number(const SceneOrigin& origin, const std::string& key, const toml::node& node);
-Count as_count(const SceneOrigin& origin, const std::string& key, const toml::node& node);
+// A whole number, at least the least one.
+Count as_count(const SceneOrigin& origin, const std::string& key, const toml::node& node, Count least = 0);
 bool as_flag(const SceneOrigin& origin, const std::string& key, const toml::node& node);
 std::string as_text(const SceneOrigin& origin, const std::string& key, const toml::node& node);
 const toml::array& as_list(const SceneOrigin& origin, const std::string& key, const toml::node& node,

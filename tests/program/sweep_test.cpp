@@ -283,7 +283,9 @@ TEST_F(SweepTest, AFrameOfAnEarlierRunIsAStart) {
            {"{ frame = \"nowhere\" }", "does not exist"},
            {"{ frame = \"first\", index = 1, time = 2.0 }", "given beside index"},
            {"{ frame = \"first\", indx = 1 }", "indx: unknown key"},
-           {"{ frame = \"first\", index = 0 }", "is 0"}}) {
+           {"{ frame = \"first\", index = 0 }", "index: is 0; expected a whole number, 1 or more"},
+           {"{ frame = \"first\", index = -1 }", "index: is -1; expected a whole number, 1 or more"},
+           {"{ frame = \"first\", index = 1.5 }", "index: is 1.5; expected a whole number, 1 or more"}}) {
     folder_.write("bad.toml", test::replaced(gas, "\"random\"", law));
     const auto [status, text] = carom("check bad.toml");
     EXPECT_EQ(status, 2) << law;
