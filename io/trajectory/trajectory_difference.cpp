@@ -109,8 +109,13 @@ class Comparison {
  public:
   Comparison(const CompareRule& rule, TrajectoryDifference& result) : rule_(rule), result_(result) {}
 
+  bool saw_disks() const { return saw_disks_; }
+  bool saw_spins() const { return saw_spins_; }
+
   // Both frames list their disks in order of id.
   void compare(const TrajectoryFrame& a, const TrajectoryFrame& b, Count number) {
+    saw_disks_ = saw_disks_ || !a.disks.empty() || !b.disks.empty();
+    saw_spins_ = saw_spins_ || !a.disks.spin.empty() || !b.disks.spin.empty();
     place_ = {};
     place_.frame = number;
     place_.time = a.time;
@@ -157,7 +162,14 @@ class Comparison {
   TrajectoryDifference& result_;
   Difference place_;
   const Domain* box_ = nullptr;
+  bool saw_disks_ = false, saw_spins_ = false;
 };
+
+// Where all fields are compared, and none was asked for by its name, what neither has is no matter.
+bool asks_for_spin(const CompareRule& rule) {
+  const auto wanted = std::count(rule.fields.begin(), rule.fields.end(), true);
+  return rule.fields.back() && wanted < static_cast<std::ptrdiff_t>(rule.fields.size());
+}
 
 }  // namespace
 
@@ -170,6 +182,10 @@ TrajectoryDifference compare_trajectories(const std::string& path_a, const std::
     const bool more_a = a.next(), more_b = b.next();
     if (more_a && more_b) comparison.compare(a.frame, b.frame, a.number);
     if (!more_a && !more_b) break;
+  }
+  if (asks_for_spin(rule) && comparison.saw_disks() && !comparison.saw_spins()) {
+    fail_input(fmt::format("{} and {}", path_a, path_b), "neither has spins, so that they cannot be compared",
+               "expected other --fields");
   }
   result.frames_a = a.count;
   result.frames_b = b.count;

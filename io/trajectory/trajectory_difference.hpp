@@ -38,8 +38,8 @@ struct TrajectoryDifference {
   std::array<std::optional<Difference>, compared_quantities.size()> largest;
 };
 
-// Reads both files, frame by frame. Where bits count, 0 and -0 differ. Throws InputError for a damaged file, and where
-// a file has no frame of the times asked for.
+// Reads both files, frame by frame. Where bits count, 0 and -0 differ. Throws InputError for a damaged file, where a
+// file has no frame of the times asked for, and where some fields are asked for, spin among them, that neither has.
 TrajectoryDifference compare_trajectories(const std::string& a, const std::string& b, const CompareRule& rule = {});
 
 }  // namespace carom

@@ -67,6 +67,21 @@ TEST_F(Compare, FieldsAndTimesAreChosen) {
   expect_error("$C compare a.xyz b.xyz --times 1:2", 2, "a.xyz: has no frame from t = 1 to 2; expected --times within");
 }
 
+TEST_F(Compare, SpinsThatNeitherHasCannotBeCompared) {
+  for (const std::string fields : {"spin", "y,spin"}) {
+    expect_error("$C compare a.xyz b.xyz --fields " + fields, 2,
+                 "a.xyz and b.xyz: neither has spins, so that they cannot be compared; expected other --fields");
+  }
+  EXPECT_EQ(compare("--tolerance 0.5 --fields x,y,vx,vy,radius,mass,spin").status, 0) << "all that there is";
+  ASSERT_EQ(carom("run small.toml --quiet -o smooth").status, 0);
+  ASSERT_EQ(carom("run small.toml --quiet -o rough --set physics.roughness.tangential_restitution=0.5 --set "
+                  "disks.0.spin_temperature=1")
+                .status,
+            0);
+  EXPECT_EQ(carom("compare rough rough --fields spin").out, "same bits in 11 frames, of spin\n");
+  EXPECT_EQ(carom("compare smooth rough --fields y,spin --at 1").status, 1) << "what one has can be compared";
+}
+
 TEST_F(Compare, WithARuleOnlyTrajectoriesCount) {
   ASSERT_EQ(carom("run small.toml --quiet -o one").status, 0);
   ASSERT_EQ(carom("run small.toml --quiet -o two --method exact").status, 0);
