@@ -180,6 +180,11 @@ void check_output_folder(const fs::path& name, const fs::path& input, bool force
           fmt::format("{}: the run's {} would replace the scene file itself; choose another folder with -o",
                       name.string(), result));
     }
+    // No file takes the place of a folder: at the end of a run is too late to find that out. A link is replaced itself.
+    if (std::string_view(result) != "frames" && fs::is_directory(fs::symlink_status(folder / result, error))) {
+      throw InputError(fmt::format("{}: is a folder, where the run's {} would go; choose another folder with -o",
+                                   (name / result).string(), result));
+    }
     if (!force && fs::exists(folder / result, error)) {
       throw InputError(
           fmt::format("{}: holds {} of an earlier run; choose another folder with -o, or replace it with "

@@ -87,6 +87,22 @@ TEST_F(OutputFolderTest, ResultsAreReplacedByForceOnly) {
   EXPECT_EQ(text(folder / "notes.txt"), "mine");
 }
 
+// Found out at the end of a run it would have cost the old results, and the new ones.
+TEST_F(OutputFolderTest, AFolderWhereAFileWouldGoIsForeseen) {
+  const fs::path folder = base_ / "out";
+  run(folder, "first", false);
+  fs::create_directories(folder / "movie.mp4");
+  write_file(folder / "movie.mp4" / "keep", "mine");
+  for (const bool force : {false, true}) {
+    EXPECT_THAT(refusal(folder, force), HasSubstr("out/movie.mp4: is a folder, where the run's movie.mp4 would go; "
+                                                  "choose another folder with -o"));
+  }
+  EXPECT_THROW(run(folder, "second", true), InputError);
+  EXPECT_EQ(text(folder / "summary.json"), "first");
+  EXPECT_EQ(text(folder / "movie.mp4" / "keep"), "mine");
+  EXPECT_EQ(free_output_folder(folder, base_ / "input.toml"), base_ / "out-2");
+}
+
 TEST_F(OutputFolderTest, AnUnfinishedRunIsSeen) {
   fs::create_directories(base_ / "out" / "carom-unfinished");
   EXPECT_THAT(refusal(base_ / "out", false), HasSubstr("another run is writing there, or stopped"));
