@@ -1,6 +1,10 @@
 #include "run/recording.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
@@ -46,6 +50,16 @@ void check_free(const fs::path& file, bool force) {
   if (fs::exists(file) && !force) {
     fail_input(file.string(), "exists already", "choose another file with -o, or replace it with --force");
   }
+}
+
+void check_writable(const fs::path& file) {
+  std::error_code error;
+  fs::path folder = file.parent_path();
+  while (!folder.empty() && !fs::exists(folder, error)) folder = folder.parent_path();
+  // Of "." in a file that is no folder the system says just that.
+  if (access((folder / ".").c_str(), W_OK | X_OK) == 0) return;
+  fail_input(file.string(), fmt::format("cannot be written: {}", std::strerror(errno)),
+             "expected a file in another folder (-o)");
 }
 
 }  // namespace carom

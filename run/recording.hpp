@@ -33,4 +33,8 @@ std::optional<Scene> scene_of(const Recording& recording, const WarningSink& war
 // Throws InputError where a file is in the way.
 void check_free(const std::filesystem::path& file, bool force);
 
+// Throws InputError, naming the file, where it cannot be written, or the folders made that it lacks. To be asked early,
+// before anything takes time; changes nothing.
+void check_writable(const std::filesystem::path& file);
+
 }  // namespace carom

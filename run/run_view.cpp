@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
@@ -69,6 +70,8 @@ ViewMade view_of(const Recording& recording, const ViewSettings& settings) {
 
 ViewMade write_view(const fs::path& file, const Recording& recording, const ViewSettings& settings) {
   ViewMade made = view_of(recording, settings);
+  std::error_code ignored;  // what cannot be made, the file says
+  if (file.has_parent_path()) fs::create_directories(file.parent_path(), ignored);
   replace_file(file.string(), made.page);
   return made;
 }

@@ -179,6 +179,7 @@ int command_render(const RenderOptions& options) {
   } else {
     check_free(target.file, options.force);
   }
+  check_writable(target.made());
   if (target.movie) {
     render_movie(recording, options, target);
   } else {

@@ -21,6 +21,7 @@ int command_view(const ViewOptions& options) {
     fail_input("-o", fmt::format("{} ends in \"{}\"", in_quotes(file.string()), ending), "expected .html");
   }
   check_free(file, options.force);
+  check_writable(file);
   ViewSettings settings;
   if (options.max_size) settings.most_bytes = *options.max_size;
   settings.warn = print_warning;

@@ -85,6 +85,21 @@ TEST_F(View, NothingIsReplacedUnlessTold) {
   EXPECT_THAT(text_of(at("there.html")), StartsWith("<!doctype html>"));
 }
 
+TEST_F(View, WhereItCannotBeWrittenIsSaidBeforehand) {
+  run("-o out --t-end 0.2");
+  write("file", "mine");
+  for (const std::string made : {"view out -o file/page.html", "view out -o file/sub/page.html",
+                                 "render out -o file/picture.png", "render out -o file/sub/film.mp4"}) {
+    const Outcome o = carom(made);
+    EXPECT_EQ(o.status, 2) << made;
+    EXPECT_EQ(o.err, "carom: error: " + made.substr(made.find("file/")) +
+                         ": cannot be written: Not a directory; expected a file in another folder (-o)\n");
+  }
+  EXPECT_EQ(text_of(at("file")), "mine");
+  EXPECT_EQ(carom("view out -o new/folder/page.html --quiet").status, 0) << "folders that are missing are made";
+  EXPECT_THAT(text_of(at("new/folder/page.html")), StartsWith("<!doctype html>"));
+}
+
 TEST_F(View, ARunThatWasKilledIsShownUpToItsLastFrame) {
   run("-o out --t-end 1");
   fs::create_directories(at("broken/carom-unfinished"));
