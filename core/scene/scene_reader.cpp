@@ -25,17 +25,26 @@ const toml::node* child(const toml::node& node, std::string_view segment) {
   return list->get(index);
 }
 
-// Line of the last key along the path that exists.
-unsigned line_of(const toml::table& root, std::string_view key) {
-  const toml::node* node = &root;
+// Of the last key along a path that exists: its line in the file, or that of the last that has one; and its own path
+// where it has none, as it is a table that an override made.
+struct LastKey {
   unsigned line = 1;
-  while (node != nullptr && !key.empty()) {
-    const std::size_t dot = key.find('.');
-    node = child(*node, key.substr(0, dot));
-    key.remove_prefix(dot == std::string_view::npos ? key.size() : dot + 1);
-    if (node != nullptr && node->source().begin.line > 0) line = node->source().begin.line;
+  std::string_view made;
+};
+
+LastKey last_key(const toml::table& root, std::string_view key) {
+  const toml::node* node = &root;
+  LastKey last;
+  for (std::size_t at = 0; at < key.size();) {
+    const std::size_t end = std::min(key.find('.', at), key.size());
+    node = child(*node, key.substr(at, end - at));
+    if (node == nullptr) break;
+    const unsigned line = node->source().begin.line;
+    last.made = line == 0 ? key.substr(0, end) : std::string_view{};
+    if (line > 0) last.line = line;
+    at = end + 1;
   }
-  return line;
+  return last;
 }
 
 // True when path is prefix, or lies below it.
@@ -78,7 +87,11 @@ std::string SceneOrigin::where(std::string_view key) const {
     if (lies_at_or_below(key, it->key)) return fmt::format("--set {}: {}", it->key, key);
   }
   if (root == nullptr) return fmt::format("{}:1: {}", name, key);
-  return fmt::format("{}:{}: {}", name, line_of(*root, key), key);
+  const LastKey last = last_key(*root, key);
+  for (auto it = overrides.rbegin(); !last.made.empty() && it != overrides.rend(); ++it) {
+    if (lies_at_or_below(it->key, last.made)) return fmt::format("--set {}: {}", it->key, key);
+  }
+  return fmt::format("{}:{}: {}", name, last.line, key);
 }
 
 void SceneOrigin::fail(std::string_view key, std::string_view what, std::string_view expected) const {

@@ -42,7 +42,7 @@ struct SceneOrigin {
   std::vector<Override> overrides;
   FrameReader frames;  // how to read a frame of a trajectory; empty where there is no way to
 
-  // "file:line: key", or "--set key" where an override made it. A missing key has the line of the table it should be
+  // "file:line: key", or "--set key" where an override made it. A missing key has the place of the table it should be
   // in.
   std::string where(std::string_view key) const;
 

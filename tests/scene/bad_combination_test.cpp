@@ -18,6 +18,7 @@ using test::sound_scene;
 using test::TestFolder;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::MatchesRegex;
 using testing::StartsWith;
 
 constexpr std::string_view positions = "positions = [[2, 2], [5, 5], [8, 2]]";
@@ -278,6 +279,20 @@ TEST(BadOverride, IsNamedByItsKey) {
   EXPECT_THAT(complaint(sound_scene, {{"", "1"}}), HasSubstr("is no key"));
   EXPECT_THAT(complaint(sound_scene, {{"run..t_end", "1"}}), HasSubstr("is no key"));
   EXPECT_THAT(complaint(sound_scene, {{"run.method", "exakt"}}), HasSubstr("(nearest: exact)"));
+}
+
+// The file has no line of such a table.
+TEST(BadOverride, IsNamedWhereATableThatItMadeIsWrong) {
+  EXPECT_THAT(complaint(sound_scene, {{"growth.steps", "5"}, {"run.t_end", "1"}}),
+              StartsWith("--set growth.steps: growth: nothing grows; expected"));
+  EXPECT_THAT(complaint(sound_scene, {{"analysis.every", "1"}}),
+              StartsWith("--set analysis.every: analysis.what: missing"));
+  EXPECT_THAT(complaint(sound_scene, {{"growht.steps", "5"}}), StartsWith("--set growht.steps: growht: unknown key"));
+  EXPECT_THAT(complaint(sound_scene, {{"physics.collapse.model", "tc"}}),
+              StartsWith("--set physics.collapse.model: physics.collapse.contact_time: missing"));
+  EXPECT_THAT(complaint(replaced(sound_scene, "dt = 0.01\n", ""), {{"run.t_end", "1"}}),
+              MatchesRegex("gas.toml:[0-9]+: run.dt: missing.*"))
+      << "a table of the file has its line there";
 }
 
 }  // namespace
