@@ -89,7 +89,7 @@ class PySimulation {
   const Simulation& look() const { return simulation_; }
 
   Simulation& change() {
-    if (*views_ > 0) {
+    if (views_ > 0) {
       throw std::runtime_error("a view of the disks is open, or an array of it still in use; close it before changes");
     }
     return simulation_;
@@ -109,19 +109,12 @@ class PySimulation {
     return made;
   }
 
-  py::dict view() {
-    const Disks& d = simulation_.state().disks;
-    // Every array holds one, and counts as long as it lives.
-    const auto guard = [this] {
-      ++*views_;
-      return py::capsule(new std::shared_ptr<int>(views_), [](void* held) {
-        const std::unique_ptr<std::shared_ptr<int>> count(static_cast<std::shared_ptr<int>*>(held));
-        --**count;
-      });
-    };
+  // self: the Python object of a PySimulation.
+  static py::dict view(const py::object& self) {
+    const Disks& d = self.cast<PySimulation&>().simulation_.state().disks;
     const auto shown = [&](const auto& column) {
       using T = typename std::decay_t<decltype(column)>::value_type;
-      py::array_t<T> array(static_cast<py::ssize_t>(column.size()), column.data(), guard());
+      py::array_t<T> array(static_cast<py::ssize_t>(column.size()), column.data(), guard(self));
       array.attr("flags").attr("writeable") = false;
       return array;
     };
@@ -138,8 +131,21 @@ class PySimulation {
   }
 
  private:
+  // Every array holds one. As long as it lives it counts, and keeps the simulation, whose memory the array shows: the
+  // names that a program has for the simulation may be gone before.
+  static py::capsule guard(const py::object& self) {
+    auto owner = std::make_unique<py::object>(self);
+    py::capsule capsule(owner.get(), [](void* held) {
+      const std::unique_ptr<py::object> shown(static_cast<py::object*>(held));
+      --shown->cast<PySimulation&>().views_;
+    });
+    owner.release();
+    ++self.cast<PySimulation&>().views_;
+    return capsule;
+  }
+
   Simulation simulation_;
-  std::shared_ptr<int> views_ = std::make_shared<int>(0);
+  int views_ = 0;  // arrays that show it
 };
 
 // A picture as `carom render` draws it, into a PNG file.

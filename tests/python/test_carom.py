@@ -162,6 +162,31 @@ def test_a_view_copies_nothing_and_is_never_stale():
     sim.step()
 
 
+def test_an_array_of_a_view_keeps_the_simulation():
+    # In a process of its own, which ends where it reads memory that was given back.
+    script = """if True:
+        import carom, sys
+        scene = carom.Scene.parse(sys.argv[1])
+        def column():
+            sim = carom.Simulation(scene, threads=1)
+            with sim.view() as v:
+                return v.x, v.x.copy()
+        x, before = column()
+        sim = carom.Simulation(scene, threads=1)
+        view = sim.view()
+        sim = carom.Simulation(scene, threads=1)
+        sim.step(2)
+        assert (x == before).all() and (view.x == before).all()
+        x = sim.view().x
+        try:
+            sim.step()
+        except RuntimeError:
+            del x
+            sim.step()
+        """
+    subprocess.run(["/usr/bin/python3", "-c", script, gas(200_000).toml()], check=True)
+
+
 def test_rough_disks_have_spins():
     group = {"count": 20, "positions": "random", "spin_temperature": 2.0, "radius": 0.5, "mass": 1.0}
     sim = carom.Simulation(carom.Scene({
