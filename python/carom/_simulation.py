@@ -33,6 +33,14 @@ def engine(name: str, threads: Optional[int]) -> tuple:
 _engine = engine  # where an argument has the name
 
 
+def _next_multiple(interval: float, time: float) -> float:
+    """The least k >= 1 for which interval * k, as it is rounded, lies beyond time."""
+    k = max(1.0, np.floor(time / interval) - 1.0)  # the quotient may be rounded across a whole number, either way
+    while interval * k <= time:
+        k = max(k + 1.0, np.nextafter(k, np.inf))
+    return k
+
+
 class Simulation:
     """A scene that is stepped by a program: looked at, changed between steps, saved.
 
@@ -70,10 +78,11 @@ class Simulation:
 
     def every(self, interval: float, call: Callable[["Simulation"], Any]) -> None:
         """Calls call(self) during step and run, after the first step that ends at or beyond each multiple of interval
-        (simulated time, > 0) from now on. What it raises ends the run there, and the simulation can go on."""
+        (simulated time, > 0) from now on, and from the time of what from_bytes takes up; once after a step that passes
+        several. What it raises ends the run there, and the simulation can go on."""
         if not interval > 0.0:
             raise ValueError(f"interval is {interval}; expected a time above 0")
-        self._callbacks.append([interval, np.floor(self.time / interval) + 1, call])
+        self._callbacks.append([interval, _next_multiple(interval, self.time), call])
 
     def step(self, steps: int = 1) -> None:
         """Makes so many steps (dt; with exact, windows), fewer where t_end is reached. Raises PhysicsError where the
@@ -98,7 +107,7 @@ class Simulation:
             for entry in self._callbacks:
                 interval, k, call = entry
                 if self.time >= interval * k:
-                    entry[1] = np.floor(self.time / interval) + 1
+                    entry[1] = _next_multiple(interval, self.time)
                     call(self)
 
     def disks(self, at: Optional[float] = None) -> Frame:
@@ -159,6 +168,8 @@ class Simulation:
     def from_bytes(self, saved: bytes) -> None:
         """Goes back, or on, to what to_bytes gave. Raises SceneError where it is damaged."""
         self._sim.load_bytes(saved)
+        for entry in self._callbacks:
+            entry[1] = _next_multiple(entry[0], self.time)
 
     def __repr__(self):
         return f"<carom.Simulation, {len(self)} disks, t = {self.time:g}, {self.collisions} collisions>"

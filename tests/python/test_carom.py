@@ -108,6 +108,42 @@ def test_callbacks_come_at_their_times_and_what_they_raise_ends_the_run_only():
     assert other.hash == sim.hash
 
 
+# Steps end at multiples of the interval, and their quotient by it may be rounded across a whole number.
+@pytest.mark.parametrize("dt, interval", [(0.1, 0.1), (0.01, 0.01), (0.07, 0.07), (0.01, 0.07), (0.03, 0.01)])
+def test_callbacks_come_once_at_every_multiple(dt, interval):
+    scene = carom.Scene.parse(gas(2).toml(), {"run.dt": dt, "run.t_end": 2000 * dt})
+    sim = carom.Simulation(scene, threads=1)
+    seen = []
+
+    def note(s):
+        assert not seen or s.time > seen[-1]
+        seen.append(s.time)
+
+    sim.every(interval, note)
+    due, expected = 1, []
+    other = carom.Simulation(scene, threads=1)
+    while not other.done:
+        other.step()
+        if other.time >= interval * due:
+            expected.append(other.time)
+        while other.time >= interval * due:
+            due += 1
+    sim.run()
+    assert seen == expected
+
+
+def test_callbacks_go_on_from_where_a_state_was_taken_up():
+    sim = carom.Simulation(gas(2), threads=1)
+    seen = []
+    sim.every(0.25, lambda s: seen.append(s.time))
+    sim.step(30)
+    saved = sim.to_bytes()
+    sim.run(until=1.0)
+    sim.from_bytes(saved)
+    sim.run(until=0.8)
+    assert seen == pytest.approx([0.25, 0.5, 0.75, 1.0, 0.5, 0.75])
+
+
 def press_ctrl_c(seconds):
     timer = threading.Timer(seconds, lambda: signal.pthread_kill(threading.main_thread().ident, signal.SIGINT))
     timer.start()
