@@ -192,12 +192,14 @@ py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder
 
 // What `carom view` does. Returns what the page leaves out, sentences.
 std::vector<std::string> write_page(const std::string& source, const std::string& file,
-                                    std::optional<std::size_t> most_bytes) {
+                                    std::optional<std::size_t> most_bytes, bool force) {
   const py::gil_scoped_release free;
+  const Recording recording = open_recording(source);
+  check_page_file(file, force);
   ViewSettings settings;
   if (most_bytes) settings.most_bytes = *most_bytes;
   settings.engine = engine_of("", 1);
-  return write_view(file, open_recording(source), settings).left_out;
+  return write_view(file, recording, settings).left_out;
 }
 
 // A reader's next frame, or None.

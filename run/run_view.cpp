@@ -9,6 +9,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
+#include "core/base/input_message.hpp"
 #include "io/files/output_file.hpp"
 
 namespace carom {
@@ -66,6 +67,14 @@ ViewMade view_of(const Recording& recording, const ViewSettings& settings) {
   work.run = make_block_runner(settings.engine);
   const auto open = [&] { return open_frames(recording); };
   return make_view(open, recording.trajectory.string(), story_of(recording, settings), work);
+}
+
+void check_page_file(const fs::path& file, bool force) {
+  if (const std::string ending = file.extension().string(); ending != ".html" && ending != ".htm") {
+    fail_input("-o", fmt::format("{} ends in \"{}\"", in_quotes(file.string()), ending), "expected .html");
+  }
+  check_free(file, force);
+  check_writable(file);
 }
 
 ViewMade write_view(const fs::path& file, const Recording& recording, const ViewSettings& settings) {

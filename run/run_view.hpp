@@ -27,7 +27,10 @@ ViewSeries series_of(const Recording& recording, const ViewSettings& settings);
 // beside the trajectory. Throws as make_view() does.
 ViewMade view_of(const Recording& recording, const ViewSettings& settings);
 
-// The same, written to a file, which it replaces. Throws RunError where it cannot be written.
+// Throws InputError where a page is not to be written to this file: by its ending, or as something is in the way.
+void check_page_file(const std::filesystem::path& file, bool force);
+
+// A page, as view_of() makes it, written to a file, which it replaces. Throws RunError where it cannot be written.
 ViewMade write_view(const std::filesystem::path& file, const Recording& recording, const ViewSettings& settings);
 
 }  // namespace carom

@@ -6,7 +6,6 @@
 #include "app/cli/messages.hpp"
 #include "app/view/live_view.hpp"
 #include "app/view/open_page.hpp"
-#include "core/base/input_message.hpp"
 #include "run/run_view.hpp"
 
 namespace carom {
@@ -17,11 +16,7 @@ int command_view(const ViewOptions& options) {
   if (options.live) return view_live(options);
   const Recording recording = open_recording(options.source);
   const fs::path file = options.file ? fs::path(*options.file) : recording.folder / "view.html";
-  if (const std::string ending = file.extension().string(); ending != ".html" && ending != ".htm") {
-    fail_input("-o", fmt::format("{} ends in \"{}\"", in_quotes(file.string()), ending), "expected .html");
-  }
-  check_free(file, options.force);
-  check_writable(file);
+  check_page_file(file, options.force);
   ViewSettings settings;
   if (options.max_size) settings.most_bytes = *options.max_size;
   settings.warn = print_warning;

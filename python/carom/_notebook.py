@@ -28,15 +28,15 @@ def _in_notebook() -> bool:
     return getattr(shell, "kernel", None) is not None
 
 
-def show(trajectory: str, file, most_bytes):
+def show(trajectory: str, file, most_bytes, force):
     """The viewer's page: in a notebook a Page; else written and opened."""
     if file is None and _in_notebook():
         with tempfile.TemporaryDirectory() as folder:
             page = os.path.join(folder, "view.html")
-            _carom.write_view(trajectory, page, most_bytes)
+            _carom.write_view(trajectory, page, most_bytes, False)
             return Page(pathlib.Path(page).read_text(encoding="utf-8"))
     page = os.fspath(pathlib.Path(trajectory).with_name("view.html") if file is None else file)
-    _carom.write_view(trajectory, page, most_bytes)
+    _carom.write_view(trajectory, page, most_bytes, force)
     if file is None:
         import webbrowser
 

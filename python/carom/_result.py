@@ -47,13 +47,14 @@ class Trajectory:
                 return frame
         raise IndexError(f"frame {k} of {len(self)}")
 
-    def show(self, file=None, max_size: Optional[int] = None):
+    def show(self, file=None, max_size: Optional[int] = None, force: bool = False):
         """The viewer, as `carom view` makes it: one HTML page that plays the run, of at most max_size bytes.
 
         In a notebook it is shown there. Elsewhere it is written to file (view.html in the run's folder, or where the
-        trajectory lies) and opened in a browser; with file given it is only written.
+        trajectory lies) and opened in a browser; with file given it is only written. Raises SceneError where the file's name does not end
+        in .html, or it exists already: force replaces it.
         """
-        return _notebook.show(self.file, file, max_size)
+        return _notebook.show(self.file, file, max_size, force)
 
     def to_ase(self) -> list:
         """An ase.Atoms a frame, as Frame.to_ase."""
@@ -142,9 +143,9 @@ class Result:
         s = self.summary
         return f"<carom.Result, {s['particles']} disks, t = {s['time']:g}, hash {self.hash}, folder {self.folder!r}>"
 
-    def show(self, file=None, max_size: Optional[int] = None):
+    def show(self, file=None, max_size: Optional[int] = None, force: bool = False):
         """The viewer of the trajectory, as Trajectory.show."""
-        return self.frames.show(file, max_size)
+        return self.frames.show(file, max_size, force)
 
     @property
     def plots(self) -> dict:

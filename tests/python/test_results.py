@@ -57,6 +57,21 @@ def test_the_viewer_is_one_page(result, tmp_path, monkeypatch):
     assert os.path.getsize(os.path.join(result.folder, "view.html")) == len(text.encode())
 
 
+def test_the_viewer_replaces_no_file_unless_told_to(result, tmp_path):
+    page = tmp_path / "page.html"
+    page.write_text("mine")
+    with pytest.raises(carom.SceneError, match=r"page.html: exists already; "):
+        result.show(page)
+    assert page.read_text() == "mine"
+    before = open(result.frames.file, "rb").read()
+    for force in (False, True):
+        with pytest.raises(carom.SceneError, match=r'ends in "\.(xyz|h5)"; expected .html'):
+            result.frames.show(result.frames.file, force=force)
+    assert open(result.frames.file, "rb").read() == before
+    result.show(page, force=True)
+    assert "<canvas" in page.read_text()
+
+
 def test_ase_takes_frames(result):
     ase = pytest.importorskip("ase")
     frames = list(result.frames)
