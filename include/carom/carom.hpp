@@ -132,9 +132,12 @@ class World {
   bool set_velocity(std::uint32_t id, double vx, double vy) { return found(carom_set_velocity(world_, id, vx, vy)); }
 
   std::vector<std::uint32_t> disks_in(double x0, double y0, double x1, double y1) const {
-    std::vector<std::uint32_t> ids(size());
+    std::vector<std::uint32_t> ids(size());  // enough where no disk is fixed: those are seen, but not counted
     std::size_t count = 0;
-    check(carom_query_box(world_, x0, y0, x1, y1, ids.data(), ids.size(), &count));
+    if (carom_query_box(world_, x0, y0, x1, y1, ids.data(), ids.size(), &count) != CAROM_OK) {
+      ids.resize(count);
+      check(carom_query_box(world_, x0, y0, x1, y1, ids.data(), ids.size(), &count));
+    }
     ids.resize(count);
     return ids;
   }

@@ -156,6 +156,19 @@ TEST(CaromC, InnerWallsStopRays) {
   EXPECT_FALSE(world.cast_ray(10, 7, -1, 0, 9));
 }
 
+// Fixed disks are seen, though the world does not count them.
+TEST(CaromC, DisksInARectangleMayBeFixedOnes) {
+  World world = World::from_text(
+      "[box]\nwidth = 20\nheight = 10\n[[disks]]\ncount = 1\npositions = [[3, 3]]\nradius = 0.5\nmass = 1\n"
+      "[[disks]]\ncount = 3\nfixed = true\npositions = [[10, 5], [12, 5], [14, 5]]\nradius = 0.5\n[run]\nt_end = 1\n");
+  ASSERT_EQ(world.size(), 1U);
+  EXPECT_THAT(world.disks_in(0, 0, 20, 10), testing::ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(world.disks_in(11, 0, 20, 10), testing::ElementsAre(2, 3));
+  ASSERT_TRUE(world.remove(0));
+  EXPECT_THAT(world.disks_in(0, 0, 20, 10), testing::ElementsAre(1, 2, 3));
+  EXPECT_THROW(world.disks_in(nan_number, 0, 20, 10), carom::Error);
+}
+
 TEST(CaromC, SavesAndLoadsInMemoryAndInFiles) {
   const carom::test::TestFolder folder("carom_c_save");
   World world = World::from_text(gas);
