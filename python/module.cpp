@@ -88,6 +88,8 @@ class PySimulation {
 
   const Simulation& look() const { return simulation_; }
 
+  std::vector<std::string> take_warnings() { return simulation_.take_warnings(); }  // changes no disk
+
   Simulation& change() {
     if (views_ > 0) {
       throw std::runtime_error("a view of the disks is open, or an array of it still in use; close it before changes");
@@ -283,8 +285,8 @@ void bind_simulation(py::module_& m) {
       .def_property_readonly("wall_collisions",
                              [](const PySimulation& s) { return s.look().state().counters.wall_collisions; })
       .def("hash", [](const PySimulation& s) { return hash_text(s.look().hash()); })
-      .def("summary", [](PySimulation& s) { return json_text(s.change().summary()); })
-      .def("warnings", [](PySimulation& s) { return s.change().take_warnings(); })
+      .def("summary", [](const PySimulation& s) { return json_text(s.look().summary()); })
+      .def("warnings", &PySimulation::take_warnings)
       .def("contacts", [](const PySimulation& s) { return copied(s.look().contacts()); })
       .def("paint", &paint)
       .def("disks", [](const PySimulation& s) { return columns_of(s.look().disks()); })

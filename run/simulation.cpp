@@ -185,9 +185,11 @@ std::uint64_t Simulation::hash() const {
   return state_hash(state().disks);
 }
 
-Summary Simulation::summary() {
+Summary Simulation::summary() const {
   const FloatEnvironment environment;
-  Summary s = summarize(start_, engine(), scene_, choice_);
+  // After a change by an engine for this alone: the next step's would move the disks that a caller looks at.
+  const std::unique_ptr<Engine> looks = edited_ ? make_engine(choice_, scene_, *edited_) : nullptr;
+  Summary s = summarize(start_, looks ? *looks : *engine_, scene_, choice_);
   s.warnings = validity_so_far(scene_, state());
   return s;
 }

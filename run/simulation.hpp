@@ -67,7 +67,7 @@ class Simulation {
   std::vector<DiskContact> contacts() const;
 
   std::uint64_t hash() const;  // state_hash of carom run
-  Summary summary();           // as of carom run, but for wall times and files
+  Summary summary() const;     // as of carom run, but for wall times and files
 
   // Warnings of the physics since the last call, one line each.
   std::vector<std::string> take_warnings();

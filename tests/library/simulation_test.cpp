@@ -89,6 +89,23 @@ TEST(Simulation, GivesDisksInOrderOfId) {
   EXPECT_THROW(simulation.disks_at(simulation.time() + 1.0, earlier), InputError);
 }
 
+TEST(Simulation, ASummaryMovesNoDisk) {
+  for (const char* method : methods) {
+    Simulation simulation(gas(method), choice());
+    simulation.step(3);
+    const auto expect_still = [&] {
+      const double* const place = simulation.state().disks.x.data();
+      const std::vector<DiskId> ids = simulation.state().disks.id;
+      EXPECT_EQ(simulation.summary().state_hash, hash_text(simulation.hash())) << method;
+      EXPECT_EQ(simulation.state().disks.x.data(), place) << method;
+      EXPECT_EQ(simulation.state().disks.id, ids) << method;
+    };
+    expect_still();
+    simulation.load(simulation.save());
+    expect_still();
+  }
+}
+
 TEST(Simulation, SavedAndLoadedGoesOnBitForBit) {
   for (const char* method : methods) {
     Simulation simulation(gas(method), choice());

@@ -198,6 +198,25 @@ def test_a_view_copies_nothing_and_is_never_stale():
     sim.step()
 
 
+def test_summary_and_warnings_only_look():
+    sim = carom.Simulation(gas(), threads=1)
+    sim.step(3)
+
+    def summary():
+        return sim.summary | {"phase_s": None}  # measured
+
+    expected = summary()
+    for change in (lambda: None, lambda: sim.from_bytes(sim.to_bytes())):
+        change()
+        with sim.view() as v:
+            before = v.x.copy()
+            assert summary() == expected and sim.take_warnings() == []
+            assert np.array_equal(v.x, before)
+            with sim.view() as again:
+                assert v.x.__array_interface__["data"] == again.x.__array_interface__["data"]
+        sim.step(0)
+
+
 def test_an_array_of_a_view_keeps_the_simulation():
     # In a process of its own, which ends where it reads memory that was given back.
     script = """if True:
