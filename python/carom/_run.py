@@ -7,7 +7,7 @@ import os
 from typing import Any, Callable, Iterable, Optional, Sequence
 
 from . import _carom
-from ._carom import RunError
+from ._carom import RunError, SceneError
 from ._result import Result
 from ._scene import Scene
 from ._simulation import engine as _engine
@@ -18,8 +18,9 @@ def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "pa
     """The whole of `carom run`: steps to t_end and writes what the scene asks for to the folder out; without out, no files.
 
     force replaces earlier results there; strict raises PhysicsError at the first warning of the physics; warn gets each
-    warning as a line (default: warnings.warn). Raises SceneError (a folder that holds another run), PhysicsError,
-    RunError (the machine: a full disk, a plot that could not be drawn), KeyboardInterrupt (with a checkpoint in out).
+    warning as a line (default: warnings.warn). Raises SceneError (a folder that holds another run, or has no name),
+    PhysicsError, RunError (the machine: a full disk, a plot that could not be drawn), KeyboardInterrupt (with a checkpoint
+    in out).
     """
     if warn is None:
         import warnings
@@ -28,6 +29,8 @@ def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "pa
             warnings.warn(text, RuntimeWarning, stacklevel=3)
 
     folder = None if out is None else os.fspath(out)
+    if not folder and out is not None:
+        raise SceneError("out: is empty; expected a folder, or None for no files")
     text, folder, stopped, lost = _carom.run(scene._scene, folder, *_engine(engine, threads), force, strict, warn)
     if stopped:
         raise KeyboardInterrupt(stopped)

@@ -297,6 +297,14 @@ def test_saved_and_resumed(tmp_path):
         carom.resume(tmp_path / "none.carom")
 
 
+def test_a_folder_has_a_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    scene = carom.Scene.parse(gas(5, t_end=0.1).toml(), {"output.series": True})
+    with pytest.raises(carom.SceneError, match="out: is empty; expected a folder"):
+        carom.run(scene, out="")
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize("form", ["xyz", "h5md"])
 def test_results_as_columns_and_frames(form, tmp_path):
     scene = carom.Scene.parse(gas(method="exact", t_end=1.0).toml(), {
