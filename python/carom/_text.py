@@ -9,8 +9,13 @@ from typing import Any, Mapping
 _bare = re.compile(r"[A-Za-z0-9_-]+")
 
 
+def _quoted(text: str) -> str:
+    """A string as TOML has it. JSON's differs in two things: it may have a DEL as it is, and pairs of surrogates."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
 def _key(name) -> str:
-    return name if _bare.fullmatch(name) else json.dumps(name)
+    return name if _bare.fullmatch(name) else _quoted(name)
 
 
 def value(v: Any) -> str:
@@ -22,13 +27,13 @@ def value(v: Any) -> str:
     if isinstance(v, (int, float)):
         return repr(v)
     if isinstance(v, str):
-        return json.dumps(v, ensure_ascii=False)
+        return _quoted(v)
     if isinstance(v, Mapping):
         return "{ " + ", ".join(f"{_key(k)} = {value(item)}" for k, item in v.items()) + " }"
     if isinstance(v, (list, tuple)):
         return "[" + ", ".join(value(item) for item in v) + "]"
     if hasattr(v, "__fspath__"):
-        return json.dumps(v.__fspath__())
+        return _quoted(v.__fspath__())
     raise TypeError(f"a scene holds numbers, strings, lists and dictionaries; not {type(v).__name__}")
 
 

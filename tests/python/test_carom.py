@@ -87,6 +87,18 @@ def test_a_scene_from_arrays_gives_their_numbers_back():
     assert pickle.loads(pickle.dumps(scene)).toml() == scene.toml()
 
 
+@pytest.mark.parametrize("title", ["a \x7f b", "\x00\x1f\n\t\"\\", "\x80 \u2028 \U0001d70b"])
+def test_a_scene_has_any_string(title):
+    for text in (title, pathlib.PurePosixPath(title)):
+        tables = {"title": text, "box": {"packing_fraction": 0.3}, "run": {"t_end": 1.0},
+                  "disks": [{"count": 5, "positions": "random", "radius": 0.5, "mass": 1.0}]}
+        scene = carom.Scene(tables)
+        assert scene.title == title
+        assert carom.Scene.parse(scene.toml()).title == title
+        with pytest.raises(carom.SceneError, match="unknown key"):
+            carom.Scene(tables | {title: 1})
+
+
 def test_callbacks_come_at_their_times_and_what_they_raise_ends_the_run_only():
     sim = carom.Simulation(gas(), threads=1)
     seen = []
