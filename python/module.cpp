@@ -81,6 +81,18 @@ bool interrupted() {
   return PyErr_CheckSignals() != 0;
 }
 
+// Ctrl-C ends a growth of the disks by what this throws. The interpreter's lock, which another thread may hold for a
+// while, is asked for a few times a second.
+auto growth_watch() {
+  return [last = WallClock::now()](const GrowthProgress&) mutable {
+    constexpr double between_looks = 0.05;
+    if (seconds_since(last) < between_looks) return;
+    last = WallClock::now();
+    const py::gil_scoped_acquire lock;
+    if (interrupted()) throw py::error_already_set();
+  };
+}
+
 // A simulation, and how many arrays show its columns as they lie in memory: while there is one, nothing may change.
 class PySimulation {
  public:
@@ -172,6 +184,7 @@ py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder
     settings.folder = *folder;
   }
   bool pressed = false;
+  settings.listener.growth = growth_watch();
   settings.listener.warning = [&](std::string_view text) {
     const py::gil_scoped_acquire lock;
     say(std::string(text));
@@ -267,7 +280,7 @@ void bind_simulation(py::module_& m) {
   simulation
       .def(py::init([](const Scene& scene, const std::string& engine, std::optional<int> threads) {
         const py::gil_scoped_release free;
-        return std::make_unique<PySimulation>(Simulation(scene, engine_of(engine, threads)));
+        return std::make_unique<PySimulation>(Simulation(scene, engine_of(engine, threads), growth_watch()));
       }))
       .def_static("resume",
                   [](const std::string& name, const std::string& engine, std::optional<int> threads) {

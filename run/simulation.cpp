@@ -62,10 +62,10 @@ std::unique_ptr<const ObstacleCells> cells_of(const Scene& scene, const State& s
 
 }  // namespace
 
-Simulation::Simulation(Scene scene, EngineChoice engine)
+Simulation::Simulation(Scene scene, EngineChoice engine, const std::function<void(const GrowthProgress&)>& watch)
     : scene_(std::move(scene)), scene_text_(resolved_toml(scene_)), choice_(std::move(engine)) {
   const FloatEnvironment environment;
-  within_memory(scene_, [&] { engine_ = make_engine(choice_, scene_, make_initial_state(choice_, scene_)); });
+  within_memory(scene_, [&] { engine_ = make_engine(choice_, scene_, make_initial_state(choice_, scene_, watch)); });
   fixed_ = cells_of(scene_, state(), false);
   walls_ = cells_of(scene_, state(), true);
   start_ = run_start(state(), scene_);

@@ -13,6 +13,7 @@
 #include "core/disks/obstacle_cells.hpp"
 #include "core/disks/state.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/start/growth.hpp"
 #include "core/step/edit.hpp"
 #include "core/step/engine.hpp"
 #include "io/checkpoint/checkpoint.hpp"
@@ -28,8 +29,10 @@ namespace carom {
 // at the end of the last step that was made.
 class Simulation {
  public:
-  // A scene as load_scene reads it from a file and parse_scene from text. Throws InputError: disks that find no place.
-  explicit Simulation(Scene scene, EngineChoice engine = choose_engine("", std::nullopt));
+  // A scene as load_scene reads it from a file and parse_scene from text. watch is told how a growth of the disks goes
+  // on, and may be empty; what it throws ends it. Throws InputError: disks that find no place.
+  explicit Simulation(Scene scene, EngineChoice engine = choose_engine("", std::nullopt),
+                      const std::function<void(const GrowthProgress&)>& watch = {});
 
   // Goes on from a checkpoint: a file, or the folder of a run; or the bytes that save() gave, whose name is for
   // messages. Throws InputError where it is none.

@@ -32,9 +32,12 @@ constexpr double most_collisions = 16.0;
 constexpr Count stall_steps = 100;
 constexpr double stall_share = 0.98;
 
-State fly_plainly(const Scene& scene, State state) {
+State fly_plainly(const Scene& scene, State state, const std::function<void()>& look) {
   const auto engine = make_reference_exact(scene, std::move(state));
-  while (engine->state().time < scene.run.t_end) engine->step();
+  while (engine->state().time < scene.run.t_end) {
+    engine->step();
+    look();
+  }
   return engine->state();
 }
 
@@ -123,7 +126,7 @@ class Growth {
     for (Count& step = progress_.steps;; ++step) {
       const GrowthTally tally = tools_.step(state_.disks, box_, target_);
       progress_.packing_fraction = packing(tally.area);
-      if (tools_.watch) tools_.watch(progress_);
+      tell();
       if (tally.lacking == 0 && !tally.overlap) return;
       if (step == scene_.growth.steps) fail("ends", tally);
       if (step % stall_steps == 0) {
@@ -140,6 +143,10 @@ class Growth {
   const Disks& disks() const { return state_.disks; }
 
  private:
+  void tell() const {
+    if (tools_.watch) tools_.watch(progress_);
+  }
+
   // Fixed disks have their places, and leave when the others have found theirs among them.
   void put_small(const PlaceAtRandom& place) {
     Disks& d = state_.disks;
@@ -167,7 +174,7 @@ class Growth {
     state_.time = 0.0;
     state_.counters = {};
     flight_.run.t_end = length;
-    state_ = tools_.fly(flight_, std::move(state_));
+    state_ = tools_.fly(flight_, std::move(state_), [this] { tell(); });
     const Count events = state_.counters.collisions + state_.counters.wall_collisions;
     progress_.collisions += events;
     return events;

@@ -22,11 +22,13 @@ struct GrowthProgress {
 
 // What does the work of a growth. The serial and the parallel tools give the same bits.
 struct GrowthTools {
-  // The state at scene.run.t_end, by the exact method.
-  std::function<State(const Scene&, State)> fly;
+  // The state at scene.run.t_end, by the exact method. The last is called between windows; what it throws ends the
+  // flight.
+  std::function<State(const Scene&, State, const std::function<void()>&)> fly;
   // grow_step, or what gives the same radii; may bring the disks into another order.
   std::function<GrowthTally(Disks&, const Domain&, const std::vector<double>&)> step;
-  // Told after every step; may be empty.
+  // Told after every step, and again within the flights, which may be long. What it throws ends the growth. May be
+  // empty.
   std::function<void(const GrowthProgress&)> watch;
 };
 GrowthTools plain_growth();

@@ -103,10 +103,13 @@ GrowthTally parallel_grow_step(const Executor& executor, Disks& d, const Domain&
 
 GrowthTools parallel_growth(const Executor& executor, const Threads& threads) {
   GrowthTools tools;
-  tools.fly = [threads](const Scene& scene, State state) {
+  tools.fly = [threads](const Scene& scene, State state, const std::function<void()>& look) {
     const auto engine = make_parallel_exact(scene, std::move(state), threads);
     engine->forget_paths();
-    while (engine->state().time < scene.run.t_end) engine->step();
+    while (engine->state().time < scene.run.t_end) {
+      engine->step();
+      look();
+    }
     return engine->state();
   };
   tools.step = [&executor](Disks& d, const Domain& box, const std::vector<double>& target) {

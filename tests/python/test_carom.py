@@ -188,6 +188,24 @@ def test_ctrl_c_in_a_whole_run_leaves_a_checkpoint(tmp_path):
     assert carom.resume(tmp_path / "run").time > 0.0
 
 
+@pytest.mark.parametrize("engine", ["parallel", "reference"])
+def test_ctrl_c_while_disks_grow(engine, tmp_path):
+    # They would grow for half a minute and more, a step for seconds.
+    scene = carom.Scene({"box": {"packing_fraction": 0.83}, "growth": {"slowness": 1000.0},
+                         "disks": [{"count": 5000, "positions": "growth", "radius": 0.5, "mass": 1.0,
+                                    "velocities": {"maxwell": 1.0}}],
+                         "run": {"t_end": 1.0}, "output": {"series": True}})
+    for make in (lambda: carom.Simulation(scene, threads=1, engine=engine),
+                 lambda: carom.run(scene, out=tmp_path / "run", threads=1, engine=engine)):
+        began = time.monotonic()
+        timer = press_ctrl_c(0.3)
+        with pytest.raises(KeyboardInterrupt):
+            make()
+        timer.join()
+        assert time.monotonic() - began < 10.0
+        assert list(tmp_path.iterdir()) == []
+
+
 def test_a_view_copies_nothing_and_is_never_stale():
     sim = carom.Simulation(gas(), threads=1)
     with sim.view() as v, sim.view() as again:
