@@ -20,7 +20,7 @@ namespace carom {
 
 // What a run tells the program that started it, while it goes on, on the thread that called run(). Each may be empty.
 struct RunListener {
-  std::function<void(const GrowthProgress&)> growth;  // each step of a growth of the initial state
+  std::function<void(const GrowthProgress&)> growth;  // GrowthTools::watch, for the initial state
   std::function<void()> ready;                        // the disks are there, nothing has been written yet
   // The first step is next, with so many disks; then, about a hundred times a second. The disks of the states are those
   // of one rank.
