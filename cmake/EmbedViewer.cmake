@@ -13,9 +13,12 @@ function(join_modules result)
     string(REGEX REPLACE "(^|\n)export " "\\1" text "${text}")
     # Comments stay with the sources, and so do the blanks that begin a line.
     string(REGEX REPLACE "\n *//[^\n]*" "" text "\n${text}")
+    string(REGEX REPLACE "([;,{]) // [^\n]*" "\\1" text "${text}")
     string(REGEX REPLACE "\n[ \n]*" "\n" text "${text}")
-    # Nor do blanks around operators that no text of the page has.
-    string(REGEX REPLACE " (=>|[!=]==|&&|[|][|]|[-+*/]=|[<>]=?|\\*) " "\\1" text "${text}")
+    # Nor do blanks around operators that no text of the page has; texts have " = ${".
+    string(REGEX REPLACE " (=>|[!=]==|&&|[|][|]|[-+*/]=|[<>]=?|\\*|[?:+]) " "\\1" text "${text}")
+    string(REGEX REPLACE " = ([^$])" "=\\1" text "${text}")
+    string(REGEX REPLACE "([^a-zA-Z])(if|for) \\(" "\\1\\2(" text "${text}")
     string(REGEX REPLACE "\\) {\n" "){\n" text "${text}")
     string(APPEND joined "${text}")
   endforeach()
