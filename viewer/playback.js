@@ -36,6 +36,12 @@ export class Playback {
     this.time = Math.max(this.times[0], Math.min(this.times[this.last], time));
     this.frame = this.frameAt(this.time);
   }
+  // To the moment of a link. Links were written with eight digits once, which may be a little before their frame.
+  goToLink(time) {
+    this.goToTime(time);
+    const next = this.times[this.frame + 1];
+    if (this.times[this.frame] !== time && Number(next?.toPrecision(8)) === time) this.goTo(this.frame + 1);
+  }
   // Goes on by seconds of the clock on the wall; at the end begins anew or stops.
   advance(seconds) {
     const next = this.time + seconds * this.rate * this.speed;

@@ -355,15 +355,16 @@ export class Viewer {
   // #t=12.5&disk=7
   followHash() {
     const asked = new URLSearchParams(location.hash.slice(1));
-    const time = Number.parseFloat(asked.get("t"));
-    if (Number.isFinite(time)) this.jumpToTime(time);
+    const time = Number.parseFloat(asked.get("t")?.replace(" ", "+")); // 1e+21: a + is read as a space
+    if (Number.isFinite(time)) this.playback.goToLink(time);
+    this.dirty = true;
     const id = Number.parseInt(asked.get("disk"), 10);
     if (Number.isFinite(id)) this.pickId(id);
   }
 
   takeLink() {
     const id = this.picked ? `&disk=${this.store.id[this.picked.place]}` : "";
-    history.replaceState(null, "", `#t=${Number(this.playback.time.toPrecision(8))}${id}`);
+    history.replaceState(null, "", `#t=${this.playback.time}${id}`);
     navigator.clipboard?.writeText(location.href).catch(() => {});
     element("taken").textContent = "The address of the page is the link.";
   }

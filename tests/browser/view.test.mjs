@@ -243,6 +243,46 @@ test("a link leads to its moment and its disk", async () => {
   await page.close();
 });
 
+test("a link leads to its own frame, whatever the digits of its time, and so do links of eight digits", async () => {
+  // 1234567.1234567 times k: eight digits are nearer to 0 for some k and further from it for others.
+  shop.run(
+    "digits",
+    restScene().replace("t_end = 2.0", "t_end = 2e7").replace("every = 0.5", "every = 1234567.1234567"),
+  );
+  const { file } = shop.view("digits");
+  const { page } = await shop.show(file);
+  const { links, opened, rounded, times } = await page.evaluate(async () => {
+    const viewer = window.carom;
+    const found = { links: [], opened: [], rounded: [], times: [...viewer.store.times] };
+    const follow = (hash) => {
+      viewer.jump(0);
+      history.replaceState(null, "", hash);
+      viewer.followHash();
+      return viewer.playback.frame;
+    };
+    for (let k = 0; k < viewer.head.frames; ++k) {
+      viewer.jump(k);
+      viewer.takeLink();
+      found.links.push(location.hash);
+      found.opened.push(follow(location.hash));
+      found.rounded.push(follow(`#t=${Number(viewer.store.times[k].toPrecision(8))}`));
+    }
+    return found;
+  });
+  const frames = times.map((_, k) => k);
+  assert.deepEqual(opened, frames);
+  assert.deepEqual(rounded, frames, "links of eight digits");
+  assert.deepEqual(
+    links.map((link) => Number(link.slice(3))),
+    times,
+    "the whole time",
+  );
+  await page.close();
+  const { page: another } = await shop.show(file, links[3]);
+  await drawn(another, 3);
+  await another.close();
+});
+
 test("title and group names of a hostile scene run no script", async () => {
   const hostile = `</script><script>window.hurt = 1</script><img src=x onerror="window.hurt = 2"><!--`;
   shop.run("hostile", restScene(hostile).replace("count = 4", `name = "evil"\ncount = 4`));
