@@ -14,7 +14,9 @@ export class Camera {
   fit() {
     const margin = 28;
     const { width, height } = this.box;
-    this.scale = Math.max(1e-12, Math.min((this.width - 2 * margin) / width, (this.height - 2 * margin) / height));
+    // On a stage that is all margin the box has a pixel.
+    const [across, along] = [this.width, this.height].map((pixels) => Math.max(1, pixels - 2 * margin));
+    this.scale = Math.min(across / width, along / height);
     this.x = width / 2;
     this.y = height / 2;
     this.fitted = true;

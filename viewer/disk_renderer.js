@@ -10,16 +10,16 @@ layout(location = 1) in int iy;
 layout(location = 2) in vec2 d;
 layout(location = 3) in float radius;
 layout(location = 4) in float value;
-uniform vec2 quantum, shift, centre, size, range;
-uniform float scale, part, perTime, reach;
+uniform vec2 quantum, shift, centre, size;
+uniform float scale, part, low, perSpan, reach;
 uniform bool bySpeed;
 uniform sampler2D palette;
 out vec4 colour;
 vec2 place() { return (vec2(float(ix), float(iy)) * quantum + shift + part * d - centre) * scale; }
 vec4 colourOf() {
-  float v = bySpeed ? length(d) * perTime : value;
-  float at = clamp((v - range.x) / max(range.y - range.x, 1e-30), 0.0, 1.0);
-  return texture(palette, vec2((at * 255.0 + 0.5) / 256.0, 0.5));
+  // The square of a length may be more, or less, than a float holds: a part of the scale first.
+  float at = bySpeed ? length(d * perSpan) - low : (value - low) * perSpan;
+  return texture(palette, vec2((clamp(at, 0.0, 1.0) * 255.0 + 0.5) / 256.0, 0.5));
 }
 `;
 const pointShader = `${head}
@@ -208,11 +208,13 @@ export class DiskRenderer {
     const edge = made === this.points.made ? this.largestPoint : 0;
     gl.viewport(-edge, -edge, canvas.width + 2 * edge, canvas.height + 2 * edge);
     gl.uniform2f(at.size, canvas.width + 2 * edge, canvas.height + 2 * edge);
-    gl.uniform2f(at.range, look.range[0], look.range[1]);
+    const [least, most] = look.range;
+    const perSpan = 1 / Math.max(most - least, 1e-300);
+    gl.uniform1f(at.low, look.bySpeed ? least * perSpan : least);
+    gl.uniform1f(at.perSpan, look.bySpeed ? look.perTime * perSpan : perSpan);
     gl.uniform2f(at.shift, 0, 0);
     gl.uniform1f(at.scale, look.camera.scale * look.density);
     gl.uniform1f(at.part, look.part);
-    gl.uniform1f(at.perTime, look.perTime);
     gl.uniform1f(at.strength, 1);
     gl.uniform1i(at.bySpeed, look.bySpeed ? 1 : 0);
     return at;

@@ -177,3 +177,39 @@ test("the coordination number counts neighbours across periodic sides", async ()
   assert.deepEqual(await page.evaluate(() => [...window.carom.counts.get(0)]), [1, 1, 0]);
   await page.close();
 });
+
+test("boxes of any size that a scene may have fill the page, and speeds have their colours there", async () => {
+  const colours = [];
+  for (const power of ["", "e-29", "e-13", "e28"]) {
+    const lengths = (line) => line.replace(/\d+(\.\d+)?/g, `$&${power}`);
+    const scene = restScene().replace(/^(width|height|positions|velocities|radius).*/gm, lengths);
+    shop.run(`size${power}`, scene);
+    const { page, errors } = await shop.show(shop.view(`size${power}`).file);
+    await drawn(page, 0);
+    const { left, right, width } = await page.evaluate(() => {
+      const { camera, head } = window.carom;
+      return { left: camera.toPage(0, 0)[0], right: camera.toPage(head.box.width, 0)[0], width: camera.width };
+    });
+    assert.ok(
+      left > 0 && left < 50 && right > width - 50 && right < width,
+      `${power}: ${left} to ${right} of ${width}`,
+    );
+    const size = Number(`1${power}`);
+    const places = [
+      [5, 3],
+      [0.6, 6],
+      [8, 6],
+    ]; // at rest, fast, nothing
+    colours.push(
+      await coloursAt(
+        page,
+        places.map((place) => place.map((length) => length * size)),
+      ),
+    );
+    assert.deepEqual(errors, []);
+    await page.close();
+  }
+  const [usual, ...others] = colours;
+  assert.notDeepEqual(usual[0], usual[1]);
+  for (const other of others) assert.deepEqual(other, usual);
+});
