@@ -1,7 +1,7 @@
 # cmake -D FOLDER=viewer -D FILE=page.cpp -P EmbedViewer.cmake: one page from the sources in viewer/, as a string of C++
 # (io/view/view_page.hpp). Modules are joined in the order below; a name that one exports is then known to all that
 # follow, so their import lines go, and no two modules may define the same name at the top.
-set(page_modules format store colours camera disk_renderer overlay playback picking picture plots panel controls viewer
+set(page_modules format shear store colours camera disk_renderer overlay playback picking picture plots panel controls viewer
   main)
 set(worker_modules decode worker)
 

@@ -1,6 +1,7 @@
 // All disks of a frame in one call of WebGL2: a square each, of which the shader keeps the disk. Squares of small disks are
 // points, which cost a vertex each; points have a largest size, so those of large disks are instances of four vertices.
 import { parts } from "./colours.js";
+import { offsetAt } from "./shear.js";
 
 const head = `#version 300 es
 precision highp float;
@@ -135,7 +136,9 @@ export class DiskRenderer {
     this.largestPoint = Math.min(64, gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1]);
     this.lines = program(gl, lineShader, linePaint);
     this.slots = new Map(); // buffers by frame: the present one, and those of trails
-    this.images = new DiskBuffers(gl); // of disks that reach over a periodic side
+    // Of disks that reach over a periodic side: images in the row of the box, and from the row above and the one below
+    // of a sheared box, less their displacement.
+    this.images = [0, 1, -1].map((row) => ({ row, slot: new DiskBuffers(gl) }));
     this.colours = gl.createTexture();
     this.uploaded = 0; // bytes for the last frame
     gl.enable(gl.BLEND);
@@ -169,7 +172,8 @@ export class DiskRenderer {
   // The images of disks that reach over a periodic side, as the other side shows them.
   uploadImages(frame, steps, radius, value) {
     const { axes } = this;
-    const found = [[], [], [], [], []];
+    const sheared = Boolean(this.box.shear);
+    const found = this.images.map(() => [[], [], [], [], []]);
     const turns = axes.map((axis) => (axis.periodic ? 2 ** axis.bits : 0));
     const over = (at, r, axis) => {
       if (!turns[axis]) return 0;
@@ -177,22 +181,23 @@ export class DiskRenderer {
       return at < reach ? turns[axis] : at > turns[axis] - reach ? -turns[axis] : 0;
     };
     const add = (i, sx, sy) => {
+      const columns = found[!sheared || !sy ? 0 : sy > 0 ? 1 : 2];
       const row = [frame.x[i] + sx, frame.y[i] + sy, [steps.d[2 * i], steps.d[2 * i + 1]], radius[i], value[i]];
-      row.forEach((entry, column) => (column === 2 ? found[2].push(...entry) : found[column].push(entry)));
+      row.forEach((entry, column) => (column === 2 ? columns[2].push(...entry) : columns[column].push(entry)));
     };
     if (turns[0] || turns[1]) {
       for (let i = 0; i < frame.place.length; ++i) {
         const sx = over(frame.x[i], radius[i], 0);
         const sy = over(frame.y[i], radius[i], 1);
         if (sx) add(i, sx, 0);
-        if (sy) add(i, 0, sy);
-        if (sx && sy) add(i, sx, sy);
+        // Displaced, an image may reach over either side.
+        if (sy) for (const turn of sheared ? [-turns[0], 0, turns[0]] : sx ? [0, sx] : [0]) add(i, turn, sy);
       }
     }
-    this.images.count = found[0].length;
-    found.forEach((data, column) =>
-      this.images.fill(column, column < 2 ? new Int32Array(data) : new Float32Array(data)),
-    );
+    this.images.forEach(({ slot }, n) => {
+      slot.count = found[n][0].length;
+      found[n].forEach((data, column) => slot.fill(column, column < 2 ? new Int32Array(data) : new Float32Array(data)));
+    });
   }
 
   forget() {
@@ -248,8 +253,8 @@ export class DiskRenderer {
     else gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, slot.count);
   }
 
-  // look: camera, density (device pixels a page pixel), ground, ink, range, bySpeed, perTime, part (of the way to the
-  // next frame), images, arrows (times shown ahead, 0: none), trail (frames that are uploaded, oldest first).
+  // look: camera, density (device pixels a page pixel), ground, ink, range, bySpeed, perTime, time, part (of the
+  // way to the next frame), images, arrows (times shown ahead, 0: none), trail (frames that are uploaded, oldest first).
   draw(k, look) {
     const { gl } = this;
     const slot = this.slots.get(k);
@@ -260,9 +265,12 @@ export class DiskRenderer {
     if (look.images) this.drawPeriodicImages(slot, look);
     this.clip(look);
     this.drawTrail(look);
-    this.useDisks(look);
+    const at = this.useDisks(look);
     this.drawDisks(slot);
-    this.drawDisks(this.images);
+    for (const image of this.images) {
+      gl.uniform2f(at.shift, image.row * offsetAt(this.box, look.time), 0);
+      this.drawDisks(image.slot);
+    }
     if (look.arrows) this.drawLines(slot, look, { reach: look.arrows * look.perTime, ink: look.ink });
     gl.disable(gl.SCISSOR_TEST);
   }
@@ -272,10 +280,13 @@ export class DiskRenderer {
     const at = this.useDisks(look);
     gl.uniform1f(at.strength, 0.3);
     const [xs, ys] = this.axes.map((axis) => (axis.periodic ? [-1, 0, 1] : [0]));
-    for (const i of xs) {
-      for (const j of ys) {
+    const offset = offsetAt(box, look.time);
+    for (const j of ys) {
+      // Where a row is displaced, one image more fills the gap.
+      const more = Math.sign(j * offset) * -2;
+      for (const i of more ? [...xs, more] : xs) {
         if (i === 0 && j === 0) continue;
-        gl.uniform2f(at.shift, i * box.width, j * box.height);
+        gl.uniform2f(at.shift, i * box.width + j * offset, j * box.height);
         this.drawDisks(slot);
       }
     }

@@ -1,16 +1,20 @@
 // The disk that is picked: found by a point or by its id, and its path so far.
 
-// The index of the disk of a frame over a point, -1 if there is none; the nearest centre counts, by the nearest image.
+// The index of the disk of frame k over a point, -1 if there is none; the nearest centre counts, by the nearest image.
 // slack: length by which a point may miss a small disk.
-export function diskAt(store, frame, x, y, slack) {
+export function diskAt(store, k, x, y, slack) {
   const { axes, box } = store.head;
+  const frame = store.frame(k);
+  const offset = store.offset(k);
   let found = -1;
   let best = Infinity;
   for (let i = 0; i < frame.place.length; ++i) {
     let dx = frame.x[i] * axes[0].quantum - x;
     let dy = frame.y[i] * axes[1].quantum - y;
+    const rows = axes[1].periodic ? Math.round(dy / box.height) : 0;
+    dy -= rows * box.height;
+    dx -= rows * offset;
     if (axes[0].periodic) dx -= box.width * Math.round(dx / box.width);
-    if (axes[1].periodic) dy -= box.height * Math.round(dy / box.height);
     const distance = Math.hypot(dx, dy);
     if (distance < best && distance <= Math.max(store.radius[frame.place[i]], slack)) {
       best = distance;

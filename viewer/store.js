@@ -1,5 +1,6 @@
 // The run as the page holds it: the head, the table of disks, and those blocks of frames that were unpacked last.
 import { element } from "./format.js";
+import { offsetAt } from "./shear.js";
 
 const mostBytes = 320e6; // of unpacked blocks
 
@@ -155,22 +156,37 @@ export class Store {
     return -1;
   }
 
-  // How far disk i of frame a went to where disk j of frame b is, along an axis; in length, nearest image.
-  step(axis, a, i, b, j) {
+  // Displacement of the images above a sheared box in frame k.
+  offset(k) {
+    return offsetAt(this.head.box, this.times[k]);
+  }
+
+  // How far disk i of frame a went to where disk j of frame b is, along an axis; in length, nearest image. offset: of
+  // the images above in frame b.
+  step(axis, a, i, b, j, offset) {
     const { bits, periodic, quantum } = this.head.axes[axis];
     let d = axis === 0 ? b.x[j] - a.x[i] : b.y[j] - a.y[i];
+    if (axis === 0 && offset) {
+      const dy = b.y[j] - a.y[i];
+      const half = 2 ** (this.head.axes[1].bits - 1);
+      const rows = dy >= half ? -1 : dy < -half ? 1 : 0;
+      d += Math.round((rows * offset) / quantum);
+    }
     if (periodic) d = (d << (32 - bits)) >> (32 - bits);
     return d * quantum;
   }
 
   // The displacement of each disk of frame k to the next frame, x and y in turn; the mean velocity on the way is that
-  // over `over`. The last frame, and disks that are gone by the next (indices in `gone`), have the step before.
+  // over `over`. The last frame, and disks that are gone by the next (indices in `gone`), have the step before. In a sheared
+  // box it is that of the image whose disk is in frame k: the velocity that the disk has there.
   steps(k) {
     const frame = this.frame(k);
     const next = this.frame(k + 1);
     const before = this.frame(k - 1);
     const d = new Float32Array(2 * frame.place.length);
     const gone = [];
+    const offsetAhead = next ? this.offset(k + 1) : 0;
+    const offsetBack = before ? this.offset(k - 1) : 0;
     const over = next ? this.times[k + 1] - this.times[k] : before ? this.times[k] - this.times[k - 1] : 1;
     const same = (other, i) => (other.place[i] === frame.place[i] ? i : this.indexIn(other, frame.place[i]));
     for (let i = 0; i < frame.place.length; ++i) {
@@ -183,8 +199,9 @@ export class Store {
       }
       if (j < 0) continue;
       const sign = other === next ? 1 : -1;
-      d[2 * i] = sign * this.step(0, frame, i, other, j);
-      d[2 * i + 1] = sign * this.step(1, frame, i, other, j);
+      const offset = other === next ? offsetAhead : offsetBack;
+      d[2 * i] = sign * this.step(0, frame, i, other, j, offset);
+      d[2 * i + 1] = sign * this.step(1, frame, i, other, j, offset);
     }
     return { d, gone, over: over > 0 ? over : 1 };
   }

@@ -156,6 +156,7 @@ export class Viewer {
       quantum: axes.map((axis) => axis.quantum),
       size: [box.width, box.height],
       periodic: axes.map((axis) => axis.periodic),
+      offset: this.store.offset(k),
     };
     const zeros = new Float32Array(frame.place.length);
     this.counts.set(k, zeros);
@@ -228,6 +229,7 @@ export class Viewer {
       bySpeed: this.colour === "speed",
       perTime: this.perTime ?? 1,
       part: element("smooth").checked ? this.playback.part : 0,
+      time: element("smooth").checked ? this.playback.time : this.store.times[this.playback.frame],
       images: element("images").checked,
       // An arrow of the fastest speed of the scale is a fifteenth of the box long.
       arrows: element("arrows").checked
@@ -318,7 +320,7 @@ export class Viewer {
   pickAt(px, py) {
     const frame = this.store.frame(this.playback.frame);
     if (!frame) return;
-    const i = diskAt(this.store, frame, ...this.camera.toPlane(px, py), 4 / this.camera.scale);
+    const i = diskAt(this.store, this.playback.frame, ...this.camera.toPlane(px, py), 4 / this.camera.scale);
     this.pick(i < 0 ? -1 : frame.place[i]);
   }
 

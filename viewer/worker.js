@@ -2,7 +2,8 @@
 import { unpackBlock, unpackText } from "./decode.js";
 
 // How many disks lie within 1.1 contact distances of each; on periodic axes by the nearest image.
-function coordination({ x, y, radius, quantum, size, periodic }) {
+// offset: displacement of the images above, in a sheared box.
+function coordination({ x, y, radius, quantum, size, periodic, offset }) {
   const n = x.length;
   const reach = 1.1;
   let largest = 0;
@@ -23,16 +24,27 @@ function coordination({ x, y, radius, quantum, size, periodic }) {
     const found = [c - 1, c, c + 1].map((b) => (periodic[axis] ? (b + cells[axis]) % cells[axis] : b));
     return [...new Set(found)].filter((b) => b >= 0 && b < cells[axis]);
   };
-  const nearest = (d, axis) => (periodic[axis] ? d - size[axis] * Math.round(d / size[axis]) : d);
+  // The columns beside disk i in a row; across the bottom or the top of a sheared box those of its displaced image.
+  const columnsBeside = (i, row) => {
+    const own = Math.floor(cell[i] / cells[0]);
+    if (offset && cells[1] < 3) return [...Array(cells[0]).keys()]; // a row may be on both sides
+    if (!offset || Math.abs(row - own) <= 1) return beside(cell[i] % cells[0], 0);
+    const image = x[i] * quantum[0] + (row < own ? -offset : offset);
+    return beside(cellOf((image - size[0] * Math.floor(image / size[0])) / quantum[0], 0), 0);
+  };
+  const turns = (d, axis) => (periodic[axis] ? -Math.round(d / size[axis]) : 0);
   for (let i = 0; i < n; ++i) {
     for (const row of beside(Math.floor(cell[i] / cells[0]), 1)) {
-      for (const column of beside(cell[i] % cells[0], 0)) {
+      for (const column of columnsBeside(i, row)) {
         const c = row * cells[0] + column;
         for (let m = start[c]; m < start[c + 1]; ++m) {
           const j = members[m];
           if (j <= i) continue;
-          const dx = nearest((x[j] - x[i]) * quantum[0], 0);
-          const dy = nearest((y[j] - y[i]) * quantum[1], 1);
+          let dy = (y[j] - y[i]) * quantum[1];
+          const rows = turns(dy, 1);
+          dy += rows * size[1];
+          let dx = (x[j] - x[i]) * quantum[0] + rows * offset;
+          dx += turns(dx, 0) * size[0];
           const near = reach * (radius[i] + radius[j]);
           if (dx * dx + dy * dy > near * near) continue;
           ++count[i];

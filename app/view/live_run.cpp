@@ -66,7 +66,8 @@ void LiveRun::begin(const TrajectoryFrame& frame) {
   const double smallest = frame.disks.empty() ? story_.box.width : smallest_radius(frame.disks);
   encoder_.emplace(ViewAxes{view_axis(story_.box.width, story_.box.periodic_x(), smallest),
                             view_axis(story_.box.height, story_.box.periodic_y(), smallest)},
-                   1, static_cast<std::size_t>(settings_.engine.threads), make_block_runner(settings_.engine));
+                   1, static_cast<std::size_t>(settings_.engine.threads), make_block_runner(settings_.engine),
+                   story_.box.shear);
   limit_ = settings_.most_bytes / 2;
   state_ = "The run goes on.";
   add(frame);

@@ -1,9 +1,12 @@
 #include "io/view/view_encoder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
+
+#include "core/base/types.hpp"
 
 namespace carom {
 
@@ -15,19 +18,38 @@ constexpr std::size_t most_frames = 64;
 constexpr std::size_t least_frames = 8;
 constexpr std::size_t most_disks = std::size_t{1} << 21U;
 
-// How far a coordinate went, across the side where that is nearer.
-double step_along(const ViewAxis& axis, std::uint32_t from, std::uint32_t to) {
+// How many boxes further up along the axis the nearest image is, -1, 0 or 1; it is taken in place of the step.
+int take_nearest(const ViewAxis& axis, double& step) {
   const double steps = static_cast<double>(axis.mask()) + 1.0;
-  double step = static_cast<double>(to) - static_cast<double>(from);
-  if (axis.periodic && step > 0.5 * steps) step -= steps;
-  if (axis.periodic && step < -0.5 * steps) step += steps;
-  return step * axis.quantum();
+  if (!axis.periodic || std::abs(step) <= 0.5 * steps) return 0;
+  const int turns = step > 0.0 ? -1 : 1;
+  step += turns * steps;
+  return turns;
+}
+
+// How far a disk went, across sides where that is nearer; length. offset: of the images above, where it has gone to.
+Vec2 step_between(const ViewAxes& axes, std::array<std::uint32_t, 2> from, std::array<std::uint32_t, 2> to,
+                  double offset) {
+  double dx = static_cast<double>(to[0]) - static_cast<double>(from[0]);
+  double dy = static_cast<double>(to[1]) - static_cast<double>(from[1]);
+  dx += take_nearest(axes[1], dy) * offset / axes[0].quantum();
+  take_nearest(axes[0], dx);
+  return {dx * axes[0].quantum(), dy * axes[1].quantum()};
 }
 
 }  // namespace
 
-ViewEncoder::ViewEncoder(const ViewAxes& axes, DiskId every, std::size_t at_once, BlockRunner run)
-    : axes_(axes), every_(every), at_once_(std::max<std::size_t>(1, at_once)), run_(std::move(run)), waiting_(1) {}
+ViewEncoder::ViewEncoder(const ViewAxes& axes, DiskId every, std::size_t at_once, BlockRunner run, const Shear& shear)
+    : axes_(axes),
+      every_(every),
+      at_once_(std::max<std::size_t>(1, at_once)),
+      run_(std::move(run)),
+      shear_(shear),
+      waiting_(1) {}
+
+double ViewEncoder::offset_at(double time) const {
+  return shear_.acts() ? shear_.offset_at(time, axes_[0].length) : 0.0;
+}
 
 // Where ids come in ascending order, as they do but for regions that disks enter and leave, places ascend with them.
 std::uint32_t ViewEncoder::place_of(const TrajectoryFrame& frame, std::size_t i) {
@@ -46,14 +68,15 @@ void ViewEncoder::look_at_speeds(const ViewFrame& frame, double time) {
   constexpr std::size_t most = 1000;
   ViewFrame sample;
   const double dt = times_.empty() ? 0.0 : time - times_.back();
+  const double offset = offset_at(time);
   for (std::size_t k = 0, j = 0; k < frame.place.size(); k += 1 + frame.place.size() / most) {
     sample.place.push_back(frame.place[k]);
     for (std::size_t axis = 0; axis < 2; ++axis) sample.at[axis].push_back(frame.at[axis][k]);
     while (j < sampled_.place.size() && sampled_.place[j] < frame.place[k]) ++j;
     if (!(dt > 0.0) || j == sampled_.place.size() || sampled_.place[j] != frame.place[k]) continue;
-    const double dx = step_along(axes_[0], sampled_.at[0][j], frame.at[0][k]);
-    const double dy = step_along(axes_[1], sampled_.at[1][j], frame.at[1][k]);
-    const double square = (dx * dx + dy * dy) / (dt * dt);
+    const Vec2 d =
+        step_between(axes_, {sampled_.at[0][j], sampled_.at[1][j]}, {frame.at[0][k], frame.at[1][k]}, offset);
+    const double square = (d.x * d.x + d.y * d.y) / (dt * dt);
     squares_ += square;
     fastest_ = std::max(fastest_, square);
     speeds_ += 1.0;
@@ -79,14 +102,17 @@ void ViewEncoder::add(const TrajectoryFrame& frame) {
   const ViewFrame* const last = waiting_.back().empty() ? nullptr : &waiting_.back().back();
   view.place.resize(count);
   for (auto& column : view.at) column.resize(count);
+  const double offset = offset_at(frame.time);
   bool ascending = true;
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = every_ > 1 ? shown[k] : k;
     // Mostly the same disks follow each other in the same order as in the frame before.
     const bool as_before = last != nullptr && k < last->place.size() && disks_.id[last->place[k]] == disks.id[i];
     view.place[k] = as_before ? last->place[k] : place_of(frame, i);
-    view.at[0][k] = axes[0].encode(disks.x[i]);
     view.at[1][k] = axes[1].encode(disks.y[i]);
+    // A place just below the top of a sheared box becomes its image at the bottom, which is displaced.
+    const bool below = offset != 0.0 && view.at[1][k] == 0 && disks.y[i] > 0.5 * axes[1].length;
+    view.at[0][k] = axes[0].encode(below ? disks.x[i] - offset : disks.x[i]);
     ascending = ascending && (k == 0 || view.place[k] > view.place[k - 1]);
   }
   if (!ascending) {

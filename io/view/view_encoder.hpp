@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/block_runner.hpp"
+#include "core/disks/shear.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
 #include "io/view/view_block.hpp"
 
@@ -22,8 +23,9 @@ struct ViewDisks {
 class ViewEncoder {
  public:
   // every: disks whose id is a multiple of it are shown, the others left out. at_once: blocks that run shares out
-  // together, as many as there are threads; neither changes a byte.
-  ViewEncoder(const ViewAxes& axes, DiskId every, std::size_t at_once = 1, BlockRunner run = run_in_order);
+  // together, as many as there are threads; neither changes a byte. shear: of the box.
+  ViewEncoder(const ViewAxes& axes, DiskId every, std::size_t at_once = 1, BlockRunner run = run_in_order,
+              const Shear& shear = {});
 
   void add(const TrajectoryFrame& frame);
 
@@ -45,11 +47,13 @@ class ViewEncoder {
   std::uint32_t place_of(const TrajectoryFrame& frame, std::size_t i);
   void pack_waiting();
   void look_at_speeds(const ViewFrame& frame, double time);
+  double offset_at(double time) const;  // of the images above; 0 where the box is not sheared
 
   ViewAxes axes_;
   DiskId every_;
   std::size_t at_once_;
   BlockRunner run_;
+  Shear shear_;
   ViewDisks disks_;
   // Of disks whose place is not their rank by id. Only looked up: its order, which libraries choose, reaches no byte.
   std::unordered_map<DiskId, std::uint32_t> places_;

@@ -111,7 +111,7 @@ ViewMade make_view(const OpenTrajectory& open, const std::string& name, ViewStor
                       view_axis(story.box.height, story.box.periodic_y(), extent.smallest_radius)};
   std::size_t rest = 0;  // bytes of the page beside the frames, once known
   for (std::optional<Thinning> thin = Thinning{}; thin;) {
-    ViewEncoder encoder(axes, thin->every, work.threads, work.run);
+    ViewEncoder encoder(axes, thin->every, work.threads, work.run, story.box.shear);
     const std::size_t room = work.most_bytes > rest ? work.most_bytes - rest : 0;
     double factor = pack_frames(open, *thin, extent.frames, std::max<std::size_t>(room, 1), encoder);
     if (factor <= 1.0) {

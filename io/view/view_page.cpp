@@ -113,7 +113,8 @@ const char* word_of(ColourBy colour) {
 }
 
 std::string json_of_box(const Domain& box) {
-  return fmt::format(R"({{"width":{},"height":{},"sides":{},"thermal":{}}})", box.width, box.height,
+  return fmt::format(R"({{"width":{},"height":{},"shear":{},"sides":{},"thermal":{}}})", box.width, box.height,
+                     box.shear.rate,
                      json_list(box.sides, [](SideKind kind) { return fmt::format("\"{}\"", word_of(kind)); }),
                      json_list(all_sides, [&](Side side) { return box.is_thermal(side) ? "true" : "false"; }));
 }

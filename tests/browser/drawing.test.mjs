@@ -213,3 +213,98 @@ test("boxes of any size that a scene may have fill the page, and speeds have the
   assert.notDeepEqual(usual[0], usual[1]);
   for (const other of others) assert.deepEqual(other, usual);
 });
+
+// Disks in a sheared box: the images above move at 2. Velocities are relative to the flow 0.1 (y - 10).
+const shearScene = (positions, radius, rest) => `[box]
+width = 20.0
+height = 20.0
+left = "periodic"
+right = "periodic"
+bottom = "periodic"
+top = "periodic"
+shear_rate = 0.1
+[[disks]]
+count = ${positions.length}
+positions = ${JSON.stringify(positions)}
+radius = ${radius}
+mass = 1.0
+${rest}
+[output]
+every = 0.1
+trajectory = "xyz"
+`;
+
+test("in a shear flow speeds are those of the disks, also where they cross the top or the bottom", async () => {
+  const scene = shearScene(
+    [
+      [10, 17.05],
+      [10, 2.95],
+    ],
+    0.5,
+    "velocities = [[0, 1], [0, -1]]\n[run]\nt_end = 3.0",
+  );
+  shop.run("shear", scene);
+  const { page } = await shop.show(shop.view("shear").file);
+  // Both cross in the last step, which the last frame has from behind.
+  const { velocities, fast, range } = await page.evaluate(() => {
+    const { store, head } = window.carom;
+    const speeds = [];
+    for (let k = 0; k < head.frames; ++k) speeds.push([...store.steps(k).d].map((d) => d / store.steps(k).over));
+    return { velocities: speeds, fast: head.fast, range: window.carom.range };
+  });
+  const last = velocities.pop();
+  const near = (found, wanted, k) =>
+    found.forEach((v, n) => assert.ok(Math.abs(v - wanted[n]) < 0.01, `frame ${k}: ${found}, not ${wanted}`));
+  velocities.forEach((found, k) => near(found, [0.705, 1, -0.705, -1], k));
+  near(last, [0.705 - 2, 1, -0.705 + 2, -1], "last");
+  assert.ok(fast > 1.2 && fast < 1.7, `the scale of all speeds ends at ${fast}`);
+  assert.ok(range[1] < 2);
+  await page.close();
+});
+
+test("in a shear flow images across the top and the bottom are displaced, and are picked where they are seen", async () => {
+  shop.run("sheared", shearScene([[10, 19.5]], 1.0, "[run]\nt_end = 2.0"));
+  const { page } = await shop.show(shop.view("sheared").file, "#t=2");
+  await page.selectOption("#colour", "fixed");
+  await drawn(page, 20);
+  const blue = [0, 0x72, 0xb2];
+  const ground = await page.evaluate(() => window.carom.colours.ground.match(/\w\w/g).map((hex) => parseInt(hex, 16)));
+  // It has gone to 11.9; the images below are displaced by -4.
+  const colours = await coloursAt(page, [
+    [11.9, 19.5],
+    [7.9, 0.2],
+    [11.9, 0.2],
+  ]);
+  assert.deepEqual(colours, [blue, blue, ground]);
+  const pick = async (x, y) => {
+    const [px, py] = await page.evaluate(([a, b]) => window.carom.camera.toPage(a, b), [x, y]);
+    await page.locator("#disks").click({ position: { x: px, y: py } });
+    return page.inputValue("#disk");
+  };
+  assert.equal(await pick(11.9, 0.2), "");
+  assert.equal(await pick(7.9, 0.2), "0");
+  await page.click("#images");
+  await drawn(page, 20);
+  const [displaced, straight] = await coloursAt(page, [
+    [7.9, -0.3],
+    [11.9, -0.3],
+  ]);
+  assert.notDeepEqual(displaced, ground);
+  assert.deepEqual(straight, ground);
+  await page.close();
+});
+
+test("in a shear flow the coordination number counts displaced images", async () => {
+  const positions = [
+    [10, 19.2],
+    [10, 0.2],
+    [13.8, 0.2],
+  ];
+  shop.run("shearnear", shearScene(positions, 0.48, "[run]\nt_end = 2.0"));
+  const { page } = await shop.show(shop.view("shearnear").file, "#t=2");
+  await drawn(page, 20);
+  await page.selectOption("#colour", "coordination");
+  await page.waitForFunction(() => window.carom.counts.get(20)?.some((count) => count > 0));
+  assert.deepEqual(await page.evaluate(() => [...window.carom.counts.get(20)]), [1, 1, 0]);
+  await page.close();
+});
