@@ -110,7 +110,9 @@ ViewMade make_view(const OpenTrajectory& open, const std::string& name, ViewStor
   const ViewAxes axes{view_axis(story.box.width, story.box.periodic_x(), extent.smallest_radius),
                       view_axis(story.box.height, story.box.periodic_y(), extent.smallest_radius)};
   std::size_t rest = 0;  // bytes of the page beside the frames, once known
+  Thinning least;        // that was tried
   for (std::optional<Thinning> thin = Thinning{}; thin;) {
+    least = *thin;
     ViewEncoder encoder(axes, thin->every, work.threads, work.run, story.box.shear);
     const std::size_t room = work.most_bytes > rest ? work.most_bytes - rest : 0;
     double factor = pack_frames(open, *thin, extent.frames, std::max<std::size_t>(room, 1), encoder);
@@ -129,8 +131,9 @@ ViewMade make_view(const OpenTrajectory& open, const std::string& name, ViewStor
     thin = thinner(*thin, factor, extent.frames);
   }
   fail_input("--max-size",
-             fmt::format("{} bytes are too few for a page with one disk in {} and {} frames", work.most_bytes,
-                         most_thinned_disks, least_shown_frames),
+             fmt::format("{} bytes are too few for a page with {} and {} frames", work.most_bytes,
+                         least.every == 1 ? "all disks" : fmt::format("one disk in {}", least.every),
+                         shown_frames(extent.frames, least.stride)),
              "expected more");
 }
 
