@@ -285,11 +285,17 @@ double OutputForesight::bytes() const {
   return sum;
 }
 
+Count moments_shown(const Scene& scene, double every, double time) {
+  const bool has_steps = scene.run.method != Method::exact && every > 0.0;
+  return frame_count(has_steps ? std::max(every, scene.run.dt) : every, time);
+}
+
 OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, const Engine& tried,
                                 const Population& population, double step_seconds) {
   OutputForesight f;
-  f.frames = wants_frames(scene.output) ? frame_count(scene.output.every, scene.run.t_end) : 0;
-  if (scene.analysis.any()) f.samples = frame_count(scene.analysis.every, scene.run.t_end - scene.analysis.start);
+  f.frames = wants_frames(scene.output) ? moments_shown(scene, scene.output.every, scene.run.t_end) : 0;
+  if (scene.analysis.any())
+    f.samples = moments_shown(scene, scene.analysis.every, scene.run.t_end - scene.analysis.start);
   if (!wants_files(scene)) return f;
   const Workshop workshop;
   try {

@@ -23,6 +23,10 @@ struct OutputForesight {
   double seconds() const { return files_s + analysis_s + plots_s; }
 };
 
+// Frames, or samples, of a time at this interval: no more than steps, where the method has some, as they are of a
+// step's end.
+Count moments_shown(const Scene& scene, double every, double time);
+
 // tried: the run's engine, at some moment. step_seconds: that its steps will take.
 OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, const Engine& tried,
                                 const Population& population, double step_seconds);

@@ -17,7 +17,6 @@
 #include "core/measure/invariants.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/validity.hpp"
-#include "run/frame_schedule.hpp"
 #include "run/make_engine.hpp"
 #include "run/run_outputs.hpp"
 
@@ -164,7 +163,7 @@ int command_check(const CheckOptions& options) {
   found.population = foresee_population(scene, initial.disks);
   found.collapse = foresee_collapse(scene, initial.disks);
   found.troubles = foreseen_troubles(scene, found.steps, found.population, found.collapse);
-  found.outputs.frames = frame_count(scene.output.every, scene.run.t_end);
+  found.outputs.frames = moments_shown(scene, scene.output.every, scene.run.t_end);
   if (!tried) found.memory_bytes = least_memory(Method::exact, found.disks, scene.physics.surfaces.are_rough());
   if (tried) try_run(scene, choice, std::move(initial), found);
   if (options.ranks) try_ranks(scene, choice, *options.ranks, tried, found);

@@ -64,6 +64,15 @@ TEST_F(Check, CollapseOnAFloorIsPredictedWithItsTime) {
   EXPECT_EQ(check("fall.toml" + remedy)["collapse_expected"], false);
 }
 
+// Frames between steps are none: a run has one a step then.
+TEST_F(Check, NoMoreFramesThanStepsArePredicted) {
+  write("fall.toml", falling_disk);
+  const std::string often = "fall.toml --method pairwise --dt 0.01 --t-end 0.1 --set output.every=0.001";
+  EXPECT_EQ(check(often)["frames"], 11);
+  EXPECT_EQ(carom("run " + often + " --json").status, 0);
+  EXPECT_EQ(check("fall.toml --t-end 0.1 --set output.every=0.001")["frames"], 101);
+}
+
 TEST_F(Check, CollapseOfAGasIsPredicted) {
   EXPECT_EQ(check("small.toml --method exact --set physics.restitution=0.4")["collapse_expected"], true);
   EXPECT_EQ(check("small.toml --method exact --set physics.restitution=0.95")["collapse_expected"], false);
