@@ -67,10 +67,11 @@ TEST_F(Check, CollapseOnAFloorIsPredictedWithItsTime) {
 // Frames between steps are none: a run has one a step then.
 TEST_F(Check, NoMoreFramesThanStepsArePredicted) {
   write("fall.toml", falling_disk);
-  const std::string often = "fall.toml --method pairwise --dt 0.01 --t-end 0.1 --set output.every=0.001";
+  const std::string often =
+      "fall.toml --method pairwise --dt 0.01 --t-end 0.1 --set output.every=0.001 --set output.series=true";
   EXPECT_EQ(check(often)["frames"], 11);
   EXPECT_EQ(carom("run " + often + " --json").status, 0);
-  EXPECT_EQ(check("fall.toml --t-end 0.1 --set output.every=0.001")["frames"], 101);
+  EXPECT_EQ(check("fall.toml --t-end 0.1 --set output.every=0.001 --set output.series=true")["frames"], 101);
 }
 
 TEST_F(Check, CollapseOfAGasIsPredicted) {
