@@ -153,7 +153,7 @@ class PySimulation {
       const std::unique_ptr<py::object> shown(static_cast<py::object*>(held));
       --shown->cast<PySimulation&>().views_;
     });
-    owner.release();
+    static_cast<void>(owner.release());  // the capsule has it now
     ++self.cast<PySimulation&>().views_;
     return capsule;
   }

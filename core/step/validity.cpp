@@ -12,9 +12,9 @@
 #include "core/scene/moving_walls_text.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/step/step_clock.hpp"
+#include "core/step/source.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/window_plan.hpp"
-#include "core/step/window_start.hpp"
 
 namespace carom {
 
