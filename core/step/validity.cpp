@@ -11,8 +11,8 @@
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/moving_walls_text.hpp"
 #include "core/scene/scene_names.hpp"
-#include "core/step/step_clock.hpp"
 #include "core/step/source.hpp"
+#include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/window_plan.hpp"
 
