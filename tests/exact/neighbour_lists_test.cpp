@@ -141,7 +141,7 @@ TEST(ListKernel, OfTwoDisksEachFindsTheOther) {
     a.radius = static_cast<float>(draws.in(10.0, 4000.0));
     ListQuery b = a;
     b.radius = static_cast<float>(draws.in(10.0, 4000.0));
-    const double reach = double{a.cutoff} + double{a.radius} + double{b.radius};
+    const double reach = static_cast<double>(a.cutoff) + static_cast<double>(a.radius) + static_cast<double>(b.radius);
     const double angle = draws.in(0.0, 1.5707);
     a.position = {30000, 30000};
     b.position.x = static_cast<std::uint16_t>(30000.0 + std::floor(reach * std::cos(angle)));
