@@ -104,16 +104,22 @@ double compressibility(double eta) {
   return (1.0 + eta * eta / 8.0) / (free * free) - eta * eta * eta * eta / (64.0 * free * free * free * free);
 }
 
+// Of two disks; slow_too: also by laws that tend to 1 for slow ones.
+double least_restitution(const Scene& scene, bool slow_too) {
+  const RestitutionLaw& law = scene.physics.law;
+  double e = slow_too || law.viscosity == 0.0 ? scene.physics.restitution : 1.0;
+  for (const GroupPair& pair : law.pairs) {
+    if (slow_too || pair.restitution.viscosity == 0.0) e = std::min(e, pair.restitution.least);
+  }
+  return e;
+}
+
 // Collapse in two dimensions is seen for e <= 0.6 (McNamara and Young 1996); under gravity any ball on a floor that
 // dissipates does it, and so does a pile of more disks than a column that collapses has, ln(4 / (1 - e)) / (1 - e).
 // A restitution that tends to 1 for slow disks keeps a gas from it (Goldman et al. 1998), but not a pile, whose bounces
 // become shorter and shorter all the same.
 bool may_collapse(const Scene& scene, double disks, bool settles) {
-  const RestitutionLaw& law = scene.physics.law;
-  double e = settles || law.viscosity == 0.0 ? scene.physics.restitution : 1.0;
-  for (const GroupPair& pair : law.pairs) {
-    if (settles || pair.restitution.viscosity == 0.0) e = std::min(e, pair.restitution.least);
-  }
+  const double e = least_restitution(scene, settles);
   constexpr double two_dimensions = 0.6;
   if (!settles) return e <= two_dimensions && disks > 2.0;
   for (const Side side : all_sides) {
@@ -166,8 +172,7 @@ std::string steps_text(double t_end, double dt) {
 // (1 + e) / (1 - e) times its fall, as its bounces become shorter by e each.
 double share_in_pile(const Scene& scene, const SceneScales& s) {
   if (!s.settles) return 0.0;
-  double e = scene.physics.restitution;
-  for (const GroupPair& pair : scene.physics.law.pairs) e = std::min(e, pair.restitution.least);
+  double e = least_restitution(scene, true);
   for (const Side side : all_sides) {
     if (scene.box.side(side) == SideKind::wall) e = std::min(e, scene.box.restitution(side));
   }
