@@ -2,8 +2,11 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+
+#include <optional>
 
 #include "core/base/float_environment.hpp"
 
@@ -37,12 +40,16 @@ struct ForkJoin {
 
 }  // namespace
 
-// Asking for more threads than cores must be possible (determinism is tested so), hence the global limit beside the
-// arena.
+// Asking for more threads than cores must be possible (determinism is tested so), hence the limit beside the arena. It
+// holds for the whole process, and the least of all is what counts: executors that live at the same time have the same.
 struct Executor::Arena {
-  explicit Arena(int threads)
-      : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {}
-  tbb::global_control limit;
+  static constexpr int most_threads = 4096;
+  explicit Arena(int threads) : arena(threads) {
+    if (threads > tbb::info::default_concurrency()) {
+      limit.emplace(tbb::global_control::max_allowed_parallelism, std::max(threads, most_threads));
+    }
+  }
+  std::optional<tbb::global_control> limit;
   tbb::task_arena arena;
 };
 
