@@ -10,6 +10,9 @@ namespace {
 // A disk that has left the rows that are stored must be nearer to one end of them than to the other.
 constexpr std::int64_t least_rows_left_out = 2;
 
+// Of a grid: kernels read keys as signed numbers of 32 bits, and a level of one row has two keys a cell.
+constexpr double most_cells = 1e9;
+
 // `least` is the smallest cell that still finds every neighbour.
 std::uint32_t cells_of_side(double length, double least, double most, bool periodic) {
   const double cells = cells_along(length, least, most);
@@ -24,6 +27,7 @@ void make_grid(const Domain& box, double largest_radius, const std::vector<std::
   grid.keys = 0;
   grid.tiles = grid.tiles_a_layer = 1;
   grid.tile_keys = 0;
+  const double most_cells_a_level = most_cells / static_cast<double>(count.size());
   double radius = largest_radius;
   for (std::size_t k = 0; k < count.size(); ++k, radius /= class_ratio) {
     GridLevel level;
@@ -31,7 +35,7 @@ void make_grid(const Domain& box, double largest_radius, const std::vector<std::
     level.margin = margin * 2.0 * radius;
     const double least = 2.0 * radius + 2.0 * level.margin;
     // About two cells a disk at most, shared between the sides as the box is.
-    const double cells = 2.0 * static_cast<double>(count[k]) + 1.0;
+    const double cells = std::min(2.0 * static_cast<double>(count[k]) + 1.0, most_cells_a_level);
     const double across = std::sqrt(cells * box.width / box.height);
     level.columns = cells_of_side(box.width, least, std::clamp(across, 1.0, cells), box.periodic_x());
     level.rows = cells_of_side(box.height, least, cells / std::min<double>(level.columns, cells), box.periodic_y());

@@ -46,6 +46,25 @@ void expect_counted_in_tiles(const Domain& box, double radius, const std::vector
   expect_in_corner(grid, box);
 }
 
+// Kernels read keys as signed numbers.
+TEST(LargeGrid, KeysOfTheMostDisksHave31Bits) {
+  constexpr std::size_t most = 4'000'000'000;
+  for (const double aspect : {1.0, 1e-12, 1e12}) {
+    Domain box;
+    box.width = 1e6 * std::sqrt(aspect);
+    box.height = 1e6 / std::sqrt(aspect);
+    for (const std::vector<std::size_t>& count :
+         {std::vector{most}, std::vector{most / 4, most / 4, most / 4, most / 4}}) {
+      const CellGrid grid = make_grid(box, 1e-7, count);
+      std::uint64_t keys = 0;
+      for (const GridLevel& level : grid.levels) keys += (std::uint64_t{level.rows} + 1) * level.stride + 2;
+      EXPECT_LT(keys, std::uint64_t{1} << 31U) << aspect;
+      EXPECT_GT(keys, std::uint64_t{1} << 29U) << aspect;
+      EXPECT_EQ(grid.keys, keys);
+    }
+  }
+}
+
 TEST(LargeGrid, KeysCountTheCellsOfABillionDisks) {
   // Dense and loose, square, long and high; one radius, and two classes of half the disks each.
   for (const double side : {4e4, 1e6}) {
