@@ -6,13 +6,6 @@
 
 namespace carom {
 
-namespace {
-
-// Disks a block.
-constexpr std::size_t kick_block = 4096;
-
-}  // namespace
-
 ExactSum kick_all(Disks& disks, const Scene& scene, Count number, const Executor& executor) {
   const std::size_t n = disks.size();
   std::vector<ExactSum> heat(executor.blocks(n, kick_block) + 1);

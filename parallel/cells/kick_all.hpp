@@ -1,12 +1,17 @@
 // The kicks of a thermostat, shared out among threads.
 #pragma once
 
+#include <cstddef>
+
 #include "core/base/exact_sum.hpp"
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
+
+// Disks a block.
+inline constexpr std::size_t kick_block = 4096;
 
 // Does what kick_disks of core/step/thermostat.hpp does to all disks if a kick is due, with the same bits. Returns
 // whether it was.

@@ -10,8 +10,6 @@ namespace {
 
 // Strain after which the lists are built anew: longer ones cost more the further disks are carried.
 constexpr double most_strain = 0.25;
-// Share of the relist distance that the flow may bend a path by before earliest_relist_time is asked again.
-constexpr double bend_share = 0.1;
 
 }  // namespace
 

@@ -31,8 +31,6 @@ constexpr double least_skin = 0.08;
 // The skin in units of fixed point, whose rounding must not count.
 constexpr double least_units = 1024.0;
 constexpr double two_to_31 = 2147483648.0;
-// Share of the skin that gravity may bend a path by before earliest_relist_time is asked again.
-constexpr double bend_share = 0.1;
 
 RelistDistance relist_distance_of(double length) {
   return {length, length * length * (1.0 - 2e-9), most_lead * most_lead * length * length};

@@ -364,6 +364,10 @@ class NeighbourLists {
   }
   unsigned find_sides(const Disks& disks, std::uint32_t i) const;
 
+  // Share of the relist distance that gravity or the flow may bend a path by before earliest_relist_time is asked
+  // again.
+  static constexpr double bend_share = 0.1;
+
   EngineMode mode_ = EngineMode::single_queue;
   Domain box_;
   CellGrid grid_;

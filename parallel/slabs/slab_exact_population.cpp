@@ -5,18 +5,12 @@
 #include "core/step/step_start.hpp"
 #include "core/step/thermostat.hpp"
 #include "core/step/window_start.hpp"
+#include "parallel/cells/kick_all.hpp"
 #include "parallel/exact/window_passes.hpp"
 #include "parallel/slabs/redistribute.hpp"
 #include "parallel/slabs/slab_exact_engine.hpp"
 
 namespace carom {
-
-namespace {
-
-// Disks a block.
-constexpr std::size_t kick_block = 4096;
-
-}  // namespace
 
 // What is drawn for a disk, its rank and those that see it as a ghost draw alike.
 void SlabExact::start_window() {

@@ -19,17 +19,14 @@
 #include "parallel/stepping/mark_gone.hpp"
 #include "parallel/stepping/move_sheared.hpp"
 #include "parallel/stepping/resolve_crowded.hpp"
+#include "parallel/stepping/sort_rule.hpp"
 #include "parallel/stepping/wall_reach.hpp"
 
 namespace carom {
 
 namespace {
 
-// The disks are sorted anew when on a rank one in so many has left its cell too far, as TimeStepping does.
-constexpr std::size_t stray_share = 200;
-constexpr double cell_margin = 2.0 * grid_margin;
-// And all go to the rank whose slab they are in, when one has used up this share of the room that it has beyond its
-// own.
+// All go to the rank whose slab they are in when one has used up this share of the room that it has beyond its own.
 constexpr double excursion_share = 0.5;
 // But not before it is so far beyond it, in largest radii.
 constexpr double usual_excursion = 2.0;
@@ -64,7 +61,7 @@ SlabStepping::SlabStepping(const Scene& scene, State part, const SlabStart& star
 
 // As wide as on one machine, for all disks; but only those of the slab.
 void SlabStepping::make_cells(const std::vector<std::size_t>& counts) {
-  make_grid(scene_.box, largest_radius_, counts, grid_, cell_margin);
+  make_grid(scene_.box, largest_radius_, counts, grid_, stepping_margin);
   keep_rows(grid_, slab_.low, slab_.high);
 }
 
@@ -314,7 +311,7 @@ void SlabStepping::agree(ImpactTally& tally, double speed2) {
   lists_.figures.inaccurate_at_walls = tally.inaccurate_at_walls;
   const double room = room_beyond(cut_, largest_radius_);
   const bool far = excursion_ > std::min(usual_excursion * largest_radius_, excursion_share * room);
-  const bool sort = far || strays_ * stray_share > state_.disks.size();
+  const bool sort = far || are_many_strays(strays_, state_.disks.size());
   std::array<double, 2> largest{std::max(speed2_, speed2), sort ? 1.0 : 0.0};
   ranks_.maximum(largest);
   speed2_ = largest[0];

@@ -14,6 +14,7 @@
 #include "parallel/stepping/drift_blocks.hpp"
 #include "parallel/stepping/mark_gone.hpp"
 #include "parallel/stepping/move_sheared.hpp"
+#include "parallel/stepping/sort_rule.hpp"
 #include "parallel/stepping/wall_reach.hpp"
 
 namespace carom {
@@ -22,14 +23,6 @@ namespace {
 
 // Disks a block in passes that look at each disk once.
 constexpr std::size_t look_block = 8192;
-
-// The disks are sorted anew when one in so many has left its cell too far: searching for a stray by itself costs as
-// much as sorting about a dozen disks, and their number grows quickly from step to step. Measured best for a fluid.
-constexpr std::size_t stray_share = 200;
-
-// Part of a cell by which a disk may leave it, over the largest diameter: twice the usual, as the search tests eight
-// disks as fast as four, and sorting costs more than looking at some more disks.
-constexpr double cell_margin = 2.0 * grid_margin;
 
 }  // namespace
 
@@ -141,7 +134,7 @@ Count TimeStepping::parts(double dt) {
 
 void TimeStepping::sort_if_due() {
   if (state_.disks.empty()) return;
-  if (cells_valid_ && strays_ * stray_share <= state_.disks.size()) return;
+  if (cells_valid_ && !are_many_strays(strays_, state_.disks.size())) return;
   sort_now();
 }
 
@@ -157,7 +150,7 @@ void TimeStepping::sort_now() {
   } else {
     for (const double r : d.radius) ++count[class_of_radius(r, largest)];
   }
-  make_grid(scene_.box, largest, count, grid_, cell_margin);
+  make_grid(scene_.box, largest, count, grid_, stepping_margin);
   sort_into_cells(state_.disks, grid_, executor_, cells_);
   begin_coarse_positions(state_.disks, grid_, cells_, executor_, coarse_);
   cells_valid_ = true;
