@@ -10,7 +10,7 @@
 namespace carom {
 namespace {
 
-// What oneTBB allows a process is the least that anybody in it has set: an executor that set its own number took
+// What oneTBB allows a process is the least of all limits that are set in it: an executor that set its own number took
 // threads from those beside it.
 TEST(Executor, TakesNoThreadsFromThoseBesideIt) {
   const Executor few(2), many(6);
