@@ -18,9 +18,18 @@ std::size_t cell_of(double coordinate, double length, std::size_t cells) {
   return cell_index(coordinate / length * static_cast<double>(cells), cells);
 }
 
-// Is a coordinate far enough from the two sides?
-bool is_inside(double c, double length, bool periodic, double margin) {
-  return periodic || (c >= margin && c <= length - margin);
+// Where centres may be along an axis: the margin away from both sides, wherever those are that move; length.
+struct Extent {
+  double low = 0.0, high = 0.0, length = 0.0;
+  bool holds(double c) const { return c >= low && c <= high; }
+};
+
+Extent extent_of_centres(const Domain& box, bool along_x, double margin) {
+  const double side = along_x ? box.width : box.height;
+  if (along_x ? box.periodic_x() : box.periodic_y()) return {0.0, side, side};
+  const double first = box.place(along_x ? Side::left : Side::bottom).inset;
+  const double last = box.place(along_x ? Side::right : Side::top).inset;
+  return {margin + first, side - margin - last, std::max(0.0, side - 2.0 * margin - (first + last))};
 }
 
 }  // namespace
@@ -48,9 +57,10 @@ DistanceCells::DistanceCells(const Disks& d, const Domain& box, const DistanceBi
   }
   for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
   std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+  const Extent along_x = extent_of_centres(box, true, bins_.wall_margin);
+  const Extent along_y = extent_of_centres(box, false, bins_.wall_margin);
   for (std::size_t i = 0; i < d.size(); ++i) {
-    const bool centre = is_inside(d.x[i], x_.length, x_.periodic, bins_.wall_margin) &&
-                        is_inside(d.y[i], y_.length, y_.periodic, bins_.wall_margin);
+    const bool centre = (x_.periodic || along_x.holds(d.x[i])) && (y_.periodic || along_y.holds(d.y[i]));
     places_[next[cell[i]]++] = {d.x[i], d.y[i], centre ? 1U : 0U, static_cast<std::uint32_t>(i)};
     centres_ += centre ? 1U : 0U;
   }
@@ -108,9 +118,7 @@ PairCounts count_pairs(const Disks& disks, const Domain& box, const DistanceBins
 }
 
 double area_of_centres(const Domain& box, const DistanceBins& bins) {
-  const double width = box.periodic_x() ? box.width : box.width - 2.0 * bins.wall_margin;
-  const double height = box.periodic_y() ? box.height : box.height - 2.0 * bins.wall_margin;
-  return width * height;
+  return extent_of_centres(box, true, bins.wall_margin).length * extent_of_centres(box, false, bins.wall_margin).length;
 }
 
 }  // namespace carom

@@ -128,8 +128,8 @@ void DistanceCells::visit(std::size_t begin, std::size_t end, const Add& add) co
 PairCounts count_pairs(const Disks& disks, const Domain& box, const DistanceBins& bins,
                        const BlockRunner& run = run_in_order);
 
-// The places from which pairs are counted: the box without a margin along sides that are not periodic, so that the
-// whole circle of radius r_max lies where centres can be. Area; length^2.
+// The places from which pairs are counted: the box without a margin along sides that are not periodic, where they are
+// at the time of the box, so that the whole circle of radius r_max lies where centres can be. Area; length^2.
 double area_of_centres(const Domain& box, const DistanceBins& bins);
 
 }  // namespace carom

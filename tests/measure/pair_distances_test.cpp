@@ -101,6 +101,31 @@ TEST(PairDistances, NothingCorrelatedGivesOne) {
   }
 }
 
+// Points strewn at random between sides that move: there, too, g = 1, at any time, and no centre is nearer to a side
+// than the margin.
+TEST(PairDistances, MarginsGoWithSidesThatMove) {
+  test::Draws draws(14);
+  Scene scene;
+  scene.box = {30.0, 20.0};
+  test::set_sides(scene.box, wall, around);
+  scene.box.motions[0] = {SideMotion::Kind::steady, 2.0, 0.5};
+  scene.box.motions[1] = {SideMotion::Kind::steady, 1.0, 1.0};
+  scene.analysis.wanted[0] = true;
+  scene.analysis.pairs = {2.0, 8, 2.1};
+  AnalysisRecord record = empty_record(scene);
+  for (int k = 0; k < 200; ++k) {
+    const double t = 0.04 * k;
+    Disks disks = strewn(draws, scene.box, 200);
+    const double left = 2.0 + 0.5 * t, right = 29.0 - t;
+    for (double& x : disks.x) x = left + x / scene.box.width * (right - left);
+    take_sample(record, scene, disks, t, {}, run_in_order);
+  }
+  const BinnedCurve g = pair_correlation_curve(record.pairs, scene.analysis);
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_NEAR(g.value[k], 1.0, 4.0 * std::sqrt(2.0 / static_cast<double>(record.pairs.counts[k]))) << "bin " << k;
+  }
+}
+
 // g(r) of three groups: the pairs of each with each are those that a search over all finds, whatever else is there.
 TEST(PairDistances, GroupsHavePairsOfTheirOwn) {
   test::Draws draws(13);
