@@ -111,8 +111,9 @@ std::string range_rows() {
 std::string series_rows() {
   std::string text =
       "\n## Columns of series.csv\n\n`series = true` in `[output]` writes one row a frame; trajectory.h5 has the same "
-      "under "
-      "`/observables`. Numbers have all digits that they need to be read back as they were.\n\n| column | unit | what "
+      "under `/observables`, without `displacement`, what sides, inner walls and a thermostat give, and what there is "
+      "only with `shear_rate`. Numbers have all digits that they need to be read back as they were.\n\n| column | unit "
+      "| what "
       "it is "
       "|\n| --- | --- | --- |\n| `t` | time | simulated time |\n";
   for (const SeriesColumn& column : series_columns) {

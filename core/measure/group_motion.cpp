@@ -26,8 +26,8 @@ void GroupTally::add_thermal(const Disks& d, std::span<const std::size_t> member
 
 GroupMotion GroupTally::motion() const {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  if (count_ == 0) return {kinetic_, nothing, {nothing, nothing}};
-  return {kinetic_, thermal_ / static_cast<double>(count_), velocity()};
+  if (count_ == 0) return {kinetic_, nothing, {nothing, nothing}, count_};
+  return {kinetic_, thermal_ / static_cast<double>(count_), velocity(), count_};
 }
 
 GroupMotion group_motion(const Disks& d, std::span<const std::size_t> members) {

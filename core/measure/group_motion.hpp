@@ -12,6 +12,7 @@ struct GroupMotion {
   double kinetic = 0.0;      // sum of m v^2 / 2; energy
   double temperature = 0.0;  // sum of m (v - V)^2 / 2 over the number of disks; energy; NaN without any
   Vec2 velocity;             // V: momentum over mass; length / time; NaN without any
+  Count disks = 0;
 };
 
 // The motion of disks that come in pieces: all of them by add(), and then all once more by add_thermal(), as only then
@@ -22,7 +23,6 @@ class GroupTally {
   void add(const Disks& disks, std::span<const std::size_t> members);
   void add_thermal(const Disks& disks, std::span<const std::size_t> members);
 
-  Count disks() const { return count_; }
   GroupMotion motion() const;
 
  private:

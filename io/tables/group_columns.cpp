@@ -4,23 +4,24 @@
 #include <limits>
 #include <span>
 
-#include "core/measure/group_motion.hpp"
 #include "core/measure/measured_disks.hpp"
 #include "core/scene/drawn_velocities.hpp"
 
 namespace carom {
 
 std::vector<GroupColumn> group_column_kinds() {
-  return {{"disks", true, "", "disks of the group in the box"},
-          {"kinetic", false, "energy", "their sum of m v^2 / 2; nan for Brownian motion, here and below"},
-          {"temperature", false, "energy",
-           "mean kinetic energy of one of them, measured from their mean velocity; nan without disks, here and below"},
-          {"vx", false, "length / time", "their mean velocity, momentum over mass"},
-          {"vy", false, "length / time", "likewise"}};
+  return {
+      {"disks", true, "", "disks of the group in the box"},
+      {"kinetic", false, "energy", "their sum of m v^2 / 2; nan for Brownian motion, here and below"},
+      {"temperature", false, "energy",
+       "mean kinetic energy of one of them, measured from their mean velocity, in a shear flow of velocities relative "
+       "to that; nan without disks, here and below"},
+      {"vx", false, "length / time", "their mean velocity, momentum over mass"},
+      {"vy", false, "length / time", "likewise"}};
 }
 
-GroupMeter::GroupMeter(const Scene& scene, bool relative)
-    : groups_(reported_groups(scene)), drawn_(velocities_are_drawn(scene)), box_(scene.box), relative_(relative) {}
+GroupMeter::GroupMeter(const Scene& scene)
+    : groups_(reported_groups(scene)), drawn_(velocities_are_drawn(scene)), box_(scene.box) {}
 
 std::vector<GroupColumn> GroupMeter::columns() const {
   std::vector<GroupColumn> columns;
@@ -47,19 +48,27 @@ void GroupMeter::visit(const DisksInPieces& disks, const Use& use) const {
   });
 }
 
-std::vector<double> GroupMeter::row(const DisksInPieces& all) const {
-  std::vector<double> row;
-  if (groups_.empty()) return row;
-  const DisksInFlow in_flow(all, box_);
-  const DisksInPieces& disks = relative_ ? static_cast<const DisksInPieces&>(in_flow) : all;
+std::vector<GroupMotion> GroupMeter::motions(const DisksInPieces& disks) const {
   using Members = std::span<const std::size_t>;
   std::vector<GroupTally> tallies(groups_.size());
   visit(disks, [&](std::size_t g, const Disks& d, Members members) { tallies[g].add(d, members); });
   visit(disks, [&](std::size_t g, const Disks& d, Members members) { tallies[g].add_thermal(d, members); });
+  std::vector<GroupMotion> motions;
+  for (const GroupTally& tally : tallies) motions.push_back(tally.motion());
+  return motions;
+}
+
+std::vector<double> GroupMeter::row(const DisksInPieces& disks) const {
+  std::vector<double> row;
+  if (groups_.empty()) return row;
+  std::vector<GroupMotion> all = motions(disks);
+  if (box_.shear.acts()) {
+    const std::vector<GroupMotion> in_flow = motions(DisksInFlow(disks, box_));
+    for (std::size_t g = 0; g < all.size(); ++g) all[g].temperature = in_flow[g].temperature;
+  }
   const auto of_velocities = [&](double v) { return drawn_ ? std::numeric_limits<double>::quiet_NaN() : v; };
-  for (const GroupTally& tally : tallies) {
-    const GroupMotion motion = tally.motion();
-    row.push_back(static_cast<double>(tally.disks()));
+  for (const GroupMotion& motion : all) {
+    row.push_back(static_cast<double>(motion.disks));
     for (const double v : {motion.kinetic, motion.temperature, motion.velocity.x, motion.velocity.y}) {
       row.push_back(of_velocities(v));
     }

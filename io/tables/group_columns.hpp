@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/disks/disks_in_pieces.hpp"
+#include "core/measure/group_motion.hpp"
 #include "core/scene/disk_group.hpp"
 #include "core/scene/scene.hpp"
 
@@ -22,8 +23,7 @@ std::vector<GroupColumn> group_column_kinds();
 
 class GroupMeter {
  public:
-  // relative: velocities are those relative to the flow of a sheared box.
-  explicit GroupMeter(const Scene& scene, bool relative = false);
+  explicit GroupMeter(const Scene& scene);
 
   // Group by group; none where no block of the scene has a name.
   std::vector<GroupColumn> columns() const;
@@ -38,11 +38,11 @@ class GroupMeter {
   // use(g, disks, members) for each group and each piece: those of its disks that are there, in order of id.
   template <class Use>
   void visit(const DisksInPieces& disks, const Use& use) const;
+  std::vector<GroupMotion> motions(const DisksInPieces& disks) const;
 
   std::vector<NamedGroup> groups_;
   bool drawn_;
   Domain box_;
-  bool relative_;
 };
 
 }  // namespace carom

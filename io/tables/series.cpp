@@ -103,7 +103,7 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
     : file_(path),
       sources_(scene),
       meter_(scene, true),
-      groups_(scene, true),
+      groups_(scene),
       rotates_(scene.physics.surfaces.are_rough()),
       with_displacement_(scene.analysis.wants(Quantity::displacement)) {
   std::string heading = "t";
@@ -122,7 +122,7 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene, const Se
     : file_(path, from.file.bytes),
       sources_(scene),
       meter_(scene, true, from.meter),
-      groups_(scene, true),
+      groups_(scene),
       rotates_(scene.physics.surfaces.are_rough()),
       with_displacement_(scene.analysis.wants(Quantity::displacement)),
       rows_(from.file.frames) {}

@@ -94,7 +94,7 @@ void StartDisks::sum_motions() {
   for (std::size_t g = 0; g < groups(); ++g) {
     const DiskGroup& group = scene_.groups[g];
     const auto count = static_cast<double>(group.count);
-    GroupMotion& motion = motions_[g];
+    DrawnMotion& motion = motions_[g];
     if (group.count == 0) continue;
     if (group.velocities.kind == VelocityLaw::Kind::maxwell && group.velocities.temperature != 0.0) {
       GroupMomentum momentum;
@@ -136,7 +136,7 @@ Vec2 StartDisks::drawn_velocity(std::size_t group, Count k, double mass) const {
 
 Disk StartDisks::disk_at(std::size_t group, Count k, Vec2 place) const {
   const DiskGroup& g = scene_.groups[group];
-  const GroupMotion& motion = motions_[group];
+  const DrawnMotion& motion = motions_[group];
   const DiskSize size = size_of(group, k);
   Disk disk{place.x, place.y, 0.0, 0.0, size.radius, size.mass, id_of(group, k), 0.0};
   const Vec2 v = drawn_velocity(group, k, disk.mass);

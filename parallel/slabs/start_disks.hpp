@@ -24,7 +24,7 @@ struct SizeFacts {
 };
 
 // How the velocities and spins that a group draws become those that it has.
-struct GroupMotion {
+struct DrawnMotion {
   Vec2 mean;  // taken off
   double factor = 1.0, spin_factor = 1.0;
 };
@@ -82,7 +82,7 @@ class StartDisks {
   std::vector<DiskId> first_ids_;
   SizeFacts sizes_;
   std::vector<std::optional<LatticePlaces>> lattices_;
-  std::vector<GroupMotion> motions_;
+  std::vector<DrawnMotion> motions_;
 };
 
 }  // namespace carom

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "core/measure/group_motion.hpp"
+#include "core/measure/invariants.hpp"
 #include "core/scene/scene_text.hpp"
 #include "io/tables/group_columns.hpp"
 #include "tests/support/disks_by_hand.hpp"
@@ -95,6 +96,39 @@ TEST(NamedGroups, RowsDoNotDependOnStorageAndEveryBlockHasItsTemperature) {
   for (std::size_t i = disks.size(); i-- > 0;) append(turned, disk_at(disks, i));
   const std::vector<double> again = meter.row(turned);
   for (std::size_t k = 0; k < row.size(); ++k) EXPECT_TRUE(row[k] == again[k] || std::isnan(row[k])) << k;
+}
+
+// In a shear flow: energy and velocity are those of the laboratory, as of all disks; a temperature does not have the
+// flow in it, nor what the group moves by in the flow.
+TEST(NamedGroups, TemperaturesAreRelativeToAShearFlow) {
+  const Scene scene = scene_from(R"(
+[box]
+width = 20.0
+height = 30.0
+left = "periodic"
+right = "periodic"
+bottom = "periodic"
+top = "periodic"
+shear_rate = 0.5
+[[disks]]
+name = "some"
+count = 50
+positions = "random"
+velocities = { maxwell = 2.0 }
+drift = [3.0, 0.0]
+radius = 0.2
+mass = 1.0
+[run]
+t_end = 1.0
+)");
+  const Disks disks = initial_state(scene).disks;
+  const std::vector<double> row = GroupMeter(scene).row(disks);
+  ASSERT_EQ(row.size(), 5U);
+  const Energy energy = energy_of(disks, scene.physics.gravity);
+  EXPECT_NEAR(row[1], energy.kinetic, 1e-9 * energy.kinetic);
+  EXPECT_NEAR(row[2], 2.0, 1e-12);
+  EXPECT_NEAR(row[3], momentum_of(disks).x / 50.0, 1e-12);
+  EXPECT_GT(energy.kinetic, 2.0 * 50.0 + 0.5 * 50.0 * 9.0);
 }
 
 TEST(NamedGroups, WithoutNamesThereAreNoColumns) {
