@@ -6,8 +6,8 @@
 
 #include "core/base/input_message.hpp"
 #include "core/base/machine_memory.hpp"
+#include "core/load/brownian_warnings.hpp"
 #include "core/load/memory_need.hpp"
-#include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/scene/scene_range_check.hpp"
 #include "core/scene/scene_ranges.hpp"
@@ -320,16 +320,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
                     "model does nothing",
                     scene.file));
   }
-  if (velocities_are_drawn(scene)) {
-    const auto warn = [&](const std::string& key, const char* what) {
-      warnings.push_back(fmt::format(
-          "{}: {}: Brownian disks have no velocity, u / dt is the displacement of a step: {}", scene.file, key, what));
-    };
-    const auto& plots = scene.output.plots;
-    if (std::find(plots.begin(), plots.end(), "energy") != plots.end()) warn("output.plots", "no energy is drawn");
-    if (scene.analysis.wants(Quantity::pressure)) warn("analysis.what", "there is no pressure");
-    if (scene.analysis.wants(Quantity::speeds)) warn("analysis.what", "speeds are those of u / dt");
-  }
+  for (std::string& warning : brownian_warnings(scene)) warnings.push_back(std::move(warning));
   if (scene.run.accuracy > 0.0 && !scene.run.automatic) {
     warnings.push_back(fmt::format("{}: run.accuracy: only method \"auto\" uses it, method {} does not", scene.file,
                                    name_of(scene.run.method)));

@@ -150,6 +150,47 @@ TEST(BadBox, SizeSaidTwiceOrOddly) {
               StartsWith("gas.toml:5: box.packing_fraction: gives a box of 0 x 0"));
 }
 
+// What gravity and masses would do to Brownian disks is nothing that depends on the scene alone, or on it as it should.
+TEST(UnusedKey, BrownianDisksUnderGravityOrOfUnequalMassAreAWarning) {
+  const std::string start = R"(
+[box]
+width = 20.0
+height = 20.0
+[physics]
+diffusion = 0.5
+)";
+  const std::string end = R"(
+[[disks]]
+count = 5
+positions = "random"
+radius = { uniform = [0.1, 0.2] }
+mass = 1.0
+[[disks]]
+count = 5
+fixed = true
+positions = "random"
+radius = 0.3
+[run]
+dt = 0.01
+t_end = 1.0
+)";
+  const auto warned = [&](const std::string& physics, const std::string& last, const std::vector<Override>& sets = {}) {
+    return scene_warnings(test::scene_from(start + physics + end + last, sets));
+  };
+  EXPECT_THAT(warned("", ""), testing::IsEmpty());
+  EXPECT_THAT(
+      warned("gravity = [0.0, 3.0]\n", ""),
+      testing::ElementsAre(AllOf(HasSubstr("physics.gravity: Brownian disks"), HasSubstr("g dt / 2 = 0.015 "))));
+  EXPECT_THAT(warned("gravity = 3.0\naccumulate = true\n", "", {{"disks.0.mass", "{ uniform = [1, 2] }"}}),
+              testing::IsEmpty());
+  EXPECT_THAT(warned("", "", {{"disks.0.mass", "{ from_radius = 3.0 }"}}),
+              testing::ElementsAre(HasSubstr("disks.mass: Brownian disks have no velocity")));
+  EXPECT_THAT(warned("", "[[sources]]\nregion = [5.0, 5.0, 9.0, 9.0]\nrate = 1.0\nradius = 0.1\nmass = 2.0\n"),
+              testing::ElementsAre(HasSubstr("disks.mass: Brownian disks have no velocity")));
+  EXPECT_THAT(warned("", "[analysis]\nwhat = [\"profile\", \"velocity_autocorrelation\", \"density\"]\n"),
+              testing::ElementsAre(HasSubstr("temperature are those of u / dt"), HasSubstr("autocorrelation is that")));
+}
+
 TEST(BadPhysics, BrownianMotionNeedsAStep) {
   const std::string exact = replaced(replaced(sound_scene, "pairwise", "exact"), "dt = 0.01\n", "");
   EXPECT_EQ(complaint(exact), "");

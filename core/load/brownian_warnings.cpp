@@ -1,0 +1,70 @@
+#include "core/load/brownian_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/scene/drawn_velocities.hpp"
+#include "core/scene/size_law.hpp"
+
+namespace carom {
+
+namespace {
+
+SizeRange mass_range(const SizeLaw& radius, const SizeLaw& mass) {
+  if (mass.kind != SizeLaw::Kind::from_other) return size_range(mass);
+  const SizeRange r = size_range(radius);
+  const double density = std::numbers::pi * mass.density;
+  return {density * r.low * r.low, density * r.high * r.high};
+}
+
+// May two disks that can meet have masses that differ by more than rounding?
+bool masses_differ(const Scene& scene) {
+  SizeRange all{HUGE_VAL, 0.0};
+  const auto see = [&](const SizeLaw& radius, const SizeLaw& mass) {
+    const SizeRange range = mass_range(radius, mass);
+    all = {std::min(all.low, range.low), std::max(all.high, range.high)};
+  };
+  for (const DiskGroup& group : scene.groups) {
+    if (!group.fixed && group.count > 0) see(group.radius, group.mass);
+  }
+  for (const Source& source : scene.sources) see(source.radius, source.mass);
+  constexpr double rounding = 1e-9;
+  return all.high > (1.0 + rounding) * all.low;
+}
+
+}  // namespace
+
+std::vector<std::string> brownian_warnings(const Scene& scene) {
+  std::vector<std::string> warnings;
+  if (!velocities_are_drawn(scene)) return warnings;
+  const auto warn = [&](const char* key, const std::string& what) {
+    warnings.push_back(fmt::format("{}: {}: Brownian disks have no velocity, u / dt is the displacement of a step: {}",
+                                   scene.file, key, what));
+  };
+  const auto& plots = scene.output.plots;
+  if (std::find(plots.begin(), plots.end(), "energy") != plots.end()) warn("output.plots", "no energy is drawn");
+  if (scene.analysis.wants(Quantity::pressure)) warn("analysis.what", "there is no pressure");
+  if (scene.analysis.wants(Quantity::speeds)) warn("analysis.what", "speeds are those of u / dt");
+  if (scene.analysis.wants(Quantity::profile)) {
+    warn("analysis.what", "the profile's velocities and temperature are those of u / dt");
+  }
+  if (scene.analysis.wants(Quantity::velocity_autocorrelation)) {
+    warn("analysis.what", "the autocorrelation is that of u / dt");
+  }
+  if (scene.physics.gravity.acts()) {
+    warn("physics.gravity", fmt::format("what gravity gives in a step is forgotten in the next, so that disks sink at "
+                                        "g dt / 2 = {:.3g} and less with a smaller dt, to no barometric law",
+                                        0.5 * scene.physics.gravity.size * scene.run.dt));
+  }
+  if (masses_differ(scene)) {
+    warn("disks.mass",
+         "D is the same for all, and yet in a collision the lighter disk gives way further; take equal "
+         "masses, or heavy disks spread faster");
+  }
+  return warnings;
+}
+
+}  // namespace carom
