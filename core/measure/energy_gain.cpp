@@ -9,16 +9,34 @@
 
 namespace carom {
 
+namespace {
+
+// Does gravity act along a periodic axis? A disk that goes round there has its potential energy anew each time.
+bool falls_for_ever(const Scene& scene) {
+  const Gravity& g = scene.physics.gravity;
+  return (g.left != 0.0 && scene.box.periodic_x()) || (g.down != 0.0 && scene.box.periodic_y());
+}
+
+// Have disks gone that may have had less than no energy, so that those that are left have more without them?
+bool may_lose_negative(const Scene& scene, const State& state) {
+  const Gravity& g = scene.physics.gravity;
+  return state.counters.removed > 0 && (g.left < 0.0 || g.down < 0.0);
+}
+
+}  // namespace
+
 std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state) {
   return energy_warnings(scene, start, state, energy_of(state.disks, scene.physics.gravity));
 }
 
 std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state,
                                          const Energy& now) {
-  if (scene.physics.diffusion > 0.0) return {};
+  if (scene.physics.diffusion > 0.0 || falls_for_ever(scene) || may_lose_negative(scene, state)) return {};
   const bool exact = scene.run.method == Method::exact;
-  double before = start.energy.total() + state.counters.emitted_energy;
-  double moved = before;  // what rounding is to be held against
+  const double emitted = state.counters.emitted_energy;
+  double before = start.energy.total() + emitted;
+  // What rounding is to be held against. A potential may be negative, as it is 0 at the lower left corner.
+  double moved = start.energy.kinetic + std::abs(start.energy.potential) + start.energy.rotational + std::abs(emitted);
   for (const double heat : state.counters.side_energy) {
     before += heat;
     moved += std::abs(heat);

@@ -15,7 +15,8 @@ namespace carom {
 inline constexpr double most_gain_exact = 1e-9;
 inline constexpr double most_gain_stepping = 0.01;
 
-// What a run at its end has to say of energy that nothing put in. Brownian motion keeps none.
+// What a run at its end has to say of energy that nothing put in. Brownian motion keeps none; nothing can be said where
+// gravity acts along periodic sides, nor where it pulls to the right or up and disks have left.
 std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state);
 
 // The same where the energy is known; of state, the disks are not looked at.

@@ -124,5 +124,29 @@ TEST_F(TcEnergyRun, IsWarnedOfAndEndsAStrictRun) {
   EXPECT_THAT(strict.err, HasSubstr("(--strict)"));
 }
 
+// A potential is negative where gravity pulls to the right or up; along periodic sides disks gain by falling, and one
+// that leaves may take less than nothing with it.
+TEST(TcEnergy, GravityInAnyDirectionIsNoGain) {
+  const std::string disks =
+      "[[disks]]\ncount = 20\npositions = \"square\"\nvelocities = { maxwell = 0.5 }\n"
+      "radius = 0.5\nmass = 1.0\n";
+  for (const std::string gravity : {"[1.5, 0.0]", "[-1.5, 0.0]", "[0.0, 1.5]", "[1.0, 1.0]", "[0.5, -1.0]"}) {
+    for (const std::string sides : {"wall", "sink", "periodic"}) {
+      for (const Method method : {Method::exact, Method::pairwise}) {
+        Scene scene = make_scene({20, 20, sides, "gravity = " + gravity, disks, 20.0, "dt = 0.005\n"});
+        scene.run.method = method;
+        const State start = initial_state(scene);
+        const auto engine = make_parallel_engine(scene, start, {1});
+        run_to_end(*engine, scene);
+        EXPECT_THAT(energy_warnings(scene, run_start(start, scene), engine->state()), IsEmpty()) << gravity << sides;
+        if (sides != "wall") continue;
+        State more = engine->state();
+        more.disks.vx[0] += 50.0;
+        EXPECT_THAT(energy_warnings(scene, run_start(start, scene), more), ElementsAre(HasSubstr("was put in: ")));
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace carom::exact_tests
