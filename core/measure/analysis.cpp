@@ -98,7 +98,7 @@ AnalysisRecord empty_record(const Scene& scene) {
 
 bool same_shape(const MotionProfile& a, const MotionProfile& b) {
   return a.disks.size() == b.disks.size() && a.mass.size() == b.mass.size() && a.px.size() == b.px.size() &&
-         a.py.size() == b.py.size() && a.twice_k.size() == b.twice_k.size();
+         a.py.size() == b.py.size() && a.twice_thermal.size() == b.twice_thermal.size();
 }
 
 bool same_shape(const DensityProfile& a, const DensityProfile& b) {

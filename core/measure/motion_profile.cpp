@@ -1,5 +1,6 @@
 #include "core/measure/motion_profile.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/disks/cell_index.hpp"
@@ -11,19 +12,55 @@ MotionProfile empty_profile(std::size_t slabs) {
   return {std::vector<Count>(slabs, 0), zeros, zeros, zeros, zeros, 0};
 }
 
+namespace {
+
+// What one sample has of a slab. Velocities are measured from that of the first disk, u, so that a slow motion within a
+// fast flow is not lost in the rounding of the flow's energy.
+struct SlabSample {
+  double mass = 0.0;
+  Vec2 u, momentum;      // momentum: m (v - u)
+  double twice_k = 0.0;  // m (v - u)^2
+
+  void add(double m, double vx, double vy) {
+    if (mass == 0.0) u = {vx, vy};
+    const double dx = vx - u.x, dy = vy - u.y;
+    mass += m;
+    momentum.x += m * dx;
+    momentum.y += m * dy;
+    twice_k += m * (dx * dx + dy * dy);
+  }
+};
+
+// Adds what slab k has in a sample to the sums, as Chan, Golub and LeVeque (1983) join variances.
+void add_sample(MotionProfile& profile, std::size_t k, const SlabSample& s) {
+  if (s.mass == 0.0) return;
+  const Vec2 mean{s.momentum.x / s.mass, s.momentum.y / s.mass};  // from u
+  const double within = s.twice_k - (s.momentum.x * mean.x + s.momentum.y * mean.y);
+  double between = 0.0;
+  if (profile.mass[k] > 0.0) {
+    const double dx = (s.u.x - profile.px[k] / profile.mass[k]) + mean.x;
+    const double dy = (s.u.y - profile.py[k] / profile.mass[k]) + mean.y;
+    between = profile.mass[k] * (s.mass / (profile.mass[k] + s.mass)) * (dx * dx + dy * dy);
+  }
+  profile.twice_thermal[k] += std::max(0.0, within) + between;
+  profile.mass[k] += s.mass;
+  profile.px[k] += s.mass * s.u.x + s.momentum.x;
+  profile.py[k] += s.mass * s.u.y + s.momentum.y;
+}
+
+}  // namespace
+
 void add_motion(MotionProfile& profile, const DisksInPieces& disks, const Domain& box, bool along_x) {
   const double slabs_per_length = static_cast<double>(profile.disks.size()) / (along_x ? box.width : box.height);
+  std::vector<SlabSample> sample(profile.disks.size());
   disks.visit([&](const Disks& d) {
     for (const std::size_t i : by_id(d)) {
       const std::size_t k = cell_index((along_x ? d.x[i] : d.y[i]) * slabs_per_length, profile.disks.size());
-      const double m = d.mass_of(i);
       ++profile.disks[k];
-      profile.mass[k] += m;
-      profile.px[k] += m * d.vx[i];
-      profile.py[k] += m * d.vy[i];
-      profile.twice_k[k] += m * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+      sample[k].add(d.mass_of(i), d.vx[i], d.vy[i]);
     }
   });
+  for (std::size_t k = 0; k < sample.size(); ++k) add_sample(profile, k, sample[k]);
   ++profile.samples;
 }
 
@@ -31,8 +68,7 @@ SlabMotion motion_of_slab(const MotionProfile& p, std::size_t k) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   if (p.disks[k] == 0) return {{nothing, nothing}, nothing};
   const Vec2 v{p.px[k] / p.mass[k], p.py[k] / p.mass[k]};
-  const double flow = p.px[k] * v.x + p.py[k] * v.y;  // M V^2
-  return {v, 0.5 * (p.twice_k[k] - flow) / static_cast<double>(p.disks[k])};
+  return {v, 0.5 * p.twice_thermal[k] / static_cast<double>(p.disks[k])};
 }
 
 }  // namespace carom

@@ -13,8 +13,8 @@ namespace carom {
 struct MotionProfile {
   std::vector<Count> disks;
   std::vector<double> mass;
-  std::vector<double> px, py;   // m v
-  std::vector<double> twice_k;  // m v^2
+  std::vector<double> px, py;         // m v
+  std::vector<double> twice_thermal;  // m (v - V)^2, V the mean velocity of them all
   Count samples = 0;
 };
 
@@ -26,8 +26,8 @@ inline void add_motion(MotionProfile& profile, const Disks& disks, const Domain&
   add_motion(profile, WholeDisks(disks, 0.0), box, along_x);
 }
 
-// Of slab k: the mean velocity V of all its disks and samples, and the temperature, (sum of m v^2 - M V^2) / 2 a disk.
-// NaN where no disk was.
+// Of slab k: the mean velocity V of all its disks and samples, and the temperature, sum of m (v - V)^2 / 2 a disk. NaN
+// where no disk was.
 struct SlabMotion {
   Vec2 velocity;
   double temperature = 0.0;

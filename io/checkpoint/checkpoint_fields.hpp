@@ -175,8 +175,8 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<MotionProfile> T>
 void fields(Stream& stream, T& value) {
-  auto& [disks, mass, px, py, twice_k, samples] = value;
-  stream(disks, mass, px, py, twice_k, samples);
+  auto& [disks, mass, px, py, twice_thermal, samples] = value;
+  stream(disks, mass, px, py, twice_thermal, samples);
 }
 
 template <class Stream, Is<StructureFactor> T>

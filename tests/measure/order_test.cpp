@@ -13,6 +13,7 @@
 #include "core/measure/velocity_memory.hpp"
 #include "parallel/threads/executor.hpp"
 #include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {
@@ -343,8 +344,34 @@ TEST(MotionProfile, TellsFlowAndTemperatureApart) {
   MotionProfile other = empty_profile(10);
   add_motion(other, turned(d), box, false);
   EXPECT_EQ(other.px, profile.px);
-  EXPECT_EQ(other.twice_k, profile.twice_k);
+  EXPECT_EQ(other.twice_thermal, profile.twice_thermal);
   EXPECT_TRUE(std::isnan(motion_of_slab(empty_profile(1), 0).temperature));
+}
+
+// Cold disks in a fast flow, whose energy has no digits left for theirs: the temperature is that of the disks alone,
+// over many samples too, and 0 where all move alike.
+TEST(MotionProfile, AColdFlowHasItsTemperature) {
+  test::Draws draws(8);
+  const Domain box = test::box_of(10.0, 10.0, true, true);
+  for (const double thermal : {0.0, 1e-6}) {
+    for (const double flow : {0.0, 100.0}) {
+      MotionProfile profile = empty_profile(1);
+      double sum = 0.0;
+      for (int sample = 0; sample < 50; ++sample) {
+        Disks d;
+        for (DiskId id = 0; id < 400; ++id) {
+          const double u = draws.in(-thermal, thermal);
+          append(d, {draws.in(0.0, 10.0), draws.in(0.0, 10.0), flow + u, 0.5 * flow - u, 0.1, 3.0, id});
+          sum += 3.0 * u * u;
+        }
+        add_motion(profile, d, box, false);
+      }
+      const SlabMotion motion = motion_of_slab(profile, 0);
+      EXPECT_NEAR(motion.velocity.x, flow, 1e-12 * flow + 1e-7);
+      EXPECT_GE(motion.temperature, 0.0);
+      EXPECT_NEAR(motion.temperature, sum / (50.0 * 400.0), 0.005 * thermal * thermal) << thermal << " " << flow;
+    }
+  }
 }
 
 }  // namespace
