@@ -13,7 +13,7 @@ enum class Wish {
 
 // From here on the signals above no longer end the process, except a SIGINT after a stop has been requested: it ends
 // the process at once. Signals that the caller has ignored stay so (nohup, a shell's background jobs). To be called
-// once, before a run's first step.
+// before a run's first step; once more changes nothing.
 void catch_signals();
 
 // The strongest request since the last call. A stop stays requested.

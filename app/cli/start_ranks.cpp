@@ -45,30 +45,51 @@ std::string require(const std::string& path) {
              "expected Open MPI, Debian's packages openmpi-bin and libopenmpi-dev, and a build made with it");
 }
 
+// Where rank 0 finds the process that started it.
+constexpr const char* starter_name = "CAROM_STARTER";
+
+// By which rank 0 says that it takes signals from here on: one that no user and no program sends for anything else.
+int ready_signal() {
+  return SIGRTMIN;
+}
+
 // What a handler may touch has to be static: it is called with a number and nothing else.
-std::atomic<int> starter = 0;  // mpiexec's process
-std::atomic<int> stop_asked = 0;
+std::atomic<int> mpiexec_process = 0;
+std::atomic<int> stops_asked = 0, checkpoint_asked = 0, rank_0_ready = 0, stop_passed = 0;
 static_assert(std::atomic<int>::is_always_lock_free);  // as a handler needs
 
 // mpiexec passes SIGUSR1 and SIGUSR2 on to the ranks, and would end them for any other: rank 0 takes SIGUSR2 as a wish
-// to stop. A second one quits at once.
+// to stop. A second one quits at once. While the ranks start they would be lost, or end a rank that does not know them
+// yet: they are kept until rank 0 is ready.
 extern "C" void pass_on(int signal) {
-  if (signal == SIGUSR1) {
-    kill(starter, SIGUSR1);
-  } else {
-    kill(starter, stop_asked.exchange(1) == 0 ? SIGUSR2 : SIGTERM);
+  if (signal == ready_signal()) {
+    rank_0_ready = 1;
+  } else if (signal == SIGUSR1) {
+    checkpoint_asked = 1;
+  } else if (++stops_asked > 1) {
+    kill(mpiexec_process, SIGTERM);
   }
+  if (rank_0_ready == 0) return;
+  if (checkpoint_asked.exchange(0) != 0) kill(mpiexec_process, SIGUSR1);
+  if (stops_asked > 0 && stop_passed.exchange(1) == 0) kill(mpiexec_process, SIGUSR2);
+}
+
+sigset_t passed_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, ready_signal()}) sigaddset(&set, signal);
+  return set;
 }
 
 void pass_signals_on() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, ready_signal()}) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
-    if (before.sa_handler == SIG_IGN) continue;
+    if (before.sa_handler == SIG_IGN && signal != ready_signal()) continue;
     struct sigaction action {};
     action.sa_handler = pass_on;
     action.sa_flags = SA_RESTART;
-    sigemptyset(&action.sa_mask);
+    action.sa_mask = passed_signals();  // one after the other
     sigaction(signal, &action, nullptr);
   }
 }
@@ -122,14 +143,32 @@ int start_ranks(int ranks, int argc, const char* const* argv) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
+  setenv(starter_name, fmt::format("{}", getpid()).c_str(), 1);
+  // No signal between the start of mpiexec and the handlers that know it.
+  const sigset_t passed = passed_signals();
+  sigset_t before;
+  sigprocmask(SIG_BLOCK, &passed, &before);
   const pid_t child = fork();
+  if (child == 0) {
+    sigprocmask(SIG_SETMASK, &before, nullptr);
+    become(pointers);
+  }
+  if (child > 0) {
+    mpiexec_process = child;
+    pass_signals_on();
+  }
+  sigprocmask(SIG_SETMASK, &before, nullptr);
   if (child < 0) throw RunError(fmt::format("cannot start {}: {}", words[0], std::strerror(errno)));
-  if (child == 0) become(pointers);
-  starter = child;
-  pass_signals_on();
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   return status_of(status);
+}
+
+void tell_starter() {
+  const char* const starter = std::getenv(starter_name);
+  if (starter == nullptr) return;
+  const int process = std::atoi(starter);
+  if (process > 1) kill(process, ready_signal());
 }
 
 }  // namespace carom

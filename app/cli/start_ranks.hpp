@@ -12,4 +12,8 @@ void check_ranks_of_this_machine(int ranks);
 // build was made without it; RunError where it cannot be started, or a rank did not live to the end.
 int start_ranks(int ranks, int argc, const char* const* argv);
 
+// Rank 0 takes signals from here on: those that came while the ranks were started are passed on to it now. Does nothing
+// where mpirun was called by hand.
+void tell_starter();
+
 }  // namespace carom

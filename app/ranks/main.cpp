@@ -8,10 +8,12 @@
 
 #include "app/cli/messages.hpp"
 #include "app/cli/program.hpp"
+#include "app/cli/start_ranks.hpp"
 #include "core/base/float_environment.hpp"
 #include "parallel/ranks/mpi_ranks.hpp"
 #include "parallel/slabs/leading_engine.hpp"
 #include "run/make_engine.hpp"
+#include "run/stop_signals.hpp"
 
 namespace carom {
 
@@ -22,13 +24,30 @@ extern "C" void take_as_sigterm(int /*signal*/) {
   std::raise(SIGTERM);
 }
 
+// Those that mpiexec passes on, which come at any time, wait (SIG_BLOCK) until the rank knows what they mean to it
+// (SIG_UNBLOCK).
+void passed_signals(int what) {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : {SIGUSR1, SIGUSR2}) sigaddset(&set, signal);
+  pthread_sigmask(what, &set, nullptr);
+}
+
 // Signals that ask for a checkpoint or the end are rank 0's, which tells the others.
 void leave_signals_to_rank_0() {
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2}) std::signal(signal, SIG_IGN);
+  passed_signals(SIG_UNBLOCK);
+}
+
+void take_signals() {
+  std::signal(SIGUSR2, take_as_sigterm);
+  catch_signals();
+  passed_signals(SIG_UNBLOCK);
+  tell_starter();
 }
 
 int lead(const MpiSession& session, Ranks& ranks, int argc, char** argv) {
-  std::signal(SIGUSR2, take_as_sigterm);
+  take_signals();
   RankLead lead(ranks);
   const int status = program(argc, argv, &lead);
   if (lead.lost()) session.abort(status);
@@ -41,6 +60,7 @@ int lead(const MpiSession& session, Ranks& ranks, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace carom;
+  passed_signals(SIG_BLOCK);
   const MpiSession session;
   const std::unique_ptr<Ranks> ranks = session.ranks();
   if (ranks->rank() == 0) return lead(session, *ranks, argc, argv);
