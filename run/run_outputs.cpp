@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "core/base/check.hpp"
@@ -10,10 +11,17 @@
 #include "core/measure/invariants.hpp"
 #include "core/scene/disk_group.hpp"
 #include "core/scene/drawn_velocities.hpp"
+#include "core/scene/scene_names.hpp"
 
 namespace carom {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+std::string plot_name(std::string_view plot) {
+  return fmt::format("{}.svg", plot);
+}
 
 bool has_plot(const OutputPlan& plan, const char* name) {
   return std::find(plan.plots.begin(), plan.plots.end(), name) != plan.plots.end();
@@ -51,6 +59,7 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunn
       folder_(folder),
       run_(std::move(run)),
       frames_(from.frames),
+      frames_before_(from.frames),
       last_time_(from.last_time),
       rounds_(from.rounds),
       doubt_told_(from.rounds.doubtful > 0),
@@ -199,6 +208,21 @@ void RunOutputs::draw_plots() {
   if (!drawn) warnings_.emplace_back("gnuplot is not installed: no plots are drawn");
 }
 
+// Pictures of the run as it was when it came to an earlier end. Where they cannot be made anew, none is better than one
+// that ends too soon: they can be made from what is there. A movie without a trajectory cannot.
+void RunOutputs::remove_old_pictures() {
+  std::error_code ignored;
+  for (const std::string_view plot : {"velocity", "energy"}) fs::remove(folder_.path(plot_name(plot)), ignored);
+  for (const std::string_view plot : quantity_names) fs::remove(folder_.path(plot_name(plot)), ignored);
+  const fs::path movie = folder_.path(movie_name(MovieFormat::mp4));
+  if (lost_movie_.empty() || frames_ == frames_before_ || !fs::exists(movie, ignored)) return;
+  if (scene_.output.trajectory != TrajectoryFormat::none) {
+    fs::remove(movie, ignored);
+  } else {
+    lost_movie_ += fmt::format("; {} ends where the run ended before", movie.filename().string());
+  }
+}
+
 OutputMark RunOutputs::finish(bool whole) {
   std::optional<MovieMark> movie;
   if (movie_) {
@@ -208,7 +232,10 @@ OutputMark RunOutputs::finish(bool whole) {
       lose_movie(error.what());
     }
   }
-  if (whole) draw_plots();
+  if (whole) {
+    remove_old_pictures();
+    draw_plots();
+  }
   OutputMark mark;
   if (scene_.output.checkpoint > 0.0 || !lost_plots_.empty()) mark = mark_without_movie();
   mark.movie = movie;

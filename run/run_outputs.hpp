@@ -70,6 +70,7 @@ class RunOutputs {
   OutputMark mark_without_movie();
   bool shows_rounds() const;
   XyzPlan xyz_plan() const;
+  void remove_old_pictures();
   void draw_plots();
   bool draw(const std::function<bool()>& plot);  // false: there is no gnuplot
   void add_to_movie(const DisksInPieces& disks);
@@ -79,6 +80,7 @@ class RunOutputs {
   const OutputFolder& folder_;
   BlockRunner run_;
   Count frames_ = 0;
+  Count frames_before_ = 0;  // those of earlier parts of the run
   double last_time_ = 0.0;
   DisplacementTally rounds_;  // of the disks in a trajectory; begins with its first frame
   bool doubt_told_ = false;

@@ -89,8 +89,8 @@ void replace_file(const std::string& path, std::string_view text) {
 
 void check_at_least(const std::string& path, std::uint64_t bytes) {
   std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (bytes == 0 && std::filesystem::exists(path, error)) return;  // a folder, too
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) {
     throw InputError(fmt::format("{}: {}; expected the file that the checkpoint goes on with", path, error.message()));
   }
