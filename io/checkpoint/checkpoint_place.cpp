@@ -39,6 +39,11 @@ namespace {
   if (!fs::exists(folder / "summary.json")) {
     fail_input(name, "holds no checkpoint", "expected a checkpoint, or the folder of a run that wrote one");
   }
+  const fs::path previous = folder / previous_checkpoint_name;
+  if (fs::exists(previous)) {
+    fail_input(name, fmt::format("has lost its {}", checkpoint_name),
+               fmt::format("the one before it is there: carom resume {} --t-end T", shell_word(previous.string())));
+  }
   fail_input(name, "holds a finished run that kept no checkpoint",
              fmt::format("to go further, run it once more with one: carom run {} --set output.checkpoint=600 --t-end T "
                          "-o DIR",

@@ -282,6 +282,10 @@ TEST_F(LongInterruptedRun, AFinishedRunGoesOnToALaterEnd) {
   EXPECT_EQ(carom("resume out --quiet --t-end 6").status, 0);
   expect_same_results("whole", "out");
   EXPECT_EQ(nlohmann::json::parse(test::text_of(at("out/summary.json")))["resumed"], 1);
+  fs::remove(at("out/checkpoint.carom"));
+  EXPECT_THAT(carom("resume out --t-end 9").err,
+              HasSubstr("out: has lost its checkpoint.carom; the one before it is there: carom resume "
+                        "out/checkpoint.previous.carom --t-end T"));
 
   // Without a checkpoint, or with a last step that was cut short, only a new run gets further, and it says so.
   ASSERT_EQ(carom("run busy.toml -o bare --t-end 3" + seldom).status, 0);
