@@ -10,6 +10,7 @@ import sys
 import tempfile
 
 from . import _carom
+from ._text import in_words_of_python
 
 
 class Page:
@@ -36,7 +37,8 @@ def show(trajectory: str, file, most_bytes, force):
             _carom.write_view(trajectory, page, most_bytes, False)
             return Page(pathlib.Path(page).read_text(encoding="utf-8"))
     page = os.fspath(pathlib.Path(trajectory).with_name("view.html") if file is None else file)
-    _carom.write_view(trajectory, page, most_bytes, force)
+    with in_words_of_python():
+        _carom.write_view(trajectory, page, most_bytes, force)
     if file is None:
         import webbrowser
 

@@ -115,7 +115,10 @@ class Result:
     @property
     def series(self) -> dict:
         """Columns of series.csv by name, float64 of shape (frames,)."""
-        table = np.genfromtxt(self._file("series.csv"), delimiter=",", names=True, deletechars="", ndmin=1)
+        path = self._file("series.csv")
+        if not os.path.exists(path):
+            raise SceneError(f"{path}: is not there; expected a scene with series = true in [output]")
+        table = np.genfromtxt(path, delimiter=",", names=True, deletechars="", ndmin=1)
         return {name: table[name] for name in table.dtype.names}
 
     @property
@@ -129,13 +132,16 @@ class Result:
         those of its group: mean, standard_error, diffusion, diffusion_error, samples, ..., as docs/output.md lists them."""
         import h5py
 
+        path = self._file("analysis.h5")
+        if not os.path.exists(path):
+            raise SceneError(f"{path}: is not there, as the scene measures nothing; expected a scene with [analysis]")
         columns = {}
 
         def take(path, item):
             if isinstance(item, h5py.Dataset):
                 columns[path] = Column(item[()], _attributes(item)) if item.shape else item[()]
 
-        with h5py.File(self._file("analysis.h5")) as file:
+        with h5py.File(path) as file:
             file.visititems(take)
         return columns
 

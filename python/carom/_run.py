@@ -11,6 +11,7 @@ from ._carom import RunError, SceneError
 from ._result import Result
 from ._scene import Scene
 from ._simulation import engine as _engine
+from ._text import in_words_of_python as _in_words_of_python
 
 
 def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "parallel", force: bool = False,
@@ -31,7 +32,8 @@ def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "pa
     folder = None if out is None else os.fspath(out)
     if not folder and out is not None:
         raise SceneError("out: is empty; expected a folder, or None for no files")
-    text, folder, stopped, lost = _carom.run(scene._scene, folder, *_engine(engine, threads), force, strict, warn)
+    with _in_words_of_python():
+        text, folder, stopped, lost = _carom.run(Scene._checked(scene), folder, *_engine(engine, threads), force, strict, warn)
     if stopped:
         raise KeyboardInterrupt(stopped)
     if lost:

@@ -49,6 +49,14 @@ class Scene:
         self._source = source
         self._scene = self._read()
 
+    @classmethod
+    def _checked(cls, scene):
+        """What the compiled module takes for a scene. Raises TypeError for anything but a Scene."""
+        if not isinstance(scene, cls):
+            raise TypeError(f"expected a carom.Scene, not {type(scene).__name__}: carom.Scene.load(path) reads a file, "
+                            "carom.Scene({...}) takes a dictionary")
+        return scene._scene
+
     title = property(lambda self: self._scene.title, doc="str")
     width = property(lambda self: self._scene.width, doc="of the box; length")
     height = property(lambda self: self._scene.height, doc="of the box; length")

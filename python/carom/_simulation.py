@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 import pathlib
 import tempfile
@@ -21,6 +22,7 @@ _threads_began_in = None  # the process in which a run had several threads, whic
 def engine(name: str, threads: Optional[int]) -> tuple:
     """The engine's name and threads, refused in a child of a process that had several."""
     global _threads_began_in
+    threads = None if threads is None else operator.index(threads)
     several = name != "reference" and (threads or os.cpu_count() or 1) > 1
     if several and _threads_began_in not in (None, os.getpid()):
         raise RuntimeError("this process was forked from one that ran Carom on several threads, which are not in it: "
@@ -50,7 +52,7 @@ class Simulation:
     """
 
     def __init__(self, scene: Scene, threads: Optional[int] = None, engine: str = "parallel"):
-        self._begin(_carom.Simulation(scene._scene, *_engine(engine, threads)))
+        self._begin(_carom.Simulation(Scene._checked(scene), *_engine(engine, threads)))
 
     def _begin(self, simulation):
         self._sim = simulation
@@ -82,11 +84,14 @@ class Simulation:
         several. What it raises ends the run there, and the simulation can go on."""
         if not interval > 0.0:
             raise ValueError(f"interval is {interval}; expected a time above 0")
+        if not callable(call):
+            raise TypeError(f"expected a function of the simulation, not {type(call).__name__}")
         self._callbacks.append([interval, _next_multiple(interval, self.time), call])
 
     def step(self, steps: int = 1) -> None:
         """Makes so many steps (dt; with exact, windows), fewer where t_end is reached. Raises PhysicsError where the
         method cannot go on, KeyboardInterrupt between steps."""
+        steps = operator.index(steps)
         if steps < 0:
             raise ValueError(f"steps is {steps}; expected 0 or more")
         self._go(steps, np.inf)
@@ -94,9 +99,10 @@ class Simulation:
     def run(self, until: Optional[float] = None) -> None:
         """Steps until time >= until, or to t_end. No step is cut short: disks(at=until) has the disks at that time
         itself, with the method exact. Raises as step."""
-        if until is not None and np.isnan(until):
+        until = np.inf if until is None else float(until)
+        if np.isnan(until):
             raise ValueError("until is not a number")
-        self._go(2**63, np.inf if until is None else until)
+        self._go(2**63, until)
 
     def _go(self, steps, until):
         if os.getpid() != self._pid and self._sim.threads > 1:

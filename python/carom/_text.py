@@ -1,10 +1,13 @@
-"""Dictionaries as TOML, which is how a scene is read and checked."""
+"""Dictionaries as TOML, which is how a scene is read and checked; and messages of the command line as Python says them."""
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
 from typing import Any, Mapping
+
+from ._carom import SceneError
 
 _bare = re.compile(r"[A-Za-z0-9_-]+")
 
@@ -43,6 +46,9 @@ def _is_table_list(v) -> bool:
 
 def toml(tables: Mapping[str, Any]) -> str:
     """A scene's tables, plain keys first, as they stand in a file."""
+    if not isinstance(tables, Mapping):
+        raise TypeError(f"a scene is a dictionary, not {type(tables).__name__}; carom.Scene.load(path) reads a file, "
+                        "carom.Scene.parse(text) text")
     plain, rest = [], []
     for name, item in tables.items():
         if isinstance(item, Mapping):
@@ -57,3 +63,13 @@ def toml(tables: Mapping[str, Any]) -> str:
 
 def overrides(changes: Mapping[str, Any]) -> list:
     return [(key, value(v)) for key, v in changes.items()]
+
+
+@contextlib.contextmanager
+def in_words_of_python():
+    """What the command line calls -o and --force are arguments here."""
+    try:
+        yield
+    except SceneError as error:
+        text = str(error).replace(" with -o,", ",").replace("--force", "force=True").replace("--engine:", "engine:")
+        raise SceneError(text) from None

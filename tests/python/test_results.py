@@ -60,7 +60,7 @@ def test_the_viewer_is_one_page(result, tmp_path, monkeypatch):
 def test_the_viewer_replaces_no_file_unless_told_to(result, tmp_path):
     page = tmp_path / "page.html"
     page.write_text("mine")
-    with pytest.raises(carom.SceneError, match=r"page.html: exists already; "):
+    with pytest.raises(carom.SceneError, match=r"page.html: exists already; .* replace it with force=True$"):
         result.show(page)
     assert page.read_text() == "mine"
     before = open(result.frames.file, "rb").read()

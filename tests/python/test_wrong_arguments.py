@@ -1,0 +1,53 @@
+"""What a call says to arguments of the wrong kind: what it expected, in the words of Python."""
+
+import carom
+import pytest
+
+
+def scene(**tables):
+    return carom.Scene({
+        "box": {"width": 10.0, "height": 10.0}, "disks": [{"count": 5, "positions": "random", "radius": 0.5, "mass": 1.0}],
+        "run": {"t_end": 1.0}, **tables})
+
+
+@pytest.mark.parametrize("call", [carom.run, carom.Simulation])
+def test_a_file_or_a_dictionary_is_no_scene(call):
+    for wrong in ("gas.toml", {"run": {"t_end": 1.0}}, None):
+        with pytest.raises(TypeError, match=r"expected a carom.Scene, not \w+: carom.Scene.load"):
+            call(wrong)
+
+
+def test_a_scene_is_a_dictionary():
+    for wrong in ("gas.toml", 3, [1, 2]):
+        with pytest.raises(TypeError, match=r"a scene is a dictionary, not \w+; carom.Scene.load\(path\) reads a file"):
+            carom.Scene(wrong)
+
+
+def test_steps_threads_and_callbacks():
+    sim = carom.Simulation(scene(), threads=1)
+    for wrong in (1.5, "two"):
+        with pytest.raises(TypeError, match="cannot be interpreted as an integer"):
+            sim.step(wrong)
+        with pytest.raises(TypeError, match="cannot be interpreted as an integer"):
+            carom.Simulation(scene(), threads=wrong)
+    with pytest.raises(ValueError, match="could not convert string to float"):
+        sim.run(until="the end")
+    with pytest.raises(TypeError, match="expected a function of the simulation, not int"):
+        sim.every(1.0, 3)
+
+
+def test_what_a_run_did_not_write(tmp_path):
+    result = carom.run(scene(), out=tmp_path / "run")
+    with pytest.raises(carom.SceneError, match=r"analysis.h5: .* expected a scene with \[analysis\]"):
+        result.analysis
+    with pytest.raises(carom.SceneError, match=r"series.csv: .* expected a scene with series = true"):
+        result.series
+
+
+def test_options_of_the_command_line_are_arguments(tmp_path):
+    some = scene(output={"series": True})
+    carom.run(some, out=tmp_path / "run")
+    with pytest.raises(carom.SceneError, match="choose another folder, or replace it with force=True$"):
+        carom.run(some, out=tmp_path / "run")
+    with pytest.raises(carom.SceneError, match='^engine: there is no engine "refrence"'):
+        carom.run(some, engine="refrence")
