@@ -228,7 +228,7 @@ auto read_tables(const SceneOrigin& origin, std::string_view name, Read read) {
   std::vector<decltype(read(origin, std::string{}, toml::table{}))> all;
   const toml::node* node = origin.root->get(name);
   if (node == nullptr) return all;
-  const std::string expected = fmt::format("expected a table [[{}]]", name);
+  const std::string expected = fmt::format("expected a table [[{}]], in double brackets", name);
   const toml::array& list = as_list(origin, std::string(name), *node, expected);
   for (std::size_t k = 0; k < list.size(); ++k) {
     const std::string path = fmt::format("{}.{}", name, k);

@@ -105,7 +105,7 @@ inline constexpr SceneKey keys[] = {
 
     {"physics", "gravity", non_negative, Dimension::acceleration, "0",
      "Acceleration of all disks: a number is downwards, along -y; a list is a vector.", "gravity = [0.1, -0.5]",
-     "a number, 0 or more, or [gx, gy]"},
+     "a number, 0 or more, downwards, or [gx, gy]"},
     {"physics", "restitution", unit_interval, none, "1",
      "Speed of separation over speed of approach, along the line of centres, in a collision of two disks, fixed ones "
      "included.",

@@ -77,6 +77,26 @@ Number initial_number(const SceneKey& row) {
   throw std::logic_error(fmt::format("scene_keys.cpp: {} of {} is no number", row.initial, row.name));
 }
 
+// Markdown as plain text.
+std::string without_ticks(std::string_view markdown) {
+  std::string text(markdown);
+  std::erase(text, '`');
+  return text;
+}
+
+// " (gravity is a key of [physics])" for a key that other tables of a scene have; empty where none has it, or a key of
+// this table is as good a guess.
+std::string where_it_belongs(std::string_view table, std::string_view name) {
+  if (has_near_name(key_names(table), name)) return "";
+  std::string tables;
+  for (const SceneTable& other : scene_tables()) {
+    if (other.name.find('.') != std::string_view::npos || find_scene_key(other.name, name) == nullptr) continue;
+    tables += tables.empty() ? "" : ", ";
+    tables += other.name.empty() ? "the file itself, above all tables" : without_ticks(other.heading);
+  }
+  return tables.empty() ? "" : fmt::format(" ({} is a key of {})", name, tables);
+}
+
 constexpr double largest_exact_count = 9007199254740992.0;  // 2^53: above it a float cannot tell neighbours apart
 
 }  // namespace
@@ -173,8 +193,8 @@ std::vector<double> as_numbers(const SceneOrigin& origin, const std::string& key
 }
 
 std::vector<Vec2> as_pairs(const SceneOrigin& origin, const std::string& key, const toml::node& node) {
-  constexpr std::string_view expected = "expected a list of [x, y]";
-  const toml::array& list = as_list(origin, key, node, expected);
+  constexpr std::string_view expected = "expected two numbers in brackets";  // of an entry
+  const toml::array& list = as_list(origin, key, node, "expected a list of [x, y]");
   std::vector<Vec2> pairs;
   pairs.reserve(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -191,7 +211,8 @@ TableReader::TableReader(const SceneOrigin& origin, std::string path, const toml
     : origin_(&origin), path_(std::move(path)), kind_(kind.empty() ? table_of_path(path_) : kind), table_(&table) {
   for (const auto& [name, node] : table) {
     if (find_scene_key(kind_, name.str()) == nullptr) {
-      fail(name.str(), "unknown key", expected_one_of(key_names(kind_), name.str()));
+      fail(name.str(), "unknown key",
+           expected_one_of(key_names(kind_), name.str()) + where_it_belongs(kind_, name.str()));
     }
   }
 }
@@ -222,7 +243,10 @@ std::optional<double> TableReader::number(std::string_view name) const {
   if (node == nullptr) return std::nullopt;
   const double value = as_number(*origin_, key(name), *node);
   const std::string_view broken = broken_bound(key_row.kind, value);
-  if (!broken.empty()) fail(name, fmt::format("is {}", value), broken);
+  if (!broken.empty()) {
+    fail(name, fmt::format("is {}", value),
+         key_row.allowed.empty() ? std::string(broken) : "expected " + without_ticks(key_row.allowed));
+  }
   if (!in_range(key_row.dimension, value)) {
     fail(name, fmt::format("is {}", value), expected_range(key_row.dimension));
   }
