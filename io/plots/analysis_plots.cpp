@@ -14,6 +14,8 @@ namespace carom {
 
 namespace {
 
+constexpr std::size_t pair_letters = 15;  // of a group's name, where two stand beside a line
+
 // Leaves out what is not a number.
 Line line_of(std::string name, const std::vector<double>& x, const std::vector<double>& y,
              LineStyle style = LineStyle::solid) {
@@ -35,7 +37,8 @@ Figure pair_figure(const Scene& scene, const AnalysisRecord& record) {
   Panel panel{"g(r)", {}, true, false};
   panel.lines.push_back(line_of(record.partial.empty() ? "g(r)" : "all disks", g.middle, g.value));
   for (const PartialCurve& part : partial_curves(record, scene.analysis)) {
-    panel.lines.push_back(line_of(fmt::format("{}, {}", part.group, part.other), g.middle, part.g));
+    const auto name = [](const std::string& group) { return shortened(group, pair_letters); };
+    panel.lines.push_back(line_of(fmt::format("{}, {}", name(part.group), name(part.other)), g.middle, part.g));
   }
   const double end = panel.lines[0].x.empty() ? scene.analysis.pairs.r_max : panel.lines[0].x.back();
   panel.lines.push_back(level("random", end, 1.0));
@@ -131,7 +134,7 @@ Figure memory_figure(const Scene& scene, const AnalysisRecord& record, const std
   Panel panel{label, {}, false, false};
   std::vector<double> since;
   for (const double t : series.time) since.push_back(t - series.time.front());
-  panel.lines.push_back(line_of("mean", since, values));
+  panel.lines.push_back(line_of(label, since, values));
   return {heading(scene.title, subject), "time since the first sample", since.empty() ? 1.0 : since.back(), {panel}};
 }
 

@@ -26,10 +26,20 @@ constexpr std::size_t most_points = 4000;
 constexpr int width_pixels = 960;
 constexpr double panel_pixels = 310.0, top_pixels = 56.0, bottom_pixels = 76.0;
 constexpr double label_pixels = 19.0;  // least distance of two names
+// Room for the numbers at the vertical axis, as long as -1.2e-12, and what they are of; and for the names of lines,
+// from where they begin: those of most figures, or as much as the longest takes.
+constexpr double left_pixels = 130.0, usual_right_pixels = 125.0, name_begin_pixels = 27.0, letter_pixels = 9.2;
+constexpr std::size_t title_letters = 92;  // that a line across the picture holds
+constexpr std::size_t name_letters = 32;
 
 struct Range {
   double low = 0.0, high = 1.0;
 };
+
+// UTF-8: the other bytes of a letter are 10xxxxxx.
+bool begins_letter(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xc0U) != 0x80U;
+}
 
 // Heights as the axis shows them: of a logarithmic one, their logarithms.
 double shown(double y, bool logarithmic) {
@@ -113,19 +123,37 @@ std::vector<double> label_heights(const Panel& panel, const Range& range, bool l
   return heights;
 }
 
+// What stands in the margin beside a line's end.
+std::string margin_name(const Line& line, double x_end) {
+  const std::string name = shortened(line.name, name_letters);
+  return line.x.back() >= x_end ? name : name + ", gone";
+}
+
+double right_pixels(const Figure& figure, double x_end) {
+  double pixels = usual_right_pixels;
+  for (const Panel& panel : figure.panels) {
+    for (const Line& line : panel.lines) {
+      if (line.x.empty() || line.style == LineStyle::guide) continue;
+      const auto letters = static_cast<double>(letters_of(margin_name(line, x_end)));
+      pixels = std::max(pixels, name_begin_pixels + letter_pixels * letters);
+    }
+  }
+  return pixels;
+}
+
 // The name of a line in the margin, joined to the line's end; or, where it ends early, a cross there, as a stroke from
 // there to the margin would look like data.
 std::string name_commands(const Line& line, std::size_t tag, double height, double x_end, const char* colour) {
   if (line.style == LineStyle::guide) {
-    // Beside its end; above its beginning where it ends at the margin, among the other names.
+    // Left of its end, above it: to the right there may be no room. Above its beginning where it ends at the margin.
     const bool at_end = line.x.back() < x_end;
-    return fmt::format("set label {} {} at first {}, first {} left offset 0.7,{} textcolor rgb '{}'\n", tag,
-                       gnuplot_quoted(line.name), at_end ? line.x.back() : line.x.front(),
-                       at_end ? line.y.back() : line.y.front(), at_end ? -0.4 : 0.9, colour);
+    return fmt::format("set label {} {} at first {}, first {} {} textcolor rgb '{}'\n", tag, gnuplot_quoted(line.name),
+                       at_end ? line.x.back() : line.x.front(), at_end ? line.y.back() : line.y.front(),
+                       at_end ? "right offset -0.7,0.5" : "left offset 0.7,0.9", colour);
   }
   const bool to_the_end = line.x.back() >= x_end;
   std::string text = fmt::format("set label {} {} at graph 1.035, first {} left textcolor rgb '{}'\n", tag,
-                                 gnuplot_quoted(to_the_end ? line.name : line.name + ", gone"), height, colour);
+                                 gnuplot_quoted(margin_name(line, x_end)), height, colour);
   const std::string end = fmt::format("first {}, first {}", line.x.back(), line.y.back());
   if (to_the_end) {
     text += fmt::format("set arrow {} from {} to graph 1.03, first {} nohead lc rgb '{}' lw 0.7\n", tag, end, height,
@@ -191,10 +219,11 @@ std::string script_of(const Figure& figure) {
   std::string text = fmt::format(
       "set terminal svg size {},{} font 'sans-serif,15' linewidth 1 noenhanced background 'white'\n"
       "set output 'plot.svg'\n"
-      "set multiplot layout {},1 title {} font 'sans-serif,18' margins 0.115,0.87,{},{} spacing 0.06\n"
+      "set multiplot layout {},1 title {} font 'sans-serif,18' margins {},{},{},{} spacing 0.06\n"
       "unset key\nset border 3 lc rgb '#555555'\nset tics nomirror out scale 0.5 textcolor rgb '#222222'\n"
       "set grid lc rgb '#dddddd' lt 1 lw 0.6\nset format '%g'\n{}set xrange [{}:{}]\n",
-      width_pixels, height, panels, gnuplot_quoted(figure.title), bottom_pixels / height, 1.0 - top_pixels / height,
+      width_pixels, height, panels, gnuplot_quoted(figure.title), left_pixels / width_pixels,
+      1.0 - right_pixels(figure, x_end) / width_pixels, bottom_pixels / height, 1.0 - top_pixels / height,
       figure.logarithmic ? "set logscale xy\n" : "", x_begin(figure, x_end), x_end);
   std::size_t block = 0;
   for (std::size_t p = 0; p < panels; ++p) {
@@ -222,8 +251,22 @@ std::string data_of(const Figure& figure) {
 
 }  // namespace
 
+std::size_t letters_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_letter));
+}
+
+std::string shortened(const std::string& text, std::size_t most) {
+  if (letters_of(text) <= most) return text;
+  std::size_t end = 0;
+  for (std::size_t letters = 0; end < text.size(); ++end) {
+    if (begins_letter(text[end]) && ++letters == most) break;
+  }
+  return text.substr(0, end) + "…";
+}
+
 std::string heading(const std::string& title, const char* subject) {
-  return title.empty() ? subject : fmt::format("{}: {}", title, subject);
+  const std::string end(subject);
+  return title.empty() ? end : fmt::format("{}: {}", shortened(title, title_letters - end.size() - 2), end);
 }
 
 bool draw_svg(const Figure& figure, const std::string& path) {

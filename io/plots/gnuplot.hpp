@@ -1,6 +1,7 @@
 // One figure of stacked panels with lines that carry their names at their ends, as gnuplot draws it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -40,7 +41,12 @@ struct Figure {
   bool logarithmic = false;  // both axes; then all x and y are above 0, and the horizontal axis begins with the data
 };
 
-// What a figure is called: "title: subject", or the subject alone.
+std::size_t letters_of(const std::string& text);
+
+// Text (UTF-8) of so many letters at most (1 or more), the last of them "…" where some are left out.
+std::string shortened(const std::string& text, std::size_t most);
+
+// What a figure is called: "title: subject", or the subject alone. A long title is shortened, the subject stays.
 std::string heading(const std::string& title, const char* subject);
 
 // Writes the figure as SVG. Returns false, and writes nothing, where gnuplot is not installed. Throws RunError if it

@@ -62,9 +62,13 @@ TEST_F(Plot, VelocitiesOfTwoDisks) {
   const std::string path = at("velocity.svg");
   const std::string marker = at("injected");
   // A title is only text, whatever it says to gnuplot or to a shell.
-  ASSERT_TRUE(plot_velocity(path, "it's `touch " + marker + "`\n'; system('touch " + marker + "') <&> {/Bold é}", r));
+  for (const std::string& title : {"it's `touch " + marker + "`", "\n'; system('touch " + marker + "')"}) {
+    ASSERT_TRUE(plot_velocity(path, title, r));
+    EXPECT_TRUE(text_of(path).find(marker) != std::string::npos) << "all of it is shown";
+    EXPECT_FALSE(fs::exists(marker));
+  }
+  ASSERT_TRUE(plot_velocity(path, "it's <&> {/Bold é}", r));
   const std::string svg = text_of(path);
-  EXPECT_FALSE(fs::exists(marker));
   for (const char* const shown : {"disk 0", "disk 1", "time t", ">vx<", ">vy<", "&lt;&amp;", "é"}) {
     EXPECT_TRUE(svg.find(shown) != std::string::npos) << shown;
   }
@@ -137,6 +141,24 @@ TEST_F(Plot, LogarithmicAxesAndAGuide) {
     EXPECT_TRUE(svg.find(shown) != std::string::npos) << shown;
   }
   ASSERT_TRUE(draw_svg({"nothing", "t", 0.0, {{"y", {}}}, true}, path)) << "nor is nothing a reason to fail";
+}
+
+// A title and names of any length leave the subject to be read, and stay within the picture.
+TEST_F(Plot, LongTitlesAndNamesAreShortened) {
+  const std::string long_title = "é" + std::string(500, 'x');
+  EXPECT_EQ(shortened("é23", 3), "é23");
+  EXPECT_EQ(shortened("é234", 3), "é2…");
+  EXPECT_EQ(heading("gas", "energy"), "gas: energy");
+  EXPECT_THAT(heading(long_title, "energy"), ::testing::EndsWith("xx…: energy"));
+  EXPECT_EQ(letters_of(heading(long_title, "energy")), 92U);
+  const std::string path = at("long.svg");
+  const Line line{std::string(40, 'n'), {0.0, 1.0}, {0.0, 1.0}};
+  const Line gone{"short", {0.0, 0.5}, {1.0, 1.0}};
+  ASSERT_TRUE(draw_svg({heading(long_title, "energy"), "t", 1.0, {{"y", {line, gone}}}}, path));
+  const std::string svg = text_of(path);
+  EXPECT_TRUE(svg.find('>' + std::string(31, 'n') + "…<") != std::string::npos);
+  EXPECT_TRUE(svg.find(">short, gone<") != std::string::npos);
+  EXPECT_TRUE(svg.find("xx…: energy<") != std::string::npos);
 }
 
 TEST_F(Plot, AFullDiskIsAnError) {
