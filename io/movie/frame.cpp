@@ -45,8 +45,6 @@ constexpr double smallest_unit = 0.6;
 constexpr std::size_t few_disks = 5000;
 constexpr double smallest_of_few = 1.6;
 
-constexpr Colour obstacle_colour{150.0, 150.0, 150.0};
-
 // For drawing: what is drawn are disks.
 Disks as_disks(const std::vector<Obstacle>& obstacles) {
   Disks disks;

@@ -30,13 +30,15 @@ struct FrameStyle {
   std::vector<DiskId> group_ends{};        // see disk_group.hpp; only where groups are coloured
   DiskId groups = 0;                       // that the list of colours names
   std::vector<std::string> group_names{};  // by number, of those that have one
+  std::vector<bool> fixed_groups{};        // by number: those of fixed disks, which are grey
   std::vector<Obstacle> obstacles{};
   std::vector<WallMotion> wall_motions{};  // by number of a [[walls]] table; empty where no inner wall moves
 };
 
 // What a run's disks will have, as far as its scene and its first disks show. Speeds to expect are those at the start
 // (2.5 times the root mean square, or the fastest disk if it is slower), what falling to the floor adds on average,
-// what equipartition gives the lighter ones, what sources and Brownian motion bring in.
+// also to disks from sources, what equipartition gives the lighter ones, what sources, Brownian motion, thermostats,
+// thermal sides and moving walls bring in.
 SeenValues foreseen_values(const Scene& scene, const DisksInPieces& first);
 inline SeenValues foreseen_values(const Scene& scene, const Disks& first) {
   return foreseen_values(scene, WholeDisks(first, 0.0));

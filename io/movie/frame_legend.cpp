@@ -21,10 +21,14 @@ constexpr DiskId most_groups = 20;  // that are listed; there is no room for mor
 
 enum class Align { left, right, centre };
 
-void draw_text(cairo_t* c, const std::string& text, double x, double y, double size, Align align, bool bold = false) {
+void select_font(cairo_t* c, double size, bool bold) {
   cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(c, size);
+}
+
+void draw_text(cairo_t* c, const std::string& text, double x, double y, double size, Align align, bool bold = false) {
+  select_font(c, size, bold);
   cairo_text_extents_t extents;
   cairo_text_extents(c, text.c_str(), &extents);
   const double shift = align == Align::left ? 0.0 : align == Align::right ? 1.0 : 0.5;
@@ -34,12 +38,11 @@ void draw_text(cairo_t* c, const std::string& text, double x, double y, double s
 }
 
 // Cuts text at a character boundary until it is at most `room` wide at this size.
-std::string fitting(cairo_t* c, std::string text, double size, double room) {
+std::string fitting(cairo_t* c, std::string text, double size, double room, bool bold = false) {
   // No picture has room for more; measuring takes time for each letter.
   constexpr std::size_t most_bytes = 2000;
   text.resize(std::min(text.size(), most_bytes));
-  cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
-  cairo_set_font_size(c, size);
+  select_font(c, size, bold);
   cairo_text_extents_t extents;
   cairo_text_extents(c, text.c_str(), &extents);
   if (extents.x_advance <= room) return text;
@@ -148,7 +151,8 @@ void draw_groups(cairo_t* c, const FrameStyle& style, const FrameLayout& layout)
   const DiskId listed = std::min({style.groups, most_groups, fits});
   double y = top_margin * u;
   for (DiskId group = 0; group < listed; ++group, y += 26.0 * u) {
-    set_colour(c, group_colour(group));
+    const bool fixed = group < style.fixed_groups.size() && style.fixed_groups[group];
+    set_colour(c, fixed ? obstacle_colour : group_colour(group));
     cairo_rectangle(c, x, y, 16.0 * u, 16.0 * u);
     cairo_fill(c);
     const bool named = group < style.group_names.size() && !style.group_names[group].empty();
@@ -193,7 +197,7 @@ void draw_kinds_of_side(cairo_t* c, const FrameStyle& style, const FrameLayout& 
 void draw_legends(cairo_t* c, const FrameStyle& style, const FrameLayout& layout) {
   const double u = layout.unit;
   const double room = layout.width - 2.0 * left_margin * u;
-  draw_text(c, fitting(c, style.title, 22.0 * u, room), left_margin * u, 34.0 * u, 22.0 * u, Align::left, true);
+  draw_text(c, fitting(c, style.title, 22.0 * u, room, true), left_margin * u, 34.0 * u, 22.0 * u, Align::left, true);
   if (style.look.colour == ColourBy::group) {
     draw_groups(c, style, layout);
   } else {

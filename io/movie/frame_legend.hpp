@@ -7,6 +7,7 @@ namespace carom {
 
 inline constexpr double left_margin = 28.0, right_margin = 132.0, top_margin = 78.0, bottom_margin = 48.0;  // units
 inline constexpr double side_width = 4.0;  // of a wall's line; units
+inline constexpr Colour obstacle_colour{150.0, 150.0, 150.0};
 
 // What no frame changes.
 void draw_legends(_cairo* context, const FrameStyle& style, const FrameLayout& layout);

@@ -75,13 +75,46 @@ ValueRange mass_range(const Source& source) {
   return {scale * radius.low * radius.low, scale * radius.high * radius.high};
 }
 
+// Of disks of this mass at a temperature.
+double thermal_square(double temperature, double mass) {
+  return mass > 0.0 ? tail * 2.0 * temperature / mass : 0.0;
+}
+
 double source_square(const Source& source) {
   if (source.velocities.kind == VelocityLaw::Kind::uniform)
     return 2.0 * source.velocities.limit * source.velocities.limit;
   if (source.velocities.kind != VelocityLaw::Kind::maxwell) return 0.0;
-  // A mass that is not a constant is of the order of the numbers that describe it.
-  const double mass = source.mass.kind == SizeLaw::Kind::from_other ? 1.0 : size_range(source.mass).low;
-  return mass > 0.0 ? tail * 2.0 * source.velocities.temperature / mass : 0.0;
+  return thermal_square(source.velocities.temperature, mass_range(source).low);
+}
+
+// What falling adds to disks from a source, from the middle of where they come in.
+double falling_square(const Source& source, const Gravity& gravity, const Domain& box) {
+  double x = 0.5 * (source.region_low.x + source.region_high.x);
+  double y = 0.5 * (source.region_low.y + source.region_high.y);
+  if (source.side) {
+    x = *source.side == Side::left ? 0.0 : *source.side == Side::right ? box.width : 0.5 * box.width;
+    y = *source.side == Side::bottom ? 0.0 : *source.side == Side::top ? box.height : 0.5 * box.height;
+  }
+  const double radius = radius_range(source).low;
+  return 2.0 * (std::abs(gravity.down) * way_down(gravity.down, y, radius, box.height) +
+                std::abs(gravity.left) * way_down(gravity.left, x, radius, box.width));
+}
+
+// The least mass that a disk may have; 0 without disks.
+double least_mass(const Scene& scene, const SeenValues& seen) {
+  double least = seen.any ? seen.mass.low : HUGE_VAL;
+  for (const Source& source : scene.sources) least = std::min(least, mass_range(source).low);
+  return least < HUGE_VAL ? least : 0.0;
+}
+
+// What thermal sides and thermostats give to disks, and walls that move to disks at rest.
+double driven_square(const Scene& scene, const SeenValues& seen) {
+  double temperature = scene.physics.thermostat.temperature, speed = fastest_inner_wall(scene);
+  for (const Side side : all_sides) {
+    temperature = std::max(temperature, scene.box.temperature(side));
+    speed = std::max(speed, scene.box.motions[static_cast<std::size_t>(side)].largest_speed());
+  }
+  return std::max(thermal_square(temperature, least_mass(scene, seen)), 4.0 * speed * speed);
 }
 
 // So many decimals that multiples of the frame interval differ and are shown exactly, up to four.
@@ -108,7 +141,10 @@ FrameStyle frame_style(const Scene& scene, const PictureLook& look, const SeenVa
   style.time_decimals = decimals_for(scene.output.every, scene.run.t_end);
   style.group_ends = ends_of_groups(scene);
   style.groups = static_cast<DiskId>(scene.groups.size() + (scene.sources.empty() ? 0 : 1));
-  for (const DiskGroup& group : scene.groups) style.group_names.push_back(group.name);
+  for (const DiskGroup& group : scene.groups) {
+    style.group_names.push_back(group.name);
+    style.fixed_groups.push_back(group.fixed);
+  }
   if (!scene.sources.empty()) style.group_names.emplace_back(sources_name);
   style.obstacles = obstacles_of(scene);
   style.wall_motions = motions_of(scene);
@@ -122,7 +158,10 @@ SeenValues foreseen_values(const Scene& scene, const DisksInPieces& first) {
   double square = seen.speed_square;
   if (!disks_dissipate(scene)) square = std::max(square, tail * shared_square(first));
   if (physics.gravity.acts()) square += falling_square(first, physics.gravity, scene.box);
-  for (const Source& source : scene.sources) square = std::max(square, source_square(source));
+  for (const Source& source : scene.sources) {
+    square = std::max(square, source_square(source) + falling_square(source, physics.gravity, scene.box));
+  }
+  square = std::max(square, driven_square(scene, seen));
   if (physics.diffusion > 0.0 && scene.run.dt > 0.0) {
     const double brownian = 4.0 * physics.diffusion / scene.run.dt;  // mean of (u / dt)^2, both components
     square = physics.accumulate ? square + brownian : tail * brownian;

@@ -153,6 +153,48 @@ TEST(FrameStyle, SpeedScaleCoversWhatIsExpected) {
   EXPECT_EQ(predicted(scene, rest).high, 10.0) << "sqrt(2.5 * 4 D / dt)";
 }
 
+// What comes later makes disks as fast as what is there.
+TEST(FrameStyle, SpeedScaleCoversWhatComesLater) {
+  Scene scene;
+  scene.box = square_box(10.0);
+  scene.run.t_end = 10.0;
+  const Disks rest = one_disk(5.0, 5.0, 0.0, 1.0);
+  Scene rain = scene;
+  Source& source = rain.sources.emplace_back();
+  source.region_low = source.region_high = {5.0, 9.0};
+  source.radius.value = source.mass.value = 1.0;
+  source.rate = 1.0;
+  rain.physics.gravity = 1.0;
+  EXPECT_EQ(predicted(rain, {}).high, 4.0) << "sqrt(2 g 8)";
+  rain.sources[0].side = Side::top;
+  EXPECT_EQ(predicted(rain, {}).high, 5.0) << "sqrt(2 g 9) = 4.2";
+  Scene heated = scene;
+  heated.box.temperatures[0] = 5.0;
+  EXPECT_EQ(predicted(heated, rest).high, 5.0) << "sqrt(2.5 * 2 T / m)";
+  Scene kicked = scene;
+  kicked.physics.thermostat = {Thermostat::Kind::langevin, 20.0, 1.0, 0.1};
+  EXPECT_EQ(predicted(kicked, rest).high, 10.0);
+  Scene pushed = scene;
+  pushed.box.motions[0].kind = SideMotion::Kind::steady;
+  pushed.box.motions[0].speed = 4.0;
+  EXPECT_EQ(predicted(pushed, rest).high, 8.0) << "twice the wall's speed";
+}
+
+// The list of groups has fixed disks in the grey in which they are drawn.
+TEST(FrameStyle, GroupsOfFixedDisksAreGrey) {
+  Scene scene;
+  scene.box = square_box(10.0);
+  scene.groups.resize(2);
+  scene.groups[0].count = 1;
+  scene.groups[1].fixed = true;
+  scene.output.look.colour = ColourBy::group;
+  FramePainter painter(predicted(scene, one_disk(5.0, 5.0, 0.0, 1.0)));
+  painter.paint({}, 0.0);
+  const int column = painter.width() - 100, row = 86;  // within the first square of the list
+  EXPECT_EQ(pixel(painter, column, row), packed(group_colour(0)));
+  EXPECT_EQ(pixel(painter, column, row + 26), packed({150, 150, 150}));
+}
+
 Disks two_kinds() {
   Disks d = one_disk(2.5, 7.5, 1.0, 1.0);
   append(d, {7.5, 2.5, 0.0, 0.0, 2.0, 9.0, 10});
