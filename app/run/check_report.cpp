@@ -94,7 +94,8 @@ std::string physics_text(const Scene& scene) {
   std::string text = gravity_text(p.gravity);
   const bool elastic = p.restitution == 1.0 && !p.law.dissipates();
   text += !elastic ? fmt::format("restitution {}", restitutions_text(scene)) : "elastic collisions";
-  text += walls_text(scene.box);
+  const std::string walls = walls_text(scene.box);
+  text += elastic && walls == ", 1 at walls" ? ", at walls too" : walls;
   if (scene.box.inner_walls_move) text += ", inner walls move";
   text += surfaces_text(p.surfaces);
   if (p.diffusion > 0.0) {
