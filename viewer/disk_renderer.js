@@ -12,7 +12,7 @@ layout(location = 2) in vec2 d;
 layout(location = 3) in float radius;
 layout(location = 4) in float value;
 uniform vec2 quantum, shift, centre, size;
-uniform float scale, part, low, perSpan, reach;
+uniform float scale, part, low, perSpan, reach, least;
 uniform bool bySpeed;
 uniform sampler2D palette;
 out vec4 colour;
@@ -26,7 +26,7 @@ vec4 colourOf() {
 const pointShader = `${head}
 out float rim;
 void main() {
-  rim = max(abs(radius) * scale, 0.75);
+  rim = max(abs(radius) * scale, least);
   colour = colourOf();
   gl_PointSize = 2.0 * (rim + 1.0);
   gl_Position = vec4(place() * 2.0 / size, 0.0, 1.0);
@@ -36,7 +36,7 @@ out vec2 from;
 out float rim;
 void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-  rim = max(abs(radius) * scale, 0.75);
+  rim = max(abs(radius) * scale, least);
   from = corner * (rim + 1.0);
   colour = colourOf();
   gl_Position = vec4((place() + from) * 2.0 / size, 0.0, 1.0);
@@ -213,12 +213,13 @@ export class DiskRenderer {
     const edge = made === this.points.made ? this.largestPoint : 0;
     gl.viewport(-edge, -edge, canvas.width + 2 * edge, canvas.height + 2 * edge);
     gl.uniform2f(at.size, canvas.width + 2 * edge, canvas.height + 2 * edge);
-    const [least, most] = look.range;
-    const perSpan = 1 / Math.max(most - least, 1e-300);
-    gl.uniform1f(at.low, look.bySpeed ? least * perSpan : least);
+    const [low, high] = look.range;
+    const perSpan = 1 / Math.max(high - low, 1e-300);
+    gl.uniform1f(at.low, look.bySpeed ? low * perSpan : low);
     gl.uniform1f(at.perSpan, look.bySpeed ? look.perTime * perSpan : perSpan);
     gl.uniform2f(at.shift, 0, 0);
     gl.uniform1f(at.scale, look.camera.scale * look.density);
+    gl.uniform1f(at.least, look.least);
     gl.uniform1f(at.part, look.part);
     gl.uniform1f(at.strength, 1);
     gl.uniform1i(at.bySpeed, look.bySpeed ? 1 : 0);
@@ -241,7 +242,8 @@ export class DiskRenderer {
 
   // A point is dropped where its centre is out of view, so the view is wider by a point; see use().
   useDisks(look) {
-    this.asPoints = 2 * (Math.max(0.75, this.largest * look.camera.scale * look.density) + 1) <= this.largestPoint;
+    this.asPoints =
+      2 * (Math.max(look.least, this.largest * look.camera.scale * look.density) + 1) <= this.largestPoint;
     return this.use(this.asPoints ? this.points : this.disks, look);
   }
 

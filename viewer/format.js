@@ -22,6 +22,8 @@ export function roundAbove(value) {
   return 10 * power;
 }
 
+export const counted = (n, what) => `${n} ${what}${n === 1 ? "" : "s"}`;
+
 export const element = (id) => document.getElementById(id);
 
 // Text never becomes markup: names come from the scene.

@@ -17,7 +17,8 @@ window.caromLive = {
     return answer.text();
   },
 
-  async follow(viewer) {
+  async follow(viewer, tellStory) {
+    this.tellStory = tellStory;
     document.getElementById("loop").click();
     viewer.jump(viewer.playback.last);
     viewer.store.blocks.forEach((_, k) => this.textOf(`block${k}`));
@@ -52,8 +53,7 @@ window.caromLive = {
       head.fast = news.fast;
       head.insets.forEach((inset, side) => inset?.push(...news.insets[side]));
       head.shifts.forEach((shift, wall) => shift?.push(...news.shifts[wall]));
-      document.getElementById("story").textContent =
-        `${head.disks} disks, ${head.frames} frames, carom ${head.version}`;
+      this.tellStory(head);
     }
     viewer.plots.setSeries(news.series);
     playback.setTimes(store.times);

@@ -1,7 +1,12 @@
 // Reads the data of the page and shows them, or says why not.
-import { element } from "./format.js";
+import { counted, element } from "./format.js";
 import { Store } from "./store.js";
 import { Viewer } from "./viewer.js";
+
+// What the page plays, in the line beside its title.
+function tellStory({ disks, frames, version }) {
+  element("story").textContent = `${counted(disks, "disk")}, ${counted(frames, "frame")}, carom ${version}`;
+}
 
 async function begin() {
   const fail = (message) => {
@@ -16,7 +21,7 @@ async function begin() {
     return;
   }
   element("title").textContent = head.title || "a run";
-  element("story").textContent = `${head.disks} disks, ${head.frames} frames, carom ${head.version}`;
+  tellStory(head);
   if (head.leftOut.length) {
     element("left-out").textContent = `This page ${head.leftOut.join(", and ")}.`;
     element("left-out").hidden = false;
@@ -31,7 +36,7 @@ async function begin() {
     viewer.start();
     if (missing) viewer.say(missing);
     window.carom = viewer;
-    window.caromLive?.follow(viewer);
+    window.caromLive?.follow(viewer, tellStory);
   } catch (error) {
     fail(error.message);
   }

@@ -1,5 +1,5 @@
 // What is drawn over the disks: the sides of the box, sources, the picked disk and its path, the scale bar, the time.
-import { roundBelow, shortNumber } from "./format.js";
+import { counted, roundBelow, shortNumber } from "./format.js";
 
 const sideNames = ["left", "right", "bottom", "top"];
 
@@ -22,13 +22,22 @@ export function sideSentence({ box, insets, sources, obstacles, walls }) {
     [box.sides.includes("periodic"), "periodic sides dashed"],
     [box.sides.includes("sink") || walls.some((wall) => wall[4]), "sinks dotted"],
     [sources.length, "sources green"],
-    [obstacles.length, `${obstacles.length} obstacles grey`],
+    [obstacles.length, `${counted(obstacles.length, "obstacle")} grey`],
   ];
   return `Sides: ${words.join(", ")}. Drawn: ${keys.flatMap(([there, text]) => (there ? [text] : [])).join(", ")}.`;
 }
 
-// The box with its obstacles; those that reach over a periodic side twice.
+// Until restore() nothing is drawn outside of the box.
+function clipToBox(context, camera, { width, height }) {
+  context.save();
+  context.beginPath();
+  context.rect(...camera.toPage(0, height), width * camera.scale, height * camera.scale);
+  context.clip();
+}
+
+// What of the obstacles lies in the box, as movies have it; those that reach over a periodic side twice.
 function drawObstacles(context, camera, { box, axes, obstacles }, colours) {
+  clipToBox(context, camera, box);
   context.fillStyle = colours.faint;
   context.beginPath();
   const turns = (axis, at, r, size) => (!axis.periodic ? [0] : at < r ? [0, size] : at > size - r ? [0, -size] : [0]);
@@ -42,6 +51,7 @@ function drawObstacles(context, camera, { box, axes, obstacles }, colours) {
     }
   }
   context.fill();
+  context.restore();
 }
 
 function drawWall(context, camera, [x0, y0, x1, y1], kind, colour) {
@@ -60,10 +70,7 @@ function drawMovingWall(context, camera, { box, axes }, [x0, y0, x1, y1, sink], 
     const turn = axes[k].periodic ? Math.floor((at + shift[k]) / size) : 0;
     return (axes[k].periodic ? [-1, 0, 1] : [0]).map((n) => shift[k] + (n - turn) * size);
   };
-  context.save();
-  context.beginPath();
-  context.rect(...camera.toPage(0, box.height), box.width * camera.scale, box.height * camera.scale);
-  context.clip();
+  clipToBox(context, camera, box);
   for (const x of turns(0, x0, box.width)) {
     for (const y of turns(1, y0, box.height)) {
       drawWall(context, camera, [x0 + x, y0 + y, x1 + x, y1 + y], sink ? "sink" : "wall", colour);

@@ -31,7 +31,7 @@ export function showLegend(name, range, store) {
     const swatch = make("i");
     swatch.style.background = cssColour(groupColours[number % 8]);
     const item = make("li");
-    item.append(swatch, store.head.groups[number] || `group ${number + 1}`);
+    item.append(swatch, store.head.groups[number] || `group ${number}`);
     list.append(item);
   }
 }
@@ -50,7 +50,7 @@ export function factsOf(store, k, place, i) {
   ];
   if (store.head.grouped) {
     const number = store.group[place];
-    facts.push(["group", store.head.groups[number] || String(number + 1)]);
+    facts.push(["group", store.head.groups[number] || String(number)]);
   }
   if (i < 0) return [...facts, ["place", "not in this frame"]];
   const frame = store.frame(k);

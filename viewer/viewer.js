@@ -12,6 +12,7 @@ import { Playback } from "./playback.js";
 import { Plots } from "./plots.js";
 
 const mostTrail = 24; // frames
+const manyDisks = 5000; // of fewer, each is drawn 1.6 pixels in radius or more, as in movies
 
 export class Viewer {
   constructor(store) {
@@ -228,6 +229,7 @@ export class Viewer {
       range: this.range ?? [0, 1],
       bySpeed: this.colour === "speed",
       perTime: this.perTime ?? 1,
+      least: this.store.id.length > manyDisks ? 0.75 : 1.6 * this.density,
       part: element("smooth").checked ? this.playback.part : 0,
       time: element("smooth").checked ? this.playback.time : this.store.times[this.playback.frame],
       images: element("images").checked,

@@ -49,7 +49,7 @@ test("obstacles and inner walls stand where they are, and a moving side where it
     "[run]",
     "[[disks]]\nfixed = true\ncount = 1\npositions = [[19.8, 1]]\nradius = 0.5\n[[walls]]\nfrom = [8, 5]\nto = [8, 7]\n[run]",
   );
-  let page = await showAt("fixed", obstacle, /walls are whole lines.* 1 obstacles grey/);
+  let page = await showAt("fixed", obstacle, /walls are whole lines.* 1 obstacle grey/);
   const grey = await hex(page, "faint");
   assert.deepEqual(
     await coloursAt(page, [
@@ -59,6 +59,7 @@ test("obstacles and inner walls stand where they are, and a moving side where it
     [grey, grey],
     "on both edges of the periodic side",
   );
+  assert.deepEqual(await coloursAt(page, [[20.15, 1]]), [await hex(page, "ground")], "and not beyond it");
   assert.deepEqual(await coloursAt(page, [[8, 6]]), [await hex(page, "ink")], "an inner wall");
   await page.close();
   const inside = restScene().replace('left = "periodic"\nright = "periodic"\n', "").replace("[0.2, 6]", "[2, 6]");

@@ -126,7 +126,7 @@ test("colours, trails, arrows, images and both themes draw something else, witho
   assert.equal(await page.locator("#groups li").count(), 0);
   await page.selectOption("#colour", "group");
   await drawn(page, 20);
-  assert.deepEqual(await page.locator("#groups li").allTextContents(), ["group 1", "heavy", "sources"]);
+  assert.deepEqual(await page.locator("#groups li").allTextContents(), ["group 0", "heavy", "sources"]);
   for (const id of ["trails", "arrows", "images", "dark"]) {
     await page.click(`#${id}`);
     await drawn(page, 20);
