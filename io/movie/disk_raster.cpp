@@ -40,7 +40,7 @@ void tint_point(const PixelArea& area, double x, double y, double r, const Colou
 void fill_disk(const PixelArea& area, double x, double y, double r, const Colour& colour) {
   if (x + r < area.left - 1 || x - r > area.right + 1 || y + r < area.top - 1 || y - r > area.bottom + 1) return;
   if (r < smallest_round) return tint_point(area, x, y, r, colour);
-  const double rim = r >= smallest_rimmed ? rim_width : 0.0;
+  const double edge = rim_shade(r);
   const int left = std::max(area.left, static_cast<int>(std::floor(x - r - 0.5)));
   const int right = std::min(area.right, static_cast<int>(std::ceil(x + r + 0.5)));
   const int top = std::max(area.top, static_cast<int>(std::floor(y - r - 0.5)));
@@ -52,8 +52,8 @@ void fill_disk(const PixelArea& area, double x, double y, double r, const Colour
       const double distance = std::sqrt(dx * dx + dy * dy);
       const double share = std::min(r + 0.5 - distance, 1.0);
       if (share <= 0.0) continue;
-      const double inside = std::clamp(r - rim + 0.5 - distance, 0.0, 1.0);
-      const double shade = rim > 0.0 ? rim_shade + (1.0 - rim_shade) * inside : 1.0;
+      const double inside = std::clamp(r - rim_width + 0.5 - distance, 0.0, 1.0);
+      const double shade = edge + (1.0 - edge) * inside;
       tint(area, column, row, {colour.red * shade, colour.green * shade, colour.blue * shade}, share);
     }
   }

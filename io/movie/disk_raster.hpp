@@ -1,6 +1,7 @@
 // Filling disks into an image, quickly: a million disks take a few milliseconds where a vector library takes seconds.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "io/movie/colour_map.hpp"
@@ -14,9 +15,15 @@ struct PixelArea {
   int left = 0, top = 0, right = 0, bottom = 0;  // right and bottom are exclusive
 };
 
-inline constexpr double smallest_rimmed = 3.0;  // pixels; a rim on smaller disks would be all one sees
-inline constexpr double rim_width = 1.0;        // pixels
-inline constexpr double rim_shade = 0.35;       // of the disk's own colour
+inline constexpr double rim_width = 1.0;  // pixels
+
+// The rim of a disk of this radius (pixels), as a share of its own colour: dark around large ones, as a rim on small
+// disks would be all one sees; and in between no step, by which some disks of a mixture would stand out.
+inline double rim_shade(double radius) {
+  constexpr double smallest_rimmed = 3.0, fully_rimmed = 6.0, darkest = 0.35;
+  const double strength = std::clamp((radius - smallest_rimmed) / (fully_rimmed - smallest_rimmed), 0.0, 1.0);
+  return 1.0 - strength * (1.0 - darkest);
+}
 
 // Fills the disk with centre (x, y) and radius r, in pixels, with smooth edges; large ones get a dark rim, so that
 // disks in contact stay apart to the eye. A disk smaller than a pixel tints the pixels around it by its area.

@@ -241,13 +241,12 @@ void FramePainter::write_svg(const std::string& path, const Disks& disks, double
     cairo_clip(c);
     const auto draw = [c](double x, double y, double radius, const Colour& colour) {
       // A rim as in fill_disk, within the disk's radius.
-      const double rim = radius >= smallest_rimmed ? rim_width : 0.0;
-      const double shade = rim > 0.0 ? rim_shade : 1.0;
+      const double shade = rim_shade(radius);
       cairo_arc(c, x, y, radius, 0.0, 2.0 * std::numbers::pi);
       cairo_set_source_rgb(c, shade * colour.red / 255.0, shade * colour.green / 255.0, shade * colour.blue / 255.0);
       cairo_fill(c);
-      if (rim == 0.0) return;
-      cairo_arc(c, x, y, radius - rim, 0.0, 2.0 * std::numbers::pi);
+      if (shade == 1.0) return;
+      cairo_arc(c, x, y, radius - rim_width, 0.0, 2.0 * std::numbers::pi);
       cairo_set_source_rgb(c, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
       cairo_fill(c);
     };

@@ -74,6 +74,23 @@ TEST(DiskRaster, AreaIsThatOfTheDisk) {
   }
 }
 
+// In a mixture no size is a border beyond which disks look different.
+TEST(DiskRaster, RimsComeGraduallyWithTheRadius) {
+  const auto image_of = [](double r) {
+    std::array<std::uint32_t, 32 * 32> image{};
+    fill_disk({image.data(), 32, 0, 0, 32, 32}, 16.0, 16.0, r, {200.0, 0.0, 0.0});
+    return image;
+  };
+  for (double r = 1.0; r < 10.0; r += 0.02) {
+    const auto some = image_of(r), more = image_of(r + 0.02);
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      EXPECT_NEAR(static_cast<double>(some[k] >> 16), static_cast<double>(more[k] >> 16), 8.0) << r;
+    }
+  }
+  EXPECT_EQ(rim_shade(2.9), 1.0);
+  EXPECT_NEAR(rim_shade(6.0), 0.35, 1e-12);
+}
+
 TEST(DiskRaster, NothingOutsideTheArea) {
   std::array<std::uint32_t, 16 * 16> image{};
   for (const double x : {-3.0, 4.0, 8.0, 11.9, 20.0}) {
