@@ -110,6 +110,18 @@ Panel band_panel(const char* y_label, const VelocityRecord& record,
   return panel;
 }
 
+// What the total has beyond the other two, which is that of rough disks' spins; empty where that is but rounding.
+std::vector<double> rotational(const EnergyRecord& record) {
+  std::vector<double> energy;
+  bool there = false;
+  for (std::size_t k = 0; k < record.t.size(); ++k) {
+    const double rest = record.total[k] - record.kinetic[k] - record.potential[k];
+    energy.push_back(rest);
+    there = there || std::abs(rest) > 1e-9 * (std::abs(record.kinetic[k]) + std::abs(record.potential[k]));
+  }
+  return there ? energy : std::vector<double>{};
+}
+
 }  // namespace
 
 void record(VelocityRecord& record, const DisksInPieces& disks) {
@@ -147,6 +159,8 @@ bool plot_energy(const std::string& path, const std::string& title, const Energy
   const bool has_potential =
       std::any_of(record.potential.begin(), record.potential.end(), [](double u) { return u != 0.0; });
   if (has_potential) panel.lines.push_back({"potential", record.t, record.potential});
+  const std::vector<double> spins = rotational(record);
+  if (!spins.empty()) panel.lines.push_back({"rotational", record.t, spins});
   return draw_svg({heading(title, "energy"), "time t", record.t.empty() ? 0.0 : record.t.back(), {panel}}, path);
 }
 

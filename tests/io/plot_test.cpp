@@ -131,6 +131,15 @@ TEST_F(Plot, NothingToShowIsStillAPlot) {
   EXPECT_TRUE(text_of(path).find("potential") != std::string::npos);
 }
 
+// Where total is more than kinetic and potential, spins have the rest, and a line of their own.
+TEST_F(Plot, TheEnergyOfSpinsIsALine) {
+  const std::string path = at("energy.svg");
+  ASSERT_TRUE(plot_energy(path, "smooth", {{0.0, 1.0}, {2.0, 0.2}, {1.0, 0.1}, {3.0, 0.3}}));
+  EXPECT_TRUE(text_of(path).find("rotational") == std::string::npos);
+  ASSERT_TRUE(plot_energy(path, "rough", {{0.0, 1.0}, {2.0, 1.5}, {1.0, 1.0}, {3.0, 3.0}}));
+  EXPECT_TRUE(text_of(path).find(">rotational<") != std::string::npos);
+}
+
 TEST_F(Plot, LogarithmicAxesAndAGuide) {
   const std::string path = at("log.svg");
   const Line curve{"measured", {0.1, 1.0, 100.0}, {1e-3, 1.0, 1e3}};
