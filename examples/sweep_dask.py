@@ -6,6 +6,7 @@
 Each run is on one thread of a worker, and comes to the same bits on any of them.
 """
 
+import contextlib
 import sys
 
 import carom
@@ -31,17 +32,16 @@ def compressibility(scene):
 
 def main():
     fractions, seeds = (0.1, 0.2, 0.3), (1, 2, 3, 4)
-    if len(sys.argv) > 1:
-        client = Client(sys.argv[1])
-    else:
-        client = Client(LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None))
     scenes = [gas(f, seed) for f in fractions for seed in seeds]
-    runs = client.gather(client.map(compressibility, scenes))
+    with contextlib.ExitStack() as open_until_done:  # a cluster of others goes on
+        address = sys.argv[1] if len(sys.argv) > 1 else open_until_done.enter_context(
+            LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None))
+        client = open_until_done.enter_context(Client(address))
+        runs = client.gather(client.map(compressibility, scenes))
     for k, f in enumerate(fractions):
         values = [z for z, _ in runs[k * len(seeds):(k + 1) * len(seeds)]]
         print(f"{f} {sum(values) / len(values):.4f}")
     print("hashes", *(state_hash for _, state_hash in runs))
-    client.shutdown()
 
 
 if __name__ == "__main__":

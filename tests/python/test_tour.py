@@ -48,7 +48,9 @@ def test_the_tour(monkeypatch, capsys):
 def test_a_sweep_over_two_workers():
     pytest.importorskip("distributed")
     line = [sys.executable, source / "examples/sweep_dask.py"]
-    told = subprocess.run(line, check=True, capture_output=True, text=True, timeout=100).stdout.splitlines()
+    done = subprocess.run(line, check=True, capture_output=True, text=True, timeout=100)
+    assert "Traceback" not in done.stderr, done.stderr
+    told = done.stdout.splitlines()
     z = {float(f): float(value) for f, value in (row.split() for row in told[:3])}
     for fraction, published in ((0.1, 1.236144), (0.3, 2.06326)):
         assert abs(z[fraction] / published - 1.0) < 0.03
