@@ -153,7 +153,8 @@ TEST(BadLaw, OneLineEach) {
               StartsWith("gas.toml:8: physics.restitution.viscoelastic: is 0; expected a number above 0"));
   EXPECT_THAT(with_law("{ viscoelastic = 0.1, least = 1 }"),
               StartsWith("gas.toml:8: physics.restitution.least: is 1, so that no collision loses energy; expected"));
-  EXPECT_THAT(with_law("{ viscoelastic = 0.1, least = -1 }"), HasSubstr("least: is -1; expected a number from 0 to 1"));
+  EXPECT_THAT(with_law("{ viscoelastic = 0.1, least = -1 }"),
+              HasSubstr("least: is -1; expected a number from 0 to below 1"));
   EXPECT_THAT(with_law("{ viscoelasitc = 0.1 }"), HasSubstr("unknown key; expected one of viscoelastic, least"));
   EXPECT_THAT(with_law("\"soft\""), StartsWith("gas.toml:8: physics.restitution: is a string; expected a number"));
   EXPECT_EQ(with_law("{ viscoelastic = 0.1 }\ndiffusion = 0.1"),
