@@ -212,8 +212,10 @@ void RunOutputs::draw_plots() {
 // that ends too soon: they can be made from what is there. A movie without a trajectory cannot.
 void RunOutputs::remove_old_pictures() {
   std::error_code ignored;
-  for (const std::string_view plot : {"velocity", "energy"}) fs::remove(folder_.path(plot_name(plot)), ignored);
-  for (const std::string_view plot : quantity_names) fs::remove(folder_.path(plot_name(plot)), ignored);
+  for (const std::string& plot : scene_.output.plots) fs::remove(folder_.path(plot_name(plot)), ignored);
+  for (std::size_t k = 0; k < quantity_names.size(); ++k) {
+    if (scene_.analysis.wanted[k]) fs::remove(folder_.path(plot_name(quantity_names[k])), ignored);
+  }
   const fs::path movie = folder_.path(movie_name(MovieFormat::mp4));
   if (lost_movie_.empty() || frames_ == frames_before_ || !fs::exists(movie, ignored)) return;
   if (scene_.output.trajectory != TrajectoryFormat::none) {
