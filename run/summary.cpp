@@ -109,8 +109,9 @@ const JsonKey<Summary> summary_keys[] = {
      "relative to it at the end); null likewise",
      [](const Summary& s) -> Json { return json_number(s.pressure); }},
     {"collision_rate", "1 / time",
-     "collisions that a disk takes part in per unit time, over the time that all disks were there; one that a sink "
-     "takes counts for half of that step, or window of exact",
+     "collisions that a disk takes part in per unit time, over the time that all disks were there; in time stepping "
+     "one "
+     "that a sink takes counts for half of that step",
      [](const Summary& s) -> Json { return json_number(s.collision_rate); }},
     {"removed", "", "disks that sinks have taken", [](const Summary& s) -> Json { return s.counters.removed; }},
     {"emitted", "", "disks that came from sources", [](const Summary& s) -> Json { return s.counters.emitted; }},

@@ -12,16 +12,16 @@
 namespace carom {
 
 struct Counters {
-  Count steps = 0;                        // steps of dt (frames for rollback, windows for exact)
-  Count collisions = 0;                   // disk-disk
-  Count wall_collisions = 0;              // disk-wall
-  Count removed = 0;                      // by sinks
-  Count emitted = 0;                      // by sources
-  Count waiting = 0;                      // due from a source, no room found yet
-  double disk_time = 0.0;                 // sum over steps of length times disks, mean of a step's start and end; time
-  double disk_time_excess = 0.0;          // by which rounding has made that sum too large
-  double virial = 0.0;                    // sum over disk-disk collisions of |impulse| (r1 + r2); mass length^2 / time
-  double emitted_energy = 0.0;            // that disks from sources came with, kinetic and potential
+  Count steps = 0;                // steps of dt (frames for rollback, windows for exact)
+  Count collisions = 0;           // disk-disk
+  Count wall_collisions = 0;      // disk-wall
+  Count removed = 0;              // by sinks
+  Count emitted = 0;              // by sources
+  Count waiting = 0;              // due from a source, no room found yet
+  double disk_time = 0.0;         // for how long each disk was there, all together; of stepping see count_step; time
+  double disk_time_excess = 0.0;  // by which rounding has made that sum too large
+  double virial = 0.0;            // sum over disk-disk collisions of |impulse| (r1 + r2); mass length^2 / time
+  double emitted_energy = 0.0;    // that disks from sources came with, kinetic and potential
   double wall_impulse[4] = {0, 0, 0, 0};  // sum of |impulse| on each side (order of Side); mass length / time
   // Energy that each side has given to the disks: heat of a thermal one, work of one that moves.
   double side_energy[4] = {0, 0, 0, 0};

@@ -24,8 +24,9 @@ struct ImpactTally {
   ExactSum virial;
   std::array<ExactSum, 4> wall_impulse;
   std::vector<ExactSum> side_energy;  // that each side gave; empty where none did
-  std::vector<ExactSum> pushes;  // of inner walls that move: work, momentum along x and y; empty where none did any
-  std::vector<ExactSum> shear;   // in a sheared box: of Impact::shear, and the work done; else empty
+  std::vector<ExactSum> pushes;   // of inner walls that move: work, momentum along x and y; empty where none did any
+  std::vector<ExactSum> shear;    // in a sheared box: of Impact::shear, and the work done; else empty
+  std::vector<ExactSum> absence;  // one: of each disk that a sink took, the rest of the window; empty where none did
 
   // partner: the second disk's id, or a wall_partner.
   void add(DiskId partner, const Impact& impact) {
@@ -81,6 +82,12 @@ struct ImpactTally {
     pushes[2].add(along_y);
   }
 
+  // A sink took a disk, so long before the window's end.
+  void add_absence(double rest) {
+    absence.resize(1);
+    absence[0].add(rest);
+  }
+
   // A collision of two disks.
   void add_collision(double its_virial) {
     ++collisions;
@@ -131,6 +138,10 @@ struct ImpactTally {
     if (!other.pushes.empty()) {
       pushes.resize(3);
       for (std::size_t k = 0; k < pushes.size(); ++k) pushes[k].add(other.pushes[k]);
+    }
+    if (!other.absence.empty()) {
+      absence.resize(1);
+      absence[0].add(other.absence[0]);
     }
     if (other.side_energy.empty()) return;
     side_energy.resize(all_sides.size());

@@ -95,7 +95,10 @@ class EventLoop {
                              : meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), e.id1, first);
     result_.tally.add(e.id2, outcome);
     if (pair && outcome.happened) result_.collisions.emplace_back(e.id1, e.id2);
-    if (!pair && is_sink(rules_.box, e.id2)) result_.gone[e.i1] = 1;
+    if (!pair && is_sink(rules_.box, e.id2)) {
+      result_.gone[e.i1] = 1;
+      result_.tally.add_absence(plan_.length - e.time);
+    }
     begin_segment(e, e.i1, outcome.lost_energy);
     if (pair) begin_segment(e, e.i2, outcome.lost_energy);
     if (pair) predict(e.i2, false);

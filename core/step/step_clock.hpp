@@ -36,14 +36,20 @@ inline StepClock make_step_clock(double dt, double t_end) {
   return clock;
 }
 
-// A step of this length is over. before, after: how many disks there were at its start, its sources' among them, and
-// are at its end. The sum is Kahan's, so that millions of steps round it no more than one does.
-inline void count_step(Counters& c, Count before, Count after, double length) {
+// A step is over, of which its disks were there for so long all together. The sum is Kahan's, so that millions of steps
+// round it no more than one does.
+inline void count_step(Counters& c, double disk_time) {
   ++c.steps;
-  const double more = 0.5 * length * static_cast<double>(before + after) - c.disk_time_excess;
+  const double more = disk_time - c.disk_time_excess;
   const double sum = c.disk_time + more;
   c.disk_time_excess = (sum - c.disk_time) - more;
   c.disk_time = sum;
+}
+
+// A step of this length, in which disks leave half-way. before, after: how many there were at its start, its sources'
+// among them, and are at its end.
+inline void count_step(Counters& c, Count before, Count after, double length) {
+  count_step(c, 0.5 * length * static_cast<double>(before + after));
 }
 
 // In one part of a step no disk may move further than this share of its own radius, so that two disks approach by at

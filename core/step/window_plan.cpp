@@ -117,7 +117,8 @@ WindowPlan shortened(const WindowPlan& plan, const ExactRules& rules, const Even
 void finish_window(State& state, std::size_t disks, const WindowPlan& plan, const ImpactTally& tally, double scale) {
   Counters& c = state.counters;
   tally.count_into(c);
-  count_step(c, plan.disks, disks, plan.length);
+  const double absence = tally.absence.empty() ? 0.0 : tally.absence[0].value();
+  count_step(c, plan.length * static_cast<double>(plan.disks) - absence);
   state.time = plan.end;
   const double meant = plan.meant / scale;
   const double next = next_window(meant, plan.length / scale, tally.collisions + tally.wall_collisions, disks);

@@ -37,7 +37,7 @@ void EventProcessor<scope>::meet_side(std::uint32_t i, double time) {
   const EventMark event{time, record_[i].id, partner};
   begin_segment(i, now, gone ? LoggedSegment::gone : LoggedSegment::no_disk, event);
   if (gone) {
-    schedule(i, never, Partner::none());
+    take(i, time);
   } else {
     predict_after_event(i, time);
   }
@@ -54,9 +54,16 @@ void EventProcessor<scope>::meet_obstacle(std::uint32_t i, double time) {
   const EventMark event{time, record_[i].id, partner};
   const bool gone = is_sink(window_.rules.box, partner);
   begin_segment(i, now, gone ? LoggedSegment::gone : LoggedSegment::no_disk, event);
-  if (gone) return schedule(i, never, Partner::none());
+  if (gone) return take(i, time);
   predict_after_event(i, time);
   if (!window_.burst.empty() && impact.lost_energy) count_burst(i, event);
+}
+
+// By a sink.
+template <Scope scope>
+void EventProcessor<scope>::take(std::uint32_t i, double time) {
+  if (counts(i)) worker_.tally.add_absence(window_.length - time);
+  schedule(i, never, Partner::none());
 }
 
 template <Scope scope>

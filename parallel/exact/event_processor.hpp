@@ -103,6 +103,7 @@ class EventProcessor {
   void note_listing(std::uint32_t i);
   void meet_side(std::uint32_t i, double time);
   void meet_obstacle(std::uint32_t i, double time);
+  void take(std::uint32_t i, double time);
   void collide_pair(std::uint32_t i, std::uint32_t j, double time);
   void collide_plain_pair(std::uint32_t i, std::uint32_t j, double time);
   void collide_any_pair(std::uint32_t i, std::uint32_t j, double time);

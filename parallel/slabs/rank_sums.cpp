@@ -1,6 +1,7 @@
 #include "parallel/slabs/rank_sums.hpp"
 
 #include "core/disks/state_hash.hpp"
+#include "core/step/step_start.hpp"
 #include "parallel/ranks/message.hpp"
 
 namespace carom {
@@ -28,6 +29,10 @@ void for_each_number(const Domain& box, ImpactTally& tally, Visit&& visit) {
     for (ExactSum& push : tally.pushes) {
       for (std::int64_t& digit : push.digits()) visit(digit);
     }
+  }
+  if (has_sinks(box)) {
+    tally.absence.resize(1);
+    for (std::int64_t& digit : tally.absence[0].digits()) visit(digit);
   }
   if (!box.has(SideKind::wall)) return;
   for (ExactSum& impulse : tally.wall_impulse) {

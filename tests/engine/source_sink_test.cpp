@@ -9,6 +9,7 @@
 #include "core/measure/invariants.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/step/source.hpp"
+#include "parallel/simulation.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/reference_run.hpp"
 
@@ -79,6 +80,22 @@ TEST_P(SourceSink, CountsHowLongDisksAreThere) {
   const State end = test::run(s, start);
   EXPECT_EQ(end.counters.removed, 2U);
   EXPECT_NEAR(end.counters.disk_time, 10.0 + 20.0 + 64.0, 2.0 * dt);
+}
+
+// The same of exact, to the time at which a sink takes it, whatever the windows; on any number of threads.
+TEST(ExactSink, CountsHowLongDisksAreThere) {
+  Scene s = test::scene_of(Method::exact, 100.0, 100.0, 0.25, 64.0);
+  s.box.sides[static_cast<std::size_t>(Side::left)] = SideKind::sink;
+  const State start = test::state_of(
+      s, {{11.0, 20.0, -1.0, 0.0, 1.0, 1.0}, {41.0, 40.0, -2.0, 0.0, 1.0, 1.0}, {50.0, 80.0, 0.0, 0.0, 1.0, 1.0}});
+  const State end = test::run(s, start);
+  EXPECT_EQ(end.counters.removed, 2U);
+  EXPECT_NEAR(end.counters.disk_time, 10.0 + 20.0 + 64.0, 1e-12);
+  for (const int threads : {1, 3}) {
+    const auto engine = make_parallel_engine(s, start, {threads, 256});
+    while (engine->state().time < s.run.t_end) engine->step();
+    EXPECT_EQ(engine->state().counters.disk_time, end.counters.disk_time);
+  }
 }
 
 // More than find room: none ever overlaps, the rest waits and is counted, and the limit holds.
