@@ -53,6 +53,14 @@ std::string cell_of(const Json& value) {
   return value.is_null() ? "" : value.dump();
 }
 
+// In quotes, and quotes doubled, where it would be read as several (RFC 4180).
+std::string csv_cell(const std::string& value) {
+  if (value.find_first_of(",\"") == std::string::npos) return value;
+  std::string cell = "\"";
+  for (const char c : value) cell += c == '"' ? "\"\"" : std::string(1, c);
+  return cell + '"';
+}
+
 struct SweepCount {
   std::size_t failed = 0;
   bool stopped = false;  // by a signal, before all had run
@@ -276,7 +284,7 @@ class Sweep {
     std::string row = run.name;
     for (auto change = run.overrides.end() - static_cast<std::ptrdiff_t>(axes_.size() + 1);
          change != run.overrides.end(); ++change) {
-      row += "," + (change->value.find(',') == std::string::npos ? change->value : '"' + change->value + '"');
+      row += "," + csv_cell(change->value);
     }
     for (const char* const key : table_keys) {
       const Json value = summary.value(key, Json());

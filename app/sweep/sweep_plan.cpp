@@ -27,6 +27,28 @@ std::vector<std::string> split(const std::string& text, char at) {
   }
 }
 
+// At the commas that are not within brackets, braces or quotes, as values of a scene have them.
+std::vector<std::string> split_values(const std::string& text) {
+  std::vector<std::string> values(1);
+  int depth = 0;
+  char quote = 0;
+  for (const char c : text) {
+    if (c == ',' && depth == 0 && quote == 0) {
+      values.emplace_back();
+      continue;
+    }
+    values.back() += c;
+    if (quote != 0) {
+      quote = c == quote ? char{0} : quote;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else {
+      depth += c == '[' || c == '{' ? 1 : c == ']' || c == '}' ? -1 : 0;
+    }
+  }
+  return values;
+}
+
 template <class T>
 T number_in(const std::string& text, const std::string& word) {
   T value{};
@@ -101,7 +123,7 @@ SweepAxis parse_sweep_axis(const std::string& text) {
   } else if (parts.size() > 1 && is_number(parts[0])) {
     fail_input("--over", fmt::format("{} is no range", in_quotes(text)), expected);
   } else {
-    axis.values = split(values, ',');
+    axis.values = split_values(values);
   }
   for (const std::string& value : axis.values) {
     if (value.empty()) fail_input("--over", fmt::format("{} has an empty value", in_quotes(text)), expected);

@@ -107,6 +107,17 @@ TEST_F(SweepTest, RunsTheGridAndGoesOnWhereItStopped) {
   EXPECT_EQ(rows("s/sweep.csv").size(), 4U);
 }
 
+TEST_F(SweepTest, ListsAreValues) {
+  const auto [status, text] = carom("sweep gas.toml -o s --over 'physics.gravity=[0.1,-0.5],0.25,[0,-1]'");
+  ASSERT_EQ(status, 0) << text;
+  const std::vector<std::string> table = rows("s/sweep.csv");
+  ASSERT_EQ(table.size(), 4U);
+  EXPECT_THAT(table[1], testing::StartsWith("0001,\"[0.1,-0.5]\",3,"));
+  EXPECT_THAT(table[2], testing::StartsWith("0002,0.25,3,"));
+  EXPECT_EQ(carom("run gas.toml -o hand --quiet --set 'physics.gravity=[0,-1]'").first, 0);
+  EXPECT_THAT(read("hand/summary.json"), HasSubstr(table[3].substr(table[3].rfind(',') + 1)));
+}
+
 // More seeds and values: what is there stays, with its names, and only the rest is run.
 TEST_F(SweepTest, GrowsWithoutLosingWhatIsThere) {
   ASSERT_EQ(carom("sweep gas.toml -o s --over physics.restitution=0.5,1.0 --seeds 2").first, 0);
