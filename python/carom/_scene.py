@@ -6,7 +6,7 @@ import os
 from typing import Any, Mapping
 
 from . import _carom
-from ._text import overrides as _overrides, toml as _toml
+from ._text import in_words_of_python as _in_words_of_python, overrides as _overrides, toml as _toml
 
 
 class Scene:
@@ -40,7 +40,8 @@ class Scene:
 
     def _read(self):
         kind, *arguments = self._source
-        return _carom.load_scene(*arguments) if kind == "file" else _carom.parse_scene(*arguments)
+        with _in_words_of_python():
+            return _carom.load_scene(*arguments) if kind == "file" else _carom.parse_scene(*arguments)
 
     def __getstate__(self):
         return self._source
@@ -69,7 +70,7 @@ class Scene:
         return self._scene.warnings()
 
     def toml(self) -> str:
-        """The scene as TOML with every default spelled out."""
+        """The scene as TOML with the defaults of what it uses spelled out."""
         return self._scene.toml()
 
     def __repr__(self):

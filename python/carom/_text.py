@@ -67,9 +67,10 @@ def overrides(changes: Mapping[str, Any]) -> list:
 
 @contextlib.contextmanager
 def in_words_of_python():
-    """What the command line calls -o and --force are arguments here."""
+    """What the command line calls -o, --set and --force are arguments here."""
     try:
         yield
     except SceneError as error:
         text = str(error).replace(" with -o,", ",").replace("--force", "force=True").replace("--engine:", "engine:")
+        text = text.replace("--set ", "changes: ")
         raise SceneError(text) from None

@@ -51,3 +51,8 @@ def test_options_of_the_command_line_are_arguments(tmp_path):
         carom.run(some, out=tmp_path / "run")
     with pytest.raises(carom.SceneError, match='^engine: there is no engine "refrence"'):
         carom.run(some, engine="refrence")
+
+
+def test_changes_are_no_options():
+    with pytest.raises(carom.SceneError, match=r"^changes: run.tend: unknown key; expected one of .*nearest: t_end"):
+        carom.Scene({"box": {"width": 9, "height": 9}, "run": {"t_end": 1}}, {"run.tend": 2.0})
