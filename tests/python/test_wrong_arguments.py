@@ -55,4 +55,5 @@ def test_options_of_the_command_line_are_arguments(tmp_path):
 
 def test_changes_are_no_options():
     with pytest.raises(carom.SceneError, match=r"^changes: run.tend: unknown key; expected one of .*nearest: t_end"):
-        carom.Scene({"box": {"width": 9, "height": 9}, "run": {"t_end": 1}}, {"run.tend": 2.0})
+        carom.Scene({"box": {"width": 9, "height": 9}, "run": {"t_end": 1},
+                     "disks": [{"count": 1, "positions": [[4, 4]], "radius": 0.5, "mass": 1}]}, {"run.tend": 2.0})
