@@ -8,6 +8,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "app/cli/progress.hpp"
 #include "app/cli/start_ranks.hpp"
 #include "app/sweep/run_programs.hpp"
+#include "app/sweep/sweep_lock.hpp"
 #include "app/sweep/sweep_plan.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
@@ -107,6 +109,7 @@ class Sweep {
     const std::string scene_text = read_text_file(options_.scene, options_.scene);
     const fs::path plan = folder_ / "sweep.txt";
     std::error_code error;
+    if (fs::is_directory(folder_)) lock_.emplace(folder_);
     if (fs::exists(plan)) {
       std::vector<SweepRun> runs = runs_;
       const std::string before = read_text_file(plan.string(), plan.string());
@@ -128,6 +131,7 @@ class Sweep {
     }
     fs::create_directories(folder_ / "runs", error);
     if (error) fail_input(folder_.string(), "cannot be made: " + error.message(), "expected a folder (-o)");
+    if (!lock_) lock_.emplace(folder_);
     write_file(plan.string(), sweep_identity(scene_text, runs_));
   }
 
@@ -295,6 +299,7 @@ class Sweep {
 
   const SweepOptions& options_;
   fs::path folder_;
+  std::optional<SweepLock> lock_;  // on the folder, once it is open
   std::vector<SweepAxis> axes_;
   std::uint64_t seed_ = 1;
   std::vector<SweepRun> runs_;

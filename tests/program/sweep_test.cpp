@@ -147,7 +147,7 @@ TEST_F(SweepTest, GrowsWithoutLosingWhatIsThere) {
               HasSubstr("s: holds another sweep: the scene has changed since; "));
 }
 
-// A sweep that is killed takes its runs with it, and they leave checkpoints.
+// A sweep that is killed takes its runs with it, and they leave checkpoints. Until then the folder is its own.
 TEST_F(SweepTest, ItsRunsEndWithIt) {
   const pid_t sweep = fork();
   if (sweep == 0) {
@@ -160,6 +160,9 @@ TEST_F(SweepTest, ItsRunsEndWithIt) {
   for (const char* const run : {"0001", "0002"}) {
     while (!fs::exists(checkpoint(run) / "checkpoint.carom")) usleep(1000);
   }
+  const auto [status, text] = carom("sweep gas.toml -o s --seeds 2 --force");
+  EXPECT_EQ(status, 2);
+  EXPECT_THAT(text, HasSubstr("s: another sweep is running there; expected a folder of its own (-o)"));
   kill(sweep, SIGKILL);
   waitpid(sweep, nullptr, 0);
   // Their locks go with them.
