@@ -152,8 +152,8 @@ TEST_F(SweepTest, ItsRunsEndWithIt) {
   const pid_t sweep = fork();
   if (sweep == 0) {
     if (chdir(folder_.path().c_str()) != 0) _exit(1);
-    execl(CAROM_PROGRAM, "carom", "sweep", "gas.toml", "-o", "s", "--jobs", "2", "--over", "physics.restitution=1,0.99",
-          "--set", "run.t_end=1e9", "--set", "output.checkpoint=1", nullptr);
+    execl(CAROM_PROGRAM, "carom", "sweep", "gas.toml", "-o", "s", "--jobs", "2", "--over", "run.t_end=1e9,2e9", "--set",
+          "physics.restitution=1", "--set", "output.checkpoint=1", nullptr);
     _exit(1);
   }
   const auto checkpoint = [&](const char* run) { return folder_.path() / "s/runs" / run / "carom-unfinished"; };
