@@ -55,7 +55,7 @@ series = true
   }
 };
 
-// Rank 0 hears of it when it listens, and either no checkpoint can be written yet or one is.
+// Rank 0 gets a signal once it listens; by then either no checkpoint can be written yet or one is.
 TEST_F(SignalsToRanks, AreKeptUntilTheRanksListen) {
   for (const useconds_t delay : {0U, 20'000U, 60'000U, 150'000U, 400'000U}) {
     SCOPED_TRACE(fmt::format("after {} us", delay));
