@@ -63,10 +63,12 @@ inline double time_to_contact(const Relative& r, double contact_distance) {
 // behind it can be met. Larger values would need more images.
 inline constexpr double longest_flight = 0.25;
 
+// A little more than disks truly travel, against rounding; one image too many changes nothing.
+inline constexpr double far_travel_margin = 1.0 + 1e-9;
+
 // Time to contact with the images beyond the nearest one, if any of them can be reached within `span` (time).
 inline double time_to_far_contact(const Relative& r, double contact_distance, const Domain& box, double span) {
-  // A little more than the true travel, against rounding; one image too many changes nothing.
-  constexpr double margin = 1.0 + 1e-9;
+  constexpr double margin = far_travel_margin;
   const bool far_x =
       box.periodic_x() && std::abs(r.dvx) * span * margin + contact_distance * margin >= box.width - std::abs(r.dx);
   const bool far_y =
@@ -86,7 +88,7 @@ inline double time_to_far_contact(const Relative& r, double contact_distance, co
 // move. offset: now. Windows are so short that no image passes another one.
 [[gnu::noinline, gnu::cold]] inline double time_to_sheared_contact(const Relative& nearest, double contact_distance,
                                                                    const Domain& box, double offset, double span) {
-  constexpr double margin = 1.0 + 1e-9;
+  constexpr double margin = far_travel_margin;
   const auto in_row = [&](Relative image) {
     const double t = time_to_contact(image, contact_distance);
     if (std::abs(image.dvx) * span * margin + contact_distance * margin < box.width - std::abs(image.dx)) return t;

@@ -45,9 +45,11 @@ FirstContact EventPredictor::first_contact(std::uint32_t i) const {
     first = found;  // ambiguous or earlier
   };
   const ListRow& row = lists_->rows().row(i);
-  see(kernels_.near(constants_[0], own, row), row.offset);
+  const RowKernel in_row = far_ ? kernels_.near_any_image : kernels_.near;
+  const WideRowKernel in_wide_row = far_ ? kernels_.far_any_image : kernels_.far;
+  see(in_row(constants_[0], own, row), row.offset);
   lists_->rows().visit_wide_rows(i, [&](const std::int32_t* offset, std::uint32_t count) {
-    see(kernels_.far(constants_[0], own, offset, count), offset);
+    see(in_wide_row(constants_[0], own, offset, count), offset);
   });
   return first;
 }
@@ -63,7 +65,7 @@ NextEvent EventPredictor::earliest(std::uint32_t i) const {
 }
 
 NextEvent EventPredictor::earliest_with_sides(std::uint32_t i) const {
-  if (far_ || (window_->rules.box.shear.acts() && lists_images(i))) return earliest_one_by_one(i);
+  if (window_->rules.box.shear.acts() && (far_ || lists_images(i))) return earliest_one_by_one(i);
   const FirstContact first = first_contact(i);
   if (first.is_ambiguous()) return earliest_one_by_one(i);
   NextEvent best = earliest_at_sides(i);
@@ -89,7 +91,7 @@ NextEvent EventPredictor::earliest_one_by_one(std::uint32_t i) const {
   const ExactRules& rules = window_->rules;
   NextEvent best = earliest_at_sides(i);
   if (window_->rules.box.obstacles != nullptr) see_obstacles(i, best.time, best);
-  // far is rare, and its contacts are not examined.
+  // Contacts with images beyond the nearest one are not examined.
   bool lasting = best.lasting || far_;
   lists_->for_each_neighbour(i, [&](std::uint32_t j) {
     const DiskRecord& other = window_->record[j];
@@ -148,20 +150,22 @@ PredictionConstants EventPredictor::constants_of(const WindowState& window, cons
   f.left = in_all_lanes(rules.gravity.left);
   f.half_left = in_all_lanes(0.5 * rules.gravity.left);
   const double contact_distance = window.disks->common_radius + window.disks->common_radius;
+  f.contact = in_all_lanes(contact_distance);
   f.contact2 = in_all_lanes(contact_distance * contact_distance);
+  f.horizon = in_all_lanes(window.horizon);
   f.slow_approach = in_all_lanes(std::sqrt(window.slow2()) * slow_margin);
   if (!rules.gravity.acts() && !rules.box.shear.acts()) f.stay2 = lists.relist_distance(near_border).stay2;
   f.listed_unit = {lists.listed_unit().x, lists.listed_unit().y};
   if (rules.box.periodic_x()) {
     f.period.x = rules.box.width;
     f.periods_per_length.x = 1.0 / rules.box.width;
-    f.period_x = in_all_lanes(rules.box.width);
+    f.period_x = f.image_x = in_all_lanes(rules.box.width);
     f.periods_per_x = in_all_lanes(1.0 / rules.box.width);
   }
   if (rules.box.periodic_y()) {
     f.period.y = rules.box.height;
     f.periods_per_length.y = 1.0 / rules.box.height;
-    f.period_y = in_all_lanes(rules.box.height);
+    f.period_y = f.image_y = in_all_lanes(rules.box.height);
     f.periods_per_y = in_all_lanes(1.0 / rules.box.height);
   }
   return f;

@@ -53,6 +53,12 @@ struct PredictionConstants {
     for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = static_cast<long long>(k);
     return numbers;
   }();
+
+  // For images beyond the nearest one alone.
+  LaneConstant image_x = in_all_lanes(carom::never), image_y = in_all_lanes(carom::never);  // period; never: none
+  LaneConstant contact = in_all_lanes(0.0);               // of equal disks: contact distance
+  LaneConstant horizon = in_all_lanes(0.0);               // time up to which contacts matter
+  LaneConstant margin = in_all_lanes(far_travel_margin);  // core's time_to_far_contact
 };
 
 // The first contact of a disk with one of its neighbours.
@@ -70,8 +76,8 @@ struct FirstContact {
 
 // The first of the contacts of disk *own with own[offset[k]], k < count: the same bits as core's collision_time()
 // gives. Preconditions: offsets beyond count, up to the next multiple of prediction_lanes, are any of the others; while
-// paths last, no neighbour is further away than 0.49 periods, nearest image. newest: no neighbour's segment starts
-// later than the disk's own.
+// paths last, no neighbour is further away than 0.49 periods, nearest image, but for the two of any image. newest: no
+// neighbour's segment starts later than the disk's own.
 // Of the offsets of a row.
 using RowKernel = FirstContact (*)(const PredictionConstants& constants, const DiskRecord* own, const ListRow& row);
 using WideRowKernel = FirstContact (*)(const PredictionConstants& constants, const DiskRecord* own,
@@ -82,6 +88,9 @@ struct PredictionKernels {
   // Where all places are on one side of each border along a period, so that no image but the disks themselves is met.
   RowKernel inside, inside_newest;
   WideRowKernel far;
+  // Where neighbours fly so far that images beyond the nearest one may be met, too.
+  RowKernel near_any_image;
+  WideRowKernel far_any_image;
 };
 
 // What a scene's gravity is: none, along y alone, or any.

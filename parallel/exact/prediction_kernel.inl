@@ -148,8 +148,8 @@ struct Own {
   Doubles start, x, y, vx, vy, radius;
 };
 
-// Which images of neighbours may be the nearest ones.
-enum class Images { any, own };
+// Which images of neighbours may be met: no but the disks themselves; the nearest ones; those beyond the nearest, too.
+enum class Images { any, own, all };
 
 // Places and velocities of four disks.
 struct Motions {
@@ -171,6 +171,63 @@ template <GravityKind gravity>
   }
   m.x = m.x + shift;
   m.y = m.y + rise;
+}
+
+// Of four pairs: places and velocities of the second disks relative to the first ones.
+struct Pairs {
+  Doubles dx, dy, dvx, dvy;
+  Doubles contact_distance, contact2;  // the first for images beyond the nearest one alone
+};
+
+inline Doubles magnitude(const PredictionConstants& f, Doubles v) {
+  return number(bits(v) & bits(load(f.magnitude_bits)));
+}
+
+// Time until disks dx and dy apart touch. Not a number where they do not. approach: dr.dv.
+[[gnu::always_inline]] inline Doubles until_contact(const PredictionConstants& f, const Pairs& r, Doubles dx,
+                                                    Doubles dy, Doubles& approach) {
+  approach = dx * r.dvx + dy * r.dvy;
+  const Doubles cross = dx * r.dvy - dy * r.dvx;
+  // Not a number where the paths miss.
+  const Doubles until_meeting = root((r.dvx * r.dvx + r.dvy * r.dvy) * r.contact2 - cross * cross) - approach;
+  const Doubles until = larger((dx * dx + dy * dy) - r.contact2, load(f.zero)) / until_meeting;
+  // By the sign: +0 and -0 are slow.
+  return choose_by_sign(approach, until, load(f.magnitude_bits));
+}
+
+// core's nearest_image, where the distance may be half a period.
+inline Doubles nearest_of_any(const PredictionConstants& f, Doubles d, const LaneConstant& period) {
+  const Doubles beyond = choose(d > load(f.zero), d - load(period), d + load(period));
+  return choose(magnitude(f, d) > all(0.5) * load(period), beyond, d);
+}
+
+// core's time_to_far_contact, operation by operation: of `nearest`, the time until the nearest images touch, and those
+// until images beyond them do that may be met within `span`, the least.
+[[gnu::always_inline]] inline Doubles until_any_image(const PredictionConstants& f, const Pairs& r, Doubles span,
+                                                      Doubles nearest, Doubles& slowest) {
+  const Doubles reach = r.contact_distance * load(f.margin);
+  const auto is_far = [&](Doubles d, Doubles dv, const LaneConstant& period) __attribute__((always_inline))->Longs {
+    return magnitude(f, dv) * span * load(f.margin) + reach >= load(period) - magnitude(f, d);
+  };
+  const Longs far_x = is_far(r.dx, r.dvx, f.image_x);
+  const Longs far_y = is_far(r.dy, r.dvy, f.image_y);
+  if (!any_true(far_x | far_y)) return nearest;
+  Doubles first = smaller(nearest, load(f.never));
+  const auto see = [&](Doubles dx, Doubles dy, Longs is_met) __attribute__((always_inline)) {
+    Doubles approach;
+    const Doubles until = until_contact(f, r, dx, dy, approach);
+    slowest = smaller(choose(is_met, magnitude(f, approach), load(f.never)), slowest);
+    first = smaller(choose(is_met, until, load(f.never)), first);
+  };
+  const auto behind = [&](Doubles d, const LaneConstant& period) __attribute__((always_inline)) {
+    return choose(d > load(f.zero), d - load(period), d + load(period));
+  };
+  const Doubles x = behind(r.dx, f.image_x);
+  const Doubles y = behind(r.dy, f.image_y);
+  see(x, r.dy, far_x);
+  see(x, y, far_x & far_y);
+  see(r.dx, y, far_y);
+  return choose(first < load(f.never), first, load(f.magnitude_bits));
 }
 
 // core's collision_time(), operation by operation: carried_to, relative, time_to_contact, touching_time. Differences
@@ -195,27 +252,32 @@ template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
   carry<gravity>(f, both - start, others);
   Motions mine{own.x, own.y, own.vx, own.vy};
   if constexpr (!newest) carry<gravity>(f, both - own.start, mine);
-  Doubles dx = others.x - mine.x;
-  Doubles dy = others.y - mine.y;
+  Pairs r;
+  r.dx = others.x - mine.x;
+  r.dy = others.y - mine.y;
   if constexpr (images == Images::any) {
-    dx = nearest(dx, f.period_x, f.periods_per_x);
-    dy = nearest(dy, f.period_y, f.periods_per_y);
+    r.dx = nearest(r.dx, f.period_x, f.periods_per_x);
+    r.dy = nearest(r.dy, f.period_y, f.periods_per_y);
   }
-  const Doubles dvx = others.vx - mine.vx;
-  const Doubles dvy = others.vy - mine.vy;
-  const Doubles approach = dx * dvx + dy * dvy;
-  const Doubles cross = dx * dvy - dy * dvx;
-  Doubles contact2 = load(f.contact2);
+  if constexpr (images == Images::all) {
+    r.dx = nearest_of_any(f, r.dx, f.image_x);
+    r.dy = nearest_of_any(f, r.dy, f.image_y);
+    r.contact_distance = load(f.contact);
+  }
+  r.dvx = others.vx - mine.vx;
+  r.dvy = others.vy - mine.vy;
+  r.contact2 = load(f.contact2);
   if constexpr (unequal_radii) {
-    const Doubles contact_distance = own.radius + Doubles{f0.radius, f1.radius, f2.radius, f3.radius};
-    contact2 = contact_distance * contact_distance;
+    r.contact_distance = own.radius + Doubles{f0.radius, f1.radius, f2.radius, f3.radius};
+    r.contact2 = r.contact_distance * r.contact_distance;
   }
-  slowest = smaller(number(bits(approach) & bits(load(f.magnitude_bits))), slowest);
-  // Not a number where the paths miss.
-  const Doubles until_meeting = root((dvx * dvx + dvy * dvy) * contact2 - cross * cross) - approach;
-  const Doubles until_contact = larger((dx * dx + dy * dy) - contact2, load(f.zero)) / until_meeting;
-  // By the sign: +0 and -0 are slow.
-  return both + choose_by_sign(approach, until_contact, load(f.magnitude_bits));
+  Doubles approach;
+  const Doubles until = until_contact(f, r, r.dx, r.dy, approach);
+  slowest = smaller(magnitude(f, approach), slowest);
+  if constexpr (images == Images::all) {
+    return both + until_any_image(f, r, load(f.horizon) - both, until, slowest);
+  }
+  return both + until;
 }
 
 constexpr FirstContact cannot_tell{std::numeric_limits<double>::quiet_NaN()};
@@ -299,7 +361,7 @@ template <Images images>
   const double s = until - path.start;
   Coordinates d = Coordinates{path.x, path.y} + Coordinates{path.vx, path.vy} * Coordinates{s, s};
   d = d - to_doubles(f, listed_at) * load(f.listed_unit);
-  if constexpr (images == Images::any) {
+  if constexpr (images != Images::own) {
     const Coordinates periods = d * load(f.periods_per_length);
     constexpr double shift = 0x1.8p52;
     d = d - load(f.period) * ((periods + Coordinates{shift, shift}) - Coordinates{shift, shift});
@@ -323,10 +385,10 @@ FirstContact first_in_row(const PredictionConstants& f, const DiskRecord* record
   return found;
 }
 
-template <GravityKind gravity, bool unequal_radii>
+template <GravityKind gravity, bool unequal_radii, Images images>
 FirstContact first_in_wide_row(const PredictionConstants& f, const DiskRecord* record, const std::int32_t* offset,
                                std::uint32_t count) {
-  return first_contact<gravity, unequal_radii, false, Images::any>(f, record, offset, count);
+  return first_contact<gravity, unequal_radii, false, images>(f, record, offset, count);
 }
 
 template <GravityKind gravity, bool unequal_radii>
@@ -334,7 +396,10 @@ PredictionKernels kernels_for() {
   return {first_in_row<gravity, unequal_radii, false, Images::any>,
           first_in_row<gravity, unequal_radii, true, Images::any>,
           first_in_row<gravity, unequal_radii, false, Images::own>,
-          first_in_row<gravity, unequal_radii, true, Images::own>, first_in_wide_row<gravity, unequal_radii>};
+          first_in_row<gravity, unequal_radii, true, Images::own>,
+          first_in_wide_row<gravity, unequal_radii, Images::any>,
+          first_in_row<gravity, unequal_radii, false, Images::all>,
+          first_in_wide_row<gravity, unequal_radii, Images::all>};
 }
 
 template <GravityKind gravity>

@@ -21,6 +21,8 @@ struct KernelCase {
 };
 
 constexpr std::size_t disks = 40;
+constexpr double common_radius = 0.3;
+constexpr double slow_approach = 0.02;
 
 std::vector<DiskRecord> random_records(test::Draws& draws, const KernelCase& c, double box) {
   std::vector<DiskRecord> record(disks);
@@ -31,7 +33,7 @@ std::vector<DiskRecord> random_records(test::Draws& draws, const KernelCase& c, 
     if (k % 7 == 3) f.path.vx = f.path.vy = 0.0;
     if (k % 5 == 1) f.path.y = record[0].path.y;
     if (k == 13) f.path.x = f.path.y = std::numeric_limits<double>::quiet_NaN();
-    f.radius = c.unequal_radii ? draws.in(0.05, 0.6) : 0.3;
+    f.radius = c.unequal_radii ? draws.in(0.05, 0.6) : common_radius;
     f.id = k;
   }
   return record;
@@ -43,9 +45,10 @@ struct Expected {
   bool ambiguous = false;
 };
 
-// The first contact by the formula of core, one neighbour after the other.
+// The first contact by the formula of core, one neighbour after the other: with the nearest image, or with any that is
+// met up to the horizon.
 Expected expected_contact(const std::vector<DiskRecord>& record, std::uint32_t own, const std::vector<int>& offset,
-                          const Domain& box, const Gravity& g, double slow_approach) {
+                          const Domain& box, const Gravity& g, double horizon = 0.0) {
   Expected first;
   bool tie = false;
   for (std::size_t k = 0; k < offset.size(); ++k) {
@@ -55,7 +58,8 @@ Expected expected_contact(const std::vector<DiskRecord>& record, std::uint32_t o
     const double both = std::max(a.path.start, b.path.start);
     const Relative r = relative(carried_to(a.path, both, g), carried_to(b.path, both, g), box);
     first.ambiguous |= std::abs(r.approach()) <= slow_approach;
-    const double t = both + time_to_contact(r, a.radius + b.radius);
+    const double t = horizon > 0.0 ? collision_time(a.path, b.path, a.radius + b.radius, box, g, horizon)
+                                   : both + time_to_contact(r, a.radius + b.radius);
     if (!(t < never) || t > first.time) continue;
     if (t == first.time) {
       tie = true;
@@ -113,13 +117,35 @@ void expect_in_wide_row(WideRowKernel kernel, const PredictionConstants& constan
   expect_contact(found, offset, expected, false_alarms);
 }
 
+PredictionConstants constants_of(const Gravity& g) {
+  PredictionConstants f;
+  f.down = in_all_lanes(g.down);
+  f.half_down = in_all_lanes(0.5 * g.down);
+  f.left = in_all_lanes(g.left);
+  f.half_left = in_all_lanes(0.5 * g.left);
+  const double contact_distance = 2.0 * common_radius;
+  f.contact = in_all_lanes(contact_distance);
+  f.contact2 = in_all_lanes(contact_distance * contact_distance);
+  f.slow_approach = in_all_lanes(slow_approach);
+  return f;
+}
+
+std::vector<int> random_offsets(test::Draws& draws, std::uint32_t own) {
+  std::vector<int> offset;
+  const std::size_t count = draws.bits() % 13;
+  while (offset.size() < count) {
+    const int o = static_cast<int>(draws.bits() % disks) - static_cast<int>(own);
+    if (o != 0 && std::find(offset.begin(), offset.end(), o) == offset.end()) offset.push_back(o);
+  }
+  return offset;
+}
+
 class PredictionKernelVersions : public testing::TestWithParam<KernelCase> {};
 
 TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
   const KernelCase& c = GetParam();
   test::Draws draws(17);
   const Gravity& g = c.gravity;
-  constexpr double slow_approach = 0.02;
   int met = 0;
   int ambiguous = 0;
   int false_alarms = 0;
@@ -132,24 +158,12 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
     const auto own = static_cast<std::uint32_t>(draws.bits() % disks);
     const bool newest = round % 2 == 0;
     if (newest) record[own].path.start = 1.0;
-    std::vector<int> offset;
-    const std::size_t count = draws.bits() % 13;
-    while (offset.size() < count) {
-      const int j = static_cast<int>(draws.bits() % disks);
-      const int o = j - static_cast<int>(own);
-      if (o != 0 && std::find(offset.begin(), offset.end(), o) == offset.end()) offset.push_back(o);
-    }
+    const std::vector<int> offset = random_offsets(draws, own);
     // Two that are touched at the same time.
-    if (round % 5 == 0 && count > 1) {
-      record[own + static_cast<std::uint32_t>(offset[0])] = record[own + static_cast<std::uint32_t>(offset[count - 1])];
+    if (round % 5 == 0 && offset.size() > 1) {
+      record[own + static_cast<std::uint32_t>(offset[0])] = record[own + static_cast<std::uint32_t>(offset.back())];
     }
-    PredictionConstants constants;
-    constants.down = in_all_lanes(g.down);
-    constants.half_down = in_all_lanes(0.5 * g.down);
-    constants.left = in_all_lanes(g.left);
-    constants.half_left = in_all_lanes(0.5 * g.left);
-    constants.contact2 = in_all_lanes(4.0 * 0.3 * 0.3);
-    constants.slow_approach = in_all_lanes(slow_approach);
+    PredictionConstants constants = constants_of(g);
     if (c.periodic) {
       constants.period_x = in_all_lanes(box.width);
       constants.period_y = in_all_lanes(box.height);
@@ -166,7 +180,7 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
     const double listed_y = draws.in(0.0, c.periodic ? 0x1p32 : 0x1p31);
     const FixedPointPosition listed_at{static_cast<std::uint32_t>(listed_x), static_cast<std::uint32_t>(listed_y)};
     constants.stay2 = draws.in(0.0, 10.0);
-    const Expected expected = expected_contact(record, own, offset, box, g, slow_approach);
+    const Expected expected = expected_contact(record, own, offset, box, g);
     met += expected.time < never && !expected.ambiguous ? 1 : 0;
     ambiguous += expected.ambiguous ? 1 : 0;
     for (const PredictionKernels& kernels : {choose_prediction_kernels(kind_of(g), c.unequal_radii),
@@ -187,6 +201,56 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
   EXPECT_LT(ambiguous, 500);
   // A tie of two contacts before which there is another one.
   EXPECT_LT(false_alarms, 20);
+}
+
+// Neighbours anywhere in the box, half a period away exactly among them, and flights of up to a quarter of a period
+// each.
+TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormulaWithImagesBeyondTheNearest) {
+  const KernelCase& c = GetParam();
+  if (!c.periodic) return;
+  test::Draws draws(29);
+  const Gravity& g = c.gravity;
+  int behind = 0;
+  int false_alarms = 0;
+  int ambiguous = 0;
+  for (int round = 0; round < 600; ++round) {
+    Domain box;
+    box.width = 6.0;
+    box.height = 5.0;
+    box.sides.fill(SideKind::periodic);
+    if (round % 3 == 1)
+      box.sides[static_cast<std::size_t>(Side::left)] = box.sides[static_cast<std::size_t>(Side::right)] =
+          SideKind::wall;
+    std::vector<DiskRecord> record = random_records(draws, c, 5.0);
+    const auto own = static_cast<std::uint32_t>(draws.bits() % disks);
+    for (std::uint32_t k = own % 3; k < disks; k += 9)
+      record[k].path.x = record[own].path.x < 3.0 ? record[own].path.x + 3.0 : record[own].path.x - 3.0;
+    const std::vector<int> offset = random_offsets(draws, own);
+    const double horizon = draws.in(0.5, 4.0);
+    PredictionConstants constants = constants_of(g);
+    constants.horizon = in_all_lanes(horizon);
+    if (box.periodic_x()) constants.image_x = in_all_lanes(box.width);
+    constants.image_y = in_all_lanes(box.height);
+    const Expected nearest = expected_contact(record, own, offset, box, g);
+    const Expected expected = expected_contact(record, own, offset, box, g, horizon);
+    behind += !expected.ambiguous && expected.time < nearest.time ? 1 : 0;
+    ambiguous += expected.ambiguous ? 1 : 0;
+    const auto expect = [&](FirstContact found) {
+      if (!found.is_ambiguous() && found.time > horizon) found.time = never;
+      expect_contact(found, offset, expected, false_alarms);
+    };
+    for (const PredictionKernels& kernels : {choose_prediction_kernels(kind_of(g), c.unequal_radii),
+                                             prediction_kernels_baseline(kind_of(g), c.unequal_radii)}) {
+      ListRow row;
+      row.count = static_cast<std::uint8_t>(offset.size());
+      std::ranges::copy(padded(offset), row.offset);
+      expect(kernels.near_any_image(constants, &record[own], row));
+      expect(kernels.far_any_image(constants, &record[own], padded(offset).data(), row.count));
+    }
+  }
+  EXPECT_GT(behind, 20);
+  EXPECT_LT(ambiguous, 300);
+  EXPECT_LT(false_alarms, 60);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PredictionKernelVersions,
