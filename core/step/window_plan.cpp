@@ -24,9 +24,16 @@ constexpr Count enough_windows = 128;
 constexpr double least_pace = 0x1p-30;
 constexpr double least_pace_tc = 0x1p-20;
 // A wall that comes on makes disks without room faster and faster; their gaps are a millionth of what they were by
-// then, and each window takes longer to compute than the one before: fewer of them are waited for.
+// then, and each window takes longer to compute than the one before: fewer of them are waited for, where such walls
+// push disks. Where they do not, what crowds the windows is a burst like any other.
 constexpr double least_pace_moving = 0x1p-10;
 constexpr Count enough_windows_moving = 32;
+static_assert(enough_windows % enough_windows_moving == 0);
+
+// Is there anything that loses energy in collisions?
+bool loses_energy(const Scene& scene) {
+  return disks_dissipate(scene) || scene.box.walls_dissipate() || inner_walls_dissipate(scene) || walls_rub(scene);
+}
 
 std::string partner_text(const Domain& box, DiskId id) {
   if (is_obstacle(id)) return "the " + name_of((*box.obstacles)[obstacle_of(id)]);
@@ -60,8 +67,7 @@ std::string partner_text(const Domain& box, DiskId id) {
 }  // namespace
 
 bool has_tc(const Scene& scene) {
-  return scene.physics.collapse_contact_time &&
-         (disks_dissipate(scene) || scene.box.walls_dissipate() || inner_walls_dissipate(scene) || walls_rub(scene));
+  return scene.physics.collapse_contact_time && loses_energy(scene);
 }
 
 ExactRules exact_rules(const Scene& scene, const Disks& disks, double start) {
@@ -87,8 +93,8 @@ WindowPlan plan_window(const Scene& scene, const State& state, std::size_t disks
   plan.meant = clamped_window(state.window, longest) * scale;
   plan.least = least_window(longest) * scale;
   plan.tc = has_tc(scene);
-  const double pace = plan.tc ? least_pace_tc : scene.box.has_moving_wall() ? least_pace_moving : least_pace;
-  plan.pace = pace * longest * scale;
+  plan.pace = (plan.tc ? least_pace_tc : least_pace) * longest * scale;
+  plan.pace_moving = (plan.tc ? least_pace_tc : least_pace_moving) * longest * scale;
   const double cut = next_cut(scene, state);
   plan.end = state.time + plan.meant;
   plan.length = plan.meant;
@@ -128,31 +134,66 @@ void finish_window(State& state, std::size_t disks, const WindowPlan& plan, cons
   state.window = stays_below ? -std::max(next, meant) : next;
 }
 
-void check_pace(const Scene& scene, State& state, const WindowPlan& plan) {
-  if (state.window >= 0.0) {
-    state.stall = {};
-    return;
-  }
-  const Count watched_windows = scene.box.has_moving_wall() ? enough_windows_moving : enough_windows;
-  if (state.stall.frames == 0) state.stall.since = plan.start;
-  if (++state.stall.frames < watched_windows) return;
-  const double advanced = state.time - state.stall.since;
-  state.stall = {};
-  if (!(advanced < static_cast<double>(watched_windows) * plan.pace)) return;
-  if (scene.box.has_moving_wall()) {
-    throw PhysicsError(fmt::format(
-        "exact: time all but stands still at t = {}: the last {} windows, as long as their events allow, advanced it "
-        "by {:.2g}; a wall that moves leaves the disks hardly any room ({}): move it less far, or take fewer or "
-        "smaller disks",
-        state.time, watched_windows, advanced, moving_walls_text(scene.box, state.time)));
-  }
+namespace {
+
+// Have walls that move done work in this window, or given momentum?
+bool moving_walls_pushed(const Domain& box, const ImpactTally& tally) {
+  const auto given = [](const ExactSum& sum) { return sum.value() != 0.0; };
+  if (std::ranges::any_of(tally.pushes, given)) return true;
+  if (tally.side_energy.empty()) return false;
+  return std::ranges::any_of(all_sides, [&](Side side) {
+    return box.moves(side) && given(tally.side_energy[static_cast<std::size_t>(side)]);
+  });
+}
+
+// windows: so many in a row, which advanced time by `advanced`.
+[[noreturn]] void fail_slow(double time, Count windows, double advanced, const std::string& why) {
   throw PhysicsError(fmt::format(
       "exact: time all but stands still at t = {}: the last {} windows, as long as their events allow, advanced it by "
       "{:.2g}; {}",
-      state.time, watched_windows, advanced,
-      plan.tc ? "physics.collapse.contact_time is too short for disks that stay in contact: use a larger one, or "
-                "--method pairwise"
-              : "disks have hardly any room to move: use a larger box or smaller disks, or --method pairwise"));
+      time, windows, advanced, why));
+}
+
+// Where a wall that moves pushes disks all the while. Disks that land on one whose motion is a sine may come to rest
+// there and be seen hopping for ever.
+std::string slow_at_moving_walls(const Scene& scene, const WindowPlan& plan, double time) {
+  const bool may_rest = !plan.tc && loses_energy(scene);
+  return fmt::format(
+      "{}a wall that moves leaves the disks hardly any room ({}): {}move it less far, or take fewer or smaller disks",
+      may_rest ? "disks come to rest on a wall (inelastic collapse), or " : "", moving_walls_text(scene.box, time),
+      may_rest ? "set physics.collapse = { model = \"tc\", contact_time = ... }, " : "");
+}
+
+}  // namespace
+
+void check_pace(const Scene& scene, State& state, const WindowPlan& plan, const ImpactTally& tally) {
+  StallWatch& stall = state.stall;
+  if (state.window >= 0.0) {
+    stall = {};
+    return;
+  }
+  if (stall.frames == 0) stall.since = plan.start;
+  if (++stall.frames % enough_windows_moving != 0) return;
+  const Count windows = stall.frames;
+  const double advanced = state.time - stall.since;
+  const auto slower_than = [&](double pace) { return advanced < static_cast<double>(windows) * pace; };
+  if (scene.box.has_moving_wall()) {
+    if (!slower_than(plan.pace_moving)) {
+      stall = {};
+      return;
+    }
+    if (moving_walls_pushed(scene.box, tally)) {
+      stall = {};
+      fail_slow(state.time, windows, advanced, slow_at_moving_walls(scene, plan, state.time));
+    }
+  }
+  if (windows < enough_windows) return;
+  stall = {};
+  if (!slower_than(plan.pace)) return;
+  fail_slow(state.time, windows, advanced,
+            plan.tc ? "physics.collapse.contact_time is too short for disks that stay in contact: use a larger one, or "
+                      "--method pairwise"
+                    : "disks have hardly any room to move: use a larger box or smaller disks, or --method pairwise");
 }
 
 void fail_collapse(const ExactRules& rules, const EventMark& event, double start) {

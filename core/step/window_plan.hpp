@@ -12,14 +12,15 @@
 namespace carom {
 
 struct WindowPlan {
-  double start = 0.0;   // absolute time
-  double length = 0.0;  // > 0
-  double end = 0.0;     // absolute time; a cut's own value where the window ends at one
-  double meant = 0.0;   // length before a cut shortened it
-  double least = 0.0;   // length below which only crowded windows go
-  double pace = 0.0;    // mean length of windows below which time all but stands still
-  bool tc = false;      // the TC model makes collisions elastic
-  Count disks = 0;      // at its start
+  double start = 0.0;        // absolute time
+  double length = 0.0;       // > 0
+  double end = 0.0;          // absolute time; a cut's own value where the window ends at one
+  double meant = 0.0;        // length before a cut shortened it
+  double least = 0.0;        // length below which only crowded windows go
+  double pace = 0.0;         // mean length of windows below which time all but stands still
+  double pace_moving = 0.0;  // likewise where walls that move push disks
+  bool tc = false;           // the TC model makes collisions elastic
+  Count disks = 0;           // at its start
 };
 
 // Does the TC model make collisions elastic? Not where all are, whatever the scene says.
@@ -41,7 +42,7 @@ WindowPlan shortened(const WindowPlan& plan, const ExactRules& rules, const Even
 void finish_window(State& state, std::size_t disks, const WindowPlan& plan, const ImpactTally& tally, double scale);
 
 // After finish_window: throws PhysicsError when a row of crowded windows has hardly advanced time.
-void check_pace(const Scene& scene, State& state, const WindowPlan& plan);
+void check_pace(const Scene& scene, State& state, const WindowPlan& plan, const ImpactTally& tally);
 
 // The one line about two disks (or a disk and a wall) whose collisions pile up. start: of the window. Status 3.
 [[noreturn]] void fail_collapse(const ExactRules& rules, const EventMark& event, double start);

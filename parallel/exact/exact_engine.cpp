@@ -53,7 +53,6 @@ class ParallelExact final : public Engine {
     logged_.reset();
     if (!run_window_with_retry(plan, speeds)) return;
     finish(plan);
-    check_pace(scene_, state_, plan);
   }
 
   const State& state() const override { return state_; }
@@ -262,6 +261,7 @@ void ParallelExact::finish(const WindowPlan& plan) {
   Overlap wall;
   if (walls_are_watched(scene_)) wall = deepest_wall_overlap(state_.disks, box_at(scene_.box, state_.time), executor_);
   validity_.see_step(scene_, {{}, {}, wall, tally.all_inaccurate()}, state_);
+  check_pace(scene_, state_, plan, tally);
 }
 
 double ParallelExact::disks_at(double t, Disks& out) const {

@@ -68,7 +68,6 @@ void SlabExact::step() {
   if (obstacles_) obstacles_->follow(plan.start, plan.end);
   if (!run_window(plan, speeds)) return step_alone();
   finish(plan);
-  check_pace(scene_, state_, plan);
 }
 
 void SlabExact::step_alone() {
@@ -212,6 +211,7 @@ void SlabExact::finish(const WindowPlan& plan) {
     join_over_ranks(ranks_, figures);
   }
   validity_.see_step(scene_, figures, state_);
+  check_pace(scene_, state_, plan, tally);
 }
 
 const State& SlabExact::state() const {

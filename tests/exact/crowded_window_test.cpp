@@ -69,6 +69,38 @@ TEST(LongCrowdedWindow, FiniteBurstsAreCountedToTheEndByBothEngines) {
   }
 }
 
+// The same burst beside walls that move but are not part of it, at the other end of the box.
+TEST(LongCrowdedWindow, AFiniteBurstGoesOnWhereAWallMovesThatHasNoPartInIt) {
+  const std::string burst =
+      "[physics]\n[[disks]]\ncount = 2\npositions = [[5, 10], [20, 10]]\nvelocities = [[0, 0], [-1, 0]]\nradius = 1\n"
+      "mass = [1e-10, 1]\n[run]\nt_end = 20.0\n";
+  const std::string box = "[box]\nwidth = 40.0\nheight = 20.0\n";
+  const std::string shaker = "motion = { vibrate = [0.1, 0.0], period = 3.0 }";
+  for (const std::string& walls :
+       {"right = { place = 39.0, " + shaker + " }\n", "[[walls]]\nfrom = [39, 2]\nto = [39, 18]\n" + shaker + "\n"}) {
+    const Scene scene = parse_scene(box + walls + burst, "burst", "");
+    const State initial = initial_state(scene);
+    const auto reference = make_reference_exact(scene, initial);
+    const std::string plain = outcome_of(*reference, scene);
+    EXPECT_THAT(plain, HasSubstr("done"));
+    EXPECT_EQ(outcome_of(*make_parallel_engine(scene, initial, {1}), scene), plain);
+    EXPECT_EQ(reference->state().counters.collisions, 157079U);
+  }
+}
+
+// A disk that bounces lower and lower on a plate that shakes as a sine is not short of room.
+TEST(LongCrowdedWindow, ComingToRestOnASineIsCalledByItsName) {
+  const std::string text =
+      "[box]\nwidth = 10.0\nheight = 10.0\nwall_restitution = 0.5\n"
+      "bottom = { place = 0.5, motion = { vibrate = [0, 0.3], period = 5.0, shape = \"sine\" } }\n"
+      "[physics]\ngravity = 1.0\n[[disks]]\ncount = 1\npositions = [[3, 2]]\nradius = 0.5\nmass = 1\n"
+      "[run]\nt_end = 20.0\n";
+  const Scene scene = parse_scene(text, "plate", "");
+  EXPECT_THAT(outcome(scene, initial_state(scene)),
+              AllOf(HasSubstr("all but stands still"), HasSubstr("come to rest on a wall (inelastic collapse)"),
+                    HasSubstr("physics.collapse = {")));
+}
+
 // The same burst where the walls lose energy but are not part of it: a heavy disk at rest is what the light one is
 // thrown against.
 TEST(LongCrowdedWindow, AnElasticBurstIsNoCollapseWhereOtherContactsDissipate) {
