@@ -13,11 +13,16 @@
 
 namespace carom {
 
+// Two disks, or a disk and an inner wall, that e = 0 leaves without speed along the line between them may, by rounding,
+// approach again, and meet at that moment for ever. So they part with this share at least of the speed at which they
+// met: enough above rounding, and less than what any measurement sees.
+inline constexpr double least_rebound = 0x1p-36;
+
 // The constants of a run.
 struct ExactRules {
   Domain box;
   Gravity gravity;             // length / time^2
-  double restitution = 1.0;    // of disk pairs
+  double restitution = 1.0;    // of disk pairs, `least_rebound` at least
   double contact_time = -1.0;  // TC model; time, < 0: off
   std::uint64_t seed = 0;      // with thermal sides
   bool common_mass = true;     // pairs share impulses half and half
@@ -117,7 +122,8 @@ inline Impact collide_at(const ExactRules& rules, double s, DiskId id_a, DiskId 
     if (rules.constant) return rules.restitution;
     const double e = rules.law == nullptr
                          ? rules.restitution
-                         : restitution_at(rules.law->of(rules.restitution, id_a, id_b), speed_of_approach(r));
+                         : std::max(least_rebound,
+                                    restitution_at(rules.law->of(rules.restitution, id_a, id_b), speed_of_approach(r)));
     elastic = made_elastic(rules, s, std::max(a.last_contact, b.last_contact));
     held_elastic = elastic && (e < 1.0 || rubs_away(rules, true));
     return elastic ? 1.0 : e;
@@ -242,7 +248,7 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
       elastic = made_elastic(rules, s, a.last_contact);
       if (rules.law != nullptr) own = restitution_under_law(rules, id, o, std::max(0.0, -approach) / distance);
     }
-    const double e = elastic ? 1.0 : own;
+    const double e = elastic ? 1.0 : std::max(own, least_rebound);
     double change = approach < 0.0 ? -(1.0 + e) * approach : 0.0;  // of the approach
     if (rules.tc()) {
       const double least = least_hop * rules.contact_time * g.against(apart.x, apart.y);

@@ -74,7 +74,7 @@ ExactRules exact_rules(const Scene& scene, const Disks& disks, double start) {
   ExactRules rules;
   rules.box = box_at(scene.box, start);
   rules.gravity = scene.physics.gravity;
-  rules.restitution = scene.physics.restitution;
+  rules.restitution = std::max(scene.physics.restitution, least_rebound);
   if (has_tc(scene)) rules.contact_time = *scene.physics.collapse_contact_time;
   rules.seed = scene.seed;
   rules.common_mass = disks.mass.empty();

@@ -297,6 +297,27 @@ TEST(ExactHostile, TimeTooFineToAdvance) {
   EXPECT_THROW(run_reference(plain_scene(box, 2e12), late), PhysicsError);
 }
 
+// With e = 0 two disks meet once and part, whatever rounding leaves of their approach: in these it was an approach.
+TEST(ExactCollapse, IsNotWhereTwoThatStickMeetOnce) {
+  const std::string group = "[[disks]]\nname = \"a\"\ncount = 2\nradius = [0.5, 1.0]\nmass = 1.0\n";
+  for (const std::string& disks :
+       {std::string("positions = [[5.485034627930945, 9.570918669300385], [12.00045171488507, 10.0]]\nvelocities = "
+                    "[[1.6628185628837677, -0.011898297174222], [-0.7597306350978931, -0.05073585117046339]]\n"),
+        std::string("positions = [[5.417993654979519, 9.852454144828021], [12.281257007115338, 10.0]]\nvelocities = "
+                    "[[1.8432785884739036, 0.19588849482725074], [-0.4746472523201577, 0.1852860138191469]]\n")}) {
+    for (const char* physics : {"restitution = 0.0", "[[physics.pairs]]\ngroups = [\"a\", \"a\"]\nrestitution = 0.0"}) {
+      const Scene scene = make_scene({20, 20, "wall", physics, group + disks, 6.0, ""});
+      const State initial = initial_state(scene);
+      State end;
+      ASSERT_NO_THROW(end = run_reference(scene, initial)) << physics << disks;
+      EXPECT_EQ(end.counters.collisions, 1U);
+      const auto engine = make_parallel_engine(scene, initial, {1});
+      run_to_end(*engine, scene);
+      EXPECT_EQ(state_hash(engine->state().disks), state_hash(end.disks));
+    }
+  }
+}
+
 // Disks that fill the box exactly: a square lattice, all touching, some moving.
 TEST(ExactHostile, FullBox) {
   Domain box;
