@@ -308,6 +308,21 @@ std::pair<DiskSize, DiskSize> source_sizes(const Source& source) {
   return {size(false), size(true)};
 }
 
+namespace {
+
+// Frames, or samples, that are asked for more often than time stepping has a state. Not where nobody asked: the default
+// is a hundred of them, however few the steps are.
+void warn_of_interval(const Scene& scene, const char* key, double every, std::vector<std::string>& warnings) {
+  constexpr double rounding = 1e-6;
+  const bool steps = scene.run.method != Method::exact;
+  if (!steps || every == scene.run.t_end / 100.0 || !(every > 0.0 && every < (1.0 - rounding) * scene.run.dt)) return;
+  warnings.push_back(
+      fmt::format("{}: {}: is {:g}, shorter than dt = {:g}: time stepping has a state at the end of each step only",
+                  scene.file, key, every, scene.run.dt));
+}
+
+}  // namespace
+
 std::vector<std::string> scene_warnings(const Scene& scene) {
   std::vector<std::string> warnings;
   if (scene.physics.collapse_contact_time && scene.run.method != Method::exact) {
@@ -321,6 +336,9 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
                     scene.file));
   }
   for (std::string& warning : brownian_warnings(scene)) warnings.push_back(std::move(warning));
+  warn_of_interval(scene, "output.every", scene.output.every, warnings);
+  if (scene.analysis.any() && scene.analysis.every != scene.output.every)
+    warn_of_interval(scene, "analysis.every", scene.analysis.every, warnings);
   if (scene.run.accuracy > 0.0 && !scene.run.automatic) {
     warnings.push_back(fmt::format("{}: run.accuracy: only method \"auto\" uses it, method {} does not", scene.file,
                                    name_of(scene.run.method)));

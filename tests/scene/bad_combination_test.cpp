@@ -43,6 +43,32 @@ TEST(BadList, LengthMustMatchCount) {
               StartsWith("gas.toml:18: disks.0.mass: has 0 entries"));
 }
 
+TEST(UnusedKey, IntervalsShorterThanAStepAreAWarning) {
+  const auto warned = [](const std::vector<Override>& sets) {
+    std::vector<Override> all = {{"output.series", "true"}, {"analysis.what", "[\"speeds\"]"}};
+    all.insert(all.end(), sets.begin(), sets.end());
+    return scene_warnings(test::scene_from(sound_scene, all));
+  };
+  const auto of = [](const std::string& key, const std::string& every) {
+    return fmt::format(
+        "gas.toml: {}: is {}, shorter than dt = 0.1: time stepping has a state at the end of each step "
+        "only",
+        key, every);
+  };
+  const std::vector<Override> long_steps = {{"run.dt", "0.1"}, {"run.t_end", "1.0"}};
+  const auto beside = [&](std::vector<Override> sets) {
+    sets.insert(sets.begin(), long_steps.begin(), long_steps.end());
+    return warned(sets);
+  };
+  EXPECT_THAT(beside({}), testing::IsEmpty()) << "the default, a hundredth of the run";
+  EXPECT_THAT(beside({{"output.every", "0.1"}}), testing::IsEmpty());
+  EXPECT_THAT(beside({{"output.every", "0.0"}}), testing::IsEmpty());
+  EXPECT_THAT(beside({{"output.every", "0.04"}}), testing::ElementsAre(of("output.every", "0.04")));
+  EXPECT_THAT(beside({{"output.every", "0.04"}, {"analysis.every", "0.02"}}),
+              testing::ElementsAre(of("output.every", "0.04"), of("analysis.every", "0.02")));
+  EXPECT_THAT(beside({{"output.every", "0.04"}, {"run.method", "exact"}}), testing::IsEmpty());
+}
+
 // Before anything is drawn for them: 3.9e9 radii would take minutes.
 TEST(BadCount, MoreDisksThanTheMachineHolds) {
   const std::string text = replaced(replaced(sound_scene, "count = 3", "count = 3_900_000_000"), "radius = 1.0",
