@@ -44,14 +44,29 @@ double mean_square_speed(const VelocityLaw& law, double mass) {
   }
 }
 
+// Mean of I w^2 of rough disks of this mass and radius; 0 of smooth ones.
+double mean_spin_energy(const Scene& scene, const SpinLaw& law, double mass, double radius) {
+  if (!scene.physics.surfaces.are_rough()) return 0.0;
+  if (law.temperature > 0.0) return law.temperature;
+  double sum = 0.0;
+  for (const double w : law.list) sum += w * w;
+  const double mean = law.list.empty() ? law.value * law.value : sum / static_cast<double>(law.list.size());
+  return scene.physics.surfaces.inertia * mass * radius * radius * mean;
+}
+
 // Sums over the disks of the scene.
 struct Tally {
   double disks = 0.0, radius2 = 0.0, speed2 = 0.0;
+  double temperature = 0.0;   // of what collisions share out: sum of m v_x^2, and of spins a third of I w^2
+  double inverse_mass = 0.0;  // sum of 1 / m
   double smallest = std::numeric_limits<double>::infinity();  // radius
   double lightest = std::numeric_limits<double>::infinity();  // mass
 
-  void add(double count, double sum_radius2, double smallest_radius, double mass, double mean_speed2) {
+  void add(double count, double sum_radius2, double smallest_radius, double mass, double mean_speed2,
+           double spin_energy) {
     if (!(count > 0.0)) return;
+    temperature += count * (mass * mean_speed2 + spin_energy / 3.0);
+    inverse_mass += count / mass;
     lightest = std::min(lightest, mass);
     disks += count;
     radius2 += sum_radius2;
@@ -77,7 +92,8 @@ Tally tally_of(const Scene& scene) {
     const double mass = middle(sizes.smallest.mass, sizes.largest.mass);
     const double drift2 = 0.5 * (group.drift.x * group.drift.x + group.drift.y * group.drift.y);
     const double speed2 = group.count > 0 ? mean_square_speed(group.velocities, mass) + drift2 : 0.0;
-    tally.add(static_cast<double>(group.count), sizes.radius_squared, sizes.smallest.radius, mass, speed2);
+    const double spin_energy = mean_spin_energy(scene, group.spins, mass, sizes.largest.radius);
+    tally.add(static_cast<double>(group.count), sizes.radius_squared, sizes.smallest.radius, mass, speed2, spin_energy);
     first_id += static_cast<DiskId>(group.count);
   }
   for (const Source& source : scene.sources) {
@@ -86,7 +102,8 @@ Tally tally_of(const Scene& scene) {
     const DiskSize size =
         draw_size(source.radius, source.mass, scene.seed, Stream::source_radius, Stream::source_mass, 0, 0);
     tally.add(count, count * size.radius * size.radius, size.radius, size.mass,
-              mean_square_speed(source.velocities, size.mass));
+              mean_square_speed(source.velocities, size.mass),
+              mean_spin_energy(scene, source.spins, size.mass, size.radius));
   }
   return tally;
 }
@@ -96,6 +113,25 @@ Tally tally_of(const Scene& scene) {
 double hottest_bath(const Scene& scene) {
   const double hottest = *std::max_element(scene.box.temperatures.begin(), scene.box.temperatures.end());
   return std::max(hottest, scene.physics.thermostat.temperature);
+}
+
+// The speed of the fastest wall, a side or an inner one, and the largest angular frequency of those that vibrate.
+struct WallDrive {
+  bool moves = false;
+  double speed = 0.0, vibration = 0.0;  // length / time, 1 / time
+
+  void see(const SideMotion& pace, double fastest) {
+    moves |= pace.moves();
+    speed = std::max(speed, fastest);
+    if (pace.vibrates()) vibration = std::max(vibration, pace.angular_frequency());
+  }
+};
+
+WallDrive wall_drive(const Scene& scene) {
+  WallDrive drive;
+  for (const SideMotion& motion : scene.box.motions) drive.see(motion, motion.largest_speed());
+  for (const InnerWall& wall : scene.walls) drive.see(wall.motion.pace, wall.motion.largest_speed());
+  return drive;
 }
 
 // Compressibility of hard disks, good to 0.1 % up to packing fraction 0.65 (virial series resummed; docs/methods.md).
@@ -151,7 +187,8 @@ struct ErrorLaw {
 ErrorLaw pairwise_law(const SceneScales& s) {
   const double gamma = s.collision_rate;
   const double grazing = s.diameter > 0.0 ? 0.5 * s.speed / s.diameter : 0.0;
-  return {rates::second_collision * gamma, rates::crowding * gamma * gamma + grazing * grazing};
+  return {rates::second_collision * gamma,
+          rates::crowding * gamma * gamma + grazing * grazing + s.vibration * s.vibration};
 }
 
 double exact_collision_seconds(const SceneScales& s) {
@@ -227,6 +264,14 @@ MethodOffer offer_exact(const Scene& scene, const SceneScales& s, double accurac
   return offer;
 }
 
+// Where exact has no error at all, what walls that move make of the disks' speeds is no matter; a step would have to be
+// short against speeds that the scene does not tell.
+void leave_driven_to_exact(const SceneScales& s, MethodOffer& pairwise, const MethodOffer& exact) {
+  if (!s.driven || s.may_collapse || !exact.possible || exact.error > 0.0 || !pairwise.possible) return;
+  pairwise.possible = false;
+  pairwise.why = "how fast walls that move make the disks, and so which step is short, is not known before";
+}
+
 // Brownian motion: both methods draw a displacement each dt, and both are wrong by it.
 void offer_brownian(const Scene& scene, const SceneScales& s, double accuracy, MethodChoice& choice) {
   // Collisions of a disk in an interval: rate dt, with a speed of sqrt(2 D / dt), so x sqrt(dt).
@@ -290,8 +335,15 @@ SceneScales scales_of(const Scene& scene) {
   s.smallest_radius = tally.smallest;
   s.diameter = 2.0 * std::sqrt(tally.radius2 / tally.disks);
   s.packing_fraction = std::min(0.9, std::numbers::pi * tally.radius2 / (scene.box.width * scene.box.height));
+  // Collisions share energy out, so that light disks become faster than heavy ones.
+  const double shared2 = tally.temperature / tally.disks * tally.inverse_mass / tally.disks;
+  const double thermal2 = std::max({tally.speed2 / tally.disks, shared2, hottest_bath(scene) / tally.lightest});
+  // A wall that moves sends a disk at rest off at twice its speed.
+  const WallDrive drive = wall_drive(scene);
+  s.driven = drive.moves;
+  s.vibration = drive.vibration;
+  const double speed2 = thermal2 + 4.0 * drive.speed * drive.speed;
   // A disk falls through half the box in the mean: v^2 = g H, of which half for each component.
-  const double speed2 = std::max(tally.speed2 / tally.disks, hottest_bath(scene) / tally.lightest);
   const Gravity& g = scene.physics.gravity;
   s.speed = std::sqrt(speed2 + 0.5 * (std::abs(g.down) * scene.box.height + std::abs(g.left) * scene.box.width));
   const double eta = s.settles ? std::max(settled_fraction, s.packing_fraction) : s.packing_fraction;
@@ -313,6 +365,7 @@ MethodChoice choose_method(const Scene& scene, double accuracy) {
   } else {
     choice.offers.push_back(offer_pairwise(scene, choice.scales, accuracy));
     choice.offers.push_back(offer_exact(scene, choice.scales, accuracy));
+    leave_driven_to_exact(choice.scales, choice.offers[0], choice.offers[1]);
   }
   pick_best(choice);
   choice.why = reason_of(choice);

@@ -14,9 +14,13 @@ struct SceneScales {
   double diameter = 0.0;         // of the root mean square radius
   double smallest_radius = 0.0;  // length
   double packing_fraction = 0.0;
-  double speed = 0.0;           // root mean square of one component, what gravity adds while falling included
+  // Root mean square of one component, with what gravity adds while falling, walls that move give to disks at rest, and
+  // rough disks get from their spins.
+  double speed = 0.0;
+  double vibration = 0.0;       // largest angular frequency of a wall that vibrates; 1 / time
   double collision_rate = 0.0;  // of a disk, per unit time: 4 (Z - 1) speed / (sqrt(pi) diameter)
   bool settles = false;         // gravity presses and contacts dissipate: in the end a pile
+  bool driven = false;          // by walls that move: how fast disks become is known from a run alone
   bool may_collapse = false;    // infinitely many collisions in finite time are to be expected
 };
 

@@ -288,6 +288,47 @@ TEST(MethodChoice, WhatDoesNotMoveCanBeRun) {
   EXPECT_GE(choose_method(scene, 1e-3).best, 0);
 }
 
+// Walls that move make fast what was at rest: no step may be taken from the speeds at the start alone.
+TEST(MethodChoice, WallsThatMoveSetThePace) {
+  const std::vector<std::string> walls = {"motion = { vibrate = [0.0, 0.5], period = 0.1, shape = \"sine\" }",
+                                          "motion = { vibrate = [0.0, 0.5], period = 0.1 }",
+                                          "motion = { velocity = [0.0, 20.0] }"};
+  for (const std::string& motion : walls) {
+    for (const bool side : {true, false}) {
+      SCOPED_TRACE(motion + (side ? " of a side" : " of an inner wall"));
+      const std::string wall = side ? "[box.bottom]\n" : "[[walls]]\nfrom = [2.0, 20.0]\nto = [8.0, 20.0]\n";
+      Scene scene = scene_from("[box]\nwidth = 10.0\nheight = 50.0\n" + wall + motion +
+                               "\n[physics]\nrestitution = 0.5\n[[disks]]\ncount = 20\npositions = \"random\"\n"
+                               "region = [1.0, 25.0, 9.0, 49.0]\nradius = 0.5\nmass = 1.0\n[run]\nt_end = 1.0\n");
+      const MethodChoice choice = choose_method(scene, 1e-2);
+      ASSERT_EQ(choice.best, 0) << "exact would collapse";
+      const double fastest = 20.0;
+      EXPECT_LE(2.0 * fastest * pairwise_of(choice).dt, 0.25);
+      const bool vibrates = motion.find("period") != std::string::npos;
+      EXPECT_LE(pairwise_of(choice).dt, vibrates ? 0.1 / 50.0 : 1.0);
+      scene.physics.restitution = 1.0;
+      EXPECT_EQ(choose_method(scene, 1e-2).best, 1) << "exact needs no speed";
+    }
+  }
+}
+
+// What collisions share out: the energy of fast heavy disks goes to light ones, that of spins to the motion.
+TEST(MethodChoice, LightDisksBecomeFast) {
+  const auto speed = [](const std::string& heavy, const std::string& light, const std::string& physics) {
+    const std::string disks = "positions = \"random\"\nradius = 0.1\ncount = 50\n";
+    return scales_of(scene_from("[box]\nwidth = 20.0\nheight = 20.0\n" + physics + "[[disks]]\n" + disks + heavy +
+                                "[[disks]]\n" + disks + light + "[run]\nt_end = 1.0\n"))
+        .speed;
+  };
+  const double rms = std::sqrt(50.0 * 0.5 * (1.0 + 1.0 / 100.0));  // T = 50 in the mean of all, and that of 1 / m
+  EXPECT_NEAR(speed("mass = 100.0\nvelocities = { maxwell = 100.0 }\n", "mass = 1.0\n", ""), rms, 1e-12 * rms);
+  const std::string rough = "[physics]\nroughness = { tangential_restitution = 1.0 }\n";
+  const std::string spinning = "mass = 1.0\nspin_temperature = 30.0\n";
+  EXPECT_NEAR(speed(spinning, spinning, rough), std::sqrt(10.0), 1e-12);
+  const std::string turning = "mass = 1.0\nspin = 100.0\n";  // I w^2 = 0.5 0.01 10^4
+  EXPECT_NEAR(speed(turning, turning, rough), std::sqrt(50.0 / 3.0), 1e-12);
+}
+
 std::string automatic(const std::string& accuracy) {
   const std::string text = replaced(sound_scene, "method = \"pairwise\"", "method = \"auto\"\n" + accuracy);
   return replaced(text, "dt = 0.01\n", "");
