@@ -73,11 +73,4 @@ inline Count parts_of_step(double travel2, double fall, double dt) {
   return static_cast<Count>(parts);
 }
 
-// The warning of a run whose step is longer than the safe one.
-inline std::string split_warning(double time, double dt, Count parts) {
-  return "at time " + std::to_string(time) +
-         " the fastest disk moves more than half its radius in dt = " + std::to_string(dt) +
-         ": the step is split into " + std::to_string(parts) + " parts; a smaller dt would be more accurate";
-}
-
 }  // namespace carom

@@ -102,13 +102,21 @@ std::string slow_text(const Scene& scene, const WorstFigure& advance, std::size_
       advance.time, advance.figure, disks, velocities_are_drawn(scene) ? "" : " or exact");
 }
 
+// dt: of the step, which may be cut short to end at t_end.
+std::string split_text(double time, double dt, Count parts) {
+  return fmt::format(
+      "at time {:g} the fastest disk moves more than half its radius in dt = {:g}: the step is split into {} parts; a "
+      "smaller dt would be more accurate",
+      time, dt, parts);
+}
+
 }  // namespace
 
 void Validity::see_split(State& state, double dt, Count parts) {
   ValidityCounts& seen = state.validity;
   if (static_cast<double>(parts) > seen.parts.figure) seen.parts = {static_cast<double>(parts), state.time};
   if (std::exchange(seen.split_told, true)) return;
-  warnings_.push_back(split_warning(state.time, dt, parts));
+  warnings_.push_back(split_text(state.time, dt, parts));
 }
 
 void Validity::see_step(const Scene& scene, const StepFigures& figures, State& state) {
@@ -185,7 +193,9 @@ std::vector<std::string> worst_moments(const Scene& scene, const State& state) {
   const ValidityCounts& seen = state.validity;
   std::vector<std::string> warnings;
   if (seen.split_told) {
-    warnings.push_back(split_warning(seen.parts.time, scene.run.dt, static_cast<Count>(seen.parts.figure)));
+    const bool cut = scene.run.method == Method::pairwise;
+    const double dt = cut ? std::min(scene.run.dt, scene.run.t_end - seen.parts.time) : scene.run.dt;
+    warnings.push_back(split_text(seen.parts.time, dt, static_cast<Count>(seen.parts.figure)));
   }
   if (seen.overlap_told) {
     const bool exact = scene.run.method == Method::exact;

@@ -57,6 +57,26 @@ TEST(Validity, PairwiseSaysThatCollisionsAreSeenLate) {
                                         HasSubstr("use a smaller dt or --method exact"))));
 }
 
+// The only step is cut to end at t_end: what is said of it when it comes is what the summary has, in units of any size.
+TEST(Validity, AStepThatIsSplitIsNamedWithItsLength) {
+  for (const double unit : {1.0, 0x1p-30}) {
+    const auto in_units = [unit](double value) { return fmt::format("{}", value * unit); };
+    const Scene scene = test::scene_from(test::sound_scene,
+                                         {{"run.method", "pairwise"},
+                                          {"physics.gravity", "0.0"},
+                                          {"disks.0.velocities", fmt::format("[[{}, 0], [0, 0], [0, 0]]", 1.0 / unit)},
+                                          {"run.t_end", in_units(2.0)},
+                                          {"run.dt", in_units(16.0)}});
+    const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 512});
+    const std::vector<std::string> warnings = warnings_of(*engine, scene);
+    EXPECT_EQ(warnings, worst_moments(scene, engine->state()));
+    EXPECT_THAT(warnings,
+                ElementsAre(HasSubstr(fmt::format("at time 0 the fastest disk moves more than half its radius "
+                                                  "in dt = {:g}: the step is split into 4 parts",
+                                                  2.0 * unit))));
+  }
+}
+
 TEST(Validity, RollbackSaysThatDisksBounceBeforeTheyTouch) {
   const auto gas = [](const char* dt) {
     return stability_scene("f02_bounce_at_a_distance",
