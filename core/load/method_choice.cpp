@@ -150,10 +150,24 @@ double least_restitution(const Scene& scene, bool slow_too) {
   return e;
 }
 
-// Collapse in two dimensions is seen for e <= 0.6 (McNamara and Young 1996); under gravity any ball on a floor that
-// dissipates does it, and so does a pile of more disks than a column that collapses has, ln(4 / (1 - e)) / (1 - e).
-// A restitution that tends to 1 for slow disks keeps a gas from it (Goldman et al. 1998), but not a pile, whose bounces
-// become shorter and shorter all the same.
+// Does gravity press disks against something in the box that takes energy from them? e: of two disks.
+bool rests_on_obstacles(const Scene& scene, double e) {
+  const Gravity& g = scene.physics.gravity;
+  for (const InnerWall& wall : scene.walls) {
+    if (wall.sink || wall.restitution >= 1.0) continue;
+    for (std::size_t k = 1; k < wall.points.size(); ++k) {
+      const Vec2 along{wall.points[k].x - wall.points[k - 1].x, wall.points[k].y - wall.points[k - 1].y};
+      if (along.x * g.down - along.y * g.left != 0.0) return true;
+    }
+  }
+  const auto is_peg = [](const DiskGroup& group) { return group.fixed && group.count > 0; };
+  return e < 1.0 && std::any_of(scene.groups.begin(), scene.groups.end(), is_peg);
+}
+
+// Collapse in two dimensions is seen for e <= 0.6 (McNamara and Young 1996); under gravity any ball on a floor, an
+// inner wall or between fixed disks that dissipate does it, and so does a pile of more disks than a column that
+// collapses has, ln(4 / (1 - e)) / (1 - e). A restitution that tends to 1 for slow disks keeps a gas from it (Goldman
+// et al. 1998), but not a pile, whose bounces become shorter and shorter all the same.
 bool may_collapse(const Scene& scene, double disks, bool settles) {
   const double e = least_restitution(scene, settles);
   constexpr double two_dimensions = 0.6;
@@ -162,6 +176,7 @@ bool may_collapse(const Scene& scene, double disks, bool settles) {
     const bool presses = outward_acceleration(side, scene.physics.gravity) > 0.0;
     if (presses && scene.box.side(side) == SideKind::wall && scene.box.restitution(side) < 1.0) return true;
   }
+  if (rests_on_obstacles(scene, e)) return true;
   return e < 1.0 && disks > std::log(4.0 / (1.0 - e)) / (1.0 - e);
 }
 

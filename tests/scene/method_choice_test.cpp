@@ -169,6 +169,27 @@ TEST(MethodChoice, ExactIsRefusedWhereCollapseIsToBeExpected) {
   }
 }
 
+// Two disks are no pile, but each comes to rest on a shelf, a slide or between pegs that dissipate.
+TEST(MethodChoice, ExactIsRefusedWhereDisksRestOnObstacles) {
+  const auto exact = [](const std::string& gravity, const std::string& obstacles) {
+    const std::string disks = "[[disks]]\ncount = 2\npositions = \"random\"\nradius = 0.3\nmass = 1.0\n";
+    const Scene scene = scene_from("[box]\nwidth = 20.0\nheight = 20.0\n[physics]\ngravity = " + gravity + "\n" +
+                                   obstacles + disks + "[run]\nt_end = 40.0\n");
+    return exact_of(choose_method(scene, 1e-3)).possible;
+  };
+  const std::string shelf = "[[walls]]\nfrom = [1.0, 5.0]\nto = [19.0, 5.0]\n";
+  const std::string post = "[[walls]]\nfrom = [5.0, 5.0]\nto = [5.0, 15.0]\nrestitution = 0.5\n";
+  EXPECT_TRUE(exact("1.0", shelf));
+  EXPECT_FALSE(exact("1.0", shelf + "restitution = 0.5\n"));
+  EXPECT_TRUE(exact("1.0", shelf + "kind = \"sink\"\n"));
+  EXPECT_TRUE(exact("1.0", post)) << "gravity does not press against it";
+  EXPECT_FALSE(exact("[1.0, -1.0]", post));
+  EXPECT_TRUE(exact("0.0", shelf + "restitution = 0.7\n"));
+  const std::string pegs = "[[disks]]\ncount = 2\nfixed = true\npositions = [[8.0, 3.0], [9.5, 3.0]]\nradius = 0.5\n";
+  EXPECT_TRUE(exact("1.0", pegs));
+  EXPECT_FALSE(exact("1.0\nrestitution = 0.7", pegs));
+}
+
 // The TC model's error is 2 Gamma t_c (docs/methods.md), Gamma = 7.007 the published rate at packing fraction 0.5.
 TEST(MethodChoice, TheRemedyOfCollapseHasItsOwnError) {
   Scene scene = fluid(1000);
