@@ -61,8 +61,9 @@ double emitted_by(const Source& source, double t_end) {
 struct SourceDisks {
   double smallest_radius = infinity;
   double mean_area = 0.0;
-  double speed = 0.0;  // of the fastest of all that it emits
-  Vec2 centre;         // from which they fall furthest
+  double speed = 0.0;          // of the fastest of all that it emits
+  double lightest = infinity;  // mass
+  Vec2 centre;                 // from which they fall furthest
 };
 
 // The corner, of a rectangle, from which a disk falls furthest.
@@ -109,6 +110,7 @@ SourceDisks disks_of(const Scene& scene, const Source& source) {
   if (law.kind == VelocityLaw::Kind::maxwell) {
     d.speed = std::sqrt(2.0 * law.temperature / mass * std::log(std::max(2.0, count)));
   }
+  d.lightest = mass;
   d.centre = highest_place(scene, source);
   return d;
 }
@@ -120,6 +122,25 @@ bool emits(const Scene& scene, const Source& source) {
 double speed_of(const Disks& d, std::size_t i) {
   return std::hypot(d.vx[i], d.vy[i]);
 }
+
+// What gives disks speeds of its own: the fastest wall, a side or an inner one, and the hottest side or thermostat.
+struct Drive {
+  double wall = 0.0;         // length / time
+  double temperature = 0.0;  // mass length^2 / time^2
+
+  explicit Drive(const Scene& scene)
+      : wall(fastest_inner_wall(scene)), temperature(scene.physics.thermostat.temperature) {
+    for (const Side side : all_sides) {
+      wall = std::max(wall, scene.box.motions[static_cast<std::size_t>(side)].largest_speed());
+      temperature = std::max(temperature, scene.box.temperature(side));
+    }
+  }
+  // Of the fastest of n disks, of this mass, that start at this speed: of n draws in two dimensions the fastest has
+  // m v^2 / 2 = T ln n; and a wall that moves sends a disk off faster by twice its own speed.
+  double speed(double start, double mass, double n) const {
+    return std::max(start, std::sqrt(2.0 * temperature / mass * std::log(std::max(2.0, n)))) + 2.0 * wall;
+  }
+};
 
 // A Brownian step is sqrt(2 D dt) in each direction; three of that, as some disk always moves so far.
 double brownian_step(const Scene& scene, double radius) {
@@ -165,7 +186,9 @@ StepForesight foresee_steps(const Scene& scene, const Disks& start) {
   const double g = scene.physics.gravity.size;
   double radius = start.empty() ? infinity : smallest_radius(start);
   double fastest = 0.0, later = 0.0;  // radii per unit time
+  const Drive drive(scene);
   StepForesight f;
+  f.driven = drive.wall > 0.0 || drive.temperature > 0.0;
   const auto see = [&](double speed, Vec2 centre, double r) {
     const double landing = g > 0.0 ? fallen_speed(scene, speed, centre, r) : speed;
     later = std::max(later, landing / r);
@@ -174,15 +197,17 @@ StepForesight foresee_steps(const Scene& scene, const Disks& start) {
   for (std::size_t i = 0; i < start.size(); ++i) {
     const double r = start.radius_of(i);
     fastest = std::max(fastest, speed_of(start, i) / r);
-    see(speed_of(start, i), {start.x[i], start.y[i]}, r);
+    const double speed = drive.speed(speed_of(start, i), start.mass_of(i), static_cast<double>(start.size()));
+    see(speed, {start.x[i], start.y[i]}, r);
   }
   const double fall_at_start = radius < infinity ? g / radius : 0.0;
+  if (radius < infinity) fastest += fastest_inner_wall(scene) / radius;  // which may not jump over a disk either
   f.at_start = std::min(step_for(fastest, fall_at_start), brownian_step(scene, radius));
   for (const Source& source : scene.sources) {
     if (!emits(scene, source)) continue;
     const SourceDisks d = disks_of(scene, source);
     radius = std::min(radius, d.smallest_radius);
-    see(d.speed, d.centre, d.smallest_radius);
+    see(drive.speed(d.speed, d.lightest, 2.0), d.centre, d.smallest_radius);
   }
   const double fall = radius < infinity ? g / radius : 0.0;
   f.later = std::min(step_for(later, fall), brownian_step(scene, radius));

@@ -13,7 +13,8 @@ namespace carom {
 // How long a step may be; infinite where nothing limits it.
 struct StepForesight {
   double at_start = 0.0;       // with the speeds of the start no disk moves further than it safely may
-  double later = 0.0;          // nor with those after falling to the floor, and with those of sources
+  double later = 0.0;          // nor with those after falling to the floor, of sources, and from walls and baths
+  bool driven = false;         // walls that move, thermal sides or a thermostat give speeds of their own
   double landing_speed = 0.0;  // the largest after a fall; 0 without gravity
   double resting = 0.0;        // a disk of a pile falls by less than the overlap that a pile may have; infinite if none
   double safe() const;

@@ -124,6 +124,7 @@ std::string step_text(const Scene& scene, const Findings& f) {
   if (f.steps.at_start > f.steps.later) {
     text += fmt::format(": {:.3g} at the speeds of the start, {:.3g} ", f.steps.at_start, f.steps.later);
     text += f.steps.landing_speed > 0.0 ? fmt::format("after falling (speed {:.3g})", f.steps.landing_speed)
+            : f.steps.driven            ? "at those that walls or a thermostat give"
                                         : "at those of sources";
   } else {
     text += " at the speeds of the start";

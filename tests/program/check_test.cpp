@@ -92,6 +92,26 @@ TEST_F(Check, TheSafeStepIsThatAfterTheFall) {
   EXPECT_THAT(carom("run --quiet --json " + longer + " --t-end 5").out, HasSubstr("the step is split into 2 parts"));
 }
 
+// Nothing moves at the start, but walls and baths will see to that: 0.25, half a radius, over what they give.
+TEST_F(Check, WallsAndBathsAskForShorterSteps) {
+  write("rest.toml", falling_disk);
+  const std::string rest =
+      "rest.toml --method pairwise --dt 1.0 --t-end 10 --set physics.gravity=0.0 --set physics.restitution=0.9";
+  EXPECT_THAT(carom("check " + rest).out, HasSubstr("any: nothing moves"));
+  const auto safe = [&](const std::string& set) {
+    const Json j = check(rest + " --set '" + set + "'");
+    EXPECT_THAT(troubles(j), HasSubstr("dt = 1 is longer than the safe step")) << set;
+    return j["safe_dt"].get<double>();
+  };
+  EXPECT_NEAR(safe("box.left={ motion = { velocity = [0.2, 0.0] } }") * 0.4, 0.25, 1e-12);
+  EXPECT_NEAR(safe("box.left={ motion = { vibrate = [0.5, 0.0], period = 1.0 } }") * 8.0, 0.25, 1e-12);
+  EXPECT_NEAR(safe("box.left={ temperature = 2.0 }") * std::sqrt(4.0 * std::log(2.0)), 0.25, 1e-12);
+  const std::string bath = "physics.thermostat={ kind = \"langevin\", temperature = 2.0, rate = 0.1, dt = 1.0 }";
+  EXPECT_NEAR(safe(bath) * std::sqrt(4.0 * std::log(2.0)), 0.25, 1e-12);
+  EXPECT_THAT(carom("check " + rest + " --set 'box.left={ temperature = 2.0 }'").out,
+              HasSubstr("at those that walls or a thermostat give; dt is longer"));
+}
+
 TEST_F(Check, APileAsksForAShorterStepThanItsSpeedsDo) {
   write("fall.toml", falling_disk);
   // It lies on the floor already: the largest overlap of a pile, 2 %, is reached with dt = sqrt(0.02 r / g).
