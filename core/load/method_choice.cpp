@@ -202,7 +202,7 @@ struct ErrorLaw {
 ErrorLaw pairwise_law(const SceneScales& s) {
   const double gamma = s.collision_rate;
   const double grazing = s.diameter > 0.0 ? 0.5 * s.speed / s.diameter : 0.0;
-  return {rates::second_collision * gamma,
+  return {(rates::second_collision + rates::stopped_in_crowd * s.stopping) * gamma,
           rates::crowding * gamma * gamma + grazing * grazing + s.vibration * s.vibration};
 }
 
@@ -365,6 +365,8 @@ SceneScales scales_of(const Scene& scene) {
   s.collision_rate =
       s.disks > 1.0 ? 4.0 * (compressibility(eta) - 1.0) * s.speed / (std::sqrt(std::numbers::pi) * s.diameter) : 0.0;
   s.may_collapse = may_collapse(scene, s.disks, s.settles);
+  const double e = least_restitution(scene, true);
+  s.stopping = s.settles && e < 1.0 ? 1.0 / (1.0 - e * e) : 0.0;
   return s;
 }
 

@@ -19,9 +19,10 @@ struct SceneScales {
   double speed = 0.0;
   double vibration = 0.0;       // largest angular frequency of a wall that vibrates; 1 / time
   double collision_rate = 0.0;  // of a disk, per unit time: 4 (Z - 1) speed / (sqrt(pi) diameter)
-  bool settles = false;         // gravity presses and contacts dissipate: in the end a pile
-  bool driven = false;          // by walls that move: how fast disks become is known from a run alone
-  bool may_collapse = false;    // infinitely many collisions in finite time are to be expected
+  double stopping = 0.0;      // where disks settle: what one loses that is stopped, over what a collision takes from it
+  bool settles = false;       // gravity presses and contacts dissipate: in the end a pile
+  bool driven = false;        // by walls that move: how fast disks become is known from a run alone
+  bool may_collapse = false;  // infinitely many collisions in finite time are to be expected
 };
 
 // Precondition: box and radii of the scene are known and good.
