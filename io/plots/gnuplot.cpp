@@ -196,7 +196,10 @@ std::string panel_commands(const Panel& panel, std::size_t block, double x_end, 
     plot += fmt::format("{} 'data' index {} {}", plot.empty() ? "plot" : ",", block + k,
                         drawn_with(line, colour, panel.wide_first && k == 0));
   }
-  if (plot.empty()) plot = "plot NaN";
+  if (plot.empty()) {
+    text += fmt::format("set label 1 'no data' at graph 0.5, graph 0.5 center textcolor rgb '{}'\n", grey);
+    plot = "plot NaN";
+  }
   return text + plot + "\n";
 }
 

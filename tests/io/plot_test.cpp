@@ -126,9 +126,11 @@ TEST_F(Plot, ALineThatEndsEarlyIsMarked) {
 TEST_F(Plot, NothingToShowIsStillAPlot) {
   const std::string path = at("empty.svg");
   EXPECT_TRUE(plot_velocity(path, "no disks", {}));
+  EXPECT_TRUE(text_of(path).find("no data") != std::string::npos) << "it says so";
   EXPECT_TRUE(plot_energy(path, "one frame at rest", {{0.0}, {0.0}, {0.0}, {0.0}}));
   EXPECT_TRUE(plot_energy(path, "", {{0.0, 1.0}, {2.0, 1.0}, {0.0, 1.0}, {2.0, 2.0}}));
   EXPECT_TRUE(text_of(path).find("potential") != std::string::npos);
+  EXPECT_TRUE(text_of(path).find("no data") == std::string::npos);
 }
 
 // Where total is more than kinetic and potential, spins have the rest, and a line of their own.
