@@ -173,11 +173,6 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return traffic_of(s); }},
 };
 
-// "1 disk", "2 disks".
-std::string counted(Count n, const char* what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-}
-
 // What was seen on the way, or what there is now if that is deeper.
 WorstOverlap worst_of(const WorstOverlap& before, const Overlap& now, double time) {
   return now.size > before.overlap.size ? WorstOverlap{now, time} : before;

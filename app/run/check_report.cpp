@@ -113,8 +113,8 @@ std::string physics_text(const Scene& scene) {
 std::string method_text(const Scene& scene) {
   const std::string_view name = name_of(scene.run.method);
   if (!uses_dt(scene)) return fmt::format("{} to t = {:g}", name, scene.run.t_end);
-  return fmt::format("{}, dt = {:g}, {} steps to t = {:g}", name, scene.run.dt,
-                     make_step_clock(scene.run.dt, scene.run.t_end).steps, scene.run.t_end);
+  return fmt::format("{}, dt = {:g}, {} to t = {:g}", name, scene.run.dt,
+                     counted(make_step_clock(scene.run.dt, scene.run.t_end).steps, "step"), scene.run.t_end);
 }
 
 std::string step_text(const Scene& scene, const Findings& f) {
@@ -152,8 +152,8 @@ std::string outputs_text(const Scene& scene, const Findings& f) {
   std::vector<std::string> files;
   for (const auto& [name, bytes] : o.files) files.push_back(fmt::format("{} {}B", name, short_number(bytes)));
   std::string text;
-  if (o.frames > 0) text += fmt::format("{} frames", o.frames);
-  if (o.samples > 0) text += fmt::format("{}{} samples", text.empty() ? "" : ", ", o.samples);
+  if (o.frames > 0) text += counted(o.frames, "frame");
+  if (o.samples > 0) text += (text.empty() ? "" : ", ") + counted(o.samples, "sample");
   text +=
       fmt::format("{}{}; about {}B in all", text.empty() ? "" : ": ", fmt::join(files, ", "), short_number(o.bytes()));
   if (has_sinks(scene)) text += ", less as sinks take disks away";

@@ -6,6 +6,7 @@
 #include "app/cli/messages.hpp"
 #include "app/view/live_view.hpp"
 #include "app/view/open_page.hpp"
+#include "core/base/short_number.hpp"
 #include "run/run_view.hpp"
 
 namespace carom {
@@ -23,7 +24,7 @@ int command_view(const ViewOptions& options) {
   const ViewMade made = write_view(file, recording, settings);
   if (!options.quiet) {
     for (const std::string& sentence : made.left_out) print_note(fmt::format("the page {}", sentence));
-    print_note(fmt::format("{} frames, {} disks, {:.2f} MB", made.frames, made.disks,
+    print_note(fmt::format("{}, {}, {:.2f} MB", counted(made.frames, "frame"), counted(made.disks, "disk"),
                            static_cast<double>(made.page.size()) / 1e6));
     print_out(fmt::format("{}\n", file.string()));
   }

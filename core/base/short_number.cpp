@@ -27,4 +27,10 @@ std::string short_number(double number) {
   return fmt::format("{:.3g}{}", number, prefixes[k]);
 }
 
+std::string counted(std::uint64_t n, std::string_view what) {
+  if (n == 1) return fmt::format("1 {}", what);
+  if (what.back() == 'y') return fmt::format("{} {}ies", n, what.substr(0, what.size() - 1));
+  return fmt::format("{} {}s", n, what);
+}
+
 }  // namespace carom

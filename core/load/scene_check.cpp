@@ -6,6 +6,7 @@
 
 #include "core/base/input_message.hpp"
 #include "core/base/machine_memory.hpp"
+#include "core/base/short_number.hpp"
 #include "core/load/brownian_warnings.hpp"
 #include "core/load/memory_need.hpp"
 #include "core/scene/scene_names.hpp"
@@ -22,7 +23,7 @@ namespace {
 
 void check_length(std::size_t length, Count count, const std::string& where) {
   if (length == count) return;
-  fail_input(where, fmt::format("has {} entries for count = {}", length, count), "expected one entry a disk");
+  fail_input(where, fmt::format("has {} for count = {}", counted(length, "entry"), count), "expected one entry a disk");
 }
 
 // The place is that of the group that makes it too many.

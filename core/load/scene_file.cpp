@@ -12,6 +12,7 @@
 #include "core/base/float_environment.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
+#include "core/base/short_number.hpp"
 #include "core/load/method_choice.hpp"
 #include "core/load/moving_side_check.hpp"
 #include "core/load/scene_check.hpp"
@@ -117,7 +118,7 @@ Gravity read_gravity(const TableReader& physics) {
   if (node == nullptr || !node->is_array()) return physics.number_or_initial("gravity");
   const std::vector<double> g = as_numbers(physics.origin(), physics.key("gravity"), *node);
   if (g.size() != 2) {
-    physics.fail("gravity", fmt::format("has {} numbers", g.size()), "expected a number, or [gx, gy]");
+    physics.fail("gravity", "has " + counted(g.size(), "number"), "expected a number, or [gx, gy]");
   }
   for (const double part : g) {
     if (!in_range(Dimension::acceleration, part)) {
@@ -208,7 +209,7 @@ Source read_source(const SceneOrigin& origin, const std::string& path, const tom
   if (side) source.side = static_cast<Side>(*side);
   if (region != nullptr) {
     const std::vector<double> corners = as_numbers(origin, reader.key("region"), *region);
-    if (corners.size() != 4) reader.fail("region", fmt::format("has {} numbers", corners.size()), expected);
+    if (corners.size() != 4) reader.fail("region", "has " + counted(corners.size(), "number"), expected);
     source.region_low = {corners[0], corners[1]};
     source.region_high = {corners[2], corners[3]};
   }

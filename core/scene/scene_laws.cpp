@@ -13,6 +13,7 @@
 #include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/random.hpp"
+#include "core/base/short_number.hpp"
 #include "core/scene/csv.hpp"
 
 namespace carom {
@@ -73,7 +74,7 @@ SizeLaw read_uniform_size(const TableReader& law, const toml::node& node) {
   size.kind = SizeLaw::Kind::uniform;
   const std::vector<double> range = as_numbers(law.origin(), law.key("uniform"), node);
   constexpr std::string_view expected = "expected [low, high] with 0 < low <= high";
-  if (range.size() != 2) law.fail("uniform", fmt::format("has {} numbers", range.size()), expected);
+  if (range.size() != 2) law.fail("uniform", "has " + counted(range.size(), "number"), expected);
   if (!(range[0] > 0.0 && range[0] <= range[1])) {
     law.fail("uniform", fmt::format("is [{}, {}]", range[0], range[1]), expected);
   }
@@ -85,7 +86,7 @@ SizeLaw read_uniform_size(const TableReader& law, const toml::node& node) {
 // Two numbers under a key of a law; the first is above 0.
 std::vector<double> read_two(const TableReader& law, std::string_view name, std::string_view expected) {
   std::vector<double> numbers = as_numbers(law.origin(), law.key(name), *law.find(name));
-  if (numbers.size() != 2) law.fail(name, fmt::format("has {} numbers", numbers.size()), expected);
+  if (numbers.size() != 2) law.fail(name, "has " + counted(numbers.size(), "number"), expected);
   return numbers;
 }
 
@@ -141,7 +142,8 @@ SizeLaw read_choice_of_sizes(const TableReader& law) {
   check_each(law, "weights", size.weights, "expected numbers from 1e-9 to 1e9, or 0",
              [](double w) { return w == 0.0 || (w >= 1e-9 && w <= 1e9); });
   if (size.weights.size() != size.values.size()) {
-    law.fail("weights", fmt::format("has {} numbers for {} to choose from", size.weights.size(), size.values.size()),
+    law.fail("weights",
+             fmt::format("has {} for {} to choose from", counted(size.weights.size(), "number"), size.values.size()),
              "expected one each");
   }
   if (std::all_of(size.weights.begin(), size.weights.end(), [](double w) { return w == 0.0; })) {
@@ -174,7 +176,7 @@ std::optional<StartRegion> read_start_region(const TableReader& group) {
     const TableReader reader(group.origin(), key, *table, "disks.region");
     const toml::node& circle = reader.require("circle", expected);
     const std::vector<double> c = as_numbers(group.origin(), reader.key("circle"), circle);
-    if (c.size() != 3) reader.fail("circle", fmt::format("has {} numbers", c.size()), "expected [x, y, r]");
+    if (c.size() != 3) reader.fail("circle", "has " + counted(c.size(), "number"), "expected [x, y, r]");
     if (!(c[2] > 0.0)) reader.fail("circle", fmt::format("has radius {}", c[2]), "expected [x, y, r] with r above 0");
     region.circle = true;
     region.centre = {c[0], c[1]};
@@ -185,7 +187,7 @@ std::optional<StartRegion> read_start_region(const TableReader& group) {
   }
   if (!node->is_array()) group.fail("region", fmt::format("is {}", type_name(*node)), expected);
   const std::vector<double> corners = as_numbers(group.origin(), key, *node);
-  if (corners.size() != 4) group.fail("region", fmt::format("has {} numbers", corners.size()), expected);
+  if (corners.size() != 4) group.fail("region", "has " + counted(corners.size(), "number"), expected);
   region.low = {corners[0], corners[1]};
   region.high = {corners[2], corners[3]};
   return region;
@@ -229,7 +231,7 @@ Vec2 read_drift(const TableReader& group) {
   constexpr std::string_view expected = "expected [vx, vy]";
   if (!node->is_array()) group.fail("drift", fmt::format("is {}", type_name(*node)), expected);
   const std::vector<double> v = as_numbers(group.origin(), group.key("drift"), *node);
-  if (v.size() != 2) group.fail("drift", fmt::format("has {} numbers", v.size()), expected);
+  if (v.size() != 2) group.fail("drift", "has " + counted(v.size(), "number"), expected);
   return {v[0], v[1]};
 }
 

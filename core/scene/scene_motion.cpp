@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/short_number.hpp"
+
 namespace carom {
 
 namespace {
@@ -31,7 +33,7 @@ MotionKeys read_motion_keys(const TableReader& owner, const TableReader& motion)
   keys.kind = steady ? SideMotion::Kind::steady : sine ? SideMotion::Kind::sine : SideMotion::Kind::parabolas;
   keys.name = steady ? "velocity" : "vibrate";
   const std::vector<double> v = as_numbers(motion.origin(), motion.key(keys.name), *motion.find(keys.name));
-  if (v.size() != 2) motion.fail(keys.name, fmt::format("has {} numbers", v.size()), "expected a list of two, x and y");
+  if (v.size() != 2) motion.fail(keys.name, "has " + counted(v.size(), "number"), "expected a list of two, x and y");
   keys.value = {v[0], v[1]};
   const std::optional<double> period = motion.number("period");
   if (steady && period) {

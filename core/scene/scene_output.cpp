@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/base/input_message.hpp"
+#include "core/base/short_number.hpp"
 #include "core/scene/disk_group.hpp"
 #include "core/scene/picture_look.hpp"
 #include "core/scene/scene_group_name.hpp"
@@ -56,7 +57,7 @@ Selection read_selection(const TableReader& output, const Scene& scene) {
   }
   if (!node->is_array()) output.fail("select", fmt::format("is {}", type_name(*node)), select_expected);
   const std::vector<double> corners = as_numbers(output.origin(), output.key("select"), *node);
-  if (corners.size() != 4) output.fail("select", fmt::format("has {} numbers", corners.size()), select_expected);
+  if (corners.size() != 4) output.fail("select", "has " + counted(corners.size(), "number"), select_expected);
   select.by_region = true;
   select.low = {corners[0], corners[1]};
   select.high = {corners[2], corners[3]};
@@ -100,7 +101,7 @@ std::optional<std::array<double, 2>> two_numbers(const TableReader& movie, std::
   const toml::node* const node = movie.find(name);
   if (node == nullptr) return {};
   const std::vector<double> values = as_numbers(movie.origin(), movie.key(name), *node);
-  if (values.size() != 2) movie.fail(name, fmt::format("has {} numbers", values.size()), "expected two numbers");
+  if (values.size() != 2) movie.fail(name, "has " + counted(values.size(), "number"), "expected two numbers");
   return std::array{values[0], values[1]};
 }
 

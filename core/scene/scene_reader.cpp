@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/base/input_message.hpp"
+#include "core/base/short_number.hpp"
 
 namespace carom {
 
@@ -201,7 +202,7 @@ std::vector<Vec2> as_pairs(const SceneOrigin& origin, const std::string& key, co
     const toml::array* pair = list[i].as_array();
     const std::string entry = fmt::format("{}.{}", key, i);
     if (pair == nullptr) origin.fail(entry, fmt::format("is {}", type_name(list[i])), expected);
-    if (pair->size() != 2) origin.fail(entry, fmt::format("has {} numbers", pair->size()), expected);
+    if (pair->size() != 2) origin.fail(entry, "has " + counted(pair->size(), "number"), expected);
     pairs.push_back({as_number(origin, entry, (*pair)[0]), as_number(origin, entry, (*pair)[1])});
   }
   return pairs;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/base/short_number.hpp"
 #include "core/scene/scene_motion.hpp"
 
 namespace carom {
@@ -16,7 +17,7 @@ constexpr std::string_view expected_points =
 Vec2 read_point(const TableReader& reader, std::string_view name) {
   const toml::node& node = reader.require(name, expected_points);
   const std::vector<double> numbers = as_numbers(reader.origin(), reader.key(name), node);
-  if (numbers.size() != 2) reader.fail(name, fmt::format("has {} numbers", numbers.size()), "expected [x, y]");
+  if (numbers.size() != 2) reader.fail(name, "has " + counted(numbers.size(), "number"), "expected [x, y]");
   return {numbers[0], numbers[1]};
 }
 

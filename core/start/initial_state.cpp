@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/base/input_message.hpp"
+#include "core/base/short_number.hpp"
 #include "core/disks/obstacle_cells.hpp"
 #include "core/physics/obstacle_contact.hpp"
 #include "core/scene/size_law.hpp"
@@ -230,7 +231,7 @@ void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std
   const auto check = [&](const SizeLaw& law, std::string_view key) {
     if (law.kind != SizeLaw::Kind::list || law.values.size() >= group.count) return;
     fail_input(fmt::format("{}:{}: disks {}", scene.file, group.line, key),
-               fmt::format("has {} entries for count = {}", law.values.size(), group.count),
+               fmt::format("has {} for count = {}", counted(law.values.size(), "entry"), group.count),
                "expected one entry a disk");
   };
   check(group.radius, "radius");

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/base/check.hpp"
+#include "core/base/short_number.hpp"
 #include "core/scene/disk_group.hpp"
 #include "io/trajectory/disk_selection.hpp"
 
@@ -269,7 +270,8 @@ void XyzReader::read_layout(std::string_view properties) {
   for (const auto& [name, begin, width] : known) {
     const bool vector = name == "pos" || name == "velo";
     if ((name == "group" || name == "spin") && *width == 0) continue;
-    if (vector ? *width != 2 && *width != 3 : *width != 1) refuse(fmt::format("'{}' has {} columns", name, *width));
+    if (vector ? *width != 2 && *width != 3 : *width != 1)
+      refuse(fmt::format("'{}' has {}", name, counted(*width, "column")));
   }
   layout.has_group = group_width > 0;
   layout.has_spin = spin_width > 0;
@@ -303,7 +305,8 @@ DiskId XyzReader::whole_number(std::string_view text, const char* what) const {
 void XyzReader::read_disk(XyzFrame& frame) const {
   const auto columns = words(line_);
   const Layout& at = layout_;
-  if (columns.size() != at.all) fail(fmt::format("{} columns, expected {}: {}", columns.size(), at.all, properties_));
+  if (columns.size() != at.all)
+    fail(fmt::format("{}, expected {}: {}", counted(columns.size(), "column"), at.all, properties_));
   const auto flat = [&](std::size_t begin, std::size_t width) {
     if (width == 3 && number(columns[begin + 2]) != 0.0) {
       fail(fmt::format("z is {}, expected 0: disks move in a plane", columns[begin + 2]));

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/base/input_message.hpp"
+#include "core/base/short_number.hpp"
 #include "io/view/view_encoder.hpp"
 #include "io/view/view_page.hpp"
 
@@ -131,9 +132,9 @@ ViewMade make_view(const OpenTrajectory& open, const std::string& name, ViewStor
     thin = thinner(*thin, factor, extent.frames);
   }
   fail_input("--max-size",
-             fmt::format("{} bytes are too few for a page with {} and {} frames", work.most_bytes,
+             fmt::format("{} bytes are too few for a page with {} and {}", work.most_bytes,
                          least.every == 1 ? "all disks" : fmt::format("one disk in {}", least.every),
-                         shown_frames(extent.frames, least.stride)),
+                         counted(shown_frames(extent.frames, least.stride), "frame")),
              "expected more");
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/base/input_message.hpp"
+#include "core/base/short_number.hpp"
 #include "core/start/initial_state.hpp"
 
 namespace carom {
@@ -65,7 +66,7 @@ ViewSeries read_view_series(std::string_view csv, std::size_t most_values, const
   for (std::size_t row = 0; row < lines.size(); row += stride) {
     const std::vector<std::string_view> cells = cells_of(lines[row]);
     if (cells.size() != heads.size()) {
-      fail_input(fmt::format("{}:{}", name, row + 2), fmt::format("has {} columns", cells.size()),
+      fail_input(fmt::format("{}:{}", name, row + 2), "has " + counted(cells.size(), "column"),
                  fmt::format("expected {}", heads.size()));
     }
     for (std::size_t c = 0; c < heads.size(); ++c) columns[c].push_back(value_of(cells[c]));

@@ -201,7 +201,7 @@ carom_status carom_save_memory(const carom_world* world, void* bytes, size_t roo
     const std::string saved = s.save();
     *size = saved.size();
     if (bytes == nullptr) return CAROM_OK;
-    check_room(room, saved.size(), "bytes");
+    check_room(room, saved.size(), "byte");
     std::memcpy(bytes, saved.data(), saved.size());
     return CAROM_OK;
   });

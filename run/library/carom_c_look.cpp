@@ -157,7 +157,7 @@ carom_status carom_contacts(const carom_world* world, carom_contact* contacts, s
     check_pointer(count, "count");
     const std::vector<DiskContact> met = s.contacts();
     *count = met.size();
-    check_room(room, met.size(), "contacts");
+    check_room(room, met.size(), "contact");
     if (met.empty()) return CAROM_OK;
     check_pointer(contacts, "the array");
     for (std::size_t k = 0; k < met.size(); ++k) contacts[k] = {met[k].time, met[k].id1, met[k].id2};

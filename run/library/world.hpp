@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "core/base/short_number.hpp"
 #include "run/simulation.hpp"
 
 // The text of an error is no part of the world, and a call that only looks may set it.
@@ -81,8 +82,9 @@ inline void check_pointer(const void* pointer, const char* name) {
   if (pointer == nullptr) throw InputError(fmt::format("{} is a null pointer", name));
 }
 
-inline void check_room(std::size_t room, std::size_t count, const char* what = "disks") {
-  if (room < count) throw InputError(fmt::format("the array has room for {} {}, and there are {}", room, what, count));
+inline void check_room(std::size_t room, std::size_t count, const char* what = "disk") {
+  if (room < count)
+    throw InputError(fmt::format("the array has room for {}, and there are {}", counted(room, what), count));
 }
 
 }  // namespace carom

@@ -373,7 +373,7 @@ TEST(BadWallMotion, IsRefusedInOneLine) {
   EXPECT_THAT(refusal("", with("vibrate = [0, 3], period = 1"), 9.0),
               HasSubstr("brings the wall to y = -1, beyond the bottom side"));
   EXPECT_THAT(refusal("", with("velocity = [0, 0]"), 9.0), HasSubstr("walls.0.motion.velocity: is [0, 0]"));
-  EXPECT_THAT(refusal("", with("velocity = [1]"), 9.0), HasSubstr("has 1 numbers"));
+  EXPECT_THAT(refusal("", with("velocity = [1]"), 9.0), HasSubstr("has 1 number"));
   EXPECT_THAT(refusal("", with("vibrate = [1, 0]"), 9.0), HasSubstr("walls.0.motion.period: missing"));
   EXPECT_THAT(refusal("", with("velocity = [1, 0], vibrate = [1, 0]"), 9.0),
               HasSubstr("has both velocity and vibrate"));

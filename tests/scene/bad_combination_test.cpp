@@ -36,7 +36,7 @@ TEST(BadList, LengthMustMatchCount) {
   EXPECT_THAT(with_positions("positions = [[2, 2], [5, 5]]"),
               StartsWith("gas.toml:15: disks.0.positions: has 2 entries for count = 3; expected one entry a disk"));
   EXPECT_THAT(complaint(replaced(sound_scene, "{ maxwell = 1.0 }", "[[1, 0]]")),
-              StartsWith("gas.toml:16: disks.0.velocities: has 1 entries"));
+              StartsWith("gas.toml:16: disks.0.velocities: has 1 entry"));
   EXPECT_THAT(complaint(replaced(sound_scene, "radius = 1.0", "radius = [1, 1, 1, 1]")),
               StartsWith("gas.toml:17: disks.0.radius: has 4 entries"));
   EXPECT_THAT(complaint(replaced(sound_scene, "mass = 2.0", "mass = []")),

@@ -100,7 +100,7 @@ TEST(SizeDistributions, BadOnesAreNamedByLineAndKey) {
   EXPECT_EQ(with_radius("{ choice = [1, 0.5] }"), "");
   EXPECT_THAT(with_radius("{ normal = [1, 0.3] }"),
               StartsWith("gas.toml:17: disks.0.radius.normal: is [1, 0.3]; expected [mean, deviation] with"));
-  EXPECT_THAT(with_radius("{ normal = [1] }"), HasSubstr("radius.normal: has 1 numbers; expected"));
+  EXPECT_THAT(with_radius("{ normal = [1] }"), HasSubstr("radius.normal: has 1 number; expected"));
   EXPECT_THAT(with_radius("{ normal = [1, -0.1] }"), HasSubstr("radius.normal: is [1, -0.1]; expected"));
   EXPECT_THAT(with_radius("{ lognormal = [0, 1] }"),
               HasSubstr("radius.lognormal: is [0, 1]; expected [median, sigma]"));
@@ -109,7 +109,7 @@ TEST(SizeDistributions, BadOnesAreNamedByLineAndKey) {
   EXPECT_THAT(with_radius("{ choice = [] }"), HasSubstr("radius.choice: is empty; expected"));
   EXPECT_THAT(with_radius("{ choice = [1, 0] }"), HasSubstr("radius.choice.1: is 0; expected"));
   EXPECT_THAT(with_radius("{ choice = [1, 2], weights = [1] }"),
-              HasSubstr("radius.weights: has 1 numbers for 2 to choose from; expected one each"));
+              HasSubstr("radius.weights: has 1 number for 2 to choose from; expected one each"));
   EXPECT_THAT(with_radius("{ choice = [1, 2], weights = [1, -1] }"), HasSubstr("radius.weights.1: is -1; expected"));
   EXPECT_THAT(with_radius("{ choice = [1, 2], weights = [0, 0] }"), HasSubstr("radius.weights: are all 0; expected"));
   EXPECT_THAT(with_radius("{ weights = [1] }"), HasSubstr("radius.choice: missing; expected"));
