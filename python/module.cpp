@@ -81,8 +81,8 @@ bool interrupted() {
   return PyErr_CheckSignals() != 0;
 }
 
-// Ctrl-C ends a growth of the disks by what this throws. The interpreter's lock, which another thread may hold for a
-// while, is asked for a few times a second.
+// Ctrl-C ends the placing or a growth of the disks by what this throws. The interpreter's lock, which another thread
+// may hold for a while, is asked for a few times a second.
 auto growth_watch() {
   return [last = WallClock::now()](const GrowthProgress&) mutable {
     constexpr double between_looks = 0.05;

@@ -60,7 +60,10 @@ State make_initial_state(const EngineChoice& choice, const Scene& scene,
   if (choice.name != "reference") return parallel_initial_state(scene, choice.threads, watch);
   GrowthTools growth = plain_growth();
   growth.watch = watch;
-  return initial_state(scene, place_at_random, growth);
+  const PlaceAtRandom place = place_watched([&] {
+    if (watch) watch({});
+  });
+  return initial_state(scene, place, growth);
 }
 
 std::pair<Scene, State> read_rank_start(const std::string& start) {

@@ -32,8 +32,8 @@ EngineChoice choose_engine(const std::string& engine, std::optional<int> threads
 // Threads of each of so many ranks, where nothing is said: all cores of this machine among them.
 int threads_of_rank(int ranks);
 
-// The disks of a scene; either engine's way gives the same bits. watch is that of GrowthTools (growth.hpp), and may
-// be empty.
+// The disks of a scene; either engine's way gives the same bits. watch is that of GrowthTools (growth.hpp), told while
+// disks are placed at random, too, and may be empty.
 State make_initial_state(const EngineChoice& choice, const Scene& scene,
                          const std::function<void(const GrowthProgress&)>& watch = {});
 

@@ -29,8 +29,9 @@ namespace carom {
 // at the end of the last step that was made.
 class Simulation {
  public:
-  // A scene as load_scene reads it from a file and parse_scene from text. watch is told how a growth of the disks goes
-  // on, and may be empty; what it throws ends it. Throws InputError: disks that find no place.
+  // A scene as load_scene reads it from a file and parse_scene from text. watch is told how placing the disks at
+  // random and their growth go on, and may be empty; what it throws ends that. Throws InputError: disks that find no
+  // place.
   explicit Simulation(Scene scene, EngineChoice engine = choose_engine("", std::nullopt),
                       const std::function<void(const GrowthProgress&)>& watch = {});
 

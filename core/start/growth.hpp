@@ -12,7 +12,7 @@
 
 namespace carom {
 
-// How far a growth is.
+// How far a growth is. All is 0 while disks are placed at random, before a growth or without one.
 struct GrowthProgress {
   Count steps = 0;
   Count collisions = 0;  // of two disks or of a disk and a side, so far

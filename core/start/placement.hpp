@@ -20,6 +20,9 @@ void place_at_random(const Scene& scene, Disks& disks, PlacementGrid& grid, std:
 // place_at_random, or what gives the same bits.
 using PlaceAtRandom = std::function<void(const Scene&, Disks&, PlacementGrid&, std::vector<std::uint32_t>)>;
 
+// place_at_random, which calls watch after every few disks; what that throws ends it.
+PlaceAtRandom place_watched(std::function<void()> watch);
+
 // Rounding of decimals may put a touching disk this far beyond a wall: 1e-12 of its radius, and four units in the last
 // place of the box.
 inline double side_slack(double radius, double length) {

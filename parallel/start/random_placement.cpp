@@ -46,11 +46,12 @@ class BatchSearch {
  public:
   BatchSearch(const Executor& executor, PlacementSearch& search) : executor_(executor), search_(search) {}
 
-  void place_class() {
+  void place_class(const std::function<void()>& watch) {
     const double widest = search_.disks.radius_of(search_.members[search_.begin]);
     cells_.fit(search_.scene.box, 2.000001 * widest, largest_batch);  // rounding may shift a cell's edge
     const std::size_t most = std::clamp((search_.end - search_.begin) / batches, smallest_batch, largest_batch);
     for (first_ = search_.begin; first_ < search_.end;) {
+      if (watch) watch();
       while (search_.lesson_due(first_)) learn();
       if (search_.list && search_.list->empty()) search_.place_one(first_);  // says so
       listed_ = search_.list ? &*search_.list : nullptr;
@@ -241,10 +242,10 @@ class BatchSearch {
 }  // namespace
 
 void parallel_place_at_random(const Executor& executor, const Scene& scene, Disks& disks, PlacementGrid& grid,
-                              std::vector<std::uint32_t> members) {
+                              std::vector<std::uint32_t> members, const std::function<void()>& watch) {
   PlacementSearch search = make_placement_search(scene, disks, grid, members);
   BatchSearch batches_of(executor, search);
-  while (search.next_class()) batches_of.place_class();
+  while (search.next_class()) batches_of.place_class(watch);
 }
 
 State parallel_initial_state(const Scene& scene, int threads, const std::function<void(const GrowthProgress&)>& watch) {
@@ -252,7 +253,9 @@ State parallel_initial_state(const Scene& scene, int threads, const std::functio
   GrowthTools growth = parallel_growth(executor, {threads});
   growth.watch = watch;
   const auto place = [&](const Scene& s, Disks& disks, PlacementGrid& grid, std::vector<std::uint32_t> m) {
-    parallel_place_at_random(executor, s, disks, grid, std::move(m));
+    parallel_place_at_random(executor, s, disks, grid, std::move(m), [&] {
+      if (watch) watch({});
+    });
   };
   return initial_state(scene, place, growth);
 }

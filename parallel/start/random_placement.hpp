@@ -10,12 +10,13 @@
 
 namespace carom {
 
-// What core's place_at_random gives, bit for bit, on any number of threads.
+// What core's place_at_random gives, bit for bit, on any number of threads. watch is called between batches of disks
+// and may be empty; what it throws ends the placing.
 void parallel_place_at_random(const Executor& executor, const Scene& scene, Disks& disks, PlacementGrid& grid,
-                              std::vector<std::uint32_t> members);
+                              std::vector<std::uint32_t> members, const std::function<void()>& watch = {});
 
-// initial_state of core, with this placing and growth on as many threads. watch is told how a growth goes on, and may
-// be empty. threads >= 1.
+// initial_state of core, with this placing and growth on as many threads. watch is told how placing and growth go on,
+// and may be empty; what it throws ends them. threads >= 1.
 State parallel_initial_state(const Scene& scene, int threads,
                              const std::function<void(const GrowthProgress&)>& watch = {});
 

@@ -206,6 +206,19 @@ def test_ctrl_c_while_disks_grow(engine, tmp_path):
         assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("engine", ["parallel", "reference"])
+def test_ctrl_c_while_disks_are_placed(engine):
+    # No million finds room at this density, which takes the best part of a minute to find out.
+    scene = carom.Scene({"box": {"packing_fraction": 0.549}, "run": {"t_end": 1.0},
+                         "disks": [{"count": 1000000, "positions": "random", "radius": 0.5, "mass": 1.0}]})
+    began = time.monotonic()
+    timer = press_ctrl_c(0.3)
+    with pytest.raises(KeyboardInterrupt):
+        carom.Simulation(scene, threads=1, engine=engine)
+    timer.join()
+    assert time.monotonic() - began < 10.0
+
+
 def test_a_view_copies_nothing_and_is_never_stale():
     sim = carom.Simulation(gas(), threads=1)
     with sim.view() as v, sim.view() as again:
