@@ -94,15 +94,23 @@ auto growth_watch() {
 }
 
 // A simulation, and how many arrays show its columns as they lie in memory: while there is one, nothing may change.
+// While it steps, without the interpreter's lock, other threads must not even look at it, as its disks are moving.
 class PySimulation {
  public:
   explicit PySimulation(Simulation simulation) : simulation_(std::move(simulation)) {}
 
-  const Simulation& look() const { return simulation_; }
+  const Simulation& look() const {
+    check_at_rest();
+    return simulation_;
+  }
 
-  std::vector<std::string> take_warnings() { return simulation_.take_warnings(); }  // changes no disk
+  std::vector<std::string> take_warnings() {  // changes no disk
+    check_at_rest();
+    return simulation_.take_warnings();
+  }
 
   Simulation& change() {
+    check_at_rest();
     if (views_ > 0) {
       throw std::runtime_error("a view of the disks is open, or an array of it still in use; close it before changes");
     }
@@ -112,6 +120,7 @@ class PySimulation {
   // Steps for a while, or so many, or until t; returns the steps made. Python looks at signals in between.
   Count step_for(Count n, double t, double seconds) {
     Simulation& s = change();
+    const Stepping now(*this);  // it ends when this thread has the lock again
     const py::gil_scoped_release free;
     const WallClock::time_point start = WallClock::now();
     Count made = 0;
@@ -125,7 +134,7 @@ class PySimulation {
 
   // self: the Python object of a PySimulation.
   static py::dict view(const py::object& self) {
-    const Disks& d = self.cast<PySimulation&>().simulation_.state().disks;
+    const Disks& d = self.cast<PySimulation&>().look().state().disks;
     const auto shown = [&](const auto& column) {
       using T = typename std::decay_t<decltype(column)>::value_type;
       py::array_t<T> array(static_cast<py::ssize_t>(column.size()), column.data(), guard(self));
@@ -145,6 +154,20 @@ class PySimulation {
   }
 
  private:
+  // Begins and ends with the interpreter's lock held, so that threads agree on it.
+  struct Stepping {
+    explicit Stepping(PySimulation& s) : of(s) { of.stepping_ = true; }
+    ~Stepping() { of.stepping_ = false; }
+    Stepping(const Stepping&) = delete;
+    Stepping& operator=(const Stepping&) = delete;
+    PySimulation& of;
+  };
+
+  void check_at_rest() const {
+    if (!stepping_) return;
+    throw std::runtime_error("the simulation is in a step of another thread; one thread at a time can use it");
+  }
+
   // Every array holds one. As long as it lives it counts, and keeps the simulation, whose memory the array shows: the
   // names that a program has for the simulation may be gone before.
   static py::capsule guard(const py::object& self) {
@@ -159,7 +182,8 @@ class PySimulation {
   }
 
   Simulation simulation_;
-  int views_ = 0;  // arrays that show it
+  int views_ = 0;          // arrays that show it
+  bool stepping_ = false;  // in step_for now
 };
 
 // A picture as `carom render` draws it, into a PNG file.
@@ -286,11 +310,17 @@ void bind_simulation(py::module_& m) {
                   [](const std::string& name, const std::string& engine, std::optional<int> threads) {
                     return std::make_unique<PySimulation>(Simulation::resume(name, engine_of(engine, threads)));
                   })
+      .def_static("of_bytes",
+                  [](const py::bytes& saved, const std::string& engine, std::optional<int> threads) {
+                    return std::make_unique<PySimulation>(
+                        Simulation::from_bytes(std::string_view(saved), engine_of(engine, threads)));
+                  })
       .def("step_for", &PySimulation::step_for)
       .def("view", &PySimulation::view)
       .def_property_readonly("time", [](const PySimulation& s) { return s.look().time(); })
       .def_property_readonly("done", [](const PySimulation& s) { return s.look().done(); })
       .def_property_readonly("scene", [](const PySimulation& s) { return s.look().scene(); })
+      .def_property_readonly("engine", [](const PySimulation& s) { return s.look().engine_choice().name; })
       .def_property_readonly("threads", [](const PySimulation& s) { return s.look().engine_choice().threads; })
       .def_property_readonly("count", [](const PySimulation& s) { return s.look().state().disks.size(); })
       .def_property_readonly("steps", [](const PySimulation& s) { return s.look().state().counters.steps; })

@@ -14,6 +14,7 @@ import numpy as np
 from . import _carom, _notebook
 from ._disks import Frame, Hit, View
 from ._scene import Scene
+from ._text import in_words_of_python as _in_words_of_python
 
 _slice = 0.05  # seconds of steps between two looks at signals and callbacks
 _threads_began_in = None  # the process in which a run had several threads, which a fork does not copy
@@ -47,17 +48,22 @@ class Simulation:
     """A scene that is stepped by a program: looked at, changed between steps, saved.
 
     threads: of the engine; None: all cores. engine: "parallel" or "reference", which give the same bits. Raises
-    SceneError where the disks find no place. A simulation is used by one thread at a time; other threads run Python while it
-    steps.
+    SceneError where the disks find no place. A simulation is used by one thread at a time: other threads run Python while it
+    steps, and what they ask of it then raises RuntimeError. A copy or a pickle is another simulation of the same state and
+    scene, without the callbacks of every.
     """
 
     def __init__(self, scene: Scene, threads: Optional[int] = None, engine: str = "parallel"):
-        self._begin(_carom.Simulation(Scene._checked(scene), *_engine(engine, threads)))
+        with _in_words_of_python():
+            self._begin(_carom.Simulation(Scene._checked(scene), *_engine(engine, threads)))
 
     def _begin(self, simulation):
         self._sim = simulation
         self._pid = os.getpid()
         self._callbacks = []
+
+    def __reduce__(self):
+        return _of_bytes, (self.to_bytes(), self._sim.threads, self._sim.engine)
 
     time = property(lambda self: self._sim.time, doc="end of the last step")
     done = property(lambda self: self._sim.done, doc="has the scene's t_end been reached?")
@@ -71,7 +77,7 @@ class Simulation:
 
     @property
     def summary(self) -> dict:
-        """What `carom run --json` prints, of this moment; times of the machine are 0."""
+        """What `carom run --json` prints, of this moment; times of the machine are 0, but for phase_s."""
         return json.loads(self._sim.summary())
 
     def take_warnings(self) -> list:
@@ -94,7 +100,7 @@ class Simulation:
         steps = operator.index(steps)
         if steps < 0:
             raise ValueError(f"steps is {steps}; expected 0 or more")
-        self._go(steps, np.inf)
+        self._go(min(steps, 2**63), np.inf)
 
     def run(self, until: Optional[float] = None) -> None:
         """Steps until time >= until, or to t_end. No step is cut short: disks(at=until) has the disks at that time
@@ -196,5 +202,13 @@ class Simulation:
 def resume(path, threads: Optional[int] = None, engine: str = "parallel") -> Simulation:
     """The simulation of a checkpoint, or of the folder of a run that has one. Raises SceneError where it is none."""
     simulation = Simulation.__new__(Simulation)
-    simulation._begin(_carom.Simulation.resume(os.fspath(path), *_engine(engine, threads)))
+    with _in_words_of_python():
+        simulation._begin(_carom.Simulation.resume(os.fspath(path), *_engine(engine, threads)))
+    return simulation
+
+
+def _of_bytes(saved: bytes, threads: int, engine: str) -> Simulation:
+    """What a copy and a pickle of a simulation come back as."""
+    simulation = Simulation.__new__(Simulation)
+    simulation._begin(_carom.Simulation.of_bytes(saved, *_engine(engine, threads)))
     return simulation

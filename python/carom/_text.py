@@ -18,6 +18,8 @@ def _quoted(text: str) -> str:
 
 
 def _key(name) -> str:
+    if not isinstance(name, str):
+        raise TypeError(f"the keys of a scene are strings; not {type(name).__name__}")
     return name if _bare.fullmatch(name) else _quoted(name)
 
 

@@ -1,5 +1,6 @@
 """The Python module: the command line's bits, and what it promises of copies, views, signals and threads."""
 
+import copy
 import glob
 import json
 import os
@@ -386,6 +387,51 @@ def test_two_simulations_in_two_threads_while_python_runs():
         time.sleep(0)
     assert counted > 10, counted
     assert [s.hash for s in sims] == [alone.hash] * 2
+
+
+def test_a_simulation_in_a_step_answers_no_other_thread():
+    sim = carom.Simulation(gas(3000, t_end=1e9), threads=1)
+    asks = {name: ask for name, ask in (("disks", sim.disks), ("to_bytes", sim.to_bytes), ("step", sim.step), ("view", sim.view),
+                                        ("remove", lambda: sim.remove(0)), ("time", lambda: sim.time))}
+    over = False
+
+    def other_thread():
+        while asks and not over:
+            for name in list(asks):
+                try:
+                    asks[name]()
+                    time.sleep(0)
+                except RuntimeError as error:
+                    assert "in a step of another thread" in str(error)
+                    del asks[name]
+
+    other = threading.Thread(target=other_thread)
+    other.start()
+    for _ in range(100000):  # a few are enough
+        if not asks:
+            break
+        try:
+            sim.step(20)
+        except RuntimeError:  # the other one steps, or has a view
+            time.sleep(0)
+    over = True
+    other.join()
+    assert not asks
+
+
+@pytest.mark.parametrize("engine", ["parallel", "reference"])
+def test_a_copy_is_another_simulation(engine):
+    sim = carom.Simulation(gas(), threads=1, engine=engine)
+    sim.step(5)
+    sim.every(0.01, lambda s: pytest.fail("a copy has no callbacks"))
+    copies = [copy.copy(sim), copy.deepcopy(sim), pickle.loads(pickle.dumps(sim))]
+    before = sim.hash
+    for other in copies:
+        other.step(20)
+    assert sim.hash == before
+    sim._callbacks.clear()
+    sim.step(20)
+    assert [c.hash for c in copies] == [sim.hash] * 3
 
 
 def test_a_fork_is_refused_where_threads_would_be_missing():

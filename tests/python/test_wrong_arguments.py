@@ -21,6 +21,8 @@ def test_a_scene_is_a_dictionary():
     for wrong in ("gas.toml", 3, [1, 2]):
         with pytest.raises(TypeError, match=r"a scene is a dictionary, not \w+; carom.Scene.load\(path\) reads a file"):
             carom.Scene(wrong)
+    with pytest.raises(TypeError, match="the keys of a scene are strings; not int"):
+        carom.Scene({"box": {1: 2.0}})
 
 
 def test_steps_threads_and_callbacks():
@@ -34,6 +36,8 @@ def test_steps_threads_and_callbacks():
         sim.run(until="the end")
     with pytest.raises(TypeError, match="expected a function of the simulation, not int"):
         sim.every(1.0, 3)
+    sim.step(2**70)  # more than there are to the end
+    assert sim.done
 
 
 def test_what_a_run_did_not_write(tmp_path):
@@ -51,6 +55,8 @@ def test_options_of_the_command_line_are_arguments(tmp_path):
         carom.run(some, out=tmp_path / "run")
     with pytest.raises(carom.SceneError, match='^engine: there is no engine "refrence"'):
         carom.run(some, engine="refrence")
+    with pytest.raises(carom.SceneError, match='^engine: there is no engine "refrence"'):
+        carom.Simulation(some, engine="refrence")
 
 
 def test_changes_are_no_options():
