@@ -139,7 +139,7 @@ function drawPath(context, camera, { box, axes }, path, colours) {
   context.stroke();
 }
 
-// frame: its number. picked: { x, y, radius, path } or null.
+// frame: its number. picked: as DiskPath.mark has it, or null.
 export function drawOverlay(canvas, density, camera, head, frame, time, picked, colours) {
   const context = canvas.getContext("2d");
   context.setTransform(density, 0, 0, density, 0, 0);
@@ -154,10 +154,10 @@ export function drawOverlay(canvas, density, camera, head, frame, time, picked, 
   context.textAlign = "left";
   if (!picked) return;
   drawPath(context, camera, head, picked.path, colours);
-  if (picked.x === undefined) return;
+  if (!picked.place) return;
   context.strokeStyle = colours.accent;
   context.lineWidth = 3;
   context.beginPath();
-  context.arc(...camera.toPage(picked.x, picked.y), Math.max(picked.radius * camera.scale, 3) + 3, 0, 2 * Math.PI);
+  context.arc(...camera.toPage(...picked.place), Math.max(picked.radius * camera.scale, 3) + 3, 0, 2 * Math.PI);
   context.stroke();
 }

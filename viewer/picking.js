@@ -1,16 +1,23 @@
 // The disk that is picked: found by a point or by its id, and its path so far.
 
-// The index of the disk of frame k over a point, -1 if there is none; the nearest centre counts, by the nearest image.
-// slack: length by which a point may miss a small disk.
-export function diskAt(store, k, x, y, slack) {
+// Where disk i of a frame is drawn, in lengths: a part of its step to the next frame ahead of its place.
+function placeOf({ head: { axes } }, frame, i, steps, part) {
+  const ahead = (n) => (part > 0 ? part * steps[2 * i + n] : 0);
+  return [frame.x[i] * axes[0].quantum + ahead(0), frame.y[i] * axes[1].quantum + ahead(1)];
+}
+
+// The index of the disk of the present frame that is drawn over a point, -1 if there is none; the nearest centre counts,
+// by the nearest image. steps: of the frame. slack: length by which a point may miss a small disk.
+export function diskAt(store, { frame: k, part }, steps, [x, y], slack) {
   const { axes, box } = store.head;
   const frame = store.frame(k);
   const offset = store.offset(k);
   let found = -1;
   let best = Infinity;
   for (let i = 0; i < frame.place.length; ++i) {
-    let dx = frame.x[i] * axes[0].quantum - x;
-    let dy = frame.y[i] * axes[1].quantum - y;
+    let [dx, dy] = placeOf(store, frame, i, steps, part);
+    dx -= x;
+    dy -= y;
     const rows = axes[1].periodic ? Math.round(dy / box.height) : 0;
     dy -= rows * box.height;
     dx -= rows * offset;
@@ -41,6 +48,13 @@ export class DiskPath {
       if (i < 0) return;
       this.points[this.store.blocks[number].first + n] = [frame.x[i] * axes[0].quantum, frame.y[i] * axes[1].quantum];
     });
+  }
+  // What is drawn of the disk over the present frame: its radius, its path, and its place where it is there.
+  mark(frame, playback, steps) {
+    const i = this.store.indexIn(frame, this.place);
+    const place = i < 0 ? null : placeOf(this.store, frame, i, steps, playback.part);
+    const path = [...this.points.slice(0, playback.frame + 1), place];
+    return { radius: this.store.radius[this.place], place, path };
   }
   // Unpacks what is still needed up to frame k, and calls changed as it comes; stops when wanted() is no longer true.
   async gather(k, wanted, changed) {

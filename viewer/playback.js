@@ -1,6 +1,8 @@
 // Which moment is shown, and how it goes on.
 export class Playback {
-  constructor(times) {
+  // smooth: is a moment between two frames shown as such? Otherwise the frame before it is.
+  constructor(times, smooth) {
+    this.smooth = smooth;
     this.frame = 0;
     this.time = times[0];
     this.playing = false;
@@ -52,8 +54,13 @@ export class Playback {
       this.playing = this.loop;
     }
   }
-  // How far on the way to the next frame, 0 to 1.
+  // The time of what is shown.
+  get shownTime() {
+    return this.smooth() ? this.time : this.times[this.frame];
+  }
+  // How far what is shown is on the way to the next frame, 0 to 1.
   get part() {
+    if (!this.smooth()) return 0;
     const from = this.times[this.frame];
     const to = this.times[Math.min(this.last, this.frame + 1)];
     return to > from ? Math.max(0, Math.min(1, (this.time - from) / (to - from))) : 0;

@@ -18,7 +18,7 @@ export class Viewer {
   constructor(store) {
     this.store = store;
     this.head = store.head;
-    this.playback = new Playback(store.times);
+    this.playback = new Playback(store.times, () => element("smooth").checked);
     this.camera = new Camera(this.head.box);
     this.canvas = element("disks");
     this.renderer = new DiskRenderer(this.canvas, this.head.axes, this.head.box, store.largest);
@@ -178,6 +178,7 @@ export class Viewer {
     if (keep === 1 || k === this.playback.frame) {
       this.renderer.uploadImages(frame, steps, radius, value);
       this.perTime = 1 / steps.over;
+      this.ahead = steps.d;
     }
     // For the shaders: no trail leads on from where a disk has gone.
     const marked = steps.gone.length ? radius.slice() : radius;
@@ -230,8 +231,8 @@ export class Viewer {
       bySpeed: this.colour === "speed",
       perTime: this.perTime ?? 1,
       least: this.store.id.length > manyDisks ? 0.75 : 1.6 * this.density,
-      part: element("smooth").checked ? this.playback.part : 0,
-      time: element("smooth").checked ? this.playback.time : this.store.times[this.playback.frame],
+      part: this.playback.part,
+      time: this.playback.shownTime,
       images: element("images").checked,
       // An arrow of the fastest speed of the scale is a fifteenth of the box long.
       arrows: element("arrows").checked
@@ -242,26 +243,18 @@ export class Viewer {
   }
 
   drawOver(frame) {
-    let picked = null;
-    if (this.picked) {
-      const i = this.store.indexIn(frame, this.picked.place);
-      const { axes } = this.head;
-      picked = {
-        path: this.picked.path.points.slice(0, this.playback.frame + 1),
-        radius: this.store.radius[this.picked.place],
-      };
-      if (i >= 0) Object.assign(picked, { x: frame.x[i] * axes[0].quantum, y: frame.y[i] * axes[1].quantum });
-    }
-    const { camera, head, density, colours, playback } = this;
-    const time = shortNumber(playback.time);
+    const { camera, head, density, colours, playback, ahead } = this;
+    const picked = this.picked?.path.mark(frame, playback, ahead);
+    const time = shortNumber(playback.shownTime);
     drawOverlay(element("overlay"), density, camera, head, playback.frame, time, picked, colours);
   }
 
   showTime() {
-    const { frame, time, last } = this.playback;
+    const { frame, last, shownTime } = this.playback;
+    const time = shortNumber(shownTime);
     element("frame").value = frame;
-    element("frame").setAttribute("aria-valuetext", `frame ${frame + 1} of ${last + 1}, t = ${shortNumber(time)}`);
-    element("time").textContent = `t = ${shortNumber(time)}, ${frame + 1} of ${last + 1}`;
+    element("frame").setAttribute("aria-valuetext", `frame ${frame + 1} of ${last + 1}, t = ${time}`);
+    element("time").textContent = `t = ${time}, ${frame + 1} of ${last + 1}`;
   }
 
   showPlaying() {
@@ -322,7 +315,8 @@ export class Viewer {
   pickAt(px, py) {
     const frame = this.store.frame(this.playback.frame);
     if (!frame) return;
-    const i = diskAt(this.store, this.playback.frame, ...this.camera.toPlane(px, py), 4 / this.camera.scale);
+    const point = this.camera.toPlane(px, py);
+    const i = diskAt(this.store, this.playback, this.ahead, point, 4 / this.camera.scale);
     this.pick(i < 0 ? -1 : frame.place[i]);
   }
 

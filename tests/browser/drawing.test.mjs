@@ -131,6 +131,27 @@ test("a click picks the disk under it, also by its image across a periodic side"
   await page.close();
 });
 
+test("a moment between two frames is that of the frame before it, and itself where motion is smooth", async () => {
+  const { page } = await shop.show(shop.view("rest").file, "#t=1.9");
+  const shown = async (moment, [x, y]) => {
+    await page.waitForFunction((text) => document.getElementById("time").textContent.startsWith(text), moment);
+    const [px, py] = await page.evaluate(([a, b]) => window.carom.camera.toPage(a, b), [x, y]);
+    await page.locator("#disks").click({ position: { x: px, y: py } });
+    assert.equal(await page.inputValue("#disk"), "3", moment);
+    await page.waitForFunction(() => !window.carom.dirty);
+    return page.evaluate(() => {
+      const { picked, playback, ahead, store } = window.carom;
+      return picked.path.mark(store.frame(playback.frame), playback, ahead).place[0];
+    });
+  };
+  const frame = await shown("t = 1.5, 4", [0.8, 6]);
+  assert.ok(Math.abs(frame - 1.7) < 1e-3, frame);
+  await page.check("#smooth");
+  const moment = await shown("t = 1.9, 4", [3.05, 6]);
+  assert.ok(Math.abs(moment - 2.1) < 1e-3, moment);
+  await page.close();
+});
+
 test("a disk that crosses a periodic side goes on behind it, and its path does not cross the box", async () => {
   shop.run("cross", restScene().replace("[0.2, 6]", "[19.2, 6]"));
   const { page } = await shop.show(shop.view("cross").file, "#t=1.5&disk=3");
