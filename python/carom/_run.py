@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import _thread
 import json
 import os
+import signal
+import threading
 from typing import Any, Callable, Iterable, Optional, Sequence
 
 from . import _carom
@@ -41,18 +44,46 @@ def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "pa
     return Result(json.loads(text), folder or None)
 
 
+class _Worker:
+    """A process of map. Ctrl-C, which a terminal sends to all of them, ends its run; between runs it waits for what the first
+    process says, and begins none after that."""
+
+    stop = None  # an event of all processes
+    runs = False
+
+
+def _begin_worker(stop):
+    def pressed(*_):
+        if _Worker.runs:
+            raise KeyboardInterrupt
+
+    def wait_for_stop():
+        stop.wait()
+        _thread.interrupt_main()
+
+    _Worker.stop = stop
+    signal.signal(signal.SIGINT, pressed)
+    threading.Thread(target=wait_for_stop, daemon=True).start()
+
+
 def _run_one(scene, out):
     import warnings
 
     warnings.simplefilter("ignore", RuntimeWarning)  # they are in the summary
-    return run(scene, out, threads=1)
+    _Worker.runs = True
+    try:
+        if _Worker.stop.is_set():
+            raise KeyboardInterrupt
+        return run(scene, out, threads=1)
+    finally:
+        _Worker.runs = False
 
 
 def map(scenes: Iterable[Scene], outs: Optional[Sequence] = None, jobs: Optional[int] = None) -> list:
     """Runs every scene by itself on one core, on all cores or on so many jobs at once; the results in the order of scenes.
 
     outs: a folder for each, or None for no files. Processes are begun anew ("spawn"): a script that calls this needs
-    `if __name__ == "__main__":`. Raises what a run raises.
+    `if __name__ == "__main__":`. Raises what a run raises; Ctrl-C stops all runs, each with a checkpoint in its folder.
     """
     import multiprocessing
     from concurrent.futures import ProcessPoolExecutor
@@ -64,5 +95,11 @@ def map(scenes: Iterable[Scene], outs: Optional[Sequence] = None, jobs: Optional
     if not scenes:
         return []
     jobs = min(jobs or os.cpu_count() or 1, len(scenes))
-    with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
-        return list(pool.map(_run_one, scenes, outs))
+    spawn = multiprocessing.get_context("spawn")
+    stop = spawn.Event()
+    with ProcessPoolExecutor(jobs, mp_context=spawn, initializer=_begin_worker, initargs=(stop,)) as pool:
+        try:
+            return list(pool.map(_run_one, scenes, outs))
+        except KeyboardInterrupt:
+            stop.set()
+            raise

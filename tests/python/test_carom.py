@@ -461,6 +461,31 @@ def test_map_runs_each_by_itself():
     assert len({r.hash for r in results}) == 3
 
 
+@pytest.mark.parametrize("send", [os.kill, os.killpg])  # to the first process; to all, as a terminal does
+def test_ctrl_c_stops_all_runs_of_a_map(send, tmp_path):
+    (tmp_path / "many.py").write_text("""
+import carom
+if __name__ == "__main__":
+    scene = {"box": {"packing_fraction": 0.3}, "run": {"t_end": 1e9}, "output": {"series": True, "every": 1e3, "checkpoint": 0.1},
+             "disks": [{"count": 500, "positions": "random", "radius": 0.5, "mass": 1.0, "velocities": {"maxwell": 1.0}}]}
+    try:
+        carom.map([carom.Scene(scene)] * 6, outs=[f"run{k}" for k in range(6)], jobs=2)
+    except KeyboardInterrupt:
+        print("stopped")
+""")
+    script = subprocess.Popen(["/usr/bin/python3", "many.py"], cwd=tmp_path, stdout=subprocess.PIPE, text=True, start_new_session=True)
+    try:
+        while len(list(tmp_path.glob("run*/carom-unfinished/checkpoint.carom"))) < 2:
+            time.sleep(0.05)
+        send(script.pid, signal.SIGINT)
+        assert script.communicate(timeout=60)[0] == "stopped\n"
+    finally:
+        if script.poll() is None:
+            os.killpg(script.pid, signal.SIGKILL)
+    assert sorted(path.name for path in tmp_path.glob("run*")) == ["run0", "run1"]
+    assert all(carom.resume(tmp_path / run).time > 0.0 for run in ("run0", "run1"))
+
+
 def test_import_is_quick():
     line = ["/usr/bin/python3", "-c", "import numpy, time; t = time.process_time(); import carom; print(time.process_time() - t)"]
     told = subprocess.run(line, check=True, capture_output=True, text=True).stdout
