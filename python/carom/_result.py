@@ -16,19 +16,25 @@ from ._disks import Frame
 class Trajectory:
     """The frames of trajectory.xyz or trajectory.h5, read one by one as they are asked for.
 
-    path: the file, or the folder of a run, also of one that goes on. len() and [k] read up to there. Raises SceneError where
-    there is none, or it is damaged.
+    path: the file, or the folder of a run, also of one that goes on: each use sees the frames that are there by then. len()
+    and [k] read up to there. Raises SceneError where there is none, or it is damaged.
     """
 
     def __init__(self, path):
-        path = os.fspath(path)
-        self.file = path
-        if os.path.isdir(path):
-            self.file = _carom.trajectory_in(path) or _carom.trajectory_in(os.path.join(path, "carom-unfinished"))
-            if not self.file:
-                raise SceneError(f"{path}: holds no trajectory; expected trajectory.xyz or trajectory.h5")
-        self._length = None
+        self._path = os.fspath(path)
+        self._counted = (None, 0)  # the file as it was, and its frames
         _carom.open_trajectory(self.file)
+
+    @property
+    def file(self) -> str:
+        """With the frames; while a run goes on, in carom-unfinished of its folder."""
+        path = self._path
+        if not os.path.isdir(path):
+            return path
+        file = _carom.trajectory_in(path) or _carom.trajectory_in(os.path.join(path, "carom-unfinished"))
+        if not file:
+            raise SceneError(f"{path}: holds no trajectory; expected trajectory.xyz or trajectory.h5")
+        return file
 
     def __iter__(self) -> Iterator[Frame]:
         reader = _carom.open_trajectory(self.file)
@@ -36,9 +42,11 @@ class Trajectory:
             yield Frame(*frame)
 
     def __len__(self):
-        if self._length is None:
-            self._length = sum(1 for _ in self)
-        return self._length
+        file = os.stat(self.file)
+        as_now = (file.st_ino, file.st_size, file.st_mtime_ns)
+        if self._counted[0] != as_now:
+            self._counted = (as_now, sum(1 for _ in self))
+        return self._counted[1]
 
     def __getitem__(self, k: int) -> Frame:
         wanted = k + len(self) if k < 0 else k
@@ -70,7 +78,7 @@ class Trajectory:
         _export.write_gsd(path, self)
 
     def __repr__(self):
-        return f"<carom.Trajectory {self.file!r}>"
+        return f"<carom.Trajectory {self._path!r}>"
 
 
 class Column(np.ndarray):

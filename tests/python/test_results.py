@@ -145,3 +145,20 @@ def test_mdanalysis_needs_the_same_disks_in_all_frames(tmp_path):
     assert len(frames[0]) == 2 and len(frames[-1]) == 1
     with pytest.raises(ValueError, match="same disks"):
         frames.to_mdanalysis()
+
+
+def test_a_trajectory_that_goes_on_is_read_as_far_as_it_is_there(result, tmp_path):
+    if not result.frames.file.endswith(".xyz"):
+        pytest.skip("lines can be added to text alone")
+    lines = open(result.frames.file).read().splitlines(keepends=True)
+    whole = len(lines) // 9  # lines a frame
+    unfinished = tmp_path / "carom-unfinished"
+    unfinished.mkdir()
+    (unfinished / "trajectory.xyz").write_text("".join(lines[:2 * whole]))
+    frames = carom.Trajectory(tmp_path)
+    assert len(frames) == 2 and frames[-1].t == 0.5
+    with open(unfinished / "trajectory.xyz", "a") as file:
+        file.write("".join(lines[2 * whole:5 * whole + 3]))
+    assert len(frames) == 5 and frames[-1].t == 2.0
+    (unfinished / "trajectory.xyz").rename(tmp_path / "trajectory.xyz")  # as a run that ends
+    assert len(frames) == 5 and [f.t for f in frames][:2] == [0.0, 0.5]
