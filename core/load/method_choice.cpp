@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "core/load/method_rates.hpp"
 #include "core/scene/scene_names.hpp"
@@ -180,11 +181,18 @@ bool may_collapse(const Scene& scene, double disks, bool settles) {
   return e < 1.0 && disks > std::log(4.0 / (1.0 - e)) / (1.0 - e);
 }
 
+// To two digits, whatever the locale of the host program, which strtod would go by.
+double two_digits(double number) {
+  const std::string text = fmt::format("{:.1e}", number);
+  double rounded = number;
+  std::from_chars(text.data(), text.data() + text.size(), rounded);
+  return rounded;
+}
+
 // Rounded down to two digits: a step needs no more.
 double tidy(double dt) {
-  double digits = std::strtod(fmt::format("{:.1e}", dt).c_str(), nullptr);
-  if (digits > dt) digits = std::strtod(fmt::format("{:.1e}", 0.95 * digits).c_str(), nullptr);
-  return digits;
+  const double digits = two_digits(dt);
+  return digits > dt ? two_digits(0.95 * digits) : digits;
 }
 
 // dt with linear dt + square dt^2 = accuracy; infinite where neither term exists.

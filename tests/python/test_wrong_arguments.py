@@ -1,5 +1,9 @@
 """What a call says to arguments of the wrong kind: what it expected, in the words of Python."""
 
+import os
+import shutil
+import subprocess
+
 import carom
 import pytest
 
@@ -46,6 +50,23 @@ def test_what_a_run_did_not_write(tmp_path):
         result.analysis
     with pytest.raises(carom.SceneError, match=r"series.csv: .* expected a scene with series = true"):
         result.series
+
+
+def test_numbers_have_points_in_any_locale(tmp_path):
+    made = ["localedef", "-i", "de_DE", "-f", "UTF-8", str(tmp_path / "de_DE.UTF-8")]
+    if shutil.which("localedef") is None or subprocess.run(made, capture_output=True).returncode != 0:
+        pytest.skip("no locale to be had that writes commas")
+    script = """
+import carom, locale, sys
+locale.setlocale(locale.LC_ALL, sys.argv[1])  # as a window system does by itself
+scene = carom.Scene({"box": {"packing_fraction": 0.3}, "physics": {"restitution": 0.3, "gravity": 0.01}, "run": {
+    "method": "auto", "accuracy": 3e-2, "t_end": 5.0}, "disks": [
+        {"count": 500, "positions": "random", "radius": 0.5, "mass": 1.0, "velocities": {"maxwell": 1.0}}]})
+print(scene.toml())
+"""
+    told = [subprocess.run(["/usr/bin/python3", "-c", script, name], env=os.environ | {"LOCPATH": str(tmp_path)}, check=True,
+                           capture_output=True, text=True).stdout for name in ("C", "de_DE.UTF-8")]
+    assert "dt = 0.0" in told[0] and told[0] == told[1]
 
 
 def test_options_of_the_command_line_are_arguments(tmp_path):
