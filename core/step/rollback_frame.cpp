@@ -1,10 +1,13 @@
 #include "core/step/rollback_frame.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "core/base/check.hpp"
+#include "core/base/short_number.hpp"
 #include "core/physics/impact_tally.hpp"
 
 namespace carom {
@@ -49,10 +52,10 @@ void check_stall(State& state, const Scene& scene) {
   if (++state.stall.frames < watched_frames) return;
   const double advanced = state.time - state.stall.since;
   if (advanced < scene.run.dt && state.time < scene.run.t_end) {
-    throw PhysicsError("rollback: time stands still at t = " + std::to_string(state.time) + ": the last " +
-                       std::to_string(watched_frames) + " frames advanced it by " +
-                       std::to_string(advanced / scene.run.dt) + " dt with " + std::to_string(state.disks.size()) +
-                       " disks; use --method pairwise");
+    throw PhysicsError(
+        fmt::format("rollback: time stands still at t = {:g}: the last {} frames advanced it by {:g} dt with {}; use "
+                    "--method pairwise",
+                    state.time, watched_frames, advanced / scene.run.dt, counted(state.disks.size(), "disk")));
   }
   state.stall = {0, state.time};
 }
