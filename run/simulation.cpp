@@ -10,6 +10,7 @@
 #include "core/base/float_environment.hpp"
 #include "core/base/input_message.hpp"
 #include "core/disks/state_hash.hpp"
+#include "core/physics/boundary.hpp"
 #include "core/physics/obstacle_contact.hpp"
 #include "core/scene/scene_ranges.hpp"
 #include "core/scene/scene_text.hpp"
@@ -39,6 +40,13 @@ void check_coordinate(const char* what, double c, double radius, double size, bo
                periodic ? fmt::format("expected a number from 0 to below {}", size)
                         : fmt::format("expected the whole disk inside the box, from {} to {}", radius, size - radius));
   }
+}
+
+// box: with its sides where they are.
+bool is_beyond_moving_side(const Domain& box, const Disk& disk) {
+  return std::any_of(all_sides.begin(), all_sides.end(), [&](Side side) {
+    return box.moves(side) && reach_beyond_wall(side, disk.x, disk.y, disk.radius, box) > 0.0;
+  });
 }
 
 Scene scene_in(const Checkpoint& checkpoint, const std::string& name) {
@@ -255,7 +263,7 @@ std::optional<DiskId> Simulation::add(Disk disk) {
   check_newcomer(disk);
   const Disks& present = state().disks;
   const Domain box = box_at(scene_.box, state().time);
-  bool met = false;
+  bool met = is_beyond_moving_side(box, disk);
   const double reach = disk.radius + largest_radius(present);
   visit_near()({disk.x, disk.y}, reach, reach,
                [&](std::size_t i) { met = met || meets(present, box, disk, i, i + 1); });

@@ -35,7 +35,7 @@ typedef enum carom_status {
   CAROM_FAILED = 1,    /* the machine: memory, a file that cannot be written */
   CAROM_INPUT = 2,     /* a bad scene, a number out of range, an array too short, a null pointer */
   CAROM_PHYSICS = 3,   /* the method cannot go on (a step far too long, inelastic collapse) */
-  CAROM_NO_ROOM = 4,   /* a disk that would overlap another */
+  CAROM_NO_ROOM = 4,   /* a disk that would overlap another, an inner wall or a side that has moved in */
   CAROM_NOT_FOUND = 5  /* no disk of this id, or none that a query asks for */
 } carom_status;
 

@@ -144,8 +144,8 @@ class Simulation:
         return View(self._sim.view())
 
     def add(self, x, y, vx=0.0, vy=0.0, radius=1.0, mass=1.0, spin=0.0) -> Optional[int]:
-        """A new disk; its id, or None where it would overlap another. spin counts where disks are rough. Raises SceneError
-        for numbers out of range."""
+        """A new disk; its id, or None where it would overlap another, an inner wall or a side that has moved in. spin counts
+        where disks are rough. Raises SceneError for numbers out of range."""
         return self._sim.add(x, y, vx, vy, radius, mass, spin)
 
     def remove(self, id: int) -> bool:

@@ -280,6 +280,25 @@ TEST(Simulation, AddsNoDiskOnAFixedOne) {
   EXPECT_GT(s.state().counters.collisions + s.state().counters.wall_collisions, 0U);
 }
 
+// A side that moves has come in as far as the time is.
+TEST(Simulation, AddsNoDiskBeyondASideThatHasMovedIn) {
+  for (const std::string method : methods) {
+    SCOPED_TRACE(method);
+    Simulation simulation(
+        parse_scene("[box]\nwidth = 20.0\nheight = 20.0\nleft = { motion = { velocity = [1.0, 0.0] } }\n"
+                    "[[disks]]\ncount = 1\npositions = [[18.0, 10.0]]\nvelocities = [[0.0, 0.0]]\nradius = 0.5\n"
+                    "mass = 1.0\n[run]\ndt = 0.01\nt_end = 8.0\nmethod = \"" +
+                        method + "\"\n",
+                    "piston.toml", ""),
+        choice());
+    simulation.run_until(4.0);
+    const double side = simulation.time();
+    EXPECT_FALSE(simulation.add({1.0, 3.0, 0.0, 0.0, 0.5, 1.0}));
+    EXPECT_FALSE(simulation.add({side + 0.4, 3.0, 0.0, 0.0, 0.5, 1.0}));
+    EXPECT_TRUE(simulation.add({side + 0.6, 3.0, 0.0, 0.0, 0.5, 1.0}));
+  }
+}
+
 TEST(Simulation, ColumnsAsEigenMapsAreNoCopies) {
   Simulation s(gas("pairwise"), choice());
   s.step(10);
