@@ -12,6 +12,7 @@
 #include "core/disks/obstacle_cells.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/measure/energy_gain.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/physics/obstacle_path.hpp"
 #include "core/scene/scene_text.hpp"
@@ -66,6 +67,7 @@ TEST(MovingWall, IsAPaddle) {
     EXPECT_NEAR(end.counters.wall_work, 32.0, 1e-11);
     EXPECT_NEAR(end.counters.wall_push[0], 32.0, 1e-11);
     EXPECT_EQ(end.counters.wall_push[1], 0.0);
+    EXPECT_TRUE(energy_warnings(scene, run_start(initial_state(scene), scene), end).empty()) << "work is no gain";
   }
 }
 

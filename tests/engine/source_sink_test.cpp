@@ -133,6 +133,21 @@ TEST_P(SourceSink, StopsAtItsLimit) {
   EXPECT_EQ(end.disks.size(), 50U);
 }
 
+// Likewise with exact: none waits for more than the limit.
+TEST(ExactSource, StopsAtItsLimit) {
+  Scene s = test::scene_of(Method::exact, 100.0, 100.0, 0.1, 3.0);
+  for (const double y : {20.0, 80.0}) {
+    Source source = source_of(10.0, 0.05);
+    source.region_low = {1.0, y - 10.0};
+    source.region_high = {99.0, y + 10.0};
+    source.limit = y < 50.0 ? Count{7} : Count{25};
+    s.sources.push_back(source);
+  }
+  const State end = test::run(s, test::state_of(s, {}));
+  EXPECT_EQ(end.counters.emitted, 32U);
+  EXPECT_EQ(end.counters.waiting, 0U);
+}
+
 // A sink takes a disk in the step in which its edge touches, not its centre, and no other disk.
 TEST_P(SourceSink, SinkRemovesOnContact) {
   for (Side side : all_sides) {

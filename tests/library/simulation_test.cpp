@@ -299,6 +299,19 @@ TEST(Simulation, AddsNoDiskBeyondASideThatHasMovedIn) {
   }
 }
 
+// The mean pressure is that in the room halfway through the run: here of one disk that only the wall opposite meets.
+TEST(Simulation, SummaryHasThePressureInTheRoomThatASideLeaves) {
+  Simulation simulation(
+      parse_scene(
+          "[box]\nwidth = 20.0\nheight = 10.0\nleft = { motion = { velocity = [1.0, 0.0] } }\n"
+          "[[disks]]\ncount = 1\npositions = [[18.0, 5.0]]\nvelocities = [[1.0, 0.0]]\nradius = 0.5\nmass = 2.0\n"
+          "[run]\nmethod = \"exact\"\nt_end = 4.0\n",
+          "piston.toml", ""),
+      choice());
+  simulation.run_until(4.0);
+  EXPECT_DOUBLE_EQ(simulation.summary().pressure, 1.0 / (18.0 * 10.0));
+}
+
 TEST(Simulation, ColumnsAsEigenMapsAreNoCopies) {
   Simulation s(gas("pairwise"), choice());
   s.step(10);
@@ -323,6 +336,9 @@ TEST(Simulation, RefusesDisksThatCannotBe) {
   EXPECT_THROW(s.add({5.0, 0.05, 0.0, 0.0, 0.1, 1.0}), InputError);  // through the floor
   EXPECT_THROW(s.add({-0.1, 5.0, 0.0, 0.0, 0.1, 1.0}), InputError);
   EXPECT_THROW(s.add({5.0, 5.0, 0.0, 0.0, 1000.0, 1.0}), InputError);
+  const double width = s.scene().box.width;
+  EXPECT_THROW(s.add({width, 5.0, 0.0, 0.0, 0.1, 1.0}), InputError);  // is 0
+  EXPECT_THROW(s.add({0.5 * width, 0.5 * width, 0.0, 0.0, 0.3 * width, 1.0}), InputError) << "would meet its image";
   EXPECT_THROW(s.set_velocity(3, {nan, 0.0}), InputError);
   EXPECT_THROW(s.run_until(nan), InputError);
   EXPECT_EQ(s.hash(), before);

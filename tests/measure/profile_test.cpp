@@ -81,6 +81,25 @@ TEST(Profiles, RowsDivideTheRun) {
   }
 }
 
+// Where the run ends at an edge, there is no row beyond it.
+TEST(Profiles, TheLastMomentBelongsToTheLastRow) {
+  Scene scene;
+  scene.box = {8.0, 8.0};
+  scene.run.t_end = 5.0;
+  AnalysisPlan& plan = scene.analysis;
+  plan.wanted[static_cast<std::size_t>(Quantity::density)] = true;
+  plan.start = 1.0;
+  plan.density_bins = 4;
+  plan.density_every = 2.0;
+  AnalysisRecord record = empty_record(scene);
+  for (int k = 1; k <= 5; ++k) {
+    take_sample(record, scene, test::disks_of({{4.0, 1.0, 0.0, 0.0, 0.5, 1.0}}), k, {}, run_in_order);
+  }
+  ASSERT_EQ(record.density_rows.size(), 2U);
+  EXPECT_EQ(record.density_rows[0].samples, 2U);
+  EXPECT_EQ(record.density_rows[1].samples, 3U) << "at 3, 4 and 5";
+}
+
 // The same sums in whatever order disks are stored.
 TEST(DensityProfile, StorageOrderChangesNoBit) {
   test::Draws draws(3);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/measure/analysis.hpp"
 #include "core/measure/bond_correlation.hpp"
 #include "core/measure/bond_order.hpp"
 #include "core/measure/displacement.hpp"
@@ -159,6 +160,22 @@ TEST(ShearedMeasures, StructureFactorOfASlidLatticeHasItsPeak) {
 }
 
 // A disk that goes up through the box for ever while the flow carries it along: (y - y_0)^2 alone.
+// Of two disks one goes with the flow, whose velocity is -0.25 there.
+TEST(ShearedMeasures, PressureOfASampleIsOfVelocitiesRelativeToTheFlow) {
+  Scene scene;
+  scene.box = sheared_box(20.0, 10.0, 0.0);
+  scene.analysis.wanted[static_cast<std::size_t>(Quantity::pressure)] = true;
+  const Disks disks = test::disks_of({{5.0, 2.5, -0.25, 0.0, 0.1, 1.0}, {15.0, 2.5, 2.75, 4.0, 0.1, 1.0}});
+  AnalysisRecord record = empty_record(scene);
+  State now;
+  take_sample(record, scene, disks, 0.0, now, run_in_order);
+  now.time = 2.0;
+  now.counters.virial = 14.0;
+  take_sample(record, scene, disks, 2.0, now, run_in_order);
+  ASSERT_EQ(record.series.pressure.size(), 2U);
+  EXPECT_DOUBLE_EQ(record.series.pressure[1], (12.5 + 14.0 / 4.0) / 200.0);
+}
+
 TEST(ShearedMeasures, DisplacementIsAcrossTheFlow) {
   Domain box = sheared_box(10.0, 10.0, 0.0);
   Disks d;

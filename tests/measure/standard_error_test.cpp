@@ -71,6 +71,20 @@ TEST(DiffusionFit, FindsThatOfARandomWalkWithinItsError) {
   EXPECT_LT(error2, 2.5 * off2);
 }
 
+// Begun at 100: the first half does not count. Of the second one, eight parts with D = 1 and 3 by turns.
+TEST(DiffusionFit, ErrorIsThatOfTheMeanOfEightParts) {
+  std::vector<double> time, square;
+  for (int k = 0; k <= 32; ++k) {
+    time.push_back(100.0 + k);
+    const double before = k > 0 ? square.back() : 0.0;
+    square.push_back(k <= 16 ? 0.0 : before + 4.0 * ((k - 17) / 2 % 2 == 0 ? 1.0 : 3.0));
+  }
+  const DiffusionFit fit = fit_diffusion(time, square);
+  EXPECT_EQ(fit.from, 116.0);
+  EXPECT_EQ(fit.value, 2.0);
+  EXPECT_DOUBLE_EQ(fit.error, std::sqrt(8.0 / 7.0 / 8.0));
+}
+
 TEST(DiffusionFit, SaysNothingOfFewSamples) {
   EXPECT_TRUE(std::isnan(fit_diffusion({0, 1, 2, 3}, {0, 1, 2, 3}).value));
   EXPECT_TRUE(std::isnan(fit_diffusion({}, {}).value));

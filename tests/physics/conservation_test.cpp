@@ -130,5 +130,13 @@ TEST_P(Conservation, ForcesOnTheWallsBalance) {
   }
 }
 
+// Of disks that begin at rest, or come to rest, the drift is of the momentum that there was or is.
+TEST(MomentumDrift, IsOfTheLargerMomentum) {
+  const Momentum none, some{3.0, 4.0, 10.0};
+  EXPECT_EQ(momentum_drift(none, some), 0.5);
+  EXPECT_EQ(momentum_drift(some, none), 0.5);
+  EXPECT_EQ(momentum_drift(none, none), 0.0);
+}
+
 }  // namespace
 }  // namespace carom

@@ -1,0 +1,47 @@
+// What is measured in a box into which a side has moved is of the room that is left.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/load/scene_file.hpp"
+#include "core/measure/analysis.hpp"
+#include "core/measure/invariants.hpp"
+#include "core/measure/pair_distances.hpp"
+#include "tests/support/disks_by_hand.hpp"
+
+namespace carom {
+namespace {
+
+// 20 x 10, of which a piston from the left and a floor take 2 along x and 1 along y in each unit of time.
+Scene pressed_box() {
+  return parse_scene(
+      "[box]\nwidth = 20.0\nheight = 10.0\nleft = { motion = { velocity = [2.0, 0.0] } }\n"
+      "bottom = { motion = { velocity = [0.0, 1.0] } }\n[[disks]]\ncount = 1\npositions = [[18.0, 8.0]]\n"
+      "velocities = [[0.0, 0.0]]\nradius = 0.5\nmass = 1.0\n[run]\nmethod = \"exact\"\nt_end = 4.0\n"
+      "[analysis]\nwhat = [\"pressure\"]\nevery = 1.0\n",
+      "pressed.toml", "");
+}
+
+TEST(MovedSides, PressureOfASampleIsThatOfTheRoomLeft) {
+  const Scene scene = pressed_box();
+  const Disks disks = test::disks_of({{18.0, 8.0, 3.0, 0.0, 0.5, 2.0}});  // 9 of kinetic energy
+  AnalysisRecord record = empty_record(scene);
+  State now;
+  take_sample(record, scene, disks, 0.0, now, run_in_order);
+  now.time = 4.0;
+  now.counters.virial = 24.0;
+  take_sample(record, scene, disks, 4.0, now, run_in_order);
+  ASSERT_EQ(record.series.pressure.size(), 2U);
+  EXPECT_TRUE(std::isnan(record.series.pressure[0]));
+  EXPECT_DOUBLE_EQ(record.series.pressure[1], (9.0 + 24.0 / 8.0) / (12.0 * 6.0));
+}
+
+TEST(MovedSides, CentresOfPairsKeepAwayFromWhereTheSidesAre) {
+  const Scene scene = pressed_box();
+  const DistanceBins bins{2.0, 10, 3.0};
+  EXPECT_DOUBLE_EQ(area_of_centres(scene.box, bins), 14.0 * 4.0);
+  EXPECT_DOUBLE_EQ(area_of_centres(box_at(scene.box, 3.0), bins), 8.0 * 1.0);
+}
+
+}  // namespace
+}  // namespace carom
