@@ -244,6 +244,43 @@ TEST(Simulation, AddsADiskSmallerThanAllWithTheReferencesBits) {
   }
 }
 
+// A step is split by the fastest and the smallest disk that there are after a change, not by those before.
+TEST(Simulation, ChangesSplitStepsAsTheReferenceDoes) {
+  const auto expect_same = [](const std::string& radii, double speed, const auto& change) {
+    const std::string text =
+        "[box]\nwidth = 100.0\nheight = 100.0\n[physics]\ngravity = 20.0\n[[disks]]\ncount = 3\n"
+        "positions = [[20, 50], [50, 60], [80, 50]]\nvelocities = [[0, 0], [" +
+        std::to_string(speed) + ", 0], [0, 0]]\nradius = " + radii +
+        "\nmass = 1.0\n[run]\nmethod = \"pairwise\"\ndt = 0.02\nt_end = 10.0\n";
+    const auto hash = [&](const char* engine) {
+      Simulation s(parse_scene(text, "three.toml", ""), choice(engine));
+      s.step(3);
+      change(s);
+      s.step(3);
+      return s.hash();
+    };
+    EXPECT_EQ(hash("parallel"), hash("reference"));
+  };
+  expect_same("0.5", 1.0, [](Simulation& s) { s.set_velocity(2, {60.0, 0.0}); });
+  expect_same("0.5", 1.0, [](Simulation& s) { s.add({20.0, 80.0, 5.0, 0.0, 0.01, 1.0}); });
+  expect_same("[0.05, 0.5, 0.5]", 10.0, [](Simulation& s) { s.remove(0); });
+}
+
+// The paths of the last window end with a change.
+TEST(Simulation, HasNoDisksOfEarlierAfterAChange) {
+  Simulation s(gas("exact"), choice());
+  s.step(3);
+  Disks then;
+  const double before = std::nextafter(s.time(), 0.0);
+  EXPECT_EQ(s.disks_at(before, then), before);
+  s.set_velocity(7, {1.0, 2.0});
+  EXPECT_EQ(s.disks_at(before, then), s.time());
+  EXPECT_EQ(then.vx[7], 1.0);
+  s.remove(0);
+  EXPECT_EQ(s.disks_at(before, then), s.time());
+  EXPECT_EQ(then.size(), 199U);
+}
+
 TEST(Simulation, AddsNoDiskOnAFixedOne) {
   const Scene scene = parse_scene(R"(
     [box]
