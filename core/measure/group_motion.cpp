@@ -30,11 +30,4 @@ GroupMotion GroupTally::motion() const {
   return {kinetic_, thermal_ / static_cast<double>(count_), velocity(), count_};
 }
 
-GroupMotion group_motion(const Disks& d, std::span<const std::size_t> members) {
-  GroupTally tally;
-  tally.add(d, members);
-  tally.add_thermal(d, members);
-  return tally.motion();
-}
-
 }  // namespace carom

@@ -10,7 +10,7 @@ namespace carom {
 
 struct GroupMotion {
   double kinetic = 0.0;      // sum of m v^2 / 2; energy
-  double temperature = 0.0;  // sum of m (v - V)^2 / 2 over the number of disks; energy; NaN without any
+  double temperature = 0.0;  // sum of m (v - V)^2 / 2 over the number of disks (k_B = 1); energy; NaN without any
   Vec2 velocity;             // V: momentum over mass; length / time; NaN without any
   Count disks = 0;
 };
@@ -31,9 +31,5 @@ class GroupTally {
   Count count_ = 0;
   double mass_ = 0.0, px_ = 0.0, py_ = 0.0, kinetic_ = 0.0, thermal_ = 0.0;
 };
-
-// The same of disks that are all here. k_B = 1, two degrees of freedom a disk: a block with velocities =
-// { maxwell = T } starts with temperature T.
-GroupMotion group_motion(const Disks& disks, std::span<const std::size_t> members);
 
 }  // namespace carom

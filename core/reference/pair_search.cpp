@@ -47,11 +47,6 @@ bool touch(const Disks& d, const Domain& box, std::size_t i, std::size_t j) {
   return touches(nearest_distance2({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box), d.radius_of(i) + d.radius_of(j));
 }
 
-void add_in_id_order(std::vector<Pair>& pairs, const Disks& d, std::size_t i, std::size_t j) {
-  if (d.id[i] > d.id[j]) std::swap(i, j);
-  pairs.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
-}
-
 void sort_by_id(std::vector<Pair>& pairs, const Disks& d) {
   std::sort(pairs.begin(), pairs.end(), [&](const Pair& a, const Pair& b) {
     return d.id[a.i1] != d.id[b.i1] ? d.id[a.i1] < d.id[b.i1] : d.id[a.i2] < d.id[b.i2];
@@ -111,17 +106,6 @@ std::vector<Overlap> deepest_of_touching_pairs(const Disks& d, const Domain& box
     });
   });
   return deepest;
-}
-
-std::vector<Pair> find_touching_pairs_by_force(const Disks& d, const Domain& box) {
-  std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    for (std::size_t j = i + 1; j < d.size(); ++j) {
-      if (touch(d, box, i, j)) add_in_id_order(pairs, d, i, j);
-    }
-  }
-  sort_by_id(pairs, d);
-  return pairs;
 }
 
 }  // namespace carom

@@ -1,5 +1,4 @@
-// The reference pair search: a uniform grid without faults F6 to F14 of docs/original.md, and the all-pairs search that
-// tests compare it with.
+// The reference pair search: a uniform grid without faults F6 to F14 of docs/original.md.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +22,5 @@ std::vector<Pair> find_touching_pairs(const Disks& disks, const Domain& box);
 // The deepest overlap of the touching pairs in each of some parts of the box.
 std::vector<Overlap> deepest_of_touching_pairs(const Disks& disks, const Domain& box, const BlockRunner& run,
                                                const std::function<double(std::uint32_t, std::uint32_t)>& overlap);
-
-// The same as find_touching_pairs by looking at every pair: O(N^2), the oracle.
-std::vector<Pair> find_touching_pairs_by_force(const Disks& disks, const Domain& box);
 
 }  // namespace carom

@@ -49,9 +49,6 @@ class OpenCells {
     __builtin_prefetch(&bits_[(row_of(y) * columns_ + column_of(x)) / 64]);
   }
 
-  // True when every cell is closed: there is no room left.
-  bool full() const { return open_ == 0; }
-
  private:
   std::size_t column_of(double x) const { return cell_index(x / cell_x_, columns_); }
   std::size_t row_of(double y) const { return cell_index(y / cell_y_, rows_); }

@@ -1,6 +1,5 @@
 #include "parallel/slabs/rank_sums.hpp"
 
-#include "core/disks/state_hash.hpp"
 #include "core/step/step_start.hpp"
 #include "parallel/ranks/message.hpp"
 
@@ -49,10 +48,6 @@ struct FiguresOverlaps {
   Overlap left, before, wall;
 };
 
-struct HashPart {
-  std::uint64_t disks, sum;
-};
-
 }  // namespace
 
 void sum_over_ranks(Ranks& ranks, const Domain& box, ImpactTally& tally) {
@@ -81,18 +76,6 @@ void join_over_ranks(Ranks& ranks, StepFigures& figures) {
     figures.before.see(seen.before);
     figures.wall.see(seen.wall);
   }
-}
-
-std::uint64_t state_hash_over_ranks(Ranks& ranks, const Disks& own) {
-  Bytes here;
-  put(here, HashPart{own.size(), sum_of_hashes(own)});
-  HashPart all{0, 0};
-  for (const Bytes& there : ranks.gather(here)) {
-    const auto part = MessageReader(there).get<HashPart>();
-    all.disks += part.disks;
-    all.sum += part.sum;
-  }
-  return state_hash(all.disks, all.sum);
 }
 
 }  // namespace carom

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
-#include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 #include "core/physics/impact_tally.hpp"
 #include "core/step/validity.hpp"
@@ -21,8 +19,5 @@ void join_over_ranks(Ranks& ranks, StepFigures& figures);
 
 // count[k] becomes that of all ranks; ranks may have fewer classes than others.
 void sum_counts_over_ranks(Ranks& ranks, std::vector<std::size_t>& count);
-
-// state_hash of all ranks' disks together.
-std::uint64_t state_hash_over_ranks(Ranks& ranks, const Disks& own);
 
 }  // namespace carom

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/base/random.hpp"
-#include "core/reference/pair_search.hpp"
 #include "parallel/stepping/drift_blocks.hpp"
 #include "parallel/stepping/find_contacts.hpp"
+#include "tests/support/all_pairs.hpp"
 #include "tests/support/disks_by_hand.hpp"
 
 namespace carom {
@@ -87,7 +87,7 @@ Disks scattered(const Domain& box, std::size_t n, double small, double large, st
 void expect_all_pairs(const Disks& d, const Domain& box, double moved) {
   Disks now;
   const Searched one = search(d, box, moved, 1, 1, &now);
-  EXPECT_EQ(one.pairs, as_ids(find_touching_pairs_by_force(now, box), now));
+  EXPECT_EQ(one.pairs, as_ids(test::touching_among_all_pairs(now, box), now));
   EXPECT_EQ(one.pairs, search(d, box, moved, 3, 4096).pairs);
 }
 

@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "tests/support/all_pairs.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
 
@@ -16,7 +17,7 @@ using test::box_of;
 // The same pairs in the same order, each once, smaller id first. Returns how many.
 std::size_t expect_same(const Disks& disks, const Domain& box) {
   const std::vector<Pair> grid = find_touching_pairs(disks, box);
-  EXPECT_EQ(grid, find_touching_pairs_by_force(disks, box));
+  EXPECT_EQ(grid, test::touching_among_all_pairs(disks, box));
   for (std::size_t k = 0; k < grid.size(); ++k) {
     EXPECT_LT(disks.id[grid[k].i1], disks.id[grid[k].i2]);
     EXPECT_TRUE(k == 0 || !(grid[k] == grid[k - 1]));  // F14

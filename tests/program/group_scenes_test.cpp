@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "core/load/scene_file.hpp"
-#include "core/measure/group_motion.hpp"
 #include "core/scene/disk_group.hpp"
 #include "parallel/simulation.hpp"
 #include "parallel/start/random_placement.hpp"
+#include "tests/support/motion_of_group.hpp"
 
 namespace carom {
 namespace {
@@ -30,7 +30,7 @@ GroupMotion motion_of(const Scene& scene, const Disks& disks, const std::string&
     }
   }
   EXPECT_FALSE(members.empty());
-  return group_motion(disks, members);
+  return test::group_motion(disks, members);
 }
 
 // Energy is conserved, so that the mean of both is 2.5 for ever; each of 400 disks fluctuates by T / sqrt(400) at most.

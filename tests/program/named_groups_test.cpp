@@ -2,11 +2,11 @@
 #include <cmath>
 #include <map>
 
-#include "core/measure/group_motion.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/scene/scene_text.hpp"
 #include "io/tables/group_columns.hpp"
 #include "tests/support/disks_by_hand.hpp"
+#include "tests/support/motion_of_group.hpp"
 #include "tests/support/program_support.hpp"
 #include "tests/support/scene_support.hpp"
 
@@ -67,12 +67,12 @@ std::string with(const std::string& lines) {
 TEST(NamedGroups, MotionIsThatOfTheMembers) {
   const Disks d = test::disks_of({{1, 1, 3, 0, 0.1, 2, 0}, {2, 2, 100, 9, 0.1, 5, 0}, {3, 3, -1, 4, 0.1, 6, 0}});
   const std::vector<std::size_t> members{0, 2};
-  const GroupMotion motion = group_motion(d, members);
+  const GroupMotion motion = test::group_motion(d, members);
   EXPECT_EQ(motion.velocity, (Vec2{0.0, 3.0}));
   EXPECT_EQ(motion.kinetic, 0.5 * 2 * 9 + 0.5 * 6 * 17);
   // Away from (0, 3): (3, -3) of mass 2, (-1, 1) of mass 6.
   EXPECT_EQ(motion.temperature, (0.5 * 2 * 18 + 0.5 * 6 * 2) / 2);
-  EXPECT_TRUE(std::isnan(group_motion(d, {}).temperature));
+  EXPECT_TRUE(std::isnan(test::group_motion(d, {}).temperature));
 }
 
 TEST(NamedGroups, RowsDoNotDependOnStorageAndEveryBlockHasItsTemperature) {

@@ -165,7 +165,7 @@ TEST(Redistribute, GivesDisksToOtherRanksInManyMessages) {
       const auto engine = make_slab_part(scene, std::move(part), slabs, {1}, ranks);
       for (const std::uint64_t hash : expected.hashes) {
         engine->step();
-        ASSERT_EQ(state_hash_over_ranks(ranks, engine->state().disks), hash);
+        ASSERT_EQ(test::state_hash_over_ranks(ranks, engine->state().disks), hash);
         EXPECT_LT(engine->state().disks.size(), 4000U);
       }
       EXPECT_EQ(engine->state().counters.collisions, expected.counters.collisions);

@@ -13,10 +13,10 @@
 #include "core/start/initial_state.hpp"
 #include "parallel/ranks/local_ranks.hpp"
 #include "parallel/simulation.hpp"
-#include "parallel/slabs/rank_sums.hpp"
 #include "parallel/slabs/slab_exact.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
 #include "tests/fuzz_scenes/random_scene.hpp"
+#include "tests/support/slab_support.hpp"
 
 namespace carom {
 namespace {
@@ -88,7 +88,7 @@ TEST_P(SlabScenes, HaveTheBitsOfOneMachine) {
       run_on_local_ranks(count, [&](Ranks& ranks) {
         const auto part = make(start->scene, start->state, {2, 512}, ranks);
         traces[static_cast<std::size_t>(ranks.rank())] = trace_of(
-            *part, start->scene.run.t_end, [&](const Disks& own) { return state_hash_over_ranks(ranks, own); });
+            *part, start->scene.run.t_end, [&](const Disks& own) { return test::state_hash_over_ranks(ranks, own); });
       });
       for (Trace& trace : traces) {
         SCOPED_TRACE(count);

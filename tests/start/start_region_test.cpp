@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "core/disks/state_hash.hpp"
-#include "core/measure/group_motion.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/start/circle_lattice.hpp"
 #include "parallel/start/random_placement.hpp"
+#include "tests/support/motion_of_group.hpp"
 #include "tests/support/scene_support.hpp"
 
 namespace carom {
@@ -156,12 +156,12 @@ TEST(Drift, ComesOnTopOfTheTemperatureOfEachGroup) {
   std::vector<std::size_t> first(100), second(50);
   for (std::size_t i = 0; i < 100; ++i) first[i] = i;
   for (std::size_t i = 0; i < 50; ++i) second[i] = 100 + i;
-  const GroupMotion hot = group_motion(state.disks, first);
+  const GroupMotion hot = test::group_motion(state.disks, first);
   EXPECT_NEAR(hot.velocity.x, 3.0, 1e-12);
   EXPECT_NEAR(hot.velocity.y, -1.0, 1e-12);
   EXPECT_NEAR(hot.temperature, 2.0, 1e-12);
-  EXPECT_EQ(group_motion(state.disks, second).velocity, (Vec2{0.0, 0.25}));
-  EXPECT_EQ(group_motion(state.disks, second).temperature, 0.0);
+  EXPECT_EQ(test::group_motion(state.disks, second).velocity, (Vec2{0.0, 0.25}));
+  EXPECT_EQ(test::group_motion(state.disks, second).temperature, 0.0);
 }
 
 TEST(Drift, BadOnesAreNamedByLineAndKey) {

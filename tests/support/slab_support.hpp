@@ -14,9 +14,9 @@
 #include "core/disks/state_hash.hpp"
 #include "core/step/engine.hpp"
 #include "parallel/ranks/local_ranks.hpp"
+#include "parallel/ranks/message.hpp"
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/simulation.hpp"
-#include "parallel/slabs/rank_sums.hpp"
 #include "parallel/slabs/slab_exact.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
 #include "parallel/threads/executor.hpp"
@@ -35,6 +35,22 @@ struct SlabTrace {
   std::size_t last_disks = 0;  // and how many it had at last
   std::size_t thin = 0;        // warnings that slabs would be too thin, or that one rank runs all
 };
+
+// state_hash of all ranks' disks together.
+inline std::uint64_t state_hash_over_ranks(Ranks& ranks, const Disks& own) {
+  struct Part {
+    std::uint64_t disks = 0, sum = 0;
+  };
+  Bytes here;
+  put(here, Part{own.size(), sum_of_hashes(own)});
+  Part all;
+  for (const Bytes& there : ranks.gather(here)) {
+    const auto part = MessageReader(there).get<Part>();
+    all.disks += part.disks;
+    all.sum += part.sum;
+  }
+  return state_hash(all.disks, all.sum);
+}
 
 inline SlabTrace one_machine_trace(const Scene& scene, const State& start) {
   SlabTrace trace;
