@@ -1,4 +1,4 @@
-// What resolving a pile on one slab asks of the others: as NoOtherSlabs (parallel/stepping/support_sweeps.hpp).
+// What resolving a pile on one slab asks of the others: as SingleSlab (parallel/stepping/support_sweeps.hpp).
 #pragma once
 
 #include <array>

@@ -258,7 +258,7 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
   } else {
     with_view(state.disks, rules, [&](const auto& d) {
       speed2 = resolve_alone(d, rules, found, walls, state.disks.size(), executor, lists, tally);
-      resolve_crowded(d, rules, state.disks, executor, lists, tally, NoOtherRanks{});
+      resolve_crowded(d, rules, state.disks, executor, lists, tally, SingleRank{});
       speed2 = std::max(speed2, finish_crowded(d, rules.box, executor, lists));
     });
   }

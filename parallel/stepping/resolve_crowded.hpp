@@ -9,9 +9,10 @@
 
 namespace carom {
 
-// How many passes there are depends on all contacts of the step. Where other ranks resolve some of them
-// (parallel/slabs/slab_stepping.cpp), any() asks them too; of a contact that two ranks resolve, one counts the impact.
-struct NoOtherRanks {
+// What resolving asks of other ranks, where one rank has the whole box (else OtherRanks, parallel/slabs/
+// slab_stepping.cpp). any(here): is it so on any rank? How many passes there are depends on all contacts of the step.
+// counts(e): of a contact that two ranks resolve, one counts the impact.
+struct SingleRank {
   static constexpr bool alone = true;
   bool any(bool here) const { return here; }
   bool counts(const ContactEvent& /*e*/) const { return true; }

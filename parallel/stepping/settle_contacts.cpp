@@ -58,8 +58,8 @@ void reserve_crowded_blocks(std::size_t blocks, const Executor& executor, Contac
 double settle_contacts(State& state, const StepRules& rules, const FoundPairs& found,
                        const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
                        ContactLists& lists, ImpactTally& tally) {
-  NoOtherSlabs none;
-  return settle_with(state, rules, found, walls, state.disks.size(), executor, lists, tally, none);
+  SingleSlab single;
+  return settle_with(state, rules, found, walls, state.disks.size(), executor, lists, tally, single);
 }
 
 }  // namespace carom

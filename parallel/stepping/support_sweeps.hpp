@@ -1,6 +1,5 @@
 // The supports of a step, solved patch by patch with the bits of core/reference/step_contacts.cpp's serial sweeps.
-// Others: what ranks of several have to ask each other, NoOtherSlabs below or OtherSlabs
-// (parallel/slabs/other_slabs.hpp).
+// Others: what ranks ask each other on the way; SingleSlab below, or OtherSlabs (parallel/slabs/other_slabs.hpp).
 #pragma once
 
 #include <algorithm>
@@ -23,9 +22,10 @@ inline bool is_crowded(const ContactLists& lists, const IdPair& p) {
   return lists.contacts[p.i1] > 1 || lists.contacts[p.i2] > 1;
 }
 
-// What resolving a pile asks of other ranks, on one machine. counts(patch): of contacts that two ranks resolve, one
-// counts them. before(values): what run_patches calls before each phase; values are those that the sweep changes.
-struct NoOtherSlabs {
+// What resolving a pile asks of other ranks, where one rank has the whole box. counts(patch): of contacts that two
+// ranks resolve, one counts them. before(values): what run_patches calls before each phase; values are those that the
+// sweep changes.
+struct SingleSlab {
   static constexpr bool alone = true;
   bool any(bool here) const { return here; }
   bool counts(std::size_t /*patch*/) const { return true; }
