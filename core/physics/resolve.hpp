@@ -1,7 +1,6 @@
 // What a step does with the contacts it found: collide them in order of contact. What overlap remains is pushed apart
-// (push_apart.hpp).
-// Called by the reference on the whole sorted list, by the engine on independent parts of it. Formula (23) and faults
-// F3, F8, F11: docs/original.md.
+// (push_apart.hpp). Called by the reference on the whole sorted list, by the engine on independent parts of it. Formula
+// (23) and faults F3, F8, F11: docs/original.md.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "core/physics/advance.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/physics/contact_event.hpp"
+#include "core/physics/contact_of_step.hpp"
 #include "core/physics/disk_pair.hpp"
 #include "core/physics/moving_side.hpp"
 #include "core/physics/obstacle_contact.hpp"
@@ -22,32 +22,6 @@
 #include "core/physics/thermal_side.hpp"
 
 namespace carom {
-
-// ago: time before the one that the box is used for; what a sheared one needs to know. Precondition, as of all below
-// that take a view: it is a sheared one if the box is.
-template <class View>
-Relative relative(const View& d, std::uint32_t i, std::uint32_t j, const Domain& box,
-                  [[maybe_unused]] double ago = 0.0) {
-  const Relative raw{d.x[j] - d.x[i], d.y[j] - d.y[i], d.vx[j] - d.vx[i], d.vy[j] - d.vy[i]};
-  if constexpr (View::is_sheared) {
-    return to_row(raw, rows_to_nearest(raw.dy, box), box.shear.offset - ago * box.shear.jump, box);
-  } else {
-    const Vec2 apart = nearest_image_at_rest({raw.dx, raw.dy}, box);
-    return {apart.x, apart.y, raw.dvx, raw.dvy};
-  }
-}
-
-// Squared distance of the centres of disks i and j, nearest image; length^2.
-template <class View>
-double distance2_of(const View& d, std::uint32_t i, std::uint32_t j, const Domain& box) {
-  const Vec2 apart{d.x[j] - d.x[i], d.y[j] - d.y[i]};
-  if constexpr (View::is_sheared) {
-    return nearest_distance2(apart, box);
-  } else {
-    const Vec2 nearest = nearest_image_at_rest(apart, box);
-    return nearest.x * nearest.x + nearest.y * nearest.y;
-  }
-}
 
 // Adds to an impact, which two disks had as r says, what a sheared box wants to know. rows: boxes above the second disk
 // of the image that collided. momentum: along x, what the second disk gained. The image has that much more energy than
@@ -76,69 +50,6 @@ Shares shares_of(const View& d, std::uint32_t i, std::uint32_t j) {
   } else {
     return equal_shares;
   }
-}
-
-// The contact event of a pair found touching at the end of a step: how long ago it began, at most the step.
-template <class View>
-ContactEvent pair_event(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
-  const Relative r = relative(d, i, j, rules.box);
-  double ago = rules.dt;
-  if (r.approach() < 0.0) ago = std::clamp(-touching_time(r, d.radius(i) + d.radius(j)), 0.0, rules.dt);
-  return {ago, d.id[i], d.id[j], i, j};
-}
-
-// Likewise for a disk that reaches `beyond` >= 0 past a wall.
-template <class View>
-ContactEvent wall_event(const View& d, const StepRules& rules, std::uint32_t i, Side side, double beyond) {
-  const double speed = approach_speed(side, d.vx[i], d.vy[i], rules.box.place(side));
-  double ago = rules.dt;
-  if (speed > 0.0) ago = std::min(rules.dt, time_since_wall(side, beyond, speed, rules.gravity));
-  return {ago, d.id[i], wall_partner(side), i, 0};
-}
-
-// Likewise for an obstacle.
-template <class View>
-ContactEvent obstacle_event(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t k,
-                            const ObstacleGap& gap) {
-  double ago = rules.dt;
-  if (speed_towards(gap, d.vx[i], d.vy[i]) > 0.0 && gap.beyond >= 0.0) {
-    const Obstacle& o = (*rules.box.obstacles)[k];
-    ago = std::min(rules.dt, time_since_obstacle(o, gap, d.radius(i), d.vx[i] - gap.velocity.x,
-                                                 d.vy[i] - gap.velocity.y, rules.gravity));
-  }
-  return {ago, d.id[i], obstacle_partner(k), i, 0};
-}
-
-// How disk i lies to the obstacle of a contact.
-template <class View>
-ObstacleGap gap_to(const View& d, const Domain& box, std::uint32_t i, DiskId partner) {
-  return gap_to((*box.obstacles)[obstacle_of(partner)], d.x[i], d.y[i], d.radius(i), box);
-}
-
-// How far disk i reaches beyond the wall, or the obstacle, of a contact; length.
-template <class View>
-double reach_beyond_wall(const View& d, const Domain& box, std::uint32_t i, DiskId partner) {
-  if (is_obstacle(partner)) return gap_to(d, box, i, partner).beyond;
-  return reach_beyond_wall(wall_side(partner), d.x[i], d.y[i], d.radius(i), box);
-}
-
-// Does what stands for a wall in a contact take disks away?
-inline bool is_sink(const Domain& box, DiskId partner) {
-  if (is_obstacle(partner)) return (*box.obstacles)[obstacle_of(partner)].kind == ObstacleKind::sink;
-  return box.side(wall_side(partner)) == SideKind::sink;
-}
-
-// Calls found(event) for each wall side and obstacle that disk i reaches beyond or touches.
-template <class View, class Found>
-void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t i, Found&& found) {
-  for (Side side : all_sides) {
-    if (rules.box.side(side) != SideKind::wall) continue;
-    const double beyond = reach_beyond_wall(side, d.x[i], d.y[i], d.radius(i), rules.box);
-    if (beyond >= 0.0) found(wall_event(d, rules, i, side, beyond));
-  }
-  if (rules.box.obstacles == nullptr) return;
-  for_each_solid_touched(rules.box, d.x[i], d.y[i], d.radius(i),
-                         [&](std::uint32_t k, const ObstacleGap& gap) { found(obstacle_event(d, rules, i, k, gap)); });
 }
 
 // What rough disks do along their surfaces in the collision by which i and j, as r says before it, have just changed
