@@ -11,7 +11,6 @@
 #include "core/base/check.hpp"
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/load_memory.hpp"
-#include "parallel/slabs/moving_disks.hpp"
 #include "parallel/slabs/rank_part.hpp"
 #include "parallel/slabs/slab_exact.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
@@ -30,9 +29,6 @@ std::string shared_text(Ranks& ranks, const std::string& text) {
   return {said.begin(), said.end()};
 }
 
-// Disks that go from a rank to others at a time: some megabytes, so that no rank has a second copy of them all.
-constexpr std::size_t disks_a_piece = std::size_t{1} << 16;
-
 void refuse_unknown(const Scene& scene) {
   if (scene.run.method == Method::rollback) {
     throw InputError(
@@ -45,26 +41,6 @@ std::unique_ptr<Engine> make_part(const Scene& scene, State part, const SlabStar
                                   Ranks& ranks) {
   const auto make = scene.run.method == Method::exact ? make_slab_exact_part : make_slab_part;
   return make(scene, std::move(part), start, threads, ranks);
-}
-
-// Each rank takes the disks in its slab of all that rank 0 has, or reads. all: null on the other ranks.
-Disks deal_out(Ranks& ranks, const SlabStart& start, DiskSource* all, Disks part) {
-  truncate(part, 0);
-  const auto expected = static_cast<std::size_t>(start.disks) / static_cast<std::size_t>(ranks.count());
-  reserve(part, expected + expected / 32, start.columns);
-  for (std::size_t begin = 0; begin < start.disks; begin += disks_a_piece) {
-    std::vector<Disk> piece;
-    if (all != nullptr) {
-      const Disks some = all->read(begin, std::min(all->size(), begin + disks_a_piece));
-      for (std::size_t i = 0; i < some.size(); ++i) piece.push_back(disk_at(some, i));
-    }
-    Bytes message;
-    put_all(message, piece);
-    for (const Disk& disk : MessageReader(ranks.share(message)).get_all<Disk>()) {
-      if (start.cut.rank_at(disk.y) == ranks.rank()) push_back(part, disk, start.columns);
-    }
-  }
-  return part;
 }
 
 class LeadingEngine final : public Engine {

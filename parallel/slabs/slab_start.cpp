@@ -131,6 +131,26 @@ SlabStart slab_start_of(const Bytes& message) {
   return start;
 }
 
+Disks deal_out(Ranks& ranks, const SlabStart& start, DiskSource* all, Disks part) {
+  truncate(part, 0);
+  const auto expected = static_cast<std::size_t>(start.disks) / static_cast<std::size_t>(ranks.count());
+  reserve(part, expected + expected / 32, start.columns);
+  // Some at a time, so that no rank has a second copy of them all.
+  for (std::size_t begin = 0; begin < start.disks; begin += disks_of_a_read) {
+    std::vector<Disk> piece;
+    if (all != nullptr) {
+      const Disks some = all->read(begin, std::min(all->size(), begin + disks_of_a_read));
+      for (std::size_t i = 0; i < some.size(); ++i) piece.push_back(disk_at(some, i));
+    }
+    Bytes message;
+    put_all(message, piece);
+    for (const Disk& disk : MessageReader(ranks.share(message)).get_all<Disk>()) {
+      if (start.cut.rank_at(disk.y) == ranks.rank()) push_back(part, disk, start.columns);
+    }
+  }
+  return part;
+}
+
 void keep_own_disks(const SlabCut& cut, int rank, Disks& disks) {
   std::vector<unsigned char> gone(disks.size());
   for (std::size_t i = 0; i < disks.size(); ++i) gone[i] = cut.rank_at(disks.y[i]) == rank ? 0 : 1;

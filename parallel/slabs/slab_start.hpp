@@ -9,6 +9,7 @@
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
 #include "parallel/ranks/message.hpp"
+#include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/moving_disks.hpp"
 #include "parallel/slabs/slab_cut.hpp"
 
@@ -42,6 +43,10 @@ std::vector<std::size_t> class_counts(const Disks& disks, double largest_radius)
 
 Bytes message_of(const SlabStart& start);
 SlabStart slab_start_of(const Bytes& message);
+
+// Each rank takes the disks in its slab of all that rank 0 has, or reads. all: null on the other ranks. part: what
+// disks share, as columns that are not there; its own disks go. Collective.
+Disks deal_out(Ranks& ranks, const SlabStart& start, DiskSource* all, Disks part);
 
 // The disks that are in this rank's slab: others leave, and their memory is given back.
 void keep_own_disks(const SlabCut& cut, int rank, Disks& disks);
