@@ -104,8 +104,8 @@ class NeighbourLists {
   // Not in all-pairs mode.
   double skin() const { return skin_; }  // length
   const RelistDistance& relist_distance(bool near_border) const { return near_border ? near_border_ : elsewhere_; }
-  // Of disk i; inside the box, but for rounding.
   Vec2 listed_unit() const { return {unit_x_, unit_y_}; }  // of a FixedPointPosition; length
+  // Of disk i; inside the box, but for rounding.
   Vec2 listed_position(std::uint32_t i) const { return position_of(rows_.listed_at(i)); }
 
   // Tiles are runs of disks in storage that are neighbours in space, and layers are runs of as many tiles each, which
@@ -232,14 +232,7 @@ class NeighbourLists {
   // in all-pairs mode.
   template <class Visit>
   void visit_near(Vec2 centre, double half_width, double half_height, Visit&& visit) const {
-    const double reach = std::max(half_width, half_height) + skin_;
-    const SlotColumns columns = slots_.columns();
-    const auto run = [&](SlotRun slots) {
-      for (std::uint32_t s = slots.first; s < slots.last; ++s) {
-        if (columns.disk[s] != empty_slot) visit(columns.disk[s]);
-      }
-    };
-    visit_runs_near(centre, reach, ListRegion{}, run, visit);
+    visit_listed_near(centre, std::max(half_width, half_height) + skin_, visit);
   }
 
   // Calls visit(j) for all disks that, within the skin of their listed positions, may overlap a disk of this radius at
@@ -250,13 +243,7 @@ class NeighbourLists {
       for (std::uint32_t j = 0; j < rows_.size(); ++j) visit(j);
       return;
     }
-    const SlotColumns columns = slots_.columns();
-    const auto run = [&](SlotRun slots) {
-      for (std::uint32_t s = slots.first; s < slots.last; ++s) {
-        if (columns.disk[s] != empty_slot) visit(columns.disk[s]);
-      }
-    };
-    visit_runs_near({x, y}, radius + skin_, ListRegion{}, run, visit);
+    visit_listed_near({x, y}, radius + skin_, visit);
   }
 
  private:
@@ -287,6 +274,17 @@ class NeighbourLists {
       run(SlotRun{first * slots_a_cell, last * slots_a_cell});
       slots_.visit_chained(first, last, region.last_key, visit);
     });
+  }
+  // Calls visit(j) for the disks of those cells.
+  template <class Visit>
+  void visit_listed_near(Vec2 position, double distance, Visit&& visit) const {
+    const SlotColumns columns = slots_.columns();
+    const auto run = [&](SlotRun slots) {
+      for (std::uint32_t s = slots.first; s < slots.last; ++s) {
+        if (columns.disk[s] != empty_slot) visit(columns.disk[s]);
+      }
+    };
+    visit_runs_near(position, distance, ListRegion{}, run, visit);
   }
 
   // Is this place within a distance of disk i's listed position? distance2: its square.
