@@ -49,5 +49,23 @@ TEST(FrameSchedule, IntervalsFarBelowAStepDoNotHang) {
   EXPECT_GT(*schedule.due(0.75), 0.5) << "no time comes twice";
 }
 
+// A frame a rounding before the last one is the last one.
+TEST(FrameSchedule, LastFrameSwallowsOneJustBefore) {
+  const double t_end = 3.0 + 1e-9;
+  FrameSchedule schedule(1.0, t_end, 0.0);
+  schedule.made(2.0);
+  EXPECT_FALSE(schedule.due(3.0));
+  EXPECT_EQ(schedule.due(t_end), t_end);
+  EXPECT_EQ(frame_count(1.0, t_end), 4U);
+}
+
+// Steps add up to a little less than the time of a frame.
+TEST(FrameSchedule, FrameIsDueARoundingEarlyWhereStepsAreCounted) {
+  FrameSchedule schedule(0.1, 1.0, 1e-6);
+  schedule.made(0.0);
+  EXPECT_FALSE(schedule.due(0.0999));
+  EXPECT_EQ(schedule.due(0.1 - 1e-9), 0.1 - 1e-9);
+}
+
 }  // namespace
 }  // namespace carom
