@@ -1,0 +1,25 @@
+#include "core/load/settling_warning.hpp"
+
+#include <fmt/format.h>
+
+#include "core/load/method_choice.hpp"
+
+namespace carom {
+
+std::vector<std::string> settling_warnings(const Scene& scene) {
+  if (scene.run.method != Method::pairwise || !scene.physics.gravity.acts()) return {};
+  const SceneScales s = scales_of(scene);
+  // At e = 0.9 the bound is twenty times what is seen.
+  constexpr double nearly_elastic = 1.0 / (1.0 - 0.95 * 0.95);
+  if (!(s.stopping >= nearly_elastic)) return {};
+  constexpr double measured = 0.007;
+  constexpr double much = 0.1;
+  const double excess = measured * s.stopping * s.collision_rate * scene.run.dt;
+  if (!(excess > much)) return {};
+  return {
+      fmt::format("{}: run.dt: disks that are so nearly elastic may lose up to {:.2g} % too much energy while they "
+                  "settle; method \"exact\" or a smaller dt does not",
+                  scene.file, 100.0 * excess)};
+}
+
+}  // namespace carom
