@@ -50,6 +50,7 @@ const std::vector<Counted>& all_counted() {
       {"exact_0.7", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.7); }},
       {"exact_0.5", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.5); }},
       {"exact_0.2", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.2); }},
+      {"exact_0.2_small", 100, "collision", 200, 1000, [] { return exact_gas(100, 0.2); }},
       {"exact_0.5_parts", 50'000, "collision", 2, 6, [] { return exact_gas(50'000, 0.5); }, 2},
       {"exact_0.5_ranks", 50'000, "collision", 2, 6, [] { return exact_gas(50'000, 0.5); }, 1, {}, 2},
       {"pairwise_gas", 100'000, "disk and step", 12, 60, [] { return gas(100'000); }},

@@ -16,7 +16,7 @@ namespace carom {
 // Two disks, or a disk and an inner wall, that e = 0 leaves without speed along the line between them may, by rounding,
 // approach again, and meet at that moment for ever. So they part with this share at least of the speed at which they
 // met: enough above rounding, and less than what any measurement sees.
-inline constexpr double least_rebound = 0x1p-36;
+inline constexpr double least_rebound = 0x1p-40;
 
 // The constants of a run.
 struct ExactRules {
