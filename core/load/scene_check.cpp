@@ -312,8 +312,8 @@ std::pair<DiskSize, DiskSize> source_sizes(const Source& source) {
 
 namespace {
 
-// Frames, or samples, that are asked for more often than time stepping has a state. Not where nobody asked: the default
-// is a hundred of them, however few the steps are.
+// Warns where frames or samples are wanted at shorter intervals than dt. The default interval, a hundredth of the run,
+// is not warned of.
 void warn_of_interval(const Scene& scene, const char* key, double every, std::vector<std::string>& warnings) {
   constexpr double rounding = 1e-6;
   const bool steps = scene.run.method != Method::exact;

@@ -319,7 +319,8 @@ class SlabPlacement {
   std::size_t placed_ = 0;          // disks of the class
   std::vector<DiskToPlace> disks_;  // that come next; the first of them, one a point, are the batch
   std::vector<TrialPlace> first_points_, points_;
-  std::unordered_map<std::size_t, std::vector<TrialPlace>> later_;  // behind the first point
+  // Behind the first point, by disk. Its order, which libraries choose, reaches no bit (go_through).
+  std::unordered_map<std::size_t, std::vector<TrialPlace>> later_;
   BatchCells cells_;
   std::vector<std::size_t> conflicts_;
   std::vector<unsigned char> absent_;  // of the batch, while it is gone through

@@ -159,7 +159,6 @@ TEST(ShearedMeasures, StructureFactorOfASlidLatticeHasItsPeak) {
   for (std::size_t n = 1; n <= 24; ++n) EXPECT_NEAR(s.along_y[n - 1], n % 12 == 0 ? 144.0 : 0.0, 1e-9) << n;
 }
 
-// A disk that goes up through the box for ever while the flow carries it along: (y - y_0)^2 alone.
 // Of two disks one goes with the flow, whose velocity is -0.25 there.
 TEST(ShearedMeasures, PressureOfASampleIsOfVelocitiesRelativeToTheFlow) {
   Scene scene;
@@ -176,6 +175,7 @@ TEST(ShearedMeasures, PressureOfASampleIsOfVelocitiesRelativeToTheFlow) {
   EXPECT_DOUBLE_EQ(record.series.pressure[1], (12.5 + 14.0 / 4.0) / 200.0);
 }
 
+// A disk that goes up through the box for ever while the flow carries it along: (y - y_0)^2 alone.
 TEST(ShearedMeasures, DisplacementIsAcrossTheFlow) {
   Domain box = sheared_box(10.0, 10.0, 0.0);
   Disks d;
