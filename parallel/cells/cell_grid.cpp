@@ -12,6 +12,9 @@ constexpr std::int64_t least_rows_left_out = 2;
 
 // Of a grid: kernels read keys as signed numbers of 32 bits, and a level of one row has two keys a cell.
 constexpr double most_cells = 1e9;
+constexpr double cells_a_disk = 2.0;
+constexpr double most_crowding = 64.0;
+constexpr double most_cells_when_crowded = 0x1p24;
 
 // `least` is the smallest cell that still finds every neighbour.
 std::uint32_t cells_of_side(double length, double least, double most, bool periodic) {
@@ -19,10 +22,21 @@ std::uint32_t cells_of_side(double length, double least, double most, bool perio
   return periodic && cells < 3.0 ? 1 : static_cast<std::uint32_t>(cells);
 }
 
+double least_cell(double radius, double margin) {
+  return 2.0 * radius + 2.0 * (margin * 2.0 * radius);
+}
+
+// About two for each of so many disks at most. Most of those for crowded disks are empty, so that they must not be many
+// in all.
+double cells_for(double disks, double crowding) {
+  const double spread = cells_a_disk * disks + 1.0;
+  return std::max(spread, std::min(spread * std::min(crowding, most_crowding), most_cells_when_crowded));
+}
+
 }  // namespace
 
 void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid,
-               double margin) {
+               double margin, double crowding) {
   grid.levels.clear();
   grid.keys = 0;
   grid.tiles = grid.tiles_a_layer = 1;
@@ -33,9 +47,9 @@ void make_grid(const Domain& box, double largest_radius, const std::vector<std::
     GridLevel level;
     level.largest_radius = radius;
     level.margin = margin * 2.0 * radius;
-    const double least = 2.0 * radius + 2.0 * level.margin;
-    // About two cells a disk at most, shared between the sides as the box is.
-    const double cells = std::min(2.0 * static_cast<double>(count[k]) + 1.0, most_cells_a_level);
+    const double least = least_cell(radius, margin);
+    // Shared between the sides as the box is.
+    const double cells = std::min(cells_for(static_cast<double>(count[k]), crowding), most_cells_a_level);
     const double across = std::sqrt(cells * box.width / box.height);
     level.columns = cells_of_side(box.width, least, std::clamp(across, 1.0, cells), box.periodic_x());
     level.rows = cells_of_side(box.height, least, cells / std::min<double>(level.columns, cells), box.periodic_y());
@@ -49,6 +63,17 @@ void make_grid(const Domain& box, double largest_radius, const std::vector<std::
     grid.keys += level.keys();
     grid.levels.push_back(level);
   }
+}
+
+bool is_bounded_by_disks(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
+                         double margin) {
+  double radius = largest_radius;
+  for (const std::size_t disks : count) {
+    const double least = least_cell(radius, margin);
+    if (cells_for(static_cast<double>(disks), 1.0) < box.width / least * (box.height / least)) return true;
+    radius /= class_ratio;
+  }
+  return false;
 }
 
 void keep_rows(CellGrid& grid, double low, double high) {

@@ -85,12 +85,15 @@ struct CellGrid {
 
 // Levels for radii between smallest and largest in the box. count[k] is the number of disks of class k
 // (class_of_radius). A level's cells are at least a diameter and twice the margin wide, and not many more than its
-// disks; where fewer than three would fit across a periodic side there is one, which is its own neighbour. margin: as
-// grid_margin.
-// The memory that grid has is used again.
+// disks, or more in proportion where those crowd (crowding.hpp); where fewer than three would fit across a periodic
+// side there is one, which is its own neighbour. margin: as grid_margin. The memory that grid has is used again.
 void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid,
-               double margin = grid_margin);
+               double margin = grid_margin, double crowding = 1.0);
 CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count);
+
+// Would cells of this grid be smaller if it had more disks? Otherwise it need not be known whether these crowd.
+bool is_bounded_by_disks(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
+                         double margin = grid_margin);
 
 // Only the cells of disks between these heights are kept: a disk elsewhere must not be sorted into the grid, and is
 // found near no place. Precondition: the grid is not tiled, and all its rows are kept.

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/physics/boundary.hpp"
+#include "parallel/cells/crowding.hpp"
 #include "parallel/cells/tiled_grid.hpp"
 
 namespace carom {
@@ -18,11 +19,16 @@ constexpr std::size_t disks_per_block = 4096;
 constexpr std::size_t most_blocks = 65536;
 // Twice the skin and a diameter make this many mean spacings: about eleven neighbours. Longer lists take longer to go
 // through, shorter ones have to be renewed more often, the sooner the less dense the system is: with one queue the
-// fewest instructions a collision at 10^4 disks are at 2.05 to 2.2, 1.8 to 1.9 and 1.72 spacings at packing fractions
-// 0.2, 0.5 and 0.7.
-constexpr double region_cutoff_in_spacings = 1.85;
-constexpr double thin_cutoff_in_spacings = 2.35;
-constexpr double cutoff_by_packing_fraction = -0.9;
+// fewest instructions a collision are at 2.05 to 2.2, 1.8 to 1.9 and 1.72 spacings at packing fractions 0.2, 0.5 and
+// 0.7 (10^4 disks), at 1.8 to 2.1 from 0.1 down to 0.005 (2000 disks), where disks fly further than across a list.
+constexpr double region_cutoff = 1.85;
+
+double cutoff_in_spacings(double packing_fraction) {
+  return std::min(2.35 - 0.9 * packing_fraction, 1.95 + 1.1 * packing_fraction);
+}
+
+// Cells for disks that crowd are mostly empty: so many times as many at most where disks are many.
+constexpr double most_crowding_of_many = 8.0;
 // A disk is listed ahead of where it is by this share of the relist distance at most: it has to be within that
 // distance.
 constexpr double most_lead = 0.8;
@@ -57,10 +63,9 @@ void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout) {
   // That the disks have in the box, were there none of other ranks.
   const double share = layout.disks_of_box > 0 ? n / static_cast<double>(layout.disks_of_box) : 1.0;
   const double space = share * box_.width * box_.height;
-  const double cutoff = mode_ == EngineMode::regions
-                            ? region_cutoff_in_spacings
-                            : thin_cutoff_in_spacings + cutoff_by_packing_fraction * area / space;
-  skin_ = std::max({0.5 * (cutoff * std::sqrt(space / n) - 2.0 * radius), least_skin * 2.0 * radius,
+  const double packing_fraction = std::min(crowding_ * area / space, 1.0);
+  const double cutoff = mode_ == EngineMode::regions ? region_cutoff : cutoff_in_spacings(packing_fraction);
+  skin_ = std::max({0.5 * (cutoff * std::sqrt(space / (crowding_ * n)) - 2.0 * radius), least_skin * 2.0 * radius,
                     least_units * std::max(unit_x_, unit_y_)});
   near_border_ = relist_distance_of(layout.relist_share * skin_);
   elsewhere_ = relist_distance_of(skin_);
@@ -86,9 +91,10 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& ex
   } else {
     // About four disks a cell, which has room for eight: lists extend over several cells, and each costs as much to
     // visit, empty or not. A few more where they are many, for memory's sake.
-    const std::size_t share = std::max(d.size(), layout.disks_of_box) > disks_of_much_memory ? 10 : 8;
-    for (std::size_t& c : count) c = c / share + 1;
-    make_grid(box_, largest, count, grid_);
+    const bool are_many = std::max(d.size(), layout.disks_of_box) > disks_of_much_memory;
+    for (std::size_t& c : count) c = c / (are_many ? 10 : 8) + 1;
+    make_grid(box_, largest, count, grid_, grid_margin,
+              are_many ? std::min(crowding_, most_crowding_of_many) : crowding_);
     if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, grid_);
   }
   sort_into_cells(d, grid_, executor, cells_);
@@ -115,6 +121,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   grid_.tile_keys = 0;
   near_border_ = elsewhere_ = {};
   if (mode_ != EngineMode::all_pairs) {
+    crowding_ = mode_ == EngineMode::regions ? 1.0 : crowding(d, box, layout.disks_of_box);
     choose_skin(d, layout);
     // That of the rows is given back for what sorting needs.
     if (gives_back) rows_.release();

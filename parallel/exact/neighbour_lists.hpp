@@ -372,6 +372,7 @@ class NeighbourLists {
   SortedCells cells_;
   std::vector<std::uint32_t> first_of_tile_;  // and after the last one: how many disks
   double skin_ = 0.0;
+  double crowding_ = 1.0;  // with one queue: crowding.hpp, when lists were built
   RelistDistance near_border_, elsewhere_;
   FlowFrame flow_;
   bool all_periodic_ = false;

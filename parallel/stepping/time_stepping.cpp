@@ -8,6 +8,7 @@
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
 #include "parallel/cells/compact.hpp"
+#include "parallel/cells/crowding.hpp"
 #include "parallel/cells/kick_all.hpp"
 #include "parallel/cells/meets_nearby.hpp"
 #include "parallel/stepping/draw_velocities.hpp"
@@ -150,7 +151,8 @@ void TimeStepping::sort_now() {
   } else {
     for (const double r : d.radius) ++count[class_of_radius(r, largest)];
   }
-  make_grid(scene_.box, largest, count, grid_, stepping_margin);
+  const bool may_be_crowded = is_bounded_by_disks(scene_.box, largest, count, stepping_margin);
+  make_grid(scene_.box, largest, count, grid_, stepping_margin, may_be_crowded ? crowding(d, scene_.box) : 1.0);
   sort_into_cells(state_.disks, grid_, executor_, cells_);
   begin_coarse_positions(state_.disks, grid_, cells_, executor_, coarse_);
   cells_valid_ = true;

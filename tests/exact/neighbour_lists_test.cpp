@@ -96,6 +96,29 @@ TEST(NeighbourLists, HoldAllDisksNear) {
   }
 }
 
+// Disks at the bottom of a tall box list their neighbours, not all of the pile: about pi 2.05^2, cutoffs being up
+// to 2.05 spacings of where they are.
+TEST(NeighbourLists, OfAPileInATallBoxAreAsLongAsOfAGas) {
+  constexpr std::size_t n = 1000;
+  for (const double height : {40.0, 400.0, 40000.0}) {
+    test::Draws draws(11);
+    Domain box;
+    box.width = 40.0;
+    box.height = height;
+    Disks d = random_disks(draws, n, 40.0, 40.0, false);
+    NeighbourLists lists;
+    lists.build(d, box, {EngineMode::single_queue, 0, 0, 1.0, false}, Executor(1));
+    std::vector<Vec2> place;
+    std::size_t listed = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      place.push_back({d.x[i], d.y[i]});
+      lists.for_each_neighbour(i, [&](std::uint32_t) { ++listed; });
+    }
+    expect_complete(lists, d, place, box);
+    EXPECT_LT(listed, 18 * n) << "height " << height;
+  }
+}
+
 // A disk whose new list would reach beyond the region is not relisted, and nothing changes.
 TEST(NeighbourLists, KeepToTheirRegion) {
   test::Draws draws(5);

@@ -1,0 +1,109 @@
+// How crowded disks are where they are, against densities that follow from how they were placed.
+#include "parallel/cells/crowding.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "parallel/cells/cell_grid.hpp"
+#include "tests/support/draws.hpp"
+
+namespace carom {
+namespace {
+
+Domain box_of(double width, double height) {
+  Domain box;
+  box.width = width;
+  box.height = height;
+  return box;
+}
+
+template <class Place>
+Disks placed(std::size_t n, Place&& place) {
+  Disks d;
+  d.common_radius = 0.5;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 at = place(i);
+    d.x.push_back(at.x);
+    d.y.push_back(at.y);
+  }
+  return d;
+}
+
+TEST(Crowding, AGasThatFillsTheBoxIsNotCrowded) {
+  for (const std::size_t n : {std::size_t{41}, std::size_t{300}, std::size_t{2000}, std::size_t{100'000}}) {
+    for (const double aspect : {1.0, 100.0, 0.01}) {
+      test::Draws draws(n);
+      const Domain box = box_of(50.0 * aspect, 50.0);
+      EXPECT_EQ(crowding(placed(n,
+                                [&](std::size_t) {
+                                  return Vec2{draws.in(0.0, box.width), draws.in(0.0, 50.0)};
+                                }),
+                         box),
+                1.0)
+          << n << " disks, aspect " << aspect;
+    }
+  }
+  const auto on_lattice = [](std::size_t i) {
+    return Vec2{static_cast<double>(i % 60) + 0.5, static_cast<double>(i / 60) + 0.5};
+  };
+  EXPECT_EQ(crowding(placed(3600, on_lattice), box_of(60.0, 60.0)), 1.0);
+}
+
+TEST(Crowding, FewDisksAreNotCrowded) {
+  EXPECT_EQ(crowding({}, box_of(1e6, 1.0)), 1.0);
+  EXPECT_EQ(crowding(placed(1, [](std::size_t) { return Vec2{}; }), box_of(1e6, 1e6)), 1.0);
+}
+
+// Disks in a share s of the box are 1 / s times as dense as in the mean.
+TEST(Crowding, DisksInAShareOfTheBoxAreDenserByThatShare) {
+  for (const std::size_t n : {std::size_t{400}, std::size_t{20'000}, std::size_t{200'000}}) {
+    for (const double share : {0.2, 1e-2, 1e-4}) {
+      test::Draws draws(n);
+      const double height = 1e6;
+      const auto pile = [&](std::size_t) { return Vec2{draws.in(0.0, 30.0), draws.in(0.0, share * height)}; };
+      EXPECT_NEAR(crowding(placed(n, pile), box_of(30.0, height)) * share, 1.0, 0.15) << n << " disks at the bottom";
+      const double side = std::sqrt(share) * 1e4;
+      const auto cluster = [&](std::size_t) { return Vec2{5e3 + draws.in(0.0, side), 2e3 + draws.in(0.0, side)}; };
+      EXPECT_NEAR(crowding(placed(n, cluster), box_of(1e4, 1e4)) * share, 1.0, 0.15) << n << " disks in a square";
+    }
+  }
+}
+
+// n(y) = exp(-y / l) / l in the mean over the disks: the integral of n^2, 1 / 2 l, over the mean density 1 / h.
+TEST(Crowding, OfAnAtmosphereIsHalfTheHeightInScaleHeights) {
+  test::Draws draws(5);
+  const Domain box = box_of(40.0, 1000.0);
+  const auto atmosphere = [&](std::size_t) {
+    return Vec2{draws.in(0.0, 40.0), std::min(1000.0, -10.0 * std::log(draws.in(0x1p-53, 1.0)))};
+  };
+  EXPECT_NEAR(crowding(placed(20'000, atmosphere), box), 50.0, 5.0);
+}
+
+TEST(Crowding, SomeOfTheDisksTellWhereTheyAreAllOverThatPart) {
+  test::Draws draws(6);
+  const Domain box = box_of(100.0, 100.0);
+  const Disks lower = placed(10'000, [&](std::size_t) { return Vec2{draws.in(0.0, 100.0), draws.in(0.0, 50.0)}; });
+  EXPECT_NEAR(crowding(lower, box), 2.0, 0.1);
+  EXPECT_EQ(crowding(lower, box, 20'000), 1.0);
+}
+
+// The cells of a pile in a tall box hold as few disks as those of a box that the pile fills.
+TEST(Crowding, GivesCellsToDisksWhereTheyAre) {
+  test::Draws draws(7);
+  constexpr std::size_t n = 2000;
+  const Domain box = box_of(50.0, 2000.0);
+  const Disks pile = placed(n, [&](std::size_t) { return Vec2{draws.in(0.0, 50.0), draws.in(0.0, 50.0)}; });
+  CellGrid grid;
+  make_grid(box, 0.5, {n}, grid, grid_margin, crowding(pile, box));
+  std::vector<int> held(grid.keys);
+  for (std::size_t i = 0; i < n; ++i) ++held[key_of(grid.levels[0], pile.x[i], pile.y[i])];
+  EXPECT_LE(*std::max_element(held.begin(), held.end()), 12);
+  EXPECT_LT(grid.keys, 200 * n);
+}
+
+}  // namespace
+}  // namespace carom
