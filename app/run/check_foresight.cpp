@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/load/method_choice.hpp"
+#include "core/load/scene_scales.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/scene/size_law.hpp"
 #include "core/step/step_clock.hpp"

@@ -4,29 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "core/load/scene_scales.hpp"
 #include "core/scene/scene.hpp"
 
 namespace carom {
-
-// What the choice rests on, estimated from the scene alone: the same for every run and machine.
-struct SceneScales {
-  double disks = 0.0;            // sources included, all that they may emit
-  double diameter = 0.0;         // of the root mean square radius
-  double smallest_radius = 0.0;  // length
-  double packing_fraction = 0.0;
-  // Root mean square of one component, with what gravity adds while falling, walls that move give to disks at rest, and
-  // rough disks get from their spins.
-  double speed = 0.0;
-  double vibration = 0.0;       // largest angular frequency of a wall that vibrates; 1 / time
-  double collision_rate = 0.0;  // of a disk, per unit time: 4 (Z - 1) speed / (sqrt(pi) diameter)
-  double stopping = 0.0;      // where disks settle: what one loses that is stopped, over what a collision takes from it
-  bool settles = false;       // gravity presses and contacts dissipate: in the end a pile
-  bool driven = false;        // by walls that move: how fast disks become is known from a run alone
-  bool may_collapse = false;  // infinitely many collisions in finite time are to be expected
-};
-
-// Precondition: box and radii of the scene are known and good.
-SceneScales scales_of(const Scene& scene);
 
 // One method for an accuracy.
 struct MethodOffer {

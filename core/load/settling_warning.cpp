@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/load/method_choice.hpp"
+#include "core/load/scene_scales.hpp"
 
 namespace carom {
 

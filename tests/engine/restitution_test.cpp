@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "core/base/check.hpp"
-#include "core/load/method_choice.hpp"
+#include "core/load/scene_scales.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/window_plan.hpp"

@@ -7,6 +7,7 @@
 
 #include "core/base/check.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/load/scene_scales.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/start/initial_state.hpp"
 #include "tests/support/engine_run.hpp"
@@ -18,12 +19,6 @@ using test::run_by_engine;
 
 double total_energy(const Scene& scene, const State& state) {
   return energy_of(state.disks, scene.physics.gravity).total();
-}
-
-// Compressibility of hard disks, good to 0.1 % up to packing fraction 0.65 (core/load/method_choice.cpp).
-double compressibility(double eta) {
-  const double free = 1.0 - eta;
-  return (1.0 + eta * eta / 8.0) / (free * free) - eta * eta * eta * eta / (64.0 * free * free * free * free);
 }
 
 // d ln T = -Z d ln V. Centres have the width of the box less a diameter; of packing, half of that counts.

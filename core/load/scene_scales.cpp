@@ -1,0 +1,208 @@
+#include "core/load/scene_scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/scene/size_law.hpp"
+#include "core/step/step_start.hpp"
+
+namespace carom {
+
+namespace {
+
+// The density at which disks of a settling scene meet, when they have come down.
+constexpr double settled_fraction = 0.6;
+
+// Mean of v_x^2 that a law gives disks of mean mass m.
+double mean_square_speed(const VelocityLaw& law, double mass) {
+  switch (law.kind) {
+    case VelocityLaw::Kind::maxwell:
+      return law.temperature / mass;
+    case VelocityLaw::Kind::uniform:
+      return law.limit * law.limit / 3.0;
+    case VelocityLaw::Kind::list: {
+      double sum = 0.0;
+      for (const Vec2& v : law.list) sum += 0.5 * (v.x * v.x + v.y * v.y);
+      return law.list.empty() ? 0.0 : sum / static_cast<double>(law.list.size());
+    }
+    default:
+      return 0.0;
+  }
+}
+
+// Mean of I w^2 of rough disks of this mass and radius; 0 of smooth ones.
+double mean_spin_energy(const Scene& scene, const SpinLaw& law, double mass, double radius) {
+  if (!scene.physics.surfaces.are_rough()) return 0.0;
+  if (law.temperature > 0.0) return law.temperature;
+  double sum = 0.0;
+  for (const double w : law.list) sum += w * w;
+  const double mean = law.list.empty() ? law.value * law.value : sum / static_cast<double>(law.list.size());
+  return scene.physics.surfaces.inertia * mass * radius * radius * mean;
+}
+
+// Sums over the disks of the scene.
+struct Tally {
+  double disks = 0.0, radius2 = 0.0, speed2 = 0.0;
+  double temperature = 0.0;   // of what collisions share out: sum of m v_x^2, and of spins a third of I w^2
+  double inverse_mass = 0.0;  // sum of 1 / m
+  double smallest = std::numeric_limits<double>::infinity();  // radius
+  double lightest = std::numeric_limits<double>::infinity();  // mass
+
+  void add(double count, double sum_radius2, double smallest_radius, double mass, double mean_speed2,
+           double spin_energy) {
+    if (!(count > 0.0)) return;
+    temperature += count * (mass * mean_speed2 + spin_energy / 3.0);
+    inverse_mass += count / mass;
+    lightest = std::min(lightest, mass);
+    disks += count;
+    radius2 += sum_radius2;
+    speed2 += count * mean_speed2;
+    smallest = std::min(smallest, smallest_radius);
+  }
+};
+
+// The least and the largest mass stand for all.
+double middle(double low, double high) {
+  return 0.5 * (low + high);
+}
+
+Tally tally_of(const Scene& scene) {
+  Tally tally;
+  DiskId first_id = 0;
+  for (const DiskGroup& group : scene.groups) {
+    if (group.fixed) {
+      first_id += static_cast<DiskId>(group.count);
+      continue;
+    }
+    const SizeSummary sizes = summarise_sizes(group, scene.seed, first_id);
+    const double mass = middle(sizes.smallest.mass, sizes.largest.mass);
+    const double drift2 = 0.5 * (group.drift.x * group.drift.x + group.drift.y * group.drift.y);
+    const double speed2 = group.count > 0 ? mean_square_speed(group.velocities, mass) + drift2 : 0.0;
+    const double spin_energy = mean_spin_energy(scene, group.spins, mass, sizes.largest.radius);
+    tally.add(static_cast<double>(group.count), sizes.radius_squared, sizes.smallest.radius, mass, speed2, spin_energy);
+    first_id += static_cast<DiskId>(group.count);
+  }
+  for (const Source& source : scene.sources) {
+    double count = source.rate * scene.run.t_end;
+    if (source.limit) count = std::min(count, static_cast<double>(*source.limit));
+    const DiskSize size =
+        draw_size(source.radius, source.mass, scene.seed, Stream::source_radius, Stream::source_mass, 0, 0);
+    tally.add(count, count * size.radius * size.radius, size.radius, size.mass,
+              mean_square_speed(source.velocities, size.mass),
+              mean_spin_energy(scene, source.spins, size.mass, size.radius));
+  }
+  return tally;
+}
+
+// The gas comes to have the temperature of its thermostat or of its sides, or one between them; 0 where none is
+// thermal.
+double hottest_bath(const Scene& scene) {
+  const double hottest = *std::max_element(scene.box.temperatures.begin(), scene.box.temperatures.end());
+  return std::max(hottest, scene.physics.thermostat.temperature);
+}
+
+// The speed of the fastest wall, a side or an inner one, and the largest angular frequency of those that vibrate.
+struct WallDrive {
+  bool moves = false;
+  double speed = 0.0, vibration = 0.0;  // length / time, 1 / time
+
+  void see(const SideMotion& pace, double fastest) {
+    moves |= pace.moves();
+    speed = std::max(speed, fastest);
+    if (pace.vibrates()) vibration = std::max(vibration, pace.angular_frequency());
+  }
+};
+
+WallDrive wall_drive(const Scene& scene) {
+  WallDrive drive;
+  for (const SideMotion& motion : scene.box.motions) drive.see(motion, motion.largest_speed());
+  for (const InnerWall& wall : scene.walls) drive.see(wall.motion.pace, wall.motion.largest_speed());
+  return drive;
+}
+
+// Of two disks of any groups, as the laws are at speeds where they take most.
+double least_restitution(const Scene& scene) {
+  double e = scene.physics.restitution;
+  for (const GroupPair& pair : scene.physics.law.pairs) e = std::min(e, pair.restitution.least);
+  return e;
+}
+
+// The same of ever slower disks, for which laws with a viscosity tend to 1.
+double least_restitution_at_rest(const Scene& scene) {
+  const RestitutionLaw& law = scene.physics.law;
+  double e = law.viscosity == 0.0 ? scene.physics.restitution : 1.0;
+  for (const GroupPair& pair : law.pairs) {
+    if (pair.restitution.viscosity == 0.0) e = std::min(e, pair.restitution.least);
+  }
+  return e;
+}
+
+// Does gravity press disks against something in the box that takes energy from them? e: of two disks.
+bool rests_on_obstacles(const Scene& scene, double e) {
+  const Gravity& g = scene.physics.gravity;
+  for (const InnerWall& wall : scene.walls) {
+    if (wall.sink || wall.restitution >= 1.0) continue;
+    for (std::size_t k = 1; k < wall.points.size(); ++k) {
+      const Vec2 along{wall.points[k].x - wall.points[k - 1].x, wall.points[k].y - wall.points[k - 1].y};
+      if (along.x * g.down - along.y * g.left != 0.0) return true;
+    }
+  }
+  const auto is_peg = [](const DiskGroup& group) { return group.fixed && group.count > 0; };
+  return e < 1.0 && std::any_of(scene.groups.begin(), scene.groups.end(), is_peg);
+}
+
+// Collapse in two dimensions is seen for e <= 0.6 (McNamara and Young 1996); under gravity any ball on a floor, an
+// inner wall or between fixed disks that dissipate does it, and so does a pile of more disks than a column that
+// collapses has, ln(4 / (1 - e)) / (1 - e). A restitution that tends to 1 for slow disks keeps a gas from it (Goldman
+// et al. 1998), but not a pile, whose bounces become shorter and shorter all the same.
+bool may_collapse(const Scene& scene, double disks) {
+  constexpr double two_dimensions = 0.6;
+  if (!settles(scene)) return least_restitution_at_rest(scene) <= two_dimensions && disks > 2.0;
+  const double e = least_restitution(scene);
+  for (const Side side : all_sides) {
+    const bool presses = outward_acceleration(side, scene.physics.gravity) > 0.0;
+    if (presses && scene.box.side(side) == SideKind::wall && scene.box.restitution(side) < 1.0) return true;
+  }
+  if (rests_on_obstacles(scene, e)) return true;
+  return e < 1.0 && disks > std::log(4.0 / (1.0 - e)) / (1.0 - e);
+}
+
+}  // namespace
+
+double compressibility(double eta) {
+  const double free = 1.0 - eta;
+  return (1.0 + eta * eta / 8.0) / (free * free) - eta * eta * eta * eta / (64.0 * free * free * free * free);
+}
+
+SceneScales scales_of(const Scene& scene) {
+  const Tally tally = tally_of(scene);
+  SceneScales s;
+  s.disks = tally.disks;
+  if (!(s.disks > 0.0)) return s;
+  s.settles = settles(scene);
+  s.smallest_radius = tally.smallest;
+  s.diameter = 2.0 * std::sqrt(tally.radius2 / tally.disks);
+  s.packing_fraction = std::min(0.9, std::numbers::pi * tally.radius2 / (scene.box.width * scene.box.height));
+  // Collisions share energy out, so that light disks become faster than heavy ones.
+  const double shared2 = tally.temperature / tally.disks * tally.inverse_mass / tally.disks;
+  const double thermal2 = std::max({tally.speed2 / tally.disks, shared2, hottest_bath(scene) / tally.lightest});
+  // A wall that moves sends a disk at rest off at twice its speed.
+  const WallDrive drive = wall_drive(scene);
+  s.driven = drive.moves;
+  s.vibration = drive.vibration;
+  const double speed2 = thermal2 + 4.0 * drive.speed * drive.speed;
+  // A disk falls through half the box in the mean: v^2 = g H, of which half for each component.
+  const Gravity& g = scene.physics.gravity;
+  s.speed = std::sqrt(speed2 + 0.5 * (std::abs(g.down) * scene.box.height + std::abs(g.left) * scene.box.width));
+  const double eta = s.settles ? std::max(settled_fraction, s.packing_fraction) : s.packing_fraction;
+  s.collision_rate =
+      s.disks > 1.0 ? 4.0 * (compressibility(eta) - 1.0) * s.speed / (std::sqrt(std::numbers::pi) * s.diameter) : 0.0;
+  s.may_collapse = may_collapse(scene, s.disks);
+  s.restitution = least_restitution(scene);
+  s.stopping = s.settles && s.restitution < 1.0 ? 1.0 / (1.0 - s.restitution * s.restitution) : 0.0;
+  return s;
+}
+
+}  // namespace carom

@@ -1,0 +1,56 @@
+// How fast disks are and how often they collide, as estimated from the scene alone.
+#include "core/load/scene_scales.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "core/load/scene_file.hpp"
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+using test::scene_from;
+
+// An elastic fluid at packing fraction 0.5 with a temperature of 1, diameter 1.
+TEST(SceneScales, ScalesOfTheFluidAreThoseOfTheory) {
+  const Scene scene = load_scene(CAROM_SOURCE_DIR "/scenes/gas_million.toml", {{"disks.0.count", "10000"}});
+  const SceneScales s = scales_of(scene);
+  EXPECT_DOUBLE_EQ(s.disks, 10000.0);
+  EXPECT_DOUBLE_EQ(s.diameter, 1.0);
+  EXPECT_NEAR(s.packing_fraction, 0.5, 1e-12);
+  EXPECT_NEAR(s.speed, 1.0, 1e-12);
+  EXPECT_NEAR(s.collision_rate, 7.007, 0.02);  // docs/reference_values.md: Gamma at 0.5
+  EXPECT_FALSE(s.settles);
+  EXPECT_FALSE(s.may_collapse);
+}
+
+// What collisions share out: the energy of fast heavy disks goes to light ones, that of spins to the motion.
+TEST(SceneScales, LightDisksBecomeFast) {
+  const auto speed = [](const std::string& heavy, const std::string& light, const std::string& physics) {
+    const std::string disks = "positions = \"random\"\nradius = 0.1\ncount = 50\n";
+    return scales_of(scene_from("[box]\nwidth = 20.0\nheight = 20.0\n" + physics + "[[disks]]\n" + disks + heavy +
+                                "[[disks]]\n" + disks + light + "[run]\nt_end = 1.0\n"))
+        .speed;
+  };
+  const double rms = std::sqrt(50.0 * 0.5 * (1.0 + 1.0 / 100.0));  // T = 50 in the mean of all, and that of 1 / m
+  EXPECT_NEAR(speed("mass = 100.0\nvelocities = { maxwell = 100.0 }\n", "mass = 1.0\n", ""), rms, 1e-12 * rms);
+  const std::string rough = "[physics]\nroughness = { tangential_restitution = 1.0 }\n";
+  const std::string spinning = "mass = 1.0\nspin_temperature = 30.0\n";
+  EXPECT_NEAR(speed(spinning, spinning, rough), std::sqrt(10.0), 1e-12);
+  const std::string turning = "mass = 1.0\nspin = 100.0\n";  // I w^2 = 0.5 0.01 10^4
+  EXPECT_NEAR(speed(turning, turning, rough), std::sqrt(50.0 / 3.0), 1e-12);
+}
+
+// Z of docs/reference_values.md.
+TEST(SceneScales, CompressibilityIsThatOfTheVirialSeries) {
+  EXPECT_DOUBLE_EQ(compressibility(0.0), 1.0);
+  EXPECT_NEAR(compressibility(0.05) / 1.108388, 1.0, 1e-3);
+  EXPECT_NEAR(compressibility(0.3) / 2.06326, 1.0, 1e-3);
+  EXPECT_NEAR(compressibility(0.5), 4.105, 1e-3 * 4.105 + 2e-3);  // which is known to 2e-3
+}
+
+}  // namespace
+}  // namespace carom
