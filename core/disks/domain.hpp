@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #include "core/base/types.hpp"
@@ -157,11 +156,9 @@ inline double nearest_distance2(Vec2 d, const Domain& box) {
 }
 
 // For wrap(), where a disk has been sent further than a period in a step far too long: exact, whatever the distance.
-[[gnu::noinline]] inline double wrap_far(double c, double period) {
-  c = std::fmod(c, period);
-  if (c < 0.0) c += period;
-  return c < period ? c : 0.0;
-}
+// Not inline: kernels for a wider instruction set would bring a version of their own that every machine may then be
+// given.
+double wrap_far(double c, double period);
 
 // A coordinate brought back into [0, period).
 // A tiny negative c gives c + period == period in floating point; that is the same place as 0.

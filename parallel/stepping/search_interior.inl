@@ -213,7 +213,7 @@ void keep_touching(const SearchInput& in, std::size_t first, std::vector<Pair>& 
     pairs[kept] = pairs[k];
     kept += touches(dx * dx + dy * dy, contact_distance) ? 1U : 0U;
   }
-  pairs.resize(kept);
+  pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(kept), pairs.end());  // resize could grow, which costs code
 }
 
 // Eight disks of each run are mostly more than there are, and mostly none of them touches.
