@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/types.hpp"
+#include "core/disks/roughness.hpp"
 
 namespace carom {
 
@@ -22,6 +23,8 @@ struct Obstacle {
   bool moves = false;  // a segment that does: x and y are those at time 0 (ObstacleCells::motion_of)
 
   bool is_segment() const { return kind != ObstacleKind::disk; }
+  // Whose surfaces touch where a disk meets it.
+  Touching touching() const { return is_segment() ? Touching::wall : Touching::disks; }
 };
 
 // How messages call it: "fixed disk 7", "wall walls.2".

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 namespace carom {
 
@@ -17,13 +18,17 @@ struct Roughness {
   bool dissipates() const { return acts() && (restitution < 1.0 || friction < HUGE_VAL); }
 };
 
+// Whose surfaces touch: two disks', fixed ones included, or those of a disk and of a side or an inner wall.
+enum class Touching : std::uint8_t { disks, wall };
+
 // The surfaces of a scene.
 struct Surfaces {
   double inertia = 0.0;  // moment of inertia of a disk over m r^2, in (0, 1]; 0: disks are smooth and have no spin
-  Roughness disks;       // of two disks, fixed ones included
-  Roughness walls;       // of a disk and a side or an inner wall
+  Roughness disks;       // of Touching::disks
+  Roughness walls;       // of Touching::wall
   bool operator==(const Surfaces&) const = default;
 
+  const Roughness& of(Touching which) const { return which == Touching::disks ? disks : walls; }
   bool are_rough() const { return inertia > 0.0; }
   bool dissipate() const { return are_rough() && (disks.dissipates() || walls.dissipates()); }
 };

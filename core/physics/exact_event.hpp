@@ -47,16 +47,15 @@ inline bool made_elastic(const ExactRules& rules, double s, double last_contact)
   return rules.tc() && s - last_contact < rules.contact_time;
 }
 
-// May a contact lose energy along the surfaces? disk: of two disks, fixed ones included; else of a disk and a wall.
-inline bool rubs_away(const ExactRules& rules, bool disk) {
-  return rules.surfaces != nullptr && (disk ? rules.surfaces->disks : rules.surfaces->walls).dissipates();
+// May a contact lose energy along the surfaces?
+inline bool rubs_away(const ExactRules& rules, Touching which) {
+  return rules.surfaces != nullptr && rules.surfaces->of(which).dissipates();
 }
 
 // A disk has just bounced off a wall or a fixed disk, which changed its velocity by `pressed` along this normal.
-inline void rub_against(const ExactRules& rules, Vec2 normal, bool disk, double pressed, ExactDisk& a) {
+inline void rub_against(const ExactRules& rules, Vec2 normal, Touching which, double pressed, ExactDisk& a) {
   if (rules.surfaces == nullptr) return;
-  rub_wall(disk ? rules.surfaces->disks : rules.surfaces->walls, rules.surfaces->inertia, normal.x, normal.y, a.radius,
-           pressed, a.path.vx, a.path.vy, a.spin);
+  rub_wall(rules.surfaces->of(which), rules.surfaces->inertia, normal, a.radius, pressed, a.path.vx, a.path.vy, a.spin);
 }
 
 // Of smooth disks: nothing happens along their surfaces.
@@ -125,7 +124,7 @@ inline Impact collide_at(const ExactRules& rules, double s, DiskId id_a, DiskId 
                          : std::max(least_rebound,
                                     restitution_at(rules.law->of(rules.restitution, id_a, id_b), speed_of_approach(r)));
     elastic = made_elastic(rules, s, std::max(a.last_contact, b.last_contact));
-    held_elastic = elastic && (e < 1.0 || rubs_away(rules, true));
+    held_elastic = elastic && (e < 1.0 || rubs_away(rules, Touching::disks));
     return elastic ? 1.0 : e;
   };
   const auto rub = [&](const Relative& r, double change) {
@@ -140,7 +139,7 @@ inline Impact collide_at(const ExactRules& rules, double s, DiskId id_a, DiskId 
                                 b.path, rub);
   if (outcome.happened) {
     outcome.inaccurate = held_elastic;
-    outcome.lost_energy = outcome.lost_energy || (!elastic && rubs_away(rules, true));
+    outcome.lost_energy = outcome.lost_energy || (!elastic && rubs_away(rules, Touching::disks));
     a.last_contact = b.last_contact = s;
   }
   return outcome;
@@ -159,10 +158,11 @@ inline Impact meet_thermal_side(const ExactRules& rules, double s, Side side, do
   Impact outcome{0.0, 0.0, true, false};
   if (before > 0.0) {
     const double temperature = rules.box.temperature(side);
-    double normal = 0.0;
-    outcome.energy = reflect_thermally(side, temperature, mass, {rules.seed, id}, a.thermal_hits, p.vx, p.vy, &normal);
+    const ThermalReflection reflected =
+        reflect_thermally(side, temperature, mass, {rules.seed, id, a.thermal_hits++}, p.vx, p.vy);
+    outcome.energy = reflected.energy;
     if (rules.surfaces != nullptr && rules.surfaces->walls.acts()) {
-      outcome.energy += spin_thermally(rules.surfaces->inertia, temperature, mass, a.radius, normal, a.spin);
+      outcome.energy += spin_thermally(rules.surfaces->inertia, temperature, mass, a.radius, reflected.deviate, a.spin);
     }
     outcome.virial = mass * (before - outward_speed(side, p.vx, p.vy));
   }
@@ -178,7 +178,7 @@ inline Impact meet_moving_side(const ExactRules& rules, double s, Side side, dou
   const bool elastic = made_elastic(rules, s, a.last_contact);
   const double e = elastic ? 1.0 : rules.box.restitution(side);
   const double approach = approach_speed(side, p.vx, p.vy, place);
-  const bool loses = rules.box.restitution(side) < 1.0 || rubs_away(rules, false);
+  const bool loses = rules.box.restitution(side) < 1.0 || rubs_away(rules, Touching::wall);
   Impact outcome{0.0, 0.0, true, elastic && loses, !elastic && loses};
   const double leaving = approach > 0.0 ? e * approach : -approach;
   const double hop =
@@ -186,7 +186,7 @@ inline Impact meet_moving_side(const ExactRules& rules, double s, Side side, dou
   const double away = std::max(leaving, hop);
   if (approach > 0.0 || away > leaving) {
     const double kick = rebound(side, place, approach, away, p.vx, p.vy);
-    if (!elastic && approach > 0.0) rub_against(rules, inward_normal(side), false, kick, a);
+    if (!elastic && approach > 0.0) rub_against(rules, inward_normal(side), Touching::wall, kick, a);
     outcome.virial = mass * kick;
     outcome.energy = outcome.virial * place.speed;
   }
@@ -215,10 +215,10 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
     const double before = outward_speed(side, p.vx, p.vy);
     if (before > 0.0) bounce(side, e, p.vx, p.vy);
     if (!elastic && before > 0.0) {
-      rub_against(rules, inward_normal(side), false, before - outward_speed(side, p.vx, p.vy), a);
+      rub_against(rules, inward_normal(side), Touching::wall, before - outward_speed(side, p.vx, p.vy), a);
     }
     if (rules.tc()) hop_off(side, least_hop * outward_acceleration(side, rules.gravity) * rules.contact_time, p);
-    const bool loses = rules.box.restitution(side) < 1.0 || rubs_away(rules, false);
+    const bool loses = rules.box.restitution(side) < 1.0 || rubs_away(rules, Touching::wall);
     outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), 0.0, true, elastic && loses,
                !elastic && loses};
     a.last_contact = s;
@@ -257,9 +257,9 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
     p.vx += change / distance2 * apart.x;
     p.vy += change / distance2 * apart.y;
     const bool bounced = change > 0.0;
-    const bool loses = own < 1.0 || rubs_away(rules, !o.is_segment());
+    const bool loses = own < 1.0 || rubs_away(rules, o.touching());
     if (!elastic && approach < 0.0) {
-      rub_against(rules, {apart.x / distance, apart.y / distance}, !o.is_segment(), change / distance, a);
+      rub_against(rules, {apart.x / distance, apart.y / distance}, o.touching(), change / distance, a);
     }
     outcome = {mass * (change / distance), 0.0, bounced, elastic && loses, bounced && !elastic && loses};
     if (bounced) a.last_contact = s;

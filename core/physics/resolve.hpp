@@ -66,11 +66,10 @@ void rub_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint3
 
 // Likewise of disk i and a wall, or an obstacle, that has just changed its velocity by `pressed` along this normal.
 template <class View>
-void rub_against(const View& d, const StepRules& rules, std::uint32_t i, Vec2 normal, bool disk, double pressed) {
+void rub_against(const View& d, const StepRules& rules, std::uint32_t i, Vec2 normal, Touching which, double pressed) {
   if constexpr (View::may_be_rough && !View::is_sheared) {
-    const Surfaces& surfaces = *rules.surfaces;
-    rub_wall(disk ? surfaces.disks : surfaces.walls, surfaces.inertia, normal.x, normal.y, d.radius(i), pressed,
-             d.vx[i], d.vy[i], d.spin[i]);
+    rub_wall(rules.surfaces->of(which), rules.surfaces->inertia, normal, d.radius(i), pressed, d.vx[i], d.vy[i],
+             d.spin[i]);
   }
 }
 
@@ -127,7 +126,7 @@ double bounce_at_wall(const View& d, const StepRules& rules, std::uint32_t i, Si
     d.y[i] = touching_coordinate(side, r, rules.box);
     d.vy[i] = side == Side::bottom ? away : -away;
   }
-  rub_against(d, rules, i, inward_normal(side), false, speed + away);
+  rub_against(d, rules, i, inward_normal(side), Touching::wall, speed + away);
   return speed + away;
 }
 
@@ -136,13 +135,13 @@ template <class View>
 Impact reflect_at_side(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
   const double before = outward_speed(side, d.vx[i], d.vy[i]);
   const DiskId id = d.id[i];
-  double normal = 0.0;
-  double heat = reflect_thermally(side, rules.box.temperature(side), d.mass(i), {rules.seed, id},
-                                  rules.thermal_hits[id], d.vx[i], d.vy[i], &normal);
+  const ThermalReflection reflected = reflect_thermally(side, rules.box.temperature(side), d.mass(i),
+                                                        {rules.seed, id, rules.thermal_hits[id]++}, d.vx[i], d.vy[i]);
+  double heat = reflected.energy;
   if constexpr (View::may_be_rough && !View::is_sheared) {
     if (rules.surfaces->walls.acts()) {
-      heat += spin_thermally(rules.surfaces->inertia, rules.box.temperature(side), d.mass(i), d.radius(i), normal,
-                             d.spin[i]);
+      heat += spin_thermally(rules.surfaces->inertia, rules.box.temperature(side), d.mass(i), d.radius(i),
+                             reflected.deviate, d.spin[i]);
     }
   }
   return {d.mass(i) * (before - outward_speed(side, d.vx[i], d.vy[i])), heat, true};
@@ -181,7 +180,7 @@ Impact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t 
   double change = 0.0;
   const auto bounce_off = [&](double approach, double away) {
     const double kick = rebound(side, place, approach, away, d.vx[i], d.vy[i]);
-    rub_against(d, rules, i, inward_normal(side), false, kick);
+    rub_against(d, rules, i, inward_normal(side), Touching::wall, kick);
     change += kick;
   };
   if (ago <= rules.dt) {
@@ -218,7 +217,7 @@ Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side
     if (impact_speed > 0.0) {
       change = impact_speed * (1.0 + rules.box.restitution(side));
       bounce(side, rules.box.restitution(side), d.vx[i], d.vy[i]);
-      rub_against(d, rules, i, inward_normal(side), false, change);
+      rub_against(d, rules, i, inward_normal(side), Touching::wall, change);
     }
     drift_one(d, i, ago, rules.gravity);
   }
@@ -245,7 +244,7 @@ double bounce_at_obstacle(const View& d, const StepRules& rules, std::uint32_t i
   d.x[i] += gap.beyond * gap.nx;
   d.y[i] += gap.beyond * gap.ny;
   kick_away(d, i, gap, speed + away);
-  rub_against(d, rules, i, {gap.nx, gap.ny}, !o.is_segment(), speed + away);
+  rub_against(d, rules, i, {gap.nx, gap.ny}, o.touching(), speed + away);
   return speed + away;
 }
 
@@ -266,7 +265,7 @@ Impact resolve_resting_obstacle(const View& d, const StepRules& rules, std::uint
     if (impact_speed > 0.0) {
       change = impact_speed * (1.0 + obstacle_restitution(d, rules, i, o, impact_speed));
       kick_away(d, i, gap, change);
-      rub_against(d, rules, i, {gap.nx, gap.ny}, !o.is_segment(), change);
+      rub_against(d, rules, i, {gap.nx, gap.ny}, o.touching(), change);
     }
     drift_one(d, i, ago, rules.gravity);
     gap = gap_now();

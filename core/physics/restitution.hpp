@@ -116,7 +116,7 @@ bool may_lose_energy(const Rules& rules, DiskId id, DiskId partner) {
   if (rules.surfaces != nullptr) {
     const bool thermal =
         is_wall(partner) && !is_obstacle(partner) && rules.box.is_thermal(wall_side(partner));  // draws, rubs nothing
-    if (!thermal && (other ? rules.surfaces->disks : rules.surfaces->walls).dissipates()) return true;
+    if (!thermal && rules.surfaces->of(other ? Touching::disks : Touching::wall).dissipates()) return true;
   }
   if (rules.law != nullptr && other) return rules.law->of(rules.restitution, id, *other).least < 1.0;
   return (is_wall(partner) ? restitution_of_wall(rules.box, partner) : rules.restitution) < 1.0;

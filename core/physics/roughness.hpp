@@ -45,14 +45,14 @@ inline void rub_disks(const Surfaces& surfaces, const Relative& r, Shares share,
 }
 
 // A disk of radius r has just bounced off what does not move along its surface: a wall, or an obstacle, of which
-// (nx, ny) is the unit vector towards the disk. pressed: by how much that has changed its velocity, >= 0.
-inline void rub_wall(const Roughness& surface, double inertia, double nx, double ny, double r, double pressed,
-                     double& vx, double& vy, double& w) {
-  const double slip = (vy * nx - vx * ny) - r * w;
+// n is the unit vector towards the disk. pressed: by how much that has changed its velocity, >= 0.
+inline void rub_wall(const Roughness& surface, double inertia, Vec2 n, double r, double pressed, double& vx, double& vy,
+                     double& w) {
+  const double slip = (vy * n.x - vx * n.y) - r * w;
   const double k = rub(surface, inertia, slip, pressed);
   if (k == 0.0) return;
-  vx -= k * ny;
-  vy += k * nx;
+  vx -= k * n.y;
+  vy += k * n.x;
   w -= k / (inertia * r);
 }
 

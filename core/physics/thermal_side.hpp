@@ -39,19 +39,22 @@ inline void leave_side(Side side, const FluxVelocity& v, double& vx, double& vy)
 struct ThermalDraw {
   std::uint64_t seed = 0;
   DiskId id = 0;
+  std::uint32_t hits = 0;  // before this one
 };
 
-// A disk of this mass that moves towards the side is reflected with a velocity drawn at temperature T. hits: how often
-// that has happened to it. Returns the energy that the side gave it, mass length^2 / time^2. more: gets a standard
-// normal deviate that goes with the draw.
-inline double reflect_thermally(Side side, double temperature, double mass, const ThermalDraw& draw,
-                                std::uint32_t& hits, double& vx, double& vy, double* more = nullptr) {
+struct ThermalReflection {
+  double energy = 0.0;   // that the side gave to the disk; mass length^2 / time^2
+  double deviate = 0.0;  // standard normal, of the same draw
+};
+
+// A disk of this mass that moves towards the side is reflected with a velocity drawn at this temperature.
+inline ThermalReflection reflect_thermally(Side side, double temperature, double mass, const ThermalDraw& draw,
+                                           double& vx, double& vy) {
   const double before = vx * vx + vy * vy;
   const double scale = std::sqrt(temperature / mass);
-  const FluxVelocity drawn = flux_velocity(draw.seed, Stream::thermal_side, draw.id, hits++, scale);
+  const FluxVelocity drawn = flux_velocity(draw.seed, Stream::thermal_side, draw.id, draw.hits, scale);
   leave_side(side, drawn, vx, vy);
-  if (more != nullptr) *more = drawn.more;
-  return 0.5 * mass * ((vx * vx + vy * vy) - before);
+  return {0.5 * mass * ((vx * vx + vy * vy) - before), drawn.more};
 }
 
 // A thermal side whose surface is rough draws the spin anew, too: normal is a standard normal deviate. Returns the
