@@ -11,8 +11,8 @@
 
 namespace carom {
 
-// A fixed-point number wide enough for every finite double (Kulisch accumulator): 32 bits a limb, kept in 64 so that
-// 2^31 additions need no carry.
+// A fixed-point number wide enough for every finite double (Kulisch accumulator): 32 bits a limb, kept in 64. An
+// addition changes one by less than 1.5 2^32, so that 2^30 of them need no carry.
 class ExactSum {
  public:
   // Precondition: x is finite.
