@@ -1,4 +1,4 @@
-// What the command line drives: any method, reference or parallel, behind four calls.
+// What a run drives: any method, reference or parallel, on one machine or several ranks.
 #pragma once
 
 #include <functional>
