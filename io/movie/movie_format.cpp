@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 
 namespace carom {
 
@@ -20,55 +21,29 @@ struct FormatRow {
   std::vector<std::string> options;
 };
 
+std::vector<std::string> joined(std::initializer_list<std::vector<std::string>> parts) {
+  std::vector<std::string> all;
+  for (const std::vector<std::string>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 const FormatRow& row_of(MovieFormat format) {
-  // H.264 with the pixel format and the colour space that every player supports. crf 20 is visually lossless for flat
-  // disks; without B-frames (bf 0) parts can be joined with no frame out of its time; faststart lets a browser begin
-  // before the end has arrived. VP9 likewise. A GIF has a palette for each frame, so that none need be kept in memory.
+  // H.264 with the pixel format that every player supports. crf 20 is visually lossless for flat disks; without
+  // B-frames (bf 0) parts can be joined with no frame out of its time; faststart lets a browser begin before the end
+  // has arrived. VP9 likewise. A GIF has a palette for each frame, so that none need be kept in memory.
+  // The colour space that every player supports: the filter converts to it, the marks name it in the file.
+  static const std::vector<std::string> filter{"-vf", "scale=out_color_matrix=bt709:out_range=tv"};
+  static const std::vector<std::string> marks{"-colorspace", "bt709",      "-color_primaries",
+                                              "bt709",       "-color_trc", "bt709"};
   static const std::array<FormatRow, 3> rows{{
-      {".mp4",
-       {"-vf",
-        "scale=out_color_matrix=bt709:out_range=tv",
-        "-c:v",
-        "libx264",
-        "-preset",
-        "veryfast",
-        "-crf",
-        "20",
-        "-bf",
-        "0",
-        "-pix_fmt",
-        "yuv420p",
-        "-colorspace",
-        "bt709",
-        "-color_primaries",
-        "bt709",
-        "-color_trc",
-        "bt709",
-        "-movflags",
-        "+faststart"}},
-      {".webm",
-       {"-vf",
-        "scale=out_color_matrix=bt709:out_range=tv",
-        "-c:v",
-        "libvpx-vp9",
-        "-deadline",
-        "good",
-        "-cpu-used",
-        "5",
-        "-row-mt",
-        "1",
-        "-crf",
-        "24",
-        "-b:v",
-        "0",
-        "-pix_fmt",
-        "yuv420p",
-        "-colorspace",
-        "bt709",
-        "-color_primaries",
-        "bt709",
-        "-color_trc",
-        "bt709"}},
+      {".mp4", joined({filter,
+                       {"-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-bf", "0", "-pix_fmt", "yuv420p"},
+                       marks,
+                       {"-movflags", "+faststart"}})},
+      {".webm", joined({filter,
+                        {"-c:v", "libvpx-vp9", "-deadline", "good", "-cpu-used", "5", "-row-mt", "1", "-crf", "24",
+                         "-b:v", "0", "-pix_fmt", "yuv420p"},
+                        marks})},
       {".gif",
        {"-filter_complex",
         "split[a][b];[a]palettegen=stats_mode=single:reserve_transparent=0[p];[b][p]paletteuse=new=1:dither=none"}},
