@@ -89,10 +89,11 @@ void run_all(std::size_t count, int threads, Run run) {
       }
     }
   };
-  std::vector<std::thread> others;
-  for (int t = 1; t < threads; ++t) others.emplace_back(work);
-  work();
-  for (std::thread& t : others) t.join();
+  {
+    std::vector<std::jthread> others;  // waits for them at its end, also where no further one can be started
+    for (int t = 1; t < threads; ++t) others.emplace_back(work);
+    work();
+  }
   if (error) std::rethrow_exception(error);
 }
 
