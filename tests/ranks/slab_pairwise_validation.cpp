@@ -1,6 +1,5 @@
 // `pairwise` on several ranks, at length: all combinations of features on every number of ranks and threads, and long
 // runs. The same and more in little: slab_pairwise_test.cpp.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@ namespace carom {
 namespace {
 
 using test::expect_bits;
+using test::light_between_heavy;
 using test::local_trace;
 using test::slab_scene;
 
@@ -48,20 +48,7 @@ TEST(SlabRun, HasTheBitsWhileDisksMoveFromSlabToSlab) {
 
 // Light disks between heavy ones that close in are sent through whole slabs within a step.
 TEST(SlabRun, HasTheBitsWhereDisksGoFarInAStep) {
-  std::string places;
-  std::string velocities;
-  std::string masses;
-  for (int k = 0; k < 30; ++k) {
-    const double x = 1.0 + 2.0 * (k % 10) + 0.3 * (k / 10);
-    const double y = 2.0 + 4.0 * (k / 10) + 0.3 * (k % 3);
-    places += fmt::format("[{0}, {1}], [{0}, {2}], [{0}, {3}], ", x, y, y + 1.01, y + 2.02);
-    velocities += fmt::format("[0.0, 2.4], [0.0{}, 0.1], [0.0, -2.4], ", k);
-    masses += "1.0, 1e-6, 1.0, ";
-  }
-  const Scene scene = slab_scene("periodic", "width = 24.0\nheight = 16.0\n",
-                                 "count = 90\npositions = [" + places + "]\nvelocities = [" + velocities +
-                                     "]\nradius = 0.5\nmass = [" + masses + "]\n",
-                                 0.2, 40);
+  const Scene scene = slab_scene("periodic", "width = 24.0\nheight = 16.0\n", light_between_heavy("1e-6"), 0.2, 40);
   EXPECT_GT(expect_bits(scene, {2, 3, 8}).counters.collisions, 200U);
 }
 

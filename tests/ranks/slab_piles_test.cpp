@@ -15,6 +15,7 @@ namespace carom {
 namespace {
 
 using test::expect_bits;
+using test::light_between_heavy;
 using test::local_trace;
 using test::RankThreads;
 
@@ -129,20 +130,8 @@ TEST(SlabPiles, HaveTheBitsOnThinSlabs) {
 // Light disks between heavy ones are sent far by impacts and when they are pushed, with eight slabs beyond the next
 // one, and are pressed into others there.
 TEST(LongSlabPiles, HaveTheBitsWhereDisksAreSentFar) {
-  std::string places;
-  std::string velocities;
-  std::string masses;
-  for (int k = 0; k < 30; ++k) {
-    const double x = 1.0 + 2.0 * (k % 10) + 0.3 * (k / 10);
-    const double y = 2.0 + 4.0 * (k / 10) + 0.3 * (k % 3);
-    places += fmt::format("[{0}, {1}], [{0}, {2}], [{0}, {3}], ", x, y, y + 1.01, y + 2.02);
-    velocities += fmt::format("[0.0, 2.4], [0.0{}, 0.1], [0.0, -2.4], ", k);
-    masses += "1.0, 1e-5, 1.0, ";
-  }
   const Scene scene = pile("width = 24.0\nheight = 16.0\n", "gravity = 0.5\nrestitution = 0.9\n",
-                           "[[disks]]\ncount = 90\npositions = [" + places + "]\nvelocities = [" + velocities +
-                               "]\nradius = 0.5\nmass = [" + masses + "]\n",
-                           0.02, 15);
+                           "[[disks]]\n" + light_between_heavy("1e-5"), 0.02, 15);
   EXPECT_GT(expect_bits(scene, {3, 8}, RankThreads::alternate).counters.collisions, 100U);
 }
 

@@ -213,6 +213,23 @@ inline SlabTrace expect_bits(const Scene& scene, const std::vector<int>& counts,
   return expected;
 }
 
+// A group of disks, without its header, for a box 24 wide and 16 high: 30 columns of three, of which the heavy outer
+// ones close in on the light one between them, which is sent far.
+inline std::string light_between_heavy(const std::string& light_mass) {
+  std::string places;
+  std::string velocities;
+  std::string masses;
+  for (int k = 0; k < 30; ++k) {
+    const double x = 1.0 + 2.0 * (k % 10) + 0.3 * (k / 10);
+    const double y = 2.0 + 4.0 * (k / 10) + 0.3 * (k % 3);
+    places += fmt::format("[{0}, {1}], [{0}, {2}], [{0}, {3}], ", x, y, y + 1.01, y + 2.02);
+    velocities += fmt::format("[0.0, 2.4], [0.0{}, 0.1], [0.0, -2.4], ", k);
+    masses += "1.0, " + light_mass + ", 1.0, ";
+  }
+  return "count = 90\npositions = [" + places + "]\nvelocities = [" + velocities + "]\nradius = 0.5\nmass = [" +
+         masses + "]\n";
+}
+
 inline Scene slab_scene(const std::string& sides, const std::string& box, const std::string& disks, double dt,
                         int count) {
   return parse_scene("[box]\n" + sides_text(sides, 1) + box + "[[disks]]\n" + disks +
