@@ -58,10 +58,6 @@ struct SpawnSettings {
   posix_spawnattr_t attributes;
 };
 
-}  // namespace
-
-namespace {
-
 constexpr const char* parent_name = "CAROM_PARENT";
 
 // The environment of this process, and its process id, for a child that must not outlive it.

@@ -21,10 +21,6 @@ hid_t as_id(herr_t status) {
   return static_cast<hid_t>(status);
 }
 
-}  // namespace
-
-namespace {
-
 // The superblock's extension is made like any group without a plan of its own, and would contain the time at which it
 // was made.
 class TimelessGroups {
