@@ -15,7 +15,8 @@ namespace carom {
 
 namespace {
 
-// Times of frames are sums and products of steps: 0.3 may be 0.30000000000000004.
+// Times of frames are sums and products of steps: 0.3 may be 0.30000000000000004. Relative to the time: what is short
+// depends on the scene's unit, and a time of 0 is not rounded.
 constexpr double time_slack = 1e-9;
 
 bool same_bits(double a, double b) {
@@ -69,7 +70,7 @@ class ChosenFrames {
   bool next_within() {
     while (read(frame)) {
       number = read_;
-      const double slack = time_slack * std::max(1.0, std::abs(frame.time));
+      const double slack = time_slack * std::abs(frame.time);
       if (frame.time > rule_.to + slack) return false;
       if (frame.time >= rule_.from - slack) return true;
     }
@@ -86,7 +87,7 @@ class ChosenFrames {
       number = read_;
       std::swap(frame, read_now);
     }
-    const double slack = time_slack * std::max(1.0, std::abs(*rule_.at));
+    const double slack = time_slack * std::abs(*rule_.at);
     return read_ > 0 && *rule_.at >= first_ - slack && *rule_.at <= last_ + slack;
   }
 

@@ -12,13 +12,13 @@ using test::text_of;
 using ::testing::HasSubstr;
 
 // One disk in a box periodic from left to right, at the places and velocities given, a frame each.
-std::string trajectory(const std::vector<std::string>& disks) {
+std::string trajectory(const std::vector<std::string>& disks, double every = 0.1) {
   std::string text;
   for (std::size_t k = 0; k < disks.size(); ++k) {
     text += fmt::format(
         "1\nLattice=\"10 0 0 0 8 0 0 0 1\" Origin=\"0 0 0\" pbc=\"T F F\" "
         "Properties=species:S:1:pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1 Time={}\nA {} 0.5 1 0\n",
-        0.1 * static_cast<double>(k), disks[k]);
+        every * static_cast<double>(k), disks[k]);
   }
   return text;
 }
@@ -65,6 +65,17 @@ TEST_F(Compare, FieldsAndTimesAreChosen) {
   expect_error("$C compare a.xyz b.xyz --at 0.3", 2,
                "a.xyz: has no frame at t = 0.3; expected --at within t = 0 to 0.2");
   expect_error("$C compare a.xyz b.xyz --times 1:2", 2, "a.xyz: has no frame from t = 1 to 2; expected --times within");
+}
+
+// Times of 1e-12 are those of a scene in nanometres and seconds, say.
+TEST_F(Compare, TimesAreChosenInAnyUnit) {
+  write("short_a.xyz", trajectory({"1 2 3 4", "2 2 3 4", "3 2 3 4"}, 1e-12));
+  write("short_b.xyz", trajectory({"1 2 3 4", "2 2 3 4", "3.5 2 3 4"}, 1e-12));
+  EXPECT_EQ(carom("compare short_a.xyz short_b.xyz --times :1e-12").out, "same bits in 2 frames\n");
+  EXPECT_EQ(carom("compare short_a.xyz short_b.xyz --times 2e-12:").out.substr(0, 9), "different");
+  expect_error("$C compare short_a.xyz short_b.xyz --at 3e-12", 2,
+               "short_a.xyz: has no frame at t = 3e-12; expected --at within t = 0 to 2e-12");
+  expect_error("$C compare short_a.xyz short_b.xyz --times 3e-12:4e-12", 2, "has no frame from t = 3e-12 to 4e-12");
 }
 
 TEST_F(Compare, SpinsThatNeitherHasCannotBeCompared) {
