@@ -92,17 +92,34 @@ inline bool is_sink(const Domain& box, DiskId partner) {
   return box.side(wall_side(partner)) == SideKind::sink;
 }
 
-// Calls found(event) for each wall side and obstacle that disk i reaches beyond or touches.
+// A sink that lies along a wall, or before it, is an opening in it: disk i meets walls only that it lies in by more
+// than this, the depth by which it lies in an inner sink, with what rounding may add; length. Negative: it touches
+// none.
+template <class View>
+double depth_of_opening(const View& d, const Domain& box, std::uint32_t i) {
+  double depth = -1.0;
+  if (box.obstacles == nullptr || !box.obstacles->has_sinks()) return depth;
+  for_each_obstacle_touched(box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
+    if ((*box.obstacles)[k].kind == ObstacleKind::sink) depth = std::max(depth, gap.beyond);
+  });
+  if (depth < 0.0) return depth;
+  return depth + 1e-12 * d.radius(i) + 0x1p-50 * std::max(box.width, box.height);
+}
+
+// Calls found(event) for each wall side and obstacle that disk i reaches beyond or touches, but for those where an
+// inner sink is an opening.
 template <class View, class Found>
 void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t i, Found&& found) {
+  const double open = depth_of_opening(d, rules.box, i);
   for (Side side : all_sides) {
     if (rules.box.side(side) != SideKind::wall) continue;
     const double beyond = reach_beyond_wall(side, d.x[i], d.y[i], d.radius(i), rules.box);
-    if (beyond >= 0.0) found(wall_event(d, rules, i, side, beyond));
+    if (beyond >= 0.0 && beyond > open) found(wall_event(d, rules, i, side, beyond));
   }
   if (rules.box.obstacles == nullptr) return;
-  for_each_solid_touched(rules.box, d.x[i], d.y[i], d.radius(i),
-                         [&](std::uint32_t k, const ObstacleGap& gap) { found(obstacle_event(d, rules, i, k, gap)); });
+  for_each_solid_touched(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
+    if (gap.beyond > open) found(obstacle_event(d, rules, i, k, gap));
+  });
 }
 
 }  // namespace carom

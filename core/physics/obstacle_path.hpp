@@ -196,6 +196,13 @@ inline double time_to_obstacle(const Obstacle& o, Vec2 apart, const PathSegment&
   return time_to_obstacle(o, {apart.x - place.shift.x, apart.y - place.shift.y}, seen, radius, felt, span);
 }
 
+// A sink that lies along a wall or a side is an opening in it: what touches both at one moment is taken. Rounding may
+// put either first, so that a sink takes disks from this far away: 1e-12 of the radius, and four units in the last
+// place of the box; length.
+inline double grip_of_sink(double radius, const Domain& box) {
+  return 1e-12 * radius + 0x1p-50 * std::fmax(box.width, box.height);
+}
+
 // Does the rectangle around an obstacle's image overlap this one?
 inline bool may_reach(const Obstacle& o, Vec2 shift, Vec2 low, Vec2 high) {
   const double x = o.x + shift.x;
@@ -217,6 +224,7 @@ inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radiu
                                               double end) {
   const ObstacleCells& obstacles = *box.obstacles;
   const double span = end - p.start;
+  const double grip = obstacles.has_sinks() ? grip_of_sink(radius, box) : 0.0;
   ObstacleContact first;
   PathSegment at = p;
   for (double from = 0.0;;) {
@@ -226,7 +234,7 @@ inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radiu
     const double to = step < span - from ? from + step : span;
     const PathSegment next = carried_to(p, p.start + to, g);
     // A parabola lies off its chord, on the side that gravity points away from, by no more than g t^2 / 8.
-    const double reach = radius + 1e-9 * (radius + cell);
+    const double reach = radius + 1e-9 * (radius + cell) + grip;
     const double rise_x = g.left * (to - from) * (to - from);
     const double rise_y = g.down * (to - from) * (to - from);
     const Vec2 low{std::min(at.x, next.x) + std::min(rise_x, 0.0) - reach,
@@ -237,8 +245,9 @@ inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radiu
       const Obstacle& o = obstacles[k];
       if (!o.moves && !may_reach(o, shift, low, high)) return;
       const Vec2 apart{(p.x - o.x) - shift.x, (p.y - o.y) - shift.y};
-      const double s = p.start + (o.moves ? time_to_moving_wall(o, apart, p, radius, box, g, span)
-                                          : time_to_obstacle(o, apart, p, radius, g, span));
+      const double r = o.kind == ObstacleKind::sink ? radius + grip : radius;
+      const double s = p.start + (o.moves ? time_to_moving_wall(o, apart, p, r, box, g, span)
+                                          : time_to_obstacle(o, apart, p, r, g, span));
       if (s <= end && (s < first.time || (s == first.time && k < first.obstacle))) first = {s, k};
     });
     if (first.time <= p.start + to || !(to < span) || !(to > from)) return first;

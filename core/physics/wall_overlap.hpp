@@ -14,8 +14,9 @@
 namespace carom {
 
 // A disk of radius r at (x, y): `deepest` becomes the deepest of itself and what that disk reaches beyond a wall side
-// or into an obstacle, over r.
+// or into an obstacle, over r. One that an inner sink is about to take may lie in an opening of a wall.
 inline void see_wall_overlap(double x, double y, double r, DiskId id, const Domain& box, Overlap& deepest) {
+  if (touches_inner_sink(box, x, y, r)) return;
   for (Side side : all_sides) {
     if (box.side(side) != SideKind::wall) continue;
     const double beyond = reach_beyond_wall(side, x, y, r, box);

@@ -42,8 +42,8 @@ class PairwiseMethod final : public Phases {
       if (scene_.box.has_moving_wall()) step_walls(scene_.box, obstacles_.get(), begin, end);
       if (scene_.box.shear.acts()) scene_.box.move_images(end);
       figures.add(advance(rules_for(scene_, state_, length)));
+      if (part + 1 == n || has_inner_sinks()) remove_at_sinks();
     }
-    remove_at_sinks();
     state_.step_begun = false;
     count_step(state_.counters, disks, all_disks(), dt);
     state_.time = clock_.end(k);
@@ -68,6 +68,9 @@ class PairwiseMethod final : public Phases {
   using Phases::search;
   using Phases::sort_if_due;
   using Phases::start_interval;
+
+  // A fast disk may cross them within a step; what goes beyond a side that is a sink stays there to its end.
+  bool has_inner_sinks() const { return scene_.box.obstacles != nullptr && scene_.box.obstacles->has_sinks(); }
 
   // Drift, find the overlaps, take each pair and wall in order of contact, push apart what remains; in a pile, again
   // while that presses other disks together.

@@ -49,17 +49,21 @@ void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactE
                 CollisionLog* log = nullptr);
 
 // One disk and the walls and obstacles it reaches beyond: back to its contact, bounce, forward; what remains is pushed
-// inside (F11). An obstacle may hold a disk in another, or in a side: `seen` is told.
+// inside (F11). An obstacle may hold a disk in another, or in a side: `seen` is told. No walls where an inner sink
+// is an opening, as in for_each_wall_contact.
 template <class View>
 void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTally& tally, Overlap& seen) {
+  const double open = depth_of_opening(d, rules.box, i);
   for (Side side : all_sides) {
     if (rules.box.side(side) != SideKind::wall) continue;
+    if (open >= 0.0 && reach_beyond_wall(side, d.x[i], d.y[i], d.radius(i), rules.box) <= open) continue;
     tally.add(wall_partner(side), resolve_wall(d, rules, i, side));
     push_wall(d, rules.box, i, side, 0.0);
   }
   if (rules.box.obstacles == nullptr) return;
   bool touched = false;
-  for_each_solid_touched(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap&) {
+  for_each_solid_touched(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
+    if (gap.beyond <= open) return;
     touched = true;
     tally.add(obstacle_partner(k), resolve_obstacle(d, rules, i, k));
     push_from_obstacle(d, rules.box, i, (*rules.box.obstacles)[k], 0.0);

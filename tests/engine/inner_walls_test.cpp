@@ -193,6 +193,61 @@ TEST(InnerSink, TakesADiskWhenItTouches) {
   }
 }
 
+// Small disks over an opening from x = 8 to 12, each in a column of its own.
+std::string falling_disks(int disks) {
+  std::string places, velocities;
+  for (int k = 0; k < disks; ++k) {
+    const double column = 8.1 + 3.8 * k / disks;
+    places += fmt::format("[{}, {}], ", column, 9.0 + std::fmod(7.3 * k, 10.0));
+    velocities += fmt::format("[0.0, {}], ", -3.0 - std::fmod(0.37 * k, 2.0));
+  }
+  return fmt::format("[[disks]]\ncount = {}\npositions = [{}]\nvelocities = [{}]\nradius = 0.01\nmass = 1.0\n", disks,
+                     places, velocities);
+}
+
+// Touched together with a wall or a side that it lies along, whichever rounding, or the file, puts first.
+TEST(InnerSink, IsAnOpeningInAWall) {
+  constexpr int disks = 60;
+  const auto line = [](double x) { return fmt::format("[{}, {}]", x, 3.0 + 4.4 / 18.0 * (x - 1.0)); };
+  const std::string wall = fmt::format("[[walls]]\nfrom = {}\nto = {}\n", line(1.0), line(19.0));
+  const std::string hole = fmt::format("[[walls]]\nfrom = {}\nto = {}\nkind = \"sink\"\n", line(8.0), line(12.0));
+  const std::string floor = "[[walls]]\nfrom = [8.0, 0.0]\nto = [12.0, 0.0]\nkind = \"sink\"\n";
+  for (const char* method : methods) {
+    for (const std::string& walls : {floor, wall + hole, hole + wall}) {
+      for (const char* physics : {"", "gravity = [0.0, -0.7]"}) {
+        const State end = run_to_end(scene_with(method, physics, walls + falling_disks(disks), 8.0));
+        EXPECT_EQ(end.counters.removed, static_cast<Count>(disks)) << method << ", " << physics << "\n" << walls;
+        EXPECT_EQ(end.counters.wall_collisions, 0U) << method << ", " << physics << "\n" << walls;
+        EXPECT_EQ(end.validity.wall.overlap.size, 0.0) << "an opening is no wall to lie in";
+      }
+    }
+  }
+}
+
+// A wall before it, as thin as it may be, keeps disks from it; so does the rim.
+TEST(InnerSink, IsNotReachedThroughAWall) {
+  const std::string hidden =
+      "[[walls]]\nfrom = [5.0, 3.0]\nto = [15.0, 3.0]\n[[walls]]\nfrom = [5.0, 2.9999]\nto = [15.0, "
+      "2.9999]\nkind = \"sink\"\n";
+  const std::string beside = "[[walls]]\nfrom = [8.0, 0.0]\nto = [9.9999, 0.0]\nkind = \"sink\"\n";
+  for (const char* method : methods) {
+    for (const std::string& walls : {hidden, beside}) {
+      const State end = run_to_end(scene_with(method, "", walls + one_disk(10.0, 8.0, 0.0, -3.0, 0.01), 8.0));
+      EXPECT_EQ(end.counters.removed, 0U) << method << "\n" << walls;
+      EXPECT_GE(end.counters.wall_collisions, 1U) << method << "\n" << walls;
+    }
+  }
+}
+
+// A disk that goes 8 radii in dt, from 8 to 12 across the sink: steps are split, and sinks asked after each part.
+TEST(InnerSink, IsNotCrossedInAStepThatIsSplit) {
+  const std::string pocket = "[[walls]]\nfrom = [10.0, 5.0]\nto = [10.0, 15.0]\nkind = \"sink\"\n";
+  for (const char* method : methods) {
+    const State end = run_to_end(scene_with(method, "", pocket + one_disk(4.0, 10.0, 4000.0, 0.0, 0.5), 0.004));
+    EXPECT_EQ(end.counters.removed, 1U) << method;
+  }
+}
+
 // Disks come to rest in a funnel that is closed: its walls bear them.
 TEST(InnerWall, BearsAPile) {
   const std::string funnel =
