@@ -2,19 +2,49 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/check.hpp"
 #include "core/base/nearest_name.hpp"
 
 namespace carom {
 
+namespace {
+
+// How many bytes the character of UTF-8 has that the text begins with; 0 where it begins with none, or with a control
+// character.
+std::size_t shown_length(std::string_view text) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  const unsigned first = byte(0);
+  if (first < 0x80) return first < 0x20 || first == 0x7f ? 0 : 1;
+  const std::size_t length = first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
+  if (length == 0 || length > text.size()) return 0;
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((byte(k) & 0xc0U) != 0x80) return 0;
+  }
+  // Too long for what they are, halves of UTF-16, beyond the last character; and control characters of two bytes.
+  const unsigned second = byte(1);
+  if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0)) return 0;
+  if ((first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90)) return 0;
+  return first == 0xc2 && second < 0xa0 ? 0 : length;
+}
+
+std::string shown(std::string_view text) {
+  std::string line;
+  while (!text.empty()) {
+    const std::size_t length = shown_length(text);
+    line += length == 0 ? std::string_view("?") : text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(1, length));
+  }
+  return line;
+}
+
+}  // namespace
+
 void fail_input(std::string_view where, std::string_view what, std::string_view expected) {
   std::string line = fmt::format("{}: {}", where, what);
   if (!expected.empty()) line += fmt::format("; {}", expected);
-  for (char& c : line) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code < 0x20 || code == 0x7f) c = '?';
-  }
-  throw InputError(line);
+  throw InputError(shown(line));
 }
 
 std::string in_quotes(std::string_view text) {

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/base/check.hpp"
+#include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
 #include "core/scene/disk_group.hpp"
 #include "io/trajectory/disk_selection.hpp"
@@ -183,7 +184,7 @@ XyzReader::XyzReader(const std::string& path, bool growing) : path_(path), growi
 }
 
 void XyzReader::fail(const std::string& what) const {
-  throw InputError(fmt::format("{}:{}: {}", path_, line_number_, what));
+  fail_input(fmt::format("{}:{}", path_, line_number_), what);
 }
 
 bool XyzReader::next_line() {

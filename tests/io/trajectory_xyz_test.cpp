@@ -167,6 +167,8 @@ TEST_F(TrajectoryXyz, DamageIsNamedByLine) {
   EXPECT_EQ(error(), path_ + ":3: '1e+3x0' is no finite number");
   write_text("hello\n");
   EXPECT_THAT(error(), HasSubstr(path_ + ":1: 'hello' is no number of disks; expected trajectory.xyz"));
+  write_text("\xff\x1b[31m\n");
+  EXPECT_THAT(error(), HasSubstr(path_ + ":1: '??[31m' is no number of disks"));
   write_text("1\nH 0 0 0\nH 1 1 1\n");
   EXPECT_THAT(error(), HasSubstr(":2: expected Properties=species"));
 }
