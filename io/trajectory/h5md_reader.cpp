@@ -24,6 +24,9 @@ struct H5mdReader::File {
   explicit File(const std::string& file_path);
 
   [[noreturn]] void fail(const std::string& what) const { fail_input(path, what, expected); }
+  [[noreturn]] void fail_to_open(const std::string& reason) const {
+    fail(reason.starts_with("truncated file") ? fmt::format("was cut short ({})", reason) : reason);
+  }
   Hdf5Handle checked(hid_t opened, Hdf5Handle::Close closer) const {
     if (opened < 0) fail(hdf5_reason());
     return {opened, closer};
@@ -58,6 +61,7 @@ H5mdReader::File::File(const std::string& file_path) : path(file_path) {
     const Hdf5Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     if (H5Pset_metadata_read_attempts(access.get(), attempts) < 0) fail(hdf5_reason());
     opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
+    if (opened < 0) fail_to_open(hdf5_reason());  // asked before access is closed, which forgets it
   }
   file = checked(opened, H5Fclose);
   read_box();
