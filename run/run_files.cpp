@@ -1,9 +1,12 @@
 #include "run/run_files.hpp"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "core/base/check.hpp"
 #include "core/scene/scene_text.hpp"
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/output_file.hpp"
@@ -14,15 +17,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Throws RunError.
+void copy_there(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::copy(from, to, fs::copy_options::recursive, error);
+  if (error) {
+    throw RunError(fmt::format("cannot copy {} to {}: {}", from.string(), to.string(), error.message()));
+  }
+}
+
 // Brings the files that the run goes on with into the folder's unfinished part. Returns the folder.
 const OutputFolder& with_files(OutputFolder& folder, const fs::path& path, const ResumeFrom& from) {
   const CheckpointPlace& place = from.place;
   std::vector<std::string> files;
   for (const MarkedFile& file : files_of(from.checkpoint.record.outputs)) files.push_back(file.name);
   if (goes_elsewhere(from, path)) {
-    for (const std::string& file : files) {
-      fs::copy(present_path(place.folder, file), folder.path(file), fs::copy_options::recursive);
-    }
+    for (const std::string& file : files) copy_there(present_path(place.folder, file), folder.path(file));
     return folder;
   }
   // What comes after the checkpoint that was named is given up, a damaged newer one with it.

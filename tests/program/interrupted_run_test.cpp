@@ -12,6 +12,7 @@ using test::text_of;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 class InterruptedRun : public test::ProgramTest {
  protected:
@@ -221,6 +222,16 @@ TEST_F(InterruptedRun, AFullDiskCostsNothingButTime) {
   EXPECT_THAT(o.err, HasSubstr("the last checkpoint is whole: carom resume out\n"));
   EXPECT_EQ(carom("resume out --quiet").status, 0);
   expect_same_results("whole", "out");
+}
+
+TEST_F(InterruptedRun, AFullDiskThatTakesNoCopyIsNamed) {
+  write("small.toml", test::busy_scene("pairwise", "checkpoint = \"1 h\"\n"));
+  ASSERT_EQ(carom("run small.toml --quiet -o out --t-end 1").status, 0);
+  const Outcome o = shell("ulimit -f 2; $C resume out --quiet --t-end 2 -o copy");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.err,
+              StartsWith("carom: error: cannot copy out/trajectory.xyz to copy/carom-unfinished/trajectory.xyz: "));
+  EXPECT_FALSE(fs::exists(at("copy"))) << "nothing is left of it";
 }
 
 TEST_F(InterruptedRun, ACheckpointThatWasCutShortIsRefusedAndTheOneBeforeServes) {
