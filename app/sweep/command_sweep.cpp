@@ -117,7 +117,7 @@ class Sweep {
       if (against.empty()) {
         runs_ = std::move(runs);
         const std::string identity = sweep_identity(scene_text, runs_);
-        if (identity != before) write_file(plan.string(), identity);
+        if (identity != before) replace_file(plan.string(), identity);
         return;
       }
       if (!options_.force) {
@@ -129,10 +129,13 @@ class Sweep {
     } else if (fs::exists(folder_) && !fs::is_empty(folder_, error)) {
       fail_input(folder_.string(), "holds other files", "expected a new folder for the sweep (-o)");
     }
-    fs::create_directories(folder_ / "runs", error);
+    fs::create_directories(folder_, error);
     if (error) fail_input(folder_.string(), "cannot be made: " + error.message(), "expected a folder (-o)");
     if (!lock_) lock_.emplace(folder_);
-    write_file(plan.string(), sweep_identity(scene_text, runs_));
+    // Whole or not at all: a folder with runs and a plan cut short would be another sweep's.
+    replace_file(plan.string(), sweep_identity(scene_text, runs_));
+    fs::create_directories(folder_ / "runs", error);
+    if (error) fail_input((folder_ / "runs").string(), "cannot be made: " + error.message(), "expected a folder (-o)");
   }
 
   bool finished(const SweepRun& run) const { return fs::exists(folder_of(run) / "summary.json"); }

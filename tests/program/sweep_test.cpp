@@ -221,6 +221,20 @@ TEST_F(SweepTest, NothingRunsWhereAnythingIsWrong) {
   }
 }
 
+TEST_F(SweepTest, AFullDiskCostsNoPlan) {
+  // Not one byte can be written.
+  const std::string full = "ulimit -f 0; " CAROM_PROGRAM " sweep gas.toml -o grid --over ";
+  const auto begun = shell(full + "physics.restitution=0.5,1");
+  EXPECT_EQ(begun.first, 1);
+  EXPECT_THAT(begun.second, HasSubstr("cannot write grid/sweep.txt.new: File too large"));
+  ASSERT_EQ(carom("sweep gas.toml -o grid --over physics.restitution=0.5,1").first, 0) << "the folder can be used";
+  const std::string plan = read("grid/sweep.txt");
+  EXPECT_EQ(shell(full + "physics.restitution=0.5,1,0.7").first, 1);
+  EXPECT_EQ(read("grid/sweep.txt"), plan);
+  EXPECT_THAT(carom("sweep gas.toml -o grid --over physics.restitution=0.5,1").second,
+              HasSubstr("0 of 2 runs are left"));
+}
+
 TEST_F(SweepTest, AFailedRunIsNamedAndTriedAgain) {
   // Sixty of these disks find no room.
   const auto [status, text] = carom("sweep gas.toml -o s --over disks.0.count=10,250");
