@@ -33,10 +33,12 @@ constexpr const char* launcher_help = R"(The launcher ./carom in the sources has
 }  // namespace
 
 void check_leftovers(const CLI::App* command) {
-  const std::vector<std::string> rest = command->remaining();
-  if (rest.empty()) return;
-  const auto option = std::find_if(rest.begin(), rest.end(), [](const auto& word) { return word.starts_with("-"); });
-  if (option == rest.end()) {
+  std::vector<std::string> rest = command->remaining();
+  const auto mark = std::find(rest.begin(), rest.end(), "--");  // what follows it is no option
+  const auto option = std::find_if(rest.begin(), mark, [](const auto& word) { return word.starts_with("-"); });
+  if (option == mark) {
+    if (mark != rest.end()) rest.erase(mark);
+    if (rest.empty()) return;
     fail_input(command->get_name(), fmt::format("one argument too many, {}", in_quotes(rest[0])),
                command->get_name() == "chart" ? fmt::format("expected carom chart --scene {}", rest[0])
                                               : fmt::format("see carom {} --help", command->get_name()));
@@ -52,6 +54,10 @@ void fail_as_one_line(const CLI::ParseError& error) {
   const std::string where = text.substr(0, text.find_first_of(": "));
   if (where.starts_with("-") && dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
     fail_input(where, "its value is missing", "see --help");
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {  // behind "--"; check_leftovers has all others
+    throw InputError(
+        fmt::format("one argument too many, {}; see --help", in_quotes(text.substr(text.rfind(": ") + 2))));
   }
   throw InputError(text.substr(0, text.find('\n')));
 }

@@ -28,6 +28,9 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
       {"run", "run: no scene file given"},
       {"run --methd pairwise small.toml", "run: there is no option \"--methd\""},
       {"run --methd pairwise small.toml", "(nearest: --method)"},
+      {"run -- small.toml --quiet", "run: one argument too many, \"--quiet\""},
+      {"run small.toml -- other.toml", "one argument too many, \"other.toml\""},
+      {"run --", "run: no scene file given"},
       {"run small.toml other.toml", "one argument too many, \"other.toml\""},
       {"run small.toml --dt", "--dt: its value is missing"},
       {"run small.toml --dt abc", "--dt: \"abc\" is not a number"},
@@ -91,6 +94,14 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   };
   for (const auto& [arguments, what] : cases) expect_error("$C " + arguments, 2, what);
   EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "nothing is left behind";
+}
+
+TEST_F(CommandLine, WhatFollowsTwoDashesIsNoOption) {
+  write("-gas.toml", text_of(at("small.toml")));
+  EXPECT_EQ(carom("check small.toml --").status, 0);
+  const Outcome o = carom("check --json -- -gas.toml");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.out, HasSubstr("\"scene\": \"-gas.toml\""));
 }
 
 // Thousands would take the machine down. Without a mpiexec to be found, none is started whatever happens.
