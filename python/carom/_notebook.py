@@ -9,7 +9,7 @@ import pathlib
 import sys
 import tempfile
 
-from . import _carom
+from . import _arguments, _carom
 from ._text import in_words_of_python
 
 
@@ -31,12 +31,13 @@ def _in_notebook() -> bool:
 
 def show(trajectory: str, file, most_bytes, force):
     """The viewer's page: in a notebook a Page; else written and opened."""
+    most_bytes = _arguments.size(most_bytes, "max_size")
     if file is None and _in_notebook():
         with tempfile.TemporaryDirectory() as folder:
             page = os.path.join(folder, "view.html")
             _carom.write_view(trajectory, page, most_bytes, False)
             return Page(pathlib.Path(page).read_text(encoding="utf-8"))
-    page = os.fspath(pathlib.Path(trajectory).with_name("view.html") if file is None else file)
+    page = _arguments.path(pathlib.Path(trajectory).with_name("view.html") if file is None else file)
     with in_words_of_python():
         _carom.write_view(trajectory, page, most_bytes, force)
     if file is None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import operator
 import os
 import pathlib
-from typing import Any, Iterator, Mapping, Optional
+from typing import Any, Iterator, List, Mapping, Optional, overload
 
 import numpy as np
 
-from . import _carom, _export, _notebook
+from . import _arguments, _carom, _export, _notebook
 from ._carom import SceneError
 from ._disks import Frame
 
@@ -17,11 +18,11 @@ class Trajectory:
     """The frames of trajectory.xyz or trajectory.h5, read one by one as they are asked for.
 
     path: the file, or the folder of a run, also of one that goes on: each use sees the frames that are there by then. len()
-    and [k] read up to there. Raises SceneError where there is none, or it is damaged.
+    and [k] read up to there; [1:3] is a list of frames. Raises SceneError where there is none, or it is damaged.
     """
 
     def __init__(self, path):
-        self._path = os.fspath(path)
+        self._path = _arguments.path(path)
         self._counted = (None, 0)  # the file as it was, and its frames
         _carom.open_trajectory(self.file)
 

@@ -9,7 +9,7 @@ import signal
 import threading
 from typing import Any, Callable, Iterable, Optional, Sequence
 
-from . import _carom
+from . import _arguments, _carom
 from ._carom import RunError, SceneError
 from ._result import Result
 from ._scene import Scene
@@ -32,7 +32,7 @@ def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "pa
         def warn(text):
             warnings.warn(text, RuntimeWarning, stacklevel=3)
 
-    folder = None if out is None else os.fspath(out)
+    folder = None if out is None else _arguments.path(out)
     if not folder and out is not None:
         raise SceneError("out: is empty; expected a folder, or None for no files")
     with _in_words_of_python():

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from typing import Any, Mapping
 
-from . import _carom
+from . import _arguments, _carom
 from ._text import in_words_of_python as _in_words_of_python, overrides as _overrides, toml as _toml
 
 
@@ -24,12 +23,12 @@ class Scene:
     @classmethod
     def load(cls, path, changes: Mapping[str, Any] = {}) -> "Scene":
         """The scene of a TOML file. Raises SceneError (file, line, key, what was expected)."""
-        return cls._of("file", os.fspath(path), _overrides(changes))
+        return cls._of("file", _arguments.path(path), _overrides(changes))
 
     @classmethod
     def parse(cls, text: str, changes: Mapping[str, Any] = {}, folder: str = "") -> "Scene":
         """The scene of TOML text; files that it names are looked for from folder on."""
-        return cls._of("text", text, "scene", folder, _overrides(changes))
+        return cls._of("text", _arguments.text(text, "the text of a scene"), "scene", _arguments.path(folder), _overrides(changes))
 
     @classmethod
     def _of(cls, *source):

@@ -11,7 +11,7 @@ from typing import Any, Callable, Optional
 
 import numpy as np
 
-from . import _carom, _notebook
+from . import _arguments, _carom, _notebook
 from ._disks import Frame, Hit, View
 from ._scene import Scene
 from ._text import in_words_of_python as _in_words_of_python
@@ -23,7 +23,9 @@ _threads_began_in = None  # the process in which a run had several threads, whic
 def engine(name: str, threads: Optional[int]) -> tuple:
     """The engine's name and threads, refused in a child of a process that had several."""
     global _threads_began_in
-    threads = None if threads is None else operator.index(threads)
+    threads = _arguments.threads(threads)
+    if not isinstance(name, str):
+        raise TypeError(f"engine is \"parallel\" or \"reference\"; not {type(name).__name__}")
     several = name != "reference" and (threads or os.cpu_count() or 1) > 1
     if several and _threads_began_in not in (None, os.getpid()):
         raise RuntimeError("this process was forked from one that ran Carom on several threads, which are not in it: "
@@ -88,7 +90,11 @@ class Simulation:
         """Calls call(self) during step and run, after the first step that ends at or beyond each multiple of interval
         (simulated time, > 0) from now on, and from the time of what from_bytes takes up; once after a step that passes
         several. What it raises ends the run there, and the simulation can go on."""
-        if not interval > 0.0:
+        try:
+            beyond = bool(interval > 0.0)
+        except (TypeError, ValueError):
+            raise _arguments.no_numbers(interval=interval) from None
+        if not beyond:
             raise ValueError(f"interval is {interval}; expected a time above 0")
         if not callable(call):
             raise TypeError(f"expected a function of the simulation, not {type(call).__name__}")
@@ -124,7 +130,10 @@ class Simulation:
 
     def disks(self, at: Optional[float] = None) -> Frame:
         """Copies of the columns in order of id: now, or at a time within the last step (method exact; otherwise now)."""
-        t, columns = (self.time, self._sim.disks()) if at is None else self._sim.disks_at(at)
+        try:
+            t, columns = (self.time, self._sim.disks()) if at is None else self._sim.disks_at(at)
+        except TypeError:
+            raise _arguments.no_numbers(at=at) from None
         scene = self._sim.scene
         return Frame(t, scene.width, scene.height, *scene.periodic, columns)
 
@@ -146,40 +155,57 @@ class Simulation:
     def add(self, x, y, vx=0.0, vy=0.0, radius=1.0, mass=1.0, spin=0.0) -> Optional[int]:
         """A new disk; its id, or None where it would overlap another, an inner wall or a side that has moved in. spin counts
         where disks are rough. Raises SceneError for numbers out of range."""
-        return self._sim.add(x, y, vx, vy, radius, mass, spin)
+        try:
+            return self._sim.add(x, y, vx, vy, radius, mass, spin)
+        except TypeError:
+            raise _arguments.no_numbers(x=x, y=y, vx=vx, vy=vy, radius=radius, mass=mass, spin=spin) from None
 
     def remove(self, id: int) -> bool:
         """Takes a disk away; False where there is none of this id."""
-        return self._sim.remove(id)
+        return self._sim.remove(_arguments.disk_id(id))
 
     def set_velocity(self, id: int, vx: float, vy: float) -> bool:
         """False where there is no disk of this id."""
-        return self._sim.set_velocity(id, vx, vy)
+        id = _arguments.disk_id(id)
+        try:
+            return self._sim.set_velocity(id, vx, vy)
+        except TypeError:
+            raise _arguments.no_numbers(vx=vx, vy=vy) from None
 
     def disks_in(self, x0, y0, x1, y1) -> np.ndarray:
         """Ids, ascending, of the disks whose centres lie in a rectangle; it may reach across periodic sides."""
-        return self._sim.disks_in(x0, y0, x1, y1)
+        try:
+            return self._sim.disks_in(x0, y0, x1, y1)
+        except TypeError:
+            raise _arguments.no_numbers(x0=x0, y0=y0, x1=x1, y1=y1) from None
 
     def nearest(self, x, y) -> Optional[tuple]:
         """(id, distance) of the disk whose centre is nearest, over periodic sides; None without disks."""
-        return self._sim.nearest(x, y)
+        try:
+            return self._sim.nearest(x, y)
+        except TypeError:
+            raise _arguments.no_numbers(x=x, y=y) from None
 
     def cast_ray(self, x, y, dx, dy, length) -> Optional[Hit]:
         """The first disk or inner wall on a line of this length from (x, y) along (dx, dy); None where there is none."""
-        hit = self._sim.cast_ray(x, y, dx, dy, length)
+        try:
+            hit = self._sim.cast_ray(x, y, dx, dy, length)
+        except TypeError:
+            raise _arguments.no_numbers(x=x, y=y, dx=dx, dy=dy, length=length) from None
         return None if hit is None else Hit(*hit)
 
     def save(self, path) -> None:
         """Everything from which to go on, bit for bit, in a file that `carom resume` takes too."""
-        self._sim.save(os.fspath(path))
+        self._sim.save(_arguments.path(path))
 
     def to_bytes(self) -> bytes:
         """The same in memory, for from_bytes."""
         return self._sim.save_bytes()
 
-    def from_bytes(self, saved: bytes) -> None:
-        """Goes back, or on, to what to_bytes gave. Raises SceneError where it is damaged."""
-        self._sim.load_bytes(saved)
+    def from_bytes(self, saved) -> None:
+        """Goes back, or on, to what to_bytes gave: bytes, or anything that holds them (bytearray, memoryview, an array).
+        Raises SceneError where it is damaged."""
+        self._sim.load_bytes(memoryview(saved).tobytes())
         for entry in self._callbacks:
             entry[1] = _next_multiple(entry[0], self.time)
 
@@ -203,7 +229,7 @@ def resume(path, threads: Optional[int] = None, engine: str = "parallel") -> Sim
     """The simulation of a checkpoint, or of the folder of a run that has one. Raises SceneError where it is none."""
     simulation = Simulation.__new__(Simulation)
     with _in_words_of_python():
-        simulation._begin(_carom.Simulation.resume(os.fspath(path), *_engine(engine, threads)))
+        simulation._begin(_carom.Simulation.resume(_arguments.path(path), *_engine(engine, threads)))
     return simulation
 
 

@@ -7,6 +7,7 @@ import json
 import re
 from typing import Any, Mapping
 
+from . import _arguments
 from ._carom import SceneError
 
 _bare = re.compile(r"[A-Za-z0-9_-]+")
@@ -14,7 +15,7 @@ _bare = re.compile(r"[A-Za-z0-9_-]+")
 
 def _quoted(text: str) -> str:
     """A string as TOML has it. JSON's differs in two things: it may have a DEL as it is, and pairs of surrogates."""
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return json.dumps(_arguments.text(text, "a name or a value of a scene"), ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def _key(name) -> str:
@@ -64,6 +65,9 @@ def toml(tables: Mapping[str, Any]) -> str:
 
 
 def overrides(changes: Mapping[str, Any]) -> list:
+    for key in changes:
+        if not isinstance(key, str):
+            raise TypeError(f"the keys of changes are strings, such as \"run.t_end\"; not {type(key).__name__}")
     return [(key, value(v)) for key, v in changes.items()]
 
 
@@ -74,5 +78,6 @@ def in_words_of_python():
         yield
     except SceneError as error:
         text = str(error).replace(" with -o,", ",").replace("--force", "force=True").replace("--engine:", "engine:")
-        text = text.replace("--set ", "changes: ")
+        text = text.replace("--set ", "changes: ").replace("--max-size:", "max_size:")
+        text = f"file:{text[3:]}" if text.startswith("-o:") else text
         raise SceneError(text) from None

@@ -5,6 +5,7 @@ import shutil
 import subprocess
 
 import carom
+import numpy as np
 import pytest
 
 
@@ -84,3 +85,73 @@ def test_changes_are_no_options():
     with pytest.raises(carom.SceneError, match=r"^changes: run.tend: unknown key; expected one of .*nearest: t_end"):
         carom.Scene({"box": {"width": 9, "height": 9}, "run": {"t_end": 1},
                      "disks": [{"count": 1, "positions": [[4, 4]], "radius": 0.5, "mass": 1}]}, {"run.tend": 2.0})
+
+
+def test_numbers_and_ids():
+    sim = carom.Simulation(scene(), threads=1)
+    for wrong in (-1, 2**32, 2**70):
+        for call in (sim.remove, lambda id: sim.set_velocity(id, 0.0, 0.0)):
+            with pytest.raises(ValueError, match=f"^id is {wrong}; expected a whole number from 0 to 4294967295$"):
+                call(wrong)
+    with pytest.raises(TypeError, match="cannot be interpreted as an integer"):
+        sim.remove(1.0)
+    assert not sim.remove(77) and not sim.remove(np.uint32(77)) and len(sim) == 5
+    for call, name in ((lambda v: sim.add(1.0, v), "y"), (lambda v: sim.add(1.0, 1.0, spin=v), "spin"),
+                       (lambda v: sim.set_velocity(0, 1.0, v), "vy"), (lambda v: sim.nearest(v, 1.0), "x"),
+                       (lambda v: sim.disks_in(0.0, 0.0, v, 1.0), "x1"), (lambda v: sim.every(v, print), "interval"),
+                       (lambda v: sim.cast_ray(1.0, 1.0, 1.0, 0.0, v), "length")):
+        for wrong in ("5", b"5", [1.0], np.zeros(3)):
+            with pytest.raises(TypeError, match=rf"^{name} is .*; expected a number$"):
+                call(wrong)
+    for wrong in ("5", [1.0]):
+        with pytest.raises(TypeError, match=r"^at is .*; expected a number$"):
+            sim.disks(at=wrong)
+    with pytest.raises(ValueError, match=r"^x is too large; expected a number below 1.8e308$"):
+        sim.nearest(10**400, 1.0)
+    assert sim.nearest(np.float32(5.0), np.int8(5)) == sim.nearest(5.0, 5.0)
+
+
+@pytest.mark.parametrize("threads", [-1, 0, 2**31, 2**70])
+def test_threads_that_no_machine_has(threads):
+    for call in (carom.run, carom.Simulation):
+        with pytest.raises(carom.SceneError, match=f"^threads: is {threads}; expected 1 or more"):
+            call(scene(), threads=threads)
+        with pytest.raises(TypeError, match='^engine is "parallel" or "reference"; not int$'):
+            call(scene(), engine=3)
+
+
+def test_a_state_is_taken_from_whatever_holds_bytes():
+    sim = carom.Simulation(scene(), threads=1)
+    start, saved = sim.hash, sim.to_bytes()
+    for held in (bytearray(saved), memoryview(saved), np.frombuffer(saved, np.uint8), np.repeat(np.frombuffer(saved, np.uint8), 2)[::2]):
+        sim.step(3)
+        sim.from_bytes(held)
+        assert sim.hash == start
+    with pytest.raises(TypeError, match="a bytes-like object is required, not 'str'"):
+        sim.from_bytes("state")
+
+
+def test_paths_and_texts_that_are_no_unicode(tmp_path):
+    sim = carom.Simulation(scene(), threads=1)
+    for name in ("state\0.carom", "state\udcff.carom"):
+        for call in (sim.save, carom.resume, carom.Scene.load, carom.Trajectory, lambda path: carom.run(scene(), out=path)):
+            with pytest.raises(ValueError, match="^the path is .*; expected one in UTF-8, without null characters$"):
+                call(str(tmp_path / name))
+    assert not any(tmp_path.iterdir())
+    sim.save(os.fsencode(tmp_path / "state \u00fc\u2603.carom"))
+    assert carom.resume(tmp_path / "state \u00fc\u2603.carom", threads=1).hash == sim.hash
+    with pytest.raises(ValueError, match="^the text of a scene holds half a character, .*; expected Unicode text$"):
+        carom.Scene.parse("title = '\ud800'")
+    with pytest.raises(ValueError, match="^a name or a value of a scene holds half a character"):
+        scene(title="\ud800")
+    with pytest.raises(TypeError, match="^the text of a scene is a string; not NoneType$"):
+        carom.Scene.parse(None)
+    with pytest.raises(TypeError, match="^the keys of changes are strings"):
+        carom.Scene.parse("", {1: 2})
+
+
+def test_a_damaged_trajectory_says_so(tmp_path):
+    file = tmp_path / "gas.xyz"
+    file.write_bytes(b"\xff\xfe\n")
+    with pytest.raises(carom.SceneError, match=r"gas.xyz:1: '\?\?' is no number of disks"):
+        list(carom.Trajectory(file))
