@@ -73,7 +73,9 @@ class View:
         self._columns = columns
 
     def __getattr__(self, name):
-        columns = self.__dict__["_columns"]
+        if name.startswith("__"):
+            raise AttributeError(name)  # what copies and pickles ask for, before there are columns
+        columns = self._columns
         if columns is None:
             raise RuntimeError("the view is closed")
         if name not in columns:

@@ -49,7 +49,18 @@ class Trajectory:
             self._counted = (as_now, sum(1 for _ in self))
         return self._counted[1]
 
-    def __getitem__(self, k: int) -> Frame:
+    @overload
+    def __getitem__(self, k: int) -> Frame: ...
+
+    @overload
+    def __getitem__(self, k: slice) -> List[Frame]: ...
+
+    def __getitem__(self, k):
+        if isinstance(k, slice):
+            wanted = range(*k.indices(len(self)))
+            found = {n: frame for n, frame in zip(range(max(wanted, default=-1) + 1), self) if n in wanted}
+            return [found[n] for n in wanted]
+        k = operator.index(k)
         wanted = k + len(self) if k < 0 else k
         for n, frame in enumerate(self):
             if n == wanted:
@@ -93,6 +104,15 @@ class Column(np.ndarray):
 
     def __array_finalize__(self, other):
         self.attributes = {}  # what is computed from a column has others
+
+    def __reduce__(self):
+        return Column, (np.asarray(self), self.attributes)
+
+    def __copy__(self):
+        return Column(np.array(self), self.attributes)
+
+    def __deepcopy__(self, _):
+        return self.__copy__()
 
     unit = property(lambda self: self.attributes.get("unit"), doc="\"time\", \"length\", ..., or None")
     standard_error = property(lambda self: self.attributes.get("standard_error"), doc="of the mean, or None")

@@ -1,6 +1,8 @@
 """What a run leaves as Python sees it: columns with their errors, plots, the viewer, and what other programs take."""
 
+import copy
 import os
+import pickle
 
 import carom
 import numpy as np
@@ -162,3 +164,33 @@ def test_a_trajectory_that_goes_on_is_read_as_far_as_it_is_there(result, tmp_pat
     assert len(frames) == 5 and frames[-1].t == 2.0
     (unfinished / "trajectory.xyz").rename(tmp_path / "trajectory.xyz")  # as a run that ends
     assert len(frames) == 5 and [f.t for f in frames][:2] == [0.0, 0.5]
+
+
+def test_frames_are_taken_by_number_and_in_slices(result):
+    frames = result.frames
+    times = [frame.t for frame in frames]
+    assert len(times) == 9
+    for part in (slice(1, 3), slice(None), slice(-2, None), slice(None, None, -3), slice(5, 2), slice(7, 99)):
+        assert [frame.t for frame in frames[part]] == times[part]
+    assert frames[-1].t == times[-1] and frames[np.int64(2)].t == times[2]
+    for wrong in ("1", 1.5, None):
+        with pytest.raises(TypeError, match="cannot be interpreted as an integer"):
+            frames[wrong]
+    with pytest.raises(IndexError, match="^frame 9 of 9$"):
+        frames[9]
+
+
+def test_a_column_keeps_what_the_file_says_when_it_is_sent_on(result):
+    pressure = result.analysis["pressure/value"]
+    for other in (pickle.loads(pickle.dumps(pressure)), copy.copy(pressure), copy.deepcopy(pressure)):
+        assert other.standard_error == pressure.standard_error and np.array_equal(other, pressure, equal_nan=True)
+
+
+def test_the_viewer_names_its_own_arguments(result, tmp_path):
+    for size in (-1, 0):
+        with pytest.raises(ValueError, match=f"^max_size is {size}; expected 1 or more$"):
+            result.show(tmp_path / "page.html", max_size=size)
+    with pytest.raises(carom.SceneError, match="^max_size: 1 bytes are too few"):
+        result.show(tmp_path / "page.html", max_size=1)
+    with pytest.raises(carom.SceneError, match=r'^file: ".*" ends in ".txt"; expected .html$'):
+        result.show(tmp_path / "page.txt")

@@ -9,6 +9,7 @@ import threading
 import time
 
 import carom
+import numpy as np
 import pytest
 from test_carom import gas, press_ctrl_c
 
@@ -94,3 +95,13 @@ if __name__ == "__main__":
             os.killpg(script.pid, signal.SIGKILL)
     assert sorted(path.name for path in tmp_path.glob("run*")) == ["run0", "run1"]
     assert all(carom.resume(tmp_path / run).time > 0.0 for run in ("run0", "run1"))
+
+
+def test_a_view_can_be_copied_and_pickled():
+    sim = carom.Simulation(gas(30), threads=1)
+    with sim.view() as v:
+        for other in (copy.copy(v), pickle.loads(pickle.dumps(v))):
+            assert np.array_equal(other.x, v.x)
+        with pytest.raises(AttributeError, match="the view has no column radius"):
+            other.radius
+    del other
