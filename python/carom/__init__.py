@@ -16,6 +16,10 @@ __version__ = _carom.version
 __all__ = ["Scene", "run", "Simulation", "resume", "Result", "Column", "Trajectory", "Frame", "Disks", "View", "Hit", "map",
            "SceneError", "PhysicsError", "RunError"]
 
+SceneError.__doc__ = """A bad scene, argument or file: one line, with the file, the line, the key and what was expected."""
+PhysicsError.__doc__ = """The method cannot go on: a step far too long, an inelastic collapse, a warning with strict=True."""
+RunError.__doc__ = """The machine failed: a full disk, a plot that could not be drawn."""
+
 # Each is of this package, wherever it is written: in messages, help() and pickles.
-for _class in (Scene, Simulation, Result, Column, Trajectory, Frame, Disks, View, Hit):
+for _class in (Scene, Simulation, Result, Column, Trajectory, Frame, Disks, View, Hit, SceneError, PhysicsError, RunError):
     _class.__module__ = __name__

@@ -86,6 +86,8 @@ class View:
         return self
 
     def __exit__(self, *_):
-        self._columns = None
+        self.close()
 
-    close = __exit__
+    def close(self) -> None:
+        """Ends the view, as the end of `with` does; the simulation can go on when no array of it is left either."""
+        self._columns = None

@@ -194,3 +194,15 @@ def test_the_viewer_names_its_own_arguments(result, tmp_path):
         result.show(tmp_path / "page.html", max_size=1)
     with pytest.raises(carom.SceneError, match=r'^file: ".*" ends in ".txt"; expected .html$'):
         result.show(tmp_path / "page.txt")
+
+
+def test_everything_has_a_docstring():
+    for name in carom.__all__:
+        thing = getattr(carom, name)
+        assert thing.__doc__ and thing.__doc__ != getattr(thing.__class__, "__doc__", None), name
+        if isinstance(thing, type):
+            assert "__doc__" in vars(thing) and thing.__module__ == "carom", name
+            public = {key: value for key, value in vars(thing).items() if not key.startswith("_")}
+            assert all(getattr(value, "__doc__", None) for value in public.values()), name
+    for error in (carom.SceneError("a"), carom.PhysicsError("b"), carom.RunError("c")):
+        assert type(pickle.loads(pickle.dumps(error))) is type(error)
