@@ -109,7 +109,11 @@ class Sweep {
     const std::string scene_text = read_text_file(options_.scene, options_.scene);
     const fs::path plan = folder_ / "sweep.txt";
     std::error_code error;
-    if (fs::is_directory(folder_)) lock_.emplace(folder_);
+    if (fs::is_directory(folder_)) {
+      lock_.emplace(folder_);
+    } else if (fs::exists(folder_)) {
+      fail_input(folder_.string(), "is a file", "expected a folder for the sweep (-o)");
+    }
     if (fs::exists(plan)) {
       std::vector<SweepRun> runs = runs_;
       const std::string before = read_text_file(plan.string(), plan.string());

@@ -221,6 +221,13 @@ TEST_F(SweepTest, NothingRunsWhereAnythingIsWrong) {
   }
 }
 
+TEST_F(SweepTest, AFileIsNoFolder) {
+  const auto [status, text] = carom("sweep gas.toml --seeds 2 -o gas.toml --force");
+  EXPECT_EQ(status, 2);
+  EXPECT_EQ(text, "carom: error: gas.toml: is a file; expected a folder for the sweep (-o)\n");
+  EXPECT_EQ(read("gas.toml"), gas);
+}
+
 TEST_F(SweepTest, AFullDiskCostsNoPlan) {
   // Not one byte can be written.
   const std::string full = "ulimit -f 0; " CAROM_PROGRAM " sweep gas.toml -o grid --over ";
