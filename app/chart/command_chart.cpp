@@ -42,8 +42,9 @@ void check_folder(const fs::path& folder, bool force) {
     if (force || !fs::exists(folder / name, error)) continue;
     fail_input((folder / name).string(), "exists already", "expected another folder (-o), or --force to replace it");
   }
-  fs::path made;  // the outermost folder that is not there yet
-  for (fs::path p = fs::absolute(folder).lexically_normal(); !p.empty() && !fs::exists(p, error); p = p.parent_path()) {
+  fs::path made;  // the outermost folder that is not there yet; a link is there, whatever it leads to
+  for (fs::path p = fs::absolute(folder).lexically_normal();
+       !p.empty() && fs::symlink_status(p, error).type() == fs::file_type::not_found; p = p.parent_path()) {
     made = p;
   }
   const bool there = fs::create_directories(folder, error) || fs::is_directory(folder);

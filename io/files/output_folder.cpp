@@ -118,11 +118,35 @@ bool locked_by_another(const fs::path& folder) {
   return another;
 }
 
+// This folder and those above it that are not there, innermost first. A link is there, whatever it leads to: it is its
+// owner's, and is not taken away again.
+std::vector<fs::path> missing_folders(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> missing;
+  for (fs::path p = folder; !p.empty() && fs::symlink_status(p, error).type() == fs::file_type::not_found;
+       p = p.parent_path()) {
+    missing.push_back(p);
+  }
+  return missing;
+}
+
+// A link that leads nowhere, such as to a disk that is not mounted.
+void check_links(const fs::path& name, const fs::path& folder) {
+  std::error_code error;
+  for (fs::path p = folder; !p.empty() && p != p.parent_path(); p = p.parent_path()) {
+    if (fs::exists(p, error) || !fs::is_symlink(fs::symlink_status(p, error))) continue;
+    throw InputError(
+        fmt::format("{}: cannot be made: {} is a link to {}, which is not there; expected a folder for the "
+                    "results (-o)",
+                    name.string(), p.string(), fs::read_symlink(p, error).string()));
+  }
+}
+
 // Makes sure that a folder could be made here, by making one that goes away again, and what is missing above it.
 void check_writable(const fs::path& name, const fs::path& folder) {
+  check_links(name, folder);
   std::error_code error;
-  std::vector<fs::path> made;
-  for (fs::path p = folder; !p.empty() && !fs::exists(p, error); p = p.parent_path()) made.push_back(p);
+  const std::vector<fs::path> made = missing_folders(folder);
   const fs::path probe = folder / fmt::format("carom-probe-{}", getpid());
   fs::create_directories(probe, error);
   const std::error_code why = error;
@@ -234,7 +258,8 @@ OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool f
     : folder_(normal(folder)), unfinished_(unfinished_of(folder_)) {
   check_output_folder(folder, input, force);
   std::error_code error;
-  for (fs::path p = folder_; !p.empty() && !fs::exists(p, error); p = p.parent_path()) made_.insert(made_.begin(), p);
+  made_ = missing_folders(folder_);
+  std::reverse(made_.begin(), made_.end());
   fs::remove_all(unfinished_, error);
   fs::create_directories(unfinished_, error);
   if (!error) {

@@ -167,6 +167,20 @@ TEST_F(OutputFolderTest, WhatIsNotOursIsNeverTouched) {
   }
 }
 
+TEST_F(OutputFolderTest, ALinkToADiskThatIsAwayIsLeft) {
+  fs::create_symlink("away", base_ / "out");
+  for (const fs::path& folder : {base_ / "out", base_ / "out" / "gas"}) {
+    EXPECT_EQ(refusal(folder, false), folder.string() + ": cannot be made: " + (base_ / "out").string() +
+                                          " is a link to away, which is not there; expected a folder for the results "
+                                          "(-o)");
+    EXPECT_THROW(OutputFolder(folder, base_ / "input.toml", true), InputError);
+    EXPECT_TRUE(fs::is_symlink(base_ / "out"));
+  }
+  fs::create_directory(base_ / "away");
+  run(base_ / "out" / "gas", "1", false);
+  EXPECT_EQ(text(base_ / "away" / "gas" / "summary.json"), "1");
+}
+
 TEST_F(OutputFolderTest, KeptOnRequest) {
   OutputFolder(base_ / "out", base_ / "input.toml", false).keep_unfinished();
   EXPECT_TRUE(fs::exists(base_ / "out" / "carom-unfinished"));
