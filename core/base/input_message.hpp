@@ -7,8 +7,9 @@
 
 namespace carom {
 
-// Throws InputError with that line. where is "file:line: key"; an empty expected is left out. Control characters in
-// names that users chose become '?', so that the message stays one line.
+// Throws InputError with that line. where is "file:line: key"; an empty expected is left out. Control characters and
+// bytes that are no UTF-8, in names that users chose or in a damaged file, become '?': the message stays one line, and
+// Python can have it as a string.
 [[noreturn]] void fail_input(std::string_view where, std::string_view what, std::string_view expected = {});
 
 // Text from the user in double quotes, cut short after 60 characters.
