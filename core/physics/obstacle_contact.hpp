@@ -110,12 +110,25 @@ inline ObstacleGap gap_along(const ShortestLine& s, double contact) {
   return {nx, ny, contact - s.distance, false, s.shift};
 }
 
-[[gnu::noinline, gnu::cold]] inline ObstacleGap gap_to_moving(const Obstacle& o, double x, double y, double r,
-                                                              const Domain& box) {
-  const PlacedObstacle now = placed(o, box);
+inline ObstacleGap gap_to_placed(const PlacedObstacle& now, double x, double y, double r, const Domain& box) {
   ObstacleGap gap = gap_along(shortest_line_wound(now.obstacle, x, y, box), r);
   gap.velocity = now.place.velocity;
   return gap;
+}
+
+[[gnu::noinline, gnu::cold]] inline ObstacleGap gap_to_moving(const Obstacle& o, double x, double y, double r,
+                                                              const Domain& box) {
+  return gap_to_placed(placed(o, box), x, y, r, box);
+}
+
+// Likewise where the image that is displaced by `shift` is in reach, to rounding; else no more than that it is not.
+[[gnu::noinline, gnu::cold]] inline ObstacleGap gap_to_moving_image(const Obstacle& o, double x, double y, double r,
+                                                                    Vec2 shift, const Domain& box) {
+  const PlacedObstacle now = placed(o, box);
+  const Vec2 apart{(x - now.obstacle.x) - shift.x, (y - now.obstacle.y) - shift.y};
+  const double beyond = r - shortest_line(now.obstacle, apart).distance;
+  if (beyond < -1e-6 * r) return {0.0, 1.0, beyond, false};
+  return gap_to_placed(now, x, y, r, box);
 }
 
 // The nearest image. Coincident centres: upwards.
@@ -132,8 +145,8 @@ void for_each_obstacle_touched(const Domain& box, double x, double y, double r, 
   box.obstacles->visit({x - r, y - r}, {x + r, y + r}, [&](std::uint32_t k, Vec2 shift) {
     const Obstacle& o = (*box.obstacles)[k];
     // This image alone, first: most are out of reach.
-    if (o.is_segment() && !o.moves && shortest_line(o, {(x - o.x) - shift.x, (y - o.y) - shift.y}).distance > r) return;
-    const ObstacleGap gap = gap_to(o, x, y, r, box);
+    if (!o.moves && o.is_segment() && shortest_line(o, {(x - o.x) - shift.x, (y - o.y) - shift.y}).distance > r) return;
+    const ObstacleGap gap = o.moves ? gap_to_moving_image(o, x, y, r, shift, box) : gap_to(o, x, y, r, box);
     // Images lie whole periods apart: of all that are visited, the nearest one only.
     const bool nearest =
         std::abs(shift.x - gap.shift.x) < 0.5 * box.width && std::abs(shift.y - gap.shift.y) < 0.5 * box.height;

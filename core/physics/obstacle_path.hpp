@@ -88,9 +88,16 @@ inline double falls_away_by(const FallPast& fall, double after) {
   return last;
 }
 
-// Time from now, >= 0, until the disk touches the obstacle; `never` if not, or if it comes nearer only after `span`
-// (time). A disk that comes nearer and overlaps (by rounding) collides now; one that overlaps and recedes, when it has
-// come back to where it is.
+// Is what is so far away (length) out of reach within `span` (time), at no more than this speed and acceleration? With
+// a margin far above the rounding of a contact's time.
+inline bool is_out_of_reach(double away, double speed, double acceleration, double span) {
+  constexpr double margin = 1.0 + 1e-6;
+  return away > margin * span * (speed + 0.5 * acceleration * span);
+}
+
+// Time from now, >= 0, until the disk touches the obstacle; `never` if not, or if it does so only after `span` (time)
+// or comes nearer only then. A disk that comes nearer and overlaps (by rounding) collides now; one that overlaps and
+// recedes, when it has come back to where it is.
 inline double time_to_contact_falling(const FallPast& fall, double span) {
   const double gap2 = fall.gap2(0.0);
   const double level = gap2 < 0.0 ? gap2 : 0.0;
@@ -100,6 +107,8 @@ inline double time_to_contact_falling(const FallPast& fall, double span) {
   const auto approach_slope = [&](double t) { return fall.approach_slope(t); };
   double here = fall.approach(0.0);
   if (gap2 <= 0.0 && here < 0.0) return 0.0;
+  const double away = std::sqrt(fall.x * fall.x + fall.y * fall.y) - fall.contact * (1.0 + 1e-6);
+  if (is_out_of_reach(away, std::sqrt(fall.vx * fall.vx + fall.vy * fall.vy), fall.g.size, span)) return never;
   const ApproachTurns turns = turns_of(fall);
   const double last = falls_away_by(fall, turns.time[1]);
 
@@ -181,19 +190,26 @@ inline double time_to_obstacle(const Obstacle& o, Vec2 apart, const PathSegment&
   return std::min(flat, ends);
 }
 
-// Likewise of a wall that moves: in its frame the disk falls with the difference of their accelerations, which does not
-// change within a window but where it vibrates as a sine. apart: of the disk and the wall where that is at time 0.
+// Likewise of a wall that moves, `never` where it is out of reach: in its frame the disk falls with the difference of
+// their accelerations, which does not change within a window but where it vibrates as a sine. apart: of the disk and
+// the wall where that is at time 0.
 [[gnu::noinline, gnu::cold]] inline double time_to_moving_wall(const Obstacle& o, Vec2 apart, const PathSegment& p,
                                                                double radius, const Domain& box, const Gravity& g,
                                                                double span) {
   const WallMotion& motion = box.obstacles->motion_of(o);
+  const SidePlace pace = motion.pace_at(box.clock, p.start);
+  const Vec2 from_wall{apart.x - motion.along.x * pace.inset, apart.y - motion.along.y * pace.inset};
+  const double away = shortest_line(o, from_wall).distance - (radius + o.radius) * (1.0 + 1e-6);
   if (motion.is_sine()) {
-    return time_to_swinging_wall({o, motion, motion.pace_at(box.clock, p.start)}, apart, p, radius, g, span);
+    const double speed = std::sqrt(p.vx * p.vx + p.vy * p.vy) + motion.largest_speed();
+    if (is_out_of_reach(away, speed, g.size, span)) return never;
+    return time_to_swinging_wall({o, motion, pace}, apart, p, radius, g, span);
   }
-  const WallPlace place = motion.at(box.clock, p.start);
-  const PathSegment seen{p.start, p.x, p.y, p.vx - place.velocity.x, p.vy - place.velocity.y};
-  const Gravity felt(g.left + place.acceleration.x, g.down + place.acceleration.y);
-  return time_to_obstacle(o, {apart.x - place.shift.x, apart.y - place.shift.y}, seen, radius, felt, span);
+  const PathSegment seen{p.start, p.x, p.y, p.vx - motion.along.x * pace.speed, p.vy - motion.along.y * pace.speed};
+  const Gravity felt(g.left + motion.along.x * pace.acceleration, g.down + motion.along.y * pace.acceleration);
+  const double speed = std::sqrt(seen.vx * seen.vx + seen.vy * seen.vy);
+  if (is_out_of_reach(away, speed, felt.size, span)) return never;
+  return time_to_obstacle(o, from_wall, seen, radius, felt, span);
 }
 
 // A sink that lies along a wall or a side is an opening in it: what touches both at one moment is taken. Rounding may
