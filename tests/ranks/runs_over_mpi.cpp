@@ -1,90 +1,15 @@
-// carom run and resume with --ranks: the files of one process, whatever the number of ranks, stopped, killed and taken
-// up again.
-#include <chrono>
-#include <random>
-
-#include "tests/support/program_support.hpp"
+// carom run and resume with --ranks: the files of one process, whatever the number of ranks, stopped and taken up
+// again.
+#include "tests/ranks/ranks_run.hpp"
 
 namespace carom {
 namespace {
 
 namespace fs = std::filesystem;
+using test::exact_tall;
 using test::Outcome;
+using test::RanksRun;
 using test::text_of;
-
-// Ranks on a busy machine wait for each other at every message: some hundred disks and a few steps.
-const std::string scene = R"([box]
-width = 20.0
-height = 40.0
-left = "periodic"
-right = "periodic"
-[[disks]]
-count = 200
-positions = "random"
-velocities = { maxwell = 1.0 }
-radius = { uniform = [0.3, 0.5] }
-mass = 1.0
-[run]
-method = "pairwise"
-dt = 0.01
-t_end = 0.4
-[output]
-every = 0.1
-trajectory = "xyz"
-series = true
-)";
-
-// Later than any run here comes before it is stopped.
-const std::string far_end = "--t-end 200";
-
-// Of a box so tall that its slabs depend on their neighbours' disks alone; frames lie within windows.
-const std::string exact_tall = " --method exact --set box.width=12 --set box.height=480 --set disks.0.count=1600 ";
-
-class RanksRun : public test::ProgramTest {
- protected:
-  RanksRun() { write("scene.toml", scene); }
-
-  // A run that goes on until it is stopped or killed, once it has written a checkpoint.
-  pid_t start_long(const std::string& folder, const std::string& ranks, const std::string& more = "") const {
-    std::vector<std::string> words{"run",
-                                   "scene.toml",
-                                   "--quiet",
-                                   "--t-end",
-                                   "1e4",
-                                   "--ranks",
-                                   ranks,
-                                   "--set",
-                                   "output.checkpoint=\"0.05 s\"",
-                                   "--set",
-                                   "output.every=1e3"};
-    std::istringstream list(more);
-    words.insert(words.end(), std::istream_iterator<std::string>(list), {});
-    words.insert(words.end(), {"-o", folder});
-    const pid_t run = start(words);
-    while (!fs::exists(at(folder) / "carom-unfinished/checkpoint.carom")) {
-      EXPECT_EQ(waitpid(run, nullptr, WNOHANG), 0) << said();
-      if (HasFailure()) break;
-      usleep(1000);
-    }
-    return run;
-  }
-
-  // The run of a folder has its last checkpoint, and from that comes to the end of the run `one`: some steps on so many
-  // ranks, and then alone, which is faster where there are more ranks than cores.
-  void expect_undisturbed(const std::string& folder, std::size_t ranks, const std::string& end = far_end) const {
-    const Outcome some = carom(fmt::format("resume {} --quiet --ranks {} --max-walltime 1e-9 ", folder, ranks) + end);
-    ASSERT_EQ(some.status, 4) << some.err;
-    ASSERT_EQ(carom("resume " + folder + " --quiet " + end).status, 0);
-    EXPECT_EQ(summary(folder)["state_hash"], summary("one")["state_hash"]);
-    EXPECT_EQ(summary(folder)["collisions"], summary("one")["collisions"]);
-  }
-
-  // Process ids of the ranks of the run of a folder.
-  std::vector<pid_t> ranks_of(const std::string& folder) const {
-    std::istringstream list(shell("pgrep -f '^[^ ]*carom-mpi run scene.toml.* -o " + folder + "$'").out);
-    return {std::istream_iterator<pid_t>(list), {}};
-  }
-};
 
 TEST_F(RanksRun, LeavesTheFilesOfOneProcess) {
   ASSERT_EQ(carom("run scene.toml --quiet -o one").status, 0);
@@ -223,60 +148,6 @@ TEST_F(RanksRun, ASignalStopsItWithACheckpoint) {
   EXPECT_NE(said().find("stopped by SIGTERM"), std::string::npos) << said();
   EXPECT_NE(said().find("carom resume out"), std::string::npos);
   EXPECT_EQ(carom("resume out --quiet --ranks 3 --max-walltime 1e-9").status, 4);
-}
-
-// Whichever of however many ranks dies, and whenever: the others end, one line says so, and the last checkpoint goes on
-// with another number of ranks as if nothing had been. Every third run is one of exact.
-TEST_F(RanksRun, AKilledRankEndsAllAndNothingIsLost) {
-  const std::string run_one = "run scene.toml --quiet --set output.every=1e3 ";
-  const std::string exact_end = "--t-end 3e3";
-  ASSERT_EQ(carom(run_one + far_end + " -o one_pairwise").status, 0);
-  ASSERT_EQ(carom(run_one + exact_end + exact_tall + "-o one_exact").status, 0);
-  std::mt19937 random(19);
-  for (int k = 0; k < 20; ++k) {
-    const bool exact = k % 3 == 2;
-    fs::remove_all(at("one"));
-    fs::copy(at(exact ? "one_exact" : "one_pairwise"), at("one"), fs::copy_options::recursive);
-    const std::size_t count = 2 + random() % 3;
-    const std::size_t victim = random() % count;
-    const auto delay = static_cast<useconds_t>(random() % 300'000);
-    SCOPED_TRACE(fmt::format("run {}: rank {} of {}, after {} us", k, victim, count, delay));
-    const std::string folder = fmt::format("killed{}", k);
-    const pid_t run = start_long(folder, std::to_string(count), exact ? exact_tall : "");
-    const std::vector<pid_t> ranks = ranks_of(folder);
-    ASSERT_EQ(ranks.size(), count);
-    const std::size_t before = said().size();
-    usleep(delay);
-    kill(ranks[victim], SIGKILL);
-    const auto begin = std::chrono::steady_clock::now();
-    EXPECT_EQ(wait_for(run), 1);
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
-    EXPECT_EQ(said().substr(before),
-              "carom: error: one of the ranks was killed by signal 9; the last checkpoint, if the run has written any, "
-              "is whole: carom resume with its folder\n");
-    EXPECT_TRUE(ranks_of(folder).empty());
-    expect_undisturbed(folder, 2 + (count - 1) % 3, exact ? exact_end : far_end);
-  }
-}
-
-// A rank that stands still is waited for.
-TEST_F(RanksRun, AStoppedRankIsWaitedFor) {
-  ASSERT_EQ(carom("run scene.toml --quiet --set output.every=1e3 -o one " + far_end).status, 0);
-  for (const std::size_t victim : {0U, 1U}) {
-    const std::string folder = fmt::format("stopped{}", victim);
-    const pid_t run = start_long(folder, "2");
-    const std::vector<pid_t> ranks = ranks_of(folder);
-    ASSERT_EQ(ranks.size(), 2U);
-    kill(ranks[victim], SIGSTOP);
-    sleep(3);
-    EXPECT_EQ(waitpid(run, nullptr, WNOHANG), 0) << said();
-    kill(ranks[victim], SIGCONT);
-    usleep(300'000);
-    EXPECT_EQ(waitpid(run, nullptr, WNOHANG), 0) << said();
-    kill(run, SIGTERM);
-    EXPECT_EQ(wait_for(run), 4) << said();
-    expect_undisturbed(folder, 3);
-  }
 }
 
 TEST_F(RanksRun, WhatRanksCannotDoIsSaidInOneLine) {

@@ -1,0 +1,75 @@
+// carom run and resume with --ranks where a rank is killed or stands still.
+#include <chrono>
+#include <random>
+
+#include "tests/ranks/ranks_run.hpp"
+
+namespace carom {
+namespace {
+
+using test::exact_tall;
+using test::far_end;
+using test::RanksRun;
+
+// Whichever of however many ranks dies, and whenever: the others end, one line says so, and from the last checkpoint
+// the run goes on with another number of ranks as if nothing had been; where it is killed again, until after four times
+// one process brings it to its end. Every other run is one of exact. The ends are later than any run here comes to.
+TEST_F(RanksRun, AKilledRankEndsAllAndNothingIsLost) {
+  const std::string run_one = "run scene.toml --quiet --set output.every=1e3 ";
+  const std::string end = "--t-end 1e3";
+  const std::string exact_end = "--t-end 1e4";
+  ASSERT_EQ(carom(run_one + end + " -o one_pairwise").status, 0);
+  ASSERT_EQ(carom(run_one + exact_end + exact_tall + "-o one_exact").status, 0);
+  std::mt19937 random(19);
+  for (int k = 0; k < 5; ++k) {
+    const bool exact = k % 2 == 1;
+    const std::string folder = fmt::format("killed{}", k);
+    std::size_t count = 2 + random() % 3;
+    for (int kills = 0; kills < 4; ++kills, count = 2 + (count - 1) % 3) {
+      const std::size_t victim = random() % count;
+      const auto delay = static_cast<useconds_t>(random() % 300'000);
+      SCOPED_TRACE(fmt::format("run {}: rank {} of {}, after {} us", k, victim, count, delay));
+      const std::string ranks = std::to_string(count);
+      const pid_t run = kills == 0 ? start_long(folder, ranks, exact ? exact_tall : "") : resume_long(folder, ranks);
+      const std::vector<pid_t> all = ranks_of(folder);
+      ASSERT_EQ(all.size(), count);
+      const std::size_t before = said().size();
+      usleep(delay);
+      kill(all[victim], SIGKILL);
+      const auto begin = std::chrono::steady_clock::now();
+      EXPECT_EQ(wait_for(run), 1);
+      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+      EXPECT_EQ(said().substr(before),
+                "carom: error: one of the ranks was killed by signal 9; the last checkpoint, if the run has written "
+                "any, is whole: carom resume with its folder\n");
+      EXPECT_TRUE(ranks_of(folder).empty());
+    }
+    const std::string one = exact ? "one_exact" : "one_pairwise";
+    ASSERT_EQ(carom("resume " + folder + " --quiet " + (exact ? exact_end : end)).status, 0);
+    EXPECT_EQ(summary(folder)["state_hash"], summary(one)["state_hash"]);
+    EXPECT_EQ(summary(folder)["collisions"], summary(one)["collisions"]);
+  }
+}
+
+// A rank that stands still is waited for.
+TEST_F(RanksRun, AStoppedRankIsWaitedFor) {
+  ASSERT_EQ(carom("run scene.toml --quiet --set output.every=1e3 -o one " + far_end).status, 0);
+  for (const std::size_t victim : {0U, 1U}) {
+    const std::string folder = fmt::format("stopped{}", victim);
+    const pid_t run = start_long(folder, "2");
+    const std::vector<pid_t> ranks = ranks_of(folder);
+    ASSERT_EQ(ranks.size(), 2U);
+    kill(ranks[victim], SIGSTOP);
+    sleep(3);
+    EXPECT_EQ(waitpid(run, nullptr, WNOHANG), 0) << said();
+    kill(ranks[victim], SIGCONT);
+    usleep(300'000);
+    EXPECT_EQ(waitpid(run, nullptr, WNOHANG), 0) << said();
+    kill(run, SIGTERM);
+    EXPECT_EQ(wait_for(run), 4) << said();
+    expect_undisturbed(folder, 3);
+  }
+}
+
+}  // namespace
+}  // namespace carom
