@@ -90,12 +90,11 @@ TEST_P(ParallelBits, EqualTheReferenceAfterEveryStep) {
 }
 
 constexpr std::array methods{"pairwise", "rollback", "exact"};
-INSTANTIATE_TEST_SUITE_P(AllScenes, ParallelBits,
-                         ::testing::Combine(::testing::ValuesIn(methods), ::testing::Values("hot", "moving")),
-                         test::method_and_sides);
+// TiltedBits are fast, of the same methods and sides.
 INSTANTIATE_TEST_SUITE_P(LongAllScenes, ParallelBits,
                          ::testing::Combine(::testing::ValuesIn(methods),
-                                            ::testing::Values("wall", "periodic", "periodic_x", "sink", "soft")),
+                                            ::testing::Values("wall", "periodic", "periodic_x", "sink", "soft", "hot",
+                                                              "moving")),
                          test::method_and_sides);
 
 class TiltedBits : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {};
@@ -128,28 +127,31 @@ INSTANTIATE_TEST_SUITE_P(AllScenes, TiltedBits,
                                                               "moving")),
                          test::method_and_sides);
 
+class ThermostatBits : public ::testing::TestWithParam<const char*> {};
+
 // Thermostats, whose kicks fall between the steps, with the other features in turn.
-TEST(ThermostatBits, EqualTheReferenceAfterEveryStep) {
-  for (const char* method : {"pairwise", "rollback", "exact"}) {
-    for (const char* sides : {"wall", "periodic", "sink", "hot", "moving"}) {
-      std::size_t scenes = 0;
-      for (Features f : test::all_features(method, sides)) {
-        if (!f.diffusion.empty() || f.seed % 4 != 0) continue;
-        f.thermostat = ++scenes % 2 == 0 ? "langevin" : "andersen";
-        SCOPED_TRACE(f.name());
-        const Scene scene = test::feature_scene(f, steps);
-        const State start = initial_state(scene);
-        const Trace expected = trace_of(*make_reference_engine(scene, start), scene.run.t_end);
-        EXPECT_NE(expected.counters.thermostat_heat, 0.0);
-        for (const int threads : {1, 3}) {
-          expect_same(expected, trace_of(*make_parallel_engine(scene, start, {threads, 512}), scene.run.t_end));
-          if (::testing::Test::HasFatalFailure()) return;
-        }
+TEST_P(ThermostatBits, EqualTheReferenceAfterEveryStep) {
+  for (const char* sides : {"wall", "periodic", "sink", "hot", "moving"}) {
+    std::size_t scenes = 0;
+    for (Features f : test::all_features(GetParam(), sides)) {
+      if (!f.diffusion.empty() || f.seed % 4 != 0) continue;
+      f.thermostat = ++scenes % 2 == 0 ? "langevin" : "andersen";
+      SCOPED_TRACE(f.name());
+      const Scene scene = test::feature_scene(f, steps);
+      const State start = initial_state(scene);
+      const Trace expected = trace_of(*make_reference_engine(scene, start), scene.run.t_end);
+      EXPECT_NE(expected.counters.thermostat_heat, 0.0);
+      for (const int threads : {1, 3}) {
+        expect_same(expected, trace_of(*make_parallel_engine(scene, start, {threads, 512}), scene.run.t_end));
+        if (::testing::Test::HasFatalFailure()) return;
       }
-      EXPECT_GT(scenes, 2U);
     }
+    EXPECT_GT(scenes, 2U);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Methods, ThermostatBits, ::testing::Values("pairwise"));
+INSTANTIATE_TEST_SUITE_P(LongMethods, ThermostatBits, ::testing::Values("rollback", "exact"));
 
 // Blocks of any size give the same state: nothing depends on where one block ends and the next begins.
 TEST(ParallelBlocks, OfAnySizeGiveTheSameBits) {

@@ -121,7 +121,7 @@ TEST(LongRoughGas, CoolsAtTheSameRatioUnderPairwise) {
 
 // Perfectly rough and elastic, without spin at first: the difference of the two temperatures falls as
 // exp(-3 q / (1 + q)^2 per collision of a disk), to equipartition; the energy of both stays to rounding.
-TEST(RoughGas, ComesToEquipartition) {
+TEST(LongRoughGas, ComesToEquipartition) {
   for (const double q : {0.2, 0.5, 1.0}) {
     Gas g{1.0, 1.0, q};
     g.disks = 1500;

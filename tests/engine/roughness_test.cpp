@@ -303,7 +303,11 @@ TEST_P(Roughnesses, ResumedRunsHaveTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(AllMethods, Roughnesses,
                          ::testing::Combine(::testing::Values("pairwise", "rollback", "exact"),
-                                            ::testing::Values("wall", "periodic", "sink", "moving", "hot")),
+                                            ::testing::Values("moving", "hot")),
+                         test::method_and_sides);
+INSTANTIATE_TEST_SUITE_P(LongAllMethods, Roughnesses,
+                         ::testing::Combine(::testing::Values("pairwise", "rollback", "exact"),
+                                            ::testing::Values("wall", "periodic", "sink")),
                          test::method_and_sides);
 
 }  // namespace

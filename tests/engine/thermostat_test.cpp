@@ -72,7 +72,7 @@ TEST(Kick, KeepsMaxwellsDistribution) {
 
 // N disks have 2 N degrees of freedom: the mean of the kinetic energy is N T, its variance N T^2. An isolated gas has
 // none.
-TEST(Thermostat, GivesTheCanonicalEnsemble) {
+TEST(LongThermostat, GivesTheCanonicalEnsemble) {
   for (const char* method : {"exact", "pairwise"}) {
     for (const char* kind : kinds) {
       Bath b;

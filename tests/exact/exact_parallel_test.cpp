@@ -102,6 +102,9 @@ const std::string sheared =
 const std::string sheared_fast =
     "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = -1.0";
 const std::string soft = "wall_restitution = 0.7";
+const std::string settling = "gravity = 1.0\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.01 }";
+
+const auto name_of = [](const auto& p) { return std::string(p.param.name); };
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, ExactParallel,
@@ -113,51 +116,51 @@ INSTANTIATE_TEST_SUITE_P(
         ParallelCase{"few", {9, 9, "periodic", "", disks(30, equal), 20, ""}},
         ParallelCase{"fluid", {25, 25, "periodic", "", disks(350, equal), 6, ""}},
         ParallelCase{"sheared_few", {9, 11, sheared, "", disks(30, equal), 20, ""}},
-        ParallelCase{"sheared", {25, 25, sheared, "", disks(350, equal), 8, ""}},
-        ParallelCase{"sheared_fast", {25, 30, sheared_fast, "restitution = 0.9", disks(350, equal), 6, ""}},
         ParallelCase{"sheared_mixed", {40, 24, sheared, "restitution = 0.8", disks(250, mixed), 12, ""}},
-        ParallelCase{"sheared_dilute", {80, 80, sheared, "", disks(150, equal), 60, ""}},
         ParallelCase{"walls", {25, 25, "wall", "", disks(300, equal), 6, ""}},
         ParallelCase{"dilute", {80, 80, "periodic", "", disks(150, equal), 60, ""}},
-        ParallelCase{"crystal", {21, 21, "periodic", "", lattice, 3, ""}},
         ParallelCase{"narrow", {2.3, 300, "left = \"periodic\"\nright = \"periodic\"", "", disks(150, equal), 10, ""}},
         ParallelCase{"gravity", {20, 30, "wall", "gravity = 1.5", disks(250, equal), 6, ""}},
         ParallelCase{"falling_for_ever", {20, 20, "periodic", "gravity = 2.0", disks(200, equal), 4, ""}},
         ParallelCase{"tilted", {20, 30, "wall", "gravity = [-0.9, -1.2]", disks(250, equal), 6, ""}},
-        ParallelCase{"tilted_mixed", {24, 24, "wall", "gravity = [0.9, 0.2]", disks(200, mixed), 8, ""}},
         ParallelCase{"falling_sideways", {20, 20, "periodic", "gravity = [2.0, 0.0]", disks(200, equal), 4, ""}},
         ParallelCase{"falling_askew", {20, 20, "periodic", "gravity = [-1.0, 1.5]", disks(200, equal), 4, ""}},
         ParallelCase{"mixed", {30, 30, "wall", "", disks(250, mixed), 12, ""}},
         ParallelCase{"mixed_inelastic", {30, 30, "periodic", "restitution = 0.8", disks(250, mixed), 12, ""}},
         ParallelCase{"giants_in_dust", {24, 24, "periodic", "", giants + disks(400, dust), 10, ""}},
-        ParallelCase{
-            "tc",
-            {20, 40, soft, "gravity = 1.0\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.01 }",
-             disks(120, mixed), 12, ""}},
-        ParallelCase{"tc_tilted",
-                     {20, 40, soft,
-                      "gravity = [0.6, -0.8]\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.01 }",
-                      disks(120, mixed), 12, ""}},
+        ParallelCase{"tc", {20, 40, soft, settling, disks(120, mixed), 12, ""}},
         ParallelCase{"hot", {25, 25, hot, "restitution = 0.95", disks(300, equal), 6, ""}},
-        ParallelCase{"hot_mixed", {30, 30, hot, "gravity = 0.4", disks(250, mixed), 12, ""}},
         ParallelCase{"hot_with_source", {20, 20, hot, "", sources, 10, ""}},
         ParallelCase{"piston", {25, 25, piston, "", disks(250, equal), 6, ""}},
         ParallelCase{"piston_of_resting_disks", {25, 25, piston, "", disks(150, "radius = 0.5\nmass = 1.0"), 12, ""}},
         ParallelCase{"shaken", {20, 30, shaken, "gravity = 1.0\nrestitution = 0.9", disks(150, mixed), 6, ""}},
-        ParallelCase{
-            "shaken_tc",
-            {20, 30, shaken, "gravity = 1.0\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.01 }",
-             disks(120, mixed), 6, ""}},
-        ParallelCase{"shaken_fast", {20, 20, shaken_fast, "", disks(150, equal), 2, ""}},
+        ParallelCase{"shaken_tc", {20, 30, shaken, settling, disks(120, mixed), 6, ""}},
         ParallelCase{"swinging", {20, 20, swinging, "", disks(150, equal), 2, ""}},
         ParallelCase{"brownian", {20, 20, "periodic", "diffusion = 0.5", disks(200, equal), 1, "dt = 0.01"}},
-        ParallelCase{"brownian_sinks", {20, 20, "sink", "diffusion = 0.5", disks(200, equal), 3, "dt = 0.01"}},
-        ParallelCase{"brownian_accumulating",
-                     {20, 20, "wall", "diffusion = 0.5\naccumulate = true", disks(200, equal), 1, "dt = 0.02"}},
         ParallelCase{"sinks", {20, 20, "sink", "", disks(200, equal), 10, ""}},
         ParallelCase{"sources", {20, 20, open_sides, "", disks(100, equal) + sources, 10, ""}},
         ParallelCase{"sources_alone", {20, 20, open_sides, "gravity = 0.2", sources, 10, ""}}),
-    [](const auto& p) { return std::string(p.param.name); });
+    name_of);
+
+// More of the same kinds, each of which takes a third of a second.
+INSTANTIATE_TEST_SUITE_P(
+    LongScenes, ExactParallel,
+    testing::Values(
+        ParallelCase{"sheared", {25, 25, sheared, "", disks(350, equal), 8, ""}},
+        ParallelCase{"sheared_fast", {25, 30, sheared_fast, "restitution = 0.9", disks(350, equal), 6, ""}},
+        ParallelCase{"sheared_dilute", {80, 80, sheared, "", disks(150, equal), 60, ""}},
+        ParallelCase{"crystal", {21, 21, "periodic", "", lattice, 3, ""}},
+        ParallelCase{"tilted_mixed", {24, 24, "wall", "gravity = [0.9, 0.2]", disks(200, mixed), 8, ""}},
+        ParallelCase{"tc_tilted",
+                     {20, 40, soft,
+                      "gravity = [0.6, -0.8]\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.01 }",
+                      disks(120, mixed), 12, ""}},
+        ParallelCase{"hot_mixed", {30, 30, hot, "gravity = 0.4", disks(250, mixed), 12, ""}},
+        ParallelCase{"shaken_fast", {20, 20, shaken_fast, "", disks(150, equal), 2, ""}},
+        ParallelCase{"brownian_sinks", {20, 20, "sink", "diffusion = 0.5", disks(200, equal), 3, "dt = 0.01"}},
+        ParallelCase{"brownian_accumulating",
+                     {20, 20, "wall", "diffusion = 0.5\naccumulate = true", disks(200, equal), 1, "dt = 0.02"}}),
+    name_of);
 
 // Random scenes over all features.
 TEST(ExactParallelRandom, ScenesOfAllFeatures) {
@@ -203,9 +206,8 @@ TEST(LongExactParallelContacts, OfDisksWithoutRoom) {
   const std::string chain =
       "[[disks]]\ncount = 7\nradius = [0.09, 0.075, 0.3, 0.15, 0.3, 0.0375, 0.0375]\nmass = 1\n"
       "positions = [[0.09, 0.6], [0.255, 0.6], [0.63, 0.6], [1.08, 0.6], [1.53, 0.6], [1.8675, 0.6], [1.9425, 0.6]]\n"
-      "velocities = [[-0.5677, 0.5323], [-0.8774, -0.9481], [0.2839, -0.6561], [0.02699, -0.5021], [-0.4054, "
-      "-0.02009], "
-      "[-0.1341, 0.02006], [-0.3667, 0.5227]]\n";
+      "velocities = [[-0.5677, 0.5323], [-0.8774, -0.9481], [0.2839, -0.6561], [0.02699, -0.5021], "
+      "[-0.4054, -0.02009], [-0.1341, 0.02006], [-0.3667, 0.5227]]\n";
   const Scene scene = make_scene({1.98, 1.2, "periodic", "", chain, 10, ""});
   const State initial = initial_state(scene);
   const auto reference = make_reference_exact(scene, initial);
@@ -306,7 +308,7 @@ TEST(ExactParallelSpeeds, ThatRiseAThousandfoldWithinAWindow) {
 }
 
 // Parts and regions of the size that runs have.
-TEST(ExactParallelSize, PartsAndRegionsAsTheyAre) {
+TEST(LongExactParallelSize, PartsAndRegionsAsTheyAre) {
   const Scene scene = make_scene({285, 285, "periodic", "", disks(50000, equal), 0.12, ""});
   const State initial = initial_state(scene);
   const std::string reference = fingerprint(run_reference(scene, initial));

@@ -87,7 +87,7 @@ Tally run_beside_one_queue(const Scene& scene, int threads, std::size_t divisor,
   return tally;
 }
 
-TEST(HaloWindows, HardlyAnyIsVoid) {
+TEST(LongHaloWindows, HardlyAnyIsVoid) {
   const Scene scene = make_scene({100, 100, "periodic", "", disks(5000, equal), 1000, ""});
   for (const int threads : {2, 3}) {
     SCOPED_TRACE(threads);
@@ -113,7 +113,7 @@ TEST(HaloWindows, AreVoidWhereHalosAreTooNarrow) {
 
 // Work is cut so small that a part has 5 10^5 / 512 disks, if a thread has more than twice as many.
 // Halos of work cut so small are so narrow that most windows are void; those that are done have the right bits.
-TEST(HaloWindows, SeveralOnEachThread) {
+TEST(LongHaloWindows, SeveralOnEachThread) {
   const Scene scene = make_scene({100, 100, "periodic", "", disks(5000, equal), 1000, ""});
   for (const auto& [threads, parts] : {std::pair{1, 6U}, std::pair{2, 6U}, std::pair{3, 3U}}) {
     SCOPED_TRACE(threads);
@@ -123,7 +123,7 @@ TEST(HaloWindows, SeveralOnEachThread) {
   }
 }
 
-TEST(HaloWindows, OfOtherScenes) {
+TEST(LongHaloWindows, OfOtherScenes) {
   const std::vector<SceneText> scenes{
       {140, 50, "periodic", "", disks(3500, equal), 1000, ""},
       {60, 120, "wall", "gravity = [0.1, 0.5]", disks(3500, equal), 1000, ""},
@@ -191,7 +191,7 @@ TEST(HaloWindows, AreCrowdedAsOneQueueIs) {
 }
 
 // A disk a hundred times as fast as the others flies through parts in a window.
-TEST(HaloWindows, WithAProjectile) {
+TEST(LongHaloWindows, WithAProjectile) {
   const std::string projectile =
       "[[disks]]\ncount = 1\npositions = [[50, 50]]\nvelocities = [[7, 99]]\nradius = 0.5\nmass = 1\n";
   const Scene scene = make_scene({100, 100, "periodic", "", projectile + disks(4000, equal), 1000, ""});

@@ -127,6 +127,7 @@ class CheckpointFile : public ::testing::Test {
   test::TestFolder folder_;
   std::string whole_;
 };
+using LongCheckpointFile = CheckpointFile;
 
 TEST_F(CheckpointFile, GivesBackEveryBit) {
   const Checkpoint back = read_checkpoint(path());
@@ -230,7 +231,7 @@ TEST_F(CheckpointFile, AnEmptyStateToo) {
   EXPECT_FALSE(back.record.outputs.trajectory.has_value());
 }
 
-TEST_F(CheckpointFile, EveryFlippedBitIsRefused) {
+TEST_F(LongCheckpointFile, EveryFlippedBitIsRefused) {
   ASSERT_EQ(complaint_of(path()), "");
   std::fstream file(path(), std::ios::in | std::ios::out | std::ios::binary);
   const auto put = [&](std::size_t at, char byte) {

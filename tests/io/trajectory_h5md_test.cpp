@@ -80,7 +80,7 @@ std::pair<int, std::string> compare(const TestFolder& folder, const std::string&
                (folder.path() / b).string());
 }
 
-TEST(TrajectoryH5md, PythonReadsTheSameBitsFromBothFormats) {
+TEST(LongTrajectoryH5md, PythonReadsTheSameBitsFromBothFormats) {
   const TestFolder folder("h5md_python");
   run_scene(folder, "xyz");
   run_scene(folder, "h5", "--set output.trajectory=h5md");
@@ -245,7 +245,7 @@ TEST(LongTrajectoryH5md, EqualRunsLeaveEqualFiles) {
 
 // A child writes and flushes frame after frame, and is killed as soon as it has reported the k-th, while it writes one
 // of the next. A later kill finds the file that an earlier one left.
-TEST(TrajectoryH5md, AKilledWritersFileIsWholeAndGoesOn) {
+TEST(LongTrajectoryH5md, AKilledWritersFileIsWholeAndGoesOn) {
   const TestFolder folder("h5md_killed");
   const std::string path = (folder.path() / "trajectory.h5").string();
   Count kept = 0;

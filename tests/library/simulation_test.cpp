@@ -200,7 +200,7 @@ std::uint64_t hash_after_changes(const Scene& scene, const EngineChoice& engine,
   return s.hash();
 }
 
-TEST(Simulation, ManyChangesHaveTheReferencesBits) {
+TEST(LongSimulation, ManyChangesHaveTheReferencesBits) {
   for (const char* method : methods) {
     for (const char* radius : {"0.3", "{ uniform = [0.1, 0.6] }"}) {
       for (const char* sides : {"", "left = \"periodic\"\nright = \"periodic\"\n"}) {

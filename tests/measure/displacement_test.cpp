@@ -74,7 +74,7 @@ TEST(Displacement, FreeFlightGoesRoundTheBox) {
 }
 
 // So many that speeds are asked for seldom.
-TEST(Displacement, ManyDisksAreFollowedToo) {
+TEST(LongDisplacement, ManyDisksAreFollowedToo) {
   const Scene scene = periodic_scene(Method::exact, 0.0, 1.0);
   const std::vector<Disk> list = rows(5000, 10.0);
   const auto engine = make_parallel_engine(scene, test::state_of(scene, list), {2});

@@ -118,7 +118,7 @@ TEST_F(AnalysisRun, AKilledRunLeavesAFileThatOpens) {
   EXPECT_EQ(o.out, "0.0\n") << o.err;
 }
 
-TEST_F(AnalysisRun, AloneItHasAFolderAndAFullDiskIsAnError) {
+TEST_F(LongAnalysisRun, AloneItHasAFolderAndAFullDiskIsAnError) {
   write("alone.toml", test::busy_scene("pairwise", "movie = false\n" + analysis, "none"));
   const std::string run = "run alone.toml --quiet --t-end 0.5 --set output.series=false ";
   ASSERT_EQ(carom(run).status, 0);

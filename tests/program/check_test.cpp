@@ -45,7 +45,7 @@ method = "exact"
 t_end = 100.0
 )";
 
-TEST_F(Check, CollapseOnAFloorIsPredictedWithItsTime) {
+TEST_F(LongCheck, CollapseOnAFloorIsPredictedWithItsTime) {
   write("fall.toml", falling_disk);
   const Json j = check("fall.toml");
   EXPECT_EQ(j["collapse_expected"], true);
@@ -93,7 +93,7 @@ TEST_F(Check, TheSafeStepIsThatAfterTheFall) {
 }
 
 // Nothing moves at the start, but walls and baths will see to that: 0.25, half a radius, over what they give.
-TEST_F(Check, WallsAndBathsAskForShorterSteps) {
+TEST_F(LongCheck, WallsAndBathsAskForShorterSteps) {
   write("rest.toml", falling_disk);
   const std::string rest =
       "rest.toml --method pairwise --dt 1.0 --t-end 10 --set physics.gravity=0.0 --set physics.restitution=0.9";
@@ -189,7 +189,7 @@ TEST_F(LongCheck, AMovieIsWhatAShortRunCosts) {
   EXPECT_THAT(carom("check small.toml --set output.movie=true").out, HasSubstr(", frames and movie "));
 }
 
-TEST_F(Check, ItsRehearsalLeavesNothingBehindAndIsNotNeeded) {
+TEST_F(LongCheck, ItsRehearsalLeavesNothingBehindAndIsNotNeeded) {
   fs::create_directories(at("temporary"));
   const std::string wants = " check small.toml --set output.movie=true";
   EXPECT_EQ(shell("TMPDIR=$PWD/temporary $C" + wants).status, 0);

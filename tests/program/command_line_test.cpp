@@ -17,23 +17,40 @@ using ::testing::StartsWith;
 using CommandLine = test::CommandTest;
 using LongCommandLine = CommandLine;
 
+using Usages = std::vector<std::pair<std::string, std::string>>;
+
 TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
-  const std::vector<std::pair<std::string, std::string>> cases{
+  const Usages cases{
       {"", "no command given; expected one of run, check, resume, compare, render, view, sweep, chart, docs"},
       {"rnu small.toml",
        "there is no command \"rnu\"; expected one of run, check, resume, compare, render, view, sweep, chart, docs "
        "(nearest: "
        "run)"},
-      {"--jsn", "no option \"--jsn\" before the command"},
       {"run", "run: no scene file given"},
       {"run --methd pairwise small.toml", "run: there is no option \"--methd\""},
+      {"run small.toml --dt abc", "--dt: \"abc\" is not a number"},
+      {"run small.toml --threads two", "--threads: is \"two\""},
+      {"run small.toml --set run.dtt=1", "--set run.dtt: unknown key"},
+      {"run missing.toml", "missing.toml: "},
+      {"resume", "resume: no checkpoint given"},
+      {"check", "check: no scene file given"},
+      {"compare small.toml", "compare: two outputs are needed"},
+      {"render", "render: no folder given"},
+      {"view", "view: no folder given; expected carom view DIR"},
+  };
+  for (const auto& [arguments, what] : cases) expect_error("$C " + arguments, 2, what);
+  EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "nothing is left behind";
+}
+
+TEST_F(LongCommandLine, OtherBadUsageIsOneLineWithStatusTwo) {
+  const Usages cases{
+      {"--jsn", "no option \"--jsn\" before the command"},
       {"run --methd pairwise small.toml", "(nearest: --method)"},
       {"run -- small.toml --quiet", "run: one argument too many, \"--quiet\""},
       {"run small.toml -- other.toml", "one argument too many, \"other.toml\""},
       {"run --", "run: no scene file given"},
       {"run small.toml other.toml", "one argument too many, \"other.toml\""},
       {"run small.toml --dt", "--dt: its value is missing"},
-      {"run small.toml --dt abc", "--dt: \"abc\" is not a number"},
       {"run small.toml --dt 0.1x", "--dt: \"0.1x\" is not a number"},
       {"run small.toml --dt nan", "--dt: \"nan\" is not a number"},
       {"run small.toml --dt -1", "--dt: is -1; expected a number above 0"},
@@ -44,29 +61,23 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
       {"run small.toml --method pairwize", "(nearest: pairwise)"},
       {"run small.toml --engine fast", "--engine: there is no engine \"fast\""},
       {"run small.toml --threads 0", "--threads: is \"0\"; expected a whole number of 1 or more"},
-      {"run small.toml --threads two", "--threads: is \"two\""},
       {"run small.toml --ranks 0", "--ranks: is \"0\"; expected a whole number of 1 or more"},
       {"run small.toml --set dt", "--set: is \"dt\"; expected KEY=VALUE"},
-      {"run small.toml --set run.dtt=1", "--set run.dtt: unknown key"},
       {"run small.toml --set run.dt=-1", "--set run.dt: is -1"},
       {"run small.toml -o --json", "-o: \"--json\" is an option"},
       {"run small.toml -o small.toml", "small.toml: is a file; expected a folder"},
       {"run small.toml -o small.toml/out", "cannot be made: Not a directory"},
       {"run small.toml -o /dev/full", "/dev/full: is a file"},
-      {"run missing.toml", "missing.toml: "},
       {"run small.toml --max-walltime soon",
        "--max-walltime: is \"soon\"; expected a time such as 30 s, 10 min or 2 h"},
       {"run small.toml --set output.checkpoint=0", "--set output.checkpoint: is 0; expected a number above 0"},
       {"run small.toml --set output.checkpoint='\"2 days\"'",
        "--set output.checkpoint: is \"2 days\"; expected a time"},
-      {"resume", "resume: no checkpoint given"},
       {"resume missing", "missing: does not exist; expected a checkpoint"},
       {"resume .", ".: holds no checkpoint"},
       {"resume small.toml", "small.toml: is no checkpoint of Carom"},
       {"resume small.toml --dt 1", "resume: there is no option \"--dt\""},
-      {"check", "check: no scene file given"},
       {"check small.toml --json --dt x", "--dt: \"x\" is not a number"},
-      {"compare small.toml", "compare: two outputs are needed"},
       {"compare missing small.toml", "missing: does not exist"},
       {"compare a b --tolerance x", "--tolerance: \"x\" is not a number"},
       {"compare a b --tolerance -1", "--tolerance: is -1; expected a number of 0 or more"},
@@ -74,11 +85,9 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
       {"compare a b --times 3", "--times: is \"3\"; expected FROM:TO"},
       {"compare a b --times 3:2", "--times: is \"3:2\"; expected the earlier time first"},
       {"compare a b --times 0:1 --at 2", "--at: cannot be used with --times"},
-      {"render", "render: no folder given"},
       {"render .", ".: holds no trajectory.xyz"},
       {"render small.toml", "small.toml:1: "},
       {"render small.toml", "is no number of disks; expected trajectory.xyz or trajectory.h5 of a run, or its folder"},
-      {"view", "view: no folder given; expected carom view DIR"},
       {"view .", ".: holds no trajectory.xyz"},
       {"view missing", "missing: does not exist"},
       {"view small.toml", "small.toml:1: "},
@@ -226,7 +235,7 @@ TEST_F(CommandLine, CompareFindsTheFirstBit) {
   EXPECT_THAT(o.out, HasSubstr("steps           100 against 150"));
 }
 
-TEST_F(CommandLine, RenderMakesAPictureAndAMovie) {
+TEST_F(LongCommandLine, RenderMakesAPictureAndAMovie) {
   ASSERT_EQ(carom("run small.toml --quiet -o out --set output.every=0.5").status, 0);
   EXPECT_EQ(carom("render out --frame 2").out, "out/frame_2.png\n");
   EXPECT_THAT(text_of(at("out/frame_2.png")), StartsWith("\x89PNG"));

@@ -108,7 +108,7 @@ TEST_F(Launcher, TestListsAndPrintsAllWhereAsked) {
   EXPECT_THAT(launch("root/carom test -N").out, HasSubstr("Start  1: A.One"));
 }
 
-TEST_F(Launcher, BuildingShowsNinjasLineOnATerminalOnly) {
+TEST_F(LongLauncher, BuildingShowsNinjasLineOnATerminalOnly) {
   tool("ctest", "true");
   EXPECT_THAT(launch("root/carom test").err, Not(HasSubstr("compiler")));
   launch("rm root/built");
@@ -127,7 +127,7 @@ TEST_F(Launcher, ABuildThatFailsSaysWhy) {
   }
 }
 
-TEST_F(Launcher, CountsAreOfTheProgramBuiltNow) {
+TEST_F(LongLauncher, CountsAreOfTheProgramBuiltNow) {
   tool("ninja", "echo \"$*\" >>$ROOT/ninja_asked");
   fs::create_directories(at("root/bench"));
   write("root/bench/counts.sh", "echo \"$*\"; exit 3");
@@ -141,7 +141,7 @@ TEST_F(Launcher, CountsAreOfTheProgramBuiltNow) {
   EXPECT_THAT(test::text_of(at("root/ninja_asked")), HasSubstr(" carom carom_counts\n"));
 }
 
-TEST_F(Launcher, PythonHasTheModuleOnItsPathAndItsPackagesOnlyThen) {
+TEST_F(LongLauncher, PythonHasTheModuleOnItsPathAndItsPackagesOnlyThen) {
   write("root/cmake/packages.txt", "[build]\ncompiler\n[python]\nheaders\n");
   const std::string line = "root/carom python -c 'import os; print(os.environ[\"PYTHONPATH\"])'";
   EXPECT_THAT(launch(line).err, HasSubstr("could not install: headers"));

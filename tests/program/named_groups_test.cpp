@@ -192,7 +192,7 @@ TEST_F(NamedGroupsRun, ATrajectoryShowsTheGroupInBothFormats) {
 }
 
 // What the analysis of a group says is what it says of a scene that has no other disks.
-TEST_F(NamedGroupsRun, AnalysisOfAGroupIsThatOfItsDisksAlone) {
+TEST_F(LongNamedGroupsRun, AnalysisOfAGroupIsThatOfItsDisksAlone) {
   const std::string what =
       "[analysis]\nwhat = [\"pair_correlation\", \"displacement\", \"speeds\", \"density\", \"collision_rate\"]\n"
       "pair_correlation = { r_max = 4.0, bins = 20 }\nselect = \"tracer\"\n";

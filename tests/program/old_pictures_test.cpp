@@ -26,6 +26,7 @@ class OldPictures : public test::ProgramTest {
     return shell("PATH=$PWD/bin:$PATH $C resume out --quiet --t-end 2 " + options);
   }
 };
+using LongOldPictures = OldPictures;
 
 const std::string first_part = "run busy.toml --quiet -o out --t-end 1 --set output.every=0.5 ";
 
@@ -40,7 +41,7 @@ TEST_F(OldPictures, APartOfTheMovieThatIsGoneIsMissed) {
   EXPECT_TRUE(fs::exists(unfinished / "checkpoint.carom"));
 }
 
-TEST_F(OldPictures, WhatCannotBeMadeAnewIsNotThatOfAnEarlierEnd) {
+TEST_F(LongOldPictures, WhatCannotBeMadeAnewIsNotThatOfAnEarlierEnd) {
   ASSERT_EQ(carom(first_part).status, 0);
   ASSERT_TRUE(fs::exists(at("out/movie.mp4")) && fs::exists(at("out/energy.svg")));
   const Outcome o = resume_without_pictures("");
@@ -55,7 +56,7 @@ TEST_F(OldPictures, WhatCannotBeMadeAnewIsNotThatOfAnEarlierEnd) {
 }
 
 // Without a trajectory nothing could make the movie again: the old one stays, and the message says what it is.
-TEST_F(OldPictures, AMovieThatIsAllThereIsStays) {
+TEST_F(LongOldPictures, AMovieThatIsAllThereIsStays) {
   ASSERT_EQ(carom(first_part + "--set output.trajectory='\"none\"'").status, 0);
   const Outcome o = resume_without_pictures("");
   EXPECT_EQ(o.status, 1);

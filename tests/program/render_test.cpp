@@ -54,7 +54,7 @@ class Render : public test::ProgramTest {
 };
 using LongRender = Render;
 
-TEST_F(Render, TheScenesMovieLooksAsItSays) {
+TEST_F(LongRender, TheScenesMovieLooksAsItSays) {
   run_small();
   EXPECT_EQ(probe("out/movie.mp4"), "h264,640,400,5/1,5\n");
   ASSERT_EQ(carom("render out -o again.mp4 --quiet").status, 0);
@@ -106,7 +106,7 @@ TEST_F(Render, WhatItCannotMakeIsRefusedInOneLine) {
 }
 
 // Where ffmpeg is missing a movie is a folder of frames, which is asked for and replaced as a file would be.
-TEST_F(Render, FramesOfAMovieAreReplacedByForceOnly) {
+TEST_F(LongRender, FramesOfAMovieAreReplacedByForceOnly) {
   run_small("--set output.movie=false");
   const std::string render = "PATH=/nonexistent $C render out ";
   const Outcome first = shell(render);

@@ -132,7 +132,7 @@ std::vector<Case> obstructed_cases() {
            group(103, "{ uniform = [1, 2] }") + test::replaced(pegs, "[0.5, 9.0]", "[7.5, 9.0]") + walls}};
 }
 
-TEST(Growth, KeepsClearOfObstaclesToTheLastBit) {
+TEST(LongGrowth, KeepsClearOfObstaclesToTheLastBit) {
   for (const Case& c : obstructed_cases()) {
     SCOPED_TRACE(c.name);
     const Scene scene = scene_from(text_of(c.box, c.disks));
