@@ -25,7 +25,7 @@ class InterruptedRun : public test::ProgramTest {
 };
 using LongInterruptedRun = InterruptedRun;
 
-TEST_F(InterruptedRun, StoppedAgainAndAgainItGivesTheSameResults) {
+TEST_F(LongInterruptedRun, StoppedAgainAndAgainItGivesTheSameResults) {
   for (const std::string method : {"pairwise", "exact"}) {
     ASSERT_EQ(carom("run busy.toml --quiet -o whole --force --t-end 8 --method " + method).status, 0);
     const Resumed resumed = resume_to_the_end(
@@ -40,7 +40,7 @@ TEST_F(InterruptedRun, StoppedAgainAndAgainItGivesTheSameResults) {
 }
 
 // What a warning counts goes on, too: it comes in the part in which the undisturbed run has it, once.
-TEST_F(InterruptedRun, ItWarnsOfTheSame) {
+TEST_F(LongInterruptedRun, ItWarnsOfTheSame) {
   const std::string scene = CAROM_SOURCE_DIR "/scenes/stability/f02_bounce_at_a_distance.toml";
   const std::string dense = " --set disks.0.count=300 --set box.packing_fraction=0.5 --method pairwise --dt 0.05";
   const std::string warning = "collisions were seen a step late";

@@ -243,7 +243,7 @@ TEST_F(RunResults, WhereResultsGo) {
   EXPECT_THAT(o.err, IsEmpty());
 }
 
-TEST_F(RunResults, AFullDiskLeavesNothing) {
+TEST_F(LongRunResults, AFullDiskLeavesNothing) {
   // The limit on the size of a file, in blocks of 512 bytes, acts like a full disk on each file that reaches it.
   const std::string run = "ulimit -f 8; $C run small.toml --quiet -o full/out ";
   expect_error(run + "--set output.every=0.01", 1, "trajectory.xyz: File too large");
@@ -313,7 +313,7 @@ TEST_F(LongRunResults, APlotThatFailsCostsNothingElse) {
   EXPECT_FALSE(fs::exists(at("out/checkpoint.carom")));
 }
 
-TEST_F(RunResults, AMovieThatFailsCostsNothingElse) {
+TEST_F(LongRunResults, AMovieThatFailsCostsNothingElse) {
   fs::create_directories(at("bin"));
   write("bin/ffmpeg", "#!/bin/sh\nhead -c 1000 >/dev/null\necho broken >&2\nexit 1\n");
   fs::permissions(at("bin/ffmpeg"), fs::perms::owner_all);

@@ -73,6 +73,7 @@ class SweepTest : public testing::Test {
   TestFolder folder_;
   std::string scene_;
 };
+using LongSweepTest = SweepTest;
 
 TEST_F(SweepTest, RunsTheGridAndGoesOnWhereItStopped) {
   const std::string words =
@@ -281,7 +282,7 @@ TEST_F(SweepTest, WarningsAreCounted) {
 // --- Frames
 // -----------------------------------------------------------------------------------------------------------
 
-TEST_F(SweepTest, AFrameOfAnEarlierRunIsAStart) {
+TEST_F(LongSweepTest, AFrameOfAnEarlierRunIsAStart) {
   for (const std::string format : {"xyz", "h5md"}) {
     ASSERT_EQ(
         carom("run gas.toml -o first --force --quiet --set output.every=0.25 --set output.trajectory=" + format).first,

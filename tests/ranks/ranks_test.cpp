@@ -38,8 +38,8 @@ TEST_P(LocalRanksOf, Gather) {
   on_all(test::expect_gathers);
 }
 
-INSTANTIATE_TEST_SUITE_P(Counts, LocalRanksOf, ::testing::Values(1, 2, 3));
-INSTANTIATE_TEST_SUITE_P(LongCounts, LocalRanksOf, ::testing::Values(4, 7));
+INSTANTIATE_TEST_SUITE_P(Counts, LocalRanksOf, ::testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(LongCounts, LocalRanksOf, ::testing::Values(3, 4, 7));
 
 // One that fails ends them all: no rank waits for it, and its own exception is what the caller sees.
 TEST(LocalRanks, EndWithTheExceptionOfTheOneThatFails) {

@@ -62,7 +62,7 @@ Counters expect_bits_on_slabs(const TallBox& tall, RankThreads threads = RankThr
   return counters;
 }
 
-TEST(SlabExact, HasTheBitsOfOneMachineAfterEveryWindow) {
+TEST(LongSlabExact, HasTheBitsOfOneMachineAfterEveryWindow) {
   for (const char* sides : {"periodic", "wall", "soft", "hot"}) {
     SCOPED_TRACE(sides);
     EXPECT_GT(expect_bits_on_slabs({.sides = sides}, RankThreads::both).collisions, 5000U);

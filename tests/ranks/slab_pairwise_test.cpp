@@ -43,9 +43,9 @@ std::string name_of(const ::testing::TestParamInfo<const char*>& info) {
   return info.param;
 }
 
-INSTANTIATE_TEST_SUITE_P(Sides, SlabPairwise, ::testing::Values("moving", "hot"), name_of);
-INSTANTIATE_TEST_SUITE_P(LongSides, SlabPairwise, ::testing::Values("wall", "periodic", "periodic_x", "soft", "sink"),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(Sides, SlabPairwise, ::testing::Values("moving"), name_of);
+INSTANTIATE_TEST_SUITE_P(LongSides, SlabPairwise,
+                         ::testing::Values("wall", "periodic", "periodic_x", "soft", "sink", "hot"), name_of);
 
 // Nearly all disks are in contact after each step, so that clusters reach through whole slabs.
 TEST(SlabPairwiseRun, HasTheBitsWhereClustersReachThroughSlabs) {
@@ -89,7 +89,7 @@ TEST(SlabPairwiseRun, ResolvesAContactThatIsAloneOnce) {
 }
 
 // The box fills from one side: disks of sizes that none at the start has, and sinks that take them.
-TEST(SlabPairwiseRun, HasTheBitsWhereSourcesFillAnEmptyBox) {
+TEST(LongSlabPairwiseRun, HasTheBitsWhereSourcesFillAnEmptyBox) {
   for (const char* radius : {"0.4", "{ uniform = [0.2, 0.5] }"}) {
     const Scene scene =
         parse_scene(fmt::format("[box]\nwidth = 12.0\nheight = 24.0\ntop = \"sink\"\n"
@@ -107,7 +107,7 @@ TEST(SlabPairwiseRun, HasTheBitsWhereSourcesFillAnEmptyBox) {
 }
 
 // Strains of several units: the images above go round the box, and disks cross from the last slab into the first.
-TEST(SlabPairwiseRun, HasTheBitsOfAShearFlow) {
+TEST(LongSlabPairwiseRun, HasTheBitsOfAShearFlow) {
   Scene scene = slab_scene("periodic", "width = 20.0\nheight = 20.0\nshear_rate = 0.7\n",
                            "count = 220\npositions = \"random\"\nradius = { uniform = [0.4, 0.5] }\nmass = 1.0\n"
                            "velocities = { maxwell = 1.0 }\n",

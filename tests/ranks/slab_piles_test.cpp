@@ -121,7 +121,7 @@ TEST(LongSlabPiles, HaveTheBitsWhereIdsAreInOrderOfPlaces) {
 }
 
 // Disks of one slab touch others below and above it.
-TEST(SlabPiles, HaveTheBitsOnThinSlabs) {
+TEST(LongSlabPiles, HaveTheBitsOnThinSlabs) {
   const Scene scene = pile("width = 8.0\nheight = 14.0\n", "gravity = [0.5, -4.0]\n",
                            random_disks(70, "radius = 0.43\nmass = { uniform = [1, 20] }\n"), 0.01, 300);
   EXPECT_GT(expect_bits(scene, {8}, RankThreads::alternate).counters.collisions, 50U);

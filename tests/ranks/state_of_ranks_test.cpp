@@ -155,7 +155,7 @@ TEST(StateOfRanks, SaysOfAllDisksWhatOneMachineSays) {
 }
 
 // Sums go block by block in order of id; here over several pieces that ranks send, with ids that are missing.
-TEST(StateOfRanks, SumsManyDisksInOrderOfId) {
+TEST(LongStateOfRanks, SumsManyDisksInOrderOfId) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 300.0\nheight = 300.0\nright = \"sink\"\n[[disks]]\ncount = 70000\npositions = \"random\"\n"
       "radius = { uniform = [0.2, 0.4] }\nmass = { uniform = [1.0, 3.0] }\nvelocities = { maxwell = 9.0 }\n"
