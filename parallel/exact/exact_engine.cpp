@@ -72,6 +72,8 @@ class ParallelExact final : public Engine {
   bool parts_are_known() const { return in_parts_ && halos_.known() != Known::nothing; }
   bool parts_take(const Edit& edit);
   bool lists_take(const Edit& edit);
+  template <class Add>
+  void add_disks(const Add& add);
   void begin_brownian();
   void forget(Known left) {
     windows_.forget(left);
@@ -105,9 +107,7 @@ class ParallelExact final : public Engine {
 void ParallelExact::start_window() {
   const PhaseTimer timer(times_, "start");
   if (!scene_.sources.empty()) {
-    const Count before = state_.counters.emitted;
-    emit_at_window_start(scene_, state_, [&](const Disk& d) { return has_room(d); });
-    if (state_.counters.emitted != before) forget(Known::nothing);
+    add_disks([&] { emit_at_window_start(scene_, state_, [&](const Disk& d) { return has_room(d); }); });
   }
   if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
   count_thermal_hits(scene_, state_);
@@ -126,19 +126,38 @@ bool ParallelExact::edit(const Edit& edit) {
   // The paths of the last window no longer go with the disks.
   logged_.reset();
   at_start_ = Disks{};
+  if (edit.kind == Edit::Kind::add) {
+    add_disks([&] { apply(edit, state_); });
+    return true;
+  }
   const bool known = windows_.known() != Known::nothing && !scene_.box.shear.acts();
   const bool taken = parts_are_known() ? parts_take(edit) : known && lists_take(edit);
   apply(edit, state_);
-  if (!taken) {
-    forget(Known::nothing);
-  } else if (edit.kind == Edit::Kind::add) {
-    windows_.lists().append(state_.disks, {state_.disks.x.back(), state_.disks.y.back()});
-  }
+  if (!taken) forget(Known::nothing);
   return true;
 }
 
-// Makes the change in what is known of the disks, but for a new one's list; false where all is to be made anew. A disk
-// whose next event is now is predicted at the start of the next window, with all disks near it.
+// add() appends disks to the state. One queue's lists take them up; else all is made anew.
+template <class Add>
+void ParallelExact::add_disks(const Add& add) {
+  const Disks& d = state_.disks;
+  const std::size_t before = d.size();
+  const bool equal_radii = d.radius.empty();
+  const bool takes = windows_.takes_newcomers();
+  add();
+  if (d.size() == before) return;
+  const auto is_listed = [&](std::size_t i) { return d.radius[i] <= windows_.largest_radius(); };
+  bool fits = d.radius.empty() || !equal_radii;
+  for (std::size_t i = before; fits && i < d.size(); ++i) fits = d.radius.empty() || is_listed(i);
+  if (takes && fits) {
+    windows_.append_disks(before);
+  } else {
+    forget(Known::nothing);
+  }
+}
+
+// Makes the change in what is known of the disks; false where all is to be made anew. A disk whose next event is now is
+// predicted at the start of the next window, with all disks near it.
 bool ParallelExact::lists_take(const Edit& edit) {
   const Disks& d = state_.disks;
   const double now = windows_.length();
@@ -147,13 +166,6 @@ bool ParallelExact::lists_take(const Edit& edit) {
     return true;
   }
   if (windows_.window().mode != EngineMode::single_queue || d.size() <= all_pairs_up_to) return false;
-  if (edit.kind == Edit::Kind::add) {
-    const bool fits =
-        d.radius.empty() ? edit.disk.radius == d.common_radius : edit.disk.radius <= windows_.largest_radius();
-    if (!fits) return false;
-    windows_.window().append_disk(now);
-    return true;
-  }
   windows_.lists().remove(static_cast<std::uint32_t>(edit.index), d);
   windows_.window().remove_disk(edit.index);
   return true;

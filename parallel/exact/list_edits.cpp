@@ -1,4 +1,4 @@
-// Neighbour lists while a program adds and takes away disks between windows.
+// Neighbour lists while a program or a source adds disks between windows, or a program takes some away.
 #include <span>
 #include <vector>
 
@@ -6,8 +6,7 @@
 
 namespace carom {
 
-void NeighbourLists::append(const Disks& d, Vec2 at) {
-  const auto i = static_cast<std::uint32_t>(d.size() - 1);
+void NeighbourLists::append(const Disks& d, std::uint32_t i, Vec2 at) {
   const FixedPointPosition position = fixed_point(at.x, at.y);
   const ListRegion everything;
   ++first_of_tile_.back();

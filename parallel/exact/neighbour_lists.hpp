@@ -223,9 +223,9 @@ class NeighbourLists {
                  FoundNeighbours& found) const;
   bool take_list(std::uint32_t i, const Disks& disks, const ListRegion& region, const FoundNeighbours& found);
 
-  // Between windows, with a single queue: the last disk of the columns is new, and is here; disk i is to go, and the
-  // last one takes its number. The columns are those with both.
-  void append(const Disks& disks, Vec2 at);
+  // Between windows, with a single queue: disk i is new, the first one behind those that are listed, and is here; disk
+  // i is to go, and the last one takes its number. The columns are those with both.
+  void append(const Disks& disks, std::uint32_t i, Vec2 at);
   void remove(std::uint32_t i, const Disks& disks);
 
   // Calls visit(j) for all disks whose centres may be within half a width and a height of a place; for others too. Not

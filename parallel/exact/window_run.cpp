@@ -63,7 +63,14 @@ void WindowRun::forget_lists() {
 
 bool WindowRun::lists_due(const WindowPlan& plan) const {
   const bool strained = scene_.box.shear.acts() && lists_.is_strained(plan.end);
-  return known_ == Known::nothing || strained || relistings() > relistings_a_disk;
+  return known_ == Known::nothing || strained || relistings() > relistings_a_disk || are_outgrown();
+}
+
+bool WindowRun::are_outgrown() const {
+  if (window_.mode != EngineMode::single_queue || window_.is_part) return false;
+  const auto now = static_cast<double>(state_.disks.size());
+  const auto before = static_cast<double>(disks_when_built_);
+  return now > most_growth * before || most_growth * now < before;
 }
 
 double WindowRun::relistings() const {
@@ -89,6 +96,7 @@ void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout, co
   largest_radius_ = std::max(least_largest_radius_, carom::largest_radius(state_.disks));
   known_ = std::max(known_, Known::lists);
   rebuilt_ = true;
+  disks_when_built_ = state_.disks.size();
 }
 
 void WindowRun::set_part(const PartEnds& ends, std::size_t own, double largest_radius, State& all,
@@ -107,7 +115,20 @@ void WindowRun::set_part(const PartEnds& ends, std::size_t own, double largest_r
 
 void WindowRun::append_last_disk(Vec2 at) {
   window_.append_disk(0.0);
-  lists_.append(state_.disks, at);
+  lists_.append(state_.disks, static_cast<std::uint32_t>(state_.disks.size() - 1), at);
+}
+
+bool WindowRun::takes_newcomers() const {
+  return known_ != Known::nothing && window_.mode == EngineMode::single_queue && !scene_.box.shear.acts() &&
+         state_.disks.size() > all_pairs_up_to;
+}
+
+void WindowRun::append_disks(std::size_t first) {
+  const Disks& d = state_.disks;
+  for (std::size_t i = first; i < d.size(); ++i) {
+    window_.append_disk(length_);
+    lists_.append(d, static_cast<std::uint32_t>(i), {d.x[i], d.y[i]});
+  }
 }
 
 void WindowRun::note_listing(std::uint32_t i) {

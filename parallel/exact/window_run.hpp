@@ -32,6 +32,8 @@ enum class Known : std::uint8_t {
 // The lists are rebuilt, and the disks sorted, when they have been relisted so many times each: by then neighbours are
 // no longer neighbours in storage.
 inline constexpr double relistings_a_disk = 8.0;
+// Likewise where one queue has so many times the disks for which skin and cells were chosen, or as many times fewer.
+inline constexpr double most_growth = 1.25;
 
 // With regions: no disk may become faster in a window than this factor times the fastest one at its start. A window in
 // which one does is run again with a larger factor, and at last without regions. With 1.15, 1.25 and 1.35, 21, 2 and 0
@@ -57,6 +59,11 @@ class WindowRun {
 
   // Nothing is right any more, and all will be built anew: what many disks take for it is given back now.
   void forget_lists();
+
+  // One queue, between windows: can disks be added to what is known, if no radius is larger than those that are listed?
+  bool takes_newcomers() const;
+  // Those from this one on are new at the end of the columns; they are predicted with all disks near them.
+  void append_disks(std::size_t first);
 
   // Are the lists to be built anew for this window?
   bool lists_due(const WindowPlan& plan) const;
@@ -114,6 +121,7 @@ class WindowRun {
   ImpactTally store_part(const WindowPlan& plan);
   ImpactTally end_window(const WindowPlan& plan, const std::vector<ImpactTally>& crossings);
   void sort_times(const std::vector<std::uint32_t>& order, std::vector<double>& scratch);
+  bool are_outgrown() const;
   double first_relist_time(std::size_t i, const WindowPlan& plan) const;
   void store_straight(std::size_t begin, std::size_t end, double length);
   void set_speed_bound(const WindowPlan& plan, double margin);
@@ -140,6 +148,7 @@ class WindowRun {
   std::size_t own_ = 0;    // of a part: disks that are not of its halo
   std::function<DiskProgress(std::uint32_t)> mark_;
   Known known_at_end_ = Known::nothing;
+  std::size_t disks_when_built_ = 0;
 };
 
 }  // namespace carom

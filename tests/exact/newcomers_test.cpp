@@ -1,0 +1,88 @@
+// Disks that sources send into an exact run are taken up by the lists that are there: the reference's bits, from an
+// empty box on, whatever their radii.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "core/disks/state_hash.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/support/disks_by_hand.hpp"
+
+namespace carom {
+namespace {
+
+Source source_of(double rate, Vec2 low, Vec2 high, SizeLaw radius) {
+  Source source;
+  source.rate = rate;
+  source.region_low = low;
+  source.region_high = high;
+  source.radius = std::move(radius);
+  source.mass.value = 1.0;
+  source.velocities.kind = VelocityLaw::Kind::maxwell;
+  source.velocities.temperature = 1.0;
+  return source;
+}
+
+SizeLaw constant(double radius) {
+  SizeLaw law;
+  law.value = radius;
+  return law;
+}
+
+SizeLaw one_of(std::vector<double> radii) {
+  SizeLaw law;
+  law.kind = SizeLaw::Kind::choice;
+  law.weights.assign(radii.size(), 1.0);
+  law.values = std::move(radii);
+  return law;
+}
+
+Scene scene_with(const std::vector<Source>& sources) {
+  Scene scene = test::scene_of(Method::exact, 60.0, 40.0, 0.1, 12.0);
+  scene.sources = sources;
+  return scene;
+}
+
+// Windows end at the emissions, in both engines; both have the same disks after each of them.
+void expect_bits_of_reference(const Scene& scene, const State& start, std::size_t disks_at_least) {
+  const auto reference = make_reference_engine(scene, start);
+  const auto one = make_parallel_engine(scene, start, {1});
+  const auto three = make_parallel_engine(scene, start, {3, 256});
+  while (reference->state().time < scene.run.t_end) {
+    for (Engine* engine : {reference.get(), one.get(), three.get()}) engine->step();
+    for (const Engine* engine : {one.get(), three.get()}) {
+      ASSERT_EQ(engine->state().time, reference->state().time);
+      ASSERT_EQ(state_hash(engine->state().disks), state_hash(reference->state().disks))
+          << "at t = " << reference->state().time << ", " << reference->state().disks.size() << " disks";
+    }
+  }
+  EXPECT_GE(reference->state().disks.size(), disks_at_least);
+  EXPECT_GT(reference->state().counters.collisions, 200U);
+  EXPECT_EQ(one->state().counters.collisions, reference->state().counters.collisions);
+}
+
+TEST(Newcomers, HaveTheReferencesBitsFromAnEmptyBoxOn) {
+  const Scene scene = scene_with({source_of(20.0, {1.0, 1.0}, {59.0, 39.0}, constant(0.5)),
+                                  source_of(20.0, {1.0, 1.0}, {29.0, 39.0}, constant(0.5))});
+  expect_bits_of_reference(scene, test::state_of(scene, {}), 400);
+}
+
+// The larger ones are larger than all before, at first; then each comes where smaller and larger ones are known.
+TEST(Newcomers, HaveTheReferencesBitsWhateverTheirRadii) {
+  const Scene scene = scene_with({source_of(20.0, {2.0, 2.0}, {58.0, 38.0}, one_of({0.5, 0.2})),
+                                  source_of(7.0, {2.0, 2.0}, {58.0, 38.0}, one_of({0.05, 1.1}))});
+  expect_bits_of_reference(scene, test::state_of(scene, {}), 250);
+}
+
+TEST(Newcomers, HaveTheReferencesBitsBesideASinkAndUnderGravity) {
+  Scene scene = scene_with({source_of(30.0, {1.0, 20.0}, {59.0, 39.0}, constant(0.5))});
+  scene.physics.gravity = Gravity(0.0, 0.5);
+  scene.physics.restitution = 0.9;
+  scene.box.sides[static_cast<std::size_t>(Side::left)] = SideKind::sink;
+  expect_bits_of_reference(scene, test::state_of(scene, {}), 200);
+}
+
+}  // namespace
+}  // namespace carom
