@@ -146,9 +146,7 @@ void ParallelExact::add_disks(const Add& add) {
   const bool takes = windows_.takes_newcomers();
   add();
   if (d.size() == before) return;
-  const auto is_listed = [&](std::size_t i) { return d.radius[i] <= windows_.largest_radius(); };
-  bool fits = d.radius.empty() || !equal_radii;
-  for (std::size_t i = before; fits && i < d.size(); ++i) fits = d.radius.empty() || is_listed(i);
+  const bool fits = d.radius.empty() || (!equal_radii && largest_radius(d) <= windows_.largest_radius());
   if (takes && fits) {
     windows_.append_disks(before);
   } else {

@@ -48,7 +48,8 @@ void FoundNeighbours::grow(std::size_t disks) {
   buffer.resize(2 * (disks + list_kernel_padding));
 }
 
-void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout) {
+// crowded: how much denser than in the mean it is around the disks (crowding.hpp).
+void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout, double crowded) {
   const double n = static_cast<double>(d.size());
   double radius = 0.0;
   double area = 0.0;
@@ -63,16 +64,16 @@ void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout) {
   // That the disks have in the box, were there none of other ranks.
   const double share = layout.disks_of_box > 0 ? n / static_cast<double>(layout.disks_of_box) : 1.0;
   const double space = share * box_.width * box_.height;
-  const double packing_fraction = std::min(crowding_ * area / space, 1.0);
+  const double packing_fraction = std::min(crowded * area / space, 1.0);
   const double cutoff = mode_ == EngineMode::regions ? region_cutoff : cutoff_in_spacings(packing_fraction);
-  skin_ = std::max({0.5 * (cutoff * std::sqrt(space / (crowding_ * n)) - 2.0 * radius), least_skin * 2.0 * radius,
+  skin_ = std::max({0.5 * (cutoff * std::sqrt(space / (crowded * n)) - 2.0 * radius), least_skin * 2.0 * radius,
                     least_units * std::max(unit_x_, unit_y_)});
   near_border_ = relist_distance_of(layout.relist_share * skin_);
   elsewhere_ = relist_distance_of(skin_);
   elsewhere_.lead2 = near_border_.lead2;
 }
 
-void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& executor) {
+void NeighbourLists::sort(Disks& d, const ListLayout& layout, double crowded, const Executor& executor) {
   const double largest = largest_radius_;
   std::vector<std::size_t> count(class_of_radius(smallest_radius(d), largest) + 1, 0);
   if (count.size() == 1) count[0] = d.size();
@@ -93,8 +94,7 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, const Executor& ex
     // visit, empty or not. A few more where they are many, for memory's sake.
     const bool are_many = std::max(d.size(), layout.disks_of_box) > disks_of_much_memory;
     for (std::size_t& c : count) c = c / (are_many ? 10 : 8) + 1;
-    make_grid(box_, largest, count, grid_, grid_margin,
-              are_many ? std::min(crowding_, most_crowding_of_many) : crowding_);
+    make_grid(box_, largest, count, grid_, grid_margin, are_many ? std::min(crowded, most_crowding_of_many) : crowded);
     if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, grid_);
   }
   sort_into_cells(d, grid_, executor, cells_);
@@ -121,11 +121,11 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   grid_.tile_keys = 0;
   near_border_ = elsewhere_ = {};
   if (mode_ != EngineMode::all_pairs) {
-    crowding_ = mode_ == EngineMode::regions ? 1.0 : crowding(d, box, layout.disks_of_box);
-    choose_skin(d, layout);
+    const double crowded = mode_ == EngineMode::regions ? 1.0 : crowding(d, box, layout.disks_of_box);
+    choose_skin(d, layout, crowded);
     // That of the rows is given back for what sorting needs.
     if (gives_back) rows_.release();
-    sort(d, layout, executor);
+    sort(d, layout, crowded, executor);
     choose_slot_units();
     prepare_query(d);
     if (sorted) sorted(cells_.order, cells_.column);

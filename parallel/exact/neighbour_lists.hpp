@@ -306,8 +306,8 @@ class NeighbourLists {
   Vec2 into_flow(double x, double y, double s) const;
   bool stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until, const Gravity& g,
                             const RelistDistance& relist) const;
-  void choose_skin(const Disks& disks, const ListLayout& layout);
-  void sort(Disks& disks, const ListLayout& layout, const Executor& executor);
+  void choose_skin(const Disks& disks, const ListLayout& layout, double crowded);
+  void sort(Disks& disks, const ListLayout& layout, double crowded, const Executor& executor);
   void find_tiles(std::size_t disks);
   void set_listed_positions(const Disks& disks, const Executor& executor);
   void list_all(const Disks& disks, const Executor& executor);
@@ -372,7 +372,6 @@ class NeighbourLists {
   SortedCells cells_;
   std::vector<std::uint32_t> first_of_tile_;  // and after the last one: how many disks
   double skin_ = 0.0;
-  double crowding_ = 1.0;  // with one queue: crowding.hpp, when lists were built
   RelistDistance near_border_, elsewhere_;
   FlowFrame flow_;
   bool all_periodic_ = false;
