@@ -13,21 +13,21 @@ constexpr std::int64_t least_rows_left_out = 2;
 // Of a grid: kernels read keys as signed numbers of 32 bits, and a level of one row has two keys a cell.
 constexpr double most_cells = 1e9;
 constexpr double cells_a_disk = 2.0;
+// Where disks crowd: so many times as many cells at most, and so many in all, as each sort clears and adds up all cells.
 constexpr double most_crowding = 64.0;
 constexpr double most_cells_when_crowded = 0x1p24;
 
-// `least` is the smallest cell that still finds every neighbour.
 std::uint32_t cells_of_side(double length, double least, double most, bool periodic) {
   const double cells = cells_along(length, least, most);
   return periodic && cells < 3.0 ? 1 : static_cast<std::uint32_t>(cells);
 }
 
+// The smallest cell that still finds every neighbour.
 double least_cell(double radius, double margin) {
   return 2.0 * radius + 2.0 * (margin * 2.0 * radius);
 }
 
-// About two for each of so many disks at most. Most of those for crowded disks are empty, so that they must not be many
-// in all.
+// The most that so many disks get.
 double cells_for(double disks, double crowding) {
   const double spread = cells_a_disk * disks + 1.0;
   return std::max(spread, std::min(spread * std::min(crowding, most_crowding), most_cells_when_crowded));
