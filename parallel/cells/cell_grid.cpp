@@ -13,7 +13,8 @@ constexpr std::int64_t least_rows_left_out = 2;
 // Of a grid: kernels read keys as signed numbers of 32 bits, and a level of one row has two keys a cell.
 constexpr double most_cells = 1e9;
 constexpr double cells_a_disk = 2.0;
-// Where disks crowd: so many times as many cells at most, and so many in all, as each sort clears and adds up all cells.
+// Where disks crowd: so many times as many cells at most, and so many in all, as each sort clears and adds up all
+// cells.
 constexpr double most_crowding = 64.0;
 constexpr double most_cells_when_crowded = 0x1p24;
 
