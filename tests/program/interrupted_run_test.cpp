@@ -144,7 +144,7 @@ TEST_F(InitialState, SignalsDoNotWaitForIt) {
   write("slow.toml", slow_growth);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const pid_t run = start({"run", "slow.toml", "-o", "out"});
-    while (!catches(run, signal)) usleep(1000);
+    while (!catches(run, signal) || !catches(run, SIGUSR1)) usleep(1000);
     kill(run, SIGUSR1);
     kill(run, signal);
     EXPECT_EQ(wait_for(run), 4);
