@@ -18,6 +18,7 @@ void NeighbourLists::follow_flow(const Domain& box, double start, double length)
   if (!box.shear.acts()) return;
   flow_.acts = true;
   flow_.rate = box.shear.rate;
+  flow_.middle = 0.5 * box.height;
   flow_.tilt = flow_.built_tilt = box.shear.offset / box.height;
   flow_.built_at = start;
   flow_.strain = std::max(most_strain, std::abs(flow_.rate) * length) * (1.0 + 1e-9);
@@ -40,10 +41,10 @@ Vec2 NeighbourLists::into_flow(double x, double y, double s) const {
     c -= period * std::floor(c / period);
     return c >= 0.0 && c < period ? c : 0.0;
   };
-  return {inside(x - flow_.tilt_at(s) * y, box_.width), inside(y, box_.height)};
+  return {inside(flow_.carried_back(x, y, s), box_.width), inside(y, box_.height)};
 }
 
-// A path is bent in the frame that goes with the flow: x less (tilt + rate s) (y + vy s) has an acceleration of
+// A path is bent in the frame that goes with the flow: x less (tilt + rate s) (y - h / 2 + vy s) has an acceleration of
 // 2 rate vy.
 bool NeighbourLists::stays_listed_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const {
   if (mode_ == EngineMode::all_pairs) return true;
@@ -52,7 +53,7 @@ bool NeighbourLists::stays_listed_in_flow(std::uint32_t i, const PathSegment& pa
   const auto inside = [&](double t) {
     const double s = t - path.start;
     const double y = path.y + path.vy * s;
-    return is_within(i, path.x + path.vx * s - flow_.tilt_at(t) * y, y, room * room);
+    return is_within(i, flow_.carried_back(path.x + path.vx * s, y, t), y, room * room);
   };
   return room > 0.0 && inside(until) && inside(from);
 }
@@ -63,8 +64,9 @@ double NeighbourLists::earliest_relist_in_flow(std::uint32_t i, const PathSegmen
   const double tilt = flow_.tilt_at(from);
   const Vec2 listed = listed_position(i);
   const auto nearest = [](double d, double period) { return d - period * std::round(d / period); };
-  const Vec2 off{nearest(p.x - tilt * p.y - listed.x, box_.width), nearest(p.y - listed.y, box_.height)};
-  const Vec2 speed{p.vx - flow_.rate * p.y - tilt * p.vy, p.vy};
+  const Vec2 off{nearest(flow_.carried_back(p.x, p.y, from) - listed.x, box_.width),
+                 nearest(p.y - listed.y, box_.height)};
+  const Vec2 speed{p.vx - flow_.rate * (p.y - flow_.middle) - tilt * p.vy, p.vy};
   double room = elsewhere_.length * (1.0 - 1e-9);
   double ahead = never;
   // The straight path, less what the flow can bend it by in that time.

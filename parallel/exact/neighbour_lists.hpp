@@ -23,18 +23,22 @@
 
 namespace carom {
 
-// In a sheared box disks are listed by places that go with the flow: x less tilt times y, with a tilt that grows at the
-// shear rate. There the images above are at rest, and two disks that touch are at most `stretch` times as far from each
-// other, until the tilt has grown by the strain that the stretch allows for. Not in effect elsewhere.
+// In a sheared box disks are listed by places that go with the flow: x less tilt times the height above the middle,
+// where the flow is at rest, with a tilt that grows at the shear rate. There the images above are at rest, and two
+// disks that touch are at most `stretch` times as far from each other, until the tilt has grown by the strain that the
+// stretch allows for. Not in effect elsewhere.
 struct FlowFrame {
   bool acts = false;
   double rate = 0.0;
-  double tilt = 0.0;  // at the start of the window
+  double middle = 0.0;  // length
+  double tilt = 0.0;    // at the start of the window
   double stretch = 1.0;
   double built_tilt = 0.0, built_at = 0.0;  // when the lists were built; tilt, absolute time
   double strain = 0.0;
 
   double tilt_at(double s) const { return tilt + rate * s; }  // s: time in the window
+  // The place along x of what is here then.
+  double carried_back(double x, double y, double s) const { return x - tilt_at(s) * (y - middle); }
 };
 
 // Buffer of a search for neighbours, and the neighbours that it found.
