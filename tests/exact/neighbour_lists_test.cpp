@@ -119,6 +119,33 @@ TEST(NeighbourLists, OfAPileInATallBoxAreAsLongAsOfAGas) {
   }
 }
 
+// In a sheared box listed positions go with the flow: a disk that does so too, wherever it is, need not be listed again
+// until the lists are built anew.
+TEST(NeighbourLists, GoWithTheFlow) {
+  constexpr std::size_t n = 1000;
+  for (const double rate : {0.3, -20.0}) {
+    test::Draws draws(3);
+    Domain box;
+    box.width = 40.0;
+    box.height = 60.0;
+    box.sides.fill(SideKind::periodic);
+    box.shear = {rate, rate * box.height, 0.0};
+    const double start = 1.7;
+    box.move_images(start);
+    Disks d = random_disks(draws, n, box.width, box.height, false);
+    NeighbourLists lists;
+    lists.follow_flow(box, start, 0.0);
+    lists.build(d, box, {EngineMode::single_queue, 0, 0, 1.0, false}, Executor(1));
+    const double until = 0.24 / std::abs(rate);  // strains up to 1/4 are allowed for
+    ASSERT_FALSE(lists.is_strained(start + until));
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const PathSegment path{0.0, d.x[i], d.y[i], box.shear.flow(d.y[i], box.height), 0.0};
+      ASSERT_GT(lists.earliest_relist_time(i, path, 0.0, 0.0, Gravity(), lists.relist_distance(false)), until);
+      ASSERT_TRUE(lists.stays_listed_bent(i, path, 0.0, until, Gravity(), lists.relist_distance(false)));
+    }
+  }
+}
+
 // A disk whose new list would reach beyond the region is not relisted, and nothing changes.
 TEST(NeighbourLists, KeepToTheirRegion) {
   test::Draws draws(5);
