@@ -31,7 +31,7 @@ class ReferenceExact final : public Engine {
     start_window();
     SpeedTally speeds;
     const std::size_t n = state_.disks.size();
-    speeds.add(state_.disks, 0, n);
+    speeds.add(state_.disks, scene_.box, 0, n);
     WindowPlan plan = plan_window(scene_, state_, n, summarise_speeds(speeds, n), scale_);
     if (obstacles_) obstacles_->follow(plan.start, plan.end);
     const PhaseTimer timer(times_, "window");

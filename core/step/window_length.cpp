@@ -22,7 +22,7 @@ constexpr std::size_t disks_at_once = 256;
 
 }  // namespace
 
-void SpeedTally::add(const Disks& d, std::size_t begin, std::size_t end) {
+void SpeedTally::add(const Disks& d, const Domain& box, std::size_t begin, std::size_t end) {
   std::array<double, disks_at_once> v2;
   for (; begin < end; begin += std::min(disks_at_once, end - begin)) {
     const std::size_t count = std::min(disks_at_once, end - begin);
@@ -30,6 +30,13 @@ void SpeedTally::add(const Disks& d, std::size_t begin, std::size_t end) {
     const double* const vy = d.vy.data() + begin;
     for (std::size_t k = 0; k < count; ++k) v2[k] = vx[k] * vx[k] + vy[k] * vy[k];
     for (std::size_t k = 0; k < count; ++k) largest2 = std::max(largest2, v2[k]);
+    if (box.shear.acts()) {
+      const double* const y = d.y.data() + begin;
+      for (std::size_t k = 0; k < count; ++k) {
+        const double ux = vx[k] - box.shear.flow(y[k], box.height);
+        v2[k] = ux * ux + vy[k] * vy[k];
+      }
+    }
     squares.add(std::span<const double>(v2).first(count));
   }
 }
@@ -55,8 +62,10 @@ double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_
   for (const SideMotion& motion : scene.box.motions) side = std::max(side, motion.largest_speed());
   // The images above slide past by an eighth of the width at most (time_to_sheared_contact).
   const double slide = scene.box.shear.acts() ? 0.125 * scene.box.width / std::abs(scene.box.shear.jump) : wander;
-  // Falling through the spacing adds 2 g spacing to v^2; walls that move give their speed to disks at rest.
-  const double speed = std::sqrt(speeds.mean2 + 2.0 * scene.physics.gravity.size * spacing + side * side);
+  // Falling through the spacing adds 2 g spacing to v^2; walls that move give their speed to disks at rest; a flow
+  // carries neighbours past each other, at the shear rate times their distance.
+  const double past = scene.box.shear.rate * spacing;
+  const double speed = std::sqrt(speeds.mean2 + 2.0 * scene.physics.gravity.size * spacing + side * side + past * past);
   if (!(speed > 0.0)) return slide;
   return std::min(slide, longest_travel * spacing / speed * std::max(1.0, few_disks / n));
 }

@@ -14,16 +14,16 @@ namespace carom {
 // What the disks' speeds say. Neither depends on the order in which disks are added.
 struct SpeedTally {
   double largest2 = 0.0;  // v^2; length^2 / time^2
-  ExactSum squares;       // of v^2
+  ExactSum squares;       // of v^2, in a sheared box relative to the flow
 
   // Disks [begin, end).
-  void add(const Disks& disks, std::size_t begin, std::size_t end);
+  void add(const Disks& disks, const Domain& box, std::size_t begin, std::size_t end);
   void add(const SpeedTally& other);
 };
 
 struct SpeedSummary {
   double largest2 = 0.0;  // v^2; length^2 / time^2
-  double mean2 = 0.0;     // mean of v^2; not finite where largest2 is not
+  double mean2 = 0.0;     // mean of v^2, relative to a flow; not finite where largest2 is not
 };
 
 SpeedSummary summarise_speeds(const SpeedTally& tally, std::size_t disks);

@@ -47,7 +47,7 @@ class ParallelExact final : public Engine {
   void step() override {
     if (!(state_.time < scene_.run.t_end)) return;
     start_window();
-    const SpeedSummary speeds = summarise_speeds(state_.disks, executor_);
+    const SpeedSummary speeds = summarise_speeds(state_.disks, scene_.box, executor_);
     WindowPlan plan = plan_window(scene_, state_, state_.disks.size(), speeds, 1.0);
     if (obstacles_) obstacles_->follow(plan.start, plan.end);
     logged_.reset();

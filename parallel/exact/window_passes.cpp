@@ -15,10 +15,10 @@ constexpr std::size_t pass_disks = 8192;
 
 }  // namespace
 
-SpeedSummary summarise_speeds(const Disks& d, const Executor& executor) {
+SpeedSummary summarise_speeds(const Disks& d, const Domain& box, const Executor& executor) {
   std::vector<SpeedTally> tally(std::max<std::size_t>(executor.blocks(d.size(), pass_disks), 1));
   executor.for_ranges(d.size(), pass_disks,
-                      [&](std::size_t b, std::size_t begin, std::size_t end) { tally[b].add(d, begin, end); });
+                      [&](std::size_t b, std::size_t begin, std::size_t end) { tally[b].add(d, box, begin, end); });
   for (std::size_t b = 1; b < tally.size(); ++b) tally[0].add(tally[b]);
   return summarise_speeds(tally[0], d.size());
 }

@@ -13,7 +13,7 @@
 
 namespace carom {
 
-SpeedSummary summarise_speeds(const Disks& disks, const Executor& executor);
+SpeedSummary summarise_speeds(const Disks& disks, const Domain& box, const Executor& executor);
 
 // The deepest reach of any disk beyond a wall or into an obstacle (core/physics/wall_overlap.hpp); size 0 if none.
 Overlap deepest_wall_overlap(const Disks& disks, const Domain& box, const Executor& executor);

@@ -100,7 +100,7 @@ void SlabExact::run_alone(int windows) {
 SpeedSummary SlabExact::speeds_of_all() const {
   SpeedTally tally;
   ghosts_.visit_own(state_.disks.size(),
-                    [&](std::size_t begin, std::size_t end) { tally.add(state_.disks, begin, end); });
+                    [&](std::size_t begin, std::size_t end) { tally.add(state_.disks, scene_.box, begin, end); });
   ranks_.sum(tally.squares.digits());
   ranks_.maximum({&tally.largest2, 1});
   return summarise_speeds(tally, start_.disks);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -215,6 +216,42 @@ TEST(Shear, AThermostatHasTheSameBitsOnAnyThreads) {
         EXPECT_EQ(end.counters.shear_work, expected.counters.shear_work);
       }
       expect_same_bits(scene, start, 30, 1);
+    }
+  }
+}
+
+// Disks that go with the flow do not move against each other, however high the box: windows are as long in a box that
+// is four times as wide and as high.
+TEST(Shear, WindowsOfAHighBoxAreAsLong) {
+  std::array<Count, 2> windows{};
+  for (const int size : {1, 4}) {
+    Flow f;
+    f.rate = "0.5";
+    f.disks = 200 * size * size;
+    f.width *= size;
+    f.height *= size;
+    const Scene scene = flow_scene(f);
+    windows[size == 1 ? 0 : 1] = run_on(scene, initial_state(scene), 2, 1).counters.steps;
+  }
+  EXPECT_LE(windows[1], windows[0] + 2);
+}
+
+// In a box so high that most disks are far from the images that move.
+TEST(LongShear, SameBitsFarFromTheImages) {
+  for (const char* radius : {"0.5", "{ uniform = [0.05, 0.6] }"}) {
+    Flow f;
+    f.radius = radius;
+    f.disks = 500;
+    f.width = 30.0;
+    f.height = 60.0;
+    const Scene scene = flow_scene(f);
+    const State start = initial_state(scene);
+    const State expected = run(scene, start);
+    EXPECT_GT(expected.counters.collisions, 500U);
+    for (const int threads : test::thread_counts) {
+      const State end = run_on(scene, start, threads, 1);
+      EXPECT_EQ(state_hash(end.disks), state_hash(expected.disks)) << threads;
+      EXPECT_EQ(end.counters.shear_work, expected.counters.shear_work) << threads;
     }
   }
 }

@@ -33,7 +33,7 @@ struct InParts {
   SliceOutcome step() {
     if (scene.physics.collapse_contact_time) state.last_contact.resize(state.next_id, -never);
     count_thermal_hits(scene, state);
-    const SpeedSummary speeds = summarise_speeds(state.disks, executor);
+    const SpeedSummary speeds = summarise_speeds(state.disks, scene.box, executor);
     const WindowPlan plan = plan_window(scene, state, state.disks.size(), speeds, 1.0);
     const SliceOutcome outcome = windows.run(plan, speeds, WindowState{});
     if (outcome == SliceOutcome::done) {
