@@ -16,10 +16,14 @@ std::int64_t cells_for(double length, double cell, std::size_t obstacles) {
   return static_cast<std::int64_t>(std::clamp(std::floor(length / cell), 1.0, most));
 }
 
+// The cells of a few obstacles at rest are as many as those of so many: nearly all disks are far from them, and find
+// nothing in the cells around.
+constexpr std::size_t least_at_rest = 128;
+
 }  // namespace
 
-ObstacleGrid::ObstacleGrid(const std::vector<Extent>& extents, const Domain& box) {
-  const std::size_t n = std::max<std::size_t>(1, extents.size());
+ObstacleGrid::ObstacleGrid(const std::vector<Extent>& extents, const Domain& box, std::size_t least) {
+  const std::size_t n = std::max(least, extents.size());
   const double wanted = std::sqrt(box.width * box.height / (2.0 * static_cast<double>(n)));
   const auto axis = [&](double length, bool periodic) {
     const std::int64_t cells = cells_for(length, wanted, n);
@@ -47,6 +51,29 @@ ObstacleGrid::ObstacleGrid(const std::vector<Extent>& extents, const Domain& box
   entries_.resize(start_.back());
   std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
   for_each_entry([&](std::size_t cell, const Entry& entry) { entries_[next[cell]++] = entry; });
+  find_near();
+}
+
+void ObstacleGrid::find_near() {
+  const auto around = [](std::int64_t k, const Axis& axis, auto&& see) {
+    for (std::int64_t c = k - 1; c <= k + 1; ++c) {
+      if (axis.periodic) {
+        see((c + axis.cells) % axis.cells);
+      } else if (c >= 0 && c < axis.cells) {
+        see(c);
+      }
+    }
+  };
+  near_.assign(static_cast<std::size_t>(x_.cells * y_.cells), 0);
+  for (std::int64_t row = 0; row < y_.cells; ++row) {
+    for (std::int64_t column = 0; column < x_.cells; ++column) {
+      const auto cell = static_cast<std::size_t>(row * x_.cells + column);
+      if (start_[cell] == start_[cell + 1]) continue;
+      around(row, y_, [&](std::int64_t r) {
+        around(column, x_, [&](std::int64_t c) { near_[static_cast<std::size_t>(r * x_.cells + c)] = 1; });
+      });
+    }
+  }
 }
 
 ObstacleCells::ObstacleCells(const std::vector<Obstacle>& obstacles, std::vector<WallMotion> motions, const Domain& box)
@@ -64,7 +91,7 @@ ObstacleCells::ObstacleCells(const std::vector<Obstacle>& obstacles, std::vector
                        {o.x + std::min(o.dx, 0.0) - o.radius, o.y + std::min(o.dy, 0.0) - o.radius},
                        {o.x + std::max(o.dx, 0.0) + o.radius, o.y + std::max(o.dy, 0.0) + o.radius}});
   }
-  at_rest_ = ObstacleGrid(at_rest, box);
+  at_rest_ = ObstacleGrid(at_rest, box, at_rest.empty() ? 1 : least_at_rest);
   follow(box.clock.from, box.clock.to);
 }
 

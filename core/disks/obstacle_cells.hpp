@@ -15,7 +15,8 @@
 
 namespace carom {
 
-// Rectangles that obstacles reach over, in cells: about two cells an obstacle; each lists those that reach into it.
+// Rectangles that obstacles reach over, in cells: about two cells an obstacle, or two for each of `least`; each lists
+// those that reach into it.
 class ObstacleGrid {
  public:
   struct Extent {
@@ -23,7 +24,7 @@ class ObstacleGrid {
     Vec2 low, high;  // length; beyond periodic sides where it reaches over them
   };
   ObstacleGrid() = default;
-  ObstacleGrid(const std::vector<Extent>& extents, const Domain& box);
+  ObstacleGrid(const std::vector<Extent>& extents, const Domain& box, std::size_t least = 1);
 
   // The shorter side of a cell; length.
   double cell() const { return std::min(1.0 / x_.cells_per_length, 1.0 / y_.cells_per_length); }
@@ -39,6 +40,19 @@ class ObstacleGrid {
         visit_cell(rows, columns, row, column, see);
       }
     }
+  }
+
+  // Is there nothing in the cell of the rectangle's middle and those around it, and does it reach no further? Then
+  // visit calls nothing. Most disks are far from every obstacle, and small.
+  bool is_clear(Vec2 low, Vec2 high) const {
+    const double x = 0.5 * (low.x + high.x) * x_.cells_per_length;
+    const double y = 0.5 * (low.y + high.y) * y_.cells_per_length;
+    constexpr double two_cells = 2.0 * (1.0 - 1e-6);
+    const bool small =
+        (high.x - low.x) * x_.cells_per_length <= two_cells && (high.y - low.y) * y_.cells_per_length <= two_cells;
+    const bool in_box = x >= 0.0 && y >= 0.0 && x < static_cast<double>(x_.cells) && y < static_cast<double>(y_.cells);
+    if (!small || !in_box) return false;
+    return near_[static_cast<std::size_t>(static_cast<std::int64_t>(y) * x_.cells + static_cast<std::int64_t>(x))] == 0;
   }
 
  private:
@@ -91,8 +105,11 @@ class ObstacleGrid {
     }
   }
 
+  void find_near();
+
   Axis x_, y_;
   std::vector<Reach> reach_;          // of each extent
+  std::vector<std::uint8_t> near_;    // of each cell: does an obstacle reach into it or one of the eight around it?
   std::vector<std::uint32_t> start_;  // of each cell in entries_, row by row; one more than cells
   std::vector<Entry> entries_;
 };
@@ -125,6 +142,10 @@ class ObstacleCells {
     at_rest_.visit(low, high, see);
     if (!moving_.empty()) [[unlikely]]
       swept_.visit(low, high, see);
+  }
+  // As ObstacleGrid::is_clear.
+  bool is_clear(Vec2 low, Vec2 high) const {
+    return at_rest_.is_clear(low, high) && (moving_.empty() || swept_.is_clear(low, high));
   }
 
  private:

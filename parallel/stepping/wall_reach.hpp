@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/disks/domain.hpp"
+#include "core/disks/obstacle_cells.hpp"
 
 namespace carom {
 
@@ -18,23 +19,31 @@ inline bool has_walls(const Domain& box) {
 // that has moved into the box, or infinity for other sides.
 class WallReach {
  public:
-  explicit WallReach(const Domain& box) : width_(box.width), height_(box.height) {
+  explicit WallReach(const Domain& box) : width_(box.width), height_(box.height), obstacles_(box.obstacles) {
     for (Side side : all_sides) {
       least_[static_cast<std::size_t>(side)] =
           box.side(side) == SideKind::wall ? -box.place(side).inset : std::numeric_limits<double>::infinity();
     }
-    if (box.obstacles != nullptr) least_[0] = -std::numeric_limits<double>::infinity();
+    least_left_ = least_[0];
+    // Obstacles are asked for then.
+    if (obstacles_ != nullptr) least_[0] = -std::numeric_limits<double>::infinity();
   }
 
-  // Does a disk of radius r at (x, y) touch a wall or reach beyond it? Where there are obstacles, it may always.
+  // Does a disk of radius r at (x, y) touch a wall or reach beyond it, or may it touch an obstacle?
   bool touches(double x, double y, double r) const {
-    return (r - x >= least_[0]) | ((x + r) - width_ >= least_[1]) | (r - y >= least_[2]) |
-           ((y + r) - height_ >= least_[3]);
+    const bool any = (r - x >= least_[0]) | ((x + r) - width_ >= least_[1]) | (r - y >= least_[2]) |
+                     ((y + r) - height_ >= least_[3]);
+    if (!any || obstacles_ == nullptr) return any;
+    const bool side = (r - x >= least_left_) | ((x + r) - width_ >= least_[1]) | (r - y >= least_[2]) |
+                      ((y + r) - height_ >= least_[3]);
+    return side || !obstacles_->is_clear({x - r, y - r}, {x + r, y + r});
   }
 
  private:
-  double width_, height_;          // length
+  double width_, height_;  // length
+  const ObstacleCells* obstacles_;
   std::array<double, 4> least_{};  // in the order of Side; length
+  double least_left_ = 0.0;        // where there are obstacles
 };
 
 }  // namespace carom

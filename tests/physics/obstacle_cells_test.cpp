@@ -1,0 +1,80 @@
+// The cells of obstacles: a disk finds every obstacle that it touches, wherever it is and however large.
+#include "core/disks/obstacle_cells.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/physics/obstacle_contact.hpp"
+#include "tests/support/draws.hpp"
+
+namespace carom {
+namespace {
+
+std::vector<Obstacle> random_obstacles(test::Draws& draws, std::size_t n, const Domain& box) {
+  std::vector<Obstacle> all;
+  for (std::size_t k = 0; k < n; ++k) {
+    Obstacle o;
+    o.x = draws.in(0.0, box.width);
+    o.y = draws.in(0.0, box.height);
+    if (k % 2 == 0) {
+      o.radius = draws.decades(0.01, 2.0);
+    } else {
+      o.kind = ObstacleKind::wall;
+      o.dx = draws.in(-0.3, 0.3) * box.width;
+      o.dy = draws.in(-0.3, 0.3) * box.height;
+    }
+    all.push_back(o);
+  }
+  return all;
+}
+
+// The shortest distance by trying all images within a period.
+bool touches(const Obstacle& o, double x, double y, double r, const Domain& box) {
+  bool any = false;
+  const int periods_x = box.periodic_x() ? 1 : 0;
+  const int periods_y = box.periodic_y() ? 1 : 0;
+  for (int kx = -periods_x; kx <= periods_x; ++kx) {
+    for (int ky = -periods_y; ky <= periods_y; ++ky) {
+      const double px = x - (o.x + kx * box.width);
+      const double py = y - (o.y + ky * box.height);
+      const double length2 = o.dx * o.dx + o.dy * o.dy;
+      const double along = length2 > 0.0 ? std::clamp((px * o.dx + py * o.dy) / length2, 0.0, 1.0) : 0.0;
+      any = any || std::hypot(px - along * o.dx, py - along * o.dy) <= r + o.radius;
+    }
+  }
+  return any;
+}
+
+// Few obstacles, which most disks are far from, and many; disks much smaller than a cell and larger than several.
+TEST(ObstacleCells, FindAllThatADiskTouches) {
+  for (const bool periodic : {false, true}) {
+    for (const std::size_t n : {1U, 2U, 7U, 300U}) {
+      test::Draws draws(n);
+      Domain box;
+      box.width = 40.0;
+      box.height = 25.0;
+      if (periodic) box.sides.fill(SideKind::periodic);
+      const std::vector<Obstacle> obstacles = random_obstacles(draws, n, box);
+      const auto cells = place_obstacles(obstacles, box);
+      std::size_t found = 0;
+      for (int k = 0; k < 2000; ++k) {
+        const double r = draws.decades(0.01, 6.0);
+        const double x = draws.in(0.0, box.width);
+        const double y = draws.in(0.0, box.height);
+        std::vector<int> times(n, 0);
+        for_each_obstacle_touched(box, x, y, r, [&](std::uint32_t o, const ObstacleGap&) { ++times[o]; });
+        for (std::size_t o = 0; o < n; ++o) {
+          ASSERT_EQ(times[o], touches(obstacles[o], x, y, r, box) ? 1 : 0) << "obstacle " << o << " of " << n;
+          found += static_cast<std::size_t>(times[o]);
+        }
+      }
+      EXPECT_GT(found, 10U * n);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom
