@@ -21,10 +21,16 @@ double move_sheared(Disks& d, const Domain& box, double t, const Executor& execu
   std::vector<ImpactTally> tallies(block_values.size());
   executor.for_ranges(d.size(), sheared_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
     double speed2 = 0.0;
+    double* const x = d.x.data();
+    double* const y = d.y.data();
+    double* const vx = d.vx.data();
+    double* const vy = d.vy.data();
     for (std::size_t i = begin; i < end; ++i) {
-      if (t != 0.0) drift<false>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, 0.0);
-      cross_sheared(d, i, box, tallies[b]);
-      speed2 = std::max(speed2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
+      if (t != 0.0) drift<false>(x[i], y[i], vx[i], vy[i], t, 0.0);
+      const bool in_box = x[i] >= 0.0 && x[i] < box.width && y[i] >= 0.0 && y[i] < box.height;
+      if (!in_box) [[unlikely]]
+        cross_sheared(d, i, box, tallies[b]);
+      speed2 = std::max(speed2, vx[i] * vx[i] + vy[i] * vy[i]);
     }
     block_values[b] = speed2;
   });
