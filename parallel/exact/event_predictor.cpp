@@ -45,8 +45,9 @@ FirstContact EventPredictor::first_contact(std::uint32_t i) const {
     first = found;  // ambiguous or earlier
   };
   const ListRow& row = lists_->rows().row(i);
-  const RowKernel in_row = far_ ? kernels_.near_any_image : kernels_.near;
-  const WideRowKernel in_wide_row = far_ ? kernels_.far_any_image : kernels_.far;
+  const bool sheared = sees_moving_images(row);
+  const RowKernel in_row = sheared ? kernels_.near_sheared : far_ ? kernels_.near_any_image : kernels_.near;
+  const WideRowKernel in_wide_row = sheared ? kernels_.far_sheared : far_ ? kernels_.far_any_image : kernels_.far;
   see(in_row(constants_[0], own, row), row.offset);
   lists_->rows().visit_wide_rows(i, [&](const std::int32_t* offset, std::uint32_t count) {
     see(in_wide_row(constants_[0], own, offset, count), offset);
@@ -65,24 +66,22 @@ NextEvent EventPredictor::earliest(std::uint32_t i) const {
 }
 
 NextEvent EventPredictor::earliest_with_sides(std::uint32_t i) const {
-  if (window_->rules.box.shear.acts() && (far_ || lists_images(i))) return earliest_one_by_one(i);
   const FirstContact first = first_contact(i);
   if (first.is_ambiguous()) return earliest_one_by_one(i);
   NextEvent best = earliest_at_sides(i);
-  if (window_->rules.box.obstacles != nullptr) see_obstacles(i, std::min(best.time, first.time), best);
+  if (is_obstacle_near(i)) see_obstacles(i, std::min(best.time, first.time), best);
   if (!(first.time <= window_->horizon)) return best;
   const NextEvent contact{first.time, Partner::disk(first.neighbour), best.lasting};
   return comes_first(i, contact, best) ? contact : best;
 }
 
-// Does the disk list any across the bottom or the top of a sheared box? The kernel knows no images that move. No
-// neighbour is as far as half a period, so that the places from which paths begin tell.
-bool EventPredictor::lists_images(std::uint32_t i) const {
-  const double y = window_->record[i].path.y;
-  const double half = 0.5 * window_->rules.box.height;
-  bool any = false;
-  lists_->for_each_neighbour(i, [&](std::uint32_t j) { any = any || std::abs(window_->record[j].path.y - y) > half; });
-  return any;
+bool EventPredictor::is_obstacle_near(std::uint32_t i) const {
+  return (lists_->rows().row(i).sides & ListRow::obstacle_near) != 0;
+}
+
+// May images that move matter, those above and below a sheared box?
+bool EventPredictor::sees_moving_images(const ListRow& row) const {
+  return window_->rules.box.shear.acts() && (far_ || (row.sides & ListRow::images_move) != 0);
 }
 
 // By core's formulas: any images, any ties.
@@ -90,7 +89,7 @@ NextEvent EventPredictor::earliest_one_by_one(std::uint32_t i) const {
   const DiskRecord& own = window_->record[i];
   const ExactRules& rules = window_->rules;
   NextEvent best = earliest_at_sides(i);
-  if (window_->rules.box.obstacles != nullptr) see_obstacles(i, best.time, best);
+  if (is_obstacle_near(i)) see_obstacles(i, best.time, best);
   // Contacts with images beyond the nearest one are not examined.
   bool lasting = best.lasting || far_;
   lists_->for_each_neighbour(i, [&](std::uint32_t j) {
@@ -156,6 +155,8 @@ PredictionConstants EventPredictor::constants_of(const WindowState& window, cons
   f.slow_approach = in_all_lanes(std::sqrt(window.slow2()) * slow_margin);
   if (!rules.gravity.acts() && !rules.box.shear.acts()) f.stay2 = lists.relist_distance(near_border).stay2;
   f.listed_unit = {lists.listed_unit().x, lists.listed_unit().y};
+  f.offset = in_all_lanes(rules.box.shear.offset);
+  f.jump = in_all_lanes(rules.box.shear.jump);
   if (rules.box.periodic_x()) {
     f.period.x = rules.box.width;
     f.periods_per_length.x = 1.0 / rules.box.width;

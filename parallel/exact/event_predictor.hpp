@@ -59,15 +59,15 @@ class EventPredictor {
  private:
   void see_far() {
     far_ = !(fastest2_ <= window_->safe_speed2);
-    const bool more = far_ || window_->rules.box.obstacles != nullptr || window_->rules.box.shear.acts();
-    more_than_neighbours_ = more ? ListRow::not_plain : 0U;
+    more_than_neighbours_ = far_ ? ListRow::not_plain : 0U;
   }
   FirstContact first_contact(std::uint32_t i) const;
   NextEvent earliest_with_sides(std::uint32_t i) const;
   NextEvent earliest_one_by_one(std::uint32_t i) const;
   NextEvent earliest_at_sides(std::uint32_t i) const;
   void see_obstacles(std::uint32_t i, double end, NextEvent& best) const;
-  bool lists_images(std::uint32_t i) const;
+  bool is_obstacle_near(std::uint32_t i) const;
+  bool sees_moving_images(const ListRow& row) const;
   bool touches_slowly(const PathSegment& path, double radius) const;
   bool comes_first(std::uint32_t i, const NextEvent& a, const NextEvent& b) const;
   static PredictionConstants constants_of(const WindowState& window, const NeighbourLists& lists, bool near_border);
@@ -77,7 +77,7 @@ class EventPredictor {
   PredictionKernels kernels_;
   std::array<PredictionConstants, 2> constants_;  // elsewhere, and near a border
   double fastest2_;                               // largest v^2 so far
-  // Obstacles, a shear, or far_: then the kernel does not tell all. As bits of a row's sides.
+  // far_, as bits of a row's sides: then the kernel does not tell all.
   std::uint8_t more_than_neighbours_ = 0;
   bool far_ = false;  // may a disk move so far that images beyond the nearest one, or crossing events, matter?
 };

@@ -22,7 +22,7 @@ struct alignas(64) ListRow {
   static constexpr std::uint32_t none = 0xffffffffU;
   std::uint32_t more = none;  // number of a wide row of its block
   std::uint8_t count = 0;
-  // Bits (1 << side) of the walls and sinks that the disk can touch while it stays listed, `across` and `has_more`.
+  // Bits (1 << side) of the walls and sinks that the disk can touch while it stays listed, and the bits below.
   std::uint8_t sides = 0;
   std::uint16_t block = 0;  // its tile, where there are regions
   FixedPointPosition listed_at;
@@ -32,8 +32,12 @@ struct alignas(64) ListRow {
   static constexpr unsigned across = 1U << 4;
   // There is a wide row: `more` says so too, but these bits are asked for together.
   static constexpr unsigned has_more = 1U << 5;
-  // Bits of `sides` that a list has which is not all in this row, or a side near.
-  static constexpr unsigned not_plain = has_more | (across - 1U);
+  // The disk can touch an inner wall, an inner sink or a fixed disk.
+  static constexpr unsigned obstacle_near = 1U << 6;
+  // A neighbour may be listed across the bottom or the top of a sheared box, whose images move.
+  static constexpr unsigned images_move = 1U << 7;
+  // Bits of `sides` that a list has from which the prediction kernel does not tell the disk's first event.
+  static constexpr unsigned not_plain = images_move | obstacle_near | has_more | (across - 1U);
   // Are the disk and its neighbours, while they stay listed, on one side of each such border?
   bool is_inside() const { return (sides & across) == 0; }
 };

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/physics/boundary.hpp"
+#include "core/physics/obstacle_contact.hpp"
 #include "parallel/cells/crowding.hpp"
 #include "parallel/cells/tiled_grid.hpp"
 
@@ -231,19 +232,33 @@ void NeighbourLists::find_all_others(std::uint32_t i, FoundNeighbours& found) co
 // Disks that list each other are within their contact distance and 4 skins of each other while they stay listed, and
 // each is within the skin of where it is listed.
 void NeighbourLists::find_inner_part() {
-  const bool none = mode_ == EngineMode::all_pairs || flow_.acts;
-  const double depth = none ? never : (2.0 * largest_radius_ + 4.0 * skin_ + search_margin_) * (1.0 + 1e-6);
-  const auto part = [depth](double side, bool periodic, double& low, double& high) {
-    low = periodic ? depth : -never;
-    high = periodic ? side - depth : never;
+  const double reach = (2.0 * flow_.stretch * largest_radius_ + 4.0 * skin_ + search_margin_) * (1.0 + 1e-6);
+  const double depth = mode_ == EngineMode::all_pairs ? never : reach;
+  const auto part = [](double side, bool periodic, double away, double& low, double& high) {
+    low = periodic ? away : -never;
+    high = periodic ? side - away : never;
   };
-  part(box_.width, box_.periodic_x(), inner_low_.x, inner_high_.x);
-  part(box_.height, box_.periodic_y(), inner_low_.y, inner_high_.y);
+  part(box_.width, box_.periodic_x(), flow_.acts ? never : depth, inner_low_.x, inner_high_.x);
+  part(box_.height, box_.periodic_y(), depth, inner_low_.y, inner_high_.y);
+}
+
+// While it stays within the skin of its listed position. One that moves may come anywhere.
+bool NeighbourLists::may_touch_obstacle(Vec2 listed, double radius) const {
+  if (box_.obstacles == nullptr) return false;
+  if (mode_ == EngineMode::all_pairs || box_.inner_walls_move) return true;
+  const double reach = (radius + skin_) * (1.0 + 1e-6) + std::max(unit_x_, unit_y_);
+  if (box_.obstacles->is_clear({listed.x - reach, listed.y - reach}, {listed.x + reach, listed.y + reach}))
+    return false;
+  bool may = false;
+  for_each_obstacle_touched(box_, listed.x, listed.y, reach, [&](std::uint32_t, const ObstacleGap&) { may = true; });
+  return may;
 }
 
 unsigned NeighbourLists::find_sides(const Disks& d, std::uint32_t i) const {
   const Vec2 position = listed_position(i);
   unsigned sides = is_inside(position) ? 0U : ListRow::across;
+  if (flow_.acts && !is_inside_in_height(position)) sides |= ListRow::images_move;
+  if (may_touch_obstacle(position, d.radius_of(i))) sides |= ListRow::obstacle_near;
   if (all_periodic_) return sides;
   for (const Side side : all_sides) {
     if (box_.side(side) == SideKind::periodic) continue;

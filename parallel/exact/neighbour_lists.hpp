@@ -201,18 +201,21 @@ class NeighbourLists {
       const double from_border = std::min(at, period - at);
       return from_border > near ? from_border : 0.0;
     };
-    return std::max(depth(p.x, listed.x, period_x_), depth(p.y, listed.y, period_y_));
+    const double deep_y = depth(p.y, listed.y, period_y_);
+    return flow_.acts ? deep_y : std::max(depth(p.x, listed.x, period_x_), deep_y);
   }
   // May a disk that is listed here list one that is so far from a border along a period?
   bool may_list_at_depth(Vec2 listed, double depth) const {
-    const double reach = depth + 2.0 * largest_radius_ + 2.0 * skin_ + search_margin_;
+    const double reach = depth + 2.0 * flow_.stretch * largest_radius_ + 2.0 * skin_ + search_margin_;
     const auto is_near = [reach](double at, double period) {
       return std::min(at, period - at) <= reach && period > 0.0;
     };
-    return is_near(listed.x, period_x_) || is_near(listed.y, period_y_);
+    return (!flow_.acts && is_near(listed.x, period_x_)) || is_near(listed.y, period_y_);
   }
   // Until it is listed again, disk i looks for images of its neighbours.
-  void look_for_images(std::uint32_t i) { rows_.set_sides(i, rows_.row(i).sides | ListRow::across); }
+  void look_for_images(std::uint32_t i) {
+    rows_.set_sides(i, rows_.row(i).sides | ListRow::across | (flow_.acts ? ListRow::images_move : 0U));
+  }
 
   // Prefetches what is read of cells when a disk of this radius, on this path, is relisted at this time.
   void prefetch_search(const PathSegment& path, double radius, double time, const RelistDistance& relist) const;
@@ -361,9 +364,11 @@ class NeighbourLists {
   void move_into_cell(const Disks& disks, std::uint32_t i, std::uint32_t key);
   bool move_to_cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position, const ListRegion& region);
   void find_inner_part();
+  bool is_inside_in_height(Vec2 listed) const { return inner_low_.y < listed.y && listed.y < inner_high_.y; }
   bool is_inside(Vec2 listed) const {
-    return inner_low_.x < listed.x && listed.x < inner_high_.x && inner_low_.y < listed.y && listed.y < inner_high_.y;
+    return inner_low_.x < listed.x && listed.x < inner_high_.x && is_inside_in_height(listed);
   }
+  bool may_touch_obstacle(Vec2 listed, double radius) const;
   unsigned find_sides(const Disks& disks, std::uint32_t i) const;
 
   // Share of the relist distance that gravity or the flow may bend a path by before earliest_relist_time is asked
@@ -381,7 +386,8 @@ class NeighbourLists {
   bool all_periodic_ = false;
   bool layers_along_x_ = false;  // one after the other
   double lead_time_ = 0.0;
-  // Disks that are listed in between list none across a border along a period.
+  // Disks that are listed in between list none across a border along a period. In a sheared box that holds of heights
+  // alone; places along x go with the flow.
   Vec2 inner_low_, inner_high_;
   double period_x_ = 0.0, period_y_ = 0.0;            // length; 0: none
   double periods_per_x_ = 0.0, periods_per_y_ = 0.0;  // 1 / period; 0: none

@@ -59,6 +59,8 @@ struct PredictionConstants {
   LaneConstant contact = in_all_lanes(0.0);               // of equal disks: contact distance
   LaneConstant horizon = in_all_lanes(0.0);               // time up to which contacts matter
   LaneConstant margin = in_all_lanes(far_travel_margin);  // core's time_to_far_contact
+  // Of a sheared box: displacement of the images above at the window's start; length. Their velocity.
+  LaneConstant offset = in_all_lanes(0.0), jump = in_all_lanes(0.0);
 };
 
 // The first contact of a disk with one of its neighbours.
@@ -91,6 +93,10 @@ struct PredictionKernels {
   // Where neighbours fly so far that images beyond the nearest one may be met, too.
   RowKernel near_any_image;
   WideRowKernel far_any_image;
+  // In a sheared box, where a neighbour may be listed across the bottom or the top. An image beyond the nearest one
+  // that may be met is ambiguous. Null where gravity acts.
+  RowKernel near_sheared;
+  WideRowKernel far_sheared;
 };
 
 // What a scene's gravity is: none, along y alone, or any.

@@ -148,8 +148,9 @@ struct Own {
   Doubles start, x, y, vx, vy, radius;
 };
 
-// Which images of neighbours may be met: no but the disks themselves; the nearest ones; those beyond the nearest, too.
-enum class Images { any, own, all };
+// Which images of neighbours may be met: no but the disks themselves; the nearest ones; those beyond the nearest, too;
+// the nearest ones of a sheared box.
+enum class Images { any, own, all, sheared };
 
 // Places and velocities of four disks.
 struct Motions {
@@ -201,16 +202,35 @@ inline Doubles nearest_of_any(const PredictionConstants& f, Doubles d, const Lan
   return choose(magnitude(f, d) > all(0.5) * load(period), beyond, d);
 }
 
+// core's relative_in_shear, operation by operation. both: the time.
+[[gnu::always_inline]] inline void take_sheared_images(const PredictionConstants& f, Doubles both, Pairs& r) {
+  const Doubles half = all(0.5) * load(f.image_y);
+  const Longs below = r.dy > half;
+  const Longs above = r.dy < -half;
+  const auto by_row = [&](Doubles a, Doubles b, Doubles c) __attribute__((always_inline)) {
+    return choose(above, a, choose(below, b, c));
+  };
+  const Doubles offset = load(f.offset) + load(f.jump) * both;
+  const Doubles in_row = nearest_of_any(f, by_row(r.dx + offset, r.dx - offset, r.dx), f.image_x);
+  r.dx = nearest_of_any(f, choose(above | below, in_row, r.dx), f.image_x);
+  r.dy = by_row(r.dy + load(f.image_y), r.dy - load(f.image_y), r.dy);
+  r.dvx = by_row(r.dvx + load(f.jump), r.dvx - load(f.jump), r.dvx);
+}
+
+// May the image behind the nearest one be met within `span`? d, dv: distance from the nearest, and its velocity, along
+// an axis with this period.
+[[gnu::always_inline]] inline Longs meets_image_behind(const PredictionConstants& f, const Pairs& r, Doubles span,
+                                                       Doubles d, Doubles dv, const LaneConstant& period) {
+  const Doubles reach = r.contact_distance * load(f.margin);
+  return magnitude(f, dv) * span * load(f.margin) + reach >= load(period) - magnitude(f, d);
+}
+
 // core's time_to_far_contact, operation by operation: of `nearest`, the time until the nearest images touch, and those
 // until images beyond them do that may be met within `span`, the least.
 [[gnu::always_inline]] inline Doubles until_any_image(const PredictionConstants& f, const Pairs& r, Doubles span,
                                                       Doubles nearest, Doubles& slowest) {
-  const Doubles reach = r.contact_distance * load(f.margin);
-  const auto is_far = [&](Doubles d, Doubles dv, const LaneConstant& period) __attribute__((always_inline))->Longs {
-    return magnitude(f, dv) * span * load(f.margin) + reach >= load(period) - magnitude(f, d);
-  };
-  const Longs far_x = is_far(r.dx, r.dvx, f.image_x);
-  const Longs far_y = is_far(r.dy, r.dvy, f.image_y);
+  const Longs far_x = meets_image_behind(f, r, span, r.dx, r.dvx, f.image_x);
+  const Longs far_y = meets_image_behind(f, r, span, r.dy, r.dvy, f.image_y);
   if (!any_true(far_x | far_y)) return nearest;
   Doubles first = smaller(nearest, load(f.never));
   const auto see = [&](Doubles dx, Doubles dy, Longs is_met) __attribute__((always_inline)) {
@@ -266,6 +286,10 @@ template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
   }
   r.dvx = others.vx - mine.vx;
   r.dvy = others.vy - mine.vy;
+  if constexpr (images == Images::sheared) {
+    take_sheared_images(f, both, r);
+    r.contact_distance = load(f.contact);
+  }
   r.contact2 = load(f.contact2);
   if constexpr (unequal_radii) {
     r.contact_distance = own.radius + Doubles{f0.radius, f1.radius, f2.radius, f3.radius};
@@ -274,6 +298,12 @@ template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
   Doubles approach;
   const Doubles until = until_contact(f, r, r.dx, r.dy, approach);
   slowest = smaller(magnitude(f, approach), slowest);
+  if constexpr (images == Images::sheared) {
+    // What this kernel does not know counts as a neighbour that is approached at no speed.
+    const Doubles span = load(f.horizon) - both;
+    slowest = number(bits(slowest) & ~(meets_image_behind(f, r, span, r.dx, r.dvx, f.image_x) |
+                                       meets_image_behind(f, r, span, r.dy, r.dvy, f.image_y)));
+  }
   if constexpr (images == Images::all) {
     return both + until_any_image(f, r, load(f.horizon) - both, until, slowest);
   }
@@ -393,13 +423,21 @@ FirstContact first_in_wide_row(const PredictionConstants& f, const DiskRecord* r
 
 template <GravityKind gravity, bool unequal_radii>
 PredictionKernels kernels_for() {
+  RowKernel near_sheared = nullptr;
+  WideRowKernel far_sheared = nullptr;
+  if constexpr (gravity == GravityKind::none) {
+    near_sheared = first_in_row<gravity, unequal_radii, false, Images::sheared>;
+    far_sheared = first_in_wide_row<gravity, unequal_radii, Images::sheared>;
+  }
   return {first_in_row<gravity, unequal_radii, false, Images::any>,
           first_in_row<gravity, unequal_radii, true, Images::any>,
           first_in_row<gravity, unequal_radii, false, Images::own>,
           first_in_row<gravity, unequal_radii, true, Images::own>,
           first_in_wide_row<gravity, unequal_radii, Images::any>,
           first_in_row<gravity, unequal_radii, false, Images::all>,
-          first_in_wide_row<gravity, unequal_radii, Images::all>};
+          first_in_wide_row<gravity, unequal_radii, Images::all>,
+          near_sheared,
+          far_sheared};
 }
 
 template <GravityKind gravity>

@@ -56,7 +56,8 @@ Expected expected_contact(const std::vector<DiskRecord>& record, std::uint32_t o
     const DiskRecord& a = record[std::min(own, j)];
     const DiskRecord& b = record[std::max(own, j)];
     const double both = std::max(a.path.start, b.path.start);
-    const Relative r = relative(carried_to(a.path, both, g), carried_to(b.path, both, g), box);
+    const PathSegment p = carried_to(a.path, both, g), q = carried_to(b.path, both, g);
+    const Relative r = box.shear.acts() ? relative_in_shear(p, q, box) : relative(p, q, box);
     first.ambiguous |= std::abs(r.approach()) <= slow_approach;
     const double t = horizon > 0.0 ? collision_time(a.path, b.path, a.radius + b.radius, box, g, horizon)
                                    : both + time_to_contact(r, a.radius + b.radius);
@@ -251,6 +252,59 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormulaWithImagesBeyondTheNeare
   EXPECT_GT(behind, 20);
   EXPECT_LT(ambiguous, 300);
   EXPECT_LT(false_alarms, 60);
+}
+
+// Neighbours anywhere in a sheared box, whose images above and below move. Images beyond the nearest ones are
+// ambiguous.
+TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormulaInAShear) {
+  const KernelCase& c = GetParam();
+  if (!c.periodic || c.gravity.acts()) return;
+  test::Draws draws(31);
+  int across = 0;
+  int false_alarms = 0;
+  int ambiguous = 0;
+  for (int round = 0; round < 2000; ++round) {
+    Domain box;
+    box.width = 12.0;
+    box.height = 10.0;
+    box.sides.fill(SideKind::periodic);
+    const double rate = draws.in(-0.5, 0.5);
+    box.shear = {rate, rate * box.height, draws.in(-6.0, 6.0)};
+    std::vector<DiskRecord> record = random_records(draws, c, 10.0);
+    // Half of them near the bottom and the top.
+    for (std::uint32_t k = 0; k < disks; k += 2)
+      record[k].path.y = 0.2 * record[k].path.y + (k % 4 == 0 ? 0.0 : 8.0);
+    const auto own = static_cast<std::uint32_t>(draws.bits() % disks);
+    const std::vector<int> offset = random_offsets(draws, own);
+    const double horizon = draws.in(1.0, 2.0);
+    PredictionConstants constants = constants_of(c.gravity);
+    constants.horizon = in_all_lanes(horizon);
+    constants.image_x = in_all_lanes(box.width);
+    constants.image_y = in_all_lanes(box.height);
+    constants.offset = in_all_lanes(box.shear.offset);
+    constants.jump = in_all_lanes(box.shear.jump);
+    const Expected expected = expected_contact(record, own, offset, box, c.gravity, horizon);
+    ambiguous += expected.ambiguous ? 1 : 0;
+    if (!expected.ambiguous && expected.time < never) {
+      const double y = record[own + static_cast<std::uint32_t>(offset[expected.neighbour])].path.y;
+      across += std::abs(y - record[own].path.y) > 7.0 ? 1 : 0;
+    }
+    const auto expect = [&](FirstContact found) {
+      if (!found.is_ambiguous() && found.time > horizon) found.time = never;
+      expect_contact(found, offset, expected, false_alarms);
+    };
+    for (const PredictionKernels& kernels : {choose_prediction_kernels(GravityKind::none, c.unequal_radii),
+                                             prediction_kernels_baseline(GravityKind::none, c.unequal_radii)}) {
+      ListRow row;
+      row.count = static_cast<std::uint8_t>(offset.size());
+      std::ranges::copy(padded(offset), row.offset);
+      expect(kernels.near_sheared(constants, &record[own], row));
+      expect(kernels.far_sheared(constants, &record[own], padded(offset).data(), row.count));
+    }
+  }
+  EXPECT_GT(across, 40);
+  EXPECT_LT(ambiguous, 1000);
+  EXPECT_LT(false_alarms, -1);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PredictionKernelVersions,
