@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/size_law.hpp"
@@ -35,12 +36,25 @@ bool masses_differ(const Scene& scene) {
   return all.high > (1.0 + rounding) * all.low;
 }
 
+// The key of the first group that is to start at velocities which are no draws around 0, empty if there is none.
+std::string key_of_motion(const Scene& scene) {
+  const auto moves = [](const Vec2& v) { return v.x != 0.0 || v.y != 0.0; };
+  for (std::size_t k = 0; k < scene.groups.size(); ++k) {
+    const DiskGroup& group = scene.groups[k];
+    if (group.fixed || group.count == 0) continue;
+    if (moves(group.drift)) return fmt::format("disks.{}.drift", k);
+    const std::vector<Vec2>& given = group.velocities.list;
+    if (std::any_of(given.begin(), given.end(), moves)) return fmt::format("disks.{}.velocities", k);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<std::string> brownian_warnings(const Scene& scene) {
   std::vector<std::string> warnings;
   if (!velocities_are_drawn(scene)) return warnings;
-  const auto warn = [&](const char* key, const std::string& what) {
+  const auto warn = [&](std::string_view key, const std::string& what) {
     warnings.push_back(fmt::format("{}: {}: Brownian disks have no velocity, u / dt is the displacement of a step: {}",
                                    scene.file, key, what));
   };
@@ -53,6 +67,9 @@ std::vector<std::string> brownian_warnings(const Scene& scene) {
   }
   if (scene.analysis.wants(Quantity::velocity_autocorrelation)) {
     warn("analysis.what", "the autocorrelation is that of u / dt");
+  }
+  if (const std::string key = key_of_motion(scene); !key.empty()) {
+    warn(key, "those given here are forgotten in the first step, and nothing drifts");
   }
   if (scene.physics.gravity.acts()) {
     warn("physics.gravity", fmt::format("what gravity gives in a step is forgotten in the next, so that disks sink at "

@@ -42,8 +42,9 @@ inline constexpr SceneKey keys[] = {
      "periodic "
      "side to the other has no edge there.",
      "region = [0.0, 0.0, 50.0, 100.0]", "[x0, y0, x1, y1], or `{ circle = ... }`"},
-    {"disks", "drift", special, Dimension::speed, "[0, 0]", "A velocity that all disks of the group get on top.",
-     "drift = [1.0, 0.0]", "[vx, vy]"},
+    {"disks", "drift", special, Dimension::speed, "[0, 0]",
+     "A velocity that all disks of the group get on top, at the start: Brownian disks forget it.", "drift = [1.0, 0.0]",
+     "[vx, vy]"},
     {"disks", "spin", number, Dimension::frequency, "0",
      "Angular velocity of rough disks at the start, counter-clockwise.", "spin = 2.0",
      "a number, a list of them, or `{ frame = ... }`"},

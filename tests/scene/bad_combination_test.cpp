@@ -217,6 +217,49 @@ t_end = 1.0
               testing::ElementsAre(HasSubstr("temperature are those of u / dt"), HasSubstr("autocorrelation is that")));
 }
 
+// A drift does nothing to disks whose displacements are drawn anew in each step; velocities drawn around 0 were to do
+// nothing.
+TEST(UnusedKey, ADriftOfBrownianDisksIsAWarning) {
+  const auto warned = [](std::string_view physics, std::string_view group) {
+    return scene_warnings(test::scene_from(fmt::format(R"(
+[box]
+width = 20.0
+height = 20.0
+[physics]
+{}
+[[disks]]
+count = 0
+positions = "random"
+drift = [1.0, 0.0]
+radius = 0.1
+mass = 1.0
+[[disks]]
+count = 2
+positions = "random"
+radius = 0.1
+mass = 1.0
+{}
+[run]
+dt = 0.01
+t_end = 1.0
+)",
+                                                       physics, group)));
+  };
+  constexpr std::string_view brownian = "diffusion = 0.5";
+  constexpr std::string_view forgotten =
+      "Brownian disks have no velocity, u / dt is the displacement of a step: those "
+      "given here are forgotten in the first step, and nothing drifts";
+  EXPECT_THAT(warned(brownian, ""), testing::IsEmpty());
+  EXPECT_THAT(warned(brownian, "velocities = { maxwell = 1.0 }"), testing::IsEmpty());
+  EXPECT_THAT(warned(brownian, "velocities = [[0, 0], [0, 0]]"), testing::IsEmpty());
+  EXPECT_THAT(warned(brownian, "drift = [0.0, -0.5]"),
+              testing::ElementsAre(HasSubstr(fmt::format("disks.1.drift: {}", forgotten))));
+  EXPECT_THAT(warned(brownian, "velocities = [[0, 0], [0.5, 0]]"),
+              testing::ElementsAre(HasSubstr(fmt::format("disks.1.velocities: {}", forgotten))));
+  EXPECT_THAT(warned("diffusion = 0.5\naccumulate = true", "drift = [0.5, 0.0]"), testing::IsEmpty());
+  EXPECT_THAT(warned("", "drift = [0.5, 0.0]"), testing::IsEmpty());
+}
+
 TEST(BadPhysics, BrownianMotionNeedsAStep) {
   const std::string exact = replaced(replaced(sound_scene, "pairwise", "exact"), "dt = 0.01\n", "");
   EXPECT_EQ(complaint(exact), "");
