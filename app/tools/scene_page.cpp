@@ -139,8 +139,9 @@ std::string series_rows() {
     text += fmt::format("| `{}` | {} | {}; only with `shear_rate` |\n", column.name, column.unit, column.meaning);
   }
   text +=
-      "\nThen, for each `[[disks]]` block with a `name`, and for `sources` if there are any, these with `_` and the "
-      "name behind, as in `temperature_tracer`:\n\n| column | unit | what it is |\n| --- | --- | --- |\n";
+      "\nThen, for each `[[disks]]` block with a `name`, and beside such blocks for `sources` if there are any, "
+      "these with `_` and the name behind, as in `temperature_tracer`:\n\n| column | unit | what it is |\n| --- | --- "
+      "| --- |\n";
   for (const GroupColumn& column : group_column_kinds()) {
     text += fmt::format("| `{}_` | {} | {} |\n", column.name, column.unit, column.meaning);
   }

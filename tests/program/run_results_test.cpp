@@ -96,6 +96,19 @@ TEST_F(RunResults, RatesFollowFromTheCounts) {
   EXPECT_NEAR(s["energy_final"].get<double>() / s["energy_initial"].get<double>(), 1.0, 1e-12);
 }
 
+// The pressure of a gas that cools is not from the mean of its kinetic energy, and says so.
+TEST_F(RunResults, WhatThePressureIsWhereTheEnergyChanges) {
+  EXPECT_THAT(carom("run small.toml -o steady").out, testing::ContainsRegex("  pressure    [0-9.e-]+\n"));
+  const Outcome o = carom("run small.toml -o cooling --t-end 20 --set box.wall_restitution=0.5");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const Json s = Json::parse(text_of(at("cooling/summary.json")));
+  ASSERT_LT(s["energy_final"], 0.5 * s["energy_initial"].get<double>());
+  EXPECT_THAT(o.out,
+              HasSubstr(fmt::format("  pressure    {:.6g}, with the kinetic energy halfway between {:.6g} and {:.6g}\n",
+                                    s["pressure"].get<double>(), s["energy_initial"].get<double>(),
+                                    s["energy_final"].get<double>())));
+}
+
 // Disks that are pressed together in the middle of a run and free again at its end: the summary has it, and that of an
 // interrupted run has the same.
 TEST_F(RunResults, TheWorstOverlapOfTheRunBesideThatOfItsEnd) {
