@@ -101,7 +101,7 @@ void put_series(Hdf5Output& output, const AnalysisRecord& record, const Scene& s
   if (plan.wants(Quantity::pressure)) {
     const Group group(output, "/pressure");
     put_means(group, series.pressure, series.interval, "energy / length^2");
-    group.say("meaning", "(kinetic energy + virial of the collisions in the interval) / area of the box");
+    group.say("meaning", "(kinetic energy + virial of the collisions and loads in the interval) / area of the box");
   }
   if (plan.wants(Quantity::collision_rate)) {
     const Group group(output, "/collision_rate");

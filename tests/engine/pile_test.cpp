@@ -87,6 +87,25 @@ TEST(Pile, ColumnOfTenBearsItsWeight) {
   }
 }
 
+// A pile at rest has no collisions, and yet the pressure of its loads: the sum of load times distance, over twice the
+// area.
+TEST(Pile, PressureOfAColumnIsThatOfItsLoads) {
+  const std::vector<Disk> list = column(10, 0.0);
+  const auto counters_at = [&](double time) {
+    const Scene scene = pile_scene(0.5, 0.005, time);
+    return watch(scene, test::state_of(scene, list)).end.counters;
+  };
+  const Counters before = counters_at(10.0), after = counters_at(20.0);
+  EXPECT_EQ(after.collisions, before.collisions);
+  double above = 0.0, loads = 0.0;
+  for (std::size_t k = 10; k-- > 1;) {
+    above += 0.5 * list[k].mass;
+    loads += above * 2.0;
+  }
+  const double pressure = carom::pressure({}, after.virial - before.virial, 10.0, pile_scene(0.5, 0.005, 1.0).box);
+  EXPECT_NEAR(pressure / (loads / (2.0 * 20.0 * 40.0)), 1.0, 2e-3);
+}
+
 // The same ones dropped with gaps come to rest as that column.
 TEST(Pile, ColumnFallsAndStands) {
   for (const double e : {0.0, 0.5, 0.8}) {
