@@ -13,12 +13,21 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/start_ranks.hpp"
 #include "core/base/check.hpp"
+#include "core/base/input_message.hpp"
 #include "core/base/kernel_set.hpp"
 #include "io/files/child_process.hpp"
+#include "parallel/slabs/leading_engine.hpp"
 
 namespace carom {
 
 namespace {
+
+// mpirun alone says how many processes there are, where it was called by hand.
+void check_started_ranks(int wanted, int started) {
+  if (wanted == started) return;
+  fail_input("--ranks", fmt::format("{} of them are asked for, and mpirun has started {}", wanted, started),
+             "expected the number that mpirun -n says, or no --ranks");
+}
 
 // A run on several ranks is started anew by MPI, unless it was already.
 struct Dispatch {
@@ -28,11 +37,13 @@ struct Dispatch {
 
   int operator()(RunOptions options) const {
     if (options.ranks && lead == nullptr) return start_ranks(*options.ranks, argc, argv);
+    if (options.ranks) check_started_ranks(*options.ranks, lead->count());
     options.lead = lead;
     return command_run(options);
   }
   int operator()(ResumeOptions options) const {
     if (options.ranks && lead == nullptr) return start_ranks(*options.ranks, argc, argv);
+    if (options.ranks) check_started_ranks(*options.ranks, lead->count());
     options.lead = lead;
     return command_resume(options);
   }
