@@ -54,24 +54,24 @@ int ready_signal() {
 }
 
 // What a handler may touch has to be static: it is called with a number and nothing else.
-std::atomic<int> mpiexec_process = 0;
-std::atomic<int> stops_asked = 0, checkpoint_asked = 0, rank_0_ready = 0, stop_passed = 0;
+std::atomic<int> mpiexec_process = 0, rank_0_process = 0;
+std::atomic<int> stop_asked = 0, stop_passed = 0, checkpoint_asked = 0;
 static_assert(std::atomic<int>::is_always_lock_free);  // as a handler needs
 
-// mpiexec passes SIGUSR1 and SIGUSR2 on to the ranks, and would end them for any other: rank 0 takes SIGUSR2 as a wish
-// to stop. A second one quits at once. While the ranks start they would be lost, or end a rank that does not know them
-// yet: they are kept until rank 0 is ready.
-extern "C" void pass_on(int signal) {
+// To rank 0 itself, which then says by which signal it was stopped: mpiexec passes few on, and ends the ranks for the
+// others, as it shall for a second stop. While the ranks start signals would be lost, or end a rank that does not know
+// them yet: they are kept until rank 0 is ready, and has said so itself.
+extern "C" void pass_on(int signal, siginfo_t* info, void* /*context*/) {
   if (signal == ready_signal()) {
-    rank_0_ready = 1;
+    rank_0_process = info->si_pid;
   } else if (signal == SIGUSR1) {
     checkpoint_asked = 1;
-  } else if (++stops_asked > 1) {
+  } else if (stop_asked.exchange(signal) != 0) {
     kill(mpiexec_process, SIGTERM);
   }
-  if (rank_0_ready == 0) return;
-  if (checkpoint_asked.exchange(0) != 0) kill(mpiexec_process, SIGUSR1);
-  if (stops_asked > 0 && stop_passed.exchange(1) == 0) kill(mpiexec_process, SIGUSR2);
+  if (rank_0_process == 0) return;
+  if (checkpoint_asked.exchange(0) != 0) kill(rank_0_process, SIGUSR1);
+  if (stop_asked != 0 && stop_passed.exchange(1) == 0) kill(rank_0_process, stop_asked);
 }
 
 sigset_t passed_signals() {
@@ -87,8 +87,8 @@ void pass_signals_on() {
     sigaction(signal, nullptr, &before);
     if (before.sa_handler == SIG_IGN && signal != ready_signal()) continue;
     struct sigaction action {};
-    action.sa_handler = pass_on;
-    action.sa_flags = SA_RESTART;
+    action.sa_sigaction = pass_on;
+    action.sa_flags = SA_RESTART | SA_SIGINFO;
     action.sa_mask = passed_signals();  // one after the other
     sigaction(signal, &action, nullptr);
   }

@@ -142,12 +142,15 @@ TEST_F(RanksRun, AStoppedRunGoesOnWithAnyNumberOfRanks) {
 }
 
 TEST_F(RanksRun, ASignalStopsItWithACheckpoint) {
-  const pid_t run = start_long("out", "2");
-  kill(run, SIGTERM);
-  EXPECT_EQ(wait_for(run), 4);
-  EXPECT_NE(said().find("stopped by SIGTERM"), std::string::npos) << said();
-  EXPECT_NE(said().find("carom resume out"), std::string::npos);
-  EXPECT_EQ(carom("resume out --quiet --ranks 3 --max-walltime 1e-9").status, 4);
+  for (const auto& [signal, name] : {std::pair{SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"}, {SIGHUP, "SIGHUP"}}) {
+    const std::string folder = fmt::format("out{}", signal);
+    const pid_t run = start_long(folder, "2");
+    kill(run, signal);
+    EXPECT_EQ(wait_for(run), 4);
+    EXPECT_NE(said().find(fmt::format("stopped by {} at", name)), std::string::npos) << said();
+    EXPECT_NE(said().find("carom resume " + folder), std::string::npos);
+    EXPECT_EQ(carom("resume " + folder + " --quiet --ranks 3 --max-walltime 1e-9").status, 4);
+  }
 }
 
 TEST_F(RanksRun, WhatRanksCannotDoIsSaidInOneLine) {
@@ -167,6 +170,24 @@ TEST_F(RanksRun, WhatRanksCannotDoIsSaidInOneLine) {
       << many.err;
   ASSERT_EQ(carom(flat + "--quiet -o one").status, 0);
   EXPECT_EQ(summary("one")["state_hash"], summary("out")["state_hash"]);
+}
+
+// Not a run of three that was asked to have two, nor one of one.
+TEST_F(RanksRun, AsManyRanksAsMpirunHasStartedOrNone) {
+  const std::string mpirun =
+      "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_ALLOW_RUN_AS_ROOT=1 "
+      "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun -q -n ";
+  for (const std::string wrong : {"2", "1"}) {
+    const Outcome run = shell(mpirun + "3 $C-mpi run scene.toml --quiet -o out --ranks " + wrong);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.err, "carom: error: --ranks: " + wrong +
+                           " of them are asked for, and mpirun has started 3; expected the number that mpirun -n says, "
+                           "or no --ranks\n");
+    EXPECT_FALSE(fs::exists(at("out")));
+  }
+  ASSERT_EQ(shell(mpirun + "2 $C-mpi run scene.toml --quiet --max-walltime 1e-9 -o out --ranks 2").status, 4);
+  EXPECT_EQ(shell(mpirun + "3 $C-mpi resume out --quiet --ranks 2").status, 2);
+  EXPECT_EQ(shell(mpirun + "3 $C-mpi resume out --quiet").status, 0);
 }
 
 // What carom check says of ranks, against what their run then says.
