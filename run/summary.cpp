@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/build_version.hpp"
+#include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/scene/drawn_velocities.hpp"
@@ -285,8 +286,8 @@ std::vector<KeyText> summary_key_texts() {
 }
 
 std::string table_text(const Summary& s, const std::string& folder) {
-  std::string text = fmt::format("{}: {}, {} engine, {}, seed {}\n", s.title.empty() ? s.scene : s.title, s.method,
-                                 s.engine.name, threads_text(s.engine), s.seed);
+  std::string text = fmt::format("{}: {}, {} engine, {}, seed {}\n", one_line(s.title.empty() ? s.scene : s.title),
+                                 s.method, s.engine.name, threads_text(s.engine), s.seed);
   const auto line = [&text](const char* name, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", name, value);
   };
@@ -306,7 +307,7 @@ std::string table_text(const Summary& s, const std::string& folder) {
                             short_number(rate * s.mean_disks), duration_text(s.wall_s)));
   if (s.ranks) line("ranks", traffic_line(s));
   if (s.resumed > 0) line("resumed", s.resumed == 1 ? "once" : fmt::format("{} times", s.resumed));
-  if (!folder.empty()) line("results", folder);
+  if (!folder.empty()) line("results", one_line(folder));
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/input_message.hpp"
 #include "core/scene/scene_names.hpp"
 
 namespace carom {
@@ -68,8 +69,8 @@ std::string own_chart_text(const chart::SceneResult& result, const Scene& scene)
   std::string text = fmt::format(
       "{}: errors against exact; paths to t = {:.3g}, collision rate and {} to t = {:.3g}\n"
       "  {:<10}{:<12}{:>6}{:>14}{:>10}{:>10}{:>10}\n",
-      scene.file, result.scene.flight, figure_name(result.scene.figure), result.scene.length, "method", "dt", "seeds",
-      "CPU to t_end", "path", "rate", figure_name(result.scene.figure));
+      one_line(scene.file), result.scene.flight, figure_name(result.scene.figure), result.scene.length, "method", "dt",
+      "seeds", "CPU to t_end", "path", "rate", figure_name(result.scene.figure));
   for (const Curve& curve : result.curves) {
     for (const Point& p : curve.points) {
       text += fmt::format("  {:<10}{:<12}{:>6}{:>12.3g} s{:>10}{:>10}{:>10}{}\n", name_of(curve.method),

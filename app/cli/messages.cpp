@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/base/check.hpp"
+#include "core/base/input_message.hpp"
 
 namespace carom {
 
@@ -17,7 +18,7 @@ void print_out(std::string_view text) {
 
 void print_note(std::string_view text) {
   // A closed standard error is no reason to stop a run.
-  std::fputs(fmt::format("carom: {}\n", text).c_str(), stderr);
+  std::fputs(fmt::format("carom: {}\n", one_line(text)).c_str(), stderr);
 }
 
 void print_warning(std::string_view text) {

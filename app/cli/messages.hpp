@@ -8,7 +8,7 @@ namespace carom {
 // Writes to standard output. Throws RunError where that fails (a full disk, a closed pipe).
 void print_out(std::string_view text);
 
-// "carom: ..." and "carom: warning: ..." on standard error.
+// "carom: ..." and "carom: warning: ..." on standard error, a line each whatever characters names in it have.
 void print_note(std::string_view text);
 void print_warning(std::string_view text);
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/cli/progress.hpp"
+#include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
 #include "core/load/method_choice.hpp"
 #include "core/scene/disk_group.hpp"
@@ -306,7 +307,8 @@ const JsonKey<Told> check_keys[] = {
 };
 
 std::string main_text(const Scene& scene, const Findings& f) {
-  std::string text = fmt::format("{}: {}\n", scene.file, scene.title.empty() ? "a scene" : scene.title);
+  std::string text =
+      fmt::format("{}: {}\n", one_line(scene.file), scene.title.empty() ? "a scene" : one_line(scene.title));
   const auto line = [&text](const char* name, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", name, value);
   };

@@ -29,7 +29,9 @@ std::size_t shown_length(std::string_view text) {
   return first == 0xc2 && second < 0xa0 ? 0 : length;
 }
 
-std::string shown(std::string_view text) {
+}  // namespace
+
+std::string one_line(std::string_view text) {
   std::string line;
   while (!text.empty()) {
     const std::size_t length = shown_length(text);
@@ -39,12 +41,10 @@ std::string shown(std::string_view text) {
   return line;
 }
 
-}  // namespace
-
 void fail_input(std::string_view where, std::string_view what, std::string_view expected) {
   std::string line = fmt::format("{}: {}", where, what);
   if (!expected.empty()) line += fmt::format("; {}", expected);
-  throw InputError(shown(line));
+  throw InputError(one_line(line));
 }
 
 std::string in_quotes(std::string_view text) {

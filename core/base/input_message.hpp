@@ -7,9 +7,11 @@
 
 namespace carom {
 
-// Throws InputError with that line. where is "file:line: key"; an empty expected is left out. Control characters and
-// bytes that are no UTF-8, in names that users chose or in a damaged file, become '?': the message stays one line, and
-// Python can have it as a string.
+// Text with names that users chose, or of a damaged file, as a terminal may have it: control characters and bytes that
+// are no UTF-8 become '?'. It stays one line, and Python can have it as a string.
+std::string one_line(std::string_view text);
+
+// Throws InputError with that line, one_line() of it. where is "file:line: key"; an empty expected is left out.
 [[noreturn]] void fail_input(std::string_view where, std::string_view what, std::string_view expected = {});
 
 // Text from the user in double quotes, cut short after 60 characters.

@@ -259,6 +259,22 @@ TEST_F(CommandLine, CheckSaysWhatItWouldModel) {
   EXPECT_EQ(Json::parse(o.out)["particles"], 5);
 }
 
+// Codes that would colour a terminal, ring its bell, or begin another line of it, in a title and in names of files.
+TEST_F(CommandLine, TitlesAndNamesSendNoCodesToTheTerminal) {
+  const std::string name = "\x1b[31m.toml";
+  const std::string small = text_of(at("small.toml"));
+  write(name, R"(title = "a\u001b[31mred\u0007 \u009b31m\nb")" + small.substr(small.find('\n')));
+  const std::string scene =
+      " '" + name + "' --set physics.collapse.model=tc --set physics.collapse.contact_time=1 --method pairwise";
+  for (const std::string command : {"check", "run -o 'out\x1b[31m'"}) {
+    const Outcome o = carom(command + scene);
+    EXPECT_EQ(o.status, 0) << o.err;
+    EXPECT_THAT(o.out, HasSubstr("a?[31mred? ??31m?b"));
+    EXPECT_THAT(o.err, HasSubstr("warning: ?[31m.toml: physics.collapse"));
+    EXPECT_THAT(o.out + o.err, Not(HasSubstr("\x1b")));
+  }
+}
+
 // A scene that the machine could hold and this process may not: a fault of the scene, whether it is run or checked. The
 // address sanitizer takes more room for itself than the limit leaves.
 TEST_F(LongCommandLine, DisksThatFindNoMemory) {
