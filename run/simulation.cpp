@@ -121,6 +121,7 @@ void Simulation::change(const Edit& edit) {
 // A step that fails leaves no contacts.
 void Simulation::make_step(Engine& steps) {
   stepped_ = false;
+  step_start_ = time();
   steps.step();
   stepped_ = true;
 }
@@ -157,6 +158,10 @@ double Simulation::disks_at(double t, Disks& out) const {
   if (!(t <= time())) fail_input("time", fmt::format("is {}", t), fmt::format("expected {} or less", time()));
   Disks stored = state().disks;
   const double at = edited_ ? time() : engine_->disks_at(t, stored);
+  if (at < step_start_) {
+    fail_input("time", fmt::format("is {}, before the last step", t),
+               fmt::format("expected {} to {}", step_start_, time()));
+  }
   const std::vector<std::size_t> by = by_id(stored);  // disks that a sink took in the last step are there again
   const auto sort = [&](auto& to, const auto& from) {
     to.resize(from.size());

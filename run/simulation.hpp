@@ -60,6 +60,7 @@ class Simulation {
   const std::vector<std::size_t>& order() const;
 
   // The disks in order of id: now, and at a time within the last step (time stepping: now). Returns their time.
+  // Throws InputError for a time after that step, or before it.
   Disks disks() const;
   double disks_at(double t, Disks& out) const;
 
@@ -119,6 +120,7 @@ class Simulation {
   mutable std::unique_ptr<const ObstacleCells> walls_;
   mutable double walls_time_ = -1.0;
   std::unique_ptr<Engine> engine_;
+  double step_start_ = 0.0;      // time of the state before the last step
   bool stepped_ = false;         // and nothing was changed or loaded since
   std::optional<State> edited_;  // of which the engine is made anew before the next step
   std::vector<std::string> warnings_;

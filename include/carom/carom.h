@@ -148,7 +148,8 @@ CAROM_API carom_status carom_positions(const carom_world* world, double* xy, siz
 CAROM_API carom_status carom_velocities(const carom_world* world, double* xy, size_t room); /* likewise */
 CAROM_API carom_status carom_radii(const carom_world* world, double* radii, size_t room);
 CAROM_API carom_status carom_spins(const carom_world* world, double* spins, size_t room); /* 0 of smooth disks */
-/* Those at a time within the last step (with pairwise and rollback, at its end): how many, and their time. */
+/* Those at a time within the last step (with pairwise and rollback, at its end): how many, and their time. CAROM_INPUT
+ * for a time after that step, or before it. */
 CAROM_API carom_status carom_disks_at(const carom_world* world, double t, carom_disk* disks, size_t room, size_t* count,
                                       double* time);
 /* The pairs of disks that met in the last step, in order of time and ids. exact: those that collided in the window, once

@@ -129,7 +129,8 @@ class Simulation:
                     call(self)
 
     def disks(self, at: Optional[float] = None) -> Frame:
-        """Copies of the columns in order of id: now, or at a time within the last step (method exact; otherwise now)."""
+        """Copies of the columns in order of id: now, or at a time within the last step (method exact; otherwise now).
+        Raises SceneError for a time after that step, or before it."""
         try:
             t, columns = (self.time, self._sim.disks()) if at is None else self._sim.disks_at(at)
         except TypeError:

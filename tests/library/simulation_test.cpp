@@ -89,6 +89,23 @@ TEST(Simulation, GivesDisksInOrderOfId) {
   EXPECT_THROW(simulation.disks_at(simulation.time() + 1.0, earlier), InputError);
 }
 
+// Nobody knows any more where the disks were before the last window: at its start, but not before.
+TEST(Simulation, HasNoDisksOfBeforeTheLastStep) {
+  for (const char* engine : {"parallel", "reference"}) {
+    Simulation s(gas("exact"), choice(engine));
+    s.step(3);
+    const Disks before = s.disks();
+    const double start = s.time();
+    s.step();
+    Disks then;
+    EXPECT_EQ(s.disks_at(start, then), start);
+    for (std::size_t k = 0; k < before.size(); ++k) EXPECT_DOUBLE_EQ(then.x[k], before.x[k]);
+    for (const double t : {std::nextafter(start, 0.0), 0.0, -1.0, -HUGE_VAL}) {
+      EXPECT_THROW(s.disks_at(t, then), InputError) << t;
+    }
+  }
+}
+
 TEST(Simulation, ASummaryMovesNoDisk) {
   for (const char* method : methods) {
     Simulation simulation(gas(method), choice());
