@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Mapping, NamedTuple
+from typing import Mapping, NamedTuple, Tuple
 
 import numpy as np
 
@@ -13,9 +13,20 @@ class Disks:
     """Disks as columns, numpy arrays of shape (n,): x, y (length), vx, vy (length / time), radius, mass, id; spin
     (1 / time, counter-clockwise) where they are rough."""
 
+    x: np.ndarray
+    y: np.ndarray
+    vx: np.ndarray
+    vy: np.ndarray
+    radius: np.ndarray
+    mass: np.ndarray
+    id: np.ndarray
+    spin: np.ndarray
+    t: float  # simulated time
+    names: Tuple[str, ...]  # of the columns that there are
+
     def __init__(self, columns: Mapping[str, np.ndarray], t: float):
         self.__dict__.update(columns)
-        self.t = t  # simulated time
+        self.t = t
         self.names = tuple(columns)
 
     def __len__(self):
@@ -35,9 +46,13 @@ class Frame(Disks):
     to_ase, to_freud and to_gsd make what these programs take.
     """
 
+    box: Tuple[float, float]  # length
+    periodic: Tuple[bool, bool]
+    group: np.ndarray
+
     def __init__(self, t, width, height, periodic_x, periodic_y, columns):
         super().__init__(columns, t)
-        self.box = (width, height)  # length
+        self.box = (width, height)
         self.periodic = (periodic_x, periodic_y)
 
     def to_ase(self):

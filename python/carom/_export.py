@@ -70,6 +70,8 @@ def write_gsd(path, frames) -> None:
 def mdanalysis_universe(frames):
     import MDAnalysis
 
+    from ._mdanalysis import FramesInMemory
+
     frames = list(frames)
     if not frames or any(not np.array_equal(f.id, frames[0].id) for f in frames):
         raise ValueError("MDAnalysis needs a frame at least, and the same disks in all of them")
@@ -78,7 +80,7 @@ def mdanalysis_universe(frames):
     for name, column in (("mass", first.mass), ("radius", first.radius)):
         universe.add_TopologyAttr(name, column)
     boxes = [[*f.box, 1.0, 90.0, 90.0, 90.0] for f in frames]
-    universe.load_new(np.array([f.positions3d() for f in frames]), order="fac", dimensions=np.array(boxes),
-                      velocities=np.array([_velocities3d(f) for f in frames]),
-                      dt=frames[1].t - first.t if len(frames) > 1 else 1.0, time_offset=first.t)
+    universe.load_new(np.array([f.positions3d() for f in frames]), format=FramesInMemory, order="fac",
+                      dimensions=np.array(boxes), velocities=np.array([_velocities3d(f) for f in frames]),
+                      dt=frames[1].t - first.t if len(frames) > 1 else 1.0, times=[f.t for f in frames])
     return universe

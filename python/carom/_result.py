@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 import os
 import pathlib
-from typing import Any, Iterator, List, Mapping, Optional, overload
+from typing import Any, Iterator, List, Mapping, Optional, Union, overload
 
 import numpy as np
 
@@ -21,7 +21,7 @@ class Trajectory:
     and [k] read up to there; [1:3] is a list of frames. Raises SceneError where there is none, or it is damaged.
     """
 
-    def __init__(self, path):
+    def __init__(self, path: Union[str, bytes, "os.PathLike[Any]"]):
         self._path = _arguments.path(path)
         self._counted = (None, 0)  # the file as it was, and its frames
         _carom.open_trajectory(self.file)

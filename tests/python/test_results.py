@@ -3,6 +3,7 @@
 import copy
 import os
 import pickle
+import typing
 
 import carom
 import numpy as np
@@ -136,6 +137,22 @@ def test_an_edge_stays_inside_where_points_are_rounded():
     assert points[0, 0] == -np.float32(5.05) and points[1, 0] < np.float32(5.05)
 
 
+@pytest.mark.parametrize("stepping", [{}, {"run.method": "pairwise", "run.dt": 0.1}])
+def test_mdanalysis_has_the_time_of_each_frame(stepping, tmp_path):
+    pytest.importorskip("MDAnalysis")
+    scene = carom.Scene({
+        "box": {"width": 9.0, "height": 9.0},
+        "disks": [{"count": 3, "positions": "random", "velocities": {"maxwell": 1.0}, "radius": 0.5, "mass": 1.0}],
+        "run": {"t_end": 1.0}, "output": {"trajectory": "xyz", "every": 0.25 if stepping else 0.3}}, stepping)
+    frames = carom.run(scene, out=tmp_path / "run", warn=lambda _: None).frames
+    times = [frame.t for frame in frames]
+    assert len(set(np.diff(times).round(9))) > 1
+    universe = frames.to_mdanalysis()
+    for trajectory in (universe.trajectory, universe.copy().trajectory):
+        assert [step.time for step in trajectory] == times
+        assert trajectory[-1].time == times[-1]
+
+
 def test_mdanalysis_needs_the_same_disks_in_all_frames(tmp_path):
     pytest.importorskip("MDAnalysis")
     scene = carom.Scene({
@@ -206,3 +223,13 @@ def test_everything_has_a_docstring():
             assert all(getattr(value, "__doc__", None) for value in public.values()), name
     for error in (carom.SceneError("a"), carom.PhysicsError("b"), carom.RunError("c")):
         assert type(pickle.loads(pickle.dumps(error))) is type(error)
+
+
+def test_every_column_has_a_type():
+    scene = carom.Scene({
+        "box": {"width": 9.0, "height": 9.0}, "physics": {"roughness": {"tangential_restitution": 0.5}},
+        "disks": [{"count": 2, "positions": "random", "radius": 0.5, "mass": 1.0}], "run": {"t_end": 1.0}})
+    frame = carom.Simulation(scene, threads=1).disks()
+    types = typing.get_type_hints(carom.Frame)
+    assert "spin" in frame.names and all(types[name] is np.ndarray for name in (*frame.names, "group"))
+    assert set(vars(frame)) <= set(types)
