@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "core/base/check.hpp"
@@ -17,6 +18,7 @@
 #include "core/step/source.hpp"
 #include "core/step/validity.hpp"
 #include "io/checkpoint/checkpoint_place.hpp"
+#include "io/files/output_file.hpp"
 
 namespace carom {
 
@@ -229,7 +231,14 @@ std::string Simulation::save() const {
 }
 
 void Simulation::save(const std::string& file) const {
-  write_checkpoint(file, record(), state());
+  const std::string beside = file + ".new";
+  try {
+    write_checkpoint(beside, record(), state());
+    rename_file(beside, file);
+  } catch (const RunError&) {
+    std::remove(beside.c_str());
+    throw;
+  }
 }
 
 void Simulation::load(std::string_view bytes) {

@@ -78,7 +78,7 @@ class Simulation {
   std::vector<std::string> take_warnings();
 
   // Everything from which to go on, bit for bit; the bytes are those of the file. Throws RunError where the file cannot
-  // be written.
+  // be written, and then leaves what was there before.
   std::string save() const;
   void save(const std::string& file) const;
 

@@ -182,7 +182,8 @@ CAROM_API carom_status carom_cast_ray(const carom_world* world, double x, double
 
 /* --- Saving --------------------------------------------------------------------------------------------------------- */
 
-/* Everything from which to go on, bit for bit, in a file that `carom resume` takes too. */
+/* Everything from which to go on, bit for bit, in a file that `carom resume` takes too. Where it cannot be
+ * written, what was there before stays. */
 CAROM_API carom_status carom_save(const carom_world* world, const char* path);
 /* The same in memory: *size bytes, CAROM_INPUT where room is less. bytes may be null where only the size is asked for;
  * it changes with every step. */

@@ -3,9 +3,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <limits>
 #include <thread>
 
@@ -15,6 +18,7 @@
 #include "run/disk_maps.hpp"
 #include "run/run_scene.hpp"
 #include "tests/support/draws.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {
@@ -121,6 +125,30 @@ TEST(Simulation, ASummaryMovesNoDisk) {
     simulation.load(simulation.save());
     expect_still();
   }
+}
+
+// A disk that runs full, here a limit to what this process may write, costs no state that was saved before.
+TEST(Simulation, ASaveThatFailsLeavesTheOneBefore) {
+  const test::TestFolder folder("failing_save");
+  const std::string file = (folder.path() / "saved").string();
+  Simulation simulation(gas("exact"), choice());
+  simulation.save(file);
+  const std::uint64_t saved = simulation.hash();
+  simulation.step(3);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit little{1000, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &little);
+  EXPECT_THROW(simulation.save(file), RunError);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(Simulation::resume(file, choice()).hash(), saved);
+  EXPECT_THROW(simulation.save(folder.path().string()), RunError);
+  EXPECT_FALSE(std::filesystem::exists(folder.path().string() + ".new"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  simulation.save(file);
+  EXPECT_EQ(Simulation::resume(file, choice()).hash(), simulation.hash());
 }
 
 TEST(Simulation, SavedAndLoadedGoesOnBitForBit) {
