@@ -2,6 +2,10 @@
 _carom() {
     local word=${COMP_WORDS[COMP_CWORD]} program=${COMP_WORDS[0]} command=${COMP_WORDS[1]-}
     COMPREPLY=()
+    # The launcher ./carom would first install and build: what it has built knows as much.
+    if [[ $(head -c 2 -- "$(type -P -- "$program")" 2>/dev/null) == '#!' ]]; then
+        program=$(dirname -- "$program")/build/release/carom
+    fi
     if ((COMP_CWORD == 1)); then
         mapfile -t COMPREPLY < <(compgen -W "$("$program" --help 2>/dev/null |
             sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p') --help --version" -- "$word")

@@ -185,5 +185,16 @@ TEST_F(LongLauncher, BuildsAgainAfterAChangeInAnyFolderOfTheProgram) {
   }
 }
 
+// A key pressed for completion asks what is built, and neither installs nor builds anything.
+TEST_F(Launcher, CompletionBuildsNothing) {
+  const std::string complete =
+      "bash -c 'source " CAROM_SOURCE_DIR
+      "/cmake/carom.bash; COMP_WORDS=(root/carom re) COMP_CWORD=1; _carom; echo \"${COMPREPLY[@]}\"'";
+  EXPECT_EQ(launch(complete).out, "\n");
+  fs::create_symlink(CAROM_PROGRAM, at("root/build/release/carom"));
+  EXPECT_EQ(launch(complete).out, "resume render\n");
+  EXPECT_FALSE(fs::exists(at("root/built")));
+}
+
 }  // namespace
 }  // namespace carom
