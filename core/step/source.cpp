@@ -11,6 +11,7 @@
 #include "core/physics/boundary.hpp"
 #include "core/physics/disk_pair.hpp"
 #include "core/physics/obstacle_contact.hpp"
+#include "core/physics/obstacle_path.hpp"
 #include "core/physics/roughness.hpp"
 #include "core/scene/scene_ranges.hpp"
 #include "core/scene/size_law.hpp"
@@ -93,7 +94,8 @@ void draw_spin(const Scene& scene, const Source& source, std::size_t index, Coun
 }
 
 // Is the whole disk inside every side that is not periodic, and clear of every sink and obstacle? A region may reach
-// closer to a side than a radius.
+// closer to a side than a radius. By more than rounding of inner sinks: one along the side that the disk comes through
+// would take it at once.
 bool inside(const Domain& box, const Disk& d) {
   for (const Side side : all_sides) {
     if (box.side(side) == SideKind::sink && reach_beyond(side, d.x, d.y, d.radius, box) >= 0.0) return false;
@@ -101,7 +103,8 @@ bool inside(const Domain& box, const Disk& d) {
   const auto touching = [&](Side side) { return touching_coordinate(side, d.radius, box); };
   const bool x = box.periodic_x() || (d.x >= touching(Side::left) && d.x <= touching(Side::right));
   const bool y = box.periodic_y() || (d.y >= touching(Side::bottom) && d.y <= touching(Side::top));
-  return x && y && !touches_obstacle(box, d.x, d.y, d.radius);
+  const double held = (1.0 + clear_of_sink) * d.radius + grip_of_sink(d.radius, box);
+  return x && y && !touches_obstacle(box, d.x, d.y, d.radius) && !touches_inner_sink(box, d.x, d.y, held);
 }
 
 }  // namespace

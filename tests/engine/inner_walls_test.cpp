@@ -249,6 +249,27 @@ TEST(InnerSink, IsNotCrossedInAStepThatIsSplit) {
 }
 
 // Disks come to rest in a funnel that is closed: its walls bear them.
+// One along a part of a side: no source lets a disk in there, whatever rounding makes of where the side is.
+TEST(InnerSink, LetsNoDiskInThroughASide) {
+  for (const char* method : methods) {
+    Count emitted[2] = {};
+    for (const bool right : {false, true}) {
+      const Scene scene = scene_with(
+          method, "",
+          fmt::format("[[walls]]\nfrom = [{0}, 4.0]\nto = [{0}, 16.0]\nkind = \"sink\"\n[[sources]]\nside = \"{1}\"\n"
+                      "rate = 10.0\nradius = 0.3\nmass = 1.0\n",
+                      right ? 20.0 : 0.0, right ? "right" : "left"),
+          6.0);
+      const State end = run_to_end(scene);
+      EXPECT_EQ(end.counters.removed, 0U) << method;
+      for (const double y : end.disks.y) EXPECT_TRUE(y < 4.0 || y > 16.0) << method << ' ' << y;
+      emitted[right ? 1 : 0] = end.counters.emitted;
+    }
+    EXPECT_GT(emitted[0], 5U) << method;
+    EXPECT_EQ(emitted[0], emitted[1]) << method;
+  }
+}
+
 TEST(InnerWall, BearsAPile) {
   const std::string funnel =
       "[[walls]]\npoints = [[0.0, 10.0], [9.8, 4.0], [10.2, 4.0], [20.0, 10.0]]\nrestitution = 0.4\n";
