@@ -51,7 +51,8 @@ double crowding(const Disks& d, const Domain& box, std::size_t disks_of_box) {
   std::vector<std::uint64_t> key((d.size() + step - 1) / step);
   for (double wanted = samples_of_box / spread_samples;; wanted *= refinement) {
     // Nearly square ones, as far as their number allows.
-    const double columns = std::floor(std::clamp(std::sqrt(wanted * box.width / box.height), 1.0, most_cells_of_side));
+    const double most_columns = std::clamp(wanted, 1.0, most_cells_of_side);
+    const double columns = std::floor(std::clamp(std::sqrt(wanted * box.width / box.height), 1.0, most_columns));
     const double rows = std::floor(std::clamp(wanted / columns, 1.0, most_cells_of_side));
     const auto columns_of_row = static_cast<std::uint64_t>(columns);
     for (std::size_t k = 0; k < key.size(); ++k) {

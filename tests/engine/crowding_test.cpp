@@ -35,7 +35,7 @@ Disks placed(std::size_t n, Place&& place) {
 
 TEST(Crowding, AGasThatFillsTheBoxIsNotCrowded) {
   for (const std::size_t n : {std::size_t{41}, std::size_t{300}, std::size_t{2000}, std::size_t{100'000}}) {
-    for (const double aspect : {1.0, 100.0, 0.01}) {
+    for (const double aspect : {1.0, 100.0, 0.01, 1e6, 1e-6, 1e9}) {
       test::Draws draws(n);
       const Domain box = box_of(50.0 * aspect, 50.0);
       EXPECT_EQ(crowding(placed(n,
