@@ -91,11 +91,12 @@ void drift_row(benchmark::State& row, std::size_t disks, int threads) {
 void search_row(benchmark::State& row, std::size_t disks, int threads) {
   const Drifted& gas = drifted_gas(disks);
   const Executor executor(threads);
-  FoundPairs found;
+  FoundContacts found;
   time_work(
       row, disks, [] {},
       [&] { find_contacts(gas.state.disks, gas.start.scene.box, gas.grid, gas.cells, gas.coarse, executor, found); });
-  std::uint64_t pairs = found.count();
+  std::vector<std::size_t> offset;
+  std::uint64_t pairs = found.find_offsets(offset);
   for (std::size_t b = 0; b < found.used; ++b) {
     for (const Pair& p : found.buffers[b]) pairs = (pairs * 0x9e3779b97f4a7c15ULL + p.i1) * 31 + p.i2;
   }
@@ -106,14 +107,12 @@ void resolve_row(benchmark::State& row, std::size_t disks, int threads) {
   const Drifted& gas = drifted_gas(disks);
   const Executor executor(threads);
   const StepRules rules = rules_for(gas.start.scene, gas.start.scene.run.dt);
-  FoundPairs found;
+  FoundContacts found;
   find_contacts(gas.state.disks, gas.start.scene.box, gas.grid, gas.cells, gas.coarse, executor, found);
-  const std::vector<std::vector<ContactEvent>> no_walls;
   ContactLists lists;
   State state;
   time_work(
-      row, disks, [&] { state = gas.state; },
-      [&] { resolve_contacts(state, rules, found, no_walls, executor, lists); });
+      row, disks, [&] { state = gas.state; }, [&] { resolve_contacts(state, rules, found, executor, lists); });
   row.SetLabel(hash_text(state_hash(state.disks)));
 }
 

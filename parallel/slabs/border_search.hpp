@@ -46,8 +46,8 @@ struct SeenBeyond {
 void find_seen_beyond(const Slab& slab, const Domain& box, const Disks& disks, const std::vector<std::uint32_t>& near,
                       double largest_radius, double excursion, SeenBeyond& seen);
 
-// The pairs of a rank's own disk and a ghost that touch or overlap, own disk first. furthest: FoundPairs::furthest of
-// the search among own disks.
+// The pairs of a rank's own disk and a ghost that touch or overlap, own disk first. furthest: FoundContacts::furthest
+// of the search among own disks.
 void find_crossing_pairs(const Disks& disks, const Domain& box, const GhostDisks& ghosts, const CellGrid& grid,
                          const SortedCells& cells, double furthest, std::vector<Pair>& pairs);
 

@@ -21,10 +21,10 @@ constexpr std::size_t disks_a_piece = std::size_t{1} << 14;
 // Returns the largest squared speed of disks that had contacts.
 double SlabStepping::settle_here(const StepRules& rules, ImpactTally& tally) {
   lists_.figures = {};
-  if (ranks_.count() == 1) return settle_contacts(state_, rules, pairs_, walls_, executor_, lists_, tally);
-  border_rounds_.begin(pairs_.buffers[pairs_.used - 1], state_.disks, ghosts_);
+  if (ranks_.count() == 1) return settle_contacts(state_, rules, found_, executor_, lists_, tally);
+  border_rounds_.begin(found_.buffers[found_.used - 1], state_.disks, ghosts_);
   OtherSlabs others(ranks_, border_rounds_);
-  return settle_with(state_, rules, pairs_, walls_, ghosts_.own(), executor_, lists_, tally, others);
+  return settle_with(state_, rules, found_, ghosts_.own(), executor_, lists_, tally, others);
 }
 
 // Disks of two slabs are asked about on both ranks, each knowing which of its own were displaced.
@@ -33,7 +33,7 @@ bool SlabStepping::presses_others() {
   const PhaseTimer timer(times_, "resolve");
   Disks& d = state_.disks;
   const double far = find_displaced(d, scene_.box, executor_, displaced_);
-  const double slack = pairs_.furthest + far;
+  const double slack = found_.furthest + far;
   const bool pressed = any_pressed(d, scene_.box, grid_, cells_, slack, executor_, displaced_);
   std::array<double, 3> most{far, displaced_.all.empty() ? 0.0 : 1.0, pressed ? 1.0 : 0.0};
   ranks_.maximum(most);

@@ -71,7 +71,7 @@ void SlabStepping::release_memory() {
   for (auto* scratch : {&cells_.key, &cells_.start}) std::vector<std::uint32_t>().swap(*scratch);
   release_sort_scratch(cells_);
   coarse_ = {};
-  pairs_ = {};
+  found_ = {};
 }
 
 double SlabStepping::disks_at(double /*t*/, Disks& out) const {
@@ -87,8 +87,8 @@ std::vector<DiskContact> SlabStepping::contacts() const {
 std::vector<DiskContact> SlabStepping::contacts_found() const {
   std::vector<DiskContact> met;
   const std::vector<DiskId>& id = state_.disks.id;
-  for (std::size_t b = 0; b + 1 < pairs_.used; ++b) {
-    for (const auto& [i, j] : pairs_.buffers[b]) {
+  for (std::size_t b = 0; b + 1 < found_.used; ++b) {
+    for (const auto& [i, j] : found_.buffers[b]) {
       const auto [id1, id2] = std::minmax(id[i], id[j]);
       met.push_back({id1, id2, state_.time});
     }
@@ -149,7 +149,7 @@ void SlabStepping::sort_now() {
   if (disks_ == 0) return;
   const PhaseTimer timer(times_, "sort");
   // The pairs found name disks in the order of storage.
-  pairs_.used = 0;
+  found_.used = 0;
   crossing_ids_.clear();
   sort_due_ = false;
   if (!scene_.sources.empty()) {
@@ -190,18 +190,18 @@ void SlabStepping::search(const StepRules& rules) {
     note_coarse_positions(state_.disks, scene_.box, grid_, cells_, executor_, coarse_);
   }
   find_near_borders();
-  pairs_.used = 0;
+  found_.used = 0;
   strays_ = 0;
-  pairs_.furthest = 0.0;
+  found_.furthest = 0.0;
   if (rules.settles) carom::keep_places(state_.disks, executor_, displaced_);
   if (!state_.disks.empty()) {
     const PhaseTimer timer(times_, "search");
-    strays_ = find_contacts(state_.disks, scene_.box, grid_, cells_, coarse_, executor_, pairs_);
+    strays_ = find_contacts(state_.disks, scene_.box, grid_, cells_, coarse_, executor_, found_);
     coarse_.current = false;  // what was found will be moved
   }
   if (has_walls(rules.box)) {
     const PhaseTimer timer(times_, "walls");
-    find_wall_contacts(state_.disks, rules, executor_, walls_);
+    find_wall_contacts(state_.disks, rules, executor_, found_);
   }
   see_neighbours();
 }
@@ -243,10 +243,10 @@ void SlabStepping::see_neighbours() {
     ghosts_.add(MessageReader(below).get_all<Disk>(), lower_border, columns_, d);
     ghosts_.add(MessageReader(above).get_all<Disk>(), upper_border, columns_, d);
   }
-  if (pairs_.buffers.size() <= pairs_.used) pairs_.buffers.resize(pairs_.used + 1);
-  std::vector<Pair>& crossing = pairs_.buffers[pairs_.used++];
+  if (found_.buffers.size() <= found_.used) found_.buffers.resize(found_.used + 1);
+  std::vector<Pair>& crossing = found_.buffers[found_.used++];
   crossing.clear();
-  find_crossing_pairs(d, scene_.box, ghosts_, grid_, cells_, pairs_.furthest, crossing);
+  find_crossing_pairs(d, scene_.box, ghosts_, grid_, cells_, found_.furthest, crossing);
   crossing_ids_.clear();
   for (const auto& [i, g] : crossing) crossing_ids_.emplace_back(d.id[i], d.id[g]);
 }
@@ -266,7 +266,7 @@ double SlabStepping::resolve_here(const StepRules& rules, ImpactTally& tally) {
   // A ghost may have contacts that this rank does not see: none of its contacts is alone here.
   lists_.contacts.resize(ghosts_.own(), 0);
   lists_.contacts.resize(d.size(), 1);
-  double speed2 = resolve_alone_contacts(d, rules, pairs_, walls_, executor_, lists_, tally);
+  double speed2 = resolve_alone_contacts(d, rules, found_, executor_, lists_, tally);
   if (ranks_.count() > 1) {
     border_contacts_.share(state_, columns_, ghosts_, executor_, lists_);
     speed2 = std::max(speed2, resolve_alone_at_border(rules, tally));

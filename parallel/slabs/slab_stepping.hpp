@@ -99,8 +99,7 @@ class SlabStepping : public Engine, public InSlabs {
   CellGrid grid_;                                        // of the slab
   SortedCells cells_;
   CoarsePositions coarse_;
-  FoundPairs pairs_;
-  std::vector<std::vector<ContactEvent>> walls_;
+  FoundContacts found_;  // in the last search
   ContactLists lists_;
   GhostDisks ghosts_;
   BorderContacts border_contacts_;

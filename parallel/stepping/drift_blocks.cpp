@@ -66,9 +66,9 @@ void note_coarse_positions(Disks& d, const Domain& box, const CellGrid& grid, co
            grid, cells, executor, coarse);
 }
 
-void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor,
-                        std::vector<std::vector<ContactEvent>>& buffers) {
+void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor, FoundContacts& found) {
   if (!has_walls(rules.box)) return;
+  std::vector<std::vector<ContactEvent>>& buffers = found.walls;
   while (buffers.size() < executor.blocks(disks.size(), drift_block)) {
     buffers.emplace_back();
     buffers.back().reserve(drift_block / 16);

@@ -1,14 +1,12 @@
 // Moving all disks, in blocks.
 #pragma once
 
-#include <vector>
-
 #include "core/disks/disks.hpp"
-#include "core/physics/contact_event.hpp"
 #include "core/physics/resolve.hpp"
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/cells/counting_sort.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
+#include "parallel/stepping/find_contacts.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
@@ -23,8 +21,7 @@ double drift_blocks(Disks& disks, const Domain& box, const Gravity& gravity, dou
 void note_coarse_positions(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells,
                            const Executor& executor, CoarsePositions& coarse);
 
-// The wall contacts of all disks, buffer by buffer in storage order; empty buffers without walls.
-void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor,
-                        std::vector<std::vector<ContactEvent>>& buffers);
+// The wall contacts of all disks, by blocks in order of storage, into found.walls. Nothing is done without walls.
+void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor, FoundContacts& found);
 
 }  // namespace carom

@@ -148,7 +148,7 @@ void search_across(const SearchInput& in, const GridLevel& other, bool after, st
 }
 
 // The buffers of the next `blocks` blocks, emptied.
-std::size_t more_buffers(FoundPairs& found, std::size_t blocks) {
+std::size_t more_buffers(FoundContacts& found, std::size_t blocks) {
   const std::size_t first = found.used;
   found.used += blocks;
   while (found.buffers.size() < found.used) {
@@ -163,7 +163,7 @@ std::size_t more_buffers(FoundPairs& found, std::size_t blocks) {
 // Pairs between two size classes, found by the disks of the one that has fewer.
 template <bool sheared>
 void search_between(const SearchInput& in, const GridLevel& large, const GridLevel& small, const Executor& executor,
-                    FoundPairs& found) {
+                    FoundContacts& found) {
   const auto disks_of = [&](const GridLevel& level) {
     return in.start[level.start_key() + level.keys()] - in.start[level.start_key()];
   };
@@ -218,7 +218,7 @@ void search_loose(const SearchInput& in, const std::vector<std::uint32_t>& loose
 // What the rows found with strays is neither complete nor needed: it goes, and each stray is searched for by itself.
 template <bool sheared>
 void search_strays(const SearchInput& in, const CellGrid& grid, const CoarsePositions& coarse, const Executor& executor,
-                   FoundPairs& found) {
+                   FoundContacts& found) {
   found.strays.clear();
   for (std::size_t b = 0; b < coarse.blocks; ++b) {
     found.strays.insert(found.strays.end(), coarse.strays[b].begin(), coarse.strays[b].end());
@@ -249,7 +249,7 @@ void search_strays(const SearchInput& in, const CellGrid& grid, const CoarsePosi
 
 template <bool sheared>
 void find_pairs(const SearchInput& in, const CellGrid& grid, const CoarsePositions& coarse, const Executor& executor,
-                FoundPairs& found) {
+                FoundContacts& found) {
   const InteriorKernel interior = choose_interior_kernel();
   const std::size_t levels = grid.levels.size();
   found.used = 0;
@@ -286,7 +286,7 @@ double furthest_excursion(const Disks& d, const Domain& box, const CellGrid& gri
 }
 
 std::size_t find_contacts(const Disks& d, const Domain& box, const CellGrid& grid, const SortedCells& cells,
-                          const CoarsePositions& coarse, const Executor& executor, FoundPairs& found) {
+                          const CoarsePositions& coarse, const Executor& executor, FoundContacts& found) {
   const SearchInput in{d.x.data(),
                        d.y.data(),
                        d.radius.empty() ? nullptr : d.radius.data(),

@@ -16,20 +16,31 @@
 
 namespace carom {
 
-// What each block of the search found, in order of storage. One buffer for each block: nothing is dropped because a
-// buffer was full, and the order of the pairs depends on the blocks alone. Pairs name the disks in order of storage;
-// ids are not looked at.
-struct FoundPairs {
-  std::vector<std::vector<Pair>> buffers;
-  std::size_t used = 0;   // buffers of this search
-  double furthest = 0.0;  // that a stray has left its cell by; length
-  // Of the strays' own search.
+// The contacts of a step, as the search and find_wall_contacts (drift_blocks.hpp) find them. Each block of disks has a
+// buffer of its own: nothing is dropped because a buffer was full, and the order of the contacts depends on the blocks
+// alone. Pairs name disks by storage index, not in order of their ids.
+struct FoundContacts {
+  std::vector<std::vector<Pair>> buffers;  // the first `used` are of the last search
+  std::size_t used = 0;
+  std::vector<std::vector<ContactEvent>> walls;  // empty in a box without walls
+  double furthest = 0.0;                         // that a stray had left its cell by; length
+  // Scratch of the strays' own search.
   std::vector<std::uint32_t> strays;
   std::vector<unsigned char> strayed;  // of each disk: 1 a stray, 2 a loose one; all 0 between searches
 
-  std::size_t count() const {
+  // offset: where the pairs of each buffer begin in a list of all of them. Returns how many pairs there are.
+  std::size_t find_offsets(std::vector<std::size_t>& offset) const {
+    offset.clear();
     std::size_t sum = 0;
-    for (std::size_t b = 0; b < used; ++b) sum += buffers[b].size();
+    for (std::size_t b = 0; b < used; ++b) {
+      offset.push_back(sum);
+      sum += buffers[b].size();
+    }
+    return sum;
+  }
+  std::size_t wall_contacts() const {
+    std::size_t sum = 0;
+    for (const std::vector<ContactEvent>& block : walls) sum += block.size();
     return sum;
   }
 };
@@ -44,7 +55,7 @@ inline Pair in_id_order(const DiskId* id, Pair p) {
 // as any stray has gone. So the result is complete however old the cells are; they only become slow. Returns the number
 // of strays, loose disks (coarse_positions.hpp) among them. Precondition: coarse is current.
 std::size_t find_contacts(const Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells,
-                          const CoarsePositions& coarse, const Executor& executor, FoundPairs& found);
+                          const CoarsePositions& coarse, const Executor& executor, FoundContacts& found);
 
 // How far a disk has left its cell by at most, loose disks apart; length.
 double furthest_excursion(const Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells,

@@ -37,8 +37,7 @@ void prefetch_disk(const View& d, std::uint32_t i) {
 }
 
 // How many contacts each disk has; the counts of the step.
-void count_found(const FoundPairs& found, const std::vector<std::vector<ContactEvent>>& walls, std::size_t disks,
-                 const Executor& executor, ContactLists& lists) {
+void count_found(const FoundContacts& found, std::size_t disks, const Executor& executor, ContactLists& lists) {
   lists.contacts.resize(disks, 0);
   // On one thread without atomic operations, each of which waits for all before it.
   const bool shared = executor.threads() > 1;
@@ -54,8 +53,8 @@ void count_found(const FoundPairs& found, const std::vector<std::vector<ContactE
       }
     }
   });
-  executor.run(walls.size(), [&](std::size_t b) {
-    for (const ContactEvent& e : walls[b]) count_event(lists.contacts, e);
+  executor.run(found.walls.size(), [&](std::size_t b) {
+    for (const ContactEvent& e : found.walls[b]) count_event(lists.contacts, e);
   });
 }
 
@@ -116,16 +115,15 @@ void resolve_alone_walls(const View& d, const StepRules& rules, const WallReach&
 // Contacts that are alone, each from impact to pushing and wrapping in one visit; they commute with all others, so the
 // blocks may run in any order. The others become events in lists.crowded, in canonical order of time.
 template <class View>
-double resolve_alone(const View& d, const StepRules& rules, const FoundPairs& found,
-                     const std::vector<std::vector<ContactEvent>>& walls, std::size_t disks, const Executor& executor,
-                     ContactLists& lists, ImpactTally& tally) {
-  count_found(found, walls, disks, executor, lists);
-  const std::size_t blocks = found.used + walls.size();
+double resolve_alone(const View& d, const StepRules& rules, const FoundContacts& found, std::size_t disks,
+                     const Executor& executor, ContactLists& lists, ImpactTally& tally) {
+  count_found(found, disks, executor, lists);
+  const std::size_t blocks = found.used + found.walls.size();
   begin_blocks(blocks, lists);
   const WallReach reach(rules.box);
   executor.run(found.used, [&](std::size_t b) { resolve_alone_pairs(d, rules, reach, found.buffers[b], b, lists); });
-  executor.run(walls.size(),
-               [&](std::size_t w) { resolve_alone_walls(d, rules, reach, walls[w], found.used + w, lists); });
+  executor.run(found.walls.size(),
+               [&](std::size_t w) { resolve_alone_walls(d, rules, reach, found.walls[w], found.used + w, lists); });
   add_seen(lists);
   collect_crowded(blocks, executor, lists, tally);
   return blocks == 0 ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
@@ -207,18 +205,11 @@ void place_in_patches(const Executor& executor, ContactLists& lists) {
   });
 }
 
-void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found,
-                   const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor, ContactLists& lists) {
+void gather_events(Disks& disks, const StepRules& rules, const FoundContacts& found, const Executor& executor,
+                   ContactLists& lists) {
   lists.contacts.resize(disks.size(), 0);
-  std::size_t total = found.count();
-  for (const auto& buffer : walls) total += buffer.size();
-  lists.events.resize(total);
-  lists.offsets.clear();
-  std::size_t place = 0;
-  for (std::size_t b = 0; b < found.used; ++b) {
-    lists.offsets.push_back(place);
-    place += found.buffers[b].size();
-  }
+  std::size_t place = found.find_offsets(lists.offsets);
+  lists.events.resize(place + found.wall_contacts());
   with_view(disks, rules, [&](const auto& d) {
     executor.run(found.used, [&](std::size_t b) {
       std::size_t at = lists.offsets[b];
@@ -228,7 +219,7 @@ void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found
       }
     });
   });
-  for (const auto& buffer : walls) {
+  for (const auto& buffer : found.walls) {
     for (const ContactEvent& e : buffer) lists.events[place++] = e;
   }
   count_contacts(lists, executor);
@@ -247,17 +238,16 @@ void clear_contact_counts(ContactLists& lists) {
   }
 }
 
-double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& found,
-                        const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
+double resolve_contacts(State& state, const StepRules& rules, const FoundContacts& found, const Executor& executor,
                         ContactLists& lists) {
   ImpactTally tally;
   lists.figures = {};
   double speed2 = 0.0;
   if (rules.settles) {
-    speed2 = settle_contacts(state, rules, found, walls, executor, lists, tally);
+    speed2 = settle_contacts(state, rules, found, executor, lists, tally);
   } else {
     with_view(state.disks, rules, [&](const auto& d) {
-      speed2 = resolve_alone(d, rules, found, walls, state.disks.size(), executor, lists, tally);
+      speed2 = resolve_alone(d, rules, found, state.disks.size(), executor, lists, tally);
       resolve_crowded(d, rules, state.disks, executor, lists, tally, SingleRank{});
       speed2 = std::max(speed2, finish_crowded(d, rules.box, executor, lists));
     });
@@ -268,13 +258,11 @@ double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& 
   return speed2;
 }
 
-double resolve_alone_contacts(Disks& disks, const StepRules& rules, const FoundPairs& found,
-                              const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
-                              ContactLists& lists, ImpactTally& tally) {
+double resolve_alone_contacts(Disks& disks, const StepRules& rules, const FoundContacts& found,
+                              const Executor& executor, ContactLists& lists, ImpactTally& tally) {
   lists.figures = {};
-  return with_view(disks, rules, [&](const auto& d) {
-    return resolve_alone(d, rules, found, walls, disks.size(), executor, lists, tally);
-  });
+  return with_view(disks, rules,
+                   [&](const auto& d) { return resolve_alone(d, rules, found, disks.size(), executor, lists, tally); });
 }
 
 double finish_crowded_contacts(Disks& disks, const StepRules& rules, const Executor& executor, ContactLists& lists) {

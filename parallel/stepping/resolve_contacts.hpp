@@ -37,20 +37,18 @@ struct ContactLists {
 };
 
 // The events of the pairs found and the wall contacts, in one list, and how many contacts each disk has.
-void gather_events(Disks& disks, const StepRules& rules, const FoundPairs& found,
-                   const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor, ContactLists& lists);
+void gather_events(Disks& disks, const StepRules& rules, const FoundContacts& found, const Executor& executor,
+                   ContactLists& lists);
 
 // Resolves and pushes apart all pairs found and wall contacts, wraps the disks that had contacts, and returns the
 // largest squared speed among those. Bits of resolve_serially (core/reference/step_contacts.hpp).
-double resolve_contacts(State& state, const StepRules& rules, const FoundPairs& found,
-                        const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
+double resolve_contacts(State& state, const StepRules& rules, const FoundContacts& found, const Executor& executor,
                         ContactLists& lists);
 
 // The first and the last part of it by themselves, where nothing settles; resolve_crowded.hpp has the one between.
 // The first resolves what is alone, and leaves the others in lists.crowded, in canonical order of time.
-double resolve_alone_contacts(Disks& disks, const StepRules& rules, const FoundPairs& found,
-                              const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
-                              ContactLists& lists, ImpactTally& tally);
+double resolve_alone_contacts(Disks& disks, const StepRules& rules, const FoundContacts& found,
+                              const Executor& executor, ContactLists& lists, ImpactTally& tally);
 double finish_crowded_contacts(Disks& disks, const StepRules& rules, const Executor& executor, ContactLists& lists);
 
 // Wraps the disks in events, clears their counts, returns the largest squared speed among them.

@@ -9,19 +9,11 @@
 
 namespace carom {
 
-void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector<std::vector<ContactEvent>>& walls,
-                  const Executor& executor, ContactLists& lists) {
+void gather_pairs(const Disks& disks, const FoundContacts& found, const Executor& executor, ContactLists& lists) {
   lists.contacts.resize(disks.size(), 0);
-  lists.offsets.clear();
-  std::size_t total = 0;
-  for (std::size_t b = 0; b < found.used; ++b) {
-    lists.offsets.push_back(total);
-    total += found.buffers[b].size();
-  }
   std::vector<IdPair>& pairs = lists.settle.pairs.found;
-  std::size_t place = total;
-  for (const auto& buffer : walls) total += buffer.size();
-  resize_amply(pairs, total);
+  std::size_t place = found.find_offsets(lists.offsets);
+  resize_amply(pairs, place + found.wall_contacts());
   const bool shared = executor.threads() > 1;
   const auto count = [&](std::uint32_t i) {
     if (shared) {
@@ -39,7 +31,7 @@ void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector
       count(p.i2);
     }
   });
-  for (const auto& buffer : walls) {
+  for (const auto& buffer : found.walls) {
     for (const ContactEvent& e : buffer) {
       pairs[place++] = {id_key(e.id1, e.id2), e.i1, e.i1};
       count_contact(lists.contacts[e.i1]);
@@ -55,11 +47,10 @@ void reserve_crowded_blocks(std::size_t blocks, const Executor& executor, Contac
   }
 }
 
-double settle_contacts(State& state, const StepRules& rules, const FoundPairs& found,
-                       const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
+double settle_contacts(State& state, const StepRules& rules, const FoundContacts& found, const Executor& executor,
                        ContactLists& lists, ImpactTally& tally) {
   SingleSlab single;
-  return settle_with(state, rules, found, walls, state.disks.size(), executor, lists, tally, single);
+  return settle_with(state, rules, found, state.disks.size(), executor, lists, tally, single);
 }
 
 }  // namespace carom

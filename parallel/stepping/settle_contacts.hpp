@@ -30,8 +30,7 @@ struct SettleLists {
 
 // Resolves all pairs found and wall contacts, keeps their loads in state.loads, wraps the disks that had contacts, and
 // returns the largest squared speed among those.
-double settle_contacts(State& state, const StepRules& rules, const FoundPairs& found,
-                       const std::vector<std::vector<ContactEvent>>& walls, const Executor& executor,
+double settle_contacts(State& state, const StepRules& rules, const FoundContacts& found, const Executor& executor,
                        ContactLists& lists, ImpactTally& tally);
 
 }  // namespace carom

@@ -23,8 +23,7 @@ namespace carom {
 inline constexpr std::size_t finish_block = 8192;
 
 // All contacts into settle.pairs.found, and how many each disk has.
-void gather_pairs(const Disks& disks, const FoundPairs& found, const std::vector<std::vector<ContactEvent>>& walls,
-                  const Executor& executor, ContactLists& lists);
+void gather_pairs(const Disks& disks, const FoundContacts& found, const Executor& executor, ContactLists& lists);
 
 // Room for the events of so many blocks.
 void reserve_crowded_blocks(std::size_t blocks, const Executor& executor, ContactLists& lists);
@@ -129,10 +128,9 @@ double finish_disks(const View& d, std::size_t n, const Domain& box, const Execu
 
 // settle_contacts, with those of the first `own` disks finished; the others are of other ranks.
 template <class Others>
-double settle_with(State& state, const StepRules& rules, const FoundPairs& found,
-                   const std::vector<std::vector<ContactEvent>>& walls, std::size_t own, const Executor& executor,
-                   ContactLists& lists, ImpactTally& tally, Others& others) {
-  gather_pairs(state.disks, found, walls, executor, lists);
+double settle_with(State& state, const StepRules& rules, const FoundContacts& found, std::size_t own,
+                   const Executor& executor, ContactLists& lists, ImpactTally& tally, Others& others) {
+  gather_pairs(state.disks, found, executor, lists);
   sort_by_ids(lists.settle.pairs, state.next_id, executor);
   others.complete_counts(lists);
   return with_view(state.disks, rules, [&](const auto& d) {

@@ -45,8 +45,8 @@ std::vector<DiskContact> TimeStepping::contacts() const {
   for (std::size_t i = 0; closed_up_ && i < gone_.size(); ++i) place.push_back(gone_[i] != 0 ? kept : kept++);
   const std::vector<DiskId>& id = state_.disks.id;
   std::vector<DiskContact> met;
-  for (std::size_t b = 0; b < pairs_.used; ++b) {
-    for (const auto& [i, j] : pairs_.buffers[b]) {
+  for (std::size_t b = 0; b < found_.used; ++b) {
+    for (const auto& [i, j] : found_.buffers[b]) {
       if (closed_up_ && (gone_[i] | gone_[j]) != 0) continue;
       const auto [id1, id2] = std::minmax(id[closed_up_ ? place[i] : i], id[closed_up_ ? place[j] : j]);
       met.push_back({id1, id2, state_.time});
@@ -182,23 +182,23 @@ void TimeStepping::move_sheared(double t) {
 void TimeStepping::search(const StepRules& rules) {
   {
     const PhaseTimer timer(times_, "search");
-    pairs_.used = 0;
+    found_.used = 0;
     closed_up_ = false;
     strays_ = 0;
     if (!state_.disks.empty()) {
       if (!coarse_.current) note_coarse_positions(state_.disks, scene_.box, grid_, cells_, executor_, coarse_);
-      strays_ = find_contacts(state_.disks, scene_.box, grid_, cells_, coarse_, executor_, pairs_);
+      strays_ = find_contacts(state_.disks, scene_.box, grid_, cells_, coarse_, executor_, found_);
       coarse_.current = false;  // what was found will be moved
     }
   }
   if (!has_walls(rules.box)) return;
   const PhaseTimer timer(times_, "walls");
-  find_wall_contacts(state_.disks, rules, executor_, walls_);
+  find_wall_contacts(state_.disks, rules, executor_, found_);
 }
 
 StepFigures TimeStepping::resolve(const StepRules& rules) {
   const PhaseTimer timer(times_, "resolve");
-  speed2_ = std::max(speed2_, resolve_contacts(state_, rules, pairs_, walls_, executor_, lists_));
+  speed2_ = std::max(speed2_, resolve_contacts(state_, rules, found_, executor_, lists_));
   if (scene_.box.shear.acts()) move_sheared(0.0);
   return lists_.figures;
 }
@@ -211,12 +211,12 @@ void TimeStepping::keep_places() {
 bool TimeStepping::presses_others() {
   const PhaseTimer timer(times_, "resolve");
   if (state_.disks.empty()) return false;
-  return carom::presses_others(state_.disks, scene_.box, grid_, cells_, pairs_.furthest, executor_, displaced_);
+  return carom::presses_others(state_.disks, scene_.box, grid_, cells_, found_.furthest, executor_, displaced_);
 }
 
 void TimeStepping::gather(const StepRules& rules) {
   const PhaseTimer timer(times_, "gather");
-  gather_events(state_.disks, rules, pairs_, walls_, executor_, lists_);
+  gather_events(state_.disks, rules, found_, executor_, lists_);
 }
 
 void TimeStepping::finish_contacts() {

@@ -68,8 +68,7 @@ class TimeStepping : public Engine {
   CellGrid grid_;
   SortedCells cells_;
   CoarsePositions coarse_;
-  FoundPairs pairs_;
-  std::vector<std::vector<ContactEvent>> walls_;
+  FoundContacts found_;  // in the last search
   DisplacedDisks displaced_;
   std::vector<unsigned char> gone_;
   bool closed_up_ = false;                 // since the last search disks have left storage, those marked in gone_

@@ -40,7 +40,7 @@ CellGrid grid_for(const Disks& d, const Domain& box) {
 
 // Sorts, lets every disk move by `moved` of its own radius in some direction, searches. found: as an engine does, one
 // has room for the next search; to make it anew takes longer than to search.
-Searched search(Disks d, const Domain& box, double moved, int threads, std::size_t divisor, FoundPairs& found,
+Searched search(Disks d, const Domain& box, double moved, int threads, std::size_t divisor, FoundContacts& found,
                 Disks* at_search = nullptr) {
   const Executor executor(threads, divisor);
   const CellGrid grid = grid_for(d, box);
@@ -84,7 +84,7 @@ Disks scattered(const Domain& box, std::size_t n, double small, double large, st
   return d;
 }
 
-void expect_all_pairs(const Disks& d, const Domain& box, double moved, FoundPairs& found) {
+void expect_all_pairs(const Disks& d, const Domain& box, double moved, FoundContacts& found) {
   Disks now;
   const Searched one = search(d, box, moved, 1, 1, found, &now);
   EXPECT_EQ(one.pairs, as_ids(test::touching_among_all_pairs(now, box), now));
@@ -92,7 +92,7 @@ void expect_all_pairs(const Disks& d, const Domain& box, double moved, FoundPair
 }
 
 void expect_all_pairs(const Disks& d, const Domain& box, double moved) {
-  FoundPairs found;
+  FoundContacts found;
   expect_all_pairs(d, box, moved, found);
 }
 
@@ -101,7 +101,7 @@ class ContactSearch : public ::testing::TestWithParam<int> {};
 TEST_P(ContactSearch, FindsAllPairsOfScatteredDisks) {
   const bool px = (GetParam() & 1) != 0;
   const bool py = (GetParam() & 2) != 0;
-  FoundPairs found;
+  FoundContacts found;
   for (const double ratio : {1.0, 1.9, 5.0, 100.0, 1000.0}) {
     for (const auto& [width, height] : {std::pair{50.0, 40.0}, {300.0, 9.0}, {9.0, 300.0}}) {
       SCOPED_TRACE(ratio);
@@ -144,7 +144,7 @@ TEST_P(ContactSearch, FindsPairsThatOnlyJustTouch) {
       append(d,
              {x + apart * std::cos(6.28 * other.a), y + apart * std::sin(6.28 * other.a), 0, 0, radius, 1.0, id + 1});
     }
-    FoundPairs found;
+    FoundContacts found;
     EXPECT_EQ(search(d, box, 0.0, 1, 1, found).pairs.size(), 4000U) << ratio;
   }
 }
@@ -169,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(Sides, ContactSearch, ::testing::Values(0, 1, 2, 3));
 TEST(ContactSearchStrays, AreNoticedAndSearchedFor) {
   const Domain box = box_of(50.0, 40.0, true, true);
   const Disks d = scattered(box, 500, 0.5, 0.5, 8);
-  FoundPairs found;
+  FoundContacts found;
   EXPECT_EQ(search(d, box, 0.0, 1, 1, found).strays, 0U);
   EXPECT_GT(search(d, box, 1.5, 1, 1, found).strays, 20U);
   for (const double moved : {0.3, 0.6, 1.5, 5.0}) expect_all_pairs(d, box, moved);
