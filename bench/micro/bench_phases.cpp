@@ -26,9 +26,7 @@ using Clock = std::chrono::steady_clock;
 struct Drifted {
   Start start;  // before the drift, sorted
   State state;
-  CellGrid grid;
-  SortedCells cells;
-  CoarsePositions coarse;
+  CellList cells;
 };
 
 const Drifted& drifted_gas(std::size_t disks) {
@@ -39,11 +37,11 @@ const Drifted& drifted_gas(std::size_t disks) {
   d.start = gas(disks);
   const Executor executor(2);
   const double radius = d.start.state.disks.common_radius;
-  d.grid = make_grid(d.start.scene.box, radius, {disks});
-  sort_into_cells(d.start.state.disks, d.grid, executor, d.cells);
+  d.cells.grid = make_grid(d.start.scene.box, radius, {disks});
+  sort_into_cells(d.start.state.disks, d.cells.grid, executor, d.cells.sorted);
   d.state = d.start.state;
-  begin_coarse_positions(d.state.disks, d.grid, d.cells, executor, d.coarse);
-  drift_blocks(d.state.disks, d.start.scene.box, 0.0, d.start.scene.run.dt, d.grid, d.cells, executor, d.coarse);
+  begin_coarse_positions(d.state.disks, executor, d.cells);
+  drift_blocks(d.state.disks, d.start.scene.box, 0.0, d.start.scene.run.dt, executor, d.cells);
   return d;
 }
 
@@ -69,7 +67,7 @@ void sort_row(benchmark::State& row, std::size_t disks, int threads, bool shuffl
   State state;
   SortedCells cells;
   time_work(
-      row, disks, [&] { state = input; }, [&] { sort_into_cells(state.disks, gas.grid, executor, cells); });
+      row, disks, [&] { state = input; }, [&] { sort_into_cells(state.disks, gas.cells.grid, executor, cells); });
   // Ids in their new order: those of one cell keep the order they came in.
   std::uint64_t order = 0;
   for (const DiskId id : state.disks.id) order = order * 0x9e3779b97f4a7c15ULL + id;
@@ -80,11 +78,10 @@ void drift_row(benchmark::State& row, std::size_t disks, int threads) {
   const Drifted& gas = drifted_gas(disks);
   const Executor executor(threads);
   State state = gas.state;
-  CoarsePositions coarse = gas.coarse;
+  CellList cells = gas.cells;
   double t = gas.start.scene.run.dt;  // to and fro, so that disks stay where they are on average
   time_work(
-      row, disks, [&] { t = -t; },
-      [&] { drift_blocks(state.disks, gas.start.scene.box, 0.0, t, gas.grid, gas.cells, executor, coarse); });
+      row, disks, [&] { t = -t; }, [&] { drift_blocks(state.disks, gas.start.scene.box, 0.0, t, executor, cells); });
   row.SetLabel(hash_text(state_hash(state.disks)));
 }
 
@@ -93,8 +90,7 @@ void search_row(benchmark::State& row, std::size_t disks, int threads) {
   const Executor executor(threads);
   FoundContacts found;
   time_work(
-      row, disks, [] {},
-      [&] { find_contacts(gas.state.disks, gas.start.scene.box, gas.grid, gas.cells, gas.coarse, executor, found); });
+      row, disks, [] {}, [&] { find_contacts(gas.state.disks, gas.start.scene.box, gas.cells, executor, found); });
   std::vector<std::size_t> offset;
   std::uint64_t pairs = found.find_offsets(offset);
   for (std::size_t b = 0; b < found.used; ++b) {
@@ -108,7 +104,7 @@ void resolve_row(benchmark::State& row, std::size_t disks, int threads) {
   const Executor executor(threads);
   const StepRules rules = rules_for(gas.start.scene, gas.start.scene.run.dt);
   FoundContacts found;
-  find_contacts(gas.state.disks, gas.start.scene.box, gas.grid, gas.cells, gas.coarse, executor, found);
+  find_contacts(gas.state.disks, gas.start.scene.box, gas.cells, executor, found);
   ContactLists lists;
   State state;
   time_work(

@@ -49,26 +49,26 @@ Beyond beyond(const Slab& slab, const Domain& box, double y) {
   return {-off - half, off - half};
 }
 
-void find_near_borders(const Slab& slab, const Disks& disks, const CellGrid& grid, const SortedCells& cells,
-                       const CoarsePositions& coarse, double depth, std::vector<std::uint32_t>& near) {
+void find_near_borders(const Slab& slab, const Disks& disks, const CellList& cells, double depth,
+                       std::vector<std::uint32_t>& near) {
   near.clear();
   if (disks.empty()) return;
   std::vector<Run> runs;
-  for (const GridLevel& level : grid.levels) {
+  for (const GridLevel& level : cells.grid.levels) {
     // All but strays are within the margin of their cell.
     const double reach = depth + level.margin + rounding * level.rows * level.cell_height;
     Run lower{0, 0};
     if (slab.has_lower) {
-      lower = rows_up_to(level, cells, row_at(level, slab.low + reach));
+      lower = rows_up_to(level, cells.sorted, row_at(level, slab.low + reach));
       add_run(lower, runs, near);
     }
     if (!slab.has_upper) continue;
-    Run upper = rows_from(level, cells, row_at(level, slab.high - reach));
+    Run upper = rows_from(level, cells.sorted, row_at(level, slab.high - reach));
     if (slab.has_lower) upper.first = std::max(upper.first, std::min(lower.last, upper.last));
     add_run(upper, runs, near);
   }
-  for (std::size_t b = 0; b < coarse.blocks; ++b) {
-    for (const std::uint32_t i : coarse.strays[b]) {
+  for (std::size_t b = 0; b < cells.coarse.blocks; ++b) {
+    for (const std::uint32_t i : cells.coarse.strays[b]) {
       const bool known = std::any_of(runs.begin(), runs.end(), [&](const Run& run) { return run.holds(i); });
       if (!known) near.push_back(i);
     }
@@ -97,13 +97,13 @@ void find_seen_beyond(const Slab& slab, const Domain& box, const Disks& disks, c
   }
 }
 
-void find_crossing_pairs(const Disks& d, const Domain& box, const GhostDisks& ghosts, const CellGrid& grid,
-                         const SortedCells& cells, double furthest, std::vector<Pair>& pairs) {
+void find_crossing_pairs(const Disks& d, const Domain& box, const GhostDisks& ghosts, const CellList& cells,
+                         double furthest, std::vector<Pair>& pairs) {
   for (std::size_t k = ghosts.own(); k < d.size(); ++k) {
     const auto g = static_cast<std::uint32_t>(k);
-    for (const GridLevel& level : grid.levels) {
+    for (const GridLevel& level : cells.grid.levels) {
       const double reach = d.radius_of(g) + level.largest_radius + std::max(level.margin, furthest);
-      for_each_run_near(level, cells.start.data(), box, d.x[g], d.y[g], reach,
+      for_each_run_near(level, cells.sorted.start.data(), box, d.x[g], d.y[g], reach,
                         [&](std::uint32_t first, std::uint32_t last) {
                           for (std::uint32_t i = first; i < last; ++i) {
                             const double distance2 = nearest_distance2({d.x[i] - d.x[g], d.y[i] - d.y[g]}, box);

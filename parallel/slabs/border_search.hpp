@@ -7,8 +7,6 @@
 
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
-#include "parallel/cells/cell_grid.hpp"
-#include "parallel/cells/counting_sort.hpp"
 #include "parallel/slabs/ghost_disks.hpp"
 #include "parallel/slabs/slab_cut.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
@@ -31,9 +29,9 @@ struct Beyond {
 Beyond beyond(const Slab& slab, const Domain& box, double y);
 
 // The disks, by storage index and each once, that may lie within depth (length) of a border or beyond it; others too.
-// Precondition: the strays in coarse are of where the disks are now.
-void find_near_borders(const Slab& slab, const Disks& disks, const CellGrid& grid, const SortedCells& cells,
-                       const CoarsePositions& coarse, double depth, std::vector<std::uint32_t>& near);
+// Precondition: the strays in cells.coarse are of where the disks are now.
+void find_near_borders(const Slab& slab, const Disks& disks, const CellList& cells, double depth,
+                       std::vector<std::uint32_t>& near);
 
 // How far the furthest of these disks has left the slab; length, 0 if none has.
 double excursion_of(const Slab& slab, const Domain& box, const Disks& disks, const std::vector<std::uint32_t>& near);
@@ -48,7 +46,7 @@ void find_seen_beyond(const Slab& slab, const Domain& box, const Disks& disks, c
 
 // The pairs of a rank's own disk and a ghost that touch or overlap, own disk first. furthest: FoundContacts::furthest
 // of the search among own disks.
-void find_crossing_pairs(const Disks& disks, const Domain& box, const GhostDisks& ghosts, const CellGrid& grid,
-                         const SortedCells& cells, double furthest, std::vector<Pair>& pairs);
+void find_crossing_pairs(const Disks& disks, const Domain& box, const GhostDisks& ghosts, const CellList& cells,
+                         double furthest, std::vector<Pair>& pairs);
 
 }  // namespace carom

@@ -34,7 +34,7 @@ bool SlabStepping::presses_others() {
   Disks& d = state_.disks;
   const double far = find_displaced(d, scene_.box, executor_, displaced_);
   const double slack = found_.furthest + far;
-  const bool pressed = any_pressed(d, scene_.box, grid_, cells_, slack, executor_, displaced_);
+  const bool pressed = any_pressed(d, scene_.box, cells_, slack, executor_, displaced_);
   std::array<double, 3> most{far, displaced_.all.empty() ? 0.0 : 1.0, pressed ? 1.0 : 0.0};
   ranks_.maximum(most);
   if (most[1] == 0.0 || most[2] > 0.0 || ranks_.count() == 1) return most[2] > 0.0;
@@ -80,7 +80,7 @@ bool SlabStepping::is_pressed_by(const std::vector<Disk>& disks, double slack) {
   for (const Disk& disk : disks) push_back(state_.disks, disk, columns_);
   bool pressed = false;
   for (std::size_t i = own; i < state_.disks.size() && !pressed; ++i) {
-    pressed = is_pressed(state_.disks, scene_.box, grid_, cells_, slack, i);
+    pressed = is_pressed(state_.disks, scene_.box, cells_, slack, i);
   }
   truncate(state_.disks, own);
   return pressed;

@@ -62,7 +62,7 @@ void SlabStepping::emit_from_sources(double t, Count step) {
   const Disks& own = newcomers;
   const auto has_room = [&](const Disk& disk) {
     const bool met = meets(state_.disks, scene_.box, disk, 0, state_.disks.size()) ||
-                     (!own.empty() && meets_nearby(own, scene_.box, grid_, cells_, disk));
+                     (!own.empty() && meets_nearby(own, scene_.box, cells_.grid, cells_.sorted, disk));
     return !ranks_.any(met);
   };
   try {
@@ -96,7 +96,7 @@ void SlabStepping::remove_gone() {
   ranks_.sum({&marked, 1});
   if (marked == 0) return;
   keep_contacts_of_those_that_stay();
-  if (here) remove_in_parallel(state_.disks, gone_, executor_, cells_.column, cells_.pass);
+  if (here) remove_in_parallel(state_.disks, gone_, executor_, cells_.sorted.column, cells_.sorted.pass);
   disks_ -= static_cast<Count>(marked);
   state_.counters.removed += static_cast<Count>(marked);
   sort_due_ = true;

@@ -61,16 +61,16 @@ SlabStepping::SlabStepping(const Scene& scene, State part, const SlabStart& star
 
 // As wide as on one machine, for all disks; but only those of the slab.
 void SlabStepping::make_cells(const std::vector<std::size_t>& counts) {
-  make_grid(scene_.box, largest_radius_, counts, grid_, stepping_margin);
-  keep_rows(grid_, slab_.low, slab_.high);
+  make_grid(scene_.box, largest_radius_, counts, cells_.grid, stepping_margin);
+  keep_rows(cells_.grid, slab_.low, slab_.high);
 }
 
 void SlabStepping::release_memory() {
   if (!std::exchange(closed_up_, true)) contacts_kept_ = contacts_found();
   sort_due_ = true;
-  for (auto* scratch : {&cells_.key, &cells_.start}) std::vector<std::uint32_t>().swap(*scratch);
-  release_sort_scratch(cells_);
-  coarse_ = {};
+  for (auto* scratch : {&cells_.sorted.key, &cells_.sorted.start}) std::vector<std::uint32_t>().swap(*scratch);
+  release_sort_scratch(cells_.sorted);
+  cells_.coarse = {};
   found_ = {};
 }
 
@@ -159,19 +159,19 @@ void SlabStepping::sort_now() {
   }
   cut_anew_if_uneven();
   migrate();
-  sort_into_cells(state_.disks, grid_, executor_, cells_);
-  if (!state_.disks.empty()) begin_coarse_positions(state_.disks, grid_, cells_, executor_, coarse_);
+  sort_into_cells(state_.disks, cells_.grid, executor_, cells_.sorted);
+  if (!state_.disks.empty()) begin_coarse_positions(state_.disks, executor_, cells_);
 }
 
 void SlabStepping::drift(double t) {
   const PhaseTimer timer(times_, "drift");
-  coarse_.blocks = 0;
+  cells_.coarse.blocks = 0;
   speed2_ = 0.0;
   if (scene_.box.shear.acts()) {
     speed2_ = move_sheared(t);
-    if (!state_.disks.empty()) note_coarse_positions(state_.disks, scene_.box, grid_, cells_, executor_, coarse_);
+    if (!state_.disks.empty()) note_coarse_positions(state_.disks, scene_.box, executor_, cells_);
   } else if (!state_.disks.empty()) {
-    speed2_ = drift_blocks(state_.disks, scene_.box, scene_.physics.gravity, t, grid_, cells_, executor_, coarse_);
+    speed2_ = drift_blocks(state_.disks, scene_.box, scene_.physics.gravity, t, executor_, cells_);
   }
 }
 
@@ -186,8 +186,8 @@ double SlabStepping::move_sheared(double t) {
 
 void SlabStepping::search(const StepRules& rules) {
   closed_up_ = false;
-  if (!state_.disks.empty() && !coarse_.current) {
-    note_coarse_positions(state_.disks, scene_.box, grid_, cells_, executor_, coarse_);
+  if (!state_.disks.empty() && !cells_.coarse.current) {
+    note_coarse_positions(state_.disks, scene_.box, executor_, cells_);
   }
   find_near_borders();
   found_.used = 0;
@@ -196,8 +196,8 @@ void SlabStepping::search(const StepRules& rules) {
   if (rules.settles) carom::keep_places(state_.disks, executor_, displaced_);
   if (!state_.disks.empty()) {
     const PhaseTimer timer(times_, "search");
-    strays_ = find_contacts(state_.disks, scene_.box, grid_, cells_, coarse_, executor_, found_);
-    coarse_.current = false;  // what was found will be moved
+    strays_ = find_contacts(state_.disks, scene_.box, cells_, executor_, found_);
+    cells_.coarse.current = false;  // what was found will be moved
   }
   if (has_walls(rules.box)) {
     const PhaseTimer timer(times_, "walls");
@@ -209,22 +209,22 @@ void SlabStepping::search(const StepRules& rules) {
 // Agrees on how far disks have left their slabs, and finds those that may touch one of another slab: about as deep as
 // in the step before. Where one has gone too far in the drift, all go to the rank whose slab they are in now.
 void SlabStepping::find_near_borders() {
-  if (ranks_.count() == 1 || grid_.levels.empty()) return;
+  if (ranks_.count() == 1 || cells_.grid.levels.empty()) return;
   const PhaseTimer timer(times_, "exchange");
   Disks& d = state_.disks;
   const double depth = excursion_ + 3.0 * largest_radius_;
-  carom::find_near_borders(slab_, d, grid_, cells_, coarse_, depth, near_);
+  carom::find_near_borders(slab_, d, cells_, depth, near_);
   excursion_ = excursion_of(slab_, scene_.box, d, near_);
   ranks_.maximum({&excursion_, 1});
   const double needed = excursion_ + 2.0 * largest_radius_;
   if (excursion_ > room_beyond(cut_, largest_radius_)) {
     sort_now();
-    coarse_.blocks = 0;
-    if (!d.empty()) note_coarse_positions(d, scene_.box, grid_, cells_, executor_, coarse_);
+    cells_.coarse.blocks = 0;
+    if (!d.empty()) note_coarse_positions(d, scene_.box, executor_, cells_);
     excursion_ = 0.0;
-    carom::find_near_borders(slab_, d, grid_, cells_, coarse_, 2.0 * largest_radius_, near_);
+    carom::find_near_borders(slab_, d, cells_, 2.0 * largest_radius_, near_);
   } else if (needed > depth) {
-    carom::find_near_borders(slab_, d, grid_, cells_, coarse_, needed, near_);
+    carom::find_near_borders(slab_, d, cells_, needed, near_);
   }
 }
 
@@ -233,7 +233,7 @@ void SlabStepping::see_neighbours() {
   const PhaseTimer timer(times_, "exchange");
   Disks& d = state_.disks;
   ghosts_.begin(d.size());
-  if (ranks_.count() > 1 && !grid_.levels.empty()) {
+  if (ranks_.count() > 1 && !cells_.grid.levels.empty()) {
     find_seen_beyond(slab_, scene_.box, d, near_, largest_radius_, excursion_, seen_);
     Bytes to_below;
     Bytes to_above;
@@ -246,7 +246,7 @@ void SlabStepping::see_neighbours() {
   if (found_.buffers.size() <= found_.used) found_.buffers.resize(found_.used + 1);
   std::vector<Pair>& crossing = found_.buffers[found_.used++];
   crossing.clear();
-  find_crossing_pairs(d, scene_.box, ghosts_, grid_, cells_, found_.furthest, crossing);
+  find_crossing_pairs(d, scene_.box, ghosts_, cells_, found_.furthest, crossing);
   crossing_ids_.clear();
   for (const auto& [i, g] : crossing) crossing_ids_.emplace_back(d.id[i], d.id[g]);
 }

@@ -11,8 +11,6 @@
 #include "core/step/engine.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/validity.hpp"
-#include "parallel/cells/cell_grid.hpp"
-#include "parallel/cells/counting_sort.hpp"
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/border_contacts.hpp"
 #include "parallel/slabs/border_rounds.hpp"
@@ -96,10 +94,8 @@ class SlabStepping : public Engine, public InSlabs {
   Slab slab_;
   DiskColumns columns_;
   double smallest_radius_ = 0.0, largest_radius_ = 0.0;  // of all disks, those that sources may bring too
-  CellGrid grid_;                                        // of the slab
-  SortedCells cells_;
-  CoarsePositions coarse_;
-  FoundContacts found_;  // in the last search
+  CellList cells_;                                       // of the slab
+  FoundContacts found_;                                  // in the last search
   ContactLists lists_;
   GhostDisks ghosts_;
   BorderContacts border_contacts_;

@@ -8,11 +8,11 @@ namespace {
 constexpr std::size_t pass_block = 16384;
 
 // Each disk's radius in units of its level.
-void note_radii(const Disks& d, const CellGrid& grid, const SortedCells& cells, const Executor& executor,
-                CoarsePositions& coarse) {
+void note_radii(const Disks& d, const Executor& executor, CellList& cells) {
+  CoarsePositions& coarse = cells.coarse;
   coarse.radius.resize(d.size() + coarse_lanes);
-  for (const GridLevel& level : grid.levels) {
-    const LevelRange range = range_of(level, cells);
+  for (const GridLevel& level : cells.grid.levels) {
+    const LevelRange range = range_of(level, cells.sorted);
     const double per_unit = 1.0 / coarse_unit(level);
     executor.for_ranges(range.last - range.first, pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t i = range.first + begin; i < range.first + end; ++i) {
@@ -27,10 +27,11 @@ bool is_crowded(const SortedCells& cells, const GridLevel& level, std::uint32_t 
   return runs.own_end > runs.own + coarse_lanes || runs.above_end > runs.above + coarse_lanes;
 }
 
-void note_crowded(const CellGrid& grid, const SortedCells& cells, const Executor& executor, CoarsePositions& coarse) {
+void note_crowded(const Executor& executor, CellList& cells) {
+  CoarsePositions& coarse = cells.coarse;
   coarse.crowded.clear();
-  for (const GridLevel& level : grid.levels) {
-    const LevelRange range = range_of(level, cells);
+  for (const GridLevel& level : cells.grid.levels) {
+    const LevelRange range = range_of(level, cells.sorted);
     const std::size_t n = range.last - range.first;
     const std::size_t blocks = executor.blocks(n, pass_block);
     if (coarse.crowded_blocks.size() < blocks) coarse.crowded_blocks.resize(blocks);
@@ -39,7 +40,7 @@ void note_crowded(const CellGrid& grid, const SortedCells& cells, const Executor
       crowded.clear();
       for (std::size_t k = range.first + begin; k < range.first + end; ++k) {
         const auto i = static_cast<std::uint32_t>(k);
-        if (is_crowded(cells, level, i)) crowded.push_back(i);
+        if (is_crowded(cells.sorted, level, i)) crowded.push_back(i);
       }
     });
     for (std::size_t b = 0; b < blocks; ++b) {
@@ -50,14 +51,14 @@ void note_crowded(const CellGrid& grid, const SortedCells& cells, const Executor
 
 }  // namespace
 
-void begin_coarse_positions(const Disks& d, const CellGrid& grid, const SortedCells& cells, const Executor& executor,
-                            CoarsePositions& coarse) {
+void begin_coarse_positions(const Disks& d, const Executor& executor, CellList& cells) {
+  CoarsePositions& coarse = cells.coarse;
   coarse.position.resize(d.size() + coarse_lanes);
   coarse.current = false;
   coarse.loose.clear();
   coarse.radius.clear();
-  if (!d.radius.empty()) note_radii(d, grid, cells, executor, coarse);
-  note_crowded(grid, cells, executor, coarse);
+  if (!d.radius.empty()) note_radii(d, executor, cells);
+  note_crowded(executor, cells);
 }
 
 }  // namespace carom

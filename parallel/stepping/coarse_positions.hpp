@@ -38,6 +38,13 @@ struct CoarsePositions {
   bool current = false;  // position and strays are of where the disks are now
 };
 
+// The cell list of time stepping: the grid, which disks were sorted into each cell, and where the disks are now.
+struct CellList {
+  CellGrid grid;
+  SortedCells sorted;
+  CoarsePositions coarse;
+};
+
 // A unit of the level's coarse coordinates; length. A cell is a sixteenth of what 16 bits hold, so that the few disks
 // read beyond the cells of interest do not seem near, and 4096 units, to which a diameter is 3400 in a dense fluid.
 inline double coarse_unit(const GridLevel& level) {
@@ -72,8 +79,8 @@ inline NearRuns near_runs(const std::uint32_t* start, std::uint32_t key, std::ui
   return {i + 1, start[key + 2], start[key + stride - 1], start[key + stride + 2]};
 }
 
-// Room for all disks, their radii, and which are crowded. To be called once the disks have been sorted into cells.
-void begin_coarse_positions(const Disks& disks, const CellGrid& grid, const SortedCells& cells,
-                            const Executor& executor, CoarsePositions& coarse);
+// Makes room in cells.coarse for all disks, with their radii, and finds those that are crowded. To be called once the
+// disks have been sorted into cells.
+void begin_coarse_positions(const Disks& disks, const Executor& executor, CellList& cells);
 
 }  // namespace carom

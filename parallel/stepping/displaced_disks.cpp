@@ -47,13 +47,12 @@ double find_displaced_in(const View& d, std::size_t n, const Domain& box, const 
 }
 
 template <class View>
-bool is_pressed_in(const View& d, const Domain& box, const CellGrid& grid, const SortedCells& cells, double slack,
-                   std::size_t i) {
+bool is_pressed_in(const View& d, const Domain& box, const CellList& cells, double slack, std::size_t i) {
   if (is_pressed_into_wall(d, box, i)) return true;
   bool pressed = false;
-  for (const GridLevel& level : grid.levels) {
+  for (const GridLevel& level : cells.grid.levels) {
     const double reach = d.radius(i) + level.largest_radius + level.margin + slack;
-    for_each_run_near(level, cells.start.data(), box, d.x[i], d.y[i], reach,
+    for_each_run_near(level, cells.sorted.start.data(), box, d.x[i], d.y[i], reach,
                       [&](std::uint32_t first, std::uint32_t last) {
                         for (std::uint32_t j = first; j < last; ++j) {
                           pressed = pressed || (j != i && are_pressed(d, box, i, j));
@@ -79,29 +78,28 @@ double find_displaced(Disks& disks, const Domain& box, const Executor& executor,
   return with_view(disks, [&](const auto& d) { return find_displaced_in(d, disks.size(), box, executor, displaced); });
 }
 
-bool is_pressed(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells, double slack,
-                std::size_t i) {
-  return with_view(disks, [&](const auto& d) { return is_pressed_in(d, box, grid, cells, slack, i); });
+bool is_pressed(Disks& disks, const Domain& box, const CellList& cells, double slack, std::size_t i) {
+  return with_view(disks, [&](const auto& d) { return is_pressed_in(d, box, cells, slack, i); });
 }
 
-bool any_pressed(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells, double slack,
-                 const Executor& executor, DisplacedDisks& displaced) {
+bool any_pressed(Disks& disks, const Domain& box, const CellList& cells, double slack, const Executor& executor,
+                 DisplacedDisks& displaced) {
   return with_view(disks, [&](const auto& d) {
     const std::vector<std::uint32_t>& all = displaced.all;
     assign_amply(displaced.pressed, executor.blocks(all.size(), search_block), static_cast<unsigned char>(0));
     executor.for_ranges(all.size(), search_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end && displaced.pressed[b] == 0; ++k) {
-        displaced.pressed[b] = is_pressed_in(d, box, grid, cells, slack, all[k]) ? 1 : 0;
+        displaced.pressed[b] = is_pressed_in(d, box, cells, slack, all[k]) ? 1 : 0;
       }
     });
     return std::find(displaced.pressed.begin(), displaced.pressed.end(), 1) != displaced.pressed.end();
   });
 }
 
-bool presses_others(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells, double strayed,
-                    const Executor& executor, DisplacedDisks& displaced) {
+bool presses_others(Disks& disks, const Domain& box, const CellList& cells, double strayed, const Executor& executor,
+                    DisplacedDisks& displaced) {
   const double slack = strayed + find_displaced(disks, box, executor, displaced);
-  return any_pressed(disks, box, grid, cells, slack, executor, displaced);
+  return any_pressed(disks, box, cells, slack, executor, displaced);
 }
 
 }  // namespace carom

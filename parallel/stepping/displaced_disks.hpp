@@ -6,8 +6,7 @@
 
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
-#include "parallel/cells/cell_grid.hpp"
-#include "parallel/cells/counting_sort.hpp"
+#include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
@@ -29,16 +28,15 @@ double find_displaced(Disks& disks, const Domain& box, const Executor& executor,
 
 // Is one of displaced.all pressed into another disk or into a wall? slack: how far a disk may be outside the cell that
 // it was sorted into; length.
-bool any_pressed(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells, double slack,
-                 const Executor& executor, DisplacedDisks& displaced);
+bool any_pressed(Disks& disks, const Domain& box, const CellList& cells, double slack, const Executor& executor,
+                 DisplacedDisks& displaced);
 
 // Likewise for disk i, which may be in no cell.
-bool is_pressed(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells, double slack,
-                std::size_t i);
+bool is_pressed(Disks& disks, const Domain& box, const CellList& cells, double slack, std::size_t i);
 
 // Is a disk that was displaced since keep_places pressed into another one or into a wall? strayed: length by which a
 // disk had left its cell at most when the places were kept. The answer is the reference's.
-bool presses_others(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells, double strayed,
-                    const Executor& executor, DisplacedDisks& displaced);
+bool presses_others(Disks& disks, const Domain& box, const CellList& cells, double strayed, const Executor& executor,
+                    DisplacedDisks& displaced);
 
 }  // namespace carom

@@ -15,15 +15,15 @@ namespace {
 constexpr std::size_t drift_block = 8192;
 
 // All disks through the kernel, level by level. Returns the largest squared speed.
-double move_all(MoveInput in, std::size_t disks, const CellGrid& grid, const SortedCells& cells,
-                const Executor& executor, CoarsePositions& coarse) {
+double move_all(MoveInput in, std::size_t disks, const Executor& executor, CellList& cells) {
+  CoarsePositions& coarse = cells.coarse;
   const MoveKernel kernel = choose_move_kernel();
-  in.key = cells.key.data();
+  in.key = cells.sorted.key.data();
   in.position = coarse.position.data();
   double speed2 = 0.0;
   coarse.blocks = 0;
-  for (const GridLevel& level : grid.levels) {
-    const LevelRange range = range_of(level, cells);
+  for (const GridLevel& level : cells.grid.levels) {
+    const LevelRange range = range_of(level, cells.sorted);
     const std::size_t n = range.last - range.first;
     const std::size_t before = coarse.blocks;
     coarse.blocks += executor.blocks(n, drift_block);
@@ -40,10 +40,10 @@ double move_all(MoveInput in, std::size_t disks, const CellGrid& grid, const Sor
     for (const double v2 : coarse.speed2) speed2 = std::max(speed2, v2);
   }
   // Loose disks behind the last cell: each loose disk is searched for by itself, whether it strays or not.
-  const std::size_t sorted = cells.start.back();
+  const std::size_t sorted = cells.sorted.start.back();
   if (sorted < disks) [[unlikely]] {
     std::vector<std::uint32_t> unread;
-    speed2 = std::max(speed2, kernel(in, grid.levels.front(), sorted, disks, unread));
+    speed2 = std::max(speed2, kernel(in, cells.grid.levels.front(), sorted, disks, unread));
   }
   coarse.current = true;
   return speed2;
@@ -51,19 +51,18 @@ double move_all(MoveInput in, std::size_t disks, const CellGrid& grid, const Sor
 
 }  // namespace
 
-double drift_blocks(Disks& d, const Domain& box, const Gravity& gravity, double t, const CellGrid& grid,
-                    const SortedCells& cells, const Executor& executor, CoarsePositions& coarse) {
+double drift_blocks(Disks& d, const Domain& box, const Gravity& gravity, double t, const Executor& executor,
+                    CellList& cells) {
   const Motion motion = gravity.is_tilted() ? Motion::tilted_parabola
                         : gravity.acts()    ? Motion::parabola
                                             : Motion::straight;
   return move_all({d.x.data(), d.y.data(), d.vx.data(), d.vy.data(), nullptr, nullptr, box, motion, t, gravity},
-                  d.size(), grid, cells, executor, coarse);
+                  d.size(), executor, cells);
 }
 
-void note_coarse_positions(Disks& d, const Domain& box, const CellGrid& grid, const SortedCells& cells,
-                           const Executor& executor, CoarsePositions& coarse) {
+void note_coarse_positions(Disks& d, const Domain& box, const Executor& executor, CellList& cells) {
   move_all({d.x.data(), d.y.data(), d.vx.data(), d.vy.data(), nullptr, nullptr, box, Motion::none, 0.0, 0.0}, d.size(),
-           grid, cells, executor, coarse);
+           executor, cells);
 }
 
 void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor, FoundContacts& found) {

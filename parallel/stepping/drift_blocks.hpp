@@ -3,23 +3,20 @@
 
 #include "core/disks/disks.hpp"
 #include "core/physics/resolve.hpp"
-#include "parallel/cells/cell_grid.hpp"
-#include "parallel/cells/counting_sort.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
 
-// Drifts every disk by t (negative: back) and wraps centres across periodic sides; takes down coarse positions and
-// strays. Returns the largest squared speed after it. Each disk by itself: no order can matter.
+// Drifts every disk by t (negative: back) and wraps centres across periodic sides; writes coarse positions and strays
+// to cells.coarse. Returns the largest squared speed after it. Each disk by itself: no order can matter.
 // Preconditions: the disks are stored in the order of cells, and begin_coarse_positions was called since.
-double drift_blocks(Disks& disks, const Domain& box, const Gravity& gravity, double t, const CellGrid& grid,
-                    const SortedCells& cells, const Executor& executor, CoarsePositions& coarse);
+double drift_blocks(Disks& disks, const Domain& box, const Gravity& gravity, double t, const Executor& executor,
+                    CellList& cells);
 
-// Takes down coarse positions and strays of disks that have been moved otherwise; changes none. Same preconditions.
-void note_coarse_positions(Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells,
-                           const Executor& executor, CoarsePositions& coarse);
+// Writes coarse positions and strays of disks that have been moved otherwise, and moves none. Same preconditions.
+void note_coarse_positions(Disks& disks, const Domain& box, const Executor& executor, CellList& cells);
 
 // The wall contacts of all disks, by blocks in order of storage, into found.walls. Nothing is done without walls.
 void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor, FoundContacts& found);

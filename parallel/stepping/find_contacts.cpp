@@ -217,8 +217,8 @@ void search_loose(const SearchInput& in, const std::vector<std::uint32_t>& loose
 
 // What the rows found with strays is neither complete nor needed: it goes, and each stray is searched for by itself.
 template <bool sheared>
-void search_strays(const SearchInput& in, const CellGrid& grid, const CoarsePositions& coarse, const Executor& executor,
-                   FoundContacts& found) {
+void search_strays(const SearchInput& in, const CellList& cells, const Executor& executor, FoundContacts& found) {
+  const CoarsePositions& coarse = cells.coarse;
   found.strays.clear();
   for (std::size_t b = 0; b < coarse.blocks; ++b) {
     found.strays.insert(found.strays.end(), coarse.strays[b].begin(), coarse.strays[b].end());
@@ -231,7 +231,7 @@ void search_strays(const SearchInput& in, const CellGrid& grid, const CoarsePosi
   double& furthest = found.furthest;
   for (const std::uint32_t i : found.strays) {
     found.strayed[i] = 1;
-    furthest = std::max(furthest, excursion(in, level_of(in, grid, i), i));
+    furthest = std::max(furthest, excursion(in, level_of(in, cells.grid, i), i));
   }
   found.strays.insert(found.strays.end(), coarse.loose.begin(), coarse.loose.end());
   executor.run(found.used, [&](std::size_t b) {
@@ -240,7 +240,7 @@ void search_strays(const SearchInput& in, const CellGrid& grid, const CoarsePosi
   const std::size_t first = more_buffers(found, executor.blocks(found.strays.size(), stray_block));
   executor.for_ranges(found.strays.size(), stray_block, [&](std::size_t b, std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k) {
-      search_stray<sheared>(in, grid, furthest, found.strays[k], found.strayed, found.buffers[first + b]);
+      search_stray<sheared>(in, cells.grid, furthest, found.strays[k], found.strayed, found.buffers[first + b]);
     }
   });
   if (!coarse.loose.empty()) search_loose<sheared>(in, coarse.loose, found.buffers[more_buffers(found, 1)]);
@@ -248,62 +248,65 @@ void search_strays(const SearchInput& in, const CellGrid& grid, const CoarsePosi
 }
 
 template <bool sheared>
-void find_pairs(const SearchInput& in, const CellGrid& grid, const CoarsePositions& coarse, const Executor& executor,
-                FoundContacts& found) {
+void find_pairs(const SearchInput& in, const CellList& cells, const Executor& executor, FoundContacts& found) {
   const InteriorKernel interior = choose_interior_kernel();
-  const std::size_t levels = grid.levels.size();
+  const std::vector<GridLevel>& levels = cells.grid.levels;
   found.used = 0;
-  for (std::size_t k = 0; k < levels; ++k) {
-    const GridLevel& level = grid.levels[k];
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const GridLevel& level = levels[k];
     const std::size_t begin = in.start[level.start_key()];
     const std::size_t n = in.start[level.start_key() + level.keys()] - begin;
     const std::size_t first = more_buffers(found, executor.blocks(n, search_block));
     executor.for_ranges(n, search_block, [&](std::size_t b, std::size_t from, std::size_t to) {
       search_level<sheared>(in, level, interior, begin + from, begin + to, found.buffers[first + b]);
     });
-    for (std::size_t s = k + 1; s < levels; ++s) search_between<sheared>(in, level, grid.levels[s], executor, found);
+    for (std::size_t s = k + 1; s < levels.size(); ++s) search_between<sheared>(in, level, levels[s], executor, found);
   }
-  search_strays<sheared>(in, grid, coarse, executor, found);
+  search_strays<sheared>(in, cells, executor, found);
+}
+
+SearchInput input_of(const Disks& d, const Domain& box, const CellList& cells) {
+  const CoarsePositions& coarse = cells.coarse;
+  return {d.x.data(),
+          d.y.data(),
+          d.radius.empty() ? nullptr : d.radius.data(),
+          d.common_radius,
+          coarse.position.data(),
+          coarse.radius.empty() ? nullptr : coarse.radius.data(),
+          coarse.crowded,
+          cells.sorted.key.data(),
+          cells.sorted.start.data(),
+          d.size(),
+          box,
+          box.periodic_x() ? box.width : HUGE_VAL,
+          box.periodic_y() ? box.height : HUGE_VAL};
 }
 
 }  // namespace
 
-double furthest_excursion(const Disks& d, const Domain& box, const CellGrid& grid, const SortedCells& cells,
-                          const CoarsePositions& coarse) {
-  const SearchInput in{d.x.data(),       d.y.data(),         nullptr,  0.0, nullptr, nullptr, coarse.crowded,
-                       cells.key.data(), cells.start.data(), d.size(), box, 0.0,     0.0};
+double furthest_excursion(const Disks& d, const Domain& box, const CellList& cells) {
+  const SearchInput in = input_of(d, box, cells);
+  const std::vector<std::uint32_t>& all_loose = cells.coarse.loose;
   double furthest = 0.0;
-  auto loose = coarse.loose.begin();
-  for (const GridLevel& level : grid.levels) {
-    const LevelRange range = range_of(level, cells);
+  auto loose = all_loose.begin();
+  for (const GridLevel& level : cells.grid.levels) {
+    const LevelRange range = range_of(level, cells.sorted);
     for (std::size_t i = range.first; i < range.last; ++i) {
-      while (loose != coarse.loose.end() && *loose < i) ++loose;
-      if (loose != coarse.loose.end() && *loose == i) continue;
+      while (loose != all_loose.end() && *loose < i) ++loose;
+      if (loose != all_loose.end() && *loose == i) continue;
       furthest = std::max(furthest, excursion(in, level, i));
     }
   }
   return furthest;
 }
 
-std::size_t find_contacts(const Disks& d, const Domain& box, const CellGrid& grid, const SortedCells& cells,
-                          const CoarsePositions& coarse, const Executor& executor, FoundContacts& found) {
-  const SearchInput in{d.x.data(),
-                       d.y.data(),
-                       d.radius.empty() ? nullptr : d.radius.data(),
-                       d.common_radius,
-                       coarse.position.data(),
-                       coarse.radius.empty() ? nullptr : coarse.radius.data(),
-                       coarse.crowded,
-                       cells.key.data(),
-                       cells.start.data(),
-                       d.size(),
-                       box,
-                       box.periodic_x() ? box.width : HUGE_VAL,
-                       box.periodic_y() ? box.height : HUGE_VAL};
+std::size_t find_contacts(const Disks& d, const Domain& box, const CellList& cells, const Executor& executor,
+                          FoundContacts& found) {
+  const SearchInput in = input_of(d, box, cells);
   if (box.shear.acts()) {
-    find_pairs<true>(in, grid, coarse, executor, found);
+    find_pairs<true>(in, cells, executor, found);
   } else {
-    find_pairs<false>(in, grid, coarse, executor, found);
+    find_pairs<false>(in, cells, executor, found);
   }
   return found.strays.size();
 }

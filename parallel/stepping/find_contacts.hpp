@@ -9,8 +9,6 @@
 #include "core/disks/domain.hpp"
 #include "core/disks/pair.hpp"
 #include "core/physics/contact_event.hpp"
-#include "parallel/cells/cell_grid.hpp"
-#include "parallel/cells/counting_sort.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/threads/executor.hpp"
 
@@ -53,12 +51,11 @@ inline Pair in_id_order(const DiskId* id, Pair p) {
 // Finds the pairs of disks that overlap or touch now; disks moved since they were sorted into cells. Rows of cells find
 // the pairs of all disks that are still within the margin of their cells; every stray is searched for by itself, as far
 // as any stray has gone. So the result is complete however old the cells are; they only become slow. Returns the number
-// of strays, loose disks (coarse_positions.hpp) among them. Precondition: coarse is current.
-std::size_t find_contacts(const Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells,
-                          const CoarsePositions& coarse, const Executor& executor, FoundContacts& found);
+// of strays, loose disks (coarse_positions.hpp) among them. Precondition: cells.coarse is current.
+std::size_t find_contacts(const Disks& disks, const Domain& box, const CellList& cells, const Executor& executor,
+                          FoundContacts& found);
 
 // How far a disk has left its cell by at most, loose disks apart; length.
-double furthest_excursion(const Disks& disks, const Domain& box, const CellGrid& grid, const SortedCells& cells,
-                          const CoarsePositions& coarse);
+double furthest_excursion(const Disks& disks, const Domain& box, const CellList& cells);
 
 }  // namespace carom

@@ -14,15 +14,17 @@ namespace {
 constexpr std::size_t most_loose = 256;
 
 // The disk that apply() stores last has come.
-void add_loose(const Disks& d, const CellGrid& grid, SortedCells& cells, CoarsePositions& coarse) {
-  cells.key.push_back(grid.levels.front().start_key());
+void add_loose(const Disks& d, CellList& cells) {
+  CoarsePositions& coarse = cells.coarse;
+  cells.sorted.key.push_back(cells.grid.levels.front().start_key());
   coarse.position.resize(d.size() + coarse_lanes);
   if (!coarse.radius.empty()) coarse.radius.resize(coarse.position.size());
   coarse.loose.push_back(static_cast<std::uint32_t>(d.size() - 1));
 }
 
 // Disk i is to go, and the last of n to take its place.
-void remove_loose(std::size_t i, std::size_t n, SortedCells& cells, CoarsePositions& coarse) {
+void remove_loose(std::size_t i, std::size_t n, CellList& cells) {
+  CoarsePositions& coarse = cells.coarse;
   std::vector<std::uint32_t>& loose = coarse.loose;
   const std::size_t last = n - 1;
   if (!loose.empty() && loose.back() == last) loose.pop_back();
@@ -32,9 +34,10 @@ void remove_loose(std::size_t i, std::size_t n, SortedCells& cells, CoarsePositi
     if (place == loose.end() || *place != moved) loose.insert(place, moved);
     if (!coarse.radius.empty()) coarse.radius[i] = coarse.radius[last];
   }
-  cells.key.pop_back();
+  cells.sorted.key.pop_back();
   // Where the last one was in a cell, that cell and the empty ones behind it end sooner.
-  for (std::size_t k = cells.start.size(); k-- > 0 && cells.start[k] == n;) --cells.start[k];
+  std::vector<std::uint32_t>& start = cells.sorted.start;
+  for (std::size_t k = start.size(); k-- > 0 && start[k] == n;) --start[k];
 }
 
 }  // namespace
@@ -42,10 +45,10 @@ void remove_loose(std::size_t i, std::size_t n, SortedCells& cells, CoarsePositi
 // In a pile, disks that were pressed together are looked for in cells alone.
 bool TimeStepping::may_be_loose(const Edit& edit) const {
   const Disks& d = state_.disks;
-  if (!cells_valid_ || settles(scene_) || coarse_.loose.size() >= most_loose || d.size() < 2) return false;
+  if (!cells_valid_ || settles(scene_) || cells_.coarse.loose.size() >= most_loose || d.size() < 2) return false;
   if (edit.kind == Edit::Kind::remove) return true;
   return d.radius.empty() ? edit.disk.radius == d.common_radius
-                          : edit.disk.radius <= grid_.levels.front().largest_radius;
+                          : edit.disk.radius <= cells_.grid.levels.front().largest_radius;
 }
 
 bool TimeStepping::edit(const Edit& edit) {
@@ -54,27 +57,26 @@ bool TimeStepping::edit(const Edit& edit) {
   if (comes && smallest_radius_ > 0.0) smallest_radius_ = std::min(smallest_radius_, edit.disk.radius);
   if (goes) smallest_may_be_gone_ = true;
   const bool loose = (comes || goes) && may_be_loose(edit);
-  if (loose && goes) remove_loose(edit.index, state_.disks.size(), cells_, coarse_);
+  if (loose && goes) remove_loose(edit.index, state_.disks.size(), cells_);
   apply(edit, state_);
-  if (loose && comes) add_loose(state_.disks, grid_, cells_, coarse_);
+  if (loose && comes) add_loose(state_.disks, cells_);
   if ((comes || goes) && !loose) cells_valid_ = false;
-  coarse_.current = false;
+  cells_.coarse.current = false;
   return true;
 }
 
 bool TimeStepping::visit_near(Vec2 centre, double half_width, double half_height,
                               const std::function<void(std::size_t)>& visit) {
   if (!cells_valid_ || state_.disks.empty()) return false;
-  if (excursion_ < 0.0)
-    excursion_ = std::max(furthest_excursion(state_.disks, scene_.box, grid_, cells_, coarse_), 0.0);
+  if (excursion_ < 0.0) excursion_ = furthest_excursion(state_.disks, scene_.box, cells_);
   const double reach = std::max(half_width, half_height) + excursion_;
-  for (const GridLevel& level : grid_.levels) {
-    for_each_run_near(level, cells_.start.data(), scene_.box, centre.x, centre.y, reach,
+  for (const GridLevel& level : cells_.grid.levels) {
+    for_each_run_near(level, cells_.sorted.start.data(), scene_.box, centre.x, centre.y, reach,
                       [&](std::uint32_t first, std::uint32_t last) {
                         for (std::size_t i = first; i < last; ++i) visit(i);
                       });
   }
-  for (const std::uint32_t i : coarse_.loose) visit(i);
+  for (const std::uint32_t i : cells_.coarse.loose) visit(i);
   return true;
 }
 

@@ -80,7 +80,7 @@ void TimeStepping::emit_from_sources(double t, Count step) {
       in_cells = d.size();
     }
     bool met = meets(d, scene_.box, newcomer, in_cells, d.size());
-    met = met || (in_cells > 0 && meets_nearby(d, scene_.box, grid_, cells_, newcomer));
+    met = met || (in_cells > 0 && meets_nearby(d, scene_.box, cells_.grid, cells_.sorted, newcomer));
     return !met;
   });
   if (state_.counters.emitted == before) return;
@@ -102,7 +102,7 @@ void TimeStepping::kick_if_due() {
 
 void TimeStepping::remove_gone(Count marked) {
   if (marked == 0) return;
-  remove_in_parallel(state_.disks, gone_, executor_, cells_.column, cells_.pass);
+  remove_in_parallel(state_.disks, gone_, executor_, cells_.sorted.column, cells_.sorted.pass);
   state_.counters.removed += marked;
   cells_valid_ = false;
   closed_up_ = true;
@@ -152,9 +152,9 @@ void TimeStepping::sort_now() {
     for (const double r : d.radius) ++count[class_of_radius(r, largest)];
   }
   const bool may_be_crowded = is_bounded_by_disks(scene_.box, largest, count, stepping_margin);
-  make_grid(scene_.box, largest, count, grid_, stepping_margin, may_be_crowded ? crowding(d, scene_.box) : 1.0);
-  sort_into_cells(state_.disks, grid_, executor_, cells_);
-  begin_coarse_positions(state_.disks, grid_, cells_, executor_, coarse_);
+  make_grid(scene_.box, largest, count, cells_.grid, stepping_margin, may_be_crowded ? crowding(d, scene_.box) : 1.0);
+  sort_into_cells(state_.disks, cells_.grid, executor_, cells_.sorted);
+  begin_coarse_positions(state_.disks, executor_, cells_);
   cells_valid_ = true;
   strays_ = 0;
   excursion_ = -1.0;
@@ -166,7 +166,7 @@ void TimeStepping::drift(double t) {
   speed2_ = 0.0;
   if (scene_.box.shear.acts()) return move_sheared(t);
   if (!state_.disks.empty())
-    speed2_ = drift_blocks(state_.disks, scene_.box, scene_.physics.gravity, t, grid_, cells_, executor_, coarse_);
+    speed2_ = drift_blocks(state_.disks, scene_.box, scene_.physics.gravity, t, executor_, cells_);
   speed2_known_ = true;
 }
 
@@ -186,9 +186,9 @@ void TimeStepping::search(const StepRules& rules) {
     closed_up_ = false;
     strays_ = 0;
     if (!state_.disks.empty()) {
-      if (!coarse_.current) note_coarse_positions(state_.disks, scene_.box, grid_, cells_, executor_, coarse_);
-      strays_ = find_contacts(state_.disks, scene_.box, grid_, cells_, coarse_, executor_, found_);
-      coarse_.current = false;  // what was found will be moved
+      if (!cells_.coarse.current) note_coarse_positions(state_.disks, scene_.box, executor_, cells_);
+      strays_ = find_contacts(state_.disks, scene_.box, cells_, executor_, found_);
+      cells_.coarse.current = false;  // what was found will be moved
     }
   }
   if (!has_walls(rules.box)) return;
@@ -211,7 +211,7 @@ void TimeStepping::keep_places() {
 bool TimeStepping::presses_others() {
   const PhaseTimer timer(times_, "resolve");
   if (state_.disks.empty()) return false;
-  return carom::presses_others(state_.disks, scene_.box, grid_, cells_, found_.furthest, executor_, displaced_);
+  return carom::presses_others(state_.disks, scene_.box, cells_, found_.furthest, executor_, displaced_);
 }
 
 void TimeStepping::gather(const StepRules& rules) {

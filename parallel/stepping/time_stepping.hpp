@@ -7,8 +7,6 @@
 
 #include "core/step/engine.hpp"
 #include "core/step/step_start.hpp"
-#include "parallel/cells/cell_grid.hpp"
-#include "parallel/cells/counting_sort.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/stepping/displaced_disks.hpp"
 #include "parallel/stepping/find_contacts.hpp"
@@ -65,9 +63,7 @@ class TimeStepping : public Engine {
   double exact_travel2();
   void remove_gone(Count marked);  // those of gone_
 
-  CellGrid grid_;
-  SortedCells cells_;
-  CoarsePositions coarse_;
+  CellList cells_;
   FoundContacts found_;  // in the last search
   DisplacedDisks displaced_;
   std::vector<unsigned char> gone_;

@@ -43,9 +43,9 @@ CellGrid grid_for(const Disks& d, const Domain& box) {
 Searched search(Disks d, const Domain& box, double moved, int threads, std::size_t divisor, FoundContacts& found,
                 Disks* at_search = nullptr) {
   const Executor executor(threads, divisor);
-  const CellGrid grid = grid_for(d, box);
-  SortedCells cells;
-  sort_into_cells(d, grid, executor, cells);
+  CellList cells;
+  cells.grid = grid_for(d, box);
+  sort_into_cells(d, cells.grid, executor, cells.sorted);
   for (std::size_t i = 0; i < d.size(); ++i) {
     const TwoUniforms u = uniforms(99, Stream::velocity, d.id[i], 0);
     const double step = moved * d.radius_of(i);
@@ -54,11 +54,10 @@ Searched search(Disks d, const Domain& box, double moved, int threads, std::size
     if (box.periodic_x()) d.x[i] = wrap(d.x[i], box.width);
     if (box.periodic_y()) d.y[i] = wrap(d.y[i], box.height);
   }
-  CoarsePositions coarse;
-  begin_coarse_positions(d, grid, cells, executor, coarse);
-  note_coarse_positions(d, box, grid, cells, executor, coarse);
+  begin_coarse_positions(d, executor, cells);
+  note_coarse_positions(d, box, executor, cells);
   Searched result;
-  result.strays = find_contacts(d, box, grid, cells, coarse, executor, found);
+  result.strays = find_contacts(d, box, cells, executor, found);
   std::vector<Pair> pairs;
   for (std::size_t b = 0; b < found.used; ++b) {
     pairs.insert(pairs.end(), found.buffers[b].begin(), found.buffers[b].end());
