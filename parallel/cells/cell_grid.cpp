@@ -36,6 +36,21 @@ double cells_for(double disks, double crowding) {
 
 }  // namespace
 
+void count_classes(const Disks& d, double largest_radius, std::vector<std::size_t>& count) {
+  count.assign(d.empty() ? 1 : class_of_radius(smallest_radius(d), largest_radius) + 1, 0);
+  if (d.radius.empty() || count.size() == 1) {
+    count.back() = d.size();
+    return;
+  }
+  for (const double r : d.radius) ++count[class_of_radius(r, largest_radius)];
+}
+
+std::vector<std::size_t> count_classes(const Disks& d, double largest_radius) {
+  std::vector<std::size_t> count;
+  count_classes(d, largest_radius, count);
+  return count;
+}
+
 void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid,
                double margin, double crowding) {
   grid.levels.clear();

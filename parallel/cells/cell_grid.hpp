@@ -83,6 +83,18 @@ struct CellGrid {
   std::uint32_t tile_keys = 0;      // of all levels in a tile, which are neighbours in memory; 0: not tiled
 };
 
+// Size class k holds radii r with largest / 2^(k+1) < r <= largest / 2^k. Precondition: radius > 0.
+inline std::size_t class_of_radius(double radius, double largest_radius) {
+  std::size_t k = 0;
+  for (double r = radius * class_ratio; r <= largest_radius; r *= class_ratio) ++k;
+  return k;
+}
+
+// How many disks each size class has, up to that of the smallest disk; one class at least. Precondition: no radius is
+// above largest_radius.
+void count_classes(const Disks& disks, double largest_radius, std::vector<std::size_t>& count);
+std::vector<std::size_t> count_classes(const Disks& disks, double largest_radius);
+
 // Levels for radii between smallest and largest in the box. count[k] is the number of disks of class k
 // (class_of_radius). A level's cells are at least a diameter and twice the margin wide, and not many more than its
 // disks, or more in proportion where those crowd (crowding.hpp); where fewer than three would fit across a periodic
@@ -103,13 +115,6 @@ void keep_rows(CellGrid& grid, double low, double high);
 // box. A disk elsewhere is in the row that is nearest among those stored. Where the others would be few, all stay.
 // Precondition as for keep_rows.
 void store_rows_between(const Domain& box, double low, double high, CellGrid& grid);
-
-// Class k holds radii r with largest / 2^(k+1) < r <= largest / 2^k.
-inline std::size_t class_of_radius(double radius, double largest_radius) {
-  std::size_t k = 0;
-  for (double r = radius * class_ratio; r <= largest_radius; r *= class_ratio) ++k;
-  return k;
-}
 
 inline std::uint32_t row_at(const GridLevel& level, double y) {
   return cell_index(y * level.rows_per_length, level.rows);

@@ -76,11 +76,7 @@ void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout, doubl
 
 void NeighbourLists::sort(Disks& d, const ListLayout& layout, double crowded, const Executor& executor) {
   const double largest = largest_radius_;
-  std::vector<std::size_t> count(class_of_radius(smallest_radius(d), largest) + 1, 0);
-  if (count.size() == 1) count[0] = d.size();
-  if (count.size() > 1) {
-    for (const double r : d.radius) ++count[class_of_radius(r, largest)];
-  }
+  std::vector<std::size_t> count = count_classes(d, largest);
   if (layout.disks_of_box > 0) {
     // Cells are those of the whole box.
     const double others =

@@ -133,7 +133,7 @@ void SlabStepping::cut_anew_if_uneven() {
   cut_ = cut_by_rows_of_all(ranks_, scene_.box, state_.disks);
   keep_thick(cut_, least_thickness * largest_radius_);
   slab_ = slab_of(cut_, scene_.box, ranks_.rank());
-  std::vector<std::size_t> counts = class_counts(state_.disks, largest_radius_);
+  std::vector<std::size_t> counts = count_classes(state_.disks, largest_radius_);
   sum_counts_over_ranks(ranks_, counts);
   make_cells(counts);
 }

@@ -44,16 +44,6 @@ std::string why_alone(const Scene& scene, double largest, int ranks) {
 
 }  // namespace
 
-std::vector<std::size_t> class_counts(const Disks& d, double largest_radius) {
-  std::vector<std::size_t> counts(1, 0);
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    const std::size_t k = class_of_radius(d.radius_of(i), largest_radius);
-    if (k >= counts.size()) counts.resize(k + 1, 0);
-    ++counts[k];
-  }
-  return counts;
-}
-
 SlabStart slab_start(const Scene& scene, DiskColumns columns, double smallest, double largest, Count disks, int ranks) {
   SlabStart start;
   start.smallest_radius = smallest;
@@ -71,7 +61,7 @@ double thinnest_slab(const Scene& scene, const SlabStart& start) {
 
 SlabStart slab_start(const Scene& scene, const Disks& all, int ranks) {
   SlabStart start = slab_start(scene, columns_of(all), smallest_radius(all), largest_radius(all), all.size(), ranks);
-  start.counts = class_counts(all, start.largest_radius);
+  start.counts = count_classes(all, start.largest_radius);
   start.cut = cut_into_slabs(scene.box, all, ranks, thinnest_slab(scene, start));
   return start;
 }
@@ -92,7 +82,7 @@ SlabStart slab_start(const Scene& scene, DiskSource& all, int ranks) {
   SlabStart start = slab_start(scene, {all.has_radii(), all.has_masses(), spins}, smallest, largest, all.size(), ranks);
   if (start.columns.radius) {
     visit_pieces(all, [&](const Disks& some) {
-      const std::vector<std::size_t> counts = class_counts(some, start.largest_radius);
+      const std::vector<std::size_t> counts = count_classes(some, start.largest_radius);
       start.counts.resize(std::max(start.counts.size(), counts.size()), 0);
       for (std::size_t k = 0; k < counts.size(); ++k) start.counts[k] += counts[k];
     });

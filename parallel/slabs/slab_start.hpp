@@ -38,9 +38,6 @@ SlabStart slab_start(const Scene& scene, DiskColumns columns, double smallest, d
 // How thick each slab has to be; length.
 double thinnest_slab(const Scene& scene, const SlabStart& start);
 
-// How many disks each class of radii has (class_of_radius); one class at least.
-std::vector<std::size_t> class_counts(const Disks& disks, double largest_radius);
-
 Bytes message_of(const SlabStart& start);
 SlabStart slab_start_of(const Bytes& message);
 

@@ -153,7 +153,7 @@ void SlabStepping::sort_now() {
   crossing_ids_.clear();
   sort_due_ = false;
   if (!scene_.sources.empty()) {
-    std::vector<std::size_t> counts = class_counts(state_.disks, largest_radius_);
+    std::vector<std::size_t> counts = count_classes(state_.disks, largest_radius_);
     sum_counts_over_ranks(ranks_, counts);
     make_cells(counts);
   }

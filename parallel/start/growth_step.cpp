@@ -29,13 +29,7 @@ CellGrid sort_by_reach(const Executor& executor, Disks& d, const Domain& box, co
     for (std::size_t i = begin; i < end; ++i) d.radius[i] = growth_reach(radius[i], target[d.id[i]]);
   });
   const double largest = largest_radius(d);
-  std::vector<std::size_t> count;
-  for (const double reach : d.radius) {
-    const std::size_t k = class_of_radius(reach, largest);
-    if (k >= count.size()) count.resize(k + 1);
-    ++count[k];
-  }
-  CellGrid grid = make_grid(box, largest, count);
+  CellGrid grid = make_grid(box, largest, count_classes(d, largest));
   sort_into_cells(d, grid, executor, cells);
   columns.before.resize(n);
   columns.lack.resize(n);

@@ -143,14 +143,8 @@ void TimeStepping::sort_now() {
   const PhaseTimer timer(times_, "sort");
   const Disks& d = state_.disks;
   const double largest = largest_radius(d);
-  const double smallest = smallest_radius(d);
   std::vector<std::size_t>& count = class_counts_;
-  count.assign(class_of_radius(smallest, largest) + 1, 0);
-  if (count.size() == 1) {
-    count[0] = d.size();
-  } else {
-    for (const double r : d.radius) ++count[class_of_radius(r, largest)];
-  }
+  count_classes(d, largest, count);
   const bool may_be_crowded = is_bounded_by_disks(scene_.box, largest, count, stepping_margin);
   make_grid(scene_.box, largest, count, cells_.grid, stepping_margin, may_be_crowded ? crowding(d, scene_.box) : 1.0);
   sort_into_cells(state_.disks, cells_.grid, executor_, cells_.sorted);

@@ -33,9 +33,7 @@ std::vector<Pair> as_ids(const std::vector<Pair>& pairs, const Disks& d) {
 
 CellGrid grid_for(const Disks& d, const Domain& box) {
   const double largest = largest_radius(d);
-  std::vector<std::size_t> count(class_of_radius(smallest_radius(d), largest) + 1, 0);
-  for (std::size_t i = 0; i < d.size(); ++i) ++count[class_of_radius(d.radius_of(i), largest)];
-  return make_grid(box, largest, count);
+  return make_grid(box, largest, count_classes(d, largest));
 }
 
 // Sorts, lets every disk move by `moved` of its own radius in some direction, searches. found: as an engine does, one
