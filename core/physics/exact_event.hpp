@@ -52,10 +52,14 @@ inline bool rubs_away(const ExactRules& rules, Touching which) {
   return rules.surfaces != nullptr && rules.surfaces->of(which).dissipates();
 }
 
+inline RoughDisk rough_disk(ExactDisk& a) {
+  return {a.radius, a.path.vx, a.path.vy, a.spin};
+}
+
 // A disk has just bounced off a wall or a fixed disk, which changed its velocity by `pressed` along this normal.
 inline void rub_against(const ExactRules& rules, Vec2 normal, Touching which, double pressed, ExactDisk& a) {
   if (rules.surfaces == nullptr) return;
-  rub_wall(rules.surfaces->of(which), rules.surfaces->inertia, normal, a.radius, pressed, a.path.vx, a.path.vy, a.spin);
+  rub_wall(rules.surfaces->of(which), rules.surfaces->inertia, normal, pressed, rough_disk(a));
 }
 
 // Of smooth disks: nothing happens along their surfaces.
@@ -129,8 +133,7 @@ inline Impact collide_at(const ExactRules& rules, double s, DiskId id_a, DiskId 
   };
   const auto rub = [&](const Relative& r, double change) {
     if (rules.surfaces == nullptr || elastic) return;
-    rub_disks(*rules.surfaces, r, share, change, a.radius, b.radius, a.path.vx, a.path.vy, b.path.vx, b.path.vy, a.spin,
-              b.spin);
+    rub_disks(*rules.surfaces, r, share, change, rough_disk(a), rough_disk(b));
   };
   Impact outcome =
       rules.box.shear.acts()

@@ -52,6 +52,11 @@ Shares shares_of(const View& d, std::uint32_t i, std::uint32_t j) {
   }
 }
 
+template <class View>
+RoughDisk rough_disk(const View& d, std::uint32_t i) {
+  return {d.radius(i), d.vx[i], d.vy[i], d.spin[i]};
+}
+
 // What rough disks do along their surfaces in the collision by which i and j, as r says before it, have just changed
 // the squared-distance rate by `change` (collide).
 template <class View>
@@ -59,8 +64,7 @@ void rub_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint3
               double change) {
   if constexpr (View::may_be_rough) {
     if (View::is_sheared && rules.surfaces == nullptr) return;
-    rub_disks(*rules.surfaces, r, share, change, d.radius(i), d.radius(j), d.vx[i], d.vy[i], d.vx[j], d.vy[j],
-              d.spin[i], d.spin[j]);
+    rub_disks(*rules.surfaces, r, share, change, rough_disk(d, i), rough_disk(d, j));
   }
 }
 
@@ -68,8 +72,7 @@ void rub_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint3
 template <class View>
 void rub_against(const View& d, const StepRules& rules, std::uint32_t i, Vec2 normal, Touching which, double pressed) {
   if constexpr (View::may_be_rough && !View::is_sheared) {
-    rub_wall(rules.surfaces->of(which), rules.surfaces->inertia, normal, d.radius(i), pressed, d.vx[i], d.vy[i],
-             d.spin[i]);
+    rub_wall(rules.surfaces->of(which), rules.surfaces->inertia, normal, pressed, rough_disk(d, i));
   }
 }
 

@@ -23,37 +23,44 @@ inline double rub(const Roughness& surface, double inertia, double slip, double 
   return sticking < -most ? most : -sticking;
 }
 
-// Two disks, of radii r1 and r2 and angular velocities w1 and w2 (counter-clockwise), have just collided (collide,
-// which returned `change`); r is how they met. With n from the first to the second and t at a right angle to it, on the
-// left, the slip is dv.t - (r1 w1 + r2 w2). Momentum stays, and angular momentum where the centres are r1 + r2 apart.
-inline void rub_disks(const Surfaces& surfaces, const Relative& r, Shares share, double change, double r1, double r2,
-                      double& vx1, double& vy1, double& vx2, double& vy2, double& w1, double& w2) {
+// What friction reads and writes of one disk.
+struct RoughDisk {
+  double radius;
+  double& vx;
+  double& vy;
+  double& spin;  // angular velocity, counter-clockwise; 1 / time
+};
+
+// Disks a and b have just collided (collide, which returned `change`); r is how they met. With n from a to b and t at a
+// right angle to it, on the left, the slip is dv.t - (r_a w_a + r_b w_b). Momentum stays, and angular momentum where
+// the centres are r_a + r_b apart.
+inline void rub_disks(const Surfaces& surfaces, const Relative& r, Shares share, double change, RoughDisk a,
+                      RoughDisk b) {
   const double distance = std::sqrt(r.distance2());
   const double tx = -r.dy / distance;
   const double ty = r.dx / distance;
-  const double slip = (r.dvx * tx + r.dvy * ty) - (r1 * w1 + r2 * w2);
+  const double slip = (r.dvx * tx + r.dvy * ty) - (a.radius * a.spin + b.radius * b.spin);
   const double k = rub(surfaces.disks, surfaces.inertia, slip, change / distance);
   if (k == 0.0) return;  // so that the smooth rule's zeros keep their signs
   const double k1 = k * share.first;
   const double k2 = k * share.second;
-  vx1 -= k1 * tx;
-  vy1 -= k1 * ty;
-  vx2 += k2 * tx;
-  vy2 += k2 * ty;
-  w1 -= k1 / (surfaces.inertia * r1);
-  w2 -= k2 / (surfaces.inertia * r2);
+  a.vx -= k1 * tx;
+  a.vy -= k1 * ty;
+  b.vx += k2 * tx;
+  b.vy += k2 * ty;
+  a.spin -= k1 / (surfaces.inertia * a.radius);
+  b.spin -= k2 / (surfaces.inertia * b.radius);
 }
 
-// A disk of radius r has just bounced off what does not move along its surface: a wall, or an obstacle, of which
-// n is the unit vector towards the disk. pressed: by how much that has changed its velocity, >= 0.
-inline void rub_wall(const Roughness& surface, double inertia, Vec2 n, double r, double pressed, double& vx, double& vy,
-                     double& w) {
-  const double slip = (vy * n.x - vx * n.y) - r * w;
+// Disk a has just bounced off what does not move along its surface: a wall, or an obstacle, of which n is the unit
+// vector towards the disk. pressed: by how much that has changed its velocity, >= 0.
+inline void rub_wall(const Roughness& surface, double inertia, Vec2 n, double pressed, RoughDisk a) {
+  const double slip = (a.vy * n.x - a.vx * n.y) - a.radius * a.spin;
   const double k = rub(surface, inertia, slip, pressed);
   if (k == 0.0) return;
-  vx -= k * n.y;
-  vy += k * n.x;
-  w -= k / (inertia * r);
+  a.vx -= k * n.y;
+  a.vy += k * n.x;
+  a.spin -= k / (inertia * a.radius);
 }
 
 // Energy of rotation; mass length^2 / time^2.

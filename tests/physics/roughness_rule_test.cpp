@@ -39,7 +39,7 @@ Pair collided(Pair p, const Surfaces& surfaces, double e) {
   const Relative r = p.relative();
   const Shares share = shares(p.m1, p.m2);
   const double change = collide(r, share, e, p.vx1, p.vy1, p.vx2, p.vy2);
-  rub_disks(surfaces, r, share, change, p.r1, p.r2, p.vx1, p.vy1, p.vx2, p.vy2, p.w1, p.w2);
+  rub_disks(surfaces, r, share, change, {p.r1, p.vx1, p.vy1, p.w1}, {p.r2, p.vx2, p.vy2, p.w2});
   return p;
 }
 
@@ -163,7 +163,7 @@ TEST(RoughPair, SmoothSurfacesChangeNoBit) {
 // its surface stands still on the floor: it turns clockwise where it moves to the right.
 TEST(RoughWall, BringsADiskToRoll) {
   double vx = 3.0, vy = 1.0, w = 0.0;
-  rub_wall({0.0, HUGE_VAL}, 0.5, {0.0, 1.0}, 2.0, 2.0, vx, vy, w);
+  rub_wall({0.0, HUGE_VAL}, 0.5, {0.0, 1.0}, 2.0, {2.0, vx, vy, w});
   EXPECT_DOUBLE_EQ(vx, 2.0);
   EXPECT_EQ(vy, 1.0);
   EXPECT_DOUBLE_EQ(w, -1.0);
@@ -176,12 +176,12 @@ TEST(RoughWall, IsTheSameInAnyDirection) {
     const double nx = std::cos(angle), ny = std::sin(angle);
     const double along_x = ny, along_y = -nx;  // clockwise from the normal: to the right on a floor
     double vx = 3.0 * along_x + nx, vy = 3.0 * along_y + ny, w = 0.0;
-    rub_wall({0.0, HUGE_VAL}, 0.5, {nx, ny}, 2.0, 2.0, vx, vy, w);
+    rub_wall({0.0, HUGE_VAL}, 0.5, {nx, ny}, 2.0, {2.0, vx, vy, w});
     EXPECT_NEAR(vx * along_x + vy * along_y, 2.0, 1e-14);
     EXPECT_NEAR(vx * nx + vy * ny, 1.0, 1e-14);
     EXPECT_NEAR(w, -1.0, 1e-14);
     vx = 3.0 * along_x, vy = 3.0 * along_y, w = 0.0;
-    rub_wall({0.5, 0.1}, 0.5, {nx, ny}, 2.0, 2.0, vx, vy, w);
+    rub_wall({0.5, 0.1}, 0.5, {nx, ny}, 2.0, {2.0, vx, vy, w});
     EXPECT_NEAR(vx * along_x + vy * along_y, 2.8, 1e-14);
     EXPECT_NEAR(w, -0.2, 1e-14);
   }
