@@ -36,6 +36,8 @@ struct ExactRules {
 // What an event reads and writes of one disk.
 struct ExactDisk {
   PathSegment path;
+  DiskId id = 0;  // only read, as are mass and radius
+  double mass = 1.0;
   double last_contact = -never;    // TC model: when it last collided, disk or wall; time in the window, may be < 0
   std::uint32_t thermal_hits = 0;  // reflections by thermal sides so far
   double spin = 0.0;               // angular velocity of a rough disk, counter-clockwise; 1 / time
@@ -115,10 +117,9 @@ template <class RestitutionOf, class Rub>
   return outcome;
 }
 
-// Disks a and b, which have these ids (the smaller one first), collide at time s; their new segments start there.
-inline Impact collide_at(const ExactRules& rules, double s, DiskId id_a, DiskId id_b, double mass_a, double mass_b,
-                         ExactDisk& a, ExactDisk& b) {
-  const Shares share = rules.common_mass ? equal_shares : shares(mass_a, mass_b);
+// Disks a and b, the one with the smaller id first, collide at time s; their new segments start there.
+inline Impact collide_at(const ExactRules& rules, double s, ExactDisk& a, ExactDisk& b) {
+  const Shares share = rules.common_mass ? equal_shares : shares(a.mass, b.mass);
   bool elastic = false;       // by the TC model, and smooth
   bool held_elastic = false;  // where that makes a difference
   const auto restitution = [&](const Relative& r) {
@@ -126,7 +127,7 @@ inline Impact collide_at(const ExactRules& rules, double s, DiskId id_a, DiskId 
     const double e = rules.law == nullptr
                          ? rules.restitution
                          : std::max(least_rebound,
-                                    restitution_at(rules.law->of(rules.restitution, id_a, id_b), speed_of_approach(r)));
+                                    restitution_at(rules.law->of(rules.restitution, a.id, b.id), speed_of_approach(r)));
     elastic = made_elastic(rules, s, std::max(a.last_contact, b.last_contact));
     held_elastic = elastic && (e < 1.0 || rubs_away(rules, Touching::disks));
     return elastic ? 1.0 : e;
@@ -137,8 +138,8 @@ inline Impact collide_at(const ExactRules& rules, double s, DiskId id_a, DiskId 
   };
   Impact outcome =
       rules.box.shear.acts()
-          ? collide_sheared(rules.box, s, mass_a, mass_b, restitution, rules.surfaces != nullptr, rub, a.path, b.path)
-          : collide_paths<true>(rules.box, rules.gravity, s, share, reduced_mass(mass_a, mass_b), restitution, a.path,
+          ? collide_sheared(rules.box, s, a.mass, b.mass, restitution, rules.surfaces != nullptr, rub, a.path, b.path)
+          : collide_paths<true>(rules.box, rules.gravity, s, share, reduced_mass(a.mass, b.mass), restitution, a.path,
                                 b.path, rub);
   if (outcome.happened) {
     outcome.inaccurate = held_elastic;
@@ -154,20 +155,21 @@ inline Impact collide_at(const ExactRules& rules, double s, DiskId id_a, DiskId 
 // pile costs: were it given only to disks at rest, a pile would cool further and have four times as many collisions.
 inline constexpr double least_hop = 0.25;
 
-// Disk a, which has this id, is at a thermal side at time s.
-inline Impact meet_thermal_side(const ExactRules& rules, double s, Side side, double mass, DiskId id, ExactDisk& a) {
+// Disk a is at a thermal side at time s.
+inline Impact meet_thermal_side(const ExactRules& rules, double s, Side side, ExactDisk& a) {
   PathSegment& p = a.path;
   const double before = outward_speed(side, p.vx, p.vy);
   Impact outcome{0.0, 0.0, true, false};
   if (before > 0.0) {
     const double temperature = rules.box.temperature(side);
     const ThermalReflection reflected =
-        reflect_thermally(side, temperature, mass, {rules.seed, id, a.thermal_hits++}, p.vx, p.vy);
+        reflect_thermally(side, temperature, a.mass, {rules.seed, a.id, a.thermal_hits++}, p.vx, p.vy);
     outcome.energy = reflected.energy;
     if (rules.surfaces != nullptr && rules.surfaces->walls.acts()) {
-      outcome.energy += spin_thermally(rules.surfaces->inertia, temperature, mass, a.radius, reflected.deviate, a.spin);
+      outcome.energy +=
+          spin_thermally(rules.surfaces->inertia, temperature, a.mass, a.radius, reflected.deviate, a.spin);
     }
-    outcome.virial = mass * (before - outward_speed(side, p.vx, p.vy));
+    outcome.virial = a.mass * (before - outward_speed(side, p.vx, p.vy));
   }
   a.last_contact = s;
   return outcome;
@@ -175,7 +177,7 @@ inline Impact meet_thermal_side(const ExactRules& rules, double s, Side side, do
 
 // Disk a is at a moving side at time s. Under the TC model it leaves a side that accelerates towards it with a hop, as
 // it does from the floor.
-inline Impact meet_moving_side(const ExactRules& rules, double s, Side side, double mass, ExactDisk& a) {
+inline Impact meet_moving_side(const ExactRules& rules, double s, Side side, ExactDisk& a) {
   PathSegment& p = a.path;
   const SidePlace place = rules.box.place_after(side, s);
   const bool elastic = made_elastic(rules, s, a.last_contact);
@@ -190,7 +192,7 @@ inline Impact meet_moving_side(const ExactRules& rules, double s, Side side, dou
   if (approach > 0.0 || away > leaving) {
     const double kick = rebound(side, place, approach, away, p.vx, p.vy);
     if (!elastic && approach > 0.0) rub_against(rules, inward_normal(side), Touching::wall, kick, a);
-    outcome.virial = mass * kick;
+    outcome.virial = a.mass * kick;
     outcome.energy = outcome.virial * place.speed;
   }
   a.last_contact = s;
@@ -202,16 +204,16 @@ inline void hop_off(Side side, double least, PathSegment& p) {
   if (least > 0.0 && -outward_speed(side, p.vx, p.vy) < least) set_outward_speed(side, -least, p.vx, p.vy);
 }
 
-// Disk a, which has this id, reaches a side at time s: it bounces off a wall or crosses a periodic side. What a sink
-// takes, the caller removes.
-inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double mass, DiskId id, ExactDisk& a) {
+// Disk a reaches a side at time s: it bounces off a wall or crosses a periodic side. The caller removes what a sink
+// takes.
+inline Impact meet_side_at(const ExactRules& rules, double s, Side side, ExactDisk& a) {
   PathSegment& p = a.path;
   p = carried_to(p, s, rules.gravity);
   Impact outcome;
   if (rules.box.is_thermal(side)) {
-    outcome = meet_thermal_side(rules, s, side, mass, id, a);
+    outcome = meet_thermal_side(rules, s, side, a);
   } else if (rules.box.moves(side)) {
-    outcome = meet_moving_side(rules, s, side, mass, a);
+    outcome = meet_moving_side(rules, s, side, a);
   } else if (rules.box.side(side) == SideKind::wall) {
     const bool elastic = made_elastic(rules, s, a.last_contact);
     const double e = elastic ? 1.0 : rules.box.restitution(side);
@@ -222,22 +224,22 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, double 
     }
     if (rules.tc()) hop_off(side, least_hop * outward_acceleration(side, rules.gravity) * rules.contact_time, p);
     const bool loses = rules.box.restitution(side) < 1.0 || rubs_away(rules, Touching::wall);
-    outcome = {mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), 0.0, true, elastic && loses,
+    outcome = {a.mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), 0.0, true, elastic && loses,
                !elastic && loses};
     a.last_contact = s;
   }
   if (rules.box.shear.acts()) {
-    outcome.energy = wrap_with_work(p, mass, rules.box);
+    outcome.energy = wrap_with_work(p, a.mass, rules.box);
   } else if (rules.box.side(side) != SideKind::sink) {
     wrap_into(p, rules.box);
   }
   return outcome;
 }
 
-// Disk a, which has this id, touches an obstacle at time s: it bounces along the shortest line to it. Under the TC
-// model it hops as from the floor, in proportion to the part of gravity g that presses it against the obstacle.
+// Disk a touches an obstacle at time s: it bounces along the shortest line to it. Under the TC model it hops as from
+// the floor, in proportion to the part of gravity g that presses it against the obstacle.
 inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obstacle& o, const ShortestLine& shortest,
-                                  const Gravity& g, double mass, DiskId id, ExactDisk& a) {
+                                  const Gravity& g, ExactDisk& a) {
   PathSegment& p = a.path;
   const Vec2 apart = shortest.line;
   const double distance2 = shortest.length2;
@@ -249,7 +251,7 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
     bool elastic = false;
     if (!rules.constant) {
       elastic = made_elastic(rules, s, a.last_contact);
-      if (rules.law != nullptr) own = restitution_under_law(rules, id, o, std::max(0.0, -approach) / distance);
+      if (rules.law != nullptr) own = restitution_under_law(rules, a.id, o, std::max(0.0, -approach) / distance);
     }
     const double e = elastic ? 1.0 : std::max(own, least_rebound);
     double change = approach < 0.0 ? -(1.0 + e) * approach : 0.0;  // of the approach
@@ -264,7 +266,7 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
     if (!elastic && approach < 0.0) {
       rub_against(rules, {apart.x / distance, apart.y / distance}, o.touching(), change / distance, a);
     }
-    outcome = {mass * (change / distance), 0.0, bounced, elastic && loses, bounced && !elastic && loses};
+    outcome = {a.mass * (change / distance), 0.0, bounced, elastic && loses, bounced && !elastic && loses};
     if (bounced) a.last_contact = s;
   }
   return outcome;
@@ -272,7 +274,7 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
 
 // The same of a wall that moves, in its frame.
 [[gnu::noinline, gnu::cold]] inline Impact bounce_off_moving_wall(const ExactRules& rules, double s, const Obstacle& o,
-                                                                  double mass, DiskId id, ExactDisk& a) {
+                                                                  ExactDisk& a) {
   PathSegment& p = a.path;
   const PlacedObstacle now = placed(o, rules.box, s);
   const Vec2 wall = now.place.velocity;
@@ -281,7 +283,7 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
   p.vx -= wall.x;
   p.vy -= wall.y;
   const ShortestLine shortest = shortest_line_wound(now.obstacle, p.x, p.y, rules.box);
-  Impact impact = bounce_off_obstacle(rules, s, now.obstacle, shortest, felt, mass, id, a);
+  Impact impact = bounce_off_obstacle(rules, s, now.obstacle, shortest, felt, a);
   if (!impact.happened) {
     p.vx = before.x;
     p.vy = before.y;
@@ -289,21 +291,19 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
   }
   p.vx += wall.x;
   p.vy += wall.y;
-  see_push(impact, mass, wall, before, p.vx, p.vy);
+  see_push(impact, a.mass, wall, before, p.vx, p.vy);
   return impact;
 }
 
-// Disk a, which has this id, touches obstacle k (its place in State::obstacles) at time s; what a sink takes, the
-// caller removes.
-inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t k, double mass, DiskId id,
-                               ExactDisk& a) {
+// Disk a touches obstacle k (its place in State::obstacles) at time s. The caller removes what a sink takes.
+inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t k, ExactDisk& a) {
   PathSegment& p = a.path;
   p = carried_to(p, s, rules.gravity);
   const Obstacle& o = (*rules.box.obstacles)[k];
   if (o.kind == ObstacleKind::sink) return {};
   const Impact outcome =
-      o.moves ? bounce_off_moving_wall(rules, s, o, mass, id, a)
-              : bounce_off_obstacle(rules, s, o, shortest_line(o, p.x, p.y, rules.box), rules.gravity, mass, id, a);
+      o.moves ? bounce_off_moving_wall(rules, s, o, a)
+              : bounce_off_obstacle(rules, s, o, shortest_line(o, p.x, p.y, rules.box), rules.gravity, a);
   wrap_into(p, rules.box);
   return outcome;
 }

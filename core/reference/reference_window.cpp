@@ -115,11 +115,9 @@ class EventLoop {
     add_travel(e.i1, e.time);
     if (pair) add_travel(e.i2, e.time);
     ExactDisk& first = result_.disks[e.i1];
-    const Impact outcome =
-        pair ? collide_at(rules_, e.time, e.id1, e.id2, disks_.mass_of(e.i1), disks_.mass_of(e.i2), first,
-                          result_.disks[e.i2])
-        : is_obstacle(e.id2) ? meet_obstacle_at(rules_, e.time, obstacle_of(e.id2), disks_.mass_of(e.i1), e.id1, first)
-                             : meet_side_at(rules_, e.time, wall_side(e.id2), disks_.mass_of(e.i1), e.id1, first);
+    const Impact outcome = pair                 ? collide_at(rules_, e.time, first, result_.disks[e.i2])
+                           : is_obstacle(e.id2) ? meet_obstacle_at(rules_, e.time, obstacle_of(e.id2), first)
+                                                : meet_side_at(rules_, e.time, wall_side(e.id2), first);
     result_.tally.add(e.id2, outcome);
     if (pair && outcome.happened) result_.collisions.emplace_back(e.id1, e.id2);
     if (!pair && is_sink(rules_.box, e.id2)) {
@@ -177,6 +175,8 @@ WindowResult fresh_result(const State& state) {
   for (std::size_t i = 0; i < d.size(); ++i) {
     ExactDisk& disk = result.disks[i];
     disk.path = {0.0, d.x[i], d.y[i], d.vx[i], d.vy[i]};
+    disk.id = d.id[i];
+    disk.mass = d.mass_of(i);
     if (d.spins()) {
       disk.spin = d.spin[i];
       disk.radius = d.radius_of(i);

@@ -16,7 +16,7 @@ namespace carom {
 
 template <Scope scope>
 ExactDisk EventProcessor<scope>::disk(std::uint32_t i) const {
-  ExactDisk now{record_[i].path};
+  ExactDisk now{record_[i].path, record_[i].id, window_.disks->mass_of(i)};
   if (!window_.last_contact.empty()) now.last_contact = window_.last_contact[i];
   if (!window_.thermal_hits.empty()) now.thermal_hits = window_.thermal_hits[i];
   if (!window_.spin.empty()) {
@@ -31,7 +31,7 @@ void EventProcessor<scope>::meet_side(std::uint32_t i, double time) {
   const Side side = record_[i].partner.side();
   const DiskId partner = record_[i].partner.wall_id();
   ExactDisk now = disk(i);
-  const Impact impact = meet_side_at(window_.rules, time, side, window_.disks->mass_of(i), record_[i].id, now);
+  const Impact impact = meet_side_at(window_.rules, time, side, now);
   if (counts(i)) worker_.tally.add(partner, impact);
   const bool gone = window_.rules.box.side(side) == SideKind::sink;
   const EventMark event{time, record_[i].id, partner};
@@ -48,8 +48,7 @@ template <Scope scope>
 void EventProcessor<scope>::meet_obstacle(std::uint32_t i, double time) {
   const DiskId partner = record_[i].partner.wall_id();
   ExactDisk now = disk(i);
-  const Impact impact =
-      meet_obstacle_at(window_.rules, time, record_[i].partner.place(), window_.disks->mass_of(i), record_[i].id, now);
+  const Impact impact = meet_obstacle_at(window_.rules, time, record_[i].partner.place(), now);
   if (counts(i)) worker_.tally.add(partner, impact);
   const EventMark event{time, record_[i].id, partner};
   const bool gone = is_sink(window_.rules.box, partner);
@@ -166,9 +165,6 @@ void EventProcessor<scope>::log_spin(std::uint32_t i, double now) {
 template <Scope scope>
 void EventProcessor<scope>::collide_any_pair(std::uint32_t i, std::uint32_t j, double time) {
   if (record_[i].id > record_[j].id) std::swap(i, j);
-  const Disks& d = *window_.disks;
-  const DiskId id1 = record_[i].id;
-  const DiskId id2 = record_[j].id;
   ExactDisk a = disk(i);
   ExactDisk b = disk(j);
   // The speed bound excluded this collision, so it does not hold.
@@ -176,10 +172,10 @@ void EventProcessor<scope>::collide_any_pair(std::uint32_t i, std::uint32_t j, d
     worker_.too_fast = worker_.ended = true;
     return;
   }
-  const Impact impact = collide_at(window_.rules, time, id1, id2, d.mass_of(i), d.mass_of(j), a, b);
-  if (counts(i)) worker_.tally.add(id2, impact);
+  const Impact impact = collide_at(window_.rules, time, a, b);
+  if (counts(i)) worker_.tally.add(b.id, impact);
   if constexpr (scope == Scope::part) note_contact(record_[i], record_[j]);
-  const EventMark event{time, id1, id2};
+  const EventMark event{time, a.id, b.id};
   begin_segment(i, a, j, event);
   begin_segment(j, b, i, event);
   predict_after_event(i, time);
