@@ -22,29 +22,30 @@ void note_radii(const Disks& d, const Executor& executor, CellList& cells) {
   }
 }
 
-bool is_crowded(const SortedCells& cells, const GridLevel& level, std::uint32_t i) {
+bool has_long_run(const SortedCells& cells, const GridLevel& level, std::uint32_t i) {
   const NearRuns runs = near_runs(cells.start.data(), cells.key[i], level.stride, i);
   return runs.own_end > runs.own + coarse_lanes || runs.above_end > runs.above + coarse_lanes;
 }
 
-void note_crowded(const Executor& executor, CellList& cells) {
+void find_long_runs(const Executor& executor, CellList& cells) {
   CoarsePositions& coarse = cells.coarse;
-  coarse.crowded.clear();
+  coarse.long_runs.clear();
   for (const GridLevel& level : cells.grid.levels) {
     const LevelRange range = range_of(level, cells.sorted);
     const std::size_t n = range.last - range.first;
     const std::size_t blocks = executor.blocks(n, pass_block);
-    if (coarse.crowded_blocks.size() < blocks) coarse.crowded_blocks.resize(blocks);
+    if (coarse.long_runs_of_block.size() < blocks) coarse.long_runs_of_block.resize(blocks);
     executor.for_ranges(n, pass_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-      std::vector<std::uint32_t>& crowded = coarse.crowded_blocks[b];
-      crowded.clear();
+      std::vector<std::uint32_t>& long_runs = coarse.long_runs_of_block[b];
+      long_runs.clear();
       for (std::size_t k = range.first + begin; k < range.first + end; ++k) {
         const auto i = static_cast<std::uint32_t>(k);
-        if (is_crowded(cells.sorted, level, i)) crowded.push_back(i);
+        if (has_long_run(cells.sorted, level, i)) long_runs.push_back(i);
       }
     });
     for (std::size_t b = 0; b < blocks; ++b) {
-      coarse.crowded.insert(coarse.crowded.end(), coarse.crowded_blocks[b].begin(), coarse.crowded_blocks[b].end());
+      coarse.long_runs.insert(coarse.long_runs.end(), coarse.long_runs_of_block[b].begin(),
+                              coarse.long_runs_of_block[b].end());
     }
   }
 }
@@ -58,7 +59,7 @@ void begin_coarse_positions(const Disks& d, const Executor& executor, CellList& 
   coarse.loose.clear();
   coarse.radius.clear();
   if (!d.radius.empty()) note_radii(d, executor, cells);
-  note_crowded(executor, cells);
+  find_long_runs(executor, cells);
 }
 
 }  // namespace carom

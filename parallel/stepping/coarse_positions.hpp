@@ -18,24 +18,25 @@ namespace carom {
 // Coarse positions that are read at once; so many more entries than disks may be read.
 inline constexpr std::uint32_t coarse_lanes = 8;
 
-// By storage index, coarse_lanes entries more than disks. A coordinate is a whole number of units of the disk's level,
-// nearest to the true one, and known up to multiples of 2^16 units: x in the lower 16 bits, y in the upper. Differences
-// of 16 bits are then off by at most one unit, or by 2^16 units, which is far more than a contact distance: two disks
-// may seem near that are not, never the reverse.
+// Columns have an entry for each disk, by storage index, and coarse_lanes more. A coordinate is rounded to a whole
+// number of units of the disk's level, and the lowest 16 bits of that number are kept: x in the lower half, y in the
+// upper. The difference of two coordinates is then off by at most one unit, or by 2^16 units, which is far more than a
+// contact distance. So two disks may seem near that are not, but never the reverse.
 struct CoarsePositions {
   std::vector<std::uint32_t> position;
   std::vector<std::uint32_t> radius;  // in units, rounded up; empty: all disks have the common one
-  // Disks that have more than coarse_lanes others in one of their runs (near_runs), ascending.
-  std::vector<std::uint32_t> crowded;
-  // Disks that have left their cell by more than the level's margin, of each block.
+  // Disks that have more than coarse_lanes others in one of their two runs (near_runs), ascending.
+  std::vector<std::uint32_t> long_runs;
+  // Of each block of disks, the strays: those that have left their cell by more than the level's margin.
   std::vector<std::vector<std::uint32_t>> strays;
-  std::size_t blocks = 0;      // that strays are of
-  std::vector<double> speed2;  // scratch
-  std::vector<std::vector<std::uint32_t>> crowded_blocks;
-  // Disks that a program put or moved into storage between two steps, in ascending order: their keys say nothing of
-  // where they are. Those from `sorted` on are in no cell's run.
+  std::size_t blocks = 0;  // how many blocks have strays of the last drift
+  // Disks that a program added between two steps, and disks that took the place of one that it removed, ascending:
+  // their keys say nothing of where they are. Those stored behind all sorted disks are in no cell's run.
   std::vector<std::uint32_t> loose;
   bool current = false;  // position and strays are of where the disks are now
+  // Scratch.
+  std::vector<double> speed2;
+  std::vector<std::vector<std::uint32_t>> long_runs_of_block;
 };
 
 // The cell list of time stepping: the grid, which disks were sorted into each cell, and where the disks are now.
@@ -45,8 +46,9 @@ struct CellList {
   CoarsePositions coarse;
 };
 
-// A unit of the level's coarse coordinates; length. A cell is a sixteenth of what 16 bits hold, so that the few disks
-// read beyond the cells of interest do not seem near, and 4096 units, to which a diameter is 3400 in a dense fluid.
+// A unit of the level's coarse coordinates; length. The longer side of a cell is 4096 units, a sixteenth of what 16
+// bits hold: disks that are read beyond the cells of interest then do not seem near. In a dense fluid a diameter is
+// about 3400 units.
 inline double coarse_unit(const GridLevel& level) {
   return std::max(level.cell_width, level.cell_height) / 4096.0;
 }
@@ -79,8 +81,8 @@ inline NearRuns near_runs(const std::uint32_t* start, std::uint32_t key, std::ui
   return {i + 1, start[key + 2], start[key + stride - 1], start[key + stride + 2]};
 }
 
-// Makes room in cells.coarse for all disks, with their radii, and finds those that are crowded. To be called once the
-// disks have been sorted into cells.
+// Makes room in cells.coarse for all disks, with their radii, and finds those that have long runs. To be called once
+// the disks have been sorted into cells.
 void begin_coarse_positions(const Disks& disks, const Executor& executor, CellList& cells);
 
 }  // namespace carom

@@ -273,7 +273,7 @@ SearchInput input_of(const Disks& d, const Domain& box, const CellList& cells) {
           d.common_radius,
           coarse.position.data(),
           coarse.radius.empty() ? nullptr : coarse.radius.data(),
-          coarse.crowded,
+          coarse.long_runs,
           cells.sorted.key.data(),
           cells.sorted.start.data(),
           d.size(),

@@ -187,13 +187,13 @@ template <bool own_radius>
   add_candidates(in, coarse, i, runs.above, std::min(runs.above_end, runs.above + lanes), pairs);
 }
 
-// The crowded ones of disks [begin, end) against the rest of both runs.
+// Those of disks [begin, end) that have a long run (CoarsePositions) against the rest of both runs.
 template <bool own_radius>
-void test_crowded(const SearchInput& in, std::uint32_t contact2, std::uint32_t stride, std::size_t begin,
-                  std::size_t end, std::vector<Pair>& pairs) {
+void test_long_runs(const SearchInput& in, std::uint32_t contact2, std::uint32_t stride, std::size_t begin,
+                    std::size_t end, std::vector<Pair>& pairs) {
   CoarseTest<own_radius> coarse(in, contact2);
-  auto it = std::lower_bound(in.crowded.begin(), in.crowded.end(), begin);
-  for (; it != in.crowded.end() && *it < end; ++it) {
+  auto it = std::lower_bound(in.long_runs.begin(), in.long_runs.end(), begin);
+  for (; it != in.long_runs.end() && *it < end; ++it) {
     coarse.set_disk(*it);
     const NearRuns runs = near_runs(in.start, in.key[*it], stride, *it);
     add_candidates(in, coarse, *it, runs.own + lanes, runs.own_end, pairs);
@@ -237,7 +237,7 @@ void search_row(const SearchInput& in, const GridLevel& level, std::size_t begin
     test_disk<own_radius>(in, contact2, level.stride, i + 1, pairs);
   }
   if (i < end) test_disk<own_radius>(in, contact2, level.stride, i, pairs);
-  test_crowded<own_radius>(in, contact2, level.stride, begin, end, pairs);
+  test_long_runs<own_radius>(in, contact2, level.stride, begin, end, pairs);
   keep_touching<own_radius>(in, found, pairs);
 }
 

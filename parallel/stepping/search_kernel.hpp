@@ -15,9 +15,9 @@ struct SearchInput {
   const double* y;
   const double* radius;  // null: common_radius
   double common_radius;
-  const std::uint32_t* position;       // coarse (coarse_positions.hpp)
-  const std::uint32_t* coarse_radius;  // null: common_radius
-  const std::vector<std::uint32_t>& crowded;
+  const std::uint32_t* position;                // coarse (coarse_positions.hpp)
+  const std::uint32_t* coarse_radius;           // null: common_radius
+  const std::vector<std::uint32_t>& long_runs;  // as in CoarsePositions
   const std::uint32_t* key;
   const std::uint32_t* start;
   std::size_t n;  // all disks
