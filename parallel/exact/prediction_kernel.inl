@@ -1,156 +1,32 @@
-// The kernel, compiled once for every instruction set; CAROM_PREDICTION_KERNELS names the version. Four neighbours at a
-// time, in the compilers' own vector types: on a machine without them the compiler splits them.
+// The kernel, compiled once for every instruction set; CAROM_PREDICTION_KERNELS names the version. It takes four
+// neighbours at a time.
 
 #if defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
 #include <atomic>
-#include <bit>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
 #include "parallel/exact/prediction_kernel.hpp"
+#include "parallel/exact/prediction_lanes.inl"
 
 namespace carom {
 
 namespace {
 
-using Doubles = double __attribute__((vector_size(32)));
-using Longs = long long __attribute__((vector_size(32)));
-
-constexpr std::uint32_t lanes = prediction_lanes;
-
-static_assert(offsetof(PathSegment, vy) == offsetof(PathSegment, x) + 3 * sizeof(double));
-static_assert(sizeof(LaneConstant) == sizeof(Doubles));
-
-// x, y, vx, vy of a segment.
-inline Doubles load_motion(const PathSegment& p) {
-  Doubles v;
-  __builtin_memcpy(&v, &p.x, sizeof v);
-  return v;
-}
-
-inline Doubles load(const LaneConstant& c) {
-  Doubles v;
-  __builtin_memcpy(&v, c.lane, sizeof v);
-  return v;
-}
-
-inline Doubles all(double a) {
-  return Doubles{a, a, a, a};
-}
-
-inline Longs bits(Doubles a) {
-  return __builtin_bit_cast(Longs, a);
-}
-
-inline Doubles number(Longs a) {
-  return __builtin_bit_cast(Doubles, a);
-}
-
-inline Doubles choose(Longs truth, Doubles a, Doubles b) {
-#if defined(__AVX__)
-  return __builtin_ia32_blendvpd256(b, a, number(truth));
-#else
-  return number((truth & bits(a)) | (~truth & bits(b)));
-#endif
-}
-
-// a where the sign of `sign` is set.
-inline Doubles choose_by_sign(Doubles sign, Doubles a, Doubles b) {
-#if defined(__AVX__)
-  return __builtin_ia32_blendvpd256(b, a, sign);
-#else
-  return choose(bits(sign) >> 63, a, b);
-#endif
-}
-
-inline Doubles root(Doubles v) {
-#if defined(__AVX__)
-  return __builtin_bit_cast(Doubles, __builtin_ia32_sqrtpd256(v));
-#else
-  return Doubles{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
-#endif
-}
-
-// The next two give b where one of both is not a number.
-inline Doubles larger(Doubles a, Doubles b) {
-#if defined(__AVX__)
-  return __builtin_bit_cast(Doubles, __builtin_ia32_maxpd256(a, b));
-#else
-  return choose(a > b, a, b);
-#endif
-}
-
-inline Doubles smaller(Doubles a, Doubles b) {
-#if defined(__AVX__)
-  return __builtin_bit_cast(Doubles, __builtin_ia32_minpd256(a, b));
-#else
-  return choose(a < b, a, b);
-#endif
-}
-
-// Bit k is set where lane k is true.
-inline unsigned bits_of(Longs truth) {
-#if defined(__AVX__)
-  return static_cast<unsigned>(__builtin_ia32_movmskpd256(number(truth)));
-#else
-  const Longs weighted = truth & Longs{1, 2, 4, 8};
-  return static_cast<unsigned>(weighted[0] | weighted[1] | weighted[2] | weighted[3]);
-#endif
-}
-
-inline bool any_true(Longs truth) {
-#if defined(__AVX__)
-  return __builtin_ia32_vtestzpd256(number(truth), number(truth)) == 0;
-#else
-  return bits_of(truth) != 0;
-#endif
-}
-
-// The least of the four, in all lanes.
-inline Doubles least_of_all(Doubles v) {
-  const Doubles pairs = smaller(v, __builtin_shufflevector(v, v, 2, 3, 0, 1));
-  return smaller(pairs, __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2));
-}
-
-// Of whole numbers below 2^31, that of the first lane whose bit is set.
-inline std::uint32_t lane_of(Longs v, unsigned set) {
-#if defined(__AVX2__)
-  using Ints = int __attribute__((vector_size(32)));
-  const Ints halves = __builtin_bit_cast(Ints, v);
-  const int lower = 2 * __builtin_ctz(set);
-  return static_cast<std::uint32_t>(__builtin_ia32_permvarsi256(halves, Ints{lower})[0]);
-#else
-  return static_cast<std::uint32_t>(v[__builtin_ctz(set)]);
-#endif
-}
-
-// To the nearest whole number, |v| < 2^51.
-inline Doubles rounded(Doubles v) {
-#if defined(__AVX__)
-  return __builtin_ia32_roundpd256(v, 8);
-#else
-  constexpr double shift = 0x1.8p52;
-  return (v + all(shift)) - all(shift);
-#endif
-}
-
-// Further than 0.01 periods from half a period this takes the same image as core's nearest_image, by the same one
-// subtraction: d - 0 is d, and d - (-period) is d + period.
-inline Doubles nearest(Doubles d, const LaneConstant& period, const LaneConstant& periods_per_length) {
-  return d - load(period) * rounded(d * load(periods_per_length));
-}
-
 struct Own {
   Doubles start, x, y, vx, vy, radius;
 };
 
-// Which images of neighbours may be met: no but the disks themselves; the nearest ones; those beyond the nearest, too;
-// the nearest ones of a sheared box.
-enum class Images { any, own, all, sheared };
+// Which images of its neighbours a disk may meet along a period.
+enum class Images {
+  none,     // no border is between them: the disks themselves
+  nearest,  // the nearest ones
+  beyond,   // the nearest ones, and those beyond them
+  sheared,  // the nearest ones of a sheared box
+};
 
 // Places and velocities of four disks.
 struct Motions {
@@ -184,7 +60,7 @@ inline Doubles magnitude(const PredictionConstants& f, Doubles v) {
   return number(bits(v) & bits(load(f.magnitude_bits)));
 }
 
-// Time until disks dx and dy apart touch. Not a number where they do not. approach: dr.dv.
+// Time until disks that are (dx, dy) apart touch; not a number where they do not. approach: is set to dr.dv.
 [[gnu::always_inline]] inline Doubles until_contact(const PredictionConstants& f, const Pairs& r, Doubles dx,
                                                     Doubles dy, Doubles& approach) {
   approach = dx * r.dvx + dy * r.dvy;
@@ -275,11 +151,11 @@ template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
   Pairs r;
   r.dx = others.x - mine.x;
   r.dy = others.y - mine.y;
-  if constexpr (images == Images::any) {
+  if constexpr (images == Images::nearest) {
     r.dx = nearest(r.dx, f.period_x, f.periods_per_x);
     r.dy = nearest(r.dy, f.period_y, f.periods_per_y);
   }
-  if constexpr (images == Images::all) {
+  if constexpr (images == Images::beyond) {
     r.dx = nearest_of_any(f, r.dx, f.image_x);
     r.dy = nearest_of_any(f, r.dy, f.image_y);
     r.contact_distance = load(f.contact);
@@ -304,7 +180,7 @@ template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
     slowest = number(bits(slowest) & ~(meets_image_behind(f, r, span, r.dx, r.dvx, f.image_x) |
                                        meets_image_behind(f, r, span, r.dy, r.dvy, f.image_y)));
   }
-  if constexpr (images == Images::all) {
+  if constexpr (images == Images::beyond) {
     return both + until_any_image(f, r, load(f.horizon) - both, until, slowest);
   }
   return both + until;
@@ -391,7 +267,7 @@ template <Images images>
   const double s = until - path.start;
   Coordinates d = Coordinates{path.x, path.y} + Coordinates{path.vx, path.vy} * Coordinates{s, s};
   d = d - to_doubles(f, listed_at) * load(f.listed_unit);
-  if constexpr (images != Images::own) {
+  if constexpr (images != Images::none) {
     const Coordinates periods = d * load(f.periods_per_length);
     constexpr double shift = 0x1.8p52;
     d = d - load(f.period) * ((periods + Coordinates{shift, shift}) - Coordinates{shift, shift});
@@ -429,13 +305,13 @@ PredictionKernels kernels_for() {
     near_sheared = first_in_row<gravity, unequal_radii, false, Images::sheared>;
     far_sheared = first_in_wide_row<gravity, unequal_radii, Images::sheared>;
   }
-  return {first_in_row<gravity, unequal_radii, false, Images::any>,
-          first_in_row<gravity, unequal_radii, true, Images::any>,
-          first_in_row<gravity, unequal_radii, false, Images::own>,
-          first_in_row<gravity, unequal_radii, true, Images::own>,
-          first_in_wide_row<gravity, unequal_radii, Images::any>,
-          first_in_row<gravity, unequal_radii, false, Images::all>,
-          first_in_wide_row<gravity, unequal_radii, Images::all>,
+  return {first_in_row<gravity, unequal_radii, false, Images::nearest>,
+          first_in_row<gravity, unequal_radii, true, Images::nearest>,
+          first_in_row<gravity, unequal_radii, false, Images::none>,
+          first_in_row<gravity, unequal_radii, true, Images::none>,
+          first_in_wide_row<gravity, unequal_radii, Images::nearest>,
+          first_in_row<gravity, unequal_radii, false, Images::beyond>,
+          first_in_wide_row<gravity, unequal_radii, Images::beyond>,
           near_sheared,
           far_sheared};
 }
