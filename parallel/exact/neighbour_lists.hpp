@@ -16,56 +16,22 @@
 #include "parallel/exact/cell_runs.hpp"
 #include "parallel/exact/cell_slots.hpp"
 #include "parallel/exact/engine_mode.hpp"
+#include "parallel/exact/flow_frame.hpp"
 #include "parallel/exact/list_kernel.hpp"
 #include "parallel/exact/list_rows.hpp"
 #include "parallel/exact/listed_cells.hpp"
+#include "parallel/exact/relist_distance.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
 
-// In a sheared box disks are listed by places that go with the flow: x less tilt times the height above the middle,
-// where the flow is at rest, with a tilt that grows at the shear rate. There the images above are at rest, and two
-// disks that touch are at most `stretch` times as far from each other, until the tilt has grown by the strain that the
-// stretch allows for. Not in effect elsewhere.
-struct FlowFrame {
-  bool acts = false;
-  double rate = 0.0;
-  double middle = 0.0;  // length
-  double tilt = 0.0;    // at the start of the window
-  double stretch = 1.0;
-  double built_tilt = 0.0, built_at = 0.0;  // when the lists were built; tilt, absolute time
-  double strain = 0.0;
-
-  double tilt_at(double s) const { return tilt + rate * s; }  // s: time in the window
-  // The place along x of what is here then.
-  double carried_back(double x, double y, double s) const { return x - tilt_at(s) * (y - middle); }
-};
-
-// Buffer of a search for neighbours, and the neighbours that it found.
+// The buffer of a search for neighbours, and how many it found.
 struct FoundNeighbours {
   std::vector<std::uint32_t> buffer;
   std::size_t count = 0;
   FixedPointPosition at;  // of find_list: where the disk is to be listed
   std::span<const std::uint32_t> disks() const { return {buffer.data(), count}; }
   void grow(std::size_t disks);
-};
-
-// Time for which a point that is now at d and goes at v stays within a distance of the origin; 0 if it is not.
-inline double time_within(double distance2, Vec2 d, Vec2 v) {
-  const double c = distance2 - (d.x * d.x + d.y * d.y);
-  if (!(c > 0.0)) return 0.0;
-  const double a = v.x * v.x + v.y * v.y;
-  if (a == 0.0) return never;
-  const double b = d.x * v.x + d.y * v.y;
-  const double root = std::sqrt(b * b + a * c);
-  return b > 0.0 ? c / (b + root) : (root - b) / a;
-}
-
-// How far a disk may move from its listed position before it is relisted.
-struct RelistDistance {
-  double length = 0.0;
-  double stay2 = never;  // its square, a little less
-  double lead2 = 0.0;    // the furthest that a disk is listed ahead, squared
 };
 
 // Each disk has a listed position, where it was when it was listed, and may move by the skin from it. Disks i and j are
