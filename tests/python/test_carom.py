@@ -1,11 +1,10 @@
-"""The Python module: the command line's bits, and what it promises of copies, views, signals and threads."""
+"""The Python module: the command line's bits, and what it promises of copies, views and threads."""
 
 import glob
 import json
 import os
 import pathlib
 import pickle
-import signal
 import subprocess
 import threading
 import time
@@ -154,56 +153,6 @@ def test_callbacks_go_on_from_where_a_state_was_taken_up():
     sim.from_bytes(saved)
     sim.run(until=0.8)
     assert seen == pytest.approx([0.25, 0.5, 0.75, 1.0, 0.5, 0.75])
-
-
-def press_ctrl_c(seconds):
-    timer = threading.Timer(seconds, lambda: signal.pthread_kill(threading.main_thread().ident, signal.SIGINT))
-    timer.start()
-    return timer
-
-
-def test_ctrl_c_stops_between_steps_and_the_simulation_goes_on():
-    scene = gas(2000, t_end=1e6)
-    sim = carom.Simulation(scene, threads=1)
-    timer = press_ctrl_c(0.3)
-    with pytest.raises(KeyboardInterrupt):
-        sim.run()
-    timer.join()
-    steps = sim.steps
-    sim.step(10)
-    other = carom.Simulation(scene, threads=1)
-    other.step(steps + 10)
-    assert other.hash == sim.hash
-
-
-def test_ctrl_c_in_a_whole_run_leaves_a_checkpoint(tmp_path):
-    scene = carom.Scene({"box": {"packing_fraction": 0.3}, "output": {"series": True},
-                         "disks": [{"count": 2000, "positions": "random", "radius": 0.5, "mass": 1.0,
-                                    "velocities": {"maxwell": 1.0}}],
-                         "run": {"method": "pairwise", "dt": 0.01, "t_end": 1e6}})
-    timer = press_ctrl_c(0.5)
-    with pytest.raises(KeyboardInterrupt):
-        carom.run(scene, out=tmp_path / "run")
-    timer.join()
-    assert carom.resume(tmp_path / "run").time > 0.0
-
-
-@pytest.mark.parametrize("engine", ["parallel", "reference"])
-def test_ctrl_c_while_disks_grow(engine, tmp_path):
-    # They would grow for half a minute and more, a step for seconds.
-    scene = carom.Scene({"box": {"packing_fraction": 0.83}, "growth": {"slowness": 1000.0},
-                         "disks": [{"count": 5000, "positions": "growth", "radius": 0.5, "mass": 1.0,
-                                    "velocities": {"maxwell": 1.0}}],
-                         "run": {"t_end": 1.0}, "output": {"series": True}})
-    for make in (lambda: carom.Simulation(scene, threads=1, engine=engine),
-                 lambda: carom.run(scene, out=tmp_path / "run", threads=1, engine=engine)):
-        began = time.monotonic()
-        timer = press_ctrl_c(0.3)
-        with pytest.raises(KeyboardInterrupt):
-            make()
-        timer.join()
-        assert time.monotonic() - began < 10.0
-        assert list(tmp_path.iterdir()) == []
 
 
 def test_a_view_copies_nothing_and_is_never_stale():
