@@ -7,7 +7,6 @@
 #include <carom/carom.hpp>
 #include <carom/eigen.hpp>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <thread>
@@ -15,13 +14,11 @@
 
 #include "core/load/scene_file.hpp"
 #include "run/simulation.hpp"
-#include "tests/support/draws.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace {
 
 using carom::World;
-using testing::HasSubstr;
 
 constexpr double nan_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -256,169 +253,6 @@ TEST(CaromC, TwoWorldsInTwoThreads) {
     both[1] = hash(1);
   }
   EXPECT_THAT(both, testing::Each(alone));
-}
-
-TEST(CaromC, SaysWhatIsWrongWithAScene) {
-  carom_world* world = nullptr;
-  const std::string text = "[box]\nwidht = 3\n";
-  EXPECT_EQ(carom_from_text(text.data(), text.size(), nullptr, &world), CAROM_INPUT);
-  EXPECT_THAT(carom_error(world), HasSubstr("scene:2: box.widht"));
-  EXPECT_EQ(carom_step(world, 1), CAROM_INPUT);
-  EXPECT_THAT(carom_error(world), HasSubstr("could not be made"));
-  EXPECT_EQ(carom_count(world), 0U);
-  carom_destroy(world);
-  EXPECT_EQ(carom_from_file("/no/such/scene.toml", nullptr, &world), CAROM_INPUT);
-  EXPECT_THAT(carom_error(world), HasSubstr("/no/such/scene.toml"));
-  carom_destroy(world);
-  carom_scene scene = box();
-  scene.width = nan_number;
-  EXPECT_EQ(carom_from_scene(&scene, nullptr, &world), CAROM_INPUT);
-  EXPECT_THAT(carom_error(world), HasSubstr("width"));
-  carom_destroy(world);
-  scene = box();
-  scene.top = 17;
-  EXPECT_EQ(carom_from_scene(&scene, nullptr, &world), CAROM_INPUT);
-  EXPECT_THAT(carom_error(world), HasSubstr("top: is 17"));
-  carom_destroy(world);
-  scene.top = CAROM_WALL;
-  const carom_options options{-1, 0};
-  EXPECT_EQ(carom_from_scene(&scene, &options, &world), CAROM_INPUT);
-  EXPECT_THAT(carom_error(world), HasSubstr("threads is -1"));
-  carom_destroy(world);
-}
-
-TEST(CaromC, NullPointersAreAStatusAndAText) {
-  EXPECT_EQ(carom_from_text("x", 1, nullptr, nullptr), CAROM_INPUT);
-  EXPECT_EQ(carom_step(nullptr, 1), CAROM_INPUT);
-  EXPECT_STREQ(carom_error(nullptr), "the world is a null pointer");
-  EXPECT_EQ(carom_next_warning(nullptr), nullptr);
-  EXPECT_EQ(carom_hash(nullptr), 0U);
-  EXPECT_EQ(carom_time(nullptr), 0.0);
-  EXPECT_EQ(carom_kinetic_energy(nullptr), 0.0);
-  carom_destroy(nullptr);
-  carom_options_init(nullptr);
-  carom_scene_init(nullptr);
-  World owner(box());
-  carom_world* const world = owner.get();
-  owner.add({5.0, 5.0, 0.0, 0.0, 1.0, 1.0, 0});
-  const auto complains = [&](carom_status status) {
-    EXPECT_EQ(status, CAROM_INPUT);
-    EXPECT_THAT(carom_error(world), HasSubstr("null pointer"));
-  };
-  complains(carom_disks(world, nullptr, 10));
-  complains(carom_ids(world, nullptr, 10));
-  complains(carom_positions(world, nullptr, 10));
-  complains(carom_velocities(world, nullptr, 10));
-  complains(carom_radii(world, nullptr, 10));
-  complains(carom_disks_at(world, 0.0, nullptr, 10, nullptr, nullptr));
-  complains(carom_get(world, 0, nullptr));
-  complains(carom_add(world, nullptr, nullptr));
-  complains(carom_query_box(world, 0, 0, 1, 1, nullptr, 10, nullptr));
-  complains(carom_nearest(world, 1, 1, nullptr, nullptr));
-  complains(carom_cast_ray(world, 1, 1, 1, 0, 1, nullptr));
-  complains(carom_save(world, nullptr));
-  complains(carom_save_memory(world, nullptr, 0, nullptr));
-  complains(carom_load_memory(world, nullptr, 0));
-  complains(carom_run_while(world, 1.0, nullptr, nullptr));
-}
-
-TEST(CaromC, ShortArraysAndNumbersThatAreNone) {
-  World owner(box());
-  carom_world* const world = owner.get();
-  for (int k = 0; k < 5; ++k) owner.add({2.0 + 3.0 * k, 5.0, 1.0, 0.0, 1.0, 1.0, 0});
-  carom_disk disks[4];
-  EXPECT_EQ(carom_disks(world, disks, 4), CAROM_INPUT);
-  EXPECT_THAT(carom_error(world), HasSubstr("room for 4 disks, and there are 5"));
-  std::uint32_t ids[4];
-  std::size_t count = 0;
-  EXPECT_EQ(carom_query_box(world, 0, 0, 20, 10, ids, 4, &count), CAROM_INPUT);
-  EXPECT_EQ(count, 5U);
-  std::size_t size = 0;
-  char byte = 0;
-  EXPECT_EQ(carom_save_memory(world, &byte, 1, &size), CAROM_INPUT);
-  EXPECT_GT(size, 100U);
-  const std::uint64_t before = carom_hash(world);
-  const carom_disk bad{nan_number, 5.0, 0.0, 0.0, 0.1, 1.0, 0};
-  EXPECT_EQ(carom_add(world, &bad, nullptr), CAROM_INPUT);
-  EXPECT_EQ(carom_set_velocity(world, 0, nan_number, 0.0), CAROM_INPUT);
-  EXPECT_EQ(carom_run_until(world, nan_number), CAROM_INPUT);
-  EXPECT_EQ(carom_disks_at(world, nan_number, disks, 4, &count, nullptr), CAROM_INPUT);
-  EXPECT_EQ(carom_get(world, 77, disks), CAROM_NOT_FOUND);
-  EXPECT_EQ(carom_remove(world, 77), CAROM_NOT_FOUND);
-  EXPECT_EQ(carom_hash(world), before);
-}
-
-// A step far too long ends with a status, and the world can be looked at all the same.
-TEST(CaromC, PhysicsThatCannotGoOn) {
-  World world(box());
-  world.add({5.0, 5.0, 1e6, 0.0, 0.1, 1.0, 0});
-  EXPECT_EQ(carom_step(world.get(), 1), CAROM_PHYSICS);
-  EXPECT_THAT(carom_error(world.get()), HasSubstr("run.dt"));
-  EXPECT_EQ(world.size(), 1U);
-}
-
-// Whatever is called in whatever order: a status, and the world stays one.
-TEST(CaromC, RandomCallsLeaveAWorld) {
-  carom::test::Draws draw(11);
-  const auto number = [&] {
-    switch (draw.bits() % 12) {
-      case 0:
-        return nan_number;
-      case 1:
-        return std::numeric_limits<double>::infinity();
-      case 2:
-        return -1e300;
-      default:
-        return draw.in(-1.0, 21.0);
-    }
-  };
-  for (const int method : {CAROM_EXACT, CAROM_PAIRWISE, CAROM_ROLLBACK}) {
-    World owner(box(method));
-    carom_world* const world = owner.get();
-    std::vector<std::byte> saved;
-    owner.save(saved);
-    for (int k = 0; k < 1000; ++k) {
-      std::uint32_t id = static_cast<std::uint32_t>(draw.bits() % 64);
-      std::uint32_t ids[16];
-      std::size_t count = 0;
-      carom_hit hit;
-      carom_disk disk{number(), number(), draw.in(-5.0, 5.0), number(), draw.in(-0.1, 1.0), draw.in(-0.1, 2.0), 0};
-      carom_status status = CAROM_OK;
-      switch (draw.bits() % 10) {
-        case 0:
-        case 1:
-        case 2:
-          status = carom_add(world, &disk, nullptr);
-          break;
-        case 3:
-          status = carom_remove(world, id);
-          break;
-        case 4:
-          status = carom_set_velocity(world, id, number(), draw.in(-5.0, 5.0));
-          break;
-        case 5:
-          status = carom_query_box(world, number(), number(), number(), number(), ids, 16, &count);
-          break;
-        case 6:
-          status = carom_cast_ray(world, number(), number(), number(), number(), number(), &hit);
-          break;
-        case 7:
-          status = carom_nearest(world, number(), number(), &id, nullptr);
-          break;
-        case 8:
-          if (draw.bits() % 20 == 0) owner.load(saved);
-          if (draw.bits() % 20 == 0) owner.save(saved);
-          break;
-        default:
-          status = carom_step(world, 1);
-      }
-      ASSERT_GE(status, CAROM_OK);
-      ASSERT_LE(status, CAROM_NOT_FOUND);
-      ASSERT_NE(std::strlen(carom_status_text(status)), 0U);
-      ASSERT_TRUE(status == CAROM_OK || std::strlen(carom_error(world)) != 0);
-    }
-    for (const carom_disk& disk : owner.disks()) EXPECT_TRUE(std::isfinite(disk.x + disk.y + disk.vx + disk.vy));
-  }
 }
 
 }  // namespace

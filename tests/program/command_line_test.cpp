@@ -42,9 +42,8 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "nothing is left behind";
 }
 
-TEST_F(LongCommandLine, OtherBadUsageIsOneLineWithStatusTwo) {
+TEST_F(LongCommandLine, OtherBadUsageOfRunIsOneLineWithStatusTwo) {
   const Usages cases{
-      {"--jsn", "no option \"--jsn\" before the command"},
       {"run --methd pairwise small.toml", "(nearest: --method)"},
       {"run -- small.toml --quiet", "run: one argument too many, \"--quiet\""},
       {"run small.toml -- other.toml", "one argument too many, \"other.toml\""},
@@ -73,6 +72,16 @@ TEST_F(LongCommandLine, OtherBadUsageIsOneLineWithStatusTwo) {
       {"run small.toml --set output.checkpoint=0", "--set output.checkpoint: is 0; expected a number above 0"},
       {"run small.toml --set output.checkpoint='\"2 days\"'",
        "--set output.checkpoint: is \"2 days\"; expected a time"},
+      {"run .", ".: is a directory; expected a scene file"},
+      {"run small.toml --dt \"$UNSET\"", "--dt: what follows it is empty; expected a value; is a variable"},
+  };
+  for (const auto& [arguments, what] : cases) expect_error("$C " + arguments, 2, what);
+  EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "nothing is left behind";
+}
+
+TEST_F(LongCommandLine, BadUsageOfOtherCommandsIsOneLineWithStatusTwo) {
+  const Usages cases{
+      {"--jsn", "no option \"--jsn\" before the command"},
       {"resume missing", "missing: does not exist; expected a checkpoint"},
       {"resume .", ".: holds no checkpoint"},
       {"resume small.toml", "small.toml: is no checkpoint of Carom"},
@@ -96,8 +105,6 @@ TEST_F(LongCommandLine, OtherBadUsageIsOneLineWithStatusTwo) {
       {"view small.toml --max-size 0", "--max-size: is \"0\""},
       {"view small.toml --max-size -3MB", "--max-size: is \"-3MB\""},
       {"view small.toml --maxsize 1MB", "view: there is no option \"--maxsize\""},
-      {"run .", ".: is a directory; expected a scene file"},
-      {"run small.toml --dt \"$UNSET\"", "--dt: what follows it is empty; expected a value; is a variable"},
       {"chart small.toml", "one argument too many, \"small.toml\"; expected carom chart --scene small.toml"},
       {"render small.toml --frame 0", "--frame: is \"0\""},
   };

@@ -90,8 +90,7 @@ TEST(SceneFile, ReadsGravityAsANumberOrAVector) {
   EXPECT_EQ(gravity("[0, 2]").size, 2.0);
 }
 
-TEST(SceneFile, ReadsEveryKey) {
-  const Scene s = scene_from(R"(
+constexpr std::string_view every_key = R"(
 title = "all"
 seed = 12
 [box]
@@ -138,7 +137,10 @@ t_end = 0
 [output]
 trajectory = "h5md"
 plots = ["energy", "velocity", "energy"]
-)");
+)";
+
+TEST(SceneFile, ReadsEveryKey) {
+  const Scene s = scene_from(every_key);
   EXPECT_EQ(s.box.side(Side::left), SideKind::sink);
   EXPECT_EQ(s.box.side(Side::right), SideKind::wall);
   EXPECT_TRUE(s.box.periodic_y());

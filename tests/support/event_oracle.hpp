@@ -2,16 +2,9 @@
 // windows, every disk advanced at every event. Written from the formulas, sharing no code with core.
 #pragma once
 
-// clang, unlike g++, calls every step from double to the oracle's long double a promotion by mistake; here it is the
-// point.
-#ifdef __clang__
-#pragma clang diagnostic ignored "-Wdouble-promotion"
-#endif
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "core/disks/disks.hpp"
@@ -20,16 +13,9 @@
 #include "core/disks/obstacle.hpp"
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
+#include "tests/support/oracle_times.hpp"
 
 namespace carom::oracle {
-
-using Real = long double;
-
-struct Ball {
-  Real x, y, vx, vy, r, m;
-  std::size_t group = 0;  // its [[disks]] block
-  Real last_event = -HUGE_VALL;
-};
 
 // e(v) = max(least, 1 - viscosity v^(1/5)) of two groups; least itself where the viscosity is 0.
 struct GroupLaw {
@@ -96,129 +82,6 @@ inline Real restitution_of(const System& s, std::size_t g, std::size_t h, Real s
     viscosity = law.viscosity;
   }
   return viscosity == 0.0L ? least : std::max(least, 1.0L - viscosity * std::pow(speed, 0.2L));
-}
-
-inline constexpr Real no_event = HUGE_VALL;
-
-// Contact of two balls, the second displaced by (ox, oy).
-inline Real pair_time(const Ball& a, const Ball& b, Real ox, Real oy) {
-  const Real dx = b.x + ox - a.x;
-  const Real dy = b.y + oy - a.y;
-  const Real ux = b.vx - a.vx;
-  const Real uy = b.vy - a.vy;
-  const Real along = dx * ux + dy * uy;
-  if (along >= 0.0L) return no_event;
-  const Real u2 = ux * ux + uy * uy;
-  const Real reach = a.r + b.r;
-  const Real gap2 = dx * dx + dy * dy - reach * reach;
-  if (gap2 <= 0.0L) return 0.0L;
-  const Real discriminant = along * along - u2 * gap2;
-  return discriminant < 0.0L ? no_event : gap2 / (-along + std::sqrt(discriminant));
-}
-
-// First t >= 0 at which distance d to a side, closing at speed u with acceleration a towards it, is covered.
-inline Real side_time(Real d, Real u, Real a) {
-  if (d < 0.0L) d = 0.0L;
-  if (a == 0.0L) return u > 0.0L ? d / u : no_event;
-  const Real discriminant = u * u + 2.0L * a * d;
-  if (discriminant < 0.0L || (a < 0.0L && u <= 0.0L)) return no_event;
-  const Real root = std::sqrt(discriminant);
-  return u > 0.0L ? 2.0L * d / (u + root) : (-u + root) / a;
-}
-
-// From the nearest point of an obstacle displaced by (ox, oy) to (x, y).
-struct Line {
-  Real x, y;
-};
-inline Line from_obstacle(const Obstacle& o, Real x, Real y) {
-  const Real dx = o.dx;
-  const Real dy = o.dy;
-  const Real length2 = dx * dx + dy * dy;
-  x -= static_cast<Real>(o.x);
-  y -= static_cast<Real>(o.y);
-  const Real share = length2 > 0.0L ? std::clamp((x * dx + y * dy) / length2, 0.0L, 1.0L) : 0.0L;
-  return {x - share * dx, y - share * dy};
-}
-
-// Contact of a falling ball with an obstacle displaced by (ox, oy), up to `end`, by going on as far as the ball surely
-// does not touch yet. NaN where that takes very many steps: the ball slides along the obstacle, and whether it touches
-// rounding decides.
-inline Real obstacle_time(const Ball& a, const Obstacle& o, Real ox, Real oy, Real left, Real down, Real end) {
-  const Real g = std::sqrt(left * left + down * down);
-  const Real reach = a.r + static_cast<Real>(o.radius);
-  const Real nothing = 1e-17L * reach;
-  constexpr int most_steps = 100'000;
-  Real t = 0.0L;
-  for (int step = 0; step < most_steps; ++step) {
-    const bool first = step == 0;
-    const auto [x, y] =
-        from_obstacle(o, a.x + a.vx * t - 0.5L * left * t * t - ox, a.y + a.vy * t - 0.5L * down * t * t - oy);
-    const Real vx = a.vx - left * t;
-    const Real vy = a.vy - down * t;
-    const Real gap = std::sqrt(x * x + y * y) - reach;
-    const bool nearer = x * vx + y * vy < 0.0L;
-    if (gap <= nothing && nearer) return t;
-    if (first && g == 0.0L && !nearer) return no_event;
-    if (t >= end) return no_event;
-    // Away from a contact that is over by a little, beyond the reach of rounding.
-    const Real room = std::max(gap, (nearer ? 1e-18L : 1e-13L) * reach);
-    const Real speed = std::sqrt(vx * vx + vy * vy);
-    t += 2.0L * room / (speed + std::sqrt(speed * speed + 2.0L * g * room));
-  }
-  return std::numeric_limits<Real>::quiet_NaN();
-}
-
-// How far a side has come into the box, how fast it comes, and its acceleration, from the formulas of its motion.
-struct Wall {
-  Real inset = 0.0L, speed = 0.0L, acceleration = 0.0L;
-  Real lasts = HUGE_VALL;  // time until the next piece of the motion
-};
-
-inline Wall wall_at(const SideMotion& m, Real t) {
-  if (m.kind == SideMotion::Kind::none) return {};
-  const auto inset = static_cast<Real>(m.inset);
-  if (m.kind == SideMotion::Kind::steady) {
-    const auto u = static_cast<Real>(m.speed);
-    return {inset + u * t, u, 0.0L};
-  }
-  if (m.kind == SideMotion::Kind::sine) {
-    const Real w = 2.0L * std::acos(-1.0L) / static_cast<Real>(m.period);
-    const auto a = static_cast<Real>(m.amplitude);
-    return {inset + a * std::sin(w * t), a * w * std::cos(w * t), -a * w * w * std::sin(w * t)};
-  }
-  const Real half = 0.5L * static_cast<Real>(m.period);
-  Real k = std::floor(t / half);
-  Real since = t - k * half;
-  if (half - since < 1e-15L * half) {
-    k += 1.0L;
-    since = 0.0L;
-  }
-  const Real up = std::fmod(k, 2.0L) == 0.0L ? 1.0L : -1.0L;
-  const Real rate = up * 4.0L * static_cast<Real>(m.amplitude) / (half * half);
-  return {inset + rate * since * (half - since), rate * (half - 2.0L * since), -2.0L * rate, half - since};
-}
-
-// Likewise with a side that is a sine, up to `end`, by going on as far as no acceleration could bring the two together.
-inline Real sine_time(const SideMotion& m, Real now, Real d, Real u, Real g, Real end) {
-  const Real w = 2.0L * std::acos(-1.0L) / static_cast<Real>(m.period);
-  const Real most = std::abs(static_cast<Real>(m.amplitude)) * w * w + std::abs(g);
-  const Real nothing = 1e-18L * (std::abs(d) + std::abs(static_cast<Real>(m.inset)));
-  Real t = 0.0L;
-  while (t <= end) {
-    const Wall wall = wall_at(m, now + t);
-    const Real gap = d - u * t - 0.5L * g * t * t - wall.inset;
-    const Real closing = u + g * t + wall.speed;
-    if (gap <= nothing && closing > 0.0L) return t;
-    const Real room = std::max(gap, 1e-17L * std::abs(static_cast<Real>(m.amplitude)));
-    t += std::max(side_time(room, closing, most), 1e-15L * static_cast<Real>(m.period));
-  }
-  return no_event;
-}
-
-// Of the images above a sheared box: how far they are displaced at time t.
-inline Real shear_offset(const Domain& box, Real t) {
-  const Real jump = static_cast<Real>(box.shear.rate) * static_cast<Real>(box.height);
-  return jump == 0.0L ? 0.0L : std::remainder(jump * t, static_cast<Real>(box.width));
 }
 
 struct Happening {
@@ -310,42 +173,44 @@ inline void meet(System& s, Ball& a, Ball& b, Real closing) {
   a.last_event = b.last_event = s.time;
 }
 
-inline void resolve(System& s, const Happening& e) {
+inline void meet_side(System& s, const Happening& e) {
   Ball& a = s.balls[e.i];
-  if (e.side >= 0) {
-    const auto k = static_cast<std::size_t>(e.side);
-    const Real u = (k % 2 == 0 ? 1.0L : -1.0L) * wall_at(s.box.motions[k], s.time).speed;  // along x or y
-    Real& v = e.side < 2 ? a.vx : a.vy;
-    meet(s, a, a, v - u);
-    v = u - static_cast<Real>(s.box.restitutions[k]) * (v - u);
-    ++s.wall_collisions;
-    return;
-  }
-  if (e.obstacle >= 0) {
-    const Obstacle& o = s.obstacles[static_cast<std::size_t>(e.obstacle)];
-    // The image may have wrapped meanwhile: the nearest one touches.
-    Line line{HUGE_VALL, HUGE_VALL};
-    for (int kx = -1; kx <= 1; ++kx) {
-      for (int ky = -1; ky <= 1; ++ky) {
-        if ((kx != 0 && !s.box.periodic_x()) || (ky != 0 && !s.box.periodic_y())) continue;
-        const Line image =
-            from_obstacle(o, a.x - kx * static_cast<Real>(s.box.width), a.y - ky * static_cast<Real>(s.box.height));
-        if (image.x * image.x + image.y * image.y < line.x * line.x + line.y * line.y) line = image;
-      }
+  const auto k = static_cast<std::size_t>(e.side);
+  const Real u = (k % 2 == 0 ? 1.0L : -1.0L) * wall_at(s.box.motions[k], s.time).speed;  // along x or y
+  Real& v = e.side < 2 ? a.vx : a.vy;
+  meet(s, a, a, v - u);
+  v = u - static_cast<Real>(s.box.restitutions[k]) * (v - u);
+  ++s.wall_collisions;
+}
+
+inline void meet_obstacle(System& s, const Happening& e) {
+  Ball& a = s.balls[e.i];
+  const Obstacle& o = s.obstacles[static_cast<std::size_t>(e.obstacle)];
+  // The image may have wrapped meanwhile: the nearest one touches.
+  Line line{HUGE_VALL, HUGE_VALL};
+  for (int kx = -1; kx <= 1; ++kx) {
+    for (int ky = -1; ky <= 1; ++ky) {
+      if ((kx != 0 && !s.box.periodic_x()) || (ky != 0 && !s.box.periodic_y())) continue;
+      const Line image =
+          from_obstacle(o, a.x - kx * static_cast<Real>(s.box.width), a.y - ky * static_cast<Real>(s.box.height));
+      if (image.x * image.x + image.y * image.y < line.x * line.x + line.y * line.y) line = image;
     }
-    const auto [x, y] = line;
-    const Real along = (x * a.vx + y * a.vy) / (x * x + y * y);
-    const bool by_groups = !o.is_segment() && !s.obstacle_groups.empty();
-    const Real restitution = by_groups
-                                 ? restitution_of(s, a.group, s.obstacle_groups[static_cast<std::size_t>(e.obstacle)],
-                                                  std::abs(along) * std::sqrt(x * x + y * y))
-                                 : static_cast<Real>(o.restitution);
-    meet(s, a, a, along * std::sqrt(x * x + y * y));
-    a.vx -= (1.0L + restitution) * along * x;
-    a.vy -= (1.0L + restitution) * along * y;
-    ++s.wall_collisions;
-    return;
   }
+  const auto [x, y] = line;
+  const Real along = (x * a.vx + y * a.vy) / (x * x + y * y);
+  const bool by_groups = !o.is_segment() && !s.obstacle_groups.empty();
+  const Real restitution = by_groups
+                               ? restitution_of(s, a.group, s.obstacle_groups[static_cast<std::size_t>(e.obstacle)],
+                                                std::abs(along) * std::sqrt(x * x + y * y))
+                               : static_cast<Real>(o.restitution);
+  meet(s, a, a, along * std::sqrt(x * x + y * y));
+  a.vx -= (1.0L + restitution) * along * x;
+  a.vy -= (1.0L + restitution) * along * y;
+  ++s.wall_collisions;
+}
+
+inline void collide(System& s, const Happening& e) {
+  Ball& a = s.balls[e.i];
   Ball& b = s.balls[e.j];
   // The image may have wrapped meanwhile: the nearest one touches.
   Real dx = b.x - a.x;
@@ -370,6 +235,12 @@ inline void resolve(System& s, const Happening& e) {
   b.vx += impulse / b.m * nx;
   b.vy += impulse / b.m * ny;
   ++s.collisions;
+}
+
+inline void resolve(System& s, const Happening& e) {
+  if (e.side >= 0) return meet_side(s, e);
+  if (e.obstacle >= 0) return meet_obstacle(s, e);
+  collide(s, e);
 }
 
 // Runs to time t. False: there were more than so many events before, or nothing can be said of the next one; the system
