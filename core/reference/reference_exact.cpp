@@ -1,5 +1,6 @@
 #include "core/reference/reference_exact.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,7 +59,8 @@ class ReferenceExact final : public Engine {
       out = state_.disks;
       return state_.time;
     }
-    const double s = t > last_plan_.start ? t - last_plan_.start : 0.0;
+    const double at = std::max(t, last_plan_.start);
+    const double s = at - last_plan_.start;
     std::vector<PathSegment> path = paths_.first;
     std::vector<unsigned char> gone(path.size(), 0);
     out = at_start_;
@@ -71,7 +73,7 @@ class ReferenceExact final : public Engine {
     const Domain box = box_at(scene_.box, last_plan_.start);
     for (std::size_t i = 0; i < path.size(); ++i) place(path[i], s, box, out, i);
     remove_marked(out, gone);
-    return t;
+    return at;
   }
 
   std::vector<DiskContact> contacts() const override {

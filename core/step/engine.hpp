@@ -38,8 +38,9 @@ class Engine {
   // step.
   virtual std::unique_ptr<StatePieces> pieces() const { return std::make_unique<WholeState>(state()); }
 
-  // The disks at time t, start of the last step <= t <= state().time, written to out; no bit of the state changes.
-  // Time stepping knows step ends only and gives state() whatever t is; the return value is the time of what it gave.
+  // Writes to out the disks at time t <= state().time, and returns the time that they are of: t within the last step;
+  // the start of that step where t is earlier; always state().time in time stepping, which knows the ends of steps only.
+  // No bit of the state changes.
   virtual double disks_at(double t, Disks& out) const = 0;
 
   // The same in pieces, to be used before the next step. room: for disks that have to lie somewhere; it outlives what

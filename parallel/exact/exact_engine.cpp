@@ -279,15 +279,16 @@ double ParallelExact::disks_at(double t, Disks& out) const {
     out = state_.disks;
     return state_.time;
   }
-  const double s = t > logged_->start ? t - logged_->start : 0.0;
+  const double at = std::max(t, logged_->start);
+  const double s = at - logged_->start;
   if (in_parts_) {
     out = state_.disks;
     halos_.move_along_paths(s, out);
-    return t;
+    return at;
   }
   out = windows_.scheduler().any_gone() ? at_start_ : state_.disks;
   move_along_paths(windows_.window(), windows_.scheduler(), s, windows_.window().rules.box, {}, out);
-  return t;
+  return at;
 }
 
 std::vector<DiskContact> ParallelExact::contacts() const {

@@ -232,10 +232,11 @@ double SlabExact::disks_at(double t, Disks& out) const {
   }
   const bool any_left = !at_start_.ghosts.empty();
   out = any_left ? at_start_.disks : state_.disks;
-  const double s = t > logged_->start ? t - logged_->start : 0.0;
+  const double at = std::max(t, logged_->start);
+  const double s = at - logged_->start;
   move_along_paths(windows_.window(), windows_.scheduler(), s, windows_.window().rules.box,
                    any_left ? at_start_.ghosts : ghosts_.ghosts_among(out.size()), out);
-  return t;
+  return at;
 }
 
 // Those across a border are on the rank of the disk with the smaller id.

@@ -117,6 +117,22 @@ TEST(ExactFrames, FramesChangeNothingAndLieOnThePath) {
   EXPECT_GT(quiet->state().counters.collisions, 2U);
 }
 
+// Paths of earlier windows are not kept: an earlier time gets the disks at the start of the last window, and that time.
+TEST(ExactFrames, BeforeTheLastWindowAreOfItsStart) {
+  const Scene scene = make_scene({12, 12, "", "", gas, 30.0, ""});
+  const State initial = initial_state(scene);
+  for (const auto& engine : {make_reference_exact(scene, initial), make_parallel_engine(scene, initial, {1})}) {
+    for (int k = 0; k < 2; ++k) engine->step();
+    const double start = engine->state().time;
+    const std::uint64_t at_start = state_hash(engine->state().disks);
+    engine->step();
+    ASSERT_GT(engine->state().time, start);
+    Disks frame;
+    EXPECT_EQ(engine->disks_at(0.5 * start, frame), start);
+    EXPECT_EQ(state_hash(frame), at_start);
+  }
+}
+
 TEST(ExactSinks, TakeADiskAtItsContact) {
   Domain box;
   box.width = box.height = 10.0;
