@@ -1,10 +1,12 @@
 /* Carom from C: hard disks in a rectangle, stepped, looked at and changed by a program.
  *
- * A world is a handle; all calls on one are of one thread at a time, and worlds share nothing. No call throws, prints or
- * touches a signal. Every call that can fail returns a carom_status, and carom_error() of the world has a line that says
- * what was wrong; a failed call leaves the world as it was, but for steps, which leave it at the end of the last one
- * made. Lengths, times and masses are in the scene's own units. The bits are those of `carom run` of the same scene,
- * whatever the program's compiler flags, rounding mode and threads. docs/library.md shows the use. */
+ * A world is a handle. Only one thread at a time may call functions of a world; worlds share nothing. No call throws,
+ * prints or touches a signal. Every call that can fail returns a carom_status, and carom_error() of the world has a
+ * line that says what was wrong. A failed call leaves the world as it was, but for one that steps, which leaves it at
+ * the end of the last step made. Any call may return CAROM_FAILED (no memory) and CAROM_INPUT (a null pointer, NaN);
+ * below stands what else it may return. Lengths, times and masses are in the scene's own units. The bits are those of
+ * `carom run` of the same scene, whatever the program's compiler flags, rounding mode and threads. docs/library.md
+ * shows the use. */
 #ifndef CAROM_H
 #define CAROM_H
 
@@ -32,11 +34,11 @@ typedef struct carom_world carom_world;
 
 typedef enum carom_status {
   CAROM_OK = 0,
-  CAROM_FAILED = 1,    /* the machine: memory, a file that cannot be written */
-  CAROM_INPUT = 2,     /* a bad scene, a number out of range, an array too short, a null pointer */
-  CAROM_PHYSICS = 3,   /* the method cannot go on (a step far too long, inelastic collapse) */
-  CAROM_NO_ROOM = 4,   /* a disk that would overlap another, an inner wall or a side that has moved in */
-  CAROM_NOT_FOUND = 5  /* no disk of this id, or none that a query asks for */
+  CAROM_FAILED = 1,   /* the machine: memory, a file that cannot be written */
+  CAROM_INPUT = 2,    /* a bad scene, a number out of range, an array too short, a null pointer */
+  CAROM_PHYSICS = 3,  /* the method cannot go on (a step far too long, inelastic collapse) */
+  CAROM_NO_ROOM = 4,  /* a disk that would overlap another, an inner wall or a side that has moved in */
+  CAROM_NOT_FOUND = 5 /* no disk of this id, or none that a query asks for */
 } carom_status;
 
 /* How a world is computed; no bit depends on it. Set by carom_options_init before anything is changed. */
@@ -67,7 +69,8 @@ typedef struct carom_scene {
 typedef struct carom_disk {
   double x, y;   /* centre; length */
   double vx, vy; /* length / time */
-  double radius, mass;
+  double radius; /* length */
+  double mass;
   uint32_t id;
   double spin CAROM_OPTIONAL; /* angular velocity, counter-clockwise, 1 / time; of smooth disks 0, and not read */
 } carom_disk;
@@ -87,108 +90,124 @@ typedef struct carom_contact {
   uint32_t id1, id2; /* id1 < id2 */
 } carom_contact;
 
-/* --- The library ---------------------------------------------------------------------------------------------------- */
+/* --- The library -------------------------------------------------------------------------------------------------- */
 
-CAROM_API const char* carom_version(void);                        /* "0.1.0" */
-CAROM_API const char* carom_status_text(carom_status status);     /* "no room"; never null */
-CAROM_API void carom_options_init(carom_options* options);        /* null: does nothing */
-CAROM_API void carom_scene_init(carom_scene* scene);              /* likewise */
+CAROM_API const char* carom_version(void);                    /* "0.1.0" */
+CAROM_API const char* carom_status_text(carom_status status); /* "no room"; never null */
+CAROM_API void carom_options_init(carom_options* options);    /* null: does nothing */
+CAROM_API void carom_scene_init(carom_scene* scene);          /* likewise */
 
 /* --- Making a world -------------------------------------------------------------------------------------------------
  * options may be null: the usual ones. *world is set whenever there is memory for it: after a failure it is good for
  * carom_error and carom_destroy only. A scene is TOML (docs/scene.md); what it says of [output] and [analysis] is left
- * to carom run. */
+ * to carom run. CAROM_INPUT for a bad scene, with its file, line and key, and for disks that find no place. */
 
 CAROM_API carom_status carom_from_file(const char* path, const carom_options* options, carom_world** world);
 CAROM_API carom_status carom_from_text(const char* text, size_t length, const carom_options* options,
                                        carom_world** world);
 CAROM_API carom_status carom_from_scene(const carom_scene* scene, const carom_options* options, carom_world** world);
-/* A checkpoint of carom run or carom_save, or the folder of a run; and what carom_save_memory gave. */
+/* A checkpoint of carom run or carom_save, or the folder of a run; and what carom_save_memory gave. CAROM_INPUT where
+ * it is none, or damaged. */
 CAROM_API carom_status carom_from_checkpoint(const char* path, const carom_options* options, carom_world** world);
 CAROM_API carom_status carom_from_memory(const void* bytes, size_t size, const carom_options* options,
                                          carom_world** world);
 CAROM_API void carom_destroy(carom_world* world); /* null: does nothing */
 
 /* What was wrong with the last call on this world that failed, one line; empty if none did. Valid until the next call
- * on it. Never null. */
+ * on it. Never null, for a null world either. */
 CAROM_API const char* carom_error(const carom_world* world);
 /* The next warning of the physics, one line, likewise; null if there is none. */
 CAROM_API const char* carom_next_warning(carom_world* world);
 
-/* --- Stepping ------------------------------------------------------------------------------------------------------- */
+/* --- Stepping -------------------------------------------------------------------------------------------------------
+ * CAROM_PHYSICS where the method cannot go on. */
 
 /* At most `steps` steps; fewer where the scene's end is reached. */
 CAROM_API carom_status carom_step(carom_world* world, uint64_t steps);
-/* Steps until the time is t or later. A step is dt, or a window of the exact method, and none is cut short. */
+/* Steps until the time is t or later, or the scene's end. A step is dt, or a window of the exact method; none is cut
+ * short. */
 CAROM_API carom_status carom_run_until(carom_world* world, double t);
-/* Likewise, and asks go_on(context) between steps: 0 ends it. */
+/* Likewise, and calls go_on(context) before each step: where it returns 0, that is the end. */
 CAROM_API carom_status carom_run_while(carom_world* world, double t, int (*go_on)(void* context), void* context);
 
-/* --- Looking at a world; of a null world all is 0 ------------------------------------------------------------------- */
+/* --- Looking at a world; of a null world all is 0 ----------------------------------------------------------------- */
 
-CAROM_API double carom_time(const carom_world* world);      /* end of the last step */
-CAROM_API double carom_end_time(const carom_world* world);  /* t_end of the scene */
-CAROM_API int carom_done(const carom_world* world);         /* 1 at the scene's end */
-CAROM_API size_t carom_count(const carom_world* world);     /* disks now */
+CAROM_API double carom_time(const carom_world* world);     /* end of the last step */
+CAROM_API double carom_end_time(const carom_world* world); /* t_end of the scene */
+CAROM_API int carom_done(const carom_world* world);        /* 1 at the scene's end */
+CAROM_API size_t carom_count(const carom_world* world);    /* disks now */
 CAROM_API uint64_t carom_steps(const carom_world* world);
 CAROM_API uint64_t carom_collisions(const carom_world* world); /* of two disks */
 CAROM_API uint64_t carom_wall_collisions(const carom_world* world);
 CAROM_API uint64_t carom_removed(const carom_world* world); /* by sinks */
 CAROM_API uint64_t carom_emitted(const carom_world* world); /* by sources */
 CAROM_API uint64_t carom_hash(const carom_world* world);    /* state_hash of carom run */
-CAROM_API double carom_width(const carom_world* world);
-CAROM_API double carom_height(const carom_world* world);
+CAROM_API double carom_width(const carom_world* world);     /* of the box; length */
+CAROM_API double carom_height(const carom_world* world);    /* likewise */
+/* Energies, mass length^2 / time^2: the sum of m v^2 / 2, without spins, and of m (gravity y - gravity_x x). */
 CAROM_API double carom_kinetic_energy(const carom_world* world);
 CAROM_API double carom_potential_energy(const carom_world* world);
 
-/* All disks in order of id, into arrays with room for `room` disks; CAROM_INPUT where carom_count() is more. */
+/* All disks in order of id, into arrays with room for `room` disks (of xy: for 2 room numbers); CAROM_INPUT where
+ * carom_count() is more. */
 CAROM_API carom_status carom_disks(const carom_world* world, carom_disk* disks, size_t room);
 CAROM_API carom_status carom_ids(const carom_world* world, uint32_t* ids, size_t room);
 CAROM_API carom_status carom_positions(const carom_world* world, double* xy, size_t room);  /* x0, y0, x1, y1, ... */
 CAROM_API carom_status carom_velocities(const carom_world* world, double* xy, size_t room); /* likewise */
 CAROM_API carom_status carom_radii(const carom_world* world, double* radii, size_t room);
 CAROM_API carom_status carom_spins(const carom_world* world, double* spins, size_t room); /* 0 of smooth disks */
-/* Those at a time within the last step (with pairwise and rollback, at its end): how many, and their time. CAROM_INPUT
- * for a time after that step, or before it. */
+/* Those at time t within the last step: *count is how many, *time the time that they are of (null: not asked for).
+ * That is t with the exact method; after a change, and with pairwise and rollback, it is the step's end. CAROM_INPUT
+ * where t is after that step or before it, or *count is more than room. */
 CAROM_API carom_status carom_disks_at(const carom_world* world, double t, carom_disk* disks, size_t room, size_t* count,
                                       double* time);
-/* The pairs of disks that met in the last step, in order of time and ids. exact: those that collided in the window, once
- * for each collision; pairwise: those that touched or overlapped when the disks had drifted, before they were pushed
- * apart (of a step in parts, of its last part; in a pile, in the last round); rollback: those whose approach ended the
- * frame. Walls and fixed disks are left out, and disks that a sink took. None before the first step, and after a change
- * or carom_load_memory. *count is how many there are; CAROM_INPUT, and none given, where that is more than room. */
+/* The pairs of disks that met in the last step, in order of time and ids. exact: those that collided in the window,
+ * once for each collision; pairwise: those that touched or overlapped when the disks had drifted, before they were
+ * pushed apart (of a step in parts, of its last part; in a pile, in the last round); rollback: those whose approach
+ * ended the frame. Walls and fixed disks are left out, and disks that a sink took. None before the first step, and
+ * after a change or carom_load_memory. *count is how many there are; CAROM_INPUT, and none given, where that is more
+ * than room. */
 CAROM_API carom_status carom_contacts(const carom_world* world, carom_contact* contacts, size_t room, size_t* count);
+/* One disk; CAROM_NOT_FOUND where there is none of this id. */
 CAROM_API carom_status carom_get(const carom_world* world, uint32_t id, carom_disk* disk);
 
-/* --- Changing it, between two steps --------------------------------------------------------------------------------- */
+/* --- Changing it, between two steps ------------------------------------------------------------------------------- */
 
-/* A new disk; its id is given and not read. id may be null. */
+/* A new disk. disk->id is not read: the disk gets one that none has had before, written to *id where that is not null.
+ * The whole disk has to lie inside the box, its centre alone along periodic sides; radius and mass are above 0.
+ * CAROM_INPUT where that is not so, CAROM_NO_ROOM where it would overlap another. */
 CAROM_API carom_status carom_add(carom_world* world, const carom_disk* disk, uint32_t* id);
+/* CAROM_NOT_FOUND where there is no disk of this id. Velocities: length / time. */
 CAROM_API carom_status carom_remove(carom_world* world, uint32_t id);
 CAROM_API carom_status carom_set_velocity(carom_world* world, uint32_t id, double vx, double vy);
 
 /* --- Asking ---------------------------------------------------------------------------------------------------------
- * Fixed disks are seen too, with the ids that they have among the disks of the scene; inner walls by rays alone. */
+ * Fixed disks are seen too, with the ids that they have among the disks of the scene; inner walls by rays alone.
+ * CAROM_INPUT in a sheared box. */
 
-/* The disks whose centres lie in a rectangle, ids ascending; it may reach across periodic sides. *count is how many
- * there are; CAROM_INPUT, and no ids, where that is more than room. */
+/* The disks whose centres lie in the rectangle with corners (x0, y0) and (x1, y1), its sides included, ids ascending.
+ * It may reach across periodic sides. *count is how many there are; CAROM_INPUT, and no ids, where that is more than
+ * room, or where x0 > x1 or y0 > y1. */
 CAROM_API carom_status carom_query_box(const carom_world* world, double x0, double y0, double x1, double y1,
                                        uint32_t* ids, size_t room, size_t* count);
-/* The disk whose centre is nearest; distance, to the nearest image, may be null. */
+/* The disk whose centre is nearest to (x, y) in the box, nearest images counted; of two as near, that with the smaller
+ * id. distance: to that centre, or null. CAROM_NOT_FOUND where there is no disk, CAROM_INPUT outside the box. */
 CAROM_API carom_status carom_nearest(const carom_world* world, double x, double y, uint32_t* id, double* distance);
-/* The first disk or inner wall on a line of this length from (x, y) along (dx, dy); it goes through periodic sides. */
+/* The first disk or inner wall on a line of this length from (x, y) in the box along (dx, dy), of any length but 0. The
+ * line goes through periodic sides, and ends at others. CAROM_NOT_FOUND where it meets nothing; CAROM_INPUT for a line
+ * longer than 10^6 boxes. */
 CAROM_API carom_status carom_cast_ray(const carom_world* world, double x, double y, double dx, double dy, double length,
                                       carom_hit* hit);
 
-/* --- Saving --------------------------------------------------------------------------------------------------------- */
+/* --- Saving ------------------------------------------------------------------------------------------------------- */
 
-/* Everything from which to go on, bit for bit, in a file that `carom resume` takes too. Where it cannot be
- * written, what was there before stays. */
+/* Everything from which to go on, bit for bit, in a file that `carom resume` takes too. CAROM_FAILED where it cannot be
+ * written; what was there before stays then. */
 CAROM_API carom_status carom_save(const carom_world* world, const char* path);
 /* The same in memory: *size bytes, CAROM_INPUT where room is less. bytes may be null where only the size is asked for;
  * it changes with every step. */
 CAROM_API carom_status carom_save_memory(const carom_world* world, void* bytes, size_t room, size_t* size);
-/* Goes back, or on, to what was saved. */
+/* Goes back, or on, to what was saved, of this world or of another. CAROM_INPUT where it is damaged. */
 CAROM_API carom_status carom_load_memory(carom_world* world, const void* bytes, size_t size);
 
 #ifdef __cplusplus

@@ -40,8 +40,9 @@ inline carom_scene default_scene() {
   return scene;
 }
 
-// A world: moved, not copied. Functions throw Error where the C function returns a failure; those that look for
-// something return an empty optional where there is none.
+// A world: moved, not copied. What each function does, with units and preconditions, stands at the C function of this
+// name in carom.h. It throws Error where that returns a failure; those that look for something return an empty optional
+// (or false) where there is none.
 class World {
  public:
   static World from_file(const std::string& path, carom_options options = default_options()) {
@@ -72,6 +73,7 @@ class World {
 
   void step(std::uint64_t steps = 1) { check(carom_step(world_, steps)); }
   void run_until(double t) { check(carom_run_until(world_, t)); }
+  // go_on() is called before each step: false ends it, and so does an exception, whose text comes as an Error.
   template <class GoOn>
   void run_while(double t, GoOn go_on) {
     check(carom_run_while(
@@ -120,7 +122,7 @@ class World {
     return found(carom_get(world_, id, &disk)) ? std::optional(disk) : std::nullopt;
   }
 
-  // Empty: no room.
+  // The id of the new disk; empty where there is no room.
   std::optional<std::uint32_t> add(const carom_disk& disk) {
     std::uint32_t id = 0;
     const carom_status status = carom_add(world_, &disk, &id);
@@ -131,6 +133,7 @@ class World {
   bool remove(std::uint32_t id) { return found(carom_remove(world_, id)); }
   bool set_velocity(std::uint32_t id, double vx, double vy) { return found(carom_set_velocity(world_, id, vx, vy)); }
 
+  // The ids, ascending, of the disks whose centres lie in the rectangle.
   std::vector<std::uint32_t> disks_in(double x0, double y0, double x1, double y1) const {
     std::vector<std::uint32_t> ids(size());  // enough where no disk is fixed: those are seen, but not counted
     std::size_t count = 0;
@@ -151,7 +154,7 @@ class World {
   }
 
   void save(const std::string& path) const { check(carom_save(world_, path.c_str())); }
-  // into: its memory is used again.
+  // Into memory, that of `into` used again.
   void save(std::vector<std::byte>& into) const {
     std::size_t size = 0;
     into.resize(into.capacity() > 0 ? into.capacity() : 1);  // without room only the size is asked for

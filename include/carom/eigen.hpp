@@ -11,7 +11,8 @@
 namespace carom {
 inline namespace handle {
 
-// In order of id, a column a disk: (x, y), (vx, vy), and radii. Length, length / time.
+// In order of id: 2 x n matrices with a column (x, y) or (vx, vy) for each of the n disks, and a vector of n radii.
+// Length, length / time. Throw Error.
 inline Eigen::Matrix2Xd positions(const World& world) {
   Eigen::Matrix2Xd xy(2, static_cast<Eigen::Index>(world.size()));
   world.positions({xy.data(), static_cast<std::size_t>(xy.size())});
