@@ -43,8 +43,7 @@ class BatchCells {
     insert(k, to);
   }
 
-  // Is use(k) true for a member that may be within reach of the point? Some are asked about more than once, in any
-  // order.
+  // Is use(k) true for a member k that may be within reach of the point? Asks about some more than once, in any order.
   template <class Use>
   bool any_near(Vec2 point, Use use) const {
     for (std::int64_t r = -1; r <= 1; ++r) {
@@ -71,7 +70,7 @@ class BatchCells {
 
   std::int64_t column_of(double x) const { return cell_index(x * per_x_, columns_); }
   std::int64_t row_of(double y) const { return cell_index(y * per_y_, rows_); }
-  // Around the box; where sides are walls, that asks about some in vain.
+  // The neighbour along a period. Between walls it is none, and its members are asked about in vain.
   static std::int64_t turned(std::int64_t cell, std::int64_t cells) {
     return cell < 0 ? cells - 1 : cell >= cells ? 0 : cell;
   }

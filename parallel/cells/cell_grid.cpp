@@ -10,10 +10,10 @@ namespace {
 // A disk that has left the rows that are stored must be nearer to one end of them than to the other.
 constexpr std::int64_t least_rows_left_out = 2;
 
-// Of a grid: kernels read keys as signed numbers of 32 bits, and a level of one row has two keys a cell.
+// In a grid: kernels read keys as signed numbers of 32 bits, and a level of one row has two keys a cell.
 constexpr double most_cells = 1e9;
 constexpr double cells_a_disk = 2.0;
-// Where disks crowd: so many times as many cells at most, and so many in all, as each sort clears and adds up all
+// Where disks crowd: at most so many times as many cells, and at most so many in all, as each sort clears and scans all
 // cells.
 constexpr double most_crowding = 64.0;
 constexpr double most_cells_when_crowded = 0x1p24;
@@ -28,7 +28,7 @@ double least_cell(double radius, double margin) {
   return 2.0 * radius + 2.0 * (margin * 2.0 * radius);
 }
 
-// The most that so many disks get.
+// How many cells so many disks get at most.
 double cells_for(double disks, double crowding) {
   const double spread = cells_a_disk * disks + 1.0;
   return std::max(spread, std::min(spread * std::min(crowding, most_crowding), most_cells_when_crowded));

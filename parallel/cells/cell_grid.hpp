@@ -11,19 +11,20 @@
 
 namespace carom {
 
-// Part of a cell by which a disk may leave it before the grid must be made anew, over the largest diameter of the
-// class. Larger: sorted less often, but every search looks at more disks. Time stepping takes twice as much, as it
-// tests eight disks at a time.
+// How far a disk may leave the cell that it was sorted into and still be found there, over the largest diameter of its
+// size class. A larger margin: disks are sorted less often, but every search looks at more of them. Time stepping takes
+// twice as much, as it tests eight disks at a time.
 inline constexpr double grid_margin = 0.1;
 
 // Radii of one class differ by less than this factor, so that no cell holds many disks however mixed the sizes are.
 inline constexpr double class_ratio = 2.0;
 
-// The grid of one size class. Row r's cells are keys first_key + r * stride + column; each row ends in one empty cell
-// and one empty row follows the last, so that the neighbours of every cell can be looked up without asking where it
-// lies. Where only some rows are kept, first_key is that of row 0 all the same, modulo 2^32, so that keys say which row
-// of the box they are of. A tiled level is cut into bands of 2^band_shift columns and groups of 2^group_shift rows,
-// without the empty cells: a tile is what a band and a group have in common.
+// The grid of one size class. The cell in a row and a column has the key first_key + row * stride + column. Each row
+// ends in one empty cell, and one empty row follows the last, so that the neighbours of every cell can be looked up
+// without asking where it lies. Where only some rows are kept (keep_rows), first_key lies before the first key in use,
+// modulo 2^32, so that keys tell the row in the box. Where only some are stored (store_rows_between), they tell the
+// place among the stored rows. A tiled level is cut into bands of 2^band_shift columns and groups of 2^group_shift
+// rows, without the empty cells; a tile is what a band and a group have in common.
 struct GridLevel {
   double largest_radius = 0.0;                 // of the class; length
   double cell_width = 0.0;                     // length
@@ -38,14 +39,14 @@ struct GridLevel {
   unsigned band_shift = 31;   // columns in a band: 2^band_shift
   unsigned group_shift = 31;  // rows in a group: 2^group_shift
   std::uint32_t band_keys = 0, group_keys = 0;
-  // The first of the rows that are stored, and how many they are.
+  // The first of the rows that are stored, and how many there are: as many as there can be where all are.
   std::uint32_t first_stored = 0, stored_rows = 0xffffffffU;
 
-  // Of a level that is not tiled: how many keys, and the first of them.
+  // Of a level that is not tiled: how many keys it has, and the first of them.
   std::uint32_t keys() const { return (kept_rows + 1) * stride + 2; }
   std::uint32_t start_key() const { return first_key + first_row * stride; }
   bool has_row(std::uint32_t row) const { return row - first_row < kept_rows; }
-  // The place of a row among those that are stored; of another row, that of the nearest one.
+  // The place of a row among those that are stored; for a row that is not, that of the nearest one that is.
   std::uint32_t place_of_row(std::uint32_t row) const {
     const std::uint32_t place = row - first_stored;
     return place < stored_rows ? place : place_round_the_box(place);
@@ -67,7 +68,7 @@ struct GridLevel {
   }
 
  private:
-  // place: of a row that is not stored behind the first one; modulo 2^32 where it comes before it.
+  // place: the row less first_stored, modulo 2^32. The rows may be stored round the bottom and the top of the box.
   std::uint32_t place_round_the_box(std::uint32_t place) const {
     if (place >= rows) place += rows;
     if (place < stored_rows) return place;
@@ -95,15 +96,15 @@ inline std::size_t class_of_radius(double radius, double largest_radius) {
 void count_classes(const Disks& disks, double largest_radius, std::vector<std::size_t>& count);
 std::vector<std::size_t> count_classes(const Disks& disks, double largest_radius);
 
-// Levels for radii between smallest and largest in the box. count[k] is the number of disks of class k
-// (class_of_radius). A level's cells are at least a diameter and twice the margin wide, and not many more than its
-// disks, or more in proportion where those crowd (crowding.hpp); where fewer than three would fit across a periodic
-// side there is one, which is its own neighbour. margin: as grid_margin. The memory that grid has is used again.
+// Makes a level for each size class; count[k] is the number of disks of class k. A level's cells are at least a
+// diameter and two margins wide. There are not many more cells than disks, unless these crowd (`crowding`:
+// crowding.hpp): then there are more in proportion. Where fewer than three cells would fit along a period there is one,
+// which is its own neighbour. margin: as grid_margin. The memory that grid has is used again.
 void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid,
                double margin = grid_margin, double crowding = 1.0);
 CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count);
 
-// Would cells of this grid be smaller if it had more disks? Otherwise it need not be known whether these crowd.
+// Would this grid have smaller cells if there were more disks? If not, crowding makes no difference to it.
 bool is_bounded_by_disks(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
                          double margin = grid_margin);
 

@@ -12,18 +12,18 @@ namespace carom {
 namespace {
 
 constexpr std::size_t most_samples = 16384;
-// Of the samples, were they spread over the box: those of a cell at first.
+// Samples a cell at first, if they were spread evenly over the box.
 constexpr double spread_samples = 16.0;
-// Cells become smaller until a sample shares its cell with no more than this in the mean: what is denser than its
-// surroundings is larger than a cell then.
+// Cells are made smaller until a sample shares its cell with no more others than this on average: then what is denser
+// than its surroundings is larger than a cell.
 constexpr double most_samples_a_cell = 40.0;
 constexpr double refinement = 4.0;
 constexpr double most_cells = 0x1p50;
 constexpr double most_cells_of_side = 0x1p31;
-// Below this it is called none.
+// Below this, the result is 1.
 constexpr double least_crowding = 1.5;
 
-// How many samples are in the cell of one, in the mean over them. key: by sample, the number of its cell.
+// How many samples are in the cell of a sample, averaged over the samples. key: the cell of each; may be sorted.
 double mean_occupancy(std::vector<std::uint64_t>& key, double cells) {
   double squares = 0.0;
   const auto add = [&](double samples) { squares += samples * samples; };

@@ -8,7 +8,8 @@
 
 namespace carom {
 
-// Does the newcomer overlap or touch one of the disks, which are stored as they were sorted into the cells?
+// Does the newcomer overlap or touch one of the disks? Precondition: they are stored in the order of the cells, and
+// none has moved since it was sorted.
 inline bool meets_nearby(const Disks& d, const Domain& box, const CellGrid& grid, const SortedCells& cells,
                          const Disk& newcomer) {
   bool met = false;

@@ -1,4 +1,5 @@
-// The runs of disks in storage that lie within reach of a place: rows of cells, each one run, or two round the corner.
+// The runs of disks in storage that lie within reach of a place: one for each row of cells, or two where the cells go
+// on at the other end of the row.
 #pragma once
 
 #include <algorithm>
@@ -9,19 +10,19 @@
 
 namespace carom {
 
-// Consecutive cells along one side, counted round the corner of a periodic one.
+// Consecutive cells along one side; along a period they go on at its other end.
 struct Span {
   std::uint32_t first = 0, count = 0;
 };
 
-// What rounding may make of a distance, generously; share of the box's side.
+// More than rounding changes a distance by, over the side of the box.
 inline constexpr double span_rounding = 1e-12;
 
-// The cells that hold anything whose coordinate was within reach of c when it was sorted in. Also where it was as far
-// as that exactly: disks that touch, each as far from its cell as any, move together in a lattice.
+// The cells of all disks whose coordinate was within reach of c when they were sorted. One that was exactly as far as
+// that is found whatever rounding does: in a lattice of disks that touch and move together, many are.
 inline Span span_around(double c, double reach, double length, double per_length, std::uint32_t cells, bool periodic) {
   reach += span_rounding * length;
-  // When the two ends come within a cell of each other round the corner, take the whole side once.
+  // Where the two ends come within a cell of each other along the period, the whole side is taken once.
   if (cells == 1 || (2.0 * reach) * per_length + 2.0 >= cells) return {0, cells};
   double low = c - reach;
   double high = c + reach;

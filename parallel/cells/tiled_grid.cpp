@@ -9,14 +9,14 @@ namespace carom {
 
 namespace {
 
-// About, by a factor of 1.4 either way, since a tile has a power of two of them: a cell has room for eight without
-// links.
+// A tile has a power of two of cells, so that it is this many to within a factor of 1.4. A cell has eight slots
+// (CellSlots).
 constexpr double disks_per_cell = 5.0;
-// Of an even tile: as many as the rounding leaves, so that there are few cells.
+// Nearly the most that the rounding leaves, so that there are few cells (even_tile).
 constexpr double disks_per_even_cell = 1.3 * disks_per_cell;
 // The number of a tile has to fit in 16 bits; sides that are rounded make up to twice as many.
 constexpr double most_tiles = 30000.0;
-// Of a region: enough that regions can be given nearly the same number of disks where those are spread unevenly.
+// Enough that regions can be given nearly the same number of disks where those are spread unevenly.
 constexpr std::uint32_t most_layers_a_region = 8;
 // Thinner layers would cut most searches in two.
 constexpr double least_cells_a_layer = 8.0;

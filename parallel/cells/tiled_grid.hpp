@@ -9,20 +9,20 @@
 
 namespace carom {
 
-// A grid of tiles of at most about disks_per_tile disks, if those are spread evenly, each with the cells of all size
-// classes: about five disks a cell. The tiles lie in layers across the box's longer side, one after the other in
-// memory, that can be shared out among this many regions, the same number to each, if the box is long enough. count[k]
-// is the number of disks of class k (class_of_radius), whose largest radius is largest_radius / class_ratio^k. The
-// memory that grid has is used again.
+// Makes a grid of tiles of about disks_per_tile disks, where those are spread evenly. Each tile has cells of all size
+// classes, with about five disks each. The tiles lie in layers across the box's longer side, one layer after the other
+// in memory; where the box is long enough, so many regions get the same number of layers. count[k] is the number of
+// disks of size class k (class_of_radius). The memory that grid has is used again.
 void make_tiled_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
                      std::size_t disks_per_tile, std::size_t regions, CellGrid& grid);
 
-// No more disks than wanted, but where there would be too many tiles, such that cells have as many disks as they
-// should: cells with half as many take twice the memory.
+// How many disks a tile should have: at most as many as wanted, unless there would be too many tiles then, and such
+// that its cells, whose number is a power of two, have as many disks as they should. Cells with half as many would take
+// twice the memory.
 std::size_t even_tile(std::size_t wanted, std::size_t disks_of_box);
 
-// Only the tiles between these heights, about, are kept; they may lie across the bottom and the top of a periodic box.
-// A disk elsewhere is in the row of cells that is nearest among those kept. Where the others would be few, all stay.
+// Keeps only the tiles between about these heights; they may lie across the bottom and the top of a periodic box. A
+// disk elsewhere is in the row of cells that is nearest among those kept. Where few would be left out, all are kept.
 void keep_tiles_between(const Domain& box, double low, double high, CellGrid& grid);
 
 }  // namespace carom
