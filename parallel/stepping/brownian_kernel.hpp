@@ -15,7 +15,7 @@ struct BrownianInput {
   std::uint64_t seed;
   std::uint64_t step;
   double speed;     // of one component, root mean square (core/physics/advance.hpp); length / time
-  bool accumulate;  // what is drawn is added to the velocity
+  bool accumulate;  // adds what is drawn to the velocity, in place of setting it
 };
 
 // Draws the velocities of disks [begin, end) as draw_brownian does (core/step/step_start.hpp). Returns their largest

@@ -27,8 +27,8 @@ inline __m256i all(std::uint64_t a) {
   return _mm256_set1_epi64x(static_cast<long long>(a));
 }
 
-// Philox 4x32-10 (core/base/random.cpp) on four counters, each number in the lower half of a lane. What is in the upper
-// halves is of no use: products leave it out.
+// Philox 4x32-10 (core/base/random.cpp) on four counters, each number in the lower half of a lane. The upper halves may
+// hold anything: products leave them out.
 class Philox {
  public:
   Philox(std::uint64_t seed, std::uint64_t step) : step_low_(all(step & 0xffffffffU)), step_high_(all(step >> 32)) {
@@ -115,9 +115,8 @@ constexpr auto packing = [] {
   return table;
 }();
 
-// Points of a batch of disks, each uniform in the unit circle: attempt after attempt, the disks whose point lay outside
-// by themselves. In a loop of its own, as is what follows: the processor then has the work of several fours at hand
-// while it waits for one.
+// Points for a batch of disks, each uniform in the unit circle: disks whose point lay outside draw again. This is a
+// loop of its own, as is the one that follows: the processor then has several fours to work on while it waits for one.
 class Points {
  public:
   // The points of disks id[0] to id[n - 1], n <= batch.
@@ -159,16 +158,16 @@ class Points {
 
   static __m128i load(const std::uint32_t* p) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }
 
-  // Writes those of the four numbers that are in the set, and whatever after them; returns how many they are. Without a
-  // branch, which could not be predicted.
+  // Writes those of the four numbers that are in the set, and anything after them; returns how many there are. There is
+  // no branch, as it could not be predicted.
   static std::size_t append(__m128i number, unsigned set, std::uint32_t* to) {
     const __m128i order = _mm_loadu_si128(reinterpret_cast<const __m128i*>(packing[set].data()));
     _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_shuffle_epi8(number, order));
     return static_cast<std::size_t>(std::popcount(set));
   }
 
-  // The disks of a list, by fours; the last four are filled up with the last disk. Returns how many are outside again,
-  // which are now the first of the list. The list has room for three more.
+  // Draws again for the disks of a list, by fours; the last four are filled up with the last disk. Returns how many are
+  // outside again; they are now the first ones of the list. The list has room for three more.
   std::size_t draw_again(const Philox& philox, const DiskId* id, std::uint32_t attempt, std::uint32_t* list,
                          std::size_t count) {
     if (count == 0) return 0;

@@ -53,12 +53,13 @@ inline double coarse_unit(const GridLevel& level) {
   return std::max(level.cell_width, level.cell_height) / 4096.0;
 }
 
-// A distance of coarse positions is off by less than this, in units: each coordinate by at most one half, a difference
-// by one, the distance by the square root of two. Radii are whole numbers.
+// The distance of two coarse positions is off by less than this, in units: each coordinate by at most one half, a
+// difference by one, and the distance by the square root of two. With unequal radii, which are whole numbers, the sum
+// gets the next whole number above that.
 inline constexpr double coarse_error = 1.5;
 inline constexpr std::uint32_t coarse_radius_error = 2;
 
-// Disks whose squared coarse distance is as much as this do not touch.
+// Disks whose squared coarse distance is this or more do not touch.
 inline std::uint32_t coarse_contact2(double contact_distance, const GridLevel& level) {
   const double reach = contact_distance / coarse_unit(level) + coarse_error;
   return static_cast<std::uint32_t>(reach * reach) + 2U;

@@ -6,8 +6,8 @@
 
 namespace carom {
 
-// What matters is whether a disk has no contact, one or more. A count of 16 bits would say one at 65,537: from here on
-// it no longer grows.
+// What matters is whether a disk has no contact, one, or more. A count of 16 bits would come to 1 again at 65,537
+// contacts: from this number on it no longer grows.
 inline constexpr std::uint16_t many_contacts = 0x8000;
 
 inline void count_contact(std::uint16_t& contacts) {

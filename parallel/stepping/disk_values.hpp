@@ -1,4 +1,5 @@
-// What the sweeps over a step's contacts change of a disk, by storage index: so much of it ranks send each other.
+// What the sweeps over a step's contacts change of a disk, by storage index. Ranks send each other these values and no
+// more.
 #pragma once
 
 #include <cstddef>

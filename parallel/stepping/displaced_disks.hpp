@@ -23,7 +23,8 @@ struct DisplacedDisks {
 // Keeps the places that the disks have now.
 void keep_places(const Disks& disks, const Executor& executor, DisplacedDisks& displaced);
 
-// Finds the disks that were displaced since keep_places: displaced.all. Returns how far any disk was; length.
+// Puts the disks that were displaced since keep_places into displaced.all. Returns how far the furthest one was;
+// length.
 double find_displaced(Disks& disks, const Domain& box, const Executor& executor, DisplacedDisks& displaced);
 
 // Is one of displaced.all pressed into another disk or into a wall? slack: how far a disk may be outside the cell that
@@ -31,11 +32,11 @@ double find_displaced(Disks& disks, const Domain& box, const Executor& executor,
 bool any_pressed(Disks& disks, const Domain& box, const CellList& cells, double slack, const Executor& executor,
                  DisplacedDisks& displaced);
 
-// Likewise for disk i, which may be in no cell.
+// The same of disk i alone, which need not be in any cell.
 bool is_pressed(Disks& disks, const Domain& box, const CellList& cells, double slack, std::size_t i);
 
-// Is a disk that was displaced since keep_places pressed into another one or into a wall? strayed: length by which a
-// disk had left its cell at most when the places were kept. The answer is the reference's.
+// Is a disk that was displaced since keep_places pressed into another one or into a wall? strayed: by how much a disk
+// had left its cell at most when the places were kept; length. The answer is the reference's.
 bool presses_others(Disks& disks, const Domain& box, const CellList& cells, double strayed, const Executor& executor,
                     DisplacedDisks& displaced);
 

@@ -18,8 +18,8 @@ constexpr std::size_t cross_block = 64;
 // Strays a block.
 constexpr std::size_t stray_block = 256;
 
-// Magnitude of nearest_image(d, period) or its opposite, with the same bits and without a branch: whether a neighbour
-// is across the border cannot be predicted. Beyond half a period the difference is exact.
+// The magnitude of nearest_image(d, period), with the same bits and without a branch: whether a neighbour is across the
+// border cannot be predicted. Beyond half a period the subtraction is exact.
 double nearest_magnitude(double d, double period) {
   return std::min(std::abs(d), period - std::abs(d));
 }
@@ -28,7 +28,7 @@ double contact_distance(const SearchInput& in, std::size_t i, std::size_t j) {
   return in.radius == nullptr ? in.common_radius + in.common_radius : in.radius[j] + in.radius[i];
 }
 
-// sheared, here and below: is the box? Chosen once, by find_contacts.
+// sheared, here and below: is the box sheared? find_contacts chooses once.
 template <bool sheared>
 bool touch(const SearchInput& in, std::size_t i, std::size_t j) {
   if constexpr (sheared) {
@@ -58,7 +58,7 @@ double excursion(const SearchInput& in, const GridLevel& level, std::size_t i) {
   return std::max(std::abs(off.x) - 0.5 * level.cell_width, std::abs(off.y) - 0.5 * level.cell_height);
 }
 
-// A disk of the uppermost row of a sheared box, and the lowest row, whose images above are displaced.
+// Tests a disk of the uppermost row of a sheared box against the images of the lowest row, which are displaced.
 void search_above_top(const SearchInput& in, const GridLevel& level, std::size_t i, std::vector<Pair>& pairs) {
   const double reach = 2.0 * level.largest_radius + 2.0 * level.margin;
   double x = in.x[i] - in.box.shear.offset;
@@ -71,9 +71,9 @@ void search_above_top(const SearchInput& in, const GridLevel& level, std::size_t
   if (straight < span.count) test_run<true>(in, i, in.start[key], in.start[key + span.count - straight], pairs);
 }
 
-// Near periodic sides, with nearest images: the cells to the right and in the row above, round the corner. Cells side
-// by side are one run (a row ends with an empty cell): where a run ends is hard to predict, however few disks are in
-// it.
+// Disks near periodic sides, with nearest images: against the cells to the right and in the row above, also where these
+// are at the other end of the box. Cells side by side are taken as one run (a row ends with an empty cell), as the end
+// of each run costs a branch that is hard to predict.
 template <bool sheared>
 void search_border(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin, std::size_t end,
                    std::vector<Pair>& pairs) {
@@ -104,9 +104,9 @@ void search_border(const SearchInput& in, const GridLevel& level, std::uint32_t 
   }
 }
 
-// One row's part of a block. The outermost rows and columns at periodic sides go cell by cell, all others through the
-// interior kernel: what touches a disk there lies on the same side of every periodic border. For it is within the
-// margin of its cell, thus further from the border than a contact distance, a cell being that and two margins wide.
+// The part of a block that lies in one row. The outermost rows and columns at periodic sides are searched with nearest
+// images, all others by the interior kernel without: a disk there is within the margin of its cell, and a cell is a
+// contact distance and two margins wide, so that it is further than a contact distance from every periodic border.
 template <bool sheared>
 void search_row(const SearchInput& in, const GridLevel& level, InteriorKernel interior, std::uint32_t row,
                 std::size_t begin, std::size_t end, std::vector<Pair>& pairs) {
@@ -136,7 +136,7 @@ void search_level(const SearchInput& in, const GridLevel& level, InteriorKernel 
   }
 }
 
-// Pairs of a disk with the disks in the cells of another size class, which all come after it in storage, or all before.
+// Pairs of disk i with the disks of another size class, which all come after it in storage (`after`), or all before it.
 template <bool sheared>
 void search_across(const SearchInput& in, const GridLevel& other, bool after, std::size_t i, std::vector<Pair>& pairs) {
   const double reach = in.radius[i] + other.largest_radius + other.margin;
@@ -147,7 +147,7 @@ void search_across(const SearchInput& in, const GridLevel& other, bool after, st
   });
 }
 
-// The buffers of the next `blocks` blocks, emptied.
+// Makes `blocks` more buffers ready, emptied; returns the first of them.
 std::size_t more_buffers(FoundContacts& found, std::size_t blocks) {
   const std::size_t first = found.used;
   found.used += blocks;
@@ -186,8 +186,8 @@ const GridLevel& level_of(const SearchInput& in, const CellGrid& grid, std::size
 
 constexpr unsigned char is_loose = 2;
 
-// Pairs of one stray or loose disk with all disks in cells; of two strays, the one stored first reports the pair, of a
-// stray and a loose disk the loose one.
+// Pairs of one stray or loose disk with all disks in cells. Each pair is found once: of two strays by the one stored
+// first, of a stray and a loose disk by the loose one.
 template <bool sheared>
 void search_stray(const SearchInput& in, const CellGrid& grid, double furthest, std::size_t i,
                   const std::vector<unsigned char>& strayed, std::vector<Pair>& pairs) {
@@ -215,7 +215,8 @@ void search_loose(const SearchInput& in, const std::vector<std::uint32_t>& loose
   }
 }
 
-// What the rows found with strays is neither complete nor needed: it goes, and each stray is searched for by itself.
+// What the search by rows has found of strays may be incomplete: those pairs are taken out, and each stray is searched
+// for by itself.
 template <bool sheared>
 void search_strays(const SearchInput& in, const CellList& cells, const Executor& executor, FoundContacts& found) {
   const CoarsePositions& coarse = cells.coarse;

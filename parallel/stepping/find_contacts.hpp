@@ -48,10 +48,11 @@ inline Pair in_id_order(const DiskId* id, Pair p) {
   return id[p.i1] < id[p.i2] ? p : Pair{p.i2, p.i1};
 }
 
-// Finds the pairs of disks that overlap or touch now; disks moved since they were sorted into cells. Rows of cells find
-// the pairs of all disks that are still within the margin of their cells; every stray is searched for by itself, as far
-// as any stray has gone. So the result is complete however old the cells are; they only become slow. Returns the number
-// of strays, loose disks (coarse_positions.hpp) among them. Precondition: cells.coarse is current.
+// Finds the pairs of disks that overlap or touch now; disks have moved since they were sorted into cells. The search by
+// rows of cells finds the pairs of all disks that are still within the margin of their cells. Every stray is searched
+// for by itself, as far as any stray has gone. So the result is complete however old the cells are; the search only
+// becomes slower. Returns the number of strays, loose disks (coarse_positions.hpp) among them. Precondition:
+// cells.coarse is current.
 std::size_t find_contacts(const Disks& disks, const Domain& box, const CellList& cells, const Executor& executor,
                           FoundContacts& found);
 

@@ -31,8 +31,8 @@ double wrap_moved(Columns& d, const Domain& box, std::size_t i) {
   return speed2_of(d, i);
 }
 
-// Likewise, and what it is left to reach beyond a wall goes to `seen`. A sheared box is left to TimeStepping to wrap
-// in.
+// The same, and notes in `seen` how far the disk still reaches beyond a wall. In a sheared box the caller brings disks
+// back into it (move_sheared).
 template <class View>
 double finish_disk(const View& d, const Domain& box, const WallReach& walls, std::uint32_t i, StepFigures& seen) {
   if (walls.touches(d.x[i], d.y[i], d.radius(i))) see_wall_overlap_apart(d, box, i, seen);

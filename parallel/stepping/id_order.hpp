@@ -10,7 +10,7 @@
 
 namespace carom {
 
-// A contact by the ids of its disks; no more than the sweeps need to know of it.
+// A contact with the ids of its disks: all that the sweeps need to know of it.
 struct IdPair {
   std::uint64_t key;     // id1 << 32 | id2: keys are in order of (id1, id2)
   std::uint32_t i1, i2;  // where the disks are stored; twice the same for a wall
@@ -41,7 +41,7 @@ struct IdOrder {
   std::vector<std::uint32_t> counts;
 };
 
-// found -> sorted. ids: all first ids are smaller; if not, it is slow and no more.
+// Sorts pairs.found into pairs.sorted. ids: more than any first id; if it is not, the sort is only slower.
 void sort_by_ids(IdOrder& pairs, DiskId ids, const Executor& executor);
 
 }  // namespace carom

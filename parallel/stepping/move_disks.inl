@@ -72,13 +72,13 @@ inline Doubles load_keys(const std::uint32_t* p) {
 struct LevelView {
   double per_unit;  // coarse units per length
   double columns_per_length, rows_per_length;
-  double far_x, far_y;  // from its cell's centre, in cells: beyond it a disk is a stray
+  double far_x, far_y;  // a disk further than this from its cell's centre, in cells, is a stray
   double columns, rows;
   double first_key, stride, per_stride;
-  bool corner_x, corner_y;  // may a disk be round the corner from its cell?
+  bool corner_x, corner_y;  // may a disk be at the other end of the box than its cell?
 };
 
-// In a sheared box a disk that is round the corner along y is displaced along x as well: it is a stray.
+// In a sheared box a disk that has crossed the bottom or the top is displaced along x as well: it is a stray.
 LevelView view_of(const GridLevel& level, const Domain& box) {
   return {1.0 / coarse_unit(level),
           level.columns_per_length,
@@ -94,14 +94,14 @@ LevelView view_of(const GridLevel& level, const Domain& box) {
           box.periodic_y() && !box.shear.acts()};
 }
 
-// The row of a key that is given from the level's first: the quotient by the stride is at least half a column away from
-// the middle between two rows.
+// The row of a key, counted from the level's first key. The quotient by the stride is at least half a column away from
+// the middle between two whole numbers, so that rounding gives the right one.
 template <class Number>
 inline Number row_of(Number key, Number per_stride, Number half, Number rounder) {
   return ((key + half) * per_stride - half + rounder) - rounder;
 }
 
-// Across a periodic side the cell may be round the corner.
+// Along a period the cell may be at the other end of the box.
 inline bool is_far(double off, double far, double across, bool periodic) {
   const double distance = std::abs(off);
   return (periodic ? std::min(distance, across - distance) : distance) > far;
@@ -120,7 +120,7 @@ inline std::uint32_t coarse(double x, double y, double per_unit) {
   return static_cast<std::uint32_t>((bits(x) & 0xffffU) | (bits(y) << 16U));
 }
 
-// Wraps disk i, which has been moved, and takes it down.
+// Wraps disk i, which has been moved, and writes its coarse position.
 template <bool periodic_x, bool periodic_y>
 void finish_one(const MoveInput& in, const LevelView& v, std::size_t i, std::vector<std::uint32_t>& strays) {
   if (in.motion != Motion::none) wrap<periodic_x, periodic_y>(in.x[i], in.y[i], in.box);

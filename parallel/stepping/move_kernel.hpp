@@ -1,5 +1,5 @@
-// The kernel that moves disks and takes down where the contact search finds them, in the versions that this machine may
-// have.
+// The kernel that moves disks and writes the coarse positions that the contact search reads, in the versions that this
+// machine may have.
 #pragma once
 
 #include <cstddef>

@@ -13,11 +13,11 @@ namespace {
 constexpr std::size_t patch_contacts = 4096;
 // Disks a block in passes over all of them.
 constexpr std::size_t disk_block = 8192;
-// Each layout is shifted against the first by so many quarters of a patch along both sides: no place is on an edge of
-// all, nor is a place where edges of two of them cross on an edge of the third.
+// How far each layout is shifted against the first, in quarters of a patch along both sides. So no place is on an edge
+// of all three layouts, and where edges of two of them cross there is no edge of the third.
 constexpr std::array<std::uint32_t, patch_layouts> shift_quarters{0, 2, 1};
 
-// Patches along the sides and quarters of them (cells) per length, from the corner (x, y).
+// A grid of patches from the corner (x, y); columns_per_length and rows_per_length count quarters of patches.
 struct Layout {
   double x, y;
   double columns_per_length, rows_per_length;
@@ -44,7 +44,7 @@ std::array<double, 4> bounds_of(Patches& patches, const Disks& d, const std::vec
   return all;
 }
 
-// As many patches as the contacts fill, about as wide as high.
+// About so many patches, about as wide as high.
 Layout layout_for(const std::array<double, 4>& bounds, std::size_t wanted) {
   const double width = std::max(bounds[1] - bounds[0], 1e-300);
   const double height = std::max(bounds[3] - bounds[2], 1e-300);
@@ -59,7 +59,8 @@ Layout layout_for(const std::array<double, 4>& bounds, std::size_t wanted) {
           static_cast<std::uint32_t>(rows)};
 }
 
-// Round the corner where a shifted patch begins in the last quarters: right for periodic sides, no harm for others.
+// A shifted patch that begins in the last quarters goes on at the other end: right along a period, and no harm
+// elsewhere.
 std::uint32_t patch_of(std::uint32_t quarter, std::uint32_t shift, std::uint32_t patches) {
   const std::uint32_t p = (quarter + shift) / 4;
   return p < patches ? p : 0;

@@ -23,8 +23,8 @@ void count_event(std::vector<std::uint16_t>& contacts, const ContactEvent& e) {
   if (!is_wall(e.id2)) count_contact_shared(contacts[e.i2]);
 }
 
-// Contacts are far apart in memory: their disks are asked for this many contacts ahead, about the time that memory
-// takes.
+// The disks of successive contacts are far apart in memory. They are prefetched this many contacts ahead, about as long
+// as memory takes to answer.
 constexpr std::size_t ahead = 8;
 
 template <class View>
@@ -36,7 +36,7 @@ void prefetch_disk(const View& d, std::uint32_t i) {
   __builtin_prefetch(d.id + i);
 }
 
-// How many contacts each disk has; the counts of the step.
+// Counts the contacts of each disk, in lists.contacts.
 void count_found(const FoundContacts& found, std::size_t disks, const Executor& executor, ContactLists& lists) {
   lists.contacts.resize(disks, 0);
   // On one thread without atomic operations, each of which waits for all before it.
@@ -71,7 +71,8 @@ void begin_blocks(std::size_t blocks, ContactLists& lists) {
   assign_amply(lists.seen, blocks, {});
 }
 
-// The pairs that block b of the search found. All that it calls is inlined: a third of its instructions were calls.
+// Resolves the pairs that block b of the search found and that are alone; the others become events. All that it calls
+// is inlined: calls were a third of its instructions.
 template <class View>
 [[gnu::flatten]] void resolve_alone_pairs(const View& d, const StepRules& rules, const WallReach& walls,
                                           const std::vector<Pair>& pairs, std::size_t b, ContactLists& lists) {
@@ -96,7 +97,7 @@ template <class View>
   }
 }
 
-// Likewise for wall contacts.
+// The same for wall contacts.
 template <class View>
 void resolve_alone_walls(const View& d, const StepRules& rules, const WallReach& walls,
                          const std::vector<ContactEvent>& events, std::size_t b, ContactLists& lists) {

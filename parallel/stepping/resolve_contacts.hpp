@@ -26,7 +26,8 @@ struct ContactLists {
   std::vector<std::uint16_t> contacts;  // of each disk in this step (contact_count.hpp); all 0 between steps
   std::vector<ContactEvent> crowded;
   std::vector<std::vector<ContactEvent>> crowded_blocks;
-  std::vector<ContactEvent> placed;  // the crowded in the order of the patches; empty: they are in it
+  std::vector<ContactEvent>
+      placed;  // the crowded ones in the order of the patches; empty: they are in that order as they are
   std::vector<ImpactTally> tallies;  // of each block
   std::vector<double> largest;       // of each block
   std::vector<std::size_t> offsets;  // of each block's part of a list
@@ -45,8 +46,9 @@ void gather_events(Disks& disks, const StepRules& rules, const FoundContacts& fo
 double resolve_contacts(State& state, const StepRules& rules, const FoundContacts& found, const Executor& executor,
                         ContactLists& lists);
 
-// The first and the last part of it by themselves, where nothing settles; resolve_crowded.hpp has the one between.
-// The first resolves what is alone, and leaves the others in lists.crowded, in canonical order of time.
+// Its first and its last part by themselves, for scenes in which nothing settles; resolve_crowded.hpp has the part
+// between them. The first resolves the contacts that are alone, and leaves the others in lists.crowded, in canonical
+// order of time. Both return the largest squared speed of the disks that they have finished.
 double resolve_alone_contacts(Disks& disks, const StepRules& rules, const FoundContacts& found,
                               const Executor& executor, ContactLists& lists, ImpactTally& tally);
 double finish_crowded_contacts(Disks& disks, const StepRules& rules, const Executor& executor, ContactLists& lists);
@@ -83,14 +85,14 @@ void split_crowded(const Executor& executor, ContactLists& lists, ImpactTally& t
 // Joins the blocks' crowded events in lists.crowded, in canonical order of time, and adds their tallies.
 void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists& lists, ImpactTally& tally);
 
-// The same without sorting and tallies.
+// Joins the blocks' crowded events in lists.crowded, as they come.
 void join_crowded(std::size_t blocks, ContactLists& lists);
 
 // Shares lists.crowded out to patches in the order that it has: lists.placed. One thread takes it as it is: these
 // contacts are visited two to five times, too few to pay for moving them.
 void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists);
 
-// The same with patches that also say what waits for other ranks (Others: support_sweeps.hpp).
+// The same on several ranks, where patches also have to wait for contacts of other ranks (Others: support_sweeps.hpp).
 template <class Others>
 void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists, Others& others);
 
@@ -115,10 +117,10 @@ void run_crowded(const Executor& executor, const ContactLists& lists, Task&& tas
   run_crowded(executor, lists, task, [](std::uint32_t /*phase*/, bool /*backwards*/) {});
 }
 
-// Are there more impacts than before? Takes the new number down.
+// Are there more impacts in the tallies than before? Sets `before` to their number.
 bool any_impact_since(Count& before, const std::vector<ImpactTally>& tallies);
 
-// Did a sweep that pushes apart find a contact deep, so that it set lists.largest of its patch to 1?
+// Did the last sweep push a contact because it was deep? It sets lists.largest of the patch to 1 then.
 bool any_deep(const ContactLists& lists);
 
 // The deepest overlap left to the contacts event(0) to event(n - 1) goes to lists.figures.

@@ -9,9 +9,10 @@
 
 namespace carom {
 
-// What resolving asks of other ranks, where one rank has the whole box (else OtherRanks, parallel/slabs/
-// slab_stepping.cpp). any(here): is it so on any rank? How many passes there are depends on all contacts of the step.
-// counts(e): of a contact that two ranks resolve, one counts the impact.
+// What resolving asks of other ranks. This one answers where one rank has the whole box; OtherRanks
+// (parallel/slabs/slab_stepping.cpp) where several have slabs of it. any(here): is it so on any rank? The number of
+// passes depends on all contacts of the step. counts(e): does this rank count the impact? Of two ranks that resolve a
+// contact, one does.
 struct SingleRank {
   static constexpr bool alone = true;
   bool any(bool here) const { return here; }

@@ -132,7 +132,7 @@ inline unsigned bits_of(Eight truth) {
 template <bool own_radius>
 class CoarseTest {
  public:
-  // contact2: equal radii: disks whose squared coarse distance is as much do not touch.
+  // contact2, for equal radii: disks whose squared coarse distance is this or more do not touch.
   CoarseTest(const SearchInput& in, std::uint32_t contact2)
       : position_(in.position), radius_(in.coarse_radius), contact2_(all(contact2)) {}
 
@@ -156,8 +156,8 @@ class CoarseTest {
   Eight own_reach_;     // unequal radii: its own and the error
 };
 
-// Adds the pairs of disk i and those of [first, last) that the coarse test lets through. What the test in double
-// precision will read is asked for now, as it comes from memory.
+// Adds the pairs of disk i and those of disks [first, last) that the coarse test lets through, and prefetches what the
+// test in double precision will read.
 template <bool own_radius>
 void add_candidates(const SearchInput& in, const CoarseTest<own_radius>& coarse, std::size_t i, std::uint32_t first,
                     std::uint32_t last, std::vector<Pair>& pairs) {
@@ -201,7 +201,7 @@ void test_long_runs(const SearchInput& in, std::uint32_t contact2, std::uint32_t
   }
 }
 
-// Keeps of the pairs from `first` on those that touch.
+// Of the pairs from `first` on, keeps those that touch.
 template <bool own_radius>
 void keep_touching(const SearchInput& in, std::size_t first, std::vector<Pair>& pairs) {
   std::size_t kept = first;
@@ -216,7 +216,8 @@ void keep_touching(const SearchInput& in, std::size_t first, std::vector<Pair>& 
   pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(kept), pairs.end());  // resize could grow, which costs code
 }
 
-// Eight disks of each run are mostly more than there are, and mostly none of them touches.
+// A run has mostly fewer than eight disks, and mostly none of them touches: two disks are tested against eight of both
+// runs at once.
 template <bool own_radius>
 void search_row(const SearchInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
                 std::vector<Pair>& pairs) {

@@ -22,12 +22,12 @@ struct SearchInput {
   const std::uint32_t* start;
   std::size_t n;  // all disks
   Domain box;
-  double period_x, period_y;  // infinity between other sides
+  double period_x, period_y;  // along a side that is not periodic, infinite
 };
 
-// Disks [begin, end) of one row of one level, all away from periodic sides, against the rest of their own row and the
-// row above: two contiguous runs of disks. Coarse positions are tested by vectors, what may touch by the scalar
-// formula. Appends the pairs.
+// Tests disks [begin, end) of one row of one level, all away from periodic sides, against the disks behind them in
+// their own row and those of the row above: two contiguous runs for each disk. Coarse positions are tested by vectors,
+// and pairs that may touch by the scalar formula. Appends the pairs that touch.
 using InteriorKernel = void (*)(const SearchInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
                                 std::vector<Pair>& pairs);
 

@@ -28,9 +28,9 @@ void gather_pairs(const Disks& disks, const FoundContacts& found, const Executor
 // Room for the events of so many blocks.
 void reserve_crowded_blocks(std::size_t blocks, const Executor& executor, ContactLists& lists);
 
-// What every pair bore in the step before: its and the loads' orders are the same. Contacts that may be impacts, all
-// but the loaded and crowded, are collected in lists.crowded; false: none of them is one, before any disk has
-// moved.
+// Looks up what each pair bore in the step before (settle.borne); pairs and loads are both in order of ids. Contacts
+// that may be impacts go to lists.crowded as events: all but those that are both loaded and crowded. Returns whether
+// any of them is an impact rather than a support as the disks stand now.
 template <class View>
 bool look_up_loads(const View& d, const State& state, const StepRules& rules, const Executor& executor,
                    ContactLists& lists) {
@@ -62,8 +62,9 @@ bool look_up_loads(const View& d, const State& state, const StepRules& rules, co
   return std::find(lists.largest.begin(), lists.largest.end(), 1.0) != lists.largest.end();
 }
 
-// Impacts in order of time. What is a support is asked when its turn comes: an impact before may have changed it. That
-// it was loaded would count for the crowded only, and those are not here.
+// Impacts in order of time. Whether a contact is a support is asked when its turn comes, as an impact before may have
+// changed that. It is asked as if it had borne no load: a load counts for crowded contacts alone, and those that bore
+// one are not in the list.
 template <class View, class Others>
 void resolve_impacts(const View& d, Disks& disks, const StepRules& rules, const Executor& executor, ContactLists& lists,
                      ImpactTally& tally, Others& others) {
@@ -126,7 +127,7 @@ double finish_disks(const View& d, std::size_t n, const Domain& box, const Execu
   return lists.largest.empty() ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
 }
 
-// settle_contacts, with those of the first `own` disks finished; the others are of other ranks.
+// settle_contacts, but only the first `own` disks are finished: the others belong to other ranks.
 template <class Others>
 double settle_with(State& state, const StepRules& rules, const FoundContacts& found, std::size_t own,
                    const Executor& executor, ContactLists& lists, ImpactTally& tally, Others& others) {

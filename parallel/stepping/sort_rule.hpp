@@ -7,13 +7,13 @@
 
 namespace carom {
 
-// Part of a cell by which a disk may leave it, over the largest diameter: twice the usual, as the search tests eight
-// disks as fast as four, and sorting costs more than looking at some more disks.
+// How far a disk may leave its cell (grid_margin): twice as far as usual, as the search tests eight disks as fast as
+// four, and sorting costs more than testing some more disks.
 inline constexpr double stepping_margin = 2.0 * grid_margin;
 
-// One in so many disks is a stray, that has left its cell further, when all are sorted: searching for a stray by itself
-// costs as much as sorting about a dozen disks, and their number grows quickly from step to step. Measured best for a
-// fluid.
+// All disks are sorted anew when one in so many is a stray, which has left its cell by more than the margin. Searching
+// for a stray by itself costs as much as sorting about a dozen disks, and the number of strays grows quickly from step
+// to step. Measured best for a fluid.
 inline constexpr std::size_t disks_a_stray = 200;
 
 constexpr bool are_many_strays(std::size_t strays, std::size_t disks) {

@@ -22,9 +22,10 @@ inline bool is_crowded(const ContactLists& lists, const IdPair& p) {
   return lists.contacts[p.i1] > 1 || lists.contacts[p.i2] > 1;
 }
 
-// What resolving a pile asks of other ranks, where one rank has the whole box. counts(patch): of contacts that two
-// ranks resolve, one counts them. before(values): what run_patches calls before each phase; values are those that the
-// sweep changes.
+// What resolving a pile asks of other ranks. This one answers where one rank has the whole box. any(here): is it so on
+// any rank? counts(patch): does this rank count the contacts of the patch? Of two ranks that resolve a contact, one
+// does. before(values): what run_patches calls before each phase; values are those that the sweep changes.
+// refresh(values): brings the values of other ranks' disks up to date.
 struct SingleSlab {
   static constexpr bool alone = true;
   bool any(bool here) const { return here; }
@@ -48,7 +49,7 @@ struct SingleSlab {
 // Room for so many supports.
 void resize_supports(SupportSet& set, std::size_t supports, std::size_t disks);
 
-// The patches' tallies, those that this rank counts.
+// Adds the tallies of the patches that this rank counts.
 template <class Others>
 void add_tallies(const ContactLists& lists, const Others& others, ImpactTally& tally) {
   for (std::size_t q = 0; q < lists.tallies.size(); ++q) {
@@ -109,7 +110,7 @@ struct PatchSweeps {
   ContactLists& lists;
   Others& others;
 
-  // visit(support, patch) for all supports in order, or backwards; before: as of run_patches.
+  // visit(support, patch) for all supports in order, or backwards. before: as in run_patches.
   template <class Visit, class Before>
   void sweep(bool backwards, Visit&& visit, Before&& before) const {
     const auto run_patch = [&](std::size_t q) {
@@ -119,7 +120,8 @@ struct PatchSweeps {
     };
     run_patches(lists.patches, backwards, executor, run_patch, before);
   }
-  // Where the visits need nothing that another visit has changed of the other disk.
+  // For visits that read nothing of a contact's other disk that another visit may have changed: other ranks need not be
+  // asked.
   template <class Visit>
   void visit_all(Visit&& visit) const {
     sweep(false, visit, [](std::uint32_t /*phase*/, bool /*backwards*/) {});

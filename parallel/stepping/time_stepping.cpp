@@ -38,7 +38,7 @@ double TimeStepping::disks_at(double /*t*/, Disks& out) const {
   return state_.time;
 }
 
-// The pairs found name disks in the order of storage before disks left.
+// The pairs found name disks by their storage index at the search; sinks may have taken some disks since.
 std::vector<DiskContact> TimeStepping::contacts() const {
   std::vector<std::uint32_t> place;  // of each disk then, now
   std::uint32_t kept = 0;
@@ -164,8 +164,8 @@ void TimeStepping::drift(double t) {
   speed2_known_ = true;
 }
 
-// In a sheared box all disks drift and cross its sides here, before the search takes down where they are; without a
-// time, those that contacts have moved cross.
+// In a sheared box all disks drift and cross its sides here, before their coarse positions are written. With t = 0,
+// those that contacts have moved cross the sides.
 void TimeStepping::move_sheared(double t) {
   ImpactTally tally;
   speed2_ = carom::move_sheared(state_.disks, scene_.box, t, executor_, tally, block_values_);

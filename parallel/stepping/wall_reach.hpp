@@ -1,4 +1,4 @@
-// Which disks touch a wall, asked of all of them without asking each time what the four sides are.
+// Whether a disk touches a wall, without asking for each disk what kinds of sides there are.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ inline bool has_walls(const Domain& box) {
   return box.has(SideKind::wall) || box.obstacles != nullptr;
 }
 
-// What reach_beyond (core/physics/boundary.hpp) must come to for a side to be a wall that is touched: 0, less for one
-// that has moved into the box, or infinity for other sides.
+// For each side, the value of reach_beyond (core/physics/boundary.hpp) from which a disk touches it: 0 for a wall, less
+// for one that has moved into the box, and infinity for a side that is no wall.
 class WallReach {
  public:
   explicit WallReach(const Domain& box) : width_(box.width), height_(box.height), obstacles_(box.obstacles) {
