@@ -83,7 +83,7 @@ std::uint32_t BorderPass::leader_of(std::uint32_t b) const {
   return b;
 }
 
-// The leader is the first one.
+// The leader of joined borders is the first of them.
 void BorderPass::join() {
   for (std::uint32_t b = 0; b < borders_.size(); ++b) {
     borders_[b].leader = b;
@@ -120,8 +120,8 @@ void BorderPass::process(std::uint32_t leader, double per_disk) {
   events.run();
 }
 
-// First what lies within a border, each on its thread; then the rest. Marks are set by one thread, since they reach as
-// far as the neighbours of neighbours.
+// First each thread relists the disks whose lists lie within its border; then one thread relists the rest. One thread
+// sets the marks, since they reach as far as the neighbours of neighbours.
 void BorderPass::relist_late() {
   executor_.run(borders_.size(), [&](std::size_t b) {
     const Border& border = borders_[b];

@@ -1,4 +1,4 @@
-// What is left of a slice after all regions: the events of the disks whose motion is not known, border by border.
+// What regions leave over of a slice: the events of the disks whose motion is not known, border by border.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,31 @@
 
 namespace carom {
 
-// Between two regions that follow each other is a border; the last region borders on the first one. The disks of a
-// border are those from the middle of one region to the middle of the next, so that each disk belongs to one border,
-// and one thread processes the events of a border's disks. Borders are independent of each other unless a disk whose
-// motion is not known lists one of another border; such borders are joined for the slice and have one thread. No disk
-// is relisted before the slice's end: in a slice none goes further than its skin (SliceScheduler::longest_slice).
+// Between two successive regions is a border; the last region borders on the first one. The disks of a border are those
+// from the middle of one region to the middle of the next, so that each disk belongs to one border. One thread
+// processes the events of a border's disks. Borders are independent of each other, unless a disk whose motion is not
+// known lists one of another border whose motion is not known either: such borders are joined for the slice and have
+// one thread. No disk is relisted before the slice's end, as none leaves its skin in a slice
+// (SliceScheduler::longest_slice).
 class BorderPass {
  public:
   BorderPass(WindowState& window, NeighbourLists& lists, const Executor& executor)
       : window_(window), lists_(lists), executor_(executor) {}
 
-  // New regions, with their tiles and middles.
+  // Lays out the borders of new regions.
   void lay_out(const std::vector<Region>& regions);
   void begin_window();
 
-  // Processes the events of the slice that regions left over. per_disk: events a disk and time, about.
+  // Processes the events of the slice that regions left over. per_disk: events per disk and unit of time, about.
   void run(const std::vector<Region>& regions, double per_disk);
-  // Was the window found void?
+  // Has the pass found the window void?
   bool ended() const;
 
-  // After the slice, on one thread: relists disk i if it has moved further than one at a border may when a slice
-  // begins.
+  // After the slice, on one thread: relists disk i if it has moved further than a disk at a border may have when a
+  // slice begins.
   void relist_if_far(std::uint32_t i);
 
-  // Disks that came to be at a border, and that list one now, in the slice.
+  // Disks that came to be at a border in the slice, and disks that now list one at a border.
   const std::vector<std::uint32_t>& new_border() const { return late_.border; }
   const std::vector<std::uint32_t>& new_near_border() const { return late_.near_border; }
   // Disks relisted in the slice.
@@ -50,11 +51,11 @@ class BorderPass {
  private:
   struct Border {
     Worker worker;
-    ListRegion region;                   // of its disks
-    bool wraps = false;                  // its disks are those outside the region: from the last one to the first one
+    ListRegion region;   // of its disks
+    bool wraps = false;  // its disks are those outside `region`: this border lies between the last region and the first
     std::vector<std::uint32_t> disks;    // whose motion is not known
     std::vector<std::uint32_t> touches;  // other borders
-    std::uint32_t leader = 0;            // of those that are joined: the one whose worker processes the events
+    std::uint32_t leader = 0;            // of the borders joined with this one, that whose worker processes the events
     bool is_alone = true;
     bool holds(std::uint32_t disk) const { return region.holds(disk) != wraps; }
   };
@@ -73,7 +74,7 @@ class BorderPass {
   const Executor& executor_;
   std::vector<Border> borders_;                // one behind each region
   std::vector<std::uint16_t> border_of_tile_;  // by tile
-  Worker late_;                                // relists what reaches beyond its border
+  Worker late_;                                // relists disks whose lists reach beyond their border
 };
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// For measurements: what the regions of a slice have left to the borders between them.
+// For measurements: what regions have left to the borders between them in a slice.
 #pragma once
 
 #include <functional>

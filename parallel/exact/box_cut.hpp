@@ -28,7 +28,8 @@ struct BoxCut {
   bool owns(std::size_t part, double c) const {
     return (c >= low(part) || part == 0) && (c < high(part) || part + 1 == parts());
   }
-  // How far a place is below (above) the part's lower (upper) end, round the box along a period; negative: it is not.
+  // How far a place is below the part's lower end (above its upper end), round the box along a period; negative where
+  // it is not.
   double below(std::size_t part, double c) const { return round_the_box(low(part) - c); }
   double above(std::size_t part, double c) const { return round_the_box(c - high(part)); }
   bool in_halo(std::size_t part, double c) const {
@@ -44,8 +45,8 @@ struct BoxCut {
   std::size_t part_above(std::size_t part) const {
     return !has_above(part) ? part : part + 1 == parts() ? 0 : part + 1;
   }
-  // Of an own disk: is it in the halo of the part below (above)? As that part says, whatever rounding does across a
-  // period.
+  // Is it the place of an own disk that is in the halo of the part below (above)? Computed as that part does, so that
+  // both say the same whatever rounding does.
   bool is_known_below(std::size_t part, double c) const {
     return owns(part, c) && has_below(part) && above(part_below(part), c) <= halo;
   }
@@ -57,7 +58,8 @@ struct BoxCut {
   double round_the_box(double d) const { return periodic && d < 0.0 ? d + side : d; }
 };
 
-// What the parts of a cut had to do: work[k] for each disk of part k, in any unit. Without parts, one for each disk.
+// How much work the disks of a former cut were: work[k] for each disk of part k, in any unit. Without parts, 1 for each
+// disk.
 struct PartWork {
   BoxCut cut;
   std::vector<double> work;
@@ -65,7 +67,8 @@ struct PartWork {
   double at(double c) const;
 };
 
-// halo: length. Parts are at least as wide as halos, or fewer than asked for.
+// Cuts the box into at most so many parts. halo: length. Parts are at least as wide as a halo; where they would not be,
+// there are fewer.
 BoxCut cut_box(const Disks& disks, const Domain& box, std::size_t parts, double halo, const PartWork& before = {});
 
 }  // namespace carom

@@ -9,8 +9,8 @@
 
 namespace carom {
 
-// What a disk's next event is with: another disk, a side of the box (a wall, a sink, or a periodic side that it
-// crosses), an obstacle, its own neighbour list, which is due to be renewed, or nothing, so that its events are to be
+// What a disk's next event is with: another disk; a side of the box, that is a wall, a sink, or a periodic side that it
+// crosses; an obstacle; its own neighbour list, when it is to be relisted; or nothing, when its events are to be
 // predicted again. 32 bits.
 class Partner {
  public:
@@ -34,7 +34,7 @@ class Partner {
   constexpr bool is(std::uint32_t index) const { return bits_ == index; }
   // Of a disk.
   constexpr std::uint32_t index() const { return bits_; }
-  // Of a wall: its side. Of an obstacle: its place. Of both: the id that stands for it in events.
+  // The side of a wall; the place of an obstacle; of both, the id that stands for it in events.
   constexpr Side side() const { return wall_side(bits_); }
   constexpr std::uint32_t place() const { return obstacle_of(bits_); }
   constexpr DiskId wall_id() const { return bits_; }
@@ -52,9 +52,9 @@ static_assert(Partner::disk(first_obstacle_partner - 1).is_disk());
 static_assert(Partner::obstacle(0).is_obstacle() && !Partner::obstacle(0).is_disk() && !Partner::obstacle(0).is_wall());
 static_assert(Partner::obstacle(0).is_contact() && !Partner::wall(Side::left).is_obstacle());
 
-// With regions: how far a disk's motion is known in the present slice. Active: as far as events have been processed. At
-// a border: up to the slice's start. Blocked: up to a safe time within the slice, that of its BlockedDisk (worker.hpp).
-// And marks that the disk has besides. 32 bits.
+// With regions: how far a disk's motion is known in the present slice. An active disk: as far as events have been
+// processed. One at a border: up to the slice's start. A blocked one: up to its safe time within the slice, which is in
+// its BlockedDisk (worker.hpp). A disk also has marks. 32 bits.
 class DiskProgress {
  public:
   enum Mark : std::uint32_t {
@@ -64,7 +64,8 @@ class DiskProgress {
     relists_late = 8,              // is due to be relisted, which waits for the end of the slice
     ghost = 16                     // belongs to another rank, which counts what happens to it
   };
-  // What the marks mean where each thread has a part of the box with a halo (HaloPart). Ghosts are those of the halo.
+  // The same bits where each thread has a part of the box with a halo (HaloPart). There, `ghost` marks the disks of the
+  // halo.
   enum HaloMark : std::uint32_t {
     known_below = 1,  // the part below has the disk in its halo
     known_above = 2,  // that above does
@@ -109,7 +110,7 @@ struct alignas(64) DiskRecord {
   DiskId id = 0;
   Partner partner;                    // of the next event
   std::uint16_t version = 0;          // segments begun in the window
-  std::uint16_t partner_version = 0;  // of the partner's path that the event was predicted on
+  std::uint16_t partner_version = 0;  // that the partner had when the event was predicted
   DiskProgress progress;
 };
 static_assert(sizeof(DiskRecord) == 64);

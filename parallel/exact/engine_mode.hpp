@@ -23,44 +23,47 @@ struct ListLayout {
   EngineMode mode = EngineMode::single_queue;
   std::size_t disks_per_tile = 0;  // with regions
   std::size_t regions = 0;
-  // Share of the skin that a disk near a border between regions may move through before it is relisted; others may move
-  // through the whole of it. Below 1 where there are regions: one at a border must not leave its skin within a slice.
+  // How far a disk near a border between regions may move before it is relisted, over the skin; others may move by the
+  // whole skin. Less than 1 with regions: a disk at a border is not relisted within a slice, and must not leave its
+  // skin in it.
   double relist_share = 1.0;
-  // The calendars hold more disks than a cache: what comes soon is prefetched.
+  // Disks whose events come soon are prefetched, as a cache does not hold all.
   bool looks_ahead = false;
-  // Of the whole box, where a rank has but some of its disks; 0: it has all.
+  // How many disks there are in the whole box, where a rank or a part has but some of them; 0: it has all.
   std::size_t disks_of_box = 0;
-  double low = 0.0, high = 0.0;  // then: about between these heights; length
+  double low = 0.0, high = 0.0;  // then its disks lie about between these heights; length
 };
 
-// Up to so many disks all pairs are as fast as lists, and nothing has to be relisted in the long windows of few disks.
+// With at most so many disks, listing all pairs is as fast as neighbour lists, and nothing has to be relisted in the
+// long windows of few disks.
 inline constexpr std::size_t all_pairs_up_to = 40;
-// Up to so many disks one queue on one thread is as fast as regions on two.
+// With at most so many disks one queue on one thread is as fast as regions on two; the second where work is cut into
+// smaller blocks, as in tests.
 inline constexpr std::size_t single_queue_up_to = 49152;
 inline constexpr std::size_t single_queue_of_cut_work_up_to = 8192;
-// What so many disks take, 200 bytes each, is in a cache of the second level.
+// The data of so many disks, 200 bytes each, fit in the second-level cache.
 inline constexpr std::size_t disks_in_cache = 16384;
-// Disks that are neighbours in memory; regions consist of whole layers of tiles.
+// Disks of a tile are neighbours in memory; regions consist of whole layers of tiles.
 inline constexpr std::size_t most_disks_a_tile = 8192;
 inline constexpr std::size_t tiles_a_region = 16;
-// The larger, the fewer relistings near borders; the smaller, the longer slices.
+// relist_share with regions. The larger, the fewer relistings near borders; the smaller, the longer slices.
 inline constexpr double region_relist_share = 0.75;
-// On one of several ranks, of ghosts.
+// relist_share on one of several ranks.
 inline constexpr double rank_relist_share = 0.7;
-// Mean spacings that a region is wide, at least: in narrower ones what is blocked from one border reaches that from the
-// other.
+// The least width of a region, in mean spacings: in a narrower one, the disks that are blocked from one border and from
+// the other meet.
 inline constexpr double least_region_width = 30.0;
-// With more disks than this, memory that is not needed all the time is given back.
+// With more disks than this, memory that is not needed at present is given back.
 inline constexpr std::size_t disks_of_much_memory = 65536;
 
-// How many regions of the least width the box's longer side has room for.
+// How many regions of the least width fit along the box's longer side.
 inline std::size_t most_regions(std::size_t disks, const Domain& box) {
   const double aspect = std::max(box.width / box.height, box.height / box.width);
   return static_cast<std::size_t>(std::sqrt(aspect * static_cast<double>(disks)) / least_region_width);
 }
 
-// Of all disks together; where windows are run in parts, HaloWindows chooses those first. regions_allowed: false where
-// a window is run again without.
+// The layout for all disks together; whether windows are run in parts is asked before (HaloWindows). regions_allowed:
+// false where a window is to be run again without regions.
 inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regions_allowed, const Executor& executor) {
   if (disks <= all_pairs_up_to) return {EngineMode::all_pairs, 0, 0, 1.0, false};
   // Where work is cut into smaller blocks, regions are wanted for fewer disks too, and more than one on one thread.
@@ -83,8 +86,8 @@ inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regio
           0};
 }
 
-// Of one thread's part of the box with its halo, which have so many disks: one calendar. low, high: the part has cells
-// between these heights alone, if the first is less.
+// The layout for a part of the box and its halo, which have so many disks together: one calendar. low, high: the part
+// has cells between these heights alone; of all heights if low is not below high.
 inline ListLayout layout_of_part(std::size_t disks, std::size_t disks_of_box, double low, double high) {
   ListLayout layout;
   layout.looks_ahead = disks > disks_in_cache;
@@ -95,8 +98,8 @@ inline ListLayout layout_of_part(std::size_t disks, std::size_t disks_of_box, do
   return layout;
 }
 
-// Of one of several ranks: one region, of its own disks and its ghosts, which are as many as `disks` and lie between
-// two heights; disks_of_box: of all ranks.
+// The layout for one of several ranks: one region, of its own disks and its ghosts. There are `disks` of them, between
+// two heights. disks_of_box: of all ranks.
 inline ListLayout layout_of_rank(std::size_t disks, std::size_t disks_of_box, double low, double high,
                                  const Executor& executor) {
   ListLayout layout;

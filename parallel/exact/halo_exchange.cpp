@@ -1,5 +1,5 @@
-// What parts tell each other: where ghosts went after a slice, and between windows which disks are ghosts, and whose
-// own.
+// What parts tell each other: after a slice where ghosts went, and between windows which disks become ghosts, and which
+// ghosts become own disks.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -11,14 +11,14 @@ namespace carom {
 
 namespace {
 
-// So far inside a part a ghost becomes one of its own disks; over the halo's width.
+// A ghost that is this far inside a part becomes one of its own disks; over the halo's width.
 constexpr double inside_share = 0.05;
 
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-// Of a column that scenes may have.
+// Of columns that a scene may not have.
 bool same_bits(const std::vector<double>& a, std::size_t i, const std::vector<double>& b, std::size_t k) {
   return a.empty() || same_bits(a[i], b[k]);
 }
@@ -39,7 +39,7 @@ void HaloPart::begin_window() {
   for (Ghost& ghost : ghosts_) ghost.more_paths = 0;
 }
 
-// Only ghosts change here, and what others have of their own disks is read.
+// Only this part's ghosts are changed, and only other parts' own disks are read, so that all parts may do it at once.
 void HaloPart::compare_with(const HaloParts& parts) {
   strays_.clear();
   inside_.clear();
@@ -80,7 +80,7 @@ bool HaloPart::goes_as_there(const Ghost& ghost, const HaloPart& owner) const {
          (window.thermal_hits.empty() || window.thermal_hits[g] == others.thermal_hits[i]);
 }
 
-// With a version that nothing has been predicted with here.
+// The version becomes a new one, so that no prediction made here with an earlier one is valid.
 void HaloPart::replace_path(Ghost& ghost, const HaloPart& owner) {
   WindowState& window = run_.window();
   const WindowState& others = owner.run_.window();
@@ -120,7 +120,7 @@ void HaloPart::find_offers(const Disks& all) {
   }
 }
 
-// And asks anew whether it may come beyond an end.
+// Also asks anew whether the disk may come beyond an end.
 void HaloPart::offer(std::uint32_t place, double from_centre) {
   const std::uint32_t i = own_[place];
   DiskRecord& disk = record(i);
@@ -150,7 +150,7 @@ void HaloPart::take_offers(const Disks& all, const HaloParts& parts) {
   }
 }
 
-// The offer says all: the owner is taking in ghosts at the same time.
+// Reads nothing else of the owner, which takes in ghosts at the same time.
 void HaloPart::add_ghost(const Disks& all, std::uint16_t owner, const Offer& offer) {
   const std::uint32_t slot = offer.slot;
   Disks& d = state_.disks;
@@ -167,13 +167,13 @@ void HaloPart::add_ghost(const Disks& all, std::uint16_t owner, const Offer& off
   ghosts_.push_back({i, offer.place, owner, 0});
 }
 
-// From the last one on: the last ghost takes the place of one that is none any more.
+// Backwards, since the last ghost takes the place of one that has become an own disk.
 void HaloPart::take_over(const HaloParts& parts) {
   for (std::size_t k = inside_.size(); k-- > 0;) own_ghost(inside_[k], parts);
   inside_.clear();
 }
 
-// Not where a third part has it as a ghost, and would have to be told.
+// Not where a third part has the disk as a ghost, too, and would have to be told who owns it.
 void HaloPart::own_ghost(std::size_t number, const HaloParts& parts) {
   const Ghost ghost = ghosts_[number];
   HaloPart& owner = *parts[ghost.part];

@@ -21,10 +21,10 @@ namespace carom {
 class HaloPart;
 using HaloParts = std::vector<std::unique_ptr<HaloPart>>;
 
-// A copy of its disks, with lists, calendar and records of its own, in which one thread runs as if there were no other
-// disks. What is missing beyond the halo changes what the halo does, from its outer end inwards, but hardly ever what
-// the part's own disks do; whether it has is asked after each slice of a window (HaloWindows). Where nothing else is
-// said, all parts may do the same at the same time.
+// A part has a copy of its disks, with lists, calendar and records of its own; one thread runs it as if there were no
+// other disks. As disks beyond the halo are missing, ghosts go wrong, from the halo's outer end inwards, but hardly
+// ever the part's own disks. Whether any has is asked after each slice of a window (HaloWindows). Unless a function
+// says otherwise, it may be called for all parts at the same time.
 class HaloPart {
  public:
   explicit HaloPart(const Scene& scene) : one_thread_(1), run_(scene, state_, one_thread_, times_) {}
@@ -34,14 +34,14 @@ class HaloPart {
   // Takes its disks from all of them: those of this part of the cut, and of its halo.
   void take_disks(const Disks& all, const BoxCut& cut, std::size_t part);
   // Then sorts and lists them. all, largest_radius: of all disks. first: how many own disks the parts before this one
-  // have. slots[k], of each own disk: gets first and its place among the own ones, where k is its index in `all`.
+  // have. For each own disk, of index k in `all`, sets slots[k] to first + its place among the own ones.
   void build(const WindowPlan& plan, const BoxCut& cut, State& all, double largest_radius, std::size_t first,
              std::vector<std::uint32_t>& slots);
-  // When all parts are built: who owns the halo's disks. firsts: `first` of each part, and the number of all disks.
+  // When all parts are built, finds the owners of its ghosts. firsts: `first` of each part, and the number of all
+  // disks.
   void find_owners(const std::vector<std::size_t>& firsts, const std::vector<std::uint32_t>& slots);
 
-  // Then its own disks are stored in the columns of all, each in its slot, and here only their ids, radii and masses
-  // are kept.
+  // Then stores its own disks in the columns of all, each in its slot; only ids, radii and masses are kept here.
   void give_columns(Disks& all);
   // Own disks' positions, velocities and spins to their slots; here: in the same order as the disks of this part.
   void give_paths(const Disks& here, Disks& all) const;
@@ -51,7 +51,7 @@ class HaloPart {
   // After a slice: compares what its ghosts did with what the same disks did in the parts that own them. Ghosts that
   // went elsewhere there are put on their paths.
   void compare_with(const HaloParts& parts);
-  // Then: was all that concerns its own disks as the others have it? And how far from that it was; lengths.
+  // Then: did all ghosts that concern its own disks move as their owners say? And how near it was to that; lengths.
   bool agrees() const { return agrees_; }
   const HaloUse& use() const { return use_; }
 
@@ -83,7 +83,7 @@ class HaloPart {
     std::uint32_t index;
     std::uint32_t place;
     std::uint16_t part;
-    std::uint16_t more_paths;  // begun here in the window than there, modulo 2^16, as its path has been replaced
+    std::uint16_t more_paths;  // segments begun here in the window than there, modulo 2^16, since its path was replaced
   };
 
   // An own disk that another part is to have as a ghost.
@@ -115,11 +115,10 @@ class HaloPart {
   std::uint16_t below_ = 0, above_ = 0;  // parts; this one where there is none
   double halo_ = 0.0;                    // how wide it is; length
   std::size_t own_count_ = 0;
-  std::vector<std::uint32_t> own_;  // indices of its own disks, by place
-  std::vector<std::uint32_t>
-      slots_;  // of each disk, where it is in the columns of all; while it is built, where it was
+  std::vector<std::uint32_t> own_;    // indices of its own disks, by place
+  std::vector<std::uint32_t> slots_;  // where each disk is in the columns of all; while the part is built, where it was
   std::vector<Ghost> ghosts_;
-  std::vector<std::uint32_t> strays_;  // of the slice: ghosts that went elsewhere, by index
+  std::vector<std::uint32_t> strays_;  // ghosts that moved otherwise than their owners say in the slice, by index
   std::vector<std::size_t> inside_;    // ghosts that are well inside after the slice, in ghosts_, in order
   std::vector<Offer> offers_below_, offers_above_;
   bool agrees_ = true;

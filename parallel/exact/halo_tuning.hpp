@@ -1,4 +1,5 @@
-// How wide the halos of the exact engine's parts are, and into how many slices windows are cut: as windows need it.
+// How wide the halos of the exact engine's parts are and into how many slices windows are cut, as the last windows need
+// it.
 #pragma once
 
 #include <algorithm>
@@ -6,8 +7,9 @@
 
 namespace carom {
 
-// What a slice, or a window, needed of the halos: how far from the ends of parts the nearest ghost was that went
-// elsewhere than its owner said, and the furthest one that must not. Lengths, or mean spacings.
+// What a slice, or a window, needed of the halos. nearest: how far beyond its part's end the nearest ghost was that
+// moved otherwise than its owner says. deepest: how far the furthest one was that had to move as its owner says.
+// Lengths, or mean spacings.
 struct HaloUse {
   double nearest = HUGE_VAL;
   double deepest = 0.0;
@@ -19,13 +21,14 @@ struct HaloUse {
   double rest() const { return nearest - deepest; }
 };
 
-// What is missing beyond a halo reaches inwards by some spacings in a slice. Where that nearly comes to disks that
-// concern a part's own, halos are made anew and wider; where it does, and the window is void, slices are halved as
-// well: disks crowd, and what happens to one soon concerns many. Where it did not come near before the lists were due,
-// there are fewer slices again, or halos are narrower. More slices than need be wait for the slowest thread more often.
+// In a slice the error that begins at the halo's outer end, where disks are missing, spreads inwards by some spacings.
+// Where it nearly reaches ghosts that concern a part's own disks, wider halos are made. Where it reaches them the
+// window is void, and slices are halved as well: disks are dense then, and what happens to one soon concerns many.
+// Where it stayed far away until the lists were due, there are fewer slices again, or narrower halos. With more slices
+// than needed, threads wait for the slowest one more often.
 class HaloTuning {
  public:
-  // Width at first, in mean spacings. adapts: else all stays as it is.
+  // spacings: width of halos at first, in mean spacings. adapts: if not, all stays as it is.
   explicit HaloTuning(double spacings, bool adapts) : adapts_(adapts), spacings_(spacings) {}
 
   double spacings() const { return spacings_; }
@@ -46,7 +49,8 @@ class HaloTuning {
   }
 
  private:
-  // Wider than two skins and a radius: a disk that may come beyond an end is within that of it.
+  // In mean spacings. Wider than two skins and a radius: any disk that may come beyond an end is within that distance
+  // of it.
   static constexpr double narrowest = 4.0;
   static constexpr double widest = 32.0;
   static constexpr double step = 0.5;

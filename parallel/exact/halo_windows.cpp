@@ -12,22 +12,24 @@ namespace carom {
 
 namespace {
 
-// Fewer disks are as fast on one thread.
+// With fewer disks one thread is as fast.
 constexpr std::size_t least_disks = 4000;
 // A thread with more of them is faster with several parts of about so many, one after the other: what a slice reads of
 // a part comes from nearer caches, and from fewer pages.
 constexpr std::size_t most_disks = 1'000'000;
 constexpr std::size_t disks_of_several = 500'000;
-// So many halos a part is wide at least, and where there are more parts than threads, so that few disks are ghosts.
+// The least width of a part, in halos; the second where there are more parts than threads, so that few disks are
+// ghosts.
 constexpr double least_width = 2.0;
 constexpr double ample_width = 40.0;
-// Of a window, each with halos made anew for it.
+// How often a window is run in parts, each time with halos made anew, before it is run without.
 constexpr int most_tries = 3;
-// Windows that run without parts after one that could not be run in parts: the more, the sooner that comes again.
+// How many windows are run without parts after one that could not be run in parts: more each time that happens soon
+// again.
 constexpr int least_pause = 2;
 constexpr int longest_pause = 64;
-// How wide halos are at first, in mean spacings. Where work is cut so small, as tests do, they are and stay so narrow
-// that even small scenes have parts, and many windows are void.
+// The width of halos at first, in mean spacings. Where work is cut into much smaller blocks, as in tests, halos are
+// narrow and stay so: then even small scenes have parts, and many windows are void.
 constexpr double first_width = 8.0;
 constexpr std::size_t cut_small = 8;
 constexpr double width_of_cut_work = 4.0;
@@ -46,13 +48,14 @@ bool HaloWindows::work_is_cut() const {
   return executor_.grain(least_disks) < least_disks / cut_small;
 }
 
-// No less than a diameter, where the disks fill but a part of the box.
+// At least a diameter, in case the disks fill only a part of the box.
 double HaloWindows::mean_spacing() const {
   const double n = static_cast<double>(state_.disks.size());
   return std::max(std::sqrt(scene_.box.width * scene_.box.height / n), 2.0 * largest_radius(state_.disks));
 }
 
-// One for each thread, or as many for each. Where work is cut into smaller blocks there are several on one thread, too.
+// One part for each thread, or the same number for each. Where work is cut into smaller blocks there are several on one
+// thread, too.
 std::size_t HaloWindows::most_parts() const {
   const auto threads = static_cast<std::size_t>(executor_.threads());
   const bool is_cut = executor_.grain(least_disks) < least_disks;
@@ -67,7 +70,7 @@ std::size_t HaloWindows::most_parts() const {
   return std::min(std::max<std::size_t>(wanted, is_cut ? 2 : 1), fitting(least_width));
 }
 
-// Disks that come and go are not for parts, and images that move have no ends.
+// Not where disks come and go, nor in a sheared box, whose images move.
 bool HaloWindows::are_wanted() {
   if (windows_without_ > 0) {
     --windows_without_;
@@ -98,7 +101,7 @@ bool HaloWindows::lists_due(const WindowPlan& plan) const {
 void HaloWindows::build(const WindowPlan& plan) {
   const PhaseTimer timer(times_, "list");
   tuning_.adapt();
-  // The paths of each disk are some work, too.
+  // Loading and storing a disk's path is counted as one event.
   for (std::size_t r = 0; r < parts_.size() && r < work_.work.size(); ++r) {
     work_.work[r] = work_.work[r] / static_cast<double>(std::max<std::size_t>(parts_[r]->own(), 1)) + 1.0;
   }
@@ -203,7 +206,7 @@ SliceOutcome HaloWindows::run_slice(const WindowPlan& plan, double start, double
   return is_crowded() ? SliceOutcome::crowded : SliceOutcome::done;
 }
 
-// All parts together, as one queue counts.
+// Counted for all parts together, as it is with one queue.
 bool HaloWindows::is_crowded() const {
   Count paths = 0;
   for (const std::unique_ptr<HaloPart>& part : parts_) paths += part->run().scheduler().segments();

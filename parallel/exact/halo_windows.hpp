@@ -34,7 +34,7 @@ class HaloWindows {
   // All of these outlive it; the state may change between windows.
   HaloWindows(const Scene& scene, State& state, const Executor& executor, PhaseTimes& times);
 
-  // Is the next window one for parts?
+  // Is the next window to be run in parts? To be asked once before each window.
   bool are_wanted();
 
   // No more than this is right any more.
@@ -86,13 +86,13 @@ class HaloWindows {
   const Executor& executor_;
   PhaseTimes& times_;
   HaloParts parts_;
-  int pause_;  // windows without parts after the next one that cannot be run in parts
+  int pause_;  // windows to run without parts after one that cannot be run in parts
   HaloTuning tuning_;
   PartWork work_;         // of the parts, and how they were cut
   HaloUse use_;           // of the window so far
   double spacing_ = 0.0;  // mean; length
   Known known_ = Known::nothing;
-  int windows_without_ = 0;  // so many to come
+  int windows_without_ = 0;  // still to come
   Count void_runs_ = 0;
 };
 

@@ -1,12 +1,12 @@
-// On one of several ranks, or of several parts of the box: where the disks are that it has.
+// Where the disks are that a rank, or a part of the box, has.
 #pragma once
 
 #include <cmath>
 
 namespace carom {
 
-// All heights y, or places x of parts across x, with below <= y - centre <= above, nearest images along a period;
-// lengths. Without bounds, all of the box.
+// The coordinates c (y, or x where parts follow each other along x) with below <= c - centre <= above, nearest images
+// along a period; lengths. Without bounds, all of the box.
 struct KnownBand {
   double centre = 0.0;
   double period = 0.0;  // 0: none

@@ -1,4 +1,4 @@
-// Where a thread's part of the box ends.
+// Where a part of the box ends (HaloPart).
 #pragma once
 
 #include <cmath>
@@ -9,18 +9,19 @@
 
 namespace carom {
 
-// A part is what lies between two coordinates, x or y, when the lists are built. Its own disks are those that lie there
-// then, wherever they go until they are built again.
+// A part lies between two coordinates, x or y. Its own disks are those that lie there when the lists are built,
+// wherever they go until the next time.
 struct PartEnds {
   bool along_x = false;  // x tells, not y
   KnownBand between;
-  // As between: where the parts next to this one end, and others begin.
+  // As in `between`: where the parts next to this one end, and third parts begin.
   double next_below = -HUGE_VAL, next_above = HUGE_VAL;
 
   double coordinate(Vec2 at) const { return along_x ? at.x : at.y; }
 
-  // The disk is listed here, and stays within `distance` of it. Marks it where it may come beyond an end. False if the
-  // part behind that end does not have it, or if it may come to a third part, whose disks neither of the two has.
+  // The disk has been listed at this place and stays within `distance` of it. Marks it as one that crosses where it may
+  // come beyond an end. False if the part there does not have it as a ghost, or if it may come to a third part: then
+  // the window would be void.
   bool note_listing(Vec2 at, double distance, DiskRecord& disk) const {
     if (disk.progress.has(DiskProgress::ghost)) return true;
     const double reach = (distance + disk.radius) * (1.0 + 1e-9);

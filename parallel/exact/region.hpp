@@ -1,4 +1,4 @@
-// Disks that are contiguous in memory, those of a run of layers; one thread processes their events.
+// A region of the box: the disks of a run of layers, contiguous in memory, whose events one thread processes.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace carom {
 
 struct Region {
   Worker worker;
-  std::uint32_t middle_tile = 0;           // the first one on the far side of its middle
+  std::uint32_t middle_tile = 0;           // the first tile of its second half
   std::vector<std::uint32_t> border;       // disks marked at_border
   std::vector<std::uint32_t> near_border;  // disks marked lists_border; some have come to be at the border since
 };

@@ -7,8 +7,8 @@ namespace carom {
 
 namespace {
 
-// A disk whose safe time proves to be later than it was due, by at least this share of the slice, is asked again;
-// otherwise it is blocked.
+// Where a safe time that has come proves to be later by more than this share of the slice, it is kept anew; otherwise
+// the disk is blocked.
 constexpr double worthwhile_share = 1.0 / 16.0;
 
 bool is_due_later(const SafeTimeDue& a, const SafeTimeDue& b) {
@@ -38,14 +38,14 @@ inline double SafeTimes::distance2(const Place& a, const Place& b, bool inside) 
   return apart.x * apart.x + apart.y * apart.y;
 }
 
-// With a disk whose motion is unknown: both towards each other.
+// The largest speed at which disk i and one whose motion is not known come closer.
 double SafeTimes::closing_speed(std::uint32_t i) const {
   const PathSegment& p = window_.record[i].path;
   return std::sqrt(p.vx * p.vx + p.vy * p.vy) + window_.rules.gravity.size * window_.length + window_.speed_bound;
 }
 
-// Before this time, no earlier than `time`, no unresolved disk can touch disk i on its present path; `never` if not
-// within the slice. Most of them are too far away, which the square of the distance tells.
+// The safe time of disk i on its present path, `time` or later; `never` if it is not within the slice. Most neighbours
+// are too far away to touch it within the slice, which the square of the distance tells.
 SafeTimes::SafeTime SafeTimes::safe_time(std::uint32_t i, double time) const {
   SafeTime first;
   const DiskRecord* const record = window_.record.data();

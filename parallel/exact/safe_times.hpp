@@ -1,4 +1,4 @@
-// With regions: how far a disk may go while the motion of others is not known.
+// With regions: up to when the path of a disk is right while the motion of others is not known.
 #pragma once
 
 #include <cstdint>
@@ -9,34 +9,35 @@
 
 namespace carom {
 
-// No disk is faster than window.speed_bound, so that a disk whose motion is not yet known cannot touch disk i before
-// its safe time, gap / (speed_bound + own speed) after the moment up to which it is known. Disk i is blocked at its
-// safe time; up to then its path is right, whatever happens elsewhere.
+// No disk is faster than window.speed_bound. So a disk whose motion is not known yet cannot touch disk i before disk
+// i's safe time: gap / (speed_bound + own speed) after the moment up to which that motion is known. Disk i is blocked
+// at its safe time; up to then its path is right, whatever happens elsewhere.
 class SafeTimes {
  public:
   SafeTimes(WindowState& window, NeighbourLists& lists, Worker& worker)
       : window_(window), lists_(lists), worker_(worker) {}
 
-  // When the first of them is due; `never` if there is none.
+  // When the first safe time is due; `never` if there is none.
   double first() const { return worker_.safe_times.empty() ? never : worker_.safe_times.front().time; }
-  // Asks for the safe time of the disk, whose motion is known up to `time`, when it comes, if it is within the slice.
+  // Computes the safe time of a disk whose motion is known up to `time`, and keeps it if it is within the slice.
   void push(std::uint32_t i, double time);
-  // The first that is due has come; it may be later by now, if the disk's path has changed. Is the disk to be blocked?
+  // Takes the first safe time that is due and computes it again, as it may have become later. Is the disk to be blocked
+  // now?
   bool reach_first(SafeTimeDue& due);
   // Disk i's motion is not known from now on, so that its active neighbours get safe times too.
   void block(std::uint32_t i, double time);
 
-  // Disk i, of a region and not at its border, has a new list; asks for its safe time as push() does.
+  // Disk i of a region, which is not at its border, has a new list: computes its safe time as push() does.
   void mark_relisted(std::uint32_t i, double time);
-  // Any disk i has a new list, and is in other disks' lists than before.
+  // A disk i, wherever it is, has a new list, and other disks list it than before: sets the marks that follow.
   void mark_relisted_at_border(std::uint32_t i);
 
  private:
   struct SafeTime {
     double time = never;
-    bool any = false;  // is a neighbour's motion not known?
+    bool any = false;  // is there a neighbour whose motion is not known?
   };
-  // One of a pair whose distance is asked for, at a time.
+  // Where a disk is at a time.
   struct Place {
     double time;
     double x, y;

@@ -5,10 +5,14 @@
 
 namespace carom {
 
-// Unless it is `done`, nothing of the window counts: what happened to a disk of this rank, or of a part of the box,
-// depends on disks that it does not have (ghosts_too_few); disks that a neighbour does not have came nearer to it than
-// it takes them to (strangers_too_near); the window is crowded (core/step/window_length.hpp); a disk was faster than
-// the speed bound; it was given up.
-enum class SliceOutcome : std::uint8_t { done, ghosts_too_few, strangers_too_near, crowded, too_fast, given_up };
+// Unless it is `done`, the window is void: nothing of it counts.
+enum class SliceOutcome : std::uint8_t {
+  done,
+  ghosts_too_few,      // what happened to a disk of this rank, or of this part of the box, depends on disks not here
+  strangers_too_near,  // disks that a neighbouring rank does not have came nearer to it than it assumes
+  crowded,             // the window holds too many events (core/step/window_length.hpp)
+  too_fast,            // a disk was faster than the speed bound, or could have left its skin
+  given_up,            // Engine::set_watch said to stop
+};
 
 }  // namespace carom

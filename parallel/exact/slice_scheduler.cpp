@@ -9,7 +9,7 @@ namespace carom {
 
 namespace {
 
-// Events a disk in a slice, at most: fewer leave less to the border pass, more need fewer passes.
+// Events per disk in a slice, at most. With fewer, less is left to the border pass; with more, there are fewer passes.
 constexpr double events_per_slice = 0.25;
 
 }  // namespace
@@ -35,7 +35,7 @@ void SliceScheduler::begin_window(bool rebuilt, double per_disk) {
   mark_edges();
 }
 
-// With about as many disks each.
+// Gives each region about the same number of disks.
 void SliceScheduler::lay_out_regions() {
   const std::size_t n = window_.record.size();
   const std::uint32_t tiles_a_layer = lists_.tiles_a_layer();
@@ -47,7 +47,7 @@ void SliceScheduler::lay_out_regions() {
   std::uint32_t layer = 0;
   for (std::size_t r = 0; r < count; ++r) {
     const std::uint32_t first = layer;
-    // Of a layer the greater part decides.
+    // A layer goes to the region that would hold the greater part of it.
     while (layer < layers &&
            (r + 1 == count || (first_disk(layer) + first_disk(layer + 1)) / 2 < n * (r + 1) / count)) {
       ++layer;
@@ -68,8 +68,8 @@ void SliceScheduler::lay_out_regions() {
   executor_.run(count, [&](std::size_t r) { find_near_border(regions_[r]); });
 }
 
-// What a rank has of others may be at a border in any window, and is relisted as disks near one are; never what lies in
-// its own slab, or the window is void.
+// Ghosts may be at a border in any window, so that they are relisted as early as disks near a border are. Disks in the
+// rank's own slab never are at one: the window would be void.
 void SliceScheduler::set_core_of_rank(ListRegion& region) const {
   const WindowGhosts::Heights own = ghosts_->own_heights();
   lists_.set_core_between(own.low, own.high, region);
@@ -102,8 +102,8 @@ void SliceScheduler::find_near_border(Region& region) {
   }
 }
 
-// A disk at a border, which is not relisted before the slice's end, does not leave its skin: it begins the slice within
-// the relist distance.
+// So short that a disk at a border, which is not relisted before the slice's end, does not leave its skin: it begins
+// the slice within the relist distance.
 double SliceScheduler::longest_slice() const {
   return has_regions() ? slice_room_ / window_.speed_bound : never;
 }
@@ -152,7 +152,7 @@ SliceOutcome SliceScheduler::outcome() const {
   });
   if (given_up) return SliceOutcome::given_up;
   if (too_fast) return SliceOutcome::too_fast;
-  // Events pile up at one moment: which of them is the reference's first, regions cannot tell.
+  // Where events pile up at one moment, regions and parts cannot tell at which of them the reference would stop.
   if (collapsed && (has_regions() || window_.is_part)) return SliceOutcome::crowded;
   return crowded || segments() > window_.most_paths ? SliceOutcome::crowded : SliceOutcome::done;
 }
@@ -191,7 +191,7 @@ void SliceScheduler::run_regions(double per_disk) {
   take_in_new_border(border_pass_.new_border(), border_pass_.new_near_border());
 }
 
-// The same on one of several ranks. None leaves before all know how the slice ended on each.
+// The same on one of several ranks. No rank returns before all know how the slice ended on each.
 SliceOutcome SliceScheduler::run_with_ghosts(double per_disk) {
   const Count before = events();
   Region& region = regions_.front();
@@ -215,8 +215,8 @@ SliceOutcome SliceScheduler::run_with_ghosts(double per_disk) {
   return SliceOutcome::done;
 }
 
-// Is the motion of a disk of this rank not known to the slice's end? Or that of one in its slab from the slice's start
-// on: it may leave its skin.
+// Does the motion of an own disk up to the slice's end depend on disks that are not here? Or that of any disk in the
+// rank's slab, from the slice's start on? That one could leave its skin.
 bool SliceScheduler::depends_on_others() const {
   const auto is_own = [this](std::uint32_t i) { return !window_.record[i].progress.has(DiskProgress::ghost); };
   const Region& region = regions_.front();
@@ -226,7 +226,8 @@ bool SliceScheduler::depends_on_others() const {
                      [&](const BlockedDisk& blocked) { return is_own(blocked.disk); });
 }
 
-// All paths are those at the slice's end: first the lists follow, then the blocked disks' events are predicted.
+// All paths are now those at the slice's end. First disks are relisted where they have to be, then the events of the
+// blocked disks are predicted.
 void SliceScheduler::see_slice_of_others() {
   others_.begin_slice();
   others_.region = ListRegion{};
@@ -245,7 +246,7 @@ void SliceScheduler::mark_ghosts() {
   }
 }
 
-// Disks that may meet one that is not here in this window are at a border.
+// Disks that may meet one that is not here in this window are at a border, too.
 void SliceScheduler::mark_edges() {
   Region& region = regions_.front();
   for (std::uint32_t i = 0; i < window_.record.size(); ++i) {
@@ -290,8 +291,8 @@ void SliceScheduler::finish_slice(Region& region) {
                             region.worker.near_border.end());
 }
 
-// One that was elsewhere may have moved further than it may near a border; when it is relisted, others may come to be
-// at the border, or near it: both lists may grow.
+// A disk that was elsewhere may have moved further than is allowed near a border, and is relisted then. That may bring
+// other disks to the border, or near it: both lists may grow on the way.
 void SliceScheduler::take_in_new_border(const std::vector<std::uint32_t>& border,
                                         const std::vector<std::uint32_t>& near_border) {
   std::size_t at = 0;
@@ -313,7 +314,7 @@ void SliceScheduler::take_in_border(std::uint32_t i) {
   if (ghosts_ == nullptr) border_pass_.relist_if_far(i);
 }
 
-// With ghosts: a disk near a border is relisted in the slice, if need be before it is blocked.
+// With ghosts, a disk near a border is relisted within the slice, before it is blocked if need be.
 void SliceScheduler::take_in_near_border(std::uint32_t i) {
   Region& region = region_of(i);
   region.near_border.push_back(i);

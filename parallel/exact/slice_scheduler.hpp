@@ -20,27 +20,29 @@ namespace carom {
 
 // With a single queue, a window is one slice, and one worker processes its events. With regions, each thread has a
 // region, a run of layers, and processes the events of its disks as far as they do not depend on disks whose motion is
-// not yet known: a disk that lists one of another region is at the border, and its motion in a slice becomes known in
-// the border pass, after all regions; so does that of disks that are blocked because of one. Which worker processes an
-// event depends on the threads, the event does not. On one of several ranks there is one region, and disks near the
-// edge of what the rank has are at a border; what happens to those that depend on disks of others the others tell.
+// not known yet. A disk that lists one of another region is at the border; its motion in a slice becomes known in the
+// border pass, after all regions. So does the motion of disks that are blocked because of such a disk. Which worker
+// processes an event depends on the threads, but the event does not. On one of several ranks there is one region, and
+// disks near the edge of what the rank has are at a border; ghosts whose motion depends on disks that are not here get
+// their paths from other ranks.
 class SliceScheduler {
  public:
   SliceScheduler(WindowState& window, NeighbourLists& lists, const Executor& executor)
       : window_(window), lists_(lists), executor_(executor), border_pass_(window, lists, executor) {}
 
-  // A window begins, in window.mode; window.speed_bound has been set. rebuilt: so do the lists. per_disk: events a disk
-  // and time, 0 if not known.
+  // Begins a window. Preconditions: window.mode and window.speed_bound have been set. rebuilt: the lists have been
+  // built anew. per_disk: events per disk and unit of time, 0 if not known.
   void begin_window(bool rebuilt, double per_disk);
 
-  // The end of the slice that begins at this time of a window of this length; `never` for the last one. All are of
-  // nearly equal length. per_disk: events a disk and time, 0 if not known; window.speed_bound has been set.
+  // The end of the slice that begins at time `start` of a window of this length; `never` for the last slice. Slices are
+  // of nearly equal length. per_disk and precondition as above.
   double slice_end(double length, double start, double per_disk) const;
 
-  // Runs the slice, the window's first where it starts at 0; per_disk: events a disk and time, about. At inelastic
-  // collapse the result is `crowded` with regions; otherwise it throws PhysicsError.
+  // Runs a slice, the window's first where start is 0. per_disk: as above, about. window_start: time of the run. At
+  // inelastic collapse the outcome is `crowded` with regions and for a part; with a single queue it throws
+  // PhysicsError.
   SliceOutcome run(double start, double end, double per_disk, double window_start);
-  // Without regions: the event that tells that the window is crowded, the same as the reference's.
+  // With a single queue: the event at which the window was seen to be crowded, the same as the reference's.
   const EventMark& crowding() const { return *single_.crowded; }
 
   // Of a part, at the end of a slice: as WindowRun::replace_paths.
@@ -110,7 +112,7 @@ class SliceScheduler {
   double slice_room_ = 0.0;  // no disk may go further in a slice; length
   Count events_of_slice_ = 0;
   WindowGhosts* ghosts_ = nullptr;
-  Worker others_;  // of ghosts whose paths other ranks tell
+  Worker others_;  // of ghosts whose paths come from other ranks
   std::vector<std::uint32_t> unknown_;
 };
 

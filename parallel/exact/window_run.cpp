@@ -17,12 +17,12 @@ namespace {
 // Disks a block in passes over all disks.
 constexpr std::size_t pass_block = 8192;
 // At the start of a window all paths begin anew from rounded coordinates, so that events may come a little earlier than
-// they were predicted: disks are predicted again this share of a window early. That is enough where the approach is
-// faster than WindowState::slow; slower contacts that are close are predicted at every start.
+// predicted. So disks are predicted again this share of a window earlier. That is enough for contacts with an approach
+// faster than WindowState::slow; slower ones that are close are predicted at the start of every window.
 constexpr double early_share = 1e-3;
-// A disk that is relisted is listed as far ahead as it flies in this many mean times between its collisions: what it
-// has of its velocity after a collision is two fifths. The fewest instructions a collision are at 0.5 to 1 at packing
-// fractions of 0.2 and 0.5.
+// A disk is listed as far ahead of where it is as it flies in this many of its mean free times; after a collision, two
+// fifths of its velocity remain on average. The fewest instructions a collision are at 0.5 to 1, at packing fractions
+// of 0.2 and 0.5.
 constexpr double lead_in_free_times = 0.7;
 
 }  // namespace
@@ -80,11 +80,11 @@ double WindowRun::relistings() const {
 
 void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout, const NeighbourLists::Sorted& sorted) {
   const PhaseTimer timer(times_, "list");
-  // Sorting takes about as much.
+  // Sorting takes about as much memory.
   if (std::max(state_.disks.size(), layout.disks_of_box) > disks_of_much_memory) scheduler_.release_calendars();
   lists_.follow_flow(box_at(scene_.box, plan.start), plan.start, plan.length);
-  // Two disks that did not list each other before cannot touch before one of them reaches its next event, at the latest
-  // that of being relisted.
+  // Times that are known stay valid: two disks that did not list each other cannot touch before one of them reaches its
+  // next event, which is at the latest that of being relisted.
   const bool timed = known_ == Known::lists_and_times;
   lists_.build(state_.disks, scene_.box, layout, executor_, [&](const auto& order, auto& scratch) {
     if (timed) sort_times(order, scratch);
@@ -167,7 +167,7 @@ SliceOutcome WindowRun::run(const WindowPlan& plan, const SpeedSummary& speeds, 
   return SliceOutcome::done;
 }
 
-// Lists and times are those of the window's end from now on, or of a moment at which it fails.
+// From now on lists and times are on their way to the window's end: if it fails, they are not valid.
 void WindowRun::begin(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin) {
   if (scene_.box.shear.acts()) lists_.carry_flow(box_at(scene_.box, plan.start), plan.start);
   load_paths(plan, speeds, disks);
@@ -196,7 +196,7 @@ void WindowRun::load_paths(const WindowPlan& plan, const SpeedSummary& speeds, s
   const Disks& d = state_.disks;
   window_.begin(exact_rules(scene_, d, plan.start), d, plan, speeds.largest2, largest_radius_);
   window_.most_paths = most_paths(disks);
-  // Two disks an event. Where nothing is known yet, a disk is listed where it is.
+  // Each event is a collision of two disks. While the rate is not known, a disk is listed where it is.
   lists_.set_lead_time(per_disk_ > 0.0 ? lead_in_free_times / (2.0 * per_disk_) : 0.0);
   if (slots_ != nullptr) {
     for (std::size_t i = 0; i < window_.spin.size(); ++i) window_.spin[i] = all_->disks.spin[(*slots_)[i]];
@@ -212,7 +212,7 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
   const Disks& d = state_.disks;
   const bool timed = known_ == Known::lists_and_times;
   const bool relists_stay = timed && !rebuilt_;
-  // Pointers of the columns in registers, as records and entries are written in between.
+  // Pointers to the columns in registers: stores to records and entries could change them otherwise.
   const Disks& paths = all_->disks;
   const double* const x = paths.x.data();
   const double* const y = paths.y.data();
@@ -233,7 +233,7 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
       record[i].id = id[i];
       record[i].partner = relists ? Partner::relist() : Partner::none();
       record[i].version = record[i].partner_version = 0;
-      // Of an event that was predicted in the window before, a little early.
+      // The time of the event that was predicted in the window before, from the new start, and a little earlier.
       entry[i].time = (entry[i].time - length) - early;
     }
   };
@@ -259,7 +259,7 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
   if (!window_.burst.empty()) std::fill_n(&window_.burst[begin], end - begin, Burst{});
 }
 
-// Which disks are near borders is not known when lists have just been built: none moves further than those may.
+// Which disks are near borders is not known yet when lists have just been built: all are taken to be.
 double WindowRun::first_relist_time(std::size_t i, const WindowPlan& plan) const {
   return lists_.earliest_relist_time(static_cast<std::uint32_t>(i), window_.record[i].path, 0.0, plan.length,
                                      window_.rules.gravity, lists_.relist_distance(true));

@@ -22,17 +22,18 @@
 
 namespace carom {
 
-// What is left of the window before, for the next one.
+// What the next window can take over from the one before.
 enum class Known : std::uint8_t {
   nothing,
   lists,            // neighbour lists and storage order
   lists_and_times,  // and the next events' times, on paths that go on
 };
 
-// The lists are rebuilt, and the disks sorted, when they have been relisted so many times each: by then neighbours are
-// no longer neighbours in storage.
+// The lists are rebuilt, and the disks sorted, when disks have been relisted so many times on average: by then
+// neighbours in space are no longer neighbours in storage.
 inline constexpr double relistings_a_disk = 8.0;
-// Likewise where one queue has so many times the disks for which skin and cells were chosen, or as many times fewer.
+// They are also rebuilt where one queue has more than this times as many disks as skin and cells were chosen for, or as
+// many times fewer.
 inline constexpr double most_growth = 1.25;
 
 // With regions: no disk may become faster in a window than this factor times the fastest one at its start. A window in
@@ -42,32 +43,34 @@ inline constexpr double speed_margin = 1.35;
 inline constexpr double margin_of_retry = 2.5;  // over that of the try before
 inline constexpr int most_retries = 4;
 
-// A window was run so often in vain.
+// Throws the PhysicsError of a window that was void on each of most_retries + 1 runs.
 [[noreturn]] void fail_speed_bound(const WindowPlan& plan);
 
 class WindowRun {
  public:
-  // All but the scene's numbers may change between windows; they outlive it.
+  // All arguments outlive it. The state may change between windows.
   WindowRun(const Scene& scene, State& state, const Executor& executor, PhaseTimes& times);
 
   // On one of several ranks; largest_radius: of all disks. Outlives it.
   void set_ghosts(WindowGhosts* ghosts, double largest_radius);
 
   Known known() const { return known_; }
-  // No more than this is right any more.
+  // Nothing beyond this is valid any more.
   void forget(Known left) { known_ = std::min(known_, left); }
 
-  // Nothing is right any more, and all will be built anew: what many disks take for it is given back now.
+  // Nothing is valid any more, and all will be built anew. Where there are many disks, the memory that it takes is
+  // given back now.
   void forget_lists();
 
   // One queue, between windows: can disks be added to what is known, if no radius is larger than those that are listed?
   bool takes_newcomers() const;
-  // Those from this one on are new at the end of the columns; they are predicted with all disks near them.
+  // The disks from this one on are new, at the end of the columns; they are listed, and predicted at the start of the
+  // next window.
   void append_disks(std::size_t first);
 
   // Are the lists to be built anew for this window?
   bool lists_due(const WindowPlan& plan) const;
-  // Of a disk, on average, since they were built.
+  // Relistings of a disk since the lists were built, on average.
   double relistings() const;
   // Sorts the disks and lists them. Times that were known stay so. sorted: as in NeighbourLists::build.
   void build_lists(const WindowPlan& plan, const ListLayout& layout, const NeighbourLists::Sorted& sorted = {});
@@ -80,11 +83,11 @@ class WindowRun {
   void set_own(std::size_t own) { own_ = own; }
   // Of a part, between windows: its last disk is new in the state and the slots; at: where it is.
   void append_last_disk(Vec2 at);
-  // Of a part, between windows, and of an own disk: may it come beyond an end? If it is no ghost of the part there, the
-  // next slice says that a disk was too fast.
+  // Of a part, between windows: asks whether own disk i may come beyond an end. If it may and is no ghost of the part
+  // there, the next slice ends with too_fast.
   void note_listing(std::uint32_t i);
-  // At a slice's end: these disks of the halo go elsewhere than was thought, and have got the paths on which they go.
-  // They are listed there if need be, and their events are predicted anew.
+  // Of a part, at a slice's end: these ghosts have got other paths. They are relisted if need be, and their events are
+  // predicted anew.
   void replace_paths(const std::vector<std::uint32_t>& disks) { scheduler_.replace_paths(disks); }
 
   // Runs the window; speeds: of all disks of the run at its start, as many as `disks`. margin: over the largest speed.
@@ -128,18 +131,18 @@ class WindowRun {
 
   const Scene& scene_;
   State& state_;
-  State* all_;  // has all disks' paths, last contacts and thermal hits: `state_`, but of a part
+  State* all_;  // has the paths, last contacts and thermal hits of all disks: it is state_, except for a part
   const std::vector<std::uint32_t>* slots_ = nullptr;  // of a part
   const Executor& executor_;
   PhaseTimes& times_;
   WindowState window_;
   NeighbourLists lists_;
   SliceScheduler scheduler_;
-  // How much rounding shifts a contact with an obstacle, or with a side that is a sine, depends on how it is touched:
-  // all is predicted again at every window's start.
+  // With obstacles, or a side that moves as a sine, how much rounding shifts a contact depends on how it is touched:
+  // there, all events are predicted again at every window's start.
   const bool predicts_anew_;
   WindowGhosts* ghosts_ = nullptr;
-  double least_largest_radius_ = 0.0;  // that of other ranks' disks
+  double least_largest_radius_ = 0.0;  // of other ranks' or parts' disks
   double largest_radius_ = 0.0;
   Known known_ = Known::nothing;
   bool rebuilt_ = false;   // the lists, for the coming window

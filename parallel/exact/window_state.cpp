@@ -15,7 +15,8 @@ constexpr double windows_ahead = 4.0;
 // Disks that approach at more than `slow` meet at a time that rounding shifts by less than this part of a window.
 constexpr double rounding_ratio = 1e5;
 
-// Room for a few more, which takes no memory: with ghosts, disks become now a few more, now a few less.
+// Reserves room for a few more: where there are ghosts, the number of disks goes up and down a little. Pages that
+// nothing is written to take no memory.
 template <class T>
 void resize_column(std::vector<T>& column, std::size_t n) {
   if (column.capacity() < n) resize_in_huge_pages(column, n, T{}, n + n / 32);
@@ -36,7 +37,8 @@ void WindowState::begin(const ExactRules& window_rules, const Disks& all, const 
   depth_beyond_borders.store(0.0, std::memory_order_relaxed);
   set_tolerances();
   resize_column(entry, all.size() + std::max<std::size_t>(regions, 1) * entries_apart);
-  // Of other disks than before, and written anew: there are never two of this column, the largest.
+  // Its contents are written anew: it is freed before it grows, so that there are never two of this column, the
+  // largest.
   if (record.capacity() < all.size()) std::vector<DiskRecord>().swap(record);
   resize_column(record, all.size());
   burst.resize(dissipates(rules) ? all.size() : 0);

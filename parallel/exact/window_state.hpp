@@ -18,7 +18,8 @@
 
 namespace carom {
 
-// The ends of two calendars are so far from each other that threads do not wait for each other's.
+// How many entries the ends of two calendars are apart, so that they are in different cache lines: threads write to
+// them.
 inline constexpr std::size_t entries_apart = 8;
 
 // Columns are by storage index.
@@ -29,9 +30,9 @@ struct WindowState {
   ExactRules rules;
   const Disks* disks = nullptr;  // masses
   std::vector<DiskRecord> record;
-  // When the next event is that is stored with the disk. An event of two disks is stored with the one that began its
-  // path last (or with both), contact with a side and relisting with the disk itself. After those of the disks: the
-  // ends of calendars.
+  // The time of the next event that is stored with each disk. A contact of two disks is stored with the one that began
+  // its path last, or with both; contact with a side and relisting with the disk itself. Behind the entries of the
+  // disks are the ends of the calendars' lists.
   std::vector<CalendarEntry> entry;
   std::vector<double> last_contact;         // with the TC model
   std::vector<std::uint32_t> thermal_hits;  // with thermal sides
@@ -43,15 +44,16 @@ struct WindowState {
   double horizon = 0.0;     // events are predicted up to here, beyond the window
   double next_start = 0.0;  // just beyond the window
   double slack = 0.0;       // rounding of a coordinate, generously; length
-  // Two disks (or a disk and a side) that are so close and approach each other so slowly may touch or not, and approach
-  // or not, by the rounding at each window's start.
+  // For two disks (or a disk and a side) that are closer than this and approach each other more slowly than this, the
+  // rounding at each window's start decides whether they touch, and whether they approach.
   double close = 0.0;  // length
   double slow = 0.0;   // length / time
   double largest_radius = 0.0;
-  // The same for disks of any radii: squares of distance^2 - contact_distance^2 and of dr.dv.
+  // The same for two disks of any radii, as limits of (distance^2 - contact_distance^2)^2 and of (dr.dv)^2.
   double close2() const { return 16.0 * largest_radius * largest_radius * (close * close); }
   double slow2() const { return 4.0 * largest_radius * largest_radius * (slow * slow); }
-  // Up to this v^2 no disk moves so far in a window that images beyond the nearest one, or crossing events, matter.
+  // While no disk has a larger v^2, none moves so far in a window that images beyond the nearest one, or crossing
+  // events, matter.
   double safe_speed2 = 0.0;
   double fastest2 = 0.0;  // largest v^2 so far
   // With regions: a segment that begins with more than speed_limit2 (v^2) voids the window, so that no disk is faster
@@ -64,9 +66,9 @@ struct WindowState {
   bool is_part = false;       // of the box, with a halo
   PartEnds part;              // then: where it ends
   bool part_is_known = true;  // each of its own disks that may come beyond an end is a ghost of the part there
-  // How far from a border along a period a disk was listed whose path had left the box there and come far into it from
-  // the other side (NeighbourLists::depth_beyond_border); 0: none. Length. A maximum, which has no order; and no bit
-  // depends on it: a list that looks for images it does not need finds the same contacts.
+  // The largest NeighbourLists::depth_beyond_border of a disk listed in this window; 0: none. Length. A maximum has no
+  // order, so that threads may set it; and no bit depends on it, as a list that looks for images it does not need finds
+  // the same contacts.
   std::atomic<double> depth_beyond_borders = 0.0;
   bool keeps_paths = true;
   Count most_paths = 0;         // of all disks, beyond which the window is crowded (core/step/window_length.hpp)
@@ -75,29 +77,30 @@ struct WindowState {
 
   double next_event_time(std::uint32_t i) const { return entry[i].time; }
   void set_next_event_time(std::uint32_t i, double time) { entry[i].time = time; }
-  // Of a calendar of the disks from first to last, one of several that are in use at the same time.
+  // The entries of the disks [first, last), for calendar number `calendar` of those that are in use at the same time.
   CalendarEntries entries_of(std::uint32_t first, std::uint32_t last, std::size_t calendar) {
     const std::size_t end = record.size() + (calendar + 1) * entries_apart - 1;
     return {entry.data(), first, last, static_cast<std::uint32_t>(end)};
   }
-  // Between windows: one more disk, the last; and one less, disk i, whose number the last one takes.
+  // Between windows: adds a disk, the last; removes disk i, whose index the last one takes.
   void append_disk(double next_event);
   void remove_disk(std::size_t i);
 
-  // When a disk without an event up to the horizon is predicted again: within the window before that, at another time
-  // for each disk, so that not all come at once.
+  // When a disk that has no event up to the horizon is predicted again: within one window's length before the horizon,
+  // at another time for each disk, so that not all come at once.
   double last_look(std::uint32_t i) const {
     constexpr std::uint32_t golden = 2654435769U;  // 2^32 over the golden ratio: multiples are spread evenly
     return horizon - length * (0x1p-32 * static_cast<double>(i * golden));
   }
-  // May disk i, listed at this height with this skin, meet a disk that is not here?
+  // May disk i, listed at height y with this skin, meet a disk that this rank does not have?
   bool is_beyond_band(std::uint32_t i, double y, double skin) const {
     return !band.holds(y, (skin + record[i].radius + largest_radius + slack) * (1.0 + 1e-9));
   }
   bool in_slice(double t) const { return t < slice_end && t <= length; }
   double slice_stop() const { return slice_end < length ? slice_end : length; }
 
-  // The numbers of a window; fastest2 (v^2) and largest_radius are those of the disks. Columns get room for all disks.
+  // Sets the numbers of a window, and gives columns room for all disks. fastest_speed2 (v^2) and radius: the largest of
+  // any disk.
   void begin(const ExactRules& window_rules, const Disks& all, const WindowPlan& plan, double fastest_speed2,
              double radius);
   void release_memory();

@@ -1,4 +1,4 @@
-// What one thread works on in a window of the exact engine, and what it finds out.
+// What one thread works on in a window of the exact engine, and what it has found.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@ namespace carom {
 
 // A segment of a disk's path in the last window; frames and contacts are read from these.
 struct LoggedSegment {
-  // In place of a partner: no other disk, and it left through a sink.
+  // In place of a partner: it met no other disk; it left through a sink.
   static constexpr std::uint32_t no_disk = 0xffffffffU;
   static constexpr std::uint32_t gone = 0xfffffffeU;
 
   std::uint32_t disk;
-  std::uint32_t partner;  // what it met at path.start: a disk, or one of these
+  std::uint32_t partner;  // the disk that it met at path.start, or one of these
   PathSegment path;
 
   bool with_disk() const { return partner < gone; }
 };
 
-// A disk whose motion is known up to its safe time only, because that of a neighbour is not known.
+// A disk whose motion is known only up to its safe time, because a neighbour's is not known.
 struct BlockedDisk {
   std::uint32_t disk;
   double safe_time;
@@ -38,7 +38,7 @@ struct SafeTimeDue {
   std::uint32_t disk;
 };
 
-// Members are of the window where nothing else is said.
+// Members are about the window unless they say otherwise.
 struct Worker {
   ListRegion region;                    // what it may read and write
   EventCalendar calendar;               // of a single queue, or of a region
@@ -50,14 +50,14 @@ struct Worker {
   bool any_gone = false;
   double fastest2 = 0.0;              // largest v^2
   Count segments = 0;                 // begun
-  std::optional<EventMark> collapse;  // the first one, but for a region
-  // Each of these voids the window: a disk was faster than the speed bound, or one whose motion was known had to
-  // collide; it holds too many events (with the event that tells, the first one but for a region);
-  // Engine::set_watch said to stop.
+  std::optional<EventMark> collapse;  // the first one, except in a region
+  // Each of these voids the window. too_fast: a disk was faster than the speed bound, or one whose motion was taken as
+  // known had to collide. crowded: there are too many events; the event at which that was seen, which is the first one
+  // except in a region. given_up: Engine::set_watch said to stop.
   bool too_fast = false;
   std::optional<EventMark> crowded;
   bool given_up = false;
-  bool ended = false;                      // one of these, or a collapse but for a region: no further event
+  bool ended = false;                      // one of these, or a collapse outside a region: process no further event
   Count until_poll = 0;                    // events before go_on is asked again
   Count relisted = 0;                      // disks, in the slice
   std::vector<BlockedDisk> blocked;        // in the slice
