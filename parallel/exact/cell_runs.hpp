@@ -9,9 +9,9 @@
 
 namespace carom {
 
-// The rows of a level that are stored, by their places, for a span of all rows. Where the span goes from what is
-// nearer to the last of them to what is nearer to the first, it is all: a disk may have flown there, and two that are
-// near each other must both find the other one.
+// For a span of rows of the box, the places of the rows among those that are stored. Where the span reaches from rows
+// nearer to the last stored row to rows nearer to the first, it is all stored rows: disks may have flown there, and of
+// two that are near each other each must find the other.
 inline Span stored_span(const GridLevel& level, Span rows) {
   if (rows.count == level.rows) return {0, std::min(level.rows, level.stored_rows)};
   if (level.stored_rows >= level.rows) return rows;
@@ -21,8 +21,8 @@ inline Span stored_span(const GridLevel& level, Span rows) {
   return last >= first ? Span{first, last - first + 1} : Span{0, level.stored_rows};
 }
 
-// Calls visit(first, last) for runs of cells [first, last) of a level, neighbours in memory, that together are those of
-// these rows and columns.
+// Calls visit(first, last) for runs of cells [first, last), contiguous in memory, that together are the cells of these
+// rows and columns of a level.
 template <class Visit>
 void for_each_cell_run(const GridLevel& level, Span rows, Span columns, Visit&& visit) {
   for (std::uint32_t left = columns.count, column = columns.first; left > 0;) {

@@ -1,5 +1,5 @@
-// Which disks lie in which cell, by their listed positions: a few slots for each cell, so that disks come and go and
-// cells are searched without following links.
+// Which disks lie in which cell, by their listed positions: a few slots for each cell, so that disks can come and go,
+// and cells can be searched, without following links.
 #pragma once
 
 #include <algorithm>
@@ -12,16 +12,17 @@
 
 namespace carom {
 
-// A disk for which its cell has no slot left is chained to the cell.
+// A disk whose cell has no slot left is chained to the cell.
 class CellSlots {
  public:
   static constexpr std::uint32_t none = empty_slot;
 
-  // Empties all cells. They come in parts of so many that follow each other; a part is for one thread at a time.
-  // unequal_radii: slots hold radii too.
+  // Empties all cells. cells_a_part successive cells are a part, which is for one thread at a time. unequal_radii:
+  // slots hold radii too.
   void begin(std::uint32_t cells, std::uint32_t cells_a_part, bool unequal_radii);
 
-  // radius: over the unit of lengths that the kernel works in, a little more; ignored where all are equal.
+  // radius: in the kernel's unit of length, rounded up a little (NeighbourLists::radius_in_units); ignored where all
+  // are equal.
   void insert(std::uint32_t cell, std::uint32_t disk, SlotPosition position, float radius);
   // Takes the disk out of the cell that it is in.
   void remove(std::uint32_t cell, std::uint32_t disk);
@@ -35,10 +36,10 @@ class CellSlots {
     prefetch_slots(disk_.data(), first, last);
     __builtin_prefetch(chain_.data() + first);
   }
-  // Whether disks are chained to some cells: asked of several runs of cells at once.
+  // Asks whether disks are chained to some of the cells of several runs.
   class Chains {
    public:
-    // Cells [first, last); perhaps some after them, too.
+    // Adds cells [first, last); perhaps some after them, too.
     void add(std::uint32_t first, std::uint32_t last) {
       constexpr std::uint32_t at_once = 4;
       if (first + at_once > end_) [[unlikely]] {
@@ -48,7 +49,7 @@ class CellSlots {
       all_ &= four(first);
       for (first += at_once; first < last; first += at_once) all_ &= four(std::min(first, last - at_once));
     }
-    // To any of them? The number of a link is below 2^31, or all ones.
+    // Are disks chained to any of them? The number of a link is below 2^31, or all ones for none.
     bool any() const { return (all_[0] & all_[1] & all_[2] & all_[3]) != none; }
 
    private:
@@ -64,7 +65,7 @@ class CellSlots {
     std::uint32_t end_;
     Links all_ = {none, none, none, none};
   };
-  // Of cells none of which is `end` or after it; nothing is read there.
+  // For cells before `end`; nothing is read from there on.
   Chains chains_before(std::uint32_t end) const {
     return {chain_.data(), std::min(end, static_cast<std::uint32_t>(chain_.size()))};
   }

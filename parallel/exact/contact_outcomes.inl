@@ -74,13 +74,13 @@ void EventProcessor<scope>::collide_pair(std::uint32_t i, std::uint32_t j, doubl
   }
 }
 
-// In a plain scene: the same as below without what such a scene does not have.
+// In a plain scene: collide_any_pair without what such a scene does not have.
 template <Scope scope>
 void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j, double time) {
   if (record_[i].id > record_[j].id) std::swap(i, j);
   DiskRecord& a = record_[i];
   DiskRecord& b = record_[j];
-  // The speed bound excluded this collision, so it does not hold.
+  // A collision that the speed bound excludes: so the bound does not hold.
   if (!(std::max(a.path.start, b.path.start) <= time) || is_over(i) || is_over(j)) [[unlikely]] {
     worker_.too_fast = worker_.ended = true;
     return;
@@ -120,7 +120,8 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
   predict_after_event(j, time);
 }
 
-// Part: what its own disk does from now on is right only if the ghost came here as the part that owns it says.
+// Part: marks a ghost that an own disk has met. What that disk does from now on is right only if the ghost came here as
+// its owner says.
 template <Scope scope>
 inline void EventProcessor<scope>::note_contact(DiskRecord& a, DiskRecord& b) {
   const bool ghost = a.progress.has(DiskProgress::ghost);
@@ -129,7 +130,7 @@ inline void EventProcessor<scope>::note_contact(DiskRecord& a, DiskRecord& b) {
   (ghost ? a : b).progress.set(DiskProgress::met_own);
 }
 
-// Of disks that may be on two sides of a border along a period.
+// The collision of disks that may be on two sides of a border along a period.
 template <Scope scope>
 PlainCollision EventProcessor<scope>::collide_across(double time, PathSegment& p, PathSegment& q) const {
   const auto restitution = [this](const Relative&) { return window_.rules.restitution; };
@@ -143,7 +144,7 @@ void EventProcessor<scope>::tally_virials() {
   virial_count_ = 0;
 }
 
-// The path on which the disk began the window, if it is on it still.
+// Logs the path on which the disk began the window, if it is still on it.
 template <Scope scope>
 void EventProcessor<scope>::log_start(std::uint32_t i) {
   if (record_[i].version == 0) worker_.log.push_back({i, LoggedSegment::no_disk, record_[i].path});
@@ -155,7 +156,7 @@ void EventProcessor<scope>::log_segment(std::uint32_t i, std::uint32_t partner, 
   worker_.log.push_back({i, partner, path});
 }
 
-// After log_segment, of a rough disk whose spin is `now` from here on.
+// After log_segment: logs the spin of a rough disk, which is `now` from here on.
 template <Scope scope>
 void EventProcessor<scope>::log_spin(std::uint32_t i, double now) {
   if (record_[i].version == 0) worker_.spin_log.push_back(window_.spin[i]);
@@ -167,7 +168,7 @@ void EventProcessor<scope>::collide_any_pair(std::uint32_t i, std::uint32_t j, d
   if (record_[i].id > record_[j].id) std::swap(i, j);
   ExactDisk a = disk(i);
   ExactDisk b = disk(j);
-  // The speed bound excluded this collision, so it does not hold.
+  // A collision that the speed bound excludes: so the bound does not hold.
   if (!(std::max(a.path.start, b.path.start) <= time) || is_over(i) || is_over(j)) {
     worker_.too_fast = worker_.ended = true;
     return;
@@ -214,7 +215,8 @@ void EventProcessor<scope>::begin_segment(std::uint32_t i, const ExactDisk& now,
   }
 }
 
-// A disk of a region whose impacts pile up waits for the border pass; the window is then run again without regions.
+// Counts an impact that loses energy. In a region, a disk whose impacts pile up waits for the border pass, and the
+// window is run again without regions.
 template <Scope scope>
 void EventProcessor<scope>::count_burst(std::uint32_t i, const EventMark& event) {
   if (!window_.burst[i].add(event.time, window_.length)) return;

@@ -8,13 +8,14 @@ namespace carom {
 
 namespace {
 
-// A disk's entry is taken out or moved two or three times a collision, so that one or two are on the present page.
+// Pages for each event that is expected. An entry is moved two or three times a collision, so that one or two are on
+// the present page.
 constexpr double pages_per_event = 1.6;
 constexpr std::size_t most_pages_a_disk = 8;
 constexpr std::size_t few_pages = 64;
-// Parts of the time that are divided into pages one after the other, where there are many disks.
+// Where there are many disks: the number of parts of the time that are divided into pages one after the other.
 constexpr std::size_t parts = 4;
-// Pages are shortened where the events of a crowded one are spread over this share of it or more.
+// Pages are shortened where the events of a page that has too many are spread over this share of it or more.
 constexpr double spread_share = 0.125;
 constexpr double events_a_page = 2.0;
 
@@ -37,7 +38,7 @@ void EventCalendar::begin(double start, double end, const CalendarEntries& entri
   begin_part(start, end > start ? static_cast<double>(pages) / (end - start) : 0.0, pages);
 }
 
-// pages: of this part and those to come. What is beyond this part stays together with what comes after the end.
+// pages: how many this part and those to come have together. Events beyond this part stay with those after the end.
 void EventCalendar::begin_part(double start, double pages_per_time, std::size_t pages) {
   const std::size_t here = std::min(pages, pages_a_part_);
   set_pages(start, pages_per_time, here);
@@ -45,7 +46,7 @@ void EventCalendar::begin_part(double start, double pages_per_time, std::size_t 
   if (later_pages_ > 0) last_page_ = static_cast<double>(here);
 }
 
-// False, without a change, if this is the last one.
+// False, without a change, if this is the last part.
 bool EventCalendar::begin_next_part() {
   if (later_pages_ == 0) return false;
   deliver_all();
@@ -78,9 +79,9 @@ void EventCalendar::set_pages(double start, double pages_per_time, std::size_t p
   followed_begin_ = followed_end_ = 0;
 }
 
-// Divides what is left of the time anew, so that the events of the present page fall on many; what is beyond the most
-// pages stays together on the last one, until it is divided in turn. False, without a change, where that would not
-// help.
+// Divides the time that is left anew, so that the events of the present page fall on many pages. Events beyond the
+// largest number of pages stay together on the last one, until that is divided in turn. False, without a change, where
+// it would not help.
 bool EventCalendar::shorten_pages() {
   deliver_all();
   collect_page();

@@ -11,46 +11,50 @@
 
 namespace carom {
 
-// A disk's next event. No event that is stored with the disk happens before `time`, whether it is in a calendar or not.
+// A disk's next event: no event that is stored with the disk happens before `time`. This holds whether or not the entry
+// is in a calendar.
 struct CalendarEntry {
   double time = 0.0;
-  // The calendar's: a disk; or what begins a page, and so on. Nothing between windows.
+  // For the calendar's use: the disks before and after this one on its page, or a mark in place of one. Without meaning
+  // between windows.
   std::uint32_t previous = 0, next = 0;
 };
 static_assert(sizeof(CalendarEntry) == 16);
 
-// The entries of some disks, [first, last) by storage index, and one more, which ends all lists of their calendar.
+// The entries of the disks [first, last), by storage index, and the one that ends all lists of their calendar.
 struct CalendarEntries {
   CalendarEntry* entry = nullptr;
   std::uint32_t first = 0, last = 0;
   std::uint32_t end = 0;
 };
 
-// The time from start to end is divided into pages; a page is a doubly linked list of the disks whose next event falls
-// on it, in no order. The present page is searched for the first event whenever it is asked for; pages are so short
-// that it holds one or two. An entry that becomes invalid moves to its new page, so that none has to be recognised and
-// dropped. Where events crowd, pages are made shorter, and a page on which they crowd all the same is put in order.
+// A calendar queue. The time from start to end is divided into pages; a page is a doubly linked list, in no order, of
+// the disks whose next event falls on it. The present page is searched whenever the first event is asked for; pages are
+// so short that it holds one or two. When a disk is predicted again its entry moves to another page, so that there are
+// no invalid entries. Where too many events fall on a page, pages are made shorter, and where that does not help the
+// page is sorted.
 //
-// Where there are many disks, neither a page nor the disks on it are in a cache: an entry for a page that comes later
-// is written to it some moves later, when the page has been prefetched, and the disks of pages that come soon are
-// announced. There, the time is divided part after part, so that pages take less memory than the disks' entries.
+// Where there are many disks, neither a page nor the disks on it are in a cache. So an entry for a later page waits in
+// transit for some moves, until the page has been prefetched, and disks on pages that come soon are announced, so that
+// their data can be prefetched. The time is then divided in several parts one after another, so that pages take less
+// memory than the disks' entries.
 class EventCalendar {
  public:
   // How often a disk is announced before its event comes.
   static constexpr int stages = 3;
 
-  // Empties the calendar, for events in [start, end] of these disks; about `expected` of them, if that is known.
-  // many: announces what comes soon. The entries outlive the calendar's use.
+  // Empties the calendar, for events of these disks in [start, end]. expected: about how many; 0 if not known. many:
+  // there are so many disks that events that come soon are announced. The entries outlive the calendar's use.
   void begin(double start, double end, const CalendarEntries& disks, std::size_t expected, bool many);
 
   // Gives back the memory of the pages; begin() is next.
   void release_memory();
 
-  // Enters the disks with the times that their entries have, before any event is asked for. `never` and other times
-  // beyond the end are allowed. is_in(disk): otherwise it is not in the calendar, until it is moved.
+  // Enters the disks with the times of their entries, before any event is asked for. `never` and other times beyond the
+  // end are allowed. A disk for which is_in(disk) is false is not in the calendar until it is moved.
   template <class IsIn>
   void insert_all(IsIn&& is_in) {
-    // In registers, as entries are written in between.
+    // Copies in registers: stores to entries could change the members otherwise.
     const PageOfTime page_of = pages_of_times();
     Node* const node = node_;
     std::uint32_t* const first = first_.data();
@@ -62,14 +66,14 @@ class EventCalendar {
       }
     }
   }
-  // The disk's next event is at another time; a disk that was taken out is in again. comes_first: as in find_first.
-  // Inlined, with what it calls, whatever the compiler thinks: the loop of every collision calls it twice.
+  // Gives the disk's next event another time; a disk that was taken out is in the calendar again. comes_first: as in
+  // find_first. Always inlined, with what it calls: every collision calls it twice.
   template <class ComesFirst>
   [[gnu::always_inline]] void move(std::uint32_t disk, double time, ComesFirst comes_first) {
     unlink(disk);
     node_[disk].time = time;
     const std::uint32_t page = page_of(time);
-    // One comparison for two: before them is after all others.
+    // One comparison in place of two: as a number without sign, a page before unsorted_from_ is larger than all others.
     if (page - unsorted_from_ > pages_written_at_once_) {
       page < unsorted_from_ ? link_in_order(disk, comes_first) : post(disk, page);
     } else {
@@ -85,9 +89,9 @@ class EventCalendar {
   double time_of(std::uint32_t disk) const { return node_[disk].time; }
   [[gnu::always_inline]] void prefetch(std::uint32_t disk) const { __builtin_prefetch(&node_[disk]); }
 
-  // The disk whose event is the first one up to the end, and its time; false if there is none. It stays where it is
-  // until it is moved. comes_first(a, b): of two disks with events at the same time, does that of a come first?
-  // soon(disk, stage) is called for disks of pages that come soon, stage < stages. Inlined as move is.
+  // Finds the disk whose event is the first one up to the end, and its time; false if there is none. The disk stays in
+  // the calendar until it is moved. comes_first(a, b): of two disks with events at the same time, does that of a come
+  // first? Announces disks on pages that come soon: soon(disk, stage), stage < stages. Inlined as move is.
   template <class ComesFirst, class Soon>
   [[gnu::always_inline]] bool find_first(std::uint32_t& disk, double& time, ComesFirst comes_first, Soon soon) {
     for (;;) {
@@ -118,24 +122,24 @@ class EventCalendar {
 
  private:
   using Node = CalendarEntry;
-  // In place of a previous disk: page_bit and the page that begins with this one; in transit, in_transit and the place
-  // there; absent.
+  // What Node::previous is in place of a disk: the page that begins with this disk, with page_bit; in_transit, where
+  // `next` is the place in transit; absent, of a disk that is not in the calendar.
   static constexpr std::uint32_t page_bit = 0x80000000U;
   static constexpr std::uint32_t absent = 0xffffffffU;
-  static constexpr std::uint32_t in_transit = 0xfffffffeU;  // Node::next is the place
-  // More than so many entries on a page are not searched.
+  static constexpr std::uint32_t in_transit = 0xfffffffeU;  // an entry that waits to be written to its page
+  // A page with more entries than this is not searched each time: pages are shortened, or it is sorted.
   static constexpr std::uint32_t crowd = 64;
-  // From one announcement to the next.
+  // Disks that are announced between two announcements of a disk.
   static constexpr std::uint32_t disks_a_stage = 2;
   static constexpr std::uint32_t pages_ahead = 9;
-  // Only entries of later pages are kept back.
+  // Only entries for pages further ahead than this go into transit.
   static constexpr std::uint32_t pages_of_transit = 2 * pages_ahead;
   static constexpr std::uint32_t places_in_transit = 8;
-  // The disks of a page that are announced, and those of all pages when one is turned; more are rare.
+  // At most so many disks of a page are announced, and at most so many of all pages when one is turned. More are rare.
   static constexpr std::uint32_t announced_a_page = 4;
   static constexpr int announced_at_once = 3;
 
-  // An entry of a page that comes soon, and how many of its list, with itself, are to be announced.
+  // An entry of a page that comes soon, and how many disks of its list, from this one on, are to be announced.
   struct Followed {
     std::uint32_t disk;
     std::uint32_t left;
@@ -147,13 +151,13 @@ class EventCalendar {
     std::uint32_t page;
   };
 
-  // Which page a time is on: the present one, or a later one, if it is before that.
+  // The page that a time is on; of a time before the present page, the present page.
   struct PageOfTime {
     double start, end, pages_per_time, last_page;
     std::uint32_t present, pages;
     [[gnu::always_inline]] std::uint32_t operator()(double time) const {
       const double page = std::min((time - start) * pages_per_time, last_page);
-      // What is long before the present page is below 0. In this order what is no number is, too.
+      // A time long before the present page gives a number below 0. With the operands in this order, NaN does, too.
       const auto p = static_cast<std::int32_t>(std::max(-1.0, page));
       if (time <= end) [[likely]]
         return static_cast<std::uint32_t>(std::max(p, static_cast<std::int32_t>(present)));
@@ -184,7 +188,7 @@ class EventCalendar {
     }
     node_[left.next].previous = left.previous;
   }
-  // Takes the place of the entry that has been in transit longest, which is delivered.
+  // Puts an entry into transit, in the place of the one that has been there longest, which is written to its page.
   [[gnu::noinline]] void post(std::uint32_t disk, std::uint32_t page) {
     Transit& oldest = transit_[next_place_];
     if (oldest.disk != end_of_list_) link(oldest.disk, oldest.page);
@@ -193,7 +197,7 @@ class EventCalendar {
     node_[disk].next = next_place_;
     __builtin_prefetch(&first_[page], 1);
     first_in_transit_ = std::min(first_in_transit_, page);
-    // The page of this one has come.
+    // The page of this one has been prefetched by now.
     const Transit& half_way = transit_[(next_place_ + places_in_transit / 2) % places_in_transit];
     if (half_way.disk != end_of_list_) __builtin_prefetch(&node_[first_[half_way.page]], 1);
     next_place_ = (next_place_ + 1) % places_in_transit;
@@ -205,15 +209,15 @@ class EventCalendar {
     }
     first_in_transit_ = absent;
   }
-  // The list of a page that comes soon is read entry after entry, each some pages after it has been prefetched.
-  // Whether there is one is as good as random: no branch depends on it.
+  // The list of a page that comes soon is read entry by entry, each some pages after it was prefetched. Whether there
+  // is a next entry cannot be predicted: no branch depends on it.
   void follow(std::uint32_t disk, std::uint32_t left) {
     const bool is_one = (disk != end_of_list_) & (left > 0) & (followed_end_ - followed_begin_ < followed_.size() - 1);
     __builtin_prefetch(&node_[disk]);
     followed_[followed_end_ % followed_.size()] = {disk, left};
     followed_end_ += static_cast<std::uint32_t>(is_one);
   }
-  // To the next page, of those that are not empty if none is announced; false if there is none.
+  // Turns to the next page, or, where none is announced, to the next one that is not empty; false if there is none.
   template <class Soon>
   [[gnu::always_inline]] bool turn_page(Soon soon) {
     if (many_) {
@@ -234,7 +238,7 @@ class EventCalendar {
     unsorted_from_ = page_ = std::min(page, pages_ - 1);
     return page < pages_;
   }
-  // Announces disks of pages that come soon, and once more those that were announced a little before. soon has to be
+  // Announces disks on pages that come soon for the first time, and earlier ones for their next stages. soon has to be
   // inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
   template <class Soon>
   [[gnu::noinline]] void announce(Soon soon) {
@@ -243,13 +247,13 @@ class EventCalendar {
     for (int m = 0; m < announced_at_once && followed_begin_ != come; ++m) {
       const Followed f = followed_[followed_begin_++ % followed_.size()];
       const Node node = node_[f.disk];
-      if (node.previous >= in_transit) continue;  // it has left its page since
+      if (node.previous >= in_transit) continue;  // it has moved since
       follow(node.next, f.left - 1);
       announced_[next_announced_ % announced_.size()] = f.disk;
       const auto announced = [&](std::uint32_t stage) {
         return announced_[(next_announced_ - stage * disks_a_stage) % announced_.size()];
       };
-      // One by one, so that each stage is inlined as what it is.
+      // One by one, so that the stage is a constant in each inlined call.
       soon(announced(0), 0);
       soon(announced(1), 1);
       soon(announced(2), 2);
@@ -293,24 +297,25 @@ class EventCalendar {
   double last_page_ = 0.0;
   std::uint32_t pages_ = 1;
   std::uint32_t page_ = 0;           // the present one
-  std::uint32_t unsorted_from_ = 0;  // that, or the next one if it is in order
+  std::uint32_t unsorted_from_ = 0;  // the present page, or the next one if the present one is sorted
   std::size_t pages_a_part_ = 1;
   std::size_t later_pages_ = 0;  // of the parts to come
   bool many_ = false;
-  // From the present one; entries of later ones are in transit first.
+  // Entries for pages at most this far ahead are written at once; others go into transit first.
   static constexpr std::uint32_t all_pages = 0xfffffffeU;
   std::uint32_t pages_written_at_once_ = all_pages;
-  std::uint32_t end_of_list_ = 0;  // an entry that is no disk's
+  std::uint32_t end_of_list_ = 0;  // the index of an entry that is no disk's
   std::array<Transit, places_in_transit> transit_{};
   std::uint32_t next_place_ = 0;
-  std::uint32_t first_in_transit_ = absent;  // a page; there is none before
-  std::array<Followed, 16> followed_{};      // in turn, from the one that begins to before the end
+  std::uint32_t first_in_transit_ = absent;  // no entry in transit is for an earlier page
+  std::array<Followed, 16> followed_{};      // used in turn: those from followed_begin_ to before followed_end_
   std::uint32_t followed_begin_ = 0, followed_end_ = 0;
   std::array<std::uint32_t, 8> announced_{};  // the last ones, in turn
   std::uint32_t next_announced_ = 0;
   Node* node_ = nullptr;  // of each disk, by storage index
   std::uint32_t first_disk_ = 0, last_disk_ = 0;
-  std::vector<std::uint32_t> first_;    // of each page, of what comes after the end, and one that is never empty
+  // The first disk of each page, and of what comes after the end; then an entry that is never empty.
+  std::vector<std::uint32_t> first_;
   std::vector<std::uint32_t> crowded_;  // scratch
 };
 

@@ -12,7 +12,7 @@ namespace carom {
 
 namespace {
 
-// |dr.dv| is rounded; what is a little above the limit is looked at too.
+// As |dr.dv| is rounded, contacts a little above the limit count as slow, too.
 constexpr double slow_margin = 1.0 + 1e-9;
 constexpr double ambiguous = std::numeric_limits<double>::quiet_NaN();
 
@@ -30,7 +30,7 @@ bool EventPredictor::comes_first(std::uint32_t i, const NextEvent& a, const Next
   return event_order(mark_of(*window_, i, a), mark_of(*window_, i, b));
 }
 
-// Of all rows of the list; FirstContact::neighbour is a storage index here.
+// The first contact with all neighbours, in the row and in wide rows. FirstContact::neighbour is a storage index here.
 FirstContact EventPredictor::first_contact(std::uint32_t i) const {
   const DiskRecord* const own = &window_->record[i];
   FirstContact first;
@@ -84,7 +84,7 @@ bool EventPredictor::sees_moving_images(const ListRow& row) const {
   return window_->rules.box.shear.acts() && (far_ || (row.sides & ListRow::images_move) != 0);
 }
 
-// By core's formulas: any images, any ties.
+// With core's formulas, which handle all images and ties.
 NextEvent EventPredictor::earliest_one_by_one(std::uint32_t i) const {
   const DiskRecord& own = window_->record[i];
   const ExactRules& rules = window_->rules;

@@ -12,8 +12,9 @@ namespace carom {
 
 struct NextEvent {
   double time = never;
-  Partner partner;       // of the disk whose event it is
-  bool lasting = false;  // a contact of the disk lasts (WindowState::close): the next window may see other events
+  Partner partner;  // of the disk whose event it is
+  // A contact of the disk lasts (WindowState::close): the rounding at the next window's start may give it other events.
+  bool lasting = false;
 };
 
 class EventPredictor {
@@ -27,12 +28,12 @@ class EventPredictor {
     see_far();
   }
 
-  // Does the kernel alone tell the disk's first event, but for what is ambiguous?
+  // Does the kernel alone find the disk's first event, unless that is ambiguous?
   [[gnu::always_inline]] bool kernel_tells(const ListRow& row) const {
     return ((row.sides | more_than_neighbours_) & ListRow::not_plain) == 0;
   }
-  // Then: its first contact. newest: no neighbour's segment starts later than the disk's own. near_border: which of the
-  // two relist distances it has.
+  // If so, its first contact. newest: no neighbour's segment starts later than the disk's own. near_border: which of
+  // the two relist distances applies to it.
   template <bool newest>
   FirstContact first_in(const ListRow& row, const DiskRecord& own, bool near_border) const {
     const auto kernel = row.is_inside() ? (newest ? kernels_.inside_newest : kernels_.inside)
@@ -44,10 +45,11 @@ class EventPredictor {
     return Partner::disk(i + static_cast<std::uint32_t>(std::int32_t{row.offset[place]}));
   }
 
-  // The earliest event of disk i with a side or a neighbour, up to the horizon, all on their present paths.
+  // The earliest event of disk i with a side, an obstacle or a neighbour, up to the horizon, if all stay on their
+  // present paths.
   NextEvent earliest(std::uint32_t i) const;
 
-  // To be called for every segment that begins, with its v^2.
+  // To be called with v^2 of every segment that begins.
   void note_speed(double v2) {
     if (v2 <= fastest2_) [[likely]]
       return;
@@ -77,7 +79,7 @@ class EventPredictor {
   PredictionKernels kernels_;
   std::array<PredictionConstants, 2> constants_;  // elsewhere, and near a border
   double fastest2_;                               // largest v^2 so far
-  // far_, as bits of a row's sides: then the kernel does not tell all.
+  // Set where far_ is: the kernel alone does not find all events then. As bits of ListRow::sides.
   std::uint8_t more_than_neighbours_ = 0;
   bool far_ = false;  // may a disk move so far that images beyond the nearest one, or crossing events, matter?
 };

@@ -21,7 +21,7 @@ bool is_plain(const WindowState& window) {
 }
 
 constexpr Count events_between_polls = 4096;
-// The calendar makes room for no more: windows aim at two.
+// The calendar is laid out for at most so many; windows aim at two.
 constexpr double most_events_a_disk = 2.2;
 
 }  // namespace
@@ -49,7 +49,8 @@ void EventProcessor<scope>::enter_all(double events_a_disk) {
                  static_cast<std::size_t>(expected), window_.looks_ahead);
   const auto is_active = [this](std::uint32_t i) { return !has_regions || record_[i].progress.is_active(); };
   calendar.insert_all(is_active);
-  // As nothing has happened yet, these may be predicted in any order, and the first page of the calendar stays short.
+  // Nothing has happened yet, so that disks that are due now may be predicted in any order; that keeps the calendar's
+  // first page short.
   for (std::uint32_t i = first; i < last; ++i) {
     if (window_.next_event_time(i) <= 0.0 && is_active(i)) predict_next_event<false>(i, 0.0);
   }
@@ -144,10 +145,11 @@ void EventProcessor<scope>::run_border() {
   }
 }
 
-// Of disks whose next events are at the same time: in canonical order; what is not a contact comes first.
+// Does the event of disk a come before that of disk b, which is at the same time? In canonical order; what is not a
+// contact comes first.
 template <Scope scope>
 bool EventProcessor<scope>::comes_first(std::uint32_t a, std::uint32_t b) const {
-  // One event, mostly: the first contact of both.
+  // Mostly it is one event: the two touch each other.
   if (record_[a].partner.is(b) && record_[b].partner.is(a)) [[likely]]
     return false;
   QueuedEvent first{0.0, 0, 0, a};
@@ -164,7 +166,7 @@ Count EventProcessor<scope>::poll_watch() {
   return events_between_polls;
 }
 
-// The ids of the disk's next event. An entry that is invalid by now may get any.
+// Sets the ids of the disk's next event. An event that is invalid by now may get any ids.
 template <Scope scope>
 void EventProcessor<scope>::name(QueuedEvent& e) const {
   const DiskRecord& f = record_[e.disk];
@@ -223,8 +225,8 @@ void EventProcessor<scope>::predict_next_slice(std::uint32_t i) {
   record_[i].partner = partner;
 }
 
-// Border: an event of the queue. It is invalid where the disk's events have been predicted again; an event of the same
-// time may have taken its place, and then there is another entry for that one.
+// Border: an event of the queue. It is invalid if the disk's events have been predicted again since. Another event may
+// then be at the same time; it has an entry of its own.
 template <Scope scope>
 void EventProcessor<scope>::process_border(const QueuedEvent& e) {
   const std::uint32_t i = e.disk;
@@ -235,9 +237,9 @@ void EventProcessor<scope>::process_border(const QueuedEvent& e) {
   if (present.id1 == e.id1 && present.id2 == e.id2) process(i, e.time);
 }
 
-// What the disk's next event is, if `next` is its earliest on its present path; nothing happens to it up to `from`.
-// When it has to be relisted is extrapolated no further than gravity bends the path little: that is later than `from`
-// then, however long the window is, so that relisting always makes progress.
+// The disk's next event, if `next` is its earliest on its present path and nothing happens to it up to `from`. The time
+// at which it has to be relisted is extrapolated only as far as gravity bends the path little. That time is later than
+// `from`, however long the window is, so that relisting always makes progress.
 template <Scope scope>
 ScheduledEvent EventProcessor<scope>::next_event(std::uint32_t i, double from, const NextEvent& next) {
   DiskRecord& record = record_[i];
@@ -273,7 +275,7 @@ inline bool EventProcessor<scope>::stays_listed(std::uint32_t i, double from, do
                       : lists_.stays_listed_bent(i, path, from, until, window_.rules.gravity, relist);
 }
 
-// Nearly always the kernel tells, and the disk stays listed up to then.
+// Nearly always the kernel alone gives the first event, and the disk stays listed until then.
 template <Scope scope>
 template <bool newest>
 void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
@@ -308,7 +310,7 @@ void EventProcessor<scope>::schedule_next(std::uint32_t i, double from, const Ne
   schedule(i, time, partner);
 }
 
-// Of a disk whose path begins at this time: but for the border pass no neighbour's begins later.
+// For a disk whose path begins at this time. Outside the border pass, no neighbour's path begins later.
 template <Scope scope>
 void EventProcessor<scope>::predict_after_event(std::uint32_t i, double time) {
   predict_next_event<scope != Scope::border>(i, time);

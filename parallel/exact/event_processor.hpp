@@ -1,4 +1,5 @@
-// The events of a slice in order of time: of all disks, of a region's as far as their motion is known, or of the rest.
+// Processes the events of a slice in order of time: of all disks, of a region's disks as far as their motion is known,
+// or of the rest.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@
 
 namespace carom {
 
-// Whose events are processed. Motion that is not known, and whatever follows from it, is there only with regions.
+// Whose events are processed. Only with regions are there disks whose motion is not known.
 enum class Scope : std::uint8_t {
   all,     // of all disks: a single queue
   part,    // of a thread's part of the box and its halo: likewise, but what happens to the halo is not counted
@@ -44,17 +45,17 @@ class EventProcessor {
   void replace_path(std::uint32_t i);
   // Border: queues the disk's next event, if it is within the slice.
   void push_next_event(std::uint32_t i);
-  // Border, at the slice's end: relists those of the disks that are marked relists_late, as far as their lists are
-  // within the worker's region, and predicts their next events.
+  // Border, at the slice's end: relists those of the disks that are marked relists_late and whose lists are within the
+  // worker's region, and predicts their next events.
   void relist_late(const std::vector<std::uint32_t>& disks);
-  // Border: the disk, whose path at the slice's end is known, is listed anew if it has moved too far, and is not gone.
+  // Border, when the path at the slice's end is known: relists the disk if it has moved too far, and is not gone.
   void relist_if_due(std::uint32_t i);
-  // Border, after the slice, where no other thread works: relists disk i unless it is within the relist distance of
-  // disks near a border, and marks what that means for the next slice.
+  // Border, after the slice, while no other thread works: relists disk i unless it is within the relist distance of
+  // disks near a border, and sets the marks for the next slice that follow.
   void relist_if_far(std::uint32_t i);
   // Border: predicts the disk's next event, after the slice.
   void predict_next_slice(std::uint32_t i);
-  // Border: what a new list means for the next slice; no other thread works.
+  // Border: sets the marks for the next slice that follow from the disk's new list; no other thread works.
   void mark_relisted(std::uint32_t i) { safe_times_.mark_relisted_at_border(i); }
   // Processes all events of the slice; stops early where the worker's `ended` is set.
   void run();
@@ -126,7 +127,7 @@ class EventProcessor {
   EventPredictor predictor_;
   DiskRecord* record_;
   bool is_plain_;
-  bool is_straight_;     // neither gravity nor a shear bends paths from where lists take disks to go
+  bool is_straight_;     // neither gravity nor a shear acts
   double reduced_mass_;  // of two disks of a plain scene
   InnerPart inner_part_;
   // Of the last collisions of a plain scene, which are not tallied yet.

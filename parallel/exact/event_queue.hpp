@@ -14,17 +14,19 @@ namespace carom {
 
 struct QueuedEvent {
   double time = 0.0;
-  // Of a contact: the ids of the two; 0, 0 for anything else that is to be done for the disk, which comes first then.
+  // Of a contact: the ids of the two. Of anything else that is to be done for the disk 0 and 0, so that it comes before
+  // contacts at the same time.
   DiskId id1 = 0, id2 = 0;
   std::uint32_t disk = 0;  // storage index
 };
 
-// An event is written on the page of its time, unordered; a page is ordered when its time comes, by a heap if it holds
-// many. So the cost of an event does not depend on how many there are, and little memory is touched but the present
-// page. Invalidated events stay in the queue; the caller recognises and drops them.
+// An event is written on the page of its time, in no order; when the time of a page comes, it is made a heap if it
+// holds many events. So the cost of an event does not depend on how many there are, and hardly any memory but that of
+// the present page is touched. Invalidated events stay in the queue; the caller recognises and drops them.
 class EventQueue {
  public:
-  // Empties the queue, for about `expected` events in [start, end). Other numbers and times are right too, but slower.
+  // Empties the queue, for about `expected` events in [start, end). With more events, or other times, it is only
+  // slower.
   void begin(double start, double end, std::size_t expected);
 
   void push(const QueuedEvent& e) {
@@ -79,14 +81,14 @@ class EventQueue {
   };
   static_assert(sizeof(Chunk) == 128);
 
-  // So few are searched faster than a heap is kept.
+  // Searching at most so many events is faster than keeping a heap.
   static constexpr std::size_t few_events = 12;
 
   void make_heap() {
     std::make_heap(now_.begin(), now_.end(), LaterEvent{});
     is_heap_ = true;
   }
-  // Which of them is first is as good as random: no branch depends on the times, except on equal ones.
+  // Which of them is the first cannot be predicted: no branch depends on the times, unless two are equal.
   std::size_t first_of_few() const {
     std::size_t first = 0;
     for (std::size_t k = 1; k < now_.size(); ++k) {

@@ -1,5 +1,5 @@
-// The kernel of the neighbour lists: which disks of some runs are near a position. One version for each instruction
-// set.
+// The kernels of the neighbour lists: which disks of some runs of slots are near a position, and how a list changes.
+// One version for each instruction set.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace carom {
 
-// What a slot has of a listed position: 16 of its bits, from the same one upwards for all. Differences wrap round too;
-// those of places that are far from each other say nothing.
+// The part of a listed position that a slot holds: 16 bits of each coordinate, the same ones for all disks. Differences
+// wrap round along a period here too; those of places that are far from each other mean nothing.
 struct SlotPosition {
   std::uint16_t x = 0, y = 0;
 };
@@ -18,12 +18,12 @@ struct SlotPosition {
 // Lengths are in units of the coarser coordinate of a SlotPosition.
 struct ListQuery {
   SlotPosition position;
-  std::int16_t unit_x = 0, unit_y = 0;  // of a SlotPosition, in 2^-15 of that unit
+  std::int16_t unit_x = 0, unit_y = 0;  // the steps of a SlotPosition, in 2^-15 of that unit
   float cutoff = 0.0F;                  // without the two radii; length
   float radius = 0.0F;                  // of the disk, or of all disks; length
   std::uint32_t self = 0;               // is not its own neighbour
 };
-// Whole numbers of units, so that the distance of two places is as far off as this at most; length.
+// Coordinates are whole numbers of units, so that the distance of two places is off by at most this; length.
 inline constexpr double list_kernel_rounding = 2.2;
 
 // By slot.
@@ -40,7 +40,7 @@ struct SlotRun {
 };
 inline constexpr std::uint32_t slots_a_cell = 8;
 
-// All versions do these operations in this order, so that they find the same disks, and each of two disks the other.
+// All versions do these operations in this order. So they find the same disks, and of two disks each finds the other.
 inline bool is_neighbour(const ListQuery& q, SlotPosition p, float radius) {
   const auto distance = [](std::uint16_t a, std::uint16_t b, std::int16_t unit) {
     const int difference = static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b));
@@ -64,15 +64,15 @@ std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& colu
 std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
                              std::uint32_t* found);
 
-// What is another list in place of the one in a row.
+// How a list in a row differs from the new one that takes its place.
 struct ListChange {
   bool fits = true;               // otherwise the rest means nothing: the new list does not fit in a row
   std::uint32_t stay = 0;         // bit k: the neighbour at place k of the old list is in the new one
   std::uint32_t fresh_count = 0;  // how many of the new list are not in the old one
 };
 
-// Where the new list goes: all its offsets, and those of its disks that are not in the old list. Room for
-// row_offsets and, of the latter, one more.
+// Where the new list is written: offset, all its offsets, with room for row_offsets; fresh, its disks that are not in
+// the old list, with room for one more than that.
 struct NewList {
   std::int16_t* offset;
   std::uint32_t* fresh;
@@ -87,15 +87,15 @@ ListChange change_kernel_baseline(const void* row, std::uint32_t count, std::uin
 ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
                               std::size_t new_count, const NewList& to);
 
-// Takes disk i into the rows of some disks, or out of them, where there is room for it and it is there, and returns how
-// many are left to do: the first ones of `disks` then. Offsets beyond a list, up to the next multiple of `row_padding`
-// places, are ones that it has.
+// Adds disk i to the rows of some disks that have room for it, or removes it from the rows of those that have it.
+// Returns how many of the disks are left to do; they are then the first ones of `disks`. Offsets beyond a list, up to
+// the next multiple of `row_padding` places, are ones that it has.
 using EditKernel = std::uint32_t (*)(ListRow* rows, std::uint32_t i, std::uint32_t* disks, std::uint32_t count);
 struct EditKernels {
   EditKernel insert, remove;
 };
 
-// These leave all to do.
+// The baseline leaves all of them to do.
 EditKernels edit_kernels_baseline();
 EditKernels edit_kernels_avx2();
 

@@ -12,7 +12,7 @@ struct FixedPointPosition {
   std::uint32_t x = 0, y = 0;
 };
 
-// Most neighbours are stored nearby, so that offsets to them fit in 16 bits.
+// Neighbours in a row: most neighbours are stored so near that offsets to them fit in 16 bits.
 inline constexpr std::uint32_t row_offsets = 24;
 // Offsets beyond a list, up to the next multiple of so many places, are ones that it has.
 inline constexpr std::uint32_t row_padding = 4;
@@ -38,7 +38,7 @@ struct alignas(64) ListRow {
   static constexpr unsigned images_move = 1U << 7;
   // Bits of `sides` that a list has from which the prediction kernel does not tell the disk's first event.
   static constexpr unsigned not_plain = images_move | obstacle_near | has_more | (across - 1U);
-  // Are the disk and its neighbours, while they stay listed, on one side of each such border?
+  // While they stay listed, are the disk and its neighbours on one side of each border along a period?
   bool is_inside() const { return (sides & across) == 0; }
 };
 static_assert(sizeof(ListRow) == 64);

@@ -14,13 +14,13 @@ namespace carom {
 
 namespace {
 
-// Of disks that come to be neighbours of one: always so many, which takes no branch. More are rare.
+// How many rows of new neighbours are prefetched: always the same number, which takes no branch. More are rare.
 constexpr std::uint32_t prefetched_rows = 4;
 
-// Puts the offset at place `count` and at what is left of the kernel's batch then. capacity: of the list.
+// Puts the offset at place `count` and fills the rest of the kernel's batch with it. capacity: of the list.
 template <std::uint32_t capacity>
 void put_and_pad(std::int16_t* offsets, std::uint32_t count, std::int16_t offset) {
-  // At once; some places more do no harm, and cost no branch.
+  // Four at once: some places too many do no harm, and it costs no branch.
   using Four = std::int16_t __attribute__((vector_size(8)));
   const Four four = {offset, offset, offset, offset};
   static_assert(sizeof four == prediction_lanes * sizeof offset);

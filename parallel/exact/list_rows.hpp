@@ -17,19 +17,19 @@ namespace carom {
 struct ListRegion {
   std::uint32_t first_key = 0, last_key = 0xffffffffU;    // cells [first, last)
   std::uint32_t first_disk = 0, last_disk = 0xffffffffU;  // disks stored in [first, last)
-  // A coordinate of listed positions: those in [core, core + core_size) can be listed again by this thread alone,
-  // wherever within reach they are when they are due.
+  // The core: disks whose listed position has a coordinate in [core, core + core_size) can be relisted by this thread
+  // alone, wherever they are when they are due.
   bool core_is_of_x = false;
   std::uint32_t core = 0, core_size = 0xffffffffU;
   bool holds(std::uint32_t disk) const { return disk >= first_disk && disk < last_disk; }
   bool is_everything() const { return first_disk == 0 && last_disk == 0xffffffffU; }
 };
 
-// Which disk is in which list; what makes them neighbours is not known here (neighbour_lists.hpp).
+// Stores which disks are in which list; what makes two disks neighbours is the business of NeighbourLists.
 class ListRows {
  public:
-  // Rows for this many disks, in blocks of disks that share memory for long lists: a block is for one thread at a time.
-  // What is in them is as it was, to be set anew. There is room for a few more.
+  // Makes rows for this many disks, in blocks of disks that share memory for long lists: a block is for one thread at a
+  // time. Rows keep what was in them, until it is set anew. There is room for a few more disks.
   void begin(std::size_t disks, std::size_t blocks);
   std::size_t size() const { return rows_.size(); }
   void release() { std::vector<Row>().swap(rows_); }
@@ -41,8 +41,8 @@ class ListRows {
 
   static constexpr std::uint32_t row_capacity = row_offsets;
   const ListRow& row(std::uint32_t i) const { return rows_[i]; }
-  // Calls visit(offset, count) for the neighbours of disk i that are not in its row: disks i + offset[k]. What follows
-  // up to the next multiple of prediction_lanes is one of them.
+  // Calls visit(offset, count) for the neighbours of disk i that are not in its row: disks i + offset[k]. Offsets
+  // beyond count, up to the next multiple of prediction_lanes, are ones of the list.
   template <class Visit>
   void visit_wide_rows(std::uint32_t i, Visit&& visit) const {
     const Row& row = rows_[i];
@@ -72,8 +72,8 @@ class ListRows {
     return within;
   }
 
-  // Between windows: one more disk, the last, with an empty list; and one less, whose list is empty and which no other
-  // disk lists.
+  // Between windows: adds a disk, the last, with an empty list; removes the last one, whose list is empty and which no
+  // other disk lists.
   void append(FixedPointPosition listed_at) {
     rows_.emplace_back();
     rows_.back().listed_at = listed_at;
@@ -90,8 +90,8 @@ class ListRows {
 
   // Gives disk i, whose list is empty, these neighbours.
   void set(std::uint32_t i, std::span<const std::uint32_t> near);
-  // Gives disk i another list, and takes it into or out of its neighbours' lists where that changes them. All of the
-  // new list is in the region. Disks of other regions that list disk i keep it: one too many does no harm.
+  // Gives disk i another list, and adds it to or removes it from the lists of the disks that this concerns. The whole
+  // new list is in the region. Disks of other regions that list disk i keep it: a neighbour too many does no harm.
   void replace(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region);
 
  private:

@@ -10,14 +10,14 @@ namespace carom {
 
 namespace {
 
-// Single precision finds a few too many rather than one too few.
+// Makes single precision find a few disks too many rather than one too few.
 constexpr double single_margin = 1.0 + 1e-5;
 // Runs of disks that the kernel searches in one call.
 constexpr std::size_t runs_at_once = 16;
 
 }  // namespace
 
-// In the kernel's units, a little more.
+// In the kernel's unit of length, rounded up a little.
 float NeighbourLists::radius_in_units(double radius) const {
   return static_cast<float>(flow_.stretch * radius * (slots_per_length_ * single_margin));
 }
@@ -26,7 +26,7 @@ void NeighbourLists::prepare_query(const Disks& d) {
   const auto share = [&](double unit) {
     return static_cast<std::int16_t>(std::min(std::floor(0x1p15 * (unit * slots_per_length_)), 0x1p15 - 1.0));
   };
-  // Each position is less than a unit of slots from where it says.
+  // Each position is rounded down by less than a unit of slots.
   const double reach = (2.0 * skin_ + slot_unit_x_ + slot_unit_y_) * slots_per_length_ + list_kernel_rounding;
   query_ = {};
   query_.unit_x = share(slot_unit_x_);
@@ -81,7 +81,7 @@ bool NeighbourLists::find_neighbours(const Disks& d, std::uint32_t i, FixedPoint
   return inside;
 }
 
-// Gravity may lead the disk a little elsewhere.
+// Takes no account of gravity: it is only a prefetch.
 void NeighbourLists::prefetch_search(const PathSegment& path, double radius, double time,
                                      const RelistDistance& relist) const {
   if (mode_ == EngineMode::all_pairs || flow_.acts) return;

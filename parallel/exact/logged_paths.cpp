@@ -8,8 +8,8 @@ namespace carom {
 
 namespace {
 
-// Of each disk the last segment that has begun by time s of the window; a worker's log has a disk's segments in order.
-// spin: gets that of rough disks whose segments are logged.
+// For each disk, the last segment that has begun by time s of the window; a worker's log has a disk's segments in
+// order. spin: set for rough disks whose segments are logged.
 std::vector<PathSegment> paths_at(const WindowState& window, const SliceScheduler& scheduler, double s,
                                   std::vector<unsigned char>& gone, std::vector<double>& spin) {
   std::vector<PathSegment> path(window.record.size());

@@ -14,8 +14,8 @@ namespace carom {
 
 namespace {
 
-// Disks whose lists share a vector where there are no tiles: enough that vectors are few, few enough to share out among
-// threads. Their number has 16 bits.
+// Without tiles: disks whose long lists share a vector. Enough that there are few vectors, and few enough to share them
+// out among threads. The number of a block has 16 bits.
 constexpr std::size_t disks_per_block = 4096;
 constexpr std::size_t most_blocks = 65536;
 // Twice the skin and a diameter make this many mean spacings: about eleven neighbours. Longer lists take longer to go
@@ -28,14 +28,14 @@ double cutoff_in_spacings(double packing_fraction) {
   return std::min(2.35 - 0.9 * packing_fraction, 1.95 + 1.1 * packing_fraction);
 }
 
-// Cells for disks that crowd are mostly empty: so many times as many at most where disks are many.
+// Where disks crowd most cells are empty: with many disks, at most so many times as many cells are made.
 constexpr double most_crowding_of_many = 8.0;
-// A disk is listed ahead of where it is by this share of the relist distance at most: it has to be within that
+// A disk is listed ahead of where it is by at most this share of the relist distance, since it has to be within that
 // distance.
 constexpr double most_lead = 0.8;
 // In very dense systems the skin is at least this share of a mean diameter.
 constexpr double least_skin = 0.08;
-// The skin in units of fixed point, whose rounding must not count.
+// The least skin in units of listed positions, so that their rounding does not matter.
 constexpr double least_units = 1024.0;
 constexpr double two_to_31 = 2147483648.0;
 
@@ -62,7 +62,7 @@ void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout, doubl
     radius = d.common_radius;
     area = n * std::numbers::pi * radius * radius;
   }
-  // That the disks have in the box, were there none of other ranks.
+  // The share of the box that these disks have, if the others have theirs.
   const double share = layout.disks_of_box > 0 ? n / static_cast<double>(layout.disks_of_box) : 1.0;
   const double space = share * box_.width * box_.height;
   const double packing_fraction = std::min(crowded * area / space, 1.0);
@@ -120,7 +120,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   if (mode_ != EngineMode::all_pairs) {
     const double crowded = mode_ == EngineMode::regions ? 1.0 : crowding(d, box, layout.disks_of_box);
     choose_skin(d, layout, crowded);
-    // That of the rows is given back for what sorting needs.
+    // The memory of the rows is given back, as sorting needs some.
     if (gives_back) rows_.release();
     sort(d, layout, crowded, executor);
     choose_slot_units();
@@ -134,8 +134,8 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   if (gives_back) std::vector<std::uint32_t>().swap(cells_.start);
 }
 
-// A disk is listed again within the relist distance of its listed position, and ahead of where it is by less; what it
-// lists then is within the reach of lists of that place.
+// How deep the core lies within the region: a disk is relisted within the relist distance of its listed position, at a
+// place that is ahead of it by less than that, and its new list reaches no further than lists do from there.
 ListRegion NeighbourLists::region_of_tiles(std::uint32_t first, std::uint32_t last) const {
   ListRegion region{first * grid_.tile_keys, last * grid_.tile_keys, first_disk_of(first), first_disk_of(last)};
   const double side = layers_along_x_ ? box_.width : box_.height;
@@ -258,7 +258,7 @@ unsigned NeighbourLists::find_sides(const Disks& d, std::uint32_t i) const {
   if (all_periodic_) return sides;
   for (const Side side : all_sides) {
     if (box_.side(side) == SideKind::periodic) continue;
-    // A side that moves may come as far as this.
+    // A side that moves may come this far into the box.
     const double furthest = box_.motions[static_cast<std::size_t>(side)].furthest;
     const double gap = -reach_beyond(side, position.x, position.y, d.radius_of(i), box_) - furthest;
     if (mode_ == EngineMode::all_pairs || gap <= skin_) sides |= 1U << static_cast<unsigned>(side);
@@ -317,8 +317,8 @@ bool NeighbourLists::find_list(std::uint32_t i, Vec2 at, const Disks& d, const L
   found.count = 0;
   found.at = fixed_point(at.x, at.y);
   if (mode_ == EngineMode::all_pairs) return true;
-  // Nor may one that is listed now, and would go on listing disk i: when it comes near again and is relisted, it would
-  // take disk i for one that lists it, too.
+  // Neighbours of the old list must be in the region, too: one elsewhere would go on listing disk i, and when it comes
+  // near again and is relisted, it would take disk i for one that lists it as well.
   if (!rows_.are_within(i, region) || !find_neighbours(d, i, found.at, region, found)) return false;
   const std::span<const std::uint32_t> near = found.disks();
   const auto held = [&](std::uint32_t j) { return region.holds(j); };

@@ -34,30 +34,31 @@ struct FoundNeighbours {
   void grow(std::size_t disks);
 };
 
-// Each disk has a listed position, where it was when it was listed, and may move by the skin from it. Disks i and j are
-// in each other's lists whenever their listed positions are within r_i + r_j + 2 skin (nearest image); so while both
-// are within the skin of their listed positions, disks that are not listed together cannot touch. A disk that has moved
-// by the relist distance, at most the skin, is listed again where it is. In all-pairs mode every disk lists every
-// other one, and none is ever relisted.
+// Each disk has a listed position, at or a little ahead of where it was when it was listed, and may move as far as the
+// skin from it. Disks i and j are in each other's lists whenever their listed positions are within r_i + r_j + 2 skin
+// (nearest image). So while both are within the skin of their listed positions, disks that do not list each other
+// cannot touch. A disk that is the relist distance from its listed position, at most the skin, is relisted. In
+// all-pairs mode every disk lists every other one, and none is ever relisted.
 class NeighbourLists {
  public:
   // Sorts the disks into cells (their storage order changes) and lists all of them where they are; in all-pairs mode
-  // they are not sorted. sorted: is called when they have been, before they are listed, with the place that each disk
-  // had before, and a column to use.
+  // they are not sorted. sorted(order, scratch) is called after sorting and before listing: order[i] is the index that
+  // disk i had before; scratch is a column to use.
   using Sorted = std::function<void(const std::vector<std::uint32_t>& order, std::vector<double>& scratch)>;
   void build(Disks& disks, const Domain& box, const ListLayout& layout, const Executor& executor,
              const Sorted& sorted = {});
 
-  // Before lists are built anew: the greater part of their memory, so that there is room for what comes before.
+  // Gives back the greater part of the lists' memory before they are built anew, so that there is room for what comes
+  // before that.
   void release_rows() { rows_.release(); }
 
-  // In a sheared box, before lists are built for a window that starts then and is so long, and at the start of each
-  // window; box: at that time. No operation elsewhere.
+  // In a sheared box: follow_flow before lists are built for a window that starts at `start` and has this length;
+  // carry_flow at the start of each window. box: at that time. follow_flow does nothing elsewhere.
   void follow_flow(const Domain& box, double start, double length);
   void carry_flow(const Domain& box, double start);
   // Has the flow carried disks so far by time t that the lists are to be built anew?
   bool is_strained(double t) const { return std::abs(flow_.rate) * (t - flow_.built_at) > flow_.strain; }
-  // Where a disk is listed whose path begins here: ahead of it, in the middle of where it is about to be.
+  // Where to list a disk whose path begins at p: a little ahead of it, in the middle of where it is about to be.
   Vec2 listing_place(const PathSegment& p, const Domain& box, const RelistDistance& relist) const {
     if (flow_.acts) [[unlikely]]
       return into_flow(p.x, p.y, p.start);
@@ -67,7 +68,7 @@ class NeighbourLists {
     const double y = p.y + lead * p.vy;
     return {box.periodic_x() ? wrap(x, box.width) : x, box.periodic_y() ? wrap(y, box.height) : y};
   }
-  // For how long disks keep their velocities, about: they are listed as far ahead as they go in that time.
+  // About how long disks keep their velocities: they are listed as far ahead as they go in that time.
   void set_lead_time(double t) { lead_time_ = t; }
 
   EngineMode mode() const { return mode_; }
@@ -78,15 +79,15 @@ class NeighbourLists {
   // Of disk i; inside the box, but for rounding.
   Vec2 listed_position(std::uint32_t i) const { return position_of(rows_.listed_at(i)); }
 
-  // Tiles are runs of disks in storage that are neighbours in space, and layers are runs of as many tiles each, which
-  // reach from one of the box's longer sides to the other; one where there are no regions.
+  // A tile is a run of disks in storage that are neighbours in space. A layer is a run of tiles that reaches from one
+  // of the box's longer sides to the other. Without regions there is one tile.
   std::uint32_t tiles() const { return grid_.tiles; }
   std::uint32_t tiles_a_layer() const { return grid_.tiles_a_layer; }
   std::uint32_t first_disk_of(std::uint32_t tile) const { return first_of_tile_[tile]; }
   ListRegion region_of_tiles(std::uint32_t first, std::uint32_t last) const;
-  // The region's core is what lies between these heights of the box; length.
+  // Makes what lies between these heights of the box the region's core; length.
   void set_core_between(double low, double high, ListRegion& region) const;
-  // Is the disk listed so deep within the region that it can be listed again there?
+  // Is the disk listed so deep within the region that it can be relisted there? (ListRegion)
   bool is_in_core(std::uint32_t i, const ListRegion& region) const {
     const FixedPointPosition at = rows_.listed_at(i);
     return (region.core_is_of_x ? at.x : at.y) - region.core < region.core_size;
@@ -94,8 +95,8 @@ class NeighbourLists {
   // Of disk i, where there are regions.
   std::uint32_t tile_of(std::uint32_t i) const { return rows_.block_of(i); }
 
-  // No path at this speed (v^2) or less leads to any other image of a neighbour than the nearest one within a window
-  // of this length, nor a quarter round the box. Negative: any may.
+  // The v^2 up to which, in a window of this length, no disk meets any image of a neighbour but the nearest one, nor
+  // flies a quarter of the way round the box. Negative: at any speed it may.
   double safe_speed2(double length, double g) const;
 
   // Calls visit(j) for each neighbour j of disk i.
@@ -143,7 +144,7 @@ class NeighbourLists {
     return flow_.acts ? stays_listed_in_flow(i, path, from, until)
                       : stays_listed_falling(i, path, from, until, g, relist);
   }
-  // Is a disk that is here now within the skin of its listed position, however it moves over this distance? Not in a
+  // Is disk i, at (x, y) now, within the skin of its listed position however it moves over this distance? Not in a
   // sheared box.
   bool stays_in_skin(std::uint32_t i, double x, double y, double distance) const {
     const double room = skin_ * (1.0 - 1e-9) - distance;
@@ -155,10 +156,10 @@ class NeighbourLists {
     return (x < 0.0 && period_x_ > 0.0) || (y < 0.0 && period_y_ > 0.0) || (x >= period_x_ && period_x_ > 0.0) ||
            (y >= period_y_ && period_y_ > 0.0);
   }
-  // A path may leave the box along a period, and lead far into it from the other side: then its coordinates are not
-  // those of the place where the disk is listed, and disks there must look for images. How far from the border a disk
-  // is listed here whose path has come to p; 0 where it is in the box, or so near the border that all disks there look
-  // for images (find_inner_part). Length.
+  // A path may leave the box along a period and lead far into it from the other side. Its coordinates are then not
+  // those of the place where the disk is listed, so that disks there must look for images. Returns how far from the
+  // border a disk is listed whose path has come to p; 0 where p is in the box, or the disk so near the border that all
+  // disks there look for images anyway (find_inner_part). Length.
   double depth_beyond_border(const PathSegment& p, Vec2 listed) const {
     const double near = 2.0 * skin_ * (1.0 - 1e-6);
     const auto depth = [near](double c, double at, double period) {
@@ -170,7 +171,7 @@ class NeighbourLists {
     const double deep_y = depth(p.y, listed.y, period_y_);
     return flow_.acts ? deep_y : std::max(depth(p.x, listed.x, period_x_), deep_y);
   }
-  // May a disk that is listed here list one that is so far from a border along a period?
+  // May a disk that is listed here list one at this depth from a border along a period?
   bool may_list_at_depth(Vec2 listed, double depth) const {
     const double reach = depth + 2.0 * flow_.stretch * largest_radius_ + 2.0 * skin_ + search_margin_;
     const auto is_near = [reach](double at, double period) {
@@ -190,18 +191,18 @@ class NeighbourLists {
   bool relist(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region, FoundNeighbours& found) {
     return find_list(i, position, disks, region, found) && take_list(i, disks, region, found);
   }
-  // The same in two steps, between which the disks of the new list may be prefetched: what the list is to be, in
-  // `found`, and then, if nothing else has changed, the change. Each may say no.
+  // The same in two steps, between which the disks of the new list may be prefetched. find_list finds the new list, in
+  // `found`; take_list, if nothing else has changed since, makes the change. Each may return false.
   bool find_list(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region,
                  FoundNeighbours& found) const;
   bool take_list(std::uint32_t i, const Disks& disks, const ListRegion& region, const FoundNeighbours& found);
 
-  // Between windows, with a single queue: disk i is new, the first one behind those that are listed, and is here; disk
-  // i is to go, and the last one takes its number. The columns are those with both.
+  // Between windows, with a single queue. append: disk i, the first one behind those that are listed, is new and at
+  // this place. remove: disk i is to go, and the last one takes its index. The columns hold the disk in both calls.
   void append(const Disks& disks, std::uint32_t i, Vec2 at);
   void remove(std::uint32_t i, const Disks& disks);
 
-  // Calls visit(j) for all disks whose centres may be within half a width and a height of a place; for others too. Not
+  // Calls visit(j) for all disks whose centres may be within half_width and half_height of a place; for others too. Not
   // in all-pairs mode.
   template <class Visit>
   void visit_near(Vec2 centre, double half_width, double half_height, Visit&& visit) const {
@@ -266,7 +267,7 @@ class NeighbourLists {
     const Vec2 d = nearest_image_of({x - listed.x, y - listed.y});
     return d.x * d.x + d.y * d.y < distance2;
   }
-  // Of a difference of places; but for rounding.
+  // The nearest image of a difference of places, except for rounding.
   Vec2 nearest_image_of(Vec2 d) const {
     // To the nearest whole number.
     constexpr double shift = 0x1.8p52;
@@ -292,7 +293,7 @@ class NeighbourLists {
     return {static_cast<std::uint16_t>(p.x >> slot_shift_x_), static_cast<std::uint16_t>(p.y >> slot_shift_y_)};
   }
   Vec2 position_of(FixedPointPosition p) const { return {p.x * unit_x_, p.y * unit_y_}; }
-  // At least as far, in units of listed positions; or far enough for the whole side.
+  // A length in units of listed positions, rounded up; at most as much as the whole side needs.
   static std::uint32_t listed_units(double length, double units_per_length) {
     constexpr double most = 0x1p31;
     return static_cast<std::uint32_t>(std::min(length * units_per_length * (1.0 + 1e-9) + 2.0, most));
@@ -337,8 +338,8 @@ class NeighbourLists {
   bool may_touch_obstacle(Vec2 listed, double radius) const;
   unsigned find_sides(const Disks& disks, std::uint32_t i) const;
 
-  // Share of the relist distance that gravity or the flow may bend a path by before earliest_relist_time is asked
-  // again.
+  // How far gravity or the flow may bend a path before earliest_relist_time has to be asked again, over the relist
+  // distance.
   static constexpr double bend_share = 0.1;
 
   EngineMode mode_ = EngineMode::single_queue;
@@ -362,12 +363,12 @@ class NeighbourLists {
   double units_per_x_ = 0.0, units_per_y_ = 0.0;           // 1 / unit
   double slot_unit_x_ = 0.0, slot_unit_y_ = 0.0;           // of a SlotPosition; length
   double slots_per_length_ = 0.0;                          // 1 / the coarser of the two
-  ListQuery query_;                                        // of any disk, its radius apart, where it is and which it is
+  ListQuery query_;                                        // what the queries of all disks have in common
   std::uint32_t common_reach_x_ = 0, common_reach_y_ = 0;  // of lists, where all radii are equal: as listed_units
-  // Disks that are this much further from each other than lists reach may be listed all the same: each of the two finds
-  // the other. Length.
+  // Two disks that are further from each other than lists reach, by this at most, may list each other all the same.
+  // Length.
   double search_margin_ = 0.0;
-  unsigned slot_shift_x_ = 0, slot_shift_y_ = 0;  // a SlotPosition has its bits from this one on
+  unsigned slot_shift_x_ = 0, slot_shift_y_ = 0;  // the lowest bit of a listed position that is in a SlotPosition
   ListRows rows_;
   CellSlots slots_;
   ListKernel kernel_ = choose_list_kernel();

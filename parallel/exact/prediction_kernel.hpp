@@ -54,7 +54,7 @@ struct PredictionConstants {
     return numbers;
   }();
 
-  // For images beyond the nearest one alone.
+  // Used only for images beyond the nearest one.
   LaneConstant image_x = in_all_lanes(carom::never), image_y = in_all_lanes(carom::never);  // period; never: none
   LaneConstant contact = in_all_lanes(0.0);               // of equal disks: contact distance
   LaneConstant horizon = in_all_lanes(0.0);               // time up to which contacts matter

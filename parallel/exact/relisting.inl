@@ -1,5 +1,5 @@
-// When a disk is listed anew: the part of EventProcessor that asks for it. Included by event_processor.cpp alone, so
-// that it is inlined there.
+// When disks are relisted: a part of EventProcessor. Included by event_processor.cpp alone, so that it is inlined
+// there.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline bool EventProcessor<scope>::relist_at(std::uint32_t i, double time, Vec2 
   const Disks& d = *window_.disks;
   if (!lists_.find_list(i, at, d, worker_.region, worker_.found)) return false;
   if (window_.looks_ahead) {
-    // Those that are new in the list have not been read; they come while rows change.
+    // The disks that are new in the list have not been read yet; they are prefetched while rows change.
     for (const std::uint32_t j : worker_.found.disks()) __builtin_prefetch(&record_[j]);
   }
   if (!lists_.take_list(i, d, worker_.region, worker_.found)) return false;
@@ -37,7 +37,8 @@ void EventProcessor<scope>::relist_and_predict(std::uint32_t i, double time) {
   }
 }
 
-// Near borders disks are relisted sooner, since it may have to wait for a slice's end; one queue has none.
+// Near borders disks are relisted sooner, since relisting may have to wait for a slice's end. With one queue there are
+// no borders.
 template <Scope scope>
 inline bool EventProcessor<scope>::is_near_border(std::uint32_t i) const {
   if (scope != Scope::region) return has_regions;
@@ -51,8 +52,8 @@ bool EventProcessor<scope>::stays_in_skin(std::uint32_t i, double time) const {
   return lists_.stays_in_skin(i, p.x, p.y, window_.speed_bound * (window_.slice_stop() - time));
 }
 
-// Region: what happens to the disk from now on waits for the border pass, and so does relisting; so it is relisted now
-// if it could leave its skin before the slice's end. Where that cannot be done here the window is void; it is run again
+// Region: the disk's further events wait for the border pass, and relisting does, too. So the disk is relisted now if
+// it could leave its skin before the slice's end. Where this thread cannot do that the window is void; it is run again
 // with new lists and shorter slices.
 template <Scope scope>
 void EventProcessor<scope>::block(std::uint32_t i, double time) {
@@ -64,7 +65,7 @@ void EventProcessor<scope>::block(std::uint32_t i, double time) {
   safe_times_.block(i, time);
 }
 
-// Where the disk cannot be listed where it is: it is listed no further from its listed position than it has to be.
+// Where the disk cannot be listed where it is, its listed position is moved only as far as it has to be.
 template <Scope scope>
 bool EventProcessor<scope>::relist_a_little(std::uint32_t i, double time) {
   PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
@@ -122,7 +123,7 @@ void EventProcessor<scope>::relist_if_far(std::uint32_t i) {
   if (is_far) mark_relisted(i);
 }
 
-// False if that would change the lists of another region, or make it a disk at a border.
+// Returns false, without a change, if that would change lists of another region or bring the disk to a border.
 template <Scope scope>
 bool EventProcessor<scope>::relist(std::uint32_t i, double time, const RelistDistance& ahead) {
   const PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
@@ -134,8 +135,8 @@ bool EventProcessor<scope>::relist(std::uint32_t i, double time, const RelistDis
   return true;
 }
 
-// Where its path has left the box and leads far into it from the other side. In the rest of the window disks that are
-// listed anew at such a depth may list one of this kind.
+// Does something only where the disk's path has left the box and leads far into it from the other side: the disk and
+// its neighbours then look for images. So must disks that are relisted at such a depth in the rest of the window.
 template <Scope scope>
 void EventProcessor<scope>::show_images_if_far(std::uint32_t i, double time) {
   const PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
@@ -155,7 +156,8 @@ void EventProcessor<scope>::look_beyond_border(std::uint32_t i, Vec2 at) {
   if (lists_.may_list_at_depth(at, depth)) lists_.look_for_images(i);
 }
 
-// Part: one of its own disks may come beyond an end of the part before it is listed again. The part there must have it.
+// Part: if an own disk may come beyond an end of the part before it is relisted, the part there must have it as a
+// ghost.
 template <Scope scope>
 void EventProcessor<scope>::note_listing(std::uint32_t i) {
   if (!window_.part.note_listing(lists_.listed_position(i), lists_.skin() + window_.slack, record_[i])) [[unlikely]]

@@ -1,5 +1,5 @@
-// The exact engine on one of several ranks: what a window asks of the others. A rank has its own disks, and sees those
-// of others that are near, its ghosts: it processes their events too, as far as they are known.
+// What the exact engine on one of several ranks asks of the others. A rank has its own disks, and ghosts: disks of
+// other ranks that are near. It processes the events of both, as far as they are known.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ class WindowGhosts {
   };
   virtual Heights own_heights() const = 0;
 
-  // Where no disk that is not here comes to in this window, unless strangers_come_near says so on a rank that has it.
-  // slice_flight: no disk goes further in a slice; length, the same on all ranks.
+  // The band into which no disk comes in this window that is not here, unless strangers_come_near says so on a rank
+  // that has that disk. slice_flight: no disk goes further in a slice; length, the same on all ranks.
   virtual KnownBand band(double slice_flight) = 0;
   // At the start of a slice: may disks of this rank that a neighbour does not have come into that one's band in it?
   virtual bool strangers_come_near(const WindowState& window) const = 0;
@@ -41,8 +41,8 @@ class WindowGhosts {
   // How a slice has ended on all ranks: `done` only if it is that on each. events: of this rank's slice, becomes that
   // of all.
   virtual SliceOutcome agree(SliceOutcome here, Count& events) = 0;
-  // The disks, all ghosts, whose motion in the slice is not known here get their paths at the slice's end from the
-  // ranks that own them.
+  // Gives these disks, all of them ghosts, their paths at the slice's end, from the ranks that own them: what happened
+  // to them in the slice is not known here.
   virtual void learn(WindowState& window, const std::vector<std::uint32_t>& unknown) = 0;
 };
 
