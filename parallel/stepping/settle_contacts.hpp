@@ -18,8 +18,8 @@ struct ContactLists;
 // Lists of the settling phase, kept so that a warm step allocates nothing.
 struct SettleLists {
   IdOrder pairs;  // the step's contacts
-  std::vector<double>
-      borne;  // of each pair in order of ids: the force in the step before, then the impulse in this one
+  // Of each pair in order of ids: the force in the step before, then the impulse in this one.
+  std::vector<double> borne;
   std::vector<IdPair> placed;          // the pairs in the order of the patches, so that sweeps read them in a row,
   std::vector<unsigned char> holding;  // and whether each bears load
   SupportSet supports;                 // those of each patch in a row, from the patch's start
