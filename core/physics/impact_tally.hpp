@@ -126,26 +126,15 @@ struct ImpactTally {
     inaccurate_at_walls += other.inaccurate_at_walls;
     wall_collisions += other.wall_collisions;
     loads += other.loads;
-    if (!other.shear.empty()) {
-      shear.resize(2);
-      for (std::size_t k = 0; k < shear.size(); ++k) shear[k].add(other.shear[k]);
-    }
     wall_loads += other.wall_loads;
     if (other.collisions + other.loads > 0) virial.add(other.virial);
     if (other.wall_collisions + other.wall_loads > 0) {
       for (std::size_t k = 0; k < wall_impulse.size(); ++k) wall_impulse[k].add(other.wall_impulse[k]);
     }
-    if (!other.pushes.empty()) {
-      pushes.resize(3);
-      for (std::size_t k = 0; k < pushes.size(); ++k) pushes[k].add(other.pushes[k]);
-    }
-    if (!other.absence.empty()) {
-      absence.resize(1);
-      absence[0].add(other.absence[0]);
-    }
-    if (other.side_energy.empty()) return;
-    side_energy.resize(all_sides.size());
-    for (std::size_t k = 0; k < side_energy.size(); ++k) side_energy[k].add(other.side_energy[k]);
+    add_each(other.side_energy, side_energy);
+    add_each(other.pushes, pushes);
+    add_each(other.shear, shear);
+    add_each(other.absence, absence);
   }
 
   Count all_inaccurate() const { return inaccurate + inaccurate_at_walls; }
@@ -166,6 +155,14 @@ struct ImpactTally {
     counters.wall_work += pushes[0].value();
     counters.wall_push[0] += pushes[1].value();
     counters.wall_push[1] += pushes[2].value();
+  }
+
+ private:
+  // Of sums that are there only where there is something to add up.
+  static void add_each(const std::vector<ExactSum>& from, std::vector<ExactSum>& to) {
+    if (from.empty()) return;
+    to.resize(from.size());
+    for (std::size_t k = 0; k < from.size(); ++k) to[k].add(from[k]);
   }
 };
 
