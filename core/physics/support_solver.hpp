@@ -243,11 +243,24 @@ inline Watch watch_in(int cycle) {
   return cycle % watched_cycles == 0 ? Watch::all : cycle <= 2 ? Watch::largest : Watch::nothing;
 }
 
-// sweeps.cycle(watch) relaxes all supports forward and back and returns its CycleFigures; sweeps.extrapolate(momentum)
-// extrapolates all impulses and velocities; sweeps.totals() adds all supports up. The loads of the step before have
-// been applied.
 template <class Sweeps>
-void solve_supports(const StepRules& rules, Sweeps&& sweeps) {
+CycleFigures run_cycle(Watch watch, const Sweeps& sweeps) {
+  switch (watch) {
+    case Watch::all:
+      return sweeps.template cycle<Watch::all>();
+    case Watch::largest:
+      return sweeps.template cycle<Watch::largest>();
+    case Watch::nothing:
+      break;
+  }
+  return sweeps.template cycle<Watch::nothing>();
+}
+
+// sweeps.cycle<watch>() relaxes all supports forward and back and returns its CycleFigures;
+// sweeps.extrapolate(momentum) extrapolates all impulses and velocities; sweeps.totals() adds all supports up. The
+// loads of the step before have been applied.
+template <class Sweeps>
+void solve_supports(const StepRules& rules, const Sweeps& sweeps) {
   const double fall = rules.gravity.size * rules.dt;
   double settled = settled_change * fall;
   int usual_cycles = resting_cycles;
@@ -256,7 +269,7 @@ void solve_supports(const StepRules& rules, Sweeps&& sweeps) {
   int age = 0;  // of the momentum, in cycles
   for (int cycle = 1;; ++cycle) {
     const Watch watch = watch_in(cycle);
-    const CycleFigures figures = sweeps.cycle(watch);
+    const CycleFigures figures = run_cycle(watch, sweeps);
     if (cycle == 1) {
       settled = std::max(settled, settled_change * figures.largest);
       if (figures.largest > landing_change * fall) usual_cycles = landing_cycles;

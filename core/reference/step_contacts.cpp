@@ -36,13 +36,8 @@ struct Sweeps {
   SupportSet& set;
   const std::vector<std::uint32_t>& contacts;
 
-  CycleFigures cycle(Watch watch) {
-    return watch == Watch::all       ? cycle<Watch::all>()
-           : watch == Watch::largest ? cycle<Watch::largest>()
-                                     : cycle<Watch::nothing>();
-  }
   template <Watch watch>
-  CycleFigures cycle() {
+  CycleFigures cycle() const {
     CycleFigures figures;
     for (std::size_t k = 0; k < set.contact.size(); ++k) relax_forward<watch>(set, k, figures);
     for (std::size_t k = set.contact.size(); k-- > 0;) relax_back<watch>(set, k, figures);
@@ -53,7 +48,7 @@ struct Sweeps {
     for (std::size_t k = 0; k < set.contact.size(); ++k) all.add(set.impulse[k], set.contact[k].effective);
     return all;
   }
-  void extrapolate(double momentum) {
+  void extrapolate(double momentum) const {
     for (std::size_t k = 0; k < set.contact.size(); ++k) extrapolate_impulse(set, k, momentum);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (contacts[i] > 0) extrapolate_velocity(set, i, momentum);

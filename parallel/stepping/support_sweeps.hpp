@@ -128,11 +128,6 @@ struct PatchSweeps {
   }
 
   // Sums over the patches are exact, so their order does not matter.
-  CycleFigures cycle(Watch watch) const {
-    return watch == Watch::all       ? cycle<Watch::all>()
-           : watch == Watch::largest ? cycle<Watch::largest>()
-                                     : cycle<Watch::nothing>();
-  }
   template <Watch watch>
   CycleFigures cycle() const {
     SupportSet& set = lists.settle.supports;
