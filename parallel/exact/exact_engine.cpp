@@ -48,7 +48,7 @@ class ParallelExact final : public Engine {
     if (!(state_.time < scene_.run.t_end)) return;
     start_window();
     const SpeedSummary speeds = summarise_speeds(state_.disks, scene_.box, executor_);
-    WindowPlan plan = plan_window(scene_, state_, state_.disks.size(), speeds, 1.0);
+    WindowPlan plan = plan_window(scene_, state_, state_.disks.size(), speeds);
     if (obstacles_) obstacles_->follow(plan.start, plan.end);
     logged_.reset();
     if (!run_window_with_retry(plan, speeds)) return;
@@ -267,7 +267,7 @@ void ParallelExact::finish(const WindowPlan& plan) {
   at_start_ = any_gone ? state_.disks : Disks{};
   logged_ = plan;
   if (any_gone) remove(gone_);
-  finish_window(state_, state_.disks.size(), plan, tally, 1.0);
+  finish_window(state_, state_.disks.size(), plan, tally);
   Overlap wall;
   if (walls_are_watched(scene_)) wall = deepest_wall_overlap(state_.disks, box_at(scene_.box, state_.time), executor_);
   validity_.see_step(scene_, {{}, {}, wall, tally.all_inaccurate()}, state_);

@@ -64,7 +64,7 @@ void SlabExact::step() {
   if (alone_ != 0) return step_alone();
   start_window();
   const SpeedSummary speeds = speeds_of_all();
-  WindowPlan plan = plan_window(scene_, state_, start_.disks, speeds, 1.0);
+  WindowPlan plan = plan_window(scene_, state_, start_.disks, speeds);
   if (obstacles_) obstacles_->follow(plan.start, plan.end);
   if (!run_window(plan, speeds)) return step_alone();
   finish(plan);
@@ -203,7 +203,7 @@ void SlabExact::finish(const WindowPlan& plan) {
   if (takes_) at_start = {state_.disks, ghosts_.ghosts_among(state_.disks.size())};
   if (remove_gone()) at_start_ = std::move(at_start);
   sum_over_ranks(ranks_, scene_.box, tally);
-  finish_window(state_, start_.disks, plan, tally, 1.0);
+  finish_window(state_, start_.disks, plan, tally);
   StepFigures figures;
   figures.inaccurate = tally.all_inaccurate();
   if (walls_are_watched(scene_)) {

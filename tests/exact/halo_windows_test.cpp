@@ -34,11 +34,11 @@ struct InParts {
     if (scene.physics.collapse_contact_time) state.last_contact.resize(state.next_id, -never);
     count_thermal_hits(scene, state);
     const SpeedSummary speeds = summarise_speeds(state.disks, scene.box, executor);
-    const WindowPlan plan = plan_window(scene, state, state.disks.size(), speeds, 1.0);
+    const WindowPlan plan = plan_window(scene, state, state.disks.size(), speeds);
     const SliceOutcome outcome = windows.run(plan, speeds, WindowState{});
     if (outcome == SliceOutcome::done) {
       const ImpactTally tally = windows.store_paths(plan);
-      finish_window(state, state.disks.size(), plan, tally, 1.0);
+      finish_window(state, state.disks.size(), plan, tally);
     }
     return outcome;
   }
