@@ -34,6 +34,10 @@ int threads_of_rank(int ranks) {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks);
 }
 
+int ranks_of(const RankLead& lead) {
+  return lead.count();
+}
+
 EngineChoice choose_engine(const std::string& engine, std::optional<int> threads, RankLead* lead) {
   constexpr std::array<std::string_view, 2> engines{"parallel", "reference"};
   if (engine.empty() || engine == "parallel") {

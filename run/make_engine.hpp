@@ -29,6 +29,9 @@ struct EngineChoice {
 // thread whatever is asked for. Throws InputError for an engine that does not exist.
 EngineChoice choose_engine(const std::string& engine, std::optional<int> threads, RankLead* lead = nullptr);
 
+// How many ranks it leads.
+int ranks_of(const RankLead& lead);
+
 // Threads of each of so many ranks, where nothing is said: all cores of this machine among them.
 int threads_of_rank(int ranks);
 

@@ -16,7 +16,7 @@
 #include "core/base/input_message.hpp"
 #include "core/base/kernel_set.hpp"
 #include "io/files/child_process.hpp"
-#include "parallel/slabs/leading_engine.hpp"
+#include "run/make_engine.hpp"
 
 namespace carom {
 
@@ -37,13 +37,13 @@ struct Dispatch {
 
   int operator()(RunOptions options) const {
     if (options.ranks && lead == nullptr) return start_ranks(*options.ranks, argc, argv);
-    if (options.ranks) check_started_ranks(*options.ranks, lead->count());
+    if (options.ranks) check_started_ranks(*options.ranks, ranks_of(*lead));
     options.lead = lead;
     return command_run(options);
   }
   int operator()(ResumeOptions options) const {
     if (options.ranks && lead == nullptr) return start_ranks(*options.ranks, argc, argv);
-    if (options.ranks) check_started_ranks(*options.ranks, lead->count());
+    if (options.ranks) check_started_ranks(*options.ranks, ranks_of(*lead));
     options.lead = lead;
     return command_resume(options);
   }
