@@ -19,6 +19,8 @@ std::int64_t cells_for(double length, double cell, std::size_t obstacles) {
 // The cells of a few obstacles at rest are as many as those of so many: nearly all disks are far from them, and find
 // nothing in the cells around.
 constexpr std::size_t least_at_rest = 128;
+// Likewise of those that move, whose cells are made for each step.
+constexpr std::size_t least_moving = 16;
 
 }  // namespace
 
@@ -107,7 +109,7 @@ void ObstacleCells::follow(double from, double to) {
     const Vec2 slack{0x1p-48 * (std::abs(low.x) + std::abs(high.x)), 0x1p-48 * (std::abs(low.y) + std::abs(high.y))};
     swept.push_back({k, {low.x - slack.x, low.y - slack.y}, {high.x + slack.x, high.y + slack.y}});
   }
-  swept_ = ObstacleGrid(swept, box_);
+  swept_ = ObstacleGrid(swept, box_, least_moving);
 }
 
 bool ObstacleCells::dissipates() const {

@@ -257,7 +257,7 @@ inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radiu
                    std::min(at.y, next.y) + std::min(rise_y, 0.0) - reach};
     const Vec2 high{std::max(at.x, next.x) + std::max(rise_x, 0.0) + reach,
                     std::max(at.y, next.y) + std::max(rise_y, 0.0) + reach};
-    obstacles.visit(low, high, [&](std::uint32_t k, Vec2 shift) {
+    const auto see = [&](std::uint32_t k, Vec2 shift) {
       const Obstacle& o = obstacles[k];
       if (!o.moves && !may_reach(o, shift, low, high)) return;
       const Vec2 apart{(p.x - o.x) - shift.x, (p.y - o.y) - shift.y};
@@ -265,7 +265,8 @@ inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radiu
       const double s = p.start + (o.moves ? time_to_moving_wall(o, apart, p, r, box, g, span)
                                           : time_to_obstacle(o, apart, p, r, g, span));
       if (s <= end && (s < first.time || (s == first.time && k < first.obstacle))) first = {s, k};
-    });
+    };
+    if (!obstacles.is_clear(low, high)) obstacles.visit(low, high, see);
     if (first.time <= p.start + to || !(to < span) || !(to > from)) return first;
     from = to;
     at = next;

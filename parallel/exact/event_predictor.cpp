@@ -126,8 +126,9 @@ void EventPredictor::see_obstacles(std::uint32_t i, double end, NextEvent& best)
 // Is the disk so close to an obstacle, and so slow against it, that rounding decides whether they touch?
 bool EventPredictor::touches_slowly(const PathSegment& path, double radius) const {
   const double reach = radius + window_->close;
-  bool slowly = false;
   const Domain* box = &window_->rules.box;
+  if (box->obstacles->is_clear({path.x - reach, path.y - reach}, {path.x + reach, path.y + reach})) return false;
+  bool slowly = false;
   Domain then;
   if (box->inner_walls_move) {
     then = box_at(*box, box->clock.to + path.start);

@@ -119,7 +119,7 @@ TEST(ExactFrames, FramesChangeNothingAndLieOnThePath) {
 
 // Paths of earlier windows are not kept: an earlier time gets the disks at the start of the last window, and that time.
 TEST(ExactFrames, BeforeTheLastWindowAreOfItsStart) {
-  const Scene scene = make_scene({12, 12, "", "", gas, 30.0, ""});
+  const Scene scene = make_scene({12, 12, "periodic", "", gas, 30.0, ""});
   const State initial = initial_state(scene);
   for (const auto& engine : {make_reference_exact(scene, initial), make_parallel_engine(scene, initial, {1})}) {
     for (int k = 0; k < 2; ++k) engine->step();
