@@ -238,9 +238,9 @@ void NeighbourLists::find_inner_part() {
   part(box_.height, box_.periodic_y(), depth, inner_low_.y, inner_high_.y);
 }
 
-// While it stays within the skin of its listed position. One that moves may come anywhere.
+// While it stays within the skin of its listed position. An obstacle that moves may come anywhere. Precondition: there
+// are obstacles.
 bool NeighbourLists::may_touch_obstacle(Vec2 listed, double radius) const {
-  if (box_.obstacles == nullptr) return false;
   if (mode_ == EngineMode::all_pairs || box_.inner_walls_move) return true;
   const double reach = (radius + skin_) * (1.0 + 1e-6) + std::max(unit_x_, unit_y_);
   if (box_.obstacles->is_clear({listed.x - reach, listed.y - reach}, {listed.x + reach, listed.y + reach}))
@@ -253,8 +253,10 @@ bool NeighbourLists::may_touch_obstacle(Vec2 listed, double radius) const {
 unsigned NeighbourLists::find_sides(const Disks& d, std::uint32_t i) const {
   const Vec2 position = listed_position(i);
   unsigned sides = is_inside(position) ? 0U : ListRow::across;
-  if (flow_.acts && !is_inside_in_height(position)) sides |= ListRow::images_move;
-  if (may_touch_obstacle(position, d.radius_of(i))) sides |= ListRow::obstacle_near;
+  if (flow_.acts && !is_inside_in_height(position)) [[unlikely]]
+    sides |= ListRow::images_move;
+  if (box_.obstacles != nullptr && may_touch_obstacle(position, d.radius_of(i))) [[unlikely]]
+    sides |= ListRow::obstacle_near;
   if (all_periodic_) return sides;
   for (const Side side : all_sides) {
     if (box_.side(side) == SideKind::periodic) continue;
