@@ -106,7 +106,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   units_per_x_ = 1.0 / unit_x_;
   units_per_y_ = 1.0 / unit_y_;
   layers_along_x_ = box.width >= box.height;
-  all_periodic_ = box.periodic_x() && box.periodic_y();
+  images_alone_ = box.periodic_x() && box.periodic_y() && !flow_.acts && box.obstacles == nullptr;
   period_x_ = box.periodic_x() ? box.width : 0.0;
   period_y_ = box.periodic_y() ? box.height : 0.0;
   periods_per_x_ = box.periodic_x() ? 1.0 / box.width : 0.0;
@@ -250,14 +250,11 @@ bool NeighbourLists::may_touch_obstacle(Vec2 listed, double radius) const {
   return may;
 }
 
-unsigned NeighbourLists::find_sides(const Disks& d, std::uint32_t i) const {
+unsigned NeighbourLists::find_other_sides(const Disks& d, std::uint32_t i) const {
   const Vec2 position = listed_position(i);
-  unsigned sides = is_inside(position) ? 0U : ListRow::across;
-  if (flow_.acts && !is_inside_in_height(position)) [[unlikely]]
-    sides |= ListRow::images_move;
-  if (box_.obstacles != nullptr && may_touch_obstacle(position, d.radius_of(i))) [[unlikely]]
-    sides |= ListRow::obstacle_near;
-  if (all_periodic_) return sides;
+  unsigned sides = 0;
+  if (flow_.acts && !is_inside_in_height(position)) sides |= ListRow::images_move;
+  if (box_.obstacles != nullptr && may_touch_obstacle(position, d.radius_of(i))) sides |= ListRow::obstacle_near;
   for (const Side side : all_sides) {
     if (box_.side(side) == SideKind::periodic) continue;
     // A side that moves may come this far into the box.

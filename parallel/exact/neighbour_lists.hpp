@@ -336,7 +336,12 @@ class NeighbourLists {
     return inner_low_.x < listed.x && listed.x < inner_high_.x && is_inside_in_height(listed);
   }
   bool may_touch_obstacle(Vec2 listed, double radius) const;
-  unsigned find_sides(const Disks& disks, std::uint32_t i) const;
+  // ListRow::sides, without has_more, of disk i where it is listed.
+  unsigned find_sides(const Disks& disks, std::uint32_t i) const {
+    const unsigned sides = is_inside(listed_position(i)) ? 0U : ListRow::across;
+    return images_alone_ ? sides : sides | find_other_sides(disks, i);
+  }
+  unsigned find_other_sides(const Disks& disks, std::uint32_t i) const;
 
   // How far gravity or the flow may bend a path before earliest_relist_time has to be asked again, over the relist
   // distance.
@@ -350,7 +355,7 @@ class NeighbourLists {
   double skin_ = 0.0;
   RelistDistance near_border_, elsewhere_;
   FlowFrame flow_;
-  bool all_periodic_ = false;
+  bool images_alone_ = false;    // no walls, obstacles or shear: nothing but images of neighbours is near a disk
   bool layers_along_x_ = false;  // one after the other
   double lead_time_ = 0.0;
   // Disks that are listed in between list none across a border along a period. In a sheared box that holds of heights
