@@ -9,6 +9,7 @@
 
 #include "core/load/scene_scales.hpp"
 #include "core/physics/boundary.hpp"
+#include "core/scene/drawn_velocities.hpp"
 #include "core/scene/size_law.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
@@ -142,11 +143,25 @@ struct Drive {
   }
 };
 
-// A Brownian step is sqrt(2 D dt) in each direction; three of that, as some disk always moves so far.
+// A Brownian step is sqrt(2 D dt) in each direction; three of that, as some disk always moves so far. The exact method
+// splits none, and warns where that of one disk is too long for its collisions.
 double brownian_step(const Scene& scene, double radius) {
   if (!(scene.physics.diffusion > 0.0)) return infinity;
-  const double share = safe_travel * radius / 3.0;
+  const double share = (scene.run.method == Method::exact ? largest_brownian_step : safe_travel / 3.0) * radius;
   return share * share / (2.0 * scene.physics.diffusion);
+}
+
+// Of steps that draw their own speeds, or that no speed splits.
+StepForesight foresee_brownian_steps(const Scene& scene, const Disks& start) {
+  double radius = start.empty() ? infinity : smallest_radius(start);
+  StepForesight f;
+  f.at_start = brownian_step(scene, radius);
+  for (const Source& source : scene.sources) {
+    if (emits(scene, source)) radius = std::min(radius, disks_of(scene, source).smallest_radius);
+  }
+  f.later = brownian_step(scene, radius);
+  f.resting = infinity;
+  return f;
 }
 
 // When a disk that falls so far towards this side, moving away from it at `rising`, has bounced its last there, if
@@ -183,6 +198,9 @@ double StepForesight::safe() const {
 }
 
 StepForesight foresee_steps(const Scene& scene, const Disks& start) {
+  if (scene.physics.diffusion > 0.0 && (scene.run.method == Method::exact || velocities_are_drawn(scene))) {
+    return foresee_brownian_steps(scene, start);
+  }
   const double g = scene.physics.gravity.size;
   double radius = start.empty() ? infinity : smallest_radius(start);
   double fastest = 0.0, later = 0.0;  // radii per unit time
@@ -266,10 +284,11 @@ std::vector<std::string> foreseen_troubles(const Scene& scene, const StepForesig
   }
   const double dt = scene.run.dt;
   if (uses_dt(scene) && dt > std::min(steps.at_start, steps.later)) {
-    const bool late = dt <= steps.at_start;
-    troubles.push_back(fmt::format("dt = {:g} is longer than the safe step{}: steps will be split; take dt <= {:.2g}",
-                                   dt, late ? " at the speeds that disks will have" : "",
-                                   std::min(steps.at_start, steps.later)));
+    const bool late = dt <= steps.at_start, split = scene.run.method != Method::exact;
+    const char* const when = split ? " at the speeds that disks will have" : " of disks from sources";
+    const char* const what = split ? "steps will be split" : "collisions of Brownian disks will be wrong";
+    troubles.push_back(fmt::format("dt = {:g} is longer than the safe step{}: {}; take dt <= {:.2g}", dt,
+                                   late ? when : "", what, std::min(steps.at_start, steps.later)));
   }
   if (scene.run.method != Method::exact && dt > steps.resting) {
     troubles.push_back(

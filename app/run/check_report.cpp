@@ -128,7 +128,7 @@ std::string step_text(const Scene& scene, const Findings& f) {
             : f.steps.driven            ? "at those that walls or a thermostat give"
                                         : "at those of sources";
   } else {
-    text += " at the speeds of the start";
+    text += scene.physics.diffusion > 0.0 ? " for Brownian motion" : " at the speeds of the start";
   }
   if (f.steps.resting < std::min(f.steps.later, f.steps.at_start)) {
     text += fmt::format(", {:.3g} for a pile", f.steps.resting);
@@ -272,7 +272,8 @@ const JsonKey<Told> check_keys[] = {
     {"packing_fraction", "", "at the start",
      [](const Told& t) -> Json { return json_number(t.found.packing_fraction); }},
     {"dt", "time", "the step; 0 where the scene gives none", [](const Told& t) -> Json { return t.scene.run.dt; }},
-    {"safe_dt", "time", "the longest step that is not split; null if any is",
+    {"safe_dt", "time",
+     "the longest step that is not split, with `exact` the longest of Brownian motion; null if any is",
      [](const Told& t) -> Json { return json_number(t.found.steps.safe()); }},
     {"landing_speed", "length / time", "the largest after a fall; 0 without gravity",
      [](const Told& t) -> Json { return json_number(t.found.steps.landing_speed); }},

@@ -92,6 +92,22 @@ TEST_F(Check, TheSafeStepIsThatAfterTheFall) {
   EXPECT_THAT(carom("run --quiet --json " + longer + " --t-end 5").out, HasSubstr("the step is split into 2 parts"));
 }
 
+// The velocities of the start are forgotten, and exact splits no step: check warns where the run does, of sqrt(2 D dt)
+// = half a radius; pairwise has three of these in half a radius.
+TEST_F(Check, ABrownianStepIsNoFasterForTheVelocitiesOfTheStart) {
+  const std::string brownian = "small.toml --set physics.diffusion=0.5 --set disks.0.radius=0.4 ";
+  const std::string fast = "--set disks.0.velocities='{ uniform = 50.0 }' ";
+  for (const std::string& set : {std::string(), fast}) {
+    const std::string exact = brownian + set + "--method exact ";
+    EXPECT_NEAR(check(exact + "--dt 0.039")["safe_dt"].get<double>(), 0.04, 1e-12);
+    EXPECT_THAT(check(exact + "--dt 0.039")["troubles"], IsEmpty());
+    EXPECT_THAT(carom("run " + exact + "--dt 0.039 -o under --force").err, IsEmpty());
+    EXPECT_THAT(troubles(check(exact + "--dt 0.041")), HasSubstr("collisions of Brownian disks will be wrong"));
+    EXPECT_THAT(carom("run " + exact + "--dt 0.041 -o over --force").err, HasSubstr("collisions are wrong"));
+    EXPECT_NEAR(check(brownian + set + "--dt 0.001")["safe_dt"].get<double>(), 0.04 / 9.0, 1e-12);
+  }
+}
+
 // Nothing moves at the start, but walls and baths will see to that: 0.25, half a radius, over what they give.
 TEST_F(LongCheck, WallsAndBathsAskForShorterSteps) {
   write("rest.toml", falling_disk);
