@@ -210,8 +210,9 @@ std::string traffic_line(const Summary& s) {
 // "0.0734, with the kinetic energy halfway between 400 and 21.8": of a gas that cools or heats up that is not its mean.
 std::string pressure_line(const Summary& s) {
   std::string text = fmt::format("{:.6g}", s.pressure);
+  if (s.box.shear.acts()) return text + ", with the temperature at the end";
   const double change = std::abs(s.kinetic_final - s.kinetic_initial);
-  if (s.box.shear.acts() || change <= 0.25 * std::max(s.kinetic_initial, s.kinetic_final)) return text;
+  if (change <= 0.25 * std::max(s.kinetic_initial, s.kinetic_final)) return text;
   return text +
          fmt::format(", with the kinetic energy halfway between {:.6g} and {:.6g}", s.kinetic_initial, s.kinetic_final);
 }

@@ -107,6 +107,11 @@ TEST_F(RunResults, WhatThePressureIsWhereTheEnergyChanges) {
               HasSubstr(fmt::format("  pressure    {:.6g}, with the kinetic energy halfway between {:.6g} and {:.6g}\n",
                                     s["pressure"].get<double>(), s["energy_initial"].get<double>(),
                                     s["energy_final"].get<double>())));
+  std::string sheared = "run small.toml -o sheared --set box.shear_rate=0.1";
+  for (const char* const side : {"left", "right", "bottom", "top"}) {
+    sheared += fmt::format(" --set 'box.{}=\"periodic\"'", side);
+  }
+  EXPECT_THAT(carom(sheared).out, testing::ContainsRegex("  pressure    [0-9.e-]+, with the temperature at the end\n"));
 }
 
 // Disks that are pressed together in the middle of a run and free again at its end: the summary has it, and that of an
