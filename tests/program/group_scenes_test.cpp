@@ -52,6 +52,21 @@ TEST(GroupScenes, MixingComesToOneTemperature) {
   EXPECT_NEAR(hot + cold, 5.0, 0.05) << "what is not heat flows as a whole";
 }
 
+// The hot gas expands and cools until both are as hot, and is pressed together again a swing later.
+TEST(GroupScenes, MixingSwingsFirst) {
+  const auto hot_at = [](const char* time) {
+    Scene scene = load_scene(folder + "mixing.toml", {{"run.t_end", time}});
+    double hot = 0.0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      scene.seed = seed;
+      hot += motion_of(scene, run_scene(scene).disks, "hot").temperature / 4.0;
+    }
+    return hot;
+  };
+  EXPECT_NEAR(hot_at("8.0"), 2.5, 0.2);
+  EXPECT_NEAR(hot_at("20.0"), 3.25, 0.25);
+}
+
 // The friction of a tracer of mass M in two dimensions, Enskog's first approximation:
 // gamma = 2 n g sigma sqrt(2 pi mu T) / M; of the relative velocity times 1 + M N_tracer / (m N_bath). Within a
 // collision or so per tracer, before the flow that they set up in the bath comes back to them.
