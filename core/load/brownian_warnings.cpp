@@ -61,6 +61,9 @@ std::vector<std::string> brownian_warnings(const Scene& scene) {
   const auto& plots = scene.output.plots;
   if (std::find(plots.begin(), plots.end(), "energy") != plots.end()) warn("output.plots", "no energy is drawn");
   if (scene.analysis.wants(Quantity::pressure)) warn("analysis.what", "there is no pressure");
+  if (scene.analysis.wants(Quantity::collision_rate)) {
+    warn("analysis.what", "collisions are those of the motion at u / dt, and grow in number as 1 / sqrt(dt)");
+  }
   if (scene.analysis.wants(Quantity::speeds)) warn("analysis.what", "speeds are those of u / dt");
   if (scene.analysis.wants(Quantity::profile)) {
     warn("analysis.what", "the profile's velocities and temperature are those of u / dt");

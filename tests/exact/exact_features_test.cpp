@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "parallel/simulation.hpp"
 #include "tests/support/exact_support.hpp"
@@ -196,6 +197,24 @@ TEST(ExactBrownian, FreeDisksSpreadAsFourDT) {
   }
   const double expected = 4.0 * 0.7 * 3.0;
   EXPECT_NEAR(sum / 2000.0, expected, 3.0 * expected / std::sqrt(2000.0));
+}
+
+// In an interval disks fly as a gas of kT / m = 2 D / dt does, from places that are those of equilibrium whatever dt
+// is.
+TEST(ExactBrownian, CollisionsGrowAsOneOverTheRootOfDt) {
+  constexpr double z = 2.06326, side = 28.025;  // docs/reference_values.md, packing fraction 0.3
+  const std::string disks = "[[disks]]\ncount = 300\npositions = \"random\"\nradius = 0.5\nmass = 1.0\n";
+  for (const char* const dt : {"0.004", "0.001"}) {
+    const Scene scene = make_scene({side, side, "periodic", "diffusion = 1.0", disks, 4.0, "dt = " + std::string(dt)});
+    const auto engine = make_parallel_engine(scene, initial_state(scene), {1});
+    while (engine->state().time < 1.5) engine->step();
+    const double begin = engine->state().time;
+    const Count before = engine->state().counters.collisions;
+    run_to_end(*engine, scene);
+    const State& end = engine->state();
+    const double rate = 2.0 * static_cast<double>(end.counters.collisions - before) / (300.0 * (end.time - begin));
+    EXPECT_NEAR(rate / (4.0 * (z - 1.0) * std::sqrt(2.0 / (std::numbers::pi * scene.run.dt))), 1.0, 0.05) << dt;
+  }
 }
 
 TEST(ExactCollapse, IsReportedAndTheStateBeforeIsKept) {
