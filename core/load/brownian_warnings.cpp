@@ -74,6 +74,12 @@ std::vector<std::string> brownian_warnings(const Scene& scene) {
   if (const std::string key = key_of_motion(scene); !key.empty()) {
     warn(key, "those given here are forgotten in the first step, and nothing drifts");
   }
+  const bool disks = disks_dissipate(scene);
+  if (disks || scene.box.walls_dissipate()) {
+    warn(disks ? "physics.restitution" : "box.wall_restitution",
+         fmt::format("below 1 what met stays nearer, and is too dense within sqrt(2 D dt) = {:.3g} of contact; take 1",
+                     std::sqrt(2.0 * scene.physics.diffusion * scene.run.dt)));
+  }
   if (scene.physics.gravity.acts()) {
     warn("physics.gravity", fmt::format("what gravity gives in a step is forgotten in the next, so that disks sink at "
                                         "g dt / 2 = {:.3g} and less with a smaller dt, to no barometric law",

@@ -207,6 +207,11 @@ t_end = 1.0
   EXPECT_THAT(
       warned("gravity = [0.0, 3.0]\n", ""),
       testing::ElementsAre(AllOf(HasSubstr("physics.gravity: Brownian disks"), HasSubstr("g dt / 2 = 0.015 "))));
+  EXPECT_THAT(
+      warned("restitution = 0.9\n", ""),
+      testing::ElementsAre(AllOf(HasSubstr("physics.restitution: Brownian disks"), HasSubstr(" = 0.1 of contact"))));
+  EXPECT_THAT(warned("", "", {{"box.wall_restitution", "0.5"}}),
+              testing::ElementsAre(HasSubstr("box.wall_restitution: Brownian disks")));
   EXPECT_THAT(warned("gravity = 3.0\naccumulate = true\n", "", {{"disks.0.mass", "{ uniform = [1, 2] }"}}),
               testing::IsEmpty());
   EXPECT_THAT(warned("", "", {{"disks.0.mass", "{ from_radius = 3.0 }"}}),
