@@ -1,7 +1,5 @@
 """Disks as numpy columns: copies, frames, and views of what the engine has in memory."""
 
-from __future__ import annotations
-
 from typing import Mapping, NamedTuple, Tuple
 
 import numpy as np

@@ -121,7 +121,8 @@ class Simulation:
             raise RuntimeError("this simulation began in another process, and its threads are there")
         while steps > 0 and self.time < until and not self.done:
             due = min((interval * k for interval, k, _ in self._callbacks), default=np.inf)
-            steps -= self._sim.step_for(steps, min(until, due), _slice)
+            with _in_words_of_python():
+                steps -= self._sim.step_for(steps, min(until, due), _slice)
             for entry in self._callbacks:
                 interval, k, call = entry
                 if self.time >= interval * k:

@@ -8,7 +8,7 @@ import re
 from typing import Any, Mapping
 
 from . import _arguments
-from ._carom import SceneError
+from ._carom import PhysicsError, SceneError
 
 _bare = re.compile(r"[A-Za-z0-9_-]+")
 
@@ -73,11 +73,12 @@ def overrides(changes: Mapping[str, Any]) -> list:
 
 @contextlib.contextmanager
 def in_words_of_python():
-    """What the command line calls -o, --set and --force are arguments here."""
+    """What the command line calls -o, --set, --force and --strict are arguments here, and --method a key of the scene."""
     try:
         yield
-    except SceneError as error:
-        text = str(error).replace(" with -o,", ",").replace("--force", "force=True").replace("--engine:", "engine:")
-        text = text.replace("--set ", "changes: ").replace("--max-size:", "max_size:")
+    except (SceneError, PhysicsError) as error:
+        text = str(error).replace(" with -o,", ",").replace(" (-o)", "").replace("--force", "force=True")
+        text = text.replace("--set ", "changes: ").replace("--max-size:", "max_size:").replace("--engine:", "engine:")
+        text = re.sub(r"--method (\w+)", r'run.method = "\1"', text).replace("--strict", "strict=True")
         text = f"file:{text[3:]}" if text.startswith("-o:") else text
-        raise SceneError(text) from None
+        raise type(error)(text) from None

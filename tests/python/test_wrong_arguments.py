@@ -45,6 +45,20 @@ def test_steps_threads_and_callbacks():
     assert sim.done
 
 
+def test_what_ends_a_run_is_said_in_words_of_python(tmp_path):
+    (tmp_path / "file").touch()
+    with pytest.raises(carom.SceneError, match="is a file; expected a folder for the results$"):
+        carom.run(scene(), out=tmp_path / "file")
+    long_step = scene(run={"method": "pairwise", "dt": 1.0, "t_end": 2.0},
+                      disks=[{"count": 5, "positions": "random", "velocities": {"maxwell": 9.0}, "radius": 0.5, "mass": 1.0}])
+    with pytest.raises(carom.PhysicsError, match=r"more accurate \(strict=True\)$"):
+        carom.run(long_step, strict=True)
+    resting = {"box": {"width": 10.0, "height": 10.0, "wall_restitution": 0.5}, "physics": {"gravity": 1.0, "restitution": 0.5}}
+    for end in (lambda s: carom.run(s), lambda s: carom.Simulation(s, threads=1).run()):
+        with pytest.raises(carom.PhysicsError, match='run.method = "pairwise"'):
+            end(scene(**resting, run={"t_end": 100.0}))
+
+
 def test_what_a_run_did_not_write(tmp_path):
     result = carom.run(scene(), out=tmp_path / "run")
     with pytest.raises(carom.SceneError, match=r"analysis.h5: .* expected a scene with \[analysis\]"):
