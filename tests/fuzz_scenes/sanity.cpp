@@ -149,7 +149,8 @@ void Sanity::look_at_motion(const State& state) {
   const Energy all = energy_of(state.disks, p.gravity);
   const double energy = all.total() - work;
   largest_energy_ = std::max(largest_energy_, size_of(all) + std::abs(work));
-  const bool elastic = !disks_dissipate(scene_) && !box.walls_dissipate() && !inner_walls_dissipate(scene_);
+  const bool elastic =
+      !disks_dissipate(scene_) && !box.walls_dissipate() && !inner_walls_dissipate(scene_) && !walls_rub(scene_);
   const double gain = energy - energy_.total();
   const bool heats = p.gravity.acts() && p.collapse_contact_time.has_value();
   const double allowed = (heats ? silent_heating : rounding) * largest_energy_;
