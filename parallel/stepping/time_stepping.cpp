@@ -8,7 +8,6 @@
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
 #include "parallel/cells/compact.hpp"
-#include "parallel/cells/crowding.hpp"
 #include "parallel/cells/kick_all.hpp"
 #include "parallel/cells/meets_nearby.hpp"
 #include "parallel/stepping/draw_velocities.hpp"
@@ -16,6 +15,7 @@
 #include "parallel/stepping/mark_gone.hpp"
 #include "parallel/stepping/move_sheared.hpp"
 #include "parallel/stepping/sort_rule.hpp"
+#include "parallel/stepping/stepping_cells.hpp"
 #include "parallel/stepping/wall_reach.hpp"
 
 namespace carom {
@@ -141,12 +141,7 @@ void TimeStepping::sort_if_due() {
 
 void TimeStepping::sort_now() {
   const PhaseTimer timer(times_, "sort");
-  const Disks& d = state_.disks;
-  const double largest = largest_radius(d);
-  std::vector<std::size_t>& count = class_counts_;
-  count_classes(d, largest, count);
-  const bool may_be_crowded = is_bounded_by_disks(scene_.box, largest, count, stepping_margin);
-  make_grid(scene_.box, largest, count, cells_.grid, stepping_margin, may_be_crowded ? crowding(d, scene_.box) : 1.0);
+  make_stepping_cells(state_.disks, scene_.box, class_counts_, cells_.grid);
   sort_into_cells(state_.disks, cells_.grid, executor_, cells_.sorted);
   begin_coarse_positions(state_.disks, executor_, cells_);
   cells_valid_ = true;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "parallel/cells/cell_grid.hpp"
+#include "parallel/stepping/stepping_cells.hpp"
 #include "tests/support/draws.hpp"
 
 namespace carom {
@@ -103,6 +104,25 @@ TEST(Crowding, GivesCellsToDisksWhereTheyAre) {
   for (std::size_t i = 0; i < n; ++i) ++held[key_of(grid.levels[0], pile.x[i], pile.y[i])];
   EXPECT_LE(*std::max_element(held.begin(), held.end()), 12);
   EXPECT_LT(grid.keys, 200 * n);
+}
+
+// Each sort visits all cells, so that time stepping has fewer: they hold some more disks, and are fewer than the box
+// is times as high as the pile.
+TEST(Crowding, GivesTimeSteppingFewerCells) {
+  test::Draws draws(8);
+  constexpr std::size_t n = 2000;
+  for (const double height : {2000.0, 5000.0, 1e5}) {
+    const Domain box = box_of(50.0, height);
+    const Disks pile = placed(n, [&](std::size_t) { return Vec2{draws.in(0.0, 50.0), draws.in(0.0, 50.0)}; });
+    std::vector<std::size_t> count;
+    CellGrid grid;
+    make_stepping_cells(pile, box, count, grid);
+    std::vector<std::size_t> held(grid.keys);
+    for (std::size_t i = 0; i < n; ++i) ++held[key_of(grid.levels[0], pile.x[i], pile.y[i])];
+    const double higher = height / 50.0;
+    EXPECT_LE(*std::max_element(held.begin(), held.end()), std::sqrt(higher) + 12.0) << height;
+    EXPECT_LT(grid.keys, 5.0 * std::sqrt(higher) * n) << height;
+  }
 }
 
 }  // namespace
