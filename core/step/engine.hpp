@@ -39,8 +39,8 @@ class Engine {
   virtual std::unique_ptr<StatePieces> pieces() const { return std::make_unique<WholeState>(state()); }
 
   // Writes to out the disks at time t <= state().time, and returns the time that they are of: t within the last step;
-  // the start of that step where t is earlier; always state().time in time stepping, which knows the ends of steps only.
-  // No bit of the state changes.
+  // the start of that step where t is earlier; always state().time in time stepping, which knows the ends of steps
+  // only. No bit of the state changes.
   virtual double disks_at(double t, Disks& out) const = 0;
 
   // The same in pieces, to be used before the next step. room: for disks that have to lie somewhere; it outlives what
