@@ -272,8 +272,7 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormulaInAShear) {
     box.shear = {rate, rate * box.height, draws.in(-6.0, 6.0)};
     std::vector<DiskRecord> record = random_records(draws, c, 10.0);
     // Half of them near the bottom and the top.
-    for (std::uint32_t k = 0; k < disks; k += 2)
-      record[k].path.y = 0.2 * record[k].path.y + (k % 4 == 0 ? 0.0 : 8.0);
+    for (std::uint32_t k = 0; k < disks; k += 2) record[k].path.y = 0.2 * record[k].path.y + (k % 4 == 0 ? 0.0 : 8.0);
     const auto own = static_cast<std::uint32_t>(draws.bits() % disks);
     const std::vector<int> offset = random_offsets(draws, own);
     const double horizon = draws.in(1.0, 2.0);
