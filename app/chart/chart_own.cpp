@@ -119,9 +119,11 @@ void plan_flight(const Scene& scene, const Trial& trial, ChartScene& chart) {
   chart.flight = std::min(trial.flight, scene.run.t_end);
   chart.length = std::min(trial.length, scene.run.t_end);
   chart.longest_step = std::min(0.98 * safe_travel / std::sqrt(trial.travel2), 0.5 * chart.flight);
-  const bool walls = scene.box.has(SideKind::wall);
-  const bool elastic = !disks_dissipate(scene) && !scene.box.walls_dissipate() && !scene.box.has_thermal_side() &&
-                       !scene.box.inner_walls_move && !scene.physics.thermostat.acts();
+  const bool obstacles = !scene.walls.empty() || std::ranges::any_of(scene.groups, &DiskGroup::fixed);
+  const bool walls = scene.box.has(SideKind::wall) || obstacles;
+  const bool elastic = !disks_dissipate(scene) && !scene.box.walls_dissipate() && !inner_walls_dissipate(scene) &&
+                       !walls_rub(scene) && !scene.box.has_thermal_side() && !scene.box.inner_walls_move &&
+                       !scene.physics.thermostat.acts();
   chart.keeps_energy = elastic;
   chart.keeps_momentum = !walls && !scene.physics.gravity.acts();
   chart.figure = !elastic && chart.keeps_momentum ? Figure::cooling : Figure::pressure;

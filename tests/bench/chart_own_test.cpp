@@ -79,6 +79,21 @@ t_end = 20.0
   EXPECT_THAT(csv, ::testing::Not(HasSubstr("two,pairwise,0.2,2,")));
 }
 
+// What an inner wall takes of energy and momentum is no error of a method.
+TEST_F(ChartOwn, AnInnerWallTakesEnergyAndMomentum) {
+  write("wall.toml", std::string(gas) + R"([[walls]]
+from = [2.0, 1.0]
+to = [9.0, 1.0]
+restitution = 0.5
+)");
+  const Outcome o = carom("chart --tiny --scene wall.toml --set box.bottom=periodic --set box.top=periodic -o wall");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const std::string csv = text_of(at("wall/chart.csv"));
+  EXPECT_THAT(csv, HasSubstr(",path,"));
+  EXPECT_EQ(csv.find(",energy,"), std::string::npos) << csv;
+  EXPECT_EQ(csv.find(",momentum,"), std::string::npos) << csv;
+}
+
 TEST_F(ChartOwn, BrownianMotionHasItsOwnFigure) {
   const Outcome o = carom("chart --tiny --scene my.gas.toml --set physics.diffusion=0.5 -o brownian");
   ASSERT_EQ(o.status, 0) << o.err;
