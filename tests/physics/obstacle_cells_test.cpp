@@ -60,18 +60,25 @@ TEST(ObstacleCells, FindAllThatADiskTouches) {
       const std::vector<Obstacle> obstacles = random_obstacles(draws, n, box);
       const auto cells = place_obstacles(obstacles, box);
       std::size_t found = 0;
+      std::size_t clear = 0;
       for (int k = 0; k < 2000; ++k) {
         const double r = draws.decades(0.01, 6.0);
         const double x = draws.in(0.0, box.width);
         const double y = draws.in(0.0, box.height);
         std::vector<int> times(n, 0);
         for_each_obstacle_touched(box, x, y, r, [&](std::uint32_t o, const ObstacleGap&) { ++times[o]; });
+        const bool is_clear = cells->is_clear({x - r, y - r}, {x + r, y + r});
+        clear += is_clear ? 1 : 0;
         for (std::size_t o = 0; o < n; ++o) {
+          ASSERT_FALSE(is_clear && times[o] > 0) << "obstacle " << o << " of " << n;
           ASSERT_EQ(times[o], touches(obstacles[o], x, y, r, box) ? 1 : 0) << "obstacle " << o << " of " << n;
           found += static_cast<std::size_t>(times[o]);
         }
       }
       EXPECT_GT(found, 10U * n);
+      if (n <= 7) {
+        EXPECT_GT(clear, 50U) << "far from few obstacles";
+      }
     }
   }
 }
