@@ -24,26 +24,23 @@ class WallReach {
       least_[static_cast<std::size_t>(side)] =
           box.side(side) == SideKind::wall ? -box.place(side).inset : std::numeric_limits<double>::infinity();
     }
-    least_left_ = least_[0];
-    // Obstacles are asked for then.
-    if (obstacles_ != nullptr) least_[0] = -std::numeric_limits<double>::infinity();
+    // Where there are obstacles every disk passes the first test, so that others are asked for nothing more.
+    first_left_ = obstacles_ == nullptr ? least_[0] : -std::numeric_limits<double>::infinity();
   }
 
   // Does a disk of radius r at (x, y) touch a wall or reach beyond it, or may it touch an obstacle?
   bool touches(double x, double y, double r) const {
-    const bool any = (r - x >= least_[0]) | ((x + r) - width_ >= least_[1]) | (r - y >= least_[2]) |
-                     ((y + r) - height_ >= least_[3]);
-    if (!any || obstacles_ == nullptr) return any;
-    const bool side = (r - x >= least_left_) | ((x + r) - width_ >= least_[1]) | (r - y >= least_[2]) |
-                      ((y + r) - height_ >= least_[3]);
-    return side || !obstacles_->is_clear({x - r, y - r}, {x + r, y + r});
+    const bool other = ((x + r) - width_ >= least_[1]) | (r - y >= least_[2]) | ((y + r) - height_ >= least_[3]);
+    if (!(other | (r - x >= first_left_))) return false;
+    return obstacles_ == nullptr || other || r - x >= least_[0] ||
+           !obstacles_->is_clear({x - r, y - r}, {x + r, y + r});
   }
 
  private:
   double width_, height_;  // length
   const ObstacleCells* obstacles_;
   std::array<double, 4> least_{};  // in the order of Side; length
-  double least_left_ = 0.0;        // where there are obstacles
+  double first_left_ = 0.0;
 };
 
 }  // namespace carom
