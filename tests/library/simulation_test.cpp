@@ -1,4 +1,4 @@
-// carom::Simulation: the bits of a run however it is stepped, saved and looked at, and what changes between steps do.
+// carom::Simulation: the bits of a run however it is stepped, saved and looked at.
 #include "run/simulation.hpp"
 
 #include <gmock/gmock.h>
@@ -9,48 +9,23 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <limits>
 #include <thread>
 
 #include "core/base/check.hpp"
 #include "core/disks/state_hash.hpp"
-#include "core/measure/invariants.hpp"
 #include "run/disk_maps.hpp"
 #include "run/run_scene.hpp"
-#include "tests/support/draws.hpp"
+#include "tests/support/simulation_support.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {
 
+using test::choice;
+using test::gas;
+using test::methods;
+
 const std::string scenes = CAROM_SOURCE_DIR "/scenes/";
-
-// Gas of two sizes in a box that is periodic along x, with walls above and below.
-Scene gas(const std::string& method, Count disks = 200) {
-  const std::string text = R"(
-    [box]
-    packing_fraction = 0.3
-    left = "periodic"
-    right = "periodic"
-    [[disks]]
-    count = )" + std::to_string(disks) +
-                           R"(
-    velocities = { maxwell = 1.0 }
-    positions = "random"
-    radius = { uniform = [0.3, 0.6] }
-    mass = { from_radius = 1.0 }
-    [run]
-    dt = 0.01
-    t_end = 3.0
-    method = ")" + method + "\"\n";
-  return parse_scene(text, "gas.toml", "");
-}
-
-const char* const methods[] = {"exact", "pairwise", "rollback"};
-
-EngineChoice choice(const char* engine = "parallel", int threads = 1) {
-  return choose_engine(engine, threads);
-}
 
 TEST(Simulation, HasTheBitsOfARun) {
   for (const std::string file : {"two_disks.toml", "production_a.toml", "brownian_sink.toml"}) {
@@ -93,7 +68,7 @@ TEST(Simulation, GivesDisksInOrderOfId) {
   EXPECT_THROW(simulation.disks_at(simulation.time() + 1.0, earlier), InputError);
 }
 
-// Nobody knows any more where the disks were before the last window: at its start, but not before.
+// Paths are kept of the last window alone: its start is the earliest time that disks can be had of.
 TEST(Simulation, HasNoDisksOfBeforeTheLastStep) {
   for (const char* engine : {"parallel", "reference"}) {
     Simulation s(gas("exact"), choice(engine));
@@ -173,214 +148,6 @@ TEST(Simulation, SavedAndLoadedGoesOnBitForBit) {
   }
 }
 
-// The same changes at the same steps, on both engines.
-TEST(Simulation, ChangesBetweenStepsHaveTheReferencesBits) {
-  for (const char* method : methods) {
-    const auto hash = [&](const EngineChoice& engine) {
-      Simulation s(gas(method), engine);
-      s.step(10);
-      EXPECT_TRUE(s.remove(17));
-      EXPECT_FALSE(s.remove(17));
-      EXPECT_TRUE(s.set_velocity(3, {5.0, -1.0}));
-      s.step(10);
-      const Vec2 free = [&] {
-        for (double x = 0.5;; x += 0.25) {
-          const Disks d = s.disks();
-          bool room = true;
-          for (std::size_t i = 0; i < d.size(); ++i) {
-            room = room && std::hypot(nearest_image(d.x[i] - x, s.scene().box.width), d.y[i] - 4.0) > d.radius[i] + 0.3;
-          }
-          if (room) return Vec2{x, 4.0};
-        }
-      }();
-      const std::optional<DiskId> id = s.add({free.x, free.y, 1.0, 0.0, 0.25, 2.0});
-      EXPECT_EQ(id, DiskId{200});
-      EXPECT_FALSE(s.add({free.x + 0.1, free.y, 1.0, 0.0, 0.25, 2.0}));
-      s.step(30);
-      EXPECT_EQ(s.state().disks.size(), 200U);
-      EXPECT_LE(method == std::string("exact") ? max_overlap(s.state().disks, s.scene().box) : 0.0, 1e-9);
-      return s.hash();
-    };
-    const std::uint64_t reference = hash(choice("reference"));
-    EXPECT_EQ(hash(choice("parallel", 1)), reference) << method;
-    EXPECT_EQ(hash(choice("parallel", 3)), reference) << method;
-  }
-}
-
-// A disk of radius 0.3 at the first free one of eight random places.
-bool add_where_there_is_room(Simulation& s, Vec2 velocity, test::Draws& draw) {
-  const Domain& box = s.scene().box;
-  for (int k = 0; k < 8; ++k) {
-    const double x = draw.in(0.7, box.width - 0.7);
-    if (s.add({x, draw.in(0.7, box.height - 0.7), velocity.x, velocity.y, 0.3, 1.0})) return true;
-  }
-  return false;
-}
-
-// Many changes of all kinds, in a box where the engines keep cells and lists from step to step.
-std::uint64_t hash_after_changes(const Scene& scene, const EngineChoice& engine, int rounds) {
-  Simulation s(scene, engine);
-  test::Draws draw(5);
-  int removed = 0, redirected = 0, added = 0, stepped = 0;
-  for (int round = 0; round < rounds; ++round) {
-    for (int k = 0; k < 6; ++k) {
-      const auto id = static_cast<DiskId>(draw.bits() % s.state().next_id);
-      const Vec2 velocity{draw.in(-2.0, 2.0), draw.in(-2.0, 2.0)};
-      switch (draw.bits() % 3) {
-        case 0:
-          removed += s.remove(id);
-          break;
-        case 1:
-          redirected += s.set_velocity(id, velocity);
-          break;
-        default:
-          added += add_where_there_is_room(s, velocity, draw);
-      }
-    }
-    const auto steps = static_cast<Count>(draw.bits() % 3);
-    s.step(steps);
-    stepped += steps > 0;
-  }
-  EXPECT_GT(std::min({removed, redirected, added, stepped}), 1) << "of each kind of change, and steps between them";
-  return s.hash();
-}
-
-TEST(LongSimulation, ManyChangesHaveTheReferencesBits) {
-  for (const char* method : methods) {
-    for (const char* radius : {"0.3", "{ uniform = [0.1, 0.6] }"}) {
-      for (const char* sides : {"", "left = \"periodic\"\nright = \"periodic\"\n"}) {
-        const Scene scene = parse_scene(std::string("[box]\npacking_fraction = 0.2\n") + sides +
-                                            "[[disks]]\ncount = 3000\npositions = \"random\"\nmass = 1.0\n"
-                                            "velocities = { maxwell = 1.0 }\nradius = " +
-                                            radius + "\n[run]\ndt = 0.01\nt_end = 1e3\nmethod = \"" + method + "\"\n",
-                                        "gas.toml", "");
-        const int rounds = method == std::string("exact") ? 7 : 15;
-        const std::uint64_t reference = hash_after_changes(scene, choice("reference"), rounds);
-        EXPECT_EQ(hash_after_changes(scene, choice("parallel", 1), rounds), reference) << method << radius << sides;
-        EXPECT_EQ(hash_after_changes(scene, choice("parallel", 2), rounds), reference) << method << radius << sides;
-      }
-    }
-  }
-}
-
-// The cells of the lists were made for disks of a few sizes, none as small.
-TEST(Simulation, AddsADiskSmallerThanAllWithTheReferencesBits) {
-  for (const char* radius : {"0.3", "{ uniform = [0.3, 0.5] }", "{ uniform = [0.1, 0.6] }"}) {
-    const Scene scene =
-        parse_scene(std::string("[box]\npacking_fraction = 0.2\n[[disks]]\ncount = 500\npositions = \"random\"\nmass = "
-                                "1.0\nvelocities = { maxwell = 1.0 }\nradius = ") +
-                        radius + "\n[run]\nt_end = 1e3\nmethod = \"exact\"\n",
-                    "gas.toml", "");
-    const auto hash = [&](const EngineChoice& engine) {
-      Simulation s(scene, engine);
-      s.step(2);
-      test::Draws draw(3);
-      int added = 0;
-      for (int k = 0; k < 40; ++k) {
-        const double x = draw.in(0.1, scene.box.width - 0.1);
-        if (s.add({x, draw.in(0.1, scene.box.height - 0.1), 3.0, 1.0, 0.01, 0.1})) ++added;
-      }
-      EXPECT_GT(added, 10);
-      s.step(4);
-      EXPECT_LE(max_overlap(s.state().disks, s.scene().box), 1e-9);
-      return s.hash();
-    };
-    EXPECT_EQ(hash(choice("parallel", 1)), hash(choice("reference"))) << radius;
-  }
-}
-
-// A step is split by the fastest and the smallest disk that there are after a change, not by those before.
-TEST(Simulation, ChangesSplitStepsAsTheReferenceDoes) {
-  const auto expect_same = [](const std::string& radii, double speed, const auto& change) {
-    const std::string text =
-        "[box]\nwidth = 100.0\nheight = 100.0\n[physics]\ngravity = 20.0\n[[disks]]\ncount = 3\n"
-        "positions = [[20, 50], [50, 60], [80, 50]]\nvelocities = [[0, 0], [" +
-        std::to_string(speed) + ", 0], [0, 0]]\nradius = " + radii +
-        "\nmass = 1.0\n[run]\nmethod = \"pairwise\"\ndt = 0.02\nt_end = 10.0\n";
-    const auto hash = [&](const char* engine) {
-      Simulation s(parse_scene(text, "three.toml", ""), choice(engine));
-      s.step(3);
-      change(s);
-      s.step(3);
-      return s.hash();
-    };
-    EXPECT_EQ(hash("parallel"), hash("reference"));
-  };
-  expect_same("0.5", 1.0, [](Simulation& s) { s.set_velocity(2, {60.0, 0.0}); });
-  expect_same("0.5", 1.0, [](Simulation& s) { s.add({20.0, 80.0, 5.0, 0.0, 0.01, 1.0}); });
-  expect_same("[0.05, 0.5, 0.5]", 10.0, [](Simulation& s) { s.remove(0); });
-}
-
-// The paths of the last window end with a change.
-TEST(Simulation, HasNoDisksOfEarlierAfterAChange) {
-  Simulation s(gas("exact"), choice());
-  s.step(3);
-  Disks then;
-  const double before = std::nextafter(s.time(), 0.0);
-  EXPECT_EQ(s.disks_at(before, then), before);
-  s.set_velocity(7, {1.0, 2.0});
-  EXPECT_EQ(s.disks_at(before, then), s.time());
-  EXPECT_EQ(then.vx[7], 1.0);
-  s.remove(0);
-  EXPECT_EQ(s.disks_at(before, then), s.time());
-  EXPECT_EQ(then.size(), 199U);
-}
-
-TEST(Simulation, AddsNoDiskOnAFixedOne) {
-  const Scene scene = parse_scene(R"(
-    [box]
-    width = 20.0
-    height = 10.0
-    left = "periodic"
-    right = "periodic"
-    [[disks]]
-    count = 1
-    positions = [[0.5, 5.0]]
-    radius = 1.0
-    fixed = true
-    [[disks]]
-    count = 1
-    positions = [[10.0, 5.0]]
-    velocities = [[1.0, 0.0]]
-    radius = 1.0
-    mass = 1.0
-    [[walls]]
-    from = [14.0, 2.0]
-    to = [16.0, 4.0]
-    [run]
-    method = "exact"
-    t_end = 10.0
-)",
-                                  "fixed.toml", "");
-  Simulation s(scene, choice());
-  EXPECT_FALSE(s.add({0.5, 6.5, 0.0, 0.0, 0.6, 1.0}));
-  EXPECT_FALSE(s.add({19.5, 5.0, 0.0, 0.0, 0.5, 1.0})) << "across the side";
-  EXPECT_FALSE(s.add({15.5, 2.5, 0.0, 0.0, 0.8, 1.0})) << "on a wall";
-  EXPECT_TRUE(s.add({0.5, 7.0, 0.0, -1.0, 0.6, 1.0}));
-  EXPECT_TRUE(s.add({15.5, 2.5, 0.0, 0.0, 0.6, 1.0}));
-  s.run_until(5.0);
-  EXPECT_GT(s.state().counters.collisions + s.state().counters.wall_collisions, 0U);
-}
-
-// A side that moves has come in as far as the time is.
-TEST(Simulation, AddsNoDiskBeyondASideThatHasMovedIn) {
-  for (const std::string method : methods) {
-    SCOPED_TRACE(method);
-    Simulation simulation(
-        parse_scene("[box]\nwidth = 20.0\nheight = 20.0\nleft = { motion = { velocity = [1.0, 0.0] } }\n"
-                    "[[disks]]\ncount = 1\npositions = [[18.0, 10.0]]\nvelocities = [[0.0, 0.0]]\nradius = 0.5\n"
-                    "mass = 1.0\n[run]\ndt = 0.01\nt_end = 8.0\nmethod = \"" +
-                        method + "\"\n",
-                    "piston.toml", ""),
-        choice());
-    simulation.run_until(4.0);
-    const double side = simulation.time();
-    EXPECT_FALSE(simulation.add({1.0, 3.0, 0.0, 0.0, 0.5, 1.0}));
-    EXPECT_FALSE(simulation.add({side + 0.4, 3.0, 0.0, 0.0, 0.5, 1.0}));
-    EXPECT_TRUE(simulation.add({side + 0.6, 3.0, 0.0, 0.0, 0.5, 1.0}));
-  }
-}
-
 // The mean pressure is that in the room halfway through the run: here of one disk that only the wall opposite meets.
 TEST(Simulation, SummaryHasThePressureInTheRoomThatASideLeaves) {
   Simulation simulation(
@@ -405,25 +172,6 @@ TEST(Simulation, ColumnsAsEigenMapsAreNoCopies) {
   EXPECT_EQ(maps.id[3], d.id[3]);
   EXPECT_EQ(maps.y.maxCoeff(), *std::max_element(d.y.begin(), d.y.end()));
   EXPECT_EQ(static_cast<std::size_t>(maps.radius.size()), d.radius.size());
-}
-
-TEST(Simulation, RefusesDisksThatCannotBe) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  Simulation s(gas("exact"), choice());
-  const std::uint64_t before = s.hash();
-  EXPECT_THROW(s.add({nan, 5.0, 0.0, 0.0, 0.1, 1.0}), InputError);
-  EXPECT_THROW(s.add({5.0, 5.0, nan, 0.0, 0.1, 1.0}), InputError);
-  EXPECT_THROW(s.add({5.0, 5.0, 0.0, 0.0, 0.0, 1.0}), InputError);
-  EXPECT_THROW(s.add({5.0, 5.0, 0.0, 0.0, 0.1, -1.0}), InputError);
-  EXPECT_THROW(s.add({5.0, 0.05, 0.0, 0.0, 0.1, 1.0}), InputError);  // through the floor
-  EXPECT_THROW(s.add({-0.1, 5.0, 0.0, 0.0, 0.1, 1.0}), InputError);
-  EXPECT_THROW(s.add({5.0, 5.0, 0.0, 0.0, 1000.0, 1.0}), InputError);
-  const double width = s.scene().box.width;
-  EXPECT_THROW(s.add({width, 5.0, 0.0, 0.0, 0.1, 1.0}), InputError);  // is 0
-  EXPECT_THROW(s.add({0.5 * width, 0.5 * width, 0.0, 0.0, 0.3 * width, 1.0}), InputError) << "would meet its image";
-  EXPECT_THROW(s.set_velocity(3, {nan, 0.0}), InputError);
-  EXPECT_THROW(s.run_until(nan), InputError);
-  EXPECT_EQ(s.hash(), before);
 }
 
 TEST(Simulation, TwoInTwoThreadsDoNotMeet) {

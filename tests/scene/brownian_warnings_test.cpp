@@ -1,0 +1,111 @@
+// What a scene asks of Brownian disks that they cannot have: a warning each, with the key.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/load/scene_check.hpp"
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+// What gravity and masses would do to Brownian disks is nothing that depends on the scene alone, or on it as it should.
+TEST(BrownianWarnings, TellWhatDependsOnMoreThanTheScene) {
+  const std::string start = R"(
+[box]
+width = 20.0
+height = 20.0
+[physics]
+diffusion = 0.5
+)";
+  const std::string end = R"(
+[[disks]]
+count = 5
+positions = "random"
+radius = { uniform = [0.1, 0.2] }
+mass = 1.0
+[[disks]]
+count = 5
+fixed = true
+positions = "random"
+radius = 0.3
+[run]
+dt = 0.01
+t_end = 1.0
+)";
+  const auto warned = [&](const std::string& physics, const std::string& last, const std::vector<Override>& sets = {}) {
+    return scene_warnings(test::scene_from(start + physics + end + last, sets));
+  };
+  EXPECT_THAT(warned("", ""), testing::IsEmpty());
+  EXPECT_THAT(
+      warned("gravity = [0.0, 3.0]\n", ""),
+      testing::ElementsAre(AllOf(HasSubstr("physics.gravity: Brownian disks"), HasSubstr("g dt / 2 = 0.015 "))));
+  EXPECT_THAT(
+      warned("restitution = 0.9\n", ""),
+      testing::ElementsAre(AllOf(HasSubstr("physics.restitution: Brownian disks"), HasSubstr(" = 0.1 of contact"))));
+  EXPECT_THAT(warned("", "", {{"box.wall_restitution", "0.5"}}),
+              testing::ElementsAre(HasSubstr("box.wall_restitution: Brownian disks")));
+  EXPECT_THAT(warned("gravity = 3.0\naccumulate = true\n", "", {{"disks.0.mass", "{ uniform = [1, 2] }"}}),
+              testing::IsEmpty());
+  EXPECT_THAT(warned("", "", {{"disks.0.mass", "{ from_radius = 3.0 }"}}),
+              testing::ElementsAre(HasSubstr("disks.mass: Brownian disks have no velocity")));
+  EXPECT_THAT(warned("", "[[sources]]\nregion = [5.0, 5.0, 9.0, 9.0]\nrate = 1.0\nradius = 0.1\nmass = 2.0\n"),
+              testing::ElementsAre(HasSubstr("disks.mass: Brownian disks have no velocity")));
+  EXPECT_THAT(
+      warned("", "[analysis]\nwhat = [\"profile\", \"velocity_autocorrelation\", \"density\", \"collision_rate\"]\n"),
+      testing::ElementsAre(HasSubstr("grow in number as 1 / sqrt(dt)"), HasSubstr("temperature are those of u / dt"),
+                           HasSubstr("autocorrelation is that")));
+}
+
+// A drift does nothing to disks whose displacements are drawn anew in each step; velocities drawn around 0 were to do
+// nothing.
+TEST(BrownianWarnings, TellOfAForgottenDrift) {
+  const auto warned = [](std::string_view physics, std::string_view group) {
+    return scene_warnings(test::scene_from(fmt::format(R"(
+[box]
+width = 20.0
+height = 20.0
+[physics]
+{}
+[[disks]]
+count = 0
+positions = "random"
+drift = [1.0, 0.0]
+radius = 0.1
+mass = 1.0
+[[disks]]
+count = 2
+positions = "random"
+radius = 0.1
+mass = 1.0
+{}
+[run]
+dt = 0.01
+t_end = 1.0
+)",
+                                                       physics, group)));
+  };
+  constexpr std::string_view brownian = "diffusion = 0.5";
+  constexpr std::string_view forgotten =
+      "Brownian disks have no velocity, u / dt is the displacement of a step: those "
+      "given here are forgotten in the first step, and nothing drifts";
+  EXPECT_THAT(warned(brownian, ""), testing::IsEmpty());
+  EXPECT_THAT(warned(brownian, "velocities = { maxwell = 1.0 }"), testing::IsEmpty());
+  EXPECT_THAT(warned(brownian, "velocities = [[0, 0], [0, 0]]"), testing::IsEmpty());
+  EXPECT_THAT(warned(brownian, "drift = [0.0, -0.5]"),
+              testing::ElementsAre(HasSubstr(fmt::format("disks.1.drift: {}", forgotten))));
+  EXPECT_THAT(warned(brownian, "velocities = [[0, 0], [0.5, 0]]"),
+              testing::ElementsAre(HasSubstr(fmt::format("disks.1.velocities: {}", forgotten))));
+  EXPECT_THAT(warned("diffusion = 0.5\naccumulate = true", "drift = [0.5, 0.0]"), testing::IsEmpty());
+  EXPECT_THAT(warned("", "drift = [0.5, 0.0]"), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace carom
