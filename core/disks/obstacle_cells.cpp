@@ -16,11 +16,17 @@ std::int64_t cells_for(double length, double cell, std::size_t obstacles) {
   return static_cast<std::int64_t>(std::clamp(std::floor(length / cell), 1.0, most));
 }
 
-// The cells of a few obstacles at rest are as many as those of so many: nearly all disks are far from them, and find
-// nothing in the cells around.
+// The cells of a few obstacles at rest are as many as those of so many.
 constexpr std::size_t least_at_rest = 128;
 // Likewise of those that move, whose cells are made for each step.
 constexpr std::size_t least_moving = 16;
+// The cells of what is clear of obstacles at rest: so many an obstacle, which are a third of a mean distance long, and
+// so many in all at least and at most, as each has one byte.
+constexpr std::size_t clearance_cells = 64;
+constexpr std::size_t least_clearance_cells = 4096;
+constexpr std::size_t most_clearance_cells = std::size_t{1} << 22;
+// Those of walls that move are as many as their other cells.
+constexpr std::size_t swept_cells = 2;
 
 }  // namespace
 
@@ -29,7 +35,7 @@ ObstacleGrid::ObstacleGrid(const std::vector<Extent>& extents, const Domain& box
   const double wanted = std::sqrt(box.width * box.height / (2.0 * static_cast<double>(n)));
   const auto axis = [&](double length, bool periodic) {
     const std::int64_t cells = cells_for(length, wanted, n);
-    return Axis{length, periodic, cells, static_cast<double>(cells) / length};
+    return CellAxis{length, periodic, cells, static_cast<double>(cells) / length};
   };
   x_ = axis(box.width, box.periodic_x());
   y_ = axis(box.height, box.periodic_y());
@@ -53,34 +59,12 @@ ObstacleGrid::ObstacleGrid(const std::vector<Extent>& extents, const Domain& box
   entries_.resize(start_.back());
   std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
   for_each_entry([&](std::size_t cell, const Entry& entry) { entries_[next[cell]++] = entry; });
-  find_near();
-}
-
-void ObstacleGrid::find_near() {
-  const auto around = [](std::int64_t k, const Axis& axis, auto&& see) {
-    for (std::int64_t c = k - 1; c <= k + 1; ++c) {
-      if (axis.periodic) {
-        see((c + axis.cells) % axis.cells);
-      } else if (c >= 0 && c < axis.cells) {
-        see(c);
-      }
-    }
-  };
-  near_.assign(static_cast<std::size_t>(x_.cells * y_.cells), 0);
-  for (std::int64_t row = 0; row < y_.cells; ++row) {
-    for (std::int64_t column = 0; column < x_.cells; ++column) {
-      const auto cell = static_cast<std::size_t>(row * x_.cells + column);
-      if (start_[cell] == start_[cell + 1]) continue;
-      around(row, y_, [&](std::int64_t r) {
-        around(column, x_, [&](std::int64_t c) { near_[static_cast<std::size_t>(r * x_.cells + c)] = 1; });
-      });
-    }
-  }
 }
 
 ObstacleCells::ObstacleCells(const std::vector<Obstacle>& obstacles, std::vector<WallMotion> motions, const Domain& box)
     : obstacles_(obstacles), motions_(std::move(motions)), box_(box) {
   std::vector<ObstacleGrid::Extent> at_rest;
+  std::vector<Clearance::Shape> shapes;
   for (std::uint32_t k = 0; k < obstacles_.size(); ++k) {
     Obstacle& o = obstacles_[k];
     o.moves = o.moves && o.id < motions_.size() && motions_[o.id].moves();
@@ -89,17 +73,21 @@ ObstacleCells::ObstacleCells(const std::vector<Obstacle>& obstacles, std::vector
       moving_.push_back(k);
       continue;
     }
+    shapes.push_back({{o.x, o.y}, {o.dx, o.dy}, o.radius});
     at_rest.push_back({k,
                        {o.x + std::min(o.dx, 0.0) - o.radius, o.y + std::min(o.dy, 0.0) - o.radius},
                        {o.x + std::max(o.dx, 0.0) + o.radius, o.y + std::max(o.dy, 0.0) + o.radius}});
   }
   at_rest_ = ObstacleGrid(at_rest, box, at_rest.empty() ? 1 : least_at_rest);
+  around_at_rest_ =
+      Clearance(box, shapes, std::clamp(clearance_cells * shapes.size(), least_clearance_cells, most_clearance_cells));
   follow(box.clock.from, box.clock.to);
 }
 
 void ObstacleCells::follow(double from, double to) {
   if (moving_.empty()) return;
   std::vector<ObstacleGrid::Extent> swept;
+  std::vector<Clearance::Extent> extents;
   for (const std::uint32_t k : moving_) {
     const Obstacle& o = obstacles_[k];
     const WallMotion::Range range = motions_[o.id].range(from, to);
@@ -107,9 +95,11 @@ void ObstacleCells::follow(double from, double to) {
     const Vec2 high{o.x + std::max(o.dx, 0.0) + range.high.x, o.y + std::max(o.dy, 0.0) + range.high.y};
     // A wall that has gone round a periodic box many times is known less exactly.
     const Vec2 slack{0x1p-48 * (std::abs(low.x) + std::abs(high.x)), 0x1p-48 * (std::abs(low.y) + std::abs(high.y))};
-    swept.push_back({k, {low.x - slack.x, low.y - slack.y}, {high.x + slack.x, high.y + slack.y}});
+    extents.push_back({{low.x - slack.x, low.y - slack.y}, {high.x + slack.x, high.y + slack.y}});
+    swept.push_back({k, extents.back().low, extents.back().high});
   }
   swept_ = ObstacleGrid(swept, box_, least_moving);
+  around_swept_ = Clearance(box_, extents, swept_cells * std::max(least_moving, extents.size()));
 }
 
 bool ObstacleCells::dissipates() const {

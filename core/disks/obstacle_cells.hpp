@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/base/types.hpp"
+#include "core/disks/cell_axis.hpp"
+#include "core/disks/clearance.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/obstacle.hpp"
 #include "core/disks/wall_motion.hpp"
@@ -33,8 +35,8 @@ class ObstacleGrid {
   // rectangle; the image is displaced by shift. The rectangle may lie beyond periodic sides by a few periods.
   template <class See>
   void visit(Vec2 low, Vec2 high, See&& see) const {
-    const Span rows = y_.span(low.y, high.y);
-    const Span columns = x_.span(low.x, high.x);
+    const CellAxis::Span rows = y_.span(low.y, high.y);
+    const CellAxis::Span columns = x_.span(low.x, high.x);
     for (std::int64_t row = rows.first; row <= rows.last; ++row) {
       for (std::int64_t column = columns.first; column <= columns.last; ++column) {
         visit_cell(rows, columns, row, column, see);
@@ -42,54 +44,18 @@ class ObstacleGrid {
     }
   }
 
-  // Is there nothing in the cell of the rectangle's middle and those around it, and does it reach no further? Then
-  // visit calls nothing. Most disks are far from every obstacle, and small.
-  bool is_clear(Vec2 low, Vec2 high) const {
-    const double x = 0.5 * (low.x + high.x) * x_.cells_per_length;
-    const double y = 0.5 * (low.y + high.y) * y_.cells_per_length;
-    constexpr double two_cells = 2.0 * (1.0 - 1e-6);
-    const bool small =
-        (high.x - low.x) * x_.cells_per_length <= two_cells && (high.y - low.y) * y_.cells_per_length <= two_cells;
-    const bool in_box = x >= 0.0 && y >= 0.0 && x < static_cast<double>(x_.cells) && y < static_cast<double>(y_.cells);
-    if (!small || !in_box) return false;
-    return near_[static_cast<std::size_t>(static_cast<std::int64_t>(y) * x_.cells + static_cast<std::int64_t>(x))] == 0;
-  }
-
  private:
-  struct Span {
-    std::int64_t first, last;  // cells, counted on across periodic sides
-  };
-  struct Axis {
-    double length = 0.0;
-    bool periodic = false;
-    std::int64_t cells = 1;
-    double cells_per_length = 1.0;
-
-    std::int64_t cell_of(double c) const {
-      const double cell = std::floor(c * cells_per_length);
-      const double last = static_cast<double>(cells - 1);
-      return static_cast<std::int64_t>(periodic ? cell : std::clamp(cell, 0.0, last));
-    }
-    // A little further at both ends, as coordinates of images are rounded.
-    Span span(double low, double high) const {
-      const double slack = 1e-9 / cells_per_length;
-      return {cell_of(low - slack), cell_of(high + slack)};
-    }
-    // By how many periods a cell lies beyond the box, rounded down.
-    std::int64_t periods(std::int64_t cell) const {
-      return periodic ? (cell >= 0 ? cell / cells : -((cells - 1 - cell) / cells)) : 0;
-    }
-  };
   struct Entry {
     std::uint32_t obstacle, extent;
     std::int32_t period_x, period_y;  // in which the obstacle, where it stands, reaches into the cell
   };
   struct Reach {
-    Span columns, rows;
+    CellAxis::Span columns, rows;
   };
 
   template <class See>
-  void visit_cell(const Span& rows, const Span& columns, std::int64_t row, std::int64_t column, See&& see) const {
+  void visit_cell(const CellAxis::Span& rows, const CellAxis::Span& columns, std::int64_t row, std::int64_t column,
+                  See&& see) const {
     const std::int64_t py = y_.periods(row);
     const std::int64_t px = x_.periods(column);
     const auto cell = static_cast<std::size_t>((row - py * y_.cells) * x_.cells + (column - px * x_.cells));
@@ -105,11 +71,8 @@ class ObstacleGrid {
     }
   }
 
-  void find_near();
-
-  Axis x_, y_;
+  CellAxis x_, y_;
   std::vector<Reach> reach_;          // of each extent
-  std::vector<std::uint8_t> near_;    // of each cell: does an obstacle reach into it or one of the eight around it?
   std::vector<std::uint32_t> start_;  // of each cell in entries_, row by row; one more than cells
   std::vector<Entry> entries_;
 };
@@ -143,9 +106,14 @@ class ObstacleCells {
     if (!moving_.empty()) [[unlikely]]
       swept_.visit(low, high, see);
   }
-  // As ObstacleGrid::is_clear.
+  // As in Clearance: no obstacle reaches into the rectangle.
   bool is_clear(Vec2 low, Vec2 high) const {
-    return at_rest_.is_clear(low, high) && (moving_.empty() || swept_.is_clear(low, high));
+    return around_at_rest_.is_clear(low, high) && (moving_.empty() || around_swept_.is_clear(low, high));
+  }
+  // All obstacles are so far from this place, along either side, at least; length, negative where it is not known.
+  double clearance(Vec2 place) const {
+    const double at_rest = around_at_rest_.at(place);
+    return moving_.empty() ? at_rest : std::min(at_rest, around_swept_.at(place));
   }
 
  private:
@@ -155,6 +123,7 @@ class ObstacleCells {
   Domain box_;                         // its size and its periodic sides
   bool has_sinks_ = false;
   ObstacleGrid at_rest_, swept_;
+  Clearance around_at_rest_, around_swept_;
 };
 
 // The cells for a run's obstacles, where they are at the time of the box, and box.obstacles set to them; null where

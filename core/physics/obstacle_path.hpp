@@ -227,30 +227,39 @@ inline bool may_reach(const Obstacle& o, Vec2 shift, Vec2 low, Vec2 high) {
          y + std::max(o.dy, 0.0) + o.radius >= low.y && y + std::min(o.dy, 0.0) - o.radius <= high.y;
 }
 
+// After how long what moves at this speed, with an acceleration of this size, may have come so far; > 0.
+inline double least_time_over(double distance, double speed, double acceleration) {
+  return 2.0 * distance / (speed + std::sqrt(speed * speed + 2.0 * acceleration * distance));
+}
+
 struct ObstacleContact {
   double time = never;         // in the window
   std::uint32_t obstacle = 0;  // its place in State::obstacles
 };
 
 // The first contact of a path with an obstacle, the one earlier in the list of two at the same time; `never` if after
-// `end`. The path is followed a cell at a time, so that only obstacles near it cost anything; the time is that of the
-// whole segment and the obstacle, whatever the cells are. Preconditions: box.obstacles is not null and follows the
-// window; end is finite.
+// `end`. The path is followed, as far as the way is clear or else a cell at a time, so that only obstacles near it cost
+// anything; the time is that of the whole segment and the obstacle, whatever the cells are. Preconditions:
+// box.obstacles is not null and follows the window; end is finite.
 inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radius, const Domain& box, const Gravity& g,
                                               double end) {
   const ObstacleCells& obstacles = *box.obstacles;
   const double span = end - p.start;
   const double grip = obstacles.has_sinks() ? grip_of_sink(radius, box) : 0.0;
+  const double cell = obstacles.cell();
+  const double reach = radius + 1e-9 * (radius + cell) + grip;
+  // Shorter ways than this share of a cell are not worth asking for.
+  constexpr double least_clear = 0.1;
   ObstacleContact first;
   PathSegment at = p;
   for (double from = 0.0;;) {
     const double speed = std::sqrt(at.vx * at.vx + at.vy * at.vy);
-    const double cell = obstacles.cell();
-    const double step = 2.0 * cell / (speed + std::sqrt(speed * speed + 2.0 * g.size * cell));
+    const double clear = obstacles.clearance({at.x, at.y}) - reach;
+    const bool is_clear = clear > least_clear * cell;
+    const double step = least_time_over(is_clear ? clear : cell, speed, g.size);
     const double to = step < span - from ? from + step : span;
     const PathSegment next = carried_to(p, p.start + to, g);
     // A parabola lies off its chord, on the side that gravity points away from, by no more than g t^2 / 8.
-    const double reach = radius + 1e-9 * (radius + cell) + grip;
     const double rise_x = g.left * (to - from) * (to - from);
     const double rise_y = g.down * (to - from) * (to - from);
     const Vec2 low{std::min(at.x, next.x) + std::min(rise_x, 0.0) - reach,
@@ -266,7 +275,7 @@ inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radiu
                                           : time_to_obstacle(o, apart, p, r, g, span));
       if (s <= end && (s < first.time || (s == first.time && k < first.obstacle))) first = {s, k};
     };
-    if (!obstacles.is_clear(low, high)) obstacles.visit(low, high, see);
+    if (!is_clear && !obstacles.is_clear(low, high)) obstacles.visit(low, high, see);
     if (first.time <= p.start + to || !(to < span) || !(to > from)) return first;
     from = to;
     at = next;

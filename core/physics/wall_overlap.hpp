@@ -22,7 +22,7 @@ inline void see_wall_overlap(double x, double y, double r, DiskId id, const Doma
     const double beyond = reach_beyond_wall(side, x, y, r, box);
     if (beyond > 0.0) deepest.see({beyond / r, id, wall_partner(side)});
   }
-  if (box.obstacles == nullptr || box.obstacles->is_clear({x - r, y - r}, {x + r, y + r})) return;
+  if (box.obstacles == nullptr || box.obstacles->clearance({x, y}) >= r) return;
   for_each_solid_touched(box, x, y, r, [&](std::uint32_t k, const ObstacleGap& gap) {
     if (gap.beyond > 0.0) deepest.see({gap.beyond / r, id, obstacle_partner(k)});
   });

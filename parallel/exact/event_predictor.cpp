@@ -127,7 +127,7 @@ void EventPredictor::see_obstacles(std::uint32_t i, double end, NextEvent& best)
 bool EventPredictor::touches_slowly(const PathSegment& path, double radius) const {
   const double reach = radius + window_->close;
   const Domain* box = &window_->rules.box;
-  if (box->obstacles->is_clear({path.x - reach, path.y - reach}, {path.x + reach, path.y + reach})) return false;
+  if (box->obstacles->clearance({path.x, path.y}) >= reach) return false;
   bool slowly = false;
   Domain then;
   if (box->inner_walls_move) {

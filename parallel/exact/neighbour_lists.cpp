@@ -243,8 +243,7 @@ void NeighbourLists::find_inner_part() {
 bool NeighbourLists::may_touch_obstacle(Vec2 listed, double radius) const {
   if (mode_ == EngineMode::all_pairs || box_.inner_walls_move) return true;
   const double reach = (radius + skin_) * (1.0 + 1e-6) + std::max(unit_x_, unit_y_);
-  if (box_.obstacles->is_clear({listed.x - reach, listed.y - reach}, {listed.x + reach, listed.y + reach}))
-    return false;
+  if (box_.obstacles->clearance(listed) >= reach) return false;
   bool may = false;
   for_each_obstacle_touched(box_, listed.x, listed.y, reach, [&](std::uint32_t, const ObstacleGap&) { may = true; });
   return may;

@@ -32,8 +32,7 @@ class WallReach {
   bool touches(double x, double y, double r) const {
     const bool other = ((x + r) - width_ >= least_[1]) | (r - y >= least_[2]) | ((y + r) - height_ >= least_[3]);
     if (!(other | (r - x >= first_left_))) return false;
-    return obstacles_ == nullptr || other || r - x >= least_[0] ||
-           !obstacles_->is_clear({x - r, y - r}, {x + r, y + r});
+    return obstacles_ == nullptr || other || r - x >= least_[0] || r > obstacles_->clearance({x, y});
   }
 
  private:
