@@ -26,11 +26,20 @@ struct CellAxis {
   // A little further at both ends, as coordinates of images are rounded.
   Span span(double low, double high) const {
     const double slack = 1e-9 / cells_per_length;
-    return {cell_of(low - slack), cell_of(high + slack)};
+    low -= slack;
+    high += slack;
+    if (low >= 0.0 && high < length) [[likely]] {
+      // The product may be rounded up to the end of the box.
+      const auto last = static_cast<std::int64_t>(high * cells_per_length);
+      return {static_cast<std::int64_t>(low * cells_per_length), std::min(last, cells - 1)};
+    }
+    return {cell_of(low), cell_of(high)};
   }
   // By how many periods a cell lies beyond the box, rounded down.
   std::int64_t periods(std::int64_t cell) const {
-    return periodic ? (cell >= 0 ? cell / cells : -((cells - 1 - cell) / cells)) : 0;
+    if (!periodic || (cell >= 0 && cell < cells)) [[likely]]
+      return 0;
+    return cell >= 0 ? cell / cells : -((cells - 1 - cell) / cells);
   }
   // The same cell in the box.
   std::int64_t in_box(std::int64_t cell) const { return cell - periods(cell) * cells; }

@@ -38,8 +38,21 @@ class ObstacleGrid {
     const CellAxis::Span rows = y_.span(low.y, high.y);
     const CellAxis::Span columns = x_.span(low.x, high.x);
     for (std::int64_t row = rows.first; row <= rows.last; ++row) {
+      const std::int64_t py = y_.periods(row);
+      const std::int64_t row_in_box = row - py * y_.cells;
       for (std::int64_t column = columns.first; column <= columns.last; ++column) {
-        visit_cell(rows, columns, row, column, see);
+        const std::int64_t px = x_.periods(column);
+        const auto cell = static_cast<std::size_t>(row_in_box * x_.cells + (column - px * x_.cells));
+        for (std::uint32_t e = start_[cell]; e < start_[cell + 1]; ++e) {
+          const Entry& entry = entries_[e];
+          const Reach& reach = reach_[entry.extent];
+          const std::int64_t kx = px - entry.period_x;
+          const std::int64_t ky = py - entry.period_y;
+          // Of the cells that the image and the rectangle share, the first one only.
+          if (column != std::max(columns.first, reach.columns.first + kx * x_.cells)) continue;
+          if (row != std::max(rows.first, reach.rows.first + ky * y_.cells)) continue;
+          see(entry.obstacle, Vec2{static_cast<double>(kx) * x_.length, static_cast<double>(ky) * y_.length});
+        }
       }
     }
   }
@@ -52,24 +65,6 @@ class ObstacleGrid {
   struct Reach {
     CellAxis::Span columns, rows;
   };
-
-  template <class See>
-  void visit_cell(const CellAxis::Span& rows, const CellAxis::Span& columns, std::int64_t row, std::int64_t column,
-                  See&& see) const {
-    const std::int64_t py = y_.periods(row);
-    const std::int64_t px = x_.periods(column);
-    const auto cell = static_cast<std::size_t>((row - py * y_.cells) * x_.cells + (column - px * x_.cells));
-    for (std::uint32_t e = start_[cell]; e < start_[cell + 1]; ++e) {
-      const Entry& entry = entries_[e];
-      const Reach& reach = reach_[entry.extent];
-      const std::int64_t kx = px - entry.period_x;
-      const std::int64_t ky = py - entry.period_y;
-      // Of the cells that the image and the rectangle share, the first one only.
-      if (column != std::max(columns.first, reach.columns.first + kx * x_.cells)) continue;
-      if (row != std::max(rows.first, reach.rows.first + ky * y_.cells)) continue;
-      see(entry.obstacle, Vec2{static_cast<double>(kx) * x_.length, static_cast<double>(ky) * y_.length});
-    }
-  }
 
   CellAxis x_, y_;
   std::vector<Reach> reach_;          // of each extent

@@ -138,20 +138,33 @@ inline ObstacleGap gap_to(const Obstacle& o, double x, double y, double r, const
   return gap_along(shortest_line(o, x, y, box), r + o.radius);
 }
 
+// Is an obstacle out of reach of a disk of radius r at this place relative to it?
+inline bool is_surely_beyond(const Obstacle& o, Vec2 apart, double r) {
+  if (o.is_segment()) return shortest_line(o, apart).distance > r;
+  const double contact = (r + o.radius) * (1.0 + 1e-6);
+  return apart.x * apart.x + apart.y * apart.y > contact * contact;
+}
+
+// Calls found(k, gap) if a disk of radius r at (x, y) overlaps or touches the image of obstacle k that is displaced by
+// `shift`, and this is the nearest one.
+template <class Found>
+void see_if_touched(const Domain& box, std::uint32_t k, Vec2 shift, double x, double y, double r, Found&& found) {
+  const Obstacle& o = (*box.obstacles)[k];
+  // This image alone, first: most are out of reach.
+  if (!o.moves && is_surely_beyond(o, {(x - o.x) - shift.x, (y - o.y) - shift.y}, r)) return;
+  const ObstacleGap gap = o.moves ? gap_to_moving_image(o, x, y, r, shift, box) : gap_to(o, x, y, r, box);
+  // Images lie whole periods apart: of all that are visited, the nearest one only.
+  const bool nearest =
+      std::abs(shift.x - gap.shift.x) < 0.5 * box.width && std::abs(shift.y - gap.shift.y) < 0.5 * box.height;
+  if (gap.beyond >= 0.0 && nearest) found(k, gap);
+}
+
 // Calls found(k, gap) once for each obstacle k that a disk of radius r at (x, y) overlaps or touches, sinks included.
 // Precondition: box.obstacles is not null.
 template <class Found>
 void for_each_obstacle_touched(const Domain& box, double x, double y, double r, Found&& found) {
-  box.obstacles->visit({x - r, y - r}, {x + r, y + r}, [&](std::uint32_t k, Vec2 shift) {
-    const Obstacle& o = (*box.obstacles)[k];
-    // This image alone, first: most are out of reach.
-    if (!o.moves && o.is_segment() && shortest_line(o, {(x - o.x) - shift.x, (y - o.y) - shift.y}).distance > r) return;
-    const ObstacleGap gap = o.moves ? gap_to_moving_image(o, x, y, r, shift, box) : gap_to(o, x, y, r, box);
-    // Images lie whole periods apart: of all that are visited, the nearest one only.
-    const bool nearest =
-        std::abs(shift.x - gap.shift.x) < 0.5 * box.width && std::abs(shift.y - gap.shift.y) < 0.5 * box.height;
-    if (gap.beyond >= 0.0 && nearest) found(k, gap);
-  });
+  box.obstacles->visit({x - r, y - r}, {x + r, y + r},
+                       [&](std::uint32_t k, Vec2 shift) { see_if_touched(box, k, shift, x, y, r, found); });
 }
 
 // The same without sinks: what disks bounce off.

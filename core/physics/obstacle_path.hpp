@@ -239,15 +239,17 @@ struct ObstacleContact {
 
 // The first contact of a path with an obstacle, the one earlier in the list of two at the same time; `never` if after
 // `end`. The path is followed, as far as the way is clear or else a cell at a time, so that only obstacles near it cost
-// anything; the time is that of the whole segment and the obstacle, whatever the cells are. Preconditions:
-// box.obstacles is not null and follows the window; end is finite.
-inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radius, const Domain& box, const Gravity& g,
-                                              double end) {
+// anything; the time is that of the whole segment and the obstacle, whatever the cells are. near_start(k, shift) is
+// called for every obstacle k, and every image of it displaced by shift, within `margin` (length) of the disk at the
+// path's start, and for others near it. Preconditions: box.obstacles is not null and follows the window; end is finite.
+template <class NearStart>
+ObstacleContact first_obstacle_contact(const PathSegment& p, double radius, const Domain& box, const Gravity& g,
+                                       double end, double margin, NearStart&& near_start) {
   const ObstacleCells& obstacles = *box.obstacles;
   const double span = end - p.start;
   const double grip = obstacles.has_sinks() ? grip_of_sink(radius, box) : 0.0;
   const double cell = obstacles.cell();
-  const double reach = radius + 1e-9 * (radius + cell) + grip;
+  const double reach = radius + 1e-9 * (radius + cell) + std::max(grip, margin);
   // Shorter ways than this share of a cell are not worth asking for.
   constexpr double least_clear = 0.1;
   ObstacleContact first;
@@ -269,6 +271,7 @@ inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radiu
     const auto see = [&](std::uint32_t k, Vec2 shift) {
       const Obstacle& o = obstacles[k];
       if (!o.moves && !may_reach(o, shift, low, high)) return;
+      if (from == 0.0) near_start(k, shift);
       const Vec2 apart{(p.x - o.x) - shift.x, (p.y - o.y) - shift.y};
       const double r = o.kind == ObstacleKind::sink ? radius + grip : radius;
       const double s = p.start + (o.moves ? time_to_moving_wall(o, apart, p, r, box, g, span)
@@ -280,6 +283,10 @@ inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radiu
     from = to;
     at = next;
   }
+}
+inline ObstacleContact first_obstacle_contact(const PathSegment& p, double radius, const Domain& box, const Gravity& g,
+                                              double end) {
+  return first_obstacle_contact(p, radius, box, g, end, 0.0, [](std::uint32_t, Vec2) {});
 }
 
 }  // namespace carom

@@ -111,34 +111,31 @@ NextEvent EventPredictor::earliest_one_by_one(std::uint32_t i) const {
   return best;
 }
 
-// The disk's first contact with an obstacle up to `end` or the horizon, where it comes before best.
+// The disk's first contact with an obstacle up to `end` or the horizon, where it comes before best. It may last where
+// the disk is so close to an obstacle, and so slow against it, that rounding decides whether they touch.
 void EventPredictor::see_obstacles(std::uint32_t i, double end, NextEvent& best) const {
   const DiskRecord& own = window_->record[i];
+  const PathSegment& path = own.path;
   const Domain& box = window_->rules.box;
-  const ObstacleContact first =
-      first_obstacle_contact(own.path, own.radius, box, window_->rules.gravity, std::min(end, window_->horizon));
-  const bool lasting = best.lasting || touches_slowly(own.path, own.radius);
+  const double close = window_->close;
+  bool lasting = best.lasting;
+  const auto see_slow = [&](std::uint32_t k, const ObstacleGap& gap) {
+    if ((*box.obstacles)[k].kind == ObstacleKind::sink || gap.beyond > 2.0 * close) return;
+    lasting = lasting || std::abs(speed_towards(gap, path.vx, path.vy)) <= window_->slow;
+  };
+  const auto near_start = [&](std::uint32_t k, Vec2 shift) {
+    const auto see = [&](const Domain& now) {
+      see_if_touched(now, k, shift, path.x, path.y, own.radius + close, see_slow);
+    };
+    if (lasting) return;
+    if (box.inner_walls_move) return see(box_at(box, box.clock.to + path.start));
+    see(box);
+  };
+  const ObstacleContact first = first_obstacle_contact(path, own.radius, box, window_->rules.gravity,
+                                                       std::min(end, window_->horizon), close, near_start);
   const NextEvent contact{first.time, Partner::obstacle(first.obstacle), false};
   if (comes_first(i, contact, best)) best = contact;
   best.lasting = lasting;
-}
-
-// Is the disk so close to an obstacle, and so slow against it, that rounding decides whether they touch?
-bool EventPredictor::touches_slowly(const PathSegment& path, double radius) const {
-  const double reach = radius + window_->close;
-  const Domain* box = &window_->rules.box;
-  if (box->obstacles->clearance({path.x, path.y}) >= reach) return false;
-  bool slowly = false;
-  Domain then;
-  if (box->inner_walls_move) {
-    then = box_at(*box, box->clock.to + path.start);
-    box = &then;
-  }
-  for_each_solid_touched(*box, path.x, path.y, reach, [&](std::uint32_t, const ObstacleGap& gap) {
-    const bool close = gap.beyond <= 2.0 * window_->close;
-    slowly = slowly || (close && std::abs(speed_towards(gap, path.vx, path.vy)) <= window_->slow);
-  });
-  return slowly;
 }
 
 PredictionConstants EventPredictor::constants_of(const WindowState& window, const NeighbourLists& lists,

@@ -70,7 +70,6 @@ class EventPredictor {
   void see_obstacles(std::uint32_t i, double end, NextEvent& best) const;
   bool is_obstacle_near(std::uint32_t i) const;
   bool sees_moving_images(const ListRow& row) const;
-  bool touches_slowly(const PathSegment& path, double radius) const;
   bool comes_first(std::uint32_t i, const NextEvent& a, const NextEvent& b) const;
   static PredictionConstants constants_of(const WindowState& window, const NeighbourLists& lists, bool near_border);
 
