@@ -17,6 +17,17 @@ double distance2(const Clearance::Shape& shape, Vec2 point) {
   return dx * dx + dy * dy;
 }
 
+// The shares of a shape's segment between which its height is within `reach` of this one; none where first > last.
+struct Part {
+  double first, last;
+};
+Part part_at_height(const Clearance::Shape& shape, double height, double reach) {
+  if (shape.along.y == 0.0) return std::abs(shape.from.y - height) <= reach ? Part{0.0, 1.0} : Part{1.0, 0.0};
+  const double one = (height - reach - shape.from.y) / shape.along.y;
+  const double other = (height + reach - shape.from.y) / shape.along.y;
+  return {std::max(std::min(one, other), 0.0), std::min(std::max(one, other), 1.0)};
+}
+
 }  // namespace
 
 Clearance::Clearance(const Domain& box, const std::vector<Shape>& shapes, std::size_t cells) {
@@ -65,7 +76,17 @@ void Clearance::mark_shape(const Shape& shape) {
     return !axis.periodic && (low < 0.0 || high > axis.length);
   };
   if (is_beyond(extent.low.x, extent.high.x, x_) || is_beyond(extent.low.y, extent.high.y, y_)) return mark_all(extent);
-  mark(extent, [&](Vec2 middle) { return distance2(shape, middle) <= reach * reach; });
+  // Row by row, so that a long segment costs the cells along it, not those of its rectangle.
+  const CellAxis::Span rows = y_.span(extent.low.y, extent.high.y);
+  for (std::int64_t row = rows.first; row <= rows.last; ++row) {
+    const double height = (static_cast<double>(row) + 0.5) / y_.cells_per_length;
+    const Part part = part_at_height(shape, height, reach);
+    if (part.first > part.last) continue;
+    const double one = shape.from.x + part.first * shape.along.x;
+    const double other = shape.from.x + part.last * shape.along.x;
+    mark({{std::min(one, other) - shape.radius, height}, {std::max(one, other) + shape.radius, height}},
+         [&](Vec2 middle) { return distance2(shape, middle) <= reach * reach; });
+  }
 }
 
 // occupied(middle): does what is there reach into the cell of this middle, which may lie beyond periodic sides?
