@@ -14,7 +14,7 @@ from ._carom import RunError, SceneError
 from ._result import Result
 from ._scene import Scene
 from ._simulation import engine as _engine
-from ._text import in_words_of_python as _in_words_of_python
+from ._text import in_words_of_python as _in_words_of_python, words_of_python as _words_of_python
 
 
 def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "parallel", force: bool = False,
@@ -30,13 +30,16 @@ def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "pa
         import warnings
 
         def warn(text):
-            warnings.warn(text, RuntimeWarning, stacklevel=3)
+            warnings.warn(text, RuntimeWarning, stacklevel=4)
 
     folder = None if out is None else _arguments.path(out)
     if not folder and out is not None:
         raise SceneError("out: is empty; expected a folder, or None for no files")
+    def say(warning):
+        warn(_words_of_python(warning))
+
     with _in_words_of_python():
-        text, folder, stopped, lost = _carom.run(Scene._checked(scene), folder, *_engine(engine, threads), force, strict, warn)
+        text, folder, stopped, lost = _carom.run(Scene._checked(scene), folder, *_engine(engine, threads), force, strict, say)
     if stopped:
         raise KeyboardInterrupt(stopped)
     if lost:

@@ -14,7 +14,7 @@ import numpy as np
 from . import _arguments, _carom, _notebook
 from ._disks import Frame, Hit, View
 from ._scene import Scene
-from ._text import in_words_of_python as _in_words_of_python
+from ._text import in_words_of_python as _in_words_of_python, words_of_python as _words_of_python
 
 _slice = 0.05  # seconds of steps between two looks at signals and callbacks
 _threads_began_in = None  # the process in which a run had several threads, which a fork does not copy
@@ -84,7 +84,7 @@ class Simulation:
 
     def take_warnings(self) -> list:
         """Warnings of the physics since the last call, one line each."""
-        return self._sim.warnings()
+        return [_words_of_python(warning) for warning in self._sim.warnings()]
 
     def every(self, interval: float, call: Callable[["Simulation"], Any]) -> None:
         """Calls call(self) during step and run, after the first step that ends at or beyond each multiple of interval

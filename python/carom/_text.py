@@ -71,14 +71,18 @@ def overrides(changes: Mapping[str, Any]) -> list:
     return [(key, value(v)) for key, v in changes.items()]
 
 
+def words_of_python(text: str) -> str:
+    """What the command line calls -o, --set, --force and --strict are arguments here, and --method a key of the scene."""
+    text = text.replace(" with -o,", ",").replace(" (-o)", "").replace("--force", "force=True")
+    text = text.replace("--set ", "changes: ").replace("--max-size:", "max_size:").replace("--engine:", "engine:")
+    text = re.sub(r"--method (\w+)", r'run.method = "\1"', text).replace("--strict", "strict=True")
+    return f"file:{text[3:]}" if text.startswith("-o:") else text
+
+
 @contextlib.contextmanager
 def in_words_of_python():
-    """What the command line calls -o, --set, --force and --strict are arguments here, and --method a key of the scene."""
+    """Errors raised here say so too."""
     try:
         yield
     except (SceneError, PhysicsError) as error:
-        text = str(error).replace(" with -o,", ",").replace(" (-o)", "").replace("--force", "force=True")
-        text = text.replace("--set ", "changes: ").replace("--max-size:", "max_size:").replace("--engine:", "engine:")
-        text = re.sub(r"--method (\w+)", r'run.method = "\1"', text).replace("--strict", "strict=True")
-        text = f"file:{text[3:]}" if text.startswith("-o:") else text
-        raise type(error)(text) from None
+        raise type(error)(words_of_python(str(error))) from None

@@ -169,3 +169,18 @@ def test_a_damaged_trajectory_says_so(tmp_path):
     file.write_bytes(b"\xff\xfe\n")
     with pytest.raises(carom.SceneError, match=r"gas.xyz:1: '\?\?' is no number of disks"):
         list(carom.Trajectory(file))
+
+
+def test_warnings_are_said_in_words_of_python():
+    coarse = scene(run={"method": "pairwise", "dt": 0.2, "t_end": 20.0},
+                   disks=[{"count": 60, "positions": "random", "velocities": {"maxwell": 1.0}, "radius": 0.5, "mass": 1.0}])
+    told = []
+    carom.run(coarse, warn=told.append)
+    sim = carom.Simulation(coarse, threads=1)
+    sim.run()
+    with pytest.warns(RuntimeWarning) as raised:
+        carom.run(coarse)
+    assert {warning.filename for warning in raised} == {__file__}, "where the run was called"
+    for lines in (told, sim.take_warnings(), [str(warning.message) for warning in raised]):
+        assert any('use a smaller dt or run.method = "exact"' in line for line in lines), lines
+        assert not any("--" in line for line in lines), lines
