@@ -11,6 +11,17 @@ namespace carom {
 
 namespace {
 
+// Does the character that begins with these bytes turn what follows from right to left, end the line, or show nothing?
+// A name with it reads as another one. The two joiners, U+200C and U+200D, are not among them: some scripts need them.
+bool misleads(unsigned first, unsigned second, unsigned third) {
+  if (first == 0xd8) return second == 0x9c;                   // U+061C
+  if (first == 0xef) return second == 0xbb && third == 0xbf;  // U+FEFF
+  if (first != 0xe2) return false;
+  if (second == 0x81) return third >= 0xa0 && third <= 0xaf;                    // U+2060 to U+206F
+  return second == 0x80 && (third == 0x8b || third == 0x8e || third == 0x8f ||  // U+200B, U+200E, U+200F
+                            (third >= 0xa8 && third <= 0xae));                  // U+2028 to U+202E
+}
+
 // How many bytes the character of UTF-8 has that the text begins with; 0 where it begins with none, or with a control
 // character.
 std::size_t shown_length(std::string_view text) {
@@ -26,7 +37,8 @@ std::size_t shown_length(std::string_view text) {
   const unsigned second = byte(1);
   if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0)) return 0;
   if ((first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90)) return 0;
-  return first == 0xc2 && second < 0xa0 ? 0 : length;
+  if (first == 0xc2 && second < 0xa0) return 0;
+  return misleads(first, second, length > 2 ? byte(2) : 0U) ? 0 : length;
 }
 
 }  // namespace

@@ -38,6 +38,19 @@ TEST(InputMessage, StaysOneLineWithoutControlCharacters) {
       << "what begins a colour on some terminals";
 }
 
+TEST(InputMessage, CharactersThatHideOrTurnTextAreMarked) {
+  EXPECT_EQ(line_of("gas\u202Elmot.exe"), said("gas???lmot.exe")) << "would read \"gasexe.toml\"";
+  for (const char* text :
+       {"\u200b", "\u200e", "\u200f", "\u2028", "\u2029", "\u202a", "\u2060", "\u2066", "\u2069", "\u206f", "\ufeff"}) {
+    EXPECT_EQ(line_of(text), said("???")) << text;
+  }
+  EXPECT_EQ(line_of("\u061c"), said("??"));
+  for (const char* text : {"\u200c", "\u200d", "\u2010", "\u2027", "\u202f", "\u205f", "\u2070", "\ufefe", "\u061d",
+                           "\u05d0\u05d1", "\u0627\u0644"}) {
+    EXPECT_EQ(line_of(text), said(text)) << "the letters beside them";
+  }
+}
+
 TEST(InputMessage, BytesThatAreNoTextAreMarked) {
   EXPECT_EQ(line_of("\xff"), said("?"));
   EXPECT_EQ(line_of("\x80"), said("?"));
