@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "core/base/input_message.hpp"
@@ -98,6 +99,21 @@ std::string where_it_belongs(std::string_view table, std::string_view name) {
   return tables.empty() ? "" : fmt::format(" ({} is a key of {})", name, tables);
 }
 
+// What a string is: "a string", or the number that it would be if it were not too large.
+std::string text_name(const std::string& text) {
+  const char* const last = text.data() + text.size();
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  if (text.empty() || end != last) return "a string";
+  if (error == std::errc::result_out_of_range) {
+    return fmt::format("{}, too large for a double, which ends at {:.2g}", text, std::numeric_limits<double>::max());
+  }
+  const bool whole = text.find_first_not_of("0123456789", text[0] == '-' ? 1 : 0) == std::string::npos;
+  constexpr double end_of_64_bits = 9223372036854775808.0;  // 2^63
+  if (!whole || std::abs(value) < end_of_64_bits) return "a string";
+  return fmt::format("{}, too large for the 64 bits of a whole number; write it as {:.17g}", text, value);
+}
+
 constexpr double largest_exact_count = 9007199254740992.0;  // 2^53: above it a float cannot tell neighbours apart
 
 }  // namespace
@@ -119,14 +135,14 @@ void SceneOrigin::fail(std::string_view key, std::string_view what, std::string_
   fail_input(where(key), what, expected);
 }
 
-std::string_view type_name(const toml::node& node) {
+std::string type_name(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table:
       return "a table";
     case toml::node_type::array:
       return "a list";
     case toml::node_type::string:
-      return "a string";
+      return text_name(node.as_string()->get());
     case toml::node_type::integer:
       return "an integer";
     case toml::node_type::floating_point:

@@ -50,8 +50,9 @@ struct SceneOrigin {
   [[noreturn]] void fail(std::string_view key, std::string_view what, std::string_view expected) const;
 };
 
-// "a string", "a list", ...: how messages call the type of a value.
-std::string_view type_name(const toml::node& node);
+// "a string", "a list", ...: how messages call the type of a value. --set takes what is no value of TOML for a string:
+// of a number that TOML cannot hold it says so.
+std::string type_name(const toml::node& node);
 
 // One value of the type asked for; key is its path. Each throws InputError for another type; numbers must be finite.
 double as_number(const SceneOrigin& origin, const std::string& key, const toml::node& node);

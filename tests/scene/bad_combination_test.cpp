@@ -299,6 +299,13 @@ TEST(BadOverride, IsNamedByItsKey) {
   EXPECT_THAT(complaint(sound_scene, {{"disks.1.count", "2"}}), StartsWith("--set disks.1.count: no entry \"1\""));
   EXPECT_THAT(complaint(sound_scene, {{"title.x", "2"}}), StartsWith("--set title.x: \"x\" lies below a string"));
   EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "[1"}}), StartsWith("--set run.t_end: cannot read \"[1\""));
+  EXPECT_EQ(complaint(sound_scene, {{"run.t_end", "1e999"}}),
+            "--set run.t_end: is 1e999, too large for a double, which ends at 1.8e+308; expected a number");
+  EXPECT_THAT(complaint(sound_scene, {{"physics.gravity", "-1e999"}}),
+              StartsWith("--set physics.gravity: is -1e999, too large for a double"));
+  EXPECT_THAT(complaint(sound_scene, {{"disks.0.count", "99999999999999999999"}}),
+              StartsWith("--set disks.0.count: is 99999999999999999999, too large for the 64 bits of a whole number; "
+                         "write it as 1e+20; expected a whole number"));
   EXPECT_THAT(complaint(sound_scene, {{"run.t_end", ""}}), StartsWith("--set run.t_end: cannot read"));
   EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "1\n[run]"}}), StartsWith("--set run.t_end: cannot read"));
   EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "\u22121"}}), HasSubstr("outside a string"));
