@@ -36,7 +36,8 @@ bool masses_differ(const Scene& scene) {
   return all.high > (1.0 + rounding) * all.low;
 }
 
-// The key of the first group that is to start at velocities which are no draws around 0, empty if there is none.
+// The key of the first group or source whose disks are to start at velocities which are no draws around 0, empty if
+// there is none. Those that come through a side are to move inward, whatever is drawn.
 std::string key_of_motion(const Scene& scene) {
   const auto moves = [](const Vec2& v) { return v.x != 0.0 || v.y != 0.0; };
   for (std::size_t k = 0; k < scene.groups.size(); ++k) {
@@ -45,6 +46,11 @@ std::string key_of_motion(const Scene& scene) {
     if (moves(group.drift)) return fmt::format("disks.{}.drift", k);
     const std::vector<Vec2>& given = group.velocities.list;
     if (std::any_of(given.begin(), given.end(), moves)) return fmt::format("disks.{}.velocities", k);
+  }
+  for (std::size_t k = 0; k < scene.sources.size(); ++k) {
+    const VelocityLaw& law = scene.sources[k].velocities;
+    if (scene.sources[k].side && std::max(law.temperature, law.limit) > 0.0)
+      return fmt::format("sources.{}.velocities", k);
   }
   return "";
 }

@@ -135,7 +135,7 @@ inline constexpr SceneKey keys[] = {
     {"sources", "radius", positive, Dimension::length, "required", "Radii; no list.", "radius = 0.5", radius_allowed},
     {"sources", "mass", positive, Dimension::mass, "required", "Masses; no list.", "mass = 1.0", mass_allowed},
     {"sources", "velocities", special, none, "at rest",
-     "Velocities; no list. Through a side the component across it always points inward.",
+     "Velocities; no list. Through a side the component across it always points inward. Brownian disks forget them.",
      "velocities = { maxwell = 1.0 }", velocities_allowed},
     {"sources", "spin", number, Dimension::frequency, "no spin", "Of rough disks, as in `[[disks]]`; no list.",
      "spin = 2.0", "a number"},

@@ -105,6 +105,16 @@ t_end = 1.0
               testing::ElementsAre(HasSubstr(fmt::format("disks.1.velocities: {}", forgotten))));
   EXPECT_THAT(warned("diffusion = 0.5\naccumulate = true", "drift = [0.5, 0.0]"), testing::IsEmpty());
   EXPECT_THAT(warned("", "drift = [0.5, 0.0]"), testing::IsEmpty());
+  const auto source = [](std::string_view place, std::string_view law) {
+    return fmt::format("[[sources]]\n{}\nrate = 1.0\nradius = 0.1\nmass = 1.0\nvelocities = {{ {} }}\n", place, law);
+  };
+  for (const char* law : {"maxwell = 1.0", "uniform = 2.0"}) {
+    EXPECT_THAT(warned(brownian, source("side = \"left\"", law)),
+                testing::ElementsAre(HasSubstr(fmt::format("sources.0.velocities: {}", forgotten))));
+    EXPECT_THAT(warned(brownian, source("region = [5.0, 5.0, 9.0, 9.0]", law)), testing::IsEmpty());
+    EXPECT_THAT(warned("", source("side = \"left\"", law)), testing::IsEmpty());
+  }
+  EXPECT_THAT(warned(brownian, source("side = \"left\"", "maxwell = 0.0")), testing::IsEmpty());
 }
 
 }  // namespace
