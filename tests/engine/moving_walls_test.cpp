@@ -381,8 +381,15 @@ TEST(BadWallMotion, IsRefusedInOneLine) {
               HasSubstr("has both velocity and vibrate"));
   EXPECT_THAT(refusal("", "[physics]\ndiffusion = 0.1\n" + with("velocity = [1, 0]"), 9.0),
               HasSubstr("walls.0.motion: given beside physics.diffusion"));
-  EXPECT_THAT(refusal("left = { motion = { velocity = [1, 0] } }", with("vibrate = [1, 0], period = 2"), 9.0),
-              HasSubstr("the left side runs into it at t = 4"));
+  EXPECT_THAT(
+      refusal("left = { motion = { velocity = [1, 0] } }", with("vibrate = [1, 0], period = 2"), 9.0),
+      HasSubstr("walls.0.motion: the left side comes into the room that it moves through at t = 4; expected ways"));
+  // In step with the floor, and a tenth above it: they would not meet, but the floor is where the wall comes later.
+  EXPECT_THAT(
+      refusal("bottom = { motion = { vibrate = [0, 0.5], period = 2 } }",
+              wall("[[3, 0.6], [7, 0.6]]", "vibrate = [0, 0.5], period = 2") + ball, 9.0),
+      HasSubstr("the bottom side comes into the room that it moves through at t = 0; expected ways of the two that "
+                "do not overlap until run.t_end = 9"));
   EXPECT_EQ(refusal("left = { motion = { velocity = [1, 0] } }", with("velocity = [1, 0]"), 9.0), "");
 }
 
