@@ -51,4 +51,10 @@ if(CAROM_PYTHON)
     "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON3_PACKAGE_SUGGESTS "python3-h5py")
 endif()
+# Debian's rule: every package has its licence in this place.
+foreach(component IN LISTS CPACK_COMPONENTS_ALL)
+  string(TOUPPER ${component} name)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${name}_PACKAGE_NAME} COMPONENT ${component})
+endforeach()
 include(CPack)

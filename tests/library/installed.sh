@@ -17,7 +17,8 @@ say() { printf '%s\n' "$*"; }
 cmake --install "$build" --prefix "$work/first" >/dev/null
 mv "$work/first" "$prefix"
 libraries=$(dirname "$(find "$prefix" -name libcarom.so)")
-for file in bin/carom include/carom/carom.h include/carom/carom.hpp share/man/man1/carom.1 share/bash-completion/completions/carom; do
+for file in bin/carom include/carom/carom.h include/carom/carom.hpp share/man/man1/carom.1 share/bash-completion/completions/carom \
+    share/doc/carom/copyright share/doc/libcarom-dev/copyright; do
     [[ -s $prefix/$file ]] || { say "$file is not installed" && exit 1; }
 done
 readelf -d "$libraries/libcarom.so" | grep -q 'SONAME.*\[libcarom\.so\.[0-9]*\]' || { say "libcarom.so has no soname" && exit 1; }
