@@ -18,12 +18,17 @@ double longer_side(const Domain& box) {
   return std::max(box.width, box.height);
 }
 
-// t_end / interval, as so many of `noun`.
-void check_count(double t_end, double interval, std::string_view key, std::string_view noun, const PlaceOfKey& place) {
-  const double count = t_end / interval;
+// value: of the key, which makes so many of `noun` until t_end.
+void check_count(double count, double value, std::string_view key, std::string_view noun, double t_end,
+                 const PlaceOfKey& place) {
   if (count <= most_steps) return;
-  fail_input(place(key), fmt::format("is {}: {:g} {} until run.t_end = {}", interval, count, noun, t_end),
+  fail_input(place(key), fmt::format("is {}: {:g} {} until run.t_end = {}", value, count, noun, t_end),
              fmt::format("expected at most 2^53 = {:g} of them", most_steps));
+}
+
+void check_period(const SideMotion& motion, const std::string& path, double t_end, const PlaceOfKey& place) {
+  if (!motion.vibrates()) return;
+  check_count(t_end / motion.half(), motion.period, path + ".motion.period", "half periods", t_end, place);
 }
 
 // distance: what the fastest disk flies until t_end; length.
@@ -141,12 +146,20 @@ void check_emissions(const Scene& scene, const Source& source, const std::string
 
 void check_times(const Scene& scene, const PlaceOfKey& place) {
   const double t_end = scene.run.t_end;
-  if (steps_in_time(scene) && scene.run.dt > 0.0) check_count(t_end, scene.run.dt, "run.dt", "steps", place);
-  if (scene.physics.thermostat.dt > 0.0) {
-    check_count(t_end, scene.physics.thermostat.dt, "physics.thermostat.dt", "kicks", place);
+  const auto check = [&](double interval, std::string_view key, std::string_view noun) {
+    if (interval > 0.0) check_count(t_end / interval, interval, key, noun, t_end, place);
+  };
+  if (steps_in_time(scene)) check(scene.run.dt, "run.dt", "steps");
+  check(scene.physics.thermostat.dt, "physics.thermostat.dt", "kicks");
+  check(scene.output.every, "output.every", "frames");
+  check(scene.analysis.every, "analysis.every", "samples");
+  for (const Side side : all_sides) {
+    const auto k = static_cast<std::size_t>(side);
+    check_period(scene.box.motions[k], fmt::format("box.{}", side_names[k]), t_end, place);
   }
-  if (scene.output.every > 0.0) check_count(t_end, scene.output.every, "output.every", "frames", place);
-  if (scene.analysis.every > 0.0) check_count(t_end, scene.analysis.every, "analysis.every", "samples", place);
+  for (std::size_t k = 0; k < scene.walls.size(); ++k) {
+    check_period(scene.walls[k].motion.pace, fmt::format("walls.{}", k), t_end, place);
+  }
   check_gravity(scene, place);
   check_diffusion(scene, place);
 }

@@ -65,7 +65,7 @@ struct Proportion {
   std::string_view why;
 };
 inline constexpr std::array<Proportion, 5> proportions{{
-    {"steps t_end / dt, frames t_end / every, samples likewise", most_steps,
+    {"steps t_end / dt, frames t_end / every, samples and half periods of vibrations likewise", most_steps,
      "2^53: their numbers are doubles, which hold whole numbers up to there"},
     {"disks rate t_end that a source is to give", most_emissions,
      "2^50: their times k / rate stay apart by more than the rounding of time"},

@@ -84,6 +84,16 @@ TEST(Range, OfNumbersAgainstEachOther) {
               HasSubstr("21: output.every: is 1e-29: 1e+30 frames until"));
   EXPECT_THAT(with("[run]", "[analysis]\nwhat = [\"speeds\"]\nevery = 1e-29\n[run]"),
               HasSubstr("22: analysis.every: is 1e-29: 1e+30 samples until"));
+  // The piece of a vibration that a time lies in is counted in whole doubles; beyond them the count has no end.
+  for (const char* shape : {"parabola", "sine"}) {
+    const std::string motion =
+        fmt::format("motion = {{ vibrate = [0, 1e-29], period = 1e-28, shape = \"{}\" }}", shape);
+    EXPECT_THAT(
+        with("[physics]", "bottom = { " + motion + " }\n[physics]"),
+        HasSubstr("box.bottom.motion.period: is 1e-28: 2e+29 half periods until run.t_end = 10; expected at most"));
+    EXPECT_THAT(with("[run]", "[[walls]]\nfrom = [1, 0.5]\nto = [2, 0.5]\n" + motion + "\n[run]"),
+                HasSubstr("walls.0.motion.period: is 1e-28: 2e+29 half periods"));
+  }
   EXPECT_THAT(with("maxwell = 1.0", "uniform = 1e20"),
               HasSubstr("16: disks.0.velocities: uniform = 1e+20 crosses the box"));
   EXPECT_THAT(with("restitution = 0.5", "gravity = 1e50"),
