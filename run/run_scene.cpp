@@ -11,6 +11,7 @@
 #include "core/base/float_environment.hpp"
 #include "core/measure/energy_gain.hpp"
 #include "core/scene/scene_text.hpp"
+#include "core/step/late_collisions.hpp"
 #include "core/step/validity.hpp"
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/output_file.hpp"
@@ -274,7 +275,10 @@ RunOutcome SceneRun::finished() {
   keeper_.discard_own_folder();
   RunOutcome outcome{summary(), "", "", ""};
   std::vector<std::string> at_end = energy_gained();
-  for (const std::string& warning : waiting_warnings(scene_, engine_.progress())) at_end.push_back(warning);
+  for (const auto& more :
+       {few_inaccurate_warnings(scene_, engine_.progress()), waiting_warnings(scene_, engine_.progress())}) {
+    at_end.insert(at_end.end(), more.begin(), more.end());
+  }
   tell_all(listener_, at_end);
   outcome.summary.warnings.insert(outcome.summary.warnings.end(), at_end.begin(), at_end.end());
   if (files_ == nullptr) return outcome;

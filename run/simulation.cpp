@@ -15,6 +15,7 @@
 #include "core/physics/obstacle_contact.hpp"
 #include "core/scene/scene_ranges.hpp"
 #include "core/scene/scene_text.hpp"
+#include "core/step/late_collisions.hpp"
 #include "core/step/source.hpp"
 #include "core/step/validity.hpp"
 #include "io/checkpoint/checkpoint_place.hpp"
@@ -206,6 +207,9 @@ Summary Simulation::summary() const {
   const std::unique_ptr<Engine> looks = edited_ ? make_engine(choice_, scene_, *edited_) : nullptr;
   Summary s = summarize(start_, looks ? *looks : *engine_, scene_, choice_);
   s.warnings = validity_so_far(scene_, state());
+  if (!done()) return s;
+  const std::vector<std::string> at_end = few_inaccurate_warnings(scene_, state());
+  s.warnings.insert(s.warnings.end(), at_end.begin(), at_end.end());
   return s;
 }
 

@@ -11,6 +11,7 @@
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/moving_walls_text.hpp"
 #include "core/scene/scene_names.hpp"
+#include "core/step/late_collisions.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
@@ -22,37 +23,7 @@ namespace {
 
 // Is it more of them than the share allows, and enough for a share to mean anything?
 bool are_many(Count inaccurate, Count all, double share) {
-  return inaccurate > least_inaccurate && static_cast<double>(inaccurate) > share * static_cast<double>(all);
-}
-
-// The collisions of which some may be inaccurate.
-Count collisions_watched(const Scene& scene, const State& state) {
-  return state.counters.collisions + (scene.run.method == Method::exact ? state.counters.wall_collisions : Count{0});
-}
-
-// The exact method is no remedy for Brownian motion: what a step draws is as coarse with it.
-const char* or_exact(const Scene& scene) {
-  return velocities_are_drawn(scene) ? "" : " or --method exact";
-}
-
-// What makes collisions inaccurate, and the remedy.
-std::string inaccurate_text(const Scene& scene) {
-  if (scene.run.method == Method::exact && settles(scene)) {
-    return fmt::format(
-        "were made elastic by the TC model (contact_time = {:g}), as all are of disks that rest on each other; use "
-        "--method pairwise for a pile, or a smaller contact_time where disks still fly",
-        scene.physics.collapse_contact_time.value_or(0.0));
-  }
-  if (scene.run.method == Method::exact) {
-    return fmt::format(
-        "were made elastic by the TC model, so that less energy is lost: contact_time = {:g} is long against the time "
-        "between them; use a smaller one",
-        scene.physics.collapse_contact_time.value_or(0.0));
-  }
-  return fmt::format(
-      "were {}: dt = {:g} is long against the time between them; use a smaller dt{}",
-      scene.run.method == Method::rollback ? "bounced at one moment with another of the same disk" : "seen a step late",
-      scene.run.dt, or_exact(scene));
+  return inaccurate > least_inaccurate && exceeds(inaccurate, all, share);
 }
 
 std::string wall_name(const State& state, DiskId wall) {
@@ -82,18 +53,6 @@ std::string missed_text(const State& state, const WorstOverlap& wall) {
       "is "
       "wrong; please report this scene",
       wall.time, wall.overlap.id1, 100.0 * wall.overlap.size, wall_name(state, wall.overlap.id2));
-}
-
-std::string inaccurate_text(const Scene& scene, const State& state) {
-  return fmt::format("by time {:g} {} of {} collisions {}", state.time, state.validity.inaccurate,
-                     collisions_watched(scene, state), inaccurate_text(scene));
-}
-
-std::string late_at_walls_text(const Scene& scene, const State& state) {
-  return fmt::format(
-      "by time {:g} {} of {} bounces off walls and obstacles were seen a step late: dt = {:g} is long against the time "
-      "between them, and others are lost; use a smaller dt{}",
-      state.time, state.validity.inaccurate_at_walls, state.counters.wall_collisions, scene.run.dt, or_exact(scene));
 }
 
 std::string slow_text(const Scene& scene, const WorstFigure& advance, std::size_t disks) {

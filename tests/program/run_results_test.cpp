@@ -137,6 +137,22 @@ TEST_F(RunResults, TheWorstOverlapOfTheRunBesideThatOfItsEnd) {
   }
 }
 
+// A disk that crosses a slot in less than a step: too few late bounces to be told of on the way, but the run ends with
+// it.
+TEST_F(RunResults, FewLateBouncesAreToldOfAtTheEnd) {
+  write("slot.toml",
+        "[box]\nwidth = 1.03\nheight = 20.0\n[[disks]]\ncount = 1\npositions = [[0.51, 10.0]]\n"
+        "velocities = [[1.0, 0.01]]\nradius = 0.5\nmass = 1.0\n[run]\nmethod = \"pairwise\"\ndt = 0.05\nt_end = 0.8\n");
+  constexpr const char* late = "bounces off walls and obstacles were seen a step late: dt = 0.05 is long";
+  const Outcome o = carom("run slot.toml --json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.err, HasSubstr(late));
+  const Json warnings = Json::parse(o.out)["warnings"];
+  ASSERT_EQ(warnings.size(), 1U) << warnings;
+  EXPECT_THAT(warnings[0].get<std::string>(), HasSubstr(late));
+  EXPECT_EQ(Json::parse(carom("run slot.toml --json --dt 0.01").out)["warnings"], Json::array());
+}
+
 // u / dt is no velocity: what is made of it is in no file, and no plot.
 TEST_F(RunResults, BrownianDisksHaveNoEnergy) {
   const std::string scene = "run small.toml --set physics.diffusion=0.1 --set output.plots='[\"energy\"]'";
