@@ -338,5 +338,39 @@ TEST(Validity, ScenesThatNoMethodServesWarnBeforeTheFirstStep) {
                                                          HasSubstr("use dt <= 0.062"))));
 }
 
+// In half a period a wall comes back to where it was: at its mean speed it stands still, and a gas keeps the energy
+// that it would change.
+TEST(Validity, AStepThatIsLongAgainstAVibrationIsToldBeforeTheFirst) {
+  const auto shaken = [](const std::string& where, const char* method, double dt) {
+    const std::string motion = "motion = { vibrate = [0.0, 0.005], period = 0.05 }";
+    const bool inner = where == "inner wall";
+    return test::scene_from("[box]\nwidth = 10.0\nheight = 10.0\n" + (inner ? "" : where + " = { " + motion + " }\n") +
+                                (inner ? "[[walls]]\nfrom = [1.0, 1.0]\nto = [9.0, 1.0]\n" + motion + "\n" : "") +
+                                "[[disks]]\ncount = 10\npositions = \"random\"\nregion = [0.0, 1.5, 10.0, 9.5]\n"
+                                "velocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0\n[run]\nt_end = 5.0\n",
+                            {{"run.method", method}, {"run.dt", fmt::format("{}", dt)}});
+  };
+  for (const char* where : {"bottom", "top", "inner wall"}) {
+    SCOPED_TRACE(where);
+    for (const char* method : {"pairwise", "rollback"}) {
+      EXPECT_THAT(
+          validity_of(shaken(where, method, 0.025), 0.5, 3.0),
+          ElementsAre(AllOf(HasSubstr("a wall vibrates with a period of 0.05 and moves at its mean speed in dt = "
+                                      "0.025"),
+                            HasSubstr("use dt <= 0.005 or --method exact"))));
+      EXPECT_THAT(validity_of(shaken(where, method, 0.005), 0.5, 3.0), IsEmpty());
+    }
+    EXPECT_THAT(validity_of(shaken(where, "exact", 0.025), 0.5, 3.0), IsEmpty());
+  }
+  const auto work = [&](const char* method, double dt) {
+    const Scene scene = shaken("bottom", method, dt);
+    const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 512});
+    while (engine->state().time < scene.run.t_end) engine->step();
+    return engine->state().counters.side_energy[static_cast<std::size_t>(Side::bottom)];
+  };
+  EXPECT_NEAR(work("pairwise", 0.025), 0.0, 1e-12);
+  EXPECT_GT(std::abs(work("exact", 0.025)), 1.0);
+}
+
 }  // namespace
 }  // namespace carom
