@@ -161,7 +161,7 @@ std::string slow_at_moving_walls(const Scene& scene, const WindowPlan& plan, dou
   return fmt::format(
       "{}a wall that moves leaves the disks hardly any room ({}): {}move it less far, or take fewer or smaller disks",
       may_rest ? "disks come to rest on a wall (inelastic collapse), or " : "", moving_walls_text(scene.box, time),
-      may_rest ? "set physics.collapse = { model = \"tc\", contact_time = ... }, " : "");
+      may_rest ? "set physics.collapse = { model = \"tc\", contact_time = ... } or use --method pairwise, " : "");
 }
 
 }  // namespace
