@@ -56,10 +56,9 @@ void SlabStepping::emit_from_sources(double t, Count step) {
     due = due || due_by(scene_.sources[s], t) > state_.sources[s].emitted;
   }
   if (due) sort_now();
-  Disks newcomers;
-  newcomers.inertia = state_.disks.inertia;
-  std::swap(newcomers, state_.disks);
-  const Disks& own = newcomers;
+  Disks own;
+  own.inertia = state_.disks.inertia;
+  std::swap(own, state_.disks);
   const auto has_room = [&](const Disk& disk) {
     const bool met = meets(state_.disks, scene_.box, disk, 0, state_.disks.size()) ||
                      (!own.empty() && meets_nearby(own, scene_.box, cells_.grid, cells_.sorted, disk));
@@ -68,10 +67,10 @@ void SlabStepping::emit_from_sources(double t, Count step) {
   try {
     emit_due(scene_, state_, t, step, has_room);
   } catch (...) {
-    std::swap(newcomers, state_.disks);
+    state_.disks = std::move(own);
     throw;
   }
-  std::swap(newcomers, state_.disks);
+  const Disks newcomers = std::exchange(state_.disks, std::move(own));
   if (!newcomers.empty()) take_newcomers(newcomers);
 }
 

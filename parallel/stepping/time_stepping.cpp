@@ -72,10 +72,10 @@ void TimeStepping::start_interval(double t, double dt, Count step) {
 void TimeStepping::emit_from_sources(double t, Count step) {
   const Disks& d = state_.disks;
   std::size_t in_cells = 0;
-  bool fresh = false;
+  bool cells_are_new = false;
   const Count before = state_.counters.emitted;
   emit_due(scene_, state_, t, step, [&](const Disk& newcomer) {
-    if (!std::exchange(fresh, true)) {
+    if (!std::exchange(cells_are_new, true)) {
       if (!d.empty()) sort_now();
       in_cells = d.size();
     }
