@@ -24,7 +24,7 @@ std::string inaccurate_text(const Scene& scene, const State& state);
 std::string late_at_walls_text(const Scene& scene, const State& state);
 
 // What time stepping at a run's end has to say of those that are more than their share, but too few (least_inaccurate)
-// to have been told of on the way.
+// to have been told of on the way: of two collisions or more, and of any bounce off a wall.
 std::vector<std::string> few_inaccurate_warnings(const Scene& scene, const State& state);
 
 }  // namespace carom

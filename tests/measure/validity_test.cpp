@@ -123,6 +123,19 @@ TEST(Validity, FewLateCollisionsAreToldOfAtTheEnd) {
       ElementsAre(AllOf(HasSubstr("by time 3.6 "), HasSubstr(" collisions were seen a step late: dt = 0.2 is"))));
 }
 
+// Two disks that touch at the start, but for rounding, are said to meet late: no reason to call dt too long.
+TEST(Validity, ASingleLateCollisionIsNotToldOf) {
+  const Scene scene = stability_scene("f16_collapse_three", {{"disks.0.count", "2"},
+                                                             {"disks.0.positions", "[[3, 5], [4.9999999999999991, 5]]"},
+                                                             {"disks.0.velocities", "[[1, 0], [-1, 0]]"},
+                                                             {"run.method", "pairwise"},
+                                                             {"run.t_end", "1"}});
+  const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 512});
+  while (engine->state().time < scene.run.t_end) engine->step();
+  EXPECT_EQ(engine->state().validity.inaccurate, 1U);
+  EXPECT_THAT(few_inaccurate_warnings(scene, engine->state()), IsEmpty());
+}
+
 // A disk that crosses a slot in less than a step loses two bounces for each that is late: here 16 of 27 are counted.
 TEST(Validity, FewLateBouncesAreToldOfAtTheEnd) {
   const auto slot = [](const char* dt) {
