@@ -7,9 +7,9 @@
 
 namespace carom {
 
-// Text with names that users chose, or of a damaged file, as a terminal may have it: control characters, those that turn
-// text from right to left or show nothing, and bytes that are no UTF-8 become '?', one for each byte. It stays one line,
-// and Python can have it as a string.
+// Text with names that users chose, or of a damaged file, as a terminal may have it: control characters, those that
+// turn text from right to left or show nothing, and bytes that are no UTF-8 become '?', one for each byte. It stays one
+// line, and Python can have it as a string.
 std::string one_line(std::string_view text);
 
 // Throws InputError with that line, one_line() of it. where is "file:line: key"; an empty expected is left out.
