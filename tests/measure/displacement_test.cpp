@@ -102,6 +102,56 @@ TEST(Displacement, AStepTooLongIsADoubt) {
   EXPECT_GT(follow(*engine, scene).doubtful, 0U);
 }
 
+// So is one of a whole period in a step, after which a disk stands where it would had it hardly moved.
+TEST(Displacement, AStepOfAPeriodIsADoubt) {
+  Scene scene = periodic_scene(Method::pairwise, 1.0, 3.0);
+  const auto engine = make_reference_engine(scene, test::state_of(scene, {{3.0, 2.0, 0.0, 4.1, 0.5, 1.0}}));
+  EXPECT_GT(follow(*engine, scene).doubtful, 0U);
+}
+
+// And a move that is seen to be longer than a quarter of the period, wherever it goes.
+TEST(Displacement, ALookThatComesTooLateIsADoubt) {
+  const Domain box = test::box_of(10.0, 10.0, true, true);
+  for (const double way : {2.0, 4.0, -2.0, -4.0}) {
+    DisplacementTally tally;
+    begin_displacement(tally, test::disks_of({{5.0, 5.0}}), box, 0.0);
+    look_at(tally, test::disks_of({{5.0 + way, 5.0}}), box, 1.0);
+    EXPECT_EQ(tally.doubtful, std::abs(way) > 2.5 ? 1U : 0U) << way;
+  }
+}
+
+// Many disks are not asked for their speed each time: not while none can have come far. That they begin at rest is no
+// reason where gravity or a thermostat sets them going. All move alike or by less than a quarter of the period a step.
+TEST(Displacement, ManyDisksAtRestAreFollowedWhenTheyAreSetGoing) {
+  for (const bool falls : {true, false}) {
+    Scene scene = periodic_scene(Method::pairwise, 1.0, 40.0);
+    constexpr std::size_t disks = 4200;
+    scene.box.width = 6.0 * disks;
+    scene.box.height = 8.0;
+    if (falls) scene.physics.gravity = 0.02;
+    if (!falls) scene.physics.thermostat = {Thermostat::Kind::andersen, 0.01, 0.01, 100.0};  // one kick, at the start
+    std::vector<Disk> list;
+    for (std::size_t i = 0; i < disks; ++i) list.push_back({6.0 * static_cast<double>(i) + 3.0, 4.0, 0, 0, 1.0, 1.0});
+    const auto engine = make_parallel_engine(scene, test::state_of(scene, list), {1});
+    DisplacementTally tally, each_step;
+    for (DisplacementTally* t : {&tally, &each_step}) begin_displacement(*t, engine->state().disks, scene.box, 0.0);
+    while (engine->state().time < scene.run.t_end) {
+      engine->step();
+      const State& now = engine->state();
+      look_at(each_step, now.disks, scene.box, now.time);
+      if (follow_disks(tally, *engine, scene, now.time)) look_at(tally, now.disks, scene.box, now.time);
+    }
+    const State& end = engine->state();
+    look_at(tally, end.disks, scene.box, end.time);
+    const MeanSquare mean = mean_square_displacement(tally, end.disks, scene.box);
+    EXPECT_EQ(mean.value, mean_square_displacement(each_step, end.disks, scene.box).value) << falls;
+    if (falls) {
+      EXPECT_NEAR(mean.value, 16.0 * 16.0, 1.0) << "g t^2 / 2";
+    }
+    EXPECT_EQ(tally.doubtful, 0U) << falls;
+  }
+}
+
 // 4 D t where collisions are rare; the standard error of a mean of n squares of two components is 1 / sqrt(n).
 TEST(Displacement, BrownianMotionGivesFourDt) {
   for (const Method method : {Method::pairwise, Method::exact}) {

@@ -11,6 +11,7 @@
 #include "core/start/initial_state.hpp"
 #include "parallel/simulation.hpp"
 #include "parallel/threads/executor.hpp"
+#include "tests/support/disks_by_hand.hpp"
 
 namespace carom {
 namespace {
@@ -108,6 +109,25 @@ TEST(EquilibriumAnalysis, ContactValuePressureAndSpeedsAreThoseOfTheory) {
   const ChiSquare after = chi_square(seldom.speeds, scene.analysis);
   EXPECT_GT(after.bins, 35.0);
   EXPECT_LT(after.value, bound(after));
+}
+
+// u / dt is no velocity: a pressure of it would depend on dt. Collisions are counted all the same.
+TEST(EquilibriumAnalysis, BrownianMotionHasNoPressure) {
+  Scene scene = test::scene_of(Method::pairwise, 10.0, 10.0, 0.01, 1.0);
+  scene.physics.diffusion = 1.0;
+  for (const Quantity q : {Quantity::pressure, Quantity::collision_rate}) {
+    scene.analysis.wanted[static_cast<std::size_t>(q)] = true;
+  }
+  const Disks disks = test::disks_of({{5.0, 5.0, 3.0, 4.0, 0.5, 1.0}});
+  AnalysisRecord record = empty_record(scene);
+  State now;
+  take_sample(record, scene, disks, 0.0, now, run_in_order);
+  now.time = now.counters.disk_time = 1.0;
+  now.counters.collisions = 3;
+  take_sample(record, scene, disks, 1.0, now, run_in_order);
+  ASSERT_EQ(record.series.pressure.size(), 2U);
+  EXPECT_TRUE(std::isnan(record.series.pressure[1]));
+  EXPECT_EQ(record.series.collision_rate[1], 6.0);
 }
 
 }  // namespace

@@ -348,6 +348,17 @@ TEST(MotionProfile, TellsFlowAndTemperatureApart) {
   EXPECT_TRUE(std::isnan(motion_of_slab(empty_profile(1), 0).temperature));
 }
 
+// Velocities of 1 in one sample and of 3 in the next: 1 away from their mean both times, with mass 2 an energy of 1.
+TEST(MotionProfile, SamplesOfDifferentVelocityAreHotTogether) {
+  MotionProfile profile = empty_profile(1);
+  const Domain box = test::box_of(4.0, 4.0);
+  for (const double v : {1.0, 3.0}) add_motion(profile, test::disks_of({{2, 2, v, -v, 0.5, 2.0}}), box, false);
+  const SlabMotion motion = motion_of_slab(profile, 0);
+  EXPECT_DOUBLE_EQ(motion.velocity.x, 2.0);
+  EXPECT_DOUBLE_EQ(motion.velocity.y, -2.0);
+  EXPECT_DOUBLE_EQ(motion.temperature, 2.0) << "two components";
+}
+
 // Cold disks in a fast flow, whose energy has no digits left for theirs: the temperature is that of the disks alone,
 // over many samples too, and 0 where all move alike.
 TEST(MotionProfile, AColdFlowHasItsTemperature) {

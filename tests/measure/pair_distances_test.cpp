@@ -171,6 +171,21 @@ TEST(PairDistances, GroupsHavePairsOfTheirOwn) {
   }
 }
 
+// [analysis] select: of all pairs those of the group alone, though others are near.
+TEST(PairDistances, ASelectionHasPairsOfItsDisksAlone) {
+  Scene scene;
+  scene.box = test::box_of(10.0, 10.0, true, true);
+  scene.analysis.wanted[0] = true;
+  scene.analysis.pairs = {2.0, 2, 0.0};
+  scene.analysis.group = "b";
+  scene.analysis.ids = {1, 3};
+  AnalysisRecord record = empty_record(scene);
+  const Disks disks = test::disks_of({{5.0, 5.0}, {5.5, 5.0}, {5.5, 6.5}, {6.0, 6.0}});
+  take_sample(record, scene, disks, 0.0, {}, run_in_order);
+  EXPECT_EQ(record.pairs.counts, (std::vector<Count>{0, 2})) << "1 and 2, 1.5 apart";
+  EXPECT_EQ(record.pairs.centres, 2U);
+}
+
 // A square lattice: 4 neighbours at 1, 4 at sqrt 2, 4 at 2, and none elsewhere.
 TEST(PairDistances, LatticeHasItsShells) {
   Domain box{12.0, 12.0};

@@ -28,14 +28,14 @@ TEST(DensityProfile, ShareBelowALine) {
   }
 }
 
-// One disk across the corner of a periodic side, one across two slabs, one at a wall: all of its area is somewhere.
+// One disk across a periodic side, one across two slabs, one beyond a wall of a box that is periodic the other way: all
+// of its area is somewhere.
 TEST(DensityProfile, AreaIsSharedOutAndNoneIsLost) {
   for (const bool along_x : {true, false}) {
     Domain box{8.0, 8.0};
-    if (along_x) test::set_sides(box, SideKind::periodic, SideKind::wall);
+    test::set_sides(box, SideKind::periodic, SideKind::wall);
     DensityProfile profile{std::vector<Count>(4, 0), std::vector<double>(4, 0.0), 0};
-    const double at = along_x ? 0.25 : 1.0;
-    const Disks disks = test::disks_of({{at, at, 0.0, 0.0, 1.0, 1.0}, {4.0, 4.0, 0.0, 0.0, 0.5, 1.0}});
+    const Disks disks = test::disks_of({{0.25, 0.25, 0.0, 0.0, 1.0, 1.0}, {4.0, 4.0, 0.0, 0.0, 0.5, 1.0}});
     add_density(profile, disks, box, along_x);
     add_density(profile, disks, box, along_x);
     const double corner = along_x ? std::numbers::pi * share_below(-0.25) : 0.0;
@@ -51,7 +51,7 @@ TEST(DensityProfile, AreaIsSharedOutAndNoneIsLost) {
 // last, and the rows add up to the whole.
 TEST(Profiles, RowsDivideTheRun) {
   Scene scene;
-  scene.box = {8.0, 8.0};
+  scene.box = {12.0, 8.0};
   scene.run.t_end = 6.0;
   AnalysisPlan& plan = scene.analysis;
   plan.wanted[static_cast<std::size_t>(Quantity::density)] = plan.wanted[static_cast<std::size_t>(Quantity::profile)] =
@@ -74,6 +74,8 @@ TEST(Profiles, RowsDivideTheRun) {
   EXPECT_EQ(record.motion_rows[1].disks, (std::vector<Count>{0, 1, 1, 0})) << "at y = 3 and 4";
   EXPECT_EQ(profile_curves(record.motion_rows[1], scene).vx[1], 4.0);
   EXPECT_EQ(row_times(3, 2.0, scene), (std::vector<double>{1.0, 3.0, 5.0}));
+  EXPECT_EQ(profile_curves(record.motion, scene).position, (std::vector<double>{1.0, 3.0, 5.0, 7.0})) << "along y";
+  EXPECT_EQ(packing_curve(record.density, scene).middle, (std::vector<double>{1.0, 3.0, 5.0, 7.0}));
   for (std::size_t slab = 0; slab < 4; ++slab) {
     Count disks = 0;
     for (const DensityProfile& row : record.density_rows) disks += row.centres[slab];
@@ -126,6 +128,12 @@ TEST(SpeedHistogram, CountsReducedSpeeds) {
   EXPECT_EQ(h.largest_seen, 10.0);
   add_speeds(h, disks, 0.0, 4.0);
   EXPECT_EQ(h.samples, 1U) << "all at rest: there is no scale";
+  // Bins of width 1, one of three disks each; what is beyond the last one is a disk like the others.
+  AnalysisRecord record;
+  record.speeds = h;
+  AnalysisPlan plan;
+  plan.speed_max = 4.0;
+  EXPECT_EQ(speed_curve(record, plan).value, (std::vector<double>{0.0, 1.0 / 3.0, 1.0 / 3.0, 0.0}));
 }
 
 TEST(SpeedHistogram, MaxwellSharesMakeUpAll) {

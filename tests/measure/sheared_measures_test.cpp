@@ -13,11 +13,13 @@
 #include "core/measure/bond_correlation.hpp"
 #include "core/measure/bond_order.hpp"
 #include "core/measure/displacement.hpp"
+#include "core/measure/follow_disks.hpp"
 #include "core/measure/pair_distances.hpp"
 #include "core/measure/structure_factor.hpp"
 #include "parallel/threads/executor.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
+#include "tests/support/reference_run.hpp"
 
 namespace carom {
 namespace {
@@ -175,6 +177,32 @@ TEST(ShearedMeasures, PressureOfASampleIsOfVelocitiesRelativeToTheFlow) {
   EXPECT_DOUBLE_EQ(record.series.pressure[1], (12.5 + 14.0 / 4.0) / 200.0);
 }
 
+// The same two disks: 0 and 3^2 + 4^2.
+TEST(ShearedMeasures, VelocitiesAreRememberedRelativeToTheFlow) {
+  Scene scene;
+  scene.box = sheared_box(20.0, 10.0, 0.0);
+  scene.analysis.wanted[static_cast<std::size_t>(Quantity::velocity_autocorrelation)] = true;
+  const Disks disks = test::disks_of({{5.0, 2.5, -0.25, 0.0, 0.1, 1.0}, {15.0, 2.5, 2.75, 4.0, 0.1, 1.0}});
+  AnalysisRecord record = empty_record(scene);
+  take_sample(record, scene, disks, 0.0, {}, run_in_order);
+  EXPECT_EQ(record.series.autocorrelation, std::vector<double>{12.5});
+}
+
+// Two disks across the top, half a unit apart where the images above have gone to by the time of the sample.
+TEST(ShearedMeasures, PairsOfASampleAreThoseOfItsTime) {
+  Scene scene;
+  scene.box = sheared_box(20.0, 10.0, 0.0);
+  AnalysisPlan& plan = scene.analysis;
+  plan.wanted[static_cast<std::size_t>(Quantity::pair_correlation)] = true;
+  plan.pairs = {2.0, 2, 0.0};
+  const Disks disks = test::disks_of({{5.0, 9.75, 0.0, 0.0, 0.1, 1.0}, {2.0, 0.25, 0.0, 0.0, 0.1, 1.0}});
+  AnalysisRecord record = empty_record(scene);
+  take_sample(record, scene, disks, 0.0, {}, run_in_order);
+  EXPECT_EQ(record.pairs.counts, (std::vector<Count>{0, 0})) << "3 apart along x";
+  take_sample(record, scene, disks, 3.0, {}, run_in_order);
+  EXPECT_EQ(record.pairs.counts, (std::vector<Count>{2, 0})) << "each from the other";
+}
+
 // A disk that goes up through the box for ever while the flow carries it along: (y - y_0)^2 alone.
 TEST(ShearedMeasures, DisplacementIsAcrossTheFlow) {
   Domain box = sheared_box(10.0, 10.0, 0.0);
@@ -197,6 +225,24 @@ TEST(ShearedMeasures, DisplacementIsAcrossTheFlow) {
     EXPECT_EQ(mean.disks, 2U);
   }
   EXPECT_EQ(tally.doubtful, 0U) << "jumps of images along x are no doubt";
+}
+
+// One window of exact takes the disk up through a low and wide box fifteen times: looks between go by its height.
+TEST(ShearedMeasures, DisplacementIsFollowedByTheHeightOfTheBox) {
+  Scene scene = test::scene_of(Method::exact, 40.0, 4.0, 0.0, 20.0);
+  test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
+  scene.box.shear = {0.01, 0.04, 0.0};
+  const auto engine = make_reference_engine(scene, test::state_of(scene, {{5.0, 2.0, 0.0, 3.0, 0.4, 1.0}}));
+  DisplacementTally tally;
+  begin_displacement(tally, engine->state().disks, scene.box, 0.0);
+  while (engine->state().time < scene.run.t_end) {
+    engine->step();
+    const State& now = engine->state();
+    if (follow_disks(tally, *engine, scene, now.time)) look_at(tally, now.disks, scene.box, now.time);
+  }
+  look_at(tally, engine->state().disks, scene.box, 20.0);
+  EXPECT_NEAR(mean_square_displacement(tally, engine->state().disks, scene.box).value, 60.0 * 60.0, 1e-6);
+  EXPECT_EQ(tally.doubtful, 0U);
 }
 
 }  // namespace
