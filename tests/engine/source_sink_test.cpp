@@ -247,5 +247,83 @@ TEST(Emission, SourcesDiffer) {
   EXPECT_EQ(draw_emission(s, s.box, 0, 5, 0, 0).x, draw_emission(s, s.box, 0, 5, 0, 0).x);
 }
 
+// Between the sides where they are, all along the one that it comes through; into the frame of one that moves.
+TEST(Emission, ThroughASideStaysBetweenThoseThatHaveMoved) {
+  Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 1.0);
+  Source source = source_of(1.0, 0.5);
+  source.side = Side::left;
+  source.velocities.kind = VelocityLaw::Kind::uniform;
+  source.velocities.limit = 1.0;
+  s.sources = {source};
+  Domain box = s.box;
+  box.places = {SidePlace{2.0, 5.0, 0.0}, SidePlace{}, SidePlace{6.0, 0.0, 0.0}, SidePlace{3.0, 0.0, 0.0}};
+  double least = 20.0, most = 0.0;
+  for (DiskId id = 0; id < 400; ++id) {
+    const Disk d = draw_emission(s, box, 0, id, id, id);
+    EXPECT_EQ(d.x, 2.5);
+    EXPECT_GE(d.vx, 5.0) << "the side comes on at 5";
+    EXPECT_LE(d.vx, 6.0);
+    least = std::min(least, d.y);
+    most = std::max(most, d.y);
+  }
+  EXPECT_GE(least, 6.5);
+  EXPECT_LE(most, 16.5);
+  EXPECT_NEAR(most - least, 10.0, 0.2) << "of 400 places";
+}
+
+// I w^2 has the mean T; 4 standard errors of the mean of n squares of a normal deviate.
+TEST(Emission, SpinsAreThoseOfTheirTemperature) {
+  Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 1.0);
+  s.physics.surfaces.inertia = 0.3;
+  Source source = source_of(1.0, 0.5);
+  source.mass = constant(4.0);
+  source.spins.temperature = 2.0;
+  source.region_low = {1.0, 1.0};
+  source.region_high = {29.0, 19.0};
+  s.sources = {source};
+  constexpr int n = 20000;
+  double twice_energy = 0.0;
+  for (DiskId id = 0; id < n; ++id) {
+    const Disk d = draw_emission(s, s.box, 0, id, id, 3);
+    twice_energy += 0.3 * d.mass * d.radius * d.radius * d.spin * d.spin / n;
+  }
+  EXPECT_NEAR(twice_energy / 2.0, 1.0, 4.0 * std::sqrt(2.0 / n));
+}
+
+// All that they come with: of motion, of place and of rotation.
+TEST(Emission, EnergyOfNewDisksIsCounted) {
+  Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 1.0);
+  s.physics.gravity = Gravity(0.25, 0.5);
+  s.physics.surfaces.inertia = 0.5;
+  Source source = source_of(1.0, 0.1);
+  source.velocities.kind = VelocityLaw::Kind::uniform;
+  source.velocities.limit = 1.0;
+  source.spins.value = 7.0;
+  source.region_low = {1.0, 1.0};
+  source.region_high = {29.0, 19.0};
+  s.sources = {source};
+  State state = test::state_of(s, {});
+  state.disks.inertia = 0.5;
+  emit_from_source(s, s.box, state, 0, 20, 0, [](const Disk&) { return true; });
+  ASSERT_EQ(state.disks.size(), 20U);
+  const Energy energy = energy_of(state.disks, s.physics.gravity);
+  EXPECT_GT(energy.potential, 0.0);
+  EXPECT_NEAR(energy.rotational, 20.0 * 0.5 * 0.5 * 0.7 * 0.7, 1e-12) << "I w^2 / 2";
+  EXPECT_NEAR(state.counters.emitted_energy, energy.total(), 1e-12 * energy.total());
+}
+
+// What waits is the sum over the sources.
+TEST(Emission, DisksOfAllSourcesWait) {
+  Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 10.0);
+  Source source = source_of(1.0, 0.5);
+  source.region_low = {1.0, 1.0};
+  source.region_high = {29.0, 19.0};
+  s.sources = {source, source};
+  s.sources[1].rate = 2.0;
+  State state = test::state_of(s, {});
+  emit_due(s, state, 3.0, 30, [](const Disk&) { return false; });
+  EXPECT_EQ(state.counters.waiting, 3U + 6U);
+}
+
 }  // namespace
 }  // namespace carom

@@ -10,6 +10,7 @@
 #include "core/base/check.hpp"
 #include "core/disks/domain.hpp"
 #include "core/measure/invariants.hpp"
+#include "core/step/edit.hpp"
 #include "run/simulation.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/simulation_support.hpp"
@@ -246,6 +247,21 @@ TEST(SimulationChanges, RefusesDisksThatCannotBe) {
   EXPECT_THROW(s.set_velocity(3, {nan, 0.0}), InputError);
   EXPECT_THROW(s.run_until(nan), InputError);
   EXPECT_EQ(s.hash(), before);
+}
+
+// What a state remembers of a disk goes with it: its spin, and the loads that it bore as the first of two or the
+// second.
+TEST(SimulationChanges, ADiskThatGoesTakesItsSpinAndItsLoadsAlong) {
+  State state;
+  state.disks.inertia = 0.5;
+  for (DiskId id = 0; id < 3; ++id) append(state.disks, {1.0 + id, 1.0, 0, 0, 0.5, 1.0, id, 10.0 + id});
+  state.next_id = 3;
+  state.loads = {{0, 1, 5.0}, {0, 2, 6.0}, {1, 2, 7.0}};
+  apply({Edit::Kind::remove, {}, 1}, state);
+  EXPECT_EQ(state.disks.id, (std::vector<DiskId>{0, 2}));
+  EXPECT_EQ(state.disks.spin, (std::vector<double>{10.0, 12.0}));
+  ASSERT_EQ(state.loads.size(), 1U);
+  EXPECT_EQ(state.loads[0].force, 6.0) << "of 0 and 2";
 }
 
 }  // namespace
