@@ -98,6 +98,47 @@ TEST(CaromC, StructAndTextAreTheSameScene) {
   EXPECT_EQ(of_struct.hash(), of_text.hash());
 }
 
+// Diffusion too, where that is given.
+TEST(CaromC, DisksOfAStructMayDiffuse) {
+  carom_scene scene = box();
+  scene.diffusion = 0.5;
+  World of_struct(scene);
+  World of_text = World::from_text(
+      "[box]\nwidth = 20\nheight = 10\n[physics]\ndiffusion = 0.5\n[[disks]]\ncount = 0\npositions = \"random\"\n"
+      "radius = 1.0\nmass = 1.0\n[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 1e9\n");
+  for (World* world : {&of_struct, &of_text}) {
+    world->add({10.0, 5.0, 0.0, 0.0, 0.5, 1.0, 0});
+    world->step(10);
+    EXPECT_NE(world->find(0)->x, 10.0);
+  }
+  EXPECT_EQ(of_struct.hash(), of_text.hash());
+}
+
+// Each number is its own: disks that come, that go, and those there, and what energy they have under gravity.
+TEST(CaromC, CountsAndEnergiesAreThoseOfTheSimulation) {
+  const std::string flow =
+      "[box]\nwidth = 20\nheight = 10\nright = \"sink\"\n[physics]\ngravity = 0.5\n[[disks]]\ncount = 1\n"
+      "positions = [[15, 5]]\nvelocities = [[9, 0]]\nradius = 0.2\nmass = 2\n[[sources]]\nside = \"left\"\nrate = 5\n"
+      "velocities = { maxwell = 4.0 }\nradius = 0.2\nmass = 1\n[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 5\n";
+  World world = World::from_text(flow);
+  carom::Simulation simulation(carom::parse_scene(flow, "flow", ""), carom::choose_engine("parallel", 1));
+  world.run_until(2.0);
+  simulation.run_until(2.0);
+  const carom::State& state = simulation.state();
+  EXPECT_EQ(world.removed(), state.counters.removed);
+  EXPECT_EQ(world.emitted(), state.counters.emitted);
+  EXPECT_GT(state.counters.removed, 0U);
+  EXPECT_GT(state.counters.emitted, state.counters.removed);
+  EXPECT_EQ(world.size(), 1 + state.counters.emitted - state.counters.removed);
+  double kinetic = 0.0, potential = 0.0;
+  for (const carom_disk& d : world.disks()) {
+    kinetic += 0.5 * d.mass * (d.vx * d.vx + d.vy * d.vy);
+    potential += d.mass * 0.5 * d.y;
+  }
+  EXPECT_NEAR(world.kinetic_energy(), kinetic, 1e-12 * kinetic);
+  EXPECT_NEAR(world.potential_energy(), potential, 1e-12 * potential);
+}
+
 TEST(CaromC, HasSpinsWhereDisksAreRough) {
   const std::string rough = "[physics]\nroughness = { tangential_restitution = 0.9 }" + std::string(gas);
   World world = World::from_text(rough);

@@ -170,6 +170,19 @@ TEST(DiskQueries, OfFixedDisksAlone) {
   check_all(s, draw);
 }
 
+// Of two disks that a ray meets at one distance the one with the smaller id, however they are stored.
+TEST(DiskQueries, OfTwoAtOneDistanceTheSmallerId) {
+  for (const bool swapped : {false, true}) {
+    const std::string places = swapped ? "[[12.0, 4.75], [12.0, 5.25]]" : "[[12.0, 5.25], [12.0, 4.75]]";
+    Simulation s(parse_scene("[box]\nwidth = 20.0\nheight = 10.0\n[[disks]]\ncount = 2\npositions = " + places +
+                                 "\nradius = 0.25\nmass = 1.0\n[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 1.0\n",
+                             "two", ""),
+                 choose_engine("parallel", 1));
+    EXPECT_EQ(s.cast_ray({2.0, 5.0}, {1.0, 0.0}, 15.0)->id, 0U);
+    EXPECT_EQ(s.nearest({2.0, 5.0})->id, 0U);
+  }
+}
+
 TEST(DiskQueries, OfNoDiskAtAll) {
   Simulation s = gas({"exact", "", 1});
   s.remove(0);
