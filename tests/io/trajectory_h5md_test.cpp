@@ -193,6 +193,34 @@ Count check_frames(const std::string& path) {
   return k;
 }
 
+// Width and height, which sides are periodic, and what a disk has for ever, whether the file has two dimensions or
+// three.
+TEST(TrajectoryH5md, KeepsTheBoxAndTheSizes) {
+  const test::TestFolder folder("h5md_box");
+  const std::string path = (folder.path() / "trajectory.h5").string();
+  for (const int dimensions : {2, 3}) {
+    for (const bool periodic_x : {true, false}) {
+      Scene scene = drifting_scene();
+      scene.output.dimensions = dimensions;
+      scene.box.width = 200.0;
+      test::set_sides(scene.box, periodic_x ? SideKind::periodic : SideKind::wall,
+                      periodic_x ? SideKind::wall : SideKind::periodic);
+      H5mdWriter writer(path, scene);
+      write_frames(writer, 0, 1);
+      writer.close();
+      H5mdReader reader(path);
+      TrajectoryFrame frame;
+      ASSERT_TRUE(reader.read(frame));
+      EXPECT_EQ(frame.box.width, 200.0);
+      EXPECT_EQ(frame.box.height, 100.0);
+      EXPECT_EQ(frame.box.periodic_x(), periodic_x);
+      EXPECT_EQ(frame.box.periodic_y(), !periodic_x);
+      EXPECT_EQ(frame.disks.radius, std::vector<double>(40, 0.5));
+      EXPECT_EQ(frame.disks.mass, frame_disks(0).mass);
+    }
+  }
+}
+
 TEST(TrajectoryH5md, GoesOnAfterAnyFrame) {
   const TestFolder folder("h5md_going_on");
   const std::string path = (folder.path() / "trajectory.h5").string();
