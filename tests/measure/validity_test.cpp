@@ -9,6 +9,7 @@
 
 #include "core/base/check.hpp"
 #include "core/measure/invariants.hpp"
+#include "core/physics/contact_event.hpp"
 #include "core/step/engine.hpp"
 #include "core/step/late_collisions.hpp"
 #include "parallel/simulation.hpp"
@@ -383,6 +384,62 @@ TEST(Validity, AStepThatIsLongAgainstAVibrationIsToldBeforeTheFirst) {
   };
   EXPECT_NEAR(work("pairwise", 0.025), 0.0, 1e-12);
   EXPECT_GT(std::abs(work("exact", 0.025)), 1.0);
+}
+
+// A share is one of all that may be inaccurate: with exact collisions with walls too, of which a step has its own
+// share.
+TEST(Validity, SharesAreOfTheCollisionsThatAreWatched) {
+  Scene scene = test::scene_from(test::sound_scene, {{"physics.gravity", "0.0"}});
+  const auto said = [&](Method method, Count inaccurate, Count at_walls, State& state) {
+    scene.run.method = method;
+    state.counters.collisions = 100;
+    state.counters.wall_collisions = 1000;
+    StepFigures figures;
+    figures.inaccurate = inaccurate;
+    figures.inaccurate_at_walls = at_walls;
+    Validity validity;
+    validity.see_step(scene, figures, state);
+    return validity.take_warnings();
+  };
+  State a, b, c, d;
+  EXPECT_THAT(said(Method::exact, 20, 0, a), IsEmpty()) << "2 %";
+  EXPECT_THAT(said(Method::pairwise, 20, 0, b), ElementsAre(HasSubstr("20 of 100 collisions were seen a step late")));
+  EXPECT_THAT(said(Method::pairwise, 0, 20, c), ElementsAre(HasSubstr("20 of 1000 bounces off walls and obstacles")));
+  EXPECT_THAT(validity_so_far(scene, c), ElementsAre(HasSubstr("20 of 1000 bounces off walls and obstacles")));
+  EXPECT_THAT(said(Method::pairwise, 0, 10, d), IsEmpty()) << "ten are no share";
+}
+
+// What stands deep in a wall at the end of a step is as bad as two disks that were so at its start.
+TEST(Validity, AnOverlapWithAWallIsNamedToo) {
+  const Scene scene = test::scene_from(test::sound_scene, {{"run.method", "pairwise"}});
+  for (const double overlap : {0.09, 0.11}) {
+    State state;
+    StepFigures figures;
+    figures.wall = {overlap, 1, wall_partner(Side::left)};
+    Validity validity;
+    validity.see_step(scene, figures, state);
+    if (overlap < largest_overlap_before) {
+      EXPECT_THAT(validity.take_warnings(), IsEmpty());
+    } else {
+      EXPECT_THAT(validity.take_warnings(),
+                  ElementsAre(HasSubstr("disk 1 reaches 11 % of its radius beyond the left")));
+    }
+  }
+}
+
+// A source may lag by one disk, unless it has not had room for a single one.
+TEST(Validity, ASourceThatNeverHadRoomIsNamed) {
+  Scene scene = test::scene_from(test::sound_scene);
+  scene.sources.resize(1);
+  scene.sources[0].rate = 1.0;
+  State state;
+  state.sources.resize(1);
+  state.counters.waiting = 1;
+  state.time = 1.0;
+  EXPECT_THAT(waiting_warnings(scene, state), ElementsAre(HasSubstr("1 of the 1 disks due from sources.0 still wait")));
+  state.time = 20.0;
+  state.sources[0].emitted = 19;
+  EXPECT_THAT(waiting_warnings(scene, state), IsEmpty());
 }
 
 }  // namespace
