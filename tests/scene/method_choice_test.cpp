@@ -313,6 +313,19 @@ TEST(MethodChoice, NearlyElasticDisksUnderGravityAskForShortSteps) {
 }
 
 // Walls that move make fast what was at rest: no step may be taken from the speeds at the start alone.
+// No more than a kick of a thermostat a step.
+TEST(MethodChoice, StepsAreNoLongerThanThatOfAThermostat) {
+  const std::string gas =
+      "[box]\nwidth = 20\nheight = 20\n[physics]\nthermostat = { kind = \"langevin\", temperature = 1.0, rate = 1.0, "
+      "dt = "
+      "1e-4 }\n[[disks]]\ncount = 20\npositions = \"random\"\nradius = 0.5\nmass = 1\n"
+      "velocities = { maxwell = 1.0 }\n[run]\nmethod = \"exact\"\nt_end = 1\n";
+  const MethodChoice choice = choose_method(parse_scene(gas, "gas", ""), 0.01);
+  ASSERT_EQ(choice.offers[0].method, Method::pairwise);
+  EXPECT_EQ(choice.offers[0].dt, 1e-4);
+  EXPECT_THAT(choice.offers[0].why, ::testing::HasSubstr("two kicks of the thermostat"));
+}
+
 TEST(MethodChoice, WallsThatMoveSetThePace) {
   const std::vector<std::string> walls = {"motion = { vibrate = [0.0, 0.5], period = 0.1, shape = \"sine\" }",
                                           "motion = { vibrate = [0.0, 0.5], period = 0.1 }",

@@ -52,5 +52,32 @@ TEST(SceneScales, CompressibilityIsThatOfTheVirialSeries) {
   EXPECT_NEAR(compressibility(0.5), 4.105, 1e-3 * 4.105 + 2e-3);  // which is known to 2e-3
 }
 
+// The mean square of a component: v^2 / 3 of speeds between -v and v; (2 V)^2 where a wall comes on at V.
+TEST(SceneScales, SpeedsAreThoseOfTheLawAndOfWalls) {
+  const auto speed = [](const std::string& box, const std::string& disks) {
+    return scales_of(scene_from("[box]\nwidth = 20.0\nheight = 20.0\n" + box +
+                                "[[disks]]\npositions = \"random\"\nradius = 0.1\nmass = 1.0\ncount = 50\n" + disks +
+                                "[run]\nt_end = 1.0\n"))
+        .speed;
+  };
+  EXPECT_NEAR(speed("", "velocities = { uniform = 3.0 }\n"), std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(speed("left = { motion = { velocity = [2.0, 0.0] } }\n", ""), 4.0, 1e-12);
+}
+
+// ln(4 / (1 - e)) / (1 - e) is 36.9 for e = 0.9: a column of so many collapses on a floor that loses nothing. A
+// viscoelastic gas does not, however much its fast disks lose.
+TEST(SceneScales, CollapseNeedsAColumnOrALossAtRest) {
+  const auto collapses = [](const std::string& physics, int count) {
+    return scales_of(scene_from("[box]\nwidth = 20.0\nheight = 20.0\n[physics]\n" + physics +
+                                "[[disks]]\npositions = \"random\"\nradius = 0.1\nmass = 1.0\ncount = " +
+                                std::to_string(count) + "\n[run]\nmethod = \"exact\"\nt_end = 1.0\n"))
+        .may_collapse;
+  };
+  EXPECT_TRUE(collapses("gravity = 1.0\nrestitution = 0.9\n", 37));
+  EXPECT_FALSE(collapses("gravity = 1.0\nrestitution = 0.9\n", 36));
+  EXPECT_TRUE(collapses("restitution = 0.2\n", 50));
+  EXPECT_FALSE(collapses("restitution = { viscoelastic = 0.3, least = 0.2 }\n", 50));
+}
+
 }  // namespace
 }  // namespace carom
