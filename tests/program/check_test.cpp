@@ -1,6 +1,8 @@
 // carom check predicts: collapse, speeds after the fall, what sources add, the size of every file.
 #include <cmath>
 
+#include "app/run/check_foresight.hpp"
+#include "core/load/scene_file.hpp"
 #include "tests/support/command_support.hpp"
 
 namespace carom {
@@ -215,6 +217,49 @@ TEST_F(LongCheck, ItsRehearsalLeavesNothingBehindAndIsNotNeeded) {
   EXPECT_THAT(o.out, HasSubstr("movie.mp4"));
   EXPECT_THAT(o.out, HasSubstr("(guessed: there is no folder for temporary files)"));
   EXPECT_THAT(files_in(""), Not(::testing::Contains("out")));
+}
+
+// 20 x 10 with no disk at the start.
+Scene empty_box(const std::string& box, const std::string& more) {
+  return parse_scene("[box]\nwidth = 20\nheight = 10\n" + box + more +
+                         "[[disks]]\ncount = 0\npositions = \"random\"\nradius = 0.5\nmass = 1\n"
+                         "[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 10\n",
+                     "empty", "");
+}
+
+// Sources fill a box evenly: half of their disks in the mean; with a limit, after a quarter of the run, 7 of 8.
+TEST(Foresight, ThePopulationRisesEvenly) {
+  const std::string source = "[[sources]]\nside = \"top\"\nrate = 2\nradius = 0.5\nmass = 1\n";
+  const Population all = foresee_population(empty_box("", source), {});
+  EXPECT_DOUBLE_EQ(all.mean, 10.0);
+  EXPECT_DOUBLE_EQ(all.end, 20.0);
+  const Population limited = foresee_population(empty_box("", source + "limit = 5\n"), {});
+  EXPECT_DOUBLE_EQ(limited.mean, 5.0 * 7.0 / 8.0);
+  EXPECT_DOUBLE_EQ(limited.end, 5.0);
+}
+
+// v^2 = 2 g h from the side that disks come through, h = 9.5 for their edge.
+TEST(Foresight, DisksOfASourceFallFromItsSide) {
+  const auto landing = [](const char* gravity, const char* side) {
+    const Scene scene = empty_box("", std::string("[physics]\ngravity = ") + gravity + "\n[[sources]]\nside = \"" +
+                                          side + "\"\nrate = 2\nradius = 0.5\nmass = 1\n");
+    return foresee_steps(scene, {}).landing_speed;
+  };
+  EXPECT_DOUBLE_EQ(landing("1", "top"), std::sqrt(19.0));
+  EXPECT_DOUBLE_EQ(landing("1", "bottom"), 0.0);
+  EXPECT_DOUBLE_EQ(landing("[0, 1]", "bottom"), std::sqrt(19.0)) << "upwards";
+  EXPECT_DOUBLE_EQ(landing("[0, 1]", "top"), 0.0);
+}
+
+// Sources that would fill the box are no trouble where a sink takes disks away.
+TEST(Foresight, ASinkMakesRoomForSources) {
+  const std::string source = "[[sources]]\nside = \"top\"\nrate = 40\nradius = 0.5\nmass = 1\n";
+  const auto troubles = [&](const std::string& box) {
+    const Scene scene = empty_box(box, source);
+    return foreseen_troubles(scene, foresee_steps(scene, {}), foresee_population(scene, {}), {});
+  };
+  EXPECT_THAT(troubles(""), ::testing::ElementsAre(HasSubstr("the sources would fill the box")));
+  EXPECT_THAT(troubles("bottom = \"sink\"\n"), IsEmpty());
 }
 
 }  // namespace
