@@ -39,6 +39,23 @@ TEST_F(LongInterruptedRun, StoppedAgainAndAgainItGivesTheSameResults) {
   }
 }
 
+// Means over the time since the frame before go on too, where no series.csv keeps them.
+TEST_F(LongInterruptedRun, ObservablesOfATrajectoryGoOn) {
+  const std::string run =
+      "run busy.toml --quiet --t-end 4 --set output.trajectory=h5md --set output.series=false --set "
+      "output.movie=false ";
+  ASSERT_EQ(carom(run + "-o whole").status, 0);
+  const Resumed resumed = resume_to_the_end("parts", carom(run + "-o parts --max-walltime 1e-9"));
+  EXPECT_EQ(resumed.last.status, 0) << resumed.last.err;
+  EXPECT_GE(resumed.parts, 3);
+  const Outcome o = shell(
+      "/usr/bin/python3 -c 'import h5py, numpy\n"
+      "a, b = (h5py.File(f + \"/trajectory.h5\")[\"observables\"] for f in (\"whole\", \"parts\"))\n"
+      "print([k for k in a if not numpy.array_equal(a[k][\"value\"][:], b[k][\"value\"][:], equal_nan=True)],"
+      " len(a[\"pressure/value\"]) > 10)'");
+  EXPECT_EQ(o.out, "[] True\n") << o.err;
+}
+
 // What a warning counts goes on, too: it comes in the part in which the undisturbed run has it, once.
 TEST_F(LongInterruptedRun, ItWarnsOfTheSame) {
   const std::string scene = CAROM_SOURCE_DIR "/scenes/stability/f02_bounce_at_a_distance.toml";
