@@ -36,6 +36,13 @@ TEST(MovedSides, PressureOfASampleIsThatOfTheRoomLeft) {
   EXPECT_DOUBLE_EQ(record.series.pressure[1], (9.0 + 24.0 / 8.0) / (12.0 * 6.0));
 }
 
+// Every side takes room away.
+TEST(MovedSides, PressureIsThatOfTheRoomBetweenAllFour) {
+  Domain box{20.0, 10.0};
+  box.places = {SidePlace{1.0, 0.0, 0.0}, SidePlace{3.0, 0.0, 0.0}, SidePlace{2.0, 0.0, 0.0}, SidePlace{4.0, 0.0, 0.0}};
+  EXPECT_DOUBLE_EQ(pressure({32.0}, 64.0, 2.0, box), (32.0 + 16.0) / (16.0 * 4.0));
+}
+
 TEST(MovedSides, CentresOfPairsKeepAwayFromWhereTheSidesAre) {
   const Scene scene = pressed_box();
   const DistanceBins bins{2.0, 10, 3.0};

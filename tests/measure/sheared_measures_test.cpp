@@ -15,6 +15,7 @@
 #include "core/measure/displacement.hpp"
 #include "core/measure/follow_disks.hpp"
 #include "core/measure/pair_distances.hpp"
+#include "core/measure/shear_flow.hpp"
 #include "core/measure/structure_factor.hpp"
 #include "parallel/threads/executor.hpp"
 #include "tests/support/disks_by_hand.hpp"
@@ -186,6 +187,13 @@ TEST(ShearedMeasures, VelocitiesAreRememberedRelativeToTheFlow) {
   AnalysisRecord record = empty_record(scene);
   take_sample(record, scene, disks, 0.0, {}, run_in_order);
   EXPECT_EQ(record.series.autocorrelation, std::vector<double>{12.5});
+}
+
+// -(sum of m ux uy + virial over time) / area, u relative to the flow.
+TEST(ShearedMeasures, StressIsThatOfMotionAndCollisions) {
+  const Domain box = sheared_box(20.0, 10.0, 0.0);
+  EXPECT_DOUBLE_EQ(shear_stress(30.0, 40.0, 2.0, box), -(30.0 + 20.0) / 200.0);
+  EXPECT_EQ(shear_stress(30.0, 40.0, 0.0, box), 0.0);
 }
 
 // Two disks across the top, half a unit apart where the images above have gone to by the time of the sample.

@@ -348,5 +348,18 @@ TEST(SceneFile, OurOwnScenesAreSound) {
   EXPECT_GE(scenes, 5U);
 }
 
+// Where an inner wall says nothing of its own, it takes as much as those of the box.
+TEST(SceneFile, InnerWallsHaveTheRestitutionOfWalls) {
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 20\nheight = 10\nwall_restitution = 0.5\n[[walls]]\nfrom = [5, 2]\nto = [5, 8]\n[[walls]]\n"
+      "from = [9, 2]\nto = [9, 8]\nrestitution = 0.75\n[[walls]]\nfrom = [12, 2]\nto = [12, 8]\nkind = \"sink\"\n"
+      "[[disks]]\ncount = 0\npositions = \"random\"\nradius = 0.5\nmass = 1\n[run]\nmethod = \"exact\"\nt_end = 1\n",
+      "walls", "");
+  ASSERT_EQ(scene.walls.size(), 3U);
+  EXPECT_EQ(scene.walls[0].restitution, 0.5);
+  EXPECT_EQ(scene.walls[1].restitution, 0.75);
+  EXPECT_TRUE(scene.walls[2].sink);
+}
+
 }  // namespace
 }  // namespace carom

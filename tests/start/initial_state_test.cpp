@@ -221,5 +221,16 @@ TEST(InitialState, SameBoxInAnyUnits) {
   }
 }
 
+// A drift comes on top of velocities that are given one by one, too; the upper end of a periodic side is the lower one.
+TEST(Positions, GivenOnesDriftAndWrap) {
+  const State s = initial_state(
+      scene_from("[box]\nwidth = 20\nheight = 10\nleft = \"periodic\"\nright = \"periodic\"\n[[disks]]\ncount = 2\n"
+                 "positions = [[20, 5], [10, 5]]\nvelocities = [[1, 2], [3, 4]]\ndrift = [0.5, -1]\nradius = 0.5\n"
+                 "mass = 1\n[run]\nmethod = \"exact\"\nt_end = 1\n"));
+  EXPECT_THAT(s.disks.x, ElementsAre(0.0, 10.0));
+  EXPECT_THAT(s.disks.vx, ElementsAre(1.5, 3.5));
+  EXPECT_THAT(s.disks.vy, ElementsAre(1.0, 3.0));
+}
+
 }  // namespace
 }  // namespace carom
