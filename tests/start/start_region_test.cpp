@@ -83,6 +83,33 @@ TEST(StartRegion, PlacesAreUniformOverIt) {
   EXPECT_NEAR(y / 4000.0, 0.0, 4.0 * 6.0 / std::sqrt(4000.0));
 }
 
+// Sides that stand inside the box move no region: a circle is where the scene has it.
+TEST(StartRegion, ACircleStaysWhereItIsBetweenSidesThatMove) {
+  const std::string sides =
+      "left = { motion = { velocity = [0.1, 0.0] }, place = 6.0 }\n"
+      "bottom = { motion = { velocity = [0.0, 0.1] }, place = 4.0 }\n";
+  for (const char* positions : {"random", "hexagonal"}) {
+    const Disks d = start_of(scene_with(group(8, positions, "region = { circle = [12.0, 14.0, 3.0] }\n"), sides));
+    for (std::size_t i = 0; i < 8; ++i) {
+      EXPECT_LE(std::hypot(d.x[i] - 12.0, d.y[i] - 14.0), 2.5 + 1e-6) << positions << " " << i;
+    }
+  }
+}
+
+// Two that vibrate against each other come to 10.5 - (2 + 3) - |2 + 3| of each other, to and fro together they do not.
+TEST(StartRegion, SidesThatVibrateTogetherAreAsFarApartAsTheyComeNear) {
+  const auto scene = [](const char* right) {
+    return replaced(
+        scene_with(group(1, "random", ""),
+                   std::string("left = { motion = { vibrate = [2.0, 0.0], period = 1.0 } }\nright = { motion = "
+                               "{ vibrate = [") +
+                       right + ", 0.0], period = 1.0 } }\n"),
+        "width = 40.0", "width = 10.5");
+  };
+  EXPECT_THAT(complaint(scene("-3.0")), HasSubstr("brings the left and right sides to 0.5 of each other"));
+  EXPECT_THAT(complaint(scene("3.0")), testing::Not(HasSubstr("brings the left and right")));
+}
+
 TEST(StartRegion, ALatticeFillsARectangleAndMayTouchItsEdges) {
   const std::string region = "region = [20.0, 10.0, 30.0, 15.0]\n";
   const Disks d = start_of(scene_with(group(50, "square", region)));
