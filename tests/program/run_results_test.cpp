@@ -43,6 +43,16 @@ TEST_F(RunResults, StrictEndsARunAtItsFirstWarning) {
   EXPECT_TRUE(Json::parse(sound.out)["warnings"].empty());
 }
 
+// The energies of a plot do not depend on what else a run writes.
+TEST_F(LongRunResults, APlotOfEnergiesNeedsNoSeries) {
+  const std::string run =
+      "run small.toml --quiet --set output.trajectory=none --set output.movie=false --set output.plots='[\"energy\"]' ";
+  ASSERT_EQ(carom(run + "-o with --set output.series=true").status, 0);
+  ASSERT_EQ(carom(run + "-o without --set output.series=false").status, 0);
+  EXPECT_THAT(text_of(at("with/energy.svg")), HasSubstr("<svg"));
+  EXPECT_TRUE(text_of(at("with/energy.svg")) == text_of(at("without/energy.svg")));
+}
+
 // A source between disks that never leave it room; one with room enough says nothing.
 TEST_F(RunResults, DisksThatStillWaitAtTheEndAreWarnedOf) {
   const std::string source = "[[sources]]\nregion = [4.9, 4.9, 5.1, 5.1]\nrate = 20\nradius = 0.5\nmass = 1\n";
