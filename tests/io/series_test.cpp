@@ -6,9 +6,13 @@
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "io/tables/rotation_columns.hpp"
+#include "io/tables/side_columns.hpp"
+#include "tests/support/disks_by_hand.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace carom {
@@ -103,6 +107,41 @@ TEST(Series, WithoutDisksEveryNumberIsFinite) {
 TEST(Series, AFullDiskIsAnError) {
   SeriesWriter series("/dev/full", small_scene());
   EXPECT_THROW(series.write({}, 0.0, {}), RunError);
+}
+
+// Forces are means since the row before: impulses 4, 6, 8, 10 in 2 units of time.
+TEST(SeriesColumns, ForcesAreMeansSinceTheRowBefore) {
+  const Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 10.0);
+  SeriesMeter meter(scene, false);
+  const Disks none;
+  State now;
+  for (std::size_t s = 0; s < 4; ++s) now.counters.wall_impulse[s] = 1.0 + static_cast<double>(s);
+  now.time = 1.0;
+  meter.row(WholeDisks(none, now.time), now, run_in_order);
+  for (std::size_t s = 0; s < 4; ++s) now.counters.wall_impulse[s] += 4.0 + 2.0 * static_cast<double>(s);
+  now.time = 3.0;
+  const SeriesRow row = meter.row(WholeDisks(none, now.time), now, run_in_order);
+  std::size_t side = 0;
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (!std::string(series_columns[k].name).starts_with("force")) continue;
+    EXPECT_EQ(row[k], 2.0 + static_cast<double>(side++)) << series_columns[k].name;
+  }
+  EXPECT_EQ(side, 4U);
+}
+
+// Turning has one degree of freedom: T is twice the mean energy. What walls gave: work, then momentum along x and y.
+TEST(SeriesColumns, RotationAndPushesAreTheirOwn) {
+  Disks disks;
+  disks.inertia = 0.5;
+  for (DiskId id = 0; id < 2; ++id) append(disks, {1.0 + id, 1.0, 0.0, 0.0, 1.0, 2.0, id, 3.0});
+  EXPECT_EQ(rotation_column_values(WholeDisks(disks, 0.0), run_in_order), (std::vector<double>{9.0, 9.0}));
+  Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 10.0);
+  scene.box.inner_walls_move = true;
+  Counters counters;
+  counters.wall_work = 1.0;
+  counters.wall_push[0] = 2.0;
+  counters.wall_push[1] = 3.0;
+  EXPECT_EQ(side_column_values(EnergySources(scene), counters), (std::vector<double>{1.0, 2.0, 3.0}));
 }
 
 }  // namespace
