@@ -58,6 +58,8 @@ class NeighbourLists {
   void carry_flow(const Domain& box, double start);
   // Has the flow carried disks so far by time t that the lists are to be built anew?
   bool is_strained(double t) const { return std::abs(flow_.rate) * (t - flow_.built_at) > flow_.strain; }
+  // The time of the run at which it has; `never` in a box that is not sheared.
+  double strained_at() const { return flow_.acts ? flow_.built_at + flow_.strain / std::abs(flow_.rate) : never; }
   // Where to list a disk whose path begins at p: a little ahead of it, in the middle of where it is about to be.
   Vec2 listing_place(const PathSegment& p, const Domain& box, const RelistDistance& relist) const {
     if (flow_.acts) [[unlikely]]

@@ -82,9 +82,11 @@ void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout, co
   const PhaseTimer timer(times_, "list");
   // Sorting takes about as much memory.
   if (std::max(state_.disks.size(), layout.disks_of_box) > disks_of_much_memory) scheduler_.release_calendars();
-  lists_.follow_flow(box_at(scene_.box, plan.start), plan.start, plan.length);
   // Times that are known stay valid: two disks that did not list each other cannot touch before one of them reaches its
-  // next event, which is at the latest that of being relisted.
+  // next event, which is at the latest that of being relisted. In a sheared box that holds until the lists are
+  // strained, and events are predicted further ahead.
+  known_until_ = lists_.strained_at();
+  lists_.follow_flow(box_at(scene_.box, plan.start), plan.start, plan.length);
   const bool timed = known_ == Known::lists_and_times;
   lists_.build(state_.disks, scene_.box, layout, executor_, [&](const auto& order, auto& scratch) {
     if (timed) sort_times(order, scratch);
@@ -248,7 +250,10 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
   if (!timed || predicts_anew_) {
     for (std::size_t i = begin; i < end; ++i) entry[i].time = 0.0;
   } else if (rebuilt_) {
-    for (std::size_t i = begin; i < end; ++i) entry[i].time = std::min(entry[i].time, first_relist_time(i, plan));
+    const double valid = (known_until_ - plan.start) - early;
+    for (std::size_t i = begin; i < end; ++i) {
+      entry[i].time = std::min({entry[i].time, first_relist_time(i, plan), valid});
+    }
   }
   if (!window_.last_contact.empty()) {
     for (std::size_t i = begin; i < end; ++i) window_.last_contact[i] = all_->last_contact[d.id[i]] - plan.start;

@@ -72,7 +72,8 @@ class WindowRun {
   bool lists_due(const WindowPlan& plan) const;
   // Relistings of a disk since the lists were built, on average.
   double relistings() const;
-  // Sorts the disks and lists them. Times that were known stay so. sorted: as in NeighbourLists::build.
+  // Sorts the disks and lists them. Times that were known stay so, those up to which the lists before were valid.
+  // sorted: as in NeighbourLists::build.
   void build_lists(const WindowPlan& plan, const ListLayout& layout, const NeighbourLists::Sorted& sorted = {});
 
   // The disks are those of a thread's part and of its halo; after build_lists. own: how many are its own.
@@ -145,7 +146,9 @@ class WindowRun {
   double least_largest_radius_ = 0.0;  // of other ranks' or parts' disks
   double largest_radius_ = 0.0;
   Known known_ = Known::nothing;
-  bool rebuilt_ = false;   // the lists, for the coming window
+  bool rebuilt_ = false;  // the lists, for the coming window
+  // Then, if times stayed: up to which time of the run no other event of a disk comes before the one that is known.
+  double known_until_ = never;
   double length_ = 0.0;    // of the last window
   double per_disk_ = 0.0;  // events a disk and time, of the last slice
   std::size_t own_ = 0;    // of a part: disks that are not of its halo

@@ -104,6 +104,11 @@ const std::string sheared_fast =
 const std::string soft = "wall_restitution = 0.7";
 const std::string settling = "gravity = 1.0\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.01 }";
 
+// Large disks that rest in the flow, which carries them into each other, beside small ones that crowd: lists are as
+// short as those ask for, windows as long as the large ones allow.
+const std::string resting_in_flow =
+    disks(40, "radius = 1.0\nmass = 1.0") + disks(60, "radius = 0.001\nmass = 1.0\nregion = [8.0, 4.0, 8.03, 4.03]");
+
 const auto name_of = [](const auto& p) { return std::string(p.param.name); };
 
 INSTANTIATE_TEST_SUITE_P(
@@ -117,6 +122,7 @@ INSTANTIATE_TEST_SUITE_P(
         ParallelCase{"fluid", {25, 25, "periodic", "", disks(350, equal), 6, ""}},
         ParallelCase{"sheared_few", {9, 11, sheared, "", disks(30, equal), 20, ""}},
         ParallelCase{"sheared_mixed", {40, 24, sheared, "restitution = 0.8", disks(250, mixed), 12, ""}},
+        ParallelCase{"sheared_at_rest", {70, 9, sheared_fast, "", resting_in_flow, 3, ""}},
         ParallelCase{"walls", {25, 25, "wall", "", disks(300, equal), 6, ""}},
         ParallelCase{"dilute", {80, 80, "periodic", "", disks(150, equal), 60, ""}},
         ParallelCase{"narrow", {2.3, 300, "left = \"periodic\"\nright = \"periodic\"", "", disks(150, equal), 10, ""}},
