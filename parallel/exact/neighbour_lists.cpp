@@ -35,6 +35,11 @@ constexpr double most_crowding_of_many = 8.0;
 constexpr double most_lead = 0.8;
 // In very dense systems the skin is at least this share of a mean diameter.
 constexpr double least_skin = 0.08;
+// The most, of a period. A path that ends within the skin of its listed position is taken to have stayed there
+// (stays_listed), so it must not come to an image of that place from the one before: a path covers a quarter of a
+// period at most (longest_flight), in the frame of a flow less than 0.7.
+constexpr double most_skin = 0.37;
+constexpr double most_skin_in_flow = 0.15;
 // The least skin in units of listed positions, so that their rounding does not matter.
 constexpr double least_units = 1024.0;
 constexpr double two_to_31 = 2147483648.0;
@@ -69,6 +74,9 @@ void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout, doubl
   const double cutoff = mode_ == EngineMode::regions ? region_cutoff : cutoff_in_spacings(packing_fraction);
   skin_ = std::max({0.5 * (cutoff * std::sqrt(space / (crowded * n)) - 2.0 * radius), least_skin * 2.0 * radius,
                     least_units * std::max(unit_x_, unit_y_)});
+  const double most = flow_.acts ? most_skin_in_flow : most_skin;
+  if (box_.periodic_x()) skin_ = std::min(skin_, most * box_.width);
+  if (box_.periodic_y()) skin_ = std::min(skin_, most * box_.height);
   near_border_ = relist_distance_of(layout.relist_share * skin_);
   elsewhere_ = relist_distance_of(skin_);
   elsewhere_.lead2 = near_border_.lead2;

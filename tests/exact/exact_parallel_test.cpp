@@ -109,6 +109,11 @@ const std::string settling = "gravity = 1.0\nrestitution = 0.6\ncollapse = { mod
 const std::string resting_in_flow =
     disks(40, "radius = 1.0\nmass = 1.0") + disks(60, "radius = 0.001\nmass = 1.0\nregion = [8.0, 4.0, 8.03, 4.03]");
 
+// In a flat box skins are as wide as half of it is high: a disk that has gone round it has left its skin on the way.
+const std::string beside_wall =
+    disks(45, "velocities = { uniform = 1.0 }\nradius = { choice = [0.03, 1.0], weights = [5, 1] }\nmass = 1.0") +
+    "[[walls]]\nfrom = [84.0, 0.0]\nto = [30.0, 0.5]\n";
+
 const auto name_of = [](const auto& p) { return std::string(p.param.name); };
 
 INSTANTIATE_TEST_SUITE_P(
@@ -126,6 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
         ParallelCase{"walls", {25, 25, "wall", "", disks(300, equal), 6, ""}},
         ParallelCase{"dilute", {80, 80, "periodic", "", disks(150, equal), 60, ""}},
         ParallelCase{"narrow", {2.3, 300, "left = \"periodic\"\nright = \"periodic\"", "", disks(150, equal), 10, ""}},
+        ParallelCase{"flat_with_wall", {84, 8.4, "periodic", "", beside_wall, 40, ""}},
         ParallelCase{"gravity", {20, 30, "wall", "gravity = 1.5", disks(250, equal), 6, ""}},
         ParallelCase{"falling_for_ever", {20, 20, "periodic", "gravity = 2.0", disks(200, equal), 4, ""}},
         ParallelCase{"tilted", {20, 30, "wall", "gravity = [-0.9, -1.2]", disks(250, equal), 6, ""}},
