@@ -5,13 +5,11 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <tuple>
 
 #include "core/base/check.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/step/engine.hpp"
-#include "core/step/late_collisions.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/scene_support.hpp"
 
@@ -98,77 +96,6 @@ TEST(Validity, RollbackSaysThatTimeStallsBeforeItStops) {
   EXPECT_THAT(warnings, ::testing::Contains(AllOf(HasSubstr("a frame advances time by 0.0"),
                                                   HasSubstr("with 3 disks: time stalls; use --method pairwise"))));
   EXPECT_THAT(warnings.back(), HasSubstr("rollback: time stands still at t = "));
-}
-
-// Six disks on a line run into each other, with a long step: most of 15 collisions are late, and there is three times
-// the energy that there should be. Too few for a warning on the way, but not at the end.
-TEST(Validity, FewLateCollisionsAreToldOfAtTheEnd) {
-  const auto row = [](const char* method, const char* dt) {
-    return stability_scene("f16_collapse_three",
-                           {{"physics.restitution", "0.3"},
-                            {"disks.0.count", "6"},
-                            {"disks.0.positions", "[[15, 5], [18, 5.1], [21, 5], [24, 5.1], [27, 5], [30, 5.1]]"},
-                            {"disks.0.velocities", "[[1, 0], [0.5, 0], [0.2, 0], [-0.2, 0], [-0.5, 0], [-1, 0]]"},
-                            {"run.method", method},
-                            {"run.dt", dt},
-                            {"run.t_end", "3.6"}});
-  };
-  const auto told_at_end = [](const Scene& scene) {
-    const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 512});
-    EXPECT_THAT(warnings_of(*engine, scene), IsEmpty());
-    EXPECT_THAT(validity_so_far(scene, engine->state()), IsEmpty());
-    return few_inaccurate_warnings(scene, engine->state());
-  };
-  EXPECT_THAT(
-      told_at_end(row("pairwise", "0.2")),
-      ElementsAre(AllOf(HasSubstr("by time 3.6 "), HasSubstr(" collisions were seen a step late: dt = 0.2 is"))));
-}
-
-// Two disks that touch at the start, but for rounding, are said to meet late: no reason to call dt too long.
-TEST(Validity, ASingleLateCollisionIsNotToldOf) {
-  const Scene scene = stability_scene("f16_collapse_three", {{"disks.0.count", "2"},
-                                                             {"disks.0.positions", "[[3, 5], [4.9999999999999991, 5]]"},
-                                                             {"disks.0.velocities", "[[1, 0], [-1, 0]]"},
-                                                             {"run.method", "pairwise"},
-                                                             {"run.t_end", "1"}});
-  const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 512});
-  while (engine->state().time < scene.run.t_end) engine->step();
-  EXPECT_EQ(engine->state().validity.inaccurate, 1U);
-  EXPECT_THAT(few_inaccurate_warnings(scene, engine->state()), IsEmpty());
-}
-
-// A disk that crosses a slot in less than a step loses two bounces for each that is late: here 16 of 27 are counted.
-TEST(Validity, FewLateBouncesAreToldOfAtTheEnd) {
-  const auto slot = [](const char* dt) {
-    return test::scene_from(R"(
-[box]
-width = 1.03
-height = 20.0
-[[disks]]
-count = 1
-positions = [[0.51, 10.0]]
-velocities = [[1.0, 0.01]]
-radius = 0.5
-mass = 1.0
-[run]
-method = "pairwise"
-t_end = 0.8
-)",
-                            {{"run.dt", dt}});
-  };
-  for (const auto& [dt, bounces, said] : {std::tuple{"0.05", Count{16}, true}, std::tuple{"0.01", Count{27}, false}}) {
-    const Scene scene = slot(dt);
-    const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 512});
-    EXPECT_THAT(warnings_of(*engine, scene), IsEmpty());
-    EXPECT_EQ(engine->state().counters.wall_collisions, bounces);
-    const std::vector<std::string> told = few_inaccurate_warnings(scene, engine->state());
-    if (said) {
-      EXPECT_THAT(told, ElementsAre(AllOf(HasSubstr("bounces off walls and obstacles were seen a step late: dt = 0.05"),
-                                          HasSubstr("use a smaller dt or --method exact"))));
-    } else {
-      EXPECT_THAT(told, IsEmpty());
-    }
-  }
 }
 
 // The piston leaves the disk less room than it moves in dt: it bounces twice and more often in a step.
