@@ -23,9 +23,9 @@ class CellSlots {
 
   // radius: in the kernel's unit of length, rounded up a little (NeighbourLists::radius_in_units); ignored where all
   // are equal.
-  void insert(std::uint32_t cell, std::uint32_t disk, SlotPosition position, float radius);
+  [[gnu::hot]] void insert(std::uint32_t cell, std::uint32_t disk, SlotPosition position, float radius);
   // Takes the disk out of the cell that it is in.
-  void remove(std::uint32_t cell, std::uint32_t disk);
+  [[gnu::hot]] void remove(std::uint32_t cell, std::uint32_t disk);
 
   SlotColumns columns() const { return {position_.data(), disk_.data(), radius_.empty() ? nullptr : radius_.data()}; }
   // As begin() was told.

@@ -241,7 +241,7 @@ class EventCalendar {
   // Announces disks on pages that come soon for the first time, and earlier ones for their next stages. soon has to be
   // inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
   template <class Soon>
-  [[gnu::noinline]] void announce(Soon soon) {
+  [[gnu::noinline, gnu::hot]] void announce(Soon soon) {
     const std::uint32_t come = followed_end_;
     if (page_ + pages_ahead < pages_) follow(first_[page_ + pages_ahead], announced_a_page);
     for (int m = 0; m < announced_at_once && followed_begin_ != come; ++m) {

@@ -61,8 +61,8 @@ using ListKernel = std::size_t (*)(const ListQuery& query, const SlotColumns& co
 
 std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs,
                                  std::size_t count, std::uint32_t* found);
-std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
-                             std::uint32_t* found);
+[[gnu::hot]] std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs,
+                                          std::size_t count, std::uint32_t* found);
 
 // How a list in a row differs from the new one that takes its place.
 struct ListChange {
@@ -84,8 +84,8 @@ using ChangeKernel = ListChange (*)(const void* row, std::uint32_t count, std::u
 
 ListChange change_kernel_baseline(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
                                   std::size_t new_count, const NewList& to);
-ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
-                              std::size_t new_count, const NewList& to);
+[[gnu::hot]] ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i,
+                                           const std::uint32_t* near, std::size_t new_count, const NewList& to);
 
 // Adds disk i to the rows of some disks that have room for it, or removes it from the rows of those that have it.
 // Returns how many of the disks are left to do; they are then the first ones of `disks`. Offsets beyond a list, up to

@@ -101,7 +101,7 @@ inline void put_and_pad(ListRow& row, std::uint32_t count, std::int16_t offset) 
 }
 
 // Rows that are nearly full are left to do: there is no room for as many offsets then.
-std::uint32_t insert_into_rows(ListRow* rows, std::uint32_t i, std::uint32_t* disks, std::uint32_t count) {
+[[gnu::hot]] std::uint32_t insert_into_rows(ListRow* rows, std::uint32_t i, std::uint32_t* disks, std::uint32_t count) {
   std::uint32_t left = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
     const std::uint32_t j = disks[k];
@@ -118,7 +118,7 @@ std::uint32_t insert_into_rows(ListRow* rows, std::uint32_t i, std::uint32_t* di
   return left;
 }
 
-std::uint32_t remove_from_rows(ListRow* rows, std::uint32_t i, std::uint32_t* disks, std::uint32_t count) {
+[[gnu::hot]] std::uint32_t remove_from_rows(ListRow* rows, std::uint32_t i, std::uint32_t* disks, std::uint32_t count) {
   std::uint32_t left = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
     const std::uint32_t j = disks[k];

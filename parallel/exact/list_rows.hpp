@@ -92,7 +92,7 @@ class ListRows {
   void set(std::uint32_t i, std::span<const std::uint32_t> near);
   // Gives disk i another list, and adds it to or removes it from the lists of the disks that this concerns. The whole
   // new list is in the region. Disks of other regions that list disk i keep it: a neighbour too many does no harm.
-  void replace(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region);
+  [[gnu::hot]] void replace(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region);
 
  private:
   using Row = ListRow;
@@ -110,7 +110,7 @@ class ListRows {
   void insert_wide(Row& row, std::int32_t offset);
   void free_wide_rows(std::uint32_t i);
   void exchange(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region);
-  void patch(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region);
+  [[gnu::hot]] void patch(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region);
   void remove(std::uint32_t i, std::uint32_t j);
   void remove_wide(Row& row, std::int32_t offset);
 

@@ -187,7 +187,8 @@ class NeighbourLists {
   }
 
   // Prefetches what is read of cells when a disk of this radius, on this path, is relisted at this time.
-  void prefetch_search(const PathSegment& path, double radius, double time, const RelistDistance& relist) const;
+  [[gnu::hot]] void prefetch_search(const PathSegment& path, double radius, double time,
+                                    const RelistDistance& relist) const;
   // Lists disk i at this position, inside the box. Reads and writes nothing outside the region; where the new list or
   // the old one reaches beyond it, nothing changes and the result is false. found: scratch.
   bool relist(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region, FoundNeighbours& found) {
@@ -195,9 +196,10 @@ class NeighbourLists {
   }
   // The same in two steps, between which the disks of the new list may be prefetched. find_list finds the new list, in
   // `found`; take_list, if nothing else has changed since, makes the change. Each may return false.
-  bool find_list(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region,
-                 FoundNeighbours& found) const;
-  bool take_list(std::uint32_t i, const Disks& disks, const ListRegion& region, const FoundNeighbours& found);
+  [[gnu::hot]] bool find_list(std::uint32_t i, Vec2 position, const Disks& disks, const ListRegion& region,
+                              FoundNeighbours& found) const;
+  [[gnu::hot]] bool take_list(std::uint32_t i, const Disks& disks, const ListRegion& region,
+                              const FoundNeighbours& found);
 
   // Between windows, with a single queue. append: disk i, the first one behind those that are listed, is new and at
   // this place. remove: disk i is to go, and the last one takes its index. The columns hold the disk in both calls.
@@ -288,7 +290,7 @@ class NeighbourLists {
   void set_listed_positions(const Disks& disks, const Executor& executor);
   void list_all(const Disks& disks, const Executor& executor);
   void list_block(const Disks& disks, std::size_t block, std::size_t begin, std::size_t end);
-  FixedPointPosition fixed_point(double x, double y) const;
+  [[gnu::hot]] FixedPointPosition fixed_point(double x, double y) const;
   void choose_slot_units();
   void prepare_query(const Disks& disks);
   SlotPosition slot_position(FixedPointPosition p) const {
@@ -319,8 +321,8 @@ class NeighbourLists {
   }
   ListQuery query_at(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
   float radius_in_units(double radius) const;
-  bool find_neighbours(const Disks& disks, std::uint32_t i, FixedPointPosition position, const ListRegion& region,
-                       FoundNeighbours& found) const;
+  [[gnu::hot]] bool find_neighbours(const Disks& disks, std::uint32_t i, FixedPointPosition position,
+                                    const ListRegion& region, FoundNeighbours& found) const;
   void search_chains(const Disks& disks, const ListQuery& query, std::span<const SlotRun> runs,
                      const ListRegion& region, FoundNeighbours& found) const;
   void find_all_others(std::uint32_t i, FoundNeighbours& found) const;
@@ -331,7 +333,8 @@ class NeighbourLists {
   }
   void fill_slots(const Disks& disks, std::uint32_t first_key, std::uint32_t last_key);
   void move_into_cell(const Disks& disks, std::uint32_t i, std::uint32_t key);
-  bool move_to_cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position, const ListRegion& region);
+  [[gnu::hot]] bool move_to_cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position,
+                                    const ListRegion& region);
   void find_inner_part();
   bool is_inside_in_height(Vec2 listed) const { return inner_low_.y < listed.y && listed.y < inner_high_.y; }
   bool is_inside(Vec2 listed) const {
