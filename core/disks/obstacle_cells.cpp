@@ -20,7 +20,7 @@ std::int64_t cells_for(double length, double cell, std::size_t obstacles) {
 constexpr std::size_t least_at_rest = 128;
 // Likewise of those that move, whose cells are made for each step.
 constexpr std::size_t least_moving = 16;
-// The cells of what is clear of obstacles at rest: so many an obstacle, which are a third of a mean distance long, and
+// The cells of what is clear of obstacles at rest: so many an obstacle, each an eighth of their mean spacing long, and
 // so many in all at least and at most, as each has one byte.
 constexpr std::size_t clearance_cells = 64;
 constexpr std::size_t least_clearance_cells = 4096;
