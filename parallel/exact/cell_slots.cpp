@@ -1,10 +1,34 @@
 #include "parallel/exact/cell_slots.hpp"
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include <bit>
+
 #include "core/base/huge_pages.hpp"
 
 namespace carom {
 
 namespace {
+
+// Which of a cell's slots, with these disks, has this one; slots_a_cell if none has. Which one it is is as good
+// as random: a loop would take a branch that often goes wrong.
+inline std::uint32_t place_of(const std::uint32_t* slot, std::uint32_t disk) {
+#if defined(__SSE2__)
+  static_assert(slots_a_cell == 8);
+  const __m128i sought = _mm_set1_epi32(static_cast<int>(disk));
+  const auto equal = [&](int k) {
+    return _mm_cmpeq_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(slot + k)), sought);
+  };
+  const __m128i places = _mm_packs_epi16(_mm_packs_epi32(equal(0), equal(4)), _mm_setzero_si128());
+  return static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(_mm_movemask_epi8(places)) | 1U << 8U));
+#else
+  std::uint32_t places = 1U << slots_a_cell;
+  for (std::uint32_t k = 0; k < slots_a_cell; ++k) places |= static_cast<std::uint32_t>(slot[k] == disk) << k;
+  return static_cast<std::uint32_t>(std::countr_zero(places));
+#endif
+}
 
 template <class T>
 void refill(std::vector<T>& column, std::size_t n, T value) {
@@ -15,10 +39,10 @@ void refill(std::vector<T>& column, std::size_t n, T value) {
 }  // namespace
 
 void CellSlots::begin(std::uint32_t cells, std::uint32_t cells_a_part, bool unequal_radii) {
-  const std::size_t slots = std::size_t{cells} * slots_a_cell;
-  refill(position_, slots, SlotPosition{});
-  refill(disk_, slots, none);
-  refill(radius_, unequal_radii ? slots : 0, 0.0F);
+  SlotCell empty{};
+  std::fill_n(empty.disk, slots_a_cell, none);
+  refill(cells_, cells, empty);
+  refill(radius_, unequal_radii ? std::size_t{cells} * slots_a_cell : 0, 0.0F);
   refill(chain_, cells, none);
   cells_a_part_ = cells_a_part;
   links_.resize(cells / cells_a_part + 1);
@@ -29,12 +53,12 @@ void CellSlots::begin(std::uint32_t cells, std::uint32_t cells_a_part, bool uneq
 }
 
 void CellSlots::insert(std::uint32_t cell, std::uint32_t disk, SlotPosition position, float radius) {
-  const std::uint32_t first = cell * slots_a_cell;
-  for (std::uint32_t s = first; s < first + slots_a_cell; ++s) {
-    if (disk_[s] != none) continue;
-    disk_[s] = disk;
-    position_[s] = position;
-    if (!radius_.empty()) radius_[s] = radius;
+  SlotCell& slots = cells_[cell];
+  const std::uint32_t place = place_of(slots.disk, none);
+  if (place < slots_a_cell) [[likely]] {
+    slots.disk[place] = disk;
+    slots.position[place] = position;
+    if (!radius_.empty()) radius_[std::size_t{cell} * slots_a_cell + place] = radius;
     return;
   }
   PartLinks& part = links_of(cell);
@@ -50,10 +74,10 @@ void CellSlots::insert(std::uint32_t cell, std::uint32_t disk, SlotPosition posi
 }
 
 void CellSlots::remove(std::uint32_t cell, std::uint32_t disk) {
-  const std::uint32_t first = cell * slots_a_cell;
-  for (std::uint32_t s = first; s < first + slots_a_cell; ++s) {
-    if (disk_[s] != disk) continue;
-    disk_[s] = none;
+  SlotCell& slots = cells_[cell];
+  const std::uint32_t place = place_of(slots.disk, disk);
+  if (place < slots_a_cell) [[likely]] {
+    slots.disk[place] = none;
     return;
   }
   PartLinks& part = links_of(cell);

@@ -71,7 +71,7 @@ void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::ui
 // moved by one.
 void NeighbourLists::move_into_cell(const Disks& d, std::uint32_t i, std::uint32_t key) {
   constexpr std::uint32_t shifts[] = {0U, 1U, 0U - 1U};
-  const GridLevel& level = level_of(d, i);
+  const std::size_t level = level_of(d, i);
   const FixedPointPosition rounded = rows_.listed_at(i);
   for (const std::uint32_t dy : shifts) {
     for (const std::uint32_t dx : shifts) {
@@ -81,23 +81,22 @@ void NeighbourLists::move_into_cell(const Disks& d, std::uint32_t i, std::uint32
   }
 }
 
-// Of the disk's size.
-const GridLevel& NeighbourLists::level_of(const Disks& d, std::uint32_t i) const {
-  if (d.radius.empty()) return grid_.levels.front();
+std::size_t NeighbourLists::level_of(const Disks& d, std::uint32_t i) const {
+  if (d.radius.empty()) return 0;
   // A disk that was added since may be smaller than those that the grid was made for.
-  const std::size_t level = class_of_radius(d.radius[i], grid_.levels.front().largest_radius);
-  return grid_.levels[std::min(level, grid_.levels.size() - 1)];
+  return std::min(class_of_radius(d.radius[i], grid_.levels.front().largest_radius), grid_.levels.size() - 1);
 }
 
 // Moves the disk to the cell of this position; false, without a change, if its old cell is outside the region.
 bool NeighbourLists::move_to_cell_of(const Disks& d, std::uint32_t i, FixedPointPosition position,
                                      const ListRegion& region) {
-  const GridLevel& level = level_of(d, i);
+  const std::size_t level = level_of(d, i);
   const std::uint32_t old_key = cell_in(level, rows_.listed_at(i));
+  const std::uint32_t new_key = cell_in(level, position);
   if (old_key < region.first_key || old_key >= region.last_key) return false;
   slots_.remove(old_key, i);
   const float radius = d.radius.empty() ? 0.0F : radius_in_units(d.radius[i]);
-  slots_.insert(cell_in(level, position), i, slot_position(position), radius);
+  slots_.insert(new_key, i, slot_position(position), radius);
   return true;
 }
 

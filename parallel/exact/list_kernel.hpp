@@ -26,19 +26,24 @@ struct ListQuery {
 // Coordinates are whole numbers of units, so that the distance of two places is off by at most this; length.
 inline constexpr double list_kernel_rounding = 2.2;
 
-// By slot.
-struct SlotColumns {
-  const SlotPosition* position = nullptr;
-  const std::uint32_t* disk = nullptr;  // empty_slot: none
-  const float* radius = nullptr;        // length, as in the query; null: all have the common one
-};
 inline constexpr std::uint32_t empty_slot = 0xffffffffU;
-
-// Slots [first, last), a multiple of slots_a_cell.
-struct SlotRun {
-  std::uint32_t first, last;
-};
 inline constexpr std::uint32_t slots_a_cell = 8;
+// The slots of a cell: a cache line.
+struct alignas(64) SlotCell {
+  SlotPosition position[slots_a_cell];
+  std::uint32_t disk[slots_a_cell];  // empty_slot: none
+};
+// Of all cells.
+struct SlotColumns {
+  const SlotCell* cell = nullptr;
+  const float* radius = nullptr;  // by slot, those of a cell one after the other; length, as in the query; null: all
+                                  // have the common one
+};
+// A rectangle of cells: in each of its rows, `width` cells one after the other, `stride` cells on from those of the row
+// before. Neither side is empty.
+struct CellBlock {
+  std::uint32_t first, width, rows, stride;
+};
 
 // All versions do these operations in this order. So they find the same disks, and of two disks each finds the other.
 inline bool is_neighbour(const ListQuery& q, SlotPosition p, float radius) {
@@ -53,16 +58,16 @@ inline bool is_neighbour(const ListQuery& q, SlotPosition p, float radius) {
   return static_cast<float>(dx * dx + dy * dy) <= cutoff * cutoff;
 }
 
-// Writes the neighbours among the disks in the slots of the runs, in order, and returns how many. found has room for
+// Writes the neighbours among the disks in the slots of a block, in order, and returns how many. found has room for
 // as many as there are slots, and list_kernel_padding more.
 inline constexpr std::size_t list_kernel_padding = 8;
-using ListKernel = std::size_t (*)(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs,
-                                   std::size_t count, std::uint32_t* found);
+using ListKernel = std::size_t (*)(const ListQuery& query, const SlotColumns& columns, const CellBlock& block,
+                                   std::uint32_t* found);
 
-std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs,
-                                 std::size_t count, std::uint32_t* found);
-[[gnu::hot]] std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs,
-                                          std::size_t count, std::uint32_t* found);
+std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& columns, const CellBlock& block,
+                                 std::uint32_t* found);
+[[gnu::hot]] std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const CellBlock& block,
+                                          std::uint32_t* found);
 
 // How a list in a row differs from the new one that takes its place.
 struct ListChange {

@@ -33,19 +33,19 @@ struct Lanes {
 
 static_assert(slots_a_cell == lanes);
 
-// Packs the near disks of the eight slots from s on.
+// Packs the near disks of a cell. radius: of its slots.
 template <bool unequal_radii>
-inline std::size_t take(const Lanes& l, const SlotColumns& columns, std::uint32_t s, std::uint32_t* found) {
-  const auto load = [](const auto* column) { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(column)); };
-  const __m256i disk = load(columns.disk + s);
-  const __m256i position = load(columns.position + s);
+inline std::size_t take(const Lanes& l, const SlotCell& cell, const float* radius, std::uint32_t* found) {
+  const auto load = [](const auto* column) { return _mm256_load_si256(reinterpret_cast<const __m256i*>(column)); };
+  const __m256i disk = load(cell.disk);
+  const __m256i position = load(cell.position);
   // In each lane x in the lower half, y in the upper one.
   const __m256i apart = _mm256_abs_epi16(_mm256_sub_epi16(l.position, position));
   const __m256i distances = _mm256_mulhrs_epi16(apart, l.unit);
   const __m256 distance2 = _mm256_cvtepi32_ps(_mm256_madd_epi16(distances, distances));
   __m256 cutoff2 = l.cutoff2;
   if constexpr (unequal_radii) {
-    const __m256 cutoff = _mm256_add_ps(l.cutoff, _mm256_add_ps(l.radius, _mm256_loadu_ps(columns.radius + s)));
+    const __m256 cutoff = _mm256_add_ps(l.cutoff, _mm256_add_ps(l.radius, _mm256_loadu_ps(radius)));
     cutoff2 = _mm256_mul_ps(cutoff, cutoff);
   }
   // By the sign: that of an empty slot is set.
@@ -60,8 +60,7 @@ inline std::size_t take(const Lanes& l, const SlotColumns& columns, std::uint32_
 }
 
 template <bool unequal_radii>
-std::size_t find(const ListQuery& q, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
-                 std::uint32_t* found) {
+std::size_t find(const ListQuery& q, const SlotColumns& columns, const CellBlock& block, std::uint32_t* found) {
   const float cutoff = q.cutoff + (q.radius + q.radius);
   const Lanes l{_mm256_set1_epi32(static_cast<int>(std::uint32_t{q.position.y} << 16U | q.position.x)),
                 _mm256_set1_epi32(static_cast<int>(static_cast<std::uint32_t>(q.unit_y) << 16U |
@@ -70,10 +69,18 @@ std::size_t find(const ListQuery& q, const SlotColumns& columns, const SlotRun* 
                 _mm256_set1_ps(q.cutoff),
                 _mm256_set1_ps(q.radius),
                 _mm256_set1_ps(cutoff * cutoff)};
+  const SlotCell* first = columns.cell + block.first;
+  const float* radius = unequal_radii ? columns.radius + std::size_t{block.first} * lanes : nullptr;
+  const std::size_t radii_a_row = unequal_radii ? std::size_t{block.stride} * lanes : 0;
   std::size_t n = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    for (std::uint32_t s = runs[k].first; s < runs[k].last; s += lanes)
-      n += take<unequal_radii>(l, columns, s, found + n);
+  for (std::uint32_t left = block.rows; left > 0; --left, first += block.stride, radius += radii_a_row) {
+    const SlotCell* cell = first;
+    const SlotCell* const end = first + block.width;
+    const float* of_cell = radius;
+    do {
+      n += take<unequal_radii>(l, *cell, of_cell, found + n);
+      if constexpr (unequal_radii) of_cell += lanes;
+    } while (++cell < end);
   }
   return n;
 }
@@ -151,10 +158,10 @@ EditKernels edit_kernels_avx2() {
   return {insert_into_rows, remove_from_rows};
 }
 
-std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
+std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const CellBlock& block,
                              std::uint32_t* found) {
-  return columns.radius == nullptr ? find<false>(query, columns, runs, count, found)
-                                   : find<true>(query, columns, runs, count, found);
+  return columns.radius == nullptr ? find<false>(query, columns, block, found)
+                                   : find<true>(query, columns, block, found);
 }
 
 // Sixteen places at a time; those that are not in use become 0, which is no neighbour's offset.
@@ -198,9 +205,9 @@ ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_
 
 namespace carom {
 
-std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs, std::size_t count,
+std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns, const CellBlock& block,
                              std::uint32_t* found) {
-  return list_kernel_baseline(query, columns, runs, count, found);
+  return list_kernel_baseline(query, columns, block, found);
 }
 
 ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,

@@ -5,17 +5,21 @@
 
 namespace carom {
 
-// No branch depends on a position: which disks are near is as good as random.
-std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& columns, const SlotRun* runs,
-                                 std::size_t count, std::uint32_t* found) {
+std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& columns, const CellBlock& block,
+                                 std::uint32_t* found) {
   std::size_t n = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    for (std::uint32_t s = runs[k].first; s < runs[k].last; ++s) {
-      const std::uint32_t disk = columns.disk[s];
-      const float radius = columns.radius != nullptr ? columns.radius[s] : query.radius;
-      found[n] = disk;
-      n += static_cast<unsigned>(is_neighbour(query, columns.position[s], radius)) &
-           static_cast<unsigned>(disk != empty_slot) & static_cast<unsigned>(disk != query.self);
+  // No branch depends on a position: which disks are near is as good as random.
+  const auto take = [&](std::uint32_t c, std::uint32_t slot) {
+    const std::uint32_t disk = columns.cell[c].disk[slot];
+    const float radius = columns.radius != nullptr ? columns.radius[c * slots_a_cell + slot] : query.radius;
+    found[n] = disk;
+    n += static_cast<unsigned>(is_neighbour(query, columns.cell[c].position[slot], radius)) &
+         static_cast<unsigned>(disk != empty_slot) & static_cast<unsigned>(disk != query.self);
+  };
+  for (std::uint32_t row = 0; row < block.rows; ++row) {
+    const std::uint32_t first = block.first + row * block.stride;
+    for (std::uint32_t c = first; c < first + block.width; ++c) {
+      for (std::uint32_t slot = 0; slot < slots_a_cell; ++slot) take(c, slot);
     }
   }
   return n;

@@ -15,7 +15,8 @@ namespace carom {
 
 // Cells and disks, both contiguous in memory, that one thread may read and write.
 struct ListRegion {
-  std::uint32_t first_key = 0, last_key = 0xffffffffU;    // cells [first, last)
+  static constexpr std::uint32_t all_keys = 0xffffffffU;
+  std::uint32_t first_key = 0, last_key = all_keys;       // cells [first, last)
   std::uint32_t first_disk = 0, last_disk = 0xffffffffU;  // disks stored in [first, last)
   // The core: disks whose listed position has a coordinate in [core, core + core_size) can be relisted by this thread
   // alone, wherever they are when they are due.

@@ -1,6 +1,5 @@
 // The search of a new list: which cells are within reach, and which disks in them.
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 
@@ -12,8 +11,6 @@ namespace {
 
 // Makes single precision find a few disks too many rather than one too few.
 constexpr double single_margin = 1.0 + 1e-5;
-// Runs of disks that the kernel searches in one call.
-constexpr std::size_t runs_at_once = 16;
 
 }  // namespace
 
@@ -34,8 +31,23 @@ void NeighbourLists::prepare_query(const Disks& d) {
   query_.cutoff = static_cast<float>(reach * single_margin);
   query_.radius = radius_in_units(d.common_radius);
   const double length = 2.0 * flow_.stretch * d.common_radius + 2.0 * skin_ + search_margin_;
-  common_reach_x_ = listed_units(length, units_per_x_);
-  common_reach_y_ = listed_units(length, units_per_y_);
+  common_reach_ = {listed_units(length, units_per_x_), listed_units(length, units_per_y_)};
+}
+
+void NeighbourLists::list_levels() {
+  listed_levels_.clear();
+  if (grid_.tile_keys != 0) return;
+  const auto axis = [](std::uint32_t reach, std::uint32_t cells, bool periodic, std::uint32_t first,
+                       std::uint32_t stored) {
+    return ListedAxis{cells, periodic ? 32U : 31U, takes_whole_side(reach, cells, periodic), first,
+                      std::min(stored, cells)};
+  };
+  for (const GridLevel& level : grid_.levels) {
+    const ListReach most = reach_of(largest_radius_, level.largest_radius);
+    listed_levels_.push_back({axis(most.x, level.columns, box_.periodic_x(), 0, level.columns),
+                              axis(most.y, level.rows, box_.periodic_y(), level.first_stored, level.stored_rows),
+                              level.first_key, level.stride});
+  }
 }
 
 ListQuery NeighbourLists::query_at(const Disks& d, std::uint32_t i, FixedPointPosition position) const {
@@ -46,39 +58,41 @@ ListQuery NeighbourLists::query_at(const Disks& d, std::uint32_t i, FixedPointPo
   return query;
 }
 
+// Adds the neighbours that the cells of a block hold. Nothing is read of cells from `end` on.
+inline void NeighbourLists::search_block(const Disks& d, const ListQuery& query, const CellBlock& block,
+                                         std::uint32_t end, FoundNeighbours& found) const {
+  if (slots_.may_be_chained(block, end)) [[unlikely]]
+    search_chains(d, query, block, end, found);
+  const std::size_t room = found.count + std::size_t{slots_a_cell} * block.width * block.rows + list_kernel_padding;
+  if (found.buffer.size() < room) [[unlikely]]
+    found.grow(room);
+  found.count += kernel_(query, slots_.columns(), block, found.buffer.data() + found.count);
+}
+
 bool NeighbourLists::find_neighbours(const Disks& d, std::uint32_t i, FixedPointPosition position,
                                      const ListRegion& region, FoundNeighbours& found) const {
   const ListQuery query = query_at(d, i, position);
-  std::array<SlotRun, runs_at_once> runs;
-  std::size_t held = 0;
-  std::size_t cells = 0;
-  CellSlots::Chains chains = slots_.chains_before(region.last_key);
   const bool everywhere = region.is_everything();
   bool inside = true;
   found.count = 0;
-  const auto search = [&] {
-    const std::span<const SlotRun> held_runs(runs.data(), held);
-    if (chains.any()) search_chains(d, query, held_runs, region, found);
-    const std::size_t room = found.count + slots_a_cell * cells + list_kernel_padding;
-    if (found.buffer.size() < room) found.grow(room);
-    found.count += kernel_(query, slots_.columns(), runs.data(), held, found.buffer.data() + found.count);
-    held = cells = 0;
-    chains = slots_.chains_before(region.last_key);
-  };
-  const auto add = [&](std::uint32_t first, std::uint32_t last) {
-    if (!everywhere && (first < region.first_key || last > region.last_key)) {
-      inside = false;
-      return;
-    }
-    if (held == runs.size()) [[unlikely]]
-      search();
-    runs[held++] = {first * slots_a_cell, last * slots_a_cell};
-    cells += last - first;
-    chains.add(first, last);
-  };
-  visit_cells_in_reach(d.radius_of(i), position, add);
-  if (inside) search();
+  visit_cells_in_reach(d.radius_of(i), position, [&](const CellBlock& block) {
+    inside = inside && (everywhere || (block.first >= region.first_key && end_of(block) <= region.last_key));
+    if (inside) search_block(d, query, block, region.last_key, found);
+  });
   return inside;
+}
+
+bool NeighbourLists::find_list(std::uint32_t i, Vec2 at, const Disks& d, const ListRegion& region,
+                               FoundNeighbours& found) const {
+  found.count = 0;
+  found.at = fixed_point(at.x, at.y);
+  if (mode_ == EngineMode::all_pairs) return true;
+  // Neighbours of the old list must be in the region, too: one elsewhere would go on listing disk i, and when it comes
+  // near again and is relisted, it would take disk i for one that lists it as well.
+  if (!rows_.are_within(i, region) || !find_neighbours(d, i, found.at, region, found)) return false;
+  const std::span<const std::uint32_t> near = found.disks();
+  const auto held = [&](std::uint32_t j) { return region.holds(j); };
+  return region.is_everything() || std::all_of(near.begin(), near.end(), held);
 }
 
 // Takes no account of gravity: it is only a prefetch.
@@ -87,29 +101,24 @@ void NeighbourLists::prefetch_search(const PathSegment& path, double radius, dou
   if (mode_ == EngineMode::all_pairs || flow_.acts) return;
   const double s = time - path.start;
   const Vec2 at = listing_place({time, path.x + s * path.vx, path.y + s * path.vy, path.vx, path.vy}, box_, relist);
-  visit_cells_in_reach(radius, fixed_point(at.x, at.y),
-                       [&](std::uint32_t first, std::uint32_t last) { slots_.prefetch(first, last); });
+  visit_cells_in_reach(radius, fixed_point(at.x, at.y), [&](const CellBlock& block) {
+    for_each_row(block, [&](auto first, auto last) { slots_.prefetch(first, last); });
+  });
   // g++ 12 leaves out calls of functions that do nothing but prefetch.
   std::atomic_signal_fence(std::memory_order_seq_cst);
 }
 
-// The disks chained to the cells of these runs, one by one.
-void NeighbourLists::search_chains(const Disks& d, const ListQuery& query, std::span<const SlotRun> runs,
-                                   const ListRegion& region, FoundNeighbours& found) const {
-  for (const SlotRun& run : runs) {
-    const std::uint32_t first = run.first / slots_a_cell;
-    const std::uint32_t last = run.last / slots_a_cell;
-    CellSlots::Chains chains = slots_.chains_before(region.last_key);
-    chains.add(first, last);
-    if (!chains.any()) continue;
-    slots_.visit_chained(first, last, region.last_key, [&](std::uint32_t j) {
-      if (found.buffer.size() < found.count + list_kernel_padding) found.grow(found.count);
-      found.buffer[found.count] = j;
-      const bool near =
-          is_neighbour(query, slot_position(rows_.listed_at(j)), radius_in_units(d.radius_of(j))) && j != query.self;
-      found.count += near ? 1U : 0U;
-    });
-  }
+// The disks chained to the cells of this block, one by one.
+void NeighbourLists::search_chains(const Disks& d, const ListQuery& query, const CellBlock& block, std::uint32_t end,
+                                   FoundNeighbours& found) const {
+  const auto add = [&](std::uint32_t j) {
+    if (found.buffer.size() < found.count + list_kernel_padding) found.grow(found.count);
+    found.buffer[found.count] = j;
+    const bool near =
+        is_neighbour(query, slot_position(rows_.listed_at(j)), radius_in_units(d.radius_of(j))) && j != query.self;
+    found.count += near ? 1U : 0U;
+  };
+  for_each_row(block, [&](std::uint32_t first, std::uint32_t last) { slots_.visit_chained(first, last, end, add); });
 }
 
 }  // namespace carom

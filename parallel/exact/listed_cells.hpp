@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "parallel/cells/nearby_runs.hpp"
+#include "parallel/exact/list_kernel.hpp"
+#include "parallel/exact/list_row.hpp"
 
 namespace carom {
 
@@ -15,15 +17,67 @@ inline std::uint32_t cell_of_listed(std::uint32_t at, std::uint32_t cells, bool 
   return std::min(k, cells - 1);  // the far wall itself
 }
 
+// Do the two ends of a reach come within a cell of each other along the period? The whole side is then taken once.
+inline bool takes_whole_side(std::uint32_t reach, std::uint32_t cells, bool periodic) {
+  return cells <= 2 || 2 * std::uint64_t{reach} * cells >= std::uint64_t{cells - 2} << (periodic ? 32U : 31U);
+}
+
 // The cells of the disks that are listed within reach of a coordinate.
 inline Span span_around_listed(std::uint32_t at, std::uint32_t reach, std::uint32_t cells, bool periodic) {
-  // Where the two ends come within a cell of each other along the period, the whole side is taken once.
-  if (cells <= 2 || 2 * std::uint64_t{reach} * cells >= std::uint64_t{cells - 2} << (periodic ? 32U : 31U))
-    return {0, cells};
+  if (takes_whole_side(reach, cells, periodic)) return {0, cells};
   const std::uint32_t low = periodic || at > reach ? at - reach : 0;
   const std::uint32_t first = cell_of_listed(low, cells, periodic);
   const std::uint32_t last = cell_of_listed(at + reach, cells, periodic);
   return {first, last >= first ? last - first + 1 : cells - first + last + 1};
 }
+
+// The cells along one side, of which those of a part may be all that is stored.
+struct ListedAxis {
+  std::int64_t cells = 1;
+  unsigned bits = 32;        // the side is 2^bits units of listed positions long
+  bool may_be_whole = true;  // may a search take the whole side?
+  std::int64_t first_stored = 0, stored = 1;
+
+  // The places, among the stored cells, of those within reach of a coordinate, where these are all stored and do not go
+  // on at the other end of the side. Else none.
+  Span span_around(std::uint32_t at, std::uint32_t reach) const {
+    if (may_be_whole && takes_whole_side(reach, static_cast<std::uint32_t>(cells), bits == 32U)) [[unlikely]]
+      return {0, static_cast<std::uint32_t>(stored)};
+    const std::int64_t first = (std::int64_t{at} - reach) * cells >> bits;
+    const std::int64_t last = (std::int64_t{at} + reach) * cells >> bits;
+    const std::int64_t from_stored = first - first_stored;
+    const std::int64_t place = from_stored < 0 ? from_stored + cells : from_stored;
+    const std::int64_t count = last - first + 1;
+    if (first < 0 || last >= cells || place + count > stored) [[unlikely]]
+      return {0, 0};
+    return {static_cast<std::uint32_t>(place), static_cast<std::uint32_t>(count)};
+  }
+  // The place, among the stored cells, of that at a coordinate; no less than `stored` where it is none of them.
+  std::int64_t place_of(std::uint32_t at) const {
+    // The far wall itself is in the last cell.
+    const std::int64_t place = std::min(std::int64_t{at} * cells >> bits, cells - 1) - first_stored;
+    return place < 0 ? place + cells : place;
+  }
+};
+
+// How far a search for neighbours reaches, in units of listed positions.
+struct ListReach {
+  std::uint32_t x = 0, y = 0;
+};
+
+// A level of a grid without tiles.
+struct ListedLevel {
+  ListedAxis columns, rows;
+  std::uint32_t first_key = 0, stride = 0;
+  std::uint32_t cell(std::int64_t row, std::int64_t column) const {
+    return first_key + static_cast<std::uint32_t>(row) * stride + static_cast<std::uint32_t>(column);
+  }
+  // The cells within reach, where they are one block; else one without cells.
+  CellBlock block_around(FixedPointPosition at, ListReach reach) const {
+    const Span y = rows.span_around(at.y, reach.y);
+    const Span x = columns.span_around(at.x, reach.x);
+    return {cell(y.first, x.first), x.count, x.count > 0 ? y.count : 0, stride};
+  }
+};
 
 }  // namespace carom

@@ -178,8 +178,10 @@ void NeighbourLists::set_listed_positions(const Disks& d, const Executor& execut
 }
 
 void NeighbourLists::list_all(const Disks& d, const Executor& executor) {
-  if (mode_ != EngineMode::all_pairs)
+  if (mode_ != EngineMode::all_pairs) {
     slots_.begin(grid_.keys, grid_.tile_keys == 0 ? grid_.keys : grid_.tile_keys, !d.radius.empty());
+    list_levels();
+  }
   if (mode_ == EngineMode::regions) {
     rows_.begin(d.size(), grid_.tiles);
     set_listed_positions(d, executor);
@@ -316,19 +318,6 @@ double NeighbourLists::safe_speed2(double length, double g) const {
   const double listed = flow_.stretch * (2.0 * flow_.stretch * largest_radius_ + 4.0 * skin_ + search_margin_);
   const double flight = 0.5 * (0.49 * period - listed) - g * length * length;
   return flight > 0.0 ? (flight / length) * (flight / length) : -1.0;
-}
-
-bool NeighbourLists::find_list(std::uint32_t i, Vec2 at, const Disks& d, const ListRegion& region,
-                               FoundNeighbours& found) const {
-  found.count = 0;
-  found.at = fixed_point(at.x, at.y);
-  if (mode_ == EngineMode::all_pairs) return true;
-  // Neighbours of the old list must be in the region, too: one elsewhere would go on listing disk i, and when it comes
-  // near again and is relisted, it would take disk i for one that lists it as well.
-  if (!rows_.are_within(i, region) || !find_neighbours(d, i, found.at, region, found)) return false;
-  const std::span<const std::uint32_t> near = found.disks();
-  const auto held = [&](std::uint32_t j) { return region.holds(j); };
-  return region.is_everything() || std::all_of(near.begin(), near.end(), held);
 }
 
 bool NeighbourLists::take_list(std::uint32_t i, const Disks& d, const ListRegion& region,

@@ -13,7 +13,7 @@
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/cells/counting_sort.hpp"
 #include "parallel/cells/nearby_runs.hpp"
-#include "parallel/exact/cell_runs.hpp"
+#include "parallel/exact/cell_blocks.hpp"
 #include "parallel/exact/cell_slots.hpp"
 #include "parallel/exact/engine_mode.hpp"
 #include "parallel/exact/flow_frame.hpp"
@@ -238,31 +238,21 @@ class NeighbourLists {
           level, span_around(position.y, cutoff, box_.height, level.rows_per_length, level.rows, box_.periodic_y()));
       const Span columns =
           span_around(position.x, cutoff, box_.width, level.columns_per_length, level.columns, box_.periodic_x());
-      for_each_cell_run(level, rows, columns, [&](std::uint32_t first, std::uint32_t last) {
-        inside = inside && first >= region.first_key && last <= region.last_key;
-        if (inside) run(first, last);
+      for_each_cell_block(level, rows, columns, [&](const CellBlock& block) {
+        inside = inside && block.first >= region.first_key && end_of(block) <= region.last_key;
+        if (inside) for_each_row(block, run);
       });
     }
     return inside;
   }
-  // Likewise run(slots) and visit(j) for the slots, and the disks without a slot, of those cells.
-  template <class Run, class Visit>
-  bool visit_runs_near(Vec2 position, double distance, const ListRegion& region, Run&& run, Visit&& visit) const {
-    return visit_cells_near(position, distance, region, [&](std::uint32_t first, std::uint32_t last) {
-      run(SlotRun{first * slots_a_cell, last * slots_a_cell});
-      slots_.visit_chained(first, last, region.last_key, visit);
-    });
-  }
   // Calls visit(j) for the disks of those cells.
   template <class Visit>
   void visit_listed_near(Vec2 position, double distance, Visit&& visit) const {
-    const SlotColumns columns = slots_.columns();
-    const auto run = [&](SlotRun slots) {
-      for (std::uint32_t s = slots.first; s < slots.last; ++s) {
-        if (columns.disk[s] != empty_slot) visit(columns.disk[s]);
-      }
-    };
-    visit_runs_near(position, distance, ListRegion{}, run, visit);
+    const ListRegion everything;
+    visit_cells_near(position, distance, everything, [&](std::uint32_t first, std::uint32_t last) {
+      slots_.visit_slots(first, last, visit);
+      slots_.visit_chained(first, last, everything.last_key, visit);
+    });
   }
 
   // Is this place within a distance of disk i's listed position? distance2: its square.
@@ -293,6 +283,7 @@ class NeighbourLists {
   [[gnu::hot]] FixedPointPosition fixed_point(double x, double y) const;
   void choose_slot_units();
   void prepare_query(const Disks& disks);
+  void list_levels();
   SlotPosition slot_position(FixedPointPosition p) const {
     return {static_cast<std::uint16_t>(p.x >> slot_shift_x_), static_cast<std::uint16_t>(p.y >> slot_shift_y_)};
   }
@@ -302,32 +293,55 @@ class NeighbourLists {
     constexpr double most = 0x1p31;
     return static_cast<std::uint32_t>(std::min(length * units_per_length * (1.0 + 1e-9) + 2.0, most));
   }
-  // Calls visit(first, last) for the runs of cells [first, last) that are searched for neighbours of a disk listed
-  // here.
+  // Of a search for the neighbours of a disk of this radius among those of a level.
+  ListReach reach_of(double radius, double largest_of_level) const {
+    if (!slots_.have_radii()) [[likely]]
+      return common_reach_;
+    const double length = flow_.stretch * (radius + largest_of_level) + 2.0 * skin_ + search_margin_;
+    return {listed_units(length, units_per_x_), listed_units(length, units_per_y_)};
+  }
+  // Calls visit(block) for the blocks of cells that are searched for neighbours of a disk listed here.
   template <class Visit>
   void visit_cells_in_reach(double radius, FixedPointPosition position, Visit&& visit) const {
-    for (const GridLevel& level : grid_.levels) {
-      std::uint32_t reach_x = common_reach_x_;
-      std::uint32_t reach_y = common_reach_y_;
-      if (slots_.have_radii()) {
-        const double length = flow_.stretch * (radius + level.largest_radius) + 2.0 * skin_ + search_margin_;
-        reach_x = listed_units(length, units_per_x_);
-        reach_y = listed_units(length, units_per_y_);
+    const std::size_t listed = listed_levels_.size();
+    for (std::size_t k = 0; k < grid_.levels.size(); ++k) {
+      const GridLevel& level = grid_.levels[k];
+      const ListReach reach = reach_of(radius, level.largest_radius);
+      const CellBlock block = k < listed ? listed_levels_[k].block_around(position, reach) : CellBlock{};
+      if (block.rows > 0) [[likely]] {
+        visit(block);
+      } else {
+        visit_cells_apart(level, position, reach, visit);
       }
-      const Span rows = stored_span(level, span_around_listed(position.y, reach_y, level.rows, box_.periodic_y()));
-      const Span columns = span_around_listed(position.x, reach_x, level.columns, box_.periodic_x());
-      for_each_cell_run(level, rows, columns, visit);
     }
+  }
+  // The same of one level, wherever its cells lie.
+  template <class Visit>
+  [[gnu::noinline]] void visit_cells_apart(const GridLevel& level, FixedPointPosition position, ListReach reach,
+                                           Visit&& visit) const {
+    const Span rows = stored_span(level, span_around_listed(position.y, reach.y, level.rows, box_.periodic_y()));
+    const Span columns = span_around_listed(position.x, reach.x, level.columns, box_.periodic_x());
+    for_each_cell_block(level, rows, columns, visit);
   }
   ListQuery query_at(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
   float radius_in_units(double radius) const;
   [[gnu::hot]] bool find_neighbours(const Disks& disks, std::uint32_t i, FixedPointPosition position,
                                     const ListRegion& region, FoundNeighbours& found) const;
-  void search_chains(const Disks& disks, const ListQuery& query, std::span<const SlotRun> runs,
-                     const ListRegion& region, FoundNeighbours& found) const;
+  void search_block(const Disks& disks, const ListQuery& query, const CellBlock& block, std::uint32_t end,
+                    FoundNeighbours& found) const;
+  void search_chains(const Disks& disks, const ListQuery& query, const CellBlock& block, std::uint32_t end,
+                     FoundNeighbours& found) const;
   void find_all_others(std::uint32_t i, FoundNeighbours& found) const;
-  const GridLevel& level_of(const Disks& disks, std::uint32_t i) const;
-  std::uint32_t cell_in(const GridLevel& level, FixedPointPosition at) const {
+  // The number of the level of the disk's size.
+  std::size_t level_of(const Disks& disks, std::uint32_t i) const;
+  std::uint32_t cell_in(std::size_t k, FixedPointPosition at) const {
+    if (k < listed_levels_.size()) [[likely]] {
+      const ListedLevel& level = listed_levels_[k];
+      const std::int64_t row = level.rows.place_of(at.y);
+      if (row < level.rows.stored) [[likely]]
+        return level.cell(row, level.columns.place_of(at.x));
+    }
+    const GridLevel& level = grid_.levels[k];
     return level.key_at(level.place_of_row(cell_of_listed(at.y, level.rows, box_.periodic_y())),
                         cell_of_listed(at.x, level.columns, box_.periodic_x()));
   }
@@ -369,12 +383,14 @@ class NeighbourLists {
   double period_x_ = 0.0, period_y_ = 0.0;            // length; 0: none
   double periods_per_x_ = 0.0, periods_per_y_ = 0.0;  // 1 / period; 0: none
   double largest_radius_ = 0.0;
-  double unit_x_ = 0.0, unit_y_ = 0.0;                     // of a FixedPointPosition; length
-  double units_per_x_ = 0.0, units_per_y_ = 0.0;           // 1 / unit
-  double slot_unit_x_ = 0.0, slot_unit_y_ = 0.0;           // of a SlotPosition; length
-  double slots_per_length_ = 0.0;                          // 1 / the coarser of the two
-  ListQuery query_;                                        // what the queries of all disks have in common
-  std::uint32_t common_reach_x_ = 0, common_reach_y_ = 0;  // of lists, where all radii are equal: as listed_units
+  double unit_x_ = 0.0, unit_y_ = 0.0;            // of a FixedPointPosition; length
+  double units_per_x_ = 0.0, units_per_y_ = 0.0;  // 1 / unit
+  double slot_unit_x_ = 0.0, slot_unit_y_ = 0.0;  // of a SlotPosition; length
+  double slots_per_length_ = 0.0;                 // 1 / the coarser of the two
+  ListQuery query_;                               // what the queries of all disks have in common
+  ListReach common_reach_;                        // where all radii are equal
+  // Those of the grid; none if it has tiles.
+  std::vector<ListedLevel> listed_levels_;
   // Two disks that are further from each other than lists reach, by this at most, may list each other all the same.
   // Length.
   double search_margin_ = 0.0;

@@ -209,36 +209,34 @@ TEST(ListKernel, AllVersionsFindTheSame) {
   test::Draws draws(8);
   constexpr std::uint32_t cells = 51;
   constexpr double units_per_length = 0x1p16 / 10.0;
-  std::vector<SlotPosition> position;
-  std::vector<std::uint32_t> disk;
+  std::vector<SlotCell> cell(cells);
   std::vector<float> radius;
   for (std::uint32_t s = 0; s < cells * slots_a_cell; ++s) {
-    position.push_back({static_cast<std::uint16_t>(draws.bits()), static_cast<std::uint16_t>(draws.bits())});
-    disk.push_back(draws.bits() % 4 == 0 ? empty_slot : s);
+    cell[s / slots_a_cell].position[s % slots_a_cell] = {static_cast<std::uint16_t>(draws.bits()),
+                                                         static_cast<std::uint16_t>(draws.bits())};
+    cell[s / slots_a_cell].disk[s % slots_a_cell] = draws.bits() % 4 == 0 ? empty_slot : s;
     radius.push_back(static_cast<float>(draws.in(0.05, 2.0) * units_per_length));
   }
   std::size_t found = 0;
   for (std::uint32_t round = 0; round < 300; ++round) {
     ListQuery query;
-    query.self = static_cast<std::uint32_t>(draws.bits() % disk.size());
-    query.position = position[query.self];
+    query.self = static_cast<std::uint32_t>(draws.bits() % radius.size());
+    query.position = cell[query.self / slots_a_cell].position[query.self % slots_a_cell];
     query.unit_x = 0x7fff;
     query.unit_y = round % 3 == 0 ? 0x7fff : 26214;
     query.cutoff = static_cast<float>(draws.in(0.2, 3.0) * units_per_length);
     query.radius = static_cast<float>(0.5 * units_per_length);
-    const SlotColumns columns{position.data(), disk.data(), round % 2 == 0 ? radius.data() : nullptr};
-    std::vector<SlotRun> runs;
-    std::size_t room = list_kernel_padding;
-    for (std::uint32_t k = 0; k < round % 4; ++k) {
-      const auto first = static_cast<std::uint32_t>(draws.bits() % cells);
-      const auto last = first + static_cast<std::uint32_t>(draws.bits() % (cells + 1 - first));
-      runs.push_back({first * slots_a_cell, last * slots_a_cell});
-      room += runs.back().last - runs.back().first;
-    }
+    const SlotColumns columns{cell.data(), round % 2 == 0 ? radius.data() : nullptr};
+    const auto draw = [&](std::uint32_t most) { return 1 + static_cast<std::uint32_t>(draws.bits() % most); };
+    const std::uint32_t rows = draw(6);
+    const std::uint32_t stride = draw(cells / rows);
+    const std::uint32_t width = draw(stride);
+    const CellBlock block{draw(cells + 1 - (rows - 1) * stride - width) - 1, width, rows, stride};
+    const std::size_t room = std::size_t{rows} * width * slots_a_cell + list_kernel_padding;
     std::vector<std::uint32_t> a(room);
     std::vector<std::uint32_t> b(room);
-    a.resize(list_kernel_baseline(query, columns, runs.data(), runs.size(), a.data()));
-    b.resize(choose_list_kernel()(query, columns, runs.data(), runs.size(), b.data()));
+    a.resize(list_kernel_baseline(query, columns, block, a.data()));
+    b.resize(choose_list_kernel()(query, columns, block, b.data()));
     ASSERT_EQ(a, b);
     found += a.size();
   }
