@@ -107,8 +107,8 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return json_number(s.wall_overlap); }},
     {"pressure", "energy / area",
      "mean over the run, from collisions and the kinetic energy halfway between start and end (in a shear flow that "
-     "relative to it at the end), which is its mean only where it is steady or changes evenly: of a gas that cools or "
-     "heats up, series.csv has the pressure over time; null likewise",
+     "relative to it at the end); null likewise, and where these two differ by more than a quarter: the pressure of a "
+     "gas that cools or heats up is in series.csv, over time",
      [](const Summary& s) -> Json { return json_number(s.pressure); }},
     {"collision_rate", "1 / time",
      "collisions that a disk takes part in per unit time, over the time that all disks were there; in time stepping "
@@ -207,14 +207,13 @@ std::string traffic_line(const Summary& s) {
                      short_number(a_step_and_rank(report, all.bytes)), duration_text(seconds));
 }
 
-// "0.0734, with the kinetic energy halfway between 400 and 21.8": of a gas that cools or heats up that is not its mean.
+// "0.0734"; of a gas that cools or heats up, why there is none.
 std::string pressure_line(const Summary& s) {
-  std::string text = fmt::format("{:.6g}", s.pressure);
-  if (s.box.shear.acts()) return text + ", with the temperature at the end";
-  const double change = std::abs(s.kinetic_final - s.kinetic_initial);
-  if (change <= 0.25 * std::max(s.kinetic_initial, s.kinetic_final)) return text;
-  return text +
-         fmt::format(", with the kinetic energy halfway between {:.6g} and {:.6g}", s.kinetic_initial, s.kinetic_final);
+  if (std::isnan(s.pressure)) {
+    return fmt::format("not known from the kinetic energy at the start, {:.6g}, and at the end, {:.6g}; see series.csv",
+                       s.kinetic_initial, s.kinetic_final);
+  }
+  return fmt::format("{:.6g}{}", s.pressure, s.box.shear.acts() ? ", with the temperature at the end" : "");
 }
 
 std::string disks_line(const Summary& s) {
@@ -223,6 +222,20 @@ std::string disks_line(const Summary& s) {
   if (s.counters.emitted > 0) text += fmt::format(", {} came from sources", s.counters.emitted);
   if (s.counters.waiting > 0) text += fmt::format(", {} wait for room", s.counters.waiting);
   return text;
+}
+
+// Of a run that took so long. In a shear flow from the kinetic energy relative to it at the end; else from that halfway
+// between start and end, and NaN where that is not its mean.
+double mean_pressure(const Summary& s, double relative, double elapsed) {
+  constexpr double most_change = 0.25;  // of the larger of the two
+  const double change = std::abs(s.kinetic_final - s.kinetic_initial);
+  Energy mean{0.5 * (s.kinetic_initial + s.kinetic_final), 0.0};
+  if (s.box.shear.acts()) {
+    mean.kinetic = relative;
+  } else if (change > most_change * std::max(s.kinetic_initial, s.kinetic_final)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return pressure(mean, s.counters.virial, elapsed, box_at(s.box, s.time - 0.5 * elapsed));
 }
 
 }  // namespace
@@ -241,6 +254,7 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.title = scene.title;
   s.method = name_of(scene.run.method);
   s.engine = choice;
+  s.box = scene.box;
   s.particles = sums.at.particles;
   s.time = state.time;
   s.counters = state.counters;
@@ -259,16 +273,12 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.worst_wall = worst_of(state.validity.wall, deepest.wall, state.time);
   s.kinetic_initial = start.energy.kinetic;
   s.kinetic_final = energy.kinetic;
-  Energy halfway{0.5 * (s.kinetic_initial + s.kinetic_final), 0.0};
-  if (scene.box.shear.acts()) halfway.kinetic = sums.relative;
-  s.pressure =
-      of_velocities(pressure(halfway, state.counters.virial, elapsed, box_at(scene.box, state.time - 0.5 * elapsed)));
+  s.pressure = of_velocities(mean_pressure(s, sums.relative, elapsed));
   const double disk_time = state.counters.disk_time;
   if (disk_time > 0.0) s.collision_rate = 2.0 * static_cast<double>(state.counters.collisions) / disk_time;
   if (elapsed > 0.0) s.mean_disks = disk_time / elapsed;
   s.state_hash = hash_text(sums.hash);
   s.seed = scene.seed;
-  s.box = scene.box;
   s.thermostat = scene.physics.thermostat.acts();
   s.phases = engine.phase_times();
   if (choice.lead != nullptr && choice.ranks > 1) {

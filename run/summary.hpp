@@ -28,7 +28,7 @@ struct Summary {
   double max_overlap = 0.0, wall_overlap = 0.0;  // now
   WorstOverlap worst_disks, worst_wall;          // of the whole run
   double mean_disks = 0.0;                       // over the whole run
-  double pressure = 0.0;  // over the whole run, from the kinetic energy halfway between start and end
+  double pressure = 0.0;  // mean over the whole run; NaN where the kinetic energy has changed too much to say
   double kinetic_initial = 0.0, kinetic_final = 0.0;
   double collision_rate = 0.0;  // per disk per unit time: a collision counts for both disks
   std::string state_hash;
