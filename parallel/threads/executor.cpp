@@ -42,8 +42,10 @@ struct ForkJoin {
 
 // Asking for more threads than cores must be possible (determinism is tested so), hence the limit beside the arena. It
 // holds for the whole process, and the least of all is what counts: executors that live at the same time have the same.
+// oneTBB comes near it where many executors follow each other on a busy machine: it starts a thread where one that is
+// still on its way to sleep would do, and ends none.
 struct Executor::Arena {
-  static constexpr int most_threads = 4096;
+  static constexpr int most_threads = 128;
   explicit Arena(int threads) : arena(threads) {
     if (threads > tbb::info::default_concurrency()) {
       limit.emplace(tbb::global_control::max_allowed_parallelism, std::max(threads, most_threads));
