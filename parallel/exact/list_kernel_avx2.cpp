@@ -182,7 +182,7 @@ ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_
   change.fits = put_offsets(i, near, new_count, to.offset);
   __m256i low_stays = _mm256_setzero_si256();
   __m256i high_stays = _mm256_setzero_si256();
-  std::uint32_t fresh = 0;
+  std::size_t fresh = 0;
   for (std::size_t k = 0; k < new_count; ++k) {
     const __m256i sought = _mm256_set1_epi16(to.offset[k]);
     const __m256i in_low = _mm256_cmpeq_epi16(low, sought);
@@ -191,9 +191,9 @@ ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_
     low_stays = _mm256_or_si256(low_stays, in_low);
     high_stays = _mm256_or_si256(high_stays, in_high);
     to.fresh[fresh] = near[k];
-    fresh += static_cast<std::uint32_t>(_mm256_testz_si256(any, any));
+    fresh += static_cast<std::size_t>(_mm256_testz_si256(any, any));
   }
-  change.fresh_count = fresh;
+  change.fresh_count = static_cast<std::uint32_t>(fresh);
   const __m256i bytes = _mm256_permute4x64_epi64(_mm256_packs_epi16(low_stays, high_stays), 0xd8);
   change.stay = static_cast<std::uint32_t>(_mm256_movemask_epi8(bytes)) >> before;
   return change;

@@ -65,10 +65,11 @@ struct ListReach {
   std::uint32_t x = 0, y = 0;
 };
 
-// A level of a grid without tiles.
+// A level of the grid; with tiles, its cells are found in another way, and none is said to be stored here.
 struct ListedLevel {
   ListedAxis columns, rows;
   std::uint32_t first_key = 0, stride = 0;
+  double largest_radius = 0.0;  // length
   std::uint32_t cell(std::int64_t row, std::int64_t column) const {
     return first_key + static_cast<std::uint32_t>(row) * stride + static_cast<std::uint32_t>(column);
   }

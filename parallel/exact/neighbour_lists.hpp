@@ -303,15 +303,14 @@ class NeighbourLists {
   // Calls visit(block) for the blocks of cells that are searched for neighbours of a disk listed here.
   template <class Visit>
   void visit_cells_in_reach(double radius, FixedPointPosition position, Visit&& visit) const {
-    const std::size_t listed = listed_levels_.size();
-    for (std::size_t k = 0; k < grid_.levels.size(); ++k) {
-      const GridLevel& level = grid_.levels[k];
+    for (const ListedLevel& level : listed_levels_) {
       const ListReach reach = reach_of(radius, level.largest_radius);
-      const CellBlock block = k < listed ? listed_levels_[k].block_around(position, reach) : CellBlock{};
+      const CellBlock block = level.block_around(position, reach);
       if (block.rows > 0) [[likely]] {
         visit(block);
       } else {
-        visit_cells_apart(level, position, reach, visit);
+        visit_cells_apart(grid_.levels[static_cast<std::size_t>(&level - listed_levels_.data())], position, reach,
+                          visit);
       }
     }
   }
@@ -335,12 +334,10 @@ class NeighbourLists {
   // The number of the level of the disk's size.
   std::size_t level_of(const Disks& disks, std::uint32_t i) const;
   std::uint32_t cell_in(std::size_t k, FixedPointPosition at) const {
-    if (k < listed_levels_.size()) [[likely]] {
-      const ListedLevel& level = listed_levels_[k];
-      const std::int64_t row = level.rows.place_of(at.y);
-      if (row < level.rows.stored) [[likely]]
-        return level.cell(row, level.columns.place_of(at.x));
-    }
+    const ListedLevel& listed = listed_levels_[k];
+    const std::int64_t row = listed.rows.place_of(at.y);
+    if (row < listed.rows.stored) [[likely]]
+      return listed.cell(row, listed.columns.place_of(at.x));
     const GridLevel& level = grid_.levels[k];
     return level.key_at(level.place_of_row(cell_of_listed(at.y, level.rows, box_.periodic_y())),
                         cell_of_listed(at.x, level.columns, box_.periodic_x()));
@@ -389,7 +386,6 @@ class NeighbourLists {
   double slots_per_length_ = 0.0;                 // 1 / the coarser of the two
   ListQuery query_;                               // what the queries of all disks have in common
   ListReach common_reach_;                        // where all radii are equal
-  // Those of the grid; none if it has tiles.
   std::vector<ListedLevel> listed_levels_;
   // Two disks that are further from each other than lists reach, by this at most, may list each other all the same.
   // Length.
