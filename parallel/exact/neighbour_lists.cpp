@@ -95,10 +95,13 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, double crowded, co
     make_tiled_grid(box_, largest, count, layout.disks_per_tile, layout.regions, grid_);
     if (layout.disks_of_box > 0) keep_tiles_between(box_, layout.low, layout.high, grid_);
   } else {
-    // About four disks a cell, which has room for eight: lists extend over several cells, and each costs as much to
-    // visit, empty or not. A few more where they are many, for memory's sake.
+    // Half of this many disks a cell, which has room for eight: lists extend over several cells, and each costs as much
+    // to visit, empty or not. A few less in a dilute gas, whose disks lie less evenly, so that more cells overflow; a
+    // few more where they are many, for memory's sake.
     const bool are_many = std::max(d.size(), layout.disks_of_box) > disks_of_much_memory;
-    for (std::size_t& c : count) c = c / (are_many ? 10 : 8) + 1;
+    const bool is_dilute = skin_ > 4.0 * largest;
+    const std::size_t twice_a_cell = (is_dilute ? 6U : 8U) + (are_many ? 2U : 0U);
+    for (std::size_t& c : count) c = c / twice_a_cell + 1;
     make_grid(box_, largest, count, grid_, grid_margin, are_many ? std::min(crowded, most_crowding_of_many) : crowded);
     if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, grid_);
   }
