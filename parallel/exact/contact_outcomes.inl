@@ -67,8 +67,10 @@ void EventProcessor<scope>::take(std::uint32_t i, double time) {
 
 template <Scope scope>
 void EventProcessor<scope>::collide_pair(std::uint32_t i, std::uint32_t j, double time) {
-  if (is_plain_) {
-    collide_plain_pair(i, j, time);
+  if (is_plainest_) {
+    collide_plain_pair<true>(i, j, time);
+  } else if (is_plain_) {
+    collide_plain_pair<false>(i, j, time);
   } else {
     collide_any_pair(i, j, time);
   }
@@ -76,6 +78,7 @@ void EventProcessor<scope>::collide_pair(std::uint32_t i, std::uint32_t j, doubl
 
 // In a plain scene: collide_any_pair without what such a scene does not have.
 template <Scope scope>
+template <bool elastic_of_one_mass>
 void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j, double time) {
   if (record_[i].id > record_[j].id) std::swap(i, j);
   DiskRecord& a = record_[i];
@@ -91,10 +94,13 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
   }
   const bool inside =
       (lists_.rows().row(i).is_inside() && lists_.rows().row(j).is_inside()) || inner_part_.holds(time, a.path, b.path);
-  const PlainCollision outcome =
-      inside ? collide_plainly(time, window_.rules.restitution, a.path, b.path) : collide_across(time, a.path, b.path);
+  const Disks& disks = *window_.disks;
+  const Shares share = elastic_of_one_mass ? equal_shares : shares(disks.mass_of(i), disks.mass_of(j));
+  const PlainCollision outcome = inside ? collide_plainly(time, share, window_.rules.restitution, a.path, b.path)
+                                        : collide_across(time, share, a.path, b.path);
   if (outcome.happened && counts(i)) {
-    virials_[virial_count_++] = reduced_mass_ * outcome.change;
+    const double reduced = elastic_of_one_mass ? reduced_mass_ : reduced_mass(disks.mass_of(i), disks.mass_of(j));
+    virials_[virial_count_++] = reduced * outcome.change;
     if (virial_count_ == virials_.size()) [[unlikely]]
       tally_virials();
   }
@@ -116,8 +122,12 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
     if (a.progress.has(DiskProgress::has_unresolved_neighbour)) safe_times_.push(i, time);
     if (b.progress.has(DiskProgress::has_unresolved_neighbour)) safe_times_.push(j, time);
   }
+  const EventMark event{time, a.id, b.id};
   predict_after_event(i, time);
   predict_after_event(j, time);
+  if (elastic_of_one_mass || window_.burst.empty() || !outcome.happened || !(window_.rules.restitution < 1.0)) return;
+  count_burst(i, event);
+  count_burst(j, event);
 }
 
 // Part: marks a ghost that an own disk has met. What that disk does from now on is right only if the ghost came here as
@@ -132,9 +142,9 @@ inline void EventProcessor<scope>::note_contact(DiskRecord& a, DiskRecord& b) {
 
 // The collision of disks that may be on two sides of a border along a period.
 template <Scope scope>
-PlainCollision EventProcessor<scope>::collide_across(double time, PathSegment& p, PathSegment& q) const {
+PlainCollision EventProcessor<scope>::collide_across(double time, Shares share, PathSegment& p, PathSegment& q) const {
   const auto restitution = [this](const Relative&) { return window_.rules.restitution; };
-  const Impact impact = collide_paths<false>(window_.rules.box, 0.0, time, equal_shares, 1.0, restitution, p, q);
+  const Impact impact = collide_paths<false>(window_.rules.box, 0.0, time, share, 1.0, restitution, p, q);
   return {impact.happened, impact.virial, std::max(p.vx * p.vx + p.vy * p.vy, q.vx * q.vx + q.vy * q.vy)};
 }
 

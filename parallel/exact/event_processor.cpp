@@ -14,10 +14,10 @@ namespace carom {
 
 namespace {
 
-// Is there nothing but straight paths and collisions of disks of one mass?
+// Is there nothing but straight paths, and collisions of smooth disks with a restitution that is known before?
 bool is_plain(const WindowState& window) {
-  return !window.rules.gravity.acts() && window.rules.common_mass && window.last_contact.empty() &&
-         window.burst.empty() && window.spin.empty() && !window.rules.box.shear.acts();
+  return !window.rules.gravity.acts() && window.rules.constant && window.last_contact.empty() && window.spin.empty() &&
+         !window.rules.box.shear.acts();
 }
 
 constexpr Count events_between_polls = 4096;
@@ -35,6 +35,7 @@ EventProcessor<scope>::EventProcessor(WindowState& window, NeighbourLists& lists
       predictor_(window, lists),
       record_(window.record.data()),
       is_plain_(is_plain(window)),
+      is_plainest_(is_plain_ && window.rules.common_mass && window.burst.empty()),
       is_straight_(!window.rules.gravity.acts() && !window.rules.box.shear.acts()),
       reduced_mass_(reduced_mass(window.disks->common_mass, window.disks->common_mass)),
       inner_part_(window.rules.box) {}

@@ -108,10 +108,12 @@ class EventProcessor {
   void meet_obstacle(std::uint32_t i, double time);
   void take(std::uint32_t i, double time);
   void collide_pair(std::uint32_t i, std::uint32_t j, double time);
+  template <bool elastic_of_one_mass>
   [[gnu::hot]] void collide_plain_pair(std::uint32_t i, std::uint32_t j, double time);
   void collide_any_pair(std::uint32_t i, std::uint32_t j, double time);
   void tally_virials();
-  [[gnu::noinline, gnu::cold]] PlainCollision collide_across(double time, PathSegment& p, PathSegment& q) const;
+  [[gnu::noinline, gnu::cold]] PlainCollision collide_across(double time, Shares share, PathSegment& p,
+                                                             PathSegment& q) const;
   void log_start(std::uint32_t i);
   // partner: see LoggedSegment.
   void log_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path);
@@ -128,9 +130,10 @@ class EventProcessor {
   SafeTimes safe_times_;
   EventPredictor predictor_;
   DiskRecord* record_;
-  bool is_plain_;
+  bool is_plain_;        // straight paths and a known restitution, and no spins
+  bool is_plainest_;     // besides, all disks have one mass, and nothing loses energy
   bool is_straight_;     // neither gravity nor a shear acts
-  double reduced_mass_;  // of two disks of a plain scene
+  double reduced_mass_;  // of two disks, where all have one mass
   InnerPart inner_part_;
   // Of the last collisions of a plain scene, which are not tallied yet.
   std::array<double, 256> virials_{};

@@ -1,5 +1,5 @@
-// The collision of two disks of one mass on straight paths that cross no border along a period: core's collide_paths
-// operation by operation, x and y of a vector at once. It is most of what the exact method does to disks.
+// The collision of two disks on straight paths that cross no border along a period: core's collide_paths operation by
+// operation, x and y of a vector at once. It is most of what the exact method does to disks.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "core/disks/domain.hpp"
+#include "core/physics/disk_pair.hpp"
 #include "core/physics/exact_path.hpp"
 
 namespace carom {
@@ -62,8 +63,8 @@ struct PlainCollision {
   double fastest2 = 0.0;  // largest v^2 of both
 };
 
-// Disks with these paths (smaller id first) collide at time s; their new paths start there.
-[[gnu::always_inline]] inline PlainCollision collide_plainly(double s, double restitution, PathSegment& p,
+// Disks with these paths (smaller id first) collide at time s; their new paths start there. share: of their masses.
+[[gnu::always_inline]] inline PlainCollision collide_plainly(double s, Shares share, double restitution, PathSegment& p,
                                                              PathSegment& q) {
   Coordinates vp = load_xy(&p.vx);
   Coordinates vq = load_xy(&q.vx);
@@ -75,10 +76,11 @@ struct PlainCollision {
   PlainCollision outcome;
   if (approach < 0.0 && distance2 > 0.0) [[likely]] {
     const double change = (1.0 + restitution) * approach;
-    const double share = change / distance2 * 0.5;
-    const Coordinates kick = Coordinates{share, share} * dr;
-    vp = vp + kick;
-    vq = vq - kick;
+    const double k = change / distance2;
+    const double k1 = k * share.first;
+    const double k2 = k * share.second;
+    vp = vp + Coordinates{k1, k1} * dr;
+    vq = vq - Coordinates{k2, k2} * dr;
     outcome.happened = true;
     outcome.change = -change;
   }

@@ -1,4 +1,4 @@
-// The collision of two disks of one mass, x and y at once, against core's formula, bit by bit.
+// The collision of two disks, x and y at once, against core's formula, bit by bit.
 #include "parallel/exact/plain_collision.hpp"
 
 #include <gtest/gtest.h>
@@ -34,11 +34,12 @@ TEST(PlainCollision, HasTheBitsOfTheFormula) {
     if (round % 50 == 0) q = p;
     const double e = round % 3 == 0 ? 1.0 : draws.in(0.0, 1.0);
     const double s = draws.in(1.0, 2.0);
+    const Shares share = round % 2 == 0 ? equal_shares : shares(draws.in(0.1, 1.0), draws.in(0.1, 10.0));
     PathSegment core_p = p;
     PathSegment core_q = q;
     const Impact impact = collide_paths<false, false>(
-        Domain{}, 0.0, s, equal_shares, 1.0, [&](const Relative&) { return e; }, core_p, core_q);
-    const PlainCollision outcome = collide_plainly(s, e, p, q);
+        Domain{}, 0.0, s, share, 1.0, [&](const Relative&) { return e; }, core_p, core_q);
+    const PlainCollision outcome = collide_plainly(s, share, e, p, q);
     happened += impact.happened ? 1 : 0;
     EXPECT_EQ(outcome.happened, impact.happened);
     EXPECT_EQ(outcome.change, impact.virial);
@@ -79,7 +80,7 @@ TEST(PlainCollision, IsTheSameAsAcrossBordersInTheInnerPart) {
       PathSegment core_q = q;
       collide_paths<false>(
           box, 0.0, s, equal_shares, 1.0, [](const Relative&) { return 1.0; }, core_p, core_q);
-      collide_plainly(s, 1.0, p, q);
+      collide_plainly(s, equal_shares, 1.0, p, q);
       expect_same(p, core_p);
       expect_same(q, core_q);
     }
