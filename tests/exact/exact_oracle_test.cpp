@@ -69,6 +69,13 @@ const std::string few =
 const std::string shelves =
     "[[walls]]\npoints = [[1.0, 2.0], [3.0, 2.5], [3.5, 5.0]]\n[[walls]]\nfrom = [8.0, 3.0]\nto = [6.0, 7.0]\n"
     "[[walls]]\nfrom = [2.0, 7.0]\nto = [4.0, 6.5]\nrestitution = 0.7\n";
+// The first goes round a periodic box.
+const std::string sweeper =
+    "[[walls]]\nfrom = [1.0, 2.0]\nto = [1.2, 5.0]\nrestitution = 0.9\nmotion = { velocity = [1.5, 0.4] }\n";
+const std::string paddles =
+    "[[walls]]\npoints = [[3.0, 2.0], [4.0, 2.5], [5.0, 2.0]]\n"
+    "motion = { vibrate = [0.3, 0.8], period = 1.1, shape = \"sine\" }\n"
+    "[[walls]]\nfrom = [2.0, 6.0]\nto = [5.0, 6.2]\nmotion = { vibrate = [0.0, -0.5], period = 0.8 }\n";
 // Two groups and pegs, each pair with its own restitution but for light with light.
 const std::string named =
     "[[disks]]\nname = \"light\"\ncount = 14\npositions = \"random\"\nvelocities = { uniform = 1.5 }\n"
@@ -137,6 +144,10 @@ INSTANTIATE_TEST_SUITE_P(
         OracleCase{"shelves_tilted", {8, 12, "wall", "gravity = [1.2, -0.9]", few + shelves, 4.0, ""}},
         OracleCase{"shelves_sideways", {8, 12, "periodic", "gravity = [0.5, 0]", few + shelves + pegs, 3.0, ""}},
         OracleCase{"shelves_fall", {8, 12, "periodic", "gravity = 0.5", few + shelves + pegs, 3.0, ""}},
+        OracleCase{"sweeper", {8, 8, "periodic", "", few + sweeper, 3.0, ""}},
+        OracleCase{"sweeper_fall", {8, 8, "periodic", "gravity = [0.3, -0.5]", few + sweeper + pegs, 2.0, ""}},
+        OracleCase{"paddles", {8, 8, "wall", "", few + paddles, 1.5, ""}},
+        OracleCase{"paddles_gravity", {8, 12, "wall", "gravity = 1.0", few + paddles, 2.0, ""}},
         OracleCase{"viscoelastic", {8, 8, walls_of_salt, viscoelastic, gas, 5.0, ""}},
         OracleCase{"viscoelastic_pegs", {8, 12, "wall", viscoelastic + "\ngravity = 0.8", few + pegs, 4.0, ""}},
         OracleCase{"pairs", {9, 9, "periodic", "restitution = 0.95", named + pairs, 4.0, ""}},

@@ -14,26 +14,28 @@
 
 #include "tests/fuzz_scenes/random_scene.hpp"
 #include "tests/fuzz_scenes/trial.hpp"
+#include "tests/fuzz_scenes/wide_scene.hpp"
 
 namespace carom::fuzz {
 namespace {
 
 constexpr std::uint32_t most_attempts = 50;
 constexpr int fault_status = 1;
-constexpr rlim_t most_memory = rlim_t{2} << 30U;
+constexpr rlim_t gigabyte = rlim_t{1} << 30U;
 
 struct Options {
   std::uint32_t scenes = 0;
   std::uint64_t seed = 1;
   std::uint32_t from = 0;
-  bool oracle = false, verbose = false, print = false;
-  unsigned cpu_seconds = 300;
+  bool oracle = false, wide = false, verbose = false, print = false;
+  unsigned cpu_seconds = 300, gigabytes = 4;
   std::string folder = "fuzz_scenes", scene;
 };
 
 std::string text_of(const Options& options, std::uint32_t number, std::uint32_t attempt) {
-  return options.oracle ? random_oracle_scene(options.seed, number, attempt)
-                        : random_scene(options.seed, number, attempt);
+  const auto make = options.wide ? (options.oracle ? wide_oracle_scene : wide_scene)
+                                 : (options.oracle ? random_oracle_scene : random_scene);
+  return make(options.seed, number, attempt);
 }
 
 Trial try_text(const Options& options, const std::string& text, const std::string& folder) {
@@ -96,8 +98,8 @@ Result in_a_process(const Options& options, std::uint32_t number) {
     ::close(ends[0]);
     const rlimit limit{options.cpu_seconds, options.cpu_seconds + 10};
     ::setrlimit(RLIMIT_CPU, &limit);
-    const rlimit memory{most_memory, most_memory};
-    ::setrlimit(RLIMIT_AS, &memory);
+    const rlimit memory{options.gigabytes * gigabyte, options.gigabytes * gigabyte};
+    if (options.gigabytes > 0) ::setrlimit(RLIMIT_AS, &memory);
     std::FILE* const out = ::fdopen(ends[1], "w");
     int status = 0;
     try {
@@ -119,8 +121,8 @@ Result in_a_process(const Options& options, std::uint32_t number) {
 // The scene, with what went wrong above it.
 std::string save(const Options& options, std::uint32_t number, const Result& result) {
   std::filesystem::create_directories(options.folder);
-  const std::string path =
-      fmt::format("{}/{}_{}_{}.toml", options.folder, options.oracle ? "oracle" : "scene", options.seed, number);
+  const std::string path = fmt::format("{}/{}{}_{}_{}.toml", options.folder, options.wide ? "wide_" : "",
+                                       options.oracle ? "oracle" : "scene", options.seed, number);
   std::ofstream file(path);
   for (const std::string& fault : result.faults) file << "# " << fault << "\n";
   file << text_of(options, number, result.attempt);
@@ -134,10 +136,10 @@ int run_many(const Options& options) {
     const Result result = in_a_process(options, k);
     if (result.refused) ++refused;
     if (options.verbose) fmt::print("{}.{}: {}\n", k, result.attempt, result.account);
+    std::fflush(stdout);
     if (result.faults.empty()) continue;
     ++failed;
     fmt::print("{}: {}\n", save(options, k, result), result.faults.front());
-    std::fflush(stdout);
   }
   fmt::print("{} random {} of seed {}: {} failed, {} could not be made\n", options.scenes,
              options.oracle ? "scenes against the oracle" : "scenes", options.seed, failed, refused);
@@ -163,9 +165,11 @@ int main(int argc, char** argv) {
   app.add_option("SEED", options.seed, "of the scenes");
   app.add_option("--from", options.from, "number of the first scene");
   app.add_flag("--oracle", options.oracle, "method exact against an all-pairs simulation");
+  app.add_flag("--wide", options.wide, "flat boxes, clusters, cold flows, long walls, very unequal obstacles");
   app.add_option("-o", options.folder, "folder for the scenes that fail");
   app.add_option("--scene", options.scene, "tries this file instead");
   app.add_option("--cpu-seconds", options.cpu_seconds, "a scene that needs more fails");
+  app.add_option("--gigabytes", options.gigabytes, "likewise of memory; 0: no limit, which sanitizers need");
   app.add_flag("--print", options.print, "only prints scene number N");
   app.add_flag("--verbose", options.verbose, "a line a scene");
   CLI11_PARSE(app, argc, argv);

@@ -8,6 +8,7 @@
 #include "core/disks/disks.hpp"
 #include "core/disks/obstacle_cells.hpp"
 #include "core/physics/boundary.hpp"
+#include "tests/fuzz_scenes/closest.hpp"
 
 namespace carom::fuzz {
 
@@ -25,6 +26,12 @@ double size_of(const Energy& energy) {
   return energy.kinetic + std::abs(energy.potential);
 }
 
+// Of two disks, or of one and a wall, in exact runs; over the smallest radius.
+double allowed_overlap(const Scene& scene, const Disks& disks) {
+  const double smallest = disks.empty() ? 1.0 : smallest_radius(disks);
+  return 1e-11 + 64.0 * 0x1p-52 * std::max(scene.box.width, scene.box.height) / smallest;
+}
+
 bool sane(double x) {
   return std::isfinite(x) && x >= 0.0;
 }
@@ -35,6 +42,7 @@ Sanity::Sanity(const Scene& scene, const State& start)
     : scene_(scene),
       disks_(start.disks.size()),
       before_(start.counters),
+      obstacles_(start.obstacles),
       energy_(energy_of(start.disks, scene.physics.gravity)),
       momentum_(momentum_of(start.disks)),
       largest_energy_(size_of(energy_)),
@@ -55,7 +63,8 @@ void Sanity::look(const State& state, const std::string& warnings) {
   look_at_counts(state);
   if (!fault_.empty()) return;
   look_at_overlaps(state);
-  look_at_motion(state);
+  look_at_momentum(state);
+  look_at_energy(state);
 }
 
 void Sanity::look_at_places(const State& state) {
@@ -81,6 +90,14 @@ void Sanity::say_later(const State& state, Unsaid& unsaid, const std::string& fo
     blame(state, fmt::format("{}, {} steps ago and in silence", unsaid.what, unsaid.steps));
   }
   if (unsaid.what.empty()) unsaid.what = found;
+}
+
+void Sanity::look_within(const Disks& disks, double time) {
+  if (scene_.run.method != Method::exact || !fault_.empty()) return;
+  const Closest closest = closest_of(disks, obstacles_, scene_, time);
+  if (closest.gap < -allowed_overlap(scene_, disks)) {
+    fault_ = fmt::format("insane at t = {}: {} by {} radii of the smallest", time, closest.what, -closest.gap);
+  }
 }
 
 void Sanity::look_at_counts(const State& state) {
@@ -110,9 +127,7 @@ void Sanity::look_at_overlaps(const State& state) {
   const auto obstacles = place_obstacles(state.obstacles, box, motions_of(scene_));
   const double beyond = wall_overlap(state.disks, box);
   if (scene_.run.method == Method::exact) {
-    const double smallest = state.disks.empty() ? 1.0 : smallest_radius(state.disks);
-    const double unit = std::max(scene_.box.width, scene_.box.height) / smallest * 0x1p-52;
-    const double allowed = 1e-11 + 64.0 * unit;
+    const double allowed = allowed_overlap(scene_, state.disks);
     const bool through_sinks = has_sinks(scene_);  // a disk that leaves may stand beyond it
     if (overlap > allowed) blame(state, fmt::format("two disks overlap by {} of the sum of their radii", overlap));
     if (beyond > allowed && !through_sinks)
@@ -122,35 +137,66 @@ void Sanity::look_at_overlaps(const State& state) {
   say_later(state, unsaid_overlap_, overlap > silent_overlap ? fmt::format("an overlap of {}", overlap) : "");
 }
 
-// Momentum and energy, where nothing gives or takes any.
-void Sanity::look_at_motion(const State& state) {
+// What the sides, the walls that move and gravity gave. Sums of many impulses are rounded like sums of momenta.
+void Sanity::look_at_momentum(const State& state) {
   const Physics& p = scene_.physics;
   const Domain& box = scene_.box;
-  if (p.diffusion > 0.0 || !scene_.sources.empty() || has_sinks(scene_) || box.has_thermal_side() ||
-      p.thermostat.acts())
-    return;
-  const bool stands = !state.obstacles.empty() || p.surfaces.walls.acts();  // what takes momentum, as walls do
+  const bool changes = p.diffusion > 0.0 || !scene_.sources.empty() || has_sinks(scene_) || p.thermostat.acts();
+  const bool stands =
+      std::any_of(state.obstacles.begin(), state.obstacles.end(), [](const Obstacle& o) { return !o.moves; });
+  if (changes || stands || p.surfaces.walls.acts()) return;
   const Momentum now = momentum_of(state.disks);
   largest_momentum_ = std::max(largest_momentum_, now.magnitude);
-  if (!stands && box.periodic_x() && p.gravity.left == 0.0 && !box.shear.acts() &&
-      std::abs(now.x - momentum_.x) > rounding * largest_momentum_) {
-    blame(state, fmt::format("momentum along x went from {} to {}", momentum_.x, now.x));
+  const Counters& c = state.counters;
+  const auto given = [&](Side low, Side high, std::size_t axis) {
+    return c.wall_impulse[static_cast<std::size_t>(low)] - c.wall_impulse[static_cast<std::size_t>(high)] +
+           c.wall_push[axis];
+  };
+  const auto size = [&](Side low, Side high, std::size_t axis, double fallen) {
+    return largest_momentum_ + c.wall_impulse[static_cast<std::size_t>(low)] +
+           c.wall_impulse[static_cast<std::size_t>(high)] + std::abs(c.wall_push[axis]) + std::abs(fallen);
+  };
+  double mass = 0.0;
+  for (std::size_t i = 0; i < state.disks.size(); ++i) mass += state.disks.mass_of(i);
+  const double fallen_x = -mass * p.gravity.left * (state.time);
+  const double fallen_y = -mass * p.gravity.down * (state.time);
+  const double x = momentum_.x + fallen_x + given(Side::left, Side::right, 0);
+  const double y = momentum_.y + fallen_y + given(Side::bottom, Side::top, 1);
+  // A thermal side draws the velocity along it anew.
+  const bool drawn_x = box.is_thermal(Side::bottom) || box.is_thermal(Side::top);
+  const bool drawn_y = box.is_thermal(Side::left) || box.is_thermal(Side::right);
+  if (!drawn_x && !box.shear.acts() && std::abs(now.x - x) > rounding * size(Side::left, Side::right, 0, fallen_x)) {
+    blame(state,
+          fmt::format("momentum along x went from {} to {}, where {} was given", momentum_.x, now.x, x - momentum_.x));
   }
-  if (!stands && box.periodic_y() && p.gravity.down == 0.0 &&
-      std::abs(now.y - momentum_.y) > rounding * largest_momentum_) {
-    blame(state, fmt::format("momentum along y went from {} to {}", momentum_.y, now.y));
+  if (!drawn_y && std::abs(now.y - y) > rounding * size(Side::bottom, Side::top, 1, fallen_y)) {
+    blame(state,
+          fmt::format("momentum along y went from {} to {}, where {} was given", momentum_.y, now.y, y - momentum_.y));
   }
+}
+
+void Sanity::look_at_energy(const State& state) {
+  const Physics& p = scene_.physics;
+  const Domain& box = scene_.box;
+  if (p.diffusion > 0.0) return;
   const bool falls_for_ever =
       (p.gravity.down != 0.0 && box.periodic_y()) || (p.gravity.left != 0.0 && box.periodic_x());
   if (falls_for_ever) return;
   if (p.gravity.acts() && scene_.run.method != Method::exact) return;  // right to first order
-  double work = state.counters.shear_work + state.counters.wall_work;  // and by sides that move
-  for (const double of_side : state.counters.side_energy) work += of_side;
+  const bool takes = has_sinks(scene_);                                // energy that is positive
+  if (takes && (p.gravity.down < 0.0 || p.gravity.left < 0.0)) return;
+  const Counters& c = state.counters;
+  double given = c.shear_work + c.wall_work + c.thermostat_heat + c.emitted_energy;
+  double size = std::abs(c.shear_work) + std::abs(c.wall_work) + std::abs(c.thermostat_heat) + c.emitted_energy;
+  for (const double of_side : c.side_energy) {
+    given += of_side;
+    size += std::abs(of_side);
+  }
   const Energy all = energy_of(state.disks, p.gravity);
-  const double energy = all.total() - work;
-  largest_energy_ = std::max(largest_energy_, size_of(all) + std::abs(work));
-  const bool elastic =
-      !disks_dissipate(scene_) && !box.walls_dissipate() && !inner_walls_dissipate(scene_) && !walls_rub(scene_);
+  const double energy = all.total() - given;
+  largest_energy_ = std::max(largest_energy_, size_of(all) + size);
+  const bool elastic = !takes && !disks_dissipate(scene_) && !box.walls_dissipate() && !inner_walls_dissipate(scene_) &&
+                       !walls_rub(scene_);
   const double gain = energy - energy_.total();
   const bool heats = p.gravity.acts() && p.collapse_contact_time.has_value();
   const double allowed = (heats ? silent_heating : rounding) * largest_energy_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/disks/state.hpp"
 #include "core/measure/invariants.hpp"
@@ -16,6 +17,9 @@ class Sanity {
 
   // After a step, with what was warned of in it.
   void look(const State& state, const std::string& warnings);
+  // Disks at a time within a window of exact, looked at all pairs by all pairs: nothing overlaps, whatever the engines
+  // make of it.
+  void look_within(const Disks& disks, double time);
 
   // The first thing that was wrong, empty if nothing was.
   const std::string& fault() const { return fault_; }
@@ -31,12 +35,14 @@ class Sanity {
   void look_at_places(const State& state);
   void look_at_overlaps(const State& state);
   void look_at_counts(const State& state);
-  void look_at_motion(const State& state);
+  void look_at_energy(const State& state);
+  void look_at_momentum(const State& state);
 
   const Scene& scene_;
   std::size_t disks_ = 0;  // at the start
   Counters before_;
   double time_ = 0.0;
+  std::vector<Obstacle> obstacles_;
   Energy energy_;      // at the start
   Momentum momentum_;  // at the start
   double largest_energy_ = 0.0, largest_momentum_ = 0.0;

@@ -31,6 +31,7 @@ struct System {
   Real restitution = 1.0L, viscosity = 0.0L;
   std::vector<GroupLaw> laws;
   std::vector<std::size_t> obstacle_groups;  // of those that are disks
+  std::vector<WallMotion> motions;           // of inner walls, by the id of the obstacle
   Real time = 0.0L;
   std::size_t collisions = 0;
   std::size_t wall_collisions = 0;
@@ -58,6 +59,7 @@ inline System make_system(const Disks& disks, const Domain& box, const Gravity& 
 inline System make_system(const Scene& scene, const State& start) {
   System s = make_system(start.disks, scene.box, scene.physics.gravity, scene.physics.restitution, start.obstacles);
   s.viscosity = scene.physics.law.viscosity;
+  for (const InnerWall& wall : scene.walls) s.motions.push_back(wall.motion);
   for (const GroupPair& pair : scene.physics.law.pairs) {
     s.laws.push_back({pair.first, pair.second, pair.restitution.least, pair.restitution.viscosity});
   }
@@ -82,6 +84,28 @@ inline Real restitution_of(const System& s, std::size_t g, std::size_t h, Real s
     viscosity = law.viscosity;
   }
   return viscosity == 0.0L ? least : std::max(least, 1.0L - viscosity * std::pow(speed, 0.2L));
+}
+
+// From the system's time on.
+inline Way way_of(const System& s, const Obstacle& o) {
+  if (!o.is_segment() || o.id >= s.motions.size() || !s.motions[o.id].moves()) return {};
+  const WallMotion& motion = s.motions[o.id];
+  return {motion.pace, motion.along.x, motion.along.y, s.time};
+}
+
+// Where it stands at the system's time, in the box as the wall's beginning wraps. Its place has the rounding of
+// doubles.
+inline Obstacle obstacle_now(const System& s, Obstacle o) {
+  const Way way = way_of(s, o);
+  if (!way.moves()) return o;
+  const Real shift = wall_at(way.pace, s.time).inset;
+  Real x = o.x + way.along_x * shift;
+  Real y = o.y + way.along_y * shift;
+  if (s.box.periodic_x()) x -= std::floor(x / s.box.width) * static_cast<Real>(s.box.width);
+  if (s.box.periodic_y()) y -= std::floor(y / s.box.height) * static_cast<Real>(s.box.height);
+  o.x = static_cast<double>(x);
+  o.y = static_cast<double>(y);
+  return o;
 }
 
 struct Happening {
@@ -130,9 +154,12 @@ inline Happening next_happening(const System& s, Real end) {
       if (t[k] < first.time) first = {t[k], i, i, 0.0L, 0.0L, k};
     }
     for (std::size_t k = 0; k < s.obstacles.size(); ++k) {
-      for (int kx = px ? -1 : 0; kx <= (px ? 1 : 0); ++kx) {
-        for (int ky = py ? -1 : 0; ky <= (py ? 1 : 0); ++ky) {
-          const Real t_o = obstacle_time(a, s.obstacles[k], kx * w, ky * h, s.left, s.down, std::min(end, first.time));
+      const Way way = way_of(s, s.obstacles[k]);
+      const Obstacle o = obstacle_now(s, s.obstacles[k]);
+      const int most = way.moves() ? 2 : 1;  // it may reach over a side
+      for (int kx = px ? -most : 0; kx <= (px ? most : 0); ++kx) {
+        for (int ky = py ? -most : 0; ky <= (py ? most : 0); ++ky) {
+          const Real t_o = obstacle_time(a, o, way, kx * w, ky * h, s.left, s.down, std::min(end, first.time));
           if (t_o < first.time) first = {t_o, i, i, kx * w, ky * h, -1, static_cast<int>(k)};
           unknown = unknown || std::isnan(t_o);
         }
@@ -185,11 +212,15 @@ inline void meet_side(System& s, const Happening& e) {
 
 inline void meet_obstacle(System& s, const Happening& e) {
   Ball& a = s.balls[e.i];
-  const Obstacle& o = s.obstacles[static_cast<std::size_t>(e.obstacle)];
+  const Obstacle o = obstacle_now(s, s.obstacles[static_cast<std::size_t>(e.obstacle)]);
+  const Way way = way_of(s, s.obstacles[static_cast<std::size_t>(e.obstacle)]);
+  const Wall pace = way.after(0.0L);
+  const Real ux = pace.speed * way.along_x;
+  const Real uy = pace.speed * way.along_y;
   // The image may have wrapped meanwhile: the nearest one touches.
   Line line{HUGE_VALL, HUGE_VALL};
-  for (int kx = -1; kx <= 1; ++kx) {
-    for (int ky = -1; ky <= 1; ++ky) {
+  for (int kx = -2; kx <= 2; ++kx) {
+    for (int ky = -2; ky <= 2; ++ky) {
       if ((kx != 0 && !s.box.periodic_x()) || (ky != 0 && !s.box.periodic_y())) continue;
       const Line image =
           from_obstacle(o, a.x - kx * static_cast<Real>(s.box.width), a.y - ky * static_cast<Real>(s.box.height));
@@ -197,7 +228,7 @@ inline void meet_obstacle(System& s, const Happening& e) {
     }
   }
   const auto [x, y] = line;
-  const Real along = (x * a.vx + y * a.vy) / (x * x + y * y);
+  const Real along = (x * (a.vx - ux) + y * (a.vy - uy)) / (x * x + y * y);
   const bool by_groups = !o.is_segment() && !s.obstacle_groups.empty();
   const Real restitution = by_groups
                                ? restitution_of(s, a.group, s.obstacle_groups[static_cast<std::size_t>(e.obstacle)],

@@ -68,34 +68,6 @@ inline Line from_obstacle(const Obstacle& o, Real x, Real y) {
   return {x - share * dx, y - share * dy};
 }
 
-// Contact of a falling ball with an obstacle displaced by (ox, oy), up to `end`, by going on as far as the ball surely
-// does not touch yet. NaN where that takes very many steps: the ball slides along the obstacle, and whether it touches
-// rounding decides.
-inline Real obstacle_time(const Ball& a, const Obstacle& o, Real ox, Real oy, Real left, Real down, Real end) {
-  const Real g = std::sqrt(left * left + down * down);
-  const Real reach = a.r + static_cast<Real>(o.radius);
-  const Real nothing = 1e-17L * reach;
-  constexpr int most_steps = 100'000;
-  Real t = 0.0L;
-  for (int step = 0; step < most_steps; ++step) {
-    const bool first = step == 0;
-    const auto [x, y] =
-        from_obstacle(o, a.x + a.vx * t - 0.5L * left * t * t - ox, a.y + a.vy * t - 0.5L * down * t * t - oy);
-    const Real vx = a.vx - left * t;
-    const Real vy = a.vy - down * t;
-    const Real gap = std::sqrt(x * x + y * y) - reach;
-    const bool nearer = x * vx + y * vy < 0.0L;
-    if (gap <= nothing && nearer) return t;
-    if (first && g == 0.0L && !nearer) return no_event;
-    if (t >= end) return no_event;
-    // Away from a contact that is over by a little, beyond the reach of rounding.
-    const Real room = std::max(gap, (nearer ? 1e-18L : 1e-13L) * reach);
-    const Real speed = std::sqrt(vx * vx + vy * vy);
-    t += 2.0L * room / (speed + std::sqrt(speed * speed + 2.0L * g * room));
-  }
-  return std::numeric_limits<Real>::quiet_NaN();
-}
-
 // How far a side has come into the box, how fast it comes, and its acceleration, from the formulas of its motion.
 struct Wall {
   Real inset = 0.0L, speed = 0.0L, acceleration = 0.0L;
@@ -124,6 +96,56 @@ inline Wall wall_at(const SideMotion& m, Real t) {
   const Real up = std::fmod(k, 2.0L) == 0.0L ? 1.0L : -1.0L;
   const Real rate = up * 4.0L * static_cast<Real>(m.amplitude) / (half * half);
   return {inset + rate * since * (half - since), rate * (half - 2.0L * since), -2.0L * rate, half - since};
+}
+
+// How an obstacle moves from now on: from where it is now, (x, y); without a pace it stands.
+struct Way {
+  SideMotion pace{};
+  Real along_x = 0.0L, along_y = 0.0L;
+  Real now = 0.0L;
+  bool moves() const { return pace.kind != SideMotion::Kind::none; }
+  // How far it has come after time t, how fast it is then, and the most that this may change in a unit of time.
+  Wall after(Real t) const {
+    const Wall then = wall_at(pace, now + t);
+    return {then.inset - wall_at(pace, now).inset, then.speed, then.acceleration};
+  }
+  Real most_acceleration() const {
+    const Real size = std::sqrt(along_x * along_x + along_y * along_y);
+    const auto period = static_cast<Real>(pace.period);
+    if (pace.kind == SideMotion::Kind::sine)
+      return size * 4.0L * std::acos(-1.0L) * std::acos(-1.0L) / (period * period);
+    return pace.kind == SideMotion::Kind::parabolas ? size * 32.0L / (period * period) : 0.0L;
+  }
+};
+
+// Contact of a falling ball with an obstacle displaced by (ox, oy), up to `end`, by going on as far as the ball surely
+// does not touch yet. NaN where that takes very many steps: the ball slides along the obstacle, and whether it touches
+// rounding decides.
+inline Real obstacle_time(const Ball& a, const Obstacle& o, const Way& way, Real ox, Real oy, Real left, Real down,
+                          Real end) {
+  const Real g = std::sqrt(left * left + down * down) + way.most_acceleration();
+  const Real reach = a.r + static_cast<Real>(o.radius);
+  const Real nothing = 1e-17L * reach;
+  constexpr int most_steps = 100'000;
+  Real t = 0.0L;
+  for (int step = 0; step < most_steps; ++step) {
+    const bool first = step == 0;
+    const Wall wall = way.after(t);
+    const auto [x, y] = from_obstacle(o, a.x + a.vx * t - 0.5L * left * t * t - wall.inset * way.along_x - ox,
+                                      a.y + a.vy * t - 0.5L * down * t * t - wall.inset * way.along_y - oy);
+    const Real vx = a.vx - left * t - wall.speed * way.along_x;
+    const Real vy = a.vy - down * t - wall.speed * way.along_y;
+    const Real gap = std::sqrt(x * x + y * y) - reach;
+    const bool nearer = x * vx + y * vy < 0.0L;
+    if (gap <= nothing && nearer) return t;
+    if (first && g == 0.0L && !nearer) return no_event;
+    if (t >= end) return no_event;
+    // Away from a contact that is over by a little, beyond the reach of rounding.
+    const Real room = std::max(gap, (nearer ? 1e-18L : 1e-13L) * reach);
+    const Real speed = std::sqrt(vx * vx + vy * vy);
+    t += 2.0L * room / (speed + std::sqrt(speed * speed + 2.0L * g * room));
+  }
+  return std::numeric_limits<Real>::quiet_NaN();
 }
 
 // Likewise with a side that is a sine, up to `end`, by going on as far as no acceleration could bring the two together.
