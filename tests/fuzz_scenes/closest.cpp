@@ -66,7 +66,7 @@ class Search {
     for (std::size_t i = 0; i < disks_.size(); ++i) {
       const double gaps[] = {disks_.x[i], box_.width - disks_.x[i], disks_.y[i], box_.height - disks_.y[i]};
       for (const Side side : all_sides) {
-        if (box_.side(side) != SideKind::wall) continue;
+        if (box_.side(side) == SideKind::periodic) continue;
         const auto k = static_cast<std::size_t>(side);
         see(gaps[k] - box_.place(side).inset - disks_.radius_of(i),
             [&] { return fmt::format("disk {} is beyond side {}", disks_.id[i], k); });
@@ -75,7 +75,6 @@ class Search {
   }
 
   void see_obstacle(const Obstacle& o, std::size_t k) {
-    if (o.kind == ObstacleKind::sink) return;
     for (std::size_t i = 0; i < disks_.size(); ++i) {
       const double apart = distance(disks_.x[i] - o.x, disks_.y[i] - o.y, o.dx, o.dy, box_);
       see(apart - o.radius - disks_.radius_of(i),
@@ -105,7 +104,6 @@ class Search {
 Closest closest_of(const Disks& disks, const std::vector<Obstacle>& obstacles, const Scene& scene, double time) {
   Search search(disks, scene, time);
   search.see_pairs();
-  if (has_sinks(scene)) return search.result();
   search.see_sides();
   const std::vector<WallMotion> motions = motions_of(scene);
   for (std::size_t k = 0; k < obstacles.size(); ++k) {

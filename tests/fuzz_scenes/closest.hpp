@@ -17,7 +17,7 @@ struct Closest {
   std::string what;       // "disks 3 and 7 overlap"
 };
 
-// Sinks, and sides that are sinks, are passed over: what leaves may stand in them.
+// Sinks are looked at like walls: they have taken what touched them.
 Closest closest_of(const Disks& disks, const std::vector<Obstacle>& obstacles, const Scene& scene, double time);
 
 }  // namespace carom::fuzz

@@ -36,6 +36,7 @@ TEST(Closest, SeesPairsAcrossSides) {
 TEST(Closest, SeesSidesAndObstacles) {
   EXPECT_NEAR(closest_at("", {0.75, 3}, {5, 5}).gap, -0.25, 1e-12);
   EXPECT_NEAR(closest_at("top = { motion = { velocity = [0, -0.01] } }", {3, 3}, {5, 6.5}, 60.0).gap, -0.1, 1e-12);
+  EXPECT_NEAR(closest_at("left = \"sink\"", {0.75, 3}, {5, 5}).gap, -0.25, 1e-12);
   const std::string wall = periodic + "[[walls]]\nfrom = [7, 0]\nto = [7, 6]\n";
   EXPECT_NEAR(closest_at(wall, {6.5, 4}, {3, 3}).gap, -0.5, 1e-12);
   EXPECT_NEAR(closest_at(wall, {6.5, 7.75}, {3, 3}).gap, std::sqrt(0.3125) - 1.0, 1e-12) << "its end, across the top";

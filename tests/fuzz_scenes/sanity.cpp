@@ -58,6 +58,7 @@ void Sanity::look(const State& state, const std::string& warnings) {
   if (!(state.time >= time_ && state.time <= scene_.run.t_end)) {
     blame(state, fmt::format("time went from {} to {} with t_end = {}", time_, state.time, scene_.run.t_end));
   }
+  look_at_sources(state, time_);
   time_ = state.time;
   look_at_places(state);
   look_at_counts(state);
@@ -119,6 +120,22 @@ void Sanity::look_at_counts(const State& state) {
   }
   if (!sane(c.virial)) blame(state, fmt::format("a virial of {}", c.virial));
   before_ = c;
+}
+
+// The k-th disk of a source is due at k / rate: all that are have come, or wait. A step sees those of its start.
+void Sanity::look_at_sources(const State& state, double before) {
+  double least = 0.0, most = 0.0;
+  for (const Source& source : scene_.sources) {
+    const double limit = source.limit ? static_cast<double>(*source.limit) : HUGE_VAL;
+    const double since = scene_.run.method == Method::exact ? state.time : before;
+    least += std::min(limit, std::floor(source.rate * since * (1.0 - rounding)));
+    most += std::min(limit, std::floor(source.rate * state.time * (1.0 + rounding)));
+  }
+  const auto due = static_cast<double>(state.counters.emitted + state.counters.waiting);
+  if (due < least || due > most) {
+    blame(state, fmt::format("{} emitted and {} waiting where {} to {} are due", state.counters.emitted,
+                             state.counters.waiting, least, most));
+  }
 }
 
 void Sanity::look_at_overlaps(const State& state) {

@@ -35,6 +35,7 @@ class Sanity {
   void look_at_places(const State& state);
   void look_at_overlaps(const State& state);
   void look_at_counts(const State& state);
+  void look_at_sources(const State& state, double before);
   void look_at_energy(const State& state);
   void look_at_momentum(const State& state);
 
