@@ -175,6 +175,26 @@ void for_each_solid_touched(const Domain& box, double x, double y, double r, Fou
   });
 }
 
+// The same in the order of the list, whatever cells they lie in: what one does to a disk, the next one meets.
+template <class Found>
+void for_each_solid_touched_in_order(const Domain& box, double x, double y, double r, Found&& found) {
+  std::uint32_t from = 0;
+  for (bool any = true; any;) {
+    any = false;
+    std::uint32_t first = 0;
+    ObstacleGap gap{};
+    for_each_solid_touched(box, x, y, r, [&](std::uint32_t k, const ObstacleGap& seen) {
+      if (k < from || (any && k >= first)) return;
+      any = true;
+      first = k;
+      gap = seen;
+    });
+    if (!any) return;
+    found(first, gap);
+    from = first + 1;
+  }
+}
+
 // Does a disk overlap or touch any obstacle?
 inline bool touches_obstacle(const Domain& box, double x, double y, double r) {
   bool touched = false;

@@ -71,7 +71,7 @@ void keep_inside(const View& d, const Domain& box, std::uint32_t i) {
     if (box.side(side) == SideKind::wall) push_wall(d, box, i, side, shallow_overlap * d.radius(i));
   }
   if (box.obstacles == nullptr) return;
-  for_each_solid_touched(box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap&) {
+  for_each_solid_touched_in_order(box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap&) {
     push_from_obstacle(d, box, i, (*box.obstacles)[k], shallow_overlap * d.radius(i));
   });
 }

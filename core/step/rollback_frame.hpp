@@ -62,7 +62,7 @@ void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTa
   }
   if (rules.box.obstacles == nullptr) return;
   bool touched = false;
-  for_each_solid_touched(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
+  for_each_solid_touched_in_order(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
     if (gap.beyond <= open) return;
     touched = true;
     tally.add(obstacle_partner(k), resolve_obstacle(d, rules, i, k));

@@ -56,6 +56,26 @@ TEST(InnerWall, ReflectsOnBothSides) {
   }
 }
 
+// Two at once: the one that is listed first, not the one in the first cell. So the scene with x and y exchanged has the
+// exchanged bits.
+TEST(InnerWall, OfTwoTouchedInOneFrameTheFirstOfTheListIsMetFirst) {
+  const auto after_two_frames = [](const std::string& walls) {
+    const Scene scene = parse_scene("[box]\nwidth = 20.0\nheight = 20.0\n" + walls + one_disk(10, 10, 1, 1, 0.5) +
+                                        "[run]\nmethod = \"rollback\"\ndt = 0.02\nt_end = 0.04\n",
+                                    "walls.toml", "");
+    return run_to_end(scene);
+  };
+  const State one = after_two_frames(
+      "[[walls]]\nfrom = [9.9, 10.5]\nto = [9.8, 11.0]\n[[walls]]\nfrom = [10.5, 9.9]\nto = [11.0, 9.8]\n");
+  const State exchanged = after_two_frames(
+      "[[walls]]\nfrom = [10.5, 9.9]\nto = [11.0, 9.8]\n[[walls]]\nfrom = [9.9, 10.5]\nto = [9.8, 11.0]\n");
+  EXPECT_GE(one.counters.wall_collisions, 2U);
+  EXPECT_EQ(one.disks.vx[0], exchanged.disks.vy[0]);
+  EXPECT_EQ(one.disks.vy[0], exchanged.disks.vx[0]);
+  EXPECT_EQ(one.disks.x[0], exchanged.disks.y[0]);
+  EXPECT_EQ(one.disks.y[0], exchanged.disks.x[0]);
+}
+
 TEST(InnerWall, HasARestitutionOfItsOwn) {
   const std::string wall = "[[walls]]\nfrom = [10.0, 2.0]\nto = [10.0, 18.0]\nrestitution = 0.5\n";
   for (const char* method : methods) {
