@@ -86,6 +86,7 @@ void choose_times(Dice& dice, WideDraft& draft) {
   const double speed = dice.chance(0.5) || draft.thermal == 0.0 ? draft.fastest() : draft.thermal;
   const double far = spacing * std::max(1.0, 0.2 / draft.packing * spacing / std::max(draft.width, draft.height));
   draft.t_end = far / speed * dice.in(0.5, draft.for_oracle ? 8.0 : 25.0);
+  if (dice.chance(0.2)) draft.t_end *= 10.0;  // many windows
   draft.t_end = std::min(draft.t_end, 300.0 * std::max(draft.width, draft.height) / draft.fastest());
   const bool brownian = !draft.for_oracle && draft.shear == 0.0 && dice.chance(0.08);
   if (draft.is_exact() && !brownian) return;
