@@ -16,12 +16,13 @@
 #include "parallel/slabs/slab_exact.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
 #include "tests/fuzz_scenes/random_scene.hpp"
+#include "tests/fuzz_scenes/wide_scene.hpp"
 #include "tests/support/slab_support.hpp"
 
 namespace carom {
 namespace {
 
-constexpr std::uint32_t shards = 4, scenes_a_shard = 500;
+constexpr std::uint32_t shards = 4, scenes_a_shard = 500, wide_a_shard = 100;
 constexpr std::uint64_t seed = 19;
 constexpr int steps = 15;
 
@@ -70,36 +71,51 @@ bool leave_out_ranks(std::vector<std::string>& said) {
          0;
 }
 
+struct Runs {
+  std::size_t on_slabs = 0, alone = 0;  // one rank runs all
+};
+
+// On two and three ranks, step by step; nothing where the scene cannot be made.
+void compare_on_ranks(const std::string& text, Runs& runs) {
+  const std::optional<Start> start = start_of(text);
+  if (!start) return;
+  SCOPED_TRACE(text);
+  const auto engine = make_parallel_engine(start->scene, start->state, {1});
+  const Trace expected = trace_of(*engine, start->scene.run.t_end, [](const Disks& all) { return state_hash(all); });
+  const auto make = start->scene.run.method == Method::exact ? make_slab_exact : make_slab_pairwise;
+  for (const int count : {2, 3}) {
+    std::vector<Trace> traces(static_cast<std::size_t>(count));
+    run_on_local_ranks(count, [&](Ranks& ranks) {
+      const auto part = make(start->scene, start->state, {2, 512}, ranks);
+      traces[static_cast<std::size_t>(ranks.rank())] = trace_of(
+          *part, start->scene.run.t_end, [&](const Disks& own) { return test::state_hash_over_ranks(ranks, own); });
+    });
+    for (Trace& trace : traces) {
+      SCOPED_TRACE(count);
+      (leave_out_ranks(trace.said) ? runs.alone : runs.on_slabs) += 1;
+      EXPECT_EQ(trace.hashes, expected.hashes);
+      EXPECT_EQ(trace.said, expected.said);
+    }
+  }
+}
+
 class SlabScenes : public ::testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(SlabScenes, HaveTheBitsOfOneMachine) {
-  std::size_t on_slabs = 0;
-  std::size_t alone = 0;
+  Runs runs;
   for (std::uint32_t k = 0; k < scenes_a_shard; ++k) {
-    const std::string text = fuzz::random_scene(seed, GetParam() * scenes_a_shard + k, 0);
-    const std::optional<Start> start = start_of(text);
-    if (!start) continue;
-    SCOPED_TRACE(text);
-    const auto engine = make_parallel_engine(start->scene, start->state, {1});
-    const Trace expected = trace_of(*engine, start->scene.run.t_end, [](const Disks& all) { return state_hash(all); });
-    const auto make = start->scene.run.method == Method::exact ? make_slab_exact : make_slab_pairwise;
-    for (const int count : {2, 3}) {
-      std::vector<Trace> traces(static_cast<std::size_t>(count));
-      run_on_local_ranks(count, [&](Ranks& ranks) {
-        const auto part = make(start->scene, start->state, {2, 512}, ranks);
-        traces[static_cast<std::size_t>(ranks.rank())] = trace_of(
-            *part, start->scene.run.t_end, [&](const Disks& own) { return test::state_hash_over_ranks(ranks, own); });
-      });
-      for (Trace& trace : traces) {
-        SCOPED_TRACE(count);
-        (leave_out_ranks(trace.said) ? alone : on_slabs) += 1;
-        EXPECT_EQ(trace.hashes, expected.hashes);
-        EXPECT_EQ(trace.said, expected.said);
-      }
-    }
+    compare_on_ranks(fuzz::random_scene(seed, GetParam() * scenes_a_shard + k, 0), runs);
   }
-  EXPECT_GE(on_slabs, 10U);
-  EXPECT_GE(alone, 10U);
+  EXPECT_GE(runs.on_slabs, 10U);
+  EXPECT_GE(runs.alone, 10U);
+}
+
+TEST_P(SlabScenes, OfOtherKindsHaveThemToo) {
+  Runs runs;
+  for (std::uint32_t k = 0; k < wide_a_shard; ++k) {
+    compare_on_ranks(fuzz::wide_scene(seed, GetParam() * wide_a_shard + k, 0), runs);
+  }
+  EXPECT_GE(runs.on_slabs, 10U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shards, SlabScenes, ::testing::Range(0U, shards));
