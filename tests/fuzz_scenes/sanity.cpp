@@ -16,8 +16,8 @@ namespace {
 
 // Rounding, over many collisions.
 constexpr double rounding = 1e-9;
-// What a warning would have reported: twice the bound of overlaps that only the next step finds.
-constexpr double silent_overlap = 0.2;
+// What a warning would have reported: a little more than the bound of overlaps that only the next step finds.
+constexpr double silent_overlap = 0.11;
 // TC model under gravity: energy gained, over the energy at the start.
 constexpr double silent_heating = 0.01;
 
@@ -122,12 +122,14 @@ void Sanity::look_at_counts(const State& state) {
   before_ = c;
 }
 
-// The k-th disk of a source is due at k / rate: all that are have come, or wait. A step sees those of its start.
+// The k-th disk of a source is due at k / rate: all that are have come, or wait. A step sees those of its start, a
+// frame of rollback those of the start of its dt.
 void Sanity::look_at_sources(const State& state, double before) {
   double least = 0.0, most = 0.0;
   for (const Source& source : scene_.sources) {
     const double limit = source.limit ? static_cast<double>(*source.limit) : HUGE_VAL;
-    const double since = scene_.run.method == Method::exact ? state.time : before;
+    const double seen = scene_.run.method == Method::rollback ? before - scene_.run.dt : before;
+    const double since = scene_.run.method == Method::exact ? state.time : std::max(seen, 0.0);
     least += std::min(limit, std::floor(source.rate * since * (1.0 - rounding)));
     most += std::min(limit, std::floor(source.rate * state.time * (1.0 + rounding)));
   }
