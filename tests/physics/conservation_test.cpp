@@ -130,6 +130,30 @@ TEST_P(Conservation, ForcesOnTheWallsBalance) {
   }
 }
 
+// Clausius: sum m r.v changes by 2 K and by r.impulse of every collision, which the virial and the walls' impulses
+// count.
+TEST(ConservationExact, TheVirialTheoremHoldsToRounding) {
+  constexpr double width = 40.0, height = 30.0, radius = 1.0;
+  for (std::uint64_t seed = 40; seed < 43; ++seed) {
+    const Scene s = test::scene_of(Method::exact, width, height, 0.0, 20.0);
+    test::Draws draws(seed);
+    const State start = test::state_of(s, test::random_disks(draws, s.box, 40, {radius, radius, 1.0, 20.0, 2.0}));
+    const State end = test::run(s, start);
+    const auto virial_of = [](const Disks& d) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < d.size(); ++i) sum += d.mass_of(i) * (d.x[i] * d.vx[i] + d.y[i] * d.vy[i]);
+      return sum;
+    };
+    const double* wall = end.counters.wall_impulse;
+    const double by_walls = radius * (wall[0] + wall[2]) - (width - radius) * wall[1] - (height - radius) * wall[3];
+    const double by_motion = 2.0 * energy_of(start.disks, s.physics.gravity).kinetic * s.run.t_end;
+    EXPECT_NEAR(virial_of(end.disks) - virial_of(start.disks), by_motion + end.counters.virial + by_walls,
+                1e-12 * by_motion);
+    EXPECT_GT(end.counters.collisions, 100U);
+    EXPECT_GT(end.counters.wall_collisions, 50U);
+  }
+}
+
 // Of disks that begin at rest, or come to rest, the drift is of the momentum that there was or is.
 TEST(MomentumDrift, IsOfTheLargerMomentum) {
   const Momentum none, some{3.0, 4.0, 10.0};
