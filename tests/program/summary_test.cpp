@@ -1,0 +1,59 @@
+// The pressure of a summary, by hand: of which room and of which energy of motion it is.
+#include "run/summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "core/load/scene_file.hpp"
+#include "core/measure/run_start.hpp"
+#include "core/start/initial_state.hpp"
+
+namespace carom {
+namespace {
+
+// 10 x 10 with one disk of mass 2 at height 7.5; steps end at times that are exact.
+Scene scene_with(const std::string& sides, const std::string& physics, const std::string& velocity) {
+  return parse_scene("[box]\nwidth = 10.0\nheight = 10.0\n" + sides + "[physics]\n" + physics +
+                         "[[disks]]\ncount = 1\npositions = [[5.0, 7.5]]\nvelocities = [" + velocity +
+                         "]\nradius = 0.5\nmass = 2.0\n[run]\nmethod = \"pairwise\"\ndt = 0.0625\nt_end = 1.0\n",
+                     "one.toml", "");
+}
+
+Summary summary_of(const Scene& scene) {
+  const EngineChoice choice{"reference", 1};
+  State start = initial_state(scene);
+  const RunStart remembered = run_start(start, scene);
+  const std::unique_ptr<Engine> engine = make_engine(choice, scene, std::move(start));
+  while (engine->state().time < scene.run.t_end) engine->step();
+  return summarize(remembered, *engine, scene, choice);
+}
+
+// At rest, then at speed 2 after a fall of 1 in a unit of time.
+TEST(Summary, ThePressureIsFromTheEnergyOfMotionHalfwayBetweenStartAndEnd) {
+  const Summary s = summary_of(scene_with("", "gravity = 2.0\n", "[0.0, 0.0]"));
+  EXPECT_EQ(s.counters.virial, 0.0);
+  EXPECT_EQ(s.kinetic_final, 4.0);
+  EXPECT_DOUBLE_EQ(s.pressure, 0.5 * 4.0 / (10.0 * 10.0));
+}
+
+// The floor comes up by 2, by 1 of it halfway.
+TEST(Summary, ThePressureIsThatOfTheRoomHalfwayWhereSidesMove) {
+  const Summary s = summary_of(scene_with("bottom = { motion = { velocity = [0.0, 2.0] } }\n", "", "[1.0, 0.0]"));
+  EXPECT_EQ(s.counters.wall_collisions, 0U);
+  EXPECT_DOUBLE_EQ(s.pressure, 1.0 / (10.0 * 9.0));
+}
+
+// A scene tells velocities relative to the flow, which at height 7.5 has a speed of 1.25.
+TEST(Summary, ThePressureInAShearIsOfMotionRelativeToTheFlow) {
+  const std::string sides =
+      "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = 0.5\n";
+  const Summary with_flow = summary_of(scene_with(sides, "", "[0.0, 0.0]"));
+  EXPECT_EQ(with_flow.kinetic_final, 1.25 * 1.25);
+  EXPECT_EQ(with_flow.pressure, 0.0);
+  EXPECT_DOUBLE_EQ(summary_of(scene_with(sides, "", "[1.0, 0.0]")).pressure, 1.0 / (10.0 * 10.0));
+}
+
+}  // namespace
+}  // namespace carom
