@@ -144,5 +144,53 @@ TEST(SeriesColumns, RotationAndPushesAreTheirOwn) {
   EXPECT_EQ(side_column_values(EnergySources(scene), counters), (std::vector<double>{1.0, 2.0, 3.0}));
 }
 
+// At height 3 and 2 of 4, where a flow of rate 0.5 has speeds 0.5 and 0: the disks have (1, 2) and (-1, 1) beside it.
+TEST(SeriesColumns, InAShearTemperatureAndStressAreOfMotionRelativeToTheFlow) {
+  Scene scene = test::scene_of(Method::exact, 10.0, 4.0, 0.0, 10.0);
+  test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
+  scene.box.shear.rate = 0.5;
+  scene.box.shear.jump = 2.0;
+  const Disks disks = test::disks_of({{2.0, 3.0, 1.5, 2.0, 0.5, 2.0}, {6.0, 2.0, -1.0, 1.0, 0.5, 2.0}});
+  SeriesMeter meter(scene, false);
+  State now;
+  now.counters.shear_virial = 3.0;
+  now.counters.virial = 5.0;
+  now.time = 1.0;
+  meter.row(WholeDisks(disks, now.time), now, run_in_order);
+  now.counters.shear_virial = 11.0;
+  now.counters.virial = 21.0;
+  now.time = 3.0;
+  const SeriesRow row = meter.row(WholeDisks(disks, now.time), now, run_in_order);
+  const double relative = 5.0 + 2.0;
+  const double stress = -(2.0 * (1.0 * 2.0 - 1.0 * 1.0) + 8.0 / 2.0) / 40.0;
+  EXPECT_THAT(meter.shear_row(), testing::ElementsAre(stress, stress / 0.5, relative / 2.0, 0.0));
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (std::string(series_columns[k].name) != "pressure") continue;
+    EXPECT_DOUBLE_EQ(row[k], (relative + 16.0 / 4.0) / 40.0);
+  }
+}
+
+// The images above have moved to the side by 1 at time 0.5: there is a disk's image above the other one then, which it
+// overlaps by a quarter of both radii together.
+TEST(SeriesColumns, OverlapsAreThoseOfTheBoxAtTheTimeOfTheRow) {
+  Scene scene = test::scene_of(Method::pairwise, 10.0, 4.0, 0.1, 10.0);
+  test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
+  scene.box.shear.rate = 0.5;
+  scene.box.shear.jump = 2.0;
+  const Disks disks = test::disks_of({{3.0, 0.25, 0.0, 0.0, 0.5, 1.0}, {4.0, 3.5, 0.0, 0.0, 0.5, 1.0}});
+  SeriesMeter meter(scene, true);
+  const auto overlap_at = [&](double time) {
+    State now;
+    now.time = time;
+    const SeriesRow row = meter.row(WholeDisks(disks, time), now, run_in_order);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (std::string(series_columns[k].name) == "max_overlap") return row[k];
+    }
+    return -1.0;
+  };
+  EXPECT_EQ(overlap_at(0.0), 0.0);
+  EXPECT_DOUBLE_EQ(overlap_at(0.5), 0.25);
+}
+
 }  // namespace
 }  // namespace carom
