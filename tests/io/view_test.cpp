@@ -170,6 +170,29 @@ TEST(ViewBlocks, FreeFlightIsShort) {
   EXPECT_LT(cost(flight), 0.6);
 }
 
+// Images above a box that shears are displaced by 4 at time 1. A disk that goes up through the top comes in at the
+// bottom as much further left: it has gone 0.3. A place that is rounded up to the top is that of its image, too.
+TEST(ViewBlocks, AcrossTheTopOfAShearedBoxPlacesAreThoseOfImages) {
+  const ViewAxes axes{view_axis(20.0, true, 0.1), view_axis(7.0, true, 0.1)};
+  const Shear shear{4.0 / 7.0, 4.0, 0.0};
+  const auto frames_of = [&](Vec2 from, Vec2 to) {
+    std::vector<TrajectoryFrame> frames(2);
+    append(frames[0].disks, {from.x, from.y, 0.0, 0.0, 0.1, 1.0, 0});
+    append(frames[1].disks, {to.x, to.y, 0.0, 0.0, 0.1, 1.0, 0});
+    frames[1].time = 1.0;
+    ViewEncoder encoder(axes, 1, 1, run_in_order, shear);
+    for (const TrajectoryFrame& frame : frames) encoder.add(frame);
+    encoder.finish();
+    return encoder;
+  };
+  EXPECT_NEAR(frames_of({10.0, 6.9}, {6.0, 0.2}).fast_speed(), 0.3, 0.01);
+  EXPECT_NEAR(frames_of({6.0, 0.2}, {10.0, 6.9}).fast_speed(), 0.3, 0.01);
+  const ViewEncoder top = frames_of({10.0, 6.9}, {10.0, std::nextafter(7.0, 0.0)});
+  const ViewFrame last = unpack_view_block(top.blocks().at(0), axes, "test").at(1);
+  EXPECT_EQ(last.at[1].at(0), 0U);
+  EXPECT_NEAR(axes[0].decode(last.at[0].at(0)), 6.0, 0.01);
+}
+
 TEST(ViewBlocks, DamageIsNamedWithItsFrames) {
   const ViewAxes axes{view_axis(20.0, true, 0.1), view_axis(7.0, false, 0.1)};
   const ViewEncoder encoder = encoded(random_frames(7, 100, 20, true), axes);
