@@ -49,6 +49,15 @@ TEST(ChartFit, NoiseRoundingAndLargeErrorsAreLeftOut) {
   EXPECT_NEAR(fit->order, 1.0, 1e-12);
 }
 
+// Logarithms at -1, 0 and 1 times ln 2 with values 0, ln 2 and 0: a level line, with squares of residuals of 2/3 about
+// it, one degree of freedom, and a spread of 2.
+TEST(ChartFit, TheErrorOfAnOrderIsThatOfALineThroughItsPoints) {
+  const auto fit = fit_order({{0.04, 0.01, 0.0}, {0.02, 0.02, 0.0}, {0.01, 0.01, 0.0}});
+  ASSERT_TRUE(fit.has_value());
+  EXPECT_NEAR(fit->order, 0.0, 1e-12);
+  EXPECT_NEAR(fit->order_error, 1.0 / std::sqrt(3.0), 1e-12);
+}
+
 TEST(ChartFit, TwoPointsAreNoFit) {
   EXPECT_FALSE(fit_order({{0.1, 0.1, 0.0}, {0.01, 0.01, 0.0}}).has_value());
   EXPECT_FALSE(fit_order({}).has_value());

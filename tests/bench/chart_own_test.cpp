@@ -77,6 +77,16 @@ t_end = 20.0
   const std::string csv = text_of(at("two/chart.csv"));
   EXPECT_THAT(csv, HasSubstr("\ntwo,exact,0,1,"));
   EXPECT_THAT(csv, ::testing::Not(HasSubstr("two,pairwise,0.2,2,")));
+  std::istringstream rows(csv);
+  int known = 0;
+  for (std::string row; std::getline(rows, row);) {
+    std::istringstream cells(row);
+    std::string cell;
+    for (int column = 0; column < 8; ++column) std::getline(cells, cell, ',');
+    EXPECT_EQ(cell, row.starts_with("scene,") ? "standard_error" : "0") << row;
+    known += cell == "0" ? 1 : 0;
+  }
+  EXPECT_GT(known, 10);
 }
 
 // What an inner wall takes of energy and momentum is no error of a method.
