@@ -1,0 +1,98 @@
+// The reference's bits where few scenes have the chance to lose them: events at the same moment, disks on a side at the
+// end of a window, falls through lists that are built anew, and newcomers larger than all before.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/disks/state_hash.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/support/exact_support.hpp"
+
+namespace carom::exact_tests {
+namespace {
+
+// After each window; returns the last state.
+State expect_bits_of_reference(const Scene& scene, const State& start) {
+  const auto reference = make_reference_exact(scene, start);
+  const auto engine = make_parallel_engine(scene, start, {1});
+  const auto on_threads = make_parallel_engine(scene, start, {3, 128});
+  while (reference->state().time < scene.run.t_end && !testing::Test::HasFailure()) {
+    reference->step();
+    const State& right = reference->state();
+    for (Engine* e : {engine.get(), on_threads.get()}) {
+      e->step();
+      EXPECT_EQ(e->state().time, right.time);
+      EXPECT_EQ(state_hash(e->state().disks), state_hash(right.disks)) << "at t = " << right.time;
+      EXPECT_EQ(e->state().counters.collisions, right.counters.collisions);
+    }
+  }
+  return reference->state();
+}
+
+// A disk at rest is hit from the left and from the right at the same moment, again and again, and what comes of it
+// depends on who is first: the pair with the smallest ids, wherever disks are stored. The lowest row falls onto the
+// floor at that moment, too.
+TEST(ExactBits, OfContactsAtTheSameMoment) {
+  constexpr int rows = 12, columns = 4, all = 3 * rows * columns;
+  const Scene scene = plain_scene(test::box_of(64.0, 48.0), 8.0, 0.0, 0.5);
+  std::vector<Disk> list;
+  for (int k = 0; k < all; ++k) {
+    const int mixed = 29 * k % all, triple = mixed / 3, place = mixed % 3;
+    const int row = triple / columns;
+    const double x = 8.0 + 16.0 * (triple % columns) + 3.0 * (place - 1), y = 2.5 + 3.5 * row;
+    list.push_back({x, y, 1.0 - place, row == 0 ? -1.0 : 0.0, 0.5, 1.0});
+  }
+  const State end = expect_bits_of_reference(scene, state_of(scene, list));
+  EXPECT_GT(end.counters.collisions, 2U * rows * columns);
+  EXPECT_GE(end.counters.wall_collisions, 3U * columns);
+}
+
+// One that has just been hit comes to two at rest at the same moment: it alone knows of both contacts.
+TEST(ExactBits, OfOneThatHitsTwoAtTheSameMoment) {
+  constexpr int rows = 12, columns = 4, all = 4 * rows * columns;
+  const Scene scene = plain_scene(test::box_of(64.0, 48.0), 12.0, 0.0, 0.5);
+  const Vec2 from[] = {{2.0, 0.0}, {4.0, 0.0}, {8.0, 0.75}, {8.0, -0.75}};
+  std::vector<Disk> list;
+  for (int k = 0; k < all; ++k) {
+    const int mixed = 29 * k % all, group = mixed / 4, place = mixed % 4;
+    const double x = 16.0 * (group % columns) + from[place].x, y = 2.0 + 4.0 * (group / columns) + from[place].y;
+    list.push_back({x, y, place == 0 ? 1.0 : 0.0, 0.0, 0.5, 1.0});
+  }
+  const State end = expect_bits_of_reference(scene, state_of(scene, list));
+  EXPECT_GE(end.counters.collisions, 3U * rows * columns);
+}
+
+// Disks of a dilute gas fly further than across a list, and lists are built anew while it is known when disks come to
+// their next events: in some windows one leaves the place where it is listed before that.
+TEST(ExactBits, OfAFallThroughListsThatAreBuiltAnew) {
+  Scene scene = make_scene({31.22, 6.24, "left = \"periodic\"\nright = \"periodic\"", "gravity = 0.05",
+                            "[[disks]]\ncount = 80\npositions = \"random\"\nvelocities = { maxwell = 1.0 }\n"
+                            "radius = 0.1525\nmass = 1.0\n",
+                            46.81, ""});
+  scene.seed = 41962;
+  const State end = expect_bits_of_reference(scene, initial_state(scene));
+  EXPECT_GT(end.counters.collisions, 200U);
+}
+
+// In the last window a disk comes to a periodic side to the last bit: it is at 0, not at the box's width.
+TEST(ExactBits, OfADiskOnAPeriodicSideAtTheEnd) {
+  const Domain box = test::box_of(16.0, 8.0, true, true);
+  std::vector<Disk> list{{12.0, 4.0, 2.0, 0.0, 0.25, 1.0}, {4.0, 6.0, 0.0, 1.0, 0.25, 1.0}};
+  for (const std::size_t more : {0U, 48U}) {  // with more of them there are lists
+    for (std::size_t k = 0; k < more; ++k)
+      list.push_back({0.5 + 0.3125 * static_cast<double>(k), 1.0, 0.0, 0.0, 0.1, 1.0});
+    const Scene scene = plain_scene(box, 2.0);
+    const State start = state_of(scene, list);
+    expect_bits_of_reference(scene, start);
+    const auto engine = make_parallel_engine(scene, start, {1});
+    run_to_end(*engine, scene);
+    const Disks& d = engine->state().disks;
+    EXPECT_EQ(d.x[index_of(d, 0)], 0.0);
+    EXPECT_EQ(d.y[index_of(d, 1)], 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace carom::exact_tests
