@@ -54,6 +54,20 @@ Scene burst_scene() {
   return plain_scene(box, 30.0);
 }
 
+// Each bounce is lower than the one before; what stops the run is the same bounce.
+TEST(CrowdedWindow, BallsThatComeToRestStopBothEnginesAtTheSameBounce) {
+  const std::string balls =
+      "[[disks]]\ncount = 2\npositions = [[5, 5], [12, 8]]\nvelocities = [[0.125, 0], [0, 0]]\nradius = 0.5\nmass = "
+      "1\n";
+  const std::string shelf = "[[walls]]\nfrom = [1, 2]\nto = [19, 2]\n";
+  for (const auto& [below, tables] :
+       {std::pair{"the bottom wall", balls}, std::pair{"the wall walls.0", balls + shelf}}) {
+    const Scene scene = make_scene({20, 20, "wall_restitution = 0.5", "gravity = 1.0", tables, 100, ""});
+    EXPECT_THAT(outcome(scene, initial_state(scene)),
+                AllOf(HasSubstr("pile up in vanishing time"), HasSubstr(std::string("with ") + below)));
+  }
+}
+
 // pi sqrt(M / m), as the collisions of 1 : 100^n count the digits of pi; half of them between the disks.
 TEST(LongCrowdedWindow, FiniteBurstsAreCountedToTheEndByBothEngines) {
   for (const double ratio : {1e-8, 1e-10, 1e-12}) {

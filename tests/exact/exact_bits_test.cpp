@@ -1,5 +1,5 @@
-// The reference's bits where few scenes have the chance to lose them: events at the same moment, disks on a side at the
-// end of a window, falls through lists that are built anew, and newcomers larger than all before.
+// The reference's bits, after windows and within them, where few scenes have the chance to lose them: events at the
+// same moment, disks on a side at the end of a window, falls through lists that are built anew, rough disks that spin.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -13,11 +13,19 @@
 namespace carom::exact_tests {
 namespace {
 
-// After each window; returns the last state.
+// As they are written to a frame.
+std::uint64_t hash_at(const Engine& engine, double t) {
+  Disks then;
+  engine.disks_at(t, then);
+  return state_hash(then);
+}
+
+// After each window, and of frames within it; returns the last state.
 State expect_bits_of_reference(const Scene& scene, const State& start) {
   const auto reference = make_reference_exact(scene, start);
   const auto engine = make_parallel_engine(scene, start, {1});
   const auto on_threads = make_parallel_engine(scene, start, {3, 128});
+  double before = 0.0;
   while (reference->state().time < scene.run.t_end && !testing::Test::HasFailure()) {
     reference->step();
     const State& right = reference->state();
@@ -26,7 +34,12 @@ State expect_bits_of_reference(const Scene& scene, const State& start) {
       EXPECT_EQ(e->state().time, right.time);
       EXPECT_EQ(state_hash(e->state().disks), state_hash(right.disks)) << "at t = " << right.time;
       EXPECT_EQ(e->state().counters.collisions, right.counters.collisions);
+      for (const double share : {0.25, 0.5, 0.75}) {
+        const double t = before + share * (right.time - before);
+        EXPECT_EQ(hash_at(*e, t), hash_at(*reference, t)) << "frame at " << t;
+      }
     }
+    before = right.time;
   }
   return reference->state();
 }
@@ -74,6 +87,30 @@ TEST(ExactBits, OfAFallThroughListsThatAreBuiltAnew) {
   scene.seed = 41962;
   const State end = expect_bits_of_reference(scene, initial_state(scene));
   EXPECT_GT(end.counters.collisions, 200U);
+}
+
+// Between two collisions of a window, and before the first.
+TEST(ExactBits, OfTheSpinOfRoughDisks) {
+  const std::string rough = "roughness = { tangential_restitution = 0.4, friction = 0.5 }";
+  for (const int count : {20, 80}) {
+    const Scene scene =
+        make_scene({20, 16, "wall", rough,
+                    "[[disks]]\ncount = " + std::to_string(count) +
+                        "\npositions = \"random\"\nvelocities = { maxwell = 1.0 }\nradius = 0.4\nmass = 1.0\n",
+                    12, ""});
+    const State end = expect_bits_of_reference(scene, initial_state(scene));
+    EXPECT_GT(end.counters.collisions, 20U);
+  }
+}
+
+// Through the top of a box that shears, and what is still on its way.
+TEST(ExactBits, OfFramesOfAShear) {
+  const Scene scene = make_scene(
+      {20, 16, "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = 0.3",
+       "", "[[disks]]\ncount = 80\npositions = \"random\"\nvelocities = { maxwell = 1.0 }\nradius = 0.4\nmass = 1.0\n",
+       6, ""});
+  const State end = expect_bits_of_reference(scene, initial_state(scene));
+  EXPECT_GT(end.counters.collisions, 20U);
 }
 
 // In the last window a disk comes to a periodic side to the last bit: it is at 0, not at the box's width.
