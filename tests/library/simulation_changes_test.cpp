@@ -112,6 +112,51 @@ TEST(LongSimulationChanges, ManyChangesHaveTheReferencesBits) {
   }
 }
 
+// One of three kinds of change, the same to both; new disks come two at a time, and the second one flies into the
+// first.
+void change_both(Simulation& one, Simulation& other, bool mixed, test::Draws& draw) {
+  const auto id = static_cast<DiskId>(draw.bits() % one.state().next_id);
+  const Vec2 v{draw.in(-4.0, 4.0), draw.in(-4.0, 4.0)};
+  const std::uint64_t kind = draw.bits() % 4;
+  if (kind < 2) {
+    const bool there = kind == 0 ? one.remove(id) : one.set_velocity(id, v);
+    EXPECT_EQ(kind == 0 ? other.remove(id) : other.set_velocity(id, v), there);
+    return;
+  }
+  const double x = draw.in(1.0, one.scene().box.width - 3.0), y = draw.in(1.0, one.scene().box.height - 1.0);
+  const double sizes[] = {0.05, 0.2, 0.3, 0.8};
+  const double r = mixed ? sizes[draw.bits() % 4] : 0.3;
+  EXPECT_EQ(one.add({x, y, v.x, v.y, r, 1.0}), other.add({x, y, v.x, v.y, r, 1.0}));
+  const Disk second{x + r + 0.32, y, v.x - 2.0, v.y, 0.3, 1.0};
+  EXPECT_EQ(one.add(second), other.add(second));
+}
+
+// And each disk is found where it is, however far it has left the cell that it was sorted into.
+TEST(SimulationChanges, ManyInASmallBoxHaveTheReferencesBitsAfterEachStep) {
+  for (const char* radius : {"0.3", "{ uniform = [0.1, 0.4] }"}) {
+    const bool mixed = radius[0] == '{';
+    const Scene scene = parse_scene(
+        std::string("[box]\nwidth = 20.0\nheight = 16.0\nleft = \"periodic\"\nright = \"periodic\"\n[[disks]]\n"
+                    "count = 200\npositions = \"random\"\nmass = 1.0\nvelocities = { maxwell = 1.0 }\nradius = ") +
+            radius + "\n[run]\ndt = 0.01\nt_end = 1e3\nmethod = \"pairwise\"\n",
+        "gas.toml", "");
+    Simulation reference(scene, choice("reference")), parallel(scene, choice());
+    test::Draws draw(5);
+    for (int round = 0; round < 150; ++round) {
+      if (round % 3 == 0) change_both(reference, parallel, mixed, draw);
+      const Disks& all = reference.state().disks;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const Vec2 corner{all.x[i] - 0.001, all.y[i] - 0.001}, end{all.x[i] + 0.001, all.y[i] + 0.001};
+        ASSERT_EQ(parallel.disks_in(corner, end).size(), 1U) << radius << " in round " << round;
+      }
+      reference.step(1);
+      parallel.step(1);
+      ASSERT_EQ(parallel.hash(), reference.hash()) << radius << " in round " << round;
+    }
+    EXPECT_GT(reference.state().counters.collisions, 200U);
+  }
+}
+
 // The cells of the lists were made for disks of a few sizes, none as small.
 TEST(SimulationChanges, AddsADiskSmallerThanAllWithTheReferencesBits) {
   for (const char* radius : {"0.3", "{ uniform = [0.3, 0.5] }", "{ uniform = [0.1, 0.6] }"}) {
@@ -158,6 +203,24 @@ TEST(SimulationChanges, ChangesSplitStepsAsTheReferenceDoes) {
   expect_same("0.5", 1.0, [](Simulation& s) { s.set_velocity(2, {60.0, 0.0}); });
   expect_same("0.5", 1.0, [](Simulation& s) { s.add({20.0, 80.0, 5.0, 0.0, 0.01, 1.0}); });
   expect_same("[0.05, 0.5, 0.5]", 10.0, [](Simulation& s) { s.remove(0); });
+}
+
+// So many that the one that has come is not sorted among them at once.
+TEST(SimulationChanges, AFastDiskThatComesToManySplitsAllStepsThatFollow) {
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 100.0\nheight = 100.0\n[[disks]]\ncount = 400\npositions = \"square\"\nregion = [0, 0, 100, 60]\n"
+      "radius = 0.5\nmass = 1.0\n[run]\nmethod = \"pairwise\"\ndt = 0.02\nt_end = 10.0\n",
+      "many.toml", "");
+  Simulation reference(scene, choice("reference")), parallel(scene, choice());
+  for (Simulation* s : {&reference, &parallel}) {
+    s->step(1);
+    s->add({10.0, 80.0, 61.7, -13.1, 0.5, 1.0});
+  }
+  for (int k = 0; k < 40; ++k) {
+    reference.step(1);
+    parallel.step(1);
+    ASSERT_EQ(parallel.hash(), reference.hash()) << "step " << k;
+  }
 }
 
 // The paths of the last window end with a change.
