@@ -91,6 +91,16 @@ TEST(LongSlabExact, HasTheBitsOfUnequalDisksThatLoseEnergy) {
   }
 }
 
+// When a disk collided last, and how often it has met a thermal side, every rank knows that sees it.
+TEST(LongSlabExact, HasTheBitsOfDisksThatRememberTheirContacts) {
+  for (const double width : {6.0, 10.0}) {
+    TallBox tall{.sides = "hot", .width = width, .disks = static_cast<int>(90.0 * width), .t_end = 16.0};
+    tall.features.restitution = 0.7;
+    tall.box = "[physics.collapse]\nmodel = \"tc\"\ncontact_time = 0.1\n";
+    EXPECT_GT(expect_bits_on_slabs(tall).wall_collisions, 2000U);
+  }
+}
+
 TEST(SlabExact, HasTheBitsOfRoughDisks) {
   for (const char* rough : {"sticking", "sliding"}) {
     TallBox tall{.sides = "wall"};

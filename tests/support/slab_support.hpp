@@ -29,6 +29,7 @@ struct SlabTrace {
   std::vector<std::uint64_t> hashes;  // after every step
   std::vector<std::size_t> contacts;  // likewise, their number
   Counters counters;
+  WorstOverlap worst_disks, worst_wall;
   std::vector<std::string> warnings;
   std::size_t most_moved = 0;  // on ranks: the most disks that came to a rank, or left it, in a step
   std::size_t most_disks = 0;  // and the most that it had after one
@@ -52,6 +53,15 @@ inline std::uint64_t state_hash_over_ranks(Ranks& ranks, const Disks& own) {
   return state_hash(all.disks, all.sum);
 }
 
+// What the engine has come to at the end of the run.
+inline void see_end(Engine& engine, SlabTrace& trace) {
+  const State& state = engine.state();
+  trace.counters = state.counters;
+  trace.worst_disks = state.validity.disks;
+  trace.worst_wall = state.validity.wall;
+  trace.warnings = engine.take_warnings();
+}
+
 inline SlabTrace one_machine_trace(const Scene& scene, const State& start) {
   SlabTrace trace;
   const auto engine = make_parallel_engine(scene, start, {1});
@@ -60,8 +70,7 @@ inline SlabTrace one_machine_trace(const Scene& scene, const State& start) {
     trace.hashes.push_back(state_hash(engine->state().disks));
     trace.contacts.push_back(engine->contacts().size());
   }
-  trace.counters = engine->state().counters;
-  trace.warnings = engine->take_warnings();
+  see_end(*engine, trace);
   return trace;
 }
 
@@ -81,12 +90,18 @@ inline SlabTrace slab_trace(const Scene& scene, const State& start, const Thread
     trace.last_disks = now;
     trace.most_moved = std::max(trace.most_moved, std::max(before, now) - std::min(before, now));
   }
-  trace.counters = engine->state().counters;
-  trace.warnings = engine->take_warnings();
+  see_end(*engine, trace);
   trace.thin = std::erase_if(trace.warnings, [](const std::string& warning) {
     return warning.find("slabs would be thinner") != std::string::npos || warning.find("one rank runs all disks") == 0;
   });
   return trace;
+}
+
+inline void expect_same(const WorstOverlap& expected, const WorstOverlap& worst) {
+  EXPECT_EQ(expected.overlap.size, worst.overlap.size);
+  EXPECT_EQ(expected.overlap.id1, worst.overlap.id1);
+  EXPECT_EQ(expected.overlap.id2, worst.overlap.id2);
+  EXPECT_EQ(expected.time, worst.time);
 }
 
 inline void expect_same(const SlabTrace& expected, const SlabTrace& trace) {
@@ -96,6 +111,8 @@ inline void expect_same(const SlabTrace& expected, const SlabTrace& trace) {
   }
   EXPECT_EQ(expected.contacts, trace.contacts);
   EXPECT_EQ(expected.warnings, trace.warnings);
+  expect_same(expected.worst_disks, trace.worst_disks);
+  expect_same(expected.worst_wall, trace.worst_wall);
   EXPECT_EQ(expected.counters.steps, trace.counters.steps);
   EXPECT_EQ(expected.counters.collisions, trace.counters.collisions);
   EXPECT_EQ(expected.counters.wall_collisions, trace.counters.wall_collisions);
