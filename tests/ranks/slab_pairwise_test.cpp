@@ -137,6 +137,37 @@ TEST(SlabPairwiseRun, HasTheBitsBetweenThermalSides) {
   EXPECT_GT(local_trace(scene, start, {1, 1}, 4).most_moved, 0U);
 }
 
+// Steps are split on all ranks alike after kicks that make disks faster, newcomers that are fast or small, and sinks
+// that take the smallest.
+TEST(SlabPairwiseRun, SplitsStepsAsOneMachineDoes) {
+  const auto scene = [](const std::string& box, const std::string& physics, const std::string& disks,
+                        const std::string& end) {
+    return parse_scene("seed = 4427\n[box]\n" + box + "[physics]\n" + physics +
+                           "[[disks]]\npositions = \"random\"\nmass = 1.0\n" + disks +
+                           "[run]\nmethod = \"pairwise\"\n" + end,
+                       "split.toml", "");
+  };
+  const std::string around = "left = \"periodic\"\nright = \"periodic\"\n";
+  const std::string square = "width = 20.0\nheight = 16.0\n" + around;
+  const Scene kicked =
+      scene(square, "thermostat = { kind = \"langevin\", temperature = 9.0, rate = 0.05, dt = 0.25 }\n",
+            "count = 120\nradius = 0.4\nvelocities = { maxwell = 0.1 }\n", "dt = 0.05\nt_end = 5.0\n");
+  const Scene emitted = scene(
+      square, "",
+      "count = 60\nradius = 0.5\nvelocities = { maxwell = 1.0 }\n[[sources]]\nregion = [2, 2, 18, 14]\nrate = 20.0\n"
+      "radius = { uniform = [0.15, 0.5] }\nmass = 1.0\nvelocities = { maxwell = 20.0 }\n",
+      "dt = 0.03\nt_end = 3.0\n");
+  const Scene taken =
+      scene("width = 38.63\nheight = 77.26\nbottom = \"sink\"\n" + around, "gravity = 0.1\nrestitution = 0.5\n",
+            "count = 30\nradius = { uniform = [0.75498, 3.01992] }\nvelocities = { maxwell = 1.0 }\n",
+            "dt = 0.50332\nt_end = 50.332\n");
+  for (const Scene& each : {kicked, emitted, taken}) {
+    const test::SlabTrace trace = expect_bits(each, {2, 3}, RankThreads::alternate);
+    EXPECT_GT(trace.counters.collisions, 5U);
+    EXPECT_FALSE(trace.warnings.empty()) << "of steps that are split";
+  }
+}
+
 TEST(SlabPairwiseRun, HasTheBitsOfASceneWithoutDisks) {
   expect_bits(slab_scene("wall", "width = 3.0\nheight = 3.0\n",
                          "count = 0\npositions = \"random\"\nradius = 0.5\nmass = 1.0\n", 0.1, 3),
