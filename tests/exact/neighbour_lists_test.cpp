@@ -96,6 +96,37 @@ TEST(NeighbourLists, HoldAllDisksNear) {
   }
 }
 
+// For a newcomer at any place all that it may overlap are named, for a rectangle all whose centres may be in it, while
+// disks are within the skin of where they are listed.
+TEST(NeighbourLists, NameAllThatMayBeAtAPlace) {
+  for (const bool mixed : {false, true}) {
+    test::Draws draws(21);
+    Domain box;
+    box.width = 60.0;
+    box.height = 40.0;
+    box.sides.fill(SideKind::periodic);
+    Disks d = random_disks(draws, 1500, box.width, box.height, mixed);
+    NeighbourLists lists;
+    lists.build(d, box, {EngineMode::single_queue, 0, 0, 1.0, false}, Executor(1));
+    for (int k = 0; k < 300; ++k) {
+      const Vec2 at{draws.in(0.0, box.width), draws.in(0.0, box.height)};
+      const double radius = draws.in(0.05, 0.5), half = draws.in(0.01, 2.0);
+      std::vector<unsigned char> touched(d.size(), 0), near(d.size(), 0);
+      lists.visit_possible_overlaps(at.x, at.y, radius, [&](std::uint32_t i) { touched[i] = 1; });
+      lists.visit_near(at, half, 0.5 * half, [&](std::uint32_t i) { near[i] = 1; });
+      for (std::uint32_t i = 0; i < d.size(); ++i) {
+        const Vec2 place = lists.listed_position(i);
+        const double dx = apart(place.x, at.x, box.width, true), dy = apart(place.y, at.y, box.height, true);
+        const double skin = lists.skin() * (1.0 - 1e-9);
+        const bool may_touch = std::hypot(dx, dy) < radius + d.radius_of(i) + skin;
+        const bool may_be_in = dx < half + skin && dy < 0.5 * half + skin;
+        ASSERT_TRUE(touched[i] != 0 || !may_touch) << "disk " << i;
+        ASSERT_TRUE(near[i] != 0 || !may_be_in) << "disk " << i;
+      }
+    }
+  }
+}
+
 // Disks at the bottom of a tall box list their neighbours, not all of the pile: about pi 2.05^2, cutoffs being up
 // to 2.05 spacings of where they are.
 TEST(NeighbourLists, OfAPileInATallBoxAreAsLongAsOfAGas) {
