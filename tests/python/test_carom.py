@@ -348,10 +348,13 @@ def test_a_fork_is_refused_where_threads_would_be_missing():
     assert os.read(read, 1000).decode() == f"refused {alone.hash} {alone.hash}"
 
 
-def test_a_series_of_one_row_has_columns(tmp_path):
-    scene = carom.Scene.parse(gas(5).toml(), {"output.series": True, "run.t_end": 0.0})
+def test_a_series_has_the_columns_of_its_file_with_one_row_too(tmp_path):
+    disks = [{"name": name, "count": 2, "positions": "random", "radius": 0.5, "mass": 1.0} for name in ("big-ones", "b")]
+    scene = carom.Scene({"box": {"width": 9.0, "height": 9.0}, "disks": disks, "run": {"t_end": 0.0}, "output": {"series": True}})
     series = carom.run(scene, out=tmp_path / "run").series
-    assert series["t"].shape == (1,) and series["disks"][0] == 5.0
+    assert list(series) == (tmp_path / "run" / "series.csv").read_text().split("\n")[0].split(",")
+    assert any("big-ones" in name for name in series)
+    assert series["t"].shape == (1,) and series["disks"][0] == 4.0
 
 
 def test_map_runs_each_by_itself():
