@@ -348,6 +348,15 @@ def test_a_fork_is_refused_where_threads_would_be_missing():
     assert os.read(read, 1000).decode() == f"refused {alone.hash} {alone.hash}"
 
 
+def test_the_next_multiple_is_the_least_beyond_a_time():
+    from carom._simulation import _next_multiple
+    for interval in (0.1, 0.3, 0.7, 1.1):
+        for k in range(1, 300):
+            for time in (np.nextafter(interval * k, 0.0), interval * k, np.nextafter(interval * k, np.inf)):
+                found = _next_multiple(interval, time)
+                assert interval * found > time and (found == 1 or interval * (found - 1) <= time), (interval, time)
+
+
 def test_a_series_has_the_columns_of_its_file_with_one_row_too(tmp_path):
     disks = [{"name": name, "count": 2, "positions": "random", "radius": 0.5, "mass": 1.0} for name in ("big-ones", "b")]
     scene = carom.Scene({"box": {"width": 9.0, "height": 9.0}, "disks": disks, "run": {"t_end": 0.0}, "output": {"series": True}})
