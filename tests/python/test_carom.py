@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import pickle
+import signal
 import subprocess
 import threading
 import time
@@ -325,7 +326,8 @@ def test_two_simulations_in_two_threads_while_python_runs():
 
 
 def test_a_fork_is_refused_where_threads_would_be_missing():
-    carom.Simulation(gas(), threads=2).step(3)
+    several = carom.Simulation(gas(), threads=2)
+    several.step(3)
     alone = carom.Simulation(gas(), threads=1)
     alone.step(3)
     read, write = os.pipe()
@@ -336,6 +338,11 @@ def test_a_fork_is_refused_where_threads_would_be_missing():
             carom.Simulation(gas(), threads=2)
         except RuntimeError as error:
             said = b"refused" if "forked" in str(error) else b"other"
+        try:
+            signal.alarm(30)  # threads that are not there would never answer
+            several.step(1)
+        except RuntimeError as error:
+            said += b" twice" if "began in another process" in str(error) else b" other"
         try:  # neither has more than one thread, whatever is asked of the reference
             for one in (carom.Simulation(gas(), threads=1), carom.Simulation(gas(), threads=2, engine="reference")):
                 one.step(3)
@@ -345,7 +352,7 @@ def test_a_fork_is_refused_where_threads_would_be_missing():
         os.write(write, said)
         os._exit(0)
     os.waitpid(pid, 0)
-    assert os.read(read, 1000).decode() == f"refused {alone.hash} {alone.hash}"
+    assert os.read(read, 1000).decode() == f"refused twice {alone.hash} {alone.hash}"
 
 
 def test_the_next_multiple_is_the_least_beyond_a_time():

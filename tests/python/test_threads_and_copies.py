@@ -51,6 +51,7 @@ def test_a_copy_is_another_simulation(engine):
     for other in copies:
         other.step(20)
     assert sim.hash == before
+    assert [(c._sim.engine, c._sim.threads) for c in copies] == [(engine, 1)] * 3
     sim._callbacks.clear()
     sim.step(20)
     assert [c.hash for c in copies] == [sim.hash] * 3
