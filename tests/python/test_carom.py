@@ -247,6 +247,8 @@ def test_changes_and_questions():
     assert sim.add(d.x[7], d.y[7], radius=0.5) is None
     assert sim.remove(7) and not sim.remove(7) and len(sim) == 49
     new = sim.add(d.x[7], d.y[7], vx=1.0, radius=0.5, mass=2.0)
+    with_new = sim.disks()
+    assert [column[with_new.id == new][0] for column in (with_new.vx, with_new.radius, with_new.mass)] == [1.0, 0.5, 2.0]
     assert new == 50
     assert sim.set_velocity(50, 0.0, 3.0) and not sim.set_velocity(7, 0.0, 0.0)
     hit = sim.cast_ray(d.x[7], d.y[7], 1.0, 0.0, 1.0)
