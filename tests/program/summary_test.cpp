@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -30,12 +31,19 @@ Summary summary_of(const Scene& scene) {
   return summarize(remembered, *engine, scene, choice);
 }
 
-// At rest, then at speed 2 after a fall of 1 in a unit of time.
+// On its way at speed 4, then besides at speed 2 downwards, after a fall of 1 in a unit of time.
 TEST(Summary, ThePressureIsFromTheEnergyOfMotionHalfwayBetweenStartAndEnd) {
-  const Summary s = summary_of(scene_with("", "gravity = 2.0\n", "[0.0, 0.0]"));
+  const Summary s = summary_of(scene_with("", "gravity = 2.0\n", "[4.0, 0.0]"));
   EXPECT_EQ(s.counters.virial, 0.0);
-  EXPECT_EQ(s.kinetic_final, 4.0);
-  EXPECT_DOUBLE_EQ(s.pressure, 0.5 * 4.0 / (10.0 * 10.0));
+  EXPECT_EQ(s.kinetic_initial, 16.0);
+  EXPECT_EQ(s.kinetic_final, 20.0);
+  EXPECT_DOUBLE_EQ(s.pressure, 18.0 / (10.0 * 10.0));
+}
+
+// The same fall from rest: nothing is known of the mean between 0 and 4.
+TEST(Summary, ThereIsNoPressureWhereTheEnergyOfMotionChangesByMoreThanAQuarter) {
+  EXPECT_TRUE(std::isnan(summary_of(scene_with("", "gravity = 2.0\n", "[0.0, 0.0]")).pressure));
+  EXPECT_TRUE(std::isnan(summary_of(scene_with("", "gravity = 2.0\n", "[3.0, 0.0]")).pressure)) << "9 and 13";
 }
 
 // The floor comes up by 2, by 1 of it halfway.
