@@ -316,8 +316,8 @@ class NeighbourLists {
   }
   // The same of one level, wherever its cells lie.
   template <class Visit>
-  [[gnu::noinline]] void visit_cells_apart(const GridLevel& level, FixedPointPosition position, ListReach reach,
-                                           Visit&& visit) const {
+  [[gnu::noinline, gnu::hot]] void visit_cells_apart(const GridLevel& level, FixedPointPosition position,
+                                                     ListReach reach, Visit&& visit) const {
     const Span rows = stored_span(level, span_around_listed(position.y, reach.y, level.rows, box_.periodic_y()));
     const Span columns = span_around_listed(position.x, reach.x, level.columns, box_.periodic_x());
     for_each_cell_block(level, rows, columns, visit);
