@@ -108,7 +108,7 @@ const JsonKey<Summary> summary_keys[] = {
     {"pressure", "energy / area",
      "mean over the run, from collisions and the kinetic energy halfway between start and end (in a shear flow that "
      "relative to it at the end); null likewise, and where these two differ by more than a quarter: the pressure of a "
-     "gas that cools or heats up is in series.csv, over time",
+     "gas that cools or heats up is in series.csv, over time (output.series)",
      [](const Summary& s) -> Json { return json_number(s.pressure); }},
     {"collision_rate", "1 / time",
      "collisions that a disk takes part in per unit time, over the time that all disks were there; in time stepping "
@@ -210,8 +210,10 @@ std::string traffic_line(const Summary& s) {
 // "0.0734"; of a gas that cools or heats up, why there is none.
 std::string pressure_line(const Summary& s) {
   if (std::isnan(s.pressure)) {
-    return fmt::format("not known from the kinetic energy at the start, {:.6g}, and at the end, {:.6g}; see series.csv",
-                       s.kinetic_initial, s.kinetic_final);
+    return fmt::format(
+        "not known from the kinetic energy at the start, {:.6g}, and at the end, {:.6g}; output.series = true tells it "
+        "over time",
+        s.kinetic_initial, s.kinetic_final);
   }
   return fmt::format("{:.6g}{}", s.pressure, s.box.shear.acts() ? ", with the temperature at the end" : "");
 }

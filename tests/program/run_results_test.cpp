@@ -116,7 +116,7 @@ TEST_F(RunResults, WhatThePressureIsWhereTheEnergyChanges) {
   EXPECT_TRUE(s["pressure"].is_null()) << s["pressure"];
   EXPECT_THAT(o.out,
               HasSubstr(fmt::format("  pressure    not known from the kinetic energy at the start, {:.6g}, and at "
-                                    "the end, {:.6g}; see series.csv\n",
+                                    "the end, {:.6g}; output.series = true tells it over time\n",
                                     s["energy_initial"].get<double>(), s["energy_final"].get<double>())));
   std::string sheared = "run small.toml -o sheared --set box.shear_rate=0.1";
   for (const char* const side : {"left", "right", "bottom", "top"}) {
