@@ -67,7 +67,7 @@ void EventProcessor<scope>::take(std::uint32_t i, double time) {
 
 template <Scope scope>
 void EventProcessor<scope>::collide_pair(std::uint32_t i, std::uint32_t j, double time) {
-  if (is_plainest_) {
+  if (is_elastic_of_one_mass_) {
     collide_plain_pair<true>(i, j, time);
   } else if (is_plain_) {
     collide_plain_pair<false>(i, j, time);

@@ -35,7 +35,7 @@ EventProcessor<scope>::EventProcessor(WindowState& window, NeighbourLists& lists
       predictor_(window, lists),
       record_(window.record.data()),
       is_plain_(is_plain(window)),
-      is_plainest_(is_plain_ && window.rules.common_mass && window.burst.empty()),
+      is_elastic_of_one_mass_(is_plain_ && window.rules.common_mass && window.burst.empty()),
       is_straight_(!window.rules.gravity.acts() && !window.rules.box.shear.acts()),
       reduced_mass_(reduced_mass(window.disks->common_mass, window.disks->common_mass)),
       inner_part_(window.rules.box) {}

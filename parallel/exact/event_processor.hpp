@@ -130,10 +130,10 @@ class EventProcessor {
   SafeTimes safe_times_;
   EventPredictor predictor_;
   DiskRecord* record_;
-  bool is_plain_;        // straight paths and a known restitution, and no spins
-  bool is_plainest_;     // besides, all disks have one mass, and nothing loses energy
-  bool is_straight_;     // neither gravity nor a shear acts
-  double reduced_mass_;  // of two disks, where all have one mass
+  bool is_plain_;                // straight paths and a known restitution, and no spins
+  bool is_elastic_of_one_mass_;  // besides, nothing loses energy
+  bool is_straight_;             // neither gravity nor a shear acts
+  double reduced_mass_;          // of two disks, where all have one mass
   InnerPart inner_part_;
   // Of the last collisions of a plain scene, which are not tallied yet.
   std::array<double, 256> virials_{};
