@@ -25,17 +25,6 @@ void PrintTo(const ParallelCase& c, std::ostream* out) {
   *out << c.name;
 }
 
-// Everything that a run leaves behind, in bits.
-std::string fingerprint(const State& s) {
-  const Counters& c = s.counters;
-  return fmt::format(
-      "{} t {} n {} steps {} collisions {} walls {} removed {} emitted {} waiting {} virial {} sides {} {} {} {} heat "
-      "{} shear {} {}",
-      hash_text(state_hash(s.disks)), s.time, s.disks.size(), c.steps, c.collisions, c.wall_collisions, c.removed,
-      c.emitted, c.waiting, c.virial, c.wall_impulse[0], c.wall_impulse[1], c.wall_impulse[2], c.wall_impulse[3],
-      fmt::join(c.side_energy, " "), c.shear_virial, c.shear_work);
-}
-
 // Parts, or where there are none regions and tiles, so small that even these scenes have some; with 1 in place of 128
 // there are none, and one queue has all events.
 State run_parallel(const Scene& scene, const State& initial, int threads, std::size_t block_divisor = 128) {
@@ -70,13 +59,6 @@ TEST_P(ExactParallel, SameBitsAsReference) {
   expect_same_bits(make_scene(GetParam().scene));
 }
 
-std::string disks(int count, const std::string& rest) {
-  return fmt::format("[[disks]]\ncount = {}\npositions = \"random\"\n{}\n", count, rest);
-}
-
-const std::string equal = "velocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0";
-const std::string mixed =
-    "velocities = { uniform = 2.0 }\nradius = { uniform = [0.1, 0.9] }\nmass = { uniform = [1, 40] }";
 const std::string dust = "velocities = { uniform = 1.0 }\nradius = 0.05\nmass = 0.01";
 const std::string giants = "[[disks]]\ncount = 2\npositions = [[6, 6], [18, 14]]\nradius = [5, 4]\nmass = [90, 70]\n";
 const std::string lattice =
@@ -106,12 +88,13 @@ const std::string settling = "gravity = 1.0\nrestitution = 0.6\ncollapse = { mod
 
 // Large disks that rest in the flow, which carries them into each other, beside small ones that crowd: lists are as
 // short as those ask for, windows as long as the large ones allow.
-const std::string resting_in_flow =
-    disks(40, "radius = 1.0\nmass = 1.0") + disks(60, "radius = 0.001\nmass = 1.0\nregion = [8.0, 4.0, 8.03, 4.03]");
+const std::string resting_in_flow = random_disks(40, "radius = 1.0\nmass = 1.0") +
+                                    random_disks(60, "radius = 0.001\nmass = 1.0\nregion = [8.0, 4.0, 8.03, 4.03]");
 
 // In a flat box skins are as wide as half of it is high: a disk that has gone round it has left its skin on the way.
 const std::string beside_wall =
-    disks(45, "velocities = { uniform = 1.0 }\nradius = { choice = [0.03, 1.0], weights = [5, 1] }\nmass = 1.0") +
+    random_disks(45,
+                 "velocities = { uniform = 1.0 }\nradius = { choice = [0.03, 1.0], weights = [5, 1] }\nmass = 1.0") +
     "[[walls]]\nfrom = [84.0, 0.0]\nto = [30.0, 0.5]\n";
 
 const auto name_of = [](const auto& p) { return std::string(p.param.name); };
@@ -119,38 +102,46 @@ const auto name_of = [](const auto& p) { return std::string(p.param.name); };
 INSTANTIATE_TEST_SUITE_P(
     Scenes, ExactParallel,
     testing::Values(
-        ParallelCase{"two", {10, 10, "periodic", "", disks(2, equal), 200, ""}},
-        ParallelCase{
-            "one",
-            {10, 10, "wall", "gravity = 0.3", disks(1, "velocities = [[1.0, 0.3]]\nradius = 1\nmass = 1"), 50, ""}},
-        ParallelCase{"few", {9, 9, "periodic", "", disks(30, equal), 20, ""}},
-        ParallelCase{"fluid", {25, 25, "periodic", "", disks(350, equal), 6, ""}},
-        ParallelCase{"sheared_few", {9, 11, sheared, "", disks(30, equal), 20, ""}},
-        ParallelCase{"sheared_mixed", {40, 24, sheared, "restitution = 0.8", disks(250, mixed), 12, ""}},
+        ParallelCase{"two", {10, 10, "periodic", "", random_disks(2, equal_disks), 200, ""}},
+        ParallelCase{"one",
+                     {10, 10, "wall", "gravity = 0.3",
+                      random_disks(1, "velocities = [[1.0, 0.3]]\nradius = 1\nmass = 1"), 50, ""}},
+        ParallelCase{"few", {9, 9, "periodic", "", random_disks(30, equal_disks), 20, ""}},
+        ParallelCase{"fluid", {25, 25, "periodic", "", random_disks(350, equal_disks), 6, ""}},
+        ParallelCase{"sheared_few", {9, 11, sheared, "", random_disks(30, equal_disks), 20, ""}},
+        ParallelCase{"sheared_mixed", {40, 24, sheared, "restitution = 0.8", random_disks(250, mixed_disks), 12, ""}},
         ParallelCase{"sheared_at_rest", {70, 9, sheared_fast, "", resting_in_flow, 3, ""}},
-        ParallelCase{"walls", {25, 25, "wall", "", disks(300, equal), 6, ""}},
-        ParallelCase{"dilute", {80, 80, "periodic", "", disks(150, equal), 60, ""}},
-        ParallelCase{"narrow", {2.3, 300, "left = \"periodic\"\nright = \"periodic\"", "", disks(150, equal), 10, ""}},
+        ParallelCase{"walls", {25, 25, "wall", "", random_disks(300, equal_disks), 6, ""}},
+        ParallelCase{"dilute", {80, 80, "periodic", "", random_disks(150, equal_disks), 60, ""}},
+        ParallelCase{
+            "narrow",
+            {2.3, 300, "left = \"periodic\"\nright = \"periodic\"", "", random_disks(150, equal_disks), 10, ""}},
         ParallelCase{"flat_with_wall", {84, 8.4, "periodic", "", beside_wall, 40, ""}},
-        ParallelCase{"gravity", {20, 30, "wall", "gravity = 1.5", disks(250, equal), 6, ""}},
-        ParallelCase{"falling_for_ever", {20, 20, "periodic", "gravity = 2.0", disks(200, equal), 4, ""}},
-        ParallelCase{"tilted", {20, 30, "wall", "gravity = [-0.9, -1.2]", disks(250, equal), 6, ""}},
-        ParallelCase{"falling_sideways", {20, 20, "periodic", "gravity = [2.0, 0.0]", disks(200, equal), 4, ""}},
-        ParallelCase{"falling_askew", {20, 20, "periodic", "gravity = [-1.0, 1.5]", disks(200, equal), 4, ""}},
-        ParallelCase{"mixed", {30, 30, "wall", "", disks(250, mixed), 12, ""}},
-        ParallelCase{"mixed_inelastic", {30, 30, "periodic", "restitution = 0.8", disks(250, mixed), 12, ""}},
-        ParallelCase{"giants_in_dust", {24, 24, "periodic", "", giants + disks(400, dust), 10, ""}},
-        ParallelCase{"tc", {20, 40, soft, settling, disks(120, mixed), 12, ""}},
-        ParallelCase{"hot", {25, 25, hot, "restitution = 0.95", disks(300, equal), 6, ""}},
+        ParallelCase{"gravity", {20, 30, "wall", "gravity = 1.5", random_disks(250, equal_disks), 6, ""}},
+        ParallelCase{"falling_for_ever", {20, 20, "periodic", "gravity = 2.0", random_disks(200, equal_disks), 4, ""}},
+        ParallelCase{"tilted", {20, 30, "wall", "gravity = [-0.9, -1.2]", random_disks(250, equal_disks), 6, ""}},
+        ParallelCase{"falling_sideways",
+                     {20, 20, "periodic", "gravity = [2.0, 0.0]", random_disks(200, equal_disks), 4, ""}},
+        ParallelCase{"falling_askew",
+                     {20, 20, "periodic", "gravity = [-1.0, 1.5]", random_disks(200, equal_disks), 4, ""}},
+        ParallelCase{"mixed", {30, 30, "wall", "", random_disks(250, mixed_disks), 12, ""}},
+        ParallelCase{"mixed_inelastic",
+                     {30, 30, "periodic", "restitution = 0.8", random_disks(250, mixed_disks), 12, ""}},
+        ParallelCase{"giants_in_dust", {24, 24, "periodic", "", giants + random_disks(400, dust), 10, ""}},
+        ParallelCase{"tc", {20, 40, soft, settling, random_disks(120, mixed_disks), 12, ""}},
+        ParallelCase{"hot", {25, 25, hot, "restitution = 0.95", random_disks(300, equal_disks), 6, ""}},
         ParallelCase{"hot_with_source", {20, 20, hot, "", sources, 10, ""}},
-        ParallelCase{"piston", {25, 25, piston, "", disks(250, equal), 6, ""}},
-        ParallelCase{"piston_of_resting_disks", {25, 25, piston, "", disks(150, "radius = 0.5\nmass = 1.0"), 12, ""}},
-        ParallelCase{"shaken", {20, 30, shaken, "gravity = 1.0\nrestitution = 0.9", disks(150, mixed), 6, ""}},
-        ParallelCase{"shaken_tc", {20, 30, shaken, settling, disks(120, mixed), 6, ""}},
-        ParallelCase{"swinging", {20, 20, swinging, "", disks(150, equal), 2, ""}},
-        ParallelCase{"brownian", {20, 20, "periodic", "diffusion = 0.5", disks(200, equal), 1, "dt = 0.01"}},
-        ParallelCase{"sinks", {20, 20, "sink", "", disks(200, equal), 10, ""}},
-        ParallelCase{"sources", {20, 20, open_sides, "", disks(100, equal) + sources, 10, ""}},
+        ParallelCase{"piston", {25, 25, piston, "", random_disks(250, equal_disks), 6, ""}},
+        ParallelCase{"piston_of_resting_disks",
+                     {25, 25, piston, "", random_disks(150, "radius = 0.5\nmass = 1.0"), 12, ""}},
+        ParallelCase{"shaken",
+                     {20, 30, shaken, "gravity = 1.0\nrestitution = 0.9", random_disks(150, mixed_disks), 6, ""}},
+        ParallelCase{"shaken_tc", {20, 30, shaken, settling, random_disks(120, mixed_disks), 6, ""}},
+        ParallelCase{"swinging", {20, 20, swinging, "", random_disks(150, equal_disks), 2, ""}},
+        ParallelCase{"brownian",
+                     {20, 20, "periodic", "diffusion = 0.5", random_disks(200, equal_disks), 1, "dt = 0.01"}},
+        ParallelCase{"sinks", {20, 20, "sink", "", random_disks(200, equal_disks), 10, ""}},
+        ParallelCase{"sources", {20, 20, open_sides, "", random_disks(100, equal_disks) + sources, 10, ""}},
         ParallelCase{"sources_alone", {20, 20, open_sides, "gravity = 0.2", sources, 10, ""}}),
     name_of);
 
@@ -158,20 +149,23 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     LongScenes, ExactParallel,
     testing::Values(
-        ParallelCase{"sheared", {25, 25, sheared, "", disks(350, equal), 8, ""}},
-        ParallelCase{"sheared_fast", {25, 30, sheared_fast, "restitution = 0.9", disks(350, equal), 6, ""}},
-        ParallelCase{"sheared_dilute", {80, 80, sheared, "", disks(150, equal), 60, ""}},
+        ParallelCase{"sheared", {25, 25, sheared, "", random_disks(350, equal_disks), 8, ""}},
+        ParallelCase{"sheared_fast",
+                     {25, 30, sheared_fast, "restitution = 0.9", random_disks(350, equal_disks), 6, ""}},
+        ParallelCase{"sheared_dilute", {80, 80, sheared, "", random_disks(150, equal_disks), 60, ""}},
         ParallelCase{"crystal", {21, 21, "periodic", "", lattice, 3, ""}},
-        ParallelCase{"tilted_mixed", {24, 24, "wall", "gravity = [0.9, 0.2]", disks(200, mixed), 8, ""}},
+        ParallelCase{"tilted_mixed", {24, 24, "wall", "gravity = [0.9, 0.2]", random_disks(200, mixed_disks), 8, ""}},
         ParallelCase{"tc_tilted",
                      {20, 40, soft,
                       "gravity = [0.6, -0.8]\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.01 }",
-                      disks(120, mixed), 12, ""}},
-        ParallelCase{"hot_mixed", {30, 30, hot, "gravity = 0.4", disks(250, mixed), 12, ""}},
-        ParallelCase{"shaken_fast", {20, 20, shaken_fast, "", disks(150, equal), 2, ""}},
-        ParallelCase{"brownian_sinks", {20, 20, "sink", "diffusion = 0.5", disks(200, equal), 3, "dt = 0.01"}},
-        ParallelCase{"brownian_accumulating",
-                     {20, 20, "wall", "diffusion = 0.5\naccumulate = true", disks(200, equal), 1, "dt = 0.02"}}),
+                      random_disks(120, mixed_disks), 12, ""}},
+        ParallelCase{"hot_mixed", {30, 30, hot, "gravity = 0.4", random_disks(250, mixed_disks), 12, ""}},
+        ParallelCase{"shaken_fast", {20, 20, shaken_fast, "", random_disks(150, equal_disks), 2, ""}},
+        ParallelCase{"brownian_sinks",
+                     {20, 20, "sink", "diffusion = 0.5", random_disks(200, equal_disks), 3, "dt = 0.01"}},
+        ParallelCase{
+            "brownian_accumulating",
+            {20, 20, "wall", "diffusion = 0.5\naccumulate = true", random_disks(200, equal_disks), 1, "dt = 0.02"}}),
     name_of);
 
 // Random scenes over all features.
@@ -188,7 +182,7 @@ TEST(ExactParallelRandom, ScenesOfAllFeatures) {
               "\nwall_restitution = 0.9";
     s.physics = fmt::format("gravity = {}\nrestitution = {}\ncollapse = {{ model = \"tc\", contact_time = 1e-3 }}",
                             k % 3 == 0 ? 0.0 : w.b, 0.6 + 0.4 * z.a);
-    s.disks = disks(n, mixed);
+    s.disks = random_disks(n, mixed_disks);
     if (k % 4 == 1)
       s.disks +=
           "[[sources]]\nside = \"right\"\nrate = 9.0\nradius = 0.2\nmass = 1.0\nvelocities = { uniform = 1.0 }\n";
@@ -292,8 +286,8 @@ TEST(LongExactParallelSpeeds, ThatRiseWithinAWindow) {
   const std::string heavy =
       "[[disks]]\ncount = 2\npositions = [[5, 12], [19, 12.3]]\nradius = [2, 2]\nmass = [900, 700]\n"
       "velocities = [[1.0, 0.1], [-1.0, 0.0]]\n";
-  expect_same_bits(make_scene({24, 24, "periodic", "", heavy + disks(300, cold), 6, ""}));
-  expect_same_bits(make_scene({24, 24, "wall", "gravity = 3.0", heavy + disks(300, cold), 3, ""}));
+  expect_same_bits(make_scene({24, 24, "periodic", "", heavy + random_disks(300, cold), 6, ""}));
+  expect_same_bits(make_scene({24, 24, "wall", "gravity = 3.0", heavy + random_disks(300, cold), 3, ""}));
 }
 
 // The mass of each disk of a row is a quarter of the one before: every collision passes on 1.6 times the speed,
@@ -309,7 +303,7 @@ TEST(ExactParallelSpeeds, ThatRiseAThousandfoldWithinAWindow) {
   }
   row += "]\n" + masses + "]\n" + velocities + "]\n";
   const std::string cold = "velocities = { maxwell = 1e-6 }\nradius = 0.4\nmass = 1.0";
-  const Scene scene = make_scene({24, 24, "periodic", "", row + disks(300, cold), 0.05, ""});
+  const Scene scene = make_scene({24, 24, "periodic", "", row + random_disks(300, cold), 0.05, ""});
   expect_same_bits(scene);
   double fastest2 = 0.0;
   const State end = run_parallel(scene, initial_state(scene), 2);
@@ -321,7 +315,7 @@ TEST(ExactParallelSpeeds, ThatRiseAThousandfoldWithinAWindow) {
 
 // Parts and regions of the size that runs have.
 TEST(LongExactParallelSize, PartsAndRegionsAsTheyAre) {
-  const Scene scene = make_scene({285, 285, "periodic", "", disks(50000, equal), 0.12, ""});
+  const Scene scene = make_scene({285, 285, "periodic", "", random_disks(50000, equal_disks), 0.12, ""});
   const State initial = initial_state(scene);
   const std::string reference = fingerprint(run_reference(scene, initial));
   for (const int threads : test::thread_counts) {
@@ -332,7 +326,7 @@ TEST(LongExactParallelSize, PartsAndRegionsAsTheyAre) {
 
 // After release_memory() the engine has no paths, only the state; what it builds again leads to the same bits.
 TEST(ExactParallelMemory, GivenBackChangesNoBit) {
-  const Scene scene = make_scene({30, 30, "periodic", "", disks(500, mixed), 50.0, ""});
+  const Scene scene = make_scene({30, 30, "periodic", "", random_disks(500, mixed_disks), 50.0, ""});
   const State initial = initial_state(scene);
   for (const std::size_t block_divisor : {1U, 128U}) {
     const auto kept = make_parallel_engine(scene, initial, {2, block_divisor});
@@ -347,60 +341,6 @@ TEST(ExactParallelMemory, GivenBackChangesNoBit) {
       EXPECT_EQ(state_hash(disks), state_hash(released->state().disks));
     }
     EXPECT_EQ(fingerprint(released->state()), fingerprint(kept->state()));
-  }
-}
-
-// Frames have the same bits too, and reading them changes nothing.
-void expect_same_frames(const Scene& scene) {
-  const State initial = initial_state(scene);
-  const auto reference = make_reference_exact(scene, initial);
-  const auto parallel = make_parallel_engine(scene, initial, {3, 128});
-  Disks a;
-  Disks b;
-  while (reference->state().time < scene.run.t_end) {
-    const double start = reference->state().time;
-    reference->step();
-    parallel->step();
-    for (int k = 0; k <= 4; ++k) {
-      const double t = start + 0.25 * k * (reference->state().time - start);
-      EXPECT_EQ(reference->disks_at(t, a), parallel->disks_at(t, b));
-      ASSERT_EQ(a.size(), b.size());
-      ASSERT_EQ(state_hash(a), state_hash(b)) << "at " << t;
-    }
-  }
-  EXPECT_EQ(fingerprint(reference->state()), fingerprint(parallel->state()));
-}
-
-TEST(ExactParallelFrames, SameBitsAtAnyTime) {
-  const Scene scene = make_scene({20, 20, open_sides, "gravity = 0.4", disks(150, mixed), 2.0, ""});
-  expect_same_frames(scene);
-  const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
-  while (engine->state().time < scene.run.t_end) engine->step();
-  EXPECT_GT(engine->state().counters.removed, 0U);
-}
-
-// Each combination of what an engine remembers of disks beside their paths: reflections by thermal sides, contacts.
-TEST(ExactParallelFrames, SameBitsWithMemoryOfContacts) {
-  const std::string tc = "restitution = 0.8\ncollapse = { model = \"tc\", contact_time = 0.001 }";
-  for (const std::string& sides : {std::string("wall"), hot}) {
-    for (const std::string& physics : {std::string(), tc}) {
-      SCOPED_TRACE(sides + "; " + physics);
-      expect_same_frames(make_scene({20, 20, sides, physics, disks(100, equal), 2.0, ""}));
-    }
-  }
-}
-
-// What a frame is read from when nothing has happened yet is the state at the window's start.
-TEST(ExactParallelFrames, AtTheStartIsTheState) {
-  const Scene scene = make_scene({20, 20, hot, "", disks(100, equal), 2.0, ""});
-  const State initial = initial_state(scene);
-  const auto reference = make_reference_exact(scene, initial);
-  const auto parallel = make_parallel_engine(scene, initial, {3, 128});
-  for (Engine* engine : {reference.get(), parallel.get()}) {
-    engine->step();
-    Disks frame;
-    EXPECT_EQ(engine->disks_at(0.0, frame), 0.0);
-    EXPECT_EQ(state_hash(frame), state_hash(initial.disks));
   }
 }
 

@@ -17,11 +17,6 @@
 namespace carom::exact_tests {
 namespace {
 
-std::string disks(int count, const std::string& rest) {
-  return fmt::format("[[disks]]\ncount = {}\npositions = \"random\"\n{}\n", count, rest);
-}
-
-const std::string equal = "velocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0";
 const std::string mixed =
     "velocities = { uniform = 2.0 }\nradius = { uniform = [0.2, 0.6] }\nmass = { uniform = [1, 40] }";
 
@@ -88,7 +83,7 @@ Tally run_beside_one_queue(const Scene& scene, int threads, std::size_t divisor,
 }
 
 TEST(LongHaloWindows, HardlyAnyIsVoid) {
-  const Scene scene = make_scene({100, 100, "periodic", "", disks(5000, equal), 1000, ""});
+  const Scene scene = make_scene({100, 100, "periodic", "", random_disks(5000, equal_disks), 1000, ""});
   for (const int threads : {2, 3}) {
     SCOPED_TRACE(threads);
     const Tally tally = run_beside_one_queue(scene, threads, 1, 60);
@@ -99,7 +94,7 @@ TEST(LongHaloWindows, HardlyAnyIsVoid) {
 
 // As wide as a part or narrower than what a collision reaches: some windows are void, and none is wrong.
 TEST(HaloWindows, AreVoidWhereHalosAreTooNarrow) {
-  const Scene scene = make_scene({60, 60, "periodic", "", disks(2000, equal), 1000, ""});
+  const Scene scene = make_scene({60, 60, "periodic", "", random_disks(2000, equal_disks), 1000, ""});
   Tally all;
   for (const int threads : {2, 3, 8}) {
     SCOPED_TRACE(threads);
@@ -114,7 +109,7 @@ TEST(HaloWindows, AreVoidWhereHalosAreTooNarrow) {
 // Work is cut so small that a part has 5 10^5 / 512 disks, if a thread has more than twice as many.
 // Halos of work cut so small are so narrow that most windows are void; those that are done have the right bits.
 TEST(LongHaloWindows, SeveralOnEachThread) {
-  const Scene scene = make_scene({100, 100, "periodic", "", disks(5000, equal), 1000, ""});
+  const Scene scene = make_scene({100, 100, "periodic", "", random_disks(5000, equal_disks), 1000, ""});
   for (const auto& [threads, parts] : {std::pair{1, 6U}, std::pair{2, 6U}, std::pair{3, 3U}}) {
     SCOPED_TRACE(threads);
     const Tally tally = run_beside_one_queue(scene, threads, 512, 30);
@@ -125,15 +120,17 @@ TEST(LongHaloWindows, SeveralOnEachThread) {
 
 TEST(LongHaloWindows, OfOtherScenes) {
   const std::vector<SceneText> scenes{
-      {140, 50, "periodic", "", disks(3500, equal), 1000, ""},
-      {60, 120, "wall", "gravity = [0.1, 0.5]", disks(3500, equal), 1000, ""},
-      {120, 60, "wall", "restitution = 0.95", disks(3500, mixed), 1000, ""},
-      {100, 100, "periodic", "gravity = 0.3\nrestitution = 0.9", disks(4000, mixed), 1000, ""},
-      {120, 60, "left = { temperature = 4.0 }\nright = { temperature = 0.5 }", "", disks(3500, equal), 1000, ""},
+      {140, 50, "periodic", "", random_disks(3500, equal_disks), 1000, ""},
+      {60, 120, "wall", "gravity = [0.1, 0.5]", random_disks(3500, equal_disks), 1000, ""},
+      {120, 60, "wall", "restitution = 0.95", random_disks(3500, mixed), 1000, ""},
+      {100, 100, "periodic", "gravity = 0.3\nrestitution = 0.9", random_disks(4000, mixed), 1000, ""},
+      {120, 60, "left = { temperature = 4.0 }\nright = { temperature = 0.5 }", "", random_disks(3500, equal_disks),
+       1000, ""},
       {100, 100, "periodic", "restitution = 0.9\ncollapse = { model = \"tc\", contact_time = 1e-3 }",
-       disks(4000, mixed), 1000, ""},
-      {100, 100, "wall", "roughness = { tangential_restitution = 0.3, friction = 0.4 }", disks(4000, mixed), 1000, ""},
-      {300, 300, "periodic", "", disks(3000, equal), 1000, ""}};
+       random_disks(4000, mixed), 1000, ""},
+      {100, 100, "wall", "roughness = { tangential_restitution = 0.3, friction = 0.4 }", random_disks(4000, mixed),
+       1000, ""},
+      {300, 300, "periodic", "", random_disks(3000, equal_disks), 1000, ""}};
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     SCOPED_TRACE(k);
     const Tally tally = run_beside_one_queue(make_scene(scenes[k]), 2, 1, 30);
@@ -194,7 +191,7 @@ TEST(HaloWindows, AreCrowdedAsOneQueueIs) {
 TEST(LongHaloWindows, WithAProjectile) {
   const std::string projectile =
       "[[disks]]\ncount = 1\npositions = [[50, 50]]\nvelocities = [[7, 99]]\nradius = 0.5\nmass = 1\n";
-  const Scene scene = make_scene({100, 100, "periodic", "", projectile + disks(4000, equal), 1000, ""});
+  const Scene scene = make_scene({100, 100, "periodic", "", projectile + random_disks(4000, equal_disks), 1000, ""});
   for (const std::size_t divisor : {std::size_t{1}, std::size_t{128}}) {
     const Tally tally = run_beside_one_queue(scene, 3, divisor, 30);
     EXPECT_GT(tally.done, 0);
@@ -210,7 +207,7 @@ std::vector<std::tuple<double, DiskId, DiskId>> in_order(const std::vector<DiskC
 
 // Frames within a window, and its collisions, are those of one queue.
 void expect_paths_of_one_queue(const std::string& physics) {
-  const Scene scene = make_scene({100, 100, "periodic", physics, disks(5000, mixed), 1000, ""});
+  const Scene scene = make_scene({100, 100, "periodic", physics, random_disks(5000, mixed), 1000, ""});
   const State initial = initial_state(scene);
   const auto one_queue = make_parallel_engine(scene, initial, {1});
   InParts parts(scene, initial, 2, 1);

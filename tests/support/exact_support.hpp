@@ -1,6 +1,8 @@
 // Building scenes and states for the tests of the exact method, and driving its engines.
 #pragma once
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -26,6 +28,14 @@ struct SceneText {
   double t_end = 1.0;
   std::string run;  // further lines of [run]
 };
+
+// A [[disks]] table of so many at random places; rest: its further lines, as those below.
+inline std::string random_disks(int count, const std::string& rest) {
+  return "[[disks]]\ncount = " + std::to_string(count) + "\npositions = \"random\"\n" + rest + "\n";
+}
+inline const std::string equal_disks = "velocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0";
+inline const std::string mixed_disks =
+    "velocities = { uniform = 2.0 }\nradius = { uniform = [0.1, 0.9] }\nmass = { uniform = [1, 40] }";
 
 inline Scene make_scene(const SceneText& s) {
   std::string text = "[box]\nwidth = " + std::to_string(s.width) + "\nheight = " + std::to_string(s.height) + "\n";
@@ -60,6 +70,17 @@ inline State run_reference(const Scene& scene, State initial, double window_scal
   const auto engine = make_reference_exact(scene, std::move(initial), window_scale);
   run_to_end(*engine, scene);
   return engine->state();
+}
+
+// Everything that a run leaves behind, in bits.
+inline std::string fingerprint(const State& s) {
+  const Counters& c = s.counters;
+  return fmt::format(
+      "{} t {} n {} steps {} collisions {} walls {} removed {} emitted {} waiting {} virial {} sides {} {} {} {} heat "
+      "{} shear {} {}",
+      hash_text(state_hash(s.disks)), s.time, s.disks.size(), c.steps, c.collisions, c.wall_collisions, c.removed,
+      c.emitted, c.waiting, c.virial, c.wall_impulse[0], c.wall_impulse[1], c.wall_impulse[2], c.wall_impulse[3],
+      fmt::join(c.side_energy, " "), c.shear_virial, c.shear_work);
 }
 
 // Entry of the disk with this id.
