@@ -117,23 +117,34 @@ template <class RestitutionOf, class Rub>
   return outcome;
 }
 
+// The restitution of a contact of two disks.
+struct PairRestitution {
+  double value;
+  bool elastic;  // by the TC model
+  bool held;     // it would lose energy otherwise
+};
+
+// Of smooth disks that approach as r says, at time s, if one of them collided at last_contact.
+inline PairRestitution restitution_of_pair(const ExactRules& rules, double s, DiskId first, DiskId second,
+                                           double last_contact, const Relative& r) {
+  const double e = rules.law == nullptr
+                       ? rules.restitution
+                       : std::max(least_rebound, restitution_at(rules.law->of(rules.restitution, first, second),
+                                                                speed_of_approach(r)));
+  const bool elastic = made_elastic(rules, s, last_contact);
+  return {elastic ? 1.0 : e, elastic, elastic && e < 1.0};
+}
+
 // Disks a and b, the one with the smaller id first, collide at time s; their new segments start there.
 inline Impact collide_at(const ExactRules& rules, double s, ExactDisk& a, ExactDisk& b) {
   const Shares share = rules.common_mass ? equal_shares : shares(a.mass, b.mass);
-  bool elastic = false;       // by the TC model, and smooth
-  bool held_elastic = false;  // where that makes a difference
+  PairRestitution pair{rules.restitution, false, false};
   const auto restitution = [&](const Relative& r) {
-    if (rules.constant) return rules.restitution;
-    const double e = rules.law == nullptr
-                         ? rules.restitution
-                         : std::max(least_rebound,
-                                    restitution_at(rules.law->of(rules.restitution, a.id, b.id), speed_of_approach(r)));
-    elastic = made_elastic(rules, s, std::max(a.last_contact, b.last_contact));
-    held_elastic = elastic && (e < 1.0 || rubs_away(rules, Touching::disks));
-    return elastic ? 1.0 : e;
+    if (!rules.constant) pair = restitution_of_pair(rules, s, a.id, b.id, std::max(a.last_contact, b.last_contact), r);
+    return pair.value;
   };
   const auto rub = [&](const Relative& r, double change) {
-    if (rules.surfaces == nullptr || elastic) return;
+    if (rules.surfaces == nullptr || pair.elastic) return;
     rub_disks(*rules.surfaces, r, share, change, rough_disk(a), rough_disk(b));
   };
   Impact outcome =
@@ -142,8 +153,9 @@ inline Impact collide_at(const ExactRules& rules, double s, ExactDisk& a, ExactD
           : collide_paths<true>(rules.box, rules.gravity, s, share, reduced_mass(a.mass, b.mass), restitution, a.path,
                                 b.path, rub);
   if (outcome.happened) {
-    outcome.inaccurate = held_elastic;
-    outcome.lost_energy = outcome.lost_energy || (!elastic && rubs_away(rules, Touching::disks));
+    const bool rubs = rubs_away(rules, Touching::disks);
+    outcome.inaccurate = pair.held || (pair.elastic && rubs);
+    outcome.lost_energy = outcome.lost_energy || (!pair.elastic && rubs);
     a.last_contact = b.last_contact = s;
   }
   return outcome;

@@ -66,20 +66,26 @@ void EventProcessor<scope>::take(std::uint32_t i, double time) {
 }
 
 template <Scope scope>
-void EventProcessor<scope>::collide_pair(std::uint32_t i, std::uint32_t j, double time) {
-  if (is_elastic_of_one_mass_) {
-    collide_plain_pair<true>(i, j, time);
-  } else if (is_plain_) {
-    collide_plain_pair<false>(i, j, time);
-  } else {
-    collide_any_pair(i, j, time);
+inline void EventProcessor<scope>::collide_pair(std::uint32_t i, std::uint32_t j, double time) {
+  switch (pairs_) {
+    case PairKind::elastic_of_one_mass:
+      return collide_smooth_pair<PairKind::elastic_of_one_mass>(FreeFlight{}, i, j, time);
+    case PairKind::of_constant_restitution:
+      return is_straight_ ? collide_smooth_pair<PairKind::of_constant_restitution>(FreeFlight{}, i, j, time)
+                          : collide_smooth_pair<PairKind::of_constant_restitution>(fall_, i, j, time);
+    case PairKind::smooth:
+      return is_straight_ ? collide_smooth_pair<PairKind::smooth>(FreeFlight{}, i, j, time)
+                          : collide_smooth_pair<PairKind::smooth>(fall_, i, j, time);
+    case PairKind::any:
+      return collide_any_pair(i, j, time);
   }
 }
 
-// In a plain scene: collide_any_pair without what such a scene does not have.
+// collide_any_pair without what a scene with such pairs does not have.
 template <Scope scope>
-template <bool elastic_of_one_mass>
-void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j, double time) {
+template <PairKind kind, class Flight>
+void EventProcessor<scope>::collide_smooth_pair(const Flight& flight, std::uint32_t i, std::uint32_t j, double time) {
+  constexpr bool elastic_of_one_mass = kind == PairKind::elastic_of_one_mass;
   if (record_[i].id > record_[j].id) std::swap(i, j);
   DiskRecord& a = record_[i];
   DiskRecord& b = record_[j];
@@ -92,18 +98,31 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
     log_start(i);
     log_start(j);
   }
-  const bool inside =
-      (lists_.rows().row(i).is_inside() && lists_.rows().row(j).is_inside()) || inner_part_.holds(time, a.path, b.path);
+  const bool inside = (lists_.rows().row(i).is_inside() && lists_.rows().row(j).is_inside()) ||
+                      inner_part_.holds(time, flight, a.path, b.path);
   const Disks& disks = *window_.disks;
-  const Shares share = elastic_of_one_mass ? equal_shares : shares(disks.mass_of(i), disks.mass_of(j));
-  const PlainCollision outcome = inside ? collide_plainly(time, share, window_.rules.restitution, a.path, b.path)
-                                        : collide_across(time, share, a.path, b.path);
+  const bool common_mass = elastic_of_one_mass || window_.rules.common_mass;
+  const Shares share = common_mass ? equal_shares : shares(disks.mass_of(i), disks.mass_of(j));
+  const auto collide = [&](const auto& restitution) __attribute__((always_inline)) {
+    return inside ? collide_plainly(time, flight, share, restitution, a.path, b.path)
+                  : collide_across(time, share, restitution, a.path, b.path);
+  };
+  PlainCollision outcome;
+  PairRestitution pair{window_.rules.restitution, false, false};
+  if constexpr (kind == PairKind::smooth) {
+    outcome = collide([&](const Relative& r) { return (pair = pair_restitution(i, j, time, r)).value; });
+  } else {
+    outcome = collide(ConstantRestitution{pair.value});
+  }
   if (outcome.happened && counts(i)) {
-    const double reduced = elastic_of_one_mass ? reduced_mass_ : reduced_mass(disks.mass_of(i), disks.mass_of(j));
+    const double reduced = common_mass ? reduced_mass_ : reduced_mass(disks.mass_of(i), disks.mass_of(j));
     virials_[virial_count_++] = reduced * outcome.change;
     if (virial_count_ == virials_.size()) [[unlikely]]
       tally_virials();
+    if (kind == PairKind::smooth) worker_.tally.inaccurate += pair.held ? 1 : 0;
   }
+  if (kind == PairKind::smooth && outcome.happened && !window_.last_contact.empty())
+    window_.last_contact[i] = window_.last_contact[j] = time;
   if (window_.keeps_paths) [[unlikely]] {
     worker_.log.push_back({i, j, a.path});
     worker_.log.push_back({j, i, b.path});
@@ -125,7 +144,7 @@ void EventProcessor<scope>::collide_plain_pair(std::uint32_t i, std::uint32_t j,
   const EventMark event{time, a.id, b.id};
   predict_after_event(i, time);
   predict_after_event(j, time);
-  if (elastic_of_one_mass || window_.burst.empty() || !outcome.happened || !(window_.rules.restitution < 1.0)) return;
+  if (elastic_of_one_mass || window_.burst.empty() || !outcome.happened || !(pair.value < 1.0)) return;
   count_burst(i, event);
   count_burst(j, event);
 }
@@ -140,11 +159,22 @@ inline void EventProcessor<scope>::note_contact(DiskRecord& a, DiskRecord& b) {
   (ghost ? a : b).progress.set(DiskProgress::met_own);
 }
 
+// Of disks i and j, under a law or the TC model, which approach as r says.
+template <Scope scope>
+PairRestitution EventProcessor<scope>::pair_restitution(std::uint32_t i, std::uint32_t j, double time,
+                                                        const Relative& r) const {
+  const std::vector<double>& last = window_.last_contact;
+  return restitution_of_pair(window_.rules, time, record_[i].id, record_[j].id,
+                             last.empty() ? -never : std::max(last[i], last[j]), r);
+}
+
 // The collision of disks that may be on two sides of a border along a period.
 template <Scope scope>
-PlainCollision EventProcessor<scope>::collide_across(double time, Shares share, PathSegment& p, PathSegment& q) const {
-  const auto restitution = [this](const Relative&) { return window_.rules.restitution; };
-  const Impact impact = collide_paths<false>(window_.rules.box, 0.0, time, share, 1.0, restitution, p, q);
+template <class RestitutionOf>
+PlainCollision EventProcessor<scope>::collide_across(double time, Shares share, RestitutionOf restitution,
+                                                     PathSegment& p, PathSegment& q) const {
+  const ExactRules& rules = window_.rules;
+  const Impact impact = collide_paths<true>(rules.box, rules.gravity, time, share, 1.0, restitution, p, q);
   return {impact.happened, impact.virial, std::max(p.vx * p.vx + p.vy * p.vy, q.vx * q.vx + q.vy * q.vy)};
 }
 

@@ -14,10 +14,12 @@ namespace carom {
 
 namespace {
 
-// Is there nothing but straight paths, and collisions of smooth disks with a restitution that is known before?
-bool is_plain(const WindowState& window) {
-  return !window.rules.gravity.acts() && window.rules.constant && window.last_contact.empty() && window.spin.empty() &&
-         !window.rules.box.shear.acts();
+PairKind kind_of_pairs(const WindowState& window) {
+  const ExactRules& rules = window.rules;
+  if (!window.spin.empty() || rules.box.shear.acts()) return PairKind::any;
+  if (!rules.constant || !window.last_contact.empty()) return PairKind::smooth;
+  const bool elastic = rules.common_mass && window.burst.empty() && !rules.gravity.acts();
+  return elastic ? PairKind::elastic_of_one_mass : PairKind::of_constant_restitution;
 }
 
 constexpr Count events_between_polls = 4096;
@@ -34,9 +36,9 @@ EventProcessor<scope>::EventProcessor(WindowState& window, NeighbourLists& lists
       safe_times_(window, lists, worker),
       predictor_(window, lists),
       record_(window.record.data()),
-      is_plain_(is_plain(window)),
-      is_elastic_of_one_mass_(is_plain_ && window.rules.common_mass && window.burst.empty()),
+      pairs_(kind_of_pairs(window)),
       is_straight_(!window.rules.gravity.acts() && !window.rules.box.shear.acts()),
+      fall_(window.rules.gravity),
       reduced_mass_(reduced_mass(window.disks->common_mass, window.disks->common_mass)),
       inner_part_(window.rules.box) {}
 

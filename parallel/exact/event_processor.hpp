@@ -24,6 +24,14 @@ enum class Scope : std::uint8_t {
   border,  // of a border's disks whose motion is not known, after all regions (BorderPass)
 };
 
+// What a collision of two disks asks for in this scene: the first that holds.
+enum class PairKind : std::uint8_t {
+  elastic_of_one_mass,      // on straight paths, and nothing in the scene loses energy
+  of_constant_restitution,  // a number that is the same for all
+  smooth,                   // no spins, no shear
+  any,
+};
+
 // A disk's next event, as it is scheduled.
 struct ScheduledEvent {
   double time;
@@ -107,13 +115,16 @@ class EventProcessor {
   void meet_side(std::uint32_t i, double time);
   void meet_obstacle(std::uint32_t i, double time);
   void take(std::uint32_t i, double time);
-  void collide_pair(std::uint32_t i, std::uint32_t j, double time);
-  template <bool elastic_of_one_mass>
-  [[gnu::hot]] void collide_plain_pair(std::uint32_t i, std::uint32_t j, double time);
+  [[gnu::always_inline]] inline void collide_pair(std::uint32_t i, std::uint32_t j, double time);
+  template <PairKind kind, class Flight>
+  [[gnu::noinline, gnu::hot]] void collide_smooth_pair(const Flight& flight, std::uint32_t i, std::uint32_t j,
+                                                       double time);
+  PairRestitution pair_restitution(std::uint32_t i, std::uint32_t j, double time, const Relative& r) const;
   void collide_any_pair(std::uint32_t i, std::uint32_t j, double time);
   void tally_virials();
-  [[gnu::noinline, gnu::cold]] PlainCollision collide_across(double time, Shares share, PathSegment& p,
-                                                             PathSegment& q) const;
+  template <class RestitutionOf>
+  [[gnu::noinline, gnu::cold]] PlainCollision collide_across(double time, Shares share, RestitutionOf restitution,
+                                                             PathSegment& p, PathSegment& q) const;
   void log_start(std::uint32_t i);
   // partner: see LoggedSegment.
   void log_segment(std::uint32_t i, std::uint32_t partner, const PathSegment& path);
@@ -130,12 +141,12 @@ class EventProcessor {
   SafeTimes safe_times_;
   EventPredictor predictor_;
   DiskRecord* record_;
-  bool is_plain_;                // straight paths and a known restitution, and no spins
-  bool is_elastic_of_one_mass_;  // besides, nothing loses energy
-  bool is_straight_;             // neither gravity nor a shear acts
-  double reduced_mass_;          // of two disks, where all have one mass
+  PairKind pairs_;
+  bool is_straight_;     // neither gravity nor a shear acts
+  FreeFall fall_;        // with the scene's gravity
+  double reduced_mass_;  // of two disks, where all have one mass
   InnerPart inner_part_;
-  // Of the last collisions of a plain scene, which are not tallied yet.
+  // Of the last collisions of smooth disks, which are not tallied yet.
   std::array<double, 256> virials_{};
   std::size_t virial_count_ = 0;
 };

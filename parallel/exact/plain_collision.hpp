@@ -1,4 +1,4 @@
-// The collision of two disks on straight paths that cross no border along a period: core's collide_paths operation by
+// The collision of two smooth disks whose paths cross no border along a period: core's collide_paths operation by
 // operation, x and y of a vector at once. It is most of what the exact method does to disks.
 #pragma once
 
@@ -29,9 +29,32 @@ static_assert(offsetof(PathSegment, vy) == offsetof(PathSegment, vx) + sizeof(do
   __builtin_memcpy(x, &v, sizeof v);
 }
 
-[[gnu::always_inline]] inline Coordinates place_at(double s, const PathSegment& p) {
-  return load_xy(&p.x) + load_xy(&p.vx) * Coordinates{s - p.start, s - p.start};
-}
+// What acts on all disks between collisions: nothing, or gravity. Each carries a path to time s as core's drift.
+struct FreeFlight {
+  [[gnu::always_inline]] Coordinates place_at(double s, const PathSegment& p) const {
+    return load_xy(&p.x) + load_xy(&p.vx) * Coordinates{s - p.start, s - p.start};
+  }
+  [[gnu::always_inline]] Coordinates velocity_at(double /*s*/, const PathSegment& p) const { return load_xy(&p.vx); }
+};
+
+struct FreeFall {
+  Coordinates gravity, half_gravity;  // left and down; length / time^2
+  Coordinates zero;  // added to the change of velocity where drift adds one; else -0, which adds nothing
+
+  explicit FreeFall(const Gravity& g)
+      : gravity{g.is_tilted() ? g.left : 0.0, g.down},
+        half_gravity{0.5 * gravity},
+        zero{g.is_tilted() ? -0.0 : 0.0, 0.0} {}
+
+  [[gnu::always_inline]] Coordinates place_at(double s, const PathSegment& p) const {
+    const double t = s - p.start;
+    return load_xy(&p.x) + (load_xy(&p.vx) * Coordinates{t, t} - half_gravity * Coordinates{t * t, t * t});
+  }
+  [[gnu::always_inline]] Coordinates velocity_at(double s, const PathSegment& p) const {
+    const double t = s - p.start;
+    return load_xy(&p.vx) - (gravity * Coordinates{t, t} + zero);
+  }
+};
 
 [[gnu::always_inline]] inline double sum_of(Coordinates v) {
   return v[0] + v[1];
@@ -48,13 +71,20 @@ struct InnerPart {
         far{0.5 * high} {}
 
   // Are disks with these paths there at time s?
-  [[gnu::always_inline]] bool holds(double s, const PathSegment& p, const PathSegment& q) const {
-    const Coordinates at_p = place_at(s, p);
-    const Coordinates at_q = place_at(s, q);
+  template <class Flight>
+  [[gnu::always_inline]] bool holds(double s, const Flight& flight, const PathSegment& p, const PathSegment& q) const {
+    const Coordinates at_p = flight.place_at(s, p);
+    const Coordinates at_q = flight.place_at(s, q);
     const Coordinates dr = at_q - at_p;
     const auto inside = (at_p >= low) & (at_p < high) & (at_q >= low) & (at_q < high) & (dr < far) & (-dr < far);
     return (inside[0] & inside[1]) != 0;
   }
+};
+
+// The same for all pairs.
+struct ConstantRestitution {
+  double value;
+  double operator()(const Relative& /*met*/) const { return value; }
 };
 
 struct PlainCollision {
@@ -64,18 +94,22 @@ struct PlainCollision {
 };
 
 // Disks with these paths (smaller id first) collide at time s; their new paths start there. share: of their masses.
-[[gnu::always_inline]] inline PlainCollision collide_plainly(double s, Shares share, double restitution, PathSegment& p,
+// restitution(r): of disks that approach as r says.
+template <class Flight, class RestitutionOf>
+[[gnu::always_inline]] inline PlainCollision collide_plainly(double s, const Flight& flight, Shares share,
+                                                             const RestitutionOf& restitution, PathSegment& p,
                                                              PathSegment& q) {
-  Coordinates vp = load_xy(&p.vx);
-  Coordinates vq = load_xy(&q.vx);
-  const Coordinates at_p = place_at(s, p);
-  const Coordinates at_q = place_at(s, q);
+  const Coordinates at_p = flight.place_at(s, p);
+  const Coordinates at_q = flight.place_at(s, q);
+  Coordinates vp = flight.velocity_at(s, p);
+  Coordinates vq = flight.velocity_at(s, q);
   const Coordinates dr = at_q - at_p;
-  const double approach = sum_of(dr * (vq - vp));
+  const Coordinates dv = vq - vp;
+  const double approach = sum_of(dr * dv);
   const double distance2 = sum_of(dr * dr);
   PlainCollision outcome;
   if (approach < 0.0 && distance2 > 0.0) [[likely]] {
-    const double change = (1.0 + restitution) * approach;
+    const double change = (1.0 + restitution(Relative{dr[0], dr[1], dv[0], dv[1]})) * approach;
     const double k = change / distance2;
     const double k1 = k * share.first;
     const double k2 = k * share.second;

@@ -29,7 +29,7 @@ constexpr LaneConstant in_all_lanes(double a) {
 
 // The same for all disks, or for all that have a relist distance.
 struct PredictionConstants {
-  // In place of stay2, where paths are bent: no disk surely stays listed.
+  // In place of stay2 and stay: no disk surely stays listed.
   static constexpr double never_listed = -1.0;
   LaneConstant period_x = in_all_lanes(0.0), period_y = in_all_lanes(0.0);            // length; 0: none
   LaneConstant periods_per_x = in_all_lanes(0.0), periods_per_y = in_all_lanes(0.0);  // 1 / period; 0: none
@@ -42,7 +42,10 @@ struct PredictionConstants {
   LaneConstant never = in_all_lanes(carom::never);
   // All bits but the sign: takes signs off, and is not a number.
   LaneConstant magnitude_bits = in_all_lanes(std::bit_cast<double>(0x7fffffffffffffffULL));
-  double stay2 = never_listed;           // the relist distance squared, a little less
+  double stay2 = never_listed;           // the relist distance squared, a little less; without gravity
+  double stay = never_listed;            // the relist distance, a little less; under gravity
+  double eighth_gravity = 0.0;           // of its size
+  AlongAxes half_gravity;                // left and down
   AlongAxes listed_unit;                 // of a FixedPointPosition; length
   AlongAxes period, periods_per_length;  // as above
   // 2^52: its last bits are those of a whole number that is added.
@@ -70,7 +73,8 @@ struct FirstContact {
   std::uint32_t neighbour = 0;
   static constexpr std::uint32_t leaving_bit = 1U << 31;
 
-  // Of a row: on a straight path, the disk is further than the relist distance from its listed position then.
+  // Of a row: the disk is further than the relist distance from its listed position then; where gravity bends its path,
+  // it may have been before, too.
   bool leaves_list() const { return (neighbour & leaving_bit) != 0; }
   // The kernel cannot tell: two neighbours are touched at the same time, or a neighbour is approached slowly.
   bool is_ambiguous() const { return std::isnan(time); }

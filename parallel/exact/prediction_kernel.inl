@@ -260,21 +260,41 @@ inline Coordinates to_doubles(const PredictionConstants& f, const FixedPointPosi
 #endif
 }
 
-// FirstContact::leaving_bit, or 0: as NeighbourLists::stays_listed, but for a rounding.
+// Squared distance of this place from that where a disk is listed.
 template <Images images>
-[[gnu::always_inline]] inline std::uint32_t leaving_bit(const PredictionConstants& f, const PathSegment& path,
-                                                        const FixedPointPosition& listed_at, double until) {
-  const double s = until - path.start;
-  Coordinates d = Coordinates{path.x, path.y} + Coordinates{path.vx, path.vy} * Coordinates{s, s};
-  d = d - to_doubles(f, listed_at) * load(f.listed_unit);
+[[gnu::always_inline]] inline double distance2_from_listed(const PredictionConstants& f, Coordinates at,
+                                                           Coordinates listed) {
+  Coordinates d = at - listed;
   if constexpr (images != Images::none) {
     const Coordinates periods = d * load(f.periods_per_length);
     constexpr double shift = 0x1.8p52;
     d = d - load(f.period) * ((periods + Coordinates{shift, shift}) - Coordinates{shift, shift});
   }
   const Coordinates d2 = d * d;
+  return d2[0] + d2[1];
+}
+
+// FirstContact::leaving_bit, or 0: as NeighbourLists::stays_listed, but for a rounding, and stays_listed_falling for
+// the whole path.
+template <GravityKind gravity, Images images>
+[[gnu::always_inline]] inline std::uint32_t leaving_bit(const PredictionConstants& f, const PathSegment& path,
+                                                        const FixedPointPosition& listed_at, double until) {
+  const double s = until - path.start;
+  const Coordinates began{path.x, path.y};
+  const Coordinates listed = to_doubles(f, listed_at) * load(f.listed_unit);
   // The sign of what is left.
-  const double left = f.stay2 - (d2[0] + d2[1]);
+  double left = 0.0;
+  if constexpr (gravity == GravityKind::none) {
+    const Coordinates at = began + Coordinates{path.vx, path.vy} * Coordinates{s, s};
+    left = f.stay2 - distance2_from_listed<images>(f, at, listed);
+  } else {
+    const Coordinates v = Coordinates{path.vx, path.vy} - load(f.half_gravity) * Coordinates{s, s};
+    const double end2 = distance2_from_listed<images>(f, began + v * Coordinates{s, s}, listed);
+    const double start2 = distance2_from_listed<images>(f, began, listed);
+    const double room = f.stay - f.eighth_gravity * (s * s);
+    const double inside = room * room - (end2 > start2 ? end2 : start2);
+    left = room < inside ? room : inside;
+  }
 #if defined(__AVX__)
   const auto sign = static_cast<std::uint32_t>(__builtin_ia32_movmskpd(Coordinates{left, left}));
 #else
@@ -287,7 +307,7 @@ template <Images images>
 template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
 FirstContact first_in_row(const PredictionConstants& f, const DiskRecord* record, const ListRow& row) {
   FirstContact found = first_contact<gravity, unequal_radii, newest, images>(f, record, row.offset, row.count);
-  found.neighbour |= leaving_bit<images>(f, record->path, row.listed_at, found.time);
+  found.neighbour |= leaving_bit<gravity, images>(f, record->path, row.listed_at, found.time);
   return found;
 }
 
