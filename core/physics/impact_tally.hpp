@@ -70,6 +70,13 @@ struct ImpactTally {
     shear[1].add(work);
   }
 
+  // Of collisions in a sheared box that cross no side of it: the shear does no work.
+  void add_shears(std::span<const double> virials) {
+    if (virials.empty()) return;
+    shear.resize(2);
+    shear[0].add(virials);
+  }
+
   void add_energy(Side side, double given) {
     side_energy.resize(all_sides.size());
     side_energy[static_cast<std::size_t>(side)].add(given);

@@ -76,6 +76,8 @@ inline void EventProcessor<scope>::collide_pair(std::uint32_t i, std::uint32_t j
     case PairKind::smooth:
       return is_straight_ ? collide_smooth_pair<PairKind::smooth>(FreeFlight{}, i, j, time)
                           : collide_smooth_pair<PairKind::smooth>(fall_, i, j, time);
+    case PairKind::sheared:
+      return collide_smooth_pair<PairKind::sheared>(FreeFlight{}, i, j, time);
     case PairKind::any:
       return collide_any_pair(i, j, time);
   }
@@ -86,6 +88,8 @@ template <Scope scope>
 template <PairKind kind, class Flight>
 void EventProcessor<scope>::collide_smooth_pair(const Flight& flight, std::uint32_t i, std::uint32_t j, double time) {
   constexpr bool elastic_of_one_mass = kind == PairKind::elastic_of_one_mass;
+  constexpr bool sheared = kind == PairKind::sheared;
+  constexpr bool constant = elastic_of_one_mass || kind == PairKind::of_constant_restitution;
   if (record_[i].id > record_[j].id) std::swap(i, j);
   DiskRecord& a = record_[i];
   DiskRecord& b = record_[j];
@@ -94,12 +98,13 @@ void EventProcessor<scope>::collide_smooth_pair(const Flight& flight, std::uint3
     worker_.too_fast = worker_.ended = true;
     return;
   }
+  const bool inside = (lists_.rows().row(i).is_inside() && lists_.rows().row(j).is_inside()) ||
+                      inner_part_.holds(time, flight, a.path, b.path);
+  if (sheared && !inside) return collide_any_pair(i, j, time);
   if (window_.keeps_paths) [[unlikely]] {
     log_start(i);
     log_start(j);
   }
-  const bool inside = (lists_.rows().row(i).is_inside() && lists_.rows().row(j).is_inside()) ||
-                      inner_part_.holds(time, flight, a.path, b.path);
   const Disks& disks = *window_.disks;
   const bool common_mass = elastic_of_one_mass || window_.rules.common_mass;
   const Shares share = common_mass ? equal_shares : shares(disks.mass_of(i), disks.mass_of(j));
@@ -109,19 +114,21 @@ void EventProcessor<scope>::collide_smooth_pair(const Flight& flight, std::uint3
   };
   PlainCollision outcome;
   PairRestitution pair{window_.rules.restitution, false, false};
-  if constexpr (kind == PairKind::smooth) {
+  if constexpr (!constant) {
     outcome = collide([&](const Relative& r) { return (pair = pair_restitution(i, j, time, r)).value; });
   } else {
     outcome = collide(ConstantRestitution{pair.value});
   }
   if (outcome.happened && counts(i)) {
     const double reduced = common_mass ? reduced_mass_ : reduced_mass(disks.mass_of(i), disks.mass_of(j));
-    virials_[virial_count_++] = reduced * outcome.change;
+    const double virial = reduced * outcome.change;
+    if (sheared) shear_virials_[virial_count_] = virial * outcome.shear_share;
+    virials_[virial_count_++] = virial;
     if (virial_count_ == virials_.size()) [[unlikely]]
       tally_virials();
-    if (kind == PairKind::smooth) worker_.tally.inaccurate += pair.held ? 1 : 0;
+    if (!constant) worker_.tally.inaccurate += pair.held ? 1 : 0;
   }
-  if (kind == PairKind::smooth && outcome.happened && !window_.last_contact.empty())
+  if (!constant && outcome.happened && !window_.last_contact.empty())
     window_.last_contact[i] = window_.last_contact[j] = time;
   if (window_.keeps_paths) [[unlikely]] {
     worker_.log.push_back({i, j, a.path});
@@ -175,12 +182,14 @@ PlainCollision EventProcessor<scope>::collide_across(double time, Shares share, 
                                                      PathSegment& p, PathSegment& q) const {
   const ExactRules& rules = window_.rules;
   const Impact impact = collide_paths<true>(rules.box, rules.gravity, time, share, 1.0, restitution, p, q);
-  return {impact.happened, impact.virial, std::max(p.vx * p.vx + p.vy * p.vy, q.vx * q.vx + q.vy * q.vy)};
+  return {impact.happened, impact.virial, 0.0, std::max(p.vx * p.vx + p.vy * p.vy, q.vx * q.vx + q.vy * q.vy)};
 }
 
 template <Scope scope>
 void EventProcessor<scope>::tally_virials() {
   worker_.tally.add_collisions(std::span<const double>(virials_).first(virial_count_));
+  if (pairs_ == PairKind::sheared)
+    worker_.tally.add_shears(std::span<const double>(shear_virials_).first(virial_count_));
   virial_count_ = 0;
 }
 

@@ -151,12 +151,11 @@ PredictionConstants EventPredictor::constants_of(const WindowState& window, cons
   f.contact2 = in_all_lanes(contact_distance * contact_distance);
   f.horizon = in_all_lanes(window.horizon);
   f.slow_approach = in_all_lanes(std::sqrt(window.slow2()) * slow_margin);
-  if (!rules.box.shear.acts()) {
-    f.stay2 = lists.relist_distance(near_border).stay2;
-    f.stay = std::sqrt(f.stay2);
-    f.eighth_gravity = 0.125 * rules.gravity.size;
-    f.half_gravity = {0.5 * rules.gravity.left, 0.5 * rules.gravity.down};
-  }
+  f.stay2 = lists.relist_distance(near_border).stay2;
+  f.stay = std::sqrt(f.stay2);
+  f.eighth_gravity = 0.125 * rules.gravity.size;
+  f.half_gravity = {0.5 * rules.gravity.left, 0.5 * rules.gravity.down};
+  f.flow = lists.flow();
   f.listed_unit = {lists.listed_unit().x, lists.listed_unit().y};
   f.offset = in_all_lanes(rules.box.shear.offset);
   f.jump = in_all_lanes(rules.box.shear.jump);

@@ -22,7 +22,8 @@ class EventPredictor {
   EventPredictor(const WindowState& window, const NeighbourLists& lists)
       : window_(&window),
         lists_(&lists),
-        kernels_(choose_prediction_kernels(kind_of(window.rules.gravity), !window.disks->radius.empty())),
+        kernels_(
+            choose_prediction_kernels(bend_of(window.rules.gravity, window.rules.box), !window.disks->radius.empty())),
         constants_{constants_of(window, lists, false), constants_of(window, lists, true)},
         fastest2_(window.fastest2) {
     see_far();

@@ -16,7 +16,8 @@ namespace {
 
 PairKind kind_of_pairs(const WindowState& window) {
   const ExactRules& rules = window.rules;
-  if (!window.spin.empty() || rules.box.shear.acts()) return PairKind::any;
+  if (!window.spin.empty()) return PairKind::any;
+  if (rules.box.shear.acts()) return PairKind::sheared;
   if (!rules.constant || !window.last_contact.empty()) return PairKind::smooth;
   const bool elastic = rules.common_mass && window.burst.empty() && !rules.gravity.acts();
   return elastic ? PairKind::elastic_of_one_mass : PairKind::of_constant_restitution;

@@ -29,6 +29,7 @@ enum class PairKind : std::uint8_t {
   elastic_of_one_mass,      // on straight paths, and nothing in the scene loses energy
   of_constant_restitution,  // a number that is the same for all
   smooth,                   // no spins, no shear
+  sheared,                  // no spins
   any,
 };
 
@@ -148,6 +149,7 @@ class EventProcessor {
   InnerPart inner_part_;
   // Of the last collisions of smooth disks, which are not tallied yet.
   std::array<double, 256> virials_{};
+  std::array<double, 256> shear_virials_{};  // likewise, in a sheared box
   std::size_t virial_count_ = 0;
 };
 

@@ -88,9 +88,10 @@ struct ConstantRestitution {
 };
 
 struct PlainCollision {
-  bool happened = false;  // otherwise the disks recede by rounding: their paths only begin anew
-  double change = 0.0;    // of the squared-distance rate, as collide() returns it
-  double fastest2 = 0.0;  // largest v^2 of both
+  bool happened = false;     // otherwise the disks recede by rounding: their paths only begin anew
+  double change = 0.0;       // of the squared-distance rate, as collide() returns it
+  double shear_share = 0.0;  // of the virial that is Impact::shear in a sheared box, of smooth disks
+  double fastest2 = 0.0;     // largest v^2 of both
 };
 
 // Disks with these paths (smaller id first) collide at time s; their new paths start there. share: of their masses.
@@ -117,6 +118,7 @@ template <class Flight, class RestitutionOf>
     vq = vq - Coordinates{k2, k2} * dr;
     outcome.happened = true;
     outcome.change = -change;
+    outcome.shear_share = dr[0] * dr[1] / distance2;
   }
   outcome.fastest2 = std::max(sum_of(vp * vp), sum_of(vq * vq));
   p.start = q.start = s;

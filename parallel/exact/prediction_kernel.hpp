@@ -9,6 +9,7 @@
 
 #include "core/physics/exact_path.hpp"
 #include "parallel/exact/disk_record.hpp"
+#include "parallel/exact/flow_frame.hpp"
 #include "parallel/exact/list_row.hpp"
 
 namespace carom {
@@ -42,10 +43,11 @@ struct PredictionConstants {
   LaneConstant never = in_all_lanes(carom::never);
   // All bits but the sign: takes signs off, and is not a number.
   LaneConstant magnitude_bits = in_all_lanes(std::bit_cast<double>(0x7fffffffffffffffULL));
-  double stay2 = never_listed;           // the relist distance squared, a little less; without gravity
-  double stay = never_listed;            // the relist distance, a little less; under gravity
+  double stay2 = never_listed;           // the relist distance squared, a little less; of straight paths
+  double stay = never_listed;            // the relist distance, a little less; of bent ones
   double eighth_gravity = 0.0;           // of its size
   AlongAxes half_gravity;                // left and down
+  FlowFrame flow;                        // of a sheared box
   AlongAxes listed_unit;                 // of a FixedPointPosition; length
   AlongAxes period, periods_per_length;  // as above
   // 2^52: its last bits are those of a whole number that is added.
@@ -73,8 +75,8 @@ struct FirstContact {
   std::uint32_t neighbour = 0;
   static constexpr std::uint32_t leaving_bit = 1U << 31;
 
-  // Of a row: the disk is further than the relist distance from its listed position then; where gravity bends its path,
-  // it may have been before, too.
+  // Of a row: the disk is further than the relist distance from its listed position then; where its path is bent, it
+  // may have been before, too.
   bool leaves_list() const { return (neighbour & leaving_bit) != 0; }
   // The kernel cannot tell: two neighbours are touched at the same time, or a neighbour is approached slowly.
   bool is_ambiguous() const { return std::isnan(time); }
@@ -98,21 +100,23 @@ struct PredictionKernels {
   RowKernel near_any_image;
   WideRowKernel far_any_image;
   // In a sheared box, where a neighbour may be listed across the bottom or the top. An image beyond the nearest one
-  // that may be met is ambiguous. Null where gravity acts.
+  // that may be met is ambiguous. Null elsewhere.
   RowKernel near_sheared;
   WideRowKernel far_sheared;
 };
 
-// What a scene's gravity is: none, along y alone, or any.
-enum class GravityKind { none, down, tilted };
-inline GravityKind kind_of(const Gravity& g) {
-  return g.is_tilted() ? GravityKind::tilted : g.acts() ? GravityKind::down : GravityKind::none;
+// What bends the paths of a scene, or the frame in which they are listed: nothing, gravity along y alone, any gravity,
+// or the flow of a sheared box, where none acts.
+enum class Bend { none, down, tilted, flow };
+inline Bend bend_of(const Gravity& g, const Domain& box) {
+  if (box.shear.acts()) return Bend::flow;
+  return g.is_tilted() ? Bend::tilted : g.acts() ? Bend::down : Bend::none;
 }
 
-// For a scene with such gravity, with radii that differ or not.
-PredictionKernels prediction_kernels_baseline(GravityKind gravity, bool unequal_radii);
-PredictionKernels prediction_kernels_avx2(GravityKind gravity, bool unequal_radii);
+// For a scene with such paths, with radii that differ or not.
+PredictionKernels prediction_kernels_baseline(Bend bend, bool unequal_radii);
+PredictionKernels prediction_kernels_avx2(Bend bend, bool unequal_radii);
 // The best version for the processor at hand.
-PredictionKernels choose_prediction_kernels(GravityKind gravity, bool unequal_radii);
+PredictionKernels choose_prediction_kernels(Bend bend, bool unequal_radii);
 
 }  // namespace carom

@@ -34,15 +34,15 @@ struct Motions {
 };
 
 // The motions after a time s in free flight.
-template <GravityKind gravity>
+template <Bend bend>
 [[gnu::always_inline]] inline void carry(const PredictionConstants& f, Doubles s, Motions& m) {
   Doubles shift = m.vx * s;
   Doubles rise = m.vy * s;
-  if constexpr (gravity != GravityKind::none) {
+  if constexpr (bend == Bend::down || bend == Bend::tilted) {
     rise = rise - load(f.half_down) * (s * s);
     m.vy = m.vy - load(f.down) * s;
   }
-  if constexpr (gravity == GravityKind::tilted) {
+  if constexpr (bend == Bend::tilted) {
     shift = shift - load(f.half_left) * (s * s);
     m.vx = m.vx - load(f.left) * s;
   }
@@ -129,7 +129,7 @@ inline Doubles nearest_of_any(const PredictionConstants& f, Doubles d, const Lan
 // core's collision_time(), operation by operation: carried_to, relative, time_to_contact, touching_time. Differences
 // may have the other sign, which changes no bit of the time. Not a number where there is no contact. slowest: the
 // least |dr.dv| so far.
-template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
+template <Bend bend, bool unequal_radii, bool newest, Images images>
 [[gnu::always_inline]] inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const DiskRecord& f0,
                                                     const DiskRecord& f1, const DiskRecord& f2, const DiskRecord& f3,
                                                     Doubles& slowest) {
@@ -145,9 +145,9 @@ template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
                  __builtin_shufflevector(xs01, xs23, 2, 3, 6, 7), __builtin_shufflevector(ys01, ys23, 2, 3, 6, 7)};
   const Doubles start = Doubles{f0.path.start, f1.path.start, f2.path.start, f3.path.start};
   const Doubles both = newest ? own.start : larger(start, own.start);
-  carry<gravity>(f, both - start, others);
+  carry<bend>(f, both - start, others);
   Motions mine{own.x, own.y, own.vx, own.vy};
-  if constexpr (!newest) carry<gravity>(f, both - own.start, mine);
+  if constexpr (!newest) carry<bend>(f, both - own.start, mine);
   Pairs r;
   r.dx = others.x - mine.x;
   r.dy = others.y - mine.y;
@@ -195,7 +195,7 @@ inline Longs places_from(const PredictionConstants& f, std::size_t first) {
   return v;
 }
 
-template <GravityKind gravity, bool unequal_radii, bool newest, Images images, class Offset>
+template <Bend bend, bool unequal_radii, bool newest, Images images, class Offset>
 [[gnu::always_inline]] inline FirstContact first_contact(const PredictionConstants& f, const DiskRecord* record,
                                                          const Offset* offset, std::size_t count) {
   if (count == 0) [[unlikely]]
@@ -209,8 +209,8 @@ template <GravityKind gravity, bool unequal_radii, bool newest, Images images, c
     // Constants are read where they are each time: kept from one turn to the next they would be on the stack.
     std::atomic_signal_fence(std::memory_order_seq_cst);
     const Offset* const n = offset + k;
-    return four_contacts<gravity, unequal_radii, newest, images>(f, own, record[n[0]], record[n[1]], record[n[2]],
-                                                                 record[n[3]], slowest);
+    return four_contacts<bend, unequal_radii, newest, images>(f, own, record[n[0]], record[n[1]], record[n[2]],
+                                                              record[n[3]], slowest);
   };
   Doubles first = smaller(contacts_from(0), load(f.never));
   Longs place_of_first = places_from(f, 0);
@@ -274,24 +274,37 @@ template <Images images>
   return d2[0] + d2[1];
 }
 
-// FirstContact::leaving_bit, or 0: as NeighbourLists::stays_listed, but for a rounding, and stays_listed_falling for
-// the whole path.
-template <GravityKind gravity, Images images>
+// Where a path is after a time s, in the frame in which disks are listed.
+template <Bend bend>
+[[gnu::always_inline]] inline Coordinates place_after(const PredictionConstants& f, const PathSegment& path, double s) {
+  Coordinates v{path.vx, path.vy};
+  if constexpr (bend == Bend::down || bend == Bend::tilted) v = v - load(f.half_gravity) * Coordinates{s, s};
+  const Coordinates at = Coordinates{path.x, path.y} + v * Coordinates{s, s};
+  if constexpr (bend != Bend::flow) return at;
+  // FlowFrame::carried_back.
+  return Coordinates{at[0] - (f.flow.tilt + f.flow.rate * (path.start + s)) * (at[1] - f.flow.middle), at[1]};
+}
+
+// By how much a path that takes a time s may be bent away from the line between its ends; length.
+template <Bend bend>
+[[gnu::always_inline]] inline double bent_by(const PredictionConstants& f, const PathSegment& path, double s) {
+  if constexpr (bend == Bend::flow) return 0.25 * __builtin_fabs(f.flow.rate * path.vy) * (s * s);
+  return f.eighth_gravity * (s * s);
+}
+
+// FirstContact::leaving_bit, or 0: as NeighbourLists::stays_listed, but for a rounding; where paths are bent as
+// stays_listed_bent for the whole of it.
+template <Bend bend, Images images>
 [[gnu::always_inline]] inline std::uint32_t leaving_bit(const PredictionConstants& f, const PathSegment& path,
                                                         const FixedPointPosition& listed_at, double until) {
   const double s = until - path.start;
-  const Coordinates began{path.x, path.y};
   const Coordinates listed = to_doubles(f, listed_at) * load(f.listed_unit);
+  const double end2 = distance2_from_listed<images>(f, place_after<bend>(f, path, s), listed);
   // The sign of what is left.
-  double left = 0.0;
-  if constexpr (gravity == GravityKind::none) {
-    const Coordinates at = began + Coordinates{path.vx, path.vy} * Coordinates{s, s};
-    left = f.stay2 - distance2_from_listed<images>(f, at, listed);
-  } else {
-    const Coordinates v = Coordinates{path.vx, path.vy} - load(f.half_gravity) * Coordinates{s, s};
-    const double end2 = distance2_from_listed<images>(f, began + v * Coordinates{s, s}, listed);
-    const double start2 = distance2_from_listed<images>(f, began, listed);
-    const double room = f.stay - f.eighth_gravity * (s * s);
+  double left = f.stay2 - end2;
+  if constexpr (bend != Bend::none) {
+    const double start2 = distance2_from_listed<images>(f, place_after<bend>(f, path, 0.0), listed);
+    const double room = f.stay - bent_by<bend>(f, path, s);
     const double inside = room * room - (end2 > start2 ? end2 : start2);
     left = room < inside ? room : inside;
   }
@@ -304,49 +317,57 @@ template <GravityKind gravity, Images images>
   return sign << 31;
 }
 
-template <GravityKind gravity, bool unequal_radii, bool newest, Images images>
+template <Bend bend, bool unequal_radii, bool newest, Images images>
 FirstContact first_in_row(const PredictionConstants& f, const DiskRecord* record, const ListRow& row) {
-  FirstContact found = first_contact<gravity, unequal_radii, newest, images>(f, record, row.offset, row.count);
-  found.neighbour |= leaving_bit<gravity, images>(f, record->path, row.listed_at, found.time);
+  FirstContact found = first_contact<bend, unequal_radii, newest, images>(f, record, row.offset, row.count);
+  found.neighbour |= leaving_bit<bend, images>(f, record->path, row.listed_at, found.time);
   return found;
 }
 
-template <GravityKind gravity, bool unequal_radii, Images images>
+template <Bend bend, bool unequal_radii, Images images>
 FirstContact first_in_wide_row(const PredictionConstants& f, const DiskRecord* record, const std::int32_t* offset,
                                std::uint32_t count) {
-  return first_contact<gravity, unequal_radii, false, images>(f, record, offset, count);
+  return first_contact<bend, unequal_radii, false, images>(f, record, offset, count);
 }
 
-template <GravityKind gravity, bool unequal_radii>
+template <Bend bend, bool unequal_radii>
 PredictionKernels kernels_for() {
   RowKernel near_sheared = nullptr;
   WideRowKernel far_sheared = nullptr;
-  if constexpr (gravity == GravityKind::none) {
-    near_sheared = first_in_row<gravity, unequal_radii, false, Images::sheared>;
-    far_sheared = first_in_wide_row<gravity, unequal_radii, Images::sheared>;
+  if constexpr (bend == Bend::flow) {
+    near_sheared = first_in_row<bend, unequal_radii, false, Images::sheared>;
+    far_sheared = first_in_wide_row<bend, unequal_radii, Images::sheared>;
   }
-  return {first_in_row<gravity, unequal_radii, false, Images::nearest>,
-          first_in_row<gravity, unequal_radii, true, Images::nearest>,
-          first_in_row<gravity, unequal_radii, false, Images::none>,
-          first_in_row<gravity, unequal_radii, true, Images::none>,
-          first_in_wide_row<gravity, unequal_radii, Images::nearest>,
-          first_in_row<gravity, unequal_radii, false, Images::beyond>,
-          first_in_wide_row<gravity, unequal_radii, Images::beyond>,
+  return {first_in_row<bend, unequal_radii, false, Images::nearest>,
+          first_in_row<bend, unequal_radii, true, Images::nearest>,
+          first_in_row<bend, unequal_radii, false, Images::none>,
+          first_in_row<bend, unequal_radii, true, Images::none>,
+          first_in_wide_row<bend, unequal_radii, Images::nearest>,
+          first_in_row<bend, unequal_radii, false, Images::beyond>,
+          first_in_wide_row<bend, unequal_radii, Images::beyond>,
           near_sheared,
           far_sheared};
 }
 
-template <GravityKind gravity>
+template <Bend bend>
 PredictionKernels kernels_for(bool unequal_radii) {
-  return unequal_radii ? kernels_for<gravity, true>() : kernels_for<gravity, false>();
+  return unequal_radii ? kernels_for<bend, true>() : kernels_for<bend, false>();
 }
 
 }  // namespace
 
-PredictionKernels CAROM_PREDICTION_KERNELS(GravityKind gravity, bool unequal_radii) {
-  if (gravity == GravityKind::tilted) return kernels_for<GravityKind::tilted>(unequal_radii);
-  if (gravity == GravityKind::down) return kernels_for<GravityKind::down>(unequal_radii);
-  return kernels_for<GravityKind::none>(unequal_radii);
+PredictionKernels CAROM_PREDICTION_KERNELS(Bend bend, bool unequal_radii) {
+  switch (bend) {
+    case Bend::none:
+      return kernels_for<Bend::none>(unequal_radii);
+    case Bend::down:
+      return kernels_for<Bend::down>(unequal_radii);
+    case Bend::tilted:
+      return kernels_for<Bend::tilted>(unequal_radii);
+    case Bend::flow:
+      return kernels_for<Bend::flow>(unequal_radii);
+  }
+  return {};
 }
 
 }  // namespace carom

@@ -4,9 +4,9 @@
 
 namespace carom {
 
-PredictionKernels choose_prediction_kernels(GravityKind gravity, bool unequal_radii) {
-  if (kernel_set() == KernelSet::avx2) return prediction_kernels_avx2(gravity, unequal_radii);
-  return prediction_kernels_baseline(gravity, unequal_radii);
+PredictionKernels choose_prediction_kernels(Bend bend, bool unequal_radii) {
+  if (kernel_set() == KernelSet::avx2) return prediction_kernels_avx2(bend, unequal_radii);
+  return prediction_kernels_baseline(bend, unequal_radii);
 }
 
 }  // namespace carom
