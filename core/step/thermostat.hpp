@@ -1,5 +1,4 @@
 // Thermostats: what keeps disks at a temperature by kicks at times k dt, between which they fly and collide freely.
-// Range kernels: the reference calls them on all disks, the engine on blocks.
 #pragma once
 
 #include <cmath>
@@ -42,36 +41,47 @@ inline Kick langevin_kick(double rate, double dt) {
   return {(1.0 - q) / (1.0 + q), 2.0 * std::sqrt(q) / (1.0 + q)};
 }
 
-// Kick number k for disks [begin, end) of the scene; heat: the energy that it gives them is added. In a sheared box v
-// is relative to the flow, and the energy that of the laboratory.
-template <class View>
-void kick_disks(const View& d, const Scene& scene, Count k, std::size_t begin, std::size_t end, ExactSum& heat) {
+// Of the scene's thermostat, for the disks that it kicks.
+inline Kick kick_of(const Scene& scene) {
   const Thermostat& bath = scene.physics.thermostat;
-  const double dt = kick_interval(scene);
-  const bool andersen = bath.kind == Thermostat::Kind::andersen;
-  const Kick kick = andersen ? Kick{0.0, 1.0} : langevin_kick(bath.rate, dt);
-  for (std::size_t i = begin; i < end; ++i) {
-    if (andersen && !(uniforms(scene.seed, Stream::thermostat_choice, d.id[i], k).a < bath.rate * dt)) continue;
-    const Vec2 r = normals(scene.seed, Stream::thermostat, d.id[i], k);
-    const double scale = kick.drawn * std::sqrt(bath.temperature / d.mass(i));
-    const double before = d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
-    if (scene.box.shear.acts()) [[unlikely]] {
-      const double flow = scene.box.shear.flow(d.y[i], scene.box.height);
-      d.vx[i] = flow + (kick.kept * (d.vx[i] - flow) + scale * r.x);
-    } else {
-      d.vx[i] = kick.kept * d.vx[i] + scale * r.x;
-    }
-    d.vy[i] = kick.kept * d.vy[i] + scale * r.y;
-    heat.add(0.5 * d.mass(i) * ((d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]) - before));
+  return bath.kind == Thermostat::Kind::andersen ? Kick{0.0, 1.0} : langevin_kick(bath.rate, kick_interval(scene));
+}
+
+// Does kick number k choose this disk? Langevin's chooses all.
+inline bool is_kicked(const Scene& scene, DiskId id, Count k) {
+  const Thermostat& bath = scene.physics.thermostat;
+  return bath.kind != Thermostat::Kind::andersen ||
+         uniforms(scene.seed, Stream::thermostat_choice, id, k).a < bath.rate * kick_interval(scene);
+}
+
+// Kicks disk i, with the deviates r of Stream::thermostat; returns the energy that it is given. In a sheared box v is
+// relative to the flow, and the energy that of the laboratory.
+template <class View>
+double kick_disk(const View& d, const Scene& scene, const Kick& kick, std::size_t i, Vec2 r) {
+  const double scale = kick.drawn * std::sqrt(scene.physics.thermostat.temperature / d.mass(i));
+  const double before = d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
+  if (scene.box.shear.acts()) [[unlikely]] {
+    const double flow = scene.box.shear.flow(d.y[i], scene.box.height);
+    d.vx[i] = flow + (kick.kept * (d.vx[i] - flow) + scale * r.x);
+  } else {
+    d.vx[i] = kick.kept * d.vx[i] + scale * r.x;
   }
+  d.vy[i] = kick.kept * d.vy[i] + scale * r.y;
+  return 0.5 * d.mass(i) * ((d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]) - before);
 }
 
 // All of them one after another, if a kick is due.
 inline void kick_if_due(const Scene& scene, State& state) {
   if (!is_kick_due(scene, state)) return;
   const Count number = state.intervals++;
+  const Kick kick = kick_of(scene);
   ExactSum heat;
-  with_view(state.disks, [&](const auto& d) { kick_disks(d, scene, number, 0, state.disks.size(), heat); });
+  with_view(state.disks, [&](const auto& d) {
+    for (std::size_t i = 0; i < state.disks.size(); ++i) {
+      if (!is_kicked(scene, d.id[i], number)) continue;
+      heat.add(kick_disk(d, scene, kick, i, normals(scene.seed, Stream::thermostat, d.id[i], number)));
+    }
+  });
   state.counters.thermostat_heat += heat.value();
 }
 

@@ -5,8 +5,8 @@
 #include "core/step/step_start.hpp"
 #include "core/step/thermostat.hpp"
 #include "core/step/window_start.hpp"
-#include "parallel/cells/kick_all.hpp"
 #include "parallel/exact/window_passes.hpp"
+#include "parallel/kicks/kick_all.hpp"
 #include "parallel/slabs/redistribute.hpp"
 #include "parallel/slabs/slab_exact_engine.hpp"
 
@@ -76,11 +76,9 @@ void SlabExact::kick() {
   const std::size_t n = state_.disks.size();
   std::vector<ExactSum> heat(executor_.blocks(n, kick_block) + 1);
   std::vector<ExactSum> of_ghosts(heat.size());
-  with_view(state_.disks, [&](const auto& d) {
-    executor_.for_ranges(n, kick_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-      ghosts_.visit_runs(begin, end, [&](std::size_t first, std::size_t last, bool is_own) {
-        kick_disks(d, scene_, number, first, last, is_own ? heat[b] : of_ghosts[b]);
-      });
+  executor_.for_ranges(n, kick_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    ghosts_.visit_runs(begin, end, [&](std::size_t first, std::size_t last, bool is_own) {
+      kick_range(state_.disks, scene_, number, first, last, is_own ? heat[b] : of_ghosts[b]);
     });
   });
   for (std::size_t b = 1; b < heat.size(); ++b) heat[0].add(heat[b]);

@@ -11,7 +11,7 @@
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/thermostat.hpp"
-#include "parallel/cells/kick_all.hpp"
+#include "parallel/kicks/kick_all.hpp"
 #include "parallel/slabs/rank_sums.hpp"
 #include "parallel/stepping/draw_velocities.hpp"
 #include "parallel/stepping/drift_blocks.hpp"

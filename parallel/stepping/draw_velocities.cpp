@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/physics/advance.hpp"
-#include "parallel/stepping/brownian_kernel.hpp"
+#include "parallel/kicks/normals_kernel.hpp"
 
 namespace carom {
 
@@ -16,14 +16,15 @@ constexpr std::size_t draw_block = 8192;
 
 double draw_velocities(Disks& d, const Scene& scene, double dt, Count step, const Executor& executor,
                        std::vector<double>& scratch) {
-  const BrownianKernel kernel = choose_brownian_kernel();
-  const BrownianInput in{d.vx.data(),
-                         d.vy.data(),
-                         d.id.data(),
-                         scene.seed,
-                         step,
-                         brownian_speed(scene.physics.diffusion, dt),
-                         scene.physics.accumulate};
+  const NormalsKernel kernel = choose_normals_kernel();
+  const NormalDraws in{d.vx.data(),
+                       d.vy.data(),
+                       d.id.data(),
+                       scene.seed,
+                       Stream::brownian,
+                       step,
+                       brownian_speed(scene.physics.diffusion, dt),
+                       scene.physics.accumulate};
   scratch.assign(executor.blocks(d.size(), draw_block), 0.0);
   executor.for_ranges(d.size(), draw_block,
                       [&](std::size_t b, std::size_t begin, std::size_t end) { scratch[b] = kernel(in, begin, end); });

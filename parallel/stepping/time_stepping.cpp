@@ -8,7 +8,7 @@
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
 #include "parallel/cells/compact.hpp"
-#include "parallel/cells/kick_all.hpp"
+#include "parallel/kicks/kick_all.hpp"
 #include "parallel/cells/meets_nearby.hpp"
 #include "parallel/stepping/draw_velocities.hpp"
 #include "parallel/stepping/drift_blocks.hpp"

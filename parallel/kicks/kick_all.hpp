@@ -13,11 +13,13 @@ namespace carom {
 // Disks a block.
 inline constexpr std::size_t kick_block = 4096;
 
-// Does what kick_disks of core/step/thermostat.hpp does to all disks if a kick is due, with the same bits. Returns
-// whether it was.
+// Does what core/step/thermostat.hpp does if a kick is due, with the same bits. Returns whether it was.
 bool kick_if_due(const Scene& scene, State& state, const Executor& executor);
 
-// Kick number `number` for all these disks; returns the energy that it gave them.
+// Kick number `number` for disks [begin, end); the energy that it gives them is added to heat.
+void kick_range(Disks& disks, const Scene& scene, Count number, std::size_t begin, std::size_t end, ExactSum& heat);
+
+// The same for all these disks; returns the energy that it gave them.
 ExactSum kick_all(Disks& disks, const Scene& scene, Count number, const Executor& executor);
 
 }  // namespace carom

@@ -1,5 +1,5 @@
 // Compiled with -mavx2 on x86-64 (CMakeLists.txt); elsewhere it calls the baseline.
-#include "parallel/stepping/brownian_kernel.hpp"
+#include "parallel/kicks/normals_kernel.hpp"
 
 #if defined(__AVX2__)
 
@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-
-#include "core/base/random.hpp"
 
 namespace carom {
 
@@ -31,7 +29,10 @@ inline __m256i all(std::uint64_t a) {
 // hold anything: products leave them out.
 class Philox {
  public:
-  Philox(std::uint64_t seed, std::uint64_t step) : step_low_(all(step & 0xffffffffU)), step_high_(all(step >> 32)) {
+  Philox(std::uint64_t seed, Stream stream, std::uint64_t step)
+      : step_low_(all(step & 0xffffffffU)),
+        step_high_(all(step >> 32)),
+        stream_(static_cast<std::uint32_t>(stream) << 8U) {
     auto low = static_cast<std::uint32_t>(seed);
     auto high = static_cast<std::uint32_t>(seed >> 32);
     for (std::size_t k = 0; k < rounds; ++k) {
@@ -52,7 +53,7 @@ class Philox {
     __m256i c0 = step_low_;
     __m256i c1 = step_high_;
     __m256i c2 = id;
-    __m256i c3 = all(std::uint64_t{(static_cast<std::uint32_t>(Stream::brownian) << 8U) | (attempt & 0xffU)});
+    __m256i c3 = all(std::uint64_t{stream_ | (attempt & 0xffU)});
     for (std::size_t k = 0; k < rounds; ++k) {
       const __m256i product0 = _mm256_mul_epu32(multiplier0, c0);
       const __m256i product1 = _mm256_mul_epu32(multiplier1, c2);
@@ -71,6 +72,7 @@ class Philox {
   }
 
   __m256i step_low_, step_high_;
+  std::uint32_t stream_;
   __m256i key_low_[rounds], key_high_[rounds];
 };
 
@@ -197,44 +199,44 @@ class Points {
   std::array<std::uint32_t, batch + 2 * lanes> outside_;  // disks without a point
 };
 
-// Velocities of up to four disks from their points; returns their squared speeds. count < lanes: only the first are
+// The deviates of up to four disks from their points; returns their x^2 + y^2. count < lanes: only the first are
 // read and written, the other lanes are 0.
-__m256d set_velocities(const BrownianInput& in, std::size_t i, const Points& points, std::size_t k, std::size_t count) {
+__m256d set_deviates(const NormalDraws& in, std::size_t i, const Points& points, std::size_t k, std::size_t count) {
   const __m256d q = points.q(k);
   const __m256d scale = _mm256_sqrt_pd(_mm256_div_pd(_mm256_mul_pd(all(-2.0), log_of(q)), q));
-  __m256d vx = _mm256_mul_pd(all(in.speed), _mm256_mul_pd(points.a(k), scale));
-  __m256d vy = _mm256_mul_pd(all(in.speed), _mm256_mul_pd(points.b(k), scale));
+  __m256d x = _mm256_mul_pd(all(in.scale), _mm256_mul_pd(points.a(k), scale));
+  __m256d y = _mm256_mul_pd(all(in.scale), _mm256_mul_pd(points.b(k), scale));
   const __m256i used = _mm256_cmpgt_epi64(all(std::uint64_t{count}), _mm256_setr_epi64x(0, 1, 2, 3));
   if (in.accumulate) {
-    vx = _mm256_add_pd(_mm256_maskload_pd(in.vx + i, used), vx);
-    vy = _mm256_add_pd(_mm256_maskload_pd(in.vy + i, used), vy);
+    x = _mm256_add_pd(_mm256_maskload_pd(in.x + i, used), x);
+    y = _mm256_add_pd(_mm256_maskload_pd(in.y + i, used), y);
   }
   if (count >= lanes) {
-    _mm256_storeu_pd(in.vx + i, vx);
-    _mm256_storeu_pd(in.vy + i, vy);
+    _mm256_storeu_pd(in.x + i, x);
+    _mm256_storeu_pd(in.y + i, y);
   } else {
-    _mm256_maskstore_pd(in.vx + i, used, vx);
-    _mm256_maskstore_pd(in.vy + i, used, vy);
+    _mm256_maskstore_pd(in.x + i, used, x);
+    _mm256_maskstore_pd(in.y + i, used, y);
   }
-  const __m256d speed2 = _mm256_add_pd(_mm256_mul_pd(vx, vx), _mm256_mul_pd(vy, vy));
-  return _mm256_and_pd(speed2, _mm256_castsi256_pd(used));
+  const __m256d largest2 = _mm256_add_pd(_mm256_mul_pd(x, x), _mm256_mul_pd(y, y));
+  return _mm256_and_pd(largest2, _mm256_castsi256_pd(used));
 }
 
 }  // namespace
 
-double draw_brownian_avx2(const BrownianInput& in, std::size_t begin, std::size_t end) {
-  const Philox philox(in.seed, in.step);
-  __m256d speed2 = all(0.0);
+double draw_normals_avx2(const NormalDraws& in, std::size_t begin, std::size_t end) {
+  const Philox philox(in.seed, in.stream, in.step);
+  __m256d largest2 = all(0.0);
   Points points;
   for (; begin < end; begin += batch) {
     const std::size_t n = std::min(batch, end - begin);
     points.draw(philox, in.id + begin, n);
     for (std::size_t k = 0; k < n; k += lanes) {
-      speed2 = _mm256_max_pd(speed2, set_velocities(in, begin + k, points, k, n - k));
+      largest2 = _mm256_max_pd(largest2, set_deviates(in, begin + k, points, k, n - k));
     }
   }
   alignas(32) std::array<double, lanes> largest;
-  _mm256_store_pd(largest.data(), speed2);
+  _mm256_store_pd(largest.data(), largest2);
   return *std::max_element(largest.begin(), largest.end());
 }
 
@@ -244,8 +246,8 @@ double draw_brownian_avx2(const BrownianInput& in, std::size_t begin, std::size_
 
 namespace carom {
 
-double draw_brownian_avx2(const BrownianInput& in, std::size_t begin, std::size_t end) {
-  return draw_brownian_baseline(in, begin, end);
+double draw_normals_avx2(const NormalDraws& in, std::size_t begin, std::size_t end) {
+  return draw_normals_baseline(in, begin, end);
 }
 
 }  // namespace carom

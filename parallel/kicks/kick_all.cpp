@@ -1,0 +1,70 @@
+#include "parallel/kicks/kick_all.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/disks/disk_view.hpp"
+#include "core/step/thermostat.hpp"
+#include "parallel/kicks/normals_kernel.hpp"
+
+namespace carom {
+
+namespace {
+
+// Disks whose deviates are drawn together: they stay in the first-level cache.
+constexpr std::size_t batch = 256;
+
+// Of disks [first, first + n), those that kick number k chooses.
+struct Chosen {
+  std::array<std::uint32_t, batch> disk;
+  std::array<DiskId, batch> id;
+  std::size_t count = 0;
+
+  void choose(const Disks& d, const Scene& scene, Count k, std::size_t first, std::size_t n) {
+    count = 0;
+    for (std::size_t i = first; i < first + n; ++i) {
+      disk[count] = static_cast<std::uint32_t>(i);
+      id[count] = d.id[i];
+      count += is_kicked(scene, d.id[i], k) ? 1U : 0U;
+    }
+  }
+};
+
+}  // namespace
+
+void kick_range(Disks& disks, const Scene& scene, Count number, std::size_t begin, std::size_t end, ExactSum& heat) {
+  const NormalsKernel draw = choose_normals_kernel();
+  const Kick kick = kick_of(scene);
+  Chosen chosen;
+  std::array<double, batch> x, y, given;
+  with_view(disks, [&](const auto& d) {
+    for (std::size_t first = begin; first < end; first += batch) {
+      chosen.choose(disks, scene, number, first, std::min(batch, end - first));
+      draw({x.data(), y.data(), chosen.id.data(), scene.seed, Stream::thermostat, number, 1.0, false}, 0, chosen.count);
+      for (std::size_t k = 0; k < chosen.count; ++k) given[k] = kick_disk(d, scene, kick, chosen.disk[k], {x[k], y[k]});
+      heat.add(std::span<const double>(given).first(chosen.count));
+    }
+  });
+}
+
+ExactSum kick_all(Disks& disks, const Scene& scene, Count number, const Executor& executor) {
+  const std::size_t n = disks.size();
+  std::vector<ExactSum> heat(executor.blocks(n, kick_block) + 1);
+  executor.for_ranges(n, kick_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    kick_range(disks, scene, number, begin, end, heat[b]);
+  });
+  for (std::size_t b = 1; b < heat.size(); ++b) heat[0].add(heat[b]);
+  return heat[0];
+}
+
+bool kick_if_due(const Scene& scene, State& state, const Executor& executor) {
+  if (!is_kick_due(scene, state)) return false;
+  const Count number = state.intervals++;
+  state.counters.thermostat_heat += kick_all(state.disks, scene, number, executor).value();
+  return true;
+}
+
+}  // namespace carom
