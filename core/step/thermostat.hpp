@@ -47,11 +47,11 @@ inline Kick kick_of(const Scene& scene) {
   return bath.kind == Thermostat::Kind::andersen ? Kick{0.0, 1.0} : langevin_kick(bath.rate, kick_interval(scene));
 }
 
-// Does kick number k choose this disk? Langevin's chooses all.
-inline bool is_kicked(const Scene& scene, DiskId id, Count k) {
+// The share of the disks that a kick chooses: those whose number Stream::thermostat_choice draws, uniform from 0 to 1,
+// is below it.
+inline double kicked_share(const Scene& scene) {
   const Thermostat& bath = scene.physics.thermostat;
-  return bath.kind != Thermostat::Kind::andersen ||
-         uniforms(scene.seed, Stream::thermostat_choice, id, k).a < bath.rate * kick_interval(scene);
+  return bath.kind == Thermostat::Kind::andersen ? bath.rate * kick_interval(scene) : 1.0;
 }
 
 // Kicks disk i, with the deviates r of Stream::thermostat; returns the energy that it is given. In a sheared box v is
@@ -75,10 +75,11 @@ inline void kick_if_due(const Scene& scene, State& state) {
   if (!is_kick_due(scene, state)) return;
   const Count number = state.intervals++;
   const Kick kick = kick_of(scene);
+  const double share = kicked_share(scene);
   ExactSum heat;
   with_view(state.disks, [&](const auto& d) {
     for (std::size_t i = 0; i < state.disks.size(); ++i) {
-      if (!is_kicked(scene, d.id[i], number)) continue;
+      if (share < 1.0 && !(uniforms(scene.seed, Stream::thermostat_choice, d.id[i], number).a < share)) continue;
       heat.add(kick_disk(d, scene, kick, i, normals(scene.seed, Stream::thermostat, d.id[i], number)));
     }
   });

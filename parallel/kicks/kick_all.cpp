@@ -8,7 +8,7 @@
 
 #include "core/disks/disk_view.hpp"
 #include "core/step/thermostat.hpp"
-#include "parallel/kicks/normals_kernel.hpp"
+#include "parallel/kicks/draw_kernels.hpp"
 
 namespace carom {
 
@@ -17,18 +17,29 @@ namespace {
 // Disks whose deviates are drawn together: they stay in the first-level cache.
 constexpr std::size_t batch = 256;
 
-// Of disks [first, first + n), those that kick number k chooses.
+// Those of a batch of disks that a kick chooses.
 struct Chosen {
   std::array<std::uint32_t, batch> disk;
   std::array<DiskId, batch> id;
   std::size_t count = 0;
 
-  void choose(const Disks& d, const Scene& scene, Count k, std::size_t first, std::size_t n) {
+  // All of disks [first, first + n).
+  void take_all(const Disks& d, std::size_t first, std::size_t n) {
+    count = n;
+    for (std::size_t k = 0; k < n; ++k) {
+      disk[k] = static_cast<std::uint32_t>(first + k);
+      id[k] = d.id[first + k];
+    }
+  }
+
+  // Those of them whose number u is below the share. There is no branch, as it could not be predicted.
+  void take_share(double share, const std::array<double, batch>& u) {
+    const std::size_t n = count;
     count = 0;
-    for (std::size_t i = first; i < first + n; ++i) {
-      disk[count] = static_cast<std::uint32_t>(i);
-      id[count] = d.id[i];
-      count += is_kicked(scene, d.id[i], k) ? 1U : 0U;
+    for (std::size_t k = 0; k < n; ++k) {
+      disk[count] = disk[k];
+      id[count] = id[k];
+      count += u[k] < share ? 1U : 0U;
     }
   }
 };
@@ -36,14 +47,20 @@ struct Chosen {
 }  // namespace
 
 void kick_range(Disks& disks, const Scene& scene, Count number, std::size_t begin, std::size_t end, ExactSum& heat) {
-  const NormalsKernel draw = choose_normals_kernel();
+  const DrawKernels draw = choose_draw_kernels();
   const Kick kick = kick_of(scene);
+  const double share = kicked_share(scene);
   Chosen chosen;
   std::array<double, batch> x, y, given;
   with_view(disks, [&](const auto& d) {
     for (std::size_t first = begin; first < end; first += batch) {
-      chosen.choose(disks, scene, number, first, std::min(batch, end - first));
-      draw({x.data(), y.data(), chosen.id.data(), scene.seed, Stream::thermostat, number, 1.0, false}, 0, chosen.count);
+      chosen.take_all(disks, first, std::min(batch, end - first));
+      if (share < 1.0) {
+        draw.uniforms({x.data(), chosen.id.data(), scene.seed, Stream::thermostat_choice, number}, chosen.count);
+        chosen.take_share(share, x);
+      }
+      draw.normals({x.data(), y.data(), chosen.id.data(), scene.seed, Stream::thermostat, number, 1.0, false}, 0,
+                   chosen.count);
       for (std::size_t k = 0; k < chosen.count; ++k) given[k] = kick_disk(d, scene, kick, chosen.disk[k], {x[k], y[k]});
       heat.add(std::span<const double>(given).first(chosen.count));
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/physics/advance.hpp"
-#include "parallel/kicks/normals_kernel.hpp"
+#include "parallel/kicks/draw_kernels.hpp"
 
 namespace carom {
 
@@ -16,7 +16,7 @@ constexpr std::size_t draw_block = 8192;
 
 double draw_velocities(Disks& d, const Scene& scene, double dt, Count step, const Executor& executor,
                        std::vector<double>& scratch) {
-  const NormalsKernel kernel = choose_normals_kernel();
+  const NormalsKernel kernel = choose_draw_kernels().normals;
   const NormalDraws in{d.vx.data(),
                        d.vy.data(),
                        d.id.data(),

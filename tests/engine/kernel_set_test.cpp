@@ -8,7 +8,7 @@
 
 #include "core/base/check.hpp"
 #include "parallel/exact/list_kernel.hpp"
-#include "parallel/kicks/normals_kernel.hpp"
+#include "parallel/kicks/draw_kernels.hpp"
 #include "parallel/stepping/move_kernel.hpp"
 #include "parallel/stepping/search_kernel.hpp"
 #include "tests/support/program_support.hpp"
@@ -33,7 +33,7 @@ TEST(KernelSet, KernelsFollowTheEnvironment) {
   const bool baseline = kernel_set() == KernelSet::baseline;
   EXPECT_EQ(choose_interior_kernel(), baseline ? search_interior_baseline : search_interior_avx2);
   EXPECT_EQ(choose_move_kernel(), baseline ? move_disks_baseline : move_disks_avx2);
-  EXPECT_EQ(choose_normals_kernel(), baseline ? draw_normals_baseline : draw_normals_avx2);
+  EXPECT_EQ(choose_draw_kernels().normals, baseline ? draw_normals_baseline : draw_normals_avx2);
   EXPECT_EQ(choose_list_kernel(), baseline ? list_kernel_baseline : list_kernel_avx2);
   EXPECT_EQ(choose_change_kernel(), baseline ? change_kernel_baseline : change_kernel_avx2);
   const EditKernels edits = baseline ? edit_kernels_baseline() : edit_kernels_avx2();

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "core/base/kernel_set.hpp"
-#include "parallel/kicks/normals_kernel.hpp"
+#include "parallel/kicks/draw_kernels.hpp"
 
 namespace carom {
 
@@ -16,9 +16,13 @@ double draw_normals_baseline(const NormalDraws& in, std::size_t begin, std::size
   return largest2;
 }
 
-NormalsKernel choose_normals_kernel() {
-  if (kernel_set() == KernelSet::avx2) return draw_normals_avx2;
-  return draw_normals_baseline;
+void draw_uniforms_baseline(const UniformDraws& in, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) in.u[i] = uniforms(in.seed, in.stream, in.id[i], in.step).a;
+}
+
+DrawKernels choose_draw_kernels() {
+  if (kernel_set() == KernelSet::avx2) return {draw_normals_avx2, draw_uniforms_avx2};
+  return {draw_normals_baseline, draw_uniforms_baseline};
 }
 
 }  // namespace carom

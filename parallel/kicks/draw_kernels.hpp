@@ -1,4 +1,4 @@
-// The kernel that draws normal deviates for disks, in the versions that this machine may have.
+// The kernels that draw random numbers for disks, in the versions that this machine may have.
 #pragma once
 
 #include <cstddef>
@@ -24,10 +24,28 @@ struct NormalDraws {
 // y^2.
 using NormalsKernel = double (*)(const NormalDraws& in, std::size_t begin, std::size_t end);
 
+struct UniformDraws {
+  double* u;  // one entry a disk, as id
+  const DiskId* id;
+  std::uint64_t seed;
+  Stream stream;
+  std::uint64_t step;
+};
+
+// Draws for disks [0, count): uniforms(seed, stream, id, step).a.
+using UniformsKernel = void (*)(const UniformDraws& in, std::size_t count);
+
 double draw_normals_baseline(const NormalDraws& in, std::size_t begin, std::size_t end);
 double draw_normals_avx2(const NormalDraws& in, std::size_t begin, std::size_t end);
+void draw_uniforms_baseline(const UniformDraws& in, std::size_t count);
+void draw_uniforms_avx2(const UniformDraws& in, std::size_t count);
 
-// The best version for the processor at hand; all give the same bits.
-NormalsKernel choose_normals_kernel();
+struct DrawKernels {
+  NormalsKernel normals;
+  UniformsKernel uniforms;
+};
+
+// The best versions for the processor at hand; all give the same bits.
+DrawKernels choose_draw_kernels();
 
 }  // namespace carom

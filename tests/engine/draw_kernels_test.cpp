@@ -1,5 +1,5 @@
-// Normal deviates drawn by vectors: the bits of core's formula, disk by disk.
-#include "parallel/kicks/normals_kernel.hpp"
+// Random numbers drawn by vectors: the bits of core's formula, disk by disk.
+#include "parallel/kicks/draw_kernels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,19 +47,33 @@ Deviates expected(const std::vector<DiskId>& id, const Draw& draw, std::size_t b
 }
 
 // ctest runs this test twice, once with CAROM_KERNELS=baseline.
-TEST(NormalsKernel, DrawsTheBitsOfTheFormula) {
+TEST(DrawKernels, DrawTheBitsOfTheDeviates) {
   const std::vector<DiskId> id = ids_of(20'003);
   for (const Draw& draw :
        {Draw{Stream::brownian, 0, 7.75, false}, Draw{Stream::brownian, 7, 0.3, true},
         Draw{Stream::thermostat, 7, 1.0, false}, Draw{Stream::thermostat, (std::uint64_t{5} << 32U) + 3, 0.1, true}}) {
     for (const auto& [begin, end] : {std::pair{0UL, id.size()}, {1UL, 4UL}, {17UL, 17UL}, {3UL, 9'001UL}}) {
       Deviates v = before(id.size());
-      v.largest2 = choose_normals_kernel()(
+      v.largest2 = choose_draw_kernels().normals(
           {v.x.data(), v.y.data(), id.data(), seed, draw.stream, draw.step, draw.scale, draw.accumulate}, begin, end);
       const Deviates want = expected(id, draw, begin, end);
       EXPECT_EQ(v.x, want.x) << draw.step << ' ' << begin;
       EXPECT_EQ(v.y, want.y) << draw.step << ' ' << begin;
       EXPECT_EQ(v.largest2, want.largest2) << draw.step << ' ' << begin;
+    }
+  }
+}
+
+TEST(DrawKernels, DrawTheBitsOfTheUniforms) {
+  const std::vector<DiskId> id = ids_of(1'003);
+  for (const std::uint64_t step : {std::uint64_t{0}, std::uint64_t{7}, (std::uint64_t{5} << 32U) + 3}) {
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{4}, std::size_t{7}, id.size()}) {
+      std::vector<double> u(id.size(), -1.0);
+      choose_draw_kernels().uniforms({u.data(), id.data(), seed, Stream::thermostat_choice, step}, count);
+      for (std::size_t i = 0; i < id.size(); ++i) {
+        EXPECT_EQ(u[i], i < count ? uniforms(seed, Stream::thermostat_choice, id[i], step).a : -1.0)
+            << step << ' ' << i;
+      }
     }
   }
 }

@@ -1,5 +1,5 @@
 // Compiled with -mavx2 on x86-64 (CMakeLists.txt); elsewhere it calls the baseline.
-#include "parallel/kicks/normals_kernel.hpp"
+#include "parallel/kicks/draw_kernels.hpp"
 
 #if defined(__AVX2__)
 
@@ -240,6 +240,24 @@ double draw_normals_avx2(const NormalDraws& in, std::size_t begin, std::size_t e
   return *std::max_element(largest.begin(), largest.end());
 }
 
+void draw_uniforms_avx2(const UniformDraws& in, std::size_t count) {
+  const Philox philox(in.seed, in.stream, in.step);
+  const auto draw = [&](__m128i id) {
+    const __m256d twice = _mm256_add_pd(centred(philox(_mm256_cvtepu32_epi64(id), 0).a), all(1.0));  // exactly
+    return _mm256_mul_pd(all(0.5), twice);
+  };
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    _mm256_storeu_pd(in.u + i, draw(_mm_loadu_si128(reinterpret_cast<const __m128i*>(in.id + i))));
+  }
+  if (i == count) return;
+  alignas(16) std::array<DiskId, lanes> id{};
+  alignas(32) std::array<double, lanes> u;
+  std::copy(in.id + i, in.id + count, id.begin());
+  _mm256_store_pd(u.data(), draw(_mm_load_si128(reinterpret_cast<const __m128i*>(id.data()))));
+  std::copy_n(u.begin(), count - i, in.u + i);
+}
+
 }  // namespace carom
 
 #else
@@ -248,6 +266,10 @@ namespace carom {
 
 double draw_normals_avx2(const NormalDraws& in, std::size_t begin, std::size_t end) {
   return draw_normals_baseline(in, begin, end);
+}
+
+void draw_uniforms_avx2(const UniformDraws& in, std::size_t count) {
+  draw_uniforms_baseline(in, count);
 }
 
 }  // namespace carom
