@@ -289,7 +289,7 @@ void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
   const FirstContact first = predictor_.template first_in<newest>(row, record_[i], is_near_border(i));
   if (!(first.time <= window_.horizon)) [[unlikely]] {
     if (first.is_ambiguous()) return predict_from_all(i, from);
-    return schedule_next(i, from, {});
+    return schedule_no_contact(i, from);
   }
   if (first.leaves_list()) [[unlikely]] {
     const Partner partner = EventPredictor::partner_in(row, i, first);
@@ -301,6 +301,17 @@ void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
   const Partner partner = EventPredictor::partner_in(row, i, first);
   record_[i].partner_version = record_[partner.index()].version;
   schedule(i, first.time, partner);
+}
+
+// As schedule_next, for a disk that nothing happens to up to the horizon while it stays listed.
+template <Scope scope>
+void EventProcessor<scope>::schedule_no_contact(std::uint32_t i, double from) {
+  if (scope == Scope::border || !is_straight_) return schedule_next(i, from, {});
+  const PathSegment& path = record_[i].path;
+  const double look = window_.last_look(i);
+  if (lists_.stays_listed(i, path, look, relist_distance(i))) return schedule(i, look, Partner::none());
+  const double relist_at = lists_.relist_time_straight(i, path, std::max(from, path.start), relist_distance(i));
+  relist_at < look ? schedule(i, relist_at, Partner::relist()) : schedule(i, look, Partner::none());
 }
 
 template <Scope scope>

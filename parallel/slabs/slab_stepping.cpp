@@ -17,7 +17,6 @@
 #include "parallel/stepping/drift_blocks.hpp"
 #include "parallel/stepping/finish_disk.hpp"
 #include "parallel/stepping/mark_gone.hpp"
-#include "parallel/stepping/move_sheared.hpp"
 #include "parallel/stepping/resolve_crowded.hpp"
 #include "parallel/stepping/sort_rule.hpp"
 #include "parallel/stepping/wall_reach.hpp"
@@ -178,7 +177,7 @@ void SlabStepping::drift(double t) {
 // The work of the shear is rounded once for all ranks, as on one machine.
 double SlabStepping::move_sheared(double t) {
   ImpactTally tally;
-  const double speed2 = carom::move_sheared(state_.disks, scene_.box, t, executor_, tally, block_values_);
+  const double speed2 = carom::move_sheared(state_.disks, scene_.box, t, executor_, tally, sheared_);
   sum_over_ranks(ranks_, scene_.box, tally);
   tally.count_into(state_.counters);
   return speed2;

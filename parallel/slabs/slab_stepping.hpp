@@ -21,6 +21,7 @@
 #include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/stepping/displaced_disks.hpp"
 #include "parallel/stepping/find_contacts.hpp"
+#include "parallel/stepping/move_sheared.hpp"
 #include "parallel/stepping/resolve_contacts.hpp"
 #include "parallel/threads/executor.hpp"
 #include "parallel/threads/threads.hpp"
@@ -116,6 +117,7 @@ class SlabStepping : public Engine, public InSlabs {
   SeenBeyond seen_;
   std::vector<unsigned char> gone_;
   std::vector<double> block_values_;
+  ShearedBlocks sheared_;
 };
 
 }  // namespace carom

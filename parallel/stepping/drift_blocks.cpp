@@ -17,7 +17,7 @@ constexpr std::size_t drift_block = 8192;
 // All disks through the kernel, level by level. Returns the largest squared speed.
 double move_all(MoveInput in, std::size_t disks, const Executor& executor, CellList& cells) {
   CoarsePositions& coarse = cells.coarse;
-  const MoveKernel kernel = choose_move_kernel();
+  const MoveKernel kernel = choose_move_kernels().in_levels;
   in.key = cells.sorted.key.data();
   in.position = coarse.position.data();
   double speed2 = 0.0;

@@ -1,4 +1,5 @@
-// The kernel that moves disks, compiled once for every instruction set; CAROM_MOVE_DISKS names the version.
+// The kernels that move disks, compiled once for every instruction set; CAROM_MOVE_DISKS and CAROM_MOVE_SHEARED name
+// the version.
 
 #include <algorithm>
 #include <cmath>
@@ -220,7 +221,54 @@ double move_in_box(const MoveInput& in, const GridLevel& level, std::size_t begi
   return move_range<motion, false, false>(in, level, begin, end, strays);
 }
 
+template <Motion motion>
+double move_sheared_range(const MoveInput& input, std::size_t begin, std::size_t end,
+                          std::vector<std::uint32_t>& crossed) {
+  const MoveInput in = input;  // by itself, so that no store can change it
+  const Doubles width = all(in.box.width), height = all(in.box.height);
+  const auto see = [&](std::size_t i, bool in_box) {
+    if (!in_box) crossed.push_back(static_cast<std::uint32_t>(i));
+  };
+  Doubles speed2 = all(0.0);
+  std::size_t i = begin;
+  for (; i + lanes <= end; i += lanes) {
+    Doubles x = load(in.x + i);
+    Doubles y = load(in.y + i);
+    const Doubles vx = load(in.vx + i);
+    const Doubles vy = load(in.vy + i);
+    if constexpr (motion != Motion::none) {
+      x += vx * all(in.t);
+      y += vy * all(in.t);
+      store(in.x + i, x);
+      store(in.y + i, y);
+    }
+    Doubles v2 = vx * vx + vy * vy;
+    const Longs in_box = (x >= all(0.0)) & (x < width) & (y >= all(0.0)) & (y < height);
+    if (any(~in_box)) [[unlikely]] {
+      for (std::size_t k = 0; k < lanes; ++k) see(i + k, in_box[k] != 0);
+      v2 = __builtin_bit_cast(Doubles, as_longs(v2) & in_box);
+    }
+    speed2 = v2 > speed2 ? v2 : speed2;
+  }
+  double largest2 = largest_of(speed2);
+  for (; i < end; ++i) {
+    double& x = in.x[i];
+    double& y = in.y[i];
+    if constexpr (motion != Motion::none) drift<false>(x, y, in.vx[i], in.vy[i], in.t, 0.0);
+    const bool in_box = x >= 0.0 && x < in.box.width && y >= 0.0 && y < in.box.height;
+    see(i, in_box);
+    if (in_box) largest2 = std::max(largest2, in.vx[i] * in.vx[i] + in.vy[i] * in.vy[i]);
+  }
+  return largest2;
+}
+
 }  // namespace
+
+double CAROM_MOVE_SHEARED(const MoveInput& in, std::size_t begin, std::size_t end,
+                          std::vector<std::uint32_t>& crossed) {
+  return in.motion == Motion::none ? move_sheared_range<Motion::none>(in, begin, end, crossed)
+                                   : move_sheared_range<Motion::straight>(in, begin, end, crossed);
+}
 
 double CAROM_MOVE_DISKS(const MoveInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
                         std::vector<std::uint32_t>& strays) {

@@ -1,4 +1,4 @@
-// The kernel that moves disks and writes the coarse positions that the contact search reads, in the versions that this
+// The kernels that move disks, and write the coarse positions that the contact search reads, in the versions that this
 // machine may have.
 #pragma once
 
@@ -34,12 +34,27 @@ struct MoveInput {
 using MoveKernel = double (*)(const MoveInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
                               std::vector<std::uint32_t>& strays);
 
+// Moves disks [begin, end) of a sheared box likewise, by in.t, but leaves those in `crossed` that are out of the box
+// now, wherever they are; is appended to. Returns the largest squared speed of the others. Reads neither cells nor
+// gravity.
+using ShearedMoveKernel = double (*)(const MoveInput& in, std::size_t begin, std::size_t end,
+                                     std::vector<std::uint32_t>& crossed);
+
 double move_disks_baseline(const MoveInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
                            std::vector<std::uint32_t>& strays);
 double move_disks_avx2(const MoveInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
                        std::vector<std::uint32_t>& strays);
 
-// The best version for the processor at hand; all give the same bits.
-MoveKernel choose_move_kernel();
+double move_sheared_baseline(const MoveInput& in, std::size_t begin, std::size_t end,
+                             std::vector<std::uint32_t>& crossed);
+double move_sheared_avx2(const MoveInput& in, std::size_t begin, std::size_t end, std::vector<std::uint32_t>& crossed);
+
+struct MoveKernels {
+  MoveKernel in_levels;
+  ShearedMoveKernel sheared;
+};
+
+// The best versions for the processor at hand; all give the same bits.
+MoveKernels choose_move_kernels();
 
 }  // namespace carom

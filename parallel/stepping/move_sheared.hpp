@@ -1,6 +1,7 @@
 // Moving all disks of a sheared box, in blocks.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/disks/disks.hpp"
@@ -10,9 +11,15 @@
 
 namespace carom {
 
+// Scratch, one a block: its largest squared speed, and those of its disks that have crossed a side.
+struct ShearedBlocks {
+  std::vector<double> speed2;
+  std::vector<std::vector<std::uint32_t>> crossed;
+};
+
 // Drifts every disk by t, and brings those that have crossed a side back into the box; with t = 0 those that contacts
-// have moved. Adds the work of the shear to the tally. Returns the largest squared speed. block_values: scratch.
+// have moved. Adds the work of the shear to the tally. Returns the largest squared speed.
 double move_sheared(Disks& disks, const Domain& box, double t, const Executor& executor, ImpactTally& tally,
-                    std::vector<double>& block_values);
+                    ShearedBlocks& blocks);
 
 }  // namespace carom

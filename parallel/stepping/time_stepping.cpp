@@ -13,7 +13,6 @@
 #include "parallel/stepping/draw_velocities.hpp"
 #include "parallel/stepping/drift_blocks.hpp"
 #include "parallel/stepping/mark_gone.hpp"
-#include "parallel/stepping/move_sheared.hpp"
 #include "parallel/stepping/sort_rule.hpp"
 #include "parallel/stepping/stepping_cells.hpp"
 #include "parallel/stepping/wall_reach.hpp"
@@ -163,7 +162,7 @@ void TimeStepping::drift(double t) {
 // those that contacts have moved cross the sides.
 void TimeStepping::move_sheared(double t) {
   ImpactTally tally;
-  speed2_ = carom::move_sheared(state_.disks, scene_.box, t, executor_, tally, block_values_);
+  speed2_ = carom::move_sheared(state_.disks, scene_.box, t, executor_, tally, sheared_);
   tally.count_into(state_.counters);
   speed2_known_ = true;
 }

@@ -10,6 +10,7 @@
 #include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/stepping/displaced_disks.hpp"
 #include "parallel/stepping/find_contacts.hpp"
+#include "parallel/stepping/move_sheared.hpp"
 #include "parallel/stepping/resolve_contacts.hpp"
 #include "parallel/threads/executor.hpp"
 #include "parallel/threads/threads.hpp"
@@ -69,6 +70,7 @@ class TimeStepping : public Engine {
   std::vector<unsigned char> gone_;
   bool closed_up_ = false;                 // since the last search disks have left storage, those marked in gone_
   std::vector<double> block_values_;       // scratch, one a block
+  ShearedBlocks sheared_;                  // likewise, of a sheared box
   std::vector<std::size_t> class_counts_;  // disks of each size class
   double smallest_radius_ = 0.0;           // 0: not known
   bool smallest_may_be_gone_ = false;      // a program took a disk away

@@ -32,7 +32,8 @@ TEST(KernelSet, KernelsFollowTheEnvironment) {
   EXPECT_EQ(kernel_set(), choose_kernel_set(std::getenv("CAROM_KERNELS")));
   const bool baseline = kernel_set() == KernelSet::baseline;
   EXPECT_EQ(choose_interior_kernel(), baseline ? search_interior_baseline : search_interior_avx2);
-  EXPECT_EQ(choose_move_kernel(), baseline ? move_disks_baseline : move_disks_avx2);
+  EXPECT_EQ(choose_move_kernels().in_levels, baseline ? move_disks_baseline : move_disks_avx2);
+  EXPECT_EQ(choose_move_kernels().sheared, baseline ? move_sheared_baseline : move_sheared_avx2);
   EXPECT_EQ(choose_draw_kernels().normals, baseline ? draw_normals_baseline : draw_normals_avx2);
   EXPECT_EQ(choose_list_kernel(), baseline ? list_kernel_baseline : list_kernel_avx2);
   EXPECT_EQ(choose_change_kernel(), baseline ? change_kernel_baseline : change_kernel_avx2);
