@@ -37,6 +37,24 @@ class Clearance {
   // Nothing is nearer to this place along either side; length, negative where it is not known.
   double at(Vec2 place) const { return cells_around(place) * cell_; }
 
+  // What at() reads, for a kernel that does the same.
+  struct Cells {
+    const std::uint8_t* away = nullptr;  // null: there are none
+    double columns = 0.0, rows = 0.0;
+    double columns_per_length = 0.0, rows_per_length = 0.0;
+    double cell = 0.0;   // length
+    double share = 0.0;  // of the cells away, without the one that the place is in, that count
+  };
+  Cells cells() const {
+    return {away_.data(),
+            static_cast<double>(x_.cells),
+            static_cast<double>(y_.cells),
+            x_.cells_per_length,
+            y_.cells_per_length,
+            cell_,
+            share};
+  }
+
  private:
   void begin(const Domain& box, std::size_t cells);
   void mark_shape(const Shape& shape);
@@ -45,9 +63,8 @@ class Clearance {
   void mark(const Extent& extent, Occupied&& occupied);
   void spread();
 
-  // So many cells of either axis; a little less, as places are rounded. Not known beyond the sides.
+  // So many cells of either axis. Not known beyond the sides.
   double cells_around(Vec2 place) const {
-    constexpr double share = 1.0 - 1e-6;
     const double x = place.x * x_.cells_per_length;
     const double y = place.y * y_.cells_per_length;
     const bool in_box = x >= 0.0 && y >= 0.0 && x < static_cast<double>(x_.cells) && y < static_cast<double>(y_.cells);
@@ -58,6 +75,7 @@ class Clearance {
   }
 
   static constexpr std::uint8_t furthest = 255;
+  static constexpr double share = 1.0 - 1e-6;  // a little less, as places are rounded
   CellAxis x_, y_;
   double cell_ = 0.0;  // the shorter side of a cell; length
   // Of each cell, row by row: how many cells away, along either side, the nearest one is that something reaches into.

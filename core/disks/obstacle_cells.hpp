@@ -110,6 +110,9 @@ class ObstacleCells {
     const double at_rest = around_at_rest_.at(place);
     return moving_.empty() ? at_rest : std::min(at_rest, around_swept_.at(place));
   }
+  // What clearance() reads: of those at rest, and of those that move, which has no cells where none does.
+  Clearance::Cells clearance_at_rest() const { return around_at_rest_.cells(); }
+  Clearance::Cells clearance_swept() const { return moving_.empty() ? Clearance::Cells{} : around_swept_.cells(); }
 
  private:
   std::vector<Obstacle> obstacles_;

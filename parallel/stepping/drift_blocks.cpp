@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "parallel/stepping/move_kernel.hpp"
+#include "parallel/stepping/near_walls.hpp"
 #include "parallel/stepping/wall_reach.hpp"
 #include "parallel/threads/resize_amply.hpp"
 
@@ -73,14 +74,17 @@ void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& ex
     buffers.back().reserve(drift_block / 16);
   }
   buffers.resize(executor.blocks(disks.size(), drift_block));
-  const WallReach walls(rules.box);
+  if (found.near_walls.size() < buffers.size()) found.near_walls.resize(buffers.size());
+  const NearWallsKernel kernel = choose_near_walls_kernel();
+  const NearWallsInput in = near_walls_input(disks, rules.box);
   with_view(disks, [&](const auto& d) {
     executor.for_ranges(disks.size(), drift_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+      std::vector<std::uint32_t>& near = found.near_walls[b];
+      near.clear();
+      kernel(in, begin, end, near);
       buffers[b].clear();
-      for (std::size_t i = begin; i < end; ++i) {
-        if (!walls.touches(d.x[i], d.y[i], d.radius(i))) continue;
-        for_each_wall_contact(d, rules, static_cast<std::uint32_t>(i),
-                              [&](const ContactEvent& e) { buffers[b].push_back(e); });
+      for (const std::uint32_t i : near) {
+        for_each_wall_contact(d, rules, i, [&](const ContactEvent& e) { buffers[b].push_back(e); });
       }
     });
   });

@@ -22,6 +22,8 @@ struct FoundContacts {
   std::size_t used = 0;
   std::vector<std::vector<ContactEvent>> walls;  // empty in a box without walls
   double furthest = 0.0;                         // that a stray had left its cell by; length
+  // Scratch: of each block, the disks that may touch a wall or an obstacle.
+  std::vector<std::vector<std::uint32_t>> near_walls;
   // Scratch of the strays' own search.
   std::vector<std::uint32_t> strays;
   std::vector<unsigned char> strayed;  // of each disk: 1 a stray, 2 a loose one; all 0 between searches

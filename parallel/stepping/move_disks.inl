@@ -3,60 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
-#if defined(__AVX__)
-#include <immintrin.h>
-#endif
 
 #include "core/physics/advance.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
+#include "parallel/stepping/four_doubles.inl"
 #include "parallel/stepping/move_kernel.hpp"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t lanes = 4;
-
-// Vectors of four doubles in the compilers' own vector types: on a machine without them the compiler splits them.
-using Doubles = double __attribute__((vector_size(32)));
-using Longs = long long __attribute__((vector_size(32)));
 using Words = std::int32_t __attribute__((vector_size(32)));
-using FourWords = std::int32_t __attribute__((vector_size(16)));
 
 // Added to a number and taken away again: rounds it to the nearest whole one, which meanwhile is in the lowest bits.
 constexpr double rounding = 0x1.8p52;
 
-inline Doubles load(const double* p) {
-  Doubles v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-
-inline void store(double* p, Doubles v) {
-  __builtin_memcpy(p, &v, sizeof v);
-}
-
-inline Doubles all(double a) {
-  return Doubles{a, a, a, a};
-}
-
-// The built-in cast in place of std::bit_cast: without optimisation that is a function of its own, which the versions
-// for several instruction sets, with their ways to pass a vector, would share.
-inline Longs as_longs(Doubles v) {
-  return __builtin_bit_cast(Longs, v);
-}
-
 inline Doubles magnitude(Doubles v) {
   constexpr long long all_but_sign = ~(1LL << 63);
   return __builtin_bit_cast(Doubles, as_longs(v) & Longs{all_but_sign, all_but_sign, all_but_sign, all_but_sign});
-}
-
-inline bool any(Longs truth) {
-#if defined(__AVX__)
-  return _mm256_movemask_pd(__builtin_bit_cast(__m256d, truth)) != 0;
-#else
-  return (truth[0] | truth[1] | truth[2] | truth[3]) != 0;
-#endif
 }
 
 inline Doubles load_keys(const std::uint32_t* p) {

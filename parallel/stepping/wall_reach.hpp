@@ -28,6 +28,8 @@ class WallReach {
     first_left_ = obstacles_ == nullptr ? least_[0] : -std::numeric_limits<double>::infinity();
   }
 
+  const std::array<double, 4>& least() const { return least_; }
+
   // Does a disk of radius r at (x, y) touch a wall or reach beyond it, or may it touch an obstacle?
   bool touches(double x, double y, double r) const {
     const bool other = ((x + r) - width_ >= least_[1]) | (r - y >= least_[2]) | ((y + r) - height_ >= least_[3]);

@@ -10,6 +10,7 @@
 #include "parallel/exact/list_kernel.hpp"
 #include "parallel/kicks/draw_kernels.hpp"
 #include "parallel/stepping/move_kernel.hpp"
+#include "parallel/stepping/near_walls.hpp"
 #include "parallel/stepping/search_kernel.hpp"
 #include "tests/support/program_support.hpp"
 
@@ -32,6 +33,7 @@ TEST(KernelSet, KernelsFollowTheEnvironment) {
   EXPECT_EQ(kernel_set(), choose_kernel_set(std::getenv("CAROM_KERNELS")));
   const bool baseline = kernel_set() == KernelSet::baseline;
   EXPECT_EQ(choose_interior_kernel(), baseline ? search_interior_baseline : search_interior_avx2);
+  EXPECT_EQ(choose_near_walls_kernel(), baseline ? near_walls_baseline : near_walls_avx2);
   EXPECT_EQ(choose_move_kernels().in_levels, baseline ? move_disks_baseline : move_disks_avx2);
   EXPECT_EQ(choose_move_kernels().sheared, baseline ? move_sheared_baseline : move_sheared_avx2);
   EXPECT_EQ(choose_draw_kernels().normals, baseline ? draw_normals_baseline : draw_normals_avx2);
