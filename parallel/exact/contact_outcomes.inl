@@ -88,8 +88,7 @@ template <Scope scope>
 template <PairKind kind, class Flight>
 void EventProcessor<scope>::collide_smooth_pair(const Flight& flight, std::uint32_t i, std::uint32_t j, double time) {
   constexpr bool elastic_of_one_mass = kind == PairKind::elastic_of_one_mass;
-  constexpr bool sheared = kind == PairKind::sheared;
-  constexpr bool constant = elastic_of_one_mass || kind == PairKind::of_constant_restitution;
+  constexpr bool constant = is_constant(kind);
   if (record_[i].id > record_[j].id) std::swap(i, j);
   DiskRecord& a = record_[i];
   DiskRecord& b = record_[j];
@@ -100,7 +99,7 @@ void EventProcessor<scope>::collide_smooth_pair(const Flight& flight, std::uint3
   }
   const bool inside = (lists_.rows().row(i).is_inside() && lists_.rows().row(j).is_inside()) ||
                       inner_part_.holds(time, flight, a.path, b.path);
-  if (sheared && !inside) return collide_any_pair(i, j, time);
+  if (kind == PairKind::sheared && !inside) return collide_any_pair(i, j, time);
   if (window_.keeps_paths) [[unlikely]] {
     log_start(i);
     log_start(j);
@@ -119,17 +118,41 @@ void EventProcessor<scope>::collide_smooth_pair(const Flight& flight, std::uint3
   } else {
     outcome = collide(ConstantRestitution{pair.value});
   }
-  if (outcome.happened && counts(i)) {
-    const double reduced = common_mass ? reduced_mass_ : reduced_mass(disks.mass_of(i), disks.mass_of(j));
-    const double virial = reduced * outcome.change;
-    if (sheared) shear_virials_[virial_count_] = virial * outcome.shear_share;
-    virials_[virial_count_++] = virial;
-    if (virial_count_ == virials_.size()) [[unlikely]]
-      tally_virials();
-    if (!constant) worker_.tally.inaccurate += pair.held ? 1 : 0;
+  if (outcome.happened) {
+    if (counts(i)) tally_smooth_pair<kind>(i, j, outcome, pair);
+    if (!constant && !window_.last_contact.empty()) window_.last_contact[i] = window_.last_contact[j] = time;
   }
-  if (!constant && outcome.happened && !window_.last_contact.empty())
-    window_.last_contact[i] = window_.last_contact[j] = time;
+  const EventMark event{time, a.id, b.id};
+  begin_paths(i, j, outcome.fastest2, event);
+  predict_after_event(i, time);
+  predict_after_event(j, time);
+  if (elastic_of_one_mass || window_.burst.empty() || !outcome.happened || !(pair.value < 1.0)) return;
+  count_burst(i, event);
+  count_burst(j, event);
+}
+
+// Counts the collision of disks i and j, with what follows from it for the virial.
+template <Scope scope>
+template <PairKind kind>
+inline void EventProcessor<scope>::tally_smooth_pair(std::uint32_t i, std::uint32_t j, const PlainCollision& outcome,
+                                                     const PairRestitution& pair) {
+  const Disks& disks = *window_.disks;
+  const bool common_mass = kind == PairKind::elastic_of_one_mass || window_.rules.common_mass;
+  const double reduced = common_mass ? reduced_mass_ : reduced_mass(disks.mass_of(i), disks.mass_of(j));
+  const double virial = reduced * outcome.change;
+  if (kind == PairKind::sheared) shear_virials_[virial_count_] = virial * outcome.shear_share;
+  virials_[virial_count_++] = virial;
+  if (virial_count_ == virials_.size()) [[unlikely]]
+    tally_virials();
+  if (!is_constant(kind)) worker_.tally.inaccurate += pair.held ? 1 : 0;
+}
+
+// Disks i and j, which have just met, are on new paths. fastest2: the larger v^2.
+template <Scope scope>
+inline void EventProcessor<scope>::begin_paths(std::uint32_t i, std::uint32_t j, double fastest2,
+                                               const EventMark& event) {
+  DiskRecord& a = record_[i];
+  DiskRecord& b = record_[j];
   if (window_.keeps_paths) [[unlikely]] {
     worker_.log.push_back({i, j, a.path});
     worker_.log.push_back({j, i, b.path});
@@ -139,21 +162,15 @@ void EventProcessor<scope>::collide_smooth_pair(const Flight& flight, std::uint3
   ++a.version;
   ++b.version;
   if (std::max(a.version, b.version) > most_paths_of_disk || worker_.segments > window_.most_paths) [[unlikely]] {
-    worker_.crowded = EventMark{time, a.id, b.id};
+    worker_.crowded = event;
     worker_.ended = true;
   }
-  predictor_.note_speed(outcome.fastest2);
-  if (has_regions && outcome.fastest2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
+  predictor_.note_speed(fastest2);
+  if (has_regions && fastest2 > window_.speed_limit2) worker_.too_fast = worker_.ended = true;
   if constexpr (scope == Scope::region) {
-    if (a.progress.has(DiskProgress::has_unresolved_neighbour)) safe_times_.push(i, time);
-    if (b.progress.has(DiskProgress::has_unresolved_neighbour)) safe_times_.push(j, time);
+    if (a.progress.has(DiskProgress::has_unresolved_neighbour)) safe_times_.push(i, event.time);
+    if (b.progress.has(DiskProgress::has_unresolved_neighbour)) safe_times_.push(j, event.time);
   }
-  const EventMark event{time, a.id, b.id};
-  predict_after_event(i, time);
-  predict_after_event(j, time);
-  if (elastic_of_one_mass || window_.burst.empty() || !outcome.happened || !(pair.value < 1.0)) return;
-  count_burst(i, event);
-  count_burst(j, event);
 }
 
 // Part: marks a ghost that an own disk has met. What that disk does from now on is right only if the ghost came here as

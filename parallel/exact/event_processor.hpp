@@ -33,6 +33,11 @@ enum class PairKind : std::uint8_t {
   any,
 };
 
+// Is their restitution a number that is known before?
+constexpr bool is_constant(PairKind kind) {
+  return kind == PairKind::elastic_of_one_mass || kind == PairKind::of_constant_restitution;
+}
+
 // A disk's next event, as it is scheduled.
 struct ScheduledEvent {
   double time;
@@ -121,6 +126,11 @@ class EventProcessor {
   template <PairKind kind, class Flight>
   [[gnu::noinline, gnu::hot]] void collide_smooth_pair(const Flight& flight, std::uint32_t i, std::uint32_t j,
                                                        double time);
+  template <PairKind kind>
+  [[gnu::always_inline]] inline void tally_smooth_pair(std::uint32_t i, std::uint32_t j, const PlainCollision& outcome,
+                                                       const PairRestitution& pair);
+  [[gnu::always_inline]] inline void begin_paths(std::uint32_t i, std::uint32_t j, double fastest2,
+                                                 const EventMark& event);
   PairRestitution pair_restitution(std::uint32_t i, std::uint32_t j, double time, const Relative& r) const;
   void collide_any_pair(std::uint32_t i, std::uint32_t j, double time);
   void tally_virials();
