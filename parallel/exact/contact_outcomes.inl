@@ -109,7 +109,7 @@ void EventProcessor<scope>::collide_smooth_pair(const Flight& flight, std::uint3
   const Shares share = common_mass ? equal_shares : shares(disks.mass_of(i), disks.mass_of(j));
   const auto collide = [&](const auto& restitution) __attribute__((always_inline)) {
     return inside ? collide_plainly(time, flight, share, restitution, a.path, b.path)
-                  : collide_across(time, share, restitution, a.path, b.path);
+                  : collide_across<Flight::falls>(time, share, restitution, a.path, b.path);
   };
   PlainCollision outcome;
   PairRestitution pair{window_.rules.restitution, false, false};
@@ -194,11 +194,11 @@ PairRestitution EventProcessor<scope>::pair_restitution(std::uint32_t i, std::ui
 
 // The collision of disks that may be on two sides of a border along a period.
 template <Scope scope>
-template <class RestitutionOf>
+template <bool falls, class RestitutionOf>
 PlainCollision EventProcessor<scope>::collide_across(double time, Shares share, RestitutionOf restitution,
                                                      PathSegment& p, PathSegment& q) const {
   const ExactRules& rules = window_.rules;
-  const Impact impact = collide_paths<true>(rules.box, rules.gravity, time, share, 1.0, restitution, p, q);
+  const Impact impact = collide_paths<falls>(rules.box, rules.gravity, time, share, 1.0, restitution, p, q);
   return {impact.happened, impact.virial, 0.0, std::max(p.vx * p.vx + p.vy * p.vy, q.vx * q.vx + q.vy * q.vy)};
 }
 

@@ -124,8 +124,7 @@ class EventProcessor {
   void take(std::uint32_t i, double time);
   [[gnu::always_inline]] inline void collide_pair(std::uint32_t i, std::uint32_t j, double time);
   template <PairKind kind, class Flight>
-  [[gnu::noinline, gnu::hot]] void collide_smooth_pair(const Flight& flight, std::uint32_t i, std::uint32_t j,
-                                                       double time);
+  [[gnu::noinline]] void collide_smooth_pair(const Flight& flight, std::uint32_t i, std::uint32_t j, double time);
   template <PairKind kind>
   [[gnu::always_inline]] inline void tally_smooth_pair(std::uint32_t i, std::uint32_t j, const PlainCollision& outcome,
                                                        const PairRestitution& pair);
@@ -134,7 +133,7 @@ class EventProcessor {
   PairRestitution pair_restitution(std::uint32_t i, std::uint32_t j, double time, const Relative& r) const;
   void collide_any_pair(std::uint32_t i, std::uint32_t j, double time);
   void tally_virials();
-  template <class RestitutionOf>
+  template <bool falls, class RestitutionOf>
   [[gnu::noinline, gnu::cold]] PlainCollision collide_across(double time, Shares share, RestitutionOf restitution,
                                                              PathSegment& p, PathSegment& q) const;
   void log_start(std::uint32_t i);

@@ -119,8 +119,8 @@ class NeighbourLists {
                               const Gravity& gravity, const RelistDistance& relist) const;
 
   // The same where neither gravity nor a shear acts, and without an end.
-  double relist_time_straight(std::uint32_t i, const PathSegment& path, double from,
-                              const RelistDistance& relist) const {
+  [[gnu::noinline]] double relist_time_straight(std::uint32_t i, const PathSegment& path, double from,
+                                                const RelistDistance& relist) const {
     const double s = from - path.start;
     const Vec2 listed = listed_position(i);
     Vec2 d{path.x + path.vx * s - listed.x, path.y + path.vy * s - listed.y};

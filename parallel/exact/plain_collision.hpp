@@ -31,6 +31,7 @@ static_assert(offsetof(PathSegment, vy) == offsetof(PathSegment, vx) + sizeof(do
 
 // What acts on all disks between collisions: nothing, or gravity. Each carries a path to time s as core's drift.
 struct FreeFlight {
+  static constexpr bool falls = false;
   [[gnu::always_inline]] Coordinates place_at(double s, const PathSegment& p) const {
     return load_xy(&p.x) + load_xy(&p.vx) * Coordinates{s - p.start, s - p.start};
   }
@@ -38,6 +39,7 @@ struct FreeFlight {
 };
 
 struct FreeFall {
+  static constexpr bool falls = true;
   Coordinates gravity, half_gravity;  // left and down; length / time^2
   Coordinates zero;  // added to the change of velocity where drift adds one; else -0, which adds nothing
 
