@@ -107,7 +107,7 @@ double depth_of_opening(const View& d, const Domain& box, std::uint32_t i) {
 }
 
 // Calls found(event) for each wall side and obstacle that disk i reaches beyond or touches, but for those where an
-// inner sink is an opening.
+// inner sink is an opening, and once where inner walls join.
 template <class View, class Found>
 void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t i, Found&& found) {
   const double open = depth_of_opening(d, rules.box, i);
@@ -118,7 +118,8 @@ void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t 
   }
   if (rules.box.obstacles == nullptr) return;
   for_each_solid_touched(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
-    if (gap.beyond > open) found(obstacle_event(d, rules, i, k, gap));
+    if (gap.beyond <= open || is_hidden(rules.box, k, gap, d.x[i], d.y[i], d.radius(i))) return;
+    found(obstacle_event(d, rules, i, k, gap));
   });
 }
 

@@ -195,6 +195,33 @@ void for_each_solid_touched_in_order(const Domain& box, double x, double y, doub
   }
 }
 
+// Does a disk of radius r that touches one segment as `hidden` says touch nothing there but what it touches of another
+// one, as `other` says? Where inner walls join, both have the point in which they do: the end of one hides behind the
+// side of the other, and of two ends, or of two sides, the later one. Two contacts in one place would look like those
+// of a disk that is squeezed (resting.hpp), which does not bounce.
+inline bool hides(const ObstacleGap& other, bool is_later, const ObstacleGap& hidden, double r, const Domain& box) {
+  if (other.velocity.x != hidden.velocity.x || other.velocity.y != hidden.velocity.y) return false;
+  const double rounding = 1e-12 * r + 0x1p-46 * std::max(box.width, box.height);
+  const double distance = r - other.beyond;
+  // From the disk's centre to the point that is touched.
+  const Vec2 point{-(r - hidden.beyond) * hidden.nx, -(r - hidden.beyond) * hidden.ny};
+  const Vec2 apart{point.x + distance * other.nx, point.y + distance * other.ny};
+  if (other.flat && !hidden.flat) return std::abs(apart.x * other.nx + apart.y * other.ny) <= rounding;
+  const bool same_point = std::abs(apart.x) <= rounding && std::abs(apart.y) <= rounding;
+  return same_point && other.flat == hidden.flat && is_later;
+}
+
+// Does another segment hide the contact of a disk of radius r at (x, y) with obstacle k?
+inline bool is_hidden(const Domain& box, std::uint32_t k, const ObstacleGap& gap, double x, double y, double r) {
+  if (!(*box.obstacles)[k].is_segment()) return false;
+  bool hidden = false;
+  for_each_solid_touched(box, x, y, r, [&](std::uint32_t j, const ObstacleGap& other) {
+    if (j == k || !(*box.obstacles)[j].is_segment()) return;
+    hidden = hidden || hides(other, k > j, gap, r, box);
+  });
+  return hidden;
+}
+
 // Does a disk overlap or touch any obstacle?
 inline bool touches_obstacle(const Domain& box, double x, double y, double r) {
   bool touched = false;

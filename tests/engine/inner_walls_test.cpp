@@ -76,6 +76,43 @@ TEST(InnerWall, OfTwoTouchedInOneFrameTheFirstOfTheListIsMetFirst) {
   EXPECT_EQ(one.disks.y[0], exchanged.disks.x[0]);
 }
 
+// Where segments join, a disk that dissipation could bring to rest touches one thing, not two: it bounces off the joint
+// as it does off one segment, at a speed that a disk squeezed between two would not keep.
+TEST(InnerWall, AJointBouncesAsOneSegmentDoes) {
+  const auto after_bounce = [](const std::string& walls) {
+    const Scene scene =
+        parse_scene("[box]\nwidth = 20.0\nheight = 20.0\n[physics]\ngravity = 0.5\nrestitution = 0.5\n" + walls +
+                        one_disk(5.0, 1.52, 0.0, 0.0, 0.5) + "[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 0.4\n",
+                    "walls.toml", "");
+    return run_to_end(scene);
+  };
+  const State flat = after_bounce("[[walls]]\npoints = [[2.0, 1.0], [8.0, 1.0]]\n");
+  EXPECT_NEAR(flat.disks.vy[0], 0.0828, 0.005);  // sqrt(0.02) - 0.5 (0.4 - sqrt(0.08)), to first order in dt
+  const std::string joints[] = {
+      "[[walls]]\npoints = [[2.0, 1.0], [5.0, 1.0], [8.0, 1.0]]\n",              // of a straight line
+      "[[walls]]\npoints = [[2.0, 1.0], [4.99, 1.0], [8.0, 1.0]]\n",             // beside the disk
+      "[[walls]]\npoints = [[2.0, 0.5], [5.0, 1.0], [8.0, 0.5]]\n",              // a peak
+      "[[walls]]\npoints = [[5.0, 1.0], [8.0, 0.5], [2.0, 0.5], [5.0, 1.0]]\n",  // of the last segment and the first
+      "[[walls]]\nfrom = [2.0, 1.0]\nto = [8.0, 1.0]\n[[walls]]\nfrom = [5.0, 0.2]\nto = [5.0, 1.0]\n",  // a support
+      "[[walls]]\nfrom = [2.0, 0.7]\nto = [5.0, 1.0]\n[[walls]]\nfrom = [8.0, 0.7]\nto = [5.0, 1.0]\n",  // of two walls
+  };
+  for (const std::string& joint : joints) {
+    const State state = after_bounce(joint);
+    EXPECT_NEAR(state.disks.vy[0], flat.disks.vy[0], 1e-12) << joint;
+    EXPECT_NEAR(state.disks.y[0], flat.disks.y[0], 1e-12) << joint;
+    EXPECT_EQ(state.counters.wall_collisions, 1U) << joint;
+  }
+}
+
+// In an inner corner a disk does touch two: it lies there, and both bear it.
+TEST(InnerWall, AnInnerCornerBearsOnBothSides) {
+  const std::string corner = "[[walls]]\npoints = [[2.0, 8.0], [10.0, 4.0], [18.0, 8.0]]\nrestitution = 0.5\n";
+  const Scene scene = scene_with("pairwise", "gravity = 0.5", corner + one_disk(10.0, 4.7, 0.0, 0.0, 0.5), 20.0);
+  const State state = run_to_end(scene);
+  ASSERT_EQ(state.loads.size(), 2U);
+  EXPECT_NEAR(state.loads[0].force, state.loads[1].force, 1e-9);
+}
+
 TEST(InnerWall, HasARestitutionOfItsOwn) {
   const std::string wall = "[[walls]]\nfrom = [10.0, 2.0]\nto = [10.0, 18.0]\nrestitution = 0.5\n";
   for (const char* method : methods) {
