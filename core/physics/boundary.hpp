@@ -68,6 +68,21 @@ inline double time_since_wall(Side side, double beyond, double speed, const Grav
   return 2.0 * beyond / (speed + std::sqrt(discriminant));
 }
 
+// What rounding may add to, or take from, the time since a contact, as a share of the step. Disks are often left just
+// touching at the end of a step: pushed apart, or put back to a wall. The contact of those that then come on begins
+// with the next step, and rounding must not say whether before it or after.
+inline constexpr double start_of_step = 1e-6;
+
+// Did a contact, `ago` before the end of a step of length dt, begin within it?
+inline bool began_within(double ago, double dt) {
+  return ago <= dt * (1.0 + start_of_step);
+}
+
+// The time since a contact as contacts are ordered by it: those that began with the step or before it all have dt.
+inline double time_within(double ago, double dt) {
+  return ago < dt * (1.0 - start_of_step) ? ago : dt;
+}
+
 // Was a disk that reaches `beyond` past a wall, or an obstacle, beyond it before the step began, so that it is met
 // late? Not where gravity presses it there (ago is infinite), nor by rounding of a disk that just touched.
 inline bool is_met_late(double ago, double beyond, double speed, double dt) {

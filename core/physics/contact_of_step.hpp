@@ -47,7 +47,9 @@ template <class View>
 ContactEvent pair_event(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
   const Relative r = relative(d, i, j, rules.box);
   double ago = rules.dt;
-  if (r.approach() < 0.0) ago = std::clamp(-touching_time(r, d.radius(i) + d.radius(j)), 0.0, rules.dt);
+  if (r.approach() < 0.0) {
+    ago = time_within(std::max(0.0, -touching_time(r, d.radius(i) + d.radius(j))), rules.dt);
+  }
   return {ago, d.id[i], d.id[j], i, j};
 }
 
@@ -56,7 +58,7 @@ template <class View>
 ContactEvent wall_event(const View& d, const StepRules& rules, std::uint32_t i, Side side, double beyond) {
   const double speed = approach_speed(side, d.vx[i], d.vy[i], rules.box.place(side));
   double ago = rules.dt;
-  if (speed > 0.0) ago = std::min(rules.dt, time_since_wall(side, beyond, speed, rules.gravity));
+  if (speed > 0.0) ago = time_within(time_since_wall(side, beyond, speed, rules.gravity), rules.dt);
   return {ago, d.id[i], wall_partner(side), i, 0};
 }
 
@@ -67,8 +69,9 @@ ContactEvent obstacle_event(const View& d, const StepRules& rules, std::uint32_t
   double ago = rules.dt;
   if (speed_towards(gap, d.vx[i], d.vy[i]) > 0.0 && gap.beyond >= 0.0) {
     const Obstacle& o = (*rules.box.obstacles)[k];
-    ago = std::min(rules.dt, time_since_obstacle(o, gap, d.radius(i), d.vx[i] - gap.velocity.x,
-                                                 d.vy[i] - gap.velocity.y, rules.gravity));
+    ago = time_within(
+        time_since_obstacle(o, gap, d.radius(i), d.vx[i] - gap.velocity.x, d.vy[i] - gap.velocity.y, rules.gravity),
+        rules.dt);
   }
   return {ago, d.id[i], obstacle_partner(k), i, 0};
 }

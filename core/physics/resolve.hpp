@@ -92,7 +92,7 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
   if (!touches(r.distance2(), contact_distance) || !(r.approach() < 0.0)) return {};
   // Disks that just touch and pass along each other may miss by rounding (touching_time is infinite): that is now.
   const double ago = std::max(0.0, -touching_time(r, contact_distance));
-  const bool inside_step = ago <= rules.dt;
+  const bool inside_step = began_within(ago, rules.dt);
   if (inside_step) {
     drift_one(d, i, -ago, rules.gravity);
     drift_one(d, j, -ago, rules.gravity);
@@ -156,7 +156,7 @@ template <class View>
 Impact resolve_thermal_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side, double beyond,
                             double speed) {
   const double ago = time_since_wall(side, beyond, speed, rules.gravity);
-  const bool inside_step = ago <= rules.dt;
+  const bool inside_step = began_within(ago, rules.dt);
   Impact impact;
   if (inside_step) drift_one(d, i, -ago, rules.gravity);
   if (outward_speed(side, d.vx[i], d.vy[i]) > 0.0) impact = reflect_at_side(d, rules, i, side);
@@ -186,7 +186,7 @@ Impact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t 
     rub_against(d, rules, i, inward_normal(side), Touching::wall, kick);
     change += kick;
   };
-  if (ago <= rules.dt) {
+  if (began_within(ago, rules.dt)) {
     drift_one(d, i, -ago, rules.gravity);
     const double approach = speed();
     if (approach > 0.0) bounce_off(approach, restitution * approach);
@@ -214,7 +214,7 @@ Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side
   const double ago = time_since_wall(side, beyond(), speed(), rules.gravity);
   const bool late = is_met_late(ago, beyond(), speed(), rules.dt);
   double change = 0.0;
-  if (ago <= rules.dt) {
+  if (began_within(ago, rules.dt)) {
     drift_one(d, i, -ago, rules.gravity);
     const double impact_speed = speed();
     if (impact_speed > 0.0) {
@@ -261,7 +261,7 @@ Impact resolve_resting_obstacle(const View& d, const StepRules& rules, std::uint
   const double ago = time_since_obstacle(o, gap, d.radius(i), d.vx[i], d.vy[i], rules.gravity);
   const bool late = is_met_late(ago, gap.beyond, speed(gap), rules.dt);
   double change = 0.0;
-  if (ago <= rules.dt) {
+  if (began_within(ago, rules.dt)) {
     drift_one(d, i, -ago, rules.gravity);
     gap = gap_now();
     const double impact_speed = speed(gap);

@@ -89,12 +89,16 @@ TEST(Validity, RollbackSaysThatDisksBounceBeforeTheyTouch) {
   EXPECT_THAT(warnings_of(gas("0.05")), ElementsAre(HasSubstr("bounced at one moment with another of the same disk")));
 }
 
+// Disks that press from both sides collide until their speeds are the smallest that there are; whether these end or go
+// on for ever is rounding's, and with this restitution they go on.
 TEST(Validity, RollbackSaysThatTimeStallsBeforeItStops) {
-  const Scene scene = stability_scene(
-      "f16_collapse_three", {{"disks.0.velocities", "[[1, 0], [0, 0], [-1, 0]]"}, {"run.method", "rollback"}});
+  const Scene scene = stability_scene("f16_collapse_three", {{"physics.restitution", "0.03"},
+                                                             {"disks.0.velocities", "[[1, 0], [0, 0], [-1, 0]]"},
+                                                             {"run.method", "rollback"}});
   const std::vector<std::string> warnings = warnings_of(scene);
-  EXPECT_THAT(warnings, ::testing::Contains(AllOf(HasSubstr("a frame advances time by 0.0"),
-                                                  HasSubstr("with 3 disks: time stalls; use --method pairwise"))));
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_THAT(warnings, ::testing::Contains(HasSubstr("a frame advances time by 0 dt, with 3 disks: time stalls; use "
+                                                      "--method pairwise")));
   EXPECT_THAT(warnings.back(), HasSubstr("rollback: time stands still at t = "));
 }
 
