@@ -53,12 +53,18 @@ inline int push_sweeps(const StepRules& rules) {
   return rules.settles ? most_pile_push_sweeps : most_push_sweeps;
 }
 
+// keep_inside leaves disks in a wall by shallow_overlap of their radius. Are they deep? They are, at all sides of the
+// box alike: less than `share` by this is deep at a wall, or rounding would decide.
+inline constexpr double rounding_of_depth = 1e-6;
+
 // Is the overlap of a contact deeper than slack (length) by more than `share` of the sum of radii (of the radius, at a
 // wall)?
 template <class View>
 bool is_deep(const View& d, const Domain& box, const ContactEvent& e, double share, double slack = 0.0) {
   const double r = d.radius(e.i1);
-  if (is_wall(e.id2)) return reach_beyond_wall(d, box, e.i1, e.id2) > share * r + slack;
+  if (is_wall(e.id2)) {
+    return reach_beyond_wall(d, box, e.i1, e.id2) > share * (1.0 - rounding_of_depth) * r + slack;
+  }
   const double reach = (r + d.radius(e.i2)) * (1.0 - share) - slack;
   return distance2_of(d, e.i1, e.i2, box) < reach * reach;
 }

@@ -1,4 +1,4 @@
-// Steps of mirrored scenes mirror each other where disks just touch at a step's start:
+// Steps of mirrored scenes mirror each other where disks just touch at a step's start, or were pushed into a side:
 // rounding, which the four sides have each in its own way, decides nothing.
 #include <gtest/gtest.h>
 
@@ -52,6 +52,26 @@ State after_a_step(const Scene& scene, const State& start, bool reference) {
       reference ? make_reference_engine(scene, start) : make_parallel_engine(scene, start, Threads{2, 1});
   engine->step();
   return engine->state();
+}
+
+// Two disks at rest, one of which presses the other, by an overlap of 3 % of their radii, into a side: what is left of
+// that between the disk and the side is the same at all sides.
+TEST(MirroredSteps, DisksArePushedIntoEachSideAlike) {
+  test::Draws draws(1);
+  for (int k = 0; k < 100; ++k) {
+    const double r = draws.in(0.2, 1.0);
+    const Scene scene = test::scene_of(Method::pairwise, draws.in(8.0, 12.0), draws.in(8.0, 12.0), 0.01, 1.0);
+    const double along = draws.in(2.0, 6.0);
+    std::vector<double> distances;
+    for (const Side side : all_sides) {
+      const State start = test::state_of(
+          {disk_at(side, scene.box, r, {0.9999 * r, along}, {}), disk_at(side, scene.box, r, {2.9399 * r, along}, {})});
+      for (const bool reference : {true, false}) {
+        distances.push_back(distance_to(side, scene.box, after_a_step(scene, start, reference).disks, 0));
+      }
+    }
+    for (const double d : distances) EXPECT_NEAR(d, distances[0], 1e-12) << "radius " << r;
+  }
 }
 
 // A disk that just touches a side when a step begins, and moves into it: it bounces within the step, at all sides.
