@@ -48,7 +48,7 @@ class EventPredictor {
 
   // The earliest event of disk i with a side, an obstacle or a neighbour, up to the horizon, if all stay on their
   // present paths.
-  NextEvent earliest(std::uint32_t i) const;
+  [[gnu::hot]] NextEvent earliest(std::uint32_t i) const;
 
   // To be called with v^2 of every segment that begins.
   void note_speed(double v2) {
@@ -64,10 +64,10 @@ class EventPredictor {
     far_ = !(fastest2_ <= window_->safe_speed2);
     more_than_neighbours_ = far_ ? ListRow::not_plain : 0U;
   }
-  FirstContact first_contact(std::uint32_t i) const;
-  NextEvent earliest_with_sides(std::uint32_t i) const;
+  [[gnu::hot]] FirstContact first_contact(std::uint32_t i) const;
+  [[gnu::hot]] NextEvent earliest_with_sides(std::uint32_t i) const;
   NextEvent earliest_one_by_one(std::uint32_t i) const;
-  NextEvent earliest_at_sides(std::uint32_t i) const;
+  [[gnu::hot]] NextEvent earliest_at_sides(std::uint32_t i) const;
   void see_obstacles(std::uint32_t i, double end, NextEvent& best) const;
   bool is_obstacle_near(std::uint32_t i) const;
   bool sees_moving_images(const ListRow& row) const;

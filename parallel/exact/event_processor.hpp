@@ -97,7 +97,7 @@ class EventProcessor {
   template <bool newest>
   [[gnu::hot]] void predict_next_event(std::uint32_t i, double from);
   [[gnu::noinline, gnu::hot]] void schedule_no_contact(std::uint32_t i, double from);
-  [[gnu::noinline]] void predict_from_all(std::uint32_t i, double from);
+  [[gnu::noinline, gnu::hot]] void predict_from_all(std::uint32_t i, double from);
   [[gnu::noinline, gnu::hot]] void schedule_next(std::uint32_t i, double from, const NextEvent& next);
   [[gnu::always_inline]] inline void schedule(std::uint32_t i, double time, Partner partner);
   [[gnu::hot]] void relist_and_predict(std::uint32_t i, double time);
