@@ -20,11 +20,11 @@
 #include "core/step/window_plan.hpp"
 #include "core/step/window_start.hpp"
 #include "parallel/cells/compact.hpp"
-#include "parallel/kicks/kick_all.hpp"
 #include "parallel/exact/halo_windows.hpp"
 #include "parallel/exact/logged_paths.hpp"
 #include "parallel/exact/window_passes.hpp"
 #include "parallel/exact/window_run.hpp"
+#include "parallel/kicks/kick_all.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
