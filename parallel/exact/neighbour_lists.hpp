@@ -52,7 +52,6 @@ class NeighbourLists {
   // before that.
   void release_rows() { rows_.release(); }
 
-  // Of a sheared box.
   const FlowFrame& flow() const { return flow_; }
   // In a sheared box: follow_flow before lists are built for a window that starts at `start` and has this length;
   // carry_flow at the start of each window. box: at that time. follow_flow does nothing elsewhere.
