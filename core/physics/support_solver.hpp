@@ -42,12 +42,12 @@ inline constexpr double calm_change = 3e-4;
 inline constexpr double trembling_change = 1.0;
 
 // What a sweep reads of a support: a cache line.
-struct Support {
-  std::uint32_t i1, i2;  // where the disks are stored; twice the same for a wall
+struct alignas(64) Support {
   double nx, ny;         // from first to second, or into the wall
   double x1, y1;         // n / mass of the first
   double x2, y2;         // n / mass of the second; of a wall its speed towards the disk, and 0
   double effective;      // mass that the contact feels
+  std::uint32_t i1, i2;  // where the disks are stored; twice the same for a wall
 };
 
 // The supports of a step in some order, in columns: sweeps read and change impulses and velocities alone.
@@ -55,7 +55,8 @@ struct SupportSet {
   std::vector<Support> contact;
   std::vector<double> impulse;           // accumulated, >= 0 after a sweep; mass length / time
   std::vector<double> last;              // after the cycle before
-  std::vector<double> before;            // when a weighed cycle began
+  std::vector<double> before;            // when a weighed cycle began; from its end on its part of the sum of squares
+  std::vector<double> ahead;             // of a weighed cycle: its part of CycleFigures::ahead
   std::vector<double> counted;           // of it, in an earlier round of the step
   std::vector<double> contact_distance;  // sum of radii (the radius, at a wall)
   std::vector<Vec2> v, last_v;           // velocities of the disks in contact, by storage; after the cycle before
@@ -67,7 +68,7 @@ inline bool is_wall_support(const Support& s) {
 
 template <class View>
 Support make_support(const View& d, const StepRules& rules, const ContactEvent& e) {
-  Support s{e.i1, e.i1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, d.mass(e.i1)};
+  Support s{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, d.mass(e.i1), e.i1, e.i1};
   const double inverse1 = 1.0 / d.mass(e.i1);
   if (is_obstacle(e.id2)) {
     const ObstacleGap gap = gap_to(d, rules.box, e.i1, e.id2);
@@ -134,15 +135,31 @@ inline double borne(const SupportSet& set, std::size_t k) {
   return is_wall_support(set.contact[k]) ? impulse : impulse * set.contact_distance[k];
 }
 
+// Takes so much off an impulse, but never more than there is; returns the change.
+inline double change_impulse(double& impulse, double less) {
+  const double before = impulse;
+  impulse = std::max(0.0, before - less);
+  return impulse - before;
+}
+
 // One support's part of a sweep: the impulse that stops the approach, never less than 0 in total.
 // Returns by how much it changed that.
 inline double relax(Vec2* v, const Support& s, double& impulse) {
-  double u = -(v[s.i1].x * s.nx + v[s.i1].y * s.ny);
-  u += is_wall_support(s) ? -s.x2 : v[s.i2].x * s.nx + v[s.i2].y * s.ny;
-  const double total = std::max(0.0, impulse - s.effective * u);
-  const double change = total - impulse;
-  impulse = total;
-  apply_impulse(v, s, change);
+  Vec2& first = v[s.i1];
+  const double first_along = first.x * s.nx + first.y * s.ny;
+  if (is_wall_support(s)) {
+    const double change = change_impulse(impulse, s.effective * (-first_along - s.x2));
+    first.x -= change * s.x1;
+    first.y -= change * s.y1;
+    return change;
+  }
+  Vec2& second = v[s.i2];
+  const double second_along = second.x * s.nx + second.y * s.ny;
+  const double change = change_impulse(impulse, s.effective * (second_along - first_along));
+  first.x -= change * s.x1;
+  first.y -= change * s.y1;
+  second.x += change * s.x2;
+  second.y += change * s.y2;
   return change;
 }
 
@@ -182,26 +199,37 @@ void relax_back(SupportSet& set, std::size_t k, CycleFigures& figures) {
     const double change = set.impulse[k] - set.before[k];
     const double by_mass = change / s.effective;
     figures.strain = std::max(figures.strain, std::abs(by_mass) / set.contact_distance[k]);
-    figures.square.add(change * by_mass);
-    figures.ahead.add((set.impulse[k] - set.last[k]) * by_mass);
+    set.before[k] = change * by_mass;
+    set.ahead[k] = (set.impulse[k] - set.last[k]) * by_mass;
   }
+}
+
+// After a weighed cycle: the sums over supports begin to end.
+inline void add_products(const SupportSet& set, std::size_t begin, std::size_t end, CycleFigures& figures) {
+  figures.square.add({set.before.data() + begin, end - begin});
+  figures.ahead.add({set.ahead.data() + begin, end - begin});
 }
 
 // On by momentum times what the last cycle and its extrapolation have changed. Impulses may become negative here: the
 // next cycle ends that. Velocities depend on impulses linearly, so that they go on likewise, disk by disk.
-inline void extrapolate_impulse(SupportSet& set, std::size_t k, double momentum) {
-  const double impulse = set.impulse[k];
-  if (momentum != 0.0) set.impulse[k] = impulse + momentum * (impulse - set.last[k]);
-  set.last[k] = impulse;
+inline void extrapolate_impulses(SupportSet& set, std::size_t begin, std::size_t end, double momentum) {
+  double* const impulses = set.impulse.data();
+  double* const last = set.last.data();
+  for (std::size_t k = begin; k < end; ++k) {
+    const double impulse = impulses[k];
+    const double on = impulse + momentum * (impulse - last[k]);
+    impulses[k] = momentum != 0.0 ? on : impulse;
+    last[k] = impulse;
+  }
 }
 
-inline void extrapolate_velocity(SupportSet& set, std::size_t i, double momentum) {
-  const Vec2 v = set.v[i];
+inline void extrapolate_velocity(Vec2& v, Vec2& last, double momentum) {
+  const Vec2 now = v;
   if (momentum != 0.0) {
-    set.v[i].x = v.x + momentum * (v.x - set.last_v[i].x);
-    set.v[i].y = v.y + momentum * (v.y - set.last_v[i].y);
+    v.x = now.x + momentum * (now.x - last.x);
+    v.y = now.y + momentum * (now.y - last.y);
   }
-  set.last_v[i] = v;
+  last = now;
 }
 
 // What all supports bear and feel.

@@ -41,6 +41,7 @@ struct Sweeps {
     CycleFigures figures;
     for (std::size_t k = 0; k < set.contact.size(); ++k) relax_forward<watch>(set, k, figures);
     for (std::size_t k = set.contact.size(); k-- > 0;) relax_back<watch>(set, k, figures);
+    if constexpr (watch == Watch::all) add_products(set, 0, set.contact.size(), figures);
     return figures;
   }
   SupportTotals totals() const {
@@ -49,9 +50,9 @@ struct Sweeps {
     return all;
   }
   void extrapolate(double momentum) const {
-    for (std::size_t k = 0; k < set.contact.size(); ++k) extrapolate_impulse(set, k, momentum);
+    extrapolate_impulses(set, 0, set.contact.size(), momentum);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-      if (contacts[i] > 0) extrapolate_velocity(set, i, momentum);
+      if (contacts[i] > 0) extrapolate_velocity(set.v[i], set.last_v[i], momentum);
     }
   }
 };
@@ -67,7 +68,7 @@ SupportSet make_supports(const View& d, const State& state, const StepRules& rul
     if (!is_solved(d, rules, e, force > 0.0, is_crowded(contacts, e))) continue;
     const std::size_t k = loads.size();
     loads.push_back({e.id1, e.id2, 0.0});
-    for (auto* column : {&set.impulse, &set.last, &set.before, &set.counted, &set.contact_distance}) {
+    for (auto* column : {&set.impulse, &set.last, &set.before, &set.ahead, &set.counted, &set.contact_distance}) {
       column->push_back(0.0);
     }
     set.contact.emplace_back();

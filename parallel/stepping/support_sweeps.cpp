@@ -4,7 +4,7 @@ namespace carom {
 
 void resize_supports(SupportSet& set, std::size_t supports, std::size_t disks) {
   resize_amply(set.contact, supports);
-  for (auto* column : {&set.impulse, &set.last, &set.before, &set.counted, &set.contact_distance}) {
+  for (auto* column : {&set.impulse, &set.last, &set.before, &set.ahead, &set.counted, &set.contact_distance}) {
     resize_amply(*column, supports);
   }
   resize_amply(set.v, disks);

@@ -111,12 +111,16 @@ struct PatchSweeps {
   Others& others;
 
   // visit(support, patch) for all supports in order, or backwards. before: as in run_patches.
-  template <class Visit, class Before>
-  void sweep(bool backwards, Visit&& visit, Before&& before) const {
+  template <bool backwards, class Visit, class Before>
+  void sweep(Visit&& visit, Before&& before) const {
     const auto run_patch = [&](std::size_t q) {
       const std::size_t first = lists.patches.start[q];
-      const std::size_t count = lists.settle.bearing[q];
-      for (std::size_t k = 0; k < count; ++k) visit(first + (backwards ? count - 1 - k : k), q);
+      const std::size_t end = first + lists.settle.bearing[q];
+      if constexpr (backwards) {
+        for (std::size_t k = end; k > first; --k) visit(k - 1, q);
+      } else {
+        for (std::size_t k = first; k < end; ++k) visit(k, q);
+      }
     };
     run_patches(lists.patches, backwards, executor, run_patch, before);
   }
@@ -124,7 +128,7 @@ struct PatchSweeps {
   // asked.
   template <class Visit>
   void visit_all(Visit&& visit) const {
-    sweep(false, visit, [](std::uint32_t /*phase*/, bool /*backwards*/) {});
+    sweep<false>(visit, [](std::uint32_t /*phase*/, bool /*backwards*/) {});
   }
 
   // Sums over the patches are exact, so their order does not matter.
@@ -134,10 +138,14 @@ struct PatchSweeps {
     std::vector<CycleFigures>& patch = lists.settle.figures;
     if (watch != Watch::nothing) assign_amply(patch, lists.patches.count(), CycleFigures{});
     const auto before = others.before(Velocities{set.v.data()});
-    sweep(
-        false, [&](std::size_t k, std::size_t q) { relax_forward<watch>(set, k, patch[q]); }, before);
-    sweep(
-        true, [&](std::size_t k, std::size_t q) { relax_back<watch>(set, k, patch[q]); }, before);
+    sweep<false>([&](std::size_t k, std::size_t q) { relax_forward<watch>(set, k, patch[q]); }, before);
+    sweep<true>([&](std::size_t k, std::size_t q) { relax_back<watch>(set, k, patch[q]); }, before);
+    if constexpr (watch == Watch::all) {
+      executor.run(patch.size(), [&](std::size_t q) {
+        const std::size_t first = lists.patches.start[q];
+        add_products(set, first, first + lists.settle.bearing[q], patch[q]);
+      });
+    }
     CycleFigures all;
     if (watch == Watch::nothing) return all;
     for (std::size_t q = 0; q < patch.size(); ++q) {
@@ -164,9 +172,11 @@ struct PatchSweeps {
     SupportSet& set = lists.settle.supports;
     executor.run(lists.patches.count(), [&](std::size_t q) {
       const std::size_t first = lists.patches.start[q];
-      for (std::size_t k = first; k < first + lists.settle.bearing[q]; ++k) extrapolate_impulse(set, k, momentum);
+      extrapolate_impulses(set, first, first + lists.settle.bearing[q], momentum);
     });
-    visit_in_contact(lists, executor, [&](std::size_t i) { extrapolate_velocity(set, i, momentum); });
+    visit_in_contact(lists, executor, [v = set.v.data(), last = set.last_v.data(), momentum](std::size_t i) {
+      extrapolate_velocity(v[i], last[i], momentum);
+    });
   }
 };
 
