@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "core/base/input_message.hpp"
 
@@ -97,14 +98,29 @@ void check_number_of_runs(const std::vector<SweepAxis>& axes, std::uint64_t seed
   if (runs > most_runs) fail_input("sweep", fmt::format("{:g} runs are too many", runs), "expected at most 1000000");
 }
 
-// " KEY=VALUE" for each key that a run changes; 1.0 and 1 are the same.
+// 1.0 and 1 are the same.
+std::string plain(const std::string& value) {
+  const bool fraction = is_number(value) && value.find_first_of(".e") != std::string::npos;
+  return fraction ? fmt::format("{}", std::stod(value)) : value;
+}
+
+// " KEY=VALUE" for each key that a run changes.
 std::string changes_of(const SweepRun& run) {
   std::string text;
-  for (const auto& [key, value] : run.overrides) {
-    const bool fraction = is_number(value) && value.find_first_of(".e") != std::string::npos;
-    text += fmt::format(" {}={}", key, fraction ? fmt::format("{}", std::stod(value)) : value);
-  }
+  for (const auto& [key, value] : run.overrides) text += fmt::format(" {}={}", key, plain(value));
   return text;
+}
+
+// Runs are told apart by what they change: two that change the same would take each other's names.
+void check_values(const std::string& text, const std::vector<std::string>& values) {
+  std::set<std::string> seen;
+  for (const std::string& value : values) {
+    if (value.empty()) fail_input("--over", fmt::format("{} has an empty value", in_quotes(text)), expected);
+    if (!seen.insert(plain(value)).second) {
+      fail_input("--over", fmt::format("{} has the value {} twice", in_quotes(text), value),
+                 "expected values that differ, and --seeds N for several runs of one");
+    }
+  }
 }
 
 }  // namespace
@@ -125,9 +141,7 @@ SweepAxis parse_sweep_axis(const std::string& text) {
   } else {
     axis.values = split_values(values);
   }
-  for (const std::string& value : axis.values) {
-    if (value.empty()) fail_input("--over", fmt::format("{} has an empty value", in_quotes(text)), expected);
-  }
+  check_values(text, axis.values);
   return axis;
 }
 
