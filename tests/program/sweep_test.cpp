@@ -5,10 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "tests/support/scene_support.hpp"
@@ -52,17 +52,17 @@ class SweepTest : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
   }
   std::pair<int, std::string> carom(const std::string& words) const { return shell(CAROM_PROGRAM " " + words); }
-  std::string read(const std::string& name) const {
-    std::ifstream file(folder_.path() / name);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
+  std::string read(const std::string& name) const { return test::text_of(folder_.path() / name); }
   std::vector<std::string> rows(const std::string& table) const {
     std::vector<std::string> lines;
     std::istringstream text(read(table));
     for (std::string line; std::getline(text, line);) lines.push_back(line);
     return lines;
+  }
+  // Of a script for GNU parallel.
+  long commands_in(const std::string& script) const {
+    const std::vector<std::string> lines = rows(script);
+    return std::count_if(lines.begin(), lines.end(), [](const std::string& line) { return line.starts_with('\''); });
   }
   // Without the seconds that it took, which differ from run to run.
   static std::string without_time(const std::string& row) {
@@ -78,8 +78,10 @@ using LongSweepTest = SweepTest;
 TEST_F(SweepTest, RunsTheGridAndGoesOnWhereItStopped) {
   const std::string words =
       "sweep gas.toml -o s --over physics.restitution=0.5:1.0:3 --over disks.0.count=10,20 --seeds 2";
-  const auto [status, text] = carom(words);
+  const auto [status, text] = carom(words + " --jobs 3");
   ASSERT_EQ(status, 0) << text;
+  EXPECT_THAT(text, HasSubstr("12 of 12 runs are left, 3 at once"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "s/runs/0001.log")) << "of runs that have not failed";
   const std::vector<std::string> table = rows("s/sweep.csv");
   ASSERT_EQ(table.size(), 13U);
   EXPECT_THAT(table[0], testing::StartsWith("run,physics.restitution,disks.0.count,seed,particles,steps,time"));
@@ -104,8 +106,38 @@ TEST_F(SweepTest, RunsTheGridAndGoesOnWhereItStopped) {
   const auto [other_status, other] = carom("sweep gas.toml -o s --seeds 3");
   EXPECT_EQ(other_status, 2);
   EXPECT_THAT(other, HasSubstr("holds another sweep"));
-  EXPECT_EQ(carom("sweep gas.toml -o s --seeds 3 --force").first, 0);
-  EXPECT_EQ(rows("s/sweep.csv").size(), 4U);
+  EXPECT_EQ(rows("s/sweep.csv"), again) << "a refused sweep changes nothing";
+  EXPECT_EQ(carom("sweep gas.toml -o s --seeds 3 --force --emit parallel").first, 0);
+  EXPECT_FALSE(fs::exists(folder_.path() / "s/sweep.csv")) << "of the sweep that was replaced";
+  EXPECT_THAT(carom("sweep gas.toml -o s --seeds 3").second, HasSubstr("3 of 3 runs are left"));
+  const std::vector<std::string> replaced = rows("s/sweep.csv");
+  ASSERT_EQ(replaced.size(), 4U);
+  EXPECT_THAT(replaced[1], testing::StartsWith("0001,3,20,")) << "twenty disks, not the ten of the run of this name";
+}
+
+// Of a run whose energy changed much there is no pressure; and a name in quotes has them in the table.
+TEST_F(SweepTest, ItsTableIsOneForOtherPrograms) {
+  const auto [status, text] = carom(
+      "sweep gas.toml --over 'run.method=\"exact\",pairwise' --set run.dt=0.01 --set physics.restitution=0.5 "
+      "--set run.t_end=20");
+  ASSERT_EQ(status, 0) << text;
+  const std::vector<std::string> table = rows("out/gas_sweep/sweep.csv");
+  ASSERT_EQ(table.size(), 3U);
+  EXPECT_THAT(table[1], testing::StartsWith("0001,\"\"\"exact\"\"\",3,20,"));
+  std::istringstream names(table[0]), cells(table[1]);
+  std::string name, cell;
+  while (name != "pressure" && std::getline(names, name, ',')) std::getline(cells, cell, ',');
+  EXPECT_EQ(name, "pressure");
+  EXPECT_EQ(cell, "");
+  EXPECT_THAT(read("out/gas_sweep/runs/0001/summary.json"), HasSubstr("\"pressure\": null"));
+}
+
+TEST_F(SweepTest, ASummaryThatIsNoneIsNamed) {
+  ASSERT_EQ(carom("sweep gas.toml -o s --seeds 2").first, 0);
+  folder_.write("s/runs/0002/summary.json", "{ \"particles\": 2");
+  const auto [status, text] = carom("sweep gas.toml -o s --seeds 2");
+  EXPECT_EQ(status, 2);
+  EXPECT_THAT(text, HasSubstr("carom: error: s/runs/0002/summary.json: is no JSON\n"));
 }
 
 TEST_F(SweepTest, ListsAreValues) {
@@ -185,24 +217,45 @@ TEST_F(SweepTest, ItsRunsEndWithIt) {
 TEST_F(SweepTest, ScriptsRunWhatIsLeft) {
   const std::string words = "sweep gas.toml -o 'a b' --over physics.restitution=0.8,0.9";
   EXPECT_EQ(carom(words + " --emit parallel").first, 0);
-  EXPECT_THAT(read("a b/sweep.sh"), HasSubstr("parallel"));
+  EXPECT_EQ(commands_in("a b/sweep.sh"), 2);
   ASSERT_EQ(carom(words + " --emit slurm").first, 0);
   const std::string script = read("a b/sweep.sbatch");
   EXPECT_THAT(script, HasSubstr("#SBATCH --array=1-2\n"));
-  for (const char* const task : {"1", "2"}) {
+  const auto run_task = [&](int task) {
     const auto [status, text] = shell(fmt::format("SLURM_ARRAY_TASK_ID={} sh 'a b/sweep.sbatch'", task));
     EXPECT_EQ(status, 0) << text;
-  }
-  EXPECT_THAT(carom(words).second, HasSubstr("0 of 2 runs are left"));
+  };
+  run_task(1);
+  EXPECT_TRUE(fs::exists(folder_.path() / "a b/runs/0001/summary.json"));
+  EXPECT_EQ(carom(words + " --emit parallel").first, 0);
+  EXPECT_EQ(commands_in("a b/sweep.sh"), 1);
+  ASSERT_EQ(carom(words + " --emit slurm").first, 0);
+  EXPECT_THAT(read("a b/sweep.sbatch"), HasSubstr("#SBATCH --array=1-1\n"));
+  run_task(1);
   EXPECT_THAT(carom(words + " --emit slurm").second, HasSubstr("0 of 2 runs are left"))
       << "nothing to write a script for";
   EXPECT_EQ(rows("a b/sweep.csv").size(), 3U);
+  EXPECT_THAT(carom(words).second, HasSubstr("0 of 2 runs are left"));
+}
+
+// With a stand-in for GNU parallel, which gives each line to a shell.
+TEST_F(SweepTest, AScriptForParallelRunsEachLine) {
+  fs::create_directory(folder_.path() / "bin");
+  folder_.write("bin/parallel", "#!/bin/sh\nwhile read -r line; do sh -c \"$line\" </dev/null || exit 1; done\n");
+  fs::permissions(folder_.path() / "bin/parallel", fs::perms::owner_all);
+  const std::string words = "sweep gas.toml -o \"it's\" --over 'physics.gravity=[0.1,-0.5],0.25'";
+  EXPECT_EQ(carom(words + " --emit parallel").first, 0);
+  const auto [status, text] = shell("PATH=$PWD/bin:$PATH sh \"it's/sweep.sh\"");
+  EXPECT_EQ(status, 0) << text;
+  EXPECT_THAT(carom(words).second, HasSubstr("0 of 2 runs are left"));
+  EXPECT_THAT(rows("it's/sweep.csv").at(1), testing::StartsWith("0001,\"[0.1,-0.5]\",3,20,"));
 }
 
 TEST_F(SweepTest, NothingRunsWhereAnythingIsWrong) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"--over physics.restitutoin=0.5:1:3", "physics.restitutoin: unknown key; expected one of"},
-      {"--over physics.restitution=0.5:1.5:3", "restitution: is 1.5"},
+      {"--over physics.restitution=0.5:1.5:3", "carom: error: --over physics.restitution: is 1.5"},
+      {"--over run.t_end=1,2,1", "has the value 1 twice"},
       {"--over physics.restitution=0.5:1", "\"physics.restitution=0.5:1\" is no range; expected KEY=FROM:TO:COUNT"},
       {"--over physics.restitution", "expected KEY=FROM:TO:COUNT"},
       {"--over physics.restitution=0:1:0", "is no range"},
@@ -229,6 +282,18 @@ TEST_F(SweepTest, AFileIsNoFolder) {
   EXPECT_EQ(read("gas.toml"), gas);
 }
 
+TEST_F(SweepTest, AFolderOfOtherFilesIsNotItsOwn) {
+  fs::create_directory(folder_.path() / "notes");
+  folder_.write("notes/thesis.tex", "years");
+  for (const std::string force : {"", " --force"}) {
+    const auto [status, text] = carom("sweep gas.toml --seeds 2 -o notes" + force);
+    EXPECT_EQ(status, 2);
+    EXPECT_EQ(text, "carom: error: notes: holds other files; expected a new folder for the sweep (-o)\n");
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path() / "notes"), {}), 1);
+  EXPECT_EQ(read("notes/thesis.tex"), "years");
+}
+
 TEST_F(SweepTest, AFullDiskCostsNoPlan) {
   // Not one byte can be written.
   const std::string full = "ulimit -f 0; " CAROM_PROGRAM " sweep gas.toml -o grid --over ";
@@ -244,10 +309,11 @@ TEST_F(SweepTest, AFullDiskCostsNoPlan) {
 }
 
 TEST_F(SweepTest, AFailedRunIsNamedAndTriedAgain) {
-  // Sixty of these disks find no room.
+  // 250 of these disks find no room.
   const auto [status, text] = carom("sweep gas.toml -o s --over disks.0.count=10,250");
   EXPECT_EQ(status, 1);
-  EXPECT_THAT(text, HasSubstr("run 0002: "));
+  EXPECT_THAT(text,
+              HasSubstr("carom: warning: run 0002: " + scene_ + ":9: disks.0.positions: \"random\" finds no room"));
   EXPECT_EQ(rows("s/sweep.csv").size(), 2U);
   EXPECT_THAT(carom("sweep gas.toml -o s --over disks.0.count=10,250").second, HasSubstr("1 of 2 runs are left"));
 }
@@ -270,9 +336,9 @@ TEST_F(SweepTest, StoppedItTakesItsRunsWithItAndGoesOnFromTheirCheckpoints) {
 // What a run warns of is not lost among the rows.
 TEST_F(SweepTest, WarningsAreCounted) {
   const auto [status, text] =
-      carom("sweep gas.toml -o s --method pairwise --dt 0.05 --over disks.0.velocities.maxwell=1,1e4");
+      carom("sweep gas.toml -o s --method pairwise --dt 0.05 --over disks.0.velocities.maxwell=1,1e4,2e4");
   EXPECT_EQ(status, 0) << text;
-  EXPECT_THAT(text, HasSubstr("1 of 2 runs warn of their method, see the column warnings"));
+  EXPECT_THAT(text, HasSubstr("2 of 3 runs warn of their method, see the column warnings"));
   const std::vector<std::string> table = rows("s/sweep.csv");
   EXPECT_THAT(table.at(0), HasSubstr(",warnings,step_s,state_hash"));
   EXPECT_THAT(table.at(1), HasSubstr(",0,0,"));
