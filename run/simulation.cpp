@@ -92,6 +92,7 @@ Simulation::Simulation(Checkpoint checkpoint, const std::string& name, EngineCho
   within_memory(scene_, [&] { engine_ = make_engine(choice_, scene_, std::move(checkpoint.state)); });
   fixed_ = cells_of(scene_, state(), false);
   walls_ = cells_of(scene_, state(), true);
+  step_start_ = time();
 }
 
 Simulation Simulation::resume(const std::string& name, EngineChoice engine) {
@@ -159,12 +160,12 @@ Disks Simulation::disks() const {
 double Simulation::disks_at(double t, Disks& out) const {
   const FloatEnvironment environment;
   if (!(t <= time())) fail_input("time", fmt::format("is {}", t), fmt::format("expected {} or less", time()));
-  Disks stored = state().disks;
-  const double at = edited_ ? time() : engine_->disks_at(t, stored);
-  if (t < step_start_ && at < time()) {
+  if (t < step_start_) {
     fail_input("time", fmt::format("is {}, before the last step", t),
                fmt::format("expected {} to {}", step_start_, time()));
   }
+  Disks stored = state().disks;
+  const double at = edited_ ? time() : engine_->disks_at(t, stored);
   const std::vector<std::size_t> by = by_id(stored);  // disks that a sink took in the last step are there again
   const auto sort = [&](auto& to, const auto& from) {
     to.resize(from.size());
@@ -254,6 +255,7 @@ void Simulation::load(std::string_view bytes) {
   if (checkpoint.state.sources.size() != scene_.sources.size()) scene_in(checkpoint, "saved state");
   start_ = checkpoint.record.start;
   edited_ = std::move(checkpoint.state);
+  step_start_ = time();
   order_known_ = stepped_ = false;
 }
 

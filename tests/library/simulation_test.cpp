@@ -68,6 +68,28 @@ TEST(Simulation, GivesDisksInOrderOfId) {
   EXPECT_THROW(simulation.disks_at(simulation.time() + 1.0, earlier), InputError);
 }
 
+// With time stepping, and after a state was taken up, the last step has but its end; what was before is refused all the
+// same.
+TEST(Simulation, RefusesTimesBeforeTheLastStep) {
+  for (const char* method : methods) {
+    Simulation s(gas(method), choice());
+    s.step(3);
+    const double start = s.time();
+    s.step();
+    Disks then;
+    EXPECT_THROW(s.disks_at(std::nextafter(start, 0.0), then), InputError) << method;
+    EXPECT_GE(s.disks_at(start, then), start) << method;
+    const std::string saved = s.save();
+    s.step();
+    s.load(saved);
+    Simulation other = Simulation::from_bytes(saved, choice());
+    for (Simulation* taken_up : {&s, &other}) {
+      EXPECT_THROW(taken_up->disks_at(start, then), InputError) << method;
+      EXPECT_EQ(taken_up->disks_at(taken_up->time(), then), taken_up->time()) << method;
+    }
+  }
+}
+
 // Paths are kept of the last window alone: its start is the earliest time that disks can be had of.
 TEST(Simulation, HasNoDisksOfBeforeTheLastStep) {
   for (const char* engine : {"parallel", "reference"}) {
