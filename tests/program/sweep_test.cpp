@@ -318,17 +318,21 @@ TEST_F(SweepTest, AFailedRunIsNamedAndTriedAgain) {
   EXPECT_THAT(carom("sweep gas.toml -o s --over disks.0.count=10,250").second, HasSubstr("1 of 2 runs are left"));
 }
 
-// A sweep that is stopped stops its runs; the one that was running is resumed from where it was.
+// A sweep that is stopped stops its runs and begins no other; the one that was running is resumed from where it was.
+// SIGUSR1 has that write a checkpoint, and it goes on.
 TEST_F(SweepTest, StoppedItTakesItsRunsWithItAndGoesOnFromTheirCheckpoints) {
-  const std::string words = "sweep gas.toml -o s --set physics.restitution=1 --over run.t_end=1,1e9 --jobs 2";
-  const auto [status, text] = shell("{ " CAROM_PROGRAM " " + words +
-                                    " & until [ -e s/runs/0002/carom-unfinished/scene.toml -a -e "
-                                    "s/runs/0001/summary.json ]; do sleep 0.01; done; kill -TERM $!; wait $!; }");
+  const std::string words = "sweep gas.toml -o s --set physics.restitution=1 --over run.t_end=1,1e9,2e9 --jobs 1";
+  const auto [status, text] =
+      shell("{ " CAROM_PROGRAM " " + words +
+            " & until [ -e s/runs/0002/carom-unfinished/scene.toml ]; do "
+            "sleep 0.01; done; kill -USR1 $!; until [ -e s/runs/0002/carom-unfinished/checkpoint.carom ]; do sleep "
+            "0.01; done; kill -TERM $!; wait $!; }");
   EXPECT_EQ(status, 4) << text;
-  EXPECT_THAT(text, HasSubstr("stopped by SIGTERM with 1 of 2 runs done; the same command goes on"));
+  EXPECT_THAT(text, HasSubstr("stopped by SIGTERM with 1 of 3 runs done; the same command goes on"));
   EXPECT_EQ(rows("s/sweep.csv").size(), 2U);
   EXPECT_EQ(carom(words + " --emit parallel").first, 0);
   EXPECT_THAT(read("s/sweep.sh"), HasSubstr("'resume'"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "s/runs/0003"));
   // No process writes to the folder any more: otherwise it would be refused with status 2.
   EXPECT_EQ(carom("resume s/runs/0002 --quiet --max-walltime 0.01").first, 4);
 }
