@@ -47,13 +47,27 @@ def disk_id(value) -> int:
 
 
 def size(value, name: str):
-    """A number of bytes, or None."""
+    """A whole number above 0, as of bytes or of processes; or None."""
     if value is None:
         return None
     value = operator.index(value)
     if value < 1:
         raise ValueError(f"{name} is {value}; expected 1 or more")
     return min(value, 2**62)
+
+
+def flag(value, name: str) -> bool:
+    """What Python itself takes for true or false; but no text, of which "no" would be true. Raises TypeError."""
+    if not hasattr(value, "__bool__"):
+        raise TypeError(f"{name} is {_named(value)}; expected True or False")
+    return bool(value)
+
+
+def function(value, of: str):
+    """Raises TypeError for what cannot be called."""
+    if not callable(value):
+        raise TypeError(f"expected a function of {of}, not {type(value).__name__}")
+    return value
 
 
 def no_numbers(**arguments) -> Exception:

@@ -32,8 +32,9 @@ def _in_notebook() -> bool:
 def show(trajectory: str, file, most_bytes, force):
     """The viewer's page: in a notebook a Page; else written and opened."""
     most_bytes = _arguments.size(most_bytes, "max_size")
+    force = _arguments.flag(force, "force")
     if file is None and _in_notebook():
-        with tempfile.TemporaryDirectory() as folder:
+        with tempfile.TemporaryDirectory() as folder, in_words_of_python():
             page = os.path.join(folder, "view.html")
             _carom.write_view(trajectory, page, most_bytes, False)
             return Page(pathlib.Path(page).read_text(encoding="utf-8"))

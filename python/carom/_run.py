@@ -35,6 +35,9 @@ def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "pa
     folder = None if out is None else _arguments.path(out)
     if not folder and out is not None:
         raise SceneError("out: is empty; expected a folder, or None for no files")
+    warn = _arguments.function(warn, "a warning")
+    force, strict = _arguments.flag(force, "force"), _arguments.flag(strict, "strict")
+
     def say(warning):
         warn(_words_of_python(warning))
 
@@ -92,6 +95,9 @@ def map(scenes: Iterable[Scene], outs: Optional[Sequence] = None, jobs: Optional
     from concurrent.futures import ProcessPoolExecutor
 
     scenes = list(scenes)
+    if isinstance(outs, (str, bytes, os.PathLike)):  # a text is a list of its letters
+        raise TypeError(f"outs is {outs!r}; expected a list of folders, one for each scene")
+    jobs = _arguments.size(jobs, "jobs")
     outs = [None] * len(scenes) if outs is None else list(outs)
     if len(outs) != len(scenes):
         raise ValueError(f"{len(outs)} folders for {len(scenes)} scenes")

@@ -92,12 +92,12 @@ class Simulation:
         several. What it raises ends the run there, and the simulation can go on."""
         try:
             beyond = bool(interval > 0.0)
-        except (TypeError, ValueError):
+            interval = float(interval)
+        except (TypeError, ValueError, OverflowError):
             raise _arguments.no_numbers(interval=interval) from None
         if not beyond:
-            raise ValueError(f"interval is {interval}; expected a time above 0")
-        if not callable(call):
-            raise TypeError(f"expected a function of the simulation, not {type(call).__name__}")
+            raise ValueError(f"interval is {interval:g}; expected a time above 0")
+        call = _arguments.function(call, "the simulation")
         self._callbacks.append([interval, _next_multiple(interval, self.time), call])
 
     def step(self, steps: int = 1) -> None:

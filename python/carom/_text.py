@@ -65,6 +65,8 @@ def toml(tables: Mapping[str, Any]) -> str:
 
 
 def overrides(changes: Mapping[str, Any]) -> list:
+    if not isinstance(changes, Mapping):
+        raise TypeError(f"changes are a dictionary, such as {{\"run.t_end\": 5.0}}; not {type(changes).__name__}")
     for key in changes:
         if not isinstance(key, str):
             raise TypeError(f"the keys of changes are strings, such as \"run.t_end\"; not {type(key).__name__}")

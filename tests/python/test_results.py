@@ -60,6 +60,13 @@ def test_the_viewer_is_one_page(result, tmp_path, monkeypatch):
     assert os.path.getsize(os.path.join(result.folder, "view.html")) == len(text.encode())
 
 
+def test_the_viewer_says_its_complaints_in_words_of_python(result, tmp_path, monkeypatch):
+    for notebook in (True, False):
+        monkeypatch.setattr("carom._notebook._in_notebook", lambda: notebook)
+        with pytest.raises(carom.SceneError, match="^max_size: "):
+            result.show(None if notebook else tmp_path / "page.html", max_size=1)
+
+
 def test_the_viewer_replaces_no_file_unless_told_to(result, tmp_path):
     page = tmp_path / "page.html"
     page.write_text("mine")

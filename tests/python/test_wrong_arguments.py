@@ -3,6 +3,8 @@
 import os
 import shutil
 import subprocess
+from decimal import Decimal
+from fractions import Fraction
 
 import carom
 import numpy as np
@@ -43,6 +45,52 @@ def test_steps_threads_and_callbacks():
         sim.every(1.0, 3)
     sim.step(2**70)  # more than there are to the end
     assert sim.done
+
+
+def test_intervals_are_kept_as_numbers():
+    moving = scene(run={"method": "pairwise", "dt": 0.125, "t_end": 1.0})
+    for interval in (Decimal("0.25"), Fraction(1, 4), np.array(0.25), np.array([0.25])):
+        sim, seen = carom.Simulation(moving, threads=1), []
+        sim.every(interval, lambda s: seen.append(s.time))
+        if isinstance(interval, np.ndarray):
+            interval *= 0  # the caller's own
+        sim.run()
+        assert seen == [0.25, 0.5, 0.75, 1.0]
+    with pytest.raises(ValueError, match="^interval is too large; expected a number below 1.8e308$"):
+        sim.every(10**400, print)
+    for wrong in (0, -1.0, np.nan):
+        with pytest.raises(ValueError, match=rf"^interval is {wrong:g}; expected a time above 0$"):
+            sim.every(wrong, print)
+
+
+def test_a_run_is_told_what_is_wrong_before_it_begins(tmp_path):
+    folder = tmp_path / "run"
+    with pytest.raises(TypeError, match="^expected a function of a warning, not int$"):
+        carom.run(scene(), out=folder, warn=3)
+    for name in ("force", "strict"):
+        for wrong in ("no", [False]):
+            with pytest.raises(TypeError, match=rf"^{name} is .*; expected True or False$"):
+                carom.run(scene(), out=folder, **{name: wrong})
+    assert not folder.exists()
+    result = carom.run(scene(output={"trajectory": "xyz"}), out=folder, force=np.bool_(True), strict=None)
+    with pytest.raises(TypeError, match="^force is 'no'; expected True or False$"):
+        result.show(tmp_path / "page.html", force="no")
+
+
+def test_what_map_does_not_take(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for outs in ("ab", b"ab", tmp_path):
+        with pytest.raises(TypeError, match="^outs is .*; expected a list of folders, one for each scene$"):
+            carom.map([scene(), scene()], outs=outs)
+    with pytest.raises(ValueError, match="^1 folders for 2 scenes$"):
+        carom.map([scene(), scene()], outs=["a"])
+    for jobs in (0, -1):
+        with pytest.raises(ValueError, match=f"^jobs is {jobs}; expected 1 or more$"):
+            carom.map([scene()], jobs=jobs)
+    for jobs in (1.5, "2"):
+        with pytest.raises(TypeError, match="cannot be interpreted as an integer"):
+            carom.map([scene()], jobs=jobs)
+    assert not any(tmp_path.iterdir())
 
 
 def test_what_ends_a_run_is_said_in_words_of_python(tmp_path):
@@ -162,6 +210,9 @@ def test_paths_and_texts_that_are_no_unicode(tmp_path):
         carom.Scene.parse(None)
     with pytest.raises(TypeError, match="^the keys of changes are strings"):
         carom.Scene.parse("", {1: 2})
+    for wrong in (["run.t_end=1"], "run.t_end=1", None):
+        with pytest.raises(TypeError, match=r'^changes are a dictionary, such as {"run.t_end": 5.0}; not \w+$'):
+            carom.Scene.parse("", wrong)
 
 
 def test_a_damaged_trajectory_says_so(tmp_path):
