@@ -68,6 +68,17 @@ TEST(CaromCErrors, NullPointersAreAStatusAndAText) {
   carom_destroy(nullptr);
   carom_options_init(nullptr);
   carom_scene_init(nullptr);
+  const auto no_world = [](const auto& make) {
+    carom_world* none = nullptr;
+    EXPECT_EQ(make(&none), CAROM_INPUT);
+    EXPECT_THAT(carom_error(none), HasSubstr("null pointer"));
+    carom_destroy(none);
+  };
+  no_world([](carom_world** w) { return carom_from_file(nullptr, nullptr, w); });
+  no_world([](carom_world** w) { return carom_from_text(nullptr, 0, nullptr, w); });
+  no_world([](carom_world** w) { return carom_from_scene(nullptr, nullptr, w); });
+  no_world([](carom_world** w) { return carom_from_checkpoint(nullptr, nullptr, w); });
+  no_world([](carom_world** w) { return carom_from_memory(nullptr, 0, nullptr, w); });
   World owner(box());
   carom_world* const world = owner.get();
   owner.add({5.0, 5.0, 0.0, 0.0, 1.0, 1.0, 0});

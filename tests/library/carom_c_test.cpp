@@ -125,6 +125,15 @@ TEST(CaromC, CountsAndEnergiesAreThoseOfTheSimulation) {
   world.run_until(2.0);
   simulation.run_until(2.0);
   const carom::State& state = simulation.state();
+  EXPECT_EQ(world.steps(), state.counters.steps);
+  EXPECT_EQ(world.steps(), 200U);
+  EXPECT_EQ(world.collisions(), state.counters.collisions);
+  EXPECT_EQ(world.wall_collisions(), state.counters.wall_collisions);
+  EXPECT_GT(state.counters.wall_collisions, 0U);
+  EXPECT_NE(state.counters.wall_collisions, state.counters.collisions);
+  EXPECT_EQ(world.end_time(), 5.0);
+  EXPECT_EQ(world.width(), 20.0);
+  EXPECT_EQ(world.height(), 10.0);
   EXPECT_EQ(world.removed(), state.counters.removed);
   EXPECT_EQ(world.emitted(), state.counters.emitted);
   EXPECT_GT(state.counters.removed, 0U);
