@@ -32,13 +32,20 @@ struct Output {
   Json summary;         // null if there is none
 };
 
+// Of a run's folder; null where it has none.
+Json summary_in(const std::string& name) {
+  std::ifstream file(fs::path(name) / "summary.json");
+  if (!file) return nullptr;
+  Json summary = Json::parse(file, nullptr, false);
+  if (summary.is_object()) return summary;
+  fail_input(name + "/summary.json", summary.is_discarded() ? "is no JSON" : "is no object of keys",
+             "expected the summary of a run");
+}
+
 Output open_output(const std::string& name) {
   if (!fs::exists(name)) fail_input(name, "does not exist", "expected a folder of a run, or a trajectory");
   if (!fs::is_directory(name)) return {name, name, nullptr};
-  Output output{name, trajectory_in(name), nullptr};
-  std::ifstream file(fs::path(name) / "summary.json");
-  if (file) output.summary = Json::parse(file, nullptr, false);
-  if (output.summary.is_discarded()) fail_input(name + "/summary.json", "is no JSON", "expected the summary of a run");
+  Output output{name, trajectory_in(name), summary_in(name)};
   if (output.trajectory.empty() && output.summary.is_null()) {
     if (fs::exists(fs::path(name) / unfinished_name)) {
       fail_input(name, "holds a run that is not finished",
@@ -53,7 +60,7 @@ Output open_output(const std::string& name) {
 // Keys of the summaries with different values; empty unless both have one.
 std::vector<std::string> different_keys(const Json& a, const Json& b) {
   std::vector<std::string> keys;
-  if (!a.is_object() || !b.is_object()) return keys;
+  if (a.is_null() || b.is_null()) return keys;
   for (const char* const key : compared_keys) {
     if (a.value(key, Json()) != b.value(key, Json())) keys.emplace_back(key);
   }

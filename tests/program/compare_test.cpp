@@ -1,7 +1,10 @@
 // carom compare with a tolerance, on chosen fields and times: what it finds, and its exit status.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "tests/support/command_support.hpp"
+#include "tests/support/scene_support.hpp"
 
 namespace carom {
 namespace {
@@ -113,6 +116,86 @@ TEST_F(Compare, WhatOnlyOneHasIsADifferenceAtAnyTolerance) {
   const Outcome o = compare("--tolerance 1e9");
   EXPECT_EQ(o.status, 1);
   EXPECT_THAT(o.out, HasSubstr("different: first in frame 3 (t = 0.2): only one has it; 3 frames against 2"));
+  EXPECT_THAT(o.out, HasSubstr("\n  frames  3 against 2\n"));
+  const Json j = Json::parse(compare("--tolerance 1e9 --json").out);
+  EXPECT_EQ(j["frames"], Json({3, 2}));
+  EXPECT_EQ(j["same"], false);
+}
+
+TEST_F(Compare, JsonHasTheNumbersOfTheText) {
+  const Outcome o = compare("--json");
+  EXPECT_EQ(o.status, 1);
+  const Json j = Json::parse(o.out);
+  EXPECT_FALSE(j.contains("tolerance"));
+  EXPECT_EQ(j["first"], (Json{{"frame", 2},
+                              {"time", 0.1},
+                              {"disk", 0},
+                              {"quantity", "x"},
+                              {"a", 9.9995},
+                              {"b", 0.0005},
+                              {"by", j["first"]["by"]}}));
+  EXPECT_EQ(
+      j["largest"]["vx"],
+      (Json{{"frame", 2}, {"time", 0.1}, {"disk", 0}, {"quantity", "vx"}, {"a", 3.0}, {"b", 3.25}, {"by", 0.25}}));
+  EXPECT_EQ(j["largest"]["x"]["frame"], 3);
+  EXPECT_FALSE(j["largest"].contains("y"));
+  EXPECT_TRUE(Json::parse(compare("--json --fields x").out)["tolerance"].is_null());
+}
+
+class CompareSummaries : public Compare {
+ protected:
+  // A folder with this summary and nothing else.
+  void summary(const std::string& folder, const std::string& text) const {
+    std::filesystem::create_directories(at(folder));
+    write(folder + "/summary.json", text);
+  }
+};
+
+TEST_F(CompareSummaries, KeysThatDifferAreNamed) {
+  const std::string of_three = R"({"state_hash": "00ff", "particles": 3, "pressure": null, "step_s": 1.5})";
+  summary("a", of_three);
+  summary("b", test::replaced(of_three, "1.5", "2.5"));
+  Outcome o = carom("compare a b");
+  EXPECT_EQ(o.status, 0) << "times are not results";
+  EXPECT_EQ(o.out, "same summary, state hash included\n");
+  summary("b", R"({"state_hash": "00fe", "particles": 3, "pressure": 0.25})");
+  o = carom("compare a b");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(o.out,
+            "different: summary.json\n"
+            "  state_hash      \"00ff\" against \"00fe\"\n"
+            "  pressure        null against 0.25\n");
+  o = carom("compare a b --json");
+  EXPECT_EQ(o.status, 1);
+  const Json j = Json::parse(o.out);
+  EXPECT_EQ(j["same"], false);
+  EXPECT_EQ(j["different_keys"], Json({"state_hash", "pressure"}));
+  EXPECT_FALSE(j.contains("frames") || j.contains("tolerance"));
+}
+
+TEST_F(CompareSummaries, WhatIsNoSummaryIsNoSameSummary) {
+  summary("a", R"({"particles": 3})");
+  summary("cut", R"({"particles": )");
+  expect_error("$C compare a cut", 2, "cut/summary.json: is no JSON; expected the summary of a run");
+  for (const std::string other : {"[]", "3", "null", "\"00ff\""}) {
+    summary("other", other);
+    expect_error("$C compare other other", 2,
+                 "other/summary.json: is no object of keys; expected the summary of a run");
+    expect_error("$C compare a other", 2, "other/summary.json: is no object of keys");
+  }
+}
+
+TEST_F(CompareSummaries, WhatCannotBeComparedSaysWhy) {
+  summary("a", R"({"particles": 3})");
+  std::filesystem::create_directories(at("empty"));
+  expect_error("$C compare a empty", 2, "empty: holds neither trajectory.xyz, trajectory.h5 nor summary.json");
+  std::filesystem::create_directories(at("going on/carom-unfinished"));
+  expect_error("$C compare a 'going on'", 2,
+               "going on: holds a run that is not finished; expected a finished one (carom resume 'going on'), or a "
+               "trajectory in going on/carom-unfinished");
+  expect_error("$C compare a a.xyz", 2, "a and a.xyz: have nothing in common to compare");
+  expect_error("$C compare a.xyz a", 2, "a.xyz and a: have nothing in common to compare");
+  expect_error("$C compare a nowhere", 2, "nowhere: does not exist");
 }
 
 }  // namespace
