@@ -318,6 +318,17 @@ TEST_F(SweepTest, AFailedRunIsNamedAndTriedAgain) {
   EXPECT_THAT(carom("sweep gas.toml -o s --over disks.0.count=10,250").second, HasSubstr("1 of 2 runs are left"));
 }
 
+// One that left no word, as where the machine had no memory for it.
+TEST_F(SweepTest, ARunThatIsKilledIsNamedByItsStatus) {
+  const auto [status, text] =
+      shell("{ " CAROM_PROGRAM
+            " sweep gas.toml -o s --set physics.restitution=1 --over run.t_end=1,1e9 --jobs 1 & until [ -e "
+            "s/runs/0002/carom-unfinished/scene.toml ]; do sleep 0.01; done; kill -KILL $(cat "
+            "/proc/$!/task/$!/children); wait $!; }");
+  EXPECT_EQ(status, 1);
+  EXPECT_THAT(text, HasSubstr("carom: warning: run 0002: ended with status 137\n"));
+}
+
 // A sweep that is stopped stops its runs and begins no other; the one that was running is resumed from where it was.
 // SIGUSR1 has that write a checkpoint, and it goes on.
 TEST_F(SweepTest, StoppedItTakesItsRunsWithItAndGoesOnFromTheirCheckpoints) {
