@@ -73,6 +73,14 @@ std::string text_of(const Difference& d) {
   if (quantity == "frames") return fmt::format("{}: only one has it; {} frames against {}", place, d.a, d.b);
   if (quantity == "disks") return fmt::format("{}: only one has disk {}; {} disks against {}", place, d.id, d.a, d.b);
   if (quantity == "time") return fmt::format("{}: its time is {} against {}", place, d.a, d.b);
+  if (quantity == "width" || quantity == "height") {
+    return fmt::format("{}: the {} of its box is {} against {}", place, quantity, d.a, d.b);
+  }
+  if (quantity.starts_with("periodic")) {
+    const char* const sides = quantity == "periodic_x" ? "left and right" : "bottom and top";
+    return fmt::format("{}: the {} sides of its box are {}, and {} in the other", place, sides,
+                       d.a > 0.0 ? "periodic" : "not periodic", d.b > 0.0 ? "are" : "are not");
+  }
   return fmt::format("{}, disk {}, {}: {} against {}", place, d.id, d.quantity, d.a, d.b);
 }
 

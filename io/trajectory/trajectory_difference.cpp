@@ -28,6 +28,10 @@ bool counts(const CompareRule& rule, double by) {
   return !rule.tolerance || !(by <= *rule.tolerance);
 }
 
+bool compares_all(const CompareRule& rule) {
+  return std::find(rule.fields.begin(), rule.fields.end(), false) == rule.fields.end();
+}
+
 std::array<double, compared_quantities.size()> quantities_of(const Disks& d, std::size_t i) {
   return {d.x[i], d.y[i], d.vx[i], d.vy[i], d.radius_of(i), d.mass_of(i), d.spin_of(i)};
 }
@@ -123,6 +127,7 @@ class Comparison {
     box_ = &a.box;
     const double apart = std::abs(a.time - b.time);
     if (!same_bits(a.time, b.time) && counts(rule_, apart)) note({number, a.time, 0, "time", a.time, b.time, apart});
+    if (compares_all(rule_)) compare_boxes(a, b);
     std::size_t i = 0, j = 0;
     while (i < a.disks.size() || j < b.disks.size()) {
       const bool a_left = i < a.disks.size(), b_left = j < b.disks.size();
@@ -140,6 +145,21 @@ class Comparison {
  private:
   void note(const Difference& found) {
     if (!result_.first) result_.first = found;
+  }
+
+  // The same disks in another box are another state.
+  void compare_boxes(const TrajectoryFrame& a, const TrajectoryFrame& b) {
+    const auto see = [&](const char* quantity, double of_a, double of_b) {
+      const double by = std::abs(of_a - of_b);
+      if (!same_bits(of_a, of_b) && counts(rule_, by)) note({place_.frame, a.time, 0, quantity, of_a, of_b, by});
+    };
+    see("width", a.box.width, b.box.width);
+    see("height", a.box.height, b.box.height);
+    const auto see_sides = [&](const char* quantity, bool of_a, bool of_b) {
+      if (of_a != of_b) note({place_.frame, a.time, 0, quantity, of_a ? 1.0 : 0.0, of_b ? 1.0 : 0.0, 1.0});
+    };
+    see_sides("periodic_x", a.box.periodic_x(), b.box.periodic_x());
+    see_sides("periodic_y", a.box.periodic_y(), b.box.periodic_y());
   }
 
   void compare_disk(const Disks& a, std::size_t i, const Disks& b, std::size_t j) {
@@ -168,8 +188,7 @@ class Comparison {
 
 // Where all fields are compared, and none was asked for by its name, what neither has is no matter.
 bool asks_for_spin(const CompareRule& rule) {
-  const auto wanted = std::count(rule.fields.begin(), rule.fields.end(), true);
-  return rule.fields.back() && wanted < static_cast<std::ptrdiff_t>(rule.fields.size());
+  return rule.fields.back() && !compares_all(rule);
 }
 
 }  // namespace

@@ -23,12 +23,14 @@ struct CompareRule {
 
 // One place where two trajectories differ. Frames count from 1.
 struct Difference {
-  Count frame = 0;            // of A
-  double time = 0.0;          // in A
-  DiskId id = 0;              // if a quantity of a disk differs
-  const char* quantity = "";  // x, y, vx, vy, radius, mass, time; "disks" or "frames" if one has what the other lacks
-  double a = 0.0, b = 0.0;    // the two values; for "disks" and "frames" their numbers
-  double by = 0.0;            // |a - b|; of places to the nearest image
+  Count frame = 0;    // of A
+  double time = 0.0;  // in A
+  DiskId id = 0;      // if a quantity of a disk differs
+  // x, y, vx, vy, radius, mass, spin, time; "disks" or "frames" if one has what the other lacks; of the box, where all
+  // fields are compared, "width", "height", "periodic_x", "periodic_y".
+  const char* quantity = "";
+  double a = 0.0, b = 0.0;  // the two values; for "disks" and "frames" their numbers; 1 of periodic sides
+  double by = 0.0;          // |a - b|; of places to the nearest image
 };
 
 struct TrajectoryDifference {

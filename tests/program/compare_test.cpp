@@ -122,6 +122,35 @@ TEST_F(Compare, WhatOnlyOneHasIsADifferenceAtAnyTolerance) {
   EXPECT_EQ(j["same"], false);
 }
 
+// The same disks in another box are another state.
+TEST_F(Compare, TheBoxIsCompared) {
+  const std::string one = trajectory({"1 2 3 4", "2 2 3 4"});
+  write("a.xyz", one);
+  const auto with_box = [&](const std::string& from, const std::string& to) {
+    std::string other = one;
+    const std::size_t at = other.rfind(from);  // of the second frame
+    write("b.xyz", other.replace(at, from.size(), to));
+  };
+  with_box("10 0 0", "10.5 0 0");
+  const Outcome o = compare("");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(o.out, "different: first in frame 2 (t = 0.1): the width of its box is 10 against 10.5\n");
+  EXPECT_EQ(compare("--tolerance 0.4").status, 1);
+  EXPECT_EQ(compare("--tolerance 0.6").status, 0);
+  EXPECT_EQ(compare("--fields x,y,vx,vy").status, 0) << "where fields are named, they alone count";
+  const Json first = Json::parse(compare("--json").out)["first"];
+  EXPECT_EQ(first["quantity"], "width");
+  EXPECT_EQ(first["by"], 0.5);
+  with_box("0 8 0", "0 9 0");
+  EXPECT_THAT(compare("").out, HasSubstr("frame 2 (t = 0.1): the height of its box is 8 against 9\n"));
+  with_box("T F F", "F F F");
+  EXPECT_THAT(compare("--tolerance 1e9").out,
+              HasSubstr("the left and right sides of its box are periodic, and are not in the other\n"));
+  with_box("T F F", "T T F");
+  EXPECT_THAT(compare("").out,
+              HasSubstr("the bottom and top sides of its box are not periodic, and are in the other\n"));
+}
+
 TEST_F(Compare, JsonHasTheNumbersOfTheText) {
   const Outcome o = compare("--json");
   EXPECT_EQ(o.status, 1);
