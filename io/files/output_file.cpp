@@ -72,6 +72,9 @@ void write_file(const std::string& path, std::string_view text) {
 }
 
 void rename_file(const std::string& from, const std::string& to) {
+  std::error_code none;
+  const std::filesystem::file_status there = std::filesystem::status(to, none);
+  if (std::filesystem::is_other(there)) throw RunError(fmt::format("cannot write {}: it is a device or a pipe", to));
   if (std::rename(from.c_str(), to.c_str()) == 0) return;
   throw RunError(fmt::format("cannot write {}: {}", to, std::strerror(errno)));
 }
@@ -80,11 +83,11 @@ void replace_file(const std::string& path, std::string_view text) {
   const std::string beside = path + ".new";
   try {
     write_file(beside, text);
+    rename_file(beside, path);
   } catch (const RunError&) {
     std::remove(beside.c_str());  // a full disk needs the room
     throw;
   }
-  rename_file(beside, path);
 }
 
 void check_at_least(const std::string& path, std::uint64_t bytes) {

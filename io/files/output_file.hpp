@@ -57,7 +57,8 @@ void sync_path(const std::string& path);
 // The whole text as a file. Throws RunError.
 void write_file(const std::string& path, std::string_view text);
 
-// Gives a file another name, in place of what had it. Throws RunError, "cannot write TO: why".
+// Gives a file another name, in place of the file that had it; devices and pipes, which all programs share, stay.
+// Throws RunError, "cannot write TO: why".
 void rename_file(const std::string& from, const std::string& to);
 
 // As write_file, by way of PATH.new, so that a failure leaves what was there before. Throws RunError.

@@ -2,12 +2,14 @@
 #include "io/files/output_folder.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <csignal>
 #include <filesystem>
+#include <string>
 
 #include "core/base/check.hpp"
 #include "io/files/output_file.hpp"
@@ -190,6 +192,21 @@ TEST_F(OutputFolderTest, WhereNoFolderCanBe) {
   for (const fs::path& folder : {base_ / "input.toml" / "out", fs::path("/proc/nothing/out")}) {
     EXPECT_THROW(OutputFolder(folder, base_ / "input.toml", false), InputError) << folder;
   }
+}
+
+// What cannot be put in its place leaves nothing beside it.
+TEST_F(OutputFolderTest, AFileReplacesAFileOnly) {
+  const std::string file = base_ / "table.csv";
+  write_file(file, "old");
+  replace_file(file, "new");
+  EXPECT_EQ(text(file), "new");
+  fs::create_directories(base_ / "folder.csv" / "full");
+  ASSERT_EQ(mkfifo((base_ / "pipe.csv").c_str(), 0600), 0);
+  for (const char* const name : {"folder.csv", "pipe.csv"}) {
+    EXPECT_THROW(replace_file(base_ / name, "new"), RunError) << name;
+    EXPECT_FALSE(fs::exists(base_ / (std::string(name) + ".new"))) << name;
+  }
+  EXPECT_TRUE(fs::is_fifo(base_ / "pipe.csv"));
 }
 
 }  // namespace

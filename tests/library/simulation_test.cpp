@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -146,6 +147,22 @@ TEST(Simulation, ASaveThatFailsLeavesTheOneBefore) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
   simulation.save(file);
   EXPECT_EQ(Simulation::resume(file, choice()).hash(), simulation.hash());
+}
+
+// As root a state saved to /dev/null would take its place.
+TEST(Simulation, ASaveReplacesNoPipe) {
+  const test::TestFolder folder("simulation_pipe");
+  const std::filesystem::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const Simulation simulation(gas("pairwise"), choice());
+  try {
+    simulation.save(pipe.string());
+    FAIL();
+  } catch (const RunError& error) {
+    EXPECT_EQ(error.what(), "cannot write " + pipe.string() + ": it is a device or a pipe");
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_FALSE(std::filesystem::exists(pipe.string() + ".new"));
 }
 
 TEST(Simulation, SavedAndLoadedGoesOnBitForBit) {
