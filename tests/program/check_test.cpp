@@ -1,8 +1,12 @@
 // carom check predicts: collapse, speeds after the fall, what sources add, the size of every file.
+#include <fmt/format.h>
+
 #include <cmath>
+#include <numbers>
 
 #include "app/run/check_foresight.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/start/initial_state.hpp"
 #include "tests/support/command_support.hpp"
 
 namespace carom {
@@ -249,6 +253,55 @@ TEST(Foresight, DisksOfASourceFallFromItsSide) {
   EXPECT_DOUBLE_EQ(landing("1", "bottom"), 0.0);
   EXPECT_DOUBLE_EQ(landing("[0, 1]", "bottom"), std::sqrt(19.0)) << "upwards";
   EXPECT_DOUBLE_EQ(landing("[0, 1]", "top"), 0.0);
+}
+
+// The corner of a source's region from which gravity takes a disk furthest, to the edge of a disk of radius 0.5.
+TEST(Foresight, DisksOfASourceFallFromTheFarCornerOfItsRegion) {
+  const auto way = [](const char* gravity, const char* where) {
+    const Scene scene = empty_box("", std::string("[physics]\ngravity = ") + gravity + "\n[[sources]]\n" + where +
+                                          "\nrate = 2\nradius = 0.5\nmass = 1\n");
+    return 0.5 * std::pow(foresee_steps(scene, {}).landing_speed, 2);
+  };
+  const char* const region = "region = [2, 3, 8, 6]";
+  EXPECT_NEAR(way("1", region), 5.5, 1e-12);
+  EXPECT_NEAR(way("[0, 1]", region), 6.5, 1e-12);
+  EXPECT_NEAR(way("[1, 0]", region), 17.5, 1e-12);
+  EXPECT_NEAR(way("[-1, 0]", region), 7.5, 1e-12);
+  EXPECT_NEAR(way("[1, 0]", "side = \"left\""), 19.5, 1e-12);
+  EXPECT_NEAR(way("[0, -1]", "side = \"left\""), 9.5, 1e-12) << "from its upper end";
+  EXPECT_NEAR(way("[-1, 0]", "side = \"left\""), 0.0, 1e-12);
+  EXPECT_NEAR(way("[0, -1]", "side = \"right\""), 9.5, 1e-12);
+}
+
+// Its flights become shorter by the restitution each: e / (1 - e) times as long together as one from the first landing.
+TEST(Foresight, ADiskRestsAfterTheSumOfItsFlights) {
+  const auto rest = [](const std::string& velocity, const std::string& gravity, double e) {
+    const Scene scene = parse_scene(
+        fmt::format("[box]\nwidth = 10\nheight = 10\nwall_restitution = {}\n[physics]\ngravity = {}\n[[disks]]\ncount "
+                    "= 1\npositions = [[5, 8.5]]\nvelocities = [{}]\nradius = 0.5\nmass = 1\n[run]\nt_end = 100\n",
+                    e, gravity, velocity),
+        "fall", "");
+    return foresee_collapse(scene, initial_state(scene).disks).from.value_or(0.0);
+  };
+  EXPECT_NEAR(rest("[0, 0]", "1", 0.5), 4.0 + 8.0, 1e-12);
+  EXPECT_NEAR(rest("[0, 0]", "1", 0.25), 4.0 + 8.0 / 3.0, 1e-12);
+  EXPECT_NEAR(rest("[7, 3]", "1", 0.5), (3.0 + 5.0) + 10.0, 1e-12) << "up first, and down from there";
+  EXPECT_NEAR(rest("[7, -3]", "1", 0.5), (-3.0 + 5.0) + 10.0, 1e-12);
+  EXPECT_NEAR(rest("[0, 0]", "[1, 0]", 0.5), 3.0 + 6.0, 1e-12) << "4.5 to the right wall";
+  EXPECT_NEAR(rest("[0, 0]", "[0, 2]", 0.5), 1.0 + 2.0, 1e-12) << "1 to the ceiling";
+}
+
+// Nothing stops a fall through periodic sides.
+TEST(Foresight, AFallWithoutAFloorGoesOnToTheEnd) {
+  const Scene scene =
+      empty_box("bottom = \"periodic\"\ntop = \"periodic\"\n",
+                "[physics]\ngravity = 3\n[[sources]]\nside = \"left\"\nrate = 2\nradius = 0.5\nmass = 1\n");
+  EXPECT_NEAR(foresee_steps(scene, {}).landing_speed, 30.0, 1e-12);
+}
+
+TEST(Foresight, TheFillIsTheAreaOfAllDisks) {
+  const std::string source = "[[sources]]\nside = \"top\"\nrate = 2\nradius = 0.5\nmass = 1\n";
+  EXPECT_NEAR(foresee_population(empty_box("", source), {}).fill, 20.0 * std::numbers::pi * 0.25 / 200.0, 1e-12);
 }
 
 // Sources that would fill the box are no trouble where a sink takes disks away.
