@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/short_number.hpp"
+
 namespace carom {
 namespace {
 
@@ -70,6 +72,42 @@ TEST(Progress, OnATerminalTheLineIsRenewedInPlace) {
   ASSERT_THAT(clock.written, SizeIs(2)) << "one after 0.3 s, and it is taken away at the end";
   EXPECT_EQ(clock.written[0], "\r 20.0 %  t = 2 of 1\x1b[K") << "no longer than the terminal is wide";
   EXPECT_EQ(clock.written[1], "\r\x1b[K");
+}
+
+TEST(Progress, TimeLeftGoesByWhatWasGained) {
+  const ProgressPoint then{10.0, 10.0, 1000}, now{14.0, 12.0, 1400};
+  EXPECT_EQ(progress_text(then, now, 50, 100.0),
+            " 12.0 %  t = 12 of 100  100 steps/s  5 k disk-steps/s  " + duration_text(4.0 * 88.0 / 2.0) + " left");
+  EXPECT_EQ(progress_text(then, {14.0, 10.0, 1400}, 50, 100.0), " 10.0 %  t = 10 of 100  100 steps/s  5 k disk-steps/s")
+      << "without a gain nobody knows";
+}
+
+// Ten seconds at one unit of time a second, and ten at half of that: what was before is forgotten.
+TEST(Progress, RatesAreThoseOfTheLastSeconds) {
+  Clock clock;
+  Progress progress(true, 100.0, state_at(0.0, 0), 10, clock.place(true, 200));
+  for (int second = 1; second <= 20; ++second) {
+    clock.now += 1.0;
+    const double time = second <= 10 ? second : 10.0 + 0.5 * (second - 10);
+    progress.update(state_at(time, static_cast<Count>(10 * second)));
+  }
+  EXPECT_EQ(clock.written.back(),
+            "\r 15.0 %  t = 15 of 100  10 steps/s  100 disk-steps/s  " + duration_text(170.0) + " left\x1b[K");
+}
+
+// Of ten disks three had come from sources and one had left before; five more come, and one more leaves.
+TEST(Progress, DisksAreThoseThatThereAre) {
+  Clock clock;
+  State state = state_at(0.0, 0);
+  state.counters.emitted = 3;
+  state.counters.removed = 1;
+  Progress progress(true, 100.0, state, 10, clock.place(true, 200));
+  clock.now += 1.0;
+  state = state_at(1.0, 10);
+  state.counters.emitted = 8;
+  state.counters.removed = 2;
+  progress.update(state);
+  EXPECT_THAT(clock.written.back(), ::testing::HasSubstr("  10 steps/s  140 disk-steps/s"));
 }
 
 TEST(Progress, QuietIsQuiet) {
