@@ -110,6 +110,18 @@ TEST(Progress, DisksAreThoseThatThereAre) {
   EXPECT_THAT(clock.written.back(), ::testing::HasSubstr("  10 steps/s  140 disk-steps/s"));
 }
 
+TEST(Progress, ALineIsTakenAwayOnce) {
+  Clock clock;
+  Progress progress(true, 100.0, state_at(0.0, 0), 10, clock.place(true));
+  progress.clear();
+  EXPECT_THAT(clock.written, IsEmpty()) << "there is none yet";
+  clock.now += 1.0;
+  progress.update(state_at(1.0, 10));
+  progress.clear();
+  progress.clear();
+  EXPECT_THAT(clock.written, SizeIs(2));
+}
+
 TEST(Progress, QuietIsQuiet) {
   for (const bool terminal : {false, true}) {
     Clock clock;

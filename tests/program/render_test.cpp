@@ -1,4 +1,7 @@
 // carom render: what the extension says, as the options and the scene say, of finished and of unfinished runs.
+#include <string>
+#include <vector>
+
 #include "tests/support/program_support.hpp"
 
 namespace carom {
@@ -151,6 +154,28 @@ TEST_F(LongRender, AnUnfinishedRunIsShownAsFarAsItCame) {
   EXPECT_EQ(o.out, "cut/movie.mp4\n");
   ASSERT_EQ(carom("resume cut --quiet").status, 0) << "it is not in the way";
   EXPECT_EQ(probe("cut/movie.mp4"), "h264,640,400,5/1,5\n");
+}
+
+// One disk at one speed, so that the other frames do not change the colours.
+TEST_F(Render, APictureIsOfTheFrameThatIsAskedFor) {
+  const auto frame = [](const std::string& time, const std::string& place) {
+    return "1\nLattice=\"10 0 0 0 8 0 0 0 1\" Origin=\"0 0 0\" pbc=\"F F F\" "
+           "Properties=species:S:1:pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1 Time=" +
+           time + "\nA " + place + " 1 0 0.5 1 0\n";
+  };
+  const std::vector<std::string> frames{frame("0", "2 2"), frame("1", "3 2")};
+  std::vector<std::string> alone;
+  for (const std::string& only : frames) {
+    write("disk.xyz", only);
+    ASSERT_EQ(carom("render disk.xyz -o alone.svg --force").status, 0);
+    alone.push_back(text_of(at("alone.svg")));
+  }
+  write("disk.xyz", frames[0] + frames[1]);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    ASSERT_EQ(carom("render disk.xyz -o one.svg --force --frame " + std::to_string(k + 1)).status, 0);
+    EXPECT_TRUE(text_of(at("one.svg")) == alone[k]) << "frame " << k + 1;
+  }
+  EXPECT_NE(alone[0], alone[1]);
 }
 
 TEST_F(Render, KeysOfTheSceneAreChecked) {
