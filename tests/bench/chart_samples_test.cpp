@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
 
 #include "app/chart/chart_result.hpp"
 #include "app/chart/chart_sample.hpp"
@@ -85,6 +88,44 @@ TEST(ChartSamples, ExactAgreesWithItselfAndShortStepsComeCloser) {
     EXPECT_LT(s[Measure::energy], 1e-12);
     EXPECT_LT(s[Measure::momentum], 1e-12);
   }
+}
+
+// Of the chart's scene of this name by exact, from one start.
+Sample by_exact(const std::string& name, double melting, double length, double dt = 0.0) {
+  const auto& scenes = chart_scenes();
+  ChartScene scene = *std::ranges::find(scenes, name, &ChartScene::name);
+  scene.melting = melting;
+  scene.flight = 0.02;
+  scene.length = length;
+  return measure_seed(scene, 1, {{Method::exact, dt, 1}}).at(0);
+}
+
+// Enskog's rate for the compressibility Z of docs/reference_values.md, at temperature 1 and diameter 1.
+double rate_of(double z) {
+  return 4.0 * (z - 1.0) / std::sqrt(std::numbers::pi);
+}
+
+// Energies are those of the thousand disks of one start, within a few per cent of temperature 1.
+TEST(ChartSamples, FiguresAreThoseThatAreKnown) {
+  constexpr double z_of_dilute = 1.236, z_of_cooling = 2.063, z_of_shear = 4.105;
+  const auto compressibility = [](const Sample& sample, double packing_fraction) {
+    return sample[Measure::figure] * (0.25 * std::numbers::pi) / packing_fraction;  // P V / N
+  };
+  const Sample dilute = by_exact("dilute", 5.0, 12.0);
+  EXPECT_NEAR(compressibility(dilute, 0.1), z_of_dilute, 0.08 * z_of_dilute);
+  EXPECT_NEAR(dilute[Measure::rate], rate_of(z_of_dilute), 0.08 * rate_of(z_of_dilute));
+  const Sample shear = by_exact("shear", 3.0, 1.0);
+  EXPECT_NEAR(compressibility(shear, 0.5), z_of_shear, 0.1 * z_of_shear) << "of velocities relative to the flow";
+  EXPECT_NEAR(shear[Measure::rate], rate_of(z_of_shear), 0.1 * rate_of(z_of_shear));
+  // Haff's law: 1 / sqrt(T) rises by (1 - e^2) / 4 a collision of a disk. The start is melted without a loss.
+  const Sample cooling = by_exact("cooling", 6.0, 2.0);
+  const double haff = (1.0 - 0.9 * 0.9) / 4.0 * rate_of(z_of_cooling);
+  EXPECT_NEAR(cooling[Measure::figure], haff, 0.1 * haff);
+  EXPECT_TRUE(std::isnan(cooling[Measure::energy])) << "which is not kept";
+  // Others are in the way of a Brownian disk: less than 1, the free one's, and more than 1 - 2 phi in the long run.
+  const Sample brownian = by_exact("brownian", 3.0, 0.128, 0.0016);
+  EXPECT_GT(brownian[Measure::figure], 0.45);
+  EXPECT_LT(brownian[Measure::figure], 0.85);
 }
 
 TEST(ChartSamples, ASeedUsesTheSettingsThatWantIt) {
