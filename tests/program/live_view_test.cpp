@@ -201,6 +201,8 @@ TEST(LiveRun, IsFollowedFrameByFrameToItsEnd) {
   EXPECT_EQ(now["times"], (nlohmann::json{3.0}));
   EXPECT_EQ(now["id"], (nlohmann::json{2}));
   EXPECT_EQ(now["ended"], false);
+  EXPECT_EQ(ask("news/3/3").status, 200) << "no news for a page that has all";
+  EXPECT_EQ(news("news/3/3")["times"], nlohmann::json::array());
   EXPECT_EQ(ask("block2").status, 200);
   EXPECT_EQ(ask("block2").body, ask("block2").body);
   for (const char* const path_outside :
@@ -220,6 +222,22 @@ TEST(LiveRun, IsFollowedFrameByFrameToItsEnd) {
   now = news("news/3/3");
   EXPECT_EQ(now["times"], (nlohmann::json{4.0}));
   EXPECT_EQ(now["ended"], true);
+}
+
+TEST(LiveRun, ItsSeriesGrowsWithTheRun) {
+  const test::TestFolder folder("live_series");
+  const auto path = folder.path() / "out";
+  OutputFolder output(path, "scene.toml", false);
+  std::ofstream(output.path("trajectory.xyz")) << frame_text(0) << frame_text(1);
+  std::ofstream series(output.path("series.csv"));
+  series << "t,kinetic\n0,2.5\n" << std::flush;
+  LiveRun live(path, {});
+  const auto columns = [&] { return nlohmann::json::parse(live.answer("news/0/0").body)["series"]["columns"]; };
+  live.read(1.0);
+  EXPECT_EQ(columns(), (nlohmann::json{{0.0}, {2.5}}));
+  series << "1,3.5\n" << std::flush;
+  live.read(1.0);
+  EXPECT_EQ(columns(), (nlohmann::json{{0.0, 1.0}, {2.5, 3.5}}));
 }
 
 TEST(LiveRun, KeepsThePageBelowItsSize) {

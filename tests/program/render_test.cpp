@@ -178,6 +178,16 @@ TEST_F(Render, APictureIsOfTheFrameThatIsAskedFor) {
   EXPECT_NE(alone[0], alone[1]);
 }
 
+TEST_F(Render, ATrajectoryWithoutAFrameHasNoPicture) {
+  write("empty.xyz", "");
+  for (const std::string file : {"a.png", "a.svg", "a.mp4"}) {
+    const Outcome o = carom("render empty.xyz -o " + file);
+    EXPECT_EQ(o.status, 2);
+    EXPECT_EQ(o.err, "carom: error: empty.xyz: holds no frame\n");
+    EXPECT_FALSE(fs::exists(at(file)));
+  }
+}
+
 TEST_F(Render, KeysOfTheSceneAreChecked) {
   const auto message = [&](const std::string& movie) {
     const Outcome o = carom("check small.toml --set 'output.movie=" + movie + "'");
