@@ -115,11 +115,19 @@ void Simulation::change(const Edit& edit) {
   order_known_ = stepped_ = false;
   if (!edited_ && engine_->edit(edit)) return;
   if (!edited_) {
-    const std::vector<std::string> news = engine_->take_warnings();
-    warnings_.insert(warnings_.end(), news.begin(), news.end());
+    keep_warnings();
     edited_ = engine_->state();
   }
   apply(edit, *edited_);
+}
+
+// Before the engine is made anew. A program that goes back again and again, and never asks, keeps so many at most.
+void Simulation::keep_warnings() {
+  constexpr std::size_t most_kept = 1000;
+  for (std::string& text : engine_->take_warnings()) {
+    const bool known = std::find(warnings_.begin(), warnings_.end(), text) != warnings_.end();
+    if (!known && warnings_.size() < most_kept) warnings_.push_back(std::move(text));
+  }
 }
 
 // A step that fails leaves no contacts.
@@ -215,10 +223,8 @@ Summary Simulation::summary() const {
 }
 
 std::vector<std::string> Simulation::take_warnings() {
-  std::vector<std::string> warnings = std::exchange(warnings_, {});
-  const std::vector<std::string> news = engine_->take_warnings();
-  warnings.insert(warnings.end(), news.begin(), news.end());
-  return warnings;
+  keep_warnings();
+  return std::exchange(warnings_, {});
 }
 
 RunRecord Simulation::record() const {
@@ -254,6 +260,7 @@ void Simulation::load(std::string_view bytes) {
   }
   if (checkpoint.state.sources.size() != scene_.sources.size()) scene_in(checkpoint, "saved state");
   start_ = checkpoint.record.start;
+  keep_warnings();
   edited_ = std::move(checkpoint.state);
   step_start_ = time();
   order_known_ = stepped_ = false;

@@ -106,6 +106,7 @@ class Simulation {
   RunRecord record() const;
   Engine& engine();
   void change(const Edit& edit);
+  void keep_warnings();
   void make_step(Engine& steps);
   VisitNear visit_near() const;
   QueryScene query_scene() const;

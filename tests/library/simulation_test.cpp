@@ -149,6 +149,25 @@ TEST(Simulation, ASaveThatFailsLeavesTheOneBefore) {
   EXPECT_EQ(Simulation::resume(file, choice()).hash(), simulation.hash());
 }
 
+// What was warned of before a state was taken up is told all the same, though other steps come first.
+TEST(Simulation, WarningsOutliveALoad) {
+  Scene hasty = gas("pairwise");
+  hasty.run.dt = 0.2;
+  const auto warned = [&](bool goes_back) {
+    Simulation simulation(hasty, choice());
+    const std::string saved = simulation.save();
+    simulation.step(20);
+    if (goes_back) {
+      simulation.load(saved);
+      simulation.step();
+    }
+    return simulation.take_warnings();
+  };
+  const std::vector<std::string> expected = warned(false);
+  ASSERT_GE(expected.size(), 2U);
+  EXPECT_EQ(warned(true), expected) << "and the first, which comes again with the first step, once";
+}
+
 // As root a state saved to /dev/null would take its place.
 TEST(Simulation, ASaveReplacesNoPipe) {
   const test::TestFolder folder("simulation_pipe");
