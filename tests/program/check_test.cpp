@@ -291,6 +291,15 @@ TEST(Foresight, ADiskRestsAfterTheSumOfItsFlights) {
   EXPECT_NEAR(rest("[0, 0]", "[0, 2]", 0.5), 1.0 + 2.0, 1e-12) << "1 to the ceiling";
 }
 
+// The first disk comes at 1 / rate, and falls from the edge of the box.
+TEST(Foresight, ADiskOfASourceRestsAfterItHasCome) {
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 20\nheight = 10\nwall_restitution = 0.5\n[physics]\ngravity = 1\n[[sources]]\nside = \"top\"\n"
+      "rate = 2\nradius = 0.5\nmass = 1\n[run]\nt_end = 100\n",
+      "source", "");
+  EXPECT_NEAR(foresee_collapse(scene, {}).from.value_or(0.0), 0.5 + std::sqrt(20.0) + 2.0 * std::sqrt(20.0), 1e-12);
+}
+
 // Nothing stops a fall through periodic sides.
 TEST(Foresight, AFallWithoutAFloorGoesOnToTheEnd) {
   const Scene scene =
