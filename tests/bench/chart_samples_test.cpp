@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/chart/chart_result.hpp"
 #include "app/chart/chart_sample.hpp"
+#include "core/disks/domain.hpp"
 #include "core/disks/state_hash.hpp"
+#include "core/measure/invariants.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
 
@@ -88,6 +93,84 @@ TEST(ChartSamples, ExactAgreesWithItselfAndShortStepsComeCloser) {
     EXPECT_LT(s[Measure::energy], 1e-12);
     EXPECT_LT(s[Measure::momentum], 1e-12);
   }
+}
+
+// Where the reference ends, by id, and the pairs that have collided, sorted.
+struct Ended {
+  std::vector<Vec2> places;
+  CollisionLog pairs;
+};
+
+Ended run_of(const ChartScene& scene, Method method, double dt) {
+  const Scene s = scene_of(scene, 1, method, dt, scene.flight);
+  Ended run;
+  const auto engine = make_reference_engine(s, initial_state(s), &run.pairs);
+  while (engine->state().time < scene.flight) engine->step();
+  const Disks& d = engine->state().disks;
+  run.places.resize(d.size());
+  for (std::size_t i = 0; i < d.size(); ++i) run.places[d.id[i]] = {d.x[i], d.y[i]};
+  std::sort(run.pairs.begin(), run.pairs.end());
+  return run;
+}
+
+// By the nearest image, in the mean.
+double mean_way(const Domain& box, const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    sum += std::hypot(nearest_image(a[k].x - b[k].x, box.width), nearest_image(a[k].y - b[k].y, box.height));
+  }
+  return sum / static_cast<double>(a.size());
+}
+
+// How many pairs of a are not in b; each that is there twice has to be there twice.
+double lacking(const CollisionLog& a, const CollisionLog& b) {
+  std::vector<std::pair<DiskId, DiskId>> rest;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
+  return static_cast<double>(rest.size());
+}
+
+// Long enough that disks go out of the box on one side and come in on the other.
+TEST(ChartSamples, PathsAndPairsAreThoseOfTwoRuns) {
+  ChartScene scene = fluid_of(64);
+  scene.melting = 0.0;
+  scene.flight = 1.5;
+  scene.length = 1.0;  // sixteen steps, each looked at
+  double largest = 0.0;
+  const Ended exact = run_of(scene, Method::exact, 0.0);
+  const Scene s = scene_of(scene, 1, Method::exact, 0.0, 0.0);
+  const State start = initial_state(s);
+  std::vector<Vec2> begin(start.disks.size());
+  for (std::size_t i = 0; i < begin.size(); ++i) begin[start.disks.id[i]] = {start.disks.x[i], start.disks.y[i]};
+  for (const Method method : {Method::pairwise, Method::rollback}) {
+    const Ended other = run_of(scene, method, 0.064);
+    const Sample sample = measure_seed(scene, 1, {{method, 0.064, 1}}).at(0);
+    const auto all = static_cast<double>(exact.pairs.size());
+    EXPECT_EQ(sample[Measure::missed], lacking(exact.pairs, other.pairs) / all);
+    EXPECT_EQ(sample[Measure::spurious], lacking(other.pairs, exact.pairs) / all);
+    EXPECT_NE(sample[Measure::missed], sample[Measure::spurious]);
+    const double way = mean_way(s.box, exact.places, other.places) / mean_way(s.box, exact.places, begin);
+    EXPECT_NEAR(sample[Measure::path], way, 1e-12);
+    const auto engine = make_reference_engine(scene_of(scene, 1, method, 0.064, scene.length), start);
+    double overlap = 0.0;
+    while (engine->state().time < scene.length) {
+      engine->step();
+      overlap = std::max(overlap, max_overlap(engine->state().disks, s.box));
+    }
+    EXPECT_DOUBLE_EQ(sample[Measure::overlap], overlap);
+    largest = std::max(largest, overlap);
+  }
+  EXPECT_GT(largest, 0.0);
+}
+
+// Walls take momentum: where a scene is said to keep it, that is seen.
+TEST(ChartSamples, MomentumThatIsLostIsSeen) {
+  const auto& scenes = chart_scenes();
+  ChartScene scene = *std::ranges::find(scenes, "gravity", &ChartScene::name);
+  scene.melting = 0.0;
+  scene.flight = scene.length = 0.1;
+  EXPECT_TRUE(std::isnan(measure_seed(scene, 1, {{Method::exact, 0.0, 1}}).at(0)[Measure::momentum]));
+  scene.keeps_momentum = true;
+  EXPECT_GT(measure_seed(scene, 1, {{Method::exact, 0.0, 1}}).at(0)[Measure::momentum], 1e-3);
 }
 
 // Of the chart's scene of this name by exact, from one start.
