@@ -51,6 +51,17 @@ TEST(Yardstick, FollowsTheExactReference) {
   }
 }
 
+TEST(Yardstick, CollisionsAreCountedFromWhereItIs) {
+  const Scene scene = gas(100, 0.3, 1.0);
+  bench::Yardstick yardstick(initial_state(scene).disks, scene.box);
+  for (const Count all : {50U, 100U, 150U}) {
+    const double before = yardstick.time();
+    yardstick.run_collisions(50);
+    EXPECT_EQ(yardstick.collisions(), all);
+    EXPECT_GT(yardstick.time(), before);
+  }
+}
+
 // Beyond it, over 200 collisions a disk: the collision rate 4 (Z - 1) / sqrt(pi) with Z(0.3) = 2.06326, to 1 % (the
 // standard error of 2e5 collisions is a third of that), the energy to rounding.
 TEST(Yardstick, KeepsTheRateAndTheEnergy) {

@@ -62,14 +62,16 @@ carom_status status_of(const std::function<void()>& work) {
 }
 
 TEST(CaromHpp, AWorldIsMovedAndTheOldHandleIsNone) {
-  World one = two_disks(CAROM_EXACT), other(box());
-  carom_world* const first = one.get();
-  other = std::move(one);
-  EXPECT_EQ(other.get(), first);
-  EXPECT_EQ(other.size(), 2U);
-  const World last(std::move(other));
+  std::vector<World> worlds;
+  worlds.push_back(two_disks(CAROM_EXACT));
+  worlds.emplace_back(box());
+  World& left = worlds[1];
+  carom_world* const first = worlds[0].get();
+  left = std::move(worlds[0]);
+  EXPECT_EQ(left.get(), first);
+  EXPECT_EQ(left.size(), 2U);
+  const World last(std::move(worlds[1]));
   EXPECT_EQ(last.get(), first);
-  World& left = other;
   EXPECT_EQ(left.get(), nullptr);
   EXPECT_EQ(left.size(), 0U);
   EXPECT_EQ(status_of([&] { left.step(); }), CAROM_INPUT);
