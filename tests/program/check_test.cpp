@@ -190,6 +190,36 @@ TEST_F(LongCheck, EveryFileIsPredictedWithItsSize) {
   }
 }
 
+TEST_F(Check, TheBoxIsThatOfTheScene) {
+  const Json j = check("small.toml --set box.height=20.0 --t-end 0.1");
+  EXPECT_EQ(j["width"], 10.0);
+  EXPECT_EQ(j["height"], 20.0);
+  EXPECT_NEAR(j["packing_fraction"].get<double>(), 5.0 * std::numbers::pi * 0.25 / 200.0, 1e-12);
+}
+
+// The trial takes a fifth of a second, and 10^8 steps take at least ten of them.
+TEST_F(LongCheck, TheCostIsThatOfTheWholeRun) {
+  EXPECT_GT(check("small.toml --t-end 1e6 --set output.every=1e5")["cost_parts_s"]["steps"].get<double>(), 2.0);
+}
+
+// The method that the text recommends is the one that JSON names: of those that can, the one with the least work.
+TEST_F(Check, AnAccuracyHasOneMethod) {
+  for (const std::string accuracy : {"1e-1", "1e-3"}) {
+    const std::string options = "small.toml --t-end 0.1 --accuracy " + accuracy;
+    const Json choice = check(options)["choice"];
+    const std::string method = choice["method"];
+    EXPECT_THAT(carom("check " + options).out, HasSubstr("take it with --method " + method));
+    const Json* best = nullptr;
+    for (const Json& offer : choice["offers"]) {
+      if (!offer["possible"].get<bool>()) continue;
+      if (best == nullptr || offer["cpu_s"] < (*best)["cpu_s"]) best = &offer;
+    }
+    ASSERT_NE(best, nullptr);
+    EXPECT_EQ((*best)["method"], method);
+    EXPECT_LE((*best)["error"].get<double>(), std::stod(accuracy));
+  }
+}
+
 // Disks that fly out of the box: most frames have hardly any.
 TEST_F(Check, WhatSinksTakeIsLeftOutOfFiles) {
   std::string sinks;
