@@ -177,6 +177,7 @@ TEST_F(LongCheck, EveryFileIsPredictedWithItsSize) {
   for (const char* const format : {"xyz", "h5md"}) {
     const std::string scene = wants + " --set output.trajectory='\"" + format + "\"'";
     const Json files = check(scene)["files_bytes"];
+    EXPECT_FALSE(files.contains("lock")) << "which a run takes away";
     ASSERT_EQ(carom("run --quiet --force -o out " + scene).status, 0);
     for (const std::string& file : files_in("out")) {
       const bool small = file == "scene.toml" || file == "summary.json" || file == "trajectory.xdmf";
@@ -251,6 +252,23 @@ TEST_F(LongCheck, ItsRehearsalLeavesNothingBehindAndIsNotNeeded) {
   EXPECT_THAT(o.out, HasSubstr("movie.mp4"));
   EXPECT_THAT(o.out, HasSubstr("(guessed: there is no folder for temporary files)"));
   EXPECT_THAT(files_in(""), Not(::testing::Contains("out")));
+}
+
+// Where nothing can be written, sizes are guessed: by the disks that are shown.
+TEST_F(Check, AGuessGoesByTheDisksShown) {
+  const auto guess = [&](const std::string& select) {
+    const Outcome o = shell("TMPDIR=/nonexistent $C check small.toml --t-end 0.1 --json " + select);
+    EXPECT_EQ(o.status, 0) << o.err;
+    return Json::parse(o.out)["files_bytes"]["trajectory.xyz"].get<double>();
+  };
+  EXPECT_EQ(guess("--set 'output.select=\"every 5th\"'"), guess("") / 5.0);
+}
+
+// At 0.5, 0.6, ... 1.
+TEST_F(Check, SamplesAreCountedFromTheirStart) {
+  const Outcome o =
+      carom("check small.toml --set 'analysis.what=[\"speeds\"]' --set analysis.every=0.1 --set analysis.start=0.5");
+  EXPECT_THAT(o.out, HasSubstr("11 frames, 6 samples: "));
 }
 
 // 20 x 10 with no disk at the start.
