@@ -1,6 +1,7 @@
 // Signals, limits and faults: what the program says, the status it ends with, and that carom resume loses nothing.
 #include <sys/resource.h>
 
+#include "io/checkpoint/checkpoint.hpp"
 #include "tests/support/program_support.hpp"
 
 namespace carom {
@@ -282,6 +283,20 @@ TEST_F(InterruptedRun, OutputsThatAreGoneAreMissed) {
   fs::remove(at("out/carom-unfinished/trajectory.xyz"));
   EXPECT_THAT(carom("resume out").err, HasSubstr("trajectory.xyz: No such file or directory; expected the file that"));
   EXPECT_TRUE(fs::exists(at("out/carom-unfinished/checkpoint.carom")));
+}
+
+// The engine goes on too, unless another is named; a checkpoint of another version is taken with a warning.
+TEST_F(LongInterruptedRun, WhatACheckpointSaysOfItselfCounts) {
+  ASSERT_EQ(carom("run busy.toml --quiet -o out --engine reference --max-walltime 1e-9").status, 4);
+  const std::string file = at("out/carom-unfinished/checkpoint.carom").string();
+  Checkpoint checkpoint = read_checkpoint(file);
+  checkpoint.record.version = "0.0.7";
+  write_checkpoint(file, checkpoint.record, checkpoint.state);
+  const std::string warning = "warning: out was written by Carom 0.0.7; ";
+  const Outcome o = carom("resume out --json");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.err, HasSubstr(warning));
+  EXPECT_THAT(o.out, HasSubstr("\"engine\": \"reference\""));
 }
 
 TEST_F(LongInterruptedRun, IntoAnotherFolderItLeavesTheFirstAsItWas) {
