@@ -47,6 +47,12 @@ double frame_limit(const Scene& scene, const State& state, const StepClock& cloc
   return scene.physics.diffusion > 0.0 ? std::min(clock.end(state.intervals - 1), scene.run.t_end) : scene.run.t_end;
 }
 
+double frame_length(double step, double left, double end) {
+  // Of all time; and of the frame, which may not be longer than is safe.
+  const double rounding = std::min(1e-12 * end, 1e-3 * step);
+  return left - step <= rounding ? left : step;
+}
+
 void check_stall(State& state, const Scene& scene) {
   constexpr Count watched_frames = 10000;
   if (++state.stall.frames < watched_frames) return;

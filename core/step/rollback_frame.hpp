@@ -74,6 +74,11 @@ void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTa
 // Where the frame that starts at state.time must end: at t_end, or at the next draw of Brownian displacements.
 double frame_limit(const Scene& scene, const State& state, const StepClock& clock);
 
+// How long a frame is that lasts `step`, with `left` of the time to where it must end: all of it, if what it left would
+// be rounding of the sum of frames. A frame of that would do what is due at a run's end, a kick or a source's disk, or
+// not, as rounding has it.
+double frame_length(double step, double left, double end);
+
 // F1: with many disks every frame goes back by nearly its whole length and time all but stops. A run whose last 10000
 // frames advanced time by less than one dt is stopped, with the figure and the remedy (PhysicsError). To be called
 // after every frame; what it remembers is in the state, so that a run that was interrupted stops at the same frame.

@@ -33,12 +33,13 @@ class RollbackMethod final : public Phases {
     const Count disks = all_disks();
     const double begin = state_.time;
     const double end = frame_limit(scene_, state_, clock_);
-    const double length = std::min(scene_.run.dt / static_cast<double>(parts(scene_.run.dt)), end - state_.time);
+    const double left = end - state_.time;
+    const double length = frame_length(scene_.run.dt / static_cast<double>(parts(scene_.run.dt)), left, end);
     StepFigures figures;
     if (scene_.box.has_moving_wall()) step_walls(scene_.box, obstacles_.get(), state_.time, state_.time + length);
     if (scene_.box.shear.acts()) scene_.box.move_images(state_.time + length);
     const double back = advance(rules_for(scene_, state_, length), figures);
-    state_.time = back == 0.0 && state_.time + length >= end ? end : std::min(end, state_.time + (length - back));
+    state_.time = back == 0.0 && length == left ? end : std::min(end, state_.time + (length - back));
     if (scene_.box.inner_walls_move) scene_.box.clock = {state_.time, state_.time};
     remove_at_sinks();
     count_step(state_.counters, disks, all_disks(), state_.time - begin);

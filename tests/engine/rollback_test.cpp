@@ -65,6 +65,53 @@ TEST(Rollback, F02_CollisionRateIsTooHigh) {
   EXPECT_GT(rollback / right - 1.0, 2.0 * std::abs(pairwise / right - 1.0));
 }
 
+// Two disks that nothing stops, with a kick of a thermostat at each quarter of the run.
+Scene kicked_scene(Method method, double t_end, int steps) {
+  Scene scene = test::scene_of(method, 50.0, 50.0, t_end / steps, t_end);
+  test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
+  scene.physics.thermostat = {Thermostat::Kind::langevin, 1.0, 0.5, 0.25 * t_end};
+  return scene;
+}
+
+const std::vector<Disk> two_free_disks = {{10.0, 10.0, 1.0, 0.0, 0.5, 1.0}, {40.0, 40.0, 0.0, 1.0, 0.5, 1.0}};
+
+// The sum of the frames' lengths may lie below t_end by its rounding. No frame of that follows, which would give the
+// kick that is due at t_end.
+TEST(Rollback, RoundingOfTimeAddsNoFrameAndNoKick) {
+  for (const double t_end : {0.9, 1.1, 1.161473, 1.4456504310434455, 7.7}) {
+    for (const int steps : {100, 512, 2048, 8192}) {
+      const Scene scene = kicked_scene(Method::rollback, t_end, steps);
+      const State end = test::run(scene, test::state_of(scene, two_free_disks));
+      EXPECT_EQ(end.counters.steps, static_cast<Count>(steps)) << t_end;
+      EXPECT_EQ(end.intervals, 4) << t_end << ", " << steps << " steps";
+      EXPECT_EQ(end.time, t_end);
+      const Scene stepped = kicked_scene(Method::pairwise, t_end, steps);
+      const State other = test::run(stepped, test::state_of(stepped, two_free_disks));
+      EXPECT_EQ(end.disks.vx, other.disks.vx) << t_end << ", " << steps << " steps";
+    }
+  }
+}
+
+// Nor between two Brownian intervals.
+TEST(Rollback, RoundingOfTimeAddsNoFrameToABrownianInterval) {
+  for (const double dt : {0.01, 0.003, 0.0007}) {
+    Scene scene = test::scene_of(Method::rollback, 50.0, 50.0, dt, 1000.0 * dt);
+    test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
+    scene.physics.diffusion = 0.01;
+    const State end = test::run(scene, test::state_of(scene, two_free_disks));
+    EXPECT_EQ(end.counters.steps, 1000) << dt;
+    EXPECT_EQ(end.intervals, 1000) << dt;
+  }
+}
+
+// What is left is a frame of its own where it is more than rounding.
+TEST(Rollback, AFrameTakesInNoMoreThanRounding) {
+  EXPECT_EQ(frame_length(0.1, 0.1 + 1e-14, 1.0), 0.1 + 1e-14);
+  EXPECT_EQ(frame_length(0.1, 0.1 - 1e-14, 1.0), 0.1 - 1e-14);
+  EXPECT_EQ(frame_length(0.1, 0.1 + 1e-9, 1.0), 0.1);
+  EXPECT_EQ(frame_length(1e-13, 1.5e-13, 1.0), 1e-13);  // steps that are themselves as short as rounding
+}
+
 TEST(StallGuard, StopsARunWhoseTimeStandsStill) {
   Scene scene = test::scene_of(Method::rollback, 10.0, 10.0, 0.5, 10.0);
   State state = test::state_of(scene, {{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}});
