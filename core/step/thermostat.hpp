@@ -22,11 +22,18 @@ inline double next_kick(const Scene& scene, const State& state) {
   return static_cast<double>(state.intervals) * kick_interval(scene);
 }
 
+// Times k dt are rounded, and so is that of the disks: by less than this share of them.
+inline constexpr double kick_rounding = 1e-12;
+
+// Is there another kick in the run? One that is due at its end, but for rounding, is not: nothing flies after it.
+inline bool kicks_again(const Scene& scene, const State& state) {
+  return scene.physics.thermostat.acts() && next_kick(scene, state) < (1.0 - kick_rounding) * scene.run.t_end;
+}
+
 // Is a kick due where a window, a step or a frame begins? Steps need not end at kicks: a kick is at the first step from
 // its time on, but for rounding.
 inline bool is_kick_due(const Scene& scene, const State& state) {
-  constexpr double rounding = 1e-12;
-  return scene.physics.thermostat.acts() && state.time >= (1.0 - rounding) * next_kick(scene, state);
+  return kicks_again(scene, state) && state.time >= (1.0 - kick_rounding) * next_kick(scene, state);
 }
 
 // What a kick does: v becomes kept v + sqrt(T / m) drawn r, r standard normal, where kept^2 + drawn^2 = 1, so that

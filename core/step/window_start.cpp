@@ -27,7 +27,7 @@ double next_cut(const Scene& scene, const State& state) {
   if (scene.physics.diffusion > 0.0 && state.intervals > 0) {
     cut = std::min(cut, make_step_clock(scene.run.dt, scene.run.t_end).end(state.intervals - 1));
   }
-  if (scene.physics.thermostat.acts() && next_kick(scene, state) > state.time) {
+  if (kicks_again(scene, state) && next_kick(scene, state) > state.time) {
     cut = std::min(cut, next_kick(scene, state));
   }
   for (const SideMotion& motion : scene.box.motions) cut = std::min(cut, motion.piece_end(state.time));

@@ -15,6 +15,7 @@
 #include "core/measure/run_start.hpp"
 #include "core/start/initial_state.hpp"
 #include "parallel/simulation.hpp"
+#include "tests/support/disks_by_hand.hpp"
 
 namespace carom {
 namespace {
@@ -110,6 +111,34 @@ TEST(Thermostat, BooksItsHeat) {
       EXPECT_NEAR((before + heat) / after, 1.0, 1e-11) << method << " " << kind;
       EXPECT_TRUE(energy_warnings(scene, run_start(start, scene), engine->state()).empty());
     }
+  }
+}
+
+// Kicks at 0, dt, 2 dt and so on, and none at t_end, where 3 times 0.3 is less than 0.9 by rounding, and 3 times 0.1
+// more than 0.3: all methods end with the same velocities.
+TEST(Thermostat, GivesNoKickAtTheEnd) {
+  const std::vector<Disk> free_disks = {{10.0, 10.0, 1.0, 0.0, 0.5, 1.0}, {40.0, 40.0, 0.0, 1.0, 0.5, 1.0}};
+  struct Case {
+    double dt, t_end;
+    Count kicks;
+  };
+  for (const Case& c :
+       {Case{0.3, 0.9, 3}, {0.3, 2.7, 9}, {0.7, 2.1, 3}, {0.1, 0.3, 3}, {0.25, 1.0, 4}, {0.3, 1.0, 4}}) {
+    std::vector<std::vector<double>> velocities;
+    for (const Method method : {Method::exact, Method::pairwise, Method::rollback}) {
+      Scene scene = test::scene_of(method, 50.0, 50.0, method == Method::exact ? 0.0 : c.dt / 8.0, c.t_end);
+      test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
+      scene.physics.thermostat = {Thermostat::Kind::langevin, 1.0, 0.5, c.dt};
+      const State start = test::state_of(scene, free_disks);
+      for (const bool reference : {true, false}) {
+        const auto engine =
+            reference ? make_reference_engine(scene, start) : make_parallel_engine(scene, start, {1, 1});
+        while (engine->state().time < scene.run.t_end) engine->step();
+        EXPECT_EQ(engine->state().intervals, c.kicks) << c.dt << " to " << c.t_end;
+        velocities.push_back(engine->state().disks.vx);
+      }
+    }
+    for (const std::vector<double>& v : velocities) EXPECT_EQ(v, velocities[0]) << c.dt << " to " << c.t_end;
   }
 }
 
