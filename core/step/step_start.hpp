@@ -17,11 +17,25 @@
 
 namespace carom {
 
-// Contacts may bear load where gravity presses and something dissipates. Without dissipation no pile ever rests.
+// Is there anything that gravity may press disks against? Without a side below them, fixed disks and inner walls they
+// fall for ever, or out of the box, and fly among each other as without gravity: nothing bears load.
+inline bool has_floor(const Scene& scene) {
+  for (const Side side : all_sides) {
+    const bool presses = outward_acceleration(side, scene.physics.gravity) > 0.0;
+    if (presses && scene.box.side(side) == SideKind::wall) return true;
+  }
+  const auto is_obstacle = [](const DiskGroup& group) { return group.fixed && group.count > 0; };
+  return scene.box.obstacles != nullptr || !scene.walls.empty() ||
+         std::any_of(scene.groups.begin(), scene.groups.end(), is_obstacle);
+}
+
+// Contacts may bear load where gravity presses disks against something and something dissipates. Without dissipation no
+// pile ever rests.
 inline bool settles(const Scene& scene) {
+  if (!scene.physics.gravity.acts()) return false;
   const auto& walls = scene.box.restitutions;
   const bool dissipates = disks_dissipate(scene) || *std::min_element(walls.begin(), walls.end()) < 1.0;
-  return scene.physics.gravity.acts() && (dissipates || inner_walls_dissipate(scene) || walls_rub(scene));
+  return (dissipates || inner_walls_dissipate(scene) || walls_rub(scene)) && has_floor(scene);
 }
 
 inline StepRules rules_for(const Scene& scene, double dt) {

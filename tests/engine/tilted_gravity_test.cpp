@@ -292,6 +292,48 @@ TEST(GravityVector, WhatIsTrueDownwardsIsTrueToTheLeftBitForBit) {
   }
 }
 
+// Where sides are periodic along gravity and nothing stands in the way, disks fall for ever: among each other they move
+// as without gravity, with the same collisions and warnings. No contact bears load, however slow.
+TEST(GravityVector, IsNotFeltByDisksThatFallForEver) {
+  const std::string cooling =
+      "[[disks]]\ncount = 100\npositions = \"random\"\nvelocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0\n";
+  const std::string along_x = "left = \"periodic\"\nright = \"periodic\"\n";
+  struct Case {
+    std::string sides, gravity;
+  };
+  for (const Case& c : {Case{along_x + "bottom = \"periodic\"\ntop = \"periodic\"\n", "[0.6, -0.8]"},
+                        Case{along_x + "wall_restitution = 0.9\n", "[1.0, 0.0]"}}) {
+    for (const char* method : methods) {
+      SCOPED_TRACE(c.gravity + " by " + method);
+      SceneParts p;
+      p.width = p.height = 14.0;
+      p.sides = c.sides;
+      p.rest = cooling;
+      p.dt = 0.04;
+      p.t_end = 2.0;
+      p.physics = "restitution = 0.9";
+      const Scene free = scene_of(method, p);
+      p.physics = "restitution = 0.9\ngravity = " + c.gravity;
+      const Scene falling = scene_of(method, p);
+      const auto one = make_parallel_engine(free, initial_state(free), {2, 1});
+      const auto other = make_parallel_engine(falling, initial_state(falling), {2, 1});
+      while (one->state().time < 2.0) one->step();
+      while (other->state().time < 2.0) other->step();
+      const State &a = one->state(), &b = other->state();
+      EXPECT_GT(a.counters.collisions, 200U);
+      EXPECT_EQ(a.counters.collisions, b.counters.collisions);
+      EXPECT_EQ(a.counters.wall_collisions, b.counters.wall_collisions);
+      const std::vector<std::size_t> order_a = by_id(a.disks), order_b = by_id(b.disks);
+      for (std::size_t k = 0; k < order_a.size(); ++k) {
+        const std::size_t i = order_a[k], j = order_b[k];
+        EXPECT_NEAR(a.disks.vx[i], b.disks.vx[j] + 2.0 * falling.physics.gravity.left, 1e-6) << k;
+        EXPECT_NEAR(a.disks.vy[i], b.disks.vy[j] + 2.0 * falling.physics.gravity.down, 1e-6) << k;
+      }
+      EXPECT_EQ(one->take_warnings().size(), other->take_warnings().size());
+    }
+  }
+}
+
 // A vector that points down is the number.
 TEST(GravityVector, StraightDownHasTheBitsOfTheNumber) {
   for (const char* method : methods) {
