@@ -62,8 +62,9 @@ void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTa
   }
   if (rules.box.obstacles == nullptr) return;
   bool touched = false;
-  for_each_solid_touched_in_order(rules.box, d.x[i], d.y[i], d.radius(i), [&](std::uint32_t k, const ObstacleGap& gap) {
-    if (gap.beyond <= open) return;
+  const double x = d.x[i], y = d.y[i], r = d.radius(i);
+  for_each_solid_touched_in_order(rules.box, x, y, r, [&](std::uint32_t k, const ObstacleGap& gap) {
+    if (gap.beyond <= open || is_hidden(rules.box, k, gap, x, y, r)) return;
     touched = true;
     tally.add(obstacle_partner(k), resolve_obstacle(d, rules, i, k));
     push_from_obstacle(d, rules.box, i, (*rules.box.obstacles)[k], 0.0);
