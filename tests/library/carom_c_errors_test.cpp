@@ -11,22 +11,15 @@
 #include <vector>
 
 #include "tests/support/draws.hpp"
+#include "tests/support/library_scene.hpp"
 
 namespace {
 
 using carom::World;
+using carom::test::box;
 using testing::HasSubstr;
 
 constexpr double nan_number = std::numeric_limits<double>::quiet_NaN();
-
-carom_scene box(int method = CAROM_PAIRWISE) {
-  carom_scene scene = carom::default_scene();
-  scene.width = 20.0;
-  scene.height = 10.0;
-  scene.method = method;
-  scene.dt = 0.01;
-  return scene;
-}
 
 TEST(CaromCErrors, SaysWhatIsWrongWithAScene) {
   carom_world* world = nullptr;

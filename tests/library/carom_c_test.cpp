@@ -14,11 +14,13 @@
 
 #include "core/load/scene_file.hpp"
 #include "run/simulation.hpp"
+#include "tests/support/library_scene.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace {
 
 using carom::World;
+using carom::test::box;
 
 constexpr double nan_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -36,15 +38,6 @@ method = "pairwise"
 dt = 0.01
 t_end = 5.0
 )";
-
-carom_scene box(int method = CAROM_PAIRWISE) {
-  carom_scene scene = carom::default_scene();
-  scene.width = 20.0;
-  scene.height = 10.0;
-  scene.method = method;
-  scene.dt = 0.01;
-  return scene;
-}
 
 TEST(CaromC, HasTheBitsOfASimulation) {
   World world = World::from_text(gas);

@@ -13,10 +13,12 @@
 
 #include "core/load/scene_file.hpp"
 #include "run/simulation.hpp"
+#include "tests/support/library_scene.hpp"
 
 namespace {
 
 using carom::World;
+using carom::test::box;
 using testing::HasSubstr;
 
 // A step far too long: some disks move more than their radius, and reach into walls.
@@ -35,15 +37,6 @@ method = "pairwise"
 dt = 0.2
 t_end = 20.0
 )";
-
-carom_scene box(int method = CAROM_PAIRWISE) {
-  carom_scene scene = carom::default_scene();
-  scene.width = 20.0;
-  scene.height = 10.0;
-  scene.method = method;
-  scene.dt = 0.01;
-  return scene;
-}
 
 World two_disks(int method) {
   World world(box(method));
