@@ -79,7 +79,7 @@ TEST(Progress, TimeLeftGoesByWhatWasGained) {
   EXPECT_EQ(progress_text(then, now, 50, 100.0),
             " 12.0 %  t = 12 of 100  100 steps/s  5 k disk-steps/s  " + duration_text(4.0 * 88.0 / 2.0) + " left");
   EXPECT_EQ(progress_text(then, {14.0, 10.0, 1400}, 50, 100.0), " 10.0 %  t = 10 of 100  100 steps/s  5 k disk-steps/s")
-      << "without a gain nobody knows";
+      << "where no time was gained, how long is left cannot be told";
 }
 
 // Ten seconds at one unit of time a second, and ten at half of that: what was before is forgotten.
