@@ -62,20 +62,18 @@ double smallest_radius(const Disks& d) {
 }
 
 std::vector<std::size_t> by_id(const Disks& d) {
-  std::vector<std::size_t> order(d.size());
+  std::vector<std::size_t> order;
   if (d.empty()) return order;
   // Mostly nearly all ids up to the largest are there: every disk then knows its place, but for those that are not.
   const std::size_t ids = std::size_t{*std::max_element(d.id.begin(), d.id.end())} + 1;
   if (ids < 4 * d.size()) {
-    constexpr std::uint32_t absent = 0xffffffffU;
-    std::vector<std::uint32_t> place(ids, absent);
-    for (std::size_t i = 0; i < d.size(); ++i) place[d.id[i]] = static_cast<std::uint32_t>(i);
-    std::size_t next = 0;
-    for (const std::uint32_t i : place) {
-      if (i != absent) order[next++] = i;
-    }
+    constexpr auto absent = static_cast<std::size_t>(-1);
+    order.assign(ids, absent);
+    for (std::size_t i = 0; i < d.size(); ++i) order[d.id[i]] = i;
+    std::erase(order, absent);
     return order;
   }
+  order.resize(d.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (!std::is_sorted(d.id.begin(), d.id.end())) {
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return d.id[a] < d.id[b]; });

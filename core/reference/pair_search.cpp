@@ -34,12 +34,12 @@ UniformGrid make_grid(const Disks& d, const Domain& box) {
   for (std::size_t i = 0; i < d.size(); ++i) {
     cell[i] = static_cast<std::uint32_t>(cell_of(d.y[i], box.height, grid.rows) * grid.columns +
                                          cell_of(d.x[i], box.width, grid.columns));
-    ++grid.start[cell[i] + 1];
+    ++grid.start[cell[i]];
   }
   for (std::size_t c = 1; c < grid.start.size(); ++c) grid.start[c] += grid.start[c - 1];
+  // Each cell from its end to its start: its disks are then in their order, and no list of places is needed.
   grid.members.resize(d.size());
-  std::vector<std::uint32_t> next(grid.start.begin(), grid.start.end() - 1);
-  for (std::size_t i = 0; i < d.size(); ++i) grid.members[next[cell[i]]++] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = d.size(); i-- > 0;) grid.members[--grid.start[cell[i]]] = static_cast<std::uint32_t>(i);
   return grid;
 }
 

@@ -267,11 +267,11 @@ State initial_state(const Scene& scene, const PlaceAtRandom& place, const Growth
   if (n == 0) set_sizes_of_source(scene, disks);
   disks.x.resize(n);
   disks.y.resize(n);
-  disks.id.resize(n);
-  std::iota(disks.id.begin(), disks.id.end(), DiskId{0});
   const bool all_grow = std::all_of(scene.groups.begin(), scene.groups.end(),
                                     [](const DiskGroup& g) { return g.positions.kind == PositionLaw::Kind::growth; });
   if (n > 0 && !all_grow) set_positions(scene, disks, place);
+  disks.id.resize(n);  // not before: placing takes the most memory
+  std::iota(disks.id.begin(), disks.id.end(), DiskId{0});
   state.obstacles = standing_obstacles(scene, disks);
   if (n > 0 && grows(scene)) place_by_growth(scene, disks, state.obstacles, place, growth);
   set_velocities(scene, disks);

@@ -20,6 +20,9 @@ constexpr std::size_t most_cells = 0xffffffffU;  // 512 MiB of bits
 constexpr std::size_t listed_per_disk = 4;
 constexpr std::size_t least_listed = 4096;
 
+// Many pages at a time, as each call breaks up a large one.
+constexpr std::size_t words_given_back = std::size_t{1} << 15;
+
 // Share of a cell by which spans stay inside a circle, so that rounding never closes a cell that it should not.
 constexpr double cell_margin = 1e-6;
 
@@ -139,17 +142,22 @@ void OpenCells::read_row(std::size_t row, std::vector<Voxel>& open) const {
   }
 }
 
-VoxelList OpenCells::list() const {
+VoxelList OpenCells::list() {
   constexpr std::size_t side = VoxelList::tile;
   std::vector<Voxel> open;
-  resize_in_huge_pages(open, open_);
-  open.clear();
+  reserve_in_huge_pages(open, open_);
   std::array<std::vector<Voxel>, side> row;
+  std::size_t given_back = 0;  // words
   for (std::size_t first = first_row_; first < end_row_; first += side) {
     std::array<std::size_t, side> next{};
     for (std::size_t r = 0; r < side; ++r) {
       row[r].clear();
       if (first + r < end_row_) read_row(first + r, row[r]);
+    }
+    const std::size_t read = std::min(first + side, end_row_) - first_row_;
+    if (read * columns_ / 64 > given_back + words_given_back) {
+      give_back_pages(bits_, given_back, read * columns_ / 64);
+      given_back = read * columns_ / 64;
     }
     for (;;) {
       std::size_t tile = columns_;

@@ -41,8 +41,10 @@ class OpenCells {
   bool list_due(std::size_t open) const;
   bool list_due() const { return list_due(open_); }
 
-  // The open cells that are here, in tiles. Memory: at most 4 entries of 8 bytes a disk.
-  VoxelList list() const;
+  // The open cells that are here, in tiles. Memory: at most 4 entries of 8 bytes a disk; that of the cells is given
+  // back as they are read, so that they and the list are never there as a whole. Nothing may be asked of the cells
+  // afterwards.
+  VoxelList list();
 
   // Asks for the memory that is_open is about to read.
   void prefetch_cell(double x, double y) const {

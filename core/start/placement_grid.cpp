@@ -54,6 +54,7 @@ std::size_t PlacementGrid::class_of(double radius, double largest) {
 PlacementGrid::PlacementGrid(const Domain& box, const Disks& disks)
     : box_(box), disks_(disks), largest_radius_(carom::largest_radius(disks)) {
   resize_in_huge_pages(placed_, disks.size());
+  resize_in_huge_pages(next_, disks.size(), empty_cell);
   if (disks.radius.empty()) {
     levels_.resize(1);
     levels_[0].disks = disks.size();
@@ -72,6 +73,7 @@ PlacementGrid::PlacementGrid(const Domain& box, const Disks& disks, double large
                              const std::vector<std::size_t>& expected)
     : box_(box), disks_(disks), largest_radius_(largest_radius), levels_(expected.size()) {
   resize_in_huge_pages(placed_, disks.size());
+  resize_in_huge_pages(next_, disks.size(), empty_cell);
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     levels_[k].disks = expected[k];
     levels_[k].largest_radius = std::ldexp(largest_radius, -static_cast<int>(k));
@@ -100,7 +102,8 @@ void PlacementGrid::insert(std::size_t i) {
   const std::size_t column = cell_index(disks_.x[i] * level.per_x, level.columns);
   const std::size_t row = cell_index(disks_.y[i] * level.per_y, level.rows);
   std::uint32_t& head = level.head[row * level.columns + column];
-  placed_[i] = {disks_.x[i], disks_.y[i], head};
+  placed_[i] = {disks_.x[i], disks_.y[i]};
+  next_[i] = head;
   head = static_cast<std::uint32_t>(i);
 }
 
@@ -129,6 +132,7 @@ void PlacementGrid::prefetch_disks(double x, double y) const {
         const std::uint32_t i = level.head[cell];
         if (i == empty_cell) continue;
         __builtin_prefetch(&placed_[i]);
+        __builtin_prefetch(&next_[i]);
       }
     }
   }
@@ -156,7 +160,7 @@ bool PlacementGrid::any_around(const Level& level, double x, double y, double re
     const std::size_t row = wrap_cell(up.first + r, level.rows);
     for (std::ptrdiff_t c = 0; c < across.count; ++c) {
       const std::size_t column = wrap_cell(across.first + c, level.columns);
-      for (std::uint32_t i = level.head[row * level.columns + column]; i != empty_cell; i = placed_[i].next) {
+      for (std::uint32_t i = level.head[row * level.columns + column]; i != empty_cell; i = next_[i]) {
         if (use(i)) return true;
       }
     }

@@ -1,0 +1,52 @@
+#include "core/base/huge_pages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace carom {
+namespace {
+
+constexpr std::size_t many = std::size_t{1} << 18;  // 2 MiB, more than one page of any usual size
+
+TEST(HugePages, ReserveAddsNothing) {
+  std::vector<double> v{1.0, 2.0};
+  reserve_in_huge_pages(v, many);
+  EXPECT_EQ(v, (std::vector<double>{1.0, 2.0}));
+  EXPECT_GE(v.capacity(), many);
+}
+
+TEST(HugePages, ResizeFillsWithTheValue) {
+  std::vector<double> v{1.0};
+  resize_in_huge_pages(v, many, 3.0, 2 * many);
+  ASSERT_EQ(v.size(), many);
+  EXPECT_EQ(v.front(), 1.0);
+  EXPECT_TRUE(std::all_of(v.begin() + 1, v.end(), [](double x) { return x == 3.0; }));
+  EXPECT_GE(v.capacity(), 2 * many);
+}
+
+// What is given back reads as zero, page by page; what was not given back is as it was.
+TEST(HugePages, GiveBackWholePagesOfAPartOnly) {
+  std::vector<std::uint64_t> v(many, 7);
+  const std::size_t begin = many / 4 + 1;
+  const std::size_t end = many / 2 + 1;
+  give_back_pages(v, begin, end);
+  EXPECT_TRUE(std::all_of(v.begin(), v.begin() + begin, [](std::uint64_t x) { return x == 7; }));
+  EXPECT_TRUE(std::all_of(v.begin() + end, v.end(), [](std::uint64_t x) { return x == 7; }));
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) / sizeof(v[0]);
+  const auto zeros = static_cast<std::size_t>(std::count(v.begin(), v.end(), std::uint64_t{0}));
+  EXPECT_EQ(zeros % page, 0U);
+  EXPECT_GE(zeros + 2 * page, end - begin);
+  EXPECT_LE(zeros, end - begin);
+}
+
+// Less than a page: nothing.
+TEST(HugePages, GiveBackNothingOfAFewEntries) {
+  std::vector<std::uint64_t> v(16, 7);
+  give_back_pages(v, 1, 15);
+  EXPECT_EQ(v, std::vector<std::uint64_t>(16, 7));
+}
+
+}  // namespace
+}  // namespace carom
