@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "io/movie/colour_map.hpp"
@@ -13,6 +14,8 @@ struct PixelArea {
   std::uint32_t* pixels = nullptr;               // of the whole image
   int stride = 0;                                // pixels from one row to the next
   int left = 0, top = 0, right = 0, bottom = 0;  // right and bottom are exclusive
+
+  std::uint32_t* row(int k) const { return pixels + static_cast<std::ptrdiff_t>(k) * stride; }
 };
 
 inline constexpr double rim_width = 1.0;  // pixels

@@ -14,7 +14,6 @@
 
 #include "core/base/check.hpp"
 #include "io/movie/colour_map.hpp"
-#include "io/movie/disk_raster.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace carom {
@@ -62,47 +61,6 @@ TEST(ColourMap, EndsAndMiddleOfViridis) {
   EXPECT_EQ(packed(viridis(1.0)), 0xfde725U);
   EXPECT_EQ(packed(viridis(-1.0)), 0x440154U);
   EXPECT_EQ(packed(viridis(7.0)), 0xfde725U);
-}
-
-TEST(DiskRaster, AreaIsThatOfTheDisk) {
-  for (const double r : {0.2, 0.5, 1.0, 2.5}) {
-    std::array<std::uint32_t, 32 * 32> image{};
-    fill_disk({image.data(), 32, 0, 0, 32, 32}, 15.3, 16.8, r, {200.0, 0.0, 0.0});
-    double sum = 0.0;
-    for (const std::uint32_t p : image) sum += static_cast<double>(p >> 16) / 200.0;
-    EXPECT_NEAR(sum, M_PI * r * r, 0.1 * M_PI * r * r) << r;
-  }
-}
-
-// In a mixture no size is a border beyond which disks look different.
-TEST(DiskRaster, RimsComeGraduallyWithTheRadius) {
-  const auto image_of = [](double r) {
-    std::array<std::uint32_t, 32 * 32> image{};
-    fill_disk({image.data(), 32, 0, 0, 32, 32}, 16.0, 16.0, r, {200.0, 0.0, 0.0});
-    return image;
-  };
-  for (double r = 1.0; r < 10.0; r += 0.02) {
-    const auto some = image_of(r), more = image_of(r + 0.02);
-    for (std::size_t k = 0; k < some.size(); ++k) {
-      EXPECT_NEAR(static_cast<double>(some[k] >> 16), static_cast<double>(more[k] >> 16), 8.0) << r;
-    }
-  }
-  EXPECT_EQ(rim_shade(2.9), 1.0);
-  EXPECT_NEAR(rim_shade(6.0), 0.35, 1e-12);
-}
-
-TEST(DiskRaster, NothingOutsideTheArea) {
-  std::array<std::uint32_t, 16 * 16> image{};
-  for (const double x : {-3.0, 4.0, 8.0, 11.9, 20.0}) {
-    fill_disk({image.data(), 16, 4, 4, 12, 12}, x, 6.0, 3.0, {255.0, 255.0, 255.0});
-    fill_disk({image.data(), 16, 4, 4, 12, 12}, x, 12.0, 0.4, {255.0, 255.0, 255.0});
-  }
-  for (int row = 0; row < 16; ++row) {
-    for (int column = 0; column < 16; ++column) {
-      if (row >= 4 && row < 12 && column >= 4 && column < 12) continue;
-      EXPECT_EQ(image[static_cast<std::size_t>(16 * row + column)], 0U);
-    }
-  }
 }
 
 TEST(Frame, DiskIsWhereItIsInTheColourOfItsSpeed) {
