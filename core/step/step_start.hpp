@@ -98,18 +98,22 @@ double largest_travel2(const View& d, std::size_t begin, std::size_t end) {
 
 // Does Brownian disk i cross a sink side during the coming step although both ends of its straight path are inside?
 // Probability exp(-d1 d2 / (D dt)) with its distances from the side before and after (a Brownian bridge); without it
-// the side would seem 0.5826 sqrt(2 D dt) further out. Compared through the logarithm, which is deterministic.
+// the side would seem 0.5826 sqrt(2 D dt) further out. Compared through the logarithm, which is deterministic; a disk
+// so far off that the least number would not do needs none.
 template <class View>
 bool crosses_sink(const View& d, const Scene& scene, Count step, double dt, std::size_t i) {
+  constexpr double below_any_log = -37.0;  // uniforms are 2^-53 or more, their logarithms -36.74
+  const double spread = scene.physics.diffusion * dt;
   for (Side side : all_sides) {
     if (scene.box.side(side) != SideKind::sink) continue;
     const double before = -reach_beyond(side, d.x[i], d.y[i], d.radius(i), scene.box);
     const double after = before - outward_speed(side, d.vx[i], d.vy[i]) * dt;
     if (before <= 0.0 || after <= 0.0) continue;  // contact itself decides
+    if (below_any_log * spread > -(before * after)) continue;
     const auto stream = static_cast<Stream>(static_cast<std::uint32_t>(Stream::sink_crossing) +
                                             (static_cast<std::uint32_t>(side) << 8U));
     const double u = uniforms(scene.seed, stream, d.id[i], step).a;
-    if (deterministic_log(u) * (scene.physics.diffusion * dt) < -(before * after)) return true;
+    if (deterministic_log(u) * spread < -(before * after)) return true;
   }
   return false;
 }

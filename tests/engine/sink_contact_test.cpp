@@ -1,12 +1,16 @@
 // One rule for the sinks of all methods: what touches one is taken, whether it moves into it, along it or not at all.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "core/base/check.hpp"
+#include "core/base/random.hpp"
+#include "core/disks/disk_view.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/step/source.hpp"
+#include "core/step/step_start.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/reference_run.hpp"
@@ -105,6 +109,43 @@ TEST(SinkSource, BrownianDisksThatWouldVanishAtOnceAreRefused) {
                  "gas.toml:8: sources.0.side: left is a sink, which takes Brownian disks that start at it at once; "
                  "expected a wall side, or a region away from the sink");
   }
+}
+
+// A Brownian disk is taken with probability exp(-d1 d2 / (D dt)), d1 and d2 its distances from the side before and
+// after the step (see crosses_sink): whatever these are, as the number that is drawn for it says.
+TEST(BrownianSink, CrossingIsThatOfABridge) {
+  Scene scene = test::scene_of(Method::pairwise, 20.0, 20.0, 0.01, 2.0);
+  scene.physics.diffusion = 0.5;
+  scene.box.sides[static_cast<std::size_t>(Side::left)] = SideKind::sink;
+  const double dt = 0.02, spread = scene.physics.diffusion * dt;
+  Count taken = 0, near = 0;
+  for (DiskId id = 0; id < 20000; ++id) {
+    const TwoUniforms u = uniforms(1, Stream::radius, id, 0);
+    // d1 d2 up to 60 D dt, most of them far below; d2 is d1 less a step of a tenth.
+    const double distance = std::sqrt(60.0 * spread) * u.a * u.a + 0.011;
+    const double gained = 0.2 * (u.b - 0.5) * distance;
+    const State start = test::state_of(scene, {{0.5 + distance, 10.0, gained / dt, 0.0, 0.5, 1.0, id}});
+    Disks disks = start.disks;
+    disks.id[0] = id;
+    const bool crosses = with_view(disks, [&](const auto& d) { return crosses_sink(d, scene, 7, dt, 0); });
+    const auto stream = static_cast<Stream>(static_cast<std::uint32_t>(Stream::sink_crossing) +
+                                            (static_cast<std::uint32_t>(Side::left) << 8U));
+    const double product = distance * (distance + gained);
+    const double drawn = std::log(uniforms(scene.seed, stream, id, 7).a) * spread;
+    if (std::abs(drawn + product) > 1e-9 * spread) {
+      EXPECT_EQ(crosses, drawn < -product) << id << ' ' << distance;
+    }
+    taken += crosses ? 1 : 0;
+    near += product < 37.0 * spread ? 1 : 0;
+  }
+  EXPECT_GT(taken, 2000U);
+  EXPECT_GT(near, 10000U);
+  EXPECT_LT(near, 20000U);
+}
+
+// What lets crosses_sink do without a logarithm: none of a uniform is below -37.
+TEST(BrownianSink, NoUniformIsFurtherOut) {
+  EXPECT_GT(deterministic_log(0x1p-53), -37.0);
 }
 
 }  // namespace
