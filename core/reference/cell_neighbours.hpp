@@ -12,8 +12,8 @@ class CellNeighbours {
  public:
   CellNeighbours(std::size_t c, std::size_t cells, bool periodic) {
     add(c);
-    if (c > 0 || periodic) add((c + cells - 1) % cells);
-    if (c + 1 < cells || periodic) add((c + 1) % cells);
+    if (c > 0 || periodic) add(c > 0 ? c - 1 : cells - 1);
+    if (c + 1 < cells || periodic) add(c + 1 < cells ? c + 1 : 0);
   }
 
   const std::size_t* begin() const { return cell_.data(); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/disks/cell_index.hpp"
 #include "core/physics/disk_pair.hpp"
@@ -53,15 +54,18 @@ void sort_by_id(std::vector<Pair>& pairs, const Disks& d) {
   });
 }
 
-// Calls use(i, j) for the touching pairs whose disk of smaller id lies in this row of the grid.
+// Calls use(i, j), the smaller id first, for the touching pairs of which the disk in the earlier cell lies in this row
+// of the grid.
 template <class Use>
 void for_pairs_of_row(const UniformGrid& grid, std::size_t row, const Disks& d, const Domain& box, Use use) {
   const auto use_pairs_between = [&](std::size_t home, std::size_t other) {
+    if (other < home) return;  // they are found from there
     for (std::uint32_t a = grid.start[home]; a < grid.start[home + 1]; ++a) {
-      for (std::uint32_t b = grid.start[other]; b < grid.start[other + 1]; ++b) {
-        const std::uint32_t i = grid.members[a];
-        const std::uint32_t j = grid.members[b];
-        if (d.id[i] < d.id[j] && touch(d, box, i, j)) use(i, j);
+      for (std::uint32_t b = other == home ? a + 1 : grid.start[other]; b < grid.start[other + 1]; ++b) {
+        std::uint32_t i = grid.members[a];
+        std::uint32_t j = grid.members[b];
+        if (d.id[j] < d.id[i]) std::swap(i, j);
+        if (touch(d, box, i, j)) use(i, j);
       }
     }
   };
