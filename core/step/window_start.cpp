@@ -11,8 +11,18 @@ namespace carom {
 
 namespace {
 
+// Times k / rate are rounded, and so are those at which windows end: by less than this share of them.
+constexpr double emission_rounding = 1e-12;
+
 bool has_more(const Source& source, const SourceState& s) {
   return !source.limit || s.emitted < *source.limit;
+}
+
+// When the next disk of a source comes, after time t. One that is due at the end of the run, but for rounding, does
+// not: nothing flies after it.
+double next_emission(const Source& source, double t, double t_end) {
+  const double next = emission_time(source.rate, emissions_due(source.rate, t) + 1);
+  return next < (1.0 - emission_rounding) * t_end ? next : t_end;
 }
 
 }  // namespace
@@ -22,7 +32,7 @@ double next_cut(const Scene& scene, const State& state) {
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     const Source& source = scene.sources[s];
     if (!has_more(source, state.sources[s])) continue;
-    cut = std::min(cut, emission_time(source.rate, emissions_due(source.rate, state.time) + 1));
+    cut = std::min(cut, next_emission(source, state.time, scene.run.t_end));
   }
   if (scene.physics.diffusion > 0.0 && state.intervals > 0) {
     cut = std::min(cut, make_step_clock(scene.run.dt, scene.run.t_end).end(state.intervals - 1));
@@ -49,7 +59,9 @@ void emit_at_window_start(const Scene& scene, State& state, const std::function<
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     const Source& source = scene.sources[s];
     const Count k = emissions_due(source.rate, state.time);
-    if (k == 0 || emission_time(source.rate, k) != state.time || !has_more(source, state.sources[s])) continue;
+    // But for rounding: a run that goes on beyond its end begins with what was due there.
+    const bool now = k > 0 && emission_time(source.rate, k) >= (1.0 - emission_rounding) * state.time;
+    if (!now || !has_more(source, state.sources[s])) continue;
     emit_from_source(scene, box, state, s, k, k, room);
   }
   state.counters.waiting = 0;

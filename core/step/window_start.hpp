@@ -13,8 +13,8 @@ namespace carom {
 // that has disks left, the end of the Brownian interval, the end of a piece of a side's motion.
 double next_cut(const Scene& scene, const State& state);
 
-// Every source whose emission time is state.time emits what is due; what finds no room waits for the source's next
-// emission time and is drawn a new place then. Nothing here depends on where other windows end.
+// Every source whose emission time is state.time, but for rounding, emits what is due; what finds no room waits for the
+// source's next emission time and is drawn a new place then. Nothing here depends on where other windows end.
 void emit_at_window_start(const Scene& scene, State& state, const std::function<bool(const Disk&)>& room);
 
 // Does a side that vibrates begin another piece of its motion at time t, where a window had to end? What was predicted

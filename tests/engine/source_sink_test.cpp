@@ -312,6 +312,37 @@ TEST(Emission, EnergyOfNewDisksIsCounted) {
   EXPECT_NEAR(state.counters.emitted_energy, energy.total(), 1e-12 * energy.total());
 }
 
+// A disk that is due at the end of a run does not come, also where k / rate is below t_end by rounding, as 33 / 1.1 is
+// below 30; where the run goes on it does.
+TEST(ExactSource, NoDiskComesAtTheEnd) {
+  struct Case {
+    double rate, t_end;
+    Count disks;
+  };
+  for (const Case& c : {Case{1.1, 30.0, 32}, {2.2, 15.0, 32}, {4.4, 7.5, 32}, {1.0, 30.0, 29}, {1.7, 30.0, 50}}) {
+    Scene s = test::scene_of(Method::exact, 100.0, 100.0, 0.0, c.t_end);
+    Source source = source_of(c.rate, 0.1);
+    source.region_low = {1.0, 1.0};
+    source.region_high = {99.0, 99.0};
+    source.velocities.kind = VelocityLaw::Kind::maxwell;
+    source.velocities.temperature = 1.0;
+    s.sources.push_back(source);
+    Scene longer = s;
+    longer.run.t_end = c.t_end + 0.5 / c.rate;  // before the next one is due
+    const Count whole = test::run(longer, test::state_of(s, {})).counters.emitted;
+    for (const bool reference : {true, false}) {
+      const auto finish = [&](const Scene& scene, const State& from) {
+        const auto engine = reference ? make_reference_engine(scene, from) : make_parallel_engine(scene, from, {1, 1});
+        while (engine->state().time < scene.run.t_end) engine->step();
+        return engine->state();
+      };
+      const State end = finish(s, test::state_of(s, {}));
+      EXPECT_EQ(end.counters.emitted, c.disks) << c.rate << " to " << c.t_end;
+      EXPECT_EQ(finish(longer, end).counters.emitted, whole) << c.rate << " beyond " << c.t_end;
+    }
+  }
+}
+
 // What waits is the sum over the sources.
 TEST(Emission, DisksOfAllSourcesWait) {
   Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 10.0);
