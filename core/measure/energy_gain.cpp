@@ -54,7 +54,7 @@ std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& sta
         "a smaller one",
         *scene.physics.collapse_contact_time);
   }
-  if (!exact) why = fmt::format("dt = {:g} is too long; use a smaller dt or --method exact", scene.run.dt);
+  if (!exact) why = fmt::format("dt = {:g} is too long; use a smaller dt or run.method = \"exact\"", scene.run.dt);
   return {fmt::format("at the end, time {:g}, the energy is {:.6g} where {:.6g} was put in: {}", state.time, after,
                       before, why)};
 }

@@ -15,7 +15,7 @@ std::string cause_and_remedy(const Scene& scene) {
   if (scene.run.method == Method::exact && settles(scene)) {
     return fmt::format(
         "made elastic by the TC model (contact_time = {:g}), as all are of disks that rest on each other; use "
-        "--method pairwise for a pile, or a smaller contact_time where disks still fly",
+        "run.method = \"pairwise\" for a pile, or a smaller contact_time where disks still fly",
         scene.physics.collapse_contact_time.value_or(0.0));
   }
   if (scene.run.method == Method::exact) {
@@ -45,7 +45,7 @@ Count collisions_watched(const Scene& scene, const State& state) {
 }
 
 const char* or_exact(const Scene& scene) {
-  return velocities_are_drawn(scene) ? "" : " or --method exact";
+  return velocities_are_drawn(scene) ? "" : " or run.method = \"exact\"";
 }
 
 std::string inaccurate_text(const Scene& scene, const State& state) {

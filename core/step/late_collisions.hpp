@@ -16,7 +16,7 @@ bool exceeds(Count inaccurate, Count all, double share);
 // The collisions of which some may be inaccurate.
 Count collisions_watched(const Scene& scene, const State& state);
 
-// " or --method exact" where that is a remedy: with Brownian motion what a step draws is as coarse.
+// Exact as the other remedy, where it is one: with Brownian motion what a step draws is as coarse.
 const char* or_exact(const Scene& scene);
 
 // How many there were by now, why, and the remedy.

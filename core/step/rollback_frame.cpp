@@ -60,7 +60,7 @@ void check_stall(State& state, const Scene& scene) {
   if (advanced < scene.run.dt && state.time < scene.run.t_end) {
     throw PhysicsError(
         fmt::format("rollback: time stands still at t = {:g}: the last {} frames advanced it by {:g} dt with {}; use "
-                    "--method pairwise",
+                    "run.method = \"pairwise\"",
                     state.time, watched_frames, advanced / scene.run.dt, counted(state.disks.size(), "disk")));
   }
   state.stall = {0, state.time};

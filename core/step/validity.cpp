@@ -57,8 +57,8 @@ std::string missed_text(const State& state, const WorstOverlap& wall) {
 
 std::string slow_text(const Scene& scene, const WorstFigure& advance, std::size_t disks) {
   return fmt::format(
-      "at time {:g} a frame advances time by {:.2g} dt, with {} disks: time stalls; use --method pairwise{}",
-      advance.time, advance.figure, disks, velocities_are_drawn(scene) ? "" : " or exact");
+      "at time {:g} a frame advances time by {:.2g} dt, with {} disks: time stalls; use run.method = \"pairwise\"{}",
+      advance.time, advance.figure, disks, velocities_are_drawn(scene) ? "" : " or \"exact\"");
 }
 
 // dt: of the step, which may be cut short to end at t_end.
@@ -205,7 +205,7 @@ std::vector<std::string> validity_of(const Scene& scene, double smallest_radius,
   if (scene.run.method != Method::exact && scene.run.dt > largest_share_of_period * period) {
     warnings.push_back(fmt::format(
         "a wall vibrates with a period of {:g} and moves at its mean speed in dt = {:g}: it gives the disks "
-        "too little energy, or none; use dt <= {:.2g} or --method exact",
+        "too little energy, or none; use dt <= {:.2g} or run.method = \"exact\"",
         period, scene.run.dt, largest_share_of_period * period));
   }
   if (!(smallest_radius > 0.0)) return warnings;
@@ -224,7 +224,7 @@ std::vector<std::string> validity_of(const Scene& scene, double smallest_radius,
   if (way > 0.0 && way < least_step_roundings * rounding) {
     warnings.push_back(
         fmt::format("the fastest disk moves by {:.2g} in dt = {:g}, and in a box of {:g} places are known to {:.2g}: "
-                    "motion is lost in rounding; use a longer dt or --method exact",
+                    "motion is lost in rounding; use a longer dt or run.method = \"exact\"",
                     way, scene.run.dt, side, rounding));
   }
   const double step = std::sqrt(2.0 * scene.physics.diffusion * scene.run.dt) / smallest_radius;

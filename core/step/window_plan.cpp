@@ -57,11 +57,11 @@ std::string partner_text(const Domain& box, DiskId id) {
       event.id1, partner_text(rules.box, event.id2),
       rules.tc()
           ? "physics.collapse.contact_time is too short for a double to tell such times apart: use a larger one, "
-            "or --method pairwise"
-      : rules.gravity.acts()
-          ? "they rest on each other, or have no room to move: use --method pairwise, a larger box or smaller disks"
-          : "they have no room to move, or masses differ too much: use a larger box, smaller disks or --method "
-            "pairwise"));
+            "or run.method = \"pairwise\""
+      : rules.gravity.acts() ? "they rest on each other, or have no room to move: use run.method = \"pairwise\", a "
+                               "larger box or smaller disks"
+                             : "they have no room to move, or masses differ too much: use a larger box, smaller disks "
+                               "or run.method = \"pairwise\""));
 }
 
 }  // namespace
@@ -161,7 +161,8 @@ std::string slow_at_moving_walls(const Scene& scene, const WindowPlan& plan, dou
   return fmt::format(
       "{}a wall that moves leaves the disks hardly any room ({}): {}move it less far, or take fewer or smaller disks",
       may_rest ? "disks come to rest on a wall (inelastic collapse), or " : "", moving_walls_text(scene.box, time),
-      may_rest ? "set physics.collapse = { model = \"tc\", contact_time = ... } or use --method pairwise, " : "");
+      may_rest ? "set physics.collapse = { model = \"tc\", contact_time = ... } or use run.method = \"pairwise\", "
+               : "");
 }
 
 }  // namespace
@@ -190,17 +191,18 @@ void check_pace(const Scene& scene, State& state, const WindowPlan& plan, const 
   if (windows < enough_windows) return;
   stall = {};
   if (!slower_than(plan.pace)) return;
-  fail_slow(state.time, windows, advanced,
-            plan.tc ? "physics.collapse.contact_time is too short for disks that stay in contact: use a larger one, or "
-                      "--method pairwise"
-                    : "disks have hardly any room to move: use a larger box or smaller disks, or --method pairwise");
+  fail_slow(
+      state.time, windows, advanced,
+      plan.tc ? "physics.collapse.contact_time is too short for disks that stay in contact: use a larger one, or "
+                "run.method = \"pairwise\""
+              : "disks have hardly any room to move: use a larger box or smaller disks, or run.method = \"pairwise\"");
 }
 
 void fail_collapse(const ExactRules& rules, const EventMark& event, double start) {
   throw PhysicsError(
       fmt::format("exact: inelastic collapse at t = {}: the collisions of disk {} pile up in vanishing time, the last "
                   "one with {}; set physics.collapse = {{ model = \"tc\", contact_time = ... }} (elastic where a disk "
-                  "collided less than contact_time ago) or use --method pairwise",
+                  "collided less than contact_time ago) or use run.method = \"pairwise\"",
                   start + event.time, event.id1, partner_text(rules.box, event.id2)));
 }
 

@@ -74,10 +74,10 @@ def overrides(changes: Mapping[str, Any]) -> list:
 
 
 def words_of_python(text: str) -> str:
-    """What the command line calls -o, --set, --force and --strict are arguments here, and --method a key of the scene."""
+    """What the command line calls -o, --set, --force and --strict are arguments here."""
     text = text.replace(" with -o,", ",").replace(" (-o)", "").replace("--force", "force=True")
     text = text.replace("--set ", "changes: ").replace("--max-size:", "max_size:").replace("--engine:", "engine:")
-    text = re.sub(r"--method (\w+)", r'run.method = "\1"', text).replace("--strict", "strict=True")
+    text = text.replace("--strict", "strict=True")
     return f"file:{text[3:]}" if text.startswith("-o:") else text
 
 

@@ -129,7 +129,7 @@ TEST(StallGuard, StopsARunWhoseTimeStandsStill) {
     EXPECT_NE(text.find("rollback: time stands still at t = 2.4"), std::string::npos) << text;
     EXPECT_NE(text.find("0.97"), std::string::npos) << text;
     EXPECT_NE(text.find("1 disk;"), std::string::npos) << text;
-    EXPECT_NE(text.find("--method pairwise"), std::string::npos) << text;
+    EXPECT_NE(text.find("run.method = \"pairwise\""), std::string::npos) << text;
     EXPECT_EQ(text.find('\n'), std::string::npos);
   }
 }

@@ -112,7 +112,7 @@ TEST(LongCrowdedWindow, ComingToRestOnASineIsCalledByItsName) {
   const Scene scene = parse_scene(text, "plate", "");
   EXPECT_THAT(outcome(scene, initial_state(scene)),
               AllOf(HasSubstr("all but stands still"), HasSubstr("come to rest on a wall (inelastic collapse)"),
-                    HasSubstr("physics.collapse = {"), HasSubstr("or use --method pairwise")));
+                    HasSubstr("physics.collapse = {"), HasSubstr("or use run.method = \"pairwise\"")));
 }
 
 // The same burst where the walls lose energy but are not part of it: a heavy disk at rest is what the light one is

@@ -131,6 +131,27 @@ TEST(CaromCErrors, PhysicsThatCannotGoOn) {
   EXPECT_EQ(world.size(), 1U);
 }
 
+// A program has no command line: remedies are keys of the scene.
+TEST(CaromCErrors, RemediesAreNoOptionsOfACommandLine) {
+  const auto world_of = [](const std::string& keys, const std::string& run) {
+    const std::string text = "[box]\nwidth = 10.0\nheight = 10.0\n" + keys +
+                             "[[disks]]\ncount = 30\npositions = \"random\"\nvelocities = { maxwell = 1.0 }\n" +
+                             "radius = 0.5\nmass = 1.0\n[run]\nt_end = 100.0\n" + run;
+    return World::from_text(text);
+  };
+  World coarse = world_of("", "method = \"pairwise\"\ndt = 0.2\n");
+  coarse.run_until(20.0);
+  std::string told;
+  while (const char* const warning = carom_next_warning(coarse.get())) told += std::string(warning) + "\n";
+  EXPECT_THAT(told, HasSubstr("use a smaller dt or run.method = \"exact\""));
+  World pile =
+      world_of("wall_restitution = 0.5\n[physics]\ngravity = 1.0\nrestitution = 0.5\n", "method = \"exact\"\n");
+  EXPECT_EQ(carom_run_until(pile.get(), 100.0), CAROM_PHYSICS);
+  const std::string collapse = carom_error(pile.get());
+  EXPECT_THAT(collapse, HasSubstr("or use run.method = \"pairwise\""));
+  EXPECT_THAT(told + collapse, testing::Not(HasSubstr("--")));
+}
+
 // Any call, with good numbers and bad ones.
 class RandomCalls {
  public:

@@ -94,7 +94,7 @@ t_end = 0.8
     const std::vector<std::string> told = few_inaccurate_warnings(scene, engine->state());
     if (said) {
       EXPECT_THAT(told, ElementsAre(AllOf(HasSubstr("bounces off walls and obstacles were seen a step late: dt = 0.05"),
-                                          HasSubstr("use a smaller dt or --method exact"))));
+                                          HasSubstr("use a smaller dt or run.method = \"exact\""))));
     } else {
       EXPECT_THAT(told, IsEmpty());
     }

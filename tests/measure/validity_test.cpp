@@ -57,7 +57,7 @@ TEST(Validity, PairwiseSaysThatCollisionsAreSeenLate) {
   EXPECT_THAT(warnings_of(gas("0.005")), IsEmpty());
   EXPECT_THAT(warnings_of(gas("0.05")),
               ::testing::Contains(AllOf(HasSubstr("collisions were seen a step late: dt = 0.05 is long"),
-                                        HasSubstr("use a smaller dt or --method exact"))));
+                                        HasSubstr("use a smaller dt or run.method = \"exact\""))));
 }
 
 // The only step is cut to end at t_end: what is said of it when it comes is what the summary has, in units of any size.
@@ -98,7 +98,7 @@ TEST(Validity, RollbackSaysThatTimeStallsBeforeItStops) {
   const std::vector<std::string> warnings = warnings_of(scene);
   ASSERT_FALSE(warnings.empty());
   EXPECT_THAT(warnings, ::testing::Contains(HasSubstr("a frame advances time by 0 dt, with 3 disks: time stalls; use "
-                                                      "--method pairwise")));
+                                                      "run.method = \"pairwise\"")));
   EXPECT_THAT(warnings.back(), HasSubstr("rollback: time stands still at t = "));
 }
 
@@ -111,7 +111,7 @@ TEST(LongValidity, TimeSteppingSaysThatWallsAreMetLate) {
     EXPECT_THAT(warnings_of(closing("69")), IsEmpty()) << method;
     EXPECT_THAT(warnings_of(closing("69.6")),
                 ElementsAre(AllOf(HasSubstr("bounces off walls and obstacles were seen a step late: dt = 0.001 is"),
-                                  HasSubstr("use a smaller dt or --method exact"))))
+                                  HasSubstr("use a smaller dt or run.method = \"exact\""))))
         << method;
   }
 }
@@ -302,7 +302,7 @@ TEST(Validity, AStepThatIsLongAgainstAVibrationIsToldBeforeTheFirst) {
           validity_of(shaken(where, method, 0.025), 0.5, 3.0),
           ElementsAre(AllOf(HasSubstr("a wall vibrates with a period of 0.05 and moves at its mean speed in dt = "
                                       "0.025"),
-                            HasSubstr("use dt <= 0.005 or --method exact"))));
+                            HasSubstr("use dt <= 0.005 or run.method = \"exact\""))));
       EXPECT_THAT(validity_of(shaken(where, method, 0.005), 0.5, 3.0), IsEmpty());
     }
     EXPECT_THAT(validity_of(shaken(where, "exact", 0.025), 0.5, 3.0), IsEmpty());
