@@ -1,4 +1,4 @@
-// carom sweep: the grid, the table, going on, scripts, complaints; and scenes that start from a frame.
+// carom sweep: the grid, the table, going on, scripts, complaints.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -73,7 +73,6 @@ class SweepTest : public testing::Test {
   TestFolder folder_;
   std::string scene_;
 };
-using LongSweepTest = SweepTest;
 
 TEST_F(SweepTest, RunsTheGridAndGoesOnWhereItStopped) {
   const std::string words =
@@ -358,57 +357,6 @@ TEST_F(SweepTest, WarningsAreCounted) {
   EXPECT_THAT(table.at(0), HasSubstr(",warnings,step_s,state_hash"));
   EXPECT_THAT(table.at(1), HasSubstr(",0,0,"));
   EXPECT_THAT(table.at(2), HasSubstr(",0,1,"));
-}
-
-// --- Frames
-// -----------------------------------------------------------------------------------------------------------
-
-TEST_F(LongSweepTest, AFrameOfAnEarlierRunIsAStart) {
-  for (const std::string format : {"xyz", "h5md"}) {
-    ASSERT_EQ(
-        carom("run gas.toml -o first --force --quiet --set output.every=0.25 --set output.trajectory=" + format).first,
-        0);
-    std::string second = gas;
-    for (const char* const key : {"positions", "velocities", "radius", "mass"}) {
-      const std::size_t begin = second.find(std::string(key) + " = ");
-      second.replace(begin, second.find('\n', begin) - begin, std::string(key) + " = { frame = \"first\", index = 3 }");
-    }
-    folder_.write("second.toml", second);
-    const auto [status, text] = carom(
-        "run second.toml -o second --force --quiet --t-end 0.5 --set output.every=0.25 --set output.trajectory=xyz");
-    ASSERT_EQ(status, 0) << text;
-    // Frame 3 is at t = 0.5; what follows takes the same way, up to the rounding of other window lengths.
-    const std::string first_frame = read("second/trajectory.xyz");
-    folder_.write("by_time.toml", test::replaced(second, "positions = { frame = \"first\", index = 3 }",
-                                                 "positions = { frame = \"first\", time = 0.5 }"));
-    ASSERT_EQ(carom("run by_time.toml -o by_time --force --quiet --t-end 0.5 --set output.every=0.25 --set "
-                    "output.trajectory=xyz")
-                  .first,
-              0);
-    EXPECT_THAT(carom("compare second by_time").second, HasSubstr("same bits"));
-    ASSERT_EQ(carom("run gas.toml -o plain --force --quiet --set output.every=0.25 --set output.trajectory=xyz").first,
-              0);
-    // Frames 3, 4, 5 of the first run hold the numbers of frames 1, 2, 3 of the second, for the first of them exactly.
-    std::istringstream plain(read("plain/trajectory.xyz")), started(first_frame);
-    std::vector<std::string> a, b;
-    for (std::string line; std::getline(plain, line);) a.push_back(line);
-    for (std::string line; std::getline(started, line);) b.push_back(line);
-    for (std::size_t k = 2; k < 22; ++k) EXPECT_EQ(a[2 * 22 + k], b[k]);
-  }
-  for (const auto& [law, expected] : std::vector<std::pair<std::string, std::string>>{
-           {"{ frame = \"first\", index = 9 }", "there is no frame 9; expected 1 to 5"},
-           {"{ frame = \"nowhere\" }", "does not exist"},
-           {"{ frame = \"first\", index = 1, time = 2.0 }", "given beside index"},
-           {"{ frame = \"first\", indx = 1 }", "indx: unknown key"},
-           {"{ frame = \"first\", index = 0 }", "index: is 0; expected a whole number, 1 or more"},
-           {"{ frame = \"first\", index = -1 }", "index: is -1; expected a whole number, 1 or more"},
-           {"{ frame = \"first\", index = 1.5 }", "index: is 1.5; expected a whole number, 1 or more"}}) {
-    folder_.write("bad.toml", test::replaced(gas, "\"random\"", law));
-    const auto [status, text] = carom("check bad.toml");
-    EXPECT_EQ(status, 2) << law;
-    EXPECT_THAT(text, HasSubstr("bad.toml:")) << law;
-    EXPECT_THAT(text, HasSubstr(expected)) << law;
-  }
 }
 
 }  // namespace

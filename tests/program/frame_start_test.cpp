@@ -1,0 +1,91 @@
+// Scenes that start from a frame of an earlier run.
+#include <filesystem>
+#include <sstream>
+
+#include "tests/support/program_support.hpp"
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+using test::text_of;
+using ::testing::HasSubstr;
+
+constexpr const char* gas = R"(seed = 3
+[box]
+width = 12.0
+height = 12.0
+[physics]
+restitution = 0.9
+[[disks]]
+count = 20
+positions = "random"
+velocities = { maxwell = 1.0 }
+radius = 0.4
+mass = 1.0
+[run]
+method = "exact"
+t_end = 1.0
+[output]
+every = 0.25
+trajectory = "xyz"
+)";
+
+class LongFrameStart : public test::ProgramTest {
+ protected:
+  LongFrameStart() { write("gas.toml", gas); }
+
+  void run(const std::string& words) const {
+    const test::Outcome o = carom("run --force --quiet " + words);
+    ASSERT_EQ(o.status, 0) << o.err;
+  }
+  std::vector<std::string> lines_of(const std::string& file) const {
+    std::vector<std::string> lines;
+    std::istringstream text(text_of(at(file)));
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    return lines;
+  }
+};
+
+TEST_F(LongFrameStart, AFrameOfAnEarlierRunIsAStart) {
+  run("gas.toml -o plain");
+  for (const std::string format : {"xyz", "h5md"}) {
+    run("gas.toml -o first --set output.trajectory=" + format);
+    std::string second = gas;
+    for (const char* const key : {"positions", "velocities", "radius", "mass"}) {
+      const std::size_t begin = second.find(std::string(key) + " = ");
+      second.replace(begin, second.find('\n', begin) - begin, std::string(key) + " = { frame = \"first\", index = 3 }");
+    }
+    write("second.toml", second);
+    run("second.toml -o second --t-end 0.5");
+    write("by_time.toml", test::replaced(second, "positions = { frame = \"first\", index = 3 }",
+                                         "positions = { frame = \"first\", time = 0.5 }"));
+    run("by_time.toml -o by_time --t-end 0.5");
+    EXPECT_THAT(carom("compare second by_time").out, HasSubstr("same bits"));
+    // Frame 3 is at t = 0.5. Frames 3, 4, 5 of the first run are frames 1, 2, 3 of the second, up to the rounding of
+    // other window lengths, and the first of them exactly.
+    const std::vector<std::string> a = lines_of("plain/trajectory.xyz"), b = lines_of("second/trajectory.xyz");
+    for (std::size_t k = 2; k < 22; ++k) EXPECT_EQ(a.at(2 * 22 + k), b.at(k));
+  }
+}
+
+TEST_F(LongFrameStart, WhatIsNoFrameIsRefused) {
+  run("gas.toml -o first");
+  for (const auto& [law, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"{ frame = \"first\", index = 9 }", "there is no frame 9; expected 1 to 5"},
+           {"{ frame = \"nowhere\" }", "does not exist"},
+           {"{ frame = \"first\", index = 1, time = 2.0 }", "given beside index"},
+           {"{ frame = \"first\", indx = 1 }", "indx: unknown key"},
+           {"{ frame = \"first\", index = 0 }", "index: is 0; expected a whole number, 1 or more"},
+           {"{ frame = \"first\", index = -1 }", "index: is -1; expected a whole number, 1 or more"},
+           {"{ frame = \"first\", index = 1.5 }", "index: is 1.5; expected a whole number, 1 or more"}}) {
+    write("bad.toml", test::replaced(gas, "\"random\"", law));
+    const test::Outcome o = carom("check bad.toml");
+    EXPECT_EQ(o.status, 2) << law;
+    EXPECT_THAT(o.err, HasSubstr("bad.toml:")) << law;
+    EXPECT_THAT(o.err, HasSubstr(expected)) << law;
+  }
+}
+
+}  // namespace
+}  // namespace carom
