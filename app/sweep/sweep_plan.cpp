@@ -17,29 +17,33 @@ namespace {
 
 constexpr std::string_view expected = "expected KEY=FROM:TO:COUNT, or KEY=VALUE,VALUE,...";
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts;
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
   std::size_t begin = 0;
   while (true) {
-    const std::size_t end = text.find(at, begin);
-    parts.push_back(text.substr(begin, end - begin));
-    if (end == std::string::npos) return parts;
+    const std::size_t end = text.find('\n', begin);
+    lines.push_back(text.substr(begin, end - begin));
+    if (end == std::string::npos) return lines;
     begin = end + 1;
   }
 }
 
-// At the commas that are not within brackets, braces or quotes, as values of a scene have them.
-std::vector<std::string> split_values(const std::string& text) {
+// At the commas or colons that are not within brackets, braces or quotes, as values of a scene have them.
+std::vector<std::string> split_values(const std::string& text, char at) {
   std::vector<std::string> values(1);
   int depth = 0;
   char quote = 0;
+  bool escaped = false;  // by a backslash before it: a quote that ends no string
   for (const char c : text) {
-    if (c == ',' && depth == 0 && quote == 0) {
+    if (c == at && depth == 0 && quote == 0) {
       values.emplace_back();
       continue;
     }
     values.back() += c;
-    if (quote != 0) {
+    if (escaped) {
+      escaped = false;
+    } else if (quote != 0) {
+      escaped = quote == '"' && c == '\\';
       quote = c == quote ? char{0} : quote;
     } else if (c == '"' || c == '\'') {
       quote = c;
@@ -133,13 +137,13 @@ SweepAxis parse_sweep_axis(const std::string& text) {
   SweepAxis axis{text.substr(0, equals), {}};
   if (axis.key == "seed") fail_input("--over", fmt::format("is {}", in_quotes(text)), "expected --seeds N for seeds");
   const std::string values = text.substr(equals + 1);
-  const std::vector<std::string> parts = split(values, ':');
+  const std::vector<std::string> parts = split_values(values, ':');
   if (parts.size() == 3) {
     axis.values = range_values(text, parts);
   } else if (parts.size() > 1 && is_number(parts[0])) {
     fail_input("--over", fmt::format("{} is no range", in_quotes(text)), expected);
   } else {
-    axis.values = split_values(values);
+    axis.values = split_values(values, ',');
   }
   check_values(text, axis.values);
   return axis;
@@ -177,7 +181,7 @@ std::string take_names(const std::string& identity, const std::string& scene_tex
   if (end == std::string::npos || identity.substr(end + 2) != scene_text) return "the scene has changed since";
   std::map<std::string, std::string> names;  // of the runs there, by what they change
   std::size_t last = 0;
-  for (const std::string& line : split(identity.substr(0, end), '\n')) {
+  for (const std::string& line : lines_of(identity.substr(0, end))) {
     const std::size_t name_end = std::min(line.find(' '), line.size());
     names.emplace(line.substr(name_end), line.substr(0, name_end));
     std::size_t number = 0;

@@ -67,6 +67,20 @@ TEST(SweepPlan, CommasWithinBracketsAndQuotesPartNoValues) {
   EXPECT_EQ(parse_sweep_axis("disks.0.count=1,2").key, "disks.0.count");
 }
 
+// Nor are they a range where colons stand in them: a name of a file may have some.
+TEST(SweepPlan, ColonsWithinQuotesMakeNoRange) {
+  EXPECT_THAT(values("\"a:b:c\""), ElementsAre("\"a:b:c\""));
+  EXPECT_THAT(values("\"0:1:3\",'4:5'"), ElementsAre("\"0:1:3\"", "'4:5'"));
+  EXPECT_THAT(values("{ file = \"a:b:c.csv\" }"), ElementsAre("{ file = \"a:b:c.csv\" }"));
+  EXPECT_THAT(complaint("key=\"a\":1:3"), HasSubstr("\"\"a\"\" is no number"));
+}
+
+TEST(SweepPlan, AQuoteAfterABackslashEndsNoString) {
+  EXPECT_THAT(values(R"("a\"b,c",2)"), ElementsAre(R"("a\"b,c")", "2"));
+  EXPECT_THAT(values(R"("a\\",2)"), ElementsAre(R"("a\\")", "2"));
+  EXPECT_THAT(values(R"('a\',2)"), ElementsAre(R"('a\')", "2")) << "single quotes know no backslash";
+}
+
 TEST(SweepPlan, SaysWhatIsNoRangeAndNoList) {
   for (const char* const text : {"key=0:1:1", "key=nan:1:3", "key=0:inf:2", "key=0:1:1000001", "key=0:1:0",
                                  "key=0:1:-2", "key=0:1", "key=0:1:2:3"}) {
