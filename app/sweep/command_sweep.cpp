@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -16,13 +15,15 @@
 #include "app/cli/progress.hpp"
 #include "app/cli/start_ranks.hpp"
 #include "app/sweep/run_programs.hpp"
+#include "app/sweep/scene_of_run.hpp"
 #include "app/sweep/sweep_lock.hpp"
 #include "app/sweep/sweep_plan.hpp"
+#include "app/sweep/sweep_table.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
-#include "io/checkpoint/checkpoint_place.hpp"
+#include "core/scene/scene_text.hpp"
 #include "io/files/child_process.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/shell_word.hpp"
@@ -35,32 +36,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// What a row of sweep.csv takes from each run's summary, after the keys of the sweep and the seed. Of a list, as the
-// warnings are, it takes the number of entries.
-constexpr std::array<const char*, 18> table_keys{
-    "particles",    "steps",          "time",        "collisions",   "wall_collisions", "energy_initial",
-    "energy_final", "momentum_drift", "max_overlap", "wall_overlap", "pressure",        "collision_rate",
-    "removed",      "emitted",        "waiting",     "warnings",     "step_s",          "state_hash"};
-
 std::string own_path() {
   std::error_code error;
   const fs::path path = fs::read_symlink("/proc/self/exe", error);
   if (error) throw RunError("cannot find this program's own file: " + error.message());
   return path.string();
-}
-
-std::string cell_of(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_array()) return fmt::format("{}", value.size());
-  return value.is_null() ? "" : value.dump();
-}
-
-// In quotes, and quotes doubled, where it would be read as several (RFC 4180).
-std::string csv_cell(const std::string& value) {
-  if (value.find_first_of(",\"") == std::string::npos) return value;
-  std::string cell = "\"";
-  for (const char c : value) cell += c == '"' ? "\"\"" : std::string(1, c);
-  return cell + '"';
 }
 
 struct SweepCount {
@@ -100,7 +80,7 @@ class Sweep {
     seed_ = scene.seed;
     runs_ = sweep_runs(options.changes, axes_, seed_, options.seeds);
     // Every combination is read before anything runs: a bad key or value shows at once.
-    for (const SweepRun& run : runs_) check_run(run);
+    for (SweepRun& run : runs_) run.scene = fingerprint(resolved_toml(scene_of(run)));
   }
 
   // Makes the folder, or makes sure that it holds this very sweep, or one that this one goes on with more values or
@@ -117,16 +97,17 @@ class Sweep {
     if (fs::exists(plan)) {
       std::vector<SweepRun> runs = runs_;
       const std::string before = read_text_file(plan.string(), plan.string());
-      const std::string against = take_names(before, scene_text, runs);
-      if (against.empty()) {
+      Complaint against{take_names(before, scene_text, runs), "give it all of that and more"};
+      if (against.what.empty()) against = against_runs(runs);
+      if (against.what.empty()) {
         runs_ = std::move(runs);
         const std::string identity = sweep_identity(scene_text, runs_);
         if (identity != before) replace_file(plan.string(), identity);
         return;
       }
       if (!options_.force) {
-        fail_input(folder_.string(), fmt::format("holds another sweep: {}", against),
-                   "give it all of that and more, choose another folder with -o, or replace it with --force");
+        fail_input(folder_.string(), fmt::format("holds another sweep: {}", against.what),
+                   against.remedy + ", choose another folder with -o, or replace it with --force");
       }
       fs::remove_all(folder_ / "runs", error);
       fs::remove(folder_ / "sweep.csv", error);
@@ -190,8 +171,10 @@ class Sweep {
       ++count.failed;
     };
     Programs programs{rest.size(), static_cast<std::size_t>(jobs), {}, {}, {}};
+    constexpr const char* changed = "the scene, or a file that it reads, has changed since the sweep began";
     programs.start = [&](std::size_t k) -> std::unique_ptr<ChildProcess> {
       try {
+        if (!is_as_planned(*rest[k])) throw RunError(changed);
         return std::make_unique<ChildProcess>(command_of(*rest[k], threads), fs::current_path().string(),
                                               log_of(*rest[k]), ChildSignals::reach_it);
       } catch (const RunError& error) {
@@ -204,6 +187,9 @@ class Sweep {
       if (status == stopped_early || status == 128 + SIGTERM) return;  // the latter where it had not quite begun
       if (status != 0) return fail(*rest[k], last_words(*rest[k], status));
       fs::remove(log_of(*rest[k]));
+      if (against(*rest[k]).empty()) return;
+      fs::remove_all(folder_of(*rest[k]));  // it is none of this sweep
+      fail(*rest[k], changed);
     };
     programs.pulse = [&](std::size_t ended) { progress.update(ended, count.failed); };
     count.stopped = !run_programs(programs);
@@ -220,15 +206,11 @@ class Sweep {
   // One row a run that has come to its end. Returns how many of them have warnings.
   std::size_t write_table() const {
     std::size_t warned = 0;
-    std::string text = "run";
-    for (const SweepAxis& axis : axes_) text += "," + axis.key;
-    text += ",seed";
-    for (const char* const key : table_keys) text += fmt::format(",{}", key);
-    text += '\n';
+    std::string text = table_head(axes_);
     for (const SweepRun& run : runs_) {
       if (!finished(run)) continue;
       const Json summary = summary_of(run);
-      text += row_of(run, summary);
+      text += table_row(run, axes_.size(), summary);
       if (!summary.value("warnings", Json()).empty()) ++warned;
     }
     replace_file(folder_ / "sweep.csv", text);
@@ -248,10 +230,11 @@ class Sweep {
     axes_.push_back(axis);
   }
 
-  // The runs get the keys of the sweep by --set; the user gave them by --over, so messages say that.
-  void check_run(const SweepRun& run) const {
+  // What a run would begin from now. It gets the keys of the sweep by --set; the user gave them by --over, so messages
+  // say that.
+  Scene scene_of(const SweepRun& run) const {
     try {
-      load_scene_as_told(options_.scene, {run.overrides, run.overrides.size()});
+      return load_scene_as_told(options_.scene, {run.overrides, run.overrides.size()});
     } catch (const InputError& error) {
       const std::string message = error.what();
       for (const SweepAxis& axis : axes_) {
@@ -260,6 +243,34 @@ class Sweep {
       }
       throw;
     }
+  }
+
+  // The scene may be edited, and files that it reads be made anew, while the sweep goes on.
+  bool is_as_planned(const SweepRun& run) const {
+    return resumable(run) || fingerprint(resolved_toml(scene_of(run))) == run.scene;
+  }
+
+  // How what there is of a run differs from what the sweep would run; empty where it does not, or there is nothing.
+  std::string against(const SweepRun& run) const {
+    try {
+      const std::string then = scene_of_run(folder_of(run));
+      return then.empty() || is_of_fingerprint(then, run.scene) ? "" : change_since(then, scene_of(run), run.name);
+    } catch (const InputError& error) {
+      return fmt::format("its run {} cannot be told: {}", run.name, error.what());
+    }
+  }
+
+  struct Complaint {
+    std::string what, remedy;
+  };
+
+  // The first of these runs that is not what it was.
+  Complaint against_runs(const std::vector<SweepRun>& runs) const {
+    for (const SweepRun& run : runs) {
+      const std::string what = against(run);
+      if (!what.empty()) return {what, fmt::format("remove {} to run it again", folder_of(run).string())};
+    }
+    return {};
   }
 
   std::string log_of(const SweepRun& run) const {
@@ -275,33 +286,13 @@ class Sweep {
   }
 
   // Was it stopped, and left a checkpoint to go on from?
-  bool resumable(const SweepRun& run) const {
-    try {
-      read_checkpoint_at(find_checkpoint(folder_of(run).string()));
-      return true;
-    } catch (const InputError&) {
-      return false;
-    }
-  }
+  bool resumable(const SweepRun& run) const { return !finished(run) && !scene_of_run(folder_of(run)).empty(); }
 
   Json summary_of(const SweepRun& run) const {
     std::ifstream file(folder_of(run) / "summary.json");
     Json summary = Json::parse(file, nullptr, false);
     if (!summary.is_object()) fail_input((folder_of(run) / "summary.json").string(), "is no JSON");
     return summary;
-  }
-
-  std::string row_of(const SweepRun& run, const Json& summary) const {
-    std::string row = run.name;
-    for (auto change = run.overrides.end() - static_cast<std::ptrdiff_t>(axes_.size() + 1);
-         change != run.overrides.end(); ++change) {
-      row += "," + csv_cell(change->value);
-    }
-    for (const char* const key : table_keys) {
-      const Json value = summary.value(key, Json());
-      row += "," + cell_of(value);
-    }
-    return row + "\n";
   }
 
   const SweepOptions& options_;

@@ -156,7 +156,7 @@ std::vector<SweepRun> sweep_runs(const SceneChanges& changes, const std::vector<
   std::vector<std::size_t> at(axes.size(), 0);
   for (bool more = true; more;) {
     for (int s = 0; s < seeds; ++s) {
-      SweepRun run{fmt::format("{:04}", runs.size() + 1), changes.overrides};
+      SweepRun run{fmt::format("{:04}", runs.size() + 1), changes.overrides, 0};
       for (std::size_t a = 0; a < axes.size(); ++a) run.overrides.push_back({axes[a].key, axes[a].values[at[a]]});
       run.overrides.push_back({"seed", fmt::format("{}", seed + static_cast<std::uint64_t>(s))});
       runs.push_back(std::move(run));

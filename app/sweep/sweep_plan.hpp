@@ -21,6 +21,7 @@ SweepAxis parse_sweep_axis(const std::string& text);
 struct SweepRun {
   std::string name;                 // of its folder: 0001, 0002, ...
   std::vector<Override> overrides;  // those of the command line, then one an axis, then the seed
+  std::size_t scene = 0;            // fingerprint of its scene (scene_of_run.hpp)
 };
 
 // The last axis turns fastest, seeds faster still. Seeds run on from the scene's own. Throws InputError for more than a

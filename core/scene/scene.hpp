@@ -37,6 +37,7 @@ struct SizeLaw {
   double deviation = 0.0;       // of the size for normal, of its logarithm for lognormal
   std::vector<double> weights;  // as many as values
   double density = 0.0;         // mass / length^2
+  std::string file{};           // where the values came from, empty if the scene
 };
 
 // Part of the box within which a group starts, with whole disks: a rectangle or a circle.

@@ -278,8 +278,7 @@ SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_v
   SizeLaw law;
   if (const toml::table* table = node.as_table()) {
     if (is_frame(*table)) {
-      std::string file;
-      const SceneFrame frame = read_frame(owner, name, *table, file);
+      const SceneFrame frame = read_frame(owner, name, *table, law.file);
       law.kind = SizeLaw::Kind::list;
       law.values = name == "radius" ? frame.radius : frame.mass;
       return law;
