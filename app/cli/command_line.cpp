@@ -80,7 +80,8 @@ void describe_compare(CLI::App* compare, OptionWords& words) {
   compare->add_option("A", words.first, "folder of a run, or a trajectory")->type_name("");
   compare->add_option("B", words.second, "the other one")->type_name("");
   add_value(compare, "--tolerance", words.tolerance, "X", "values that differ by at most X count as the same");
-  add_value(compare, "--fields", words.fields, "x,y,...", "only these of x, y, vx, vy, radius, mass, spin");
+  add_value(compare, "--fields", words.fields, "x,y,...",
+            "only these of x, y, vx, vy, radius, mass, spin, group, image_x, image_y");
   add_value(compare, "--times", words.times, "T0:T1", "only frames of these times; either may be left out");
   add_value(compare, "--at", words.at, "T", "only the frame of each that is nearest to this time");
   compare->add_flag("--json", words.json, "print the result as JSON");

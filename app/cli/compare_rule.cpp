@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "app/cli/option_values.hpp"
 #include "core/base/input_message.hpp"
@@ -19,8 +21,7 @@ double tolerance_of(const std::string& text) {
 }
 
 void read_fields(const std::string& text, CompareRule& rule) {
-  constexpr std::array<std::string_view, compared_quantities.size()> names{"x",      "y",    "vx",  "vy",
-                                                                           "radius", "mass", "spin"};
+  const std::vector<std::string_view> names(compared_quantities.begin(), compared_quantities.end());
   rule.fields.fill(false);
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');) {

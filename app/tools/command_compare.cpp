@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -24,6 +25,21 @@ constexpr std::array<const char*, 17> compared_keys{
     "state_hash",   "method",          "seed",           "particles",    "steps",          "time",
     "collisions",   "wall_collisions", "energy_initial", "energy_final", "momentum_drift", "max_overlap",
     "wall_overlap", "pressure",        "collision_rate", "removed",      "emitted"};
+
+// Likewise, but an earlier version may not have written them, and of some scenes there are none.
+constexpr std::array<const char*, 13> compared_where_both_have{"heat",
+                                                               "thermostat_heat",
+                                                               "work",
+                                                               "wall_work",
+                                                               "wall_push",
+                                                               "shear_work",
+                                                               "waiting",
+                                                               "worst_overlap",
+                                                               "worst_overlap_time",
+                                                               "worst_overlap_ids",
+                                                               "worst_wall_overlap",
+                                                               "worst_wall_overlap_time",
+                                                               "worst_wall_overlap_ids"};
 
 // The files to compare of one output: a folder's, or a single trajectory.
 struct Output {
@@ -63,6 +79,9 @@ std::vector<std::string> different_keys(const Json& a, const Json& b) {
   if (a.is_null() || b.is_null()) return keys;
   for (const char* const key : compared_keys) {
     if (a.value(key, Json()) != b.value(key, Json())) keys.emplace_back(key);
+  }
+  for (const char* const key : compared_where_both_have) {
+    if (a.contains(key) && b.contains(key) && a[key] != b[key]) keys.emplace_back(key);
   }
   return keys;
 }
@@ -116,7 +135,7 @@ std::string same_text(const TrajectoryDifference& d, const CompareRule& rule) {
 std::string text_of(const std::vector<std::string>& keys, const Json& a, const Json& b) {
   std::string text = "different: summary.json\n";
   for (const std::string& key : keys)
-    text += fmt::format("  {:<16}{} against {}\n", key, a.value(key, Json()).dump(), b.value(key, Json()).dump());
+    text += fmt::format("  {:<15} {} against {}\n", key, a.value(key, Json()).dump(), b.value(key, Json()).dump());
   return text;
 }
 

@@ -42,13 +42,15 @@ struct H5mdReader::File {
 
   std::string path;
   Hdf5Handle file, position, velocity, id, radius, mass, species;
-  Hdf5Handle spin;  // of rough disks
-  bool has_spin = false;
+  Hdf5Handle spin;   // of rough disks
+  Hdf5Handle image;  // where sides are periodic
+  bool has_spin = false, has_image = false;
   Domain box;
   std::vector<double> times;
   std::size_t dimensions = 2;
   std::vector<double> xy, vxy, radii, masses, spins;  // of all places in one frame
   std::vector<DiskId> ids, groups;
+  std::vector<std::int32_t> images;
 };
 
 H5mdReader::File::File(const std::string& file_path) : path(file_path) {
@@ -74,6 +76,8 @@ H5mdReader::File::File(const std::string& file_path) : path(file_path) {
   mass = open_set(each_frame ? "mass/value" : "mass");
   radius = open_set(each_frame ? "radius/value" : "radius");
   species = open_set(each_frame ? "species/value" : "species");
+  has_image = H5Lexists(file.get(), (std::string(h5md_disks) + "/image").c_str(), H5P_DEFAULT) > 0;
+  if (has_image) image = open_set("image/value");
   has_spin = H5Lexists(file.get(), (std::string(h5md_disks) + "/angular_velocity").c_str(), H5P_DEFAULT) > 0;
   if (has_spin) spin = open_set("angular_velocity/value");
   const Hdf5Handle time = open_set("position/time");
@@ -156,9 +160,11 @@ void H5mdReader::File::read_frame(Count next, TrajectoryFrame& frame) {
   read_row(id, H5T_NATIVE_UINT32, next, ids);
   read_row(species, H5T_NATIVE_UINT32, next, groups);
   if (has_spin) read_row(spin, H5T_NATIVE_DOUBLE, next, spins);
+  if (has_image) read_row(image, H5T_NATIVE_INT32, next, images);
   // A writer killed while places were added has lengthened some datasets and not the others, for frames to come.
   std::size_t places = std::min({ids.size(), xy.size() / dimensions, vxy.size() / dimensions});
   if (has_spin) places = std::min(places, spins.size());
+  if (has_image) places = std::min(places, images.size() / dimensions);
   frame = {};
   frame.box = box;
   frame.time = times[next];
@@ -172,6 +178,10 @@ void H5mdReader::File::read_frame(Count next, TrajectoryFrame& frame) {
       fail(fmt::format("frame {}: disk {} has left the plane z = 0", next + 1, ids[p]));
     }
     frame.group.push_back(groups[p]);
+    if (has_image) {
+      frame.image_x.push_back(images[at]);
+      frame.image_y.push_back(images[at + 1]);
+    }
     Disks& d = frame.disks;
     d.x.push_back(xy[at]);
     d.y.push_back(xy[at + 1]);

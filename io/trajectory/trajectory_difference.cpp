@@ -28,19 +28,54 @@ bool counts(const CompareRule& rule, double by) {
   return !rule.tolerance || !(by <= *rule.tolerance);
 }
 
+bool sees_all_frames(const CompareRule& rule) {
+  return !rule.at && std::isinf(rule.from) && std::isinf(rule.to);
+}
+
 bool compares_all(const CompareRule& rule) {
   return std::find(rule.fields.begin(), rule.fields.end(), false) == rule.fields.end();
 }
 
-std::array<double, compared_quantities.size()> quantities_of(const Disks& d, std::size_t i) {
-  return {d.x[i], d.y[i], d.vx[i], d.vy[i], d.radius_of(i), d.mass_of(i), d.spin_of(i)};
+// Of compared_quantities.
+constexpr std::size_t spin_at = 6, group_at = 7, image_x_at = 8, image_y_at = 9;
+
+using Quantities = std::array<double, compared_quantities.size()>;
+
+Quantities quantities_of(const TrajectoryFrame& frame, std::size_t i) {
+  const Disks& d = frame.disks;
+  const auto whole = [i](const auto& column) { return column.empty() ? 0.0 : static_cast<double>(column[i]); };
+  return {d.x[i],
+          d.y[i],
+          d.vx[i],
+          d.vy[i],
+          d.radius_of(i),
+          d.mass_of(i),
+          d.spin_of(i),
+          whole(frame.group),
+          whole(frame.image_x),
+          whole(frame.image_y)};
 }
 
-double distance(const Domain& box, std::size_t quantity, double a, double b) {
-  double d = a - b;
+// Rounds between two disks that went `apart` = a - b and these rounds: beside each other across a side, where places
+// differ by a period, the rounds make up for it.
+double rounds_between(double rounds, double apart, double period) {
+  return std::abs(rounds + std::round((apart - nearest_image(apart, period)) / period));
+}
+
+double distance(const Domain& box, std::size_t quantity, const Quantities& a, const Quantities& b) {
+  double d = a[quantity] - b[quantity];
   if (quantity == 0 && box.periodic_x()) d = nearest_image(d, box.width);
   if (quantity == 1 && box.periodic_y()) d = nearest_image(d, box.height);
+  if (quantity == image_x_at && box.periodic_x()) return rounds_between(d, a[0] - b[0], box.width);
+  if (quantity == image_y_at && box.periodic_y()) return rounds_between(d, a[1] - b[1], box.height);
   return std::abs(d);
+}
+
+// Does a difference of one disk count? The tolerance is a length for rounds, too; groups are no numbers.
+bool counts(const CompareRule& rule, const Domain& box, std::size_t quantity, double by) {
+  if (quantity == group_at) return true;
+  const double period = quantity == image_x_at ? box.width : quantity == image_y_at ? box.height : 1.0;
+  return counts(rule, by * period);
 }
 
 // The frames of a file that a rule wants, one after another.
@@ -116,11 +151,14 @@ class Comparison {
 
   bool saw_disks() const { return saw_disks_; }
   bool saw_spins() const { return saw_spins_; }
+  bool lacks_rounds() const { return lacks_rounds_; }
 
   // Both frames list their disks in order of id.
   void compare(const TrajectoryFrame& a, const TrajectoryFrame& b, Count number) {
     saw_disks_ = saw_disks_ || !a.disks.empty() || !b.disks.empty();
     saw_spins_ = saw_spins_ || !a.disks.spin.empty() || !b.disks.spin.empty();
+    has_rounds_ = !a.image_x.empty() && !b.image_x.empty();
+    lacks_rounds_ = lacks_rounds_ || (!has_rounds_ && !a.disks.empty() && !b.disks.empty());
     place_ = {};
     place_.frame = number;
     place_.time = a.time;
@@ -132,7 +170,7 @@ class Comparison {
     while (i < a.disks.size() || j < b.disks.size()) {
       const bool a_left = i < a.disks.size(), b_left = j < b.disks.size();
       if (a_left && b_left && a.disks.id[i] == b.disks.id[j]) {
-        compare_disk(a.disks, i++, b.disks, j++);
+        compare_disk(a, i++, b, j++);
         continue;
       }
       const bool only_in_a = a_left && (!b_left || a.disks.id[i] < b.disks.id[j]);
@@ -162,18 +200,26 @@ class Comparison {
     see_sides("periodic_y", a.box.periodic_y(), b.box.periodic_y());
   }
 
-  void compare_disk(const Disks& a, std::size_t i, const Disks& b, std::size_t j) {
-    const auto values_a = quantities_of(a, i);
-    const auto values_b = quantities_of(b, j);
+  bool compares(std::size_t quantity) const {
+    if (!rule_.fields[quantity]) return false;
+    if (quantity < image_x_at) return true;
+    return has_rounds_ && (sees_all_frames(rule_) || !compares_all(rule_));
+  }
+
+  void compare_disk(const TrajectoryFrame& a, std::size_t i, const TrajectoryFrame& b, std::size_t j) {
+    const Quantities values_a = quantities_of(a, i);
+    const Quantities values_b = quantities_of(b, j);
     Difference place = place_;
-    place.id = a.id[i];
+    place.id = a.disks.id[i];
     for (std::size_t q = 0; q < values_a.size(); ++q) {
-      if (!rule_.fields[q] || same_bits(values_a[q], values_b[q])) continue;
+      if (!compares(q)) continue;
+      const double by = distance(*box_, q, values_a, values_b);
+      if (q < image_x_at ? same_bits(values_a[q], values_b[q]) : by == 0.0) continue;
       place.quantity = compared_quantities[q];
       place.a = values_a[q];
       place.b = values_b[q];
-      place.by = distance(*box_, q, place.a, place.b);
-      if (counts(rule_, place.by)) note(place);
+      place.by = by;
+      if (counts(rule_, *box_, q, by)) note(place);
       auto& largest = result_.largest[q];
       if (!largest || place.by > largest->by || std::isnan(place.by)) largest = place;
     }
@@ -184,11 +230,12 @@ class Comparison {
   Difference place_;
   const Domain* box_ = nullptr;
   bool saw_disks_ = false, saw_spins_ = false;
+  bool has_rounds_ = false, lacks_rounds_ = false;
 };
 
 // Where all fields are compared, and none was asked for by its name, what neither has is no matter.
-bool asks_for_spin(const CompareRule& rule) {
-  return rule.fields.back() && !compares_all(rule);
+bool asks_for(const CompareRule& rule, std::size_t quantity) {
+  return rule.fields[quantity] && !compares_all(rule);
 }
 
 }  // namespace
@@ -203,9 +250,14 @@ TrajectoryDifference compare_trajectories(const std::string& path_a, const std::
     if (more_a && more_b) comparison.compare(a.frame, b.frame, a.number);
     if (!more_a && !more_b) break;
   }
-  if (asks_for_spin(rule) && comparison.saw_disks() && !comparison.saw_spins()) {
-    fail_input(fmt::format("{} and {}", path_a, path_b), "neither has spins, so that they cannot be compared",
-               "expected other --fields");
+  const auto fail_fields = [&](const char* what) {
+    fail_input(fmt::format("{} and {}", path_a, path_b), what, "expected other --fields");
+  };
+  if (asks_for(rule, spin_at) && comparison.saw_disks() && !comparison.saw_spins()) {
+    fail_fields("neither has spins, so that they cannot be compared");
+  }
+  if ((asks_for(rule, image_x_at) || asks_for(rule, image_y_at)) && comparison.lacks_rounds()) {
+    fail_fields("not both have images (rounds across periodic sides), so that these cannot be compared");
   }
   result.frames_a = a.count;
   result.frames_b = b.count;

@@ -10,12 +10,23 @@
 
 namespace carom {
 
-inline constexpr std::array<const char*, 7> compared_quantities{"x", "y", "vx", "vy", "radius", "mass", "spin"};
+// A file without groups is of one. Rounds (image_x, image_y) are compared in what both files have them for, and all
+// frames of each, as they are counted from the first one, or where they are asked for.
+inline constexpr std::array<const char*, 10> compared_quantities{"x",    "y",    "vx",    "vy",      "radius",
+                                                                 "mass", "spin", "group", "image_x", "image_y"};
+
+using ComparedFields = std::array<bool, compared_quantities.size()>;
+
+constexpr ComparedFields all_fields() {
+  ComparedFields all{};
+  all.fill(true);
+  return all;
+}
 
 // What counts as a difference.
 struct CompareRule {
   std::optional<double> tolerance;  // values (and times) differ by more than this; absent: in any bit
-  std::array<bool, compared_quantities.size()> fields{true, true, true, true, true, true, true};
+  ComparedFields fields = all_fields();
   double from = -std::numeric_limits<double>::infinity();  // frames of these times only
   double to = std::numeric_limits<double>::infinity();
   std::optional<double> at;  // or only the frame of each that is nearest to this time
@@ -26,11 +37,11 @@ struct Difference {
   Count frame = 0;    // of A
   double time = 0.0;  // in A
   DiskId id = 0;      // if a quantity of a disk differs
-  // x, y, vx, vy, radius, mass, spin, time; "disks" or "frames" if one has what the other lacks; of the box, where all
+  // One of compared_quantities, or time; "disks" or "frames" if one has what the other lacks; of the box, where all
   // fields are compared, "width", "height", "periodic_x", "periodic_y".
   const char* quantity = "";
   double a = 0.0, b = 0.0;  // the two values; for "disks" and "frames" their numbers; 1 of periodic sides
-  double by = 0.0;          // |a - b|; of places to the nearest image
+  double by = 0.0;          // |a - b|; of places to the nearest image, and of rounds between these
 };
 
 struct TrajectoryDifference {
@@ -41,7 +52,8 @@ struct TrajectoryDifference {
 };
 
 // Reads both files, frame by frame. Where bits count, 0 and -0 differ. Throws InputError for a damaged file, where a
-// file has no frame of the times asked for, and where some fields are asked for, spin among them, that neither has.
+// file has no frame of the times asked for, and where some fields are asked for, and spins among them that neither has,
+// or rounds that one has not.
 TrajectoryDifference compare_trajectories(const std::string& a, const std::string& b, const CompareRule& rule = {});
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 // Reading trajectories back, whatever their format.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -19,6 +20,8 @@ struct TrajectoryFrame {
   double time = 0.0;
   Domain box;
   std::vector<DiskId> group;  // of each disk (disk_group.hpp); empty where the file does not have it
+  // How often each has gone round across the periodic sides, since the file's first frame that shows it; likewise.
+  std::vector<std::int32_t> image_x, image_y;
 };
 
 class TrajectoryReader {

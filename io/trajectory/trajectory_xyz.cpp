@@ -235,15 +235,16 @@ void XyzReader::read_layout(std::string_view properties) {
     fail(fmt::format("expected Properties={}, or more columns; {}", xyz_properties, what));
   };
   Layout layout;
-  std::size_t radius_width = 0, mass_width = 0, id_width = 0, group_width = 0, spin_width = 0;
-  std::array<std::tuple<std::string_view, std::size_t*, std::size_t*>, 7> known{
+  std::size_t radius_width = 0, mass_width = 0, id_width = 0, group_width = 0, spin_width = 0, image_width = 0;
+  std::array<std::tuple<std::string_view, std::size_t*, std::size_t*>, 8> known{
       {{"pos", &layout.position, &layout.position_width},
        {"velo", &layout.velocity, &layout.velocity_width},
        {"radius", &layout.radius, &radius_width},
        {"mass", &layout.mass, &mass_width},
        {"id", &layout.id, &id_width},
        {"group", &layout.group, &group_width},
-       {"spin", &layout.spin, &spin_width}}};
+       {"spin", &layout.spin, &spin_width},
+       {"map_shift", &layout.image, &image_width}}};
   std::string_view rest = properties;
   const auto next_word = [&rest] {
     const std::size_t end = std::min(rest.find(':'), rest.size());
@@ -269,13 +270,14 @@ void XyzReader::read_layout(std::string_view properties) {
     layout.all += width;
   }
   for (const auto& [name, begin, width] : known) {
-    const bool vector = name == "pos" || name == "velo";
-    if ((name == "group" || name == "spin") && *width == 0) continue;
+    const bool vector = name == "pos" || name == "velo" || name == "map_shift";
+    if ((name == "group" || name == "spin" || name == "map_shift") && *width == 0) continue;
     if (vector ? *width != 2 && *width != 3 : *width != 1)
       refuse(fmt::format("'{}' has {}", name, counted(*width, "column")));
   }
   layout.has_group = group_width > 0;
   layout.has_spin = spin_width > 0;
+  layout.has_image = image_width > 0;
   layout_ = layout;
   properties_ = properties;
 }
@@ -295,8 +297,9 @@ void XyzReader::read_header(XyzFrame& frame) {
   frame.time = number(value_of(line_, "Time="));
 }
 
-DiskId XyzReader::whole_number(std::string_view text, const char* what) const {
-  DiskId value = 0;
+template <class Whole>
+Whole XyzReader::whole_number(std::string_view text, const char* what) const {
+  Whole value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   if (result.ec != std::errc{} || result.ptr != text.data() + text.size())
     fail(fmt::format("'{}' is no {}", text, what));
@@ -316,7 +319,7 @@ void XyzReader::read_disk(XyzFrame& frame) const {
   flat(at.position, at.position_width);
   flat(at.velocity, at.velocity_width);
   Disks& disks = frame.disks;
-  disks.id.push_back(whole_number(columns[at.id], "disk id"));
+  disks.id.push_back(whole_number<DiskId>(columns[at.id], "disk id"));
   disks.x.push_back(number(columns[at.position]));
   disks.y.push_back(number(columns[at.position + 1]));
   disks.vx.push_back(number(columns[at.velocity]));
@@ -324,7 +327,10 @@ void XyzReader::read_disk(XyzFrame& frame) const {
   disks.radius.push_back(number(columns[at.radius]));
   disks.mass.push_back(number(columns[at.mass]));
   if (at.has_spin) disks.spin.push_back(number(columns[at.spin]));
-  if (at.has_group) frame.group.push_back(whole_number(columns[at.group], "group"));
+  if (at.has_group) frame.group.push_back(whole_number<DiskId>(columns[at.group], "group"));
+  if (!at.has_image) return;
+  frame.image_x.push_back(whole_number<std::int32_t>(columns[at.image], "number of rounds"));
+  frame.image_y.push_back(whole_number<std::int32_t>(columns[at.image + 1], "number of rounds"));
 }
 
 bool XyzReader::read(XyzFrame& frame) {
@@ -350,6 +356,8 @@ bool XyzReader::read_whole(XyzFrame& frame) {
   }
   frame.disks = {};
   frame.group.clear();
+  frame.image_x.clear();
+  frame.image_y.clear();
   const auto cut_short = [this] {
     if (!growing_) fail("the file ends inside a frame");
     return false;

@@ -84,9 +84,9 @@ class XyzReader : public TrajectoryReader {
  private:
   // Where in a line the columns begin; of `all` columns.
   struct Layout {
-    std::size_t position = 0, velocity = 0, radius = 0, mass = 0, id = 0, group = 0, spin = 0, all = 0;
+    std::size_t position = 0, velocity = 0, radius = 0, mass = 0, id = 0, group = 0, spin = 0, image = 0, all = 0;
     std::size_t position_width = 0, velocity_width = 0;
-    bool has_group = false, has_spin = false;
+    bool has_group = false, has_spin = false, has_image = false;
   };
 
   [[noreturn]] void fail(const std::string& what) const;
@@ -96,7 +96,8 @@ class XyzReader : public TrajectoryReader {
   void read_header(XyzFrame& frame);
   void read_disk(XyzFrame& frame) const;
   double number(std::string_view text) const;
-  DiskId whole_number(std::string_view text, const char* what) const;
+  template <class Whole>
+  Whole whole_number(std::string_view text, const char* what) const;
 
   std::string path_;
   bool growing_ = false;

@@ -1,6 +1,7 @@
 // carom compare with a tolerance, on chosen fields and times: what it finds, and its exit status.
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 
 #include "tests/support/command_support.hpp"
@@ -86,7 +87,8 @@ TEST_F(Compare, SpinsThatNeitherHasCannotBeCompared) {
     expect_error("$C compare a.xyz b.xyz --fields " + fields, 2,
                  "a.xyz and b.xyz: neither has spins, so that they cannot be compared; expected other --fields");
   }
-  EXPECT_EQ(compare("--tolerance 0.5 --fields x,y,vx,vy,radius,mass,spin").status, 0) << "all that there is";
+  EXPECT_EQ(compare("--tolerance 0.5 --fields x,y,vx,vy,radius,mass,spin,group,image_x,image_y").status, 0)
+      << "all that there is";
   ASSERT_EQ(carom("run small.toml --quiet -o smooth").status, 0);
   ASSERT_EQ(carom("run small.toml --quiet -o rough --set physics.roughness.tangential_restitution=0.5 --set "
                   "disks.0.spin_temperature=1")
@@ -151,6 +153,113 @@ TEST_F(Compare, TheBoxIsCompared) {
               HasSubstr("the bottom and top sides of its box are not periodic, and are in the other\n"));
 }
 
+// One frame, or more, of two disks with these last columns.
+std::string with_columns(const std::string& columns, const std::vector<std::array<std::string, 2>>& frames) {
+  std::string text;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    text += fmt::format(
+        "2\nLattice=\"10 0 0 0 8 0 0 0 1\" Origin=\"0 0 0\" pbc=\"T F F\" "
+        "Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1{} Time={}\n",
+        columns, k);
+    for (std::size_t i = 0; i < 2; ++i) text += fmt::format("X {} 4 0 1 0 0 0.5 1 {} {}\n", 2 + 3 * i, i, frames[k][i]);
+  }
+  return text;
+}
+
+TEST_F(Compare, EveryColumnOfADiskIsCompared) {
+  const std::vector<std::pair<std::string, std::string>> changes{
+      {"X 5 4", "X 5.5 4"},       {"5 4 0 1", "5 4.5 0 1"},  {"4 0 1 0", "4 0 2 0"},     {"1 0 0 0.5", "1 1 0 0.5"},
+      {"0.5 1 1", "0.25 1 1"},    {"0.5 1 1", "0.5 2 1"},    {"1 0 0 0 7", "1 0 0 0 8"}, {"1 1 0 0 0", "1 0 0 0 0"},
+      {"1 1 0 0 0", "1 1 1 0 0"}, {"1 1 0 0 0", "1 1 0 1 0"}};
+  const char* const names[] = {"x", "y", "vx", "vy", "radius", "mass", "spin", "group", "image_x", "image_y"};
+  const std::string one = with_columns(":group:I:1:map_shift:I:3:spin:R:1", {{"0 0 0 0 7", "1 0 0 0 7"}});
+  write("a.xyz", one);
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    std::string other = one;
+    const std::size_t line = other.find("\nX 5") + 1;
+    const std::size_t at = other.find(changes[k].first, line);
+    ASSERT_NE(at, std::string::npos) << names[k];
+    write("b.xyz", other.replace(at, changes[k].first.size(), changes[k].second));
+    const Outcome o = compare("");
+    EXPECT_EQ(o.status, 1) << names[k];
+    EXPECT_THAT(o.out, HasSubstr(fmt::format("different: first in frame 1 (t = 0), disk 1, {}: ", names[k])));
+    EXPECT_EQ(compare(fmt::format("--fields {}", names[k])).status, 1) << names[k];
+    EXPECT_EQ(compare(fmt::format("--fields {}", names[(k + 1) % changes.size()])).status, 0) << names[k];
+  }
+}
+
+TEST_F(Compare, AFileWithoutGroupsIsOfOne) {
+  write("a.xyz", with_columns("", {{"", ""}}));
+  write("b.xyz", with_columns(":group:I:1", {{"0", "0"}}));
+  EXPECT_EQ(compare("").status, 0);
+  write("b.xyz", with_columns(":group:I:1", {{"0", "1"}}));
+  EXPECT_THAT(compare("--tolerance 1e9").out, HasSubstr("disk 1, group: 0 against 1")) << "a group is no length";
+  EXPECT_EQ(compare("--fields x,y").status, 0);
+}
+
+// A disk beside a side may have gone round once more than one on the other side of it.
+TEST_F(Compare, RoundsAreComparedOnThePathsOfBoth) {
+  const std::string rounds = ":map_shift:I:3";
+  const std::string near_left = with_columns(rounds, {{"0 0 0", "0 0 0"}});
+  write("a.xyz", test::replaced(near_left, "X 2 4 0 1 0 0 0.5 1 0 0", "X 9.9 4 0 1 0 0 0.5 1 0 -1"));
+  write("b.xyz", test::replaced(near_left, "X 2 4", "X 0.1 4"));
+  EXPECT_EQ(compare("--tolerance 0.3").status, 0) << compare("--tolerance 0.3").out;
+  EXPECT_EQ(compare("--fields image_x").status, 0);
+  write("b.xyz", test::replaced(near_left, "X 2 4 0 1 0 0 0.5 1 0 0", "X 0.1 4 0 1 0 0 0.5 1 0 1"));
+  EXPECT_THAT(compare("--tolerance 0.3").out, HasSubstr("disk 0, image_x: -1 against 1\n"));
+  EXPECT_THAT(compare("--tolerance 0.3").out, HasSubstr("  image_x differs by at most 1, in frame 1"));
+  EXPECT_EQ(compare("--tolerance 11").status, 0) << "in the scene's units: one round is 10";
+}
+
+// They are counted from the first frame of a file, and where only some frames are compared that may be another.
+TEST_F(Compare, RoundsOfSomeFramesAreComparedWhereTheyAreAskedFor) {
+  const std::string rounds = ":map_shift:I:3";
+  write("a.xyz", with_columns(rounds, {{"0 0 0", "0 0 0"}, {"1 0 0", "2 0 0"}}));
+  write("b.xyz", with_columns(rounds, {{"0 0 0", "0 0 0"}, {"1 0 0", "1 0 0"}}));
+  EXPECT_THAT(compare("").out, HasSubstr("first in frame 2 (t = 1), disk 1, image_x: 2 against 1"));
+  EXPECT_EQ(compare("--at 1").out, "same bits in 1 frame\n");
+  EXPECT_EQ(compare("--times 1:").out, "same bits in 1 frame\n");
+  EXPECT_EQ(compare("--at 1 --fields x,image_x").status, 1);
+  write("b.xyz", with_columns("", {{"", ""}, {"", ""}}));
+  EXPECT_EQ(compare("").status, 0) << "of an earlier version, say, which did not count them";
+  expect_error("$C compare a.xyz b.xyz --fields image_y", 2, "a.xyz and b.xyz: not both have images");
+}
+
+// What one format has of a run, so has the other.
+TEST_F(Compare, BothFormatsHaveTheSame) {
+  write("two.toml", test::replaced(test::small_scene, "[run]", R"([[disks]]
+count = 2
+positions = [[1.0, 9.0], [9.0, 9.0]]
+velocities = [[9.0, 0.0], [-7.0, 0.0]]
+radius = 0.25
+mass = 2.0
+spin = 3.0
+[run]
+)"));
+  const std::string run =
+      "run two.toml --quiet --set box.left=periodic --set box.right=periodic --set "
+      "physics.roughness.tangential_restitution=0.5 ";
+  ASSERT_EQ(carom(run + "-o text").status, 0);
+  ASSERT_EQ(carom(run + "-o binary --set output.trajectory=h5md").status, 0);
+  ASSERT_EQ(carom(run + "-o deep --set output.trajectory=h5md --set output.dimensions=3").status, 0);
+  EXPECT_THAT(text_of(at("text/trajectory.xyz")), HasSubstr(":id:I:1:group:I:1:map_shift:I:3:spin:R:1"));
+  EXPECT_THAT(text_of(at("text/trajectory.xyz")), HasSubstr(" 6 1 1 0 0 ")) << "disk 6, of group 1, has gone round";
+  for (const char* const other : {"binary", "deep"}) {
+    const std::string both = fmt::format("compare text/trajectory.xyz {}/trajectory.h5", other);
+    EXPECT_EQ(carom(both).out, "same bits in all 11 frames\n") << other;
+    EXPECT_EQ(carom(both + " --fields group,image_x,image_y,spin").status, 0) << other;
+    std::string changed = text_of(at("text/trajectory.xyz"));
+    const std::size_t at_round = changed.find(" 6 1 1 0 0 ");
+    write("changed.xyz", changed.replace(at_round, 11, " 6 1 0 0 0 "));
+    EXPECT_THAT(carom(fmt::format("compare changed.xyz {}/trajectory.h5", other)).out,
+                HasSubstr("disk 6, image_x: 0 against 1"));
+    changed = text_of(at("text/trajectory.xyz"));
+    write("changed.xyz", changed.replace(at_round, 11, " 6 0 1 0 0 "));
+    EXPECT_THAT(carom(fmt::format("compare changed.xyz {}/trajectory.h5", other)).out,
+                HasSubstr("disk 6, group: 0 against 1"));
+  }
+}
+
 TEST_F(Compare, JsonHasTheNumbersOfTheText) {
   const Outcome o = compare("--json");
   EXPECT_EQ(o.status, 1);
@@ -200,6 +309,19 @@ TEST_F(CompareSummaries, KeysThatDifferAreNamed) {
   EXPECT_EQ(j["same"], false);
   EXPECT_EQ(j["different_keys"], Json({"state_hash", "pressure"}));
   EXPECT_FALSE(j.contains("frames") || j.contains("tolerance"));
+}
+
+// What scenes of some kinds have, and earlier versions did not write.
+TEST_F(CompareSummaries, FiguresThatBothHaveAreCompared) {
+  summary("a", R"({"state_hash": "00ff", "heat": {"left": 1.5}, "waiting": 0, "worst_overlap_ids": [1, 2]})");
+  summary("b", R"({"state_hash": "00ff", "heat": {"left": 2.5}, "waiting": 3, "worst_overlap_ids": [1, 3]})");
+  EXPECT_EQ(carom("compare a b").out,
+            "different: summary.json\n"
+            "  heat            {\"left\":1.5} against {\"left\":2.5}\n"
+            "  waiting         0 against 3\n"
+            "  worst_overlap_ids [1,2] against [1,3]\n");
+  summary("b", R"({"state_hash": "00ff"})");
+  EXPECT_EQ(carom("compare a b").status, 0);
 }
 
 TEST_F(CompareSummaries, WhatIsNoSummaryIsNoSameSummary) {
