@@ -5,6 +5,9 @@
 
 #include "app/cli/commands.hpp"
 #include "app/run/run_and_report.hpp"
+#include "core/base/check.hpp"
+#include "core/base/input_file.hpp"
+#include "core/scene/scene_text.hpp"
 #include "io/files/output_folder.hpp"
 #include "run/resume_checks.hpp"
 #include "run/stop_signals.hpp"
@@ -19,6 +22,20 @@ Scene scene_of(const RunRecord& record, const SceneChanges& changes) {
   return scene_as_told(changes, [&](const std::vector<Override>& overrides) {
     return parse_scene(record.scene_text, record.scene_file, "", overrides);
   });
+}
+
+// A scene.toml that somebody has edited is written anew.
+void warn_of_other_scene(const CheckpointPlace& place, const RunRecord& record) {
+  const fs::path file = present_path(place.folder, "scene.toml");
+  if (!fs::exists(file)) return;
+  try {
+    const std::string text = read_text_file(file.string(), file.string());
+    // Another version may have written the same scene in other words.
+    const auto same = [&] { return resolved_toml(parse_scene(text, "", "")) == resolved_toml(scene_of(record, {})); };
+    if (text == record.scene_text || same()) return;
+  } catch (const InputError&) {
+  }
+  print_warning(fmt::format("{} has changed: the run goes on with the scene in its checkpoint", file.string()));
 }
 
 }  // namespace
@@ -44,6 +61,7 @@ int command_resume(const ResumeOptions& options) {
     print_warning(fmt::format("{} was written by Carom {}; {} may differ from it in the last bits", options.checkpoint,
                               record.version, CAROM_VERSION));
   }
+  if (!options.quiet) warn_of_other_scene(from.place, record);
   const fs::path folder = options.folder ? fs::path(*options.folder) : from.place.folder;
   std::error_code error;
   if (!fs::equivalent(folder, from.place.folder, error)) {

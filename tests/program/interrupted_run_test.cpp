@@ -3,6 +3,7 @@
 
 #include "io/checkpoint/checkpoint.hpp"
 #include "tests/support/program_support.hpp"
+#include "tests/support/scene_support.hpp"
 
 namespace carom {
 namespace {
@@ -286,6 +287,22 @@ TEST_F(InterruptedRun, OutputsThatAreGoneAreMissed) {
 }
 
 // The engine goes on too, unless another is named; a checkpoint of another version is taken with a warning.
+// A scene.toml that was edited meanwhile does not count, and is not replaced in silence.
+TEST_F(InterruptedRun, ASceneThatWasEditedIsNotThatOfTheCheckpoint) {
+  write("scene.toml", test::busy_scene("exact", ""));
+  EXPECT_EQ(carom("run scene.toml --quiet -o d --max-walltime 1e-9").status, 4);
+  const std::string file = "d/carom-unfinished/scene.toml", kept = text_of(at(file));
+  const std::string resume = "resume d --max-walltime 1e-9", told = "carom: warning: " + file + " has changed: ";
+  EXPECT_THAT(carom(resume).err, Not(HasSubstr("has changed")));
+  write(file, "# by hand\n" + kept);
+  EXPECT_THAT(carom(resume).err, Not(HasSubstr("has changed"))) << "the same in other words";
+  for (const std::string& other : {test::replaced(kept, "t_end = 20.0", "t_end = 30.0"), kept.substr(0, 100)}) {
+    write(file, other);
+    EXPECT_THAT(carom(resume).err, StartsWith(told + "the run goes on with the scene in its checkpoint\n"));
+    EXPECT_EQ(text_of(at(file)), kept);
+  }
+}
+
 TEST_F(LongInterruptedRun, WhatACheckpointSaysOfItselfCounts) {
   ASSERT_EQ(carom("run busy.toml --quiet -o out --engine reference --max-walltime 1e-9").status, 4);
   const std::string file = at("out/carom-unfinished/checkpoint.carom").string();
