@@ -34,11 +34,29 @@ std::unique_ptr<TrajectoryReader> open_frames(const Recording& recording) {
   return open_trajectory(recording.trajectory.string(), recording.growing);
 }
 
+namespace {
+
+// A trajectory that cannot be read says so where its frames are asked for.
+bool has_other_box(const Recording& recording, const Domain& box) {
+  try {
+    TrajectoryFrame first;
+    if (!open_frames(recording)->read(first)) return false;
+    return first.box.width != box.width || first.box.height != box.height ||
+           first.box.periodic_x() != box.periodic_x() || first.box.periodic_y() != box.periodic_y();
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 std::optional<Scene> scene_of(const Recording& recording, const WarningSink& warn) {
   const fs::path file = recording.trajectory.parent_path() / "scene.toml";
   if (!fs::exists(file)) return {};
   try {
-    return load_scene(file.string());
+    Scene scene = load_scene(file.string());
+    if (!has_other_box(recording, scene.box)) return scene;
+    fail_input(file.string(), fmt::format("has another box than {}", recording.trajectory.filename().string()));
   } catch (const InputError& error) {
     warn(fmt::format("title and sides come from the trajectory alone: {}", error.what()));
     return {};

@@ -27,7 +27,8 @@ std::unique_ptr<TrajectoryReader> open_frames(const Recording& recording);
 // Takes a warning, one line.
 using WarningSink = std::function<void(std::string_view)>;
 
-// The run's own scene where it lies beside the trajectory; a warning, and none, where it cannot be read.
+// The run's own scene where it lies beside the trajectory; a warning, and none, where it cannot be read, or has another
+// box than the trajectory.
 std::optional<Scene> scene_of(const Recording& recording, const WarningSink& warn);
 
 // Throws InputError where a file is in the way.

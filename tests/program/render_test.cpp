@@ -178,6 +178,22 @@ TEST_F(Render, APictureIsOfTheFrameThatIsAskedFor) {
   EXPECT_NE(alone[0], alone[1]);
 }
 
+// The scene that lies beside a trajectory may be that of another run.
+TEST_F(Render, ASceneOfAnotherBoxIsNotThatOfTheTrajectory) {
+  const std::string told =
+      "carom: warning: title and sides come from the trajectory alone: a/scene.toml: has another box "
+      "than trajectory.xyz";
+  ASSERT_EQ(carom("run small.toml --quiet -o a --set output.movie=false").status, 0);
+  for (const char* const other : {"box.width=21", "box.height=11", "box.left=periodic --set box.right=periodic"}) {
+    ASSERT_EQ(carom(std::string("run small.toml --quiet --force -o b --set output.movie=false --set ") + other).status,
+              0);
+    ASSERT_EQ(carom("render b --force -o b.svg").err.find("warning"), std::string::npos);
+    EXPECT_EQ(shell("cp b/trajectory.xyz a").status, 0);
+    EXPECT_THAT(carom("render a --force -o a.svg").err, HasSubstr(told)) << other;
+    EXPECT_THAT(carom("view a --force -o a.html").err, HasSubstr(told)) << other;
+  }
+}
+
 TEST_F(Render, ATrajectoryWithoutAFrameHasNoPicture) {
   write("empty.xyz", "");
   for (const std::string file : {"a.png", "a.svg", "a.mp4"}) {
