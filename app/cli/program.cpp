@@ -13,6 +13,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/start_ranks.hpp"
 #include "core/base/check.hpp"
+#include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/kernel_set.hpp"
 #include "io/files/child_process.hpp"
@@ -36,6 +37,7 @@ struct Dispatch {
   RankLead* lead;
 
   int operator()(RunOptions options) const {
+    if (options.ranks) check_other_processes_have(options.scene);
     if (options.ranks && lead == nullptr) return start_ranks(*options.ranks, argc, argv);
     if (options.ranks) check_started_ranks(*options.ranks, ranks_of(*lead));
     options.lead = lead;

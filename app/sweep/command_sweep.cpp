@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -76,6 +78,7 @@ class Sweep {
  public:
   explicit Sweep(const SweepOptions& options) : options_(options), folder_(folder_of(options)) {
     for (const std::string& text : options.over) add_axis(parse_sweep_axis(text));
+    check_other_processes_have(options.scene);
     const Scene scene = load_scene_as_told(options.scene, options.changes);
     seed_ = scene.seed;
     runs_ = sweep_runs(options.changes, axes_, seed_, options.seeds);
@@ -175,8 +178,10 @@ class Sweep {
     programs.start = [&](std::size_t k) -> std::unique_ptr<ChildProcess> {
       try {
         if (!is_as_planned(*rest[k])) throw RunError(changed);
-        return std::make_unique<ChildProcess>(command_of(*rest[k], threads), fs::current_path().string(),
-                                              log_of(*rest[k]), ChildSignals::reach_it);
+        auto run = std::make_unique<ChildProcess>(command_of(*rest[k], threads), fs::current_path().string(),
+                                                  log_of(*rest[k]), ChildSignals::reach_it);
+        run->close_input();
+        return run;
       } catch (const RunError& error) {
         fail(*rest[k], error.what());
         return nullptr;
@@ -203,18 +208,24 @@ class Sweep {
         std::count_if(runs_.begin(), runs_.end(), [&](const SweepRun& r) { return finished(r); }));
   }
 
-  // One row a run that has come to its end. Returns how many of them have warnings.
-  std::size_t write_table() const {
-    std::size_t warned = 0;
+  struct TableCount {
+    std::size_t warned = 0;          // rows of runs with warnings
+    std::set<std::string> versions;  // of Carom, that made them
+  };
+
+  // One row a run that has come to its end.
+  TableCount write_table() const {
+    TableCount count;
     std::string text = table_head(axes_);
     for (const SweepRun& run : runs_) {
       if (!finished(run)) continue;
       const Json summary = summary_of(run);
       text += table_row(run, axes_.size(), summary);
-      if (!summary.value("warnings", Json()).empty()) ++warned;
+      if (!summary.value("warnings", Json()).empty()) ++count.warned;
+      count.versions.insert(summary.value("version", Json()).dump());
     }
     replace_file(folder_ / "sweep.csv", text);
-    return warned;
+    return count;
   }
 
  private:
@@ -349,11 +360,11 @@ int command_sweep(const SweepOptions& options) {
     return 0;
   }
   const SweepCount count = sweep.run_all();
-  const std::size_t warned = sweep.write_table();
+  const Sweep::TableCount rows = sweep.write_table();
   const std::string table = (sweep.folder() / "sweep.csv").string();
-  if (warned > 0) {
+  if (rows.warned > 0) {
     print_warning(fmt::format("{} of {} runs warn of their method, see the column warnings and each summary.json",
-                              warned, sweep.finished()));
+                              rows.warned, sweep.finished()));
   }
   if (count.stopped) {
     print_note(fmt::format("stopped by {} with {} of {} runs done; the same command goes on", stop_signal_name(),

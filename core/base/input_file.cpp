@@ -39,10 +39,13 @@ std::string_view kind_of(mode_t mode) {
   return "is a device";
 }
 
-// A stream that the caller has opened for this process, as a shell's <(...) is.
+// Does the path stand for what the caller has opened for this process, as a shell's <(...) does?
+bool is_of_this_process(std::string_view path) {
+  return path == "/dev/stdin" || path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/");
+}
+
 bool is_open_stream(std::string_view path, mode_t mode) {
-  const bool named = path == "/dev/stdin" || path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/");
-  return named && (S_ISFIFO(mode) || S_ISSOCK(mode) || S_ISCHR(mode));
+  return is_of_this_process(path) && (S_ISFIFO(mode) || S_ISSOCK(mode) || S_ISCHR(mode));
 }
 
 std::string system_text(int error) {
@@ -86,6 +89,10 @@ std::string read_text_file(const std::string& path, std::string_view where) {
     text.append(block.data(), static_cast<std::size_t>(n));
     check_size(static_cast<double>(text.size()));
   }
+}
+
+void check_other_processes_have(const std::string& path) {
+  if (is_of_this_process(path)) fail_input(path, "is read by several processes", "expected the name of a file");
 }
 
 void check_regular_file(const std::string& path) {

@@ -40,6 +40,9 @@ class ChildProcess {
   // Returns false when the child has stopped listening.
   bool write(const void* data, std::size_t bytes);
 
+  // Nothing more will be written: where the child reads it finds the end.
+  void close_input();
+
   // Closes the child's input and waits for it; returns its exit status, or 128 + signal.
   int wait();
 
@@ -50,8 +53,6 @@ class ChildProcess {
   void tell(int signal) const;
 
  private:
-  void close_input();
-
   pid_t pid_ = -1;
   int input_ = -1;
 };

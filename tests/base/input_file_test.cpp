@@ -46,5 +46,20 @@ TEST_F(InputFile, StandardInputIsRead) {
   EXPECT_EQ(shell("$C check /dev/stdin <small.toml").status, 0);
 }
 
+// What this process alone has open its runs and ranks cannot read. They find nothing there, and do not wait for it.
+TEST_F(InputFile, WhatSeveralProcessesReadHasAName) {
+  const std::string expected = "/dev/stdin: is read by several processes; expected the name of a file";
+  expect_error("$C sweep /dev/stdin -o s --seeds 2 <small.toml", 2, expected);
+  expect_error("cat small.toml | $C sweep /dev/fd/0 -o s --seeds 2 --emit parallel", 2,
+               "/dev/fd/0: is read by several");
+  expect_error("$C run /dev/stdin --ranks 2 <small.toml", 2, expected);
+  EXPECT_FALSE(std::filesystem::exists(at("s")));
+  write("places.csv", "1,1\n3,3\n5,5\n7,7\n9,9\n");
+  const test::Outcome o =
+      shell("$C sweep small.toml -o s --seeds 2 --set 'disks.0.positions={ file = \"/dev/stdin\" }' <places.csv");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.err, HasSubstr("run 0001: --set disks.0.positions"));
+}
+
 }  // namespace
 }  // namespace carom
