@@ -366,6 +366,10 @@ int command_sweep(const SweepOptions& options) {
     print_warning(fmt::format("{} of {} runs warn of their method, see the column warnings and each summary.json",
                               rows.warned, sweep.finished()));
   }
+  if (rows.versions.size() > 1) {
+    print_warning(fmt::format("the runs are of several versions of Carom, which may differ in the last bits: {}",
+                              fmt::join(rows.versions, ", ")));
+  }
   if (count.stopped) {
     print_note(fmt::format("stopped by {} with {} of {} runs done; the same command goes on", stop_signal_name(),
                            sweep.finished(), sweep.runs().size()));

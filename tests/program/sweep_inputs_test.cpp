@@ -126,6 +126,18 @@ TEST_F(SweepInputs, TheSameSceneInOtherWordsIsTheSame) {
   EXPECT_THAT(sweep().err, HasSubstr("its run 0001 is of another scene"));
 }
 
+TEST_F(SweepInputs, RunsOfSeveralVersionsAreToldOf) {
+  const auto runs = sweep();
+  EXPECT_THAT(runs.err, Not(HasSubstr("version")));
+  const std::string summary = text_of(at("s/runs/0001/summary.json"));
+  const std::size_t begin = summary.find("\"version\": \"") + 12;
+  const std::string version = summary.substr(begin, summary.find('"', begin) - begin);
+  write("s/runs/0001/summary.json", test::replaced(summary, "\"" + version + "\"", "\"0.0.9\""));
+  EXPECT_THAT(sweep().err, HasSubstr("warning: the runs are of several versions of Carom, which may differ in the last "
+                                     "bits: \"0.0.9\", \"" +
+                                     version + "\"\n"));
+}
+
 // The first run is at work while the file is made anew, and then killed: the second is to begin.
 TEST_F(SweepInputs, AChangeWhileTheSweepGoesOnIsSeen) {
   const Outcome o = shell(
