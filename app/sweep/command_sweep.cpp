@@ -193,7 +193,8 @@ class Sweep {
       if (status != 0) return fail(*rest[k], last_words(*rest[k], status));
       fs::remove(log_of(*rest[k]));
       if (against(*rest[k]).empty()) return;
-      fs::remove_all(folder_of(*rest[k]));  // it is none of this sweep
+      std::error_code ignored;
+      fs::remove_all(folder_of(*rest[k]), ignored);  // it is none of this sweep
       fail(*rest[k], changed);
     };
     programs.pulse = [&](std::size_t ended) { progress.update(ended, count.failed); };
@@ -258,7 +259,11 @@ class Sweep {
 
   // The scene may be edited, and files that it reads be made anew, while the sweep goes on.
   bool is_as_planned(const SweepRun& run) const {
-    return resumable(run) || fingerprint(resolved_toml(scene_of(run))) == run.scene;
+    try {
+      return resumable(run) || fingerprint(resolved_toml(scene_of(run))) == run.scene;
+    } catch (const InputError&) {
+      return false;
+    }
   }
 
   // How what there is of a run differs from what the sweep would run; empty where it does not, or there is nothing.
@@ -279,9 +284,13 @@ class Sweep {
   Complaint against_runs(const std::vector<SweepRun>& runs) const {
     for (const SweepRun& run : runs) {
       const std::string what = against(run);
-      if (!what.empty()) return {what, fmt::format("remove {} to run it again", folder_of(run).string())};
+      if (!what.empty()) return {what, to_run_again(run)};
     }
     return {};
+  }
+
+  std::string to_run_again(const SweepRun& run) const {
+    return fmt::format("remove {} to run it again", folder_of(run).string());
   }
 
   std::string log_of(const SweepRun& run) const {

@@ -140,15 +140,16 @@ TEST_F(SweepInputs, RunsOfSeveralVersionsAreToldOf) {
 
 // The first run is at work while the file is made anew, and then killed: the second is to begin.
 TEST_F(SweepInputs, AChangeWhileTheSweepGoesOnIsSeen) {
-  const Outcome o = shell(
-      "{ $C sweep scene.toml -o s --jobs 1 --over run.t_end=1e9,2e9 & until [ -e "
-      "s/runs/0001/carom-unfinished/scene.toml "
-      "]; "
-      "do sleep 0.01; done; printf '1,2\\n5,6\\n8,8\\n' > p.csv; kill -KILL $(cat /proc/$!/task/$!/children); wait $!; "
-      "}");
-  EXPECT_EQ(o.status, 1);
-  EXPECT_THAT(o.err, HasSubstr("run 0002: the scene, or a file that it reads, has changed since the sweep began\n"));
-  EXPECT_THAT(table(), Not(HasSubstr("\n0002,")));
+  for (const std::string change : {"printf '1,2\\n5,6\\n8,8\\n' > p.csv", "printf '[box' > scene.toml"}) {
+    const Outcome o = shell(
+        "{ $C sweep scene.toml -o s --force --jobs 1 --over run.t_end=1e9,2e9 & until [ -e "
+        "s/runs/0001/carom-unfinished/scene.toml ]; do sleep 0.01; done; " +
+        change + "; kill -KILL $(cat /proc/$!/task/$!/children); wait $!; }");
+    EXPECT_EQ(o.status, 1);
+    EXPECT_THAT(o.err, HasSubstr("run 0002: the scene, or a file that it reads, has changed since the sweep began\n"));
+    EXPECT_THAT(table(), Not(HasSubstr("\n0002,")));
+    fs::remove_all(at("s"));
+  }
 }
 
 // Nor is there a moment between looking and reading in which a run could begin with something else unseen.
