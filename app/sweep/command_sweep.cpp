@@ -311,7 +311,10 @@ class Sweep {
   Json summary_of(const SweepRun& run) const {
     std::ifstream file(folder_of(run) / "summary.json");
     Json summary = Json::parse(file, nullptr, false);
-    if (!summary.is_object()) fail_input((folder_of(run) / "summary.json").string(), "is no JSON");
+    if (!summary.is_object()) {
+      fail_input((folder_of(run) / "summary.json").string(), "is no JSON object",
+                 fmt::format("expected the summary of a run; {}", to_run_again(run)));
+    }
     return summary;
   }
 

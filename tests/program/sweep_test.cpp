@@ -133,10 +133,13 @@ TEST_F(SweepTest, ItsTableIsOneForOtherPrograms) {
 
 TEST_F(SweepTest, ASummaryThatIsNoneIsNamed) {
   ASSERT_EQ(carom("sweep gas.toml -o s --seeds 2").first, 0);
-  folder_.write("s/runs/0002/summary.json", "{ \"particles\": 2");
-  const auto [status, text] = carom("sweep gas.toml -o s --seeds 2");
-  EXPECT_EQ(status, 2);
-  EXPECT_THAT(text, HasSubstr("carom: error: s/runs/0002/summary.json: is no JSON\n"));
+  for (const char* const other : {"", "{ \"particles\": 2", "[]"}) {
+    folder_.write("s/runs/0002/summary.json", other);
+    const auto [status, text] = carom("sweep gas.toml -o s --seeds 2");
+    EXPECT_EQ(status, 2);
+    EXPECT_THAT(text, HasSubstr("carom: error: s/runs/0002/summary.json: is no JSON object; expected the summary of a "
+                                "run; remove s/runs/0002 to run it again\n"));
+  }
 }
 
 TEST_F(SweepTest, ListsAreValues) {
