@@ -75,9 +75,10 @@ class XyzReader : public TrajectoryReader {
   // cannot be opened.
   explicit XyzReader(const std::string& path, bool growing = false);
 
-  // The next frame, or false at the end of the file. Radius and mass always come as columns. Columns may stand in any
-  // order, positions and velocities may have two components or three, and unknown columns are skipped. Throws
-  // InputError, "file:line: what is wrong, what was expected", for a file that lacks something.
+  // The next frame, its disks in order of id, or false at the end of the file. Radius and mass always come as columns.
+  // Columns and lines may stand in any order, positions and velocities may have two components or three, and unknown
+  // columns are skipped. Throws InputError, "file:line: what is wrong, what was expected", for a file that lacks
+  // something, or whose box is not upright with a corner at 0.
   bool read(XyzFrame& frame) override;
   void follow(const std::string& path) override { path_ = path; }  // it stays open
 
@@ -94,7 +95,9 @@ class XyzReader : public TrajectoryReader {
   bool read_whole(XyzFrame& frame);
   void read_layout(std::string_view properties);
   void read_header(XyzFrame& frame);
+  Domain read_box() const;
   void read_disk(XyzFrame& frame) const;
+  void sort_by_id(XyzFrame& frame) const;
   double number(std::string_view text) const;
   template <class Whole>
   Whole whole_number(std::string_view text, const char* what) const;

@@ -1,6 +1,7 @@
 // Trajectories come back bit for bit, in order of id, and damaged ones are named by line.
 #include "io/trajectory/trajectory_xyz.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -120,6 +121,8 @@ TEST_F(TrajectoryXyz, WhatIsNotInThePlaneOrNotThereIsRefused) {
   const std::string head = "1\nLattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Properties=";
   write_text(head + "pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1 Time=0\n1 2 0.5 3 4 0 5 6 7\n");
   EXPECT_EQ(error(), path_ + ":3: z is 0.5, expected 0: disks move in a plane");
+  write_text(head + "pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1 Time=0\n1 2 0 3 4 -7 5 6 7\n");
+  EXPECT_EQ(error(), path_ + ":3: z is -7, expected 0: disks move in a plane");
   write_text(head + "pos:R:3:velo:R:3:radius:R:1:id:I:1 Time=0\n1 2 0 3 4 0 5 6\n");
   EXPECT_THAT(error(), HasSubstr(":2: expected Properties=species:S:1:pos:R:3:"));
   EXPECT_THAT(error(), HasSubstr("'mass' has 0 columns"));
@@ -127,6 +130,169 @@ TEST_F(TrajectoryXyz, WhatIsNotInThePlaneOrNotThereIsRefused) {
   EXPECT_THAT(error(), HasSubstr("'pos' has 4 columns"));
   write_text(head + "pos:R:3:velo:R:-3 Time=0\n");
   EXPECT_THAT(error(), HasSubstr("'-3' is no number of columns"));
+}
+
+constexpr const char* columns = "Properties=pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1";
+
+// What stands before the disks of a frame.
+std::string head_of(int disks, const std::string& keys) {
+  return fmt::format("{}\n{} {}", disks, columns, keys);
+}
+
+// A box that leans, or lies elsewhere, would show the disks in other places than they have in it.
+TEST_F(TrajectoryXyz, OtherBoxesAreRefused) {
+  const auto said = [&](const std::string& lattice, const std::string& more) {
+    write_text(head_of(1, fmt::format("Lattice=\"{}\" {} Time=0\n1 2 3 4 5 6 7\n", lattice, more)));
+    return error();
+  };
+  const std::string sound = "9 0 0 0 8 0 0 0 1";
+  EXPECT_EQ(said(sound, "pbc=\"T F F\""), "no error");
+  EXPECT_EQ(said(sound, "Origin=\"0 0 0\" pbc=\"T F F\""), "no error");
+  EXPECT_EQ(said("9 0 0 0 8 0 0 0 20", "pbc=\"T F F\""), "no error") << "what lies across the plane is no matter";
+  EXPECT_EQ(said("9 0 0 3 8 0 0 0 1", "pbc=\"T F F\""),
+            path_ + ":2: Lattice is \"9 0 0 3 8 0 0 0 1\", expected \"W 0 0 0 H 0 0 0 1\", W and H above 0");
+  for (const char* const bad : {"-9 0 0 0 8 0 0 0 1", "9 0 0 0 0 0 0 0 1", "9 1 0 0 8 0 0 0 1", "9 0 0 0 8 0 0 2 1"}) {
+    EXPECT_THAT(said(bad, "pbc=\"T F F\""), HasSubstr(":2: Lattice is ")) << bad;
+  }
+  for (const char* const bad : {"9 0 0 0 8", "9 0 0 0 8 0 0 0 1 0"}) {
+    EXPECT_EQ(said(bad, "pbc=\"T F F\""), path_ + ":2: expected Lattice=\"W 0 0 0 H 0 0 0 1\"") << bad;
+  }
+  EXPECT_EQ(said(sound, "Origin=\"0 -4 0\" pbc=\"T F F\""), path_ + ":2: Origin is \"0 -4 0\", expected \"0 0 0\"");
+  EXPECT_EQ(said(sound, "pbc=\"1 0 0\""), path_ + ":2: pbc has '1', expected T or F");
+  EXPECT_EQ(said(sound, "pbc=\"T F\""), path_ + ":2: expected pbc=\"T F F\"");
+}
+
+// Keys are whole words outside of quotes, and values whole numbers.
+TEST_F(TrajectoryXyz, OnlyWhatItSaysIsReadFromAHead) {
+  const std::string box = "Lattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" ";
+  const std::string disk = "\n1 2 3 4 5 6 7\n";
+  write_text("1\nRunTime=77 comment=\"at Time=5\" empty=\"\" alone Time=2 " + box + columns + disk);
+  XyzReader reader(path_);
+  XyzFrame frame;
+  ASSERT_TRUE(reader.read(frame));
+  EXPECT_EQ(frame.time, 2.0);
+  write_text("1\n" + box + columns + disk);
+  EXPECT_EQ(error(), path_ + ":2: expected Time=0.5, the time of the frame");
+  for (const char* const time : {"nan", "inf", "1.0.0"}) {
+    write_text("1\n" + box + columns + " Time=" + time + disk);
+    EXPECT_EQ(error(), fmt::format("{}:2: '{}' is no finite number", path_, time));
+  }
+  for (const char* const count : {"1.9e3", "1x", "1 disk", "-1", ""}) {
+    write_text(fmt::format("{}\n{}{} Time=0{}", count, box, columns, disk));
+    EXPECT_THAT(error(), HasSubstr(fmt::format(":1: '{}' is no number of disks", count)));
+  }
+}
+
+TEST_F(TrajectoryXyz, LinesEndAsOnOtherSystems) {
+  write_text("1 \r\nLattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0.5 " + std::string(columns) +
+             "\r\n1 2 3 4 5 6 7\r\n");
+  XyzReader reader(path_);
+  XyzFrame frame;
+  ASSERT_TRUE(reader.read(frame)) << error();
+  EXPECT_EQ(frame.time, 0.5);
+  EXPECT_FALSE(reader.read(frame));
+}
+
+// Other programs may have sorted them in another way.
+TEST_F(TrajectoryXyz, DisksComeInOrderOfIdHoweverTheyStand) {
+  const std::string head =
+      "3\nLattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0 "
+      "Properties=id:I:1:pos:R:2:velo:R:2:radius:R:1:mass:R:1:group:I:1:spin:R:1\n";
+  write_text(head + "5 1 2 3 4 .5 6 0 9\n2 11 12 13 14 .25 16 1 19\n3 21 22 23 24 .125 26 2 29\n");
+  XyzReader reader(path_);
+  XyzFrame frame;
+  ASSERT_TRUE(reader.read(frame));
+  EXPECT_THAT(frame.disks.id, ::testing::ElementsAre(2U, 3U, 5U));
+  EXPECT_THAT(frame.disks.x, ::testing::ElementsAre(11.0, 21.0, 1.0));
+  EXPECT_THAT(frame.disks.vy, ::testing::ElementsAre(14.0, 24.0, 4.0));
+  EXPECT_THAT(frame.disks.radius, ::testing::ElementsAre(0.25, 0.125, 0.5));
+  EXPECT_THAT(frame.disks.mass, ::testing::ElementsAre(16.0, 26.0, 6.0));
+  EXPECT_THAT(frame.disks.spin, ::testing::ElementsAre(19.0, 29.0, 9.0));
+  EXPECT_THAT(frame.group, ::testing::ElementsAre(1U, 2U, 0U));
+  write_text(head + "5 1 2 3 4 .5 6 0 9\n2 11 12 13 14 .25 16 1 19\n5 21 22 23 24 .125 26 2 29\n");
+  EXPECT_EQ(error(), path_ + ":5: disk 5 stands twice in its frame");
+}
+
+TEST_F(TrajectoryXyz, ValuesThatNoDiskHasAreRefused) {
+  const auto said = [&](const std::string& disk) {
+    write_text(head_of(1, "Lattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0\n" + disk + "\n"));
+    return error();
+  };
+  EXPECT_EQ(said("1 nan 3 4 5 6 7"), path_ + ":3: 'nan' is no finite number");
+  EXPECT_EQ(said("1 2 3 inf 5 6 7"), path_ + ":3: 'inf' is no finite number");
+  EXPECT_EQ(said("1 2 3 4 5 6 7.5"), path_ + ":3: '7.5' is no disk id");
+  EXPECT_EQ(said("1 2 3 4 5 6 4294967296"), path_ + ":3: '4294967296' is no disk id");
+  EXPECT_EQ(said("1 2 3 4 -5 6 7"), path_ + ":3: radius is -5, expected a number above 0");
+  EXPECT_EQ(said("1 2 3 4 5 0 7"), path_ + ":3: mass is 0, expected a number above 0");
+  EXPECT_THAT(said("1 2 3 4 5 6 7 8"), HasSubstr(":3: 8 columns, expected 7: pos:R:2"));
+}
+
+// Each frame says what columns it has.
+TEST_F(TrajectoryXyz, AFrameMayHaveOtherColumnsThanTheOneBefore) {
+  const std::string box = " Lattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0\n";
+  const std::string properties = columns;
+  write_text("1\n" + properties + ":group:I:1:spin:R:1" + box + "1 2 3 4 5 6 7 3 0.5\n1\n" + properties + box +
+             "1 2 3 4 5 6 8\n1\n" + properties + ":group:I:1" + box + "1 2 3 4 5 6 9 4\n");
+  XyzReader reader(path_);
+  XyzFrame frame;
+  ASSERT_TRUE(reader.read(frame));
+  EXPECT_THAT(frame.group, ::testing::ElementsAre(3U));
+  EXPECT_THAT(frame.disks.spin, ::testing::ElementsAre(0.5));
+  ASSERT_TRUE(reader.read(frame));
+  EXPECT_TRUE(frame.group.empty() && frame.disks.spin.empty());
+  ASSERT_TRUE(reader.read(frame));
+  EXPECT_THAT(frame.group, ::testing::ElementsAre(4U));
+}
+
+// A run that writes has come to the middle of a line: the frame is none yet, and is read from its start once it is
+// there. What is wrong in it is named by its line all the same.
+TEST_F(TrajectoryXyz, AGrowingFileIsReadOn) {
+  const std::string head = "1\nLattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0 " + std::string(columns) + "\n";
+  write_text(head + "1 2 3 4 5 6 7\n" + head + "1 2 3 4 5 6 1");
+  XyzReader reader(path_, true);
+  XyzFrame frame;
+  ASSERT_TRUE(reader.read(frame));
+  for (int k = 0; k < 3; ++k) EXPECT_FALSE(reader.read(frame));
+  std::ofstream(path_, std::ios::app) << "7\n" << head << "1 2 3 4 5 six 1\n";
+  ASSERT_TRUE(reader.read(frame));
+  EXPECT_THAT(frame.disks.id, ::testing::ElementsAre(17U));
+  try {
+    reader.read(frame);
+    FAIL() << "no error";
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.what(), path_ + ":9: 'six' is no finite number");
+  }
+}
+
+// A reader of a run that goes on sees every frame that was written.
+TEST_F(TrajectoryXyz, AFrameIsInTheFileAsSoonAsItIsWritten) {
+  XyzWriter writer(path_, {box_with_periodic_x()});
+  XyzReader reader(path_, true);
+  XyzFrame frame;
+  for (int k = 0; k < 3; ++k) {
+    writer.write(three_disks(), k);
+    ASSERT_TRUE(reader.read(frame));
+    EXPECT_EQ(frame.time, k);
+    EXPECT_FALSE(reader.read(frame));
+  }
+  EXPECT_EQ(writer.mark().frames, 3U);
+}
+
+// Rough disks in a periodic box have both columns: each under its name.
+TEST_F(TrajectoryXyz, RoundsAndSpinsStandUnderTheirNames) {
+  DisplacementTally rounds;
+  Disks disks;
+  disks.inertia = 0.5;
+  append(disks, {50.0, 0.05, 1.0, 0.0, 0.5, 2.0, 0, 0.75});
+  follow_rounds(rounds, disks, box_with_periodic_x(), 0.0);
+  XyzWriter writer(path_, {box_with_periodic_x(), {}, {}, &rounds, true});
+  writer.write(disks, 0.0);
+  writer.close();
+  EXPECT_THAT(text(), HasSubstr(":id:I:1:map_shift:I:3:spin:R:1 Time=0\nX 50 0.05 0 1 0 0 0.5 2 0 0 0 0 0.75\n"));
+  XyzReader reader(path_);
+  XyzFrame frame;
+  ASSERT_TRUE(reader.read(frame));
+  EXPECT_THAT(frame.disks.spin, ::testing::ElementsAre(0.75));
 }
 
 TEST_F(TrajectoryXyz, EveryBitComesBackInOrderOfId) {

@@ -1,0 +1,275 @@
+// Reading extended XYZ back.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <numeric>
+#include <tuple>
+
+#include "core/base/check.hpp"
+#include "core/base/input_message.hpp"
+#include "core/base/short_number.hpp"
+#include "io/trajectory/trajectory_xyz.hpp"
+
+namespace carom {
+
+XyzReader::XyzReader(const std::string& path, bool growing) : path_(path), growing_(growing), file_(path) {
+  if (!file_ || std::filesystem::is_directory(path)) {
+    throw InputError(fmt::format("{}: cannot be read; expected a trajectory in extended XYZ", path));
+  }
+}
+
+void XyzReader::fail(const std::string& what) const {
+  fail_input(fmt::format("{}:{}", path_, line_number_), what);
+}
+
+bool XyzReader::next_line() {
+  ++line_number_;
+  // A line without its end may lack digits, too.
+  return static_cast<bool>(std::getline(file_, line_)) && !(growing_ && file_.eof());
+}
+
+double XyzReader::number(std::string_view text) const {
+  double value = 0.0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !std::isfinite(value)) {
+    fail(fmt::format("'{}' is no finite number", text));
+  }
+  return value;
+}
+
+namespace {
+
+// The words of a line, split at blanks.
+std::vector<std::string_view> words(std::string_view line) {
+  std::vector<std::string_view> found;
+  while (true) {
+    const std::size_t begin = line.find_first_not_of(" \t\r");
+    if (begin == std::string_view::npos) return found;
+    line.remove_prefix(begin);
+    const std::size_t end = std::min(line.find_first_of(" \t\r"), line.size());
+    found.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+}
+
+// The value of key=value or key="several words" in a frame's second line; empty if absent.
+std::string_view value_of(std::string_view line, std::string_view key) {
+  constexpr std::string_view blanks = " \t\r";
+  const auto take = [&line](std::size_t count) {
+    const std::string_view taken = line.substr(0, count);
+    line.remove_prefix(taken.size());
+    return taken;
+  };
+  while (true) {
+    take(line.find_first_not_of(blanks));
+    if (line.empty()) return {};
+    const std::string_view name = take(line.find_first_of(" \t\r="));
+    if (take(line.starts_with('=') ? 1 : 0).empty()) continue;  // a word by itself
+    const bool quoted = !take(line.starts_with('"') ? 1 : 0).empty();
+    const std::string_view value = take(quoted ? line.find('"') : line.find_first_of(blanks));
+    if (name == key) return value;
+    if (quoted) take(1);
+  }
+}
+
+}  // namespace
+
+// name:type:number of columns, and so on.
+void XyzReader::read_layout(std::string_view properties) {
+  const auto refuse = [&](std::string_view what) {
+    fail(fmt::format("expected Properties={}, or more columns; {}", xyz_properties, what));
+  };
+  Layout layout;
+  std::size_t radius_width = 0, mass_width = 0, id_width = 0, group_width = 0, spin_width = 0, image_width = 0;
+  std::array<std::tuple<std::string_view, std::size_t*, std::size_t*>, 8> known{
+      {{"pos", &layout.position, &layout.position_width},
+       {"velo", &layout.velocity, &layout.velocity_width},
+       {"radius", &layout.radius, &radius_width},
+       {"mass", &layout.mass, &mass_width},
+       {"id", &layout.id, &id_width},
+       {"group", &layout.group, &group_width},
+       {"spin", &layout.spin, &spin_width},
+       {"map_shift", &layout.image, &image_width}}};
+  std::string_view rest = properties;
+  const auto next_word = [&rest] {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    const std::string_view word = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    return word;
+  };
+  while (!rest.empty()) {
+    const std::string_view name = next_word();
+    next_word();  // the type
+    const std::string_view width_text = next_word();
+    std::size_t width = 0;
+    const auto result = std::from_chars(width_text.data(), width_text.data() + width_text.size(), width);
+    constexpr std::size_t most_columns = 1000;  // beyond any file that makes sense
+    if (result.ec != std::errc{} || width == 0 || width > most_columns || layout.all > most_columns) {
+      refuse(fmt::format("'{}' is no number of columns", width_text));
+    }
+    for (const auto& [known_name, begin, known_width] : known) {
+      if (name != known_name) continue;
+      *begin = layout.all;
+      *known_width = width;
+    }
+    layout.all += width;
+  }
+  for (const auto& [name, begin, width] : known) {
+    const bool vector = name == "pos" || name == "velo" || name == "map_shift";
+    if ((name == "group" || name == "spin" || name == "map_shift") && *width == 0) continue;
+    if (vector ? *width != 2 && *width != 3 : *width != 1)
+      refuse(fmt::format("'{}' has {}", name, counted(*width, "column")));
+  }
+  layout.has_group = group_width > 0;
+  layout.has_spin = spin_width > 0;
+  layout.has_image = image_width > 0;
+  layout_ = layout;
+  properties_ = properties;
+}
+
+// A box of another shape, or with its corner elsewhere, would show the disks in other places than they have in it.
+Domain XyzReader::read_box() const {
+  const std::string_view edges = value_of(line_, "Lattice");
+  const auto lattice = words(edges);
+  if (lattice.size() != 9) fail("expected Lattice=\"W 0 0 0 H 0 0 0 1\"");
+  Domain box;
+  box.width = number(lattice[0]);
+  box.height = number(lattice[4]);
+  bool upright = box.width > 0.0 && box.height > 0.0;
+  for (const std::size_t k : {1U, 2U, 3U, 5U, 6U, 7U}) upright = upright && number(lattice[k]) == 0.0;
+  if (!upright) fail(fmt::format("Lattice is \"{}\", expected \"W 0 0 0 H 0 0 0 1\", W and H above 0", edges));
+  for (const std::string_view corner : words(value_of(line_, "Origin"))) {
+    if (number(corner) != 0.0) fail(fmt::format("Origin is \"{}\", expected \"0 0 0\"", value_of(line_, "Origin")));
+  }
+  const auto periodic = words(value_of(line_, "pbc"));
+  if (periodic.size() != 3) fail("expected pbc=\"T F F\"");
+  for (const std::string_view word : periodic) {
+    if (word != "T" && word != "F") fail(fmt::format("pbc has '{}', expected T or F", word));
+  }
+  if (periodic[0] == "T") box.sides[0] = box.sides[1] = SideKind::periodic;
+  if (periodic[1] == "T") box.sides[2] = box.sides[3] = SideKind::periodic;
+  return box;
+}
+
+void XyzReader::read_header(XyzFrame& frame) {
+  const std::string_view properties = value_of(line_, "Properties");
+  if (properties.empty() || properties != properties_) read_layout(properties);
+  frame.box = read_box();
+  const std::string_view time = value_of(line_, "Time");
+  if (time.empty()) fail("expected Time=0.5, the time of the frame");
+  frame.time = number(time);
+}
+
+template <class Whole>
+Whole XyzReader::whole_number(std::string_view text, const char* what) const {
+  Whole value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size())
+    fail(fmt::format("'{}' is no {}", text, what));
+  return value;
+}
+
+void XyzReader::read_disk(XyzFrame& frame) const {
+  const auto columns = words(line_);
+  const Layout& at = layout_;
+  if (columns.size() != at.all)
+    fail(fmt::format("{}, expected {}: {}", counted(columns.size(), "column"), at.all, properties_));
+  const auto flat = [&](std::size_t begin, std::size_t width) {
+    if (width == 3 && number(columns[begin + 2]) != 0.0) {
+      fail(fmt::format("z is {}, expected 0: disks move in a plane", columns[begin + 2]));
+    }
+  };
+  flat(at.position, at.position_width);
+  flat(at.velocity, at.velocity_width);
+  Disks& disks = frame.disks;
+  disks.id.push_back(whole_number<DiskId>(columns[at.id], "disk id"));
+  disks.x.push_back(number(columns[at.position]));
+  disks.y.push_back(number(columns[at.position + 1]));
+  disks.vx.push_back(number(columns[at.velocity]));
+  disks.vy.push_back(number(columns[at.velocity + 1]));
+  const auto above_zero = [&](std::size_t column, const char* what) {
+    const double value = number(columns[column]);
+    if (!(value > 0.0)) fail(fmt::format("{} is {}, expected a number above 0", what, columns[column]));
+    return value;
+  };
+  disks.radius.push_back(above_zero(at.radius, "radius"));
+  disks.mass.push_back(above_zero(at.mass, "mass"));
+  if (at.has_spin) disks.spin.push_back(number(columns[at.spin]));
+  if (at.has_group) frame.group.push_back(whole_number<DiskId>(columns[at.group], "group"));
+  if (!at.has_image) return;
+  frame.image_x.push_back(whole_number<std::int32_t>(columns[at.image], "number of rounds"));
+  frame.image_y.push_back(whole_number<std::int32_t>(columns[at.image + 1], "number of rounds"));
+}
+
+// Other programs may have written them in another order.
+void XyzReader::sort_by_id(XyzFrame& frame) const {
+  Disks& d = frame.disks;
+  if (std::adjacent_find(d.id.begin(), d.id.end(), std::greater_equal<>()) == d.id.end()) return;
+  std::vector<std::size_t> order(d.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return d.id[a] < d.id[b]; });
+  const auto same = [&](std::size_t a, std::size_t b) { return d.id[a] == d.id[b]; };
+  const auto twice = std::adjacent_find(order.begin(), order.end(), same);
+  if (twice != order.end()) {
+    const std::size_t line = line_number_ - d.size() + 1 + std::max(twice[0], twice[1]);
+    fail_input(fmt::format("{}:{}", path_, line), fmt::format("disk {} stands twice in its frame", d.id[*twice]));
+  }
+  const auto sort = [&](auto& column) {
+    const auto as_read = column;
+    for (std::size_t k = 0; k < column.size(); ++k) column[k] = as_read[order[k]];
+  };
+  for (auto* const column : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass, &d.spin}) sort(*column);
+  sort(d.id);
+  sort(frame.group);
+  sort(frame.image_x);
+  sort(frame.image_y);
+}
+
+bool XyzReader::read(XyzFrame& frame) {
+  if (!growing_) return read_whole(frame);
+  const std::streampos begin = file_.tellg();
+  const std::size_t line = line_number_;
+  if (read_whole(frame)) return true;
+  // The rest of it may come.
+  file_.clear();
+  file_.seekg(begin);
+  line_number_ = line;
+  return false;
+}
+
+bool XyzReader::read_whole(XyzFrame& frame) {
+  if (!next_line()) return false;
+  std::size_t count = 0;
+  const auto words_of_line = words(line_);
+  const std::string_view text = words_of_line.size() == 1 ? words_of_line[0] : std::string_view{};
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size()) {
+    const char* const expected =
+        line_number_ == 1 ? "; expected trajectory.xyz or trajectory.h5 of a run, or its folder" : "";
+    fail(fmt::format("'{}' is no number of disks{}", line_.substr(0, 40), expected));
+  }
+  frame.disks = {};
+  frame.group.clear();
+  frame.image_x.clear();
+  frame.image_y.clear();
+  const auto cut_short = [this] {
+    if (!growing_) fail("the file ends inside a frame");
+    return false;
+  };
+  if (!next_line()) return cut_short();
+  read_header(frame);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!next_line()) return cut_short();
+    read_disk(frame);
+  }
+  sort_by_id(frame);
+  return true;
+}
+
+}  // namespace carom
