@@ -71,6 +71,33 @@ TEST_F(Compare, FieldsAndTimesAreChosen) {
   expect_error("$C compare a.xyz b.xyz --times 1:2", 2, "a.xyz: has no frame from t = 1 to 2; expected --times within");
 }
 
+// Sums of steps: 0.1 + 0.2 is 0.30000000000000004, which is 0.3 all the same.
+TEST_F(Compare, TimesAreChosenButForRounding) {
+  write("a.xyz", trajectory({"1 2 3 4", "2 2 3 4", "3 2 3 4", "4 2 3 4"}));
+  write("b.xyz", trajectory({"1 2 3 4", "2 2 3 4", "3 2 3 4", "4.5 2 3 4"}));
+  EXPECT_EQ(compare("--times 0.3:").status, 1);
+  EXPECT_EQ(compare("--times 0.30000000000000004:").status, 1);
+  EXPECT_EQ(compare("--times :0.3").status, 1) << "the last one at 0.30000000000000004 is within";
+  EXPECT_EQ(compare("--times 0.1:0.2").status, 0);
+  EXPECT_EQ(compare("--at 0.3").status, 1);
+  EXPECT_EQ(compare("--at 0.25").status, 0) << "of two that are as near the earlier";
+  expect_error("$C compare a.xyz b.xyz --at -0.1", 2, "a.xyz: has no frame at t = -0.1; expected --at within");
+}
+
+// Left and right are periodic here, bottom and top are not.
+TEST_F(Compare, OnlyPeriodicSidesAreCrossed) {
+  write("a.xyz", trajectory({"1 0.5 3 4", "1 0.5 3 4"}));
+  write("b.xyz", trajectory({"1 7.5 3 4", "1 7.5 3 4"}));
+  EXPECT_EQ(compare("--tolerance 1").status, 1);
+  EXPECT_EQ(compare("--tolerance 7").out,
+            "the same to 7 in 2 frames\n  y       differs by at most 7, in frame 1 (t = 0), disk 0\n")
+      << "the first of those that are as large";
+  for (const char* const file : {"a.xyz", "b.xyz"}) {
+    write(file, test::replaced(test::replaced(text_of(at(file)), "T F F", "F T F"), "T F F", "F T F"));
+  }
+  EXPECT_EQ(compare("--tolerance 1").status, 0);
+}
+
 // Times of 1e-12 are those of a scene in nanometres and seconds, say.
 TEST_F(Compare, TimesAreChosenInAnyUnit) {
   write("short_a.xyz", trajectory({"1 2 3 4", "2 2 3 4", "3 2 3 4"}, 1e-12));

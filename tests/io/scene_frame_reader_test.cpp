@@ -1,0 +1,72 @@
+// The frame of a trajectory from which a scene starts: by number, by time, and the last one where neither is asked for.
+#include "io/trajectory/scene_frame_reader.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "core/base/check.hpp"
+#include "tests/support/test_folder.hpp"
+
+namespace carom {
+namespace {
+
+using testing::ElementsAre;
+
+class SceneFrames : public ::testing::Test {
+ protected:
+  // A disk at x = the number of the frame, at these times.
+  std::string with_times(const std::vector<double>& times) const {
+    std::string text;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      text += fmt::format(
+          "1\nLattice=\"10 0 0 0 8 0 0 0 1\" pbc=\"F F F\" "
+          "Properties=pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1:spin:R:1 Time={}\n{} 2 3 4 0.5 6 0 7\n",
+          times[k], k + 1);
+    }
+    return folder_.write("trajectory.xyz", text);
+  }
+  static double x_of(const FrameAsked& asked) { return read_scene_frame(asked).positions.at(0).x; }
+  static std::string complaint(const FrameAsked& asked) {
+    try {
+      read_scene_frame(asked);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  const test::TestFolder folder_{"scene_frames"};
+};
+
+TEST_F(SceneFrames, HasAllThatADiskHas) {
+  const SceneFrame frame = read_scene_frame({with_times({0.0}), {}, {}});
+  ASSERT_EQ(frame.positions.size(), 1U);
+  EXPECT_EQ(frame.positions[0].y, 2.0);
+  EXPECT_EQ(frame.velocities.at(0).x, 3.0);
+  EXPECT_EQ(frame.velocities.at(0).y, 4.0);
+  EXPECT_THAT(frame.radius, ElementsAre(0.5));
+  EXPECT_THAT(frame.mass, ElementsAre(6.0));
+  EXPECT_THAT(frame.spin, ElementsAre(7.0));
+}
+
+TEST_F(SceneFrames, IsTheOneAskedFor) {
+  const std::string file = with_times({0.0, 1.0, 2.0, 4.0});
+  EXPECT_EQ(x_of({file, {}, {}}), 4.0);
+  for (Count k = 1; k <= 4; ++k) EXPECT_EQ(x_of({file, k, {}}), static_cast<double>(k));
+  EXPECT_EQ(x_of({file, {}, 1.2}), 2.0);
+  EXPECT_EQ(x_of({file, {}, 2.9}), 3.0);
+  EXPECT_EQ(x_of({file, {}, 3.0}), 3.0) << "of two that are as near the earlier";
+  EXPECT_EQ(x_of({file, {}, 9.0}), 4.0);
+  EXPECT_EQ(x_of({folder_.path().string(), 2, {}}), 2.0) << "in the folder of a run";
+}
+
+TEST_F(SceneFrames, OneThatIsNotThereIsNamed) {
+  const std::string file = with_times({0.0, 1.0});
+  EXPECT_EQ(complaint({file, 3, {}}), file + ": there is no frame 3; expected 1 to 2");
+  EXPECT_EQ(complaint({file, 30, {}}), file + ": there is no frame 30; expected 1 to 2");
+  with_times({});
+  EXPECT_EQ(complaint({file, {}, {}}), file + ": holds no frame");
+  EXPECT_EQ(complaint({file, {}, 1.0}), file + ": holds no frame");
+}
+
+}  // namespace
+}  // namespace carom
