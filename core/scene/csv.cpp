@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -46,6 +47,16 @@ bool is_header(std::string_view line) {
   return starts_like_name(first) && starts_like_name(second) && !parse_number(first) && !parse_number(second);
 }
 
+// A heading such as "y,x" or "vy [m/s], vx [m/s]": the same but for a letter, y where the other has x.
+bool has_y_first(std::string_view heading) {
+  const std::size_t comma = heading.find(',');
+  const std::string_view first = trim(heading.substr(0, comma)), second = trim(heading.substr(comma + 1));
+  const auto [a, b] = std::mismatch(first.begin(), first.end(), second.begin(), second.end());
+  if (a == first.end() || b == second.end()) return false;
+  const bool swapped = (*a == 'y' && *b == 'x') || (*a == 'Y' && *b == 'X');
+  return swapped && std::equal(a + 1, first.end(), b + 1, second.end());
+}
+
 }  // namespace
 
 std::vector<Vec2> parse_csv_pairs(std::string_view text, const std::string& name, std::string_view key) {
@@ -62,6 +73,10 @@ std::vector<Vec2> parse_csv_pairs(std::string_view text, const std::string& name
     if (line.empty() || line[0] == '#') continue;
     const bool header = first_line && is_header(line);
     first_line = false;
+    if (header && has_y_first(line)) {
+      fail_input(fmt::format("{}:{}: {}", name, line_number, key), fmt::format("has columns {}", in_quotes(line)),
+                 "expected x first, then y");
+    }
     if (header) continue;
     const std::size_t comma = line.find(',');
     const bool pair = comma != std::string_view::npos;

@@ -10,8 +10,8 @@
 namespace carom {
 
 // The rows "x,y" of a CSV text. Blank lines and lines that start with '#' are skipped; the first other line may be a
-// header of two names. name stands for the file in messages, key for what is read. Throws InputError with
-// "name:line: key: ..." for any line that is not two finite numbers.
+// header of two names, but not of "y,x". name stands for the file in messages, key for what is read. Throws InputError
+// with "name:line: key: ..." for any line that is not two finite numbers.
 std::vector<Vec2> parse_csv_pairs(std::string_view text, const std::string& name, std::string_view key);
 
 }  // namespace carom

@@ -59,6 +59,19 @@ TEST(Csv, NamesTheLineItCannotRead) {
   EXPECT_THAT(complaint_of("1,1e999\n"), HasSubstr("p.csv:1: "));
 }
 
+// The other way round, disks would lie elsewhere without a word.
+TEST(Csv, AHeaderThatNamesYFirstIsRefused) {
+  for (const char* const heading : {"y,x", "y , x", "vy,vx", "vy [m/s],vx [m/s]", "\"y\",\"x\"", "Y,X", "y1,x1"}) {
+    EXPECT_THAT(complaint_of(std::string("# a\n") + heading + "\n1,2\n"),
+                HasSubstr("p.csv:2: disks.0.positions: has columns "))
+        << heading;
+    EXPECT_THAT(complaint_of(std::string(heading) + "\n1,2\n"), HasSubstr("; expected x first, then y")) << heading;
+  }
+  for (const char* const heading : {"x,y", "vx [m/s],vy [m/s]", "X,Y", "a,b", "lazy,lax", "yaw,xy", "y,y"}) {
+    EXPECT_EQ(parse_csv_pairs(std::string(heading) + "\n1,2\n", "p.csv", "k").size(), 1U) << heading;
+  }
+}
+
 TEST(Csv, ComplaintIsOneShortLine) {
   const std::string message = complaint_of("1\t\x01" + std::string(10000, '7') + ",\n");
   EXPECT_EQ(message.find('\n'), std::string::npos);
