@@ -100,16 +100,16 @@ Figure profile_figure(const Scene& scene, const AnalysisRecord& record) {
 
 Figure structure_figure(const Scene& scene, const AnalysisRecord& record) {
   Panel panel{"S(k)", {}, true, false};
-  double end = 1.0;
+  double end = 0.0;
   const auto add = [&](const char* name, const StructureCurve& curve) {
     if (curve.k.empty()) return;
     panel.lines.push_back(line_of(name, curve.k, curve.s));
-    end = curve.k.back();
+    end = std::max(end, curve.k.back());  // in a box that is taller than wide that is along x
   };
   add("along x", structure_along_x(record, scene));
   add("along y", structure_along_y(record, scene));
   panel.lines.push_back(level("ideal gas", end, 1.0));
-  return {heading(scene.title, "structure factor"), "wave number k", end, {panel}};
+  return {heading(scene.title, "structure factor"), "wave number k", end, {panel}, false, ""};
 }
 
 Figure order_figure(const Scene& scene, const AnalysisRecord& record) {

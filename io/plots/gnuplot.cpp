@@ -124,9 +124,9 @@ std::vector<double> label_heights(const Panel& panel, const Range& range, bool l
 }
 
 // What stands in the margin beside a line's end.
-std::string margin_name(const Line& line, double x_end) {
+std::string margin_name(const Figure& figure, const Line& line, double x_end) {
   const std::string name = shortened(line.name, name_letters);
-  return line.x.back() >= x_end ? name : name + ", gone";
+  return line.x.back() >= x_end ? name : name + figure.of_ended;
 }
 
 double right_pixels(const Figure& figure, double x_end) {
@@ -134,7 +134,7 @@ double right_pixels(const Figure& figure, double x_end) {
   for (const Panel& panel : figure.panels) {
     for (const Line& line : panel.lines) {
       if (line.x.empty() || line.style == LineStyle::guide) continue;
-      const auto letters = static_cast<double>(letters_of(margin_name(line, x_end)));
+      const auto letters = static_cast<double>(letters_of(margin_name(figure, line, x_end)));
       pixels = std::max(pixels, name_begin_pixels + letter_pixels * letters);
     }
   }
@@ -143,7 +143,8 @@ double right_pixels(const Figure& figure, double x_end) {
 
 // The name of a line in the margin, joined to the line's end; or, where it ends early, a cross there, as a stroke from
 // there to the margin would look like data.
-std::string name_commands(const Line& line, std::size_t tag, double height, double x_end, const char* colour) {
+std::string name_commands(const Figure& figure, const Line& line, std::size_t tag, double height, double x_end,
+                          const char* colour) {
   if (line.style == LineStyle::guide) {
     // Left of its end, above it: to the right there may be no room. Above its beginning where it ends at the margin.
     const bool at_end = line.x.back() < x_end;
@@ -153,7 +154,7 @@ std::string name_commands(const Line& line, std::size_t tag, double height, doub
   }
   const bool to_the_end = line.x.back() >= x_end;
   std::string text = fmt::format("set label {} {} at graph 1.035, first {} left textcolor rgb '{}'\n", tag,
-                                 gnuplot_quoted(margin_name(line, x_end)), height, colour);
+                                 gnuplot_quoted(margin_name(figure, line, x_end)), height, colour);
   const std::string end = fmt::format("first {}, first {}", line.x.back(), line.y.back());
   if (to_the_end) {
     text += fmt::format("set arrow {} from {} to graph 1.03, first {} nohead lc rgb '{}' lw 0.7\n", tag, end, height,
@@ -173,7 +174,8 @@ std::string drawn_with(const Line& line, const char* colour, bool wide) {
 }
 
 // The commands of one panel; `block` is the number of its first line in the data file.
-std::string panel_commands(const Panel& panel, std::size_t block, double x_end, bool logarithmic) {
+std::string panel_commands(const Figure& figure, const Panel& panel, std::size_t block, double x_end) {
+  const bool logarithmic = figure.logarithmic;
   const Range range = vertical_range(panel, logarithmic);
   const std::vector<double> heights = label_heights(panel, range, logarithmic);
   std::string text =
@@ -192,7 +194,7 @@ std::string panel_commands(const Panel& panel, std::size_t block, double x_end, 
     const bool plain = line.style == LineStyle::solid || line.style == LineStyle::points;
     const char* const colour = plain ? colours[k % colours.size()] : grey;
     if (line.x.empty()) continue;
-    text += name_commands(line, k + 1, heights[k], x_end, colour);
+    text += name_commands(figure, line, k + 1, heights[k], x_end, colour);
     plot += fmt::format("{} 'data' index {} {}", plot.empty() ? "plot" : ",", block + k,
                         drawn_with(line, colour, panel.wide_first && k == 0));
   }
@@ -231,7 +233,7 @@ std::string script_of(const Figure& figure) {
   std::size_t block = 0;
   for (std::size_t p = 0; p < panels; ++p) {
     if (p + 1 == panels) text += fmt::format("set xlabel {}\n", gnuplot_quoted(figure.x_label));
-    text += panel_commands(figure.panels[p], block, x_end, figure.logarithmic);
+    text += panel_commands(figure, figure.panels[p], block, x_end);
     block += figure.panels[p].bands.size() + figure.panels[p].lines.size();
   }
   return text + "unset multiplot\n";

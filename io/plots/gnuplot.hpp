@@ -39,6 +39,7 @@ struct Figure {
   double x_end = 0.0;   // the horizontal axis goes from 0 to here; a line that ends earlier gets a cross there
   std::vector<Panel> panels;
   bool logarithmic = false;  // both axes; then all x and y are above 0, and the horizontal axis begins with the data
+  const char* of_ended = ", gone";  // behind the name of a line that ends earlier
 };
 
 std::size_t letters_of(const std::string& text);
