@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -190,6 +191,88 @@ TEST(SeriesColumns, OverlapsAreThoseOfTheBoxAtTheTimeOfTheRow) {
   };
   EXPECT_EQ(overlap_at(0.0), 0.0);
   EXPECT_DOUBLE_EQ(overlap_at(0.5), 0.25);
+}
+
+// The names of all columns in their order, and each value under its own.
+TEST(Series, ValuesStandUnderTheirNames) {
+  Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 10.0);
+  scene.box.temperatures[0] = 1.0;
+  scene.box.motions[3] = {SideMotion::Kind::steady, 0.0, 0.5};
+  scene.box.inner_walls_move = true;
+  scene.physics.thermostat.kind = Thermostat::Kind::langevin;
+  scene.physics.surfaces.inertia = 0.5;
+  scene.analysis.wanted[static_cast<std::size_t>(Quantity::displacement)] = true;
+  scene.groups.resize(1);
+  scene.groups[0].count = 1;
+  scene.groups[0].name = "one";
+  Disks disks;
+  disks.inertia = 0.5;
+  append(disks, {5.0, 5.0, 3.0, 4.0, 1.0, 2.0, 0, 3.0});
+  State state;
+  state.counters.side_energy[0] = 1.5;
+  state.counters.side_energy[3] = 4.5;
+  state.counters.wall_work = 5.5;
+  state.counters.wall_push[0] = 6.5;
+  state.counters.wall_push[1] = 7.5;
+  state.counters.thermostat_heat = 8.5;
+  state.counters.collisions = 5'000'000'000;
+  const test::TestFolder folder("series_names");
+  const std::string path = folder.path() / "series.csv";
+  SeriesWriter series(path, scene);
+  series.write(disks, 0.1 + 0.2, state, 9.5);
+  series.close();
+  const std::string text = test::text_of(path);
+  EXPECT_EQ(text.substr(0, text.find('\n')),
+            "t,disks,kinetic,potential,total,px,py,collisions,wall_collisions,pressure,collision_rate,max_overlap,"
+            "removed,emitted,waiting,force_left,force_right,force_bottom,force_top,displacement,heat_left,work_top,"
+            "wall_work,wall_push_x,wall_push_y,thermostat_heat,rotational,rotational_temperature,disks_one,kinetic_one,"
+            "temperature_one,vx_one,vy_one");
+  EXPECT_THAT(text, ::testing::HasSubstr("\n0.30000000000000004,1,25,")) << "all digits of the time";
+  auto row = read_csv(path).at(0);
+  EXPECT_EQ(row["collisions"], 5e9);
+  EXPECT_EQ(row["displacement"], 9.5);
+  EXPECT_EQ(row["heat_left"], 1.5);
+  EXPECT_EQ(row["work_top"], 4.5);
+  EXPECT_EQ(row["wall_work"], 5.5);
+  EXPECT_EQ(row["wall_push_x"], 6.5);
+  EXPECT_EQ(row["wall_push_y"], 7.5);
+  EXPECT_EQ(row["thermostat_heat"], 8.5);
+  EXPECT_EQ(row["rotational"], 0.5 * 0.5 * 2.0 * 9.0);
+  EXPECT_EQ(row["kinetic_one"], 25.0);
+  EXPECT_EQ(row["vy_one"], 4.0);
+}
+
+// With the lid at 4 of 10 at the end of the interval.
+TEST(SeriesColumns, ThePressureIsThatOfTheBoxAtTheTimeOfTheRow) {
+  Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 10.0);
+  scene.box.motions[3] = {SideMotion::Kind::steady, 0.0, 3.0};
+  SeriesMeter meter(scene, false);
+  const Disks disks = test::disks_of({{2.0, 3.0, 3.0, 4.0, 0.5, 2.0}});
+  State now;
+  now.time = 2.0;
+  const SeriesRow row = meter.row(WholeDisks(disks, now.time), now, run_in_order);
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (std::string(series_columns[k].name) != "pressure") continue;
+    EXPECT_DOUBLE_EQ(row[k], 25.0 / (10.0 * 4.0));
+  }
+}
+
+// What is made of velocities that are drawn step by step means nothing.
+TEST(SeriesColumns, OfBrownianDisksWhatVelocitiesGiveIsNoNumber) {
+  Scene scene = test::scene_of(Method::pairwise, 10.0, 10.0, 0.1, 10.0);
+  scene.physics.diffusion = 1.0;
+  SeriesMeter meter(scene, false);
+  State now;
+  now.time = 1.0;
+  now.counters.wall_impulse[0] = 1.0;
+  const SeriesRow row =
+      meter.row(WholeDisks(test::disks_of({{2.0, 3.0, 3.0, 4.0, 0.5, 2.0}}), now.time), now, run_in_order);
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    const std::string name = series_columns[k].name;
+    const bool of_velocities = name == "kinetic" || name == "total" || name == "px" || name == "py" ||
+                               name == "pressure" || name.starts_with("force");
+    EXPECT_EQ(std::isnan(row[k]), of_velocities) << name;
+  }
 }
 
 }  // namespace
