@@ -4,12 +4,16 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "core/base/blocking_error.hpp"
 #include "core/load/scene_file.hpp"
+#include "io/tables/analysis_curves.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace carom {
@@ -23,10 +27,14 @@ Scene measured_scene(const std::string& more) {
       "[box]\nwidth = 8.0\nheight = 4.0\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\n"
       "top = \"periodic\"\n" +
           more +
-          "[[disks]]\ncount = 10\npositions = \"random\"\nradius = 0.1\nmass = 1.0\n"
+          "[[disks]]\nname = \"a\"\ncount = 10\npositions = \"random\"\nradius = 0.1\nmass = 1.0\n"
+          "[[disks]]\nname = \"b\"\ncount = 5\npositions = \"random\"\nradius = 0.1\nmass = 1.0\n"
           "[run]\nmethod = \"exact\"\nt_end = 63.0\n[analysis]\nwhat = [\"pair_correlation\", \"displacement\", "
-          "\"speeds\", \"density\", \"pressure\", \"collision_rate\", \"profile\", \"bond_order\"]\nevery = 1.0\n"
-          "density = { bins = 2, every = 32.0 }\nprofile = { bins = 2, every = 32.0, axis = \"x\" }\n",
+          "\"speeds\", \"density\", \"pressure\", \"collision_rate\", \"profile\", \"bond_order\", "
+          "\"structure_factor\", \"velocity_autocorrelation\", \"bond_correlation\", \"bond_autocorrelation\"]\n"
+          "every = 1.0\npair_correlation = { r_max = 1.5, bins = 3, groups = [\"a\", \"b\"] }\n"
+          "structure_factor = { wave_numbers = 2 }\nbond_correlation = { r_max = 1.0, bins = 2 }\n"
+          "density = { bins = 2, every = 32.0 }\nprofile = { bins = 2, every = 40.0, axis = \"x\" }\n",
       "scene", "");
 }
 
@@ -50,9 +58,15 @@ AnalysisRecord made_by_hand(const Scene& scene) {
     s.collision_rate.push_back(in_pairs(k + 1));
     s.local_order.push_back(0.1 * in_pairs(k));
     s.global_order.push_back(0.01 * in_pairs(k));
+    s.autocorrelation.push_back(100.0 - k);
+    s.bond_autocorrelation.push_back(1.0 - 0.01 * k);
   }
   record.displacement.doubtful = 5;
   record.pairs.centres = 7 * samples;
+  record.pairs.counts = {10, 20, 30};
+  for (const Count of_groups : {1U, 2U, 3U}) record.partial[of_groups - 1].counts = {of_groups, 0, 7 * of_groups};
+  record.structure = {{2.0, 4.0}, {6.0, 8.0}, 2};
+  record.bonds = {{3.0, 1.0}, {4, 2}, samples};
   record.speeds.samples = samples;
   record.speeds.beyond = 6;
   record.speeds.temperature_sum = 1.5 * samples;
@@ -68,9 +82,11 @@ class AnalysisFile : public ::testing::Test {
  protected:
   void write(const std::string& more) {
     const Scene scene = measured_scene(more);
-    const std::string path = (folder_.path() / "analysis.h5").string();
-    write_analysis(path, scene, made_by_hand(scene));
-    file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    write(scene, made_by_hand(scene));
+  }
+  void write(const Scene& scene, const AnalysisRecord& record) {
+    write_analysis(path_, scene, record);
+    file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     ASSERT_GE(file_, 0);
   }
   void TearDown() override { H5Fclose(file_); }
@@ -101,8 +117,10 @@ class AnalysisFile : public ::testing::Test {
     return text.c_str();
   }
 
- private:
   test::TestFolder folder_{"analysis_file"};
+  const std::string path_ = (folder_.path() / "analysis.h5").string();
+
+ private:
   hid_t file_ = -1;
 };
 
@@ -145,6 +163,97 @@ TEST_F(AnalysisFile, RowsOfProfilesStandOneAfterTheOther) {
 TEST_F(AnalysisFile, DiffusionAcrossAShearFlowIsThatOfOneDimension) {
   write("shear_rate = 0.1\n");
   EXPECT_DOUBLE_EQ(number("/displacement", "diffusion"), 3.0 / 2.0);
+}
+
+TEST_F(AnalysisFile, EachCurveIsItsOwn) {
+  write("");
+  const SampleSeries series = made_by_hand(measured_scene("")).series;
+  constexpr double pi = std::numbers::pi;
+  EXPECT_EQ(numbers("/profile/velocity_x"), (std::vector<double>{1.0, 2.0}));
+  EXPECT_EQ(numbers("/profile/velocity_y"), (std::vector<double>{3.0, 4.0}));
+  EXPECT_EQ(numbers("/density/centres"), (std::vector<double>{8.0, 4.0}));
+  EXPECT_EQ(numbers("/density/number_density"), (std::vector<double>{0.125, 0.0625}));
+  EXPECT_EQ(numbers("/structure_factor/kx"), (std::vector<double>{2.0 * pi / 8.0, 4.0 * pi / 8.0}));
+  EXPECT_EQ(numbers("/structure_factor/ky"), (std::vector<double>{2.0 * pi / 4.0, 4.0 * pi / 4.0}));
+  EXPECT_EQ(numbers("/structure_factor/along_x"), (std::vector<double>{1.0, 2.0}));
+  EXPECT_EQ(numbers("/structure_factor/along_y"), (std::vector<double>{3.0, 4.0}));
+  EXPECT_EQ(numbers("/velocity_autocorrelation/value"), series.autocorrelation);
+  EXPECT_EQ(numbers("/bond_autocorrelation/value"), series.bond_autocorrelation);
+  EXPECT_EQ(numbers("/bond_correlation/r"), (std::vector<double>{0.25, 0.75}));
+  EXPECT_EQ(numbers("/bond_correlation/g6"), (std::vector<double>{0.75, 0.5}));
+  EXPECT_EQ(numbers("/bond_correlation/pairs"), (std::vector<double>{4.0, 2.0}));
+  EXPECT_EQ(numbers("/pair_correlation/pairs"), (std::vector<double>{10.0, 20.0, 30.0}));
+  EXPECT_EQ(number("/pair_correlation", "bin_width"), 0.5);
+  EXPECT_EQ(numbers("/pair_correlation/partial/pairs:a:a"), (std::vector<double>{1.0, 0.0, 7.0}));
+  EXPECT_EQ(numbers("/pair_correlation/partial/pairs:a:b"), (std::vector<double>{2.0, 0.0, 14.0}));
+  EXPECT_EQ(numbers("/pair_correlation/partial/pairs:b:b"), (std::vector<double>{3.0, 0.0, 21.0}));
+  EXPECT_EQ(numbers("/pair_correlation/partial/g:a:b").size(), 3U);
+}
+
+TEST_F(AnalysisFile, ErrorsAndTimesOfRowsAreTheirOwn) {
+  write("");
+  EXPECT_NEAR(number("/displacement", "diffusion_error"), 0.0, 1e-12) << "of a straight line";
+  EXPECT_EQ(number("/displacement", "diffusion_from"), 32.0) << "the second half of the samples";
+  EXPECT_NEAR(number("/pressure", "standard_deviation"), 1.0, 1e-2) << "of 3 and 1";
+  EXPECT_EQ(numbers("/density/rows/time"), (std::vector<double>{0.0, 32.0}));
+  EXPECT_EQ(numbers("/profile/rows/time"), (std::vector<double>{0.0, 40.0}));
+  EXPECT_EQ(numbers("/density/rows/samples"), (std::vector<double>{2.0, 2.0}));
+  EXPECT_EQ(numbers("/profile/rows/samples"), (std::vector<double>{1.0, 1.0}));
+  EXPECT_EQ(numbers("/profile/rows/disks"), (std::vector<double>{1.0, 1.0, 1.0, 1.0}));
+}
+
+// A run that ended before its first sample leaves a file as well.
+TEST_F(AnalysisFile, WithoutSamplesItsListsAreEmpty) {
+  const Scene scene = measured_scene("");
+  write(scene, empty_record(scene));
+  EXPECT_TRUE(numbers("/samples/time").empty());
+  EXPECT_TRUE(numbers("/displacement/mean_square").empty());
+  EXPECT_TRUE(numbers("/density/rows/number_density").empty());
+  for (const AnalysisCurve& curve : read_analysis_curves(path_, 100)) EXPECT_FALSE(curve.in_time) << curve.name;
+}
+
+TEST_F(AnalysisFile, ItsCurvesAreReadBack) {
+  write("");
+  std::map<std::string, AnalysisCurve> curves;
+  for (const AnalysisCurve& curve : read_analysis_curves(path_, samples)) curves[curve.name] = curve;
+  const SampleSeries series = made_by_hand(measured_scene("")).series;
+  EXPECT_EQ(curves.size(), 16U);
+  EXPECT_EQ(curves["psi6, local"].y, series.local_order);
+  EXPECT_EQ(curves["psi6, global"].y, series.global_order);
+  EXPECT_EQ(curves["pressure of samples"].x, series.time);
+  EXPECT_TRUE(curves["pressure of samples"].in_time);
+  EXPECT_EQ(curves["S(kx)"].x, numbers("/structure_factor/kx"));
+  EXPECT_EQ(curves["S(ky)"].x, numbers("/structure_factor/ky"));
+  EXPECT_EQ(curves["S(ky)"].y, (std::vector<double>{3.0, 4.0}));
+  EXPECT_FALSE(curves["S(ky)"].in_time);
+  EXPECT_EQ(curves["g6(r)"].y, (std::vector<double>{0.75, 0.5}));
+  EXPECT_EQ(curves["mean vy (position)"].y, (std::vector<double>{3.0, 4.0}));
+}
+
+// No more points than asked for, each with its own time.
+TEST_F(AnalysisFile, OfLongCurvesEvenlyChosenPointsAreReadBack) {
+  write("");
+  for (const std::size_t most : {63U, 32U, 31U, 10U, 2U}) {
+    for (const AnalysisCurve& curve : read_analysis_curves(path_, most)) {
+      EXPECT_LE(curve.y.size(), most) << curve.name;
+      EXPECT_EQ(curve.x.size(), curve.y.size()) << curve.name;
+    }
+  }
+  const std::vector<AnalysisCurve> curves = read_analysis_curves(path_, 32);
+  const auto of = [](const AnalysisCurve& curve) { return curve.name == "mean v(0) v(t), 1 point of 2"; };
+  const auto found = std::find_if(curves.begin(), curves.end(), of);
+  ASSERT_NE(found, curves.end());
+  for (std::size_t k = 0; k < 32; ++k) EXPECT_EQ(found->y[k], 100.0 - found->x[k]);
+  EXPECT_EQ(found->x.back(), 62.0);
+}
+
+// Of a file in which they have other lengths, nothing is shown against times that are not theirs.
+TEST_F(AnalysisFile, CurvesOfOtherLengthsThanTheirTimesAreLeftOut) {
+  const Scene scene = measured_scene("");
+  AnalysisRecord record = made_by_hand(scene);
+  record.series.autocorrelation.pop_back();
+  write(scene, record);
+  for (const AnalysisCurve& curve : read_analysis_curves(path_, 100)) EXPECT_NE(curve.name, "mean v(0) v(t)");
 }
 
 }  // namespace
