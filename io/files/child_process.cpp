@@ -11,7 +11,9 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include "core/base/check.hpp"
 
@@ -23,7 +25,9 @@ std::string find_program(const std::string& name) {
   while (!rest.empty()) {
     const std::size_t end = rest.find(':');
     const std::string candidate = fmt::format("{}/{}", rest.substr(0, end), name);
-    if (access(candidate.c_str(), X_OK) == 0) return candidate;
+    std::error_code error;
+    const bool is_file = std::filesystem::is_regular_file(candidate, error);  // folders can be "executed", too
+    if (is_file && access(candidate.c_str(), X_OK) == 0) return candidate;
     rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
   }
   return {};
