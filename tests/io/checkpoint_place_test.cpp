@@ -1,0 +1,232 @@
+// Which checkpoint of a run is found, what is said where there is none, and contents that no run writes.
+#include "io/checkpoint/checkpoint_place.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <limits>
+
+#include "core/base/check.hpp"
+#include "io/checkpoint/checkpoint.hpp"
+#include "io/files/block_hash.hpp"
+#include "io/files/checkpoint_names.hpp"
+#include "io/files/output_folder.hpp"
+#include "tests/support/test_folder.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string complaint_of(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+State two_disks() {
+  State state;
+  for (DiskId id = 0; id < 2; ++id) append(state.disks, {1.0 * id, 2.0, 3.0, 4.0, 0.5 + id, 1.0 + id, id});
+  state.next_id = 2;
+  return state;
+}
+
+class CheckpointFolder : public ::testing::Test {
+ protected:
+  CheckpointFolder() { fs::create_directories(run_ / unfinished_name); }
+  void save(const fs::path& file) const { write_checkpoint(file.string(), {}, two_disks()); }
+  std::string complaint() const {
+    return complaint_of([&] { read_checkpoint_at(find_checkpoint(run_.string())); });
+  }
+  const test::TestFolder folder_{::testing::UnitTest::GetInstance()->current_test_info()->name()};
+  const fs::path run_ = folder_.path() / "run";
+  const fs::path unfinished_ = run_ / unfinished_name;
+};
+
+// A power cut may come where the newest has no name, on file systems without hard links.
+TEST_F(CheckpointFolder, TheOneBeforeServesWhereItIsAlone) {
+  save(unfinished_ / previous_checkpoint_name);
+  const CheckpointPlace place = find_checkpoint(run_.string());
+  EXPECT_EQ(place.file, unfinished_ / previous_checkpoint_name);
+  EXPECT_EQ(place.folder, run_);
+  EXPECT_FALSE(place.finished);
+}
+
+// Of a run that goes on after its end, that of the unfinished part comes first.
+TEST_F(CheckpointFolder, TheUnfinishedPartComesFirst) {
+  save(run_ / checkpoint_name);
+  EXPECT_TRUE(find_checkpoint(run_.string()).finished);
+  save(unfinished_ / checkpoint_name);
+  EXPECT_FALSE(find_checkpoint(run_.string()).finished);
+  EXPECT_TRUE(find_checkpoint((run_ / checkpoint_name).string()).finished) << "but where it is named itself";
+}
+
+TEST_F(CheckpointFolder, IsFoundFromWithin) {
+  save(unfinished_ / checkpoint_name);
+  const fs::path here = fs::current_path();
+  fs::current_path(unfinished_);
+  const CheckpointPlace place = find_checkpoint(checkpoint_name);
+  EXPECT_EQ(fs::canonical(place.folder), fs::canonical(run_));
+  EXPECT_FALSE(place.finished);
+  fs::current_path(run_);
+  EXPECT_EQ(fs::canonical(find_checkpoint(".").folder), fs::canonical(run_));
+  EXPECT_EQ(fs::canonical(find_checkpoint(std::string(unfinished_name) + "/" + checkpoint_name).folder),
+            fs::canonical(run_));
+  fs::current_path(here);
+}
+
+TEST_F(CheckpointFolder, WhereThereIsNoneItSaysWhatThereIs) {
+  EXPECT_THAT(complaint(), EndsWith("run: holds no checkpoint; expected a checkpoint, or the folder of a run that "
+                                    "wrote one"));
+  folder_.write("run/summary.json", "{}");
+  EXPECT_THAT(complaint(), HasSubstr("run: holds a finished run that kept no checkpoint; to go further, run it once "
+                                     "more with one: carom run "));
+  save(run_ / previous_checkpoint_name);
+  EXPECT_THAT(complaint(), HasSubstr("run: has lost its checkpoint.carom; the one before it is there: carom resume "));
+}
+
+TEST_F(CheckpointFolder, TheOneBeforeIsNamedWhereItHelps) {
+  folder_.write("run/" + std::string(unfinished_name) + "/" + checkpoint_name, "damaged");
+  EXPECT_THAT(complaint(), Not(HasSubstr("before")));
+  save(unfinished_ / previous_checkpoint_name);
+  EXPECT_THAT(complaint(), HasSubstr("; the one before it is whole: carom resume "));
+  // It has none before itself.
+  folder_.write("run/" + std::string(unfinished_name) + "/" + previous_checkpoint_name,
+                test::text_of(unfinished_ / previous_checkpoint_name).substr(0, 100));
+  const std::string previous = (unfinished_ / previous_checkpoint_name).string();
+  const std::string said = complaint_of([&] { read_checkpoint_at(find_checkpoint(previous)); });
+  EXPECT_EQ(said, previous + ": is damaged: it was cut short or changed after it was written");
+}
+
+// Neither one waits for what will never come.
+TEST_F(CheckpointFolder, APipeIsNoCheckpoint) {
+  const std::string pipe = (unfinished_ / checkpoint_name).string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(complaint_of([&] { read_checkpoint(pipe); }), HasSubstr(pipe));
+  EXPECT_THAT(complaint_of([&] { read_checkpoint_in_pieces(pipe); }), HasSubstr(pipe));
+}
+
+// --- Contents behind a checksum that is right -----------------------------------------------------------------------
+
+class CheckpointBytes : public ::testing::Test {
+ protected:
+  // What reading these bytes complains of, from memory, from a file, and with its disks left there.
+  std::string complaint(const std::string& bytes) const {
+    const std::string file = folder_.write("c.carom", bytes);
+    const std::string said = complaint_of([&] { checkpoint_from_bytes(bytes, file); });
+    EXPECT_EQ(complaint_of([&] { read_checkpoint(file); }), said);
+    EXPECT_EQ(complaint_of([&] { read_checkpoint_in_pieces(file); }), said);
+    return said;
+  }
+  std::string complaint(const RunRecord& record, const State& state) const {
+    return complaint(checkpoint_bytes(record, state));
+  }
+  // With so many bytes of content, and a checksum that goes with it.
+  static std::string signed_again(std::string bytes, std::uint64_t content) {
+    std::memcpy(&bytes[bytes.size() - 16], &content, 8);
+    BlockHash hash;
+    hash.add(bytes.data(), bytes.size() - 8);
+    const std::uint64_t sum = hash.value();
+    std::memcpy(&bytes[bytes.size() - 8], &sum, 8);
+    return bytes;
+  }
+  static std::uint64_t content_of(const std::string& bytes) {
+    std::uint64_t content = 0;
+    std::memcpy(&content, &bytes[bytes.size() - 16], 8);
+    return content;
+  }
+  const test::TestFolder folder_{"checkpoint_bytes"};
+};
+
+TEST_F(CheckpointBytes, ItsLengthIsTheOneThatItSays) {
+  const std::string whole = checkpoint_bytes({}, two_disks());
+  const std::uint64_t content = content_of(whole);
+  EXPECT_EQ(complaint(signed_again(whole, content)), "");
+  for (const std::uint64_t other : {content + 8, content - 8, std::uint64_t{0}, std::uint64_t{1} << 63}) {
+    EXPECT_THAT(complaint(signed_again(whole, other)), HasSubstr("is damaged")) << other;
+  }
+  std::string longer = whole;
+  longer.insert(longer.size() - 16, std::string(8, '\0'));
+  EXPECT_THAT(complaint(signed_again(longer, content)), HasSubstr("is damaged"));
+  EXPECT_THAT(complaint(signed_again(longer, content + 8)), HasSubstr("goes on where it should end"));
+}
+
+TEST_F(CheckpointBytes, NothingIsOfDisksThatWereNeverMade) {
+  State state = two_disks();
+  state.last_contact = {1.0, 2.0, 3.0};
+  EXPECT_THAT(complaint({}, state), HasSubstr("has contact times of disks that were never made"));
+  state = two_disks();
+  state.thermal_hits = {1, 2, 3};
+  EXPECT_THAT(complaint({}, state), HasSubstr("has reflections of disks that were never made"));
+  state = two_disks();
+  state.disks.id = {0, 2};
+  EXPECT_THAT(complaint({}, state), HasSubstr("has a disk that was never made"));
+  state = two_disks();
+  state.disks.spin = {1.0, 2.0};
+  EXPECT_THAT(complaint({}, state), HasSubstr("has spins of other disks"));
+  state = two_disks();
+  state.disks.inertia = 0.5;
+  state.disks.spin = {1.0};
+  EXPECT_THAT(complaint({}, state), HasSubstr("has spins of other disks"));
+}
+
+TEST_F(CheckpointBytes, ColumnsAreOfTheSameDisks) {
+  for (const auto column : {&Disks::x, &Disks::y, &Disks::vx, &Disks::vy, &Disks::radius, &Disks::mass}) {
+    State state = two_disks();
+    (state.disks.*column).pop_back();
+    EXPECT_THAT(complaint({}, state), HasSubstr("has columns of different lengths"));
+    const bool needed = column != &Disks::radius && column != &Disks::mass;
+    (state.disks.*column).clear();
+    EXPECT_THAT(complaint({}, state), needed ? HasSubstr("has columns of different lengths") : HasSubstr(""));
+  }
+}
+
+TEST_F(CheckpointBytes, ItNamesFilesOfItsFolderAlone) {
+  for (const char* const name : {"", "..", "/etc/passwd", "../trajectory.xyz", "a/b"}) {
+    RunRecord record;
+    record.outputs.trajectory = FileMark{name, 1, 1};
+    EXPECT_THAT(complaint(record, two_disks()), HasSubstr("names a file outside its folder")) << name;
+  }
+  RunRecord record;
+  record.outputs.trajectory = FileMark{"trajectory.xyz", 1, 1};
+  EXPECT_EQ(complaint(record, two_disks()), "");
+}
+
+// A flag is 0 or 1, and no list is longer than what is left of the file, however wide its entries.
+TEST_F(CheckpointBytes, FlagsAndLengthsAreChecked) {
+  State state = two_disks();
+  const std::string whole = checkpoint_bytes({}, state);
+  // Columns begin with their length: two entries, then 0 and 1, the places of the disks.
+  const std::uint64_t two = 2;
+  const double places[] = {0.0, 1.0};
+  std::string column(reinterpret_cast<const char*>(&two), 8);
+  column.append(reinterpret_cast<const char*>(places), 16);
+  const std::size_t at = whole.find(column);
+  ASSERT_NE(at, std::string::npos);
+  for (const std::uint64_t entries : {whole.size() / 8, whole.size() / 2, std::size_t{1} << 61}) {
+    std::string spoilt = whole;
+    std::memcpy(&spoilt[at], &entries, 8);
+    EXPECT_THAT(complaint(signed_again(spoilt, content_of(whole))), HasSubstr("has a list longer than itself"));
+  }
+  State begun = state;
+  begun.step_begun = true;
+  const std::string other = checkpoint_bytes({}, begun);
+  std::size_t flag = 0;
+  while (whole[flag] == other[flag]) ++flag;
+  std::string spoilt = whole;
+  spoilt[flag] = 2;
+  EXPECT_THAT(complaint(signed_again(spoilt, content_of(whole))), HasSubstr("has a flag that is neither 0 nor 1"));
+}
+
+}  // namespace
+}  // namespace carom
