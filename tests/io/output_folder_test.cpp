@@ -209,5 +209,118 @@ TEST_F(OutputFolderTest, AFileReplacesAFileOnly) {
   EXPECT_TRUE(fs::is_fifo(base_ / "pipe.csv"));
 }
 
+TEST_F(OutputFolderTest, AStoppedRunIsGoneOnWithWhereItCanBe) {
+  const fs::path unfinished = base_ / "out" / unfinished_name;
+  fs::create_directories(unfinished);
+  EXPECT_THAT(refusal(base_ / "out", false), ::testing::Not(HasSubstr("carom resume")));
+  write_file(unfinished / "checkpoint.carom", "");
+  EXPECT_THAT(refusal(base_ / "out", false), HasSubstr("); go on with carom resume "));
+}
+
+TEST_F(OutputFolderTest, TheRootAndTheCurrentFolderAreKnown) {
+  for (const char* const root : {"/", "//", "/tmp/.."}) {
+    EXPECT_THAT(refusal(root, true), HasSubstr(": is the root of all folders; expected one of the run's own")) << root;
+  }
+  const fs::path here = fs::current_path();
+  fs::create_directories(base_ / "here");
+  fs::current_path(base_ / "here");
+  { OutputFolder("", base_ / "input.toml", false).finish(); }
+  run("", "1", false);
+  EXPECT_EQ(text(base_ / "here" / "summary.json"), "1");
+  fs::current_path(here);
+}
+
+// A run that goes on takes back what it goes on with, and all results of a run that was finished; what is in the
+// unfinished part already is newer.
+TEST_F(OutputFolderTest, WhatARunGoesOnWithIsTakenBack) {
+  const fs::path folder = base_ / "out";
+  run(folder, "first", false);
+  for (const char* const name : {"series.csv", "trajectory.xyz", "energy.svg"}) write_file(folder / name, "old");
+  fs::create_directories(folder / unfinished_name);
+  write_file(folder / unfinished_name / "series.csv", "new");
+  {
+    OutputFolder going_on{folder};
+    going_on.take_back(false, {"series.csv", "trajectory.xyz", "none.csv"});
+    EXPECT_EQ(text(folder / unfinished_name / "series.csv"), "new");
+    EXPECT_EQ(text(folder / unfinished_name / "trajectory.xyz"), "old");
+    EXPECT_TRUE(fs::exists(folder / "energy.svg") && fs::exists(folder / "summary.json"));
+    EXPECT_EQ(present_path(folder, "series.csv"), folder / unfinished_name / "series.csv") << "of both the newer";
+    EXPECT_EQ(present_path(folder, "energy.svg"), folder / "energy.svg");
+    going_on.take_back(true, {});
+    for (const char* const name : {"energy.svg", "summary.json"}) {
+      EXPECT_FALSE(fs::exists(folder / name)) << name;
+      EXPECT_TRUE(fs::exists(folder / unfinished_name / name)) << name;
+    }
+  }
+  EXPECT_TRUE(fs::exists(folder / unfinished_name / "energy.svg")) << "of a run that goes on nothing is removed";
+}
+
+TEST_F(OutputFolderTest, CheckpointsStayWhereTheyAreAskedFor) {
+  for (const bool keep : {false, true}) {
+    OutputFolder out(base_ / "out", base_ / "input.toml", true);
+    for (const char* const name : {"checkpoint.carom", "checkpoint.previous.carom", "summary.json"}) {
+      write_file(out.path(name), name);
+    }
+    out.finish(keep);
+    EXPECT_EQ(fs::exists(base_ / "out" / "checkpoint.carom"), keep);
+    EXPECT_EQ(fs::exists(base_ / "out" / "checkpoint.previous.carom"), keep);
+  }
+}
+
+// The folder of a run that still writes: one that comes second takes nothing away, and one that has ended gives up its
+// lock.
+TEST_F(OutputFolderTest, WhoComesSecondTakesNothingAway) {
+  const fs::path folder = base_ / "out";
+  {
+    OutputFolder first(folder, base_ / "input.toml", false);
+    write_file(first.path("series.csv"), "t\n");
+    EXPECT_TRUE(is_being_written(folder));
+    EXPECT_THROW(OutputFolder{folder}, InputError);
+    EXPECT_EQ(text(folder / unfinished_name / "series.csv"), "t\n");
+    first.keep_unfinished();
+  }
+  EXPECT_FALSE(is_being_written(folder));
+  OutputFolder second{folder};
+  EXPECT_TRUE(is_being_written(folder));
+  second.finish();
+  EXPECT_FALSE(is_being_written(folder));
+}
+
+TEST_F(OutputFolderTest, TheNextFreeFolderIsTaken) {
+  const fs::path input = base_ / "input.toml";
+  EXPECT_EQ(free_output_folder(base_ / "out", input), base_ / "out");
+  run(base_ / "out", "1", false);
+  run(base_ / "out-2", "2", false);
+  write_file(base_ / "out-3", "a file");
+  EXPECT_EQ(free_output_folder(base_ / "out", input), base_ / "out-4");
+  EXPECT_THROW(free_output_folder(base_ / "out-3", input), InputError) << "a file is no folder of an earlier run";
+}
+
+TEST_F(OutputFolderTest, AFileIsGoneOnWithToTheByte) {
+  const std::string file = base_ / "series.csv";
+  write_file(file, "12345");
+  { OutputFile(file, 3).write("x"); }
+  EXPECT_EQ(text(file), "123x");
+  { OutputFile whole(file, 4); }
+  EXPECT_EQ(text(file), "123x");
+  try {
+    OutputFile(file, 5);
+    FAIL() << "no error";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), (file + ": has 4 bytes; expected 5 or more, as when the checkpoint was made").c_str());
+  }
+  EXPECT_EQ(text(file), "123x") << "nothing is touched";
+  for (const std::uint64_t bytes : {0U, 5U}) EXPECT_THROW(OutputFile(base_ / "none.csv", bytes), InputError) << bytes;
+  EXPECT_FALSE(fs::exists(base_ / "none.csv"));
+}
+
+// What fits into the buffer is written when the file is closed.
+TEST_F(OutputFolderTest, AFullDiskIsSeenWhenAFileIsClosed) {
+  EXPECT_THROW(write_file("/dev/full", "a"), RunError);
+  OutputFile file("/dev/full");
+  file.write("a");
+  EXPECT_THROW(file.flush(), RunError);
+}
+
 }  // namespace
 }  // namespace carom
