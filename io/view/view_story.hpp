@@ -22,7 +22,8 @@ struct ViewSeries {
 };
 
 // Rows evenly chosen, so that there are at most so many values, but two rows at least. Columns without any number are
-// left out. Throws InputError where the text is no table; name is the file's, for the message.
+// left out, and so is a last line without its end, as of a run that was killed. Throws InputError where the text is no
+// table; name is the file's, for the message.
 ViewSeries read_view_series(std::string_view csv, std::size_t most_values, const std::string& name);
 
 struct ViewSource {

@@ -255,7 +255,22 @@ TEST(ViewSeries, ColumnsOfNumbersAndNoMoreRowsThanAskedFor) {
   EXPECT_EQ(series.columns[0].size(), 25U);
   EXPECT_EQ(series.columns[0][1], 4.0);
   EXPECT_EQ(read_view_series("t,kinetic\n0,1\n1,2\n2", 30, "s").columns[1].size(), 2U) << "a row that breaks off";
-  EXPECT_THROW(read_view_series("t,kinetic\n0,1\n1\n2,3\n", 30, "s"), InputError);
+  EXPECT_EQ(read_view_series("t,kinetic\n0,1\n1,2.5\n2,3.", 30, "s").columns[1], (std::vector<double>{1.0, 2.5}))
+      << "a number that may lack digits";
+  EXPECT_EQ(read_view_series("t,kinetic\r\n0,1\r\n1,2\r\n", 30, "s").columns[1], (std::vector<double>{1.0, 2.0}));
+  EXPECT_EQ(read_view_series("t,kin", 30, "s").rows, 0U);
+  for (const char* const row : {"1", "1,2,3", "1,2,"}) {
+    const std::string text = std::string("t,kinetic\n0,1\n") + row + "\n2,3\n";
+    try {
+      read_view_series(text, 30, "s");
+      FAIL() << "no error";
+    } catch (const InputError& e) {
+      EXPECT_THAT(e.what(), testing::StartsWith("s:3: has ")) << row;
+    }
+  }
+  std::string even = "t\n";
+  for (int k = 0; k < 90; ++k) even += std::to_string(k) + "\n";
+  EXPECT_EQ(read_view_series(even, 90, "s").columns[0].size(), 90U) << "all that were asked for";
 }
 
 // A trajectory in memory.
