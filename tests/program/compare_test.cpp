@@ -80,8 +80,15 @@ TEST_F(Compare, TimesAreChosenButForRounding) {
   EXPECT_EQ(compare("--times :0.3").status, 1) << "the last one at 0.30000000000000004 is within";
   EXPECT_EQ(compare("--times 0.1:0.2").status, 0);
   EXPECT_EQ(compare("--at 0.3").status, 1);
-  EXPECT_EQ(compare("--at 0.25").status, 0) << "of two that are as near the earlier";
   expect_error("$C compare a.xyz b.xyz --at -0.1", 2, "a.xyz: has no frame at t = -0.1; expected --at within");
+}
+
+TEST_F(Compare, OfTwoFramesThatAreAsNearTheEarlierIsMeant) {
+  write("a.xyz", trajectory({"1 2 3 4", "2 2 3 4", "3 2 3 4"}, 0.5));
+  write("b.xyz", trajectory({"1 2 3 4", "2.5 2 3 4", "3 2 3 4"}, 0.5));
+  EXPECT_EQ(compare("--at 0.25").status, 0);
+  EXPECT_EQ(compare("--at 0.26").status, 1);
+  EXPECT_EQ(compare("--at 0.75").status, 1);
 }
 
 // Left and right are periodic here, bottom and top are not.
