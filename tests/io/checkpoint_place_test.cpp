@@ -202,6 +202,24 @@ TEST_F(CheckpointBytes, ItNamesFilesOfItsFolderAlone) {
   EXPECT_EQ(complaint(record, two_disks()), "");
 }
 
+// What must be there for a run to go on, with so many bytes.
+TEST(OutputMarks, AllFilesOfARunAreMissedWhereTheyAreGone) {
+  OutputMark mark;
+  EXPECT_TRUE(files_of(mark).empty());
+  mark.trajectory = FileMark{"trajectory.xyz", 3, 500};
+  mark.series.emplace().file = {"series.csv", 3, 90};
+  mark.movie.emplace().parts = {"a.mp4", "b.mp4"};
+  const auto said = [&] {
+    std::string all;
+    for (const MarkedFile& file : files_of(mark)) all += file.name + ":" + std::to_string(file.bytes) + " ";
+    return all;
+  };
+  EXPECT_EQ(said(), "trajectory.xyz:500 series.csv:90 a.mp4:0 b.mp4:0 ");
+  mark.movie = MovieMark{};
+  mark.movie->single_frames = true;
+  EXPECT_EQ(said(), "trajectory.xyz:500 series.csv:90 frames:0 ");
+}
+
 // A flag is 0 or 1, and no list is longer than what is left of the file, however wide its entries.
 TEST_F(CheckpointBytes, FlagsAndLengthsAreChecked) {
   State state = two_disks();

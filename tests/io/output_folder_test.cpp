@@ -304,7 +304,7 @@ TEST_F(OutputFolderTest, AFileIsGoneOnWithToTheByte) {
   { OutputFile whole(file, 4); }
   EXPECT_EQ(text(file), "123x");
   try {
-    OutputFile(file, 5);
+    const OutputFile longer(file, 5);
     FAIL() << "no error";
   } catch (const InputError& e) {
     EXPECT_STREQ(e.what(), (file + ": has 4 bytes; expected 5 or more, as when the checkpoint was made").c_str());
