@@ -71,7 +71,7 @@ std::vector<std::size_t> by_id(const Disks& d) {
     order.assign(ids, absent);
     for (std::size_t i = 0; i < d.size(); ++i) order[d.id[i]] = i;
     std::erase(order, absent);
-    return order;
+    if (order.size() == d.size()) return order;  // else an id stands twice, as in a damaged file
   }
   order.resize(d.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
