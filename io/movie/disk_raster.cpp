@@ -13,7 +13,9 @@ constexpr double smallest_round = 0.7;  // pixels; below, shape cannot be seen
 // One component, `share` of the way from the pixel's value to the new one.
 std::uint32_t blend(std::uint32_t pixel, unsigned shift, double value, double share) {
   const double old = static_cast<double>((pixel >> shift) & 0xffU);
-  return static_cast<std::uint32_t>(old + share * (value - old) + 0.5) << shift;
+  // No component is below 0, so that cutting off rounds, without a call for each.
+  const double mixed = old + share * (value - old) + 0.5;
+  return static_cast<std::uint32_t>(mixed) << shift;
 }
 
 std::uint32_t blend(std::uint32_t pixel, const Colour& colour, double share) {
