@@ -1,9 +1,11 @@
 // Scenes that start from a frame of an earlier run.
 #include <filesystem>
 #include <sstream>
+#include <string>
 
 #include "tests/support/program_support.hpp"
 #include "tests/support/scene_support.hpp"
+#include "tests/support/small_gas.hpp"
 
 namespace carom {
 namespace {
@@ -11,29 +13,11 @@ namespace {
 using test::text_of;
 using ::testing::HasSubstr;
 
-constexpr const char* gas = R"(seed = 3
-[box]
-width = 12.0
-height = 12.0
-[physics]
-restitution = 0.9
-[[disks]]
-count = 20
-positions = "random"
-velocities = { maxwell = 1.0 }
-radius = 0.4
-mass = 1.0
-[run]
-method = "exact"
-t_end = 1.0
-[output]
-every = 0.25
-trajectory = "xyz"
-)";
+const std::string with_frames = std::string(test::small_gas) + "[output]\nevery = 0.25\ntrajectory = \"xyz\"\n";
 
 class LongFrameStart : public test::ProgramTest {
  protected:
-  LongFrameStart() { write("gas.toml", gas); }
+  LongFrameStart() { write("gas.toml", with_frames); }
 
   void run(const std::string& words) const {
     const test::Outcome o = carom("run --force --quiet " + words);
@@ -51,7 +35,7 @@ TEST_F(LongFrameStart, AFrameOfAnEarlierRunIsAStart) {
   run("gas.toml -o plain");
   for (const std::string format : {"xyz", "h5md"}) {
     run("gas.toml -o first --set output.trajectory=" + format);
-    std::string second = gas;
+    std::string second = with_frames;
     for (const char* const key : {"positions", "velocities", "radius", "mass"}) {
       const std::size_t begin = second.find(std::string(key) + " = ");
       second.replace(begin, second.find('\n', begin) - begin, std::string(key) + " = { frame = \"first\", index = 3 }");
@@ -79,7 +63,7 @@ TEST_F(LongFrameStart, WhatIsNoFrameIsRefused) {
            {"{ frame = \"first\", index = 0 }", "index: is 0; expected a whole number, 1 or more"},
            {"{ frame = \"first\", index = -1 }", "index: is -1; expected a whole number, 1 or more"},
            {"{ frame = \"first\", index = 1.5 }", "index: is 1.5; expected a whole number, 1 or more"}}) {
-    write("bad.toml", test::replaced(gas, "\"random\"", law));
+    write("bad.toml", test::replaced(with_frames, "\"random\"", law));
     const test::Outcome o = carom("check bad.toml");
     EXPECT_EQ(o.status, 2) << law;
     EXPECT_THAT(o.err, HasSubstr("bad.toml:")) << law;

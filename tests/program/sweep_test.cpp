@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "tests/support/scene_support.hpp"
+#include "tests/support/small_gas.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace carom {
@@ -22,26 +23,9 @@ using test::TestFolder;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* gas = R"(seed = 3
-[box]
-width = 12.0
-height = 12.0
-[physics]
-restitution = 0.9
-[[disks]]
-count = 20
-positions = "random"
-velocities = { maxwell = 1.0 }
-radius = 0.4
-mass = 1.0
-[run]
-method = "exact"
-t_end = 1.0
-)";
-
 class SweepTest : public testing::Test {
  protected:
-  SweepTest() : folder_("sweep") { scene_ = folder_.write("gas.toml", gas); }
+  SweepTest() : folder_("sweep") { scene_ = folder_.write("gas.toml", test::small_gas); }
 
   std::pair<int, std::string> shell(const std::string& words) const {
     const std::string command = "cd " + folder_.path().string() + " && " + words + " 2>&1";
@@ -177,7 +161,7 @@ TEST_F(SweepTest, GrowsWithoutLosingWhatIsThere) {
   EXPECT_THAT(less, HasSubstr("s: holds another sweep: this one lacks its run physics.restitution="));
   EXPECT_THAT(less,
               HasSubstr("give it all of that and more, choose another folder with -o, or replace it with --force"));
-  folder_.write("gas.toml", std::string(gas) + "# changed\n");
+  folder_.write("gas.toml", std::string(test::small_gas) + "# changed\n");
   EXPECT_THAT(carom("sweep gas.toml -o s --over physics.restitution=0.5:1.0:3 --seeds 3").second,
               HasSubstr("s: holds another sweep: the scene has changed since; "));
 }
@@ -281,7 +265,7 @@ TEST_F(SweepTest, AFileIsNoFolder) {
   const auto [status, text] = carom("sweep gas.toml --seeds 2 -o gas.toml --force");
   EXPECT_EQ(status, 2);
   EXPECT_EQ(text, "carom: error: gas.toml: is a file; expected a folder for the sweep (-o)\n");
-  EXPECT_EQ(read("gas.toml"), gas);
+  EXPECT_EQ(read("gas.toml"), test::small_gas);
 }
 
 TEST_F(SweepTest, AFolderOfOtherFilesIsNotItsOwn) {
