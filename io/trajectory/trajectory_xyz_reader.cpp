@@ -246,6 +246,11 @@ bool XyzReader::read(XyzFrame& frame) {
 bool XyzReader::read_whole(XyzFrame& frame) {
   if (!next_line()) return false;
   std::size_t count = 0;
+  // Editors and other programs leave blank lines at a file's end.
+  while (line_number_ > 1 && words(line_).empty()) {
+    if (!next_line()) return false;
+    if (!words(line_).empty()) fail("the line before is blank; expected a frame, or the file's end");
+  }
   const auto words_of_line = words(line_);
   const std::string_view text = words_of_line.size() == 1 ? words_of_line[0] : std::string_view{};
   const auto result = std::from_chars(text.data(), text.data() + text.size(), count);

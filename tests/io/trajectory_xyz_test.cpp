@@ -193,6 +193,20 @@ TEST_F(TrajectoryXyz, LinesEndAsOnOtherSystems) {
   EXPECT_FALSE(reader.read(frame));
 }
 
+TEST_F(TrajectoryXyz, BlankLinesAtTheFilesEndAreNoFrame) {
+  const std::string frame_text =
+      "1\nLattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0.5 " + std::string(columns) + "\n1 2 3 4 5 6 7\n";
+  for (const char* end : {"\n", "\n \t\r\n", "\n\n  "}) {
+    write_text(frame_text + end);
+    XyzReader reader(path_);
+    XyzFrame frame;
+    ASSERT_TRUE(reader.read(frame)) << error();
+    EXPECT_FALSE(reader.read(frame));
+  }
+  write_text(frame_text + "\n\n" + frame_text);
+  EXPECT_EQ(error(), path_ + ":6: the line before is blank; expected a frame, or the file's end");
+}
+
 // Other programs may have sorted them in another way.
 TEST_F(TrajectoryXyz, DisksComeInOrderOfIdHoweverTheyStand) {
   const std::string head =
