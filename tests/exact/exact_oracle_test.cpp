@@ -46,6 +46,9 @@ TEST_P(ExactOracle, SamePlacesAndCounts) {
         << "disk " << d.id[i];
     EXPECT_NEAR(d.vx[i], static_cast<double>(b.vx), 1e-8);
     EXPECT_NEAR(d.vy[i], static_cast<double>(b.vy), 1e-8);
+    if (!d.spin.empty()) {
+      EXPECT_NEAR(d.spin[i], static_cast<double>(b.spin), 1e-7);
+    }
   }
 }
 
@@ -102,6 +105,11 @@ const std::string swinging =
     "top = { motion = { vibrate = [0, -0.2], period = 0.3, shape = \"sine\" } }";
 const std::string four_restitutions =
     "left = { restitution = 0.5 }\nright = { restitution = 0.8 }\ntop = { restitution = 0.3 }\nwall_restitution = 0.9";
+const std::string spinning = mixed + "spin_temperature = 5.0\n";
+const std::string rough = "restitution = 0.9\nroughness = { tangential_restitution = 0.4, friction = 0.2 }\n";
+const std::string ever_rough = "roughness = { tangential_restitution = -0.3, inertia = 0.7 }\n";
+const std::string rough_walls = "wall_roughness = { tangential_restitution = 0.7, friction = 0.3 }\n";
+const std::string lasting = "restitution = 0.8\ncollapse = { model = \"tc\", contact_time = 0.03 }\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, ExactOracle,
@@ -152,6 +160,15 @@ INSTANTIATE_TEST_SUITE_P(
         OracleCase{"viscoelastic_pegs", {8, 12, "wall", viscoelastic + "\ngravity = 0.8", few + pegs, 4.0, ""}},
         OracleCase{"pairs", {9, 9, "periodic", "restitution = 0.95", named + pairs, 4.0, ""}},
         OracleCase{"pairs_gravity", {9, 12, "wall", "gravity = 0.5", named + pairs + shelves, 3.0, ""}},
+        OracleCase{"rough", {9, 9, "periodic", rough, spinning, 2.0, ""}},
+        OracleCase{"rough_sides", {9, 9, rough_walls, ever_rough, spinning, 3.0, ""}},
+        OracleCase{"rough_pegs_and_shelves",
+                   {9, 12, rough_walls, ever_rough + "gravity = 0.5\n", spinning + pegs + shelves, 2.0, ""}},
+        OracleCase{"rough_paddles", {8, 12, rough_walls, rough + "gravity = 1.0\n", few + paddles, 2.0, ""}},
+        OracleCase{"rough_shaken", {9, 12, rough_walls + shaken, rough + "gravity = 0.8\n", spinning, 1.0, ""}},
+        OracleCase{"rough_shear", {7, 14, all_periodic + "shear_rate = 0.4", rough, spinning, 2.0, ""}},
+        OracleCase{"lasting_contacts", {8, 8, walls_of_salt, lasting, gas, 3.0, ""}},
+        OracleCase{"rough_lasting_contacts", {9, 9, rough_walls, lasting + ever_rough, spinning + pegs, 3.0, ""}},
         OracleCase{"inelastic", {8, 8, walls_of_salt, "restitution = 0.8", gas, 5.0, ""}},
         OracleCase{"inelastic_gravity", {8, 12, walls_of_salt, "restitution = 0.7\ngravity = 0.5", mixed, 4.0, ""}}),
     [](const auto& p) { return std::string(p.param.name); });

@@ -383,7 +383,9 @@ std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::u
     text += walls_text(dice, draft);
   }
   text += run_text(dice, draft);
-  return with_restitution_laws(dice, draft.units, draft.restitution, draft.diffusion > 0.0, std::move(text));
+  text = with_restitution_laws(dice, draft.units, draft.restitution, draft.diffusion > 0.0, std::move(text));
+  if (!dice.chance(0.25)) return text;
+  return with_rough_disks(dice, draft.units, draft.crowd.largest, draft.gravity > 0.0, text);
 }
 
 }  // namespace carom::fuzz

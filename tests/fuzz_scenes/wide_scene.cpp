@@ -275,7 +275,7 @@ std::string text_of(Dice& dice, const WideDraft& draft, const std::string& title
   text += sources_text(dice, draft);
   text += run_text(dice, draft);
   text = with_restitution_laws(dice, draft.units, draft.restitution, draft.diffusion > 0.0, std::move(text));
-  if (draft.for_oracle || draft.diffusion > 0.0 || !dice.chance(0.1)) return text;
+  if (draft.diffusion > 0.0 || !dice.chance(0.1)) return text;
   return with_rough_disks(dice, draft.units, draft.radius, draft.is_exact() && draft.gravity > 0.0, text);
 }
 

@@ -32,6 +32,8 @@ struct System {
   std::vector<GroupLaw> laws;
   std::vector<std::size_t> obstacle_groups;  // of those that are disks
   std::vector<WallMotion> motions;           // of inner walls, by the id of the obstacle
+  Surfaces surfaces;
+  Real contact_time = 0.0L;  // TC model
   Real time = 0.0L;
   std::size_t collisions = 0;
   std::size_t wall_collisions = 0;
@@ -59,6 +61,8 @@ inline System make_system(const Disks& disks, const Domain& box, const Gravity& 
 inline System make_system(const Scene& scene, const State& start) {
   System s = make_system(start.disks, scene.box, scene.physics.gravity, scene.physics.restitution, start.obstacles);
   s.viscosity = scene.physics.law.viscosity;
+  s.surfaces = scene.physics.surfaces;
+  s.contact_time = scene.physics.collapse_contact_time.value_or(0.0);
   for (const InnerWall& wall : scene.walls) s.motions.push_back(wall.motion);
   for (const GroupPair& pair : scene.physics.law.pairs) {
     s.laws.push_back({pair.first, pair.second, pair.restitution.least, pair.restitution.viscosity});
@@ -68,7 +72,10 @@ inline System make_system(const Scene& scene, const State& start) {
     group_of_id.insert(group_of_id.end(), scene.groups[g].count, g);
   }
   const std::vector<std::size_t> order = by_id(start.disks);
-  for (std::size_t k = 0; k < order.size(); ++k) s.balls[k].group = group_of_id.at(start.disks.id[order[k]]);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    s.balls[k].group = group_of_id.at(start.disks.id[order[k]]);
+    if (s.surfaces.are_rough()) s.balls[k].spin = start.disks.spin[order[k]];
+  }
   for (const Obstacle& o : start.obstacles) {
     s.obstacle_groups.push_back(o.is_segment() ? 0 : group_of_id.at(o.id));
   }
@@ -193,21 +200,65 @@ inline void advance(System& s, Real t) {
   s.time += t;
 }
 
-// Two that approach at this speed.
-inline void meet(System& s, Ball& a, Ball& b, Real closing) {
-  const Real gap = std::abs(closing) * (s.time - std::max(a.last_event, b.last_event));
-  if (gap < s.no_gap) s.undecided = std::max(s.undecided, std::abs(closing));
+// Two that approach at this speed, whose surfaces slide at that of `slip`. True: one of them met something so recently
+// that they part as in an elastic, smooth collision.
+inline bool meet(System& s, Ball& a, Ball& b, Real closing, Real slip) {
+  const Real pause = s.time - std::max(a.last_event, b.last_event);
+  const Real gap = std::abs(closing) * pause;
+  if (gap < s.no_gap) s.undecided = std::max({s.undecided, std::abs(closing), std::abs(slip)});
   a.last_event = b.last_event = s.time;
+  return pause < s.contact_time;
+}
+
+// The impulse that stops one surface sliding along the other at speed g and turns it round by its restitution, as far
+// as friction goes. give: by how much g falls for each unit of impulse.
+inline Real sticking_impulse(const Roughness& surface, Real g, Real give, Real pressed) {
+  const Real most = std::isinf(surface.friction) ? HUGE_VALL : static_cast<Real>(surface.friction) * pressed;
+  return std::clamp((1.0L + surface.restitution) * g / give, -most, most);
+}
+
+// An impulse on the ball's surface at the end of (nx, ny) times its radius, along the tangent that n becomes when it is
+// turned to the left.
+inline void push_surface(const System& s, Ball& b, Real nx, Real ny, Real impulse) {
+  b.vx += impulse / b.m * -ny;
+  b.vy += impulse / b.m * nx;
+  b.spin += impulse * b.r / (static_cast<Real>(s.surfaces.inertia) * b.m * b.r * b.r);
+}
+
+// How fast the surface there goes along that tangent, where surfaces are rough.
+inline Real surface_speed(const System& s, const Ball& b, Real nx, Real ny) {
+  return s.surfaces.are_rough() ? -b.vx * ny + b.vy * nx + b.spin * b.r : 0.0L;
+}
+
+// How much that speed changes for each unit of impulse.
+inline Real surface_give(const System& s, const Ball& b) {
+  return 1.0L / b.m + b.r * b.r / (static_cast<Real>(s.surfaces.inertia) * b.m * b.r * b.r);
+}
+
+// The ball bounces off what lies at the end of n, moves at (ux, uy) there and is not moved itself.
+inline void bounce(System& s, Ball& a, Real nx, Real ny, Real ux, Real uy, Real restitution, Touching which) {
+  // As seen from there, so that without restitution nothing is left of the approach to a side.
+  const Real wx = a.vx - ux;
+  const Real wy = a.vy - uy;
+  const Real approach = wx * nx + wy * ny;
+  const Real slip = surface_speed(s, a, nx, ny) - (-ux * ny + uy * nx);
+  const bool lasts = meet(s, a, a, approach, s.surfaces.of(which).acts() ? slip : 0.0L);
+  const Real change = (1.0L + (lasts ? 1.0L : restitution)) * approach;
+  a.vx = ux + (wx - change * nx);
+  a.vy = uy + (wy - change * ny);
+  ++s.wall_collisions;
+  if (!s.surfaces.are_rough() || lasts) return;
+  push_surface(s, a, nx, ny, -sticking_impulse(s.surfaces.of(which), slip, surface_give(s, a), change * a.m));
 }
 
 inline void meet_side(System& s, const Happening& e) {
   Ball& a = s.balls[e.i];
   const auto k = static_cast<std::size_t>(e.side);
-  const Real u = (k % 2 == 0 ? 1.0L : -1.0L) * wall_at(s.box.motions[k], s.time).speed;  // along x or y
-  Real& v = e.side < 2 ? a.vx : a.vy;
-  meet(s, a, a, v - u);
-  v = u - static_cast<Real>(s.box.restitutions[k]) * (v - u);
-  ++s.wall_collisions;
+  const Real inwards = k % 2 == 0 ? 1.0L : -1.0L;  // along x or y
+  const Real u = inwards * wall_at(s.box.motions[k], s.time).speed;
+  const bool across_x = k < 2;
+  bounce(s, a, across_x ? -inwards : 0.0L, across_x ? 0.0L : -inwards, across_x ? u : 0.0L, across_x ? 0.0L : u,
+         s.box.restitutions[k], Touching::wall);
 }
 
 inline void meet_obstacle(System& s, const Happening& e) {
@@ -227,17 +278,15 @@ inline void meet_obstacle(System& s, const Happening& e) {
       if (image.x * image.x + image.y * image.y < line.x * line.x + line.y * line.y) line = image;
     }
   }
-  const auto [x, y] = line;
-  const Real along = (x * (a.vx - ux) + y * (a.vy - uy)) / (x * x + y * y);
+  const Real d = std::sqrt(line.x * line.x + line.y * line.y);
+  const Real nx = -line.x / d;
+  const Real ny = -line.y / d;
   const bool by_groups = !o.is_segment() && !s.obstacle_groups.empty();
   const Real restitution = by_groups
                                ? restitution_of(s, a.group, s.obstacle_groups[static_cast<std::size_t>(e.obstacle)],
-                                                std::abs(along) * std::sqrt(x * x + y * y))
+                                                std::abs((a.vx - ux) * nx + (a.vy - uy) * ny))
                                : static_cast<Real>(o.restitution);
-  meet(s, a, a, along * std::sqrt(x * x + y * y));
-  a.vx -= (1.0L + restitution) * along * x;
-  a.vy -= (1.0L + restitution) * along * y;
-  ++s.wall_collisions;
+  bounce(s, a, nx, ny, ux, uy, restitution, o.is_segment() ? Touching::wall : Touching::disks);
 }
 
 inline void collide(System& s, const Happening& e) {
@@ -258,14 +307,20 @@ inline void collide(System& s, const Happening& e) {
   const Real nx = dx / d;
   const Real ny = dy / d;
   const Real closing = (b.vx + jump - a.vx) * nx + (b.vy - a.vy) * ny;
-  const Real restitution = restitution_of(s, a.group, b.group, std::abs(closing));
-  meet(s, a, b, closing);
+  // The second one's surface is at the end of -n, where the tangent is the other way round.
+  const Real slip = surface_speed(s, a, nx, ny) + surface_speed(s, b, -nx, -ny) + jump * ny;
+  const bool lasts = meet(s, a, b, closing, s.surfaces.disks.acts() ? slip : 0.0L);
+  const Real restitution = lasts ? 1.0L : restitution_of(s, a.group, b.group, std::abs(closing));
   const Real impulse = -(1.0L + restitution) * closing * a.m * b.m / (a.m + b.m);
   a.vx -= impulse / a.m * nx;
   a.vy -= impulse / a.m * ny;
   b.vx += impulse / b.m * nx;
   b.vy += impulse / b.m * ny;
   ++s.collisions;
+  if (!s.surfaces.are_rough() || lasts) return;
+  const Real rub = sticking_impulse(s.surfaces.disks, slip, surface_give(s, a) + surface_give(s, b), impulse);
+  push_surface(s, a, nx, ny, -rub);
+  push_surface(s, b, -nx, -ny, -rub);
 }
 
 inline void resolve(System& s, const Happening& e) {

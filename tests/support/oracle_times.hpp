@@ -24,6 +24,7 @@ struct Ball {
   Real x, y, vx, vy, r, m;
   std::size_t group = 0;  // its [[disks]] block
   Real last_event = -HUGE_VALL;
+  Real spin = 0.0L;
 };
 
 inline constexpr Real no_event = HUGE_VALL;
