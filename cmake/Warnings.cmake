@@ -14,3 +14,5 @@ target_compile_options(carom_warnings INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference;-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow>)
 # clang doubts | between comparisons; the hot loops mean it: without branches they become vector instructions.
 target_compile_options(carom_warnings INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
+# clang 19 warns of what std::stable_sort of g++ 12's library calls; g++ itself tells where we call what is deprecated.
+target_compile_options(carom_warnings INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>)
