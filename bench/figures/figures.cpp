@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <fmt/os.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,7 +14,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bench/support/figure_words.hpp"
 #include "bench/support/shield.hpp"
+#include "core/base/check.hpp"
 
 namespace carom::bench {
 namespace {
@@ -78,23 +81,19 @@ void write_machine(const std::string& folder) {
              sysconf(_SC_NPROCESSORS_ONLN), CAROM_COMPILER, commit(), Shield::wanted() ? "yes" : "no");
 }
 
-int run(const std::vector<std::string>& words) {
-  const std::string& folder = words.at(1);
-  const auto wanted = [&](const char* what) {
-    return words.size() == 2 || std::find(words.begin() + 2, words.end(), what) != words.end();
-  };
+int run(const FigureWords& words) {
+  const std::string& folder = words.folder;
   std::filesystem::create_directories(folder);  // before minutes of measuring
   std::vector<Figure> all;
   const auto add = [&](std::vector<Figure> figures) { all.insert(all.end(), figures.begin(), figures.end()); };
-  // First, as the peak of a program that is started is no less than what this one has had.
-  if (wanted("memory")) add(measure_memory(CAROM_PROGRAM, CAROM_SOURCE_DIR "/scenes/gas_million.toml"));
-  if (wanted("gas")) add(measure_gas(folder));
-  if (wanted("scaling")) add(measure_scaling(folder));
-  if (wanted("special")) add(measure_special());
-  if (wanted("features")) add(measure_features(folder));
-  if (wanted("exact")) add(measure_exact(folder));
-  if (wanted("exact_growth")) add(measure_exact_growth(folder));
-  if (wanted("borders")) add(measure_borders(folder));
+  if (words.wants("memory")) add(measure_memory(CAROM_PROGRAM, CAROM_SOURCE_DIR "/scenes/gas_million.toml"));
+  if (words.wants("gas")) add(measure_gas(folder));
+  if (words.wants("scaling")) add(measure_scaling(folder));
+  if (words.wants("special")) add(measure_special());
+  if (words.wants("features")) add(measure_features(folder));
+  if (words.wants("exact")) add(measure_exact(folder));
+  if (words.wants("exact_growth")) add(measure_exact_growth(folder));
+  if (words.wants("borders")) add(measure_borders(folder));
   write_figures(folder, all);
   write_machine(folder);
   return 0;
@@ -104,15 +103,20 @@ int run(const std::vector<std::string>& words) {
 }  // namespace carom::bench
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    fmt::print(stderr, "usage: {} FOLDER [gas|scaling|special|features|exact|exact_growth|borders|memory]...\n",
-               argv[0]);
-    return 2;
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  const std::string usage =
+      fmt::format("usage: carom_figures FOLDER [{}]...\n", fmt::join(carom::bench::figure_parts, "|"));
+  if (words.size() == 1 && (words[0] == "-h" || words[0] == "--help")) {
+    fmt::print("{}", usage);
+    return 0;
   }
   try {
-    return carom::bench::run({argv, argv + argc});
+    return carom::bench::run(carom::bench::figure_words(words));
+  } catch (const carom::InputError& error) {
+    fmt::print(stderr, "carom_figures: {}\n{}", error.what(), usage);
+    return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "carom_figures: {}\n", error.what());
     return 1;
   }
 }
