@@ -31,8 +31,7 @@ constexpr double brownian_travel = 0.226, brownian_flight = 4.0, brownian_length
 }
 
 void check_kind(const Scene& scene) {
-  Count disks = 0;
-  for (const DiskGroup& group : scene.groups) disks += group.count;
+  const Count disks = disks_that_move(scene);
   if (!scene.sources.empty()) refuse(scene, "sources add disks", "expected the same disks from start to end");
   if (has_sinks(scene)) refuse(scene, "sinks take disks away", "expected the same disks from start to end");
   if (disks < 2) refuse(scene, "nothing collides", "expected two disks or more");
@@ -130,6 +129,12 @@ void plan_flight(const Scene& scene, const Trial& trial, ChartScene& chart) {
 }
 
 }  // namespace
+
+Count disks_that_move(const Scene& scene) {
+  Count disks = 0;
+  for (const DiskGroup& group : scene.groups) disks += group.fixed ? 0 : group.count;
+  return disks;
+}
 
 ChartScene own_scene(const Scene& scene) {
   check_kind(scene);

@@ -12,7 +12,11 @@ namespace carom::chart {
 // exact can carry to there.
 ChartScene own_scene(const Scene& scene);
 
-// So many disks at most: paths are compared by the plain references, some fifty runs of them.
+// So many of disks_that_move at most: paths are compared by the plain references, some fifty runs of them.
 inline constexpr Count most_own_disks = 20'000;
+
+// How many disks the scene has that costs are given per: not the fixed ones, which are obstacles. Precondition: it has
+// no sources.
+Count disks_that_move(const Scene& scene);
 
 }  // namespace carom::chart

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/chart/chart_own.hpp"
 #include "core/base/input_message.hpp"
 #include "core/scene/scene_names.hpp"
 
@@ -63,9 +64,7 @@ std::string cheapest_text(const chart::SceneResult& result, double error) {
 }  // namespace
 
 std::string own_chart_text(const chart::SceneResult& result, const Scene& scene) {
-  double disks = 0.0;
-  for (const DiskGroup& group : scene.groups) disks += static_cast<double>(group.count);
-  const double whole = disks * scene.run.t_end / result.unit;
+  const double whole = static_cast<double>(chart::disks_that_move(scene)) * scene.run.t_end / result.unit;
   std::string text = fmt::format(
       "{}: errors against exact; paths to t = {:.3g}, collision rate and {} to t = {:.3g}\n"
       "  {:<10}{:<12}{:>6}{:>14}{:>10}{:>10}{:>10}\n",

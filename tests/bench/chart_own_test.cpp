@@ -104,6 +104,17 @@ restitution = 0.5
   EXPECT_EQ(csv.find(",momentum,"), std::string::npos) << csv;
 }
 
+// Paths are of the disks that move: fixed ones are not too many to compare, nor something that collides.
+TEST_F(ChartOwn, FixedDisksAreNotCounted) {
+  const std::string pegs =
+      "[[disks]]\nfixed = true\ncount = 21000\npositions = \"random\"\nradius = 1e-6\nregion = [0.0, 0.0, 0.1, 0.1]\n";
+  write("pegs.toml", gas + pegs);
+  expect_error("$C chart --tiny --scene pegs.toml --t-end 0.0001", 2, "cannot be charted: no two disks collide by");
+  const std::string changes = "--set disks.0.count=1 --set 'disks.0.velocities={ uniform = 1.0 }'";
+  expect_error("$C chart --tiny --scene pegs.toml --set box.packing_fraction=0.01 " + changes, 2,
+               "cannot be charted: nothing collides; expected two disks or more");
+}
+
 TEST_F(ChartOwn, BrownianMotionHasItsOwnFigure) {
   const Outcome o = carom("chart --tiny --scene my.gas.toml --set physics.diffusion=0.5 -o brownian");
   ASSERT_EQ(o.status, 0) << o.err;

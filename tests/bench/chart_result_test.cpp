@@ -144,5 +144,15 @@ TEST(ChartText, SaysWhatARunCostsAndWhichIsTheCheapest) {
   EXPECT_THAT(text, HasSubstr("for a path error of 0.01: exact\n"));
 }
 
+// A cost is per disk that moves, so that fixed ones add nothing to what a run costs: ten disks, as above.
+TEST(ChartText, FixedDisksCostNothing) {
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 20\nheight = 20\n[[disks]]\ncount = 10\npositions = \"random\"\nradius = 0.5\nmass = 1\n"
+      "[[disks]]\nfixed = true\ncount = 90\npositions = \"random\"\nradius = 0.1\n[run]\n"
+      "method = \"pairwise\"\ndt = 0.01\nt_end = 100\n",
+      "pegs.toml", "");
+  EXPECT_THAT(own_chart_text(by_hand(), scene), ::testing::ContainsRegex("\n  exact  +3 +0\\.01 s "));
+}
+
 }  // namespace
 }  // namespace carom::chart
