@@ -12,7 +12,7 @@ namespace carom {
 
 namespace {
 
-// As |dr.dv| is rounded, contacts a little above the limit count as slow, too.
+// As |dr.dv| and blur are rounded, contacts a little above the limits count as slow, and passes as narrow, too.
 constexpr double slow_margin = 1.0 + 1e-9;
 constexpr double ambiguous = std::numeric_limits<double>::quiet_NaN();
 
@@ -102,7 +102,8 @@ NextEvent EventPredictor::earliest_one_by_one(std::uint32_t i) const {
     const PathSegment p = carried_to(a, both, rules.gravity), q = carried_to(b, both, rules.gravity);
     const Relative r = rules.box.shear.acts() ? relative_in_shear(p, q, rules.box) : relative(p, q, rules.box);
     const double gap = r.distance2() - contact_distance * contact_distance;
-    lasting = lasting || (gap * gap <= window_->close2() && r.approach() * r.approach() <= window_->slow2());
+    lasting = lasting || (gap * gap <= window_->close2() && r.approach() * r.approach() <= window_->slow2()) ||
+              window_->may_graze(r, contact_distance, window_->horizon - both);
     const double time = collision_time(a, b, contact_distance, rules.box, rules.gravity, window_->horizon);
     const NextEvent contact{time, Partner::disk(j)};
     if (comes_first(i, contact, best)) best = contact;
@@ -150,7 +151,9 @@ PredictionConstants EventPredictor::constants_of(const WindowState& window, cons
   f.contact = in_all_lanes(contact_distance);
   f.contact2 = in_all_lanes(contact_distance * contact_distance);
   f.horizon = in_all_lanes(window.horizon);
-  f.slow_approach = in_all_lanes(std::sqrt(window.slow2()) * slow_margin);
+  f.slow_approach2 = in_all_lanes(window.slow2() * slow_margin);
+  f.blur = in_all_lanes(-window.blur * slow_margin);
+  f.blur2 = in_all_lanes(-window.blur * contact_distance * slow_margin);
   f.stay2 = lists.relist_distance(near_border).stay2;
   f.stay = std::sqrt(f.stay2);
   f.eighth_gravity = 0.125 * rules.gravity.size;
@@ -179,6 +182,7 @@ NextEvent EventPredictor::earliest_at_sides(std::uint32_t i) const {
   const PathSegment& path = own.path;
   const Domain& box = window_->rules.box;
   const Gravity& g = window_->rules.gravity;
+  const double span = (window_->horizon - path.start) * (1.0 + 1e-9);
   NextEvent best;
   bool lasting = false;
   const auto see_side = [&](Side side) {
@@ -191,16 +195,18 @@ NextEvent EventPredictor::earliest_at_sides(std::uint32_t i) const {
     see_side(side);
     if (box.moves(side)) {
       const SideApproach a = approach_of(path, side, own.radius, box);
-      lasting = lasting || (std::abs(a.gap) <= window_->close && std::abs(a.speed) <= window_->slow);
+      lasting = lasting || (std::abs(a.gap) <= window_->close && std::abs(a.speed) <= window_->slow) ||
+                window_->may_graze_side(a.gap, a.speed, approach_acceleration(side, g, a.place), span);
       continue;
     }
-    const bool close = std::abs(reach_beyond(side, path.x, path.y, own.radius, box)) <= window_->close;
-    lasting = lasting || (close && std::abs(outward_speed(side, path.vx, path.vy)) <= window_->slow);
+    const double gap = -reach_beyond(side, path.x, path.y, own.radius, box);
+    const double speed = outward_speed(side, path.vx, path.vy);
+    lasting = lasting || (std::abs(gap) <= window_->close && std::abs(speed) <= window_->slow) ||
+              window_->may_graze_side(gap, speed, outward_acceleration(side, g), span);
   }
   best.lasting = lasting;
   if (!far_) return best;
   // Only a disk that moves far within the window has crossing events.
-  const double span = (window_->horizon - path.start) * (1.0 + 1e-9);
   if (box.periodic_x() && (std::abs(path.vx) + std::abs(g.left) * span) * span >= longest_flight * box.width) {
     see_side(path.vx > 0.0 || (path.vx == 0.0 && g.left < 0.0) ? Side::right : Side::left);
   }

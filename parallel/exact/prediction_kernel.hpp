@@ -37,8 +37,11 @@ struct PredictionConstants {
   LaneConstant down = in_all_lanes(0.0), half_down = in_all_lanes(0.0);               // gravity; length / time^2
   LaneConstant left = in_all_lanes(0.0), half_left = in_all_lanes(0.0);
   LaneConstant contact2 = in_all_lanes(0.0);  // of equal disks: contact distance, squared
-  // |dr.dv| of a pair that approaches so slowly that its contact may last (WindowState::close).
-  LaneConstant slow_approach = in_all_lanes(0.0);
+  // (dr.dv)^2 of a pair that approaches so slowly that its contact may last (WindowState::close).
+  LaneConstant slow_approach2 = in_all_lanes(0.0);
+  // Less than 0: by how much rounding shifts the square of the distance at which two disks pass each other, over their
+  // contact distance (WindowState::blur), and for equal disks.
+  LaneConstant blur = in_all_lanes(0.0), blur2 = in_all_lanes(0.0);
   LaneConstant zero = in_all_lanes(0.0);
   LaneConstant never = in_all_lanes(carom::never);
   // All bits but the sign: takes signs off, and is not a number.
@@ -78,7 +81,8 @@ struct FirstContact {
   // Of a row: the disk is further than the relist distance from its listed position then; where its path is bent, it
   // may have been before, too.
   bool leaves_list() const { return (neighbour & leaving_bit) != 0; }
-  // The kernel cannot tell: two neighbours are touched at the same time, or a neighbour is approached slowly.
+  // The kernel cannot tell: two neighbours are touched at the same time, or a neighbour is approached slowly, or passed
+  // so near to the contact distance that rounding decides whether it is touched.
   bool is_ambiguous() const { return std::isnan(time); }
 };
 

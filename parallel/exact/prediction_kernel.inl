@@ -54,21 +54,28 @@ template <Bend bend>
 struct Pairs {
   Doubles dx, dy, dvx, dvy;
   Doubles contact_distance, contact2;  // the first for images beyond the nearest one alone
+  Doubles blur2;                       // PredictionConstants
 };
 
 inline Doubles magnitude(const PredictionConstants& f, Doubles v) {
   return number(bits(v) & bits(load(f.magnitude_bits)));
 }
 
-// Time until disks that are (dx, dy) apart touch; not a number where they do not. approach: is set to dr.dv.
+// Time until disks that are (dx, dy) apart touch; not a number where they do not. doubt: is set to the size of the
+// discriminant, less what rounding may shift it by; where they overlap by more than rounding, to (dr.dv)^2. Where that
+// is hardly more than 0, rounding decides whether they touch.
 [[gnu::always_inline]] inline Doubles until_contact(const PredictionConstants& f, const Pairs& r, Doubles dx,
-                                                    Doubles dy, Doubles& approach) {
-  approach = dx * r.dvx + dy * r.dvy;
+                                                    Doubles dy, Doubles& doubt) {
+  const Doubles approach = dx * r.dvx + dy * r.dvy;
   const Doubles cross = dx * r.dvy - dy * r.dvx;
+  const Doubles speed2 = r.dvx * r.dvx + r.dvy * r.dvy;
+  const Doubles discriminant = speed2 * r.contact2 - cross * cross;
+  const Doubles gap2 = (dx * dx + dy * dy) - r.contact2;
+  doubt = magnitude(f, discriminant) + speed2 * smaller(gap2, r.blur2);
   // Not a number where the paths miss.
-  const Doubles until_meeting = root((r.dvx * r.dvx + r.dvy * r.dvy) * r.contact2 - cross * cross) - approach;
-  const Doubles until = larger((dx * dx + dy * dy) - r.contact2, load(f.zero)) / until_meeting;
-  // By the sign: +0 and -0 are slow.
+  const Doubles until_meeting = root(discriminant) - approach;
+  const Doubles until = larger(gap2, load(f.zero)) / until_meeting;
+  // By the sign: where it matters, +0 and -0 are in doubt.
   return choose_by_sign(approach, until, load(f.magnitude_bits));
 }
 
@@ -104,15 +111,15 @@ inline Doubles nearest_of_any(const PredictionConstants& f, Doubles d, const Lan
 // core's time_to_far_contact, operation by operation: of `nearest`, the time until the nearest images touch, and those
 // until images beyond them do that may be met within `span`, the least.
 [[gnu::always_inline]] inline Doubles until_any_image(const PredictionConstants& f, const Pairs& r, Doubles span,
-                                                      Doubles nearest, Doubles& slowest) {
+                                                      Doubles nearest, Doubles& least) {
   const Longs far_x = meets_image_behind(f, r, span, r.dx, r.dvx, f.image_x);
   const Longs far_y = meets_image_behind(f, r, span, r.dy, r.dvy, f.image_y);
   if (!any_true(far_x | far_y)) return nearest;
   Doubles first = smaller(nearest, load(f.never));
   const auto see = [&](Doubles dx, Doubles dy, Longs is_met) __attribute__((always_inline)) {
-    Doubles approach;
-    const Doubles until = until_contact(f, r, dx, dy, approach);
-    slowest = smaller(choose(is_met, magnitude(f, approach), load(f.never)), slowest);
+    Doubles doubt;
+    const Doubles until = until_contact(f, r, dx, dy, doubt);
+    least = smaller(choose(is_met, doubt, load(f.never)), least);
     first = smaller(choose(is_met, until, load(f.never)), first);
   };
   const auto behind = [&](Doubles d, const LaneConstant& period) __attribute__((always_inline)) {
@@ -127,12 +134,12 @@ inline Doubles nearest_of_any(const PredictionConstants& f, Doubles d, const Lan
 }
 
 // core's collision_time(), operation by operation: carried_to, relative, time_to_contact, touching_time. Differences
-// may have the other sign, which changes no bit of the time. Not a number where there is no contact. slowest: the
-// least |dr.dv| so far.
+// may have the other sign, which changes no bit of the time. Not a number where there is no contact. least:
+// the least doubt so far.
 template <Bend bend, bool unequal_radii, bool newest, Images images>
 [[gnu::always_inline]] inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const DiskRecord& f0,
                                                     const DiskRecord& f1, const DiskRecord& f2, const DiskRecord& f3,
-                                                    Doubles& slowest) {
+                                                    Doubles& least) {
   const Doubles m0 = load_motion(f0.path);
   const Doubles m1 = load_motion(f1.path);
   const Doubles m2 = load_motion(f2.path);
@@ -167,21 +174,23 @@ template <Bend bend, bool unequal_radii, bool newest, Images images>
     r.contact_distance = load(f.contact);
   }
   r.contact2 = load(f.contact2);
+  r.blur2 = load(f.blur2);
   if constexpr (unequal_radii) {
     r.contact_distance = own.radius + Doubles{f0.radius, f1.radius, f2.radius, f3.radius};
     r.contact2 = r.contact_distance * r.contact_distance;
+    r.blur2 = r.contact_distance * load(f.blur);
   }
-  Doubles approach;
-  const Doubles until = until_contact(f, r, r.dx, r.dy, approach);
-  slowest = smaller(magnitude(f, approach), slowest);
+  Doubles doubt;
+  const Doubles until = until_contact(f, r, r.dx, r.dy, doubt);
+  least = smaller(doubt, least);
   if constexpr (images == Images::sheared) {
-    // What this kernel does not know counts as a neighbour that is approached at no speed.
+    // What this kernel does not know is in doubt.
     const Doubles span = load(f.horizon) - both;
-    slowest = number(bits(slowest) & ~(meets_image_behind(f, r, span, r.dx, r.dvx, f.image_x) |
-                                       meets_image_behind(f, r, span, r.dy, r.dvy, f.image_y)));
+    least = number(bits(least) & ~(meets_image_behind(f, r, span, r.dx, r.dvx, f.image_x) |
+                                   meets_image_behind(f, r, span, r.dy, r.dvy, f.image_y)));
   }
   if constexpr (images == Images::beyond) {
-    return both + until_any_image(f, r, load(f.horizon) - both, until, slowest);
+    return both + until_any_image(f, r, load(f.horizon) - both, until, least);
   }
   return both + until;
 }
@@ -204,25 +213,25 @@ template <Bend bend, bool unequal_radii, bool newest, Images images, class Offse
   std::atomic_signal_fence(std::memory_order_seq_cst);
   const PathSegment& p = record->path;
   const Own own{all(p.start), all(p.x), all(p.y), all(p.vx), all(p.vy), all(record->radius)};
-  Doubles slowest = load(f.never);
+  Doubles doubt = load(f.never);
   const auto contacts_from = [&](std::size_t k) __attribute__((always_inline)) {
     // Constants are read where they are each time: kept from one turn to the next they would be on the stack.
     std::atomic_signal_fence(std::memory_order_seq_cst);
     const Offset* const n = offset + k;
     return four_contacts<bend, unequal_radii, newest, images>(f, own, record[n[0]], record[n[1]], record[n[2]],
-                                                              record[n[3]], slowest);
+                                                              record[n[3]], doubt);
   };
   Doubles first = smaller(contacts_from(0), load(f.never));
   Longs place_of_first = places_from(f, 0);
   for (std::size_t k = lanes; k < count; k += lanes) {
     const Doubles time = contacts_from(k);
     const Longs sooner = time < first;
-    // A tie counts as a neighbour that is approached at no speed.
-    slowest = number(bits(slowest) & ~(time == first));
+    // So is a tie.
+    doubt = number(bits(doubt) & ~(time == first));
     place_of_first = bits(choose(sooner, number(places_from(f, k)), number(place_of_first)));
     first = smaller(time, first);
   }
-  if (any_true(slowest <= load(f.slow_approach))) [[unlikely]]
+  if (any_true(doubt <= load(f.slow_approach2))) [[unlikely]]
     return cannot_tell;
   FirstContact found;
   const Doubles least = least_of_all(first);

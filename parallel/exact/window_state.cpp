@@ -14,6 +14,8 @@ namespace {
 constexpr double windows_ahead = 4.0;
 // Disks that approach at more than `slow` meet at a time that rounding shifts by less than this part of a window.
 constexpr double rounding_ratio = 1e5;
+// Two paths have two coordinates each, which are rounded a few times in each of the windows ahead.
+constexpr double blur_in_roundings = 64.0;
 
 // Reserves room for a few more: where there are ghosts, the number of disks goes up and down a little. Pages that
 // nothing is written to take no memory.
@@ -53,6 +55,7 @@ void WindowState::set_tolerances() {
   const double rounding = 0x1p-51 * (side + fastest * horizon);
   close = 4.0 * rounding_ratio * rounding;
   slow = rounding_ratio * rounding / length;
+  blur = blur_in_roundings * rounding;
 }
 
 void WindowState::append_disk(double next_event) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -48,10 +49,31 @@ struct WindowState {
   // rounding at each window's start decides whether they touch, and whether they approach.
   double close = 0.0;  // length
   double slow = 0.0;   // length / time
+  // Rounding at the starts of windows moves a path by less than this against another one, or against a side. It decides
+  // whether two disks touch that pass each other so near to their contact distance, however fast they are.
+  double blur = 0.0;  // length
   double largest_radius = 0.0;
   // The same for two disks of any radii, as limits of (distance^2 - contact_distance^2)^2 and of (dr.dv)^2.
   double close2() const { return 16.0 * largest_radius * largest_radius * (close * close); }
   double slow2() const { return 4.0 * largest_radius * largest_radius * (slow * slow); }
+  // May rounding at the next windows' starts decide whether these two disks touch up to the horizon, `span` from now?
+  // They do if the square of the distance at which they pass each other, cross^2 / speed2, is less than that at
+  // contact.
+  bool may_graze(const Relative& r, double contact_distance, double span) const {
+    const double cross = r.dx * r.dvy - r.dy * r.dvx;
+    const double speed2 = r.speed2();
+    const double discriminant = speed2 * (contact_distance * contact_distance) - cross * cross;
+    if (std::abs(discriminant) > speed2 * (contact_distance * blur) + slow2()) return false;
+    const double reach = contact_distance + std::sqrt(speed2) * span + close;
+    return r.distance2() <= reach * reach;
+  }
+  // The same of a disk and a side that it rises to against an acceleration: they touch if 2 gap * deceleration is less
+  // than speed^2.
+  bool may_graze_side(double gap, double speed, double acceleration, double span) const {
+    if (!(acceleration < 0.0) || !(speed > 0.0) || speed > -acceleration * span) return false;
+    const double discriminant = speed * speed + 2.0 * acceleration * gap;
+    return std::abs(discriminant) <= -2.0 * acceleration * blur + slow * slow;
+  }
   // While no disk has a larger v^2, none moves so far in a window that images beyond the nearest one, or crossing
   // events, matter.
   double safe_speed2 = 0.0;

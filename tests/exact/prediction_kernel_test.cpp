@@ -22,7 +22,7 @@ struct KernelCase {
 
 constexpr std::size_t disks = 40;
 constexpr double common_radius = 0.3;
-constexpr double slow_approach = 0.02;
+constexpr double slow_approach = 0.02, blur = 0.001;
 
 std::vector<DiskRecord> random_records(test::Draws& draws, const KernelCase& c, double box) {
   std::vector<DiskRecord> record(disks);
@@ -45,6 +45,16 @@ struct Expected {
   bool ambiguous = false;
 };
 
+// Does rounding decide whether they touch? They overlap and are slow against each other, or pass each other at about
+// their contact distance.
+bool is_in_doubt(const Relative& r, double contact_distance) {
+  const double cross = r.dx * r.dvy - r.dy * r.dvx;
+  const double contact2 = contact_distance * contact_distance;
+  const double discriminant = r.speed2() * contact2 - cross * cross;
+  const double gap2 = std::min(r.distance2() - contact2, -blur * contact_distance);
+  return std::abs(discriminant) + r.speed2() * gap2 <= slow_approach * slow_approach;
+}
+
 // The first contact by the formula of core, one neighbour after the other: with the nearest image, or with any that is
 // met up to the horizon.
 Expected expected_contact(const std::vector<DiskRecord>& record, std::uint32_t own, const std::vector<int>& offset,
@@ -58,7 +68,7 @@ Expected expected_contact(const std::vector<DiskRecord>& record, std::uint32_t o
     const double both = std::max(a.path.start, b.path.start);
     const PathSegment p = carried_to(a.path, both, g), q = carried_to(b.path, both, g);
     const Relative r = box.shear.acts() ? relative_in_shear(p, q, box) : relative(p, q, box);
-    first.ambiguous |= std::abs(r.approach()) <= slow_approach;
+    first.ambiguous |= is_in_doubt(r, a.radius + b.radius);
     const double t = horizon > 0.0 ? collision_time(a.path, b.path, a.radius + b.radius, box, g, horizon)
                                    : both + time_to_contact(r, a.radius + b.radius);
     if (!(t < never) || t > first.time) continue;
@@ -128,7 +138,9 @@ PredictionConstants constants_of(const Gravity& g) {
   const double contact_distance = 2.0 * common_radius;
   f.contact = in_all_lanes(contact_distance);
   f.contact2 = in_all_lanes(contact_distance * contact_distance);
-  f.slow_approach = in_all_lanes(slow_approach);
+  f.slow_approach2 = in_all_lanes(slow_approach * slow_approach);
+  f.blur = in_all_lanes(-blur);
+  f.blur2 = in_all_lanes(-blur * contact_distance);
   return f;
 }
 

@@ -1,0 +1,149 @@
+// Contacts that rounding decides, windows after they were first looked for: disks that pass each other at their contact
+// distance, to the last bits, and disks that rise to the ceiling and no further. Where a window's paths begin anew from
+// rounded places, one that missed by a rounding may touch.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/disks/state_hash.hpp"
+#include "parallel/exact/exact_engine.hpp"
+#include "parallel/simulation.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/exact_support.hpp"
+
+namespace carom::exact_tests {
+namespace {
+
+// Pairs of disks, each in a cell of its own.
+struct Pairs {
+  int a_side = 0;
+  double cell = 0.0;  // length
+  double side() const { return a_side * cell + 2.0; }
+};
+
+Pairs some_pairs(test::Draws& draws) {
+  const int a_side = 2 + static_cast<int>(draws.bits() % 7);
+  return {a_side, draws.in(6.0, 14.0)};
+}
+
+Vec2 in_cell(test::Draws& draws, const Pairs& pairs, int k) {
+  const double x = k % pairs.a_side + 0.5;
+  const double y = k / pairs.a_side + 0.5;
+  return {x * pairs.cell + draws.in(-0.5, 0.5), y * pairs.cell + draws.in(-0.5, 0.5)};
+}
+
+// The second disk of each pair comes along a line that passes the first one at their contact distance.
+State passing(test::Draws& draws, const Pairs& pairs, bool unequal_radii, double unit) {
+  std::vector<Disk> list;
+  for (int k = 0; k < pairs.a_side * pairs.a_side; ++k) {
+    const Vec2 at = in_cell(draws, pairs, k);
+    const double first = unequal_radii ? draws.in(0.05, 0.6) : 0.5;
+    const double second = unequal_radii ? draws.in(0.05, 0.6) : 0.5;
+    const double way = draws.in(0.05, 0.5 * pairs.cell - 1.6);
+    const double angle = draws.in(0.0, 2.0 * std::numbers::pi);
+    const double c = std::cos(angle), s = std::sin(angle);
+    // Some come slowly.
+    const double speed = draws.in(0.5, 2.0) * (k % 4 == 0 ? std::pow(10.0, -draws.in(0.0, 6.0)) : 1.0);
+    const Vec2 both = k % 2 == 0 ? Vec2{} : Vec2{draws.in(-1.0, 1.0), draws.in(-1.0, 1.0)};
+    const double beside = first + second;
+    const auto add = [&](double x, double y, double vx, double vy, double radius) {
+      list.push_back({x * unit, y * unit, vx * unit, vy * unit, radius * unit, 1.0});
+    };
+    add(at.x, at.y, both.x, both.y, first);
+    add(at.x + way * c - beside * s, at.y + way * s + beside * c, both.x - speed * c, both.y - speed * s, second);
+  }
+  return test::state_of(list);
+}
+
+State rising(test::Draws& draws, const Pairs& pairs, double g) {
+  constexpr double radius = 0.5;
+  std::vector<Disk> list;
+  for (int k = 0; k < pairs.a_side * pairs.a_side; ++k) {
+    const Vec2 at = in_cell(draws, pairs, k);
+    list.push_back({at.x, at.y, draws.in(-0.1, 0.1), std::sqrt(2.0 * g * (pairs.side() - radius - at.y)), radius, 1.0});
+  }
+  return test::state_of(list);
+}
+
+// Every window of one queue, of parts and of regions is the reference's. Returns how many collisions there were.
+Count expect_reference(const Scene& scene, const State& start, int windows) {
+  const auto reference = make_reference_exact(scene, start);
+  std::vector<std::unique_ptr<Engine>> engines;
+  engines.push_back(make_parallel_engine(scene, start, {1}));
+  engines.push_back(make_parallel_engine(scene, start, {2, 1024}));
+  engines.push_back(make_parallel_exact(scene, start, {2, 1024}, [](const SliceBorders&) {}));
+  // A window has far fewer events than that: it is asked once in some thousand of them whether to go on.
+  int asked = 0;
+  for (const auto& engine : engines) engine->set_watch([&asked] { return ++asked < 1000; });
+  for (int k = 0; k < windows && !testing::Test::HasFailure(); ++k) {
+    reference->step();
+    const std::string right = fingerprint(reference->state());
+    for (std::size_t e = 0; e < engines.size(); ++e) {
+      asked = 0;
+      engines[e]->step();
+      EXPECT_EQ(fingerprint(engines[e]->state()), right) << "engine " << e << ", window " << k;
+    }
+  }
+  const Counters& all = reference->state().counters;
+  return all.collisions + all.wall_collisions;
+}
+
+struct Case {
+  const char* name;
+  Gravity gravity{};
+  bool unequal_radii = false;
+  double shear_rate = 0.0;
+  double unit = 1.0;
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
+
+class Grazing : public testing::TestWithParam<Case> {};
+
+TEST_P(Grazing, DisksThatPassAtTheirContactDistance) {
+  const Case& c = GetParam();
+  Count collisions = 0;
+  for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE(seed);
+    test::Draws draws(seed);
+    const Pairs pairs = some_pairs(draws);
+    const double side = pairs.side() * c.unit;
+    const bool periodic = c.shear_rate != 0.0 || seed % 2 == 0;
+    Scene scene = plain_scene(test::box_of(side, side, periodic, periodic), 1e9);
+    scene.physics.gravity = c.gravity;
+    if (c.shear_rate != 0.0) scene.box.shear = {c.shear_rate, c.shear_rate * side, 0.0};
+    collisions += expect_reference(scene, passing(draws, pairs, c.unequal_radii, c.unit), 12);
+  }
+  EXPECT_GT(collisions, 100U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, Grazing,
+                         testing::Values(Case{"straight"}, Case{"falling", Gravity(0.0, 0.4)},
+                                         Case{"falling_askew", Gravity(0.3, -0.2)}, Case{"radii", {}, true},
+                                         Case{"sheared", {}, false, 0.1}, Case{"large", {}, false, 0.0, 0x1.8p20},
+                                         Case{"small", {}, true, 0.0, 0x1.4p-20}),
+                         [](const auto& p) { return std::string(p.param.name); });
+
+// By a fall's length, to the last bits.
+TEST(GrazingSides, DisksThatRiseToTheCeiling) {
+  Count collisions = 0;
+  for (std::uint32_t seed = 1; seed <= 24; ++seed) {
+    SCOPED_TRACE(seed);
+    test::Draws draws(seed);
+    const Pairs pairs = some_pairs(draws);
+    const double g = draws.in(0.1, 1.0);
+    const Scene scene = plain_scene(test::box_of(pairs.side(), pairs.side()), 1e9, g);
+    collisions += expect_reference(scene, rising(draws, pairs, g), 20);
+  }
+  EXPECT_GT(collisions, 1000U);
+}
+
+}  // namespace
+}  // namespace carom::exact_tests
