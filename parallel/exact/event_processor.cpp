@@ -322,6 +322,8 @@ void EventProcessor<scope>::predict_from_all(std::uint32_t i, double from) {
 template <Scope scope>
 void EventProcessor<scope>::schedule_next(std::uint32_t i, double from, const NextEvent& next) {
   const auto [time, partner] = next_event(i, from, next);
+  // At the very end of the window, up to which its last slice goes, there is nothing left to wait for.
+  if (scope == Scope::border && partner.is_relist() && window_.in_slice(time)) put_off_relisting(i);
   schedule(i, time, partner);
 }
 
@@ -337,7 +339,7 @@ inline void EventProcessor<scope>::schedule(std::uint32_t i, double time, Partne
   if constexpr (scope == Scope::border) {
     window_.set_next_event_time(i, time);
     QueuedEvent e{time, 0, 0, i};
-    if (!window_.in_slice(time)) return;
+    if (!window_.in_slice(time) || partner.is_relist()) return;
     name(e);
     worker_.queue.push(e);
   } else {

@@ -145,5 +145,18 @@ TEST(GrazingSides, DisksThatRiseToTheCeiling) {
   EXPECT_GT(collisions, 1000U);
 }
 
+// In these a disk near a border between regions falls in free flight through a whole window, and has to be relisted at
+// its very end: which its last slice waits for.
+TEST(GrazingSides, DisksThatAreRelistedAtTheEndOfAWindow) {
+  for (const std::uint32_t seed : {1305U, 1491U, 1906U}) {
+    SCOPED_TRACE(seed);
+    test::Draws draws(seed);
+    const Pairs pairs = some_pairs(draws);
+    const double g = draws.in(0.1, 1.0);
+    const Scene scene = plain_scene(test::box_of(pairs.side(), pairs.side()), 1e9, g);
+    expect_reference(scene, rising(draws, pairs, g), 16);
+  }
+}
+
 }  // namespace
 }  // namespace carom::exact_tests
