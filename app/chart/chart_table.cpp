@@ -54,7 +54,8 @@ std::string csv_of(const ChartResult& result) {
 
 std::optional<double> cost_at(const Curve& curve, Measure measure, double error) {
   if (curve.points.empty()) return std::nullopt;
-  if (curve.method == Method::exact) return curve.points.front().cost;
+  const bool has_interval = curve.points.front().dt > 0.0;
+  if (curve.method == Method::exact && !(has_interval && measure == Measure::figure)) return curve.points.front().cost;
   const Point* before = nullptr;
   for (const Point& p : curve.points) {
     const Mean& m = p[measure];

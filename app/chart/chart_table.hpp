@@ -13,8 +13,8 @@ namespace carom::chart {
 std::string csv_of(const ChartResult& result);
 
 // Cheapest cost at which a curve's error in a measure is at most `error`: read off its points, between two of them
-// along the straight line of logarithms. Exact, whose error is below what can be seen, gives its cost. None where the
-// curve does not reach so far.
+// along the straight line of logarithms. Exact, whose error is below what can be seen, gives its cost, but for the
+// spread of Brownian motion, in which it has the error of its interval. None where the curve does not reach so far.
 std::optional<double> cost_at(const Curve& curve, Measure measure, double error);
 
 }  // namespace carom::chart

@@ -97,5 +97,20 @@ TEST(ChartTable, CostIsReadOffBetweenPoints) {
   EXPECT_FALSE(cost_at(curve, Measure::path, 1e-3).has_value()) << "never guessed beyond the last point";
 }
 
+// Of Brownian motion: paths are compared with exact's at the same interval, spreads with those at the shortest one.
+TEST(ChartTable, ASpreadCostsTheIntervalThatItTakesByExactToo) {
+  Curve curve{Method::exact, {}, {}};
+  for (const double dt : {0.1, 0.01, 0.001}) {
+    Point p;
+    p.dt = dt;
+    p.cost = 1.0 / dt;
+    p.errors[static_cast<std::size_t>(Measure::figure)] = {dt > 0.001 ? dt : 0.0, 1e-4};
+    curve.points.push_back(p);
+  }
+  EXPECT_DOUBLE_EQ(*cost_at(curve, Measure::path, 1e-9), 10.0);
+  EXPECT_NEAR(*cost_at(curve, Measure::figure, 0.03), 1.0 / 0.03, 1e-9);
+  EXPECT_FALSE(cost_at(curve, Measure::figure, 1e-3).has_value()) << "what cannot be seen is not known";
+}
+
 }  // namespace
 }  // namespace carom::chart
