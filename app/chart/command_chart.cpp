@@ -106,6 +106,13 @@ Json verdicts_of(const chart::SceneResult& scene) {
   return all;
 }
 
+// Of a scene of the user's own they begin with its own; one that starts alike is run once.
+std::string seeds_text(const chart::ChartScene& scene, const chart::Effort& effort) {
+  const std::uint64_t first = scene.own ? scene.own->seed : 1;
+  if (scene.same_start) return fmt::format("{}", first);
+  return fmt::format("{} to {}", first, first + effort.most_seeds - 1);
+}
+
 Json json_of(const chart::ChartResult& result, const chart::Effort& effort, int threads, double seconds) {
   std::array<double, 3> load{};
   getloadavg(load.data(), 3);
@@ -117,7 +124,7 @@ Json json_of(const chart::ChartResult& result, const chart::Effort& effort, int 
   j["effort"] = effort.name;
   j["threads"] = threads;
   j["seconds"] = seconds;
-  j["seeds"] = fmt::format("1 to {}", effort.most_seeds);
+  j["seeds"] = seeds_text(result.scenes.front().scene, effort);
   for (const chart::SceneResult& scene : result.scenes) {
     Json s{{"scene", scene.scene.name},           {"title", scene.scene.title},     {"text", scene.scene.text},
            {"melting", scene.scene.melting},      {"flight", scene.scene.flight},   {"length", scene.scene.length},

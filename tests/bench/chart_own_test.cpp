@@ -46,6 +46,7 @@ TEST_F(ChartOwn, HasAllMethodsTheOwnStepAndATable) {
   ASSERT_EQ(j["scenes"].size(), 1U);
   EXPECT_EQ(j["scenes"][0]["scene"], "my.gas");
   EXPECT_EQ(j["scenes"][0]["title"], "it's mine");
+  EXPECT_EQ(j["seeds"], "11 to 12") << "its own and the next";
   EXPECT_THAT(j["scenes"][0]["text"].get<std::string>(), HasSubstr("seed = 11"));
   const std::string csv = text_of(at("out/chart_my.gas/chart.csv"));
   for (const char* const row : {"\nmy.gas,rollback,0.003,", "\nmy.gas,pairwise,0.003,", "\nmy.gas,exact,0,"}) {
@@ -74,6 +75,7 @@ t_end = 20.0
 )");
   const Outcome o = carom("chart --tiny --scene two.toml -o two");
   ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(Json::parse(text_of(at("two/chart.json")))["seeds"], "1");
   const std::string csv = text_of(at("two/chart.csv"));
   EXPECT_THAT(csv, HasSubstr("\ntwo,exact,0,1,"));
   EXPECT_THAT(csv, ::testing::Not(HasSubstr("two,pairwise,0.2,2,")));
