@@ -11,6 +11,7 @@
 #include "core/physics/boundary.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/size_law.hpp"
+#include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/validity.hpp"
@@ -55,8 +56,7 @@ double fallen_speed(const Scene& scene, double speed, Vec2 centre, double radius
 
 // What a source will have emitted, as far as it finds room.
 double emitted_by(const Source& source, double t_end) {
-  const double due = std::floor(source.rate * t_end);
-  return source.limit ? std::min(due, static_cast<double>(*source.limit)) : due;
+  return static_cast<double>(due_before(source, t_end));
 }
 
 struct SourceDisks {

@@ -178,6 +178,10 @@ Count due_by(const Source& source, double t) {
   return source.limit ? std::min(due, *source.limit) : due;
 }
 
+Count due_before(const Source& source, double t) {
+  return due_by(source, (1.0 - emission_rounding) * t);
+}
+
 double largest_radius_of(const Source& source) {
   if (source.radius.kind != SizeLaw::Kind::from_other) return size_range(source.radius).high;
   return std::sqrt(size_range(source.mass).high / (std::numbers::pi * source.radius.density));

@@ -36,6 +36,13 @@ Count emissions_due(double rate, double t);
 // How many disks a source shall have emitted by time t, its limit at most.
 Count due_by(const Source& source, double t);
 
+// Times k / rate are rounded, and so are those at which windows and steps end: by less than this share of them.
+inline constexpr double emission_rounding = 1e-12;
+
+// How many it gives in a run that ends at t, where all find room: one that is due at t, but for rounding, does not
+// come.
+Count due_before(const Source& source, double t);
+
 // The largest radius that a source can give a disk, rounding aside; length.
 double largest_radius_of(const Source& source);
 

@@ -238,21 +238,21 @@ std::vector<std::string> validity_of(const Scene& scene, double smallest_radius,
   return warnings;
 }
 
-std::vector<std::string> waiting_warnings(const Scene& scene, const State& state) {
+std::vector<std::string> waiting_warnings(const Scene& scene, const State& state, std::string_view when) {
   std::vector<std::string> warnings;
   if (state.counters.waiting == 0) return warnings;
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     const Source& source = scene.sources[s];
     const Count emitted = state.sources[s].emitted;
-    const Count due = due_by(source, state.time);
+    const Count due = due_before(source, state.time);
     if (due <= emitted) continue;
     const Count waiting = due - emitted;
     const double allowed = std::max(1.0, most_waiting * static_cast<double>(due));
     if (emitted > 0 && static_cast<double>(waiting) <= allowed) continue;
     warnings.push_back(
-        fmt::format("at the end, time {:g}, {} of the {} disks due from sources.{} still wait for room: use a lower "
+        fmt::format("{} time {:g}, {} of the {} disks due from sources.{} still wait for room: use a lower "
                     "rate, a limit, or more room where they come in",
-                    state.time, waiting, due, s));
+                    when, state.time, waiting, due, s));
   }
   return warnings;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/types.hpp"
@@ -115,7 +116,8 @@ std::vector<std::string> validity_of(const Scene& scene, double smallest_radius,
 double fastest_speed(const Disks& disks);
 
 // What a run at its end has to say of disks that still wait for room: a line for each source whose share of them is
-// above most_waiting, or that never gave one.
-std::vector<std::string> waiting_warnings(const Scene& scene, const State& state);
+// above most_waiting, or that never gave one. when: how the line begins, before the time.
+std::vector<std::string> waiting_warnings(const Scene& scene, const State& state,
+                                          std::string_view when = "at the end,");
 
 }  // namespace carom

@@ -11,9 +11,6 @@ namespace carom {
 
 namespace {
 
-// Times k / rate are rounded, and so are those at which windows end: by less than this share of them.
-constexpr double emission_rounding = 1e-12;
-
 bool has_more(const Source& source, const SourceState& s) {
   return !source.limit || s.emitted < *source.limit;
 }

@@ -366,11 +366,26 @@ TEST(Validity, ASourceThatNeverHadRoomIsNamed) {
   State state;
   state.sources.resize(1);
   state.counters.waiting = 1;
-  state.time = 1.0;
+  state.time = 1.5;
   EXPECT_THAT(waiting_warnings(scene, state), ElementsAre(HasSubstr("1 of the 1 disks due from sources.0 still wait")));
-  state.time = 20.0;
+  state.time = 20.5;
   state.sources[0].emitted = 19;
   EXPECT_THAT(waiting_warnings(scene, state), IsEmpty());
+}
+
+// A disk that is due at the end of a run does not come, so it does not wait: 9 do, of 1 to 19, as the counter says.
+TEST(Validity, NoDiskOfASourceWaitsThatIsDueAtTheEnd) {
+  Scene scene = test::scene_from(test::sound_scene);
+  scene.sources.resize(1);
+  State state;
+  state.sources.resize(1);
+  state.sources[0].emitted = 10;
+  state.counters.waiting = 9;
+  for (const double rate : {1.0, 1.1, 0.7}) {
+    scene.sources[0].rate = rate;
+    state.time = 20.0 / rate;
+    EXPECT_THAT(waiting_warnings(scene, state), ElementsAre(HasSubstr(" 9 of the 19 disks due"))) << rate;
+  }
 }
 
 }  // namespace
