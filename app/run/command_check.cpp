@@ -127,10 +127,19 @@ void try_steps(Engine& engine, const Scene& scene, Findings& f) {
   }
 }
 
+// What the trial saw of sources that have no room, where it saw enough of it: a few disks may well wait for a while.
+std::vector<std::string> waiting_in_trial(const Scene& scene, const State& now) {
+  constexpr Count enough = 20;  // disks
+  const Count due = now.counters.emitted + now.counters.waiting;
+  if (due < enough && now.time < scene.run.t_end) return {};
+  return waiting_warnings(scene, now, "tried up to");
+}
+
 void try_run(const Scene& scene, const EngineChoice& choice, State initial, Findings& found) {
   const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, std::move(initial)); });
   within_memory(scene, [&] {
     try_steps(*engine, scene, found);
+    for (const std::string& trouble : waiting_in_trial(scene, engine->progress())) found.troubles.push_back(trouble);
     found.outputs = foresee_outputs(scene, choice, *engine, found.population, found.step_seconds);
   });
 }

@@ -8,6 +8,7 @@
 #include "core/load/scene_file.hpp"
 #include "core/start/initial_state.hpp"
 #include "tests/support/command_support.hpp"
+#include "tests/support/scene_support.hpp"
 
 namespace carom {
 namespace {
@@ -168,6 +169,17 @@ t_end = 1000.0
   EXPECT_THAT(few["troubles"], IsEmpty());
   EXPECT_GT(j["memory_bytes"].get<double>(), few["memory_bytes"].get<double>() + 1e6);
   EXPECT_THAT(carom("check source.toml").out, HasSubstr("with what sources emit up to 49999 at t = 1000"));
+}
+
+// Room for one disk: what the trial sees, as it comes to the end, is what the run says there.
+TEST_F(Check, SourcesWithoutRoomAreSeenInTheTrial) {
+  const std::string source = "[[sources]]\nregion = [4.9, 4.9, 5.1, 5.1]\nrate = 20\nradius = 0.5\nmass = 1\n";
+  write("blocked.toml", test::replaced(test::small_scene, "[run]", source + "[run]"));
+  const Json run = Json::parse(carom("run blocked.toml --json -o out").out);
+  const std::string waits = run["warnings"][0].get<std::string>();
+  EXPECT_THAT(waits, HasSubstr(fmt::format("{} of the ", run["waiting"].get<int>())));
+  EXPECT_THAT(troubles(check("blocked.toml")), HasSubstr("tried up to" + waits.substr(waits.find(" time"))));
+  EXPECT_THAT(check("blocked.toml --set sources.0.region='[1, 1, 9, 9]'")["troubles"], IsEmpty());
 }
 
 TEST_F(LongCheck, EveryFileIsPredictedWithItsSize) {
