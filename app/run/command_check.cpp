@@ -112,7 +112,9 @@ void try_steps(Engine& engine, const Scene& scene, Findings& f) {
   }
   engine.set_watch({});
   const double time = engine.state().time;
-  f.step_seconds = time > 0.0 ? seconds * scene.run.t_end / time : std::numeric_limits<double>::infinity();
+  if (scene.run.t_end > 0.0) {
+    f.step_seconds = time > 0.0 ? seconds * scene.run.t_end / time : std::numeric_limits<double>::infinity();
+  }
   const double share = share_left(engine, scene, f.population);
   if (time < scene.run.t_end) f.step_seconds *= share;
   f.population.mean *= share;

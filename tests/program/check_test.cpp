@@ -182,6 +182,12 @@ TEST_F(Check, SourcesWithoutRoomAreSeenInTheTrial) {
   EXPECT_THAT(check("blocked.toml --set sources.0.region='[1, 1, 9, 9]'")["troubles"], IsEmpty());
 }
 
+// Where the first and only moment is that of the start there is no step.
+TEST_F(Check, NoTimeTakesNoSteps) {
+  EXPECT_EQ(check("small.toml --t-end 0")["cost_parts_s"]["steps"], 0.0);
+  EXPECT_THAT(carom("check small.toml --t-end 0").out, Not(HasSubstr("years")));
+}
+
 TEST_F(LongCheck, EveryFileIsPredictedWithItsSize) {
   const std::string wants =
       "small.toml --t-end 20 --set output.checkpoint=1000 --set output.movie=true --set output.plots='[\"energy\", "
