@@ -40,19 +40,33 @@ class Centres {
   }
 
   // The six nearest of disk i, and whatever else was looked at, nearest first: rings of cells until no disk further out
-  // can be nearer than the sixth.
+  // can be nearer than the sixth. As long as six are not even found, twice as many each time.
   void find(std::size_t i, std::vector<Neighbour>& found) const {
-    const double least = std::min(box_.width / static_cast<double>(columns_), box_.height / static_cast<double>(rows_));
-    for (std::ptrdiff_t reach = 1;; ++reach) {
+    for (std::ptrdiff_t reach = 1;; reach = found.size() < neighbours ? 2 * reach : reach + 1) {
       collect(i, reach, found);
       std::sort(found.begin(), found.end());
-      const double known = static_cast<double>(reach) * least;
       const bool all = reach >= std::max(columns_, rows_);
+      const double known = known_within(reach);
       if (all || (found.size() >= neighbours && found[neighbours - 1].distance2 <= known * known)) return;
     }
   }
 
  private:
+  static bool has_all(std::ptrdiff_t reach, std::ptrdiff_t cells, bool periodic) {
+    return (periodic ? 2 * reach + 1 : reach + 1) >= cells;
+  }
+
+  // How far away all disks are found in so many rings. An axis all of whose cells are in them is no bound: a box may be
+  // thousands of columns long and one row high.
+  double known_within(std::ptrdiff_t reach) const {
+    const bool all_rows = has_all(reach, rows_, box_.periodic_y());
+    if (box_.shear.acts() && all_rows) return HUGE_VAL;  // columns_near() then gives all columns
+    const auto rings = static_cast<double>(reach);
+    const double along_x = rings * box_.width / static_cast<double>(columns_);
+    const double along_y = rings * box_.height / static_cast<double>(rows_);
+    return std::min(has_all(reach, columns_, box_.periodic_x()) ? HUGE_VAL : along_x, all_rows ? HUGE_VAL : along_y);
+  }
+
   std::ptrdiff_t column_of(double x) const {
     return cell_index(x / box_.width * static_cast<double>(columns_), columns_);
   }
