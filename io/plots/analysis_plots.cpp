@@ -95,7 +95,9 @@ Figure profile_figure(const Scene& scene, const AnalysisRecord& record) {
   return {heading(scene.title, "velocity and temperature"),
           fmt::format("position {}", axis_names[along_x ? 0 : 1]),
           curves.position.back(),
-          {velocity, temperature}};
+          {velocity, temperature},
+          false,
+          ""};
 }
 
 Figure structure_figure(const Scene& scene, const AnalysisRecord& record) {

@@ -35,5 +35,24 @@ TEST(AnalysisPlots, TheStructureFactorIsShownToTheLastWaveAlongEitherAxis) {
   }
 }
 
+// Above a bed of disks there are none: the profile ends there, and nothing has gone from it.
+TEST(AnalysisPlots, AProfileThatEndsWithTheDisksIsNotGone) {
+  const test::TestFolder folder("analysis_profile");
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 10.0\nheight = 10.0\n[[disks]]\ncount = 10\npositions = \"random\"\nradius = 0.1\nmass = 1.0\n"
+      "[run]\nmethod = \"exact\"\nt_end = 1.0\n[analysis]\nwhat = [\"profile\"]\n",
+      "scene", "");
+  AnalysisRecord record = empty_record(scene);
+  for (const std::size_t slab : {0U, 1U, 2U}) {
+    record.motion.disks[slab] = 2;
+    record.motion.mass[slab] = 2.0;
+  }
+  record.motion.samples = 1;
+  ASSERT_TRUE(draw_analysis(folder.path().string(), scene, record));
+  const std::string svg = test::text_of(folder.path() / "profile.svg");
+  for (const char* const shown : {">vx<", ">vy<", ">temperature<"}) EXPECT_THAT(svg, HasSubstr(shown));
+  EXPECT_THAT(svg, testing::Not(HasSubstr("gone")));
+}
+
 }  // namespace
 }  // namespace carom
