@@ -165,10 +165,11 @@ std::string name_commands(const Figure& figure, const Line& line, std::size_t ta
   return text;
 }
 
-// How gnuplot draws a line: "with lines ...".
+// How gnuplot draws a line: "with lines ..."; of a single point, which would not be seen as a line, that.
 std::string drawn_with(const Line& line, const char* colour, bool wide) {
   if (line.style == LineStyle::edge) return fmt::format("with lines lw 0.5 lc rgb '{}'", colour);
-  if (line.style == LineStyle::points) return fmt::format("with points pt 7 ps 0.55 lc rgb '{}'", colour);
+  if (line.style == LineStyle::points || line.x.size() == 1)
+    return fmt::format("with points pt 7 ps 0.55 lc rgb '{}'", colour);
   if (line.style == LineStyle::solid) return fmt::format("with lines lw {} lc rgb '{}'", wide ? 3.0 : 1.6, colour);
   return fmt::format("with lines lw 1.2 dt (8,6) lc rgb '{}'", colour);
 }

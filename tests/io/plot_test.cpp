@@ -142,6 +142,16 @@ TEST_F(Plot, TheEnergyOfSpinsIsALine) {
   EXPECT_TRUE(text_of(path).find(">rotational<") != std::string::npos);
 }
 
+// As a line it would not be seen: a run of one window has one sample of the pressure.
+TEST_F(Plot, ASinglePointIsSeen) {
+  const std::string path = at("point.svg");
+  const std::string drawn = "xlink:href='#gpPt6'";
+  ASSERT_TRUE(draw_svg({"one", "t", 0.5, {{"y", {{"samples", {0.5}, {1.0}}}}}}, path));
+  EXPECT_TRUE(text_of(path).find(drawn) != std::string::npos);
+  ASSERT_TRUE(draw_svg({"two", "t", 0.5, {{"y", {{"samples", {0.0, 0.5}, {1.0, 1.0}}}}}}, path));
+  EXPECT_TRUE(text_of(path).find(drawn) == std::string::npos);
+}
+
 TEST_F(Plot, LogarithmicAxesAndAGuide) {
   const std::string path = at("log.svg");
   const Line curve{"measured", {0.1, 1.0, 100.0}, {1e-3, 1.0, 1e3}};
