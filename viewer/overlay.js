@@ -65,7 +65,7 @@ function drawWall(context, camera, [x0, y0, x1, y1], kind, colour) {
 }
 
 // An inner wall that has moved by shift, and its images across periodic sides; what lies in the box of them.
-function drawMovingWall(context, camera, { box, axes }, [x0, y0, x1, y1, sink], shift, colour) {
+function drawMovingWall(context, camera, { box, axes }, [x0, y0, x1, y1], shift, ...look) {
   const turns = (k, at, size) => {
     const turn = axes[k].periodic ? Math.floor((at + shift[k]) / size) : 0;
     return (axes[k].periodic ? [-1, 0, 1] : [0]).map((n) => shift[k] + (n - turn) * size);
@@ -73,7 +73,7 @@ function drawMovingWall(context, camera, { box, axes }, [x0, y0, x1, y1, sink], 
   clipToBox(context, camera, box);
   for (const x of turns(0, x0, box.width)) {
     for (const y of turns(1, y0, box.height)) {
-      drawWall(context, camera, [x0 + x, y0 + y, x1 + x, y1 + y], sink ? "sink" : "wall", colour);
+      drawWall(context, camera, [x0 + x, y0 + y, x1 + x, y1 + y], ...look);
     }
   }
   context.restore();
@@ -87,8 +87,11 @@ function drawSides(context, camera, head, frame, colours) {
   }
   for (const wall of head.walls) {
     const shift = head.shifts[wall[5]]?.[frame];
-    if (shift) drawMovingWall(context, camera, head, wall, shift, colours.ink);
-    else drawWall(context, camera, wall, wall[4] ? "sink" : "wall", colours.ink);
+    // A sink along a side or another wall is an opening in that.
+    const draw = (...look) =>
+      shift ? drawMovingWall(context, camera, head, wall, shift, ...look) : drawWall(context, camera, wall, ...look);
+    if (wall[4]) draw("wall", colours.ground);
+    draw(wall[4] ? "sink" : "wall", colours.ink);
   }
   context.setLineDash([4, 3]);
   context.strokeStyle = "#1a9850";
@@ -125,13 +128,9 @@ function drawPath(context, camera, { box, axes }, path, colours) {
   context.beginPath();
   let last = null;
   for (const point of path) {
-    const jumps =
-      last &&
-      point &&
-      ((axes[0].periodic && Math.abs(point[0] - last[0]) > box.width / 2) ||
-        (axes[1].periodic && Math.abs(point[1] - last[1]) > box.height / 2));
     if (point) {
-      if (last && !jumps) context.lineTo(...camera.toPage(...point));
+      const far = (axis, k) => axis.periodic && Math.abs(point[k] - last[k]) > [box.width, box.height][k] / 2;
+      if (last && !axes.some(far)) context.lineTo(...camera.toPage(...point));
       else context.moveTo(...camera.toPage(...point));
     }
     last = point;

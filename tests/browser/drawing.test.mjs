@@ -35,6 +35,28 @@ test("pixels are coloured where disks are, on both edges of a periodic side, and
   await page.close();
 });
 
+test("an inner sink along a side is an opening in it", async () => {
+  const walls = restScene().replace('left = "periodic"\nright = "periodic"\n', "").replace("[0.2, 6]", "[2, 6]");
+  shop.run("pocket", walls.replace("[run]", '[[walls]]\nfrom = [8, 0]\nto = [12, 0]\nkind = "sink"\n[run]'));
+  const { page } = await shop.show(shop.view("pocket").file);
+  await drawn(page, 0);
+  const [ground, ink] = await page.evaluate(() =>
+    ["ground", "ink"].map((name) => window.carom.colours[name].match(/\w\w/g).map((part) => parseInt(part, 16))),
+  );
+  const along = await coloursAt(
+    page,
+    Array.from({ length: 40 }, (_, k) => [8.5 + (3 * k) / 40, 0]),
+  );
+  const empty = along.filter((colour) => String(colour) === String(ground)).length;
+  assert.ok(empty > 10 && empty < 38, `dots: ${empty} of 40 places are empty`);
+  for (const colour of await coloursAt(page, [
+    [5, 0],
+    [15, 0],
+  ]))
+    assert.deepEqual(colour, ink, "a wall on either side");
+  await page.close();
+});
+
 test("obstacles and inner walls stand where they are, and a moving side where it is in each frame", async () => {
   const hex = (page, name) =>
     page.evaluate((n) => window.carom.colours[n].match(/\w\w/g).map((part) => parseInt(part, 16)), name);
