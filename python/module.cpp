@@ -252,6 +252,10 @@ py::object next_frame(TrajectoryReader& reader) {
   if (!there) return py::none();
   py::dict columns = columns_of(frame.disks);
   if (!frame.group.empty()) columns["group"] = copied(frame.group);
+  if (!frame.image_x.empty()) {
+    columns["image_x"] = copied(frame.image_x);
+    columns["image_y"] = copied(frame.image_y);
+  }
   return py::make_tuple(frame.time, frame.box.width, frame.box.height, frame.box.periodic_x(), frame.box.periodic_y(),
                         columns);
 }

@@ -39,7 +39,8 @@ class Disks:
 
 
 class Frame(Disks):
-    """Disks in order of id, and the box; of a trajectory, with the column group where the file has it.
+    """Disks in order of id, and the box; of a trajectory, with the columns that its file has: group, and image_x and
+    image_y, the rounds across periodic sides since the first frame. Unwrapped, a disk is at x + image_x * box[0].
 
     to_ase, to_freud and to_gsd make what these programs take.
     """
@@ -47,6 +48,8 @@ class Frame(Disks):
     box: Tuple[float, float]  # length
     periodic: Tuple[bool, bool]
     group: np.ndarray
+    image_x: np.ndarray
+    image_y: np.ndarray
 
     def __init__(self, t, width, height, periodic_x, periodic_y, columns):
         super().__init__(columns, t)
@@ -63,8 +66,8 @@ class Frame(Disks):
         return _export.freud_system(self)
 
     def to_gsd(self):
-        """A snapshot of gsd.hoomd, in two dimensions and around the middle of the box, with diameters and masses; HOOMD,
-        freud and OVITO take it. Its step is 0: GSD has no times."""
+        """A snapshot of gsd.hoomd, in two dimensions and around the middle of the box, with diameters, masses and images (of
+        a trajectory's frames, where a side is periodic); HOOMD, freud and OVITO take it. Its step is 0: GSD has no times."""
         return _export.gsd_snapshot(self)
 
 

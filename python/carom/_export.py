@@ -51,6 +51,8 @@ def gsd_snapshot(frame):
     particles.velocity = _velocities3d(frame)
     particles.diameter = 2.0 * frame.radius
     particles.mass = frame.mass
+    if "image_x" in frame.names:
+        particles.image = np.column_stack([frame.image_x, frame.image_y, np.zeros(len(frame), np.int32)])
     group = getattr(frame, "group", np.zeros(len(frame), int))
     particles.types = [f"group {k}" for k in range(int(group.max(initial=0)) + 1)]
     particles.typeid = group

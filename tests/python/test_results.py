@@ -128,6 +128,21 @@ def test_gsd_takes_frames(result, tmp_path):
     assert np.allclose(read.particles.velocity[:, 0], frame.vx)
 
 
+def test_gsd_has_the_rounds_across_periodic_sides(result, tmp_path):
+    """Unwrapped by them, as programs do for displacements, no disk jumps by half the box between two frames."""
+    hoomd = pytest.importorskip("gsd.hoomd")
+    result.frames.to_gsd(tmp_path / "run.gsd")
+    with hoomd.open(str(tmp_path / "run.gsd"), "rb") as file:
+        read = [snapshot for snapshot in file]
+    for frame, snapshot in zip(result.frames, read):
+        assert np.array_equal(snapshot.particles.image[:, 0], frame.image_x)
+    assert any(snapshot.particles.image.any() for snapshot in read)
+    size = read[0].configuration.box[0]
+    for a, b in zip(read, read[1:]):
+        moved = b.particles.position - a.particles.position + size * (b.particles.image - a.particles.image)
+        assert (np.abs(moved[:, 0]) < size / 2).all()
+
+
 def test_freud_gets_a_box_and_points(result):
     box, points = result.frames[3].to_freud()
     assert points.dtype == np.float32 and points.shape == (100, 3) and (points[:, 2] == 0.0).all()
