@@ -130,9 +130,11 @@ void Simulation::keep_warnings() {
   }
 }
 
-// A step that fails leaves no contacts.
-void Simulation::make_step(Engine& steps) {
-  stepped_ = false;
+// A step that fails leaves no contacts. What was changed since the step before is taken up here, as a program may look
+// at the disks, change them or take up another state each time that run_until asks it.
+void Simulation::make_step() {
+  Engine& steps = engine();
+  order_known_ = stepped_ = false;
   step_start_ = time();
   steps.step();
   stepped_ = true;
@@ -140,17 +142,13 @@ void Simulation::make_step(Engine& steps) {
 
 void Simulation::step(Count n) {
   const FloatEnvironment environment;
-  Engine& steps = engine();
-  order_known_ = false;
-  for (Count k = 0; k < n && !done(); ++k) make_step(steps);
+  for (Count k = 0; k < n && !done(); ++k) make_step();
 }
 
 void Simulation::run_until(double t, const std::function<bool()>& go_on) {
   if (std::isnan(t)) fail_input("time", "is not a number", "expected a time");
   const FloatEnvironment environment;
-  Engine& steps = engine();
-  order_known_ = false;
-  while (time() < t && !done() && (!go_on || go_on())) make_step(steps);
+  while (time() < t && !done() && (!go_on || go_on())) make_step();
 }
 
 const std::vector<std::size_t>& Simulation::order() const {

@@ -45,7 +45,7 @@ class Simulation {
 
   // Steps until time() >= t, or to the end. A step is dt, a frame (rollback) or a window (exact), and none is cut short
   // for t, so that bits do not depend on where a program looks: disks_at(t) has the disks at t itself. go_on is asked
-  // between steps and may be empty.
+  // before each step and may be empty; it may look at the simulation and change it.
   void run_until(double t, const std::function<bool()>& go_on = {});
 
   double time() const { return state().time; }  // end of the last step
@@ -107,7 +107,7 @@ class Simulation {
   Engine& engine();
   void change(const Edit& edit);
   void keep_warnings();
-  void make_step(Engine& steps);
+  void make_step();
   VisitNear visit_near() const;
   QueryScene query_scene() const;
   void check_newcomer(const Disk& disk) const;

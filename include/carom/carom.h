@@ -127,7 +127,8 @@ CAROM_API carom_status carom_step(carom_world* world, uint64_t steps);
 /* Steps until the time is t or later, or the scene's end. A step is dt, or a window of the exact method; none is cut
  * short. */
 CAROM_API carom_status carom_run_until(carom_world* world, double t);
-/* Likewise, and calls go_on(context) before each step: where it returns 0, that is the end. */
+/* Likewise, and calls go_on(context) before each step: where it returns 0, that is the end. It may look at the world
+ * and change it, as between any two steps, but not destroy it. */
 CAROM_API carom_status carom_run_while(carom_world* world, double t, int (*go_on)(void* context), void* context);
 
 /* --- Looking at a world; of a null world all is 0 ----------------------------------------------------------------- */

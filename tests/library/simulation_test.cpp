@@ -57,6 +57,36 @@ TEST(Simulation, WritesNoFilesAndStopsWhereAsked) {
   EXPECT_EQ(simulation.time(), 3.0);
 }
 
+// Looks at the disks before each step, and before some takes one away or goes back, to a state of this scene or
+// another. False after so many steps that a run which does not get on would be told.
+bool look_and_change(Simulation& s, Count k, const std::string& before, const std::string& elsewhere) {
+  std::vector<DiskId> ids;
+  for (const std::size_t i : s.order()) ids.push_back(s.state().disks.id[i]);
+  EXPECT_TRUE(std::is_sorted(ids.begin(), ids.end())) << "before step " << k;
+  if (k == 1) s.load(before);
+  if (k == 2) s.load(elsewhere);
+  if (k == 3) s.remove(17);
+  return k < 500;
+}
+
+TEST(Simulation, AFunctionThatIsAskedBetweenStepsMayLookAndChange) {
+  for (const std::string method : methods) {
+    for (const EngineChoice& engine : {choice("reference"), choice("parallel", 2)}) {
+      SCOPED_TRACE(method + " " + engine.name);
+      Simulation run(gas(method), engine), stepped(gas(method), engine);
+      Simulation other(gas(method == "exact" ? "pairwise" : "exact"), engine);
+      other.step();
+      const std::string before = run.save(), elsewhere = other.save();
+      Count asked = 0;
+      run.run_until(1.0, [&] { return look_and_change(run, asked++, before, elsewhere); });
+      EXPECT_GE(run.time(), 1.0);
+      for (Count k = 0; stepped.time() < 1.0 && look_and_change(stepped, k, before, elsewhere); ++k) stepped.step();
+      EXPECT_EQ(run.hash(), stepped.hash());
+      EXPECT_EQ(run.time(), stepped.time());
+    }
+  }
+}
+
 TEST(Simulation, GivesDisksInOrderOfId) {
   Simulation simulation(gas("exact"), choice());
   simulation.run_until(1.0);
