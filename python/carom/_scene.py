@@ -17,37 +17,34 @@ class Scene:
     """
 
     def __init__(self, tables: Mapping[str, Any], changes: Mapping[str, Any] = {}):
-        self._source = ("text", _toml(tables), "scene", "", _overrides(changes))
-        self._scene = self._read()
+        with _in_words_of_python():
+            self._scene = _carom.parse_scene(_toml(tables), "scene", "", _overrides(changes))
 
     @classmethod
     def load(cls, path, changes: Mapping[str, Any] = {}) -> "Scene":
         """The scene of a TOML file. Raises SceneError (file, line, key, what was expected)."""
-        return cls._of("file", _arguments.path(path), _overrides(changes))
+        return cls._of(_carom.load_scene, _arguments.path(path), _overrides(changes))
 
     @classmethod
     def parse(cls, text: str, changes: Mapping[str, Any] = {}, folder: str = "") -> "Scene":
         """The scene of TOML text; files that it names are looked for from folder on."""
-        return cls._of("text", _arguments.text(text, "the text of a scene"), "scene", _arguments.path(folder), _overrides(changes))
+        text = _arguments.text(text, "the text of a scene")
+        return cls._of(_carom.parse_scene, text, "scene", _arguments.path(folder), _overrides(changes))
 
     @classmethod
-    def _of(cls, *source):
+    def _of(cls, read, *arguments):
         scene = cls.__new__(cls)
-        scene._source = source
-        scene._scene = scene._read()
+        with _in_words_of_python():
+            scene._scene = read(*arguments)
         return scene
 
-    def _read(self):
-        kind, *arguments = self._source
-        with _in_words_of_python():
-            return _carom.load_scene(*arguments) if kind == "file" else _carom.parse_scene(*arguments)
-
+    # As it was read: files that it came from may be changed by the time that it is taken up, or lie on another machine.
     def __getstate__(self):
-        return self._source
+        return self.toml(), self._scene.file
 
-    def __setstate__(self, source):
-        self._source = source
-        self._scene = self._read()
+    def __setstate__(self, state):
+        text, name = state
+        self._scene = _carom.parse_scene(text, name, "", [])
 
     @classmethod
     def _checked(cls, scene):

@@ -57,6 +57,26 @@ def test_a_copy_is_another_simulation(engine):
     assert [c.hash for c in copies] == [sim.hash] * 3
 
 
+# A worker of map or of dask takes a scene up when its turn comes, which may be hours later and on another machine.
+def test_a_scene_is_copied_as_it_was_read(tmp_path):
+    file, places = tmp_path / "gas.toml", tmp_path / "places.csv"
+    places.write_text("1.0,2.0\n3.0,4.0\n")
+    file.write_text("""title = "two"
+box = { width = 9.0, height = 9.0 }
+disks = [{ count = 2, positions = { file = "places.csv" }, radius = 0.5, mass = 1.0 }]
+run = { method = "exact", t_end = 1.0 }
+""")
+    scene = carom.Scene.load(file, {"run.t_end": 2.0})
+    start = carom.Simulation(scene, threads=1).hash
+    pickled = pickle.dumps(scene)
+    file.write_text("[box]\n")
+    places.unlink()
+    for other in (copy.copy(scene), copy.deepcopy(scene), pickle.loads(pickled), pickle.loads(pickle.dumps(pickle.loads(pickled)))):
+        assert other.toml() == scene.toml() and repr(other) == repr(scene) and other.t_end == 2.0
+        sim = carom.Simulation(other, threads=1)
+        assert sim.hash == start and sim.summary["scene"] == str(file)
+
+
 def test_a_view_can_be_copied_and_pickled():
     sim = carom.Simulation(gas(30), threads=1)
     with sim.view() as v:
