@@ -89,6 +89,7 @@ if __name__ == "__main__":
     script = subprocess.Popen(["/usr/bin/python3", "many.py"], cwd=tmp_path, stdout=subprocess.PIPE, text=True, start_new_session=True)
     try:
         while len(list(tmp_path.glob("run*/carom-unfinished/checkpoint.carom"))) < 2:
+            assert script.poll() is None, "it ended by itself"
             time.sleep(0.05)
         send(script.pid, signal.SIGINT)
         assert script.communicate(timeout=60)[0] == "stopped\n"
