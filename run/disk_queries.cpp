@@ -199,8 +199,9 @@ std::optional<RayHit> cast_ray(const QueryScene& scene, Vec2 from, Vec2 directio
   check_finite("ray", {direction.x, direction.y, length});
   const double speed = std::hypot(direction.x, direction.y);
   if (!(speed > 0.0) || !std::isfinite(speed)) fail_input("ray", "has no direction", "expected one that is not (0, 0)");
+  if (length < 0.0) fail_input("ray", fmt::format("is {} long", length), "expected a length of 0 or more");
   const Vec2 unit{direction.x / speed, direction.y / speed};
-  const double whole = clipped(box, from, unit, std::max(length, 0.0));
+  const double whole = clipped(box, from, unit, length);
   const double size = std::min(box.width, box.height);
   if (whole > longest_ray * size) {
     fail_input("ray", fmt::format("is {} long", whole), fmt::format("expected at most {}", longest_ray * size));

@@ -57,9 +57,8 @@ std::vector<DiskId> disks_in(const QueryScene& scene, Vec2 low, Vec2 high);
 std::optional<NearDisk> nearest_disk(const QueryScene& scene, Vec2 place);
 
 // The first disk or inner wall on a straight line of this length, the disk of two as near; a line along a wall does not
-// meet it. The line goes through periodic sides and ends at others. Throws
-// InputError where a number is not finite, the direction is 0, the line begins outside the box, or is longer than 10^6
-// times the box.
+// meet it. The line goes through periodic sides and ends at others. Throws InputError where a number is not finite, the
+// direction is 0, the line begins outside the box, its length is below 0, or more than 10^6 times the box.
 std::optional<RayHit> cast_ray(const QueryScene& scene, Vec2 from, Vec2 direction, double length);
 
 }  // namespace carom

@@ -203,6 +203,7 @@ TEST(DiskQueries, RefuseWhatIsNoPlaceOrLine) {
   EXPECT_THROW(s.cast_ray({1.0, 1.0}, {0.0, 0.0}, 1.0), InputError);
   EXPECT_THROW(s.cast_ray({1.0, 1.0}, {1.0, 0.0}, infinity), InputError);
   EXPECT_THROW(s.cast_ray({1.0, 1.0}, {1.0, 0.0}, 1e12), InputError);
+  EXPECT_THROW(s.cast_ray({1.0, 1.0}, {1.0, 0.0}, -1.0), InputError) << "is no line the other way";
   EXPECT_THROW(s.cast_ray({nan, 1.0}, {1.0, 0.0}, 1.0), InputError);
   EXPECT_NO_THROW(s.cast_ray({1.0, 1.0}, {0.0, 1.0}, 1e12));  // ends at the wall
 }
