@@ -29,8 +29,8 @@ def _in_notebook() -> bool:
     return getattr(shell, "kernel", None) is not None
 
 
-def show(trajectory: str, file, most_bytes, force):
-    """The viewer's page: in a notebook a Page; else written and opened."""
+def show(trajectory: str, folder: str, file, most_bytes, force):
+    """The viewer's page: in a notebook a Page; else written, to the folder where no file is given, and opened."""
     most_bytes = _arguments.size(most_bytes, "max_size")
     force = _arguments.flag(force, "force")
     if file is None and _in_notebook():
@@ -38,7 +38,7 @@ def show(trajectory: str, file, most_bytes, force):
             page = os.path.join(folder, "view.html")
             _carom.write_view(trajectory, page, most_bytes, False)
             return Page(pathlib.Path(page).read_text(encoding="utf-8"))
-    page = _arguments.path(pathlib.Path(trajectory).with_name("view.html") if file is None else file)
+    page = _arguments.path(os.path.join(folder, "view.html") if file is None else file)
     with in_words_of_python():
         _carom.write_view(trajectory, page, most_bytes, force)
     if file is None:

@@ -74,7 +74,8 @@ class Trajectory:
         trajectory lies) and opened in a browser; with file given it is only written. Raises SceneError where the file's name does not end
         in .html, or it exists already: force replaces it.
         """
-        return _notebook.show(self.file, file, max_size, force)
+        folder = self._path if os.path.isdir(self._path) else os.path.dirname(self._path)
+        return _notebook.show(self.file, folder, file, max_size, force)
 
     def to_ase(self) -> list:
         """An ase.Atoms a frame, as Frame.to_ase."""

@@ -188,7 +188,7 @@ def test_mdanalysis_needs_the_same_disks_in_all_frames(tmp_path):
         frames.to_mdanalysis()
 
 
-def test_a_trajectory_that_goes_on_is_read_as_far_as_it_is_there(result, tmp_path):
+def test_a_trajectory_that_goes_on_is_read_as_far_as_it_is_there(result, tmp_path, monkeypatch):
     if not result.frames.file.endswith(".xyz"):
         pytest.skip("lines can be added to text alone")
     lines = open(result.frames.file).read().splitlines(keepends=True)
@@ -198,6 +198,9 @@ def test_a_trajectory_that_goes_on_is_read_as_far_as_it_is_there(result, tmp_pat
     (unfinished / "trajectory.xyz").write_text("".join(lines[:2 * whole]))
     frames = carom.Trajectory(tmp_path)
     assert len(frames) == 2 and frames[-1].t == 0.5
+    monkeypatch.setattr("webbrowser.open", lambda _: None)
+    frames.show()
+    assert (tmp_path / "view.html").exists() and not (unfinished / "view.html").exists(), "where carom view puts it"
     with open(unfinished / "trajectory.xyz", "a") as file:
         file.write("".join(lines[2 * whole:5 * whole + 3]))
     assert len(frames) == 5 and frames[-1].t == 2.0
