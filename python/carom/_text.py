@@ -24,23 +24,25 @@ def _key(name) -> str:
     return name if _bare.fullmatch(name) else _quoted(name)
 
 
-def value(v: Any) -> str:
-    """A value in TOML: numbers in full precision, numpy's as Python's."""
+def value(v: Any, where: str) -> str:
+    """A value in TOML: numbers in full precision, whatever their class shows of itself; numpy's as Python's. where: its key."""
     if hasattr(v, "tolist"):
         v = v.tolist()
     if isinstance(v, bool):
         return "true" if v else "false"
-    if isinstance(v, (int, float)):
-        return repr(v)
+    if isinstance(v, int):
+        return int.__repr__(v)
+    if isinstance(v, float):
+        return float.__repr__(v)
     if isinstance(v, str):
         return _quoted(v)
     if isinstance(v, Mapping):
-        return "{ " + ", ".join(f"{_key(k)} = {value(item)}" for k, item in v.items()) + " }"
+        return "{ " + ", ".join(f"{_key(k)} = {value(item, f'{where}.{k}')}" for k, item in v.items()) + " }"
     if isinstance(v, (list, tuple)):
-        return "[" + ", ".join(value(item) for item in v) + "]"
+        return "[" + ", ".join(value(item, f"{where}.{n}") for n, item in enumerate(v)) + "]"
     if hasattr(v, "__fspath__"):
         return _quoted(v.__fspath__())
-    raise TypeError(f"a scene holds numbers, strings, lists and dictionaries; not {type(v).__name__}")
+    raise TypeError(f"{where}: a scene holds numbers, strings, lists and dictionaries; not {type(v).__name__}")
 
 
 def _is_table_list(v) -> bool:
@@ -55,13 +57,17 @@ def toml(tables: Mapping[str, Any]) -> str:
     plain, rest = [], []
     for name, item in tables.items():
         if isinstance(item, Mapping):
-            rest += [f"[{_key(name)}]"] + [f"{_key(k)} = {value(v)}" for k, v in item.items()]
+            rest += [f"[{_key(name)}]"] + _lines(item, name)
         elif _is_table_list(item):
-            for entry in item:
-                rest += [f"[[{_key(name)}]]"] + [f"{_key(k)} = {value(v)}" for k, v in entry.items()]
+            for n, entry in enumerate(item):
+                rest += [f"[[{_key(name)}]]"] + _lines(entry, f"{name}.{n}")
         else:
-            plain.append(f"{_key(name)} = {value(item)}")
+            plain.append(f"{_key(name)} = {value(item, name)}")
     return "\n".join(plain + rest) + "\n"
+
+
+def _lines(table: Mapping[str, Any], where: str) -> list:
+    return [f"{_key(k)} = {value(v, f'{where}.{k}')}" for k, v in table.items()]
 
 
 def overrides(changes: Mapping[str, Any]) -> list:
@@ -70,7 +76,7 @@ def overrides(changes: Mapping[str, Any]) -> list:
     for key in changes:
         if not isinstance(key, str):
             raise TypeError(f"the keys of changes are strings, such as \"run.t_end\"; not {type(key).__name__}")
-    return [(key, value(v)) for key, v in changes.items()]
+    return [(key, value(v, key)) for key, v in changes.items()]
 
 
 def words_of_python(text: str) -> str:

@@ -1,5 +1,6 @@
 """What a call says to arguments of the wrong kind: what it expected, in the words of Python."""
 
+import enum
 import os
 import shutil
 import subprocess
@@ -30,6 +31,31 @@ def test_a_scene_is_a_dictionary():
             carom.Scene(wrong)
     with pytest.raises(TypeError, match="the keys of a scene are strings; not int"):
         carom.Scene({"box": {1: 2.0}})
+
+
+def test_what_a_scene_cannot_hold_is_named():
+    group = {"count": 2, "radius": 0.5, "mass": 1.0}
+    places = np.ma.array([[1.0, 1.0], [3.0, 3.0]], mask=[[False, False], [False, True]])
+    for change, key in (({"title": b"gas"}, "title"), ({"run": {"t_end": None}}, "run.t_end"),
+                        ({"disks": [group, group | {"velocities": {"maxwell": Decimal(1)}}]}, "disks.1.velocities.maxwell"),
+                        ({"disks": [group | {"positions": places}]}, "disks.0.positions.1.1")):
+        with pytest.raises(TypeError, match=rf"^{key}: a scene holds numbers, strings, lists and dictionaries; not \w+$"):
+            scene(**change)
+    with pytest.raises(TypeError, match="^run.t_end: a scene holds .*; not set$"):
+        carom.Scene.parse(scene().toml(), {"run.t_end": {1.0}})
+
+
+def test_numbers_have_all_digits_whatever_they_show():
+    class Shown(float):
+        def __repr__(self):
+            return f"{self:.1f}"
+
+    assert scene(seed=Kind.other, run={"t_end": Shown(1 / 3)}).t_end == 1 / 3
+    assert scene(seed=Kind.other).seed == 7
+
+
+class Kind(enum.IntEnum):
+    other = 7
 
 
 def test_steps_threads_and_callbacks():
