@@ -65,8 +65,12 @@ def test_steps_threads_and_callbacks():
             sim.step(wrong)
         with pytest.raises(TypeError, match="cannot be interpreted as an integer"):
             carom.Simulation(scene(), threads=wrong)
+    with pytest.raises(ValueError, match="^steps is -1; expected 0 or more$"):
+        sim.step(-1)
     with pytest.raises(ValueError, match="could not convert string to float"):
         sim.run(until="the end")
+    with pytest.raises(ValueError, match="^until is not a number$"):
+        sim.run(until=np.nan)
     with pytest.raises(TypeError, match="expected a function of the simulation, not int"):
         sim.every(1.0, 3)
     sim.step(2**70)  # more than there are to the end
@@ -167,6 +171,9 @@ def test_options_of_the_command_line_are_arguments(tmp_path):
         carom.run(some, engine="refrence")
     with pytest.raises(carom.SceneError, match='^engine: there is no engine "refrence"'):
         carom.Simulation(some, engine="refrence")
+    carom.Simulation(some, threads=1).save(tmp_path / "state.carom")
+    with pytest.raises(carom.SceneError, match='^engine: there is no engine "refrence"'):
+        carom.resume(tmp_path / "state.carom", engine="refrence")
 
 
 def test_changes_are_no_options():
