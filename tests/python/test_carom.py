@@ -345,16 +345,17 @@ def test_a_fork_is_refused_where_threads_would_be_missing():
             several.step(1)
         except RuntimeError as error:
             said += b" twice" if "began in another process" in str(error) else b" other"
-        try:  # neither has more than one thread, whatever is asked of the reference
-            for one in (carom.Simulation(gas(), threads=1), carom.Simulation(gas(), threads=2, engine="reference")):
-                one.step(3)
+        try:  # none has more than one thread, whatever is asked of the reference, and wherever it began
+            for one in (alone, carom.Simulation(gas(), threads=1), carom.Simulation(gas(), threads=2, engine="reference")):
+                one.step(6 - one.steps)
                 said += b" " + one.hash.encode()
         except RuntimeError as error:
             said += b" " + str(error).encode()
         os.write(write, said)
         os._exit(0)
     os.waitpid(pid, 0)
-    assert os.read(read, 1000).decode() == f"refused twice {alone.hash} {alone.hash}"
+    alone.step(3)
+    assert os.read(read, 1000).decode() == "refused twice" + 3 * f" {alone.hash}"
 
 
 def test_the_next_multiple_is_the_least_beyond_a_time():
@@ -364,6 +365,8 @@ def test_the_next_multiple_is_the_least_beyond_a_time():
             for time in (np.nextafter(interval * k, 0.0), interval * k, np.nextafter(interval * k, np.inf)):
                 found = _next_multiple(interval, time)
                 assert interval * found > time and (found == 1 or interval * (found - 1) <= time), (interval, time)
+    tiny = 1e-17  # of which 1 has so many that they are not counted one by one
+    assert tiny * _next_multiple(tiny, 1.0) > 1.0 >= tiny * np.nextafter(_next_multiple(tiny, 1.0), 0.0)
 
 
 def test_a_series_has_the_columns_of_its_file_with_one_row_too(tmp_path):
@@ -380,6 +383,14 @@ def test_map_runs_each_by_itself():
     results = carom.map(scenes, jobs=2)
     assert [r.hash for r in results] == [carom.run(s).hash for s in scenes]
     assert len({r.hash for r in results}) == 3
+
+
+def test_the_package_has_one_version_and_errors_of_pythons_kinds():
+    project = tomllib.loads((source / "pyproject.toml").read_text())["project"]
+    assert carom.__version__.split("+")[0] == project["version"]
+    for error, kind in ((carom.SceneError, ValueError), (carom.PhysicsError, RuntimeError), (carom.RunError, OSError)):
+        assert issubclass(error, kind)
+    assert len({carom.SceneError, carom.PhysicsError, carom.RunError}) == 3
 
 
 def test_import_is_quick():

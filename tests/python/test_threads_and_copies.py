@@ -14,7 +14,9 @@ from test_carom import gas
 def test_a_simulation_in_a_step_answers_no_other_thread():
     sim = carom.Simulation(gas(3000, t_end=1e9), threads=1)
     asks = {name: ask for name, ask in (("disks", sim.disks), ("to_bytes", sim.to_bytes), ("step", sim.step), ("view", sim.view),
-                                        ("remove", lambda: sim.remove(0)), ("time", lambda: sim.time))}
+                                        ("remove", lambda: sim.remove(0)), ("time", lambda: sim.time),
+                                        ("take_warnings", sim.take_warnings), ("contacts", sim.contacts),
+                                        ("nearest", lambda: sim.nearest(1.0, 1.0)), ("picture", sim.picture))}
     over = False
 
     def other_thread():
