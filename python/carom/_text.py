@@ -81,9 +81,10 @@ def overrides(changes: Mapping[str, Any]) -> list:
 
 def words_of_python(text: str) -> str:
     """What the command line calls -o, --set, --force and --strict are arguments here."""
-    text = text.replace(" with -o,", ",").replace(" (-o)", "").replace("--force", "force=True")
-    text = text.replace("--set ", "changes: ").replace("--max-size:", "max_size:").replace("--engine:", "engine:")
-    text = text.replace("--strict", "strict=True")
+    text = text.replace(" with -o", "").replace(" (-o)", "").replace("such as -o ", "such as ").replace("--force", "force=True")
+    text = text.replace("--max-size:", "max_size:").replace("--engine:", "engine:").replace("--strict", "strict=True")
+    if text.startswith("--set "):  # elsewhere in a line it is of a command to type
+        text = f"changes: {text[6:]}"
     return f"file:{text[3:]}" if text.startswith("-o:") else text
 
 

@@ -176,6 +176,23 @@ def test_options_of_the_command_line_are_arguments(tmp_path):
         carom.resume(tmp_path / "state.carom", engine="refrence")
 
 
+def test_other_folders_are_no_options(tmp_path):
+    for name in ("trajectory.xyz/kept", "frames/kept"):
+        (tmp_path / "taken" / name).mkdir(parents=True)
+        with pytest.raises(carom.SceneError, match="; choose another folder$"):
+            carom.run(scene(output={"trajectory": "xyz"}), out=tmp_path / "taken", force=True)
+        shutil.rmtree(tmp_path / "taken")
+    with pytest.raises(carom.SceneError, match="^/: is the root of all folders; .* such as out/scene$"):
+        carom.run(scene(), out="/")
+
+
+# A command that can be typed as it stands.
+def test_a_remedy_of_the_command_line_stays_one(tmp_path):
+    carom.run(scene(output={"series": True}), out=tmp_path / "run")
+    with pytest.raises(carom.SceneError, match="carom run .*/scene.toml --set output.checkpoint=600 --t-end T -o DIR$"):
+        carom.resume(tmp_path / "run")
+
+
 def test_changes_are_no_options():
     with pytest.raises(carom.SceneError, match=r"^changes: run.tend: unknown key; expected one of .*nearest: t_end"):
         carom.Scene({"box": {"width": 9, "height": 9}, "run": {"t_end": 1},
