@@ -195,8 +195,8 @@ void paint(const PySimulation& s, const std::string& file) {
   painter.write_png(file);
 }
 
-// What `carom run` does, with what it says handed to Python. Returns the summary as JSON, the folder, why it stopped,
-// and what pictures were lost.
+// What `carom run` does, with what it says handed to Python. Returns the summary as JSON, the folder, and what pictures
+// were lost. What a signal raises ends the run as Ctrl-C does, with its checkpoint, and is thrown then.
 py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder, const std::string& engine,
                     std::optional<int> threads, bool force, bool strict, const py::function& say) {
   RunSettings settings;
@@ -207,7 +207,7 @@ py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder
     check_output_folder(*folder, scene.file, force);
     settings.folder = *folder;
   }
-  bool pressed = false;
+  std::optional<py::error_already_set> raised;  // KeyboardInterrupt, or what a handler of the program's own raises
   settings.listener.growth = growth_watch();
   settings.listener.warning = [&](std::string_view text) {
     const py::gil_scoped_acquire lock;
@@ -215,18 +215,16 @@ py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder
   };
   settings.listener.stop = [&]() -> std::string {
     const py::gil_scoped_acquire lock;
-    if (!pressed && interrupted()) {
-      PyErr_Clear();
-      pressed = true;
-    }
-    return pressed ? "Ctrl-C" : "";
+    if (!raised && interrupted()) raised.emplace();
+    return raised ? "Ctrl-C" : "";
   };
   RunOutcome outcome;
   {
     const py::gil_scoped_release free;
     outcome = run(scene, std::move(settings));
   }
-  return py::make_tuple(json_text(outcome.summary), outcome.folder, outcome.stopped_by, outcome.lost_pictures);
+  if (raised) throw py::error_already_set(*raised);
+  return py::make_tuple(json_text(outcome.summary), outcome.folder, outcome.lost_pictures);
 }
 
 // What `carom view` does. Returns what the page leaves out, sentences.

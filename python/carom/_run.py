@@ -23,8 +23,8 @@ def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "pa
 
     force replaces earlier results there; strict raises PhysicsError at the first warning of the physics; warn gets each
     warning as a line (default: warnings.warn). Raises SceneError (a folder that holds another run, or has no name),
-    PhysicsError, RunError (the machine: a full disk, a plot that could not be drawn), KeyboardInterrupt (with a checkpoint
-    in out).
+    PhysicsError, RunError (the machine: a full disk, a plot that could not be drawn), KeyboardInterrupt, or what another
+    signal's handler raises (both with a checkpoint in out).
     """
     if warn is None:
         import warnings
@@ -42,9 +42,7 @@ def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "pa
         warn(_words_of_python(warning))
 
     with _in_words_of_python():
-        text, folder, stopped, lost = _carom.run(Scene._checked(scene), folder, *_engine(engine, threads), force, strict, say)
-    if stopped:
-        raise KeyboardInterrupt(stopped)
+        text, folder, lost = _carom.run(Scene._checked(scene), folder, *_engine(engine, threads), force, strict, say)
     if lost:
         raise RunError(lost)
     return Result(json.loads(text), folder or None)

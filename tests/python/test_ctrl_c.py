@@ -43,6 +43,27 @@ def test_ctrl_c_in_a_whole_run_leaves_a_checkpoint(tmp_path):
     assert carom.resume(tmp_path / "run").time > 0.0
 
 
+def test_what_another_signal_raises_ends_a_run_too(tmp_path):
+    class Late(Exception):
+        pass
+
+    def late(*_):
+        raise Late("enough")
+
+    before = signal.signal(signal.SIGALRM, late)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with pytest.raises(Late, match="^enough$"):
+            carom.run(carom.Scene.parse(gas(2000, t_end=1e6).toml(), {"output.series": True}), out=tmp_path / "run")
+        assert carom.resume(tmp_path / "run").time > 0.0
+        sim = carom.Simulation(gas(2000, t_end=1e6), threads=1)
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with pytest.raises(Late, match="^enough$"):
+            sim.run()
+    finally:
+        signal.signal(signal.SIGALRM, before)
+
+
 @pytest.mark.parametrize("engine", ["parallel", "reference"])
 def test_ctrl_c_while_disks_grow(engine, tmp_path):
     # They would grow for half a minute and more, a step for seconds.
