@@ -120,11 +120,12 @@ class Column(np.ndarray):
 
 
 def _attributes(item) -> dict:
-    """Those of a data set and of its group; where a group has several series, NAME_mean is the mean of its NAME."""
+    """Those of a data set and of its group. A group's mean is that of its value, and not of the intervals beside it; where it
+    has several series, NAME_mean is the mean of its NAME."""
     name = item.name.rsplit("/", 1)[1]
-    own = {}
-    for holder in (item.parent, item):
-        own.update({key: v.decode() if isinstance(v, bytes) else v for key, v in holder.attrs.items()})
+    of_value = () if name == "value" else ("mean", "standard_deviation", "standard_error")
+    own = {key: v for key, v in item.parent.attrs.items() if key not in of_value} | dict(item.attrs)
+    own = {key: v.decode() if isinstance(v, bytes) else v for key, v in own.items()}
     return own | {key[len(name) + 1:]: v for key, v in own.items() if key.startswith(name + "_")}
 
 
@@ -159,7 +160,8 @@ class Result:
     @property
     def analysis(self) -> dict:
         """The data sets of analysis.h5 by their paths, a Column each (needs h5py). A column's attributes are its own and
-        those of its group: mean, standard_error, diffusion, diffusion_error, samples, ..., as docs/output.md lists them."""
+        those of its group: mean and standard_error of a series, diffusion, diffusion_error, samples, ..., as docs/output.md
+        lists them."""
         import h5py
 
         path = self._file("analysis.h5")

@@ -53,6 +53,8 @@ def test_counters_are_those_of_the_command_line(tmp_path):
     line = [program, "run", tmp_path / "mixture.toml", "--json", "--quiet", "-o", tmp_path / "run"]
     told = json.loads(subprocess.run(line, check=True, capture_output=True).stdout)
     sim = carom.Simulation(scene, threads=1)
+    sim.step(150)
+    assert sim.steps == 150
     sim.run()
     assert (sim.steps, sim.collisions, sim.wall_collisions) == (told["steps"], told["collisions"], told["wall_collisions"])
     assert len({sim.steps, sim.collisions, sim.wall_collisions, 0}) == 4

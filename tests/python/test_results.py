@@ -18,7 +18,7 @@ def result(request, tmp_path_factory):
         "disks": [{"count": 100, "positions": "random", "velocities": {"maxwell": 1.0}, "radius": 0.5, "mass": 2.0}],
         "run": {"method": "exact", "t_end": 4.0},
         "output": {"trajectory": request.param, "series": True, "every": 0.5},
-        "analysis": {"what": ["pair_correlation", "pressure"], "every": 0.25},
+        "analysis": {"what": ["pair_correlation", "pressure", "bond_order"], "every": 0.25},
     })
     return carom.run(scene, out=tmp_path_factory.mktemp("results") / "run")
 
@@ -33,6 +33,12 @@ def test_columns_have_what_the_file_says_of_them(result):
     g = result.analysis["pair_correlation/g"]
     assert g.standard_error is None and g.attributes["samples"] == 17
     assert result.analysis["samples/time"].unit == "time"
+    interval = result.analysis["pressure/interval"]
+    assert interval.standard_error is None and "mean" not in interval.attributes and interval.attributes["samples"] > 0
+    for name in ("local", "global"):
+        order = result.analysis[f"bond_order/{name}"]
+        assert order.standard_error == order.attributes[f"{name}_standard_error"] > 0.0
+        assert np.isclose(order.attributes["mean"], order.mean())
     assert (2.0 * g).standard_error is None and (2.0 * pressure).attributes == {}
     assert result.series["kinetic"].shape == (9,)
 
@@ -156,7 +162,7 @@ def test_an_edge_stays_inside_where_points_are_rounded():
     columns = {"x": np.array([0.0, np.nextafter(10.1, 0), 5.0]), "y": np.zeros(n), "vx": np.zeros(n), "vy": np.zeros(n),
                "radius": np.ones(n), "mass": np.ones(n), "id": np.arange(n)}
     _, points = carom.Frame(0.0, 10.1, 4.0, True, True, columns).to_freud()
-    assert points[0, 0] == -np.float32(5.05) and points[1, 0] < np.float32(5.05)
+    assert points[0, 0] == -np.float32(5.05) and points[1, 0] == np.nextafter(np.float32(5.05), np.float32(0.0))
 
 
 @pytest.mark.parametrize("stepping", [{}, {"run.method": "pairwise", "run.dt": 0.1}])

@@ -256,6 +256,8 @@ def test_paths_and_texts_that_are_no_unicode(tmp_path):
         carom.Scene.parse("title = '\ud800'")
     with pytest.raises(ValueError, match="^a name or a value of a scene holds half a character"):
         scene(title="\ud800")
+    text = scene(title="\u00fc").toml()
+    assert carom.Scene.parse(text.encode()).toml() == text
     with pytest.raises(TypeError, match="^the text of a scene is a string; not NoneType$"):
         carom.Scene.parse(None)
     with pytest.raises(TypeError, match="^the keys of changes are strings"):
