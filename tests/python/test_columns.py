@@ -47,6 +47,13 @@ def test_a_scene_knows_its_box():
     assert warned.startswith("scene: output.every: is 0.0001, shorter than dt = 0.01: ")
 
 
+def test_tables_within_tables_have_all_their_keys():
+    motion = {"vibrate": (0.0, 0.5), "period": 2.0, "shape": "sine"}
+    scene = mixture({"box.top": {"place": 11.0, "motion": motion}},
+                    box={"width": 24.0, "height": 12.0, "bottom": {"place": 1.0, "motion": motion}})
+    assert scene.toml().count('shape = "sine"') == 2 and scene.toml().count("period = 2.0") == 2
+
+
 def test_counters_are_those_of_the_command_line(tmp_path):
     scene = mixture()
     (tmp_path / "mixture.toml").write_text(scene.toml())

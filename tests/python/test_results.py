@@ -126,7 +126,7 @@ def test_gsd_takes_frames(result, tmp_path):
     frame = frames[8]
     read.validate()
     assert read.configuration.dimensions == 2 and read.configuration.step == 8
-    assert np.allclose(read.configuration.box[:2], frame.box)
+    assert np.allclose(read.configuration.box, [*frame.box, 0, 0, 0, 0])
     half = np.array([*frame.box, 0.0]) / 2
     assert np.allclose(read.particles.position + half, frame.positions3d(), atol=1e-5)
     assert (np.abs(read.particles.position) <= half.astype(np.float32)).all()
@@ -178,7 +178,15 @@ def test_mdanalysis_has_the_time_of_each_frame(stepping, tmp_path):
     universe = frames.to_mdanalysis()
     for trajectory in (universe.trajectory, universe.copy().trajectory):
         assert [step.time for step in trajectory] == times
-        assert trajectory[-1].time == times[-1]
+        assert trajectory[-1].time == times[-1] and trajectory.dt == times[1] - times[0]
+
+
+def test_mdanalysis_takes_a_single_frame(tmp_path):
+    pytest.importorskip("MDAnalysis")
+    scene = carom.Scene({"box": {"width": 9.0, "height": 9.0}, "run": {"t_end": 0.0}, "output": {"trajectory": "xyz"},
+                         "disks": [{"count": 3, "positions": "random", "radius": 0.5, "mass": 1.0}]})
+    universe = carom.run(scene, out=tmp_path / "run").frames.to_mdanalysis()
+    assert [step.time for step in universe.trajectory] == [0.0]
 
 
 def test_mdanalysis_needs_the_same_disks_in_all_frames(tmp_path):
