@@ -23,6 +23,7 @@
 #include "io/movie/frame.hpp"
 #include "io/trajectory/scene_frame_reader.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
+#include "python/interpreter_lock.hpp"
 #include "run/run_scene.hpp"
 #include "run/run_view.hpp"
 #include "run/simulation.hpp"
@@ -88,7 +89,7 @@ auto growth_watch() {
     constexpr double between_looks = 0.05;
     if (seconds_since(last) < between_looks) return;
     last = WallClock::now();
-    const py::gil_scoped_acquire lock;
+    const LockTaken lock;
     if (interrupted()) throw py::error_already_set();
   };
 }
@@ -121,7 +122,7 @@ class PySimulation {
   Count step_for(Count n, double t, double seconds) {
     Simulation& s = change();
     const Stepping now(*this);  // it ends when this thread has the lock again
-    const py::gil_scoped_release free;
+    const LockGivenUp free;
     const WallClock::time_point start = WallClock::now();
     Count made = 0;
     while (made < n && s.time() < t && !s.done()) {
@@ -210,17 +211,17 @@ py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder
   std::optional<py::error_already_set> raised;  // KeyboardInterrupt, or what a handler of the program's own raises
   settings.listener.growth = growth_watch();
   settings.listener.warning = [&](std::string_view text) {
-    const py::gil_scoped_acquire lock;
+    const LockTaken lock;
     say(std::string(text));
   };
   settings.listener.stop = [&]() -> std::string {
-    const py::gil_scoped_acquire lock;
+    const LockTaken lock;
     if (!raised && interrupted()) raised.emplace();
     return raised ? "Ctrl-C" : "";
   };
   RunOutcome outcome;
   {
-    const py::gil_scoped_release free;
+    const LockGivenUp free;
     outcome = run(scene, std::move(settings));
   }
   if (raised) throw py::error_already_set(*raised);
@@ -230,7 +231,7 @@ py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder
 // What `carom view` does. Returns what the page leaves out, sentences.
 std::vector<std::string> write_page(const std::string& source, const std::string& file,
                                     std::optional<std::size_t> most_bytes, bool force) {
-  const py::gil_scoped_release free;
+  const LockGivenUp free;
   const Recording recording = open_recording(source);
   check_page_file(file, force);
   ViewSettings settings;
@@ -244,7 +245,7 @@ py::object next_frame(TrajectoryReader& reader) {
   TrajectoryFrame frame;
   bool there = false;
   {
-    const py::gil_scoped_release free;
+    const LockGivenUp free;
     there = reader.read(frame);
   }
   if (!there) return py::none();
@@ -305,7 +306,7 @@ void bind_simulation(py::module_& m) {
   py::class_<PySimulation> simulation(m, "Simulation");
   simulation
       .def(py::init([](const Scene& scene, const std::string& engine, std::optional<int> threads) {
-        const py::gil_scoped_release free;
+        const LockGivenUp free;
         return std::make_unique<PySimulation>(Simulation(scene, engine_of(engine, threads), growth_watch()));
       }))
       .def_static("resume",

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+import subprocess
 import threading
 import time
 
@@ -41,6 +42,27 @@ def test_a_simulation_in_a_step_answers_no_other_thread():
     over = True
     other.join()
     assert not asks
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_python_ends_while_a_daemon_thread_steps(threads, tmp_path):
+    script = """if True:
+        import carom, os, sys, threading, time
+        scene, threads = carom.Scene.parse(sys.argv[1], {"output.series": True}), int(sys.argv[2])
+        sim = carom.Simulation(scene, threads=threads)
+        threading.Thread(target=sim.run, daemon=True).start()
+        threading.Thread(target=carom.run, args=(scene, "run", threads), kwargs={"warn": len}, daemon=True).start()
+        while not os.path.exists("run/carom-unfinished/series.csv"):
+            time.sleep(0.01)
+        try:
+            while sim.time >= 0.0:
+                time.sleep(0.001)
+        except RuntimeError:  # in a step now
+            print("ends")
+        """
+    line = ["/usr/bin/python3", "-c", script, gas(1000, t_end=1e9).toml(), str(threads)]
+    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "ends\n", "")
 
 
 @pytest.mark.parametrize("engine", ["parallel", "reference"])
