@@ -54,6 +54,15 @@ def test_a_notebook_shows_the_plots_and_the_disks(result):
     assert "data:image/png;base64," in sim._repr_html_() and "<td>5</td>" in sim._repr_html_()
 
 
+def test_a_run_without_files_is_shown_too():
+    scene = carom.Scene({"box": {"width": 9.0, "height": 9.0}, "run": {"t_end": 1.0}, "output": {"series": False},
+                         "disks": [{"count": 3, "positions": "random", "radius": 0.5, "mass": 1.0}]})
+    result = carom.run(scene)
+    assert result.plots == {} and result.hash in result._repr_html_() and result.hash in repr(result)
+    with pytest.raises(carom.SceneError, match='^the run wrote no files; give carom.run a folder: out="out/gas"$'):
+        result.frames
+
+
 def test_the_viewer_is_one_page(result, tmp_path, monkeypatch):
     page = tmp_path / "page.html"
     assert result.show(page) is None
