@@ -112,6 +112,7 @@ Engine& Simulation::engine() {
 }
 
 void Simulation::change(const Edit& edit) {
+  const FloatEnvironment environment;
   order_known_ = stepped_ = false;
   if (!edited_ && engine_->edit(edit)) return;
   if (!edited_) {
@@ -193,6 +194,7 @@ double Simulation::disks_at(double t, Disks& out) const {
 
 std::vector<DiskContact> Simulation::contacts() const {
   if (!stepped_) return {};
+  const FloatEnvironment environment;
   std::vector<DiskContact> met = engine_->contacts();
   if (state().counters.removed > 0) {
     std::vector<DiskId> there = state().disks.id;

@@ -4,6 +4,8 @@
 
 #ifdef __SSE2__
 #include <xmmintrin.h>
+
+#include <cstdint>
 #else
 #include <cfenv>
 #endif
@@ -12,7 +14,7 @@ namespace carom {
 
 // From its construction to its end, this thread rounds to nearest, keeps denormal numbers and traps nothing; then all
 // is as it was, but for the flags of exceptions that have occurred. At the entries of the library and in every block of
-// work that another thread runs.
+// work that another thread runs. On x86 the older unit too, by whose mode the C library rounds the numbers of a text.
 class FloatEnvironment {
  public:
   FloatEnvironment();
@@ -23,18 +25,33 @@ class FloatEnvironment {
 #ifdef __SSE2__
  private:
   unsigned before_ = _mm_getcsr();
+  std::uint16_t x87_before_;
 };
 
 // Bits 0 to 5 tell of exceptions that have occurred, which change no result.
 inline constexpr unsigned float_control = ~0x3fU, usual_float_control = 0x1f80U;
+// All digits, to nearest, no traps.
+inline constexpr std::uint16_t usual_x87_control = 0x037fU;
 
-// Writing the register costs more than reading it, and mostly it is as it should be.
-inline FloatEnvironment::FloatEnvironment() {
+inline std::uint16_t x87_control() {
+  std::uint16_t control = 0;
+  __asm__ volatile("fnstcw %0" : "=m"(control));
+  return control;
+}
+
+inline void set_x87_control(std::uint16_t control) {
+  __asm__ volatile("fldcw %0" : : "m"(control));
+}
+
+// Writing a register costs more than reading it, and mostly it is as it should be.
+inline FloatEnvironment::FloatEnvironment() : x87_before_(x87_control()) {
   if ((before_ & float_control) != usual_float_control) _mm_setcsr(usual_float_control);
+  if (x87_before_ != usual_x87_control) set_x87_control(usual_x87_control);
 }
 
 inline FloatEnvironment::~FloatEnvironment() {
   if ((before_ & float_control) != usual_float_control) _mm_setcsr(before_);
+  if (x87_before_ != usual_x87_control) set_x87_control(x87_before_);
 }
 #else
  private:

@@ -4,10 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cfenv>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "parallel/threads/executor.hpp"
 #include "run/run_scene.hpp"
 #include "run/simulation.hpp"
+#include "tests/support/simulation_support.hpp"
 
 namespace carom {
 namespace {
@@ -77,8 +82,10 @@ TEST(FloatEnvironment, NumbersAreTheUsualOnesInside) {
     const FloatEnvironment environment;
     EXPECT_LT(one / third, up);
     EXPECT_GT(tiny * 1.0, 0.0);
+    EXPECT_EQ(std::strtod("0.3", nullptr), 0.3) << "as a scene's numbers may be read";
   }
   EXPECT_TRUE(HostileHost::is_as_set());
+  EXPECT_GT(std::strtod("0.3", nullptr), 0.3);
   EXPECT_EQ(one / third, up);
 }
 
@@ -117,6 +124,33 @@ TEST(FloatEnvironment, SimulationAndRunHaveTheSameBits) {
       EXPECT_EQ(simulated(), hash) << method << threads;
       EXPECT_EQ(run_whole(), whole) << method << threads;
       EXPECT_TRUE(HostileHost::is_as_set());
+    }
+  }
+}
+
+// The times of contacts are computed when they are asked for, and some changes when they are made.
+TEST(FloatEnvironment, ContactsAndChangesHaveTheSameBits) {
+  for (const char* method : {"pairwise", "exact", "rollback"}) {
+    for (const char* engine : {"parallel", "reference"}) {
+      SCOPED_TRACE(std::string(method) + " " + engine);
+      const auto changed = [&] {
+        Simulation s(test::gas(method), choose_engine(engine, 1));
+        s.step(3);
+        std::vector<DiskContact> met = s.contacts();
+        s.remove(7);
+        s.set_velocity(3, {0.1, -0.7});
+        s.step(3);
+        const std::vector<DiskContact> later = s.contacts();
+        met.insert(met.end(), later.begin(), later.end());
+        return std::pair(met, s.hash());
+      };
+      const auto usual = changed();
+      EXPECT_FALSE(usual.first.empty());
+      const HostileHost host;
+      const auto hostile = changed();
+      EXPECT_EQ(hostile.second, usual.second);
+      ASSERT_EQ(hostile.first.size(), usual.first.size());
+      for (std::size_t k = 0; k < usual.first.size(); ++k) EXPECT_EQ(hostile.first[k].time, usual.first[k].time) << k;
     }
   }
 }
