@@ -75,6 +75,10 @@ def test_changes_reach_the_disk_and_the_column():
     assert sim.add(5.0, 6.0, vx=0.25, vy=-0.5, radius=0.75, mass=2.0, spin=3.0) == 30
     disks = sim.disks()
     assert [float(getattr(disks, name)[0]) for name in disks.names] == [5.0, 6.0, 0.25, -0.5, 0.75, 2.0, 30.0, 3.0]
+    assert sim.add(12.0, 6.0) == 31
+    disks = sim.disks()
+    assert [float(getattr(disks, name)[1]) for name in disks.names] == [12.0, 6.0, 0.0, 0.0, 1.0, 1.0, 31.0, 0.0]
+    sim.remove(31)
     assert sim.set_velocity(30, 1.5, -2.5)
     disks = sim.disks()
     assert (disks.vx[0], disks.vy[0]) == (1.5, -2.5)

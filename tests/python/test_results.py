@@ -1,6 +1,7 @@
 """What a run leaves as Python sees it: columns with their errors, plots, the viewer, and what other programs take."""
 
 import copy
+import html
 import os
 import pickle
 import typing
@@ -58,7 +59,7 @@ def test_a_run_without_files_is_shown_too():
     scene = carom.Scene({"box": {"width": 9.0, "height": 9.0}, "run": {"t_end": 1.0}, "output": {"series": False},
                          "disks": [{"count": 3, "positions": "random", "radius": 0.5, "mass": 1.0}]})
     result = carom.run(scene)
-    assert result.plots == {} and result.hash in result._repr_html_() and result.hash in repr(result)
+    assert result.folder is None and result.plots == {} and result.hash in result._repr_html_() and result.hash in repr(result)
     with pytest.raises(carom.SceneError, match='^the run wrote no files; give carom.run a folder: out="out/gas"$'):
         result.frames
 
@@ -73,6 +74,17 @@ def test_the_viewer_is_one_page(result, tmp_path, monkeypatch):
     result.frames.show()
     assert len(opened) == 1 and opened[0].startswith("file:///") and opened[0].endswith("/run/view.html")
     assert os.path.getsize(os.path.join(result.folder, "view.html")) == len(text.encode())
+
+
+def test_a_notebook_shows_the_page_and_writes_it_where_told(result, tmp_path, monkeypatch):
+    monkeypatch.setattr("carom._notebook._in_notebook", lambda: True)
+    monkeypatch.setattr("webbrowser.open", lambda _: pytest.fail("is in the notebook"))
+    before = set(os.listdir(result.folder))
+    shown = result.show()._repr_html_()
+    assert set(os.listdir(result.folder)) == before
+    assert result.show(tmp_path / "page.html") is None
+    text = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert shown.startswith("<iframe") and html.unescape(shown.split('srcdoc="')[1].split('"')[0]) == text
 
 
 def test_the_viewer_says_its_complaints_in_words_of_python(result, tmp_path, monkeypatch):
@@ -133,6 +145,7 @@ def test_gsd_takes_frames(result, tmp_path):
         assert len(file) == len(frames)
         read = file[8]
     frame = frames[8]
+    assert frame.to_gsd().configuration.step == 0
     read.validate()
     assert read.configuration.dimensions == 2 and read.configuration.step == 8
     assert np.allclose(read.configuration.box, [*frame.box, 0, 0, 0, 0])
