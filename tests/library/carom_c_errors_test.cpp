@@ -84,10 +84,14 @@ TEST(CaromCErrors, NullPointersAreAStatusAndAText) {
   complains(carom_positions(world, nullptr, 10));
   complains(carom_velocities(world, nullptr, 10));
   complains(carom_radii(world, nullptr, 10));
+  complains(carom_spins(world, nullptr, 10));
+  complains(carom_contacts(world, nullptr, 10, nullptr));
   complains(carom_disks_at(world, 0.0, nullptr, 10, nullptr, nullptr));
   complains(carom_get(world, 0, nullptr));
   complains(carom_add(world, nullptr, nullptr));
   complains(carom_query_box(world, 0, 0, 1, 1, nullptr, 10, nullptr));
+  std::size_t count = 0;
+  complains(carom_query_box(world, 0, 0, 20, 10, nullptr, 10, &count));
   complains(carom_nearest(world, 1, 1, nullptr, nullptr));
   complains(carom_cast_ray(world, 1, 1, 1, 0, 1, nullptr));
   complains(carom_save(world, nullptr));

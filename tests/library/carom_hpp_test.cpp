@@ -14,6 +14,7 @@
 #include "core/load/scene_file.hpp"
 #include "run/simulation.hpp"
 #include "tests/support/library_scene.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace {
 
@@ -99,6 +100,21 @@ TEST(CaromHpp, AFunctionSaysHowLongARunGoesOn) {
   EXPECT_NEAR(world.time(), 0.5, 1e-9);
   world.step(7);
   EXPECT_EQ(world.steps(), 57U);
+  int left = 3;  // in C whatever is not 0 goes on
+  const auto go_on = [](void* number) { return -(*static_cast<int*>(number))--; };
+  EXPECT_EQ(carom_run_while(world.get(), 1.0, go_on, &left), CAROM_OK);
+  EXPECT_EQ(world.steps(), 60U);
+}
+
+// The files that a scene names lie beside it.
+TEST(CaromHpp, AFileIsTheSceneOfItsText) {
+  const carom::test::TestFolder folder("AFileIsTheSceneOfItsText");
+  std::string text(hasty);
+  EXPECT_EQ(World::from_file(folder.write("gas.toml", text)).hash(), World::from_text(text).hash());
+  text.replace(text.find("\"random\""), 8, "{ file = \"places.csv\" }");
+  text.replace(text.find("count = 60"), 10, "count = 2");
+  folder.write("places.csv", "3.0,4.0\n5.0,6.0\n");
+  EXPECT_EQ(World::from_file(folder.write("two.toml", text)).disks().back().y, 6.0);
 }
 
 TEST(CaromHpp, ChangesReachTheDiskThatIsMeant) {
