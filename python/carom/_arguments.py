@@ -7,7 +7,7 @@ import os
 
 from ._carom import SceneError
 
-_most_threads = 2**31 - 1
+_most_threads = 4096  # as carom.h
 _last_id = 2**32 - 1  # ids have 32 bits
 
 

@@ -223,10 +223,10 @@ def test_numbers_and_ids():
     assert sim.nearest(np.float32(5.0), np.int8(5)) == sim.nearest(5.0, 5.0)
 
 
-@pytest.mark.parametrize("threads", [-1, 0, 2**31, 2**70])
+@pytest.mark.parametrize("threads", [-1, 0, 4097, 10**6, 2**31 - 1, 2**70])
 def test_threads_that_no_machine_has(threads):
     for call in (carom.run, carom.Simulation):
-        with pytest.raises(carom.SceneError, match=f"^threads: is {threads}; expected 1 or more"):
+        with pytest.raises(carom.SceneError, match=f"^threads: is {threads}; expected 1 or more, at most 4096$"):
             call(scene(), threads=threads)
         with pytest.raises(TypeError, match='^engine is "parallel" or "reference"; not int$'):
             call(scene(), engine=3)
