@@ -44,6 +44,25 @@ def test_columns_have_what_the_file_says_of_them(result):
     assert result.series["kinetic"].shape == (9,)
 
 
+def test_a_scene_starts_from_files_and_frames(result, tmp_path):
+    last = result.frames[-1]
+    (tmp_path / "speeds.csv").write_text("".join(f"{vx!r},{vy!r}\n" for vx, vy in zip(last.vx.tolist(), last.vy.tolist())))
+    text = f"""
+box = {{ width = {last.box[0]!r}, height = {last.box[1]!r}, left = "periodic", right = "periodic" }}
+run = {{ t_end = 1.0 }}
+[[disks]]
+count = {len(last)}
+positions = {{ frame = "{result.folder}" }}
+velocities = {{ file = "speeds.csv" }}
+radius = 0.5
+mass = 2.0
+"""
+    (tmp_path / "next.toml").write_text(text)
+    for scene in (carom.Scene.load(tmp_path / "next.toml"), carom.Scene.parse(text, folder=tmp_path)):
+        start = carom.Simulation(scene, threads=1).disks()
+        assert all(np.array_equal(getattr(start, name), getattr(last, name)) for name in ("x", "y", "vx", "vy"))
+
+
 def test_a_notebook_shows_the_plots_and_the_disks(result):
     assert "pair_correlation" in result.plots and result.plots["pair_correlation"].lstrip().startswith("<?xml")
     page = result._repr_html_()
