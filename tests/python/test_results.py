@@ -71,6 +71,7 @@ def test_a_notebook_shows_the_plots_and_the_disks(result):
         "box": {"width": 10.0, "height": 10.0}, "disks": [{"count": 5, "positions": "random", "radius": 0.5, "mass": 1.0}],
         "run": {"t_end": 1.0}}).toml()), threads=1)
     assert sim.picture().startswith(b"\x89PNG")
+    assert repr(sim) == "<carom.Simulation, 5 disks, t = 0, 0 collisions>"
     assert "data:image/png;base64," in sim._repr_html_() and "<td>5</td>" in sim._repr_html_()
 
 
@@ -93,6 +94,10 @@ def test_the_viewer_is_one_page(result, tmp_path, monkeypatch):
     result.frames.show()
     assert len(opened) == 1 and opened[0].startswith("file:///") and opened[0].endswith("/run/view.html")
     assert os.path.getsize(os.path.join(result.folder, "view.html")) == len(text.encode())
+    alone = tmp_path / os.path.basename(result.frames.file)
+    alone.write_bytes(open(result.frames.file, "rb").read())
+    carom.Trajectory(alone).show()
+    assert (tmp_path / "view.html").exists()
 
 
 def test_a_notebook_shows_the_page_and_writes_it_where_told(result, tmp_path, monkeypatch):
@@ -134,6 +139,7 @@ def test_ase_takes_frames(result):
     atoms = result.frames.to_ase()
     assert len(atoms) == len(frames) == 9 and isinstance(atoms[0], ase.Atoms)
     frame, last = frames[-1], atoms[-1]
+    assert np.array_equal(last.get_array("radius"), frame.radius) and np.array_equal(last.get_array("id"), frame.id)
     assert np.array_equal(last.positions, frame.positions3d())
     assert np.allclose(last.get_velocities()[:, 0], frame.vx) and (last.get_masses() == 2.0).all()
     assert list(last.pbc) == [True, False, False] and np.allclose(last.cell.lengths(), [*frame.box, 0.0])
@@ -171,6 +177,7 @@ def test_gsd_takes_frames(result, tmp_path):
     half = np.array([*frame.box, 0.0]) / 2
     assert np.allclose(read.particles.position + half, frame.positions3d(), atol=1e-5)
     assert (np.abs(read.particles.position) <= half.astype(np.float32)).all()
+    assert read.particles.types == ["group 0"] and (read.particles.typeid == 0).all()
     assert (read.particles.diameter == 1.0).all() and (read.particles.mass == 2.0).all()
     assert np.allclose(read.particles.velocity[:, 0], frame.vx)
 
