@@ -25,6 +25,9 @@ struct EngineChoice {
   RankLead* lead = nullptr;  // of several ranks; outlives what is made
 };
 
+// More are a slip, with which a machine would not answer for minutes.
+inline constexpr int most_threads = 4096;
+
 // What --engine and --threads ask for; empty and absent mean the default: parallel, on all cores. The reference has one
 // thread whatever is asked for. Throws InputError for an engine that does not exist.
 EngineChoice choose_engine(const std::string& engine, std::optional<int> threads, RankLead* lead = nullptr);

@@ -14,6 +14,7 @@
 #include "core/load/method_choice.hpp"
 #include "core/scene/picture_look.hpp"
 #include "core/scene/scene_names.hpp"
+#include "run/make_engine.hpp"
 
 namespace carom {
 
@@ -49,7 +50,7 @@ void read_carry_options(const OptionWords& words, CarryOptions& o) {
   o.folder = file_option(words.folder);
   o.changes = changes_of(words);
   o.engine = words.engine;
-  if (!words.threads.empty()) o.threads = count_of("--threads", words.threads);
+  if (!words.threads.empty()) o.threads = count_of("--threads", words.threads, most_threads);
   if (!words.ranks.empty()) o.ranks = count_of("--ranks", words.ranks);
   o.max_walltime = walltime_of(words.walltime);
   o.json = words.json;

@@ -46,13 +46,13 @@ double number_of(const std::string& option, const std::string& text) {
   return value;
 }
 
-int count_of(const std::string& option, const std::string& text) {
+int count_of(const std::string& option, const std::string& text, int most) {
   int value = 0;
   const char* const end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec == std::errc::result_out_of_range) {
+  if (result.ec == std::errc::result_out_of_range || value > most) {
     fail_input(option, fmt::format("is {}", in_quotes(text)),
-               fmt::format("expected a whole number from 1 to {}", std::numeric_limits<int>::max()));
+               fmt::format("expected a whole number from 1 to {}", most));
   }
   if (result.ec != std::errc{} || result.ptr != end || value < 1) {
     fail_input(option, fmt::format("is {}", in_quotes(text)), "expected a whole number of 1 or more");

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 
 namespace carom {
@@ -10,8 +11,8 @@ namespace carom {
 // A finite number, and nothing after it.
 double number_of(const std::string& option, const std::string& text);
 
-// A whole number of 1 or more.
-int count_of(const std::string& option, const std::string& text);
+// A whole number from 1 to `most`.
+int count_of(const std::string& option, const std::string& text, int most = std::numeric_limits<int>::max());
 
 // Two numbers with `between` between them: "0:2", "1280x720".
 std::array<double, 2> pair_of(const std::string& option, const std::string& text, char between,

@@ -23,7 +23,6 @@ EngineChoice choice_of(const carom_options* options) {
   carom_options chosen;
   carom_options_init(&chosen);
   if (options != nullptr) chosen = *options;
-  constexpr int most_threads = 4096;
   if (chosen.threads < 0 || chosen.threads > most_threads) {
     throw InputError(fmt::format("options: threads is {}; expected 0 to {}", chosen.threads, most_threads));
   }

@@ -60,6 +60,7 @@ TEST_F(LongCommandLine, OtherBadUsageOfRunIsOneLineWithStatusTwo) {
       {"run small.toml --method pairwize", "(nearest: pairwise)"},
       {"run small.toml --engine fast", "--engine: there is no engine \"fast\""},
       {"run small.toml --threads 0", "--threads: is \"0\"; expected a whole number of 1 or more"},
+      {"run small.toml --threads 4097", "--threads: is \"4097\"; expected a whole number from 1 to 4096"},
       {"run small.toml --ranks 0", "--ranks: is \"0\"; expected a whole number of 1 or more"},
       {"run small.toml --set dt", "--set: is \"dt\"; expected KEY=VALUE"},
       {"run small.toml --set run.dt=-1", "--set run.dt: is -1"},
