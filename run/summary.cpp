@@ -107,8 +107,9 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return json_number(s.wall_overlap); }},
     {"pressure", "energy / area",
      "mean over the run, from collisions and the kinetic energy halfway between start and end (in a shear flow that "
-     "relative to it at the end); null likewise, and where these two differ by more than a quarter: the pressure of a "
-     "gas that cools or heats up is in series.csv, over time (output.series)",
+     "relative to it at the end); null likewise, of motion in no time, and where these two differ by more than a "
+     "quarter, or are 0 with collisions in between: the pressure of a gas that cools or heats up is in series.csv, "
+     "over time (output.series)",
      [](const Summary& s) -> Json { return json_number(s.pressure); }},
     {"collision_rate", "1 / time",
      "collisions that a disk takes part in per unit time, over the time that all disks were there; in time stepping "
@@ -210,6 +211,7 @@ std::string traffic_line(const Summary& s) {
 // "0.0734"; of a gas that cools or heats up, why there is none.
 std::string pressure_line(const Summary& s) {
   if (std::isnan(s.pressure)) {
+    if (s.counters.steps == 0) return "not known, as no time has passed";
     return fmt::format(
         "not known from the kinetic energy at the start, {:.6g}, and at the end, {:.6g}; output.series = true tells it "
         "over time",
@@ -227,15 +229,19 @@ std::string disks_line(const Summary& s) {
 }
 
 // Of a run that took so long. In a shear flow from the kinetic energy relative to it at the end; else from that halfway
-// between start and end, and NaN where that is not its mean.
+// between start and end, and NaN where that is not its mean: disks that fell from rest and rest again have moved.
 double mean_pressure(const Summary& s, double relative, double elapsed) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   constexpr double most_change = 0.25;  // of the larger of the two
   const double change = std::abs(s.kinetic_final - s.kinetic_initial);
+  const double larger = std::max(s.kinetic_initial, s.kinetic_final);
+  if (!(elapsed > 0.0) && larger > 0.0) return nothing;
+  const bool have_met = s.counters.collisions + s.counters.wall_collisions > 0;
   Energy mean{0.5 * (s.kinetic_initial + s.kinetic_final), 0.0};
   if (s.box.shear.acts()) {
     mean.kinetic = relative;
-  } else if (change > most_change * std::max(s.kinetic_initial, s.kinetic_final)) {
-    return std::numeric_limits<double>::quiet_NaN();
+  } else if (change > most_change * larger || (larger == 0.0 && have_met)) {
+    return nothing;
   }
   return pressure(mean, s.counters.virial, elapsed, box_at(s.box, s.time - 0.5 * elapsed));
 }

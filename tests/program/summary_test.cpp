@@ -46,6 +46,27 @@ TEST(Summary, ThereIsNoPressureWhereTheEnergyOfMotionChangesByMoreThanAQuarter) 
   EXPECT_TRUE(std::isnan(summary_of(scene_with("", "gravity = 2.0\n", "[3.0, 0.0]")).pressure)) << "9 and 13";
 }
 
+// A disk that falls from rest by 7, at t = 0.66, and stays on the floor: it moved in between.
+TEST(Summary, ThereIsNoPressureOfAFallFromRestToRest) {
+  const Summary s = summary_of(scene_with("wall_restitution = 0.0\n", "gravity = 32.0\n", "[0.0, 0.0]"));
+  EXPECT_EQ(s.kinetic_final, 0.0);
+  EXPECT_GT(s.counters.wall_collisions, 0U);
+  EXPECT_TRUE(std::isnan(s.pressure)) << s.pressure;
+  EXPECT_EQ(summary_of(scene_with("", "", "[0.0, 0.0]")).pressure, 0.0) << "one that never moves presses on nothing";
+}
+
+// A mean over no time is none.
+TEST(Summary, ThereIsNoPressureOfNoTime) {
+  Scene scene = scene_with("", "", "[1.0, 0.0]");
+  scene.run.t_end = 0.0;
+  const Summary s = summary_of(scene);
+  EXPECT_TRUE(std::isnan(s.pressure)) << s.pressure;
+  EXPECT_NE(table_text(s, "").find("no time has passed"), std::string::npos);
+  scene = scene_with("", "", "[0.0, 0.0]");
+  scene.run.t_end = 0.0;
+  EXPECT_EQ(summary_of(scene).pressure, 0.0) << "at rest";
+}
+
 // The floor comes up by 2, by 1 of it halfway.
 TEST(Summary, ThePressureIsThatOfTheRoomHalfwayWhereSidesMove) {
   const Summary s = summary_of(scene_with("bottom = { motion = { velocity = [0.0, 2.0] } }\n", "", "[1.0, 0.0]"));
