@@ -58,6 +58,20 @@ TEST_F(ChartOwn, HasAllMethodsTheOwnStepAndATable) {
   expect_error("$C chart --tiny --scene my.gas.toml", 2, "chart.svg: exists already");
 }
 
+// Paths are compared until a disk has collided twice in the mean, rates taken until 25 times.
+TEST_F(ChartOwn, TimesAreThoseOfSoManyCollisions) {
+  const Outcome o = carom("chart --tiny --scene my.gas.toml --t-end 30 -o long");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const Json planned = Json::parse(text_of(at("long/chart.json")))["scenes"][0];
+  const auto collisions_a_disk_by = [&](double time) {
+    const Outcome run =
+        carom("run my.gas.toml --method exact --json --quiet --force -o run --t-end " + std::to_string(time));
+    return 2.0 * Json::parse(run.out)["collisions"].get<double>() / 64.0;
+  };
+  EXPECT_NEAR(collisions_a_disk_by(planned["flight"]), 2.0, 0.2);
+  EXPECT_NEAR(collisions_a_disk_by(planned["length"]), 25.0, 1.0);
+}
+
 // Two disks on a line, no random numbers: one run is enough, without a standard error.
 TEST_F(ChartOwn, AStartWithoutChanceIsRunOnce) {
   write("two.toml", R"([box]
