@@ -9,6 +9,7 @@
 #include "core/physics/contact_event.hpp"
 #include "core/physics/exact_path.hpp"
 #include "core/physics/obstacle_path.hpp"
+#include "core/physics/parting.hpp"
 #include "core/physics/resolve.hpp"
 
 namespace carom {
@@ -77,6 +78,7 @@ template <bool gravity, bool wraps = true, class RestitutionOf, class Rub = NoRu
 [[gnu::always_inline]] inline Impact collide_paths(const Domain& box, const Gravity& g, double s, Shares share,
                                                    double reduced_mass, const RestitutionOf& restitution,
                                                    PathSegment& p, PathSegment& q, const Rub& rub = {}) {
+  const bool begin_now = both_begin_at(s, p, q);
   drift<gravity>(p.x, p.y, p.vx, p.vy, s - p.start, g);
   drift<gravity>(q.x, q.y, q.vx, q.vy, s - q.start, g);
   p.start = q.start = s;
@@ -86,6 +88,8 @@ template <bool gravity, bool wraps = true, class RestitutionOf, class Rub = NoRu
     const double e = restitution(r);
     const double change = collide(r, share, e, p.vx, p.vy, q.vx, q.vy);
     rub(r, change);
+    if (begin_now) [[unlikely]]
+      part_disks(r, share, 0.0, p, q);
     outcome = {reduced_mass * change, 0.0, true, false, e < 1.0};
   }
   if constexpr (wraps) {
@@ -100,6 +104,7 @@ template <class RestitutionOf, class Rub>
 [[gnu::noinline, gnu::cold]] Impact collide_sheared(const Domain& box, double s, double mass_p, double mass_q,
                                                     const RestitutionOf& restitution, bool rough, const Rub& rub,
                                                     PathSegment& p, PathSegment& q) {
+  const bool begin_now = both_begin_at(s, p, q);
   p = carried_to(p, s, 0.0);
   q = carried_to(q, s, 0.0);
   const Relative r = relative_in_shear(p, q, box);
@@ -107,8 +112,10 @@ template <class RestitutionOf, class Rub>
   if (r.approach() < 0.0 && r.distance2() > 0.0) {
     const double e = restitution(r);
     const double before = q.vx;
+    const double jump = rows_to_nearest(q.y - p.y, box) * box.shear.jump;
     const double change = collide(r, shares(mass_p, mass_q), e, p.vx, p.vy, q.vx, q.vy);
     rub(r, change);
+    if (begin_now) part_disks(r, shares(mass_p, mass_q), jump, p, q);
     outcome = {reduced_mass(mass_p, mass_q) * change, 0.0, true, false, e < 1.0};
     see_shear(outcome, r, rows_to_nearest(q.y - p.y, box), mass_q * (q.vx - before), rough, box.shear);
   }
@@ -307,15 +314,29 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
   return impact;
 }
 
+// Disk a has bounced off an obstacle at time s, where its path begins.
+[[gnu::noinline, gnu::cold]] inline void part_from_obstacle(const Domain& box, double s, const Obstacle& o,
+                                                            PathSegment& p) {
+  if (o.moves) {
+    const PlacedObstacle now = placed(o, box, s);
+    part_from_wall(shortest_line_wound(now.obstacle, p.x, p.y, box).line, now.place.velocity, p);
+  } else {
+    part_from_wall(shortest_line(o, p.x, p.y, box).line, {0.0, 0.0}, p);
+  }
+}
+
 // Disk a touches obstacle k (its place in State::obstacles) at time s. The caller removes what a sink takes.
 inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t k, ExactDisk& a) {
   PathSegment& p = a.path;
+  const bool begins_now = !(s > p.start);
   p = carried_to(p, s, rules.gravity);
   const Obstacle& o = (*rules.box.obstacles)[k];
   if (o.kind == ObstacleKind::sink) return {};
   const Impact outcome =
       o.moves ? bounce_off_moving_wall(rules, s, o, a)
               : bounce_off_obstacle(rules, s, o, shortest_line(o, p.x, p.y, rules.box), rules.gravity, a);
+  if (begins_now && outcome.happened) [[unlikely]]
+    part_from_obstacle(rules.box, s, o, p);
   wrap_into(p, rules.box);
   return outcome;
 }

@@ -181,6 +181,9 @@ inline double time_to_obstacle(const Obstacle& o, Vec2 apart, const PathSegment&
   if (!o.is_segment()) return time_to_round(apart, p, radius + o.radius, g, span);
   const ShortestLine now = shortest_line(o, apart);
   if (o.kind == ObstacleKind::sink && now.distance <= radius) return 0.0;
+  // Beside it, and never nearer: of a disk that slides along it rounding would say that it touches the ends.
+  const bool comes_nearer = p.vx * now.line.x + p.vy * now.line.y < 0.0 || g.against(now.line.x, now.line.y) > 0.0;
+  if (now.flat && !comes_nearer) return never;
   const double length = std::sqrt(o.dx * o.dx + o.dy * o.dy);
   const Vec2 n{-(o.dy / length), o.dx / length};
   const double flat =

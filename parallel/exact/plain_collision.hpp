@@ -9,6 +9,7 @@
 #include "core/disks/domain.hpp"
 #include "core/physics/disk_pair.hpp"
 #include "core/physics/exact_path.hpp"
+#include "core/physics/parting.hpp"
 
 namespace carom {
 
@@ -123,11 +124,16 @@ template <class Flight, class RestitutionOf>
     outcome.shear_share = dr[0] * dr[1] / distance2;
   }
   outcome.fastest2 = std::max(sum_of(vp * vp), sum_of(vq * vq));
+  const bool begin_now = both_begin_at(s, p, q);
   p.start = q.start = s;
   store_xy(&p.x, at_p);
   store_xy(&q.x, at_q);
   store_xy(&p.vx, vp);
   store_xy(&q.vx, vq);
+  if (begin_now && outcome.happened) [[unlikely]] {
+    part_disks(Relative{dr[0], dr[1], dv[0], dv[1]}, share, 0.0, p, q);
+    outcome.fastest2 = std::max(p.vx * p.vx + p.vy * p.vy, q.vx * q.vx + q.vy * q.vy);
+  }
   return outcome;
 }
 

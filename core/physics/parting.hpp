@@ -1,0 +1,51 @@
+// What rounding takes from a collision. Disks that touch and pass along each other may approach by rounding alone, at
+// 1e-16 of their speeds. The impulse that turns this round is below the last place of their velocities: these stay as
+// they are, and the disks meet again at that moment, for ever. Likewise a disk and an inner wall. So where both paths
+// began at the moment of a contact, and what met approaches still when it has collided, velocities change by the least
+// that parts it.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "core/physics/disk_pair.hpp"
+#include "core/physics/exact_path.hpp"
+
+namespace carom {
+
+// Do both paths begin at time s? Precondition: neither begins later.
+inline bool both_begin_at(double s, const PathSegment& p, const PathSegment& q) {
+  return !(s > p.start) && !(s > q.start);
+}
+
+// Calls push(k) with k = `least`, then twice that, and so on, until approach() is not negative. Precondition: each
+// push makes approach() larger, or leaves it as it is where k is too small.
+template <class Approach, class Push>
+void push_until_parted(double least, const Approach& approach, const Push& push) {
+  for (double k = std::max(least, std::numeric_limits<double>::min()); approach() < 0.0; k *= 2.0) push(k);
+}
+
+// Two disks (smaller id first) that met as r says, and have collided since. share: of their masses. jump: by how much
+// dvx of r is more than the difference of the disks' vx, in a sheared box; length / time.
+[[gnu::noinline, gnu::cold]] inline void part_disks(const Relative& r, Shares share, double jump, PathSegment& p,
+                                                    PathSegment& q) {
+  const auto approach = [&] { return r.dx * ((q.vx - p.vx) + jump) + r.dy * (q.vy - p.vy); };
+  push_until_parted(-r.approach() / r.distance2(), approach, [&](double k) {
+    p.vx -= k * share.first * r.dx;
+    p.vy -= k * share.first * r.dy;
+    q.vx += k * share.second * r.dx;
+    q.vy += k * share.second * r.dy;
+  });
+}
+
+// A disk that has bounced off a wall. line: the shortest one from the wall to its centre; length, not 0. wall: the
+// wall's velocity.
+[[gnu::noinline, gnu::cold]] inline void part_from_wall(Vec2 line, Vec2 wall, PathSegment& p) {
+  const auto approach = [&] { return line.x * (p.vx - wall.x) + line.y * (p.vy - wall.y); };
+  push_until_parted(-approach() / (line.x * line.x + line.y * line.y), approach, [&](double k) {
+    p.vx += k * line.x;
+    p.vy += k * line.y;
+  });
+}
+
+}  // namespace carom
