@@ -31,6 +31,9 @@ namespace carom {
 
 namespace {
 
+// Disks that sources give in a window, above which one queue is faster than regions on two threads.
+constexpr double most_newcomers_of_regions = 0.5;
+
 class ParallelExact final : public Engine {
  public:
   ParallelExact(const Scene& scene, State initial, const Threads& threads, const BorderWatch& watch)
@@ -81,6 +84,7 @@ class ParallelExact final : public Engine {
   }
   bool has_room(const Disk& newcomer) const;
   void remove(const std::vector<unsigned char>& gone);
+  double newcomers_in(double length) const;
   void build_lists_if_due(const WindowPlan& plan, bool regions_allowed);
   bool run_window_with_retry(WindowPlan& plan, const SpeedSummary& speeds);
   bool run_whole_with_retry(WindowPlan& plan, const SpeedSummary& speeds);
@@ -213,8 +217,20 @@ void ParallelExact::remove(const std::vector<unsigned char>& gone) {
   if (state_.disks.size() != before) forget(Known::nothing);
 }
 
+// How many disks sources give in a window of this length, if all find room.
+double ParallelExact::newcomers_in(double length) const {
+  double rate = 0.0;
+  for (std::size_t k = 0; k < scene_.sources.size(); ++k) {
+    const Source& source = scene_.sources[k];
+    if (!source.limit || state_.sources[k].emitted < *source.limit) rate += source.rate;
+  }
+  return rate * length;
+}
+
 void ParallelExact::build_lists_if_due(const WindowPlan& plan, bool regions_allowed) {
   if (!windows_.lists_due(plan)) return;
+  // Regions take no newcomers: their lists are built anew, which takes as long as a window's events.
+  regions_allowed = regions_allowed && newcomers_in(plan.meant) < most_newcomers_of_regions;
   windows_.build_lists(plan, choose_layout(state_.disks.size(), scene_.box, regions_allowed, executor_));
 }
 

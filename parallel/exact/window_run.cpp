@@ -20,6 +20,10 @@ constexpr std::size_t pass_block = 8192;
 // predicted. So disks are predicted again this share of a window earlier. That is enough for contacts with an approach
 // faster than WindowState::slow; slower ones that are close are predicted at the start of every window.
 constexpr double early_share = 1e-3;
+// Of a window that is cut shorter than this share of what it is meant to last, as if it lasted so long.
+constexpr double least_length_share = 1.0 / 32.0;
+// Windows of less than half the longest's length. Of longer ones there are eight at most up to the horizon.
+constexpr int most_short_windows = most_windows_predicted - 8;
 // A disk is listed as far ahead of where it is as it flies in this many of its mean free times; after a collision, two
 // fifths of its velocity remain on average. The fewest instructions a collision are at 0.5 to 1, at packing fractions
 // of 0.2 and 0.5.
@@ -172,6 +176,7 @@ SliceOutcome WindowRun::run(const WindowPlan& plan, const SpeedSummary& speeds, 
 // From now on lists and times are on their way to the window's end: if it fails, they are not valid.
 void WindowRun::begin(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin) {
   if (scene_.box.shear.acts()) lists_.carry_flow(box_at(scene_.box, plan.start), plan.start);
+  count_window(plan);
   load_paths(plan, speeds, disks);
   known_at_end_ = std::exchange(known_, Known::nothing);
   set_speed_bound(plan, margin);
@@ -179,6 +184,13 @@ void WindowRun::begin(const WindowPlan& plan, const SpeedSummary& speeds, std::s
   scheduler_.begin_window(rebuilt_, per_disk_);
   if (rebuilt_ && mark_) mark_disks();
   rebuilt_ = false;
+}
+
+void WindowRun::count_window(const WindowPlan& plan) {
+  if (short_windows_ >= most_short_windows) forget(Known::lists);
+  if (known_ != Known::lists_and_times) short_windows_ = 0, longest_ = 0.0;
+  longest_ = std::max(longest_, plan.meant);
+  if (plan.length < 0.5 * longest_) ++short_windows_;
 }
 
 SliceOutcome WindowRun::run_slice(const WindowPlan& plan, std::size_t disks, double start, double end) {
@@ -224,7 +236,7 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
   DiskRecord* const record = window_.record.data();
   CalendarEntry* const entry = window_.entry.data();
   const double length = length_;
-  const double early = early_share * length;
+  const double early = early_share * std::max(length, least_length_share * meant_);
   const auto load = [&](const auto& slot_of) __attribute__((always_inline)) {
     for (std::size_t i = begin; i < end; ++i) {
       // A contact is predicted again, since rounding at the start of paths may make another event the first.
@@ -359,6 +371,7 @@ ImpactTally WindowRun::store_paths(const WindowPlan& plan, std::vector<unsigned 
 ImpactTally WindowRun::end_window(const WindowPlan& plan, const std::vector<ImpactTally>& crossings) {
   if (known_ == Known::lists) known_ = Known::lists_and_times;
   length_ = plan.length;
+  meant_ = window_.meant;
   ImpactTally tally = scheduler_.tally();
   for (const ImpactTally& block : crossings) tally.add(block);
   return tally;

@@ -119,6 +119,7 @@ class WindowRun {
   const SliceScheduler& scheduler() const { return scheduler_; }
 
  private:
+  void count_window(const WindowPlan& plan);
   void load_paths(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks);
   void load_disks(std::size_t begin, std::size_t end, const WindowPlan& plan);
   void mark_disks();
@@ -150,6 +151,9 @@ class WindowRun {
   // Then, if times stayed: up to which time of the run no other event of a disk comes before the one that is known.
   double known_until_ = never;
   double length_ = 0.0;    // of the last window
+  double meant_ = 0.0;     // likewise; WindowState::meant
+  int short_windows_ = 0;  // since all disks were predicted anew
+  double longest_ = 0.0;   // window meant since then; time
   double per_disk_ = 0.0;  // events a disk and time, of the last slice
   std::size_t own_ = 0;    // of a part: disks that are not of its halo
   std::function<DiskProgress(std::uint32_t)> mark_;

@@ -10,12 +10,17 @@ namespace carom {
 
 namespace {
 
-// Events are predicted this many windows ahead; a disk that has none by then is predicted again.
+// Events are predicted this many windows ahead, as long as they are meant to be; a disk that has none by then is
+// predicted again.
 constexpr double windows_ahead = 4.0;
-// Disks that approach at more than `slow` meet at a time that rounding shifts by less than this part of a window.
+// Of disks at rest a window may be meant to last for ever: it counts as no longer than so many times what it lasts.
+constexpr double most_shortened = 0x1p20;
+// Disks that approach at more than `slow` meet at a time that rounding shifts by less than this part of a window as
+// long as it is meant to be.
 constexpr double rounding_ratio = 1e5;
-// Two paths have two coordinates each, which are rounded a few times in each of the windows ahead.
-constexpr double blur_in_roundings = 64.0;
+// Two paths have two coordinates each, which are rounded a few times in each of the windows that they are predicted
+// for.
+constexpr double blur_in_roundings = 16.0 * most_windows_predicted;
 
 // Reserves room for a few more: where there are ghosts, the number of disks goes up and down a little. Pages that
 // nothing is written to take no memory.
@@ -32,7 +37,8 @@ void WindowState::begin(const ExactRules& window_rules, const Disks& all, const 
   rules = window_rules;
   disks = &all;
   length = plan.length;
-  horizon = windows_ahead * plan.length;
+  meant = std::min(plan.meant, most_shortened * plan.length);
+  horizon = windows_ahead * meant;
   next_start = std::nextafter(plan.length, never);
   fastest2 = fastest_speed2;
   largest_radius = radius;
@@ -54,7 +60,7 @@ void WindowState::set_tolerances() {
   const double fastest = std::sqrt(fastest2) + rules.gravity.size * length;
   const double rounding = 0x1p-51 * (side + fastest * horizon);
   close = 4.0 * rounding_ratio * rounding;
-  slow = rounding_ratio * rounding / length;
+  slow = rounding_ratio * rounding / meant;
   blur = blur_in_roundings * rounding;
 }
 

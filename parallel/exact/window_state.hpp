@@ -23,6 +23,10 @@ namespace carom {
 // them.
 inline constexpr std::size_t entries_apart = 8;
 
+// Within as many windows a disk is predicted again, whatever cuts them short: so that rounding at their starts, which
+// adds up, stays below WindowState::blur.
+inline constexpr int most_windows_predicted = 128;
+
 // Columns are by storage index.
 struct WindowState {
   EngineMode mode = EngineMode::single_queue;
@@ -42,6 +46,7 @@ struct WindowState {
   std::vector<std::uint16_t> region_of_tile;
 
   double length = 0.0;      // of the window; time
+  double meant = 0.0;       // that it would have, had nothing cut it short; time
   double horizon = 0.0;     // events are predicted up to here, beyond the window
   double next_start = 0.0;  // just beyond the window
   double slack = 0.0;       // rounding of a coordinate, generously; length
@@ -108,11 +113,11 @@ struct WindowState {
   void append_disk(double next_event);
   void remove_disk(std::size_t i);
 
-  // When a disk that has no event up to the horizon is predicted again: within one window's length before the horizon,
+  // When a disk that has no event up to the horizon is predicted again: within one window's time before the horizon,
   // at another time for each disk, so that not all come at once.
   double last_look(std::uint32_t i) const {
     constexpr std::uint32_t golden = 2654435769U;  // 2^32 over the golden ratio: multiples are spread evenly
-    return horizon - length * (0x1p-32 * static_cast<double>(i * golden));
+    return horizon - meant * (0x1p-32 * static_cast<double>(i * golden));
   }
   // May disk i, listed at height y with this skin, meet a disk that this rank does not have?
   bool is_beyond_band(std::uint32_t i, double y, double skin) const {
