@@ -5,7 +5,6 @@
 #include <ctime>
 #include <utility>
 
-#include "core/base/check.hpp"
 #include "io/checkpoint/checkpoint_place.hpp"
 #include "io/files/shell_word.hpp"
 #include "run/stop_signals.hpp"

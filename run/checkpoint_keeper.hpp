@@ -1,8 +1,6 @@
 // When a run writes checkpoints: in intervals of wall time, on signals, when its time is up, at its end.
 #pragma once
 
-#include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 

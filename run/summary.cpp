@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <utility>
 
 #include "core/base/build_version.hpp"
 #include "core/base/input_message.hpp"

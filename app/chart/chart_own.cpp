@@ -7,8 +7,8 @@
 
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
+#include "core/disks/domain.hpp"
 #include "core/disks/state_hash.hpp"
-#include "core/load/scene_file.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"

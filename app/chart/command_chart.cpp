@@ -14,6 +14,7 @@
 #include "app/chart/chart_table.hpp"
 #include "app/chart/chart_text.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/messages.hpp"
 #include "app/cli/progress.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"

@@ -9,7 +9,6 @@
 
 #include "app/cli/compare_rule.hpp"
 #include "app/cli/option_values.hpp"
-#include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/load/method_choice.hpp"
 #include "core/scene/picture_look.hpp"

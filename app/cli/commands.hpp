@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "app/cli/command_line.hpp"
-#include "app/cli/messages.hpp"
 #include "run/json_keys.hpp"
 
 namespace carom {

@@ -11,6 +11,7 @@
 #include <new>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/messages.hpp"
 #include "app/cli/start_ranks.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"

@@ -1,10 +1,8 @@
 // carom-mpi: the program on several ranks, as mpiexec starts them. Rank 0 is the program; the others do what it does.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <csignal>
 #include <exception>
-#include <thread>
 
 #include "app/cli/messages.hpp"
 #include "app/cli/program.hpp"

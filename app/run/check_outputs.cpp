@@ -12,9 +12,9 @@
 
 #include "core/base/check.hpp"
 #include "core/base/wall_clock.hpp"
+#include "core/scene/scene.hpp"
 #include "core/scene/size_law.hpp"
 #include "io/checkpoint/checkpoint.hpp"
-#include "io/checkpoint/checkpoint_place.hpp"
 #include "io/files/checkpoint_names.hpp"
 #include "run/frame_schedule.hpp"
 #include "run/run_outputs.hpp"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "app/cli/progress.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
 #include "core/load/method_choice.hpp"

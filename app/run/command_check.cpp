@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/messages.hpp"
 #include "app/run/check_report.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/messages.hpp"
 #include "app/run/run_and_report.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/messages.hpp"
 #include "app/run/run_and_report.hpp"
 #include "core/load/method_choice.hpp"
 #include "core/load/scene_check.hpp"

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "app/cli/progress.hpp"
+#include "app/cli/status_line.hpp"
 #include "core/base/short_number.hpp"
 
 namespace carom {

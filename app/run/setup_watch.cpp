@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <condition_variable>
-#include <cstdlib>
 #include <mutex>
 #include <stop_token>
 
-#include "app/cli/commands.hpp"
+#include "app/cli/messages.hpp"
 #include "run/checkpoint_keeper.hpp"
 #include "run/stop_signals.hpp"
 

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/messages.hpp"
 #include "app/cli/progress.hpp"
 #include "app/cli/start_ranks.hpp"
 #include "app/sweep/run_programs.hpp"

@@ -6,7 +6,6 @@
 
 #include <cerrno>
 
-#include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 
 namespace carom {

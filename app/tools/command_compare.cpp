@@ -2,12 +2,12 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/messages.hpp"
 #include "core/base/input_message.hpp"
 #include "io/files/output_folder.hpp"
 #include "io/files/shell_word.hpp"

@@ -1,5 +1,6 @@
 // carom docs PAGE
 #include "app/cli/commands.hpp"
+#include "app/cli/messages.hpp"
 #include "app/tools/scene_page.hpp"
 
 namespace carom {

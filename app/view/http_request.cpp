@@ -1,7 +1,6 @@
 #include "app/view/http_request.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 
 namespace carom {

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <numeric>
 
 #include "bench/figures/figures.hpp"
 #include "bench/support/bench_scenes.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
 #include "bench/figures/figures.hpp"
 #include "bench/support/bench_scenes.hpp"

@@ -2,7 +2,6 @@
 #include <fmt/os.h>
 
 #include <map>
-#include <memory>
 
 #include "bench/figures/figures.hpp"
 #include "bench/support/bench_scenes.hpp"

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <string>
-#include <vector>
 
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"

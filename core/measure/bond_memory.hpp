@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "core/base/types.hpp"
 #include "core/disks/disks_in_pieces.hpp"
 #include "core/disks/domain.hpp"
 #include "core/measure/bond_order.hpp"

@@ -3,8 +3,6 @@
 
 #include <vector>
 
-#include "core/base/types.hpp"
-
 namespace carom {
 
 // D of <r^2> = 2 d D t + constant in d dimensions; length^2 / time.

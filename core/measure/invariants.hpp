@@ -9,10 +9,9 @@
 #include "core/base/block_runner.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/gravity.hpp"
 #include "core/disks/overlap.hpp"
-#include "core/disks/state.hpp"
 #include "core/physics/roughness.hpp"
-#include "core/scene/scene.hpp"
 
 namespace carom {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/base/block_runner.hpp"
+#include "core/base/types.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/pair_counts.hpp"
-#include "core/scene/scene.hpp"
 
 namespace carom {
 

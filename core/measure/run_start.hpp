@@ -1,7 +1,9 @@
 // What is remembered of the start of a run, for the summary at its end.
 #pragma once
 
+#include "core/disks/state.hpp"
 #include "core/measure/invariants.hpp"
+#include "core/scene/scene.hpp"
 
 namespace carom {
 

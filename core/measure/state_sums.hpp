@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/disks/state.hpp"
 #include "core/measure/blocked_tally.hpp"
 #include "core/measure/run_start.hpp"
+#include "core/scene/scene.hpp"
 
 namespace carom {
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 #include "core/base/types.hpp"
-#include "core/physics/contact_event.hpp"
+#include "core/disks/domain.hpp"
+#include "core/disks/side_motion.hpp"
 #include "core/physics/exact_path.hpp"
 #include "core/physics/obstacle_path.hpp"
 #include "core/physics/parting.hpp"

@@ -1,7 +1,6 @@
 // A side that moves: a wall in whose frame disks are reflected. What it gives to the disks is its work.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/physics/boundary.hpp"

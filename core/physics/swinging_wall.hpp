@@ -3,7 +3,6 @@
 // disk moves along the line that is the shortest one now.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/physics/exact_path.hpp"

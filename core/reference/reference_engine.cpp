@@ -8,6 +8,7 @@
 #include "core/reference/reference_rollback.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
+#include "core/step/step_start.hpp"
 #include "core/step/thermostat.hpp"
 
 namespace carom {

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "core/disks/obstacle_cells.hpp"
+#include "core/disks/state.hpp"
 #include "core/physics/contact_event.hpp"
+#include "core/scene/scene.hpp"
 #include "core/step/engine.hpp"
-#include "core/step/step_start.hpp"
 #include "core/step/validity.hpp"
 
 namespace carom {

@@ -1,7 +1,6 @@
 // Which [[disks]] block of its scene a disk is of, told by its id.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -2,7 +2,6 @@
 // that walk the TOML tree include this.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

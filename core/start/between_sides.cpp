@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "core/base/input_message.hpp"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/huge_pages.hpp"
+#include "core/start/start_region.hpp"
 
 namespace carom {
 

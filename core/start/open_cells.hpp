@@ -8,7 +8,7 @@
 
 #include "core/disks/cell_index.hpp"
 #include "core/disks/domain.hpp"
-#include "core/start/start_region.hpp"
+#include "core/scene/scene.hpp"
 #include "core/start/voxel_list.hpp"
 
 namespace carom {

@@ -7,6 +7,7 @@
 
 #include "core/base/input_message.hpp"
 #include "core/start/placement.hpp"
+#include "core/start/start_region.hpp"
 
 namespace carom {
 

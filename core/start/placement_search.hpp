@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/base/random.hpp"
+#include "core/disks/domain.hpp"
 #include "core/scene/scene.hpp"
 #include "core/start/open_cells.hpp"
 #include "core/start/placement_grid.hpp"
-#include "core/start/start_region.hpp"
 #include "core/start/voxel_list.hpp"
 
 namespace carom {

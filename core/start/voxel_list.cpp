@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/disks/cell_index.hpp"
+#include "core/start/start_region.hpp"
 
 namespace carom {
 

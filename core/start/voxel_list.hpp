@@ -8,8 +8,8 @@
 
 #include "core/base/random.hpp"
 #include "core/disks/domain.hpp"
+#include "core/scene/scene.hpp"
 #include "core/start/placement_grid.hpp"
-#include "core/start/start_region.hpp"
 
 namespace carom {
 

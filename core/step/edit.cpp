@@ -1,7 +1,5 @@
 #include "core/step/edit.hpp"
 
-#include <vector>
-
 namespace carom {
 
 namespace {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "core/base/check.hpp"
 #include "core/base/short_number.hpp"

@@ -15,7 +15,6 @@
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
-#include "core/step/window_plan.hpp"
 
 namespace carom {
 

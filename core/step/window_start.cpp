@@ -1,7 +1,6 @@
 #include "core/step/window_start.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"

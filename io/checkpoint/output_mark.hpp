@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/disks/state.hpp"
+#include "core/base/types.hpp"
 #include "core/measure/analysis.hpp"
 #include "core/measure/displacement.hpp"
 #include "io/files/file_mark.hpp"

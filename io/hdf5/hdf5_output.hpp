@@ -1,7 +1,6 @@
 // Making and extending the parts of an HDF5 file, every failure a RunError.
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <vector>
 

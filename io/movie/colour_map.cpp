@@ -1,6 +1,7 @@
 #include "io/movie/colour_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace carom {

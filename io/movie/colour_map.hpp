@@ -1,8 +1,6 @@
 // From a number in [0, 1] to a colour: viridis, perceptually uniform and safe for the colour-blind.
 #pragma once
 
-#include <array>
-
 namespace carom {
 
 struct Colour {

@@ -5,7 +5,6 @@
 
 #include "core/base/blocking_error.hpp"
 #include "core/base/sample_mean.hpp"
-#include "core/load/scene_file.hpp"
 #include "core/measure/analysis_curves.hpp"
 #include "core/measure/diffusion_fit.hpp"
 #include "core/scene/scene_names.hpp"

@@ -1,7 +1,6 @@
 // What series.csv and trajectory.h5 tell of each group that has a name.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
 #include "core/base/block_runner.hpp"
 #include "core/disks/disks_in_pieces.hpp"

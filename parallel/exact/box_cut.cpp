@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/base/types.hpp"
-
 namespace carom {
 
 namespace {

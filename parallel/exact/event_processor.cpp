@@ -1,11 +1,9 @@
 #include "parallel/exact/event_processor.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "core/physics/event_order.hpp"
-#include "core/step/window_length.hpp"
 #include "parallel/exact/contact_outcomes.inl"
 #include "parallel/exact/prefetch_event.hpp"
 #include "parallel/exact/relisting.inl"

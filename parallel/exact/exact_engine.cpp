@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/check.hpp"
 #include "core/disks/obstacle_cells.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_start.hpp"

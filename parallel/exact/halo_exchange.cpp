@@ -2,7 +2,6 @@
 // ghosts become own disks.
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "core/physics/exact_path.hpp"
 #include "parallel/exact/halo_part.hpp"

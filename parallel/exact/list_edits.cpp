@@ -1,5 +1,4 @@
 // Neighbour lists while a program or a source adds disks between windows, or a program takes some away.
-#include <span>
 #include <vector>
 
 #include "parallel/exact/neighbour_lists.hpp"

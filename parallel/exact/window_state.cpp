@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/huge_pages.hpp"
-#include "core/step/window_length.hpp"
 
 namespace carom {
 

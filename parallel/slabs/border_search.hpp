@@ -7,10 +7,10 @@
 
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/pair.hpp"
 #include "parallel/slabs/ghost_disks.hpp"
 #include "parallel/slabs/slab_cut.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
-#include "parallel/stepping/find_contacts.hpp"
 
 namespace carom {
 

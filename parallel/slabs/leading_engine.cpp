@@ -1,6 +1,5 @@
 #include "parallel/slabs/leading_engine.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <optional>
@@ -15,7 +14,6 @@
 #include "parallel/slabs/slab_exact.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
 #include "parallel/slabs/start_on_slabs.hpp"
-#include "parallel/slabs/whole_state.hpp"
 
 namespace carom {
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/physics/contact_event.hpp"
+#include "parallel/ranks/message.hpp"
 
 namespace carom {
 

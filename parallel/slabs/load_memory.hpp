@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "core/base/types.hpp"
 #include "core/disks/state.hpp"
-#include "parallel/ranks/message.hpp"
 #include "parallel/ranks/ranks.hpp"
 
 namespace carom {

@@ -1,7 +1,5 @@
 #include "parallel/slabs/open_places.hpp"
 
-#include <utility>
-
 #include "core/start/placement_search.hpp"
 
 namespace carom {

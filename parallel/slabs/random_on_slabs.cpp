@@ -8,7 +8,6 @@
 #include <numbers>
 #include <queue>
 #include <unordered_map>
-#include <utility>
 
 #include "core/disks/obstacle_cells.hpp"
 #include "core/start/placement_grid.hpp"

@@ -11,7 +11,6 @@
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/load_memory.hpp"
 #include "parallel/slabs/moving_disks.hpp"
-#include "parallel/slabs/slab_start.hpp"
 #include "parallel/slabs/whole_state.hpp"
 
 namespace carom {

@@ -2,7 +2,6 @@
 // of what is asked, that of rank 0 counts.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 

@@ -5,6 +5,7 @@
 
 #include "core/measure/bond_correlation.hpp"
 #include "core/measure/bond_order.hpp"
+#include "core/measure/pair_records.hpp"
 #include "parallel/slabs/border_disks.hpp"
 
 namespace carom {

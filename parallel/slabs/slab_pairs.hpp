@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "core/base/block_runner.hpp"
-#include "core/measure/pair_records.hpp"
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
+#include "core/disks/pair_counts.hpp"
+#include "core/scene/scene.hpp"
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/slab_cut.hpp"
 

@@ -2,7 +2,6 @@
 // them has pressed disks of different slabs together.
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/other_slabs.hpp"

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/step/source.hpp"
+#include "core/step/step_start.hpp"
 #include "parallel/cells/compact.hpp"
 #include "parallel/cells/meets_nearby.hpp"
 #include "parallel/ranks/message.hpp"

@@ -10,6 +10,7 @@
 #include "core/disks/cell_index.hpp"
 #include "core/step/source.hpp"
 #include "parallel/cells/cell_grid.hpp"
+#include "parallel/ranks/message.hpp"
 
 namespace carom {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/base/types.hpp"
 #include "core/disks/disk_source.hpp"
-#include "core/disks/state.hpp"
+#include "core/disks/disks.hpp"
 #include "core/scene/scene.hpp"
-#include "parallel/ranks/message.hpp"
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/moving_disks.hpp"
 #include "parallel/slabs/slab_cut.hpp"

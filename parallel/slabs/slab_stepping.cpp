@@ -5,9 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/check.hpp"
 #include "core/physics/push_apart.hpp"
-#include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/thermostat.hpp"

@@ -7,9 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/disks/obstacle_cells.hpp"
+#include "core/disks/state.hpp"
 #include "core/physics/impact_tally.hpp"
+#include "core/physics/step_rules.hpp"
+#include "core/scene/scene.hpp"
 #include "core/step/engine.hpp"
-#include "core/step/step_start.hpp"
 #include "core/step/validity.hpp"
 #include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/border_contacts.hpp"

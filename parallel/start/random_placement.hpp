@@ -3,9 +3,11 @@
 
 #include <functional>
 
+#include "core/disks/disks.hpp"
 #include "core/disks/state.hpp"
+#include "core/scene/scene.hpp"
 #include "core/start/growth.hpp"
-#include "core/start/placement.hpp"
+#include "core/start/placement_grid.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/physics/contact_of_step.hpp"
 #include "parallel/stepping/move_kernel.hpp"
 #include "parallel/stepping/near_walls.hpp"
 #include "parallel/stepping/wall_reach.hpp"

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "core/disks/disks.hpp"
-#include "core/physics/resolve.hpp"
+#include "core/disks/domain.hpp"
+#include "core/disks/gravity.hpp"
+#include "core/physics/step_rules.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 #include "parallel/threads/executor.hpp"

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/physics/disk_pair.hpp"
+#include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/stepping/search_kernel.hpp"
 
 namespace carom {

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "core/disks/domain.hpp"
+#include "core/disks/pair.hpp"
 #include "parallel/cells/cell_grid.hpp"
-#include "parallel/stepping/find_contacts.hpp"
 
 namespace carom {
 

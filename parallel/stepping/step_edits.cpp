@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/step/step_start.hpp"
 #include "parallel/cells/nearby_runs.hpp"
 #include "parallel/stepping/time_stepping.hpp"
 

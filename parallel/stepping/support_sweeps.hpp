@@ -2,7 +2,6 @@
 // Others: what ranks ask each other on the way; SingleSlab below, or OtherSlabs (parallel/slabs/other_slabs.hpp).
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "core/disks/obstacle_cells.hpp"
+#include "core/disks/state.hpp"
+#include "core/physics/step_rules.hpp"
+#include "core/scene/scene.hpp"
 #include "core/step/engine.hpp"
-#include "core/step/step_start.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
 #include "parallel/stepping/displaced_disks.hpp"
 #include "parallel/stepping/find_contacts.hpp"

@@ -4,9 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
-#include <string_view>
 
-#include "core/base/check.hpp"
 #include "parallel/exact/list_kernel.hpp"
 #include "parallel/kicks/draw_kernels.hpp"
 #include "parallel/stepping/move_kernel.hpp"

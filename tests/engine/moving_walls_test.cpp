@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "core/base/check.hpp"
 #include "core/disks/obstacle_cells.hpp"

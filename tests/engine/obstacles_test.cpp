@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "core/disks/obstacle_cells.hpp"
+#include "core/disks/state.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/physics/obstacle_contact.hpp"
+#include "core/scene/scene.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/exact_support.hpp"
 #include "tests/support/feature_scenes.hpp"
 #include "tests/support/resume_support.hpp"
 #include "tests/support/scene_support.hpp"
-#include "tests/support/state_bits.hpp"
 
 namespace carom {
 namespace {

@@ -10,7 +10,6 @@
 #include <tuple>
 #include <vector>
 
-#include "core/base/check.hpp"
 #include "core/measure/energy_gain.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/measure/run_start.hpp"

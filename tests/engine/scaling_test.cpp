@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/disk_group.hpp"
+#include "core/scene/scene.hpp"
 #include "core/start/growth.hpp"
-#include "core/start/initial_state.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/other_units.hpp"

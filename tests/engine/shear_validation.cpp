@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <string>
 
 #include "core/load/scene_file.hpp"
 #include "core/measure/invariants.hpp"

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <memory>
-
 #include "core/disks/state_hash.hpp"
 #include "core/reference/reference_exact.hpp"
 #include "parallel/simulation.hpp"

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "core/disks/state_hash.hpp"
 #include "parallel/exact/exact_engine.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/draws.hpp"

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "parallel/exact/border_watch.hpp"
 #include "parallel/exact/exact_engine.hpp"

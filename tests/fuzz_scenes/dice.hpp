@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <initializer_list>
-#include <string>
 
 #include "core/base/random.hpp"
 

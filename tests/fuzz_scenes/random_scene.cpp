@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "tests/fuzz_scenes/random_disks.hpp"
 #include "tests/fuzz_scenes/random_restitution.hpp"

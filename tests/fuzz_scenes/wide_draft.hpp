@@ -1,7 +1,6 @@
 // What a wide scene is to be, before it is text.
 #pragma once
 
-#include <array>
 #include <string>
 
 #include "tests/fuzz_scenes/dice.hpp"

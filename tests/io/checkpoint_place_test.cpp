@@ -8,7 +8,6 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
-#include <limits>
 
 #include "core/base/check.hpp"
 #include "io/checkpoint/checkpoint.hpp"

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
-#include <array>
 #include <csignal>
 #include <cstring>
 #include <limits>

@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "core/base/check.hpp"
-#include "io/files/child_process.hpp"
 #include "io/plots/gnuplot.hpp"
 #include "tests/support/test_folder.hpp"
 

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <limits>
 
 #include "core/base/check.hpp"
 #include "core/disks/state_hash.hpp"

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/disks/state.hpp"
 #include "core/measure/follow_disks.hpp"
-#include "core/start/initial_state.hpp"
+#include "core/scene/scene.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"

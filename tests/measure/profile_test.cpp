@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "core/measure/analysis_curves.hpp"
 #include "tests/support/disks_by_hand.hpp"

@@ -4,9 +4,10 @@
 
 #include <string>
 
+#include "core/disks/state.hpp"
 #include "core/load/scene_check.hpp"
 #include "core/measure/energy_gain.hpp"
-#include "core/step/validity.hpp"
+#include "core/scene/scene.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/exact_support.hpp"
 #include "tests/support/program_support.hpp"

@@ -2,7 +2,6 @@
 // condition, checks that it holds in Carom and that it fails in the original (tests/support/original.hpp).
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 

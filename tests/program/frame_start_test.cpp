@@ -1,5 +1,4 @@
 // Scenes that start from a frame of an earlier run.
-#include <filesystem>
 #include <sstream>
 #include <string>
 

@@ -1,6 +1,5 @@
 // The launcher ./carom with stand-ins for its tools, which print their arguments: what it builds, tests and prints.
 #include <filesystem>
-#include <fstream>
 
 #include "tests/support/program_support.hpp"
 

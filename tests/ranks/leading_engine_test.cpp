@@ -4,13 +4,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdint>
-
 #include "core/base/check.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/start/initial_state.hpp"
-#include "parallel/ranks/local_ranks.hpp"
 #include "parallel/simulation.hpp"
 #include "parallel/slabs/moving_disks.hpp"
 #include "tests/support/leading_support.hpp"

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <stdexcept>
-#include <string>
 
 #include "parallel/ranks/local_ranks.hpp"
 #include "tests/support/ranks_support.hpp"

@@ -2,16 +2,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <mutex>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/base/check.hpp"
 #include "parallel/ranks/local_ranks.hpp"
 #include "parallel/slabs/slab_cut.hpp"
-#include "parallel/threads/executor.hpp"
 #include "tests/support/slab_support.hpp"
 
 namespace carom {

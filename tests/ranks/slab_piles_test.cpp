@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "core/load/scene_file.hpp"
-#include "core/start/initial_state.hpp"
+#include "core/scene/scene.hpp"
 #include "tests/support/slab_support.hpp"
 
 namespace carom {

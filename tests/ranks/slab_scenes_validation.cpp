@@ -2,7 +2,6 @@
 // do not know yet cannot be passed over by them.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,5 +1,4 @@
 // Numbers beyond what the formulas hold are refused in one line; within them, whatever their size, a run is right.
-#include "core/scene/scene_ranges.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/load/scene_file.hpp"
+#include "core/base/types.hpp"
+#include "core/scene/override.hpp"
 
 namespace carom::stability {
 

@@ -10,11 +10,12 @@
 
 #include "core/base/check.hpp"
 #include "core/disks/state_hash.hpp"
-#include "core/load/scene_check.hpp"
+#include "core/load/scene_file.hpp"
 #include "core/measure/energy_gain.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/validity.hpp"
 #include "parallel/simulation.hpp"
+#include "tests/stability/measure.hpp"
 
 namespace carom::stability {
 

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "core/disks/state.hpp"
-#include "core/step/engine.hpp"
 #include "tests/stability/case.hpp"
-#include "tests/stability/measure.hpp"
 
 namespace carom::stability {
 

@@ -7,9 +7,10 @@
 
 #include <cmath>
 
+#include "core/disks/disks.hpp"
+#include "core/disks/domain.hpp"
 #include "core/disks/obstacle_cells.hpp"
 #include "core/physics/obstacle_contact.hpp"
-#include "core/reference/pair_search.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"
 #include "parallel/start/growth_step.hpp"

@@ -5,15 +5,15 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <string>
-#include <vector>
 
 #include "core/base/check.hpp"
+#include "core/disks/state.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/reference/reference_exact.hpp"
+#include "core/scene/scene.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
 #include "tests/support/disks_by_hand.hpp"

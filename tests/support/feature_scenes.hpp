@@ -9,6 +9,7 @@
 
 #include "core/disks/state_hash.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/scene/scene.hpp"
 #include "core/start/initial_state.hpp"
 
 namespace carom::test {
