@@ -67,8 +67,7 @@ std::string RunningAnalysis::take_warning() {
   warned_ = true;
   return fmt::format(
       "displacement: at t = {:g} disks moved too far within a step to count how often they went round the periodic "
-      "box; "
-      "the mean square displacement may be wrong from there on; use a smaller dt",
+      "box; the mean square displacement may be wrong from there on; use a smaller dt",
       record_.displacement.looked_at);
 }
 

@@ -111,8 +111,7 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return json_number(s.pressure); }},
     {"collision_rate", "1 / time",
      "collisions that a disk takes part in per unit time, over the time that all disks were there; in time stepping "
-     "one "
-     "that a sink takes counts for half of that step",
+     "one that a sink takes counts for half of that step",
      [](const Summary& s) -> Json { return json_number(s.collision_rate); }},
     {"removed", "", "disks that sinks have taken", [](const Summary& s) -> Json { return s.counters.removed; }},
     {"emitted", "", "disks that came from sources", [](const Summary& s) -> Json { return s.counters.emitted; }},
@@ -165,12 +164,10 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return phase_seconds(s); }},
     {"traffic", "",
      "only of several ranks, an object: `disks` of each at the end; `ghosts`, those of others that each had beside "
-     "them "
-     "in the last step; `imbalance`, the most disks over their mean; "
-     "`peak_bytes`, the most memory that each had; what a rank said in a step, in the mean of this part of the run, "
-     "`messages` and `bytes` of `exchange` (to its two neighbours), `all_reduce` and `gather` (calls of all ranks, "
-     "with "
-     "what the rank gave to them); and the `seconds` that each rank took for that",
+     "them in the last step; `imbalance`, the most disks over their mean; `peak_bytes`, the most memory that each had; "
+     "what a rank said in a step, in the mean of this part of the run, `messages` and `bytes` of `exchange` (to its "
+     "two neighbours), `all_reduce` and `gather` (calls of all ranks, with what the rank gave to them); and the "
+     "`seconds` that each rank took for that",
      [](const Summary& s) -> Json { return traffic_of(s); }},
 };
 

@@ -142,8 +142,7 @@ void describe_chart(CLI::App* chart, OptionWords& words) {
   chart->add_flag("--force", words.force, "replace an earlier chart in the folder");
   chart->footer(
       "--scene takes scenes whose disks stay, collide, and can be run by exact; their own --dt is one of the steps. "
-      "See "
-      "docs/chart.md.");
+      "See docs/chart.md.");
 }
 
 }  // namespace

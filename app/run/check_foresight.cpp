@@ -278,8 +278,8 @@ std::vector<std::string> foreseen_troubles(const Scene& scene, const StepForesig
     const std::string when = collapse.from ? fmt::format("about t = {:.2g}", *collapse.from) : "some time";
     troubles.push_back(fmt::format(
         "inelastic collapse is to be expected from {} on, infinitely many collisions in finite time: the run would "
-        "stop "
-        "with status 3; take --method pairwise, or give physics.collapse = {{ model = \"tc\", contact_time = ... }}",
+        "stop with status 3; take --method pairwise, or give physics.collapse = {{ model = \"tc\", contact_time = ... "
+        "}}",
         when));
   }
   const double dt = scene.run.dt;
@@ -299,8 +299,7 @@ std::vector<std::string> foreseen_troubles(const Scene& scene, const StepForesig
   if (population.end > population.start && !has_sinks(scene) && population.fill > source_fill) {
     troubles.push_back(
         fmt::format("the sources would fill the box to a packing fraction of {:.2g}, and find no room beyond about "
-                    "{:g}: give a limit "
-                    "or a sink",
+                    "{:g}: give a limit or a sink",
                     population.fill, source_fill));
   }
   return troubles;

@@ -97,8 +97,7 @@ std::string key_rows(std::string_view table) {
 std::string range_rows() {
   std::string text =
       "\n## Ranges\n\nNumbers that would overflow or vanish in the formulas are refused. 0 is allowed where a key "
-      "allows "
-      "it.\n\n| what | unit | from | to | why |\n| --- | --- | --- | --- | --- |\n";
+      "allows it.\n\n| what | unit | from | to | why |\n| --- | --- | --- | --- | --- |\n";
   for (const Magnitudes& m : magnitudes) {
     if (m.dimension == Dimension::none) continue;
     text += fmt::format("| {} | {} | {} | {} | {} |\n", m.noun, m.unit, m.least, m.most, m.why);

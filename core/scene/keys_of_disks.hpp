@@ -25,8 +25,7 @@ inline constexpr SceneKey keys[] = {
     {"disks", "count", count, none, "required", "How many disks the group has; 4 10^9 in all at most.", "count = 1000"},
     {"disks", "positions", special, none, "required",
      "Centres. Random without overlap; spread over the box on a lattice; grown into each other's gaps, which is "
-     "denser; "
-     "or given.",
+     "denser; or given.",
      R"(positions = "random")", "NAMES, a list of [x, y], `{ file = ... }`, or `{ frame = ... }`", position_names},
     {"disks", "velocities", special, none, "at rest", "Velocities at the start.", "velocities = { maxwell = 1.0 }",
      velocities_allowed},
@@ -39,8 +38,7 @@ inline constexpr SceneKey keys[] = {
      "fixed = true"},
     {"disks", "region", special, Dimension::length, "the box",
      "Where random disks and lattices start: whole disks within this rectangle or circle. A rectangle from one "
-     "periodic "
-     "side to the other has no edge there.",
+     "periodic side to the other has no edge there.",
      "region = [0.0, 0.0, 50.0, 100.0]", "[x0, y0, x1, y1], or `{ circle = ... }`"},
     {"disks", "drift", special, Dimension::speed, "[0, 0]",
      "A velocity that all disks of the group get on top, at the start: Brownian disks forget it.", "drift = [1.0, 0.0]",
@@ -63,9 +61,8 @@ inline constexpr SceneKey keys[] = {
      "region = { circle = [50.0, 50.0, 40.0] }", "[x, y, r]"},
     {"disks.velocities", "maxwell", non_negative, Dimension::energy, "",
      "Temperature T of this group (k_B = 1), whatever the others have: normal deviates, their mean taken off, then "
-     "scaled "
-     "so that the mean kinetic energy of a disk is T exactly; `drift` comes on top. From a side of a source: as gas "
-     "flows through a hole.",
+     "scaled so that the mean kinetic energy of a disk is T exactly; `drift` comes on top. From a side of a source: as "
+     "gas flows through a hole.",
      "velocities = { maxwell = 1.0 }"},
     {"disks.velocities", "uniform", non_negative, Dimension::speed, "", "v: each component uniform between -v and v.",
      "velocities = { uniform = 2.0 }"},

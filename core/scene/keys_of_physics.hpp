@@ -73,8 +73,7 @@ inline constexpr SceneKey keys[] = {
      "Of a wall: speed away from it over speed towards it.", "left = { restitution = 0.5 }"},
     {"box.side", "temperature", positive, Dimension::energy, "not thermal",
      "T of a thermal wall (k_B = 1): whatever the velocity with which a disk reaches it, the disk leaves with one "
-     "drawn "
-     "from Maxwell's flux distribution. Takes the place of `restitution`. Not with Brownian motion.",
+     "drawn from Maxwell's flux distribution. Takes the place of `restitution`. Not with Brownian motion.",
      "left = { temperature = 2.0 }"},
     {"box.side", "motion", special, none, "at rest",
      "How a wall moves, whatever meets it: it reflects disks in its own frame. Not with Brownian motion or "
@@ -182,8 +181,7 @@ inline constexpr SceneKey keys[] = {
      "Of friction, or at which a disk gets a new velocity. `rate` times `dt` is 1 at most.", "rate = 0.5"},
     {"physics.thermostat", "dt", positive, Dimension::time, "`run.dt`",
      "Between two kicks, the first at 0. In the stepping methods no less than `run.dt`: there a kick is at the start "
-     "of "
-     "a step.",
+     "of a step.",
      "dt = 0.1"},
 };
 

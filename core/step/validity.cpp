@@ -49,8 +49,7 @@ std::string overlap_text(const Scene& scene, const State& state, const WorstOver
 std::string missed_text(const State& state, const WorstOverlap& wall) {
   return fmt::format(
       "at time {:g} disk {} reaches {:.2g} % of its radius beyond the {}: a contact was missed, and what comes after "
-      "is "
-      "wrong; please report this scene",
+      "is wrong; please report this scene",
       wall.time, wall.overlap.id1, 100.0 * wall.overlap.size, wall_name(state, wall.overlap.id2));
 }
 

@@ -19,8 +19,7 @@ struct RotationColumn {
 inline constexpr RotationColumn rotation_columns[] = {
     {"rotational", "energy", "sum of I w^2 / 2; `total` has it too; only where disks are rough, as the next"},
     {"rotational_temperature", "energy",
-     "mean of I w^2 of a disk, 0 without disks; that of the motion of the centres is "
-     "`kinetic` over `disks`"},
+     "mean of I w^2 of a disk, 0 without disks; that of the motion of the centres is `kinetic` over `disks`"},
 };
 
 // Names of the scene's columns, none where disks are smooth; and their values, in the same order, where they are rough.

@@ -38,8 +38,7 @@ inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"wall_collisions", true, "", "of a disk and a wall, since the start"},
     {"pressure", false, "energy / area",
      "mean since the row before, from kinetic energy (relative to a shear flow) and collisions; 0 in the first; nan "
-     "likewise. A row in the same "
-     "window of exact repeats it"},
+     "likewise. A row in the same window of exact repeats it"},
     {"collision_rate", false, "1 / time",
      "collisions a disk takes part in per unit time, mean likewise; of Brownian disks it grows as 1 / sqrt(dt)"},
     {"max_overlap", false, "", "largest overlap of two disks in this frame, over the sum of their radii; 0 if none"},

@@ -14,8 +14,7 @@ struct ShearColumn {
 inline constexpr std::array<ShearColumn, 4> shear_columns{{
     {"shear_stress", "energy / area",
      "-P_xy, mean since the row before: of the velocities of this row, relative to the flow, and of all collisions "
-     "since "
-     "then"},
+     "since then"},
     {"viscosity", "mass / time", "shear_stress / shear_rate"},
     {"temperature", "energy", "mean kinetic energy of a disk relative to the flow g (y - height / 2)"},
     {"shear_work", "energy",

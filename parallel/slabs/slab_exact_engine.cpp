@@ -141,8 +141,7 @@ void SlabExact::warn_of_thin_slabs() {
   thin_told_ = true;
   warnings_.push_back(
       fmt::format("exact: {} slabs would be thinner than what depends on the disks of others, at t = {:g}: while they "
-                  "are, one rank "
-                  "runs them all; fewer ranks would do, or a higher box",
+                  "are, one rank runs them all; fewer ranks would do, or a higher box",
                   ranks_.count(), state_.time));
 }
 
