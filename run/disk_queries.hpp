@@ -42,7 +42,7 @@ enum class RayMet : std::uint8_t { disk, wall, sink };
 
 struct RayHit {
   DiskId id = 0;          // of a wall, the number of its [[walls]] table
-  double distance = 0.0;  // along the ray to the disk's edge; 0 if the ray begins inside
+  double distance = 0.0;  // along the ray to the disk's edge, or to the wall; 0 if the ray begins inside a disk
   Vec2 place{};           // there, inside the box
   RayMet what = RayMet::disk;
 };

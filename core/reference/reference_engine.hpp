@@ -29,8 +29,8 @@ class ReferenceEngine : public Engine {
   // What touches a sink at the very start leaves. Sources due at time t, then Brownian velocities for an interval of
   // length dt, whose number is `step`, and the disks that will cross a sink in it.
   void start_interval(double t, double dt, Count step);
-  // Number of parts that an interval of length dt needs at the present speeds; warns the first time it is above 1.
   void kick_if_due();  // by the thermostat
+  // Number of parts that an interval of length dt needs at the present speeds; warns the first time it is above 1.
   Count parts(double dt);
   void sort_if_due() {}  // its disks stay in the order in which they came
   void drift(double t);  // all disks

@@ -11,8 +11,8 @@
 namespace carom {
 
 // Rounds of searching and resolving in a step, the first included. A front that lands on a loose layer passes on by one
-// disk a round. Few steps take more than two; 10^4 disks of radii 1 : 10 that landed at the longest
-// safe step overlapped by up to 3.0 % with 8 at most, and by 1.5 % with 32.
+// disk a round. Few steps take more than two; 10^4 disks of radii 1 : 10 that landed at the longest safe step
+// overlapped by up to 3.0 % with 8 at most, and by 1.5 % with 32.
 inline constexpr int most_rounds = 32;
 
 // A disk that resolving moved by less than this share of its radius, from where the round's search saw it, makes no

@@ -79,7 +79,7 @@ typedef struct carom_disk {
 typedef enum carom_met { CAROM_MET_DISK = 0, CAROM_MET_WALL = 1, CAROM_MET_SINK = 2 } carom_met;
 
 typedef struct carom_hit {
-  double distance; /* along the ray to the disk's edge; 0 if the ray begins inside */
+  double distance; /* along the ray to the disk's edge, or to the wall; 0 if the ray begins inside a disk */
   double x, y;     /* there, inside the box */
   uint32_t id;     /* of the disk; of an inner wall the number of its [[walls]] table, from 0 */
   int what;        /* carom_met */
@@ -175,8 +175,9 @@ CAROM_API carom_status carom_get(const carom_world* world, uint32_t id, carom_di
 /* --- Changing it, between two steps ------------------------------------------------------------------------------- */
 
 /* A new disk. disk->id is not read: the disk gets one that none has had before, written to *id where that is not null.
- * The whole disk has to lie inside the box, its centre alone along periodic sides; radius and mass are above 0.
- * CAROM_INPUT where that is not so, CAROM_NO_ROOM where it would overlap another. */
+ * The whole disk has to lie inside the box, along a period its centre alone, and there the radius is a quarter of the
+ * period at most; radius and mass are above 0. CAROM_INPUT where that is not so, CAROM_NO_ROOM where it would overlap
+ * another, an inner wall or sink, or a side that has moved in. */
 CAROM_API carom_status carom_add(carom_world* world, const carom_disk* disk, uint32_t* id);
 /* CAROM_NOT_FOUND where there is no disk of this id. Velocities: length / time. */
 CAROM_API carom_status carom_remove(carom_world* world, uint32_t id);

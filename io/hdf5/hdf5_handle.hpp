@@ -1,5 +1,5 @@
-// HDF5's identifiers with an owner each, and its errors as exceptions. Only the .cpp files of trajectory.h5 include
-// this, so that HDF5's names stay inside them.
+// HDF5's identifiers with an owner each, and what HDF5 says of its errors. Includes HDF5's own header: for the files
+// that read and write HDF5 alone.
 #pragma once
 
 #include <hdf5.h>

@@ -12,8 +12,8 @@ inline constexpr Colour obstacle_colour{150.0, 150.0, 150.0};
 // What no frame changes.
 void draw_legends(_cairo* context, const FrameStyle& style, const FrameLayout& layout);
 
-// The sides of the box, outside of it, so that a disk at the wall is seen whole.
-// Sides that move are where they are at this time.
+// The sides of the box, outside of it, so that a disk at the wall is seen whole. Sides that move are where they are at
+// this time.
 void draw_sides(_cairo* context, const FrameStyle& style, const FrameLayout& layout, double time);
 
 // Inner walls, as the sides are drawn.

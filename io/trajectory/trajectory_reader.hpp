@@ -13,8 +13,7 @@
 namespace carom {
 
 // One frame as read back, disks in order of id; radius and mass always come as columns, spin where disks are rough, of
-// which the moment of inertia is not known. Of the box, files have size and
-// periodic sides; all others appear as walls.
+// which the moment of inertia is not known. Of the box, files have size and periodic sides; all others appear as walls.
 struct TrajectoryFrame {
   Disks disks;
   double time = 0.0;

@@ -26,8 +26,8 @@ struct ContactLists {
   std::vector<std::uint16_t> contacts;  // of each disk in this step (contact_count.hpp); all 0 between steps
   std::vector<ContactEvent> crowded;
   std::vector<std::vector<ContactEvent>> crowded_blocks;
-  std::vector<ContactEvent>
-      placed;  // the crowded ones in the order of the patches; empty: they are in that order as they are
+  // The crowded ones in the order of the patches; empty: they are in that order as they are.
+  std::vector<ContactEvent> placed;
   std::vector<ImpactTally> tallies;  // of each block
   std::vector<double> largest;       // of each block
   std::vector<std::size_t> offsets;  // of each block's part of a list
@@ -57,14 +57,11 @@ double finish_crowded_contacts(Disks& disks, const StepRules& rules, const Execu
 double finish_contacts(Disks& disks, const Domain& box, const Executor& executor,
                        const std::vector<ContactEvent>& events, ContactLists& lists);
 
-// Keeps the events for which keep(event) holds, and counts the contacts of each disk anew.
-template <class Keep>
-void keep_events(ContactLists& lists, const Executor& executor, Keep&& keep);
-
 // Sets the contact counts of the disks in lists.events (contact_count.hpp).
 void count_contacts(ContactLists& lists, const Executor& executor);
 void clear_contact_counts(ContactLists& lists);
 
+// Keeps the events for which keep(event) holds, and counts the contacts of each disk anew.
 template <class Keep>
 void keep_events(ContactLists& lists, const Executor& executor, Keep&& keep) {
   clear_contact_counts(lists);

@@ -42,7 +42,7 @@ class TimeStepping : public Engine {
   void drift(double t);                                  // all disks
   void search(const StepRules& rules);                   // touching pairs and wall contacts
   StepFigures resolve(const StepRules& rules);           // impacts, supports, pushing apart, wrapping (pairwise)
-  void keep_places();                                    // before resolving, for
+  void keep_places();                                    // for presses_others, before resolving
   bool presses_others();                                 // has resolving pressed disks together? (a pile)
   void gather(const StepRules& rules);                   // all contacts into lists_.events (rollback)
   void finish_contacts();                                // wraps what they moved
