@@ -115,7 +115,7 @@ struct ImpactTally {
       ++wall_loads;
       if (is_obstacle(partner)) {
         const Support& s = set.contact[k];
-        if ((*box.obstacles)[obstacle_of(partner)].moves) add_push(borne * s.x2, -borne * s.nx, -borne * s.ny);
+        if ((*box.obstacles)[obstacle_of(partner)].moves) add_push(borne * wall_speed(s), -borne * s.nx, -borne * s.ny);
         return;
       }
       const Side side = wall_side(partner);

@@ -66,6 +66,11 @@ inline bool is_wall_support(const Support& s) {
   return s.i1 == s.i2;
 }
 
+// Of a wall: towards the disk; length / time.
+inline double wall_speed(const Support& s) {
+  return s.x2;
+}
+
 template <class View>
 Support make_support(const View& d, const StepRules& rules, const ContactEvent& e) {
   Support s{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, d.mass(e.i1), e.i1, e.i1};
@@ -148,7 +153,7 @@ inline double relax(Vec2* v, const Support& s, double& impulse) {
   Vec2& first = v[s.i1];
   const double first_along = first.x * s.nx + first.y * s.ny;
   if (is_wall_support(s)) {
-    const double change = change_impulse(impulse, s.effective * (-first_along - s.x2));
+    const double change = change_impulse(impulse, s.effective * (-first_along - wall_speed(s)));
     first.x -= change * s.x1;
     first.y -= change * s.y1;
     return change;
